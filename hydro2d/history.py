@@ -1,0 +1,109 @@
+"""history.h5: one 1-D dataset per quantity against time.
+
+Every dataset carries `units` and has `time` as its dimension scale, so that xarray opens the file as it stands. The
+file is rewritten whole, beside its place, and renamed: a run that is killed leaves the last complete one.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from .files import replacing
+
+REGIMES = ("rigid", "deforming", "eroding")
+
+#: unit by ending of the name, the longest first
+_UNITS = (
+    ("_kg_m3", "kg/m3"), ("_J_kg", "J/kg"), ("_m_s", "m/s"), ("_N_s", "N s"), ("_kg", "kg"), ("_Pa", "Pa"), ("_K", "K"),
+    ("_J", "J"), ("_s", "s"), ("_m", "m"),
+)  # fmt: skip
+
+
+class HistoryError(Exception):
+    """A history file that cannot be read."""
+
+
+def unit(name: str) -> str:
+    """Unit of a quantity, from the ending of its name; "1" where it has none."""
+    if name in ("time", "dt"):
+        return "s"
+    return next((unit for ending, unit in _UNITS if name.endswith(ending)), "1")
+
+
+def _encode(value) -> float:
+    if isinstance(value, str):
+        return float(REGIMES.index(value))
+    return float(value)
+
+
+class History:
+    """Rows of named numbers, written as columns.
+
+    Parameters
+    ----------
+    path : where the file is or will be
+    rows : number of rows of the existing file to keep (a restart); 0 begins an empty one
+    """
+
+    def __init__(self, path: Path, rows: int = 0):
+        self.path = Path(path)
+        self._columns: dict[str, list[float]] = {}
+        self._rows = 0
+        if rows:
+            for name, values in read(self.path).items():
+                self._columns[name] = list(values[:rows])
+            self._rows = min(rows, len(self._columns["time"]))
+
+    def __len__(self) -> int:
+        return self._rows
+
+    def append(self, row: dict[str, float | str]) -> None:
+        """Adds a row; it must hold `time`. A quantity that other rows lack is NaN there."""
+        for name in row:
+            if name not in self._columns:
+                self._columns[name] = [np.nan] * self._rows
+        for name, column in self._columns.items():
+            column.append(_encode(row[name]) if name in row else np.nan)
+        self._rows += 1
+
+    def write(self) -> None:
+        """Writes all rows."""
+        import h5py
+
+        with replacing(self.path) as temporary, h5py.File(temporary, "w", libver=("earliest", "v110")) as file:
+            time = _dataset(file, "time", self._columns.get("time", []))
+            time.make_scale("time")
+            for name, values in self._columns.items():
+                if name != "time":
+                    _dataset(file, name, values).dims[0].attach_scale(time)
+
+
+def _dataset(file, name: str, values: list[float]):
+    kind = {"cycle": np.int64, "regime": np.int8}.get(name, np.float64)
+    dataset = file.create_dataset(name, data=np.asarray(values, dtype=float).astype(kind))
+    dataset.attrs["units"] = unit(name)
+    if name == "regime":
+        dataset.attrs["flag_values"] = np.arange(len(REGIMES), dtype=np.int8)
+        dataset.attrs["flag_meanings"] = " ".join(REGIMES)
+    return dataset
+
+
+def read(path: Path) -> dict[str, np.ndarray]:
+    """All columns by name, `time` first, shapes (rows,). Raises HistoryError."""
+    import h5py
+
+    try:
+        with h5py.File(path, "r") as file:
+            names = sorted(file, key=lambda name: (name != "time", name))
+            return {name: file[name][...] for name in names}
+    except OSError as error:
+        raise HistoryError(f"{path} is not a history file: {error}") from None
+
+
+def write_csv(columns: dict[str, np.ndarray], path: Path) -> None:
+    """Writes the columns as CSV with 17 digits; the header names quantity and unit."""
+    header = ",".join(f"{name} [{unit(name)}]" for name in columns)
+    with replacing(path) as temporary:
+        np.savetxt(temporary, np.column_stack(list(columns.values())), delimiter=",", header=header, comments="", fmt="%.17g")

@@ -1,0 +1,104 @@
+"""Every numba option of the code, in one place.
+
+``@point``   a scalar function of physics, inlined by the compiler into the loops that call it
+``@kernel``  loops over the mesh, threaded over rows by one outermost ``prange``
+``@serial``  loops over a short list, one thread
+
+numba's own cache notices an edit of the file that holds a function, not of the files that this one calls. The cache
+folder therefore carries a hash of every source a kernel can see, so that it is never stale.
+"""
+
+from __future__ import annotations
+
+import functools
+import hashlib
+import os
+import tempfile
+import time
+from pathlib import Path
+
+import numba
+
+
+def _source_files() -> list[Path]:
+    """Every Python file whose text can end up in a compiled kernel."""
+    here = Path(__file__).resolve().parent
+    folders = [here / "kernels", here.parent / "eos", here.parent / "strength"]
+    return [Path(__file__).resolve()] + sorted(file for folder in folders for file in folder.glob("**/*.py"))
+
+
+def _cache_folder() -> str:
+    digest = hashlib.sha256(numba.__version__.encode())
+    for file in _source_files():
+        digest.update(file.name.encode())
+        digest.update(file.read_bytes())
+    root = os.environ.get("HYDRO2D_CACHE_DIR")
+    if root is None:
+        home = Path(os.environ.get("XDG_CACHE_HOME", Path.home() / ".cache"))
+        root = str(home / "hydro2d")
+        if not os.access(home if home.exists() else home.parent, os.W_OK):
+            root = os.path.join(tempfile.gettempdir(), "hydro2d-cache")
+    return os.path.join(root, digest.hexdigest()[:16])
+
+
+CACHE_FOLDER = _cache_folder()
+numba.config.CACHE_DIR = CACHE_FOLDER
+numba.config.THREADING_LAYER = "omp"
+
+_COMMON = {"cache": True, "error_model": "numpy", "fastmath": False, "nogil": True}
+
+#: wall seconds and calls per kernel name, filled while `profiling(True)` is on
+timings: dict[str, list[float]] = {}
+_profiling = False
+
+
+def profiling(on: bool) -> None:
+    """Switches the timing of kernels on or off and forgets what was measured."""
+    global _profiling
+    _profiling = on
+    timings.clear()
+
+
+def point(function):
+    """Compiles a scalar function of physics."""
+    return numba.njit(function, **_COMMON)
+
+
+def _timed(function, compiled):
+    @functools.wraps(function)
+    def call(*arguments):
+        if not _profiling:
+            return compiled(*arguments)
+        start = time.perf_counter()
+        result = compiled(*arguments)
+        entry = timings.setdefault(function.__name__, [0.0, 0])
+        entry[0] += time.perf_counter() - start
+        entry[1] += 1
+        return result
+
+    call.compiled = compiled
+    return call
+
+
+def kernel(function):
+    """Compiles loops over the mesh whose outermost ``prange`` runs over rows."""
+    return _timed(function, numba.njit(function, parallel=True, **_COMMON))
+
+
+def serial(function):
+    """Compiles loops that one thread runs: short lists, boundaries."""
+    return _timed(function, numba.njit(function, **_COMMON))
+
+
+prange = numba.prange
+set_threads = numba.set_num_threads
+
+
+def threads() -> int:
+    """The number of threads that kernels run on."""
+    return numba.get_num_threads()
+
+
+def max_threads() -> int:
+    """The number of threads numba was started with; scratch memory is sized by it."""
+    return numba.config.NUMBA_NUM_THREADS

@@ -1,0 +1,1 @@
+"""One phase of the cycle per file: plain arrays in, plain arrays out."""

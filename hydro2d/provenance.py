@@ -1,0 +1,77 @@
+"""Where a result comes from: version, commit, packages, threads, processor, command line."""
+
+from __future__ import annotations
+
+import os
+import platform
+import shlex
+import socket
+import subprocess
+import sys
+from datetime import UTC, datetime
+from importlib import metadata
+from pathlib import Path
+
+from . import __version__
+
+PACKAGES = ("numpy", "numba", "llvmlite", "h5py", "vtk", "pyvista", "matplotlib", "pydantic", "pint", "cyclopts", "rich")
+
+
+def _git(*arguments: str) -> str | None:
+    """Output of a git command in the folder of the sources; None where there is no git or no repository."""
+    try:
+        done = subprocess.run(
+            ["git", "-C", str(Path(__file__).resolve().parent), *arguments],
+            capture_output=True, text=True, timeout=10, check=False,
+        )  # fmt: skip
+    except (OSError, subprocess.TimeoutExpired):
+        return None
+    return done.stdout.strip() if done.returncode == 0 else None
+
+
+def git_commit() -> tuple[str, bool] | None:
+    """Commit hash and whether tracked files differ from it; None for a copy outside of a repository."""
+    if _git("ls-files", "--error-unmatch", Path(__file__).name) is None:
+        return None  # the repository around an installed copy is not ours
+    commit, changes = _git("rev-parse", "HEAD"), _git("status", "--porcelain", "--untracked-files=no")
+    return None if commit is None else (commit, bool(changes))
+
+
+def processor() -> str:
+    """Model name of the CPU."""
+    try:
+        for line in Path("/proc/cpuinfo").read_text().splitlines():
+            if line.startswith("model name"):
+                return line.split(":", 1)[1].strip()
+    except OSError:
+        pass
+    return platform.processor() or platform.machine()
+
+
+def package_versions() -> dict[str, str]:
+    """Installed version of every package that can change a result or a file."""
+    versions = {"python": platform.python_version()}
+    for name in PACKAGES:
+        try:
+            versions[name] = metadata.version(name)
+        except metadata.PackageNotFoundError:
+            versions[name] = "not installed"
+    return versions
+
+
+def collect(threads: int) -> dict:
+    """All of it, as plain JSON-able values; `threads` is the number the kernels run on."""
+    git = git_commit()
+    return {
+        "version": __version__,
+        "git_commit": git[0] if git else None,
+        "git_dirty": git[1] if git else None,
+        "packages": package_versions(),
+        "threads": threads,
+        "cpu": processor(),
+        "cpu_count": os.cpu_count(),
+        "system": f"{platform.system()} {platform.release()} {platform.machine()}",
+        "host": socket.gethostname(),
+        "command": shlex.join([Path(sys.argv[0]).name, *sys.argv[1:]]),
+        "written": datetime.now(UTC).isoformat(timespec="seconds"),
+    }

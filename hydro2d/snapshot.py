@@ -1,0 +1,121 @@
+"""restart.h5: everything that a run needs to continue to the same bits.
+
+The file holds every array of the state, the scalars of the simulation and of the run as JSON, and the deck's text. A
+SHA-256 over all of them and the attribute `complete` are written last. The file before is kept as restart.previous.h5.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from .files import replacing
+
+FORMAT = "hydro2d restart 1"
+NAME, PREVIOUS = "restart.h5", "restart.previous.h5"
+
+
+class SnapshotError(Exception):
+    """A restart file that is missing, truncated, altered or foreign; the message is one line for the user."""
+
+
+@dataclass(frozen=True)
+class Snapshot:
+    """What a restart file holds.
+
+    arrays : every array of the state by name;  scalars : of the simulation;  run : of the run directory (output
+    schedule, rows written);  deck : resolved TOML;  provenance : see provenance.collect
+    """
+
+    arrays: dict[str, np.ndarray]
+    scalars: dict
+    run: dict
+    deck: str
+    provenance: dict
+
+    def texts(self) -> dict[str, str]:
+        return {
+            "deck": self.deck,
+            "provenance": json.dumps(self.provenance),
+            "run": json.dumps(self.run),
+            "scalars": json.dumps(self.scalars),
+        }
+
+
+def _checksum(arrays: dict[str, np.ndarray], texts: dict[str, str]) -> str:
+    digest = hashlib.sha256()
+    for name in sorted(arrays):
+        array = np.ascontiguousarray(arrays[name])
+        digest.update(f"{name} {array.dtype.str} {array.shape}\n".encode())
+        digest.update(array.tobytes())
+    for name in sorted(texts):
+        digest.update(f"{name}\n{texts[name]}\n".encode())
+    return digest.hexdigest()
+
+
+def write(path: Path, snapshot: Snapshot) -> None:
+    """Writes a restart file; an existing one becomes the previous one."""
+    import h5py
+
+    path = Path(path)
+    texts = snapshot.texts()
+    with replacing(path) as temporary:
+        with h5py.File(temporary, "w", libver=("earliest", "v110")) as file:
+            file.attrs["format"] = FORMAT
+            group = file.create_group("arrays")
+            for name, array in snapshot.arrays.items():
+                array = np.asarray(array)
+                packing = {"compression": "gzip", "compression_opts": 1, "shuffle": True} if array.size > 64 else {}
+                group.create_dataset(name, data=array, **packing)
+            for name, text in texts.items():
+                file.create_dataset(name, data=text)
+            file.attrs["sha256"] = _checksum(snapshot.arrays, texts)
+            file.flush()
+            file.attrs["complete"] = True
+        if path.exists():
+            os.replace(path, path.with_name(PREVIOUS))
+
+
+def read(path: Path) -> Snapshot:
+    """Reads and verifies a restart file. Raises SnapshotError with one clear line, whatever the file is."""
+    import h5py
+
+    path = Path(path)
+    if not path.is_file():
+        raise SnapshotError(f"{path}: there is no such restart file")
+    try:
+        with h5py.File(path, "r") as file:
+            if file.attrs.get("format") != FORMAT:
+                raise SnapshotError(f'{path}: not a restart file of this program ("{FORMAT}" expected)')
+            if not file.attrs.get("complete", False):
+                raise SnapshotError(f"{path}: the restart file was never completed")
+            arrays = {name: dataset[...] for name, dataset in file["arrays"].items()}
+            texts = {name: file[name][()].decode() for name in ("deck", "provenance", "run", "scalars")}
+            expected = file.attrs["sha256"]
+    except (OSError, KeyError, ValueError, RuntimeError, AttributeError, TypeError) as error:
+        raise SnapshotError(f"{path}: truncated or not a restart file ({error})") from None
+    if _checksum(arrays, texts) != expected:
+        raise SnapshotError(f"{path}: the checksum does not fit, the file is damaged")
+    values = {name: text if name == "deck" else json.loads(text) for name, text in texts.items()}
+    return Snapshot(arrays=arrays, **values)
+
+
+def read_latest(directory: Path) -> tuple[Snapshot, list[str]]:
+    """The newest readable restart file of a run directory, and what is wrong with newer ones.
+
+    Raises SnapshotError where neither of the two can be read.
+    """
+    problems = []
+    for name in (NAME, PREVIOUS):
+        try:
+            return read(Path(directory) / name), problems
+        except SnapshotError as error:
+            problems.append(str(error))
+    if not any((Path(directory) / name).exists() for name in (NAME, PREVIOUS)):
+        raise SnapshotError(f"{directory}: there is no restart file ({NAME}) to continue from")
+    raise SnapshotError("; ".join(problems))

@@ -1,0 +1,123 @@
+"""Quantities at the door: "1086 m/s" becomes SI on the way in, SI becomes the reader's unit on the way out.
+
+pint does the arithmetic and is imported only when a string with a unit is met, so that numbers cost nothing.
+"""
+
+from __future__ import annotations
+
+import functools
+import math
+import re
+
+#: what a person calls a quantity measured in this SI unit
+KINDS = {
+    "1": "a plain number",
+    "m": "a length",
+    "s": "a time",
+    "kg": "a mass",
+    "m/s": "a velocity",
+    "1/s": "a rate",
+    "kg/m^3": "a density",
+    "Pa": "a pressure",
+    "1/Pa": "a reciprocal pressure",
+    "K": "a temperature",
+    "1/K": "a reciprocal temperature",
+    "J": "an energy",
+    "J/kg": "a specific energy",
+    "J/kg/K": "a specific heat",
+    "rad": "an angle",
+}
+
+_NUMBER = re.compile(r"\s*([+-]?(?:\d[\d_]*\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*$")
+
+
+def kind(unit: str) -> str:
+    """The word for a quantity of this SI unit, with its article."""
+    return KINDS.get(unit, f"a quantity in {unit}")
+
+
+@functools.cache
+def _registry():
+    import pint
+
+    return pint.UnitRegistry(cache_folder=None)
+
+
+@functools.lru_cache(maxsize=4096)
+def _parsed(text: str, unit: str) -> float:
+    """SI value of a string with a unit; ValueError names what was expected."""
+    import pint
+
+    match = _NUMBER.match(text)
+    if match is None:
+        raise ValueError(f'"{text}" is not a number with a unit; {_expected(unit)}')
+    number, name = float(match.group(1)), match.group(2)
+    if not name:
+        if unit == "1":
+            return number
+        raise ValueError(f'"{text}" has no unit; {_expected(unit)}')
+    registry = _registry()
+    try:
+        quantity = registry.Quantity(number, registry.parse_units(_spelled(name)))
+    except Exception as problem:  # pint raises a dozen kinds for text that is no unit
+        raise ValueError(f'"{name}" is not a unit; {_expected(unit)}') from problem
+    try:
+        si = quantity.to("dimensionless" if unit == "1" else unit).magnitude
+    except pint.DimensionalityError:
+        raise ValueError(f'"{text}" is {_name_of(quantity)}; {_expected(unit)}') from None
+    return float(f"{si:.15g}")  # 18.16 g/cm^3 is 18160, not 18159.999999999996
+
+
+def _spelled(name: str) -> str:
+    """A unit as pint reads it: kg/m3 is kg/m^3, /Pa is 1/Pa."""
+    name = re.sub(r"(?<=[A-Za-z])(\d)", r"^\1", name)
+    return "1" + name if name.startswith("/") else name
+
+
+def _name_of(quantity) -> str:
+    for unit, name in KINDS.items():
+        if quantity.check(_registry().parse_units("dimensionless" if unit == "1" else unit).dimensionality):
+            return name
+    return f"a quantity in {quantity.units:~}"
+
+
+def _expected(unit: str) -> str:
+    if unit == "1":
+        return "expected a plain number"
+    return f'expected {kind(unit)}: a number in {unit} or a string such as "1.5 {unit}"'
+
+
+def to_si(value, unit: str) -> float:
+    """SI value of a number (taken as SI) or of a string with a unit.
+
+    Parameters
+    ----------
+    value : int, float or str
+    unit : str
+        The SI unit of the quantity, "1" for a plain number.
+
+    Raises
+    ------
+    ValueError
+        The value is not finite, has no unit or one of another dimension; the message names what was expected.
+    """
+    if isinstance(value, bool) or not isinstance(value, (int, float, str)):
+        raise ValueError(f"{value!r} is not a quantity; {_expected(unit)}")
+    number = _parsed(value, unit) if isinstance(value, str) else float(value)
+    if not math.isfinite(number):
+        raise ValueError(f"{value!r} is not finite; {_expected(unit)}")
+    return number
+
+
+def from_si(value: float, si_unit: str, unit: str) -> float:
+    """The number of the reader's units in an SI value: from_si(0.448, "m", "cm") is 44.8."""
+    if si_unit == unit:
+        return float(value)
+    registry = _registry()
+    return float(registry.Quantity(value, registry.parse_units(si_unit)).to(registry.parse_units(unit)).magnitude)
+
+
+def show(value: float, si_unit: str, unit: str | None = None, digits: int = 4) -> str:
+    """An SI value as text in the reader's unit: show(0.448, "m", "cm") is "44.8 cm"."""
+    unit = unit or si_unit
+    return f"{from_si(value, si_unit, unit):.{digits}g}" + ("" if unit == "1" else f" {unit}")
