@@ -1,0 +1,1 @@
+"""Exact solutions, independent of the solver: they import nothing of hydro2d."""
