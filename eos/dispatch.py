@@ -1,0 +1,76 @@
+"""Chooses the equation of state by its integer id, and derives from it what all have in common.
+
+A new equation of state is one more entry of ``MODULES`` and one more line in ``evaluate``.
+"""
+
+from __future__ import annotations
+
+from eos import ideal_gas, mie_grueneisen, stiffened_gas
+from hydro2d.jit import point
+
+MODULES = (mie_grueneisen, ideal_gas, stiffened_gas)
+
+_ITERATIONS = 60
+_TOLERANCE = 1e-13
+_FARTHEST = 16.0
+
+
+@point
+def evaluate(model, rho, e, par):
+    """(p, dp/drho at constant e, dp/de at constant rho, T) of the equation of state ``model``; SI.
+
+    ``par`` is the material's row, float64[ROW]. An unknown ``model`` gives NaN.
+    """
+    if model == mie_grueneisen.ID:
+        return mie_grueneisen.evaluate(rho, e, par)
+    if model == ideal_gas.ID:
+        return ideal_gas.evaluate(rho, e, par)
+    if model == stiffened_gas.ID:
+        return stiffened_gas.evaluate(rho, e, par)
+    return float("nan"), float("nan"), float("nan"), float("nan")
+
+
+@point
+def sound_speed_squared(rho, p, dpdrho, dpde, floor):
+    """c^2 = dp/drho|e + (p/rho^2) dp/de|rho, not below ``floor``; m^2/s^2. A NaN stays a NaN."""
+    c2 = dpdrho + p * dpde / (rho * rho)
+    if c2 < floor:
+        return floor
+    return c2
+
+
+@point
+def zero_pressure_density(model, rho, e, par):
+    """The density rho* with p(rho*, e) = 0 at constant energy: above ``rho`` in tension, below it otherwise; kg/m^3.
+
+    Bracketed Newton. Where no such density lies within a factor of 16, as in a gas, the answer is ``rho`` itself.
+    """
+    p, dpdrho, dpde, T = evaluate(model, rho, e, par)
+    if p == 0.0:
+        return rho
+    tension = p < 0.0
+    factor = 1.25 if tension else 0.8
+    near, far = rho, rho * factor
+    pressure = evaluate(model, far, e, par)[0]
+    while (pressure < 0.0) == tension and pressure != 0.0:
+        near, far = far, far * factor
+        if not rho < far * _FARTHEST or not far < rho * _FARTHEST:
+            return rho
+        pressure = evaluate(model, far, e, par)[0]
+    low, high = (near, far) if tension else (far, near)
+    x = rho - p / dpdrho if dpdrho > 0.0 else low
+    for _ in range(_ITERATIONS):
+        if not (low < x and x < high):
+            x = 0.5 * (low + high)
+        p, dpdrho, dpde, T = evaluate(model, x, e, par)
+        if p < 0.0:
+            low = x
+        elif p > 0.0:
+            high = x
+        else:
+            return x
+        step = p / dpdrho
+        x = x - step
+        if abs(step) <= _TOLERANCE * x or high - low <= _TOLERANCE * x:
+            return min(max(x, low), high)
+    return x

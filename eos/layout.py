@@ -1,0 +1,8 @@
+"""The row of numbers that an equation of state reads, as far as all of them share it."""
+
+#: slots that every equation of state fills: density and specific internal energy of the material at rest
+RHO0, E0 = 0, 1
+
+#: first slot and length of a table of temperatures, and length of a row
+TABLE, TABLE_SIZE = 16, 1024
+ROW = TABLE + TABLE_SIZE

@@ -1,0 +1,41 @@
+"""Strength and failure of solids: one file per model, scalar functions that the kernels inline.
+
+``STRENGTH_MODELS`` and ``DAMAGE_MODELS`` map the deck's word to the module; ``dispatch`` and ``radial_return`` hold
+what kernels call. A strength row has ``ROW`` numbers and a damage row ``DAMAGE_ROW``; in a strength row, slot ``SHEAR``
+is the shear modulus and slot ``YIELD`` the yield stress of the virgin material at rest, in every model.
+"""
+
+from __future__ import annotations
+
+from eos.parameters import REQUIRED, Description, Parameter, by_name, described
+from strength import tensile_pressure
+from strength.dispatch import DAMAGE_MODULES, STRENGTH_MODULES
+from strength.layout import DAMAGE_ROW, ROW, SHEAR, YIELD
+
+STRENGTH_MODELS = {module.NAME: module for module in STRENGTH_MODULES}
+DAMAGE_MODELS = {module.NAME: module for module in DAMAGE_MODULES}
+
+__all__ = [
+    "DAMAGE_MODELS",
+    "DAMAGE_ROW",
+    "REQUIRED",
+    "ROW",
+    "SHEAR",
+    "STRENGTH_MODELS",
+    "YIELD",
+    "Description",
+    "Parameter",
+    "describe",
+    "describe_damage",
+]
+
+
+def describe(name: str) -> Description:
+    """Equation, source, validity and parameters of a strength model; ValueError for an unknown name."""
+    return described(by_name(name, "strength model", STRENGTH_MODELS), "strength model")
+
+
+def describe_damage(name: str) -> Description:
+    """The same of a damage model, or of ``tensile-pressure``."""
+    models = {**DAMAGE_MODELS, tensile_pressure.NAME: tensile_pressure}
+    return described(by_name(name, "failure model", models), "failure model")

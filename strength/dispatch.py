@@ -1,0 +1,69 @@
+"""Chooses strength and damage models by their integer ids.
+
+A new model is one more entry of ``STRENGTH_MODULES`` or ``DAMAGE_MODULES`` and one more line in the chains below.
+"""
+
+from __future__ import annotations
+
+from hydro2d.jit import point
+from strength import (
+    elastic_plastic,
+    hydrodynamic,
+    johnson_cook,
+    johnson_cook_damage,
+    no_damage,
+    power_law,
+    steinberg_guinan,
+)
+
+STRENGTH_MODULES = (hydrodynamic, elastic_plastic, johnson_cook, steinberg_guinan, power_law)
+DAMAGE_MODULES = (no_damage, johnson_cook_damage)
+
+
+@point
+def shear_modulus(model, p, rho, T, par):
+    """Shear modulus of the strength model ``model`` at pressure, density and temperature, Pa.
+
+    ``par`` is the material's row, float64[ROW]. An unknown ``model`` gives NaN.
+    """
+    if model == hydrodynamic.ID:
+        return hydrodynamic.shear_modulus(p, rho, T, par)
+    if model == elastic_plastic.ID:
+        return elastic_plastic.shear_modulus(p, rho, T, par)
+    if model == johnson_cook.ID:
+        return johnson_cook.shear_modulus(p, rho, T, par)
+    if model == steinberg_guinan.ID:
+        return steinberg_guinan.shear_modulus(p, rho, T, par)
+    if model == power_law.ID:
+        return power_law.shear_modulus(p, rho, T, par)
+    return float("nan")
+
+
+@point
+def flow_stress(model, ep, rate, T, p, rho, par):
+    """Flow stress of the strength model ``model``, Pa.
+
+    ``ep`` plastic strain, ``rate`` its rate (1/s), ``T`` temperature (K), ``p`` pressure (compression positive, Pa),
+    ``rho`` density (kg/m^3), ``par`` the material's row, float64[ROW]. An unknown ``model`` gives NaN.
+    """
+    if model == hydrodynamic.ID:
+        return hydrodynamic.flow_stress(ep, rate, T, p, rho, par)
+    if model == elastic_plastic.ID:
+        return elastic_plastic.flow_stress(ep, rate, T, p, rho, par)
+    if model == johnson_cook.ID:
+        return johnson_cook.flow_stress(ep, rate, T, p, rho, par)
+    if model == steinberg_guinan.ID:
+        return steinberg_guinan.flow_stress(ep, rate, T, p, rho, par)
+    if model == power_law.ID:
+        return power_law.flow_stress(ep, rate, T, p, rho, par)
+    return float("nan")
+
+
+@point
+def damage_increment(model, dep, rate, T, p, seq, par):
+    """Increment of damage of the damage model ``model``: see ``johnson_cook_damage.damage_increment``."""
+    if model == no_damage.ID:
+        return no_damage.damage_increment(dep, rate, T, p, seq, par)
+    if model == johnson_cook_damage.ID:
+        return johnson_cook_damage.damage_increment(dep, rate, T, p, seq, par)
+    return float("nan")

@@ -1,0 +1,73 @@
+"""Johnson-Cook damage: plastic strain over a fracture strain that depends on triaxiality, rate and temperature."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from eos.parameters import ANY, POSITIVE, REQUIRED, Parameter, collect
+from hydro2d.jit import point
+from strength import thermal
+from strength.layout import DAMAGE_ROW
+
+NAME = "johnson-cook"
+ID = 1
+EQUATION = """\
+dD = dep/ef,  ef = [D1 + D2 exp(D3 p*)] [1 + D4 ln max(1, rate/rate0)] [1 + D5 T*],  not below ef_min
+p* = mean stress (tension positive) / von Mises stress,  T* = (T - Tr)/(Tm - Tr) in [0, 1];  fractured at D = 1"""
+SOURCE = "Johnson & Cook, Engng Fract. Mech. 21 (1985) 31"
+VALIDITY = "ductile metals; the fit's range of p* is about -1 to 1.5; without Tm the temperature does not matter"
+PARAMETERS = (
+    Parameter("D1", "", REQUIRED, "fracture strain at high triaxiality", "D1", ANY),
+    Parameter("D2", "", 0.0, "factor of the triaxiality term", "D2", ANY),
+    Parameter("D3", "", 0.0, "exponent of the triaxiality", "D3", ANY),
+    Parameter("D4", "", 0.0, "increase per e-fold of strain rate", "D4", ANY),
+    Parameter("D5", "", 0.0, "increase up to melt", "D5", ANY),
+    Parameter("reference_rate", "1/s", 1.0, "strain rate below which the rate does not matter", "rate0", POSITIVE),
+    Parameter("minimum_fracture_strain", "", 1e-6, "lower bound of the fracture strain", "ef_min", POSITIVE),
+    *thermal.PARAMETERS,
+)
+
+#: slots of the row
+D1, D2, D3, D4, D5, INVERSE_RATE0, LEAST, REFERENCE_T, INVERSE_RANGE = range(9)
+
+#: the exponent is kept where exp() is finite, and the triaxiality of an unstressed material is taken against 1 Pa
+_STEEPEST, _UNSTRESSED = 700.0, 1.0
+
+
+@point
+def fracture_strain(rate, T, p, seq, par):
+    """Plastic strain at fracture under constant conditions, at least ``minimum_fracture_strain``."""
+    strain = par[D1]
+    if par[D2] != 0.0:
+        exponent = -par[D3] * p / max(seq, _UNSTRESSED)
+        strain += par[D2] * math.exp(min(max(exponent, -_STEEPEST), _STEEPEST))
+    fast = rate * par[INVERSE_RATE0]
+    if par[D4] != 0.0 and fast > 1.0:
+        strain *= 1.0 + par[D4] * math.log(fast)
+    strain *= 1.0 + par[D5] * thermal.homologous_temperature(T, par[REFERENCE_T], par[INVERSE_RANGE])
+    return max(strain, par[LEAST])
+
+
+@point
+def damage_increment(dep, rate, T, p, seq, par):
+    """Increment of damage for the plastic strain increment ``dep``.
+
+    ``rate`` plastic strain rate (1/s), ``T`` temperature (K), ``p`` pressure (compression positive) and ``seq`` von
+    Mises stress, hoop stress included (Pa).
+    """
+    if dep == 0.0:
+        return 0.0
+    return dep / fracture_strain(rate, T, p, seq, par)
+
+
+def row(values) -> np.ndarray:
+    """Packs the parameters, by name; float64[DAMAGE_ROW]. Raises ValueError for a missing or impossible value."""
+    given = collect(NAME, PARAMETERS, values)
+    par = np.zeros(DAMAGE_ROW)
+    for slot, name in ((D1, "D1"), (D2, "D2"), (D3, "D3"), (D4, "D4"), (D5, "D5")):
+        par[slot] = given[name]
+    par[INVERSE_RATE0], par[LEAST] = 1.0 / given["reference_rate"], given["minimum_fracture_strain"]
+    par[REFERENCE_T], par[INVERSE_RANGE] = given["reference_temperature"], thermal.inverse_range(NAME, given)
+    return par
