@@ -35,7 +35,7 @@ def unit(name: str) -> str:
 def _encode(value) -> float:
     if isinstance(value, str):
         return float(REGIMES.index(value))
-    return float(value)
+    return np.nan if value is None else float(value)
 
 
 class History:
@@ -58,6 +58,11 @@ class History:
 
     def __len__(self) -> int:
         return self._rows
+
+    @property
+    def last_time(self) -> float | None:
+        """Time of the last row."""
+        return self._columns["time"][-1] if self._rows else None
 
     def append(self, row: dict[str, float | str]) -> None:
         """Adds a row; it must hold `time`. A quantity that other rows lack is NaN there."""
@@ -82,7 +87,10 @@ class History:
 
 def _dataset(file, name: str, values: list[float]):
     kind = {"cycle": np.int64, "regime": np.int8}.get(name, np.float64)
-    dataset = file.create_dataset(name, data=np.asarray(values, dtype=float).astype(kind))
+    numbers = np.asarray(values, dtype=float)
+    if kind is not np.float64:
+        numbers = np.nan_to_num(numbers, nan=-1)  # integers have no other word for "not known"
+    dataset = file.create_dataset(name, data=numbers.astype(kind))
     dataset.attrs["units"] = unit(name)
     if name == "regime":
         dataset.attrs["flag_values"] = np.arange(len(REGIMES), dtype=np.int8)
@@ -106,4 +114,5 @@ def write_csv(columns: dict[str, np.ndarray], path: Path) -> None:
     """Writes the columns as CSV with 17 digits; the header names quantity and unit."""
     header = ",".join(f"{name} [{unit(name)}]" for name in columns)
     with replacing(path) as temporary:
-        np.savetxt(temporary, np.column_stack(list(columns.values())), delimiter=",", header=header, comments="", fmt="%.17g")
+        table = np.column_stack(list(columns.values()))
+        np.savetxt(temporary, table, fmt="%.17g", delimiter=",", header=header, comments="")

@@ -14,7 +14,9 @@ from pathlib import Path
 
 from . import __version__
 
-PACKAGES = ("numpy", "numba", "llvmlite", "h5py", "vtk", "pyvista", "matplotlib", "pydantic", "pint", "cyclopts", "rich")
+PACKAGES = (
+    "numpy", "numba", "llvmlite", "h5py", "vtk", "pyvista", "matplotlib", "pydantic", "pint", "cyclopts", "rich",
+)  # fmt: skip
 
 
 def _git(*arguments: str) -> str | None:

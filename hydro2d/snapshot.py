@@ -14,7 +14,7 @@ from pathlib import Path
 
 import numpy as np
 
-from .files import replacing
+from .files import replacing, sync
 
 FORMAT = "hydro2d restart 1"
 NAME, PREVIOUS = "restart.h5", "restart.previous.h5"
@@ -77,6 +77,7 @@ def write(path: Path, snapshot: Snapshot) -> None:
             file.attrs["sha256"] = _checksum(snapshot.arrays, texts)
             file.flush()
             file.attrs["complete"] = True
+        sync(temporary)
         if path.exists():
             os.replace(path, path.with_name(PREVIOUS))
 

@@ -1,0 +1,211 @@
+"""What a run tells while it runs: bar and table on a terminal, a line every few seconds elsewhere, log.txt always."""
+
+from __future__ import annotations
+
+import sys
+import time as clock
+from collections.abc import Iterator
+from contextlib import contextmanager
+from datetime import datetime
+from pathlib import Path
+
+#: seconds between lines, and between refreshes of the table
+LINE_SECONDS, TABLE_SECONDS = 5.0, 0.5
+
+
+def duration(seconds: float) -> str:
+    """'1 h 02 min', '3 min 20 s', '12 s'."""
+    seconds = round(seconds)
+    if seconds >= 3600:
+        return f"{seconds // 3600} h {seconds % 3600 // 60:02d} min"
+    if seconds >= 60:
+        return f"{seconds // 60} min {seconds % 60:02d} s"
+    return f"{seconds} s"
+
+
+def number(value, scale: float, form: str, unit: str) -> str:
+    """A quantity in the reader's unit, "-" where it has none."""
+    if value is None or value != value:
+        return "-"
+    return f"{value * scale:{form}} {unit}"
+
+
+def worst_mass(conservation: dict) -> float:
+    """The largest relative change of mass of a body, with its sign."""
+    return max(conservation["mass"].values(), key=abs, default=0.0)
+
+
+class Clock:
+    """Time left, from the fraction of the stop time that was reached per second of this process."""
+
+    def __init__(self, run):
+        self.stop, self.first, self.started = run.deck.stop.time, run.sim.time, clock.perf_counter()
+
+    def fraction(self, time: float) -> float:
+        return min(time / self.stop, 1.0)
+
+    def left(self, time: float) -> float | None:
+        """Seconds to the stop time at the mean pace; None before the first cycle."""
+        if time <= self.first:
+            return None
+        return (clock.perf_counter() - self.started) * (self.stop - time) / (time - self.first)
+
+
+def values(run, left: Clock) -> dict[str, str]:
+    """What is shown of a run, by name."""
+    sim = run.sim
+    found, conserved = sim.diagnostics(), sim.conservation()
+    seconds = left.left(sim.time)
+    return {
+        "time": f"{sim.time * 1e6:.3f} us of {left.stop * 1e6:.6g} us ({100 * left.fraction(sim.time):.1f} %)",
+        "left": "-" if seconds is None else duration(seconds),
+        "cycle": str(sim.cycle),
+        "dt": f"{sim.dt * 1e9:.4g} ns ({sim.dt_cause})",
+        "depth": number(found["penetration_depth_m"], 1e3, ".2f", "mm"),
+        "tail speed": number(found["rod_tail_velocity_m_s"], 1, ".1f", "m/s"),
+        "mean speed": number(found["rod_mean_velocity_m_s"], 1, ".1f", "m/s"),
+        "rod length": number(found["rod_length_m"], 1e3, ".2f", "mm"),
+        "regime": found["regime"] or "-",
+        "mass": f"{worst_mass(conserved):+.1e}",
+        "momentum": f"{conserved['axial_momentum']:+.1e}",
+        "energy": f"{conserved['total_energy']:+.1e}",
+    }
+
+
+class Report:
+    """Writes the log and, unless quiet, plain lines."""
+
+    def __init__(self, log, quiet: bool):
+        self._log, self._quiet = log, quiet
+        self._clock, self._last = None, 0.0
+
+    def line(self, text: str) -> None:
+        """A line for the log and the screen."""
+        self._log.write(f"{datetime.now().isoformat(timespec='seconds')}  {text}\n")
+        self._log.flush()
+        if not self._quiet:
+            self.show(text)
+
+    def show(self, text: str) -> None:
+        print(text, flush=True)
+
+    def begin(self, run) -> None:
+        self._clock = Clock(run)
+        grid, origin = run.sim.grid, run.provenance
+        commit = ""
+        if origin["git_commit"]:
+            commit = f" ({origin['git_commit'][:10]}{', modified' if origin['git_dirty'] else ''})"
+        self.line(f"hydro2d {origin['version']}{commit}: {run.deck.title}")
+        self.line(f"{origin['command']}")
+        self.line(f"{origin['cpu']}, {origin['threads']} threads; results in {run.directory}")
+        self.line(
+            f"{grid.nr} x {grid.nz} cells ({grid.geometry}; r is x and the axis is r = 0, z is y), "
+            f"bodies in the order of their interfaces: {', '.join(run.sim.table.names)}"
+        )
+        if run.sim.cycle:
+            self.line(f"continuing at cycle {run.sim.cycle}, t = {run.sim.time * 1e6:.3f} us")
+
+    def update(self, run) -> None:
+        """Called after every cycle; speaks when it is time."""
+        now = clock.perf_counter()
+        if now - self._last >= LINE_SECONDS:
+            self._last = now
+            self.status(values(run, self._clock))
+
+    def status(self, shown: dict[str, str]) -> None:
+        self.line(
+            f"t {shown['time']}, {shown['left']} left, cycle {shown['cycle']}, dt {shown['dt']}, "
+            f"depth {shown['depth']}, tail {shown['tail speed']}, "
+            f"changes of mass {shown['mass']}, momentum {shown['momentum']}, energy {shown['energy']}"
+        )
+
+    def end(self, run, summary: dict) -> None:
+        for text in result(summary):
+            self.line(text)
+
+    def close(self) -> None:
+        pass
+
+
+class Live(Report):
+    """The same on a terminal: a bar and a table that are redrawn in place."""
+
+    def __init__(self, log, quiet: bool):
+        from rich.live import Live as RichLive
+
+        super().__init__(log, quiet)
+        self._live = RichLive(refresh_per_second=4, transient=True)
+        self._drawn = 0.0
+
+    def begin(self, run) -> None:
+        super().begin(run)
+        self._live.start()
+
+    def show(self, text: str) -> None:
+        self._live.console.print(text, highlight=False, markup=False)
+
+    def status(self, shown: dict[str, str]) -> None:
+        show, self.show = self.show, lambda text: None  # the table shows it: only the log gets the line
+        super().status(shown)
+        self.show = show
+
+    def update(self, run) -> None:
+        super().update(run)
+        now = clock.perf_counter()
+        if now - self._drawn >= TABLE_SECONDS:
+            self._drawn = now
+            self._live.update(self._picture(run))
+
+    def _picture(self, run):
+        from rich.console import Group
+        from rich.progress_bar import ProgressBar
+        from rich.table import Table
+
+        table = Table.grid(padding=(0, 2))
+        for name, value in values(run, self._clock).items():
+            table.add_row(name, value)
+        return Group(ProgressBar(total=1.0, completed=self._clock.fraction(run.sim.time), width=60), table)
+
+    def close(self) -> None:
+        self._live.stop()
+
+    def end(self, run, summary: dict) -> None:
+        self._live.stop()
+        super().end(run, summary)
+
+
+def result(summary: dict) -> list[str]:
+    """The final lines: the result, beside the experiment's."""
+    depth, experiment = summary["penetration_depth_m"], summary["experiment"]
+    lines = [
+        f"{summary['status']}: {summary['stop_reason']}",
+        f"{summary['cycles']} cycles to {summary['time_s'] * 1e6:.3f} us in {duration(summary['wall_s'])}"
+        + (f", {summary['ns_per_cell_cycle']:.1f} ns per cell and cycle" if summary["ns_per_cell_cycle"] else ""),
+        f"penetration depth     {number(depth, 1e2, '.2f', 'cm')}",
+    ]
+    if experiment and experiment["penetration_m"]:
+        measured = experiment["penetration_m"]
+        error = ""
+        if depth is not None:
+            error = f" (error {(depth - measured) * 1e2:+.2f} cm, {100 * (depth / measured - 1):+.1f} %)"
+        lines.append(f"  experiment          {measured * 1e2:.2f} cm{error}  {experiment['source'] or ''}".rstrip())
+    return [
+        *lines,
+        f"rod length            {number(summary['rod_length_m'], 1e2, '.2f', 'cm')}",
+        f"largest plastic strain of the rod {number(summary['rod_max_plastic_strain'], 1, '.3g', '')}".rstrip(),
+        f"regime                {summary['regime'] or '-'}",
+        f"relative changes      mass {worst_mass(summary['conservation']):+.1e}, momentum "
+        f"{summary['conservation']['axial_momentum']:+.1e}, energy {summary['conservation']['total_energy']:+.1e}",
+    ]
+
+
+@contextmanager
+def reporter(log: Path, quiet: bool) -> Iterator[Report]:
+    """The report that suits the output; appends to the log."""
+    with open(log, "a", encoding="utf-8") as file:
+        kind = Live if not quiet and sys.stdout.isatty() else Report
+        report = kind(file, quiet)
+        try:
+            yield report
+        finally:
+            report.close()

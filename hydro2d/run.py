@@ -1,0 +1,333 @@
+"""A run and its directory: cycles, outputs when they are due, progress, the last word.
+
+    deck.toml         the deck with every default written out
+    summary.json      the result, where it comes from, and what was conserved
+    history.h5        quantities against time
+    restart.h5        to continue to the same bits (and restart.previous.h5)
+    vtk/, *.pvd       fields, outlines and tracers for ParaView
+    log.txt           what happened
+
+Outputs are due at the first cycle at or after their time: they never change a time step, and a run that was
+interrupted anywhere continues to the same bits as one that was not.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import math
+import shutil
+import signal
+import threading
+import time as clock
+import tomllib
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from . import __version__, provenance, snapshot
+from .files import write_json, write_text
+from .history import History
+from .progress import reporter
+from .vtk import FOLDER, SERIES, Series
+
+DECK, SUMMARY, HISTORY, LOG = "deck.toml", "summary.json", "history.h5", "log.txt"
+OWN_FILES = (DECK, SUMMARY, HISTORY, LOG, snapshot.NAME, snapshot.PREVIOUS, *SERIES.values())
+
+#: cycles between copies of the state kept in memory as the last good one
+GOOD_EVERY = 200
+#: seconds between writes of the history
+FLUSH_SECONDS = 10.0
+
+DONE, WRONG_INPUT, UNPHYSICAL = 0, 2, 3
+
+
+class RunError(Exception):
+    """A run that cannot begin: the directory is taken, or a restart does not fit; the message is for the user."""
+
+
+class Due:
+    """Output times k interval, k = 0, 1, ...: due at the first cycle at or after each; several at once count as one."""
+
+    def __init__(self, interval: float | None, count: int = 0):
+        self.interval, self.count = interval, count
+
+    def __call__(self, time: float) -> bool:
+        """Whether an output is due at `time`; if so, the next one is moved beyond it."""
+        if not self.interval or time < self.count * self.interval:
+            return False
+        self.count = max(math.floor(time / self.interval), self.count) + 1
+        if (self.count - 1) * self.interval > time:  # the division was rounded up
+            self.count -= 1
+        return True
+
+
+def claim(directory: Path, *, restart: bool, overwrite: bool) -> None:
+    """Makes the directory ready. Raises RunError where a run is in it that neither option allows to touch."""
+    directory = Path(directory)
+    if directory.exists() and not directory.is_dir():
+        raise RunError(f"{directory} is a file, not a directory")
+    existing = [name for name in OWN_FILES if (directory / name).exists()]
+    if restart:
+        return
+    if existing and not overwrite:
+        raise RunError(f"{directory} already holds a run; --restart continues it, --overwrite removes it")
+    directory.mkdir(parents=True, exist_ok=True)
+    for name in existing:
+        (directory / name).unlink()
+    if existing and (directory / FOLDER).is_dir():
+        shutil.rmtree(directory / FOLDER)
+
+
+#: sections of a deck that may differ when a run is continued
+FREE_SECTIONS = ("title", "stop", "output", "experiment")
+
+
+def check_same_deck(now: str, before: str) -> None:
+    """Raises RunError if two resolved decks differ in anything that the state depends on."""
+    now, before = (tomllib.loads(text) for text in (now, before))
+    changed = sorted(
+        key for key in now.keys() | before.keys() if key not in FREE_SECTIONS and now.get(key) != before.get(key)
+    )
+    if changed:
+        raise RunError(
+            f"the deck is not the one that the run was begun with: {', '.join(changed)} differ "
+            f"(a restart may change only {', '.join(FREE_SECTIONS)})"
+        )
+
+
+@dataclass
+class Interrupt:
+    """Set by a signal, or by a program that runs a case and wants it to stop: the run ends after the cycle."""
+
+    reason: str = ""
+
+    def __call__(self, reason: str) -> None:
+        self.reason = reason
+
+
+@contextmanager
+def _signals(interrupt: Interrupt):
+    """SIGINT and SIGTERM set the interrupt; a second one does what it did before. Only the main thread gets signals."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    before = {}
+
+    def handle(number, _frame):
+        interrupt(signal.Signals(number).name)
+        for each, handler in before.items():
+            signal.signal(each, handler)
+
+    for number in (signal.SIGINT, signal.SIGTERM):
+        before[number] = signal.signal(number, handle)
+    try:
+        yield
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
+
+
+class Run:
+    """One run in one directory.
+
+    Parameters
+    ----------
+    deck : the resolved deck
+    directory : where everything is written
+    restart : continue from restart.h5 of the directory
+    report : see progress.reporter
+    """
+
+    def __init__(self, deck, directory: Path, *, restart: bool, report):
+        from .jit import threads
+        from .simulation import Simulation
+
+        self.deck, self.directory, self.report = deck, Path(directory), report
+        self.deck_text = deck.to_toml()
+        self.provenance = provenance.collect(threads())
+        self.sim = Simulation(deck)
+        self.wall_before = 0.0
+        self.timed_from = None
+        counts = {"history": 0, "vtk": 0, "restart": 1}
+        rows = dumps = 0
+        if restart:
+            saved, problems = snapshot.read_latest(self.directory)
+            for problem in problems:
+                report.line(f"warning: {problem}; continuing from the one before")
+            check_same_deck(self.deck_text, saved.deck)
+            self.sim.load_restart_arrays(saved.arrays)
+            self.sim.load_restart_scalars(saved.scalars)
+            counts, rows, dumps = saved.run["due"], saved.run["rows"], saved.run["dumps"]
+            self.wall_before = saved.run["wall_s"]
+        output = deck.output
+        self.history = History(self.directory / HISTORY, rows)
+        self.series = Series(self.directory, output.fields or None, dumps)
+        self.due = {
+            "history": Due(output.history_interval, counts["history"]),
+            "vtk": Due(output.vtk_interval, counts["vtk"]),
+            "restart": Due(output.restart_interval, counts["restart"]),
+        }
+        self.restart_wall = output.restart_wall_interval
+        self.started = self.flushed = self.saved_at = clock.perf_counter()
+        self.good = None
+        (self.directory / SUMMARY).unlink(missing_ok=True)
+        write_text(self.directory / DECK, self.deck_text)
+
+    @property
+    def wall(self) -> float:
+        """Seconds spent on the run, in this process and before."""
+        return self.wall_before + clock.perf_counter() - self.started
+
+    def execute(self, interrupt: Interrupt) -> dict:
+        """Runs to a stop reason. Returns the summary, which is also in summary.json."""
+        from .simulation import UnphysicalState
+
+        self.report.begin(self)
+        status, reason = "running", self.sim.stop_reason()
+        self._outputs()
+        try:
+            while reason is None and not interrupt.reason:
+                self.sim.step()
+                if self.timed_from is None:  # the first cycle compiles
+                    self.timed_from = self.sim.cycle, clock.perf_counter()
+                self._outputs()
+                reason = self.sim.stop_reason()
+        except UnphysicalState as error:
+            return self._finish("unphysical", f"unphysical state: {error}")
+        if reason is None:
+            status, reason = "interrupted", f"interrupted ({interrupt.reason})"
+        else:
+            status = "done"
+        return self._finish(status, reason)
+
+    # ------------------------------------------------------------------------------------------------ outputs
+
+    def _outputs(self) -> None:
+        """Everything that is due after a cycle."""
+        sim, now = self.sim, clock.perf_counter()
+        if self.due["history"](sim.time):
+            self.history.append(row(sim))
+        if self.due["vtk"](sim.time):
+            self.series.dump(sim)
+        by_time = self.due["restart"](sim.time)
+        if by_time or (self.restart_wall and now - self.saved_at >= self.restart_wall):
+            self._save(self._snapshot())
+        if sim.cycle % GOOD_EVERY == 0:
+            self.good = self._snapshot()
+        if now - self.flushed >= FLUSH_SECONDS:
+            self.history.write()
+            self.flushed = clock.perf_counter()
+        self.report.update(self)
+
+    def _snapshot(self) -> snapshot.Snapshot:
+        return snapshot.Snapshot(
+            arrays={name: np.array(array) for name, array in self.sim.restart_arrays().items()},
+            scalars=self.sim.restart_scalars(),
+            run={
+                "due": {name: due.count for name, due in self.due.items()},
+                "rows": len(self.history),
+                "dumps": len(self.series),
+                "wall_s": self.wall,
+            },
+            deck=self.deck_text,
+            provenance=self.provenance,
+        )
+
+    def _save(self, state: snapshot.Snapshot) -> None:
+        """Writes the history and then the restart file, which counts on its rows."""
+        self.history.write()
+        snapshot.write(self.directory / snapshot.NAME, state)
+        self.flushed = self.saved_at = clock.perf_counter()
+
+    def _finish(self, status: str, reason: str) -> dict:
+        """The last outputs. A restart file never counts the extra row and dump that are written after the end."""
+        if status == "unphysical":
+            if self.good is not None:
+                self._save(self.good)
+        else:
+            self._save(self._snapshot())
+        if status != "interrupted":
+            if self.due["history"].interval and self.history.last_time != self.sim.time:
+                self.history.append(row(self.sim))
+                self.history.write()
+            if self.due["vtk"].interval and self.series.last_time != self.sim.time:
+                self.series.dump(self.sim)
+        summary = self.summary(status, reason)
+        write_json(self.directory / SUMMARY, summary)
+        self.report.end(self, summary)
+        return summary
+
+    def summary(self, status: str, reason: str) -> dict:
+        """What summary.json holds."""
+        sim, wall = self.sim, self.wall
+        cycle, since = self.timed_from or (sim.cycle, 0.0)
+        spent, cycles = clock.perf_counter() - since, sim.cycle - cycle
+        return {
+            "deck": self.deck.title,
+            "deck_sha256": deck_hash(self.deck_text),
+            "version": __version__,
+            "status": status,
+            "stop_reason": reason,
+            "time_s": sim.time,
+            "cycles": sim.cycle,
+            "wall_s": wall,
+            "ns_per_cell_cycle": 1e9 * spent / (sim.grid.cells * cycles) if cycles else None,
+            "cells": sim.grid.cells,
+            **sim.diagnostics(),
+            "experiment": experiment(self.deck),
+            "conservation": sim.conservation(),
+            "provenance": self.provenance,
+        }
+
+
+def deck_hash(text: str) -> str:
+    """SHA-256 of a resolved deck: the same for the same case."""
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
+def experiment(deck) -> dict | None:
+    """The experiment that a deck names, or None."""
+    if deck.experiment is None:
+        return None
+    return {"penetration_m": deck.experiment.penetration, "source": deck.experiment.source}
+
+
+def row(sim) -> dict:
+    """One row of the history."""
+    conserved = sim.conservation()
+    values = {"time": sim.time, "cycle": sim.cycle, "dt": sim.dt, **sim.diagnostics()}
+    values |= {f"mass_change_{body}": change for body, change in conserved["mass"].items()}
+    values |= {f"{name}_change": conserved[name] for name in ("axial_momentum", "total_energy")}
+    for sink, amounts in conserved["sinks"].items():
+        values |= {f"sink_{sink}_{name}": amount for name, amount in amounts.items()}
+    return values
+
+
+def run(deck, directory: Path | None = None, *, restart=False, overwrite=False, quiet=False,
+        interrupt: Interrupt | None = None) -> dict:  # fmt: skip
+    """Runs a deck in a directory and returns its summary.
+
+    deck : as deck.load gives it
+    directory : default is the deck's own
+    restart, overwrite : continue a run that is there, or remove it
+    quiet : nothing is printed (log.txt is written)
+    interrupt : call it from anywhere to stop after the cycle with a restart file
+
+    Raises RunError, SnapshotError.
+    """
+    directory = Path(directory or deck.output.directory)
+    interrupt = interrupt or Interrupt()
+    claim(directory, restart=restart, overwrite=overwrite)
+    if restart and not directory.is_dir():
+        raise RunError(f"{directory}: there is no run to continue")
+    with reporter(directory / LOG, quiet=quiet) as report, _signals(interrupt):
+        return Run(deck, directory, restart=restart, report=report).execute(interrupt)
+
+
+def exit_status(summary: dict) -> int:
+    """0 done, 3 unphysical, 130 or 143 after SIGINT or SIGTERM, as shells do."""
+    if summary["status"] == "interrupted":
+        return 130 if "SIGINT" in summary["stop_reason"] else 143
+    return UNPHYSICAL if summary["status"] == "unphysical" else DONE

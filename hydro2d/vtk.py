@@ -1,0 +1,240 @@
+"""Fields as VTK files that ParaView opens with one click: one .vtr per dump and a .pvd with their times.
+
+x = r, y = z. Float32, appended raw, LZ4. Beside the fields, the outlines of the bodies and the tracers are series of
+.vtp files of their own. Names and units: derived.py.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from xml.etree import ElementTree
+
+import numpy as np
+
+from . import derived
+from .files import replacing, write_text
+from .outlines import outlines
+
+FOLDER = "vtk"
+SERIES = {"dump": "series.pvd", "interfaces": "interfaces.pvd", "tracers": "tracers.pvd"}
+
+
+class VtkError(Exception):
+    """A VTK file that cannot be read."""
+
+
+def _write(dataset, path: Path, time: float, writer) -> None:
+    from vtkmodules.vtkCommonCore import vtkDoubleArray
+
+    stamp = vtkDoubleArray()
+    stamp.SetName("TimeValue")
+    stamp.InsertNextValue(time)
+    dataset.GetFieldData().AddArray(stamp)
+    writer.SetInputData(dataset)
+    writer.SetDataModeToAppended()
+    writer.EncodeAppendedDataOff()
+    writer.SetCompressorTypeToLZ4()
+    with replacing(path) as temporary:
+        writer.SetFileName(str(temporary))
+        if writer.Write() != 1:
+            raise OSError(f"{path}: VTK could not write the file (is the disk full?)")
+
+
+def _array(values: np.ndarray, name: str):
+    """A VTK array that owns its numbers: float32 for real numbers, int32 for integers."""
+    from vtkmodules.util.numpy_support import numpy_to_vtk
+
+    kind = np.int32 if values.dtype.kind in "iu" else np.float32
+    array = numpy_to_vtk(np.ascontiguousarray(values, dtype=kind), deep=True)
+    array.SetName(name)
+    return array
+
+
+def _coordinates(values):
+    from vtkmodules.util.numpy_support import numpy_to_vtk
+
+    return numpy_to_vtk(np.ascontiguousarray(values, dtype=float), deep=True)
+
+
+def write_grid(path: Path, r_edges, z_edges, fields: dict[str, np.ndarray], time: float) -> None:
+    """Writes cell data on a rectilinear grid.
+
+    r_edges (nr + 1,), z_edges (nz + 1,) in m;  fields: values (nz, nr) or (nz, nr, 3) by name;  time in s
+    """
+    from vtkmodules.vtkCommonDataModel import vtkRectilinearGrid
+    from vtkmodules.vtkIOXML import vtkXMLRectilinearGridWriter
+
+    grid = vtkRectilinearGrid()
+    grid.SetDimensions(len(r_edges), len(z_edges), 1)
+    grid.SetXCoordinates(_coordinates(r_edges))
+    grid.SetYCoordinates(_coordinates(z_edges))
+    grid.SetZCoordinates(_coordinates([0.0]))
+    cells = (len(z_edges) - 1) * (len(r_edges) - 1)
+    for name, values in fields.items():
+        grid.GetCellData().AddArray(_array(values.reshape(cells, *values.shape[2:]), name))
+    _write(grid, path, time, vtkXMLRectilinearGridWriter())
+
+
+def write_lines(path: Path, lines: list[tuple[int, np.ndarray]], time: float) -> None:
+    """Writes polylines, each with the number of its body; every line is an array (n, 2) of r, z."""
+    from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
+    from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
+
+    cells, data, start = vtkCellArray(), vtkPolyData(), 0
+    for _, line in lines:
+        cells.InsertNextCell(len(line))
+        for point in range(start, start + len(line)):
+            cells.InsertCellPoint(point)
+        start += len(line)
+    data.SetPoints(_points(np.concatenate([line for _, line in lines]) if lines else np.zeros((0, 2))))
+    data.SetLines(cells)
+    data.GetCellData().AddArray(_array(np.array([body for body, _ in lines], dtype=np.int32), "Material"))
+    _write(data, path, time, vtkXMLPolyDataWriter())
+
+
+def write_points(path: Path, positions: np.ndarray, time: float) -> None:
+    """Writes tracers as vertices, with their number; positions (n, 2) of r, z."""
+    from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
+    from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
+
+    cells, data = vtkCellArray(), vtkPolyData()
+    for point in range(len(positions)):
+        cells.InsertNextCell(1)
+        cells.InsertCellPoint(point)
+    data.SetPoints(_points(positions))
+    data.SetVerts(cells)
+    data.GetPointData().AddArray(_array(np.arange(len(positions), dtype=np.int32), "Tracer"))
+    _write(data, path, time, vtkXMLPolyDataWriter())
+
+
+def _points(positions: np.ndarray):
+    from vtkmodules.vtkCommonCore import vtkPoints
+
+    points = vtkPoints()
+    points.SetDataTypeToDouble()
+    points.SetData(_coordinates(np.column_stack([positions, np.zeros(len(positions))])))
+    return points
+
+
+def write_series(path: Path, entries: list[tuple[float, str]]) -> None:
+    """Writes a .pvd: times in s and files relative to it."""
+    root = ElementTree.Element("VTKFile", type="Collection", version="0.1", byte_order="LittleEndian")
+    collection = ElementTree.SubElement(root, "Collection")
+    for time, file in entries:
+        ElementTree.SubElement(collection, "DataSet", timestep=repr(float(time)), group="", part="0", file=file)
+    ElementTree.indent(root)
+    write_text(path, '<?xml version="1.0"?>\n' + ElementTree.tostring(root, encoding="unicode") + "\n")
+
+
+def read_series(path: Path) -> list[tuple[float, str]]:
+    """Times and files of a .pvd. Raises VtkError."""
+    try:
+        return [(float(e.get("timestep")), e.get("file")) for e in ElementTree.parse(path).getroot().iter("DataSet")]
+    except (OSError, ElementTree.ParseError, TypeError, ValueError) as error:
+        raise VtkError(f"{path} is not a series of VTK files: {error}") from None
+
+
+class Series:
+    """The dumps of a run directory.
+
+    Parameters
+    ----------
+    directory : the run directory
+    fields : keys of derived.TABLE to write, None for all
+    dumps : number of dumps of the existing series to keep (a restart); later ones are removed
+    """
+
+    def __init__(self, directory: Path, fields=None, dumps: int = 0):
+        self.directory, self.fields = Path(directory), fields
+        self._times: list[float] = []
+        if dumps:
+            self._times = [time for time, _ in read_series(self.directory / SERIES["dump"])][:dumps]
+        for kind in SERIES:
+            for file in (self.directory / FOLDER).glob(f"{kind}_*.vt?"):
+                if int(file.stem.split("_")[1]) >= len(self._times):
+                    file.unlink()
+        if self._times:
+            self._write_series()
+
+    def __len__(self) -> int:
+        return len(self._times)
+
+    @property
+    def last_time(self) -> float | None:
+        """Time of the last dump."""
+        return self._times[-1] if self._times else None
+
+    def dump(self, sim) -> Path:
+        """Writes fields, outlines and tracers of a simulation and lists them in the series."""
+        number, time = len(self._times), sim.time
+        (self.directory / FOLDER).mkdir(exist_ok=True)
+        path = self._path("dump", number)
+        write_grid(path, sim.grid.r_edges, sim.grid.z_edges, derived.evaluate(sim, self.fields), time)
+        write_lines(self._path("interfaces", number), _body_lines(sim), time)
+        if len(sim.tracers):
+            write_points(self._path("tracers", number), np.asarray(sim.tracers), time)
+        self._times.append(time)
+        self._write_series()
+        return path
+
+    def _path(self, kind: str, number: int) -> Path:
+        return self.directory / FOLDER / f"{kind}_{number:06d}.{'vtr' if kind == 'dump' else 'vtp'}"
+
+    def _write_series(self) -> None:
+        for kind, name in SERIES.items():
+            paths = [self._path(kind, number) for number in range(len(self._times))]
+            entries = [(time, f"{FOLDER}/{path.name}") for time, path in zip(self._times, paths, strict=True)
+                       if path.exists()]  # fmt: skip
+            if entries:
+                write_series(self.directory / name, entries)
+
+
+def _body_lines(sim) -> list[tuple[int, np.ndarray]]:
+    vof = sim.grid.interior(sim.state.vof)
+    return [
+        (m + 1, line)
+        for m in range(len(vof))
+        for line in outlines(sim.grid.r_edges, sim.grid.z_edges, vof[m])
+    ]  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Dump:
+    """A dump read back: r_edges (nr + 1,), z_edges (nz + 1,), fields by name (nz, nr[, 3]), time in s."""
+
+    r_edges: np.ndarray
+    z_edges: np.ndarray
+    fields: dict[str, np.ndarray]
+    time: float
+
+    @property
+    def bodies(self) -> list[str]:
+        """Names of the bodies, in order."""
+        prefix = derived.BY_KEY["volume_fraction"].title.format(body="")
+        return [name.removeprefix(prefix) for name in self.fields if name.startswith(prefix)]
+
+    @classmethod
+    def of(cls, sim, keys=None) -> Dump:
+        """The state of a simulation as it would be written."""
+        return cls(sim.grid.r_edges, sim.grid.z_edges, derived.evaluate(sim, keys), sim.time)
+
+
+def read_grid(path: Path) -> Dump:
+    """Reads a .vtr. Raises VtkError."""
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+    from vtkmodules.vtkIOXML import vtkXMLRectilinearGridReader
+
+    reader = vtkXMLRectilinearGridReader()
+    if not Path(path).is_file() or not reader.CanReadFile(str(path)):
+        raise VtkError(f"{path} is not a VTK file of a run")
+    reader.SetFileName(str(path))
+    reader.Update()
+    grid = reader.GetOutput()
+    r, z = vtk_to_numpy(grid.GetXCoordinates()), vtk_to_numpy(grid.GetYCoordinates())
+    data, fields = grid.GetCellData(), {}
+    for number in range(data.GetNumberOfArrays()):
+        values = vtk_to_numpy(data.GetArray(number))
+        fields[data.GetArrayName(number)] = values.reshape(len(z) - 1, len(r) - 1, *values.shape[1:]).copy()
+    time = grid.GetFieldData().GetArray("TimeValue").GetValue(0)
+    return Dump(r.copy(), z.copy(), fields, time)

@@ -1,0 +1,105 @@
+"""A simulation without a solver: a rod that advances into a plate, on a real mesh, for tests of what is written."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+
+import numpy as np
+
+from hydro2d.grid import Grid
+
+ROD, PLATE = "rod", "plate"
+RADIUS, LENGTH, SPEED, STOP = 4e-3, 20e-3, 1000.0, 20e-6
+
+
+class UnphysicalState(Exception):
+    pass
+
+
+class FakeDeck:
+    """What run.py needs of a deck; a real one has the same names."""
+
+    def __init__(self, **output):
+        self.title = "a rod that meets a plate"
+        self.output = SimpleNamespace(
+            **{"directory": "runs/fake", "vtk_interval": 5e-6, "history_interval": 1e-6, "restart_interval": None,
+               "restart_wall_interval": None, "fields": ()} | output
+        )  # fmt: skip
+        self.stop = SimpleNamespace(time=STOP)
+        self.experiment = SimpleNamespace(penetration=0.0121, source="a laboratory")
+        self.courant = 0.5
+
+    def to_toml(self) -> str:
+        return f'title = "{self.title}"\n[numerics]\ncourant = {self.courant}\n[stop]\ntime = {self.stop.time}\n'
+
+
+class Simulation:
+    """Linear motion; every step multiplies the energy, so that a lost bit shows."""
+
+    fail_at: int | None = None
+
+    def __init__(self, deck):
+        self.deck = deck
+        self.grid = Grid(np.linspace(0, 12e-3, 13), np.linspace(-25e-3, 30e-3, 56))
+        shape, vertices = self.grid.shape, self.grid.vertex_shape
+        body, vertex = (lambda: np.zeros((2, *shape))), (lambda: np.zeros((1, *vertices)))
+        self.state = SimpleNamespace(
+            vof=body(), rho=body(), e=body(), srr=body(), szz=body(), srz=body(), ep=body(), dmg=body(), pm=body(),
+            tm=body(), p=np.zeros(shape), u=vertex(), v=vertex(), mass=vertex() + 1.0,
+        )  # fmt: skip
+        self.table = SimpleNamespace(names=(ROD, PLATE))
+        self.time, self.cycle, self.dt, self.dt_cause = 0.0, 0, 1e-7, "rod at r = 0.5 mm, z = 0.5 mm: sound"
+        self.tracers = np.array([[0.0, 0.0], [1e-3, 5e-3]])
+        self._place()
+
+    def _place(self) -> None:
+        s, depth = self.state, SPEED * self.time
+        z, r = np.meshgrid(self.grid.zc, self.grid.rc, indexing="ij")
+        s.vof[0] = (np.abs(r) < RADIUS) & (z < depth) & (z > depth - LENGTH)
+        s.vof[1] = (z > 0) & (s.vof[0] == 0)
+        s.rho[0], s.rho[1] = 18160.0, 2710.0
+        s.srr[:], s.szz[:], s.srz[:] = 1e8, -3e8, 2e8
+        s.p[:] = 1e9 * np.sin(z * 100)
+        s.tm[:] = 300.0
+        s.ep[0] = self.time * 1e5
+        s.v[:] = SPEED
+        s.u[:] = 7.0
+
+    def step(self) -> None:
+        if self.fail_at is not None and self.cycle >= self.fail_at:
+            raise UnphysicalState("cell (3, 4), rod, cycle 7: density -1 kg/m3")
+        self.dt = 1e-7 * (1 + 0.3 * np.sin(self.cycle))
+        self.time += self.dt
+        self.cycle += 1
+        self.state.e += 1.0
+        self.state.e *= 1 + self.dt * 1e4 / 3
+        self._place()
+
+    def diagnostics(self) -> dict:
+        return {
+            "penetration_depth_m": SPEED * self.time, "rod_length_m": LENGTH, "rod_mass_kg": 0.06,
+            "rod_max_plastic_strain": float(self.state.ep.max()), "rod_tail_velocity_m_s": SPEED,
+            "rod_nose_velocity_m_s": SPEED, "rod_mean_velocity_m_s": SPEED, "rod_kinetic_energy_J": 3e4,
+            "rod_max_radius_m": RADIUS, "regime": "rigid" if self.time < STOP / 2 else "deforming",
+        }  # fmt: skip
+
+    def conservation(self) -> dict:
+        sinks = {"outflow": {"mass_kg": 0.0, "momentum_N_s": 0.0, "energy_J": 1e-3 * self.time}}
+        mass = {ROD: 1e-16, PLATE: -2e-16}
+        return {"mass": mass, "axial_momentum": 3e-15, "total_energy": float("nan"), "sinks": sinks}
+
+    def stop_reason(self) -> str | None:
+        return "the stop time was reached" if self.time >= self.deck.stop.time else None
+
+    def restart_arrays(self) -> dict[str, np.ndarray]:
+        return {"e": self.state.e}
+
+    def load_restart_arrays(self, arrays) -> None:
+        self.state.e[:] = arrays["e"]
+
+    def restart_scalars(self) -> dict:
+        return {"time": self.time, "cycle": self.cycle, "dt": self.dt}
+
+    def load_restart_scalars(self, scalars) -> None:
+        self.time, self.cycle, self.dt = scalars["time"], scalars["cycle"], scalars["dt"]
+        self._place()

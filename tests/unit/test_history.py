@@ -1,0 +1,80 @@
+"""The history is whole, carries units, and opens in xarray."""
+
+import h5py
+import numpy as np
+import pytest
+
+from hydro2d.history import History, HistoryError, read, unit, write_csv
+
+
+def filled(path, rows=5):
+    history = History(path)
+    for k in range(rows):
+        history.append({"time": 1e-6 * k, "cycle": k, "rod_length_m": 0.1 / 3 * k, "regime": "eroding"})
+    history.write()
+    return history
+
+
+def test_xarray_opens_it(tmp_path):
+    xarray = pytest.importorskip("xarray")
+    pytest.importorskip("h5netcdf")
+    filled(tmp_path / "history.h5")
+    with xarray.open_dataset(tmp_path / "history.h5", engine="h5netcdf") as data:
+        assert data["rod_length_m"].dims == ("time",)
+        assert data["rod_length_m"].attrs["units"] == "m"
+        assert data["regime"].attrs["flag_meanings"] == "rigid deforming eroding"
+        assert data["time"].values[3] == 3e-6
+        assert int(data["regime"][0]) == 2
+
+
+def test_bits_survive(tmp_path):
+    filled(tmp_path / "history.h5")
+    assert read(tmp_path / "history.h5")["rod_length_m"].tolist() == [0.1 / 3 * k for k in range(5)]
+
+
+def test_rows_after_the_restart_point_are_dropped(tmp_path):
+    filled(tmp_path / "history.h5")
+    history = History(tmp_path / "history.h5", rows=3)
+    history.append({"time": 9e-6, "cycle": 9, "rod_length_m": 0.0, "regime": "rigid"})
+    history.write()
+    assert read(tmp_path / "history.h5")["cycle"].tolist() == [0, 1, 2, 9]
+
+
+def test_a_quantity_that_appears_later_is_nan_before(tmp_path):
+    history = filled(tmp_path / "history.h5", 2)
+    history.append({"time": 3e-6, "sink_outflow_mass_kg": 1.0})
+    history.write()
+    columns = read(tmp_path / "history.h5")
+    assert np.isnan(columns["sink_outflow_mass_kg"]).tolist() == [True, True, False]
+    assert columns["cycle"].tolist() == [0, 1, -1]
+
+
+def test_dimension_scale(tmp_path):
+    filled(tmp_path / "history.h5")
+    with h5py.File(tmp_path / "history.h5") as file:
+        assert file["rod_length_m"].dims[0][0].name == "/time"
+
+
+@pytest.mark.parametrize(
+    ("name", "expected"),
+    [("dt", "s"), ("rod_tail_velocity_m_s", "m/s"), ("x_N_s", "N s"), ("x_kg", "kg"), ("x_J", "J"), ("cycle", "1"),
+     ("rod_max_plastic_strain", "1"), ("mass_change_rod", "1")],
+)  # fmt: skip
+def test_units(name, expected):
+    assert unit(name) == expected
+
+
+def test_no_history(tmp_path):
+    with pytest.raises(HistoryError):
+        read(tmp_path / "none.h5")
+    (tmp_path / "foreign.h5").write_text("time,depth\n")
+    with pytest.raises(HistoryError):
+        read(tmp_path / "foreign.h5")
+
+
+def test_csv(tmp_path):
+    filled(tmp_path / "history.h5")
+    write_csv(read(tmp_path / "history.h5"), tmp_path / "history.csv")
+    lines = (tmp_path / "history.csv").read_text().splitlines()
+    assert lines[0].startswith("time [s],cycle [1],regime [1],rod_length_m [m]")
+    assert float(lines[3].split(",")[3]) == 0.1 / 3 * 2

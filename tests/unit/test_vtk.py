@@ -1,0 +1,124 @@
+"""VTK's own readers give back what the state holds."""
+
+import numpy as np
+import pytest
+
+from hydro2d import derived, vtk
+
+from . import fake
+
+
+@pytest.fixture
+def simulation():
+    sim = fake.Simulation(fake.FakeDeck())
+    for _ in range(30):
+        sim.step()
+    return sim
+
+
+def test_fields_survive_as_float32(simulation, tmp_path):
+    path = vtk.Series(tmp_path).dump(simulation)
+    dump = vtk.read_grid(path)
+    assert dump.time == simulation.time
+    assert dump.bodies == ["rod", "plate"]
+    np.testing.assert_array_equal(dump.r_edges, simulation.grid.r_edges)
+    np.testing.assert_array_equal(dump.z_edges, simulation.grid.z_edges)
+    expected = derived.evaluate(simulation)
+    assert set(dump.fields) == set(expected)
+    for name, values in expected.items():
+        kind = np.int32 if name == "Material" else np.float32
+        assert dump.fields[name].dtype == kind
+        np.testing.assert_array_equal(dump.fields[name], values.astype(kind))
+
+
+def test_pyvista_sees_the_geometry(simulation, tmp_path):
+    pyvista = pytest.importorskip("pyvista")
+    grid = pyvista.read(vtk.Series(tmp_path).dump(simulation))
+    assert grid.dimensions == (13, 56, 1)
+    assert grid.cell_data["Velocity [m/s]"].shape == (12 * 55, 3)
+    cell = grid.find_containing_cell((0.5e-3, simulation.time * fake.SPEED - 5.5e-3, 0.0))
+    assert grid.cell_data["Volume Fraction for rod"][cell] == 1.0
+    assert grid.cell_data["Material"][cell] == 1
+    assert grid.bounds[:4] == pytest.approx((0, 12e-3, -25e-3, 30e-3))
+
+
+def test_velocity_is_the_mean_of_four_vertices(simulation):
+    state, grid = simulation.state, simulation.grid
+    state.v[0] = np.arange(state.v[0].size).reshape(state.v[0].shape)
+    v = derived.evaluate(simulation, ["velocity"])["Velocity [m/s]"]
+    j, i = 7, 3
+    corners = state.v[0][j + grid.g : j + grid.g + 2, i + grid.g : i + grid.g + 2]
+    assert v[j, i, 1] == corners.mean()
+    assert v[j, i, 2] == 0
+
+
+def test_von_mises_includes_the_hoop_component(simulation):
+    state = simulation.state
+    state.srr[:], state.szz[:], state.srz[:] = 1.0, 1.0, 0.0  # then s_tt = -2, and the equivalent stress is 3
+    values = derived.evaluate(simulation, ["von_mises"])
+    full = values["Volume Fraction for rod"] == 1
+    np.testing.assert_allclose(values["Von Mises Stress [Pa]"][full], 3.0, rtol=1e-14)
+
+
+def test_void_is_zero(simulation):
+    values = derived.evaluate(simulation)
+    void = values["Volume Fraction for rod"] + values["Volume Fraction for plate"] == 0
+    assert void.any()
+    for name in ("Density [kg/m3]", "Temperature [K]", "Density of rod [kg/m3]", "Material"):
+        assert np.all(values[name][void] == 0)
+
+
+def test_chosen_fields(simulation, tmp_path):
+    dump = vtk.read_grid(vtk.Series(tmp_path, ["pressure"]).dump(simulation))
+    assert set(dump.fields) == {"Pressure [Pa]", "Volume Fraction for rod", "Volume Fraction for plate", "Material"}
+
+
+def test_series(simulation, tmp_path):
+    series = vtk.Series(tmp_path)
+    times = []
+    for _ in range(4):
+        series.dump(simulation)
+        times.append(simulation.time)
+        simulation.step()
+    assert [time for time, _ in vtk.read_series(tmp_path / "series.pvd")] == times
+    kept = vtk.Series(tmp_path, dumps=2)
+    assert len(kept) == 2
+    for name in ("series.pvd", "interfaces.pvd", "tracers.pvd"):
+        entries = vtk.read_series(tmp_path / name)
+        assert [time for time, _ in entries] == times[:2]
+        assert all((tmp_path / file).exists() for _, file in entries)
+    assert len(list((tmp_path / "vtk").iterdir())) == 6
+
+
+def test_pyvista_opens_the_series(simulation, tmp_path):
+    pyvista = pytest.importorskip("pyvista")
+    vtk.Series(tmp_path).dump(simulation)
+    reader = pyvista.get_reader(tmp_path / "series.pvd")
+    assert reader.time_values == [simulation.time]
+    assert reader.read()[0].n_cells == 12 * 55
+
+
+def test_outlines_and_tracers(simulation, tmp_path):
+    pyvista = pytest.importorskip("pyvista")
+    vtk.Series(tmp_path).dump(simulation)
+    lines = pyvista.read(tmp_path / "vtk" / "interfaces_000000.vtp")
+    assert set(lines.cell_data["Material"]) == {1, 2}
+    assert lines.points[:, 0].min() == 0.0  # they reach the axis
+    tracers = pyvista.read(tmp_path / "vtk" / "tracers_000000.vtp")
+    np.testing.assert_allclose(tracers.points[:, :2], simulation.tracers)
+
+
+def test_not_a_vtk_file(tmp_path):
+    (tmp_path / "x.vtr").write_text("nonsense")
+    for path in (tmp_path / "x.vtr", tmp_path / "none.vtr"):
+        with pytest.raises(vtk.VtkError):
+            vtk.read_grid(path)
+    (tmp_path / "series.pvd").write_text("<VTKFile>")
+    with pytest.raises(vtk.VtkError):
+        vtk.read_series(tmp_path / "series.pvd")
+
+
+def test_every_quantity_is_described():
+    for quantity in derived.TABLE:
+        assert quantity.meaning
+        assert quantity.title == quantity.title.strip()
