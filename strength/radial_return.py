@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+import math
+
 from hydro2d.jit import point
 from strength.dispatch import flow_stress
 
-_ITERATIONS = 40
-_TOLERANCE = 1e-10
+#: the stress is solved to this share of the trial; the iterations end far earlier but for roots at a kink of Y
+_TOLERANCE, _ITERATIONS = 1e-10, 60
+
+#: a residual that does not shrink to this share is answered with a bisection
+_PROGRESS = 0.7
 
 
 @point
@@ -24,9 +29,10 @@ def plastic_increment(model, seq, ep, dt, T, p, rho, G, factor, par):
     and the deviator is to be scaled by Y/seq: molten (Y = 0), it vanishes and dep = seq/(3 G). Without a shear modulus
     the answer is (0, 0).
 
-    The first trial is exact for a constant Y. Then come secants, kept inside a bracket; a trial that leaves it, or that
-    shrinks it too little, is replaced by a section, close to zero as long as no x > 0 is known to be below the root:
-    hardening like ep^n may be so steep at the start that dep is 1e-17. Solved to 1e-10 of ``seq`` in stress.
+    The first trial is the root for a constant Y, the second for a Y linear in x. From then on the last two points give
+    a Y linear in ln x: hardening like x^n and rates like ln x are singular at x = 0, and x may be 1e-17. The next trial
+    is a Newton step of this f in x or in ln x, whichever part of f is the steeper. A trial outside the bracket, and one
+    after too little progress, is replaced by the bracket's geometric mean.
     """
     if not G > 0.0:
         return 0.0, 0.0
@@ -36,24 +42,33 @@ def plastic_increment(model, seq, ep, dt, T, p, rho, G, factor, par):
         return 0.0, Y
     stiffness = 3.0 * G
     tolerance = _TOLERANCE * seq
+    least = tolerance / stiffness
     low, high = 0.0, seq / stiffness
-    before, f_before = 0.0, excess
+    x_before, Y_before, f_before = 0.0, Y, math.inf
     x = min(excess / stiffness, high)
     for _ in range(_ITERATIONS):
         Y = factor * flow_stress(model, ep + x, x / dt, T, p, rho, par)
-        f = seq - stiffness * x - Y
+        elastic = stiffness * x
+        f = seq - elastic - Y
         if abs(f) <= tolerance:
             return x, Y
-        width = high - low
         if f > 0.0:
             low = x
         else:
             high = x
-        if stiffness * (high - low) <= tolerance:
-            break
-        trial = x - f * (x - before) / (f - f_before)
-        before, f_before = x, f
-        if high - low > 0.5 * width or not (low < trial and trial < high):
-            trial = 0.5 * (low + high) if low > 0.0 else 0.1 * high
-        x = trial
+        if high - low <= least:
+            return x, seq - elastic
+        if x_before == 0.0:
+            trial = x * (1.0 + f / (elastic + (Y - Y_before)))
+        else:
+            logarithmic = (Y - Y_before) / math.log(x / x_before)
+            step = f / (elastic + logarithmic)
+            trial = x * (math.exp(step) if logarithmic > elastic else 1.0 + step)
+        x_before, Y_before = x, Y
+        if low < trial and trial < high and abs(f) <= _PROGRESS * f_before:
+            f_before = abs(f)
+        else:
+            trial = math.sqrt(max(low, least) * high)
+            f_before = math.inf
+        x = max(trial, least)
     return x, seq - stiffness * x
