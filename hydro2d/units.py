@@ -24,7 +24,7 @@ KINDS = {
     "1/K": "a reciprocal temperature",
     "J": "an energy",
     "J/kg": "a specific energy",
-    "J/kg/K": "a specific heat",
+    "J/(kg*K)": "a specific heat",
     "rad": "an angle",
 }
 

@@ -1,0 +1,100 @@
+"""What every section of a deck is made of: strict frozen tables, and numbers that know their unit."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import Annotated, Any
+
+from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, WithJsonSchema
+
+from hydro2d import units
+
+
+class Section(BaseModel):
+    """A table of the deck: keys that nobody declared are errors, values never change after loading."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
+
+
+def _positive(value: float) -> float:
+    if value <= 0:
+        raise ValueError(f"must be positive, is {value:g}")
+    return value
+
+
+def _not_negative(value: float) -> float:
+    if value < 0:
+        raise ValueError(f"must not be negative, is {value:g}")
+    return value
+
+
+def _fraction(value: float) -> float:
+    if not 0 <= value <= 1:
+        raise ValueError(f"must lie between 0 and 1, is {value:g}")
+    return value
+
+
+def quantity(unit: str, check=None):
+    """The type of a number in ``unit``, given in SI or as a string with a unit, held in SI."""
+    schema: dict[str, Any] = {"type": "number", "x-unit": unit}
+    if unit != "1":
+        schema = {"anyOf": [{"type": "number"}, {"type": "string"}], "x-unit": unit}
+    before = BeforeValidator(partial(units.to_si, unit=unit))
+    if check is None:
+        return Annotated[float, before, WithJsonSchema(schema)]
+    return Annotated[float, before, AfterValidator(check), WithJsonSchema(schema)]
+
+
+Length = quantity("m")
+PositiveLength = quantity("m", _positive)
+Time = quantity("s", _not_negative)
+PositiveTime = quantity("s", _positive)
+Speed = quantity("m/s")
+PositiveSpeed = quantity("m/s", _positive)
+PositiveDensity = quantity("kg/m^3", _positive)
+Pressure = quantity("Pa")
+Temperature = quantity("K", _not_negative)
+SpecificEnergy = quantity("J/kg")
+Angle = quantity("rad", _positive)
+Number = quantity("1")
+PositiveNumber = quantity("1", _positive)
+Fraction = quantity("1", _fraction)
+NotNegative = quantity("1", _not_negative)
+
+
+def _pair(value, unit: str) -> tuple[float, float]:
+    if not isinstance(value, (list, tuple)) or len(value) != 2:
+        raise ValueError(f"expected two numbers or strings in {unit}, [first, second]")
+    return units.to_si(value[0], unit), units.to_si(value[1], unit)
+
+
+def _interval(value) -> tuple[float, float]:
+    low, high = _pair(value, "m")
+    if not low < high:
+        raise ValueError(f"must grow from the first to the second, is [{low:g}, {high:g}]")
+    return low, high
+
+
+def _velocity(value) -> tuple[float, float]:
+    if isinstance(value, (list, tuple)):
+        return _pair(value, "m/s")
+    return 0.0, units.to_si(value, "m/s")
+
+
+_ITEM_SCHEMA = {"anyOf": [{"type": "number"}, {"type": "string"}]}
+_PAIR_SCHEMA = {"type": "array", "items": _ITEM_SCHEMA, "minItems": 2, "maxItems": 2}
+
+#: [low, high] in metres
+Interval = Annotated[tuple[float, float], BeforeValidator(_interval), WithJsonSchema({**_PAIR_SCHEMA, "x-unit": "m"})]
+#: [r, z] in metres
+Point = Annotated[
+    tuple[float, float],
+    BeforeValidator(partial(_pair, unit="m")),
+    WithJsonSchema({**_PAIR_SCHEMA, "x-unit": "m"}),
+]
+#: axial velocity, or [radial, axial], in m/s
+Velocity = Annotated[
+    tuple[float, float],
+    BeforeValidator(_velocity),
+    WithJsonSchema({"anyOf": [{"type": "number"}, {"type": "string"}, _PAIR_SCHEMA], "x-unit": "m/s"}),
+]

@@ -1,0 +1,253 @@
+"""What a wrong deck is told: file, line, key, what is allowed, and the nearest valid name.
+
+tomllib gives values without line numbers, so ``key_lines`` walks the text once more and notes where each key stands.
+"""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable
+
+
+class DeckError(Exception):
+    """A deck, a material or a command line is wrong; the message is meant for its author."""
+
+
+def nearest(name: str, allowed: Iterable[str]) -> str | None:
+    """The allowed name that looks most like ``name``, or None."""
+    names = [str(entry) for entry in allowed]
+    lower = {entry.lower(): entry for entry in reversed(names)}
+    found = difflib.get_close_matches(str(name).lower(), list(lower), n=1, cutoff=0.5)
+    return lower[found[0]] if found else None
+
+
+def unknown(what: str, name: str, allowed: Iterable[str]) -> str:
+    """'unknown material "W_aloy"; nearest is "W_alloy"; allowed are ...'."""
+    names = sorted(str(entry) for entry in allowed)
+    close = nearest(name, names)
+    hint = f'; did you mean "{close}"?' if close else ""
+    return f'unknown {what} "{name}"{hint} (allowed: {", ".join(names) or "none"})'
+
+
+class _Scanner:
+    """Walks TOML that tomllib has accepted and notes the line of every key and of every array element."""
+
+    def __init__(self, text: str):
+        self.text, self.at, self.line = text, 0, 1
+        self.lines: dict[tuple, int] = {}
+        self.counts: dict[tuple, int] = {}
+
+    def run(self) -> dict[tuple, int]:
+        prefix: tuple = ()
+        while self._skip(newlines=True):
+            if self._next() == "[":
+                prefix = self._header()
+            else:
+                self._pair(prefix)
+        return self.lines
+
+    def _next(self, length: int = 1) -> str:
+        return self.text[self.at : self.at + length]
+
+    def _take(self, length: int = 1) -> str:
+        taken = self._next(length)
+        self.at += length
+        self.line += taken.count("\n")
+        return taken
+
+    def _skip(self, newlines: bool) -> bool:
+        """Passes blanks and comments; False at the end of the text."""
+        while self.at < len(self.text):
+            character = self._next()
+            if character == "#":
+                while self.at < len(self.text) and self._next() != "\n":
+                    self.at += 1
+            elif character in " \t\r" or (newlines and character == "\n"):
+                self._take()
+            else:
+                return True
+        return False
+
+    def _note(self, path: tuple, line: int) -> None:
+        for length in range(1, len(path) + 1):
+            self.lines.setdefault(path[:length], line)
+
+    def _header(self) -> tuple:
+        line, array = self.line, self._next(2) == "[["
+        self._take(2 if array else 1)
+        keys = self._dotted()
+        self._take(2 if array else 1)
+        path = self._resolved(keys[:-1])
+        if array:
+            place = path + keys[-1:]
+            index = self.counts.get(place, 0)
+            self.counts[place] = index + 1
+            path = place + (index,)
+        else:
+            path = self._resolved(keys)
+        self._note(path, line)
+        return path
+
+    def _resolved(self, keys: tuple) -> tuple:
+        """Keys with the index of the latest element wherever one names an array of tables."""
+        path: tuple = ()
+        for key in keys:
+            path += (key,)
+            if path in self.counts:
+                path += (self.counts[path] - 1,)
+        return path
+
+    def _dotted(self) -> tuple:
+        keys = []
+        while True:
+            self._skip(newlines=False)
+            keys.append(self._key())
+            self._skip(newlines=False)
+            if self._next() != ".":
+                return tuple(keys)
+            self._take()
+
+    def _key(self) -> str:
+        if self._next() in "\"'":
+            return self._string()
+        start = self.at
+        while self._next() and (self._next().isalnum() or self._next() in "-_"):
+            self.at += 1
+        return self.text[start : self.at]
+
+    def _string(self) -> str:
+        quote = self._next()
+        ends = quote * 3 if self._next(3) == quote * 3 else quote
+        self._take(len(ends))
+        start = self.at
+        while self._next(len(ends)) != ends:
+            self._take(2 if quote == '"' and self._next() == "\\" else 1)
+        text = self.text[start : self.at]
+        self._take(len(ends))
+        while len(ends) == 3 and self._next() == quote:  # a quotation mark may stand before the closing three
+            self._take()
+        return text
+
+    def _pair(self, prefix: tuple) -> None:
+        line = self.line
+        path = prefix + self._dotted()
+        self._note(path, line)
+        self._take()  # =
+        self._skip(newlines=False)
+        self._value(path)
+
+    def _value(self, path: tuple) -> None:
+        character = self._next()
+        if character in "\"'":
+            self._string()
+        elif character == "[":
+            self._list(path)
+        elif character == "{":
+            self._inline_table(path)
+        else:
+            while self._next() and self._next() not in ",]}#\n":
+                self.at += 1
+
+    def _list(self, path: tuple) -> None:
+        self._take()
+        index = 0
+        while self._skip(newlines=True) and self._next() != "]":
+            self._note(path + (index,), self.line)
+            self._value(path + (index,))
+            index += 1
+            self._skip(newlines=True)
+            if self._next() == ",":
+                self._take()
+        self._take()
+
+    def _inline_table(self, path: tuple) -> None:
+        self._take()
+        while self._skip(newlines=True) and self._next() != "}":
+            self._pair(path)
+            self._skip(newlines=True)
+            if self._next() == ",":
+                self._take()
+        self._take()
+
+
+def key_lines(text: str) -> dict[tuple, int]:
+    """Line of every key of a valid TOML text; elements of arrays are addressed by their index, from 0."""
+    return _Scanner(text.replace("\r\n", "\n")).run()
+
+
+def spelled(path: tuple) -> str:
+    """A key as a person writes it: ("body", 0, "name") is body[0].name."""
+    text = ""
+    for part in path:
+        text += f"[{part}]" if isinstance(part, int) else f".{part}" if text else str(part)
+    return text
+
+
+class Sources:
+    """The files a deck was put together from, so that a key can be traced to its line.
+
+    Files are consulted from the last word on a key to the first: command line, the deck, what it includes.
+    """
+
+    def __init__(self) -> None:
+        self._files: list[tuple[str, dict, dict[tuple, int]]] = []
+        self._set: dict[tuple, str] = {}
+
+    def add(self, name: str, data: dict, text: str) -> None:
+        """Registers a file before those that it includes."""
+        self._files.append((name, data, key_lines(text)))
+
+    def add_override(self, path: tuple, text: str) -> None:
+        """Registers an override of the command line; the path has names where arrays hold named entries."""
+        self._set[path] = text
+
+    def where(self, path: tuple, merged: dict) -> str:
+        """'deck.toml:12' for the key, or for the nearest table around it that was written down; '' if none was."""
+        named = _named(path, merged)
+        for key, text in self._set.items():
+            if named[: len(key)] == key:
+                return f"--set {text}"
+        for length in range(len(named), 0, -1):
+            for name, data, lines in self._files:
+                line = _line_of(named[:length], data, lines)
+                if line is not None:
+                    return f"{name}:{line}"
+        return self._files[0][0] if self._files else ""
+
+
+def _named(path: tuple, data) -> tuple:
+    """The path with the index of a named entry replaced by its name."""
+    result: tuple = ()
+    for part in path:
+        if isinstance(data, list) and isinstance(part, int) and part < len(data):
+            data = data[part]
+            name = data.get("name") if isinstance(data, dict) else None
+            result += (name if isinstance(name, str) else part,)
+        else:
+            data = data.get(part) if isinstance(data, dict) else None
+            result += (part,)
+    return result
+
+
+def _line_of(named: tuple, data, lines: dict[tuple, int]) -> int | None:
+    path: tuple = ()
+    for part in named:
+        if isinstance(data, list):
+            index = entry_index(data, part)
+            if index is None:
+                return None
+            path, data = path + (index,), data[index]
+        elif isinstance(data, dict) and part in data:
+            path, data = path + (part,), data[part]
+        else:
+            return None
+    return lines.get(path)
+
+
+def entry_index(entries: list, key) -> int | None:
+    """Index of the entry that a name, or a number counted from 0, points to; None if there is none."""
+    for index, entry in enumerate(entries):
+        if isinstance(entry, dict) and entry.get("name") == key:
+            return index
+    text = str(key)
+    return int(text) if text.isdigit() and int(text) < len(entries) else None

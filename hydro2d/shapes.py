@@ -1,0 +1,158 @@
+"""Outlines of bodies in the (r, z) half-plane.
+
+An outline is a list of slabs. In a slab, z runs from ``low`` to ``high`` and the body fills r from an inner to an outer
+curve; both curves are smooth and monotone there, so that volumes can be integrated exactly between their crossings with
+the mesh. A solid body on the axis has the mirror image of its outer curve as inner curve; what lies at r < 0 is simply
+never reached by a mesh that starts on the axis.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Line:
+    """r = r0 + slope (z - z0)."""
+
+    r0: float
+    z0: float = 0.0
+    slope: float = 0.0
+
+    @property
+    def constant(self) -> bool:
+        return self.slope == 0.0
+
+    def r(self, z: float) -> float:
+        return self.r0 if self.constant else self.r0 + self.slope * (z - self.z0)
+
+    def z_at(self, r: float, low: float, high: float) -> float:
+        """Where the curve, monotone from ``low`` to ``high``, reaches r."""
+        return min(max(self.z0 + (r - self.r0) / self.slope, low), high)
+
+    def mirrored(self) -> Line:
+        return Line(-self.r0, self.z0, -self.slope)
+
+
+@dataclass(frozen=True)
+class Arc:
+    """r = rc + sign sqrt(rho^2 - (z - zc)^2)."""
+
+    rc: float
+    zc: float
+    rho: float
+    sign: float = 1.0
+
+    constant = False
+
+    def r(self, z: float) -> float:
+        x = abs(z - self.zc)
+        return self.rc + self.sign * math.sqrt(max((self.rho - x) * (self.rho + x), 0.0))
+
+    def z_at(self, r: float, low: float, high: float) -> float:
+        """Where the curve, monotone from ``low`` to ``high``, reaches r."""
+        x = abs(r - self.rc)
+        away = math.sqrt(max((self.rho - x) * (self.rho + x), 0.0))
+        z = self.zc + away if low + high > 2 * self.zc else self.zc - away
+        return min(max(z, low), high)
+
+    def mirrored(self) -> Arc:
+        return Arc(-self.rc, self.zc, self.rho, -self.sign)
+
+
+@dataclass(frozen=True)
+class Slab:
+    """The part of a body from z = low to z = high, between two curves."""
+
+    low: float
+    high: float
+    inner: Line | Arc
+    outer: Line | Arc
+
+
+@dataclass(frozen=True)
+class Outline:
+    """A body as slabs; two slabs may lie beside each other, never over each other."""
+
+    slabs: tuple[Slab, ...]
+
+    def extent(self, axis: str) -> tuple[float, float]:
+        """Smallest and largest coordinate along "r" (not below 0 for bodies on the axis) or "z"."""
+        if axis == "z":
+            return min(slab.low for slab in self.slabs), max(slab.high for slab in self.slabs)
+        ends = [(slab, z) for slab in self.slabs for z in (slab.low, slab.high)]
+        return min(slab.inner.r(z) for slab, z in ends), max(slab.outer.r(z) for slab, z in ends)
+
+
+def _solid(low: float, high: float, outer: Line | Arc) -> Slab:
+    return Slab(low, high, outer.mirrored(), outer)
+
+
+def rod(radius: float, length: float, tip: float, direction: int, nose: str, nose_length: float) -> Outline:
+    """A rod of total ``length`` on the axis with its nose at ``tip``.
+
+    A tangent ogive of nose length n has an arc of radius (n^2 + R^2)/(2R) about a centre in the plane of the nose's
+    base; the hemisphere is its limit n = R.
+    """
+    base, tail = tip - direction * nose_length, tip - direction * length
+    slabs = [_solid(min(base, tail), max(base, tail), Line(radius))] if base != tail else []
+    if nose in ("hemispherical", "ogive"):
+        rho = (nose_length**2 + radius**2) / (2 * radius)
+        slabs.append(_solid(min(base, tip), max(base, tip), Arc(radius - rho, base, rho)))
+    elif nose == "conical":
+        slabs.append(_solid(min(base, tip), max(base, tip), Line(radius, base, -direction * radius / nose_length)))
+    return Outline(tuple(slabs))
+
+
+def sphere(r: float, z: float, radius: float, inner_radius: float = 0.0) -> Outline:
+    """A sphere, or a shell, about (r, z); split where its curves turn."""
+    slabs = []
+    levels = [z - radius, z - inner_radius, z, z + inner_radius, z + radius]
+    for low, high in zip(levels, levels[1:], strict=False):
+        if not low < high:
+            continue
+        left, right = Arc(r, z, radius, -1.0), Arc(r, z, radius, 1.0)
+        if abs(low + high - 2 * z) < 2 * inner_radius:
+            slabs.append(Slab(low, high, left, Arc(r, z, inner_radius, -1.0)))
+            slabs.append(Slab(low, high, Arc(r, z, inner_radius, 1.0), right))
+        else:
+            slabs.append(Slab(low, high, left, right))
+    return Outline(tuple(slabs))
+
+
+def box(r: tuple[float, float], z: tuple[float, float]) -> Outline:
+    """A rectangle."""
+    return Outline((Slab(z[0], z[1], Line(r[0]), Line(r[1])),))
+
+
+def polygon(points) -> Outline:
+    """A polygon with corners (r, z) whose edges do not cross, cut into slabs at its corners."""
+    corners = list(points)
+    sides = list(zip(corners, corners[1:] + corners[:1], strict=True))
+    levels = sorted({z for _, z in corners})
+    slabs = []
+    for low, high in zip(levels, levels[1:], strict=False):
+        middle = 0.5 * (low + high)
+        spanning = [_side(a, b) for a, b in sides if min(a[1], b[1]) <= low and max(a[1], b[1]) >= high]
+        spanning.sort(key=lambda line: line.r(middle))
+        slabs += [Slab(low, high, *pair) for pair in zip(spanning[::2], spanning[1::2], strict=True)]
+    return Outline(tuple(slabs))
+
+
+def _side(a: tuple[float, float], b: tuple[float, float]) -> Line:
+    return Line(a[0], a[1], (b[0] - a[0]) / (b[1] - a[1]))
+
+
+def outline(body, r_start: float) -> Outline:
+    """The outline of a body of a deck; ``r_start`` is where a body without an inner edge begins."""
+    if body.shape == "rod":
+        return rod(body.rod_radius, body.length, body.tip, body.direction, body.nose, body.resolved_nose_length)
+    if body.shape == "plate":
+        r = (r_start, math.inf) if body.radius is None else (-body.radius, body.radius)
+        return box(r, (body.z_front, body.z_front + body.thickness))
+    if body.shape == "box":
+        return box(body.r if body.r is not None else (r_start, math.inf), body.z)
+    if body.shape == "sphere":
+        return sphere(*body.centre, body.radius, body.inner_radius or 0.0)
+    return polygon(body.points)
