@@ -1,0 +1,82 @@
+"""The repository's own source, read and parsed: what the rules are checked on."""
+
+from __future__ import annotations
+
+import ast
+import functools
+import subprocess
+from collections.abc import Iterator
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+PACKAGES = ("hydro2d", "eos", "strength")
+
+
+@functools.cache
+def modules() -> dict[str, Path]:
+    """Every module of the program: dotted name -> file."""
+    found = {}
+    for package in PACKAGES:
+        for file in sorted((ROOT / package).rglob("*.py")):
+            parts = file.relative_to(ROOT).with_suffix("").parts
+            found[".".join(parts[:-1] if parts[-1] == "__init__" else parts)] = file
+    return found
+
+
+@functools.cache
+def tree(file: Path) -> ast.Module:
+    """The parsed file."""
+    return ast.parse(file.read_text(encoding="utf-8"), str(file))
+
+
+def imports(name: str, syntax: ast.AST, package: bool, known: frozenset[str]) -> Iterator[tuple[str, int]]:
+    """Modules that the module ``name`` imports anywhere, also inside functions, with the line of each.
+
+    ``from package import thing`` counts as package.thing where that is a module of ``known``.
+    """
+    for node in ast.walk(syntax):
+        if isinstance(node, ast.Import):
+            for alias in node.names:
+                yield alias.name, node.lineno
+        elif isinstance(node, ast.ImportFrom):
+            base = node.module or ""
+            if node.level:
+                home = name.split(".")
+                home = home[: len(home) - node.level + (1 if package else 0)]
+                base = ".".join([*home, *([base] if base else [])])
+            for alias in node.names:
+                inner = f"{base}.{alias.name}"
+                yield (inner if inner in known else base), node.lineno
+
+
+def imports_of(name: str) -> list[tuple[str, int]]:
+    """Modules that a module of the program imports, with the line of each."""
+    file = modules()[name]
+    return list(imports(name, tree(file), file.name == "__init__.py", frozenset(modules())))
+
+
+def functions(syntax: ast.AST, *decorators: str) -> Iterator[ast.FunctionDef]:
+    """Functions that carry one of the decorators by its bare name."""
+    for node in ast.walk(syntax):
+        if isinstance(node, ast.FunctionDef) and any(
+            isinstance(mark, ast.Name) and mark.id in decorators for mark in node.decorator_list
+        ):
+            yield node
+
+
+def calls(node: ast.AST, *names: str) -> list[ast.Call]:
+    """Calls below a node of a function or method of one of these names."""
+    return [
+        part
+        for part in ast.walk(node)
+        if isinstance(part, ast.Call)
+        and (getattr(part.func, "id", None) in names or getattr(part.func, "attr", None) in names)
+    ]
+
+
+@functools.cache
+def tracked_files() -> tuple[Path, ...]:
+    """Files under version control that exist in the working tree."""
+    listed = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, capture_output=True, text=True, check=True).stdout
+    files = tuple(ROOT / name for name in listed.split("\0") if name)
+    return tuple(file for file in files if file.is_file())

@@ -1,0 +1,38 @@
+"""Every shipped deck loads, says where it comes from, and is named in its folder's README."""
+
+import tomllib
+
+import pytest
+
+from hydro2d import deck
+from tests.rules import source
+
+PROBLEMS = source.ROOT / "problems"
+FILES = sorted(file for file in PROBLEMS.rglob("*.toml") if file.parent.name != "materials")
+DECKS = [file for file in FILES if "study" not in tomllib.loads(file.read_text())]
+COMPLETE = [file for file in DECKS if not file.stem.startswith("_")]
+
+
+def name_of(file):
+    return str(file.relative_to(PROBLEMS))
+
+
+def test_decks_are_shipped():
+    assert (PROBLEMS / "cth_nose_shape" / "hemi_5083_1086_quick.toml") in COMPLETE
+
+
+@pytest.mark.parametrize("file", COMPLETE, ids=name_of)
+def test_deck_loads(file):
+    assert deck.load(file).title
+
+
+@pytest.mark.parametrize("file", COMPLETE, ids=name_of)
+def test_resolved_deck_is_the_same_deck(file):
+    loaded = deck.load(file)
+    assert deck.loads(loaded.to_toml()).to_toml() == loaded.to_toml()
+
+
+@pytest.mark.parametrize("folder", sorted({file.parent for file in FILES}), ids=lambda folder: folder.name)
+def test_every_study_has_a_readme(folder):
+    text = (folder / "README.md").read_text(encoding="utf-8")
+    assert [file.name for file in FILES if file.parent == folder and file.stem not in text] == []

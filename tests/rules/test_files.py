@@ -1,0 +1,83 @@
+"""What every file of the repository obeys, and what a wheel must carry."""
+
+import re
+import tomllib
+from pathlib import Path
+
+import pytest
+
+from tests.rules import source
+
+HERE = source.ROOT.parent
+TEXT = {".py", ".md", ".toml", ".cff", ".txt", ".rst", ".cfg", ".css", ".yml", ".yaml", ""}
+#: spelled in pieces, or this file would break its own rule
+MACHINE = re.compile(r"(?<![\w.~-])/(?:" + "|".join(["home", "root", "Users", "work", "mnt", "tmp"]) + r")/")
+INDEX = re.compile("|".join(["py" + r"pi\.org", "python" + "hosted", "index" + "-url", r"://[^/\s]*:[^/\s]*@"]))
+
+
+def faults(text: str) -> list[str]:
+    """Machine paths and package index hosts in a text, with their lines."""
+    found = []
+    for number, line in enumerate(text.splitlines(), 1):
+        for pattern, name in ((MACHINE, "a path of one machine"), (INDEX, "a package index")):
+            if pattern.search(line):
+                found.append(f"line {number}: {name}: {line.strip()[:100]}")
+        if len(HERE.parts) > 1 and re.search(r"(?<![\w.~-])" + re.escape(f"{HERE}/"), line):
+            found.append(f"line {number}: this checkout's folder")
+    return found
+
+
+TEXT_FILES = [file for file in source.tracked_files() if file.suffix in TEXT]
+
+
+@pytest.mark.parametrize("file", TEXT_FILES, ids=lambda file: str(file.relative_to(source.ROOT)))
+def test_no_machine_paths_or_index_hosts(file):
+    assert faults(file.read_text(encoding="utf-8")) == []
+
+
+@pytest.mark.parametrize(
+    "line", ["/".join(["see ", "home", "me", "x"]), "/".join(["", "work", "main"]), "--extra-index" + "-url x"]
+)
+def test_a_machine_path_is_found(line):
+    assert faults(line) != []
+
+
+def project() -> dict:
+    return tomllib.loads((source.ROOT / "pyproject.toml").read_text())
+
+
+def test_the_wheel_names_every_package():
+    setuptools = project()["tool"]["setuptools"]
+    folders = {
+        ".".join(file.parent.relative_to(source.ROOT).parts)
+        for package in source.PACKAGES
+        for file in (source.ROOT / package).rglob("__init__.py")
+    }
+    assert folders | {"hydro2d.problems"} == set(setuptools["packages"])
+    assert setuptools["package-dir"] == {"hydro2d.problems": "problems"}
+
+
+def test_the_wheel_carries_every_deck():
+    patterns = project()["tool"]["setuptools"]["package-data"]["hydro2d.problems"]
+    problems = source.ROOT / "problems"
+    carried = {file for pattern in patterns for file in problems.glob(pattern)}
+    data = {file for file in source.tracked_files() if problems in file.parents and file.suffix != ".py"}
+    assert data - carried == set()
+
+
+def test_versions_agree():
+    from hydro2d import __version__
+
+    assert project()["project"]["version"] == __version__
+    assert f"\nversion: {__version__}\n" in (source.ROOT / "CITATION.cff").read_text()
+    assert f"## {__version__}" in (source.ROOT / "CHANGELOG.md").read_text()
+
+
+def test_the_readme_commands_exist():
+    """The deck of the first command is there, and the check script runs the second."""
+    readme = (source.ROOT / "README.md").read_text()
+    decks = re.findall(r"hydro2d run (problems/\S+\.toml)", readme)
+    assert decks
+    assert [deck for deck in decks if not (source.ROOT / Path(deck)).is_file()] == []
+    assert "python -m pytest" in readme
+    assert "python\" -m pytest" in (source.ROOT / ".ci" / "run").read_text()

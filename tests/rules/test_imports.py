@@ -1,0 +1,133 @@
+"""A file imports only what stands above it; the list is the architecture."""
+
+import ast
+from fnmatch import fnmatch
+
+import pytest
+
+from tests.rules import source
+
+#: from the bottom to the top; a name stands for itself and for all modules inside it, and a * for what it likes
+LAYERS = (
+    ("hydro2d.jit", "hydro2d.units", "hydro2d.files", "hydro2d.provenance", "hydro2d.deck_errors"),
+    ("eos", "strength"),
+    ("hydro2d.fields", "hydro2d.grid", "hydro2d.state", "hydro2d.deck", "hydro2d.deck_*", "hydro2d.materials",
+     "hydro2d.shapes", "hydro2d.insertion"),
+    ("hydro2d.kernels",),
+    ("hydro2d.audit", "hydro2d.cycle"),
+    ("hydro2d.simulation",),
+    ("hydro2d.derived", "hydro2d.outlines", "hydro2d.history", "hydro2d.snapshot", "hydro2d.progress", "hydro2d.vtk",
+     "hydro2d.figures", "hydro2d.run", "hydro2d.results"),
+    ("hydro2d.study",),
+    ("hydro2d.cli", "hydro2d.__main__"),
+)
+OURS = ("hydro2d", "eos", "strength")
+#: packages of these modules and nothing else of hydro2d
+NARROW = {
+    "eos": ("eos", "hydro2d.jit"),
+    "strength": ("strength", "eos.parameters", "hydro2d.jit"),
+    "hydro2d.kernels": ("hydro2d.kernels", "hydro2d.jit", "hydro2d.fields", "hydro2d.grid", "eos", "strength"),
+    "hydro2d.penetration": ("hydro2d.penetration", "hydro2d.units"),
+}
+
+
+def within(name: str, *places: str) -> bool:
+    return any(fnmatch(name, place) or name.startswith(place + ".") for place in places)
+
+
+def layer(name: str) -> int | None:
+    """Index of the module's layer, None for one that the list does not know."""
+    for index, places in enumerate(LAYERS):
+        if within(name, *places):
+            return index
+    return None
+
+
+def breaches(name: str, imported) -> list[str]:
+    """Every import of the module that the architecture forbids."""
+    found = []
+    for other, line in imported:
+        if other == "hydro2d" or not within(other, *OURS):
+            continue
+        where = f"{name}, line {line}, imports {other}"
+        for place, allowed in NARROW.items():
+            if within(name, place) and not within(other, *allowed):
+                found.append(f"{where}; {place} may import {', '.join(allowed)}")
+        mine, theirs = layer(name), layer(other)
+        if mine is not None and theirs is not None and theirs > mine:
+            found.append(f"{where}, which stands above it")
+    return found
+
+
+MODULES = sorted(name for name in source.modules() if name != "hydro2d")
+
+
+@pytest.mark.parametrize("name", MODULES)
+def test_imports_point_downwards(name):
+    assert breaches(name, source.imports_of(name)) == []
+
+
+def test_every_module_has_its_place():
+    lost = [name for name in MODULES if layer(name) is None and not within(name, "hydro2d.penetration")]
+    assert lost == [], "give these a layer in LAYERS"
+
+
+def test_no_circles():
+    graph = {name: {other for other, _ in source.imports_of(name) if other in source.modules()} for name in MODULES}
+    done: set[str] = set()
+    path: list[str] = []
+
+    def visit(name: str) -> None:
+        assert name not in path, " -> ".join([*path[path.index(name) :], name])
+        if name in done:
+            return
+        path.append(name)
+        for other in sorted(graph.get(name, ()) - {"hydro2d", name}):
+            visit(other)
+        path.pop()
+        done.add(name)
+
+    for name in MODULES:
+        visit(name)
+
+
+def test_the_package_itself_imports_nothing_at_once():
+    """``import hydro2d`` is instant; what it offers it imports when asked."""
+    body = source.tree(source.modules()["hydro2d"]).body
+    top = [ast.unparse(node) for node in body if isinstance(node, (ast.Import, ast.ImportFrom))]
+    assert [text for text in top if "__future__" not in text] == []
+
+
+def users(library: str) -> set[str]:
+    return {name for name in source.modules() if any(within(other, library) for other, _ in source.imports_of(name))}
+
+
+@pytest.mark.parametrize(
+    ("library", "allowed"),
+    [
+        ("numba", ("hydro2d.jit",)),
+        ("pyvista", ("hydro2d.vtk", "hydro2d.figures")),
+        ("vtk", ("hydro2d.vtk", "hydro2d.figures")),
+        ("pint", ("hydro2d.units",)),
+        ("scipy", ("hydro2d.penetration",)),
+        ("hydro2d.kernels", ("hydro2d.kernels", "hydro2d.cycle")),
+    ],
+)
+def test_only_these_import(library, allowed):
+    assert [name for name in sorted(users(library)) if not within(name, *allowed)] == []
+
+
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        ("hydro2d.grid", "from hydro2d.cycle import advance"),
+        ("hydro2d.kernels.eos_sweep", "from hydro2d.state import State"),
+        ("hydro2d.kernels.eos_sweep", "from ..state import State"),
+        ("eos.ideal_gas", "from hydro2d import units"),
+        ("strength.steinberg_guinan", "import eos.dispatch"),
+        ("hydro2d.penetration.tate", "def f():\n    from hydro2d.simulation import Simulation"),
+    ],
+)
+def test_a_forbidden_import_is_found(name, text):
+    known = frozenset({"hydro2d.units", "hydro2d.state", "hydro2d.cycle", "hydro2d.simulation", "eos.dispatch"})
+    assert breaches(name, source.imports(name, ast.parse(text), False, known)) != []

@@ -1,0 +1,125 @@
+"""How kernels and scalar physics are written."""
+
+import ast
+
+import pytest
+
+from tests.rules import source
+
+ALLOCATIONS = ("zeros", "empty", "ones", "full", "array", "zeros_like", "empty_like", "copy", "concatenate")
+COMPILED = [
+    (file, function)
+    for name, file in sorted(source.modules().items())
+    if name != "hydro2d.jit"
+    for function in source.functions(source.tree(file), "kernel", "serial", "point")
+]
+
+
+def name_of(case) -> str:
+    return f"{case[0].stem}.{case[1].name}"
+
+
+def parallel_loops(function: ast.FunctionDef) -> list[ast.For]:
+    return [node for node in ast.walk(function) if isinstance(node, ast.For) and source.calls(node.iter, "prange")]
+
+
+def faults(function: ast.FunctionDef) -> list[str]:
+    """What is wrong with a compiled function."""
+    found = []
+    marks = {mark.id for mark in function.decorator_list if isinstance(mark, ast.Name)}
+    arguments = function.args
+    if not ast.get_docstring(function):
+        found.append("has no docstring")
+    if arguments.defaults or any(default is not None for default in arguments.kw_defaults):
+        found.append("has default arguments")
+    if arguments.vararg or arguments.kwarg:
+        found.append("takes * or ** arguments")
+    loops = parallel_loops(function)
+    if "kernel" in marks:
+        if len(loops) != 1:
+            found.append(f"has {len(loops)} prange loops, not one")
+        elif loops[0] not in function.body:
+            found.append("has its prange loop inside another statement")
+    elif loops or source.calls(function, "prange"):
+        found.append("uses prange without being a kernel")
+    if source.calls(function, *ALLOCATIONS):
+        found.append("allocates")
+    if source.calls(function, "print") or any(isinstance(node, (ast.Raise, ast.Assert)) for node in ast.walk(function)):
+        found.append("prints or raises")
+    for node in ast.walk(function):
+        if isinstance(node, ast.Subscript) and any(is_negative(index) for index in indices(node)):
+            found.append(f"has a negative index in line {node.lineno}")
+    return found
+
+
+def indices(node: ast.Subscript) -> list[ast.AST]:
+    """Plain indices of a subscript, without those inside slices."""
+    parts = node.slice.elts if isinstance(node.slice, ast.Tuple) else [node.slice]
+    return [part for part in parts if not isinstance(part, ast.Slice)]
+
+
+def is_negative(index: ast.AST) -> bool:
+    return isinstance(index, ast.UnaryOp) and isinstance(index.op, ast.USub) and isinstance(index.operand, ast.Constant)
+
+
+def test_there_are_kernels_to_look_at():
+    assert any("kernel" in {getattr(mark, "id", "") for mark in function.decorator_list} for _, function in COMPILED)
+
+
+@pytest.mark.parametrize("case", COMPILED, ids=name_of)
+def test_compiled_functions(case):
+    assert faults(case[1]) == [], f"{case[0].relative_to(source.ROOT)}: {case[1].name}, line {case[1].lineno}"
+
+
+@pytest.mark.parametrize("name", sorted(source.modules()))
+def test_numba_options_live_in_one_file(name):
+    if name == "hydro2d.jit":
+        return
+    words = {"njit", "jit", "vectorize", "guvectorize", "stencil", "fastmath"}
+    syntax = source.tree(source.modules()[name])
+    used = {getattr(node, "id", getattr(node, "attr", getattr(node, "arg", None))) for node in ast.walk(syntax)}
+    imported = {alias.name for node in ast.walk(syntax) if isinstance(node, ast.ImportFrom) for alias in node.names}
+    assert (used | imported) & words - ({"jit"} if "jit" in imported else set()) == set()
+
+
+@pytest.mark.parametrize("name", sorted(source.modules()))
+def test_every_module_says_what_it_is(name):
+    assert ast.get_docstring(source.tree(source.modules()[name])), "a module starts with a docstring"
+
+
+GOOD = '''
+@kernel
+def fill(n, a):
+    """Sets a."""
+    scale = 2.0
+    for j in prange(0, n):
+        row = a[j]
+        for i in range(n):
+            row[i] = scale
+'''
+BAD = {
+    "no docstring": ('    """Sets a."""\n', ""),
+    "default argument": ("(n, a)", "(n, a, b=1)"),
+    "no prange": ("prange", "range"),
+    "two prange": ("        for i in range(n):", "        for i in prange(n):"),
+    "not outermost": ("    for j in prange(0, n):", "    if n > 0:\n     for j in prange(0, n):"),
+    "allocation": ("scale = 2.0", "scale = np.zeros(3)"),
+    "print": ("scale = 2.0", "print(n)"),
+    "negative index": ("row[i] = scale", "row[-1] = scale"),
+    "prange without kernel": ("@kernel", "@serial"),
+}
+
+
+def only_function(text: str) -> ast.FunctionDef:
+    return next(source.functions(ast.parse(text), "kernel", "serial"))
+
+
+def test_a_good_kernel_passes():
+    assert faults(only_function(GOOD)) == []
+
+
+@pytest.mark.parametrize("name", BAD)
+def test_a_bad_kernel_is_found(name):
+    old, new = BAD[name]
+    assert old in GOOD
+    assert faults(only_function(GOOD.replace(old, new))) != []
