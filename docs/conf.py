@@ -3,6 +3,8 @@
 import sys
 from pathlib import Path
 
+from docutils import nodes
+
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE))
 sys.path.insert(0, str(HERE.parent))
@@ -19,12 +21,28 @@ copyright = f"2026, {author}"
 version = release = __version__
 
 extensions = ["myst_parser"]
-myst_enable_extensions = ["dollarmath", "amsmath", "colon_fence", "deflist"]
+myst_enable_extensions = ["dollarmath"]
 myst_heading_anchors = 3
-# raw TeX with \tag numbers: the same numbers in the source, on the page and in the docstrings
-myst_dmath_allow_labels = False
 
 exclude_patterns = ["_build", "_static"]
 html_theme = "furo"
 html_title = f"hydro2d {release}"
 html_static_path = ["_static"]
+
+
+def equations_as_written(app, doctree):
+    """Keeps numbered equations out of Sphinx's own environments, which forbid \\tag.
+
+    The numbers stand in the text itself, so that the source, the page and the docstrings have the same ones.
+    """
+    for node in doctree.findall(nodes.math_block):
+        if r"\tag" in node.astext():
+            node["no-wrap"] = node["nowrap"] = True
+            equation = r"\begin{equation}" + node.astext() + r"\end{equation}"
+            node.children = []
+            node += nodes.Text(equation)
+
+
+def setup(app):
+    """Hooks of this project."""
+    app.connect("doctree-read", equations_as_written)
