@@ -1,6 +1,8 @@
 """A file imports only what stands above it; the list is the architecture."""
 
 import ast
+import subprocess
+import sys
 from fnmatch import fnmatch
 
 import pytest
@@ -131,3 +133,11 @@ def test_only_these_import(library, allowed):
 def test_a_forbidden_import_is_found(name, text):
     known = frozenset({"hydro2d.units", "hydro2d.state", "hydro2d.cycle", "hydro2d.simulation", "eos.dispatch"})
     assert breaches(name, source.imports(name, ast.parse(text), False, known)) != []
+
+
+def test_help_needs_nothing_heavy():
+    """``hydro2d --help`` answers at once: the command line imports at use."""
+    heavy = set("numba numpy h5py pyvista vtkmodules pint scipy matplotlib pydantic distributed".split())
+    script = f"import sys; from hydro2d import cli; print(sorted({heavy!r} & set(sys.modules)))"
+    done = subprocess.run([sys.executable, "-c", script], cwd=source.ROOT, capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "[]"
