@@ -17,9 +17,9 @@ LAYERS = (
      "hydro2d.shapes", "hydro2d.insertion"),
     ("hydro2d.kernels",),
     ("hydro2d.audit", "hydro2d.cycle"),
-    ("hydro2d.simulation",),
+    ("hydro2d.penetrator", "hydro2d.simulation"),
     ("hydro2d.derived", "hydro2d.outlines", "hydro2d.history", "hydro2d.snapshot", "hydro2d.progress", "hydro2d.vtk",
-     "hydro2d.figures", "hydro2d.run", "hydro2d.results"),
+     "hydro2d.figures", "hydro2d.run", "hydro2d.results", "hydro2d.check", "hydro2d.export", "hydro2d.info"),
     ("hydro2d.study",),
     ("hydro2d.cli", "hydro2d.__main__"),
 )
