@@ -32,7 +32,10 @@ def evaluate(model, rho, e, par):
 
 @point
 def sound_speed_squared(rho, p, dpdrho, dpde, floor):
-    """c^2 = dp/drho|e + (p/rho^2) dp/de|rho, not below ``floor``; m^2/s^2. A NaN stays a NaN."""
+    """c^2 = dp/drho|e + (p/rho^2) dp/de|rho, not below ``floor``; m^2/s^2. A NaN stays a NaN.
+
+    explanation/equation-of-state, (5)
+    """
     c2 = dpdrho + p * dpde / (rho * rho)
     if c2 < floor:
         return floor
@@ -43,7 +46,8 @@ def sound_speed_squared(rho, p, dpdrho, dpde, floor):
 def zero_pressure_density(model, rho, e, par):
     """The density rho* with p(rho*, e) = 0 at constant energy: above ``rho`` in tension, below it otherwise; kg/m^3.
 
-    Bracketed Newton. Where no such density lies within a factor of 16, as in a gas, the answer is ``rho`` itself.
+    explanation/fracture, (2), by a bracketed Newton iteration. Where no such density lies within a factor of 16, as in
+    a gas, the answer is ``rho`` itself.
     """
     p, dpdrho, dpde, T = evaluate(model, rho, e, par)
     if p == 0.0:

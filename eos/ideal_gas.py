@@ -26,7 +26,10 @@ GAMMA_MINUS_ONE, INVERSE_CV = 2, 3
 
 @point
 def evaluate(rho, e, par):
-    """(p, dp/drho at constant e, dp/de at constant rho, T) at density ``rho`` > 0 and specific energy ``e``; SI."""
+    """(p, dp/drho at constant e, dp/de at constant rho, T) at density ``rho`` > 0 and specific energy ``e``; SI.
+
+    explanation/equation-of-state, (7)
+    """
     dpdrho = par[GAMMA_MINUS_ONE] * e
     dpde = par[GAMMA_MINUS_ONE] * rho
     return dpdrho * rho, dpdrho, dpde, max(e * par[INVERSE_CV], 0.0)

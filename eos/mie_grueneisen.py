@@ -69,7 +69,10 @@ def cold_temperature(eta, par):
 
 @point
 def evaluate(rho, e, par):
-    """(p, dp/drho at constant e, dp/de at constant rho, T) at density ``rho`` > 0 and specific energy ``e``; SI."""
+    """(p, dp/drho at constant e, dp/de at constant rho, T) at density ``rho`` > 0 and specific energy ``e``; SI.
+
+    explanation/equation-of-state, (1) to (4) and (6)
+    """
     v = par[RHO0] / rho
     eta = 1.0 - v
     thermal = par[GAMMA_RHO] * e

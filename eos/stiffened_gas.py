@@ -36,7 +36,10 @@ C0_SQUARED, GAMMA_MINUS_ONE, INVERSE_CV, INVERSE_RHO0, ADIABAT, RECIPROCAL, CONS
 
 @point
 def evaluate(rho, e, par):
-    """(p, dp/drho at constant e, dp/de at constant rho, T) at density ``rho`` > 0 and specific energy ``e``; SI."""
+    """(p, dp/drho at constant e, dp/de at constant rho, T) at density ``rho`` > 0 and specific energy ``e``; SI.
+
+    explanation/equation-of-state, (8)
+    """
     grueneisen = par[GAMMA_MINUS_ONE]
     p = par[C0_SQUARED] * (rho - par[RHO0]) + grueneisen * rho * e
     dpdrho = par[C0_SQUARED] + grueneisen * e

@@ -36,7 +36,7 @@ def shear_modulus(p, rho, T, par):
 
 @point
 def flow_stress(ep, rate, T, p, rho, par):
-    """Yield stress at plastic strain ``ep`` and temperature ``T``, Pa."""
+    """Yield stress at plastic strain ``ep`` and temperature ``T``, Pa: explanation/strength, (10)."""
     softening = 1.0 - thermal.homologous_temperature(T, par[REFERENCE_T], par[INVERSE_RANGE])
     return min(par[YIELD] + par[HARDENING] * ep, par[LARGEST]) * softening
 

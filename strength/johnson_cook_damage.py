@@ -38,7 +38,7 @@ _STEEPEST, _UNSTRESSED = 700.0, 1.0
 
 @point
 def fracture_strain(rate, T, p, seq, par):
-    """Plastic strain at fracture under constant conditions, at least ``minimum_fracture_strain``."""
+    """Plastic strain at fracture under constant conditions, at least the minimum: explanation/fracture, (4)."""
     strain = par[D1]
     if par[D2] != 0.0:
         exponent = -par[D3] * p / max(seq, _UNSTRESSED)
@@ -52,7 +52,7 @@ def fracture_strain(rate, T, p, seq, par):
 
 @point
 def damage_increment(dep, rate, T, p, seq, par):
-    """Increment of damage for the plastic strain increment ``dep``.
+    """Increment of damage for the plastic strain increment ``dep``: explanation/fracture, (5).
 
     ``rate`` plastic strain rate (1/s), ``T`` temperature (K), ``p`` pressure (compression positive) and ``seq`` von
     Mises stress, hoop stress included (Pa).

@@ -58,7 +58,7 @@ def shear_modulus(p, rho, T, par):
 
 @point
 def flow_stress(ep, rate, T, p, rho, par):
-    """Flow stress at plastic strain ``ep``, Pa."""
+    """Flow stress at plastic strain ``ep``, Pa: explanation/strength, (9)."""
     return par[YIELD] * hardening(par[STIFFNESS] * ep, par[EXPONENT])
 
 

@@ -23,6 +23,7 @@ def plastic_increment(model, seq, ep, dt, T, p, rho, G, factor, par):
     ``model``.
 
     Where seq <= Y(ep, rate 0) the step is elastic and Y that flow stress. Otherwise x = dep >= 0 solves
+    (explanation/strength, (4))
 
         f(x) = seq - 3 G x - factor Y(ep + x, x/dt) = 0,    f(0) > 0 >= f(seq/(3 G)),
 

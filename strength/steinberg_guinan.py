@@ -45,8 +45,8 @@ BETA, EXPONENT, STRAIN0, CAP, PRESSURE, TEMPERATURE, T0, MELT, TWO_A, K, INVERSE
 
 @point
 def cube_root(x):
-    """x^(1/3) of a positive number: two steps of Halley from the tangent at 1, exact to round-off between 1/2 and 2."""
-    if x < 0.5 or x > 2.0:
+    """x^(1/3) of a positive number: near 1 two steps of Halley from the tangent there, which are exact to round-off."""
+    if x < 0.7 or x > 1.5:
         return x ** (1.0 / 3.0)
     y = (2.0 + x) / 3.0
     for _ in range(2):
@@ -57,7 +57,7 @@ def cube_root(x):
 
 @point
 def melt_temperature(eta, par):
-    """Tm at the compression ``eta`` = rho/rho0, K."""
+    """Tm at the compression ``eta`` = rho/rho0, K: explanation/strength, (8)."""
     return par[MELT] * math.exp(par[TWO_A] * (1.0 - 1.0 / eta)) * eta ** par[K]
 
 
@@ -73,7 +73,7 @@ def is_solid(T, eta, par):
 
 @point
 def relative_modulus(p, rho, T, par):
-    """G/G0, zero from melt on."""
+    """G/G0, zero from melt on: explanation/strength, (6)."""
     eta = rho * par[INVERSE_RHO0]
     if not is_solid(T, eta, par):
         return 0.0
@@ -88,7 +88,10 @@ def shear_modulus(p, rho, T, par):
 
 @point
 def flow_stress(ep, rate, T, p, rho, par):
-    """Flow stress at plastic strain ``ep``, temperature ``T``, pressure ``p`` and density ``rho``, Pa."""
+    """Flow stress at plastic strain ``ep``, temperature ``T``, pressure ``p`` and density ``rho``, Pa.
+
+    explanation/strength, (7)
+    """
     base = 1.0 + par[BETA] * (ep + par[STRAIN0])
     hardened = base ** par[EXPONENT] if base > 1.0 else 1.0
     return par[YIELD] * min(hardened, par[CAP]) * relative_modulus(p, rho, T, par)

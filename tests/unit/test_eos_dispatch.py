@@ -1,0 +1,65 @@
+"""What is derived from an equation of state: sound speed and the density without pressure."""
+
+import math
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from eos import ideal_gas, mie_grueneisen, stiffened_gas
+from eos.dispatch import evaluate, sound_speed_squared, zero_pressure_density
+
+RHO0, C0, GAMMA = 2770.0, 5200.0, 2.2
+ALUMINIUM = mie_grueneisen.row(
+    {
+        "reference_density": RHO0,
+        "sound_speed": C0,
+        "hugoniot_slope": 1.36,
+        "grueneisen": GAMMA,
+        "specific_heat": 875.0,
+    }
+)
+AIR = ideal_gas.row({"reference_density": 1.2, "adiabatic_index": 1.4})
+WATER = stiffened_gas.row(
+    {"reference_density": 1e3, "sound_speed": 1480.0, "adiabatic_index": 4.4, "specific_heat": 4180.0}
+)
+
+
+def test_sound_speed_has_a_floor_and_shows_a_nan():
+    assert sound_speed_squared(2.0, 8.0, 5.0, 3.0, 1.0) == 5.0 + 8.0 * 3.0 / 4.0
+    assert sound_speed_squared(2.0, -80.0, 5.0, 3.0, 1.0) == 1.0
+    assert math.isnan(sound_speed_squared(math.nan, 8.0, 5.0, 3.0, 1.0))
+
+
+@pytest.mark.parametrize(("ratio", "e"), [(0.99, 0.0), (0.95, 1e5), (0.8, 1e6), (0.4, 1e4)])
+def test_density_without_pressure_of_a_stretched_solid(ratio, e):
+    """On the straight tension branch p = 0 at rho0 (1 - Gamma0 e/c0^2)."""
+    expected = RHO0 * (1 - GAMMA * e / C0**2)
+    assert zero_pressure_density(mie_grueneisen.ID, ratio * RHO0, e, ALUMINIUM) == pytest.approx(expected, rel=1e-12)
+
+
+def test_density_without_pressure_of_a_liquid():
+    """c0^2 (rho - rho0) + (gamma - 1) rho e = 0"""
+    expected = 1e3 * 1480.0**2 / (1480.0**2 + 3.4 * 1e5)
+    assert zero_pressure_density(stiffened_gas.ID, 700.0, 1e5, WATER) == pytest.approx(expected, rel=1e-12)
+
+
+@settings(max_examples=300, deadline=None)
+@given(ratio=st.floats(0.2, 2.0), e=st.floats(-2e6, 8e6))
+def test_density_without_pressure(ratio, e):
+    """In tension it is above the density, in compression below, and a little off it the pressure changes its sign."""
+    rho = ratio * RHO0
+    p = evaluate(mie_grueneisen.ID, rho, e, ALUMINIUM)[0]
+    found = zero_pressure_density(mie_grueneisen.ID, rho, e, ALUMINIUM)
+    assert found >= rho if p < 0.0 else found <= rho
+    assert evaluate(mie_grueneisen.ID, found * (1 - 1e-11), e, ALUMINIUM)[0] <= 0.0
+    assert evaluate(mie_grueneisen.ID, found * (1 + 1e-11), e, ALUMINIUM)[0] >= 0.0
+
+
+def test_unloaded_material_stays():
+    assert zero_pressure_density(mie_grueneisen.ID, RHO0, 0.0, ALUMINIUM) == RHO0
+
+
+@pytest.mark.parametrize(("model", "row", "rho", "e"), [(ideal_gas.ID, AIR, 1.3, 2e5), (0, ALUMINIUM, RHO0, 2e7)])
+def test_without_such_a_density_the_answer_is_the_density(model, row, rho, e):
+    assert zero_pressure_density(model, rho, e, row) == rho
