@@ -67,7 +67,7 @@ def _one_of(model: Section, *keys: str) -> str:
 class Rod(Body):
     """A rod on the axis. `length` is the total length, nose included; the nose points along `direction`."""
 
-    shape: Literal["rod"]
+    shape: Literal["rod"] = Field(description="a rod on the axis")
     nose: Literal["flat", "hemispherical", "ogive", "conical"] = Field("flat", description="profile of the nose")
     radius: PositiveLength | None = Field(None, description="radius of the shank")
     diameter: PositiveLength | None = Field(None, description="diameter of the shank, instead of `radius`")
@@ -137,16 +137,16 @@ class Rod(Body):
 class Plate(Body):
     """A plate across the axis, from `z_front` on towards +z."""
 
-    shape: Literal["plate"]
+    shape: Literal["plate"] = Field(description="a plate across the axis")
     z_front: Length = Field(description="axial position of the face with the smaller z")
-    thickness: PositiveLength
+    thickness: PositiveLength = Field(description="extent along z")
     radius: PositiveLength | None = Field(None, description="outer radius; default: to the edge of the mesh")
 
 
 class Box(Body):
     """A rectangle in the (r, z) plane: a cylinder, a tube or a washer."""
 
-    shape: Literal["box"]
+    shape: Literal["box"] = Field(description="a rectangle in the (r, z) plane")
     r: Interval | None = Field(None, description="[inner, outer] radius; default: the whole mesh")
     z: Interval = Field(description="[low, high] axial position")
 
@@ -162,13 +162,13 @@ def _centre(value) -> tuple[float, float]:
 class Sphere(Body):
     """A sphere or a shell on the axis (a circle anywhere in planar geometry)."""
 
-    shape: Literal["sphere"]
+    shape: Literal["sphere"] = Field(description="a sphere or a shell")
     centre: Annotated[
         tuple[float, float],
         BeforeValidator(_centre),
         WithJsonSchema({"anyOf": [{"type": "number"}, {"type": "string"}, {"type": "array"}], "x-unit": "m"}),
     ] = Field(description="axial position of the centre, or [r, z]; with r > 0 in r-z the body is a ring")
-    radius: PositiveLength
+    radius: PositiveLength = Field(description="outer radius")
     inner_radius: PositiveLength | None = Field(None, description="of a shell")
 
     @model_validator(mode="after")
@@ -187,7 +187,7 @@ def _points(value):
 class Polygon(Body):
     """A polygon in the (r, z) plane; its edges must not cross. It closes by itself."""
 
-    shape: Literal["polygon"]
+    shape: Literal["polygon"] = Field(description="a polygon in the (r, z) plane")
     points: Annotated[tuple[Point, ...], BeforeValidator(_points)] = Field(description="corners [r, z], in order")
 
     @model_validator(mode="after")

@@ -71,9 +71,9 @@ class Boundaries(Section):
     r_min: Literal["axis", "wall", "outflow"] | None = Field(
         None, description="default: axis where a cylindrical mesh starts at r = 0, else wall"
     )
-    r_max: Literal["wall", "outflow"] = "outflow"
-    z_min: Literal["wall", "outflow"] = "outflow"
-    z_max: Literal["wall", "outflow"] = "outflow"
+    r_max: Literal["wall", "outflow"] = Field("outflow", description="the outer edge")
+    z_min: Literal["wall", "outflow"] = Field("outflow", description="the lower edge")
+    z_max: Literal["wall", "outflow"] = Field("outflow", description="the upper edge")
 
 
 class Numerics(Section):
@@ -178,16 +178,16 @@ class Output(Section):
 class Tracer(Section):
     """A point that moves with the material."""
 
-    name: str
-    r: Length
-    z: Length
+    name: str = Field(min_length=1, description="name of the tracer in the history")
+    r: Length = Field(description="radial position at time zero")
+    z: Length = Field(description="axial position at time zero")
 
 
 class Experiment(Section):
     """What was measured, to be shown beside the run; the run does not use it."""
 
-    penetration: PositiveLength | None = None
-    qualifier: Literal["measured", "estimated", "at least"] = "measured"
+    penetration: PositiveLength | None = Field(None, description="depth below the original surface")
+    qualifier: Literal["measured", "estimated", "at least"] = Field("measured", description="what the depth is")
     source: str = Field(min_length=1, description="where the number comes from")
 
 
@@ -202,11 +202,11 @@ class Penetration(Section):
 class Deck(Section):
     """A resolved input deck, in SI units. Sections are attributes: deck.numerics.courant, deck.body[0].name."""
 
-    name: str = Field(min_length=1, description="name of the run; default: that of the file")
-    title: str = ""
+    name: str = Field("deck", min_length=1, description="name of the run; default: that of the file")
+    title: str = Field("", description="a line for logs and pictures")
     mesh: Mesh
     boundaries: Boundaries = Boundaries()
-    body: tuple[AnyBody, ...] = Field(min_length=1)
+    body: tuple[AnyBody, ...] = Field(min_length=1, description="bodies; the first has the place where they overlap")
     materials: dict[str, Any] = Field({}, description="materials of this deck, each complete or `based_on` another")
     numerics: Numerics = Numerics()
     sliding: Sliding = Sliding()
