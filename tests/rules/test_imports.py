@@ -14,7 +14,7 @@ LAYERS = (
     ("hydro2d.jit", "hydro2d.units", "hydro2d.files", "hydro2d.provenance", "hydro2d.deck_errors"),
     ("eos", "strength"),
     ("hydro2d.fields", "hydro2d.grid", "hydro2d.state", "hydro2d.deck", "hydro2d.deck_*", "hydro2d.materials",
-     "hydro2d.shapes", "hydro2d.insertion"),
+     "hydro2d.thermal", "hydro2d.shapes", "hydro2d.insertion"),
     ("hydro2d.kernels",),
     ("hydro2d.audit", "hydro2d.cycle"),
     ("hydro2d.penetrator", "hydro2d.simulation"),
@@ -98,6 +98,20 @@ def test_the_package_itself_imports_nothing_at_once():
     body = source.tree(source.modules()["hydro2d"]).body
     top = [ast.unparse(node) for node in body if isinstance(node, (ast.Import, ast.ImportFrom))]
     assert [text for text in top if "__future__" not in text] == []
+
+
+@pytest.mark.parametrize(
+    ("place", "allowed"),
+    [
+        ("eos", {"numpy"}),
+        ("strength", {"numpy"}),
+        ("hydro2d.kernels", {"numpy"}),
+        ("hydro2d.penetration", {"numpy", "scipy"}),
+    ],
+)
+def test_physics_needs_few_libraries(place, allowed):
+    foreign = {other.split(".")[0] for name in MODULES if within(name, place) for other, _ in source.imports_of(name)}
+    assert foreign - {*OURS, *sys.stdlib_module_names} <= allowed
 
 
 def users(library: str) -> set[str]:
