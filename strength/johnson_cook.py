@@ -42,8 +42,6 @@ def shear_modulus(p, rho, T, par):
 def flow_stress(ep, rate, T, p, rho, par):
     """Flow stress at plastic strain ``ep``, its ``rate`` (1/s) and temperature ``T``, Pa: explanation/strength, (5)."""
     hot = thermal.homologous_temperature(T, par[REFERENCE_T], par[INVERSE_RANGE])
-    if hot >= 1.0:
-        return 0.0
     Y = par[YIELD]
     if ep > 0.0 and par[HARDENING] > 0.0:
         Y += par[HARDENING] * ep ** par[EXPONENT]

@@ -141,6 +141,7 @@ def test_table_has_a_node_at_rest_and_clamps_outside(material):
     step = 1.0 / row[mie_grueneisen.INVERSE_STEP]
     assert row[mie_grueneisen.ORIGIN] == int(row[mie_grueneisen.ORIGIN])
     assert step * row[mie_grueneisen.ORIGIN] == pytest.approx(0.6)
+    assert mie_grueneisen.cold_temperature(-0.6 - 0.5 * step, row) == row[mie_grueneisen.TABLE]
     assert mie_grueneisen.cold_temperature(-1e9, row) == row[mie_grueneisen.TABLE]
     assert mie_grueneisen.cold_temperature(-np.inf, row) == row[mie_grueneisen.TABLE]
     assert mie_grueneisen.cold_temperature(0.999, row) == row[eos.ROW - 1]
