@@ -42,6 +42,12 @@ def test_a_machine_path_is_found(line):
     assert faults(line) != []
 
 
+@pytest.mark.parametrize("file", TEXT_FILES, ids=lambda file: str(file.relative_to(source.ROOT)))
+def test_decks_that_are_named_exist(file):
+    named = set(re.findall(r"\bproblems/[\w./-]+\.toml\b", file.read_text(encoding="utf-8")))
+    assert [deck for deck in sorted(named) if not (source.ROOT / deck).is_file()] == []
+
+
 def project() -> dict:
     return tomllib.loads((source.ROOT / "pyproject.toml").read_text())
 
