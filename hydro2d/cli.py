@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import sys
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Literal
 
 import cyclopts
 from cyclopts import App, Parameter
@@ -34,7 +34,7 @@ def _user_errors() -> tuple[type[Exception], ...]:
     found: list[type[Exception]] = [UsageError]
     for module, name in (
         ("deck_errors", "DeckError"), ("run", "RunError"), ("snapshot", "SnapshotError"), ("history", "HistoryError"),
-        ("vtk", "VtkError"), ("figures", "FigureError"), ("results", "ResultsError"),
+        ("vtk", "VtkError"), ("figures", "FigureError"), ("results", "ResultsError"), ("derived", "FieldError"),
     ):  # fmt: skip
         loaded = sys.modules.get(f"hydro2d.{module}")
         if loaded is not None:
@@ -96,6 +96,187 @@ def run(
 
     resolved = _load(deck, set_)
     return runs.exit_status(runs.run(resolved, out, restart=restart, overwrite=overwrite, quiet=quiet))
+
+
+@app.command
+def check(
+    deck: Path, *, set_: Overrides = None, threads: int | None = None, picture: Path | None = None,
+) -> int:
+    """Validates a deck and shows what it amounts to: mesh, masses, cells across the rod, cost and memory.
+
+    Example: hydro2d check problems/scheffler/hemi_1086.toml --picture start.png
+
+    Parameters
+    ----------
+    deck
+        The input deck, TOML.
+    set_
+        Replaces a value of the deck, key=value; may be given several times.
+    threads
+        Number of threads that the time is estimated for; default: all cores.
+    picture
+        Draws the initial state into this file (.png, .pdf, .svg).
+    """
+    from . import check as checks
+
+    found = checks.check(_load(deck, set_))
+    for line in found.lines(threads or os.cpu_count() or 1):
+        print(line)
+    if picture is not None:
+        from . import figures
+
+        figures.save(figures.draw_sections([[(found.dump, found.deck.name, None)]], "material"), picture)
+        print(f"wrote     {picture}")
+    return 0
+
+
+@app.command
+def info(name: str | None = None) -> int:
+    """Explains a material, a model, a field or a key of the deck; without a name, lists them.
+
+    Example: hydro2d info johnson-cook
+
+    Parameters
+    ----------
+    name
+        For example W_alloy, mie-grueneisen, pressure, numerics.courant.
+    """
+    from . import info as pages
+
+    print(pages.page(name) if name else pages.overview())
+    return 0
+
+
+def _times(texts: list[str] | None) -> list[float | None]:
+    return [_quantity(text, "s", "--time") for text in texts] if texts else [None]
+
+
+def _quantity(text: str, unit: str, option: str) -> float:
+    """A number in SI or with a unit."""
+    from . import units
+
+    try:
+        return units.to_si(float(text) if _is_number(text) else text, unit)
+    except ValueError as error:
+        raise UsageError(f"{option}: {error}") from None
+
+
+def _is_number(text: str) -> bool:
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
+
+
+def _window(text: str | None) -> tuple[float, float, float] | None:
+    if text is None:
+        return None
+    parts = text.split(",")
+    if len(parts) != 3:
+        raise UsageError(f'--window "{text}": three lengths are expected, z0,z1,r1, such as "-2 cm,8 cm,2 cm"')
+    z0, z1, r1 = (_quantity(part.strip(), "m", "--window") for part in parts)
+    if not (z0 < z1 and r1 > 0):
+        raise UsageError(f'--window "{text}": z0 < z1 and r1 > 0 are needed')
+    return z0, z1, r1
+
+
+@app.command
+def plot(
+    runs: list[Path],
+    *,
+    output: Annotated[Path, Parameter(name=["--output", "-o"])],
+    kind: Literal["section", "history", "cutaway"] = "section",
+    field: str = "pressure",
+    mirror: str | None = None,
+    time: Annotated[list[str] | None, Parameter(negative="")] = None,
+    window: str | None = None,
+    quantity: Annotated[list[str] | None, Parameter(negative="")] = None,
+) -> int:
+    """Draws runs: mirrored sections, histories, or a three-dimensional cut-away.
+
+    Example: hydro2d plot runs/a runs/b -o both.png --field von_mises --mirror material --time "80 us"
+
+    Parameters
+    ----------
+    runs
+        Run directories; several are drawn below one another, histories into the same axes.
+    output
+        The picture; its ending decides the format.
+    kind
+        What is drawn.
+    field
+        Field of the upper half: a key of `hydro2d info`, velocity:z for a component, body_temperature:rod for a body.
+    mirror
+        Field of the lower half; default: the same.
+    time
+        Moment, such as "80 us"; the nearest dump is drawn, without it the last. Several stand beside one another.
+    window
+        Part of the section, z0,z1,r1, such as "-2 cm,8 cm,2 cm".
+    quantity
+        Column of the history; may be given several times.
+    """
+    from . import figures
+    from .results import load
+
+    opened, times = [load(path) for path in runs], _times(time)
+    if kind == "cutaway":
+        if len(opened) != 1 or len(times) != 1 or output.suffix != ".png":
+            raise UsageError("--kind cutaway draws one run at one time into a .png")
+        figures.cutaway(opened[0].dump_file(times[0]), output, field)
+    elif kind == "history":
+        figures.save(figures.histories(opened, quantity or figures.HISTORIES), output)
+    else:
+        figures.save(figures.sections(opened, field, mirror=mirror, times=times, window=_window(window)), output)
+    print(f"wrote {output}")
+    return 0
+
+
+@app.command
+def export(
+    run: Path,
+    *,
+    output: Annotated[Path | None, Parameter(name=["--output", "-o"])] = None,
+    fields: Annotated[list[str] | None, Parameter(negative="", consume_multiple=True)] = None,
+) -> int:
+    """Writes a VTK series that ParaView opens with one click, and the history as CSV.
+
+    Example: hydro2d export runs/a --fields pressure velocity -o for_paraview
+
+    Parameters
+    ----------
+    run
+        The run directory. Without dumps, the state of its restart file is written, with all fields.
+    output
+        Default: the directory `export` in the run.
+    fields
+        Fields to take, keys of `hydro2d info`; default: all that were dumped.
+    """
+    from .export import export as write
+    from .results import load
+
+    for path in write(load(run), output or run / "export", fields or ("all",)):
+        print(f"wrote {path}")
+    return 0
+
+
+@app.command
+def bench(*, json: Path | None = None, threads: int | None = None) -> int:
+    """Time per cell and cycle, phase by phase, beside a triad measured in the same run.
+
+    Example: hydro2d bench --json bench.json
+
+    Parameters
+    ----------
+    json
+        Writes the numbers into this file as well.
+    threads
+        Number of threads; default: all cores.
+    """
+    _set_threads(threads)
+    from . import bench as benches
+
+    return benches.main(json) or 0
 
 
 @app.command

@@ -216,13 +216,13 @@ class Sources:
 
 
 def _named(path: tuple, data) -> tuple:
-    """The path with the index of a named entry replaced by its name."""
+    """The path with the index of a named entry replaced by its name, where that is the first of this name."""
     result: tuple = ()
     for part in path:
         if isinstance(data, list) and isinstance(part, int) and part < len(data):
-            data = data[part]
+            entries, data = data, data[part]
             name = data.get("name") if isinstance(data, dict) else None
-            result += (name if isinstance(name, str) else part,)
+            result += (name if isinstance(name, str) and entry_index(entries, name) == part else part,)
         else:
             data = data.get(part) if isinstance(data, dict) else None
             result += (part,)

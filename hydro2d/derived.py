@@ -7,12 +7,82 @@ every body. Where there is no material the value is zero.
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
+from .deck_errors import unknown
+
 TINY = 1e-300
+
+
+class FieldError(Exception):
+    """A field that there is not; the message is for the user."""
+
+
+class Cells:
+    """The state of a simulation cell by cell, without ghosts: arrays (m, nz, nr), zero where the body is not."""
+
+    def __init__(self, sim):
+        self._sim = sim
+        self.vof = sim.grid.interior(sim.state.vof)
+
+    def __getattr__(self, name: str) -> np.ndarray:
+        """rho, e, srr, szz, srz, ep or dmg of the state; computed once."""
+        values = np.where(self.vof > 0, self._sim.grid.interior(getattr(self._sim.state, name)), 0.0)
+        setattr(self, name, values)
+        return values
+
+    @functools.cached_property
+    def _thermal(self) -> tuple[np.ndarray, np.ndarray]:
+        from . import thermal
+
+        return thermal.of(self._sim)
+
+    @property
+    def p(self) -> np.ndarray:
+        """Pressure, Pa."""
+        return self._thermal[0]
+
+    @property
+    def t(self) -> np.ndarray:
+        """Temperature, K."""
+        return self._thermal[1]
+
+    def by_volume(self, values: np.ndarray) -> np.ndarray:
+        """Sum over bodies of volume fraction times value, shape (nz, nr): a stress of the cell."""
+        return np.sum(self.vof * values, axis=0)
+
+    def by_mass(self, values: np.ndarray) -> np.ndarray:
+        """Mean over bodies weighted by mass, shape (nz, nr)."""
+        mass = self.vof * self.rho
+        return np.sum(mass * values, axis=0) / np.maximum(np.sum(mass, axis=0), TINY)
+
+    def von_mises(self) -> np.ndarray:
+        """sqrt(3/2 s:s) of the cell's deviator, hoop component included."""
+        rr, zz, rz = (self.by_volume(s) for s in (self.srr, self.szz, self.srz))
+        return np.sqrt(1.5 * (rr**2 + zz**2 + (rr + zz) ** 2 + 2 * rz**2))
+
+    def velocity(self) -> np.ndarray:
+        """Mean of the four vertices, shape (nz, nr, 3)."""
+        u, v = self._vertex_mean(self._sim.state.u), self._vertex_mean(self._sim.state.v)
+        return np.stack([u, v, np.zeros_like(u)], axis=-1)
+
+    def _vertex_mean(self, vertex: np.ndarray) -> np.ndarray:
+        """Mean of the four vertices; where vertices carry several groups, weighted by the groups' masses."""
+        single = vertex[0]
+        if len(vertex) > 1:
+            mass = self._sim.state.mass
+            single = np.sum(mass * vertex, axis=0) / np.maximum(np.sum(mass, axis=0), TINY)
+        v = self._sim.grid.interior_vertices(single)
+        return 0.25 * ((v[:-1, :-1] + v[1:, 1:]) + (v[:-1, 1:] + v[1:, :-1]))
+
+    def material(self) -> np.ndarray:
+        """1 + index of the body with the largest volume fraction; 0 where there is more void than anything else."""
+        shares = np.concatenate([1 - np.sum(self.vof, axis=0, keepdims=True), self.vof])
+        return np.argmax(shares, axis=0).astype(np.int32)
 
 
 @dataclass(frozen=True)
@@ -23,7 +93,7 @@ class Quantity:
     title: str
     unit: str
     meaning: str
-    evaluate: Callable[[object], np.ndarray]
+    evaluate: Callable[[Cells], np.ndarray]
 
     @property
     def per_body(self) -> bool:
@@ -35,94 +105,36 @@ class Quantity:
         return f"{title} [{self.unit}]" if self.unit else title
 
 
-def _vof(sim) -> np.ndarray:
-    return sim.grid.interior(sim.state.vof)
-
-
-def _present(sim, values: np.ndarray) -> np.ndarray:
-    """Values [m, j, i] without ghosts, zero where the body is not."""
-    return np.where(_vof(sim) > 0, sim.grid.interior(values), 0.0)
-
-
-def _density(sim) -> np.ndarray:
-    return np.sum(_vof(sim) * _present(sim, sim.state.rho), axis=0)
-
-
-def _by_volume(sim, values: np.ndarray) -> np.ndarray:
-    """Sum over bodies of volume fraction times value: a stress of the mixture."""
-    return np.sum(_vof(sim) * _present(sim, values), axis=0)
-
-
-def _by_mass(sim, values: np.ndarray) -> np.ndarray:
-    """Mean over bodies weighted by mass."""
-    mass = _vof(sim) * _present(sim, sim.state.rho)
-    return np.sum(mass * _present(sim, values), axis=0) / np.maximum(np.sum(mass, axis=0), TINY)
-
-
-def _von_mises(sim) -> np.ndarray:
-    rr, zz, rz = (_by_volume(sim, s) for s in (sim.state.srr, sim.state.szz, sim.state.srz))
-    return np.sqrt(1.5 * (rr**2 + zz**2 + (rr + zz) ** 2 + 2 * rz**2))
-
-
-def _hoop(sim) -> np.ndarray:
-    return -_by_volume(sim, sim.state.srr) - _by_volume(sim, sim.state.szz)
-
-
-def _cell_mean(sim, vertex: np.ndarray) -> np.ndarray:
-    """Mean of the four vertices; where vertices carry several groups, weighted by the groups' masses."""
-    if len(vertex) == 1:
-        single = vertex[0]
-    else:
-        mass = sim.state.mass
-        single = np.sum(mass * vertex, axis=0) / np.maximum(np.sum(mass, axis=0), TINY)
-    v = sim.grid.interior_vertices(single)
-    return 0.25 * ((v[:-1, :-1] + v[1:, 1:]) + (v[:-1, 1:] + v[1:, :-1]))
-
-
-def _velocity(sim) -> np.ndarray:
-    u, v = _cell_mean(sim, sim.state.u), _cell_mean(sim, sim.state.v)
-    return np.stack([u, v, np.zeros_like(u)], axis=-1)
-
-
-def _material(sim) -> np.ndarray:
-    """1 + index of the body with the largest volume fraction; 0 where there is more void than anything else."""
-    vof = _vof(sim)
-    shares = np.concatenate([1 - np.sum(vof, axis=0, keepdims=True), vof])
-    return np.argmax(shares, axis=0).astype(np.int32)
-
-
 TABLE: tuple[Quantity, ...] = (
-    Quantity("pressure", "Pressure", "Pa", "pressure of the cell, positive in compression",
-             lambda sim: sim.grid.interior(sim.state.p)),
-    Quantity("density", "Density", "kg/m3", "mass of all bodies per volume of the cell", _density),
-    Quantity("velocity", "Velocity", "m/s", "mean of the four vertices, as the vector (r, z, 0)", _velocity),
-    Quantity("energy", "Specific Internal Energy", "J/kg", "mean by mass over the bodies",
-             lambda sim: _by_mass(sim, sim.state.e)),
-    Quantity("temperature", "Temperature", "K", "mean by mass over the bodies",
-             lambda sim: _by_mass(sim, sim.state.tm)),
-    Quantity("von_mises", "Von Mises Stress", "Pa", "sqrt(3/2 s:s) of the stress deviator of the mixture", _von_mises),
+    Quantity("pressure", "Pressure", "Pa", "sum of volume fraction times pressure; positive in compression",
+             lambda c: c.by_volume(c.p)),
+    Quantity("density", "Density", "kg/m3", "mass of all bodies per volume of the cell", lambda c: c.by_volume(c.rho)),
+    Quantity("velocity", "Velocity", "m/s", "mean of the four vertices, as the vector (r, z, 0)", Cells.velocity),
+    Quantity("energy", "Specific Internal Energy", "J/kg", "mean by mass over the bodies", lambda c: c.by_mass(c.e)),
+    Quantity("temperature", "Temperature", "K", "mean by mass over the bodies", lambda c: c.by_mass(c.t)),
+    Quantity("von_mises", "Von Mises Stress", "Pa", "sqrt(3/2 s:s) of the stress deviator of the cell",
+             Cells.von_mises),
     Quantity("stress_rr", "Deviatoric Stress rr", "Pa", "sum of volume fraction times deviator, radial",
-             lambda sim: _by_volume(sim, sim.state.srr)),
-    Quantity("stress_zz", "Deviatoric Stress zz", "Pa", "the same, axial", lambda sim: _by_volume(sim, sim.state.szz)),
-    Quantity("stress_rz", "Deviatoric Stress rz", "Pa", "the same, shear", lambda sim: _by_volume(sim, sim.state.srz)),
-    Quantity("stress_tt", "Deviatoric Stress tt", "Pa", "the same, hoop: minus the sum of rr and zz", _hoop),
+             lambda c: c.by_volume(c.srr)),
+    Quantity("stress_zz", "Deviatoric Stress zz", "Pa", "the same, axial", lambda c: c.by_volume(c.szz)),
+    Quantity("stress_rz", "Deviatoric Stress rz", "Pa", "the same, shear", lambda c: c.by_volume(c.srz)),
+    Quantity("stress_tt", "Deviatoric Stress tt", "Pa", "the same, hoop: minus the sum of rr and zz",
+             lambda c: -c.by_volume(c.srr + c.szz)),
     Quantity("plastic_strain", "Plastic Strain", "", "equivalent plastic strain, mean by mass over the bodies",
-             lambda sim: _by_mass(sim, sim.state.ep)),
-    Quantity("damage", "Damage", "", "0 intact, 1 failed; mean by mass over the bodies",
-             lambda sim: _by_mass(sim, sim.state.dmg)),
-    Quantity("material", "Material", "", "number of the body, from 1, that fills most of the cell; 0: void", _material),
-    Quantity("volume_fraction", "Volume Fraction for {body}", "", "share of the cell that the body fills", _vof),
-    Quantity("body_density", "Density of {body}", "kg/m3", "mass per volume of the body itself",
-             lambda sim: _present(sim, sim.state.rho)),
-    Quantity("body_pressure", "Pressure of {body}", "Pa", "pressure in the body",
-             lambda sim: _present(sim, sim.state.pm)),
+             lambda c: c.by_mass(c.ep)),
+    Quantity("damage", "Damage", "", "0 intact, 1 failed; mean by mass over the bodies", lambda c: c.by_mass(c.dmg)),
+    Quantity("material", "Material", "", "number of the body, from 1, that fills most of the cell; 0: void",
+             Cells.material),
+    Quantity("volume_fraction", "Volume Fraction for {body}", "", "share of the cell that the body fills",
+             lambda c: c.vof),
+    Quantity("body_density", "Density of {body}", "kg/m3", "mass per volume of the body itself", lambda c: c.rho),
+    Quantity("body_pressure", "Pressure of {body}", "Pa", "pressure in the body", lambda c: c.p),
     Quantity("body_energy", "Specific Internal Energy of {body}", "J/kg", "specific internal energy of the body",
-             lambda sim: _present(sim, sim.state.e)),
-    Quantity("body_temperature", "Temperature of {body}", "K", "temperature of the body",
-             lambda sim: _present(sim, sim.state.tm)),
+             lambda c: c.e),
+    Quantity("body_temperature", "Temperature of {body}", "K", "temperature of the body", lambda c: c.t),
     Quantity("body_plastic_strain", "Plastic Strain of {body}", "", "equivalent plastic strain of the body",
-             lambda sim: _present(sim, sim.state.ep)),
-    Quantity("body_damage", "Damage of {body}", "", "0 intact, 1 failed", lambda sim: _present(sim, sim.state.dmg)),
+             lambda c: c.ep),
+    Quantity("body_damage", "Damage of {body}", "", "0 intact, 1 failed", lambda c: c.dmg),
 )  # fmt: skip
 
 BY_KEY = {quantity.key: quantity for quantity in TABLE}
@@ -130,16 +142,31 @@ BY_KEY = {quantity.key: quantity for quantity in TABLE}
 #: always written: without them a file shows no bodies
 ALWAYS = ("volume_fraction", "material")
 
+#: words that stand for several quantities
+GROUPS = {
+    "all": tuple(BY_KEY),
+    "standard": tuple(key for key in BY_KEY if key not in ("body_pressure", "body_energy", "body_damage")),
+}
 
-def evaluate(sim, keys=None) -> dict[str, np.ndarray]:
-    """Values by file name of the quantities `keys` (None: all) and of those that are always written.
 
-    Shapes (nz, nr) or (nz, nr, 3). Raises KeyError for an unknown key.
+def expand(keys) -> tuple[str, ...]:
+    """Keys of TABLE for keys and words of GROUPS, with ALWAYS, each once. Raises FieldError for an unknown one."""
+    expanded: list[str] = []
+    for key in keys:
+        if key not in GROUPS and key not in BY_KEY:
+            raise FieldError(unknown("field", key, (*GROUPS, *BY_KEY)))
+        expanded += GROUPS[key] if key in GROUPS else [key]
+    return tuple(dict.fromkeys((*expanded, *ALWAYS)))
+
+
+def evaluate(sim, keys=("all",)) -> dict[str, np.ndarray]:
+    """Values by file name of the quantities `keys` and of those that are always written.
+
+    Shapes (nz, nr) or (nz, nr, 3). Raises FieldError.
     """
-    wanted = tuple(BY_KEY) if keys is None else tuple(dict.fromkeys((*keys, *ALWAYS)))
-    values = {}
-    for quantity in (BY_KEY[key] for key in wanted):
-        array = quantity.evaluate(sim)
+    cells, values = Cells(sim), {}
+    for quantity in (BY_KEY[key] for key in expand(keys)):
+        array = quantity.evaluate(cells)
         if quantity.per_body:
             values.update({quantity.name(body): array[m] for m, body in enumerate(sim.table.names)})
         else:

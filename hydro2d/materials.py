@@ -114,8 +114,32 @@ def _library() -> tuple[dict[str, dict], Sources]:
         if twice:
             raise DeckError(f"{file}: material {twice[0]} is defined in another file as well")
         sources.add(str(file), data, text)
-        tables.update(data)
+        tables.update({name: _sourced(table, "chosen") for name, table in data.items()})
     return tables, sources
+
+
+def _sourced(table: dict, confidence: str, about: dict | None = None) -> dict:
+    """The table with its source and confidence written to every number, so that it can be laid over another."""
+    about = {"source": "", "confidence": confidence, **(about or {}), **_about(table), "note": ""}
+    result = {key: value for key, value in table.items() if key not in ("source", "confidence")}
+    for part in _PARTS:
+        if isinstance(table.get(part), dict):
+            own = {**about, **_about(table[part])}
+            rest = {key: value for key, value in table[part].items() if key not in _ABOUT}
+            result[part] = {key: value if key == "model" else _with(value, own) for key, value in rest.items()}
+    if "fracture_pressure" in table:
+        result["fracture_pressure"] = _with(table["fracture_pressure"], about)
+    if isinstance(table.get("variants"), dict):
+        result["variants"] = {key: _sourced(entry, confidence, about) for key, entry in table["variants"].items()}
+    return result
+
+
+def _about(table: dict) -> dict:
+    return {key: table[key] for key in ("source", "confidence") if key in table}
+
+
+def _with(number, about: dict) -> dict:
+    return {**about, **number} if isinstance(number, dict) else {**about, "value": number}
 
 
 def names() -> list[str]:
@@ -132,7 +156,7 @@ def load(name: str, variant: str | None = None) -> Material:
 
     if name not in tables:
         raise DeckError(unknown("material", name, tables))
-    return _build(name, _varied(tables[name], variant, fail), fail, "chosen")
+    return _build(name, _varied(tables[name], variant, fail), fail)
 
 
 def from_deck(name: str, tables: Mapping[str, dict], fail: Fail) -> Material:
@@ -142,14 +166,14 @@ def from_deck(name: str, tables: Mapping[str, dict], fail: Fail) -> Material:
     """
     if name not in tables:
         return load(name)
-    return _build(name, _based(name, tables, fail, ()), lambda path, text: fail((name, *path), text), "deck")
+    return _build(name, _based(name, tables, fail, ()), lambda path, text: fail((name, *path), text))
 
 
 def _based(name: str, tables: Mapping[str, dict], fail: Fail, chain: tuple[str, ...]) -> dict:
     """The raw table of a deck's material laid over what it is based on."""
-    own = tables[name]
-    if not isinstance(own, dict):
+    if not isinstance(tables[name], dict):
         raise fail((name,), "a material is a table")
+    own = _sourced(tables[name], "deck")
     base = own.get("based_on")
     if base is None:
         if "eos" not in own:
@@ -190,21 +214,20 @@ def _varied(raw: dict, variant, fail: Fail, own: dict | None = None) -> dict:
     return _overlaid(raw, own) if own and chosen else raw
 
 
-def _build(name: str, raw: dict, fail: Fail, confidence: str) -> Material:
+def _build(name: str, raw: dict, fail: Fail) -> Material:
     from eos import MODELS
     from strength import DAMAGE_MODELS, STRENGTH_MODELS
 
     for key in raw:
         if key not in _KEYS:
             raise fail((key,), unknown("key", key, _KEYS))
-    about = {"source": raw.get("source", ""), "confidence": raw.get("confidence", confidence), "note": ""}
-    eos = _model(raw.get("eos"), "eos", MODELS, None, {}, about, fail)
+    eos = _model(raw.get("eos"), "eos", MODELS, None, {}, fail)
     own = eos.numbers
-    strength = _model(raw.get("strength"), "strength", STRENGTH_MODELS, "hydrodynamic", own, about, fail)
-    damage = _model(raw.get("damage"), "damage", DAMAGE_MODELS, "none", own, about, fail)
+    strength = _model(raw.get("strength"), "strength", STRENGTH_MODELS, "hydrodynamic", own, fail)
+    damage = _model(raw.get("damage"), "damage", DAMAGE_MODELS, "none", own, fail)
     fracture = None
     if "fracture_pressure" in raw:
-        fracture = _number(raw["fracture_pressure"], "Pa", about, ("fracture_pressure",), fail)
+        fracture = _number(raw["fracture_pressure"], "Pa", ("fracture_pressure",), fail)
         if fracture.value <= 0:
             raise fail(("fracture_pressure",), f"must be positive (a tension), is {fracture.value:g}")
     variants = {key: str(entry.get("title", "")) for key, entry in raw.get("variants", {}).items()}
@@ -212,9 +235,7 @@ def _build(name: str, raw: dict, fail: Fail, confidence: str) -> Material:
     return Material(name, title, note, eos, strength, damage, fracture, variants)
 
 
-def _model(
-    raw, part: str, models: Mapping[str, ModuleType], default: str | None, eos: Mapping, about: dict, fail: Fail
-) -> Model:
+def _model(raw, part: str, models: Mapping[str, ModuleType], default: str | None, eos: Mapping, fail: Fail) -> Model:
     """A model with all its parameters: given, taken from the equation of state, or the model's default."""
     if raw is None:
         if default is None:
@@ -225,14 +246,13 @@ def _model(
     if raw["model"] not in models:
         raise fail((part, "model"), unknown(f"{part} model", raw["model"], models))
     parameters = {parameter.name: parameter for parameter in models[raw["model"]].PARAMETERS}
-    about = {**about, **{key: raw[key] for key in _ABOUT if key in raw}}
     numbers = {}
     for key in raw:
-        if key not in (*parameters, *_ABOUT, "model"):
+        if key not in (*parameters, "model"):
             raise fail((part, key), _unknown_parameter(raw["model"], key, parameters))
     for key, parameter in parameters.items():
         if key in raw:
-            number = _number(raw[key], parameter.unit or "1", about, (part, key), fail)
+            number = _number(raw[key], parameter.unit or "1", (part, key), fail)
             try:
                 parameter.check(number.value)
             except ValueError as problem:
@@ -254,23 +274,20 @@ def _unknown_parameter(model: str, key: str, parameters: Mapping) -> str:
     return unknown(f"parameter of {model}", key, parameters)
 
 
-def _number(raw, unit: str, about: dict, path: tuple, fail: Fail) -> Number:
-    """A number from a plain value, or from {value, source, confidence, note}."""
-    if isinstance(raw, dict):
-        for key in raw:
-            if key not in ("value", *_ABOUT):
-                raise fail((*path, key), unknown("key", key, ("value", *_ABOUT)))
-        if "value" not in raw:
-            raise fail(path, "needs a value")
-        about = {**about, **{key: raw[key] for key in _ABOUT if key in raw}}
-        raw = raw["value"]
-    if about["confidence"] not in CONFIDENCE:
-        raise fail(path, unknown("confidence", about["confidence"], CONFIDENCE))
+def _number(raw: dict, unit: str, path: tuple, fail: Fail) -> Number:
+    """A number from {value, source, confidence, note}."""
+    for key in raw:
+        if key not in ("value", *_ABOUT):
+            raise fail((*path, key), unknown("key", key, ("value", *_ABOUT)))
+    if "value" not in raw:
+        raise fail(path, "needs a value")
+    if raw["confidence"] not in CONFIDENCE:
+        raise fail(path, unknown("confidence", str(raw["confidence"]), CONFIDENCE))
     try:
-        value = raw if raw == float("inf") else units.to_si(raw, unit)
+        value = raw["value"] if raw["value"] == float("inf") else units.to_si(raw["value"], unit)
     except ValueError as problem:
         raise fail(path, str(problem)) from None
-    return Number(value, unit, about["source"], about["confidence"], about["note"])
+    return Number(value, unit, raw["source"], raw["confidence"], raw["note"])
 
 
 @dataclass(frozen=True)

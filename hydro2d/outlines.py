@@ -5,13 +5,23 @@ from __future__ import annotations
 import numpy as np
 
 
-def outlines(r_edges: np.ndarray, z_edges: np.ndarray, vof: np.ndarray) -> list[np.ndarray]:
+def outlines(r_edges: np.ndarray, z_edges: np.ndarray, vof: np.ndarray, closed: bool = False) -> list[np.ndarray]:
     """Contours of vof = 1/2 through the cell centres.
 
     r_edges (nr + 1,), z_edges (nz + 1,) in m, vof (nz, nr). The outermost values are carried on to the edges of the
-    mesh, so that lines reach the axis and the boundary. Returns arrays (n, 2) of r, z.
+    mesh, so that lines reach the axis and the boundary; `closed` draws the lines on along the boundary, but for the
+    inner one. Returns arrays (n, 2) of r, z.
     """
     import contourpy
 
     r, z = (np.concatenate([e[:1], 0.5 * (e[1:] + e[:-1]), e[-1:]]) for e in (r_edges, z_edges))
-    return contourpy.contour_generator(r, z, np.pad(vof, 1, mode="edge")).lines(0.5)
+    values = np.pad(vof, 1, mode="edge")
+    if closed:
+        r, z = np.append(r, _beyond(r[-1], r[-2])), np.concatenate([[_beyond(z[0], z[1])], z, [_beyond(z[-1], z[-2])]])
+        values = np.pad(values, ((1, 1), (0, 1)))
+    return contourpy.contour_generator(r, z, values).lines(0.5)
+
+
+def _beyond(edge: float, inside: float) -> float:
+    """A point a hair outside of the mesh."""
+    return edge + 1e-6 * (edge - inside)

@@ -23,6 +23,14 @@ def duration(seconds: float) -> str:
     return f"{seconds} s"
 
 
+def moment(seconds: float) -> str:
+    """A time of the simulation: microseconds, or what suits longer ones."""
+    for unit, scale in (("s", 1.0), ("ms", 1e3)):
+        if seconds * scale >= 10:
+            return f"{seconds * scale:.3f} {unit}"
+    return f"{seconds * 1e6:.3f} us"
+
+
 def number(value, scale: float, form: str, unit: str) -> str:
     """A quantity in the reader's unit, "-" where it has none."""
     if value is None or value != value:
@@ -36,36 +44,52 @@ def worst_mass(conservation: dict) -> float:
 
 
 class Clock:
-    """Time left, from the fraction of the stop time that was reached per second of this process."""
+    """How much is done, against the end time and the number of cycles of the deck, and how long the rest takes."""
 
     def __init__(self, run):
-        self.stop, self.first, self.started = run.deck.stop.time, run.sim.time, clock.perf_counter()
+        self._stop = run.deck.stop
+        self._first, self._started = self.done(run.sim), clock.perf_counter()
 
-    def fraction(self, time: float) -> float:
-        return min(time / self.stop, 1.0)
+    def done(self, sim) -> float | None:
+        """Fraction of the run, 0 to 1; None where the deck gives neither an end time nor a number of cycles."""
+        shares = [sim.time / self._stop.time] if self._stop.time else []
+        shares += [sim.cycle / self._stop.cycles] if self._stop.cycles else []
+        return min(max(shares), 1.0) if shares else None
 
-    def left(self, time: float) -> float | None:
-        """Seconds to the stop time at the mean pace; None before the first cycle."""
-        if time <= self.first:
+    def left(self, sim) -> float | None:
+        """Seconds to the end at the mean pace; None where it is not known."""
+        done = self.done(sim)
+        if done is None or done <= self._first:
             return None
-        return (clock.perf_counter() - self.started) * (self.stop - time) / (time - self.first)
+        return (clock.perf_counter() - self._started) * (1 - done) / (done - self._first)
+
+    def words(self, sim) -> str:
+        """'12.300 us of 200.000 us (6.2 %)'."""
+        end = f" of {moment(self._stop.time)}" if self._stop.time else ""
+        done = self.done(sim)
+        return f"{moment(sim.time)}{end}" + ("" if done is None else f" ({100 * done:.1f} %)")
 
 
 def values(run, left: Clock) -> dict[str, str]:
     """What is shown of a run, by name."""
     sim = run.sim
     found, conserved = sim.diagnostics(), sim.conservation()
-    seconds = left.left(sim.time)
-    return {
-        "time": f"{sim.time * 1e6:.3f} us of {left.stop * 1e6:.6g} us ({100 * left.fraction(sim.time):.1f} %)",
+    seconds = left.left(sim)
+    shown = {
+        "time": left.words(sim),
         "left": "-" if seconds is None else duration(seconds),
         "cycle": str(sim.cycle),
         "dt": f"{sim.dt * 1e9:.4g} ns ({sim.dt_cause})",
-        "depth": number(found["penetration_depth_m"], 1e3, ".2f", "mm"),
-        "tail speed": number(found["rod_tail_velocity_m_s"], 1, ".1f", "m/s"),
-        "mean speed": number(found["rod_mean_velocity_m_s"], 1, ".1f", "m/s"),
-        "rod length": number(found["rod_length_m"], 1e3, ".2f", "mm"),
-        "regime": found["regime"] or "-",
+    }
+    if found:  # a deck with a rod and a target
+        shown |= {
+            "depth": number(found["penetration_depth_m"], 1e3, ".2f", "mm"),
+            "tail speed": number(found["rod_tail_velocity_m_s"], 1, ".1f", "m/s"),
+            "mean speed": number(found["rod_mean_velocity_m_s"], 1, ".1f", "m/s"),
+            "rod length": number(found["rod_length_m"], 1e3, ".2f", "mm"),
+            "regime": found["regime"],
+        }
+    return shown | {
         "mass": f"{worst_mass(conserved):+.1e}",
         "momentum": f"{conserved['axial_momentum']:+.1e}",
         "energy": f"{conserved['total_energy']:+.1e}",
@@ -95,7 +119,7 @@ class Report:
         commit = ""
         if origin["git_commit"]:
             commit = f" ({origin['git_commit'][:10]}{', modified' if origin['git_dirty'] else ''})"
-        self.line(f"hydro2d {origin['version']}{commit}: {run.deck.title}")
+        self.line(f"hydro2d {origin['version']}{commit}: {run.deck.title or run.deck.name}")
         self.line(f"{origin['command']}")
         self.line(f"{origin['cpu']}, {origin['threads']} threads; results in {run.directory}")
         self.line(
@@ -103,7 +127,7 @@ class Report:
             f"bodies in the order of their interfaces: {', '.join(run.sim.table.names)}"
         )
         if run.sim.cycle:
-            self.line(f"continuing at cycle {run.sim.cycle}, t = {run.sim.time * 1e6:.3f} us")
+            self.line(f"continuing at cycle {run.sim.cycle}, t = {moment(run.sim.time)}")
 
     def update(self, run) -> None:
         """Called after every cycle; speaks when it is time."""
@@ -113,9 +137,9 @@ class Report:
             self.status(values(run, self._clock))
 
     def status(self, shown: dict[str, str]) -> None:
+        rod = f"depth {shown['depth']}, tail {shown['tail speed']}, " if "depth" in shown else ""
         self.line(
-            f"t {shown['time']}, {shown['left']} left, cycle {shown['cycle']}, dt {shown['dt']}, "
-            f"depth {shown['depth']}, tail {shown['tail speed']}, "
+            f"t {shown['time']}, {shown['left']} left, cycle {shown['cycle']}, dt {shown['dt']}, {rod}"
             f"changes of mass {shown['mass']}, momentum {shown['momentum']}, energy {shown['energy']}"
         )
 
@@ -164,7 +188,8 @@ class Live(Report):
         table = Table.grid(padding=(0, 2))
         for name, value in values(run, self._clock).items():
             table.add_row(name, value)
-        return Group(ProgressBar(total=1.0, completed=self._clock.fraction(run.sim.time), width=60), table)
+        done = self._clock.done(run.sim)
+        return Group(ProgressBar(total=1.0, completed=done or 0.0, width=60, pulse=done is None), table)
 
     def close(self) -> None:
         self._live.stop()
@@ -176,26 +201,34 @@ class Live(Report):
 
 def result(summary: dict) -> list[str]:
     """The final lines: the result, beside the experiment's."""
-    depth, experiment = summary["penetration_depth_m"], summary["experiment"]
+    conserved = summary["conservation"]
     lines = [
         f"{summary['status']}: {summary['stop_reason']}",
-        f"{summary['cycles']} cycles to {summary['time_s'] * 1e6:.3f} us in {duration(summary['wall_s'])}"
+        f"{summary['cycles']} cycles to {moment(summary['time_s'])} in {duration(summary['wall_s'])}"
         + (f", {summary['ns_per_cell_cycle']:.1f} ns per cell and cycle" if summary["ns_per_cell_cycle"] else ""),
-        f"penetration depth     {number(depth, 1e2, '.2f', 'cm')}",
     ]
+    if summary["penetration_depth_m"] is not None:
+        lines += _rod(summary)
+    return [
+        *lines,
+        f"relative changes      mass {worst_mass(conserved):+.1e}, momentum {conserved['axial_momentum']:+.1e}, "
+        f"energy {conserved['total_energy']:+.1e}",
+    ]
+
+
+def _rod(summary: dict) -> list[str]:
+    depth, experiment = summary["penetration_depth_m"], summary["experiment"]
+    lines = [f"penetration depth     {number(depth, 1e2, '.2f', 'cm')}"]
     if experiment and experiment["penetration_m"]:
         measured = experiment["penetration_m"]
-        error = ""
-        if depth is not None:
-            error = f" (error {(depth - measured) * 1e2:+.2f} cm, {100 * (depth / measured - 1):+.1f} %)"
-        lines.append(f"  experiment          {measured * 1e2:.2f} cm{error}  {experiment['source'] or ''}".rstrip())
+        error = f" (error {(depth - measured) * 1e2:+.2f} cm, {100 * (depth / measured - 1):+.1f} %)"
+        qualifier = "" if experiment["qualifier"] == "measured" else f"{experiment['qualifier']} "
+        lines.append(f"  experiment          {qualifier}{measured * 1e2:.2f} cm{error}  {experiment['source']}")
     return [
         *lines,
         f"rod length            {number(summary['rod_length_m'], 1e2, '.2f', 'cm')}",
-        f"largest plastic strain of the rod {number(summary['rod_max_plastic_strain'], 1, '.3g', '')}".rstrip(),
-        f"regime                {summary['regime'] or '-'}",
-        f"relative changes      mass {worst_mass(summary['conservation']):+.1e}, momentum "
-        f"{summary['conservation']['axial_momentum']:+.1e}, energy {summary['conservation']['total_energy']:+.1e}",
+        f"largest plastic strain of the rod {summary['rod_max_plastic_strain']:.3g}",
+        f"regime                {summary['regime']}",
     ]
 
 

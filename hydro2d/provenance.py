@@ -61,6 +61,13 @@ def package_versions() -> dict[str, str]:
     return versions
 
 
+def command() -> str:
+    """The command line, as one would type it."""
+    program = Path(sys.argv[0])
+    words = ["python", "-m", program.parent.name] if program.name == "__main__.py" else [program.name]
+    return shlex.join([*words, *sys.argv[1:]])
+
+
 def collect(threads: int) -> dict:
     """All of it, as plain JSON-able values; `threads` is the number the kernels run on."""
     git = git_commit()
@@ -74,6 +81,6 @@ def collect(threads: int) -> dict:
         "cpu_count": os.cpu_count(),
         "system": f"{platform.system()} {platform.release()} {platform.machine()}",
         "host": socket.gethostname(),
-        "command": shlex.join([Path(sys.argv[0]).name, *sys.argv[1:]]),
+        "command": command(),
         "written": datetime.now(UTC).isoformat(timespec="seconds"),
     }

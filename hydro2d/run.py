@@ -26,7 +26,7 @@ from pathlib import Path
 
 import numpy as np
 
-from . import __version__, provenance, snapshot
+from . import __version__, derived, provenance, snapshot
 from .files import write_json, write_text
 from .history import History
 from .progress import reporter
@@ -43,6 +43,12 @@ FLUSH_SECONDS = 10.0
 DONE, WRONG_INPUT, UNPHYSICAL = 0, 2, 3
 
 
+#: results that a summary always has; null for a deck without rod and target
+ROD_RESULTS = (
+    "penetration_depth_m", "rod_length_m", "rod_mass_kg", "rod_max_plastic_strain", "rod_tail_velocity_m_s", "regime",
+)  # fmt: skip
+
+
 class RunError(Exception):
     """A run that cannot begin: the directory is taken, or a restart does not fit; the message is for the user."""
 
@@ -50,12 +56,21 @@ class RunError(Exception):
 class Due:
     """Output times k interval, k = 0, 1, ...: due at the first cycle at or after each; several at once count as one."""
 
-    def __init__(self, interval: float | None, count: int = 0):
-        self.interval, self.count = interval, count
+    def __init__(self, interval: float):
+        self.interval, self.count = interval, 0
+
+    def saved(self) -> list:
+        """What a restart file keeps of it."""
+        return [self.interval, self.count]
+
+    def resume(self, saved: list, time: float) -> None:
+        """Continues from what was saved at `time`; where the interval has changed since, from the next of the new."""
+        interval, count = saved
+        self.count = count if interval == self.interval else math.floor(time / self.interval) + 1
 
     def __call__(self, time: float) -> bool:
         """Whether an output is due at `time`; if so, the next one is moved beyond it."""
-        if not self.interval or time < self.count * self.interval:
+        if time < self.count * self.interval:
             return False
         self.count = max(math.floor(time / self.interval), self.count) + 1
         if (self.count - 1) * self.interval > time:  # the division was rounded up
@@ -81,7 +96,7 @@ def claim(directory: Path, *, restart: bool, overwrite: bool) -> None:
 
 
 #: sections of a deck that may differ when a run is continued
-FREE_SECTIONS = ("title", "stop", "output", "experiment")
+FREE_SECTIONS = ("name", "title", "stop", "output", "experiment")
 
 
 def check_same_deck(now: str, before: str) -> None:
@@ -149,8 +164,8 @@ class Run:
         self.provenance = provenance.collect(threads())
         self.sim = Simulation(deck)
         self.wall_before = 0.0
-        self.timed_from = None
-        counts = {"history": 0, "vtk": 0, "restart": 1}
+        self.stepping, self.stepped = 0.0, 0
+        self.due = {"history": Due(deck.output.history_interval), "vtk": Due(deck.output.vtk_interval)}
         rows = dumps = 0
         if restart:
             saved, problems = snapshot.read_latest(self.directory)
@@ -159,17 +174,11 @@ class Run:
             check_same_deck(self.deck_text, saved.deck)
             self.sim.load_restart_arrays(saved.arrays)
             self.sim.load_restart_scalars(saved.scalars)
-            counts, rows, dumps = saved.run["due"], saved.run["rows"], saved.run["dumps"]
-            self.wall_before = saved.run["wall_s"]
-        output = deck.output
+            for name, due in self.due.items():
+                due.resume(saved.run["due"][name], self.sim.time)
+            rows, dumps, self.wall_before = (saved.run[name] for name in ("rows", "dumps", "wall_s"))
         self.history = History(self.directory / HISTORY, rows)
-        self.series = Series(self.directory, output.fields or None, dumps)
-        self.due = {
-            "history": Due(output.history_interval, counts["history"]),
-            "vtk": Due(output.vtk_interval, counts["vtk"]),
-            "restart": Due(output.restart_interval, counts["restart"]),
-        }
-        self.restart_wall = output.restart_wall_interval
+        self.series = Series(self.directory, deck.output.fields, dumps)
         self.started = self.flushed = self.saved_at = clock.perf_counter()
         self.good = None
         (self.directory / SUMMARY).unlink(missing_ok=True)
@@ -189,9 +198,7 @@ class Run:
         self._outputs()
         try:
             while reason is None and not interrupt.reason:
-                self.sim.step()
-                if self.timed_from is None:  # the first cycle compiles
-                    self.timed_from = self.sim.cycle, clock.perf_counter()
+                self._step()
                 self._outputs()
                 reason = self.sim.stop_reason()
         except UnphysicalState as error:
@@ -202,6 +209,13 @@ class Run:
             status = "done"
         return self._finish(status, reason)
 
+    def _step(self) -> None:
+        """One cycle and its wall time; not that of the first, which compiles."""
+        before, first = clock.perf_counter(), self.stepped == 0
+        self.sim.step()
+        self.stepping += 0.0 if first else clock.perf_counter() - before
+        self.stepped += 1
+
     # ------------------------------------------------------------------------------------------------ outputs
 
     def _outputs(self) -> None:
@@ -211,8 +225,7 @@ class Run:
             self.history.append(row(sim))
         if self.due["vtk"](sim.time):
             self.series.dump(sim)
-        by_time = self.due["restart"](sim.time)
-        if by_time or (self.restart_wall and now - self.saved_at >= self.restart_wall):
+        if now - self.saved_at >= self.deck.output.restart_interval:
             self._save(self._snapshot())
         if sim.cycle % GOOD_EVERY == 0:
             self.good = self._snapshot()
@@ -226,7 +239,7 @@ class Run:
             arrays={name: np.array(array) for name, array in self.sim.restart_arrays().items()},
             scalars=self.sim.restart_scalars(),
             run={
-                "due": {name: due.count for name, due in self.due.items()},
+                "due": {name: due.saved() for name, due in self.due.items()},
                 "rows": len(self.history),
                 "dumps": len(self.series),
                 "wall_s": self.wall,
@@ -249,10 +262,10 @@ class Run:
         else:
             self._save(self._snapshot())
         if status != "interrupted":
-            if self.due["history"].interval and self.history.last_time != self.sim.time:
+            if self.history.last_time != self.sim.time:
                 self.history.append(row(self.sim))
                 self.history.write()
-            if self.due["vtk"].interval and self.series.last_time != self.sim.time:
+            if self.series.last_time != self.sim.time:
                 self.series.dump(self.sim)
         summary = self.summary(status, reason)
         write_json(self.directory / SUMMARY, summary)
@@ -261,20 +274,20 @@ class Run:
 
     def summary(self, status: str, reason: str) -> dict:
         """What summary.json holds."""
-        sim, wall = self.sim, self.wall
-        cycle, since = self.timed_from or (sim.cycle, 0.0)
-        spent, cycles = clock.perf_counter() - since, sim.cycle - cycle
+        sim, cycles = self.sim, self.stepped - 1
         return {
-            "deck": self.deck.title,
+            "deck": self.deck.name,
+            "title": self.deck.title,
             "deck_sha256": deck_hash(self.deck_text),
             "version": __version__,
             "status": status,
             "stop_reason": reason,
             "time_s": sim.time,
             "cycles": sim.cycle,
-            "wall_s": wall,
-            "ns_per_cell_cycle": 1e9 * spent / (sim.grid.cells * cycles) if cycles else None,
+            "wall_s": self.wall,
+            "ns_per_cell_cycle": 1e9 * self.stepping / (sim.grid.cells * cycles) if cycles > 0 else None,
             "cells": sim.grid.cells,
+            **dict.fromkeys(ROD_RESULTS),
             **sim.diagnostics(),
             "experiment": experiment(self.deck),
             "conservation": sim.conservation(),
@@ -291,7 +304,11 @@ def experiment(deck) -> dict | None:
     """The experiment that a deck names, or None."""
     if deck.experiment is None:
         return None
-    return {"penetration_m": deck.experiment.penetration, "source": deck.experiment.source}
+    return {
+        "penetration_m": deck.experiment.penetration,
+        "qualifier": deck.experiment.qualifier,
+        "source": deck.experiment.source,
+    }
 
 
 def row(sim) -> dict:
@@ -300,6 +317,7 @@ def row(sim) -> dict:
     values = {"time": sim.time, "cycle": sim.cycle, "dt": sim.dt, **sim.diagnostics()}
     values |= {f"mass_change_{body}": change for body, change in conserved["mass"].items()}
     values |= {f"{name}_change": conserved[name] for name in ("axial_momentum", "total_energy")}
+    values |= {name: conserved[name] for name in ("internal_energy_J", "kinetic_energy_J")}
     for sink, amounts in conserved["sinks"].items():
         values |= {f"sink_{sink}_{name}": amount for name, amount in amounts.items()}
     return values
@@ -315,10 +333,11 @@ def run(deck, directory: Path | None = None, *, restart=False, overwrite=False, 
     quiet : nothing is printed (log.txt is written)
     interrupt : call it from anywhere to stop after the cycle with a restart file
 
-    Raises RunError, SnapshotError.
+    Raises RunError, SnapshotError, FieldError.
     """
     directory = Path(directory or deck.output.directory)
     interrupt = interrupt or Interrupt()
+    derived.expand(deck.output.fields)  # an unknown field is told before anything is touched
     claim(directory, restart=restart, overwrite=overwrite)
     if restart and not directory.is_dir():
         raise RunError(f"{directory}: there is no run to continue")

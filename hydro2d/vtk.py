@@ -141,11 +141,11 @@ class Series:
     Parameters
     ----------
     directory : the run directory
-    fields : keys of derived.TABLE to write, None for all
+    fields : keys of derived.TABLE, or words of derived.GROUPS, to write
     dumps : number of dumps of the existing series to keep (a restart); later ones are removed
     """
 
-    def __init__(self, directory: Path, fields=None, dumps: int = 0):
+    def __init__(self, directory: Path, fields=("standard",), dumps: int = 0):
         self.directory, self.fields = Path(directory), fields
         self._times: list[float] = []
         if dumps:
@@ -215,7 +215,7 @@ class Dump:
         return [name.removeprefix(prefix) for name in self.fields if name.startswith(prefix)]
 
     @classmethod
-    def of(cls, sim, keys=None) -> Dump:
+    def of(cls, sim, keys=("all",)) -> Dump:
         """The state of a simulation as it would be written."""
         return cls(sim.grid.r_edges, sim.grid.z_edges, derived.evaluate(sim, keys), sim.time)
 
@@ -238,3 +238,10 @@ def read_grid(path: Path) -> Dump:
         fields[data.GetArrayName(number)] = values.reshape(len(z) - 1, len(r) - 1, *values.shape[1:]).copy()
     time = grid.GetFieldData().GetArray("TimeValue").GetValue(0)
     return Dump(r.copy(), z.copy(), fields, time)
+
+
+def pyvista_grid(path: Path):
+    """A .vtr as a pyvista.RectilinearGrid."""
+    import pyvista
+
+    return pyvista.read(path)

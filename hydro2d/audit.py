@@ -1,0 +1,119 @@
+"""Conservation: every total, and every named sink through which something left the mesh or the balance."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+#: sinks by name, and what each of them is
+SINKS = {
+    "traces": "bodies below the trace fraction, removed from their cell",
+    "advection": "kinetic energy that the remap of velocities discarded (negative: gained), and the momentum it gained",
+    "outflow": "what left through open edges",
+    "walls": "momentum taken by walls",
+    "speed_limit": "vertices with little mass, held to the speed limit",
+}
+
+
+@dataclass
+class Sink:
+    """What left by one name: mass per body, axial momentum, energy; per radian (per unit depth in planar geometry)."""
+
+    mass: np.ndarray
+    momentum: float = 0.0
+    energy: float = 0.0
+
+
+@dataclass
+class Totals:
+    """Sums over the mesh: mass per body [m], axial momentum, internal and kinetic energy; per radian."""
+
+    mass: np.ndarray
+    momentum: float
+    internal: float
+    kinetic: float
+
+    @property
+    def energy(self) -> float:
+        return self.internal + self.kinetic
+
+
+def totals(state) -> Totals:
+    """Totals of a state, with the interior cells and vertices only."""
+    grid = state.grid
+    mass = grid.interior(state.vof * state.rho * grid.volume)
+    vertex_mass = grid.interior_vertices(state.mass)
+    u, v = grid.interior_vertices(state.u), grid.interior_vertices(state.v)
+    return Totals(
+        mass=mass.sum(axis=(1, 2)),
+        momentum=float(np.sum(vertex_mass * v)),
+        internal=float(np.sum(mass * grid.interior(state.e))),
+        kinetic=float(0.5 * np.sum(vertex_mass * (u * u + v * v))),
+    )
+
+
+@dataclass
+class Ledger:
+    """The totals at the start and the sinks since.
+
+    Attributes
+    ----------
+    start : Totals
+    sinks : name -> Sink
+    """
+
+    start: Totals
+    sinks: dict[str, Sink] = field(default_factory=dict)
+
+    @classmethod
+    def open(cls, state) -> Ledger:
+        """A ledger that begins with the state as it is."""
+        return cls(totals(state), {name: Sink(np.zeros(state.bodies)) for name in SINKS})
+
+    def book(self, name: str, mass=0.0, momentum: float = 0.0, energy: float = 0.0) -> None:
+        """Adds to a sink what left the totals."""
+        sink = self.sinks[name]
+        sink.mass += mass
+        sink.momentum += momentum
+        sink.energy += energy
+
+    def balance(self, state) -> dict:
+        """Relative changes that no sink explains, and the sinks; SI, full circumference in cylindrical geometry."""
+        now, around = totals(state), 2 * np.pi if state.grid.cylindrical else 1.0
+        lost = {kind: sum(getattr(sink, kind) for sink in self.sinks.values()) for kind in ("mass", "momentum", "energy")}
+        scale = {
+            "momentum": max((2.0 * self.start.mass.sum() * abs(self.start.energy)) ** 0.5, 1e-300),
+            "energy": max(abs(self.start.energy), self.start.kinetic, 1e-300),
+        }
+        mass = (now.mass + lost["mass"] - self.start.mass) / np.maximum(self.start.mass, 1e-300)
+        return {
+            "mass": mass,
+            "axial_momentum": (now.momentum + lost["momentum"] - self.start.momentum) / scale["momentum"],
+            "total_energy": (now.energy + lost["energy"] - self.start.energy) / scale["energy"],
+            "internal_energy_J": now.internal * around,
+            "kinetic_energy_J": now.kinetic * around,
+            "start_energy_J": self.start.energy * around,
+            "sinks": {
+                name: {
+                    "mass_kg": float(sink.mass.sum() * around),
+                    "momentum_N_s": sink.momentum * around,
+                    "energy_J": sink.energy * around,
+                }
+                for name, sink in self.sinks.items()
+            },
+        }
+
+    def saved(self) -> dict:
+        """What a restart file keeps."""
+        return {
+            "start": {**vars(self.start), "mass": self.start.mass.tolist()},
+            "sinks": {name: {**vars(sink), "mass": sink.mass.tolist()} for name, sink in self.sinks.items()},
+        }
+
+    @classmethod
+    def resume(cls, saved: dict) -> Ledger:
+        """The ledger that `saved` described."""
+        start = Totals(**{**saved["start"], "mass": np.array(saved["start"]["mass"])})
+        sinks = {name: Sink(**{**entry, "mass": np.array(entry["mass"])}) for name, entry in saved["sinks"].items()}
+        return cls(start, sinks)

@@ -1,0 +1,501 @@
+"""One step of the method. The only file that knows both the state and the kernels.
+
+`Cycle.advance` is the page to read: equation of state, mixed-cell closure, viscosity and time step; stress, forces and
+velocities, work and strain (the Lagrangian step); then the remap, one sweep per direction, their order reversed every cycle.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from hydro2d import fields
+from hydro2d.audit import Ledger
+from hydro2d.kernels import (
+    acceleration,
+    boundaries,
+    deformation,
+    interfaces,
+    mixed,
+    momentum,
+    remap,
+    sliding,
+    spans,
+    thermodynamics,
+)
+
+#: cells that the active box leads the moving vertices by; one cycle spreads a signal by fewer
+MARGIN = 6
+#: vertices may be this much faster than the fastest body was at the start, or than the slowest wave
+SPEED_LIMIT_FACTOR = 5.0
+
+
+class UnphysicalState(Exception):
+    """The state has become one that no material can be in; the message says where, which body and the values."""
+
+
+@dataclass(frozen=True)
+class Method:
+    """The choices of a deck, as the numbers that kernels take."""
+
+    choice: int
+    ke_bound: float
+    courant: float
+    advective: float
+    growth: float
+    ramp_cycles: int
+    first: float
+    dt_min: float
+    linear: float
+    quadratic: float
+    hourglass: float
+    tipton: bool
+    relaxation: float
+    strength_mode: int
+    trace: float
+    mass_floor: float
+    active_region: bool
+    order: np.ndarray
+    smallest_tension: bool
+    max_opening: float
+    hard: np.ndarray
+    threshold: float
+    slip_widths: tuple[float, float] | None
+    shear: int
+    friction: float
+    refresh: int
+    factor: np.ndarray
+    mirrors: tuple[bool, bool, bool, bool]
+
+    @classmethod
+    def from_deck(cls, deck, slots: list[str], widths: tuple[float, float], factor: float) -> Method:
+        """Translates the words of a deck; slots are the bodies in their order in the arrays."""
+        n, slide, failure, edge = deck.numerics, deck.sliding, deck.failure, deck.boundaries
+        order = list(n.interface_order) + [name for name in slots if name not in n.interface_order]
+        layer = slide.method == "slip-layer"
+        hard = np.array([layer and name in slide.hard for name in slots])
+        return cls(
+            choice=momentum.CHOICES.index(n.advection),
+            ke_bound=n.ke_bound,
+            courant=n.courant,
+            advective=n.advective_courant,
+            growth=n.max_growth,
+            ramp_cycles=n.ramp_cycles,
+            first=n.initial_dt_factor,
+            dt_min=n.dt_min,
+            linear=n.viscosity_linear,
+            quadratic=n.viscosity_quadratic,
+            hourglass=n.hourglass,
+            tipton=n.mixed_cell == "tipton",
+            relaxation=n.relaxation,
+            strength_mode=mixed.STRENGTH_MODES.index(n.mixed_strength),
+            trace=n.trace,
+            mass_floor=n.mass_floor,
+            active_region=n.active_region,
+            order=np.array([slots.index(name) for name in order], dtype=np.int64),
+            smallest_tension=failure.tension == "min",
+            max_opening=failure.max_opening,
+            hard=hard,
+            threshold=slide.threshold,
+            slip_widths=widths if layer else None,
+            shear=sliding.SHEARS.index(slide.shear),
+            friction=slide.friction,
+            refresh=slide.refresh,
+            factor=np.where(hard, factor, 1.0),
+            mirrors=tuple(e in ("wall", "axis") for e in (edge.r_min, edge.r_max, edge.z_min, edge.z_max)),
+        )
+
+
+class Cycle:
+    """Advances a state, cycle by cycle.
+
+    Parameters
+    ----------
+    state : State, with vof, q, u and v set
+    table : MaterialTable
+    method : Method
+
+    Attributes
+    ----------
+    time, dt, number : time reached (s), last time step (s), cycles done
+    cause : str, what set the last time step, and where
+    box : [j0, j1, i0, i1] of the cells that are active
+    ledger : Ledger
+    """
+
+    def __init__(self, state, table, method: Method):
+        self.state, self.table, self.method = state, table, method
+        grid = self.grid = state.grid
+        self.time, self.dt, self.number, self.cause = 0.0, 0.0, 0, "start"
+        g = grid.g
+        self.edges = np.array([g, g + grid.nz, g, g + grid.nr], dtype=np.int64)
+        low_r, high_r, low_z, high_z = method.mirrors
+        self.still = np.array([g if low_r else -1, g + grid.nr if high_r else -1, g if low_z else -1,
+                               g + grid.nz if high_z else -1], dtype=np.int64)
+        self.carried = [self._carried(m) for m in range(state.bodies)]
+        self.box = list(self.edges)
+        self.ledger = None
+        self.speed_limit = 0.0
+        self.light_density = method.mass_floor * float(np.max(table.rho0))
+
+    def _carried(self, m: int) -> int:
+        if self.table.damage_model[m]:
+            return fields.CARRIED_DAMAGE
+        return fields.CARRIED_SOLID if self.table.strength_model[m] else fields.CARRIED_FLUID
+
+    # ------------------------------------------------------------------------------------------------ the page
+
+    def advance(self) -> None:
+        """One step: time n to n + 1."""
+        self.activate()
+        self.ghost_vertices()
+        self.find_slip_zones()
+        self.equation_of_state()
+        self.choose_step()
+
+        self.stress()
+        self.accelerate()
+        self.sweep_faces()
+        self.deform()
+        self.cut_shear()
+
+        directions = ((0, 1), (1, 0)) if self.number % 2 == 0 else ((1, 0), (0, 1))
+        for second, (dj, di) in enumerate(directions):
+            self.interface_fluxes(dj, di, second)
+            self.remap_bodies(dj, di, second)
+            self.remap_momentum(dj, di)
+            self.tidy(dj, di, second)
+
+        self.time += self.dt
+        self.number += 1
+
+    # ------------------------------------------------------------------------------------------------ preparation
+
+    def prepare(self) -> None:
+        """Everything that follows from vof, q, u, v: masses, spans, the active box. Called once, and after a restart."""
+        s = self.state
+        every = self.box
+        self.box = list(self.edges)
+        self._spans()
+        s.cell_mass[...] = 0.0
+        self._cell_mass(0, 0, True)
+        self._vertex_mass()
+        if self.ledger is None:
+            self.box = self._first_box() if self.method.active_region else list(self.edges)
+            self.ledger = Ledger.open(s)
+            sound = self._slowest_wave()
+            fastest = float(np.sqrt(np.max(s.u**2 + s.v**2)))
+            self.speed_limit = SPEED_LIMIT_FACTOR * max(fastest, sound)
+        else:
+            self.box = every
+        if self.box != list(self.edges):  # beyond the box nothing has a span yet
+            s.span[..., 0], s.span[..., 1] = 1 << 30, 0
+            s.occupied[:, 0], s.occupied[:, 1] = 1 << 30, 0
+            s.reach[:, 0], s.reach[:, 1] = 1 << 30, 0
+            self._spans()
+
+    def _slowest_wave(self) -> float:
+        from eos.dispatch import evaluate, sound_speed_squared
+
+        t = self.table
+        speeds = []
+        for m in range(self.state.bodies):
+            p, dpdrho, dpde, _ = evaluate(t.eos_model[m], t.rho0[m], t.e0[m], t.eos_par[m])
+            speeds.append(sound_speed_squared(t.rho0[m], p, dpdrho, dpde, thermodynamics.SOUND_FLOOR) ** 0.5)
+        return min(speeds)
+
+    def _first_box(self) -> list[int]:
+        """Smallest box around everything that moves or is under pressure or stress, and the margin."""
+        s, t = self.state, self.table
+        from eos.dispatch import evaluate
+
+        loud = np.zeros(self.grid.shape, dtype=bool)
+        for m in range(s.bodies):
+            present = s.vof[m] > 0
+            quiet_p = evaluate(t.eos_model[m], t.rho0[m], 0.0, t.eos_par[m])[0] == 0.0
+            at_rest = (s.rho[m] == t.rho0[m]) & (s.e[m] == 0.0) & (s.q[2:5, m] == 0.0).all(axis=0)
+            loud |= present & ~(at_rest & quiet_p)
+        moving = ((s.u != 0) | (s.v != 0)).any(axis=0)
+        loud |= moving[:-1, :-1] | moving[1:, :-1] | moving[:-1, 1:] | moving[1:, 1:]
+        j0, j1, i0, i1 = self.edges
+        rows, columns = np.nonzero(loud[j0:j1, i0:i1])
+        if len(rows) == 0:
+            return list(self.edges)
+        return self._clipped([rows.min() + j0, rows.max() + j0 + 1, columns.min() + i0, columns.max() + i0 + 1], MARGIN)
+
+    def _clipped(self, box, margin) -> list[int]:
+        j0, j1, i0, i1 = self.edges
+        return [int(max(box[0] - margin, j0)), int(min(box[1] + margin, j1)), int(max(box[2] - margin, i0)),
+                int(min(box[3] + margin, i1))]
+
+    def activate(self) -> None:
+        """Lets the active box grow ahead of whatever moves (explanation/active-region)."""
+        if self.box == list(self.edges):
+            return
+        s, (j0, j1, i0, i1) = self.state, self.box
+        spans.moving_columns(j0, j1 + 1, i0, i1 + 1, s.u, s.v, s.row_moving)
+        limits = s.row_moving[j0:j1 + 1]
+        rows = np.nonzero(limits[:, 1] > 0)[0]
+        if len(rows) == 0:
+            return
+        grown = self._clipped([j0 + rows[0] - 1, j0 + rows[-1] + 1, limits[:, 0].min() - 1, limits[:, 1].max()], MARGIN)
+        box = [min(j0, grown[0]), max(j1, grown[1]), min(i0, grown[2]), max(i1, grown[3])]
+        if box != self.box:
+            self.box = box
+            self._spans()
+
+    def _spans(self) -> None:
+        s, box = self.state, self.box
+        spans.body_spans(*box, s.vof, s.span, s.occupied)
+        spans.reached(*box, s.occupied, s.reach)
+
+    def _list_mixed(self) -> None:
+        s, (j0, j1, _, _) = self.state, self.box
+        spans.list_mixed(j0, j1, s.occupied, s.vof, s.mixed_count, s.mixed)
+
+    def _cell_mass(self, dj: int, di: int, second: bool) -> None:
+        s, g, (j0, j1, _, _) = self.state, self.grid, self.box
+        remap.sum_cell_mass(j0, j1, s.reach, s.pre, dj, di, s.fr, s.fz, second, g.volume, s.vof, s.q, s.cell_mass)
+
+    def _vertex_mass(self) -> None:
+        s, g, (j0, j1, i0, i1) = self.state, self.grid, self.box
+        acceleration.vertex_masses(j0, j1 + 1, i0, i1 + 1, g.cm_in, g.cm_out, s.reach, s.cell_mass, s.mass)
+
+    def ghost_vertices(self) -> None:
+        """Mirrors or copies velocities beyond the edges of the mesh."""
+        s, g, (low_r, high_r, low_z, high_z) = self.state, self.grid, self.method.mirrors
+        j0, j1, i0, i1 = self.box
+        boundaries.ghost_vertices_r(j0, j1 + 1, g.nr, low_r, high_r, s.u, s.v)
+        boundaries.ghost_vertices_z(i0 - 2, i1 + 3, g.nz, low_z, high_z, s.u, s.v)
+
+    def _keep_velocities(self) -> None:
+        """Copies the velocities, ghosts included, to where the next kernel reads the old ones."""
+        s, (j0, j1, _, _) = self.state, self.box
+        rows = slice(j0 - 2, j1 + 3)
+        np.copyto(s.u0[:, rows], s.u[:, rows])
+        np.copyto(s.v0[:, rows], s.v[:, rows])
+
+    def _hold_still(self) -> None:
+        """Zero normal velocity on the axis and on walls; the impulse on walls is booked."""
+        s = self.state
+        r0, r1, z0, z1 = self.still
+        for column in (r0, r1):
+            if column >= 0:
+                s.u[:, :, column] = 0.0
+        for row in (z0, z1):
+            if row >= 0:
+                self.ledger.book("walls", momentum=float(np.sum(s.mass[:, row] * s.v[:, row])))
+                s.v[:, row] = 0.0
+
+    # ------------------------------------------------------------------------------------------------ Lagrangian step
+
+    def find_slip_zones(self) -> None:
+        """Distance to the hard bodies and the zones beside them, every few cycles."""
+        s, g, method = self.state, self.grid, self.method
+        if method.slip_widths is None or self.number % method.refresh:
+            return
+        sliding.slip_zones(*self.box, *method.slip_widths, method.threshold, g.rc, g.zc, g.dr, g.dz, method.hard, s.vof, s.hard,
+                           s.distance, s.zone, s.normal)
+
+    def equation_of_state(self) -> None:
+        """Pressure and sound speed of every body; void where a cell tears."""
+        s, g, t, method, (j0, j1, _, _) = self.state, self.grid, self.table, self.method, self.box
+        thermodynamics.pressures(
+            j0, j1, method.max_opening, g.vol_r, g.dz, s.span, s.occupied, t.eos_model, t.eos_par, t.strength_model,
+            t.strength_par, t.fracture_pressure, s.vof, s.q, s.pm, s.km, s.tm, s.p, s.bulk, s.rhobar, s.solid, s.cs2, s.rows[0],
+            s.row_numbers)
+        self._report_bad(j0, j1)
+        self._list_mixed()
+        mixed.tear_mixed(j0, j1, method.smallest_tension, method.max_opening, g.vol_r, g.dz, s.mixed_count, s.mixed, t.eos_model,
+                         t.eos_par, t.fracture_pressure, s.vof, s.q, s.pm, s.km, s.p, s.solid, s.bulk, s.rows[0])
+
+    def _report_bad(self, j0: int, j1: int) -> None:
+        s, g = self.state, self.grid
+        bad = s.row_numbers[j0:j1, 0]
+        if not bad.any():
+            return
+        j = j0 + int(np.nonzero(bad)[0][0])
+        i, m = int(s.row_numbers[j, 1]), int(s.row_numbers[j, 2])
+        raise UnphysicalState(
+            f"cycle {self.number}, time {self.time:.6g} s, cell (r, z) = ({g.rc[i]:.6g}, {g.zc[j]:.6g}) m, body "
+            f'"{self.table.names[m]}": volume fraction {s.vof[m, j, i]:.6g}, density {s.rho[m, j, i]:.6g} kg/m^3, energy '
+            f"{s.e[m, j, i]:.6g} J/kg, pressure {s.pm[m, j, i]:.6g} Pa ({int(bad.sum())} such cells)")
+
+    def choose_step(self) -> None:
+        """Artificial viscosity, and the time step with the cell and the term that set it."""
+        s, g, method, (j0, j1, _, _) = self.state, self.grid, self.method, self.box
+        thermodynamics.viscosity_and_step(
+            j0, j1, method.linear, method.quadratic, method.courant, method.advective, g.dr, g.dz, g.vol_r, g.face_r, g.az_in,
+            g.az_out, s.occupied, s.u, s.v, s.rhobar, s.bulk, s.cs2, s.qr, s.qz, s.rows[1], s.row_moving, s.row_numbers[:, 0])
+        j = j0 + int(np.argmin(s.rows[1, j0:j1]))
+        stable = float(s.rows[1, j])
+        if s.row_numbers[j0:j1, 0].any():
+            j = j0 + int(np.nonzero(s.row_numbers[j0:j1, 0])[0][0])
+            raise UnphysicalState(f"cycle {self.number}, time {self.time:.6g} s: velocities that are not finite near "
+                                  f"z = {g.zc[j]:.6g} m")
+        cause, i = s.row_moving[j]
+        ramp = min(1.0, method.first + (1.0 - method.first) * self.number / max(method.ramp_cycles, 1))
+        dt, self.cause = stable * ramp, (f"{thermodynamics.CAUSES[cause]} at r = {g.rc[i] * 1e3:.3f} mm, "
+                                         f"z = {g.zc[j] * 1e3:.3f} mm")
+        if ramp < 1.0:
+            self.cause += " (ramp)"
+        if self.dt > 0.0 and dt > method.growth * self.dt:
+            dt, self.cause = method.growth * self.dt, "growth"
+        if not method.dt_min < dt < 1e300:
+            raise UnphysicalState(f"cycle {self.number}, time {self.time:.6g} s: time step {dt:.3g} s, below dt_min = "
+                                  f"{method.dt_min:.3g} s, set by {self.cause}")
+        self.dt = dt
+
+    def stress(self) -> None:
+        """Total stress of every cell at half the step."""
+        s, g, method, (j0, j1, _, _) = self.state, self.grid, self.method, self.box
+        acceleration.total_stress(
+            j0, j1, self.dt, g.face_r, g.az_in, g.az_out, g.vol_r, g.dz, s.span, s.occupied, s.mixed_count, s.mixed,
+            method.strength_mode != mixed.MATERIAL, method.hard, method.threshold, s.u, s.v, s.vof, s.q, s.p, s.bulk, s.solid,
+            s.qr, s.qz, s.ph, s.sig_rr, s.sig_zz, s.sig_tt, s.sig_rz)
+
+    def accelerate(self) -> None:
+        """Velocities at the end of the step."""
+        s, g, (j0, j1, i0, i1) = self.state, self.grid, self.box
+        self._keep_velocities()
+        limited = s.rows[2:5]
+        acceleration.accelerate(
+            j0, j1 + 1, i0, i1 + 1, self.dt, self.method.hourglass, self.speed_limit, self.light_density, g.face_r, g.hoop, g.az_in, g.az_out, g.vol_r,
+            g.dr, g.dz, s.occupied, s.mass, s.rhobar, s.cs2, s.sig_rr, s.sig_zz, s.sig_tt, s.sig_rz, s.u0, s.v0, s.u, s.v, limited)
+        if limited[2, j0:j1 + 1].any():
+            self.ledger.book("speed_limit", momentum=float(limited[0, j0:j1 + 1].sum()),
+                             energy=float(limited[1, j0:j1 + 1].sum()))
+        self._hold_still()
+        self.ghost_vertices()
+
+    def sweep_faces(self) -> None:
+        """Volumes that the faces sweep in the step; they are the change of volume, and later the remap's fluxes."""
+        s, g, (j0, j1, i0, i1) = self.state, self.grid, self.box
+        acceleration.swept_volumes(j0, j1 + 1, i0, i1, self.dt, g.face_r, g.az_in, g.az_out, g.dz, s.reach, s.u0, s.v0, s.u, s.v,
+                                   s.fr, s.fz)
+
+    def deform(self) -> None:
+        """Work, volume, strain: body by body in pure cells, then the mixed cells."""
+        s, g, t, method, (j0, j1, _, _) = self.state, self.grid, self.table, self.method, self.box
+        for m in range(s.bodies):
+            deformation.deform(
+                j0, j1, m, self.dt, method.hourglass, g.face_r, g.hoop, g.az_in, g.az_out, g.vol_r, g.dr, g.dz, s.span,
+                t.strength_model, t.strength_par, t.damage_model, t.damage_par, method.factor, s.u0, s.v0, s.u, s.v, s.fr, s.fz,
+                s.sig_rr, s.sig_zz, s.sig_tt, s.sig_rz, s.rhobar, s.cs2, s.vof, s.pm, s.tm, s.q)
+        mixed.deform_mixed(
+            j0, j1, self.dt, method.hourglass, method.relaxation, method.tipton, method.strength_mode, method.hard,
+            method.threshold, g.face_r, g.hoop, g.az_in, g.az_out, g.vol_r, g.dr, g.dz, s.mixed_count, s.mixed, t.strength_model,
+            t.strength_par, t.damage_model, t.damage_par, method.factor, s.u0, s.v0, s.u, s.v, s.fr, s.fz, s.ph, s.qr, s.qz,
+            s.rhobar, s.cs2, s.solid, s.pm, s.km, s.tm, s.vof, s.q, s.mix)
+
+    def cut_shear(self) -> None:
+        """Takes the shear from the slip layer."""
+        s, method, (j0, j1, _, _) = self.state, self.method, self.box
+        if method.slip_widths is not None:
+            sliding.cut_shear(j0, j1, method.shear, method.friction, s.occupied, s.zone, s.normal, method.hard, s.vof, s.pm, s.q)
+
+    # ------------------------------------------------------------------------------------------------ remap
+
+    def interface_fluxes(self, dj: int, di: int, second: int) -> None:
+        """Volume of every body through every face of one direction."""
+        s, g, box = self.state, self.grid, self.box
+        j0, j1, i0, i1 = box
+        low_r, high_r, low_z, high_z = self.method.mirrors
+        boundaries.ghost_columns(j0, j1, g.nr, low_r, high_r, s.vof, s.q)
+        boundaries.ghost_rows(i0 - 2, i1 + 2, g.nz, low_z, high_z, s.vof, s.q)
+        interfaces.sweep_volumes(dj, di, *box, second == 0, g.volume, s.reach, s.fr, s.fz, s.pre)
+        self._list_mixed()
+        for face, _ in self._open_faces(di):  # rows without the body are not visited, and are booked nevertheless
+            np.moveaxis(s.flux_volume, 2 if di else 1, 0)[face] = 0.0
+        face = s.fr if di else s.fz
+        interfaces.donor_volumes(dj, di, *box, self.edges, s.span, face, s.vof, s.flux_volume)
+        interfaces.interface_volumes(dj, di, j0, j1, g.dr, g.dz, self.method.order, s.mixed_count, s.mixed, face, s.pre, s.vof,
+                                     s.flux_volume, s.mix)
+        remap.clear_mass_flux(dj, *box, s.reach, s.flux_mass)
+
+    def remap_bodies(self, dj: int, di: int, second: int) -> None:
+        """Fluxes and update of every body's fields."""
+        s, box = self.state, self.box
+        face = s.fr if di else s.fz
+        for m in range(s.bodies):
+            arguments = (dj, di, *box, m, self.carried[m], s.span, face, s.pre, s.flux_volume)
+            remap.body_fluxes(*arguments, s.vof, s.q, s.flux, s.flux_mass)
+            remap.body_update(*arguments, s.flux, s.vof, s.q)
+            self._book_outflow(di, m)
+        self._cell_mass(dj, di, bool(second))
+
+    def _open_faces(self, di: int):
+        """(index of the face, outward sign) of the open edges of a direction, where the active box has reached them."""
+        low, high = self.method.mirrors[0:2] if di else self.method.mirrors[2:4]
+        box, edges = (self.box[2:4], self.edges[2:4]) if di else (self.box[0:2], self.edges[0:2])
+        if not low and box[0] == edges[0]:
+            yield int(edges[0]), -1.0
+        if not high and box[1] == edges[1]:
+            yield int(edges[1]), 1.0
+
+    def _book_outflow(self, di: int, m: int) -> None:
+        s, (j0, j1, i0, i1) = self.state, self.box
+        for face, sign in self._open_faces(di):
+            where = (slice(j0, j1), face) if di else (face, slice(i0, i1))
+            open_here = s.flux_volume[(m, *where)] != 0.0
+            if not open_here.any():
+                continue
+            left = np.zeros(s.bodies)
+            left[m] = sign * float(np.sum(s.flux[(fields.RHO, *where)][open_here]))
+            self.ledger.book("outflow", mass=left, energy=sign * float(np.sum(s.flux[(fields.E, *where)][open_here])))
+
+    def remap_momentum(self, dj: int, di: int) -> None:
+        """Velocities after the sweep, by the advection choice; what it discards is booked."""
+        s, g, method = self.state, self.grid, self.method
+        j0, j1, i0, i1 = self.box
+        flow = s.flux_mass
+        for face, sign in self._open_faces(di):  # beyond an open edge the flux goes on as it was
+            beyond = face + int(sign)
+            if di:
+                flow[:, beyond] = flow[:, face]
+            else:
+                flow[beyond] = flow[face]
+        for face, sign in self._open_faces(di):
+            np.moveaxis(s.dual, 2 if di else 1, 0)[face if sign > 0 else face - 1] = 0.0
+        self._keep_velocities()
+        momentum.dual_fluxes(dj, di, j0, j1, i0, i1, method.choice, g.cm_in, g.cm_out, s.reach, flow, s.mass, s.u0, s.v0, s.dual)
+        sums = s.rows[:5]
+        momentum.vertex_update(dj, di, j0, j1 + 1, i0, i1 + 1, method.choice, method.ke_bound, self.still, g.cm_in, g.cm_out,
+                               s.reach, s.cell_mass, s.dual, s.velocity0, s.velocity, s.mass, s.deficit, sums)
+        before, after, p_gained, _, p_wall = sums[:, j0:j1 + 1].sum(axis=1)
+        lost = before - after - self._kinetic_outflow(di)
+        if method.choice == momentum.BOTH:
+            momentum.deposit(j0, j1, i0, i1, g.cm_in, g.cm_out, s.reach, s.deficit, s.cell_mass, s.vof, s.q, s.rows[5])
+            lost -= s.rows[5, j0:j1].sum()
+        self.ledger.book("advection", momentum=-float(p_gained), energy=float(lost))
+        self.ledger.book("walls", momentum=float(p_wall))
+        self.ghost_vertices()
+
+    def _kinetic_outflow(self, di: int) -> float:
+        """Books the momentum that left through open edges and returns the kinetic energy that left with it."""
+        s, (j0, j1, i0, i1) = self.state, self.box
+        total = 0.0
+        for face, sign in self._open_faces(di):
+            edge = face if sign > 0 else face - 1
+            where = (slice(j0, j1 + 1), edge) if di else (edge, slice(i0, i1 + 1))
+            vertex = (0, slice(j0, j1 + 1), face) if di else (0, face, slice(i0, i1 + 1))
+            flow = s.dual[(0, *where)]
+            if not flow.any():
+                continue
+            energy = sign * float(np.sum(flow * 0.5 * (s.u0[vertex] ** 2 + s.v0[vertex] ** 2)))
+            self.ledger.book("outflow", momentum=sign * float(np.sum(s.dual[(2, *where)])), energy=energy)
+            total += energy
+        return total
+
+    def tidy(self, dj: int, di: int, second: int) -> None:
+        """Removes traces, makes full cells full, and finds the bodies anew."""
+        s, g, (j0, j1, _, _) = self.state, self.grid, self.box
+        remap.tidy(j0, j1, self.method.trace, g.cm_in, g.cm_out, g.volume, s.reach, s.pre, dj, di, s.fr, s.fz, bool(second), s.u,
+                   s.v, s.vof, s.q, s.cell_mass, s.booked)
+        internal, kinetic, axial, _, *mass = s.booked[:, j0:j1].sum(axis=1)
+        self.ledger.book("traces", mass=np.array(mass), momentum=float(axial), energy=float(internal + kinetic))
+        for m in range(s.bodies):
+            remap.bound_history(j0, j1, m, s.span, self.carried[m], s.q)
+        self._spans()
+        self._vertex_mass()

@@ -1,0 +1,55 @@
+"""THE field table: every field's name, centring, unit, parity, how it is remapped, and whether it is written.
+
+The integer constants are the positions of the body fields inside the block ``State.q[k, m, j, i]``; kernels use them.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+RHO, E, SRR, SZZ, SRZ, EP, DMG = range(7)
+BODY_FIELDS = 7
+
+#: how many of the body fields a body carries: without strength, with strength, with strength and damage
+CARRIED_FLUID, CARRIED_SOLID, CARRIED_DAMAGE = 2, 6, 7
+
+
+@dataclass(frozen=True)
+class Field:
+    """One line of the field table.
+
+    ``centring`` is "body" ([m, j, i]), "cell" ([j, i]) or "vertex" ([b, j, i]); ``parity`` the sign under reflection at
+    the axis; ``remap`` what carries it: "volume", "mass" (mass-weighted), "momentum" or "" (derived, never remapped).
+    """
+
+    name: str
+    symbol: str
+    centring: str
+    unit: str
+    parity: int
+    remap: str
+    written: bool
+    meaning: str
+
+
+FIELDS = (
+    Field("volume_fraction", "vof", "body", "1", 1, "volume", True, "share of the cell that the body fills"),
+    Field("density", "rho", "body", "kg/m^3", 1, "mass", True, "density of the body's material in the cell"),
+    Field("energy", "e", "body", "J/kg", 1, "mass", True, "specific internal energy"),
+    Field("stress_rr", "srr", "body", "Pa", 1, "volume", True, "radial deviatoric stress"),
+    Field("stress_zz", "szz", "body", "Pa", 1, "volume", True, "axial deviatoric stress"),
+    Field("stress_rz", "srz", "body", "Pa", -1, "volume", True, "shear stress"),
+    Field("plastic_strain", "ep", "body", "1", 1, "mass", True, "equivalent plastic strain"),
+    Field("damage", "dmg", "body", "1", 1, "mass", True, "damage, 1 when failed"),
+    Field("body_pressure", "pm", "body", "Pa", 1, "", True, "pressure of the body's material"),
+    Field("bulk_modulus", "km", "body", "Pa", 1, "", False, "adiabatic bulk modulus rho c^2"),
+    Field("temperature", "tm", "body", "K", 1, "", True, "temperature"),
+    Field("pressure", "p", "cell", "Pa", 1, "", True, "pressure of the cell, void counts nothing"),
+    Field("viscosity_r", "qr", "cell", "Pa", 1, "", False, "artificial viscosity against radial compression"),
+    Field("viscosity_z", "qz", "cell", "Pa", 1, "", False, "artificial viscosity against axial compression"),
+    Field("radial_velocity", "u", "vertex", "m/s", -1, "momentum", True, "radial velocity"),
+    Field("axial_velocity", "v", "vertex", "m/s", 1, "momentum", True, "axial velocity"),
+    Field("vertex_mass", "mass", "vertex", "kg", 1, "mass", False, "mass of the dual cell, per radian"),
+)
+
+BY_NAME = {field.name: field for field in FIELDS}

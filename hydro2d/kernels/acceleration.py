@@ -1,0 +1,172 @@
+"""Forces on vertices from the total stress of the cells around them, and the velocities they give."""
+
+from hydro2d.fields import SRR, SRZ, SZZ
+from hydro2d.jit import kernel, point, prange
+from hydro2d.kernels.spans import union
+
+#: speeds below this are no signal: set to zero, so that the active region has an edge (explanation/active-region)
+SILENCE = 1e-20
+
+
+@point
+def divergence(i, ub, ut, vb, vt, face_r, az_in, az_out, vol_r, h):
+    """Rate of volume change per volume of cell i from its four vertices (explanation/lagrangian-step, equation 2)."""
+    radial = 0.5 * h * (face_r[i + 1] * (ub[i + 1] + ut[i + 1]) - face_r[i] * (ub[i] + ut[i]))
+    axial = az_in[i] * (vt[i] - vb[i]) + az_out[i] * (vt[i + 1] - vb[i + 1])
+    return (radial + axial) / (vol_r[i] * h)
+
+
+@kernel
+def total_stress(j0, j1, dt, face_r, az_in, az_out, vol_r, dz, span, occupied, mixed_count, mixed, shared_strength, hard,
+                 hard_threshold, u, v, vof, q, p, bulk, solid, qr, qz, ph, sig_rr, sig_zz, sig_tt, sig_rz):
+    """sigma = s - (p + q) I with the pressure at half the step, p^(n+1/2) = p - (dt/2) K div u^n.
+
+    The cell's deviator is sum f_m s_m; where strength is shared (every mixed-cell mode but `material`) it is divided by the
+    share of solids; in the hard zone of a slip layer it is the hard body's own (explanation/mixed-cells, sliding).
+
+    Reads    u, v [b, j, i]; vof [m, j, i]; q (deviators) [k, m, j, i]; p, bulk, solid, qr, qz [j, i]; hard [m]
+    Writes   ph, sig_rr, sig_zz, sig_tt, sig_rz [j, i]
+    """
+    bodies = vof.shape[0]
+    for j in prange(j0, j1):
+        lo, hi = occupied[j, 0], occupied[j, 1]
+        rr, zz, tt, rz, ph_j = sig_rr[j], sig_zz[j], sig_tt[j], sig_rz[j], ph[j]
+        for i in range(lo, hi):
+            rr[i] = 0.0
+            zz[i] = 0.0
+            rz[i] = 0.0
+        for m in range(bodies):
+            f_j, a_j, b_j, c_j = vof[m, j], q[SRR, m, j], q[SZZ, m, j], q[SRZ, m, j]
+            for i in range(span[m, j, 0], span[m, j, 1]):
+                rr[i] += f_j[i] * a_j[i]
+                zz[i] += f_j[i] * b_j[i]
+                rz[i] += f_j[i] * c_j[i]
+        for k in range(mixed_count[j]):
+            i = mixed[j, k]
+            scale = 1.0 / max(solid[j, i], 1e-12) if shared_strength else 1.0
+            rr[i] *= scale
+            zz[i] *= scale
+            rz[i] *= scale
+            for m in range(bodies):
+                if hard[m] and vof[m, j, i] >= hard_threshold:
+                    rr[i], zz[i], rz[i] = q[SRR, m, j, i], q[SZZ, m, j, i], q[SRZ, m, j, i]
+        ub, ut, vb, vt = u[0, j], u[0, j + 1], v[0, j], v[0, j + 1]
+        p_j, k_j, qr_j, qz_j = p[j], bulk[j], qr[j], qz[j]
+        h = dz[j]
+        for i in range(lo, hi):
+            div = divergence(i, ub, ut, vb, vt, face_r, az_in, az_out, vol_r, h)
+            pressure = p_j[i] - 0.5 * dt * k_j[i] * div
+            ph_j[i] = pressure
+            tt[i] = -(rr[i] + zz[i]) - pressure - qr_j[i]
+            rr[i] = rr[i] - pressure - qr_j[i]
+            zz[i] = zz[i] - pressure - qz_j[i]
+
+
+@kernel
+def vertex_masses(j0, j1, i0, i1, cm_in, cm_out, reach, cell_mass, mass):
+    """Mass of the dual cells: corner shares of the four cells around a vertex, weighted by radius.
+
+    Reads    cell_mass [j, i]
+    Writes   mass [b, j, i]
+    """
+    for j in prange(j0, j1):
+        lo, hi = union(reach, j - 1, j + 1)
+        lo, hi = max(lo, i0), min(hi + 1, i1)
+        below, above, m_j = cell_mass[j - 1], cell_mass[j], mass[0, j]
+        for i in range(lo, hi):
+            m_j[i] = cm_out[i - 1] * (below[i - 1] + above[i - 1]) + cm_in[i] * (below[i] + above[i])
+
+
+@kernel
+def accelerate(j0, j1, i0, i1, dt, hourglass, speed_limit, light_density, face_r, hoop, az_in, az_out, vol_r, dr, dz, occupied, mass, rhobar, cs2,
+               sig_rr, sig_zz, sig_tt, sig_rz, u0, v0, u, v, limited):
+    """Velocities at the end of the Lagrangian step: u = u0 + dt f/M, f the sum of the corner forces of four cells.
+
+    f_r = -[sig_rr (c_r - A/4) + sig_tt A/4 + sig_rz c_z],  f_z = -[sig_zz c_z + sig_rz g] per corner, and the filter of the
+    hourglass mode (explanation/lagrangian-step, equations 4 and 6). The same corner forces do the work in `deform`. A vertex whose
+    dual cell is filled more thinly than light_density is held to speed_limit.
+
+    Reads    u0, v0, mass [b, j, i]; sig_rr, sig_zz, sig_tt, sig_rz, rhobar, cs2 [j, i]
+    Writes   u, v [b, j, i]; limited [3, j]: momentum and energy taken by the speed limit, and its count
+    """
+    for j in prange(j0, j1):
+        lo, hi = union(occupied, j - 1, j + 1)
+        lo, hi = max(lo, i0), min(hi + 1, i1)
+        hb, ht = dz[j - 1], dz[j]
+        rr_b, rr_t, zz_b, zz_t = sig_rr[j - 1], sig_rr[j], sig_zz[j - 1], sig_zz[j]
+        tt_b, tt_t, rz_b, rz_t = sig_tt[j - 1], sig_tt[j], sig_rz[j - 1], sig_rz[j]
+        rho_b, rho_t, c2_b, c2_t = rhobar[j - 1], rhobar[j], cs2[j - 1], cs2[j]
+        u_b, u_c, u_t = u0[0, j - 1], u0[0, j], u0[0, j + 1]
+        v_b, v_c, v_t = v0[0, j - 1], v0[0, j], v0[0, j + 1]
+        m_j, un, vn = mass[0, j], u[0, j], v[0, j]
+        lost_p, lost_e, count = 0.0, 0.0, 0.0
+        for i in range(lo, hi):
+            k = i - 1
+            half_r = 0.5 * face_r[i]
+            # (cell left below + cell left above) + (cell right below + cell right above): mirror pairs in z
+            normal_r = (half_r - hoop[k]) * (hb * rr_b[k] + ht * rr_t[k]) - (half_r + hoop[i]) * (hb * rr_b[i] + ht * rr_t[i])
+            hoop_r = hoop[k] * (hb * tt_b[k] + ht * tt_t[k]) + hoop[i] * (hb * tt_b[i] + ht * tt_t[i])
+            shear_r = az_out[k] * (rz_b[k] - rz_t[k]) + az_in[i] * (rz_b[i] - rz_t[i])
+            force_r = -(normal_r + hoop_r + shear_r)
+            normal_z = az_out[k] * (zz_b[k] - zz_t[k]) + az_in[i] * (zz_b[i] - zz_t[i])
+            g_k, g_i = 0.5 * vol_r[k] / dr[k], 0.5 * vol_r[i] / dr[i]
+            shear_z = g_k * (hb * rz_b[k] + ht * rz_t[k]) - g_i * (hb * rz_b[i] + ht * rz_t[i])
+            force_z = -(normal_z + shear_z)
+            # hourglass mode of the four cells, + - + - from the inner bottom vertex
+            w_kb = hourglass * rho_b[k] * c2_b[k] ** 0.5 * vol_r[k] * hb / max(dr[k], hb)
+            w_kt = hourglass * rho_t[k] * c2_t[k] ** 0.5 * vol_r[k] * ht / max(dr[k], ht)
+            w_ib = hourglass * rho_b[i] * c2_b[i] ** 0.5 * vol_r[i] * hb / max(dr[i], hb)
+            w_it = hourglass * rho_t[i] * c2_t[i] ** 0.5 * vol_r[i] * ht / max(dr[i], ht)
+            h_kb = (u_b[k] - u_b[i]) + (u_c[i] - u_c[k])
+            h_kt = (u_c[k] - u_c[i]) + (u_t[i] - u_t[k])
+            h_ib = (u_b[i] - u_b[i + 1]) + (u_c[i + 1] - u_c[i])
+            h_it = (u_c[i] - u_c[i + 1]) + (u_t[i + 1] - u_t[i])
+            force_r += 0.25 * ((w_kt * h_kt - w_kb * h_kb) + (w_ib * h_ib - w_it * h_it))
+            h_kb = (v_b[k] - v_b[i]) + (v_c[i] - v_c[k])
+            h_kt = (v_c[k] - v_c[i]) + (v_t[i] - v_t[k])
+            h_ib = (v_b[i] - v_b[i + 1]) + (v_c[i + 1] - v_c[i])
+            h_it = (v_c[i] - v_c[i + 1]) + (v_t[i + 1] - v_t[i])
+            force_z += 0.25 * ((w_kt * h_kt - w_kb * h_kb) + (w_ib * h_ib - w_it * h_it))
+            m = m_j[i]
+            scale = dt / m if m > 0.0 else 0.0
+            a = u_c[i] + scale * force_r
+            b = v_c[i] + scale * force_z
+            a = a if m > 0.0 and abs(a) > SILENCE else 0.0
+            b = b if m > 0.0 and abs(b) > SILENCE else 0.0
+            light = m < light_density * 0.25 * (vol_r[k] + vol_r[i]) * (hb + ht)
+            if light and a * a + b * b > speed_limit * speed_limit:
+                shrink = speed_limit / (a * a + b * b) ** 0.5
+                lost_p += m * b * (1.0 - shrink)
+                lost_e += 0.5 * m * (a * a + b * b) * (1.0 - shrink * shrink)
+                count += 1.0
+                a *= shrink
+                b *= shrink
+            un[i] = a
+            vn[i] = b
+        limited[0, j] = lost_p
+        limited[1, j] = lost_e
+        limited[2, j] = count
+
+
+@kernel
+def swept_volumes(j0, j1, i0, i1, dt, face_r, az_in, az_out, dz, reach, u0, v0, u, v, fr, fz):
+    """Volumes swept by the faces in the step, from the velocity at mid-step (explanation/remap, equation 1).
+
+    F_r = dt r h <u>,  F_z = dt (a v_inner + b v_outer), with the areas of the cell vectors, so that their sum over a cell is
+    its change of volume to the last bit.
+
+    Reads    u0, v0, u, v [b, j, i]
+    Writes   fr, fz [j, i]
+    """
+    for j in prange(j0, j1):
+        lo, hi = union(reach, j - 1, j + 1)
+        lo, hi = max(lo, i0), min(hi, i1)
+        ub, ub0, ut, ut0 = u[0, j], u0[0, j], u[0, j + 1], u0[0, j + 1]
+        vb, vb0 = v[0, j], v0[0, j]
+        fr_j, fz_j = fr[j], fz[j]
+        h = dz[j]
+        for i in range(lo, hi):
+            fr_j[i] = 0.25 * dt * face_r[i] * h * ((ub[i] + ub0[i]) + (ut[i] + ut0[i]))
+            fz_j[i] = 0.5 * dt * (az_in[i] * (vb[i] + vb0[i]) + az_out[i] * (vb[i + 1] + vb0[i + 1]))
+        if lo < hi:
+            fr_j[hi] = 0.25 * dt * face_r[hi] * h * ((ub[hi] + ub0[hi]) + (ut[hi] + ut0[hi]))

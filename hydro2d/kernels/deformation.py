@@ -1,0 +1,114 @@
+"""The rest of the Lagrangian step in pure cells: work, volume, rotation and strain of the deviators, radial return."""
+
+from hydro2d.fields import DMG, EP, RHO, SRR, SRZ, SZZ, E
+from hydro2d.jit import kernel, point, prange
+from strength.dispatch import damage_increment, shear_modulus
+from strength.radial_return import plastic_increment
+
+
+@point
+def velocity_gradient(i, ub, ut, vb, vt, face_r, hoop, az_in, az_out, vol_r, dr, h):
+    """Volume times the velocity gradient of cell i: (D_rr, D_tt, D_zz, du_r/dz, du_z/dr) (lagrangian-step, equation 2)."""
+    outer, inner = ub[i + 1] + ut[i + 1], ub[i] + ut[i]
+    tt = h * hoop[i] * (outer + inner)
+    rr = 0.5 * h * (face_r[i + 1] * outer - face_r[i] * inner) - tt
+    zz = az_in[i] * (vt[i] - vb[i]) + az_out[i] * (vt[i + 1] - vb[i + 1])
+    r_by_z = az_in[i] * (ut[i] - ub[i]) + az_out[i] * (ut[i + 1] - ub[i + 1])
+    z_by_r = 0.5 * vol_r[i] * h / dr[i] * ((vb[i + 1] + vt[i + 1]) - (vb[i] + vt[i]))
+    return rr, tt, zz, r_by_z, z_by_r
+
+
+@point
+def hourglass_mode(i, b, t):
+    """u0 - u1 + u2 - u3 of cell i from the vertex rows below and above it."""
+    return (b[i] - b[i + 1]) + (t[i + 1] - t[i])
+
+
+@point
+def hourglass_weight(i, hourglass, rho, cs2, vol_r, dr, h):
+    """Coefficient of the hourglass filter, kg/s, as `accelerate` uses it."""
+    return 0.25 * hourglass * rho * cs2**0.5 * vol_r[i] * h / max(dr[i], h)
+
+
+@point
+def turn_and_strain(rr, zz, rz, spin, g2, drr, dzz, dtt, drz):
+    """Deviator rotated exactly by the spin and strained by 2 G times the deviatoric strain increment (strength, equation 1).
+
+    spin = W dt, g2 = 2 G, d.. = D dt. The rotation (1 - a^2)/(1 + a^2), 2 a/(1 + a^2), a = spin/2 keeps the second invariant.
+    """
+    a = 0.5 * spin
+    norm = 1.0 / (1.0 + a * a)
+    c, s = (1.0 - a * a) * norm, 2.0 * a * norm
+    mean = (drr + dzz + dtt) / 3.0
+    new_rr = c * c * rr + 2.0 * c * s * rz + s * s * zz + g2 * (drr - mean)
+    new_zz = s * s * rr - 2.0 * c * s * rz + c * c * zz + g2 * (dzz - mean)
+    new_rz = c * s * (zz - rr) + (c * c - s * s) * rz + g2 * drz
+    return new_rr, new_zz, new_rz
+
+
+@point
+def von_mises(rr, zz, rz):
+    """sqrt(3/2 s:s) of a deviator whose hoop component is -(rr + zz)."""
+    return (3.0 * ((rr * rr + zz * zz) + (rr * zz + rz * rz))) ** 0.5
+
+
+@kernel
+def deform(j0, j1, m, dt, hourglass, face_r, hoop, az_in, az_out, vol_r, dr, dz, span, strength_model, strength_par,
+           damage_model, damage_par, factor, u0, v0, u, v, fr, fz, sig_rr, sig_zz, sig_tt, sig_rz, rhobar, cs2, vof, pm, tm,
+           q):
+    """Energy, density, deviator, plastic strain and damage of body m in the cells that it fills, over one Lagrangian step.
+
+    de = V dt sigma : D(u mid-step) / m, the work of the same corner forces that moved the vertices; rho V is constant;
+    the deviators are strained with the velocities at the end of the step (explanation/lagrangian-step, equations 5 and 7).
+
+    Reads    u0, v0, u, v [b, j, i]; fr, fz, sig_.., rhobar, cs2 [j, i]; vof, pm, tm [m, j, i]
+    Updates  q [k, m, j, i]
+    """
+    model, par, dmodel, dpar = strength_model[m], strength_par[m], damage_model[m], damage_par[m]
+    scale = factor[m]
+    for j in prange(j0, j1):
+        ub, ut, vb, vt = u[0, j], u[0, j + 1], v[0, j], v[0, j + 1]
+        ub0, ut0, vb0, vt0 = u0[0, j], u0[0, j + 1], v0[0, j], v0[0, j + 1]
+        fr_j, fz_b, fz_t = fr[j], fz[j], fz[j + 1]
+        rr_j, zz_j, tt_j, rz_j = sig_rr[j], sig_zz[j], sig_tt[j], sig_rz[j]
+        f_j, p_j, t_j = vof[m, j], pm[m, j], tm[m, j]
+        rho_j, e_j, ep_j, d_j = q[RHO, m, j], q[E, m, j], q[EP, m, j], q[DMG, m, j]
+        srr_j, szz_j, srz_j = q[SRR, m, j], q[SZZ, m, j], q[SRZ, m, j]
+        h = dz[j]
+        for i in range(span[m, j, 0], span[m, j, 1]):
+            if f_j[i] != 1.0:
+                continue
+            volume = vol_r[i] * h
+            change = (fr_j[i + 1] - fr_j[i]) + (fz_t[i] - fz_b[i])
+            a_rr, a_tt, a_zz, a_rbz, a_zbr = velocity_gradient(
+                i, ub0, ut0, vb0, vt0, face_r, hoop, az_in, az_out, vol_r, dr, h)
+            rr, tt, zz, rbz, zbr = velocity_gradient(i, ub, ut, vb, vt, face_r, hoop, az_in, az_out, vol_r, dr, h)
+            w = hourglass_weight(i, hourglass, rhobar[j, i], cs2[j, i], vol_r, dr, h)
+            h_u0, h_v0 = hourglass_mode(i, ub0, ut0), hourglass_mode(i, vb0, vt0)
+            h_u, h_v = hourglass_mode(i, ub, ut), hourglass_mode(i, vb, vt)
+            work = 0.5 * dt * (
+                (rr_j[i] * (a_rr + rr) + tt_j[i] * (a_tt + tt))
+                + (zz_j[i] * (a_zz + zz) + rz_j[i] * ((a_rbz + rbz) + (a_zbr + zbr)))
+                + w * (h_u0 * (h_u0 + h_u) + h_v0 * (h_v0 + h_v)))
+            rho = rho_j[i]
+            e_j[i] += work / (rho * volume)
+            rho_j[i] = rho * (volume / (volume + change))
+            if model == 0:
+                continue
+            rate = 1.0 / volume
+            drr, dzz, dtt, drz = rr * rate, zz * rate, tt * rate, 0.5 * (rbz + zbr) * rate
+            shear = shear_modulus(model, p_j[i], rho, t_j[i], par)
+            srr, szz, srz = turn_and_strain(srr_j[i], szz_j[i], srz_j[i], 0.5 * (rbz - zbr) * rate * dt, 2.0 * shear,
+                                            drr * dt, dzz * dt, dtt * dt, drz * dt)
+            trial = von_mises(srr, szz, srz)
+            if trial > 0.0:
+                dep, yield_stress = plastic_increment(model, trial, ep_j[i], dt, t_j[i], p_j[i], rho, shear, scale, par)
+                if dep > 0.0:
+                    shrink = yield_stress / trial
+                    srr, szz, srz = srr * shrink, szz * shrink, srz * shrink
+                    ep_j[i] += dep
+                    d_j[i] += damage_increment(dmodel, dep, dep / dt, t_j[i], p_j[i], yield_stress, dpar)
+                if d_j[i] >= 1.0:
+                    d_j[i] = 1.0
+                    srr, szz, srz = 0.0, 0.0, 0.0
+            srr_j[i], szz_j[i], srz_j[i] = srr, szz, srz

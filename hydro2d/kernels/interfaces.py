@@ -1,0 +1,198 @@
+"""Piecewise-linear interfaces: Youngs' normal, the constant of the line, and the share of a donor strip.
+
+All in the unit square of a cell with axes s = r^2/2 and z, in which areas are volumes of revolution, so that the planar
+formulas are exact (explanation/interfaces). More than two materials are nested: the interface of the first k bodies of the
+stated order bounds their cumulative fraction, void comes last.
+"""
+
+from hydro2d.jit import kernel, point, prange
+
+
+@point
+def line_constant(m1, m2, fraction):
+    """alpha such that m1 x + m2 y <= alpha fills `fraction` of the unit square; m1, m2 >= 0 and m1 + m2 = 1.
+
+    Scardovelli & Zaleski, J. Comput. Phys. 164 (2000) 228, in two dimensions.
+    """
+    small, large = min(m1, m2), max(m1, m2)
+    f = min(fraction, 1.0 - fraction)
+    if f * 2.0 * large < small:
+        alpha = (2.0 * small * large * f) ** 0.5
+    else:
+        alpha = f * large + 0.5 * small
+    return alpha if fraction <= 0.5 else 1.0 - alpha
+
+
+@point
+def area_below(m1, m2, alpha):
+    """Share of the unit square with m1 x + m2 y <= alpha; m1, m2 >= 0, not both 0."""
+    small, large = min(m1, m2), max(m1, m2)
+    if small < 1e-7 * large:
+        return min(max((alpha - 0.5 * small) / large, 0.0), 1.0)
+    a = min(max(alpha, 0.0), small + large)
+    b, c = max(a - small, 0.0), max(a - large, 0.0)
+    return (a * a - b * b - c * c) / (2.0 * small * large)
+
+
+@point
+def strip_share(nx, ny, fraction, width, high):
+    """Material in the strip of given width at the low or high x side of the unit square, as a share of the square.
+
+    (nx, ny) is the outward normal of the material, |nx| + |ny| = 1; fraction its share of the square.
+    """
+    if fraction <= 0.0:
+        return 0.0
+    if fraction >= 1.0:
+        return width
+    m1, m2 = abs(nx), abs(ny)
+    alpha = line_constant(m1, m2, fraction)
+    if high == (nx > 0.0):  # the strip lies where the material ends, once x is turned along the normal
+        alpha -= m1 * (1.0 - width)
+    return width * area_below(m1 * width, m2, alpha)
+
+
+@point
+def cumulative(j, i, last, order, vof):
+    """Fraction of a cell filled by the first bodies of the order, up to and with position `last`."""
+    total = 0.0
+    for k in range(last + 1):
+        total += vof[order[k], j, i]
+    return min(total, 1.0)
+
+
+@point
+def youngs_normal(j, i, last, order, vof, dr, dz):
+    """Outward normal of the nested interface in the unit square, |n_r| + |n_z| = 1: minus Youngs' gradient over 3 x 3 cells.
+
+    D. L. Youngs in Numerical Methods for Fluid Dynamics (1982) 273; sums in mirror pairs.
+    """
+    sw, s, se = cumulative(j - 1, i - 1, last, order, vof), cumulative(j - 1, i, last, order, vof), cumulative(
+        j - 1, i + 1, last, order, vof)
+    w, e = cumulative(j, i - 1, last, order, vof), cumulative(j, i + 1, last, order, vof)
+    nw, n, ne = cumulative(j + 1, i - 1, last, order, vof), cumulative(j + 1, i, last, order, vof), cumulative(
+        j + 1, i + 1, last, order, vof)
+    along_r = ((nw + sw) + 2.0 * w) - ((ne + se) + 2.0 * e)
+    along_z = ((sw + se) + 2.0 * s) - ((nw + ne) + 2.0 * n)
+    along_r *= dr[i] / (dr[i] + 0.5 * (dr[i - 1] + dr[i + 1]))
+    along_z *= dz[j] / (dz[j] + 0.5 * (dz[j - 1] + dz[j + 1]))
+    size = abs(along_r) + abs(along_z)
+    if size < 1e-14:
+        return 0.5, 0.5
+    return along_r / size, along_z / size
+
+
+@kernel
+def sweep_volumes(dj, di, j0, j1, i0, i1, first, volume, reach, fr, fz, pre):
+    """Volume of cells before a sweep: V + dF_r + dF_z for the first sweep, V + dF of its own direction for the second.
+
+    Reads    volume [j, i], fr, fz [j, i]
+    Writes   pre [j, i]
+    """
+    for j in prange(j0, j1):
+        for i in range(reach[j, 0], reach[j, 1]):
+            along_r = fr[j, i + 1] - fr[j, i]
+            along_z = fz[j + 1, i] - fz[j, i]
+            if first:
+                pre[j, i] = volume[j, i] + (along_r + along_z)
+            else:
+                pre[j, i] = volume[j, i] + (dj * along_z + di * along_r)
+
+
+@point
+def face_range(dj, m, j, span):
+    """Faces of row j at which body m can flow: one beyond its columns, over the rows that a sweep couples."""
+    lo, hi = 1 << 30, 0
+    for row in range(max(j - 2 * dj, 0), min(j + dj + 1, span.shape[1])):
+        lo = min(lo, span[m, row, 0])
+        hi = max(hi, span[m, row, 1])
+    return lo - 1, hi + 2
+
+
+@kernel
+def donor_volumes(dj, di, j0, j1, i0, i1, open_faces, span, f_face, vof, flux_volume):
+    """Volume of each body through each face, taken as if the donor cell were filled evenly: right where it is pure.
+
+    Nothing but void flows in through the faces of the mesh's edge.
+
+    Reads    f_face (fr or fz) [j, i], vof [m, j, i], open_faces (j0, j1, i0, i1 of the mesh)
+    Writes   flux_volume [m, j, i]
+    """
+    bodies = vof.shape[0]
+    for j in prange(j0, j1 + dj):
+        for m in range(bodies):
+            lo, hi = face_range(dj, m, j, span)
+            if lo >= hi:
+                continue
+            lo, hi = max(lo, i0), min(hi, i1 + di)
+            swept, out, here, before = f_face[j], flux_volume[m, j], vof[m, j], vof[m, j - dj]
+            for i in range(lo, hi):
+                donor = before[i - di] if swept[i] > 0.0 else here[i]
+                out[i] = swept[i] * donor
+            if dj == 1:
+                for i in range(lo, hi):
+                    if (j == open_faces[0] and swept[i] > 0.0) or (j == open_faces[1] and swept[i] < 0.0):
+                        out[i] = 0.0
+            else:
+                if lo <= open_faces[2] < hi and swept[open_faces[2]] > 0.0:
+                    out[open_faces[2]] = 0.0
+                if lo <= open_faces[3] < hi and swept[open_faces[3]] < 0.0:
+                    out[open_faces[3]] = 0.0
+
+
+@kernel
+def interface_volumes(dj, di, j0, j1, dr, dz, order, mixed_count, mixed, f_face, pre, vof, flux_volume, strips):
+    """Volume of each body out of each mixed cell, from the nested linear interfaces.
+
+    The cumulative volumes of a strip are kept monotone, each body gives no more than it has, and what two opposite strips
+    ask together beyond that is passed on to the next body.
+
+    Reads    mixed [j, k], order [k], f_face, pre [j, i], vof [m, j, i]
+    Updates  flux_volume [m, j, i] at the faces through which mixed cells lose volume
+    Scratch  strips [j, 8, m]
+    """
+    bodies = order.shape[0]
+    for j in prange(j0, j1):
+        left, right, middle = strips[j, 0], strips[j, 1], strips[j, 2]
+        for k in range(mixed_count[j]):
+            i = mixed[j, k]
+            out_low = max(-f_face[j, i], 0.0)
+            out_high = max(f_face[j + dj, i + di], 0.0)
+            if out_low == 0.0 and out_high == 0.0:
+                continue
+            size = pre[j, i]
+            w_low, w_high = out_low / size, out_high / size
+            below_low, below_high, total = 0.0, 0.0, 0.0
+            for n in range(bodies):
+                f = vof[order[n], j, i]
+                before = total
+                total = min(total + f, 1.0)
+                if f == 0.0:
+                    left[n] = 0.0
+                    right[n] = 0.0
+                    continue
+                n_r, n_z = youngs_normal(j, i, n, order, vof, dr, dz)
+                if dj == 1:
+                    n_r, n_z = n_z, n_r
+                low = strip_share(n_r, n_z, total, w_low, False) if w_low > 0.0 else 0.0
+                high = strip_share(n_r, n_z, total, w_high, True) if w_high > 0.0 else 0.0
+                low = min(max(low, max(below_low, w_low - (1.0 - total))), min(below_low + f, w_low))
+                high = min(max(high, max(below_high, w_high - (1.0 - total))), min(below_high + f, w_high))
+                left[n] = low - below_low
+                right[n] = high - below_high
+                below_low = low
+                below_high = high
+                middle[n] = total - before
+            # two strips together may not take more of a body than there is; the excess moves on to the next body
+            if w_low > 0.0 and w_high > 0.0:
+                excess = 0.0
+                for n in range(bodies):
+                    f = vof[order[n], j, i]
+                    right[n] += excess
+                    kept = min(right[n], max(f - left[n], 0.0))
+                    excess = right[n] - kept
+                    right[n] = kept
+            for n in range(bodies):
+                if w_low > 0.0:
+                    flux_volume[order[n], j, i] = -left[n] * size
+                if w_high > 0.0:
+                    flux_volume[order[n], j + dj, i + di] = right[n] * size

@@ -1,0 +1,236 @@
+"""Cells in which bodies meet each other or void: tearing, closure of pressure and volume, shared strength."""
+
+from eos.dispatch import evaluate, zero_pressure_density
+from hydro2d.fields import DMG, EP, RHO, SRR, SRZ, SZZ, E
+from hydro2d.jit import kernel, point, prange
+from hydro2d.kernels.deformation import (
+    hourglass_mode,
+    hourglass_weight,
+    turn_and_strain,
+    velocity_gradient,
+    von_mises,
+)
+from strength.dispatch import damage_increment, flow_stress, shear_modulus
+from strength.radial_return import plastic_increment
+
+#: mixed-cell strength by name, in the order of the integer that the kernels take
+STRENGTH_MODES = ("volume", "solid", "zero", "max", "material")
+VOLUME, SOLID, ZERO, MAX, MATERIAL = range(5)
+#: mixed-cell closure by name
+CLOSURES = ("uniform", "tipton")
+#: tensile threshold of a mixed cell by name
+TENSIONS = ("mean", "min")
+
+NO_VOID = 1e-12
+
+
+@kernel
+def tear_mixed(j0, j1, smallest, max_opening, vol_r, dz, mixed_count, mixed, eos_model, eos_par, fracture_pressure, vof, q, pm,
+               km, p, solid, bulk, opened):
+    """Opens void in mixed cells whose pressure falls below their fracture pressure, and frees them of stress.
+
+    The threshold is the mean of the bodies' by volume fraction, or the smallest (explanation/fracture).
+
+    Reads    mixed [j, k], fracture_pressure [m]
+    Updates  vof, pm [m, j, i]; q (rho, deviators); p, solid, bulk [j, i]; opened [j]
+    """
+    bodies = vof.shape[0]
+    for j in prange(j0, j1):
+        for k in range(mixed_count[j]):
+            i = mixed[j, k]
+            mean, least = 0.0, 1e300
+            for m in range(bodies):
+                f = vof[m, j, i]
+                if f > 0.0:
+                    limit = fracture_pressure[m] if q[DMG, m, j, i] < 1.0 else 0.0
+                    mean += f * limit
+                    least = min(least, limit)
+            threshold = least * solid[j, i] if smallest else mean
+            if not p[j, i] < -threshold:
+                continue
+            total, pressure = 0.0, 0.0
+            for m in range(bodies):
+                f = vof[m, j, i]
+                if f == 0.0:
+                    continue
+                if pm[m, j, i] < 0.0:
+                    rho, e = q[RHO, m, j, i], q[E, m, j, i]
+                    target = max(zero_pressure_density(eos_model[m], rho, e, eos_par[m]), rho)
+                    share = max(rho / target, 1.0 - max_opening)
+                    opened[j] += f * (1.0 - share) * vol_r[i] * dz[j]
+                    f *= share
+                    vof[m, j, i] = f
+                    q[RHO, m, j, i] = rho / share
+                    pm[m, j, i] = evaluate(eos_model[m], rho / share, e, eos_par[m])[0]
+                q[SRR, m, j, i] = 0.0
+                q[SZZ, m, j, i] = 0.0
+                q[SRZ, m, j, i] = 0.0
+                total += f
+                pressure += f * pm[m, j, i]
+            p[j, i] = pressure
+            solid[j, i] = total
+            if total < 1.0 - NO_VOID:
+                bulk[j, i] = 0.0
+
+
+@point
+def split_volume(void, change, volume):
+    """Volume change of void and of the bodies: void takes all of it, and in compression only as much as there is."""
+    if void <= NO_VOID:
+        return 0.0, change
+    taken = max(change, -void * volume)
+    return taken, change - taken
+
+
+@kernel
+def deform_mixed(j0, j1, dt, hourglass, relaxation, tipton, mode, hard, hard_threshold, face_r, hoop, az_in, az_out, vol_r, dr,
+                 dz, mixed_count, mixed, strength_model, strength_par, damage_model, damage_par, factor, u0, v0, u, v, fr, fz,
+                 ph, qr, qz, rhobar, cs2, solid, pm, km, tm, vof, q, mix):
+    """The Lagrangian step of the bodies in mixed cells.
+
+    Volume: void first, then by compressibility, w_m = R_m/Rbar with R_m = f_m/K_m, then relaxation of the pressures,
+    df_m = gamma R_m (p_m - pbar), with pbar = sum R_m p_m/Rbar, or 0 where void is left (explanation/mixed-cells).
+    Energy: pressure work by w_m, viscous and hourglass work by volume fraction, deviatoric work by what each body's stress
+    did; in the hard zone the hard body's plastic heat is shared by f_m/Y_m, as in layers under one stress.
+    Strength: by mode, see STRENGTH_MODES.
+
+    Reads    velocities, swept volumes, stresses as `deform`; ph, qr, qz, solid [j, i]; hard, factor [m]
+    Updates  vof [m, j, i] (share of the volume after the step), q [k, m, j, i]
+    Scratch  mix [j, 8, m]
+    """
+    bodies = vof.shape[0]
+    for j in prange(j0, j1):
+        ub, ut, vb, vt = u[0, j], u[0, j + 1], v[0, j], v[0, j + 1]
+        ub0, ut0, vb0, vt0 = u0[0, j], u0[0, j + 1], v0[0, j], v0[0, j + 1]
+        h = dz[j]
+        weight, share, yields, heat, s_rr, s_zz, s_rz, modulus = mix[j]
+        for k in range(mixed_count[j]):
+            i = mixed[j, k]
+            volume = vol_r[i] * h
+            change = (fr[j, i + 1] - fr[j, i]) + (fz[j + 1, i] - fz[j, i])
+            a_rr, a_tt, a_zz, a_rbz, a_zbr = velocity_gradient(
+                i, ub0, ut0, vb0, vt0, face_r, hoop, az_in, az_out, vol_r, dr, h)
+            rr, tt, zz, rbz, zbr = velocity_gradient(i, ub, ut, vb, vt, face_r, hoop, az_in, az_out, vol_r, dr, h)
+            m_rr, m_tt, m_zz = 0.5 * (a_rr + rr), 0.5 * (a_tt + tt), 0.5 * (a_zz + zz)
+            m_rz = 0.5 * ((a_rbz + rbz) + (a_zbr + zbr))
+            w = hourglass_weight(i, hourglass, rhobar[j, i], cs2[j, i], vol_r, dr, h)
+            h_u0, h_v0 = hourglass_mode(i, ub0, ut0), hourglass_mode(i, vb0, vt0)
+            h_u, h_v = hourglass_mode(i, ub, ut), hourglass_mode(i, vb, vt)
+            work_q = 0.5 * dt * w * (h_u0 * (h_u0 + h_u) + h_v0 * (h_v0 + h_v))
+            work_q -= dt * (qr[j, i] * (m_rr + m_tt) + qz[j, i] * m_zz)
+            work_p = -ph[j, i] * dt * ((m_rr + m_tt) + m_zz)
+
+            # which body's strength rules the cell, and what each body's stress did in the step
+            total = solid[j, i]
+            ruler = -1
+            for m in range(bodies):
+                if hard[m] and vof[m, j, i] >= hard_threshold:
+                    ruler = m
+            compliance, mean_p, softness = 0.0, 0.0, 0.0
+            for m in range(bodies):
+                f = vof[m, j, i]
+                weight[m] = f / km[m, j, i] if f > 0.0 else 0.0
+                if not tipton:
+                    weight[m] = f
+                compliance += weight[m]
+                mean_p += weight[m] * pm[m, j, i]
+                heat[m] = 0.0
+            inverse = 1.0 / compliance
+            mean_p *= inverse
+            for m in range(bodies):
+                f = vof[m, j, i]
+                if f == 0.0:
+                    continue
+                part = 1.0 if m == ruler else 0.0
+                if ruler < 0:
+                    part = f if mode == MATERIAL else f / max(total, NO_VOID)
+                a, b, c = q[SRR, m, j, i], q[SZZ, m, j, i], q[SRZ, m, j, i]
+                heat[m] = part * dt * ((a * m_rr - (a + b) * m_tt) + (b * m_zz + c * m_rz))
+
+            # the new deviators, and the plastic heat of the hard zone
+            rate = 1.0 / volume
+            strain_r, strain_z, strain_t = rr * rate * dt, zz * rate * dt, tt * rate * dt
+            strain_s, spin = 0.5 * (rbz + zbr) * rate * dt, 0.5 * (rbz - zbr) * rate * dt
+            shared_yield, largest_yield = 0.0, 0.0
+            for m in range(bodies):
+                f = vof[m, j, i]
+                yields[m] = 0.0
+                if f == 0.0 or strength_model[m] == 0:
+                    continue
+                par = strength_par[m]
+                rho, p_m, t_m = q[RHO, m, j, i], pm[m, j, i], tm[m, j, i]
+                modulus[m] = shear_modulus(strength_model[m], p_m, rho, t_m, par)
+                s_rr[m], s_zz[m], s_rz[m] = turn_and_strain(q[SRR, m, j, i], q[SZZ, m, j, i], q[SRZ, m, j, i], spin,
+                                                            2.0 * modulus[m], strain_r, strain_z, strain_t, strain_s)
+                yields[m] = factor[m] * flow_stress(strength_model[m], q[EP, m, j, i], 0.0, t_m, p_m, rho, par)
+                if q[DMG, m, j, i] >= 1.0:
+                    yields[m] = 0.0
+                shared_yield += f * yields[m]
+                largest_yield = max(largest_yield, yields[m])
+            if mode == SOLID:
+                shared_yield /= max(total, NO_VOID)
+            elif mode == ZERO:
+                shared_yield = 0.0
+            elif mode == MAX:
+                shared_yield = largest_yield
+            own = mode == MATERIAL or ruler >= 0
+            for m in range(bodies):
+                f = vof[m, j, i]
+                if f == 0.0 or strength_model[m] == 0:
+                    continue
+                trial = von_mises(s_rr[m], s_zz[m], s_rz[m])
+                dep, final = 0.0, trial
+                rho, p_m, t_m = q[RHO, m, j, i], pm[m, j, i], tm[m, j, i]
+                if own:
+                    dep, final = plastic_increment(strength_model[m], trial, q[EP, m, j, i], dt, t_m, p_m, rho, modulus[m],
+                                                   factor[m], strength_par[m])
+                elif trial > shared_yield:
+                    final = shared_yield
+                    dep = (trial - final) / (3.0 * modulus[m]) if modulus[m] > 0.0 else 0.0
+                shrink = 1.0
+                if dep > 0.0:
+                    shrink = final / trial
+                    q[EP, m, j, i] += dep
+                    q[DMG, m, j, i] += damage_increment(damage_model[m], dep, dep / dt, t_m, p_m, final, damage_par[m])
+                if q[DMG, m, j, i] >= 1.0:
+                    q[DMG, m, j, i] = 1.0
+                    shrink = 0.0
+                q[SRR, m, j, i] = shrink * s_rr[m]
+                q[SZZ, m, j, i] = shrink * s_zz[m]
+                q[SRZ, m, j, i] = shrink * s_rz[m]
+                if m == ruler and dep > 0.0:
+                    plastic = dep * final * volume
+                    for n in range(bodies):
+                        share[n] = vof[n, j, i] / max(yields[n], 1e-3 * yields[m])
+                        softness += share[n]
+                    for n in range(bodies):
+                        heat[n] += plastic * share[n] / softness
+                    heat[m] -= plastic
+
+            # volumes: void first, then by compressibility, then relaxation
+            void = max(1.0 - total, 0.0)
+            taken, rest = split_volume(void, change, volume)
+            void_left = void * volume + taken
+            void_stays = void_left > NO_VOID * volume
+            target = 0.0 if void_stays else mean_p
+            bound, growth = 1.0, 0.0
+            for m in range(bodies):
+                if vof[m, j, i] > 0.0 and tipton:
+                    shift = relaxation * (pm[m, j, i] - target) / km[m, j, i]
+                    growth += vof[m, j, i] * shift
+                    bound = min(bound, 0.1 / max(abs(shift), 0.1))
+            if void_stays and growth * volume * bound > void_left:
+                bound = void_left / (growth * volume)
+            after = volume + change
+            for m in range(bodies):
+                f = vof[m, j, i]
+                if f == 0.0:
+                    continue
+                mass = q[RHO, m, j, i] * f * volume
+                shift = bound * f * relaxation * (pm[m, j, i] - target) / km[m, j, i] * volume if tipton else 0.0
+                filled = f * volume + weight[m] * inverse * rest + shift
+                filled = max(filled, 0.5 * f * volume)
+                q[RHO, m, j, i] = mass / filled if filled != f * volume else q[RHO, m, j, i]
+                vof[m, j, i] = filled / after if filled != f * volume or change != 0.0 else f
+                gained = weight[m] * inverse * work_p + f / total * work_q + heat[m]
+                q[E, m, j, i] += (gained - target * shift) / mass

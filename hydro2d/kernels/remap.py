@@ -1,0 +1,210 @@
+"""The remap of body fields: fluxes through faces, update of cells, and the tidying of what is left over.
+
+One body of code serves both directions by the offsets (dj, di): (0, 1) along r, (1, 0) along z.
+"""
+
+from hydro2d.fields import BODY_FIELDS, CARRIED_SOLID, DMG, EP, RHO, E
+from hydro2d.jit import kernel, point, prange
+from hydro2d.kernels.interfaces import face_range
+from hydro2d.kernels.spans import union
+
+
+@point
+def limited_difference(upwind, donor, downwind):
+    """Monotonized central difference of three neighbours (van Leer, J. Comput. Phys. 23 (1977) 276)."""
+    a, b = donor - upwind, downwind - donor
+    size = min(min(2.0 * abs(a), 2.0 * abs(b)), 0.5 * abs(a + b))
+    return size if a > 0.0 and b > 0.0 else (-size if a < 0.0 and b < 0.0 else 0.0)
+
+
+@kernel
+def clear_mass_flux(dj, j0, j1, i0, i1, reach, flux_mass):
+    """Sets the total mass flux to zero wherever the dual fluxes of this sweep will read it."""
+    for j in prange(j0 - 1, j1 + 2):
+        lo, hi = union(reach, j - 3, j + 3)
+        for i in range(max(lo - 2, i0 - 2), min(hi + 3, i1 + 3)):
+            flux_mass[j, i] = 0.0
+
+
+@kernel
+def body_fluxes(dj, di, j0, j1, i0, i1, m, carried, span, f_face, pre, flux_volume, vof, q, flux, flux_mass):
+    """Fluxes of mass, energy, deviators, plastic strain and damage of body m through the faces.
+
+    Second order, monotone, in cells whose neighbours are full of the same body; the donor's own value in and next to mixed
+    cells. Specific quantities in the mass coordinate, deviators in the volume coordinate (explanation/remap, equation 4).
+
+    Reads    f_face, pre [j, i]; flux_volume, vof [m, j, i]; q [k, m, j, i]
+    Writes   flux [k, j, i];  updates flux_mass [j, i], the sum over bodies
+    """
+    for j in prange(j0, j1 + dj):
+        lo, hi = face_range(dj, m, j, span)
+        if lo >= hi:
+            continue
+        lo, hi = max(lo, i0), min(hi, i1 + di)
+        n = hi - lo
+        if n <= 0:
+            continue
+        swept = flux_volume[m, j, lo:hi]
+        f_ll, f_l = vof[m, j - 2 * dj, lo - 2 * di:hi - 2 * di], vof[m, j - dj, lo - di:hi - di]
+        f_r, f_rr = vof[m, j, lo:hi], vof[m, j + dj, lo + di:hi + di]
+        pre_l, pre_r = pre[j - dj, lo - di:hi - di], pre[j, lo:hi]
+        r_ll, r_l = q[RHO, m, j - 2 * dj, lo - 2 * di:hi - 2 * di], q[RHO, m, j - dj, lo - di:hi - di]
+        r_r, r_rr = q[RHO, m, j, lo:hi], q[RHO, m, j + dj, lo + di:hi + di]
+        mass, total = flux[RHO, j, lo:hi], flux_mass[j, lo:hi]
+        for x in range(n):
+            up = swept[x] > 0.0
+            clean = f_l[x] == 1.0 and f_r[x] == 1.0 and (f_ll[x] == 1.0 if up else f_rr[x] == 1.0)
+            donor = r_l[x] if up else r_r[x]
+            slope = limited_difference(r_ll[x] if up else r_rr[x], donor, r_r[x] if up else r_l[x])
+            courant = abs(swept[x]) / (pre_l[x] if up else pre_r[x])
+            mass[x] = swept[x] * (donor + (0.5 * (1.0 - courant) * slope if clean else 0.0))
+            total[x] += mass[x]
+        for k in range(1, carried):
+            a_ll, a_l = q[k, m, j - 2 * dj, lo - 2 * di:hi - 2 * di], q[k, m, j - dj, lo - di:hi - di]
+            a_r, a_rr = q[k, m, j, lo:hi], q[k, m, j + dj, lo + di:hi + di]
+            out = flux[k, j, lo:hi]
+            by_mass = k == E or k >= EP
+            for x in range(n):
+                up = swept[x] > 0.0
+                clean = f_l[x] == 1.0 and f_r[x] == 1.0 and (f_ll[x] == 1.0 if up else f_rr[x] == 1.0)
+                donor = a_l[x] if up else a_r[x]
+                slope = limited_difference(a_ll[x] if up else a_rr[x], donor, a_r[x] if up else a_l[x])
+                whole = (pre_l[x] if up else pre_r[x]) * ((r_l[x] if up else r_r[x]) if by_mass else 1.0)
+                carrier = mass[x] if by_mass else swept[x]
+                courant = abs(carrier) / whole if clean else 0.0
+                out[x] = carrier * (donor + (0.5 * (1.0 - courant) * slope if clean else 0.0))
+
+
+@kernel
+def body_update(dj, di, j0, j1, i0, i1, m, carried, span, f_face, pre, flux_volume, flux, vof, q):
+    """Body m after the sweep: volume, mass and what it carries, from the fluxes. A cell without flux keeps its bits.
+
+    Reads    f_face, pre [j, i]; flux_volume [m, j, i]; flux [k, j, i]
+    Updates  vof [m, j, i] (share of the volume after the sweep), q [k, m, j, i]
+    """
+    for j in prange(j0, j1):
+        lo, hi = 1 << 30, 0
+        for row in range(max(j - dj, 0), min(j + dj + 1, span.shape[1])):
+            lo = min(lo, span[m, row, 0])
+            hi = max(hi, span[m, row, 1])
+        if lo >= hi:
+            continue
+        lo, hi = max(lo - di, i0), min(hi + di, i1)
+        n = hi - lo
+        if n <= 0:
+            continue
+        v_in, v_out = flux_volume[m, j, lo:hi], flux_volume[m, j + dj, lo + di:hi + di]
+        s_in, s_out = f_face[j, lo:hi], f_face[j + dj, lo + di:hi + di]
+        m_in, m_out = flux[RHO, j, lo:hi], flux[RHO, j + dj, lo + di:hi + di]
+        f_j, r_j, pre_j = vof[m, j, lo:hi], q[RHO, m, j, lo:hi], pre[j, lo:hi]
+        for k in range(1, carried):
+            a_j, a_in, a_out = q[k, m, j, lo:hi], flux[k, j, lo:hi], flux[k, j + dj, lo + di:hi + di]
+            by_mass = k == E or k >= EP
+            for x in range(n):
+                old = f_j[x] * pre_j[x]
+                new = old + (v_in[x] - v_out[x])
+                old = old * r_j[x] if by_mass else old
+                new = old + (m_in[x] - m_out[x]) if by_mass else new
+                same = v_in[x] == 0.0 and v_out[x] == 0.0
+                value = (a_j[x] * old + (a_in[x] - a_out[x])) / new if new > 0.0 else 0.0
+                a_j[x] = a_j[x] if same else value
+        for x in range(n):
+            old = f_j[x] * pre_j[x]
+            new = old + (v_in[x] - v_out[x])
+            post = pre_j[x] - (s_out[x] - s_in[x])
+            same = v_in[x] == 0.0 and v_out[x] == 0.0 and s_in[x] == 0.0 and s_out[x] == 0.0
+            density = (r_j[x] * old + (m_in[x] - m_out[x])) / new if new > 0.0 else 0.0
+            r_j[x] = r_j[x] if same else density
+            f_j[x] = f_j[x] if same else max(new / post, 0.0)
+
+
+@kernel
+def sum_cell_mass(j0, j1, reach, pre, dj, di, fr, fz, second, volume, vof, q, cell_mass):
+    """Mass of every cell in the volume that it has after the sweep.
+
+    Reads    pre, fr, fz, volume [j, i]; vof [m, j, i]; q [k, m, j, i]
+    Writes   cell_mass [j, i]
+    """
+    bodies = vof.shape[0]
+    for j in prange(j0, j1):
+        for i in range(reach[j, 0], reach[j, 1]):
+            swept = dj * (fz[j + 1, i] - fz[j, i]) + di * (fr[j, i + 1] - fr[j, i])
+            post = volume[j, i] if second else pre[j, i] - swept
+            total = 0.0
+            for m in range(bodies):
+                total += vof[m, j, i] * q[RHO, m, j, i]
+            cell_mass[j, i] = total * post
+
+
+@kernel
+def tidy(j0, j1, trace, cm_in, cm_out, volume, reach, pre, dj, di, fr, fz, second, u, v, vof, q, cell_mass, booked):
+    """Removes traces of bodies and of void, makes fractions that should be 1 exactly 1, and books what was removed.
+
+    A body below the trace fraction is removed with its mass, internal energy, momentum and kinetic energy; void below it is
+    closed by scaling the bodies' volumes at constant mass. A negative density or volume counts as a trace.
+
+    Reads    u, v [b, j, i]
+    Updates  vof [m, j, i], q [k, m, j, i], cell_mass [j, i]
+    Writes   booked [4 + m, j]: internal energy, kinetic energy, axial momentum, volume closed; then mass of each body
+    """
+    bodies = vof.shape[0]
+    for j in prange(j0, j1):
+        for row in range(4 + bodies):
+            booked[row, j] = 0.0
+        for i in range(reach[j, 0], reach[j, 1]):
+            total, largest = 0.0, 0.0
+            for m in range(bodies):
+                total += vof[m, j, i]
+                largest = max(largest, vof[m, j, i])
+            if total == 0.0 or (total == 1.0 and largest == 1.0):
+                continue
+            post = volume[j, i]
+            if not second:
+                post = pre[j, i] - (dj * (fz[j + 1, i] - fz[j, i]) + di * (fr[j, i + 1] - fr[j, i]))
+            total = 0.0
+            for m in range(bodies):
+                f, rho = vof[m, j, i], q[RHO, m, j, i]
+                if f > 0.0 and (f < trace or not rho > 0.0):
+                    mass = f * rho * post
+                    inner, outer = cm_in[i] * mass, cm_out[i] * mass
+                    v_in, v_out = v[0, j, i] + v[0, j + 1, i], v[0, j, i + 1] + v[0, j + 1, i + 1]
+                    k_in = (v[0, j, i] ** 2 + v[0, j + 1, i] ** 2) + (u[0, j, i] ** 2 + u[0, j + 1, i] ** 2)
+                    k_out = (v[0, j, i + 1] ** 2 + v[0, j + 1, i + 1] ** 2) + (u[0, j, i + 1] ** 2 + u[0, j + 1, i + 1] ** 2)
+                    booked[0, j] += mass * q[E, m, j, i]
+                    booked[1, j] += 0.5 * (inner * k_in + outer * k_out)
+                    booked[2, j] += inner * v_in + outer * v_out
+                    booked[4 + m, j] += mass
+                    f = 0.0
+                    vof[m, j, i] = 0.0
+                if f == 0.0:
+                    for k in range(BODY_FIELDS):
+                        q[k, m, j, i] = 0.0
+                total += f
+            if total > 1.0 - trace and total != 1.0:
+                booked[3, j] += max(1.0 - total, 0.0) * post
+                scale = 1.0 / total
+                for m in range(bodies):
+                    if vof[m, j, i] > 0.0:
+                        f = vof[m, j, i] * scale
+                        f = 1.0 if f > 1.0 - trace else f
+                        q[RHO, m, j, i] *= vof[m, j, i] / f
+                        vof[m, j, i] = f
+            mass = 0.0
+            for m in range(bodies):
+                mass += vof[m, j, i] * q[RHO, m, j, i]
+            cell_mass[j, i] = mass * post
+
+
+@kernel
+def bound_history(j0, j1, m, span, carried, q):
+    """After the remap plastic strain is not negative and damage lies between 0 and 1.
+
+    Updates  q [k, m, j, i]
+    """
+    for j in prange(j0, j1):
+        if carried < CARRIED_SOLID:
+            continue
+        ep, damage = q[EP, m, j], q[DMG, m, j]
+        for i in range(span[m, j, 0], span[m, j, 1]):
+            ep[i] = max(ep[i], 0.0)
+            damage[i] = min(max(damage[i], 0.0), 1.0)

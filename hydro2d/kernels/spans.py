@@ -1,0 +1,110 @@
+"""Where the bodies are: the columns that each fills in a row, the cells that are mixed, and the region that is active.
+
+A range (lo, hi) means lo <= i < hi; an empty range is (2**30, 0), so that the union of ranges is a min and a max. Every
+other kernel loops over these ranges: a row of void costs nothing, and a pure cell pays for the one body in it.
+"""
+
+from hydro2d.jit import kernel, point, prange
+
+NOTHING = 1 << 30
+
+
+@point
+def union(ranges, j0, j1):
+    """Smallest range that holds ranges[j0:j1], rows outside the array left out."""
+    lo, hi = NOTHING, 0
+    for j in range(max(j0, 0), min(j1, ranges.shape[0])):
+        lo = min(lo, ranges[j, 0])
+        hi = max(hi, ranges[j, 1])
+    return lo, hi
+
+
+@kernel
+def body_spans(j0, j1, i0, i1, vof, span, occupied):
+    """First column and one past the last in which each body lies, for the rows and columns of the active box.
+
+    Reads    vof [m, j, i]
+    Writes   span [m, j, 2], occupied [j, 2] (the union over bodies)
+    """
+    bodies = vof.shape[0]
+    for j in prange(j0, j1):
+        olo, ohi = NOTHING, 0
+        for m in range(bodies):
+            row = vof[m, j]
+            lo = i0
+            while lo < i1 and row[lo] == 0.0:
+                lo += 1
+            hi = i1
+            while hi > lo and row[hi - 1] == 0.0:
+                hi -= 1
+            if lo == hi:
+                lo, hi = NOTHING, 0
+            span[m, j, 0] = lo
+            span[m, j, 1] = hi
+            olo = min(olo, lo)
+            ohi = max(ohi, hi)
+        occupied[j, 0] = olo
+        occupied[j, 1] = ohi
+
+
+@kernel
+def reached(j0, j1, i0, i1, occupied, reach):
+    """Columns that a body can touch within one cycle: those occupied in rows j-2 to j+2, and two more on either side.
+
+    Reads    occupied [j, 2]
+    Writes   reach [j, 2]
+    """
+    for j in prange(j0, j1):
+        lo, hi = union(occupied, j - 2, j + 3)
+        if lo < hi:
+            lo = max(lo - 2, i0)
+            hi = min(hi + 2, i1)
+        reach[j, 0] = lo
+        reach[j, 1] = hi
+
+
+@kernel
+def list_mixed(j0, j1, occupied, vof, count, mixed):
+    """Lists, row by row, the cells in which a body and something else (another body or void) meet.
+
+    Reads    vof [m, j, i], occupied [j, 2]
+    Writes   count [j], mixed [j, k] (columns, ascending)
+    """
+    bodies = vof.shape[0]
+    for j in prange(j0, j1):
+        n = 0
+        for i in range(occupied[j, 0], occupied[j, 1]):
+            pure = 0
+            present = 0
+            for m in range(bodies):
+                f = vof[m, j, i]
+                pure += 1 if f == 1.0 else 0
+                present += 1 if f > 0.0 else 0
+            if present > 0 and pure == 0:
+                mixed[j, n] = i
+                n += 1
+        count[j] = n
+
+
+@kernel
+def moving_columns(j0, j1, i0, i1, u, v, limits):
+    """First and one past the last vertex of each row that moves.
+
+    Reads    u, v [b, j, i]
+    Writes   limits [j, 2]
+    """
+    groups = u.shape[0]
+    for j in prange(j0, j1):
+        lo, hi = NOTHING, 0
+        for b in range(groups):
+            first = i0
+            while first < i1 and u[b, j, first] == 0.0 and v[b, j, first] == 0.0:
+                first += 1
+            last = i1
+            while last > first and u[b, j, last - 1] == 0.0 and v[b, j, last - 1] == 0.0:
+                last -= 1
+            if first < last:
+                lo = min(lo, first)
+                hi = max(hi, last)
+        limits[j, 0] = lo
+        limits[j, 1] = hi

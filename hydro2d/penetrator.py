@@ -1,0 +1,127 @@
+"""What one measures of a rod in a target: depth, length, radius, speeds, plastic strain, and the regime by stated rules."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from hydro2d import deck as decks
+
+#: a cell belongs to the rod, for lengths, from this share on
+HALF = 0.5
+#: the rod is rigid while it has lost less than this share of its length and its radius has grown by less than that
+RIGID_LENGTH, RIGID_RADIUS = 0.02, 0.10
+#: it is eroding once it has lost more than this share of its length
+ERODING_LENGTH = 0.25
+
+
+class Penetrator:
+    """Measures a rod in a simulation.
+
+    Lengths are taken along the axis, from runs of cells that the rod fills by half or more, so that fragments behind the
+    tail do not count: the depth from the deepest run in the columns within half a radius of the axis, the rod's length from
+    the longest run on the axis. The regime is "rigid" while the rod has lost less than 2 % of its length and no section
+    has swollen beyond 1.1 of its radius, "eroding" beyond a loss of 25 %, else "deforming".
+    """
+
+    def __init__(self, sim, deck):
+        self.sim = sim
+        body = decks.body(deck, deck.penetration.rod)
+        slots = decks.slots(deck)
+        self.m = slots.index(body.join or body.name)
+        self.surface = decks.surface(deck)
+        self.radius = getattr(body, "rod_radius", None) or self._largest_radius(slice(None))
+        self.direction = 1.0 if sim.mean_velocity(self.m) >= 0 else -1.0
+        grid = sim.grid
+        self.columns = max(1, int(np.searchsorted(grid.r_edges[1:], 0.5 * self.radius)))
+        self.length = self._length()[0]
+        self.mass = self._mass()
+
+    def _fraction(self) -> np.ndarray:
+        return self.sim.grid.interior(self.sim.state.vof)[self.m]
+
+    def _mass(self) -> float:
+        g, s = self.sim.grid, self.sim.state
+        around = 2 * np.pi if g.cylindrical else 1.0
+        return float(np.sum(g.interior(s.vof[self.m] * s.rho[self.m] * g.volume)) * around)
+
+    def _runs(self, column: np.ndarray) -> list[tuple[int, int]]:
+        """(first, one past last) of the runs of cells filled by half or more, in the direction of flight."""
+        inside = np.concatenate([[False], column >= HALF, [False]])
+        change = np.nonzero(inside[1:] != inside[:-1])[0]
+        return list(zip(change[0::2].tolist(), change[1::2].tolist(), strict=True))
+
+    def _ends(self, column: np.ndarray, run: tuple[int, int]) -> tuple[float, float]:
+        """Lower and upper end of a run, m; the partly filled cells at both ends count by their share."""
+        edges, dz = self.sim.grid.z_edges, np.diff(self.sim.grid.z_edges)
+        first, last = run
+        low, high = edges[first], edges[last]
+        if first > 0:
+            low -= column[first - 1] * dz[first - 1]
+        low += (1.0 - column[first]) * dz[first]
+        if last < len(dz):
+            high += column[last] * dz[last]
+        high -= (1.0 - column[last - 1]) * dz[last - 1]
+        return float(low), float(high)
+
+    def _length(self) -> tuple[float, float, float]:
+        """Length, lower and upper end of the longest run on the axis, m; zeros where there is none."""
+        column = self._fraction()[:, 0]
+        ends = [self._ends(column, run) for run in self._runs(column)]
+        if not ends:
+            return 0.0, 0.0, 0.0
+        low, high = max(ends, key=lambda pair: pair[1] - pair[0])
+        return high - low, low, high
+
+    def _depth(self) -> float:
+        """Deepest rod material near the axis, from the original surface, m; 0 before impact."""
+        fraction, deepest = self._fraction(), -np.inf
+        for i in range(self.columns):
+            column = fraction[:, i]
+            for run in self._runs(column):
+                low, high = self._ends(column, run)
+                deepest = max(deepest, (high if self.direction > 0 else -low))
+        return float(max(deepest - self.direction * self.surface, 0.0)) if np.isfinite(deepest) else 0.0
+
+    def _largest_radius(self, rows: slice) -> float:
+        """Largest radius of a solid section with the rod's area in a row, m."""
+        grid = self.sim.grid
+        area = np.sum(self._fraction()[rows] * grid.vol_r[grid.inside[1]], axis=1)
+        return float(np.max(np.sqrt(2.0 * area) if grid.cylindrical else area, initial=0.0))
+
+    def _axis_velocity(self, z: float) -> float:
+        """Axial velocity on the axis at z, m/s."""
+        return float(self.sim.velocity_at(np.array([[0.0, z]]))[0, 1])
+
+    def regime(self, length: float, radius: float) -> str:
+        """"rigid", "deforming" or "eroding"."""
+        lost = 1.0 - length / self.length
+        if lost > ERODING_LENGTH:
+            return "eroding"
+        if lost < RIGID_LENGTH and radius < (1.0 + RIGID_RADIUS) * self.radius:
+            return "rigid"
+        return "deforming"
+
+    def measure(self) -> dict:
+        """The keys of summary.json that concern the rod; SI, whole circumference."""
+        grid, state = self.sim.grid, self.sim.state
+        length, low, high = self._length()
+        tail, nose = (low, high) if self.direction > 0 else (high, low)
+        rows = slice(np.searchsorted(grid.z_edges, low), max(np.searchsorted(grid.z_edges, high), 1))
+        radius = self._largest_radius(rows)
+        fraction, strain = self._fraction(), grid.interior(state.ep)[self.m]
+        mean = self.sim.mean_velocity(self.m)
+        mass = self._mass()
+        return {
+            "penetration_depth_m": self._depth(),
+            "rod_length_m": length,
+            "rod_initial_length_m": self.length,
+            "rod_mass_kg": mass,
+            "rod_max_radius_m": radius,
+            "rod_initial_radius_m": self.radius,
+            "rod_max_plastic_strain": float(np.max(strain[fraction >= HALF], initial=0.0)),
+            "rod_mean_velocity_m_s": mean,
+            "rod_nose_velocity_m_s": self._axis_velocity(nose) if length else 0.0,
+            "rod_tail_velocity_m_s": self._axis_velocity(tail) if length else 0.0,
+            "rod_kinetic_energy_J": 0.5 * mass * mean * mean,
+            "regime": self.regime(length, radius),
+        }

@@ -1,0 +1,194 @@
+"""A simulation: a deck made into a mesh, a state and a cycle, with what one wants to know of it after every step."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from hydro2d import deck as decks
+from hydro2d import insertion, materials
+from hydro2d.audit import Ledger
+from hydro2d.cycle import Cycle, Method, UnphysicalState
+from hydro2d.grid import Grid
+from hydro2d.penetrator import Penetrator
+from hydro2d.state import State
+
+__all__ = ["Simulation", "UnphysicalState"]
+
+
+class Simulation:
+    """Runs a deck.
+
+    Parameters
+    ----------
+    deck : Deck, as deck.load gives it
+
+    Attributes
+    ----------
+    grid, state, table, ledger : the mesh, the fields, the materials, what is conserved
+    tracers : float64[n, 2], positions (r, z) in m
+    """
+
+    def __init__(self, deck):
+        self.deck = deck
+        self.grid = Grid(*decks.edges(deck), deck.mesh.geometry)
+        self.table = materials.resolve(deck)
+        slots = decks.slots(deck)
+        self.state = State(self.grid, len(slots))
+        method = Method.from_deck(deck, slots, decks.sliding_widths(deck), decks.yield_factor(deck))
+        self._insert()
+        self.engine = Cycle(self.state, self.table, method)
+        self.engine.prepare()
+        self.tracers = np.array([[t.r, t.z] for t in deck.tracer]).reshape(-1, 2)
+        self.penetrator = Penetrator(self, deck) if deck.penetration else None
+        self.watched = slots.index(deck.stop.body) if deck.stop.body else None
+        self._sign = None
+
+    def _insert(self) -> None:
+        """Fills the mesh; vertex velocities are the mass-weighted means of the cells around them."""
+        s, g = self.state, self.grid
+        first = insertion.initial_state(self.deck, g, self.table)
+        for name in ("vof", "rho", "e"):
+            g.interior(getattr(s, name))[...] = first[name]
+        mass = np.zeros(g.shape)
+        g.interior(mass)[...] = np.sum(first["vof"] * first["rho"], axis=0) * g.volume[g.inside]
+        dual = np.zeros(g.vertex_shape)
+        for cell, vertex in ((first["u_cell"], s.u), (first["v_cell"], s.v)):
+            momentum = np.zeros(g.shape)
+            g.interior(momentum)[...] = cell * g.interior(mass)
+            self._gather(momentum, vertex[0])
+        self._gather(mass, dual)
+        for vertex in (s.u, s.v):
+            np.divide(vertex[0], dual, out=vertex[0], where=dual > 0)
+            vertex[0][dual == 0] = 0.0
+        for velocity, m_low, m_high, axis in ((s.u, "r_min", "r_max", -1), (s.v, "z_min", "z_max", -2)):
+            view = np.moveaxis(velocity[0], axis, 0)
+            last = g.g + (g.nr if axis == -1 else g.nz)
+            if getattr(self.deck.boundaries, m_low) in ("axis", "wall"):
+                view[g.g] = 0.0
+            if getattr(self.deck.boundaries, m_high) == "wall":
+                view[last] = 0.0
+
+    def _gather(self, cell: np.ndarray, vertex: np.ndarray) -> None:
+        """Adds the corner shares of a cell quantity to the vertices."""
+        inner, outer = cell * self.grid.cm_in, cell * self.grid.cm_out
+        vertex[:-1, :-1] += inner
+        vertex[1:, :-1] += inner
+        vertex[:-1, 1:] += outer
+        vertex[1:, 1:] += outer
+
+    # ------------------------------------------------------------------------------------------------ running
+
+    @property
+    def time(self) -> float:
+        return self.engine.time
+
+    @property
+    def cycle(self) -> int:
+        return self.engine.number
+
+    @property
+    def dt(self) -> float:
+        return self.engine.dt
+
+    @property
+    def dt_cause(self) -> str:
+        return self.engine.cause
+
+    @property
+    def ledger(self) -> Ledger:
+        return self.engine.ledger
+
+    def step(self) -> None:
+        """One cycle. Raises UnphysicalState."""
+        self.engine.advance()
+        if len(self.tracers):
+            self._move_tracers()
+
+    def _move_tracers(self) -> None:
+        """Tracers follow the bilinear velocity of their cell, by the midpoint rule."""
+        half = self.tracers + 0.5 * self.dt * self.velocity_at(self.tracers)
+        self.tracers = self.tracers + self.dt * self.velocity_at(half)
+
+    def velocity_at(self, points: np.ndarray) -> np.ndarray:
+        """Velocity (u, v) at points (r, z), shape [n, 2], bilinear in the cell; m/s."""
+        g, s = self.grid, self.state
+        i = np.clip(np.searchsorted(g.r, points[:, 0], side="right") - 1, g.g, g.g + g.nr - 1)
+        j = np.clip(np.searchsorted(g.z, points[:, 1], side="right") - 1, g.g, g.g + g.nz - 1)
+        x = np.clip((points[:, 0] - g.r[i]) / g.dr[i], 0.0, 1.0)
+        y = np.clip((points[:, 1] - g.z[j]) / g.dz[j], 0.0, 1.0)
+        result = np.empty_like(points)
+        for c, w in enumerate((s.u[0], s.v[0])):
+            low, high = w[j, i] * (1 - x) + w[j, i + 1] * x, w[j + 1, i] * (1 - x) + w[j + 1, i + 1] * x
+            result[:, c] = low * (1 - y) + high * y
+        return result
+
+    def mean_velocity(self, m: int) -> float:
+        """Axial velocity of the centre of mass of body m, m/s."""
+        g, s = self.grid, self.state
+        rows, columns = g.inside
+        mass = s.vof[m, rows, columns] * s.rho[m, rows, columns] * g.volume[rows, columns]
+        j, i = np.nonzero(mass)
+        if len(j) == 0:
+            return 0.0
+        weight = mass[j, i]
+        j, i = j + g.g, i + g.g
+        v = s.v[0]
+        mean = g.cm_in[i] * (v[j, i] + v[j + 1, i]) + g.cm_out[i] * (v[j, i + 1] + v[j + 1, i + 1])
+        return float(np.sum(weight * mean) / np.sum(weight))
+
+    def stop_reason(self) -> str | None:
+        """Why the run is over, or None."""
+        stop = self.deck.stop
+        if stop.time is not None and self.time >= stop.time:
+            return "end time"
+        if stop.cycles is not None and self.cycle >= stop.cycles:
+            return "number of cycles"
+        if self.watched is not None and (stop.speed_below is not None or stop.rebound):
+            v = self.mean_velocity(self.watched)
+            if self._sign is None:
+                self._sign = 1.0 if v >= 0 else -1.0
+            if stop.rebound and v * self._sign < 0:
+                return f"rebound of {stop.body}"
+            if stop.speed_below is not None and abs(v) < stop.speed_below:
+                return f"speed of {stop.body} below {stop.speed_below:g} m/s"
+        return None
+
+    # ------------------------------------------------------------------------------------------------ what is known
+
+    def diagnostics(self) -> dict:
+        """Depth, rod length, speeds and strain of a penetrator; empty for a deck without one. SI."""
+        return self.penetrator.measure() if self.penetrator else {}
+
+    def conservation(self) -> dict:
+        """Relative changes that no sink explains: mass per body, axial momentum, total energy; and every sink by name."""
+        result = self.ledger.balance(self.state)
+        result["mass"] = dict(zip(self.table.names, (float(x) for x in result["mass"]), strict=True))
+        return result
+
+    # ------------------------------------------------------------------------------------------------ restart
+
+    def restart_arrays(self) -> dict[str, np.ndarray]:
+        """Everything that a restart must hold, by name."""
+        return {**self.state.restartable(), "tracers": self.tracers}
+
+    def load_restart_arrays(self, arrays: dict[str, np.ndarray]) -> None:
+        """Takes the arrays of a restart file; ValueError where a shape differs."""
+        for name, array in self.state.restartable().items():
+            if arrays[name].shape != array.shape:
+                raise ValueError(f"{name} has shape {arrays[name].shape} in the restart file, {array.shape} in the deck")
+            array[...] = arrays[name]
+        self.tracers = np.array(arrays["tracers"])
+
+    def restart_scalars(self) -> dict:
+        """What a restart needs beside the arrays; JSON keeps every bit of it."""
+        e = self.engine
+        return {"time": e.time, "dt": e.dt, "cycle": e.number, "cause": e.cause, "box": [int(x) for x in e.box],
+                "speed_limit": e.speed_limit, "sign": self._sign, "ledger": e.ledger.saved()}
+
+    def load_restart_scalars(self, scalars: dict) -> None:
+        """Continues from what `restart_scalars` gave; after `load_restart_arrays`."""
+        e = self.engine
+        e.time, e.dt, e.number, e.cause = (scalars[name] for name in ("time", "dt", "cycle", "cause"))
+        e.box, e.speed_limit, self._sign = list(scalars["box"]), scalars["speed_limit"], scalars["sign"]
+        e.ledger = Ledger.resume(scalars["ledger"])
+        e.prepare()

@@ -1,0 +1,76 @@
+"""The state of a run: one block of memory per centring, named views into it. The only mutable object of the physics."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from hydro2d import fields
+from hydro2d.grid import Grid
+
+#: a range (low, high) that holds nothing, so that min and max of ranges need no special case
+EMPTY = (1 << 30, 0)
+
+
+class State:
+    """Fields of ``bodies`` bodies on a mesh, and the scratch that one cycle needs.
+
+    Shapes: body fields [m, j, i], cell fields [j, i], vertex fields [b, j, i] with a leading index of body group b (one
+    group unless contact is on); all with ghosts. Face volumes lie left of (``fr``) or below (``fz``) their cell.
+
+    Parameters
+    ----------
+    grid : Grid
+    bodies : int
+    groups : int
+        Number of velocity fields.
+    """
+
+    def __init__(self, grid: Grid, bodies: int, groups: int = 1):
+        self.grid, self.bodies, self.groups = grid, bodies, groups
+        nj, ni = grid.shape
+        self.vof = np.zeros((bodies, nj, ni))
+        self.q = np.zeros((fields.BODY_FIELDS, bodies, nj, ni))
+        self.rho, self.e, self.srr, self.szz, self.srz, self.ep, self.dmg = self.q
+        self._derived = np.zeros((3, bodies, nj, ni))
+        self.pm, self.km, self.tm = self._derived
+
+        self._cells = np.zeros((16, nj, ni))
+        (self.p, self.ph, self.bulk, self.rhobar, self.solid, self.cs2, self.qr, self.qz, self.cell_mass, self.sig_rr,
+         self.sig_zz, self.sig_tt, self.sig_rz, self.pre, self.hard, self.distance) = self._cells
+        self.pre[...] = grid.volume  # ghosts keep it: a face beside them divides by it
+
+        self._vertices = np.zeros((5, groups, nj + 1, ni + 1))
+        self.u, self.v, self.u0, self.v0, self.mass = self._vertices
+        self.velocity, self.velocity0 = self._vertices[:2], self._vertices[2:4]
+
+        self.fr = np.zeros((nj + 1, ni + 1))
+        self.fz = np.zeros((nj + 1, ni + 1))
+        self.flux_volume = np.zeros((bodies, nj + 1, ni + 1))
+        self.flux = np.zeros((fields.BODY_FIELDS, nj + 1, ni + 1))
+        self.flux_mass = np.zeros((nj + 1, ni + 1))
+        self.dual = np.zeros((5, nj + 1, ni + 1))
+        self.deficit = np.zeros((nj + 1, ni + 1))
+
+        self.span = np.zeros((bodies, nj, 2), dtype=np.int64)
+        self.span[..., 0], self.span[..., 1] = EMPTY
+        self.occupied = np.zeros((nj, 2), dtype=np.int64)
+        self.occupied[:, 0], self.occupied[:, 1] = EMPTY
+        self.reach = self.occupied.copy()
+        self.mixed_count = np.zeros(nj, dtype=np.int64)
+        self.mixed = np.zeros((nj, ni), dtype=np.int64)
+
+        self.zone = np.zeros((nj, ni), dtype=np.int8)
+        self.normal = np.zeros((2, nj, ni))
+        self.mix = np.zeros((nj, 8, bodies))
+        self.rows = np.zeros((8, nj + 1))
+        self.booked = np.zeros((4 + bodies, nj + 1))
+        self.row_numbers = np.zeros((nj + 1, 3), dtype=np.int64)
+        self.row_moving = np.zeros((nj + 1, 2), dtype=np.int64)
+
+    def restartable(self) -> dict[str, np.ndarray]:
+        """The arrays from which every other one follows."""
+        return {"vof": self.vof, "q": self.q, "u": self.u, "v": self.v, "zone": self.zone, "normal": self.normal}
+
+    def nbytes(self) -> int:
+        """Memory of all arrays, bytes."""
+        return sum(array.nbytes for array in vars(self).values() if isinstance(array, np.ndarray) and array.base is None)

@@ -1,0 +1,38 @@
+"""Pressure and temperature of the bodies as they are written: from density and energy alone, changing nothing.
+
+The cycle works with those of its beginning; what is written belongs to the moment of the output.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from eos.dispatch import evaluate
+from hydro2d.jit import kernel, prange
+
+
+@kernel
+def pressures_and_temperatures(eos_model, eos_par, vof, rho, e, damage, pressure, temperature):
+    """Equation of state of every body; a body that has failed bears no tension (explanation/fracture).
+
+    Reads    vof, rho, e, damage [m, j, i]
+    Writes   pressure, temperature [m, j, i], zero where the body is not
+    """
+    bodies, _, columns = vof.shape
+    for j in prange(vof.shape[1]):
+        for m in range(bodies):
+            for i in range(columns):
+                pressure[m, j, i] = 0.0
+                temperature[m, j, i] = 0.0
+                if vof[m, j, i] > 0.0:
+                    p, dpdrho, dpde, t = evaluate(eos_model[m], rho[m, j, i], e[m, j, i], eos_par[m])
+                    pressure[m, j, i] = max(p, 0.0) if damage[m, j, i] >= 1.0 else p
+                    temperature[m, j, i] = t
+
+
+def of(sim) -> tuple[np.ndarray, np.ndarray]:
+    """Pressure in Pa and temperature in K of every body, without ghosts, shapes (m, nz, nr)."""
+    arrays = [np.ascontiguousarray(sim.grid.interior(getattr(sim.state, name))) for name in ("vof", "rho", "e", "dmg")]
+    pressure, temperature = np.empty_like(arrays[0]), np.empty_like(arrays[0])
+    pressures_and_temperatures(sim.table.eos_model, sim.table.eos_par, *arrays, pressure, temperature)
+    return pressure, temperature
