@@ -15,7 +15,7 @@ from types import ModuleType
 import numpy as np
 
 from hydro2d import units
-from hydro2d.deck_errors import DeckError, Sources, nearest, unknown
+from hydro2d.deck_errors import DeckError, Sources, unknown
 from hydro2d.deck_toml import merge, parse
 
 #: how far a number can be trusted
@@ -375,8 +375,3 @@ def _line(key: str, number: Number) -> str:
     unit = "" if number.unit == "1" else number.unit
     about = "; ".join(part for part in (number.source, number.note) if part)
     return f"  {key:<24}{number.value:>12.6g} {unit:<10} {number.confidence:<9} {about}".rstrip()
-
-
-def suggest(name: str) -> str | None:
-    """The material of the library whose name is nearest."""
-    return nearest(name, names())

@@ -1,0 +1,433 @@
+"""Decks: what they accept, what they refuse and how they say it."""
+
+import json
+import subprocess
+import sys
+import textwrap
+
+import numpy as np
+import pytest
+
+from hydro2d import deck
+from hydro2d.deck_errors import key_lines, nearest
+from hydro2d.deck_mesh import axis_edges
+
+TEXT = """\
+title = "a rod and a plate"
+[mesh]
+z_start = "-20 mm"
+r = [
+  { to = "16 mm", across = "rod", cells_across = 8 },
+  { cells = 5, ratio = 1.05 },
+]
+z = [ { to = "40 mm", size = "0.5 mm" } ]
+[[body]]
+name = "rod"
+material = "W_alloy"
+shape = "rod"
+nose = "hemispherical"
+radius = "4 mm"
+length = "16 mm"
+tip = 0.0
+velocity = "1086 m/s"
+[[body]]
+name = "plate"
+material = "Al5083"
+shape = "plate"
+z_front = 0.0
+thickness = "30 mm"
+[sliding]
+method = "slip-layer"
+hard = ["rod"]
+yield_factor = "radius"
+[stop]
+time = "10 us"
+"""
+
+
+def changed(old, new=""):
+    assert old in TEXT
+    return TEXT.replace(old, new)
+
+
+def message(text, **options):
+    with pytest.raises(deck.DeckError) as caught:
+        deck.loads(text, **options)
+    return str(caught.value)
+
+
+def test_a_deck_is_resolved_to_si():
+    d = deck.loads(TEXT)
+    rod, plate = d.body
+    assert (d.name, d.title) == ("deck", "a rod and a plate")
+    assert (rod.rod_radius, rod.length, rod.velocity) == (0.004, 0.016, (0.0, 1086.0))
+    assert (plate.thickness, plate.velocity) == (0.03, (0.0, 0.0))
+    assert (d.stop.time, d.output.history_interval, d.output.directory) == (1e-5, 1e-8, "runs/deck")
+    assert d.boundaries.r_min == "axis"
+    assert (d.penetration.rod, d.penetration.target, d.penetration.surface) == ("rod", "plate", 0.0)
+    assert d.numerics.interface_order == ("rod", "plate")
+    assert deck.slots(d) == ["rod", "plate"]
+    assert deck.warnings(d) == []
+
+
+def test_a_deck_does_not_change():
+    with pytest.raises(ValueError, match="frozen"):
+        deck.loads(TEXT).stop.time = 1.0
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "line", "fragments"),
+    [
+        ('thickness = "30 mm"', 'thicknes = "30 mm"', 23, ['unknown key "thicknes"', 'did you mean "thickness"?']),
+        ("[sliding]", "[sliiding]", 24, ['unknown key "sliiding"', 'did you mean "sliding"?', "numerics"]),
+        ('nose = "hemispherical"', 'nose = "hemisferical"', 13, ['did you mean "hemispherical"?', "ogive"]),
+        ('shape = "plate"', 'shape = "plat"', 21, ["body[1].shape", 'did you mean "plate"?']),
+        ('shape = "plate"\n', "", 18, ["body[1].shape: is missing", "polygon"]),
+        ('material = "Al5083"', 'material = "Al5038"', 20, ['unknown material "Al5038"', 'did you mean "Al5083"?']),
+        ('hard = ["rod"]', 'hard = ["rood"]', 26, ['unknown body "rood"', 'did you mean "rod"?']),
+        ('across = "rod"', 'across = "bar"', 5, ['mesh.r[0].across: unknown body "bar"']),
+        ('"1086 m/s"', '"1086 mm"', 17, ['"1086 mm" is a length; expected a velocity', '"1.5 m/s"']),
+        ('velocity = "1086 m/s"', "velocity = [1, 2, 3]", 17, ["expected two numbers or strings in m/s"]),
+        ('radius = "4 mm"', 'radius = "4"', 14, ['"4" has no unit; expected a length']),
+        ('radius = "4 mm"', "radius = true", 14, ["True is not a quantity"]),
+        ('thickness = "30 mm"', 'thickness = "-30 mm"', 23, ["body[1].thickness: must be positive, is -0.03"]),
+        ('length = "16 mm"', 'length = "3 mm"', 9, ["must not be below that of the nose (0.004 m)"]),
+        ('length = "16 mm"\n', "", 9, ["body[0].length: is missing"]),
+        ('radius = "4 mm"\n', "", 9, ["a rod needs its radius or its diameter"]),
+        ('radius = "4 mm"', 'radius = "4 mm"\ndiameter = "9 mm"', 9, ["radius and diameter are both given"]),
+        ("tip = 0.0", 'tip = "50 mm"', 9, ['"rod" is cut off by the mesh: z from 0.034 to 0.05 m, the mesh from']),
+        ("tip = 0.0", 'tip = "80 mm"', 9, ['"rod" lies outside the mesh: z from 0.064 to 0.08 m']),
+        ('radius = "4 mm"', 'diameter = "50 mm"', 9, ["must not be below that of the nose"]),
+        ("z_front = 0.0", 'z_front = "1 m"', 18, ['"plate" lies outside the mesh: z from 1 to 1.03 m']),
+        ('time = "10 us"', 'time = "-10 us"', 29, ["stop.time: must be positive"]),
+        ('time = "10 us"', "", 28, ["stop: needs a time or a number of cycles"]),
+        ('time = "10 us"', 'time = "10 us"\ncycles = 0', 30, ["stop.cycles: should be greater than 0, is 0"]),
+        ('time = "10 us"', 'time = "10 us"\nbody = "rdo"', 30, ['unknown body "rdo"', 'did you mean "rod"?']),
+        ('method = "slip-layer"', 'method = "slip"', 25, ['unknown value "slip"', 'did you mean "slip-layer"?']),
+        ('hard = ["rod"]\n', "", 24, ["sliding.hard: a slip layer needs the names of the hard bodies"]),
+        ('"radius"', '"radus"', 27, ["'radus' is none of", '"printed"']),
+        ('"radius"', "-1.0", 27, ["must be positive"]),
+        ('hard = ["rod"]', 'hard = ["plate"]', 27, ['"radius" needs a hard body with a radius']),
+        ('hard = ["rod"]', 'hard = ["rod"]\nfriction = 0.1', 27, ['friction acts only with shear = "shear"']),
+        ('hard = ["rod"]', 'hard = ["rod"]\nboundary_layer = "2 GPa"', 27, ["expected a length"]),
+        ('name = "plate"', 'name = "rod"', 19, ['the name "rod" is taken by an earlier body']),
+        ('name = "plate"', 'name = "plate"\njoin = "rod"', 20, ["is made of W_alloy, not of Al5083"]),
+        ('name = "plate"', 'name = "plate"\njoin = "bar"', 20, ['unknown earlier body "bar"']),
+        ('z_start = "-20 mm"', 'r_start = "-1 mm"', 3, ["starts at r >= 0, not at -0.001 m"]),
+        ("[stop]", '[boundaries]\nr_min = "wall"\n[stop]', 29, ["r = 0 of a cylindrical mesh is the axis"]),
+        ("[mesh]", '[boundaries]\nr_min = "axis"\n[mesh]\ngeometry = "planar"', 3, ["needs a cylindrical mesh"]),
+        ('size = "0.5 mm"', 'size = "0.7 mm"', 8, ["cells of 0.0007 m do not divide 0.06 m", "to = 0.0402 or 0.0395"]),
+        ('to = "40 mm", size', 'to = "-40 mm", size', 8, ["is not beyond its start at -0.02 m"]),
+        ('size = "0.5 mm"', "cells = 5, ratio = 1.1", 8, ["does not define a segment"]),
+        ('size = "0.5 mm"', "ratio = 1.1", 8, ["needs the size of its first cell"]),
+        ('size = "0.5 mm"', "cells = 2000000000", 8, ["less than or equal to 1000000"]),
+        (", cells_across = 8", "", 5, ["across and cells_across go together"]),
+        ('across = "rod"', 'across = "plate"', 5, ['"plate" is not a body with a radius']),
+        ("[stop]", "[numerics]\ncourant = 1.5\n[stop]", 29, ["courant: should be less than or equal to 1, is 1.5"]),
+        ("[stop]", "[numerics]\ncourant = nan\n[stop]", 29, ["nan is not finite"]),
+        ("[stop]", '[numerics]\ninterface_order = ["rod"]\n[stop]', 29, ["must name every body once: rod, plate"]),
+        ("[stop]", '[failure]\ndamage = "yes"\n[stop]', 29, ['unknown value "yes"', "material, none"]),
+        ("[stop]", '[[tracer]]\nname = "t"\nr = 1.0\nz = 0.0\n[stop]', 28, ['"t" at r = 1 m, z = 0 m lies outside']),
+        ("[stop]", "[experiment]\npenetration = 0.4\n[stop]", 28, ["experiment.source: is missing"]),
+        ("z_front = 0.0", "z_front = 0.0\nenergy = 1.0\npressure = 0.0", 18, ["only one of energy, pressure"]),
+    ],
+)
+def test_mistakes_are_named_with_their_line(old, new, line, fragments):
+    found = message(changed(old, new))
+    assert any(entry.startswith(f"deck.toml:{line}: ") for entry in found.splitlines()), found
+    for fragment in fragments:
+        assert fragment in found
+
+
+def test_text_that_is_no_toml_names_the_line():
+    assert message(changed("tip = 0.0", "tip = ")).startswith("deck.toml:16: not valid TOML: invalid value")
+
+
+def test_all_mistakes_are_told_at_once():
+    text = changed('thickness = "30 mm"', 'thickness = "-30 mm"').replace('"10 us"', '"10 m"')
+    assert [line.split(": ")[1] for line in message(text).splitlines()] == ["body[1].thickness", "stop.time"]
+
+
+def test_a_hard_body_needs_strength():
+    fluid = '[materials.fluid]\nbased_on = "W_alloy"\nstrength.model = "hydrodynamic"\n'
+    text = TEXT.replace("W_alloy", "fluid") + fluid
+    found = message(text)
+    assert found == (
+        'deck.toml:26: sliding.hard[0]: "rod" is made of fluid, which has no strength; a hard body needs one'
+    )
+
+
+@pytest.mark.parametrize(
+    ("nose", "fragment"),
+    [
+        ('nose = "ogive"', "exactly one of crh, nose_length is needed, found none"),
+        ('nose = "ogive"\ncrh = 3\nnose_length = "9 mm"', "found crh, nose_length"),
+        ('nose = "ogive"\ncrh = 0.4', "at least 0.5"),
+        ('nose = "ogive"\nnose_length = "3 mm"', "at least as long as the radius"),
+        ('nose = "ogive"\nhalf_angle = 0.4', "an ogive has no half_angle"),
+        ('nose = "conical"\nhalf_angle = 30', 'write "30 deg"'),
+        ('nose = "conical"\ncrh = 3', "a cone has no crh"),
+        ('nose = "flat"\ncrh = 3', "a flat nose has no crh"),
+    ],
+)
+def test_impossible_noses(nose, fragment):
+    assert fragment in message(changed('nose = "hemispherical"', nose))
+
+
+@pytest.mark.parametrize(
+    ("body", "fragment"),
+    [
+        ('shape = "polygon"\npoints = [[0, 0], [0, 0.01]]', "at least three points"),
+        ('shape = "polygon"\npoints = [[0, 0], [0.01, 0.01], [0.01, 0], [0, 0.01]]', "cross"),
+        ('shape = "polygon"\npoints = [[0, 0], [0, 0], [0.01, 0.01]]', "corner 0 is given twice"),
+        ('shape = "sphere"\ncentre = 0.0\nradius = 0.01\ninner_radius = 0.02', "must be smaller than radius"),
+        ('shape = "box"\nr = [0.02, 0.01]\nz = [0, 0.01]', "must grow from the first to the second"),
+        ('shape = "box"\nr = [-0.01, 0.01]\nz = [0, 0.01]', "r is negative at -0.01 m"),
+    ],
+)
+def test_impossible_shapes(body, fragment):
+    text = changed('shape = "plate"\nz_front = 0.0\nthickness = "30 mm"', body)
+    assert fragment in message(text)
+
+
+def write(folder, **files):
+    for name, text in files.items():
+        (folder / f"{name}.toml").write_text(textwrap.dedent(text), encoding="utf-8")
+    return folder
+
+
+def test_include_merges_tables_by_key_and_bodies_by_name(tmp_path):
+    write(tmp_path, base=TEXT)
+    write(tmp_path, shot='include = "base.toml"\n[[body]]\nname = "rod"\nvelocity = "1200 m/s"\n[stop]\ncycles = 7\n')
+    base, shot = deck.load(tmp_path / "base.toml"), deck.load(tmp_path / "shot.toml")
+    assert shot.body[0].velocity == (0.0, 1200.0)
+    assert (shot.stop.time, shot.stop.cycles) == (1e-5, 7)
+    assert (shot.name, shot.title) == ("shot", base.title)
+    assert shot.body[1] == base.body[1]
+
+
+def test_mistakes_are_traced_through_includes(tmp_path):
+    write(tmp_path, base=changed('thickness = "30 mm"', "thickness = -1"))
+    write(tmp_path, shot='include = "base.toml"\n\n[[body]]\nname = "plate"\nz_frnt = 0.0\n')
+    with pytest.raises(deck.DeckError) as caught:
+        deck.load(tmp_path / "shot.toml")
+    found = sorted(caught.value.args[0].splitlines())
+    assert found[0].startswith(f"{tmp_path}/base.toml:23: body[1].thickness: must be positive")
+    assert found[1].startswith(f"{tmp_path}/shot.toml:5: body[1].z_frnt: unknown key")
+
+
+def test_include_cycles_are_found(tmp_path):
+    write(tmp_path, a='include = "b.toml"\n', b='include = "a.toml"\n')
+    with pytest.raises(deck.DeckError, match=r"include goes round in a circle: a\.toml -> b\.toml -> a\.toml"):
+        deck.load(tmp_path / "a.toml")
+
+
+def test_missing_files(tmp_path):
+    write(tmp_path, a='title = "x"\ninclude = "nothing.toml"\n')
+    with pytest.raises(deck.DeckError, match=r"a\.toml:2: include: there is no file .*nothing\.toml"):
+        deck.load(tmp_path / "a.toml")
+    with pytest.raises(deck.DeckError, match=r"aa\.toml: there is no such file; .* did you mean \"a\.toml\"\?"):
+        deck.load(tmp_path / "aa.toml")
+
+
+def test_shipped_decks_are_found_from_anywhere(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert deck.load("problems/verification/sod_z.toml").name == "sod_z"
+
+
+@pytest.mark.parametrize(
+    ("override", "value"),
+    [
+        ("body.rod.velocity=1200 m/s", lambda d: d.body[0].velocity[1] == 1200.0),
+        ("body.0.velocity=1300", lambda d: d.body[0].velocity[1] == 1300.0),
+        ('body[1].thickness="20 mm"', lambda d: d.body[1].thickness == 0.02),
+        ("numerics.advection=momentum", lambda d: d.numerics.advection == "momentum"),
+        ("numerics.active_region=false", lambda d: d.numerics.active_region is False),
+        ("sliding.yield_factor=1.25", lambda d: deck.yield_factor(d) == 1.25),
+        ('sliding.hard=["rod"]', lambda d: d.sliding.hard == ("rod",)),
+        ("mesh.z.0.size=0.25 mm", lambda d: len(deck.edges(d)[1]) == 241),
+        ("title=two words", lambda d: d.title == "two words"),
+    ],
+)
+def test_overrides(override, value):
+    assert value(deck.loads(TEXT, [override]))
+
+
+@pytest.mark.parametrize(
+    ("override", "fragment"),
+    [
+        ("body.rod.velocity=12 GPa", '--set body.rod.velocity=12 GPa: body[0].velocity: "12 GPa" is a pressure'),
+        ("body.bar.velocity=1", "--set body.bar.velocity=1: there is no entry bar; there are rod, plate"),
+        ("numerics.advecton=ke", '--set numerics.advecton=ke: numerics.advecton: unknown key "advecton"'),
+        ("title.x=1", "title is a value and has no key x"),
+        ("title", "expected key=value"),
+    ],
+)
+def test_wrong_overrides(override, fragment):
+    assert fragment in message(TEXT, overrides=[override])
+
+
+def test_the_resolved_deck_is_complete_and_loads_to_the_same():
+    text = deck.loads(TEXT).to_toml()
+    for key in ("ke_bound = 1.05", "[boundaries]", 'r_min = "axis"', "[materials.Al5083.strength]", "refresh = 5"):
+        assert key in text
+    assert deck.loads(text).to_toml() == text
+
+
+def test_sliding_widths_and_yield_factor():
+    d = deck.loads(TEXT)
+    assert deck.sliding_widths(d) == (0.001, 0.001)
+    assert deck.yield_factor(d) == pytest.approx((5 / 4) ** 2, rel=1e-12)
+    printed = deck.loads(TEXT, ["sliding.yield_factor=printed"])
+    assert deck.yield_factor(printed) == pytest.approx(((18.16 + 0.1) / 18.16) ** 2, rel=1e-12)
+    assert deck.yield_factor(deck.loads(TEXT, ["sliding.yield_factor=off"])) == 1.0
+    assert deck.yield_factor(deck.loads(TEXT, ["sliding.method=none"])) == 1.0
+    assert deck.sliding_widths(deck.loads(TEXT, ["sliding.slip_layer=2 mm"])) == (0.001, 0.002)
+
+
+def test_the_study_has_the_printed_mesh_and_factor():
+    d = deck.load("problems/cth_nose_shape/hemi_5083_1086.toml")
+    r, z = deck.edges(d)
+    assert (len(r) - 1, len(z) - 1) == (85, 1545)
+    assert r[40] == 0.016891
+    assert np.allclose(np.diff(r)[:40], 4.22275e-4, rtol=1e-12)
+    assert np.allclose(np.diff(r)[40:] / np.diff(r)[39:-1], 1.05, rtol=1e-12)
+    assert r[-1] == pytest.approx(8.77e-2, rel=1e-4)
+    assert np.allclose(np.diff(z), 4.22275e-4, rtol=1e-12)
+    assert deck.yield_factor(d) == pytest.approx(1.5625, abs=1e-4)
+
+
+def test_coarse_rods_are_warned_of():
+    coarse = deck.loads(changed("cells_across = 8", "cells_across = 4"))
+    assert deck.warnings(coarse) == [
+        'body "rod": 4.0 cells across the radius; below 5 a rod is neither rigid nor round'
+    ]
+    assert deck.warnings(deck.loads(changed("cells_across = 8", "cells_across = 5"))) == []
+    jump = deck.loads(changed("{ cells = 5, ratio = 1.05 }", '{ cells = 5, size = "1 mm" }'))
+    assert deck.warnings(jump) == ["mesh.r: neighbouring cells differ by a factor of 2.00; shocks reflect beyond 1.2"]
+
+
+@pytest.mark.parametrize(
+    ("segments", "sizes"),
+    [
+        ("{ to = 1.0, cells = 4 }", [0.25] * 4),
+        ("{ to = 1.0, size = 0.2 }", [0.2] * 5),
+        ("{ cells = 3, size = 0.5 }", [0.5] * 3),
+        ("{ cells = 3, first = 0.1, ratio = 2 }", [0.1, 0.2, 0.4]),
+        ("{ to = 0.7, first = 0.1, ratio = 2 }", [0.1, 0.2, 0.4]),
+        ("{ to = 0.7, first = 0.1, last = 0.4 }", [0.1, 0.2, 0.4]),
+        ("{ to = 0.7, first = 0.4, last = 0.1 }", [0.4, 0.2, 0.1]),
+        ("{ to = 0.1, cells = 1 }, { to = 1.5, ratio = 2 }", [0.1, 0.2, 0.4, 0.8 - 0.0]),
+        ("{ to = 0.1, cells = 1 }, { cells = 2, ratio = 2 }", [0.1, 0.2, 0.4]),
+        ("{ to = 0.4, cells = 2 }, { to = 0.9, last = 0.3 }", [0.2, 0.2, 0.2, 0.3]),
+    ],
+)
+def test_segments(segments, sizes):
+    text = changed('z = [ { to = "40 mm", size = "0.5 mm" } ]', f"z = [ {segments} ]")
+    text = text.replace('"-20 mm"', "0.0").replace("tip = 0.0", "tip = 0.05")
+    z = axis_edges(deck.loads(text), "z")
+    assert np.allclose(np.diff(z), sizes, rtol=1e-9)
+    assert z[0] == 0.0
+
+
+def test_a_graded_segment_ends_where_it_should():
+    z = axis_edges(deck.loads(changed('size = "0.5 mm"', 'first = "0.5 mm", ratio = 1.07')), "z")
+    ratios = np.diff(z)[1:] / np.diff(z)[:-1]
+    assert z[-1] == 0.04
+    assert np.ptp(ratios) < 1e-9
+    assert ratios[0] == pytest.approx(1.07, abs=0.01)
+    assert z[1] - z[0] == pytest.approx(5e-4, rel=1e-12)
+
+
+def test_schema_is_json_and_knows_every_section():
+    schema = json.loads(json.dumps(deck.schema()))
+    assert set(schema["required"]) == {"mesh", "body", "stop"}
+    assert {"include", "numerics", "sliding", "tracer"} <= set(schema["properties"])
+    assert schema["$defs"]["Numerics"]["properties"]["advection"]["enum"] == ["ke", "momentum", "both"]
+
+
+def test_every_key_has_a_description():
+    sections = deck.schema()["$defs"]
+    bare = [f"{name}.{key}" for name, part in sections.items() for key, entry in part["properties"].items()
+            if not entry.get("description")]
+    assert bare == []
+
+
+def test_importing_decks_is_light():
+    script = "import sys; import hydro2d.deck; print({'pint', 'numba', 'pyvista', 'scipy'} & set(sys.modules))"
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "set()"
+
+
+def test_nearest():
+    assert nearest("advecton", ["advection", "courant"]) == "advection"
+    assert nearest("W_ALLOY", ["W_alloy"]) == "W_alloy"
+    assert nearest("xyz", ["advection"]) is None
+
+
+AWKWARD = '''\
+# a comment with [brackets] and = signs
+"quoted key" = 1
+a.b.c = "x" # ]
+list = [ 1, # one
+  [2, 3],
+  { d = 1, "e f" = """
+text with } and ] and "quotes"
+""", g = 'literal # no comment' },
+]
+[table]
+multi = """
+[not.a.table]
+x = 1"""
+esc = "a \\" quote ] \\\\"
+date = 1979-05-27T07:32:00Z
+[[array]]
+name = "first"
+[array.sub]
+k = 1
+[[array.inner]]
+k = 2
+[[array]]
+name = "second"
+[[array.inner]]
+k = 3
+[[array.inner]]
+k = 4
+[last]
+end = """"quoted""""
+z = 1
+'''
+
+
+@pytest.mark.parametrize(
+    ("path", "line"),
+    [
+        (("quoted key",), 2),
+        (("a", "b", "c"), 3),
+        (("a",), 3),
+        (("list",), 4),
+        (("list", 0), 4),
+        (("list", 1), 5),
+        (("list", 2, "d"), 6),
+        (("list", 2, "e f"), 6),
+        (("list", 2, "g"), 8),
+        (("table",), 10),
+        (("table", "multi"), 11),
+        (("table", "esc"), 14),
+        (("table", "date"), 15),
+        (("array", 0), 16),
+        (("array", 0, "sub", "k"), 19),
+        (("array", 0, "inner", 0, "k"), 21),
+        (("array", 1, "name"), 23),
+        (("array", 1, "inner", 0, "k"), 25),
+        (("array", 1, "inner", 1, "k"), 27),
+        (("last", "end"), 29),
+        (("last", "z"), 30),
+    ],
+)
+def test_key_lines(path, line):
+    assert key_lines(AWKWARD)[path] == line
+
+
+def test_key_lines_of_windows_files():
+    assert key_lines(AWKWARD.replace("\n", "\r\n")) == key_lines(AWKWARD)

@@ -1,0 +1,223 @@
+"""The library of materials, materials of decks, and the rows that kernels read."""
+
+import math
+
+import numpy as np
+import pytest
+
+import eos
+import strength
+from hydro2d import deck, materials
+from strength.layout import SHEAR, YIELD
+
+TEXT = """\
+[mesh]
+r = [ { to = 0.01, cells = 5 } ]
+z = [ { to = 0.02, cells = 10 } ]
+[[body]]
+name = "a"
+material = "A"
+shape = "box"
+z = [0.0, 0.01]
+[[body]]
+name = "b"
+material = "Al5083"
+shape = "box"
+z = [0.01, 0.02]
+[stop]
+time = "1 us"
+[materials.A]
+"""
+
+
+def with_material(text):
+    return deck.loads(TEXT + text)
+
+
+def message(text):
+    with pytest.raises(deck.DeckError) as caught:
+        with_material(text)
+    return str(caught.value)
+
+
+@pytest.mark.parametrize("name", materials.names())
+def test_every_number_of_the_library_has_a_source(name):
+    for variant in (None, *materials.load(name).variants):
+        material = materials.load(name, variant)
+        assert material.title
+        for model in (material.eos, material.strength, material.damage):
+            for key, number in model.numbers.items():
+                assert number.source, f"{name}.{key}"
+                assert number.confidence in materials.CONFIDENCE
+        if material.fracture_pressure is not None:
+            assert material.fracture_pressure.source
+
+
+@pytest.mark.parametrize("name", materials.names())
+def test_every_material_makes_rows(name):
+    material = materials.load(name)
+    assert eos.MODELS[material.eos.name].row(material.eos.values)[eos.RHO0] == material.reference_density
+    assert np.isfinite(strength.STRENGTH_MODELS[material.strength.name].row(material.strength.values)[SHEAR])
+    strength.DAMAGE_MODELS[material.damage.name].row(material.damage.values)
+
+
+def test_metals_are_metals():
+    """Poisson's ratio of every solid, from the bulk modulus rho0 c0^2 and G, is that of a metal; cv is near 3R."""
+    for name in materials.names():
+        material = materials.load(name)
+        if not material.has_strength:
+            continue
+        values = material.eos.values
+        bulk = values["reference_density"] * values["sound_speed"] ** 2
+        shear = strength.STRENGTH_MODELS[material.strength.name].row(material.strength.values)[SHEAR]
+        nu = (3 * bulk - 2 * shear) / (2 * (3 * bulk + shear))
+        assert 0.25 < nu < 0.37, name
+        atom = {"Al": 0.027, "W_": 0.180, "tu": 0.1838, "co": 0.0635, "st": 0.0558, "ir": 0.0558}[name[:2]]
+        assert values["specific_heat"] * atom / (3 * 8.314) == pytest.approx(1.0, abs=0.1), name
+
+
+def test_the_numbers_of_the_study():
+    W, soft, hard = (materials.load(name) for name in ("W_alloy", "Al5083", "Al7039"))
+    expected = {
+        "reference_density": (18160.0, 2660.0, 2770.0),
+        "sound_speed": (4030.0, 5340.0, 5200.0),
+        "hugoniot_slope": (1.237, 1.40, 1.36),
+        "grueneisen": (1.67, 1.97, 2.20),
+    }
+    for key, values in expected.items():
+        assert tuple(material.eos.values[key] for material in (W, soft, hard)) == values
+        assert {material.eos.numbers[key].confidence for material in (W, soft, hard)} == {"printed"}
+    assert [material.fracture_pressure.value for material in (W, soft, hard)] == [3.5e9, 0.45e9, 0.50e9]
+    assert [material.strength.name for material in (W, soft, hard)] == ["steinberg-guinan", "power-law", "johnson-cook"]
+    assert W.strength.values["pressure_coefficient"] == 1.03e-11
+
+
+def test_doubtful_numbers_are_variants():
+    assert materials.load("W_alloy").eos.values["specific_heat"] == 143.0
+    assert materials.load("W_alloy", "cv-printed").eos.values["specific_heat"] == 1430.5
+    assert materials.load("Al5083", "c0-5240").eos.values["sound_speed"] == 5240.0
+    for name in ("W_alloy", "Al5083", "Al7039"):
+        damage = materials.load(name, "strain-failure").damage
+        assert (damage.name, damage.values["D1"], damage.values["D2"]) == ("johnson-cook", 1.5, 0.0)
+    refit = materials.load("copper_OFHC", "johnson-cook")
+    assert refit.strength.name == "johnson-cook"
+    assert refit.strength.values["yield_stress"] == 90e6
+
+
+def test_describe_shows_sources_and_variants():
+    page = materials.describe("W_alloy")
+    for fragment in ("specific_heat", "143", "J/(kg*K)", "cv-printed", "steinberg-guinan", "Table 1", "printed"):
+        assert fragment in page
+
+
+def test_unknown_names():
+    with pytest.raises(deck.DeckError, match='unknown material "W_aloy"; did you mean "W_alloy"?'):
+        materials.load("W_aloy")
+    with pytest.raises(deck.DeckError, match=r"tungsten\.toml:\d+: material W_alloy: unknown variant \"cv\""):
+        materials.load("W_alloy", "cv")
+
+
+def test_a_material_based_on_another():
+    d = with_material('based_on = "W_alloy"\nvariant = "cv-printed"\nstrength.yield_stress = "2 GPa"\n')
+    A, W = d.materials["A"], materials.load("W_alloy")
+    assert A.strength.values == {**W.strength.values, "yield_stress": 2e9}
+    assert A.eos.values == {**W.eos.values, "specific_heat": 1430.5}
+    assert A.strength.numbers["yield_stress"].confidence == "deck"
+    assert A.strength.numbers["shear_modulus"] == W.strength.numbers["shear_modulus"]
+
+
+def test_the_decks_numbers_stand_above_a_variant():
+    d = with_material('based_on = "W_alloy"\nvariant = "cv-printed"\neos.specific_heat = 150\n')
+    assert d.materials["A"].eos.values["specific_heat"] == 150.0
+
+
+def test_several_variants():
+    d = with_material('based_on = "W_alloy"\nvariant = ["cv-printed", "strain-failure"]\n')
+    assert d.materials["A"].eos.values["specific_heat"] == 1430.5
+    assert d.materials["A"].damage.values["D1"] == 1.5
+
+
+def test_another_model_replaces_the_whole_part():
+    other = 'strength = { model = "elastic-plastic", shear_modulus = 1e9, yield_stress = 0 }'
+    d = with_material(f'based_on = "W_alloy"\n{other}\n')
+    assert d.materials["A"].strength.name == "elastic-plastic"
+    assert d.materials["A"].strength.values["max_yield_stress"] == math.inf
+
+
+def test_strength_takes_what_the_eos_has():
+    d = with_material('based_on = "W_alloy"\neos.reference_density = 17000\n')
+    assert d.materials["A"].strength.values["reference_density"] == 17000.0
+
+
+@pytest.mark.parametrize(
+    ("text", "line", "fragment"),
+    [
+        ('based_on = "W_aloy"', 17, 'based_on: unknown material "W_aloy"; did you mean "W_alloy"?'),
+        ('based_on = "B"\n[materials.B]\nbased_on = "A"', 19, "goes round in a circle: A -> B -> A"),
+        ('based_on = "W_alloy"\nvariant = "cv-prined"', 18, 'did you mean "cv-printed"?'),
+        ('based_on = "W_alloy"\nvariant = 3', 18, "is the name of a variant or a list of names"),
+        ('title = "x"', 16, "materials.A: has no eos"),
+        ('based_on = "W_alloy"\neos.sound_sped = 1.0', 18, 'did you mean "sound_speed"?'),
+        ('based_on = "W_alloy"\neos.c0 = 1.0', 18, 'it is called "sound_speed"'),
+        ('based_on = "W_alloy"\neos.sound_speed = "4 km"', 18, '"4 km" is a length; expected a velocity'),
+        ('based_on = "W_alloy"\neos.sound_speed = -4.0', 18, "sound_speed = -4.0: must be positive"),
+        ('based_on = "W_alloy"\neos.sound_speed = { valu = 1 }', 18, 'unknown key "valu"; did you mean "value"?'),
+        ('based_on = "W_alloy"\neos.sound_speed = { value = 1, confidence = "high" }', 18, 'unknown confidence "high"'),
+        ('based_on = "W_alloy"\nstrength.model = "steinberg"', 18, 'did you mean "steinberg-guinan"?'),
+        ('based_on = "W_alloy"\nstrenth.model = "hydrodynamic"', 18, 'did you mean "strength"?'),
+        ('based_on = "W_alloy"\nfracture_pressure = "-3 GPa"', 18, "must be positive (a tension)"),
+        ('[materials.A.eos]\nmodel = "ideal-gas"\nreference_density = 1.0', 17, "ideal-gas needs adiabatic_index"),
+    ],
+)
+def test_mistakes_in_materials(text, line, fragment):
+    found = message(text + "\n")
+    assert found.startswith(f"deck.toml:{line}: materials.")
+    assert fragment in found
+
+
+def test_a_library_name_without_based_on_says_so():
+    text = TEXT.replace("[materials.A]", "[materials.W_alloy]\nstrength.yield_stress = 1e9")
+    with pytest.raises(deck.DeckError, match='to change a material of the library, write based_on = "W_alloy"'):
+        deck.loads(text)
+
+
+def test_the_table():
+    d = with_material('based_on = "Al7039"\n')
+    table = materials.resolve(d)
+    assert table.names == ("a", "b")
+    assert len(table) == 2
+    assert list(table.rho0) == [2770.0, 2660.0]
+    assert list(table.e0) == [0.0, 0.0]
+    assert table.eos_par.shape == (2, eos.ROW)
+    assert table.strength_par.shape == (2, strength.ROW)
+    assert table.damage_par.shape == (2, strength.DAMAGE_ROW)
+    assert list(table.eos_model) == [eos.MODELS["mie-grueneisen"].ID] * 2
+    assert table.strength_model.dtype == table.eos_model.dtype == np.int64
+    assert list(table.strength_par[:, YIELD]) == [337e6, 276e6]
+    assert list(table.fracture_pressure) == [0.5e9, 0.45e9]
+    assert list(table.damage_model) == [0, 0]
+
+
+def test_failure_is_switched_by_the_deck():
+    text = 'based_on = "Al7039"\n[failure]\ntensile = "none"\ndamage = "material"\n'
+    table = materials.resolve(with_material(text))
+    assert list(table.fracture_pressure) == [math.inf, math.inf]
+    assert list(table.damage_model) == [strength.DAMAGE_MODELS["johnson-cook"].ID, 0]
+
+
+def test_bodies_that_join_share_a_slot():
+    text = TEXT.replace('material = "Al5083"', 'material = "A"\njoin = "a"')
+    assert materials.resolve(deck.loads(text + 'based_on = "Al7039"\n')).names == ("a",)
+
+
+def test_what_a_model_refuses_is_a_deck_error():
+    text = 'based_on = "Al5083"\nstrength.poisson_ratio = 0.7\n'
+    with pytest.raises(deck.DeckError, match="material A: power-law: poisson_ratio = 0.7"):
+        materials.resolve(with_material(text))
+
+
+def test_a_resolved_deck_gives_the_same_rows():
+    d = with_material('based_on = "W_alloy"\nvariant = "strain-failure"\n[failure]\ndamage = "material"\n')
+    first, second = materials.resolve(d), materials.resolve(deck.loads(d.to_toml()))
+    for key in ("eos_par", "strength_par", "damage_par", "fracture_pressure", "rho0"):
+        assert np.array_equal(getattr(first, key), getattr(second, key))
