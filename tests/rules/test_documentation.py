@@ -17,11 +17,17 @@ from tests.rules import source
 DOCS = source.ROOT / "docs"
 EXPLANATION = DOCS / "explanation"
 PAGES = {file.stem: file.read_text(encoding="utf-8") for file in sorted(EXPLANATION.glob("*.md"))}
-ALL_PAGES = sorted(file for file in DOCS.rglob("*.md") if not {"generated", "_build"} & set(file.parts))
+#: what people wrote: the pages without the generated ones, and the README
+WRITTEN = [*sorted(file for file in DOCS.rglob("*.md") if not {"generated", "_build"} & set(file.relative_to(DOCS).parts)),
+           source.ROOT / "README.md"]  # fmt: skip
 CITATION = re.compile(
     r"\b(?P<page>" + "|".join(sorted(PAGES, key=len, reverse=True)) + r")(?:\.md)?,\s+"
     r"(?:equations?\s+)?(?P<list>\(?\d+\)?(?:(?:,|\s+and|\s+to)\s*\(?\d+\)?)*)"
 )
+
+
+def name_of(file) -> str:
+    return str(file.relative_to(source.ROOT))
 
 
 @functools.cache
@@ -126,7 +132,7 @@ def test_every_key_of_a_deck_says_what_it_is():
     assert bare - plain == set()
 
 
-@pytest.mark.parametrize("file", ALL_PAGES, ids=lambda file: str(file.relative_to(DOCS)))
+@pytest.mark.parametrize("file", WRITTEN, ids=name_of)
 def test_links_lead_somewhere(file):
     made = {f"generated/{name}" for name in generated()}
     lost = []
@@ -139,7 +145,7 @@ def test_links_lead_somewhere(file):
     assert lost == []
 
 
-@pytest.mark.parametrize("file", [*ALL_PAGES, source.ROOT / "README.md"], ids=lambda file: file.stem)
+@pytest.mark.parametrize("file", WRITTEN, ids=name_of)
 def test_commands_in_the_text_exist(file):
     from hydro2d import cli
 
@@ -150,7 +156,7 @@ def test_commands_in_the_text_exist(file):
 
 PYTHON_IN_TEXT = [
     pytest.param(text, id=f"{file.stem}-{number}")
-    for file in [*ALL_PAGES, source.ROOT / "README.md"]
+    for file in WRITTEN
     for number, text in enumerate(re.findall(r"```python\n(.*?)```", file.read_text(encoding="utf-8"), re.S))
 ]
 
@@ -165,7 +171,7 @@ def test_python_in_the_text_is_there(text):
 
 DECKS_IN_TEXT = [
     pytest.param(text, id=f"{file.stem}-{number}")
-    for file in [*ALL_PAGES, source.ROOT / "README.md"]
+    for file in WRITTEN
     for number, text in enumerate(re.findall(r"```toml\n(.*?)```", file.read_text(encoding="utf-8"), re.S))
     if "[mesh]" in text
 ]
