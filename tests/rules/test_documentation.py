@@ -18,8 +18,8 @@ DOCS = source.ROOT / "docs"
 EXPLANATION = DOCS / "explanation"
 PAGES = {file.stem: file.read_text(encoding="utf-8") for file in sorted(EXPLANATION.glob("*.md"))}
 #: what people wrote: the pages without the generated ones, and the README
-WRITTEN = [*sorted(file for file in DOCS.rglob("*.md") if not {"generated", "_build"} & set(file.relative_to(DOCS).parts)),
-           source.ROOT / "README.md"]  # fmt: skip
+WRITTEN = [file for file in source.tracked_files() if file.suffix == ".md" and DOCS in file.parents]
+WRITTEN.append(source.ROOT / "README.md")
 CITATION = re.compile(
     r"\b(?P<page>" + "|".join(sorted(PAGES, key=len, reverse=True)) + r")(?:\.md)?,\s+"
     r"(?:equations?\s+)?(?P<list>\(?\d+\)?(?:(?:,|\s+and|\s+to)\s*\(?\d+\)?)*)"
