@@ -18,6 +18,14 @@ class SegmentError(ValueError):
         self.path = path
 
 
+def body(deck: Deck, name: str):
+    """The body of this name; KeyError where there is none."""
+    for entry in deck.body:
+        if entry.name == name:
+            return entry
+    raise KeyError(name)
+
+
 def body_radius(deck: Deck, name: str) -> float | None:
     """Radius of a rod, a sphere or a plate with an edge; None for all else."""
     for body in deck.body:

@@ -13,6 +13,15 @@ from hydro2d.deck_errors import DeckError, Sources, entry_index
 _BARE = re.compile(r"[A-Za-z0-9_-]+")
 
 
+def problems_folder() -> Path:
+    """The folder of decks and materials: beside the package in a checkout, inside it when installed."""
+    here = Path(__file__).resolve().parent
+    for folder in (here.parent / "problems", here / "problems"):
+        if (folder / "materials").is_dir():
+            return folder
+    raise FileNotFoundError("the folder problems/materials is missing from this installation")
+
+
 def parse(text: str, name: str) -> dict:
     """TOML as a dict; DeckError with file and line where the text is no TOML."""
     try:
@@ -40,7 +49,7 @@ def read(path: Path, sources: Sources, chain: tuple[Path, ...] = ()) -> dict:
 
 
 def assemble(text: str, name: str, folder: Path, sources: Sources, chain: tuple[Path, ...] = ()) -> dict:
-    """Deck text with its includes, which are looked for beside it, merged below it."""
+    """Deck text with its includes, looked for beside it and among the shipped decks, merged below it."""
     data = parse(text, name)
     sources.add(name, data, text)
     included = data.get("include", [])
@@ -49,9 +58,9 @@ def assemble(text: str, name: str, folder: Path, sources: Sources, chain: tuple[
         raise DeckError(f"{sources.where(('include',), data)}: include is a file name or a list of file names")
     base: dict = {}
     for entry in included:
-        target = folder / entry
-        if not target.is_file():
-            raise DeckError(f"{sources.where(('include',), data)}: include: there is no file {target}")
+        target = next((place / entry for place in (folder, problems_folder()) if (place / entry).is_file()), None)
+        if target is None:
+            raise DeckError(f"{sources.where(('include',), data)}: include: there is no file {folder / entry}")
         base = merge(base, read(target, sources, chain))
     return merge(base, {key: value for key, value in data.items() if key != "include"})
 

@@ -138,9 +138,8 @@ def _meetings(first, second, a: float, b: float, levels: list[float]) -> list[fl
 
 
 def _snapped(vof: np.ndarray) -> np.ndarray:
-    """Fractions within round-off of empty or full made exact, and sums within round-off of 1 made 1."""
+    """Fractions within round-off of 0 made 0, and sums within round-off of 1 made 1."""
     vof[np.abs(vof) < _SNAP] = 0.0
-    vof[np.abs(vof - 1.0) < _SNAP] = 1.0
     total = vof.sum(axis=0)
     for j, i in zip(*np.nonzero((np.abs(total - 1.0) < _SNAP) & (total != 1.0)), strict=True):
         largest = int(np.argmax(vof[:, j, i]))

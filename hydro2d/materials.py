@@ -9,14 +9,13 @@ from __future__ import annotations
 import functools
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from pathlib import Path
 from types import ModuleType
 
 import numpy as np
 
 from hydro2d import units
 from hydro2d.deck_errors import DeckError, Sources, unknown
-from hydro2d.deck_toml import merge, parse
+from hydro2d.deck_toml import merge, parse, problems_folder
 
 #: how far a number can be trusted
 CONFIDENCE = {
@@ -93,15 +92,6 @@ class Material:
         return data
 
 
-def problems_folder() -> Path:
-    """The folder of decks and materials: beside the package in a checkout, inside it when installed."""
-    here = Path(__file__).resolve().parent
-    for folder in (here.parent / "problems", here / "problems"):
-        if (folder / "materials").is_dir():
-            return folder
-    raise FileNotFoundError("the folder problems/materials is missing from this installation")
-
-
 @functools.cache
 def _library() -> tuple[dict[str, dict], Sources]:
     """Raw tables of the library by name, and where their keys stand."""
@@ -129,7 +119,7 @@ def _sourced(table: dict, confidence: str, about: dict | None = None) -> dict:
             result[part] = {key: value if key == "model" else _with(value, own) for key, value in rest.items()}
     if "fracture_pressure" in table:
         result["fracture_pressure"] = _with(table["fracture_pressure"], about)
-    if isinstance(table.get("variants"), dict):
+    if "variants" in table:
         result["variants"] = {key: _sourced(entry, confidence, about) for key, entry in table["variants"].items()}
     return result
 
@@ -173,6 +163,9 @@ def _based(name: str, tables: Mapping[str, dict], fail: Fail, chain: tuple[str, 
     """The raw table of a deck's material laid over what it is based on."""
     if not isinstance(tables[name], dict):
         raise fail((name,), "a material is a table")
+    variants = tables[name].get("variants", {})
+    if not isinstance(variants, dict) or not all(isinstance(entry, dict) for entry in variants.values()):
+        raise fail((name, "variants"), "holds a table for each variant")
     own = _sourced(tables[name], "deck")
     base = own.get("based_on")
     if base is None:
@@ -180,6 +173,8 @@ def _based(name: str, tables: Mapping[str, dict], fail: Fail, chain: tuple[str, 
             hint = f'; to change a material of the library, write based_on = "{name}"' if name in names() else ""
             raise fail((name,), f"has no eos{hint}")
         raw = own
+    elif not isinstance(base, str):
+        raise fail((name, "based_on"), "is the name of a material")
     elif base in tables and base != name:
         if base in chain:
             raise fail((name, "based_on"), f"goes round in a circle: {' -> '.join((*chain, name, base))}")
@@ -208,7 +203,7 @@ def _varied(raw: dict, variant, fail: Fail, own: dict | None = None) -> dict:
     if not isinstance(chosen, list):
         raise fail(("variant",), "is the name of a variant or a list of names")
     for name in chosen:
-        if name not in known:
+        if str(name) not in known:
             raise fail(("variant",), unknown("variant", str(name), known))
         raw = _overlaid(raw, {key: value for key, value in known[name].items() if key != "title"})
     return _overlaid(raw, own) if own and chosen else raw
@@ -281,7 +276,7 @@ def _number(raw: dict, unit: str, path: tuple, fail: Fail) -> Number:
             raise fail((*path, key), unknown("key", key, ("value", *_ABOUT)))
     if "value" not in raw:
         raise fail(path, "needs a value")
-    if raw["confidence"] not in CONFIDENCE:
+    if str(raw["confidence"]) not in CONFIDENCE:
         raise fail(path, unknown("confidence", str(raw["confidence"]), CONFIDENCE))
     try:
         value = raw["value"] if raw["value"] == float("inf") else units.to_si(raw["value"], unit)

@@ -179,6 +179,7 @@ def test_impossible_noses(nose, fragment):
     [
         ('shape = "polygon"\npoints = [[0, 0], [0, 0.01]]', "at least three points"),
         ('shape = "polygon"\npoints = [[0, 0], [0.01, 0.01], [0.01, 0], [0, 0.01]]', "cross"),
+        ('shape = "polygon"\npoints = [[0, 0], [-0.01, 0.01], [0.01, 0.01]]', "r is negative at -0.01 m"),
         ('shape = "polygon"\npoints = [[0, 0], [0, 0], [0.01, 0.01]]', "corner 0 is given twice"),
         ('shape = "sphere"\ncentre = 0.0\nradius = 0.01\ninner_radius = 0.02', "must be smaller than radius"),
         ('shape = "box"\nr = [0.02, 0.01]\nz = [0, 0.01]', "must grow from the first to the second"),

@@ -152,9 +152,23 @@ def test_bodies_are_cut_by_the_mesh():
 )
 def test_the_volume_of_a_ball_does_not_depend_on_the_mesh(radius, centre, nr, nz, height):
     r, z = np.linspace(0, 0.012, nr + 1), np.linspace(-0.02, 0.01 + height, nz + 1)
-    top = min(z[-1] - centre, radius)
+    top = max(min(z[-1] - centre, radius), -radius)
     expected = math.pi * (radius**2 * (top + radius) - (top**3 + radius**3) / 3)
-    assert volume([shapes.sphere(0.0, centre, radius)], r, z)[0] == pytest.approx(expected, rel=1e-11)
+    found = volume([shapes.sphere(0.0, centre, radius)], r, z)[0]
+    assert found == pytest.approx(expected, rel=1e-11, abs=1e-11 * radius**3)
+
+
+@pytest.mark.parametrize("cylindrical", [True, False])
+def test_cells_hold_what_their_parts_hold(cylindrical):
+    """Shares of cells are those of cells cut in three by three, whose edges the curves cross elsewhere."""
+    outlines = [rod("ogive", 2.2 * R, tip=0.004), rod("conical", R, -1, tip=-0.012), shapes.sphere(3e-3, 2e-3, 6.1e-3)]
+    r, z = np.linspace(0, 0.012, 8), np.linspace(-0.02, 0.02, 12)
+    fine_r, fine_z = np.linspace(0, 0.012, 22), np.linspace(-0.02, 0.02, 34)
+    coarse, fine = (insertion.fractions(outlines, *edges, cylindrical) for edges in ((r, z), (fine_r, fine_z)))
+    area = np.diff(fine_r**2 if cylindrical else fine_r)
+    parts = (fine * area).reshape(3, 11, 3, 7, 3).sum(axis=(2, 4)) / (3 * area.reshape(7, 3).sum(axis=1))
+    assert np.abs(coarse - parts).max() < 1e-13
+    assert (coarse > 0).all(axis=0).any()
 
 
 def test_fractions_agree_with_sampling():

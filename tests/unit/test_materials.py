@@ -156,6 +156,8 @@ def test_strength_takes_what_the_eos_has():
         ('based_on = "B"\n[materials.B]\nbased_on = "A"', 19, "goes round in a circle: A -> B -> A"),
         ('based_on = "W_alloy"\nvariant = "cv-prined"', 18, 'did you mean "cv-printed"?'),
         ('based_on = "W_alloy"\nvariant = 3', 18, "is the name of a variant or a list of names"),
+        ('based_on = ["W_alloy"]', 17, "is the name of a material"),
+        ('based_on = "W_alloy"\nvariants.x = 3', 18, "holds a table for each variant"),
         ('title = "x"', 16, "materials.A: has no eos"),
         ('based_on = "W_alloy"\neos.sound_sped = 1.0', 18, 'did you mean "sound_speed"?'),
         ('based_on = "W_alloy"\neos.c0 = 1.0', 18, 'it is called "sound_speed"'),
