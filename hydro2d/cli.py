@@ -35,6 +35,7 @@ def _user_errors() -> tuple[type[Exception], ...]:
     for module, name in (
         ("deck_errors", "DeckError"), ("run", "RunError"), ("snapshot", "SnapshotError"), ("history", "HistoryError"),
         ("vtk", "VtkError"), ("figures", "FigureError"), ("results", "ResultsError"), ("derived", "FieldError"),
+        ("files", "LockError"),
     ):  # fmt: skip
         loaded = sys.modules.get(f"hydro2d.{module}")
         if loaded is not None:
@@ -43,12 +44,19 @@ def _user_errors() -> tuple[type[Exception], ...]:
 
 
 def _set_threads(threads: int | None) -> None:
-    """Fixes the number of threads before numba is imported, which reads it once."""
+    """Fixes the number of threads, best before numba is imported, which reads the largest number once."""
     if threads is None:
         return
     if threads < 1:
         raise UsageError(f"--threads {threads}: at least 1 is needed")
-    os.environ["NUMBA_NUM_THREADS"] = str(threads)
+    if "numba" not in sys.modules:
+        os.environ["NUMBA_NUM_THREADS"] = str(threads)
+        return
+    from .jit import max_threads, set_threads
+
+    if threads > max_threads():
+        raise UsageError(f"--threads {threads}: this process can use {max_threads()}")
+    set_threads(threads)
 
 
 def _load(deck: Path, overrides: list[str] | None):
@@ -70,7 +78,7 @@ def run(
 ) -> int:
     """Runs a deck.
 
-    Example: hydro2d run problems/scheffler/hemi_1086.toml --out runs/a --set mesh.r.0.cells=40 --threads 4
+    Example: hydro2d run problems/cth_nose_shape/hemi_5083_1086.toml --out runs/a --set mesh.r.0.cells=40 --threads 4
 
     Parameters
     ----------
@@ -104,7 +112,7 @@ def check(
 ) -> int:
     """Validates a deck and shows what it amounts to: mesh, masses, cells across the rod, cost and memory.
 
-    Example: hydro2d check problems/scheffler/hemi_1086.toml --picture start.png
+    Example: hydro2d check problems/cth_nose_shape/hemi_5083_1086.toml --picture start.png
 
     Parameters
     ----------

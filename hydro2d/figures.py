@@ -309,13 +309,18 @@ def _render(dump: str, path: str, field: str, size) -> None:
     shown = chosen(state, field)
     plotter = pyvista.Plotter(off_screen=True, window_size=list(size))
     count = len(state.bodies)
-    for line in outlines(state.r_edges, state.z_edges, _filled(state)):
+    for line in outlines(state.r_edges, state.z_edges, _filled(state), closed=True):
         points = np.column_stack([line[:, 0], np.zeros(len(line)), line[:, 1]]) * 1e3
         curve = pyvista.lines_from_points(points)
         curve["body"] = _nearest_body(state, line)
         turned = curve.extrude_rotate(angle=270, resolution=90, capping=False)
         plotter.add_mesh(turned, scalars="body", cmap=_body_colours(count), clim=(0.5, count + 0.5), specular=0.3,
                          show_scalar_bar=False, interpolate_before_map=False)  # fmt: skip
+    for body in state.bodies:
+        for line in outlines(state.r_edges, state.z_edges, state.fields[f"Volume Fraction for {body}"]):
+            points = np.column_stack([line[:, 0], np.zeros(len(line)), line[:, 1]]) * 1e3
+            for angle in (0.0, 270.0):
+                plotter.add_mesh(pyvista.lines_from_points(points).rotate_z(angle), color="black", line_width=2)
     low, high = _limits([shown])
     for angle in (0.0, 270.0):
         plotter.add_mesh(_cut_face(pyvista, state, shown, angle), scalars=shown.label, cmap=shown.colours,

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 import os
+import socket
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -36,6 +37,51 @@ def replacing(path: Path) -> Iterator[Path]:
 def write_text(path: Path, text: str) -> None:
     with replacing(path) as temporary:
         temporary.write_text(text, encoding="utf-8")
+
+
+class LockError(Exception):
+    """A directory that another process works in; the message is for the user."""
+
+
+def _holder(path: Path) -> str | None:
+    """Who holds a lock, in words; None where it is gone or its process on this host is."""
+    try:
+        host, number = path.read_text(encoding="utf-8").split()
+        if host == socket.gethostname():
+            os.kill(int(number), 0)
+    except (FileNotFoundError, ProcessLookupError, ValueError):
+        return None
+    except PermissionError:
+        pass  # alive, and somebody else's
+    return f"process {number} on {host}"
+
+
+@contextmanager
+def locked(path: Path) -> Iterator[None]:
+    """Holds a lock file with host and process id; that of a process that died on this host is taken over.
+
+    Raises LockError while another process holds it.
+    """
+    path = Path(path)
+    own = path.with_name(f".{path.name}.{os.getpid()}")
+    own.write_text(f"{socket.gethostname()} {os.getpid()}\n", encoding="utf-8")
+    try:
+        while True:
+            try:
+                os.link(own, path)  # the lock appears with its content, or not at all
+                break
+            except FileExistsError:
+                holder = _holder(path)
+                if holder is not None:
+                    hint = f"if that is gone for good, remove {path}"
+                    raise LockError(f"{path.parent} is in use by {holder}; {hint}") from None
+                path.unlink(missing_ok=True)
+    finally:
+        own.unlink()
+    try:
+        yield
+    finally:
+        path.unlink(missing_ok=True)
 
 
 def _plain(value):

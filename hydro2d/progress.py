@@ -240,5 +240,9 @@ def reporter(log: Path, quiet: bool) -> Iterator[Report]:
         report = kind(file, quiet)
         try:
             yield report
+        except Exception as error:
+            report.close()
+            file.write(f"stopped by {type(error).__name__}: {error}\n")
+            raise
         finally:
             report.close()

@@ -15,7 +15,6 @@ from __future__ import annotations
 
 import hashlib
 import math
-import shutil
 import signal
 import threading
 import time as clock
@@ -27,12 +26,12 @@ from pathlib import Path
 import numpy as np
 
 from . import __version__, derived, provenance, snapshot
-from .files import write_json, write_text
+from .files import locked, write_json, write_text
 from .history import History
 from .progress import reporter
 from .vtk import FOLDER, SERIES, Series
 
-DECK, SUMMARY, HISTORY, LOG = "deck.toml", "summary.json", "history.h5", "log.txt"
+DECK, SUMMARY, HISTORY, LOG, LOCK = "deck.toml", "summary.json", "history.h5", "log.txt", "run.lock"
 OWN_FILES = (DECK, SUMMARY, HISTORY, LOG, snapshot.NAME, snapshot.PREVIOUS, *SERIES.values())
 
 #: cycles between copies of the state kept in memory as the last good one
@@ -78,21 +77,22 @@ class Due:
         return True
 
 
-def claim(directory: Path, *, restart: bool, overwrite: bool) -> None:
-    """Makes the directory ready. Raises RunError where a run is in it that neither option allows to touch."""
-    directory = Path(directory)
+def check_free(directory: Path, *, restart: bool, overwrite: bool) -> None:
+    """Raises RunError where the directory is not what the options allow."""
     if directory.exists() and not directory.is_dir():
         raise RunError(f"{directory} is a file, not a directory")
-    existing = [name for name in OWN_FILES if (directory / name).exists()]
-    if restart:
-        return
-    if existing and not overwrite:
+    if restart and not directory.is_dir():
+        raise RunError(f"{directory}: there is no run to continue")
+    if not (restart or overwrite) and any((directory / name).exists() for name in OWN_FILES):
         raise RunError(f"{directory} already holds a run; --restart continues it, --overwrite removes it")
-    directory.mkdir(parents=True, exist_ok=True)
-    for name in existing:
-        (directory / name).unlink()
-    if existing and (directory / FOLDER).is_dir():
-        shutil.rmtree(directory / FOLDER)
+
+
+def clear(directory: Path) -> None:
+    """Removes what a run has left in a directory, and nothing else."""
+    for name in OWN_FILES:
+        (directory / name).unlink(missing_ok=True)
+    for file in (directory / FOLDER).glob("*_[0-9]*.vt?"):
+        file.unlink()
 
 
 #: sections of a deck that may differ when a run is continued
@@ -318,6 +318,8 @@ def row(sim) -> dict:
     values |= {f"mass_change_{body}": change for body, change in conserved["mass"].items()}
     values |= {f"{name}_change": conserved[name] for name in ("axial_momentum", "total_energy")}
     values |= {name: conserved[name] for name in ("internal_energy_J", "kinetic_energy_J")}
+    for tracer, (r, z) in zip(sim.deck.tracer, sim.tracers, strict=True):
+        values |= {f"tracer_{tracer.name}_r_m": float(r), f"tracer_{tracer.name}_z_m": float(z)}
     for sink, amounts in conserved["sinks"].items():
         values |= {f"sink_{sink}_{name}": amount for name, amount in amounts.items()}
     return values
@@ -333,16 +335,18 @@ def run(deck, directory: Path | None = None, *, restart=False, overwrite=False, 
     quiet : nothing is printed (log.txt is written)
     interrupt : call it from anywhere to stop after the cycle with a restart file
 
-    Raises RunError, SnapshotError, FieldError.
+    Raises RunError, SnapshotError, FieldError, LockError (another process runs there).
     """
     directory = Path(directory or deck.output.directory)
     interrupt = interrupt or Interrupt()
     derived.expand(deck.output.fields)  # an unknown field is told before anything is touched
-    claim(directory, restart=restart, overwrite=overwrite)
-    if restart and not directory.is_dir():
-        raise RunError(f"{directory}: there is no run to continue")
-    with reporter(directory / LOG, quiet=quiet) as report, _signals(interrupt):
-        return Run(deck, directory, restart=restart, report=report).execute(interrupt)
+    check_free(directory, restart=restart, overwrite=overwrite)
+    directory.mkdir(parents=True, exist_ok=True)
+    with locked(directory / LOCK):
+        if not restart:
+            clear(directory)
+        with reporter(directory / LOG, quiet=quiet) as report, _signals(interrupt):
+            return Run(deck, directory, restart=restart, report=report).execute(interrupt)
 
 
 def exit_status(summary: dict) -> int:

@@ -51,10 +51,13 @@ def _array(values: np.ndarray, name: str):
     return array
 
 
-def _coordinates(values):
+def _coordinates(values, name: str):
+    """A float64 VTK array; with a name, or VTK writes an address of memory and no two files are the same."""
     from vtkmodules.util.numpy_support import numpy_to_vtk
 
-    return numpy_to_vtk(np.ascontiguousarray(values, dtype=float), deep=True)
+    array = numpy_to_vtk(np.ascontiguousarray(values, dtype=float), deep=True)
+    array.SetName(name)
+    return array
 
 
 def write_grid(path: Path, r_edges, z_edges, fields: dict[str, np.ndarray], time: float) -> None:
@@ -67,9 +70,9 @@ def write_grid(path: Path, r_edges, z_edges, fields: dict[str, np.ndarray], time
 
     grid = vtkRectilinearGrid()
     grid.SetDimensions(len(r_edges), len(z_edges), 1)
-    grid.SetXCoordinates(_coordinates(r_edges))
-    grid.SetYCoordinates(_coordinates(z_edges))
-    grid.SetZCoordinates(_coordinates([0.0]))
+    grid.SetXCoordinates(_coordinates(r_edges, "r"))
+    grid.SetYCoordinates(_coordinates(z_edges, "z"))
+    grid.SetZCoordinates(_coordinates([0.0], "height"))
     cells = (len(z_edges) - 1) * (len(r_edges) - 1)
     for name, values in fields.items():
         grid.GetCellData().AddArray(_array(values.reshape(cells, *values.shape[2:]), name))
@@ -113,7 +116,7 @@ def _points(positions: np.ndarray):
 
     points = vtkPoints()
     points.SetDataTypeToDouble()
-    points.SetData(_coordinates(np.column_stack([positions, np.zeros(len(positions))])))
+    points.SetData(_coordinates(np.column_stack([positions, np.zeros(len(positions))]), "Points"))
     return points
 
 

@@ -6,6 +6,8 @@ from types import SimpleNamespace
 
 import numpy as np
 
+import eos
+from hydro2d import materials
 from hydro2d.grid import Grid
 
 ROD, PLATE = "rod", "plate"
@@ -20,17 +22,32 @@ class FakeDeck:
     """What run.py needs of a deck; a real one has the same names."""
 
     def __init__(self, **output):
-        self.title = "a rod that meets a plate"
+        self.name, self.title = "fake", "a rod that meets a plate"
         self.output = SimpleNamespace(
-            **{"directory": "runs/fake", "vtk_interval": 5e-6, "history_interval": 1e-6, "restart_interval": None,
-               "restart_wall_interval": None, "fields": ()} | output
+            **{"directory": "runs/fake", "vtk_interval": 5e-6, "history_interval": 1e-6, "restart_interval": 300.0,
+               "fields": ("standard",)} | output
         )  # fmt: skip
-        self.stop = SimpleNamespace(time=STOP)
-        self.experiment = SimpleNamespace(penetration=0.0121, source="a laboratory")
+        self.stop = SimpleNamespace(time=STOP, cycles=None)
+        self.experiment = SimpleNamespace(penetration=0.0121, qualifier="measured", source="a laboratory")
+        self.tracer = (SimpleNamespace(name="nose"), SimpleNamespace(name="deep"))
         self.courant = 0.5
 
     def to_toml(self) -> str:
-        return f'title = "{self.title}"\n[numerics]\ncourant = {self.courant}\n[stop]\ntime = {self.stop.time}\n'
+        return f"""\
+title = "{self.title}"
+[numerics]
+courant = {self.courant}
+[stop]
+time = {self.stop.time}
+[experiment]
+penetration = {self.experiment.penetration}
+[penetration]
+rod = "rod"
+target = "plate"
+surface = 0.0
+[[body]]
+name = "rod"
+"""
 
 
 class Simulation:
@@ -44,10 +61,15 @@ class Simulation:
         shape, vertices = self.grid.shape, self.grid.vertex_shape
         body, vertex = (lambda: np.zeros((2, *shape))), (lambda: np.zeros((1, *vertices)))
         self.state = SimpleNamespace(
-            vof=body(), rho=body(), e=body(), srr=body(), szz=body(), srz=body(), ep=body(), dmg=body(), pm=body(),
-            tm=body(), p=np.zeros(shape), u=vertex(), v=vertex(), mass=vertex() + 1.0,
+            vof=body(), rho=body(), e=body(), srr=body(), szz=body(), srz=body(), ep=body(), dmg=body(),
+            u=vertex(), v=vertex(), mass=vertex() + 1.0,
         )  # fmt: skip
-        self.table = SimpleNamespace(names=(ROD, PLATE))
+        rows = [materials.load(name) for name in ("W_alloy", "Al5083")]
+        self.table = SimpleNamespace(
+            names=(ROD, PLATE),
+            eos_model=np.array([eos.MODELS[material.eos.name].ID for material in rows]),
+            eos_par=np.stack([eos.MODELS[material.eos.name].row(material.eos.values) for material in rows]),
+        )
         self.time, self.cycle, self.dt, self.dt_cause = 0.0, 0, 1e-7, "rod at r = 0.5 mm, z = 0.5 mm: sound"
         self.tracers = np.array([[0.0, 0.0], [1e-3, 5e-3]])
         self._place()
@@ -57,10 +79,8 @@ class Simulation:
         z, r = np.meshgrid(self.grid.zc, self.grid.rc, indexing="ij")
         s.vof[0] = (np.abs(r) < RADIUS) & (z < depth) & (z > depth - LENGTH)
         s.vof[1] = (z > 0) & (s.vof[0] == 0)
-        s.rho[0], s.rho[1] = 18160.0, 2710.0
+        s.rho[0], s.rho[1] = 18160.0, 2660.0 * (1 + 0.02 * np.sin(z * 100))
         s.srr[:], s.szz[:], s.srz[:] = 1e8, -3e8, 2e8
-        s.p[:] = 1e9 * np.sin(z * 100)
-        s.tm[:] = 300.0
         s.ep[0] = self.time * 1e5
         s.v[:] = SPEED
         s.u[:] = 7.0
@@ -86,7 +106,8 @@ class Simulation:
     def conservation(self) -> dict:
         sinks = {"outflow": {"mass_kg": 0.0, "momentum_N_s": 0.0, "energy_J": 1e-3 * self.time}}
         mass = {ROD: 1e-16, PLATE: -2e-16}
-        return {"mass": mass, "axial_momentum": 3e-15, "total_energy": float("nan"), "sinks": sinks}
+        totals = {"axial_momentum": 3e-15, "total_energy": float("nan"), "internal_energy_J": 1, "kinetic_energy_J": 2}
+        return {"mass": mass, "sinks": sinks, **totals}
 
     def stop_reason(self) -> str | None:
         return "the stop time was reached" if self.time >= self.deck.stop.time else None

@@ -1,25 +1,20 @@
 """Runs end, are interrupted, and continue to the same bits."""
 
 import json
+import os
+import socket
+import subprocess
 import sys
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from hydro2d import history, snapshot, vtk
+from hydro2d.derived import FieldError
+from hydro2d.files import LockError
 from hydro2d.run import Due, Interrupt, RunError, exit_status, run
 
 from . import fake
-
-
-@pytest.fixture
-def simulation(monkeypatch):
-    module = SimpleNamespace(
-        Simulation=type("Simulation", (fake.Simulation,), {}), UnphysicalState=fake.UnphysicalState
-    )
-    monkeypatch.setitem(sys.modules, "hydro2d.simulation", module)
-    return module.Simulation
 
 
 def test_due_at_first_cycle_at_or_after_each_time():
@@ -31,10 +26,6 @@ def test_due_at_first_cycle_at_or_after_each_time():
 def test_due_survives_rounding(interval):
     due = Due(interval)
     assert all(due(k * interval) and not due(k * interval) for k in range(2000))
-
-
-def test_no_interval_is_never_due():
-    assert not Due(None)(0.0)
 
 
 def test_run_directory(simulation, tmp_path):
@@ -90,18 +81,36 @@ def test_restart_gives_the_same_bits(simulation, tmp_path, cycles):
     assert one.keys() == two.keys()
     assert all(one[name].tobytes() == two[name].tobytes() for name in one)
     assert vtk.read_series(whole / "series.pvd") == vtk.read_series(parts / "series.pvd")
+    for file in (whole / "vtk").iterdir():
+        assert file.read_bytes() == (parts / "vtk" / file.name).read_bytes()
 
 
 def test_restart_drops_what_came_after_the_restart_point(simulation, tmp_path):
     """A run that went on after its last restart file, and was killed: later rows and dumps are written again."""
-    run(fake.FakeDeck(restart_interval=12e-6), tmp_path, quiet=True)
-    (tmp_path / "restart.h5").unlink()  # the one of the end
-    (tmp_path / "summary.json").unlink()
+    run(fake.FakeDeck(), tmp_path, quiet=True, interrupt=interrupt_after(87, simulation))
+    early = (tmp_path / "restart.h5").read_bytes()
+    run(fake.FakeDeck(), tmp_path, restart=True, quiet=True)
     before = vtk.read_series(tmp_path / "series.pvd")
-    run(fake.FakeDeck(restart_interval=12e-6), tmp_path, restart=True, quiet=True)
+    (tmp_path / "restart.h5").write_bytes(early)
+    (tmp_path / "summary.json").unlink()
+    run(fake.FakeDeck(), tmp_path, restart=True, quiet=True)
     assert vtk.read_series(tmp_path / "series.pvd") == before
     times = history.read(tmp_path / "history.h5")["time"]
     assert np.all(np.diff(times) > 0)
+
+
+def test_one_process_at_a_time(simulation, tmp_path):
+    (tmp_path / "run.lock").write_text(f"{socket.gethostname()} {os.getppid()}")
+    with pytest.raises(LockError, match="in use by process"):
+        run(fake.FakeDeck(), tmp_path, quiet=True)
+    (tmp_path / "run.lock").write_text("elsewhere 1")
+    with pytest.raises(LockError, match="on elsewhere"):
+        run(fake.FakeDeck(), tmp_path, quiet=True)
+    child = subprocess.Popen([sys.executable, "-c", ""])
+    child.wait()
+    (tmp_path / "run.lock").write_text(f"{socket.gethostname()} {child.pid}")  # it died
+    assert run(fake.FakeDeck(), tmp_path, quiet=True)["status"] == "done"
+    assert not (tmp_path / "run.lock").exists()
 
 
 def test_restart_refuses_another_deck(simulation, tmp_path):
@@ -119,15 +128,28 @@ def test_restart_may_extend_the_stop_time(simulation, tmp_path):
     assert run(longer, tmp_path, restart=True, quiet=True)["time_s"] >= 2 * fake.STOP
 
 
+def test_due_continues_where_the_interval_has_changed():
+    before, after = Due(1.0), Due(0.5)
+    assert before(2.5)
+    after.resume(before.saved(), 2.5)
+    assert [time for time in (2.6, 3.0, 3.2, 3.6) if after(time)] == [3.0, 3.6]
+
+
+def test_unknown_field(simulation, tmp_path):
+    with pytest.raises(FieldError, match='did you mean "pressure"'):
+        run(fake.FakeDeck(fields=("presure",)), tmp_path / "x", quiet=True)
+    assert not (tmp_path / "x").exists()
+
+
 def test_restart_without_a_file_is_one_clear_error(simulation, tmp_path):
     with pytest.raises(snapshot.SnapshotError, match="no restart file"):
         run(fake.FakeDeck(), tmp_path, restart=True, quiet=True)
 
 
 def test_damaged_restart_falls_back_and_says_so(simulation, tmp_path):
-    run(fake.FakeDeck(restart_interval=5e-6), tmp_path, quiet=True)
+    run(fake.FakeDeck(restart_interval=1e-9), tmp_path, quiet=True)
     (tmp_path / "restart.h5").write_bytes(b"\x89HDF nonsense")
-    summary = run(fake.FakeDeck(restart_interval=5e-6), tmp_path, restart=True, quiet=True)
+    summary = run(fake.FakeDeck(), tmp_path, restart=True, quiet=True)
     assert summary["status"] == "done"
     assert "continuing from the one before" in (tmp_path / "log.txt").read_text()
 

@@ -1,0 +1,241 @@
+"""The command line: one message and status 2 for what the user has to mend; no traceback."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import textwrap
+import time
+from pathlib import Path
+
+import pytest
+
+from hydro2d import snapshot, vtk
+from hydro2d.cli import app, call
+
+from . import fake
+
+DECK = """
+[mesh]
+r = [{to = "12 mm", cells = 12}]
+z_start = "-25 mm"
+z = [{to = "30 mm", size = "1 mm"}]
+[[body]]
+name = "rod"
+material = "W_alloy"
+shape = "rod"
+nose = "hemispherical"
+radius = "4 mm"
+length = "20 mm"
+tip = 0.0
+velocity = "1000 m/s"
+[[body]]
+name = "plate"
+material = "Al5083"
+shape = "plate"
+z_front = 0.0
+thickness = "40 mm"
+[[tracer]]
+name = "nose"
+r = 0.0
+z = 0.0
+[[tracer]]
+name = "deep"
+r = "1 mm"
+z = "5 mm"
+[stop]
+time = "20 us"
+[experiment]
+penetration = "12.1 mm"
+source = "a laboratory"
+"""
+
+
+@pytest.fixture
+def deck(tmp_path):
+    file = tmp_path / "shot.toml"
+    file.write_text(DECK)
+    return str(file)
+
+
+def test_run_plot_export(simulation, deck, tmp_path, capsys):
+    out = tmp_path / "out"
+    assert call(["run", deck, "--out", str(out)]) == 0
+    assert "penetration depth" in capsys.readouterr().out
+    assert call(["run", deck, "--out", str(out)]) == 2
+    assert "--overwrite" in capsys.readouterr().err
+    picture = tmp_path / "x.png"
+    assert call(["plot", str(out), "-o", str(picture), "--field", "density", "--time", "10 us", "--time", "20 us"]) == 0
+    assert call(["plot", str(out), "-o", str(picture), "--kind", "history", "--quantity", "rod_length_m"]) == 0
+    assert call(["export", str(out), "-o", str(tmp_path / "e"), "--fields", "pressure", "velocity"]) == 0
+    (_, file), *_ = vtk.read_series(tmp_path / "e" / "series.pvd")
+    assert set(vtk.read_grid(tmp_path / "e" / file).fields) == {
+        "Pressure [Pa]", "Velocity [m/s]", "Material", "Volume Fraction for rod", "Volume Fraction for plate"
+    }  # fmt: skip
+    assert (tmp_path / "e" / "history.csv").read_text().startswith("time [s],")
+    assert call(["export", str(out)]) == 0
+    assert (out / "export" / "interfaces.pvd").exists()
+
+
+def test_export_without_dumps_takes_the_restart_file(simulation, deck, tmp_path):
+    out = tmp_path / "out"
+    call(["run", deck, "--out", str(out), "--quiet"])
+    for file in ("series.pvd", "interfaces.pvd", "tracers.pvd"):
+        (out / file).unlink()
+    assert call(["export", str(out)]) == 0
+    ((when, file),) = vtk.read_series(out / "export" / "series.pvd")
+    assert "Pressure of rod [Pa]" in vtk.read_grid(out / "export" / file).fields
+    assert when == snapshot.read(out / "restart.h5").scalars["time"]
+
+
+def test_restart_after_an_interruption(simulation, deck, tmp_path):
+    out = str(tmp_path / "out")
+    assert call(["run", deck, "--out", out, "--set", "stop.cycles=50", "--quiet"]) == 0
+    assert call(["run", deck, "--out", out, "--restart", "--quiet"]) == 0
+    assert json.loads(Path(out, "summary.json").read_text())["time_s"] >= fake.STOP
+
+
+def test_unphysical_is_status_3(simulation, deck, tmp_path, capsys):
+    simulation.fail_at = 7
+    assert call(["run", deck, "--out", str(tmp_path / "out")]) == 3
+    assert "density -1 kg/m3" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["rnu"], 'Did you mean "run"'),
+        (["run"], "requires an argument"),
+        (["run", "none.toml"], "no such file"),
+        (["run", "{deck}", "--thread", "2"], "--threads"),
+        (["run", "{deck}", "--threads", "0"], "at least 1"),
+        (["run", "{deck}", "--set", "numerics.corant=0.5"], 'did you mean "courant"'),
+        (["run", "{deck}", "--set", "stop.time=5 mm"], "time"),
+        (["run", "{deck}", "--set", 'output.fields=["presure"]'], 'did you mean "pressure"'),
+        (["run", "{deck}", "--restart", "--overwrite"], "one of them"),
+        (["run", "{deck}", "--out", "{deck}"], "is a file"),
+        (["run", "{deck}", "--out", "{tmp}/none", "--restart"], "no run to continue"),
+        (["plot", "{tmp}", "-o", "x.png"], "not a run directory"),
+        (["plot", "{tmp}/out", "-o", "x.png", "--time", "5 mm"], "--time"),
+        (["plot", "{tmp}/out", "-o", "x.png", "--window", "1,2"], "three lengths"),
+        (["plot", "{tmp}/out", "-o", "x.xyz"], "picture format"),
+        (["plot", "{tmp}/out", "-o", "x.png", "--kind", "sideways"], "--kind"),
+        (["export", "{tmp}/out", "--fields", "presure"], 'did you mean "pressure"'),
+        (["info", "presure"], 'did you mean "pressure"'),
+    ],
+)
+def test_one_clear_message_and_status_2(simulation, deck, tmp_path, capsys, monkeypatch, arguments, said):
+    monkeypatch.chdir(tmp_path)
+    if "{tmp}/out" in arguments:
+        call(["run", deck, "--out", str(tmp_path / "out"), "--quiet"])
+    capsys.readouterr()
+    assert call([word.format(deck=deck, tmp=tmp_path) for word in arguments]) == 2
+    message = capsys.readouterr().err
+    assert said in message
+    assert "Traceback" not in message
+
+
+def test_a_damaged_restart_file_is_one_message(simulation, deck, tmp_path, capsys):
+    out = tmp_path / "out"
+    call(["run", deck, "--out", str(out), "--quiet"])
+    os.truncate(out / "restart.h5", 3000)
+    assert call(["run", deck, "--out", str(out), "--restart", "--quiet"]) == 2
+    assert capsys.readouterr().err.count("\n") == 1
+
+
+def test_check(deck, tmp_path, capsys):
+    assert call(["check", deck, "--picture", str(tmp_path / "start.png"), "--threads", "2"]) == 0
+    shown = capsys.readouterr().out
+    assert "12 x 55 = 660 cells" in shown
+    assert "4 cells across the radius of 4 mm" in shown
+    assert "warning" in shown  # under five cells
+    volume = 3.141592653589793 * (4e-3**2 * 16e-3 + 2 / 3 * 4e-3**3)
+    assert f"{volume * 18160 * 1e3:.5g}" in shown
+    assert (tmp_path / "start.png").stat().st_size > 5000
+
+
+def test_info(capsys):
+    for name in ("W_alloy", "johnson-cook", "pressure", "numerics.courant", "radius", "mesh.r"):
+        assert call(["info", name]) == 0
+    assert call(["info"]) == 0
+    shown = capsys.readouterr().out
+    assert "numerics.courant (key of the deck)" in shown
+    assert '"Pressure [Pa]"' in shown
+
+
+def test_schema(capsys):
+    assert call(["schema"]) == 0
+    assert "numerics" in json.loads(capsys.readouterr().out)["properties"]
+
+
+def test_every_command_has_an_example():
+    for name in ("run", "check", "info", "plot", "export", "bench", "schema"):
+        assert f"Example: hydro2d {name}" in app[name].help
+
+
+def test_help_is_light():
+    """Nothing heavy is imported to say what the commands are."""
+    code = """
+        import sys
+        from hydro2d.cli import call
+        call(["--help"]); call(["run", "--help"])
+        heavy = {"numpy", "numba", "h5py", "pint", "pyvista", "vtkmodules", "matplotlib", "scipy"} & set(sys.modules)
+        assert not heavy, heavy
+    """
+    subprocess.run([sys.executable, "-c", textwrap.dedent(code)], check=True, capture_output=True)
+
+
+@pytest.mark.parametrize(("number", "status"), [(signal.SIGTERM, 143), (signal.SIGINT, 130)])
+def test_signals_write_a_restart_file(deck, tmp_path, number, status):
+    code = """
+        import sys, time, types
+        from tests.unit import fake
+        class Slow(fake.Simulation):
+            def step(self):
+                time.sleep(0.02)
+                super().step()
+        sys.modules["hydro2d.simulation"] = types.SimpleNamespace(
+            Simulation=Slow, UnphysicalState=fake.UnphysicalState)
+        from hydro2d.cli import main
+        main(sys.argv[1:])
+    """
+    out = tmp_path / "out"
+    root = Path(__file__).parents[2]
+    child = subprocess.Popen([sys.executable, "-c", textwrap.dedent(code), "run", deck, "--out", str(out)], cwd=root,
+                             stdout=subprocess.DEVNULL)  # fmt: skip
+    until = time.monotonic() + 60
+    while not (out / "vtk" / "dump_000001.vtr").exists() and time.monotonic() < until:
+        time.sleep(0.05)
+    child.send_signal(number)
+    assert child.wait(60) == status
+    summary = json.loads((out / "summary.json").read_text())
+    assert summary["status"] == "interrupted"
+    assert signal.Signals(number).name in summary["stop_reason"]
+    assert snapshot.read(out / "restart.h5").scalars["cycle"] == summary["cycles"]
+
+
+def test_kill_leaves_whole_files(deck, tmp_path):
+    """kill -9 in the middle of constant writing: what is there can be read."""
+    code = """
+        import sys, types
+        from tests.unit import fake
+        sys.modules["hydro2d.simulation"] = types.SimpleNamespace(
+            Simulation=fake.Simulation, UnphysicalState=fake.UnphysicalState)
+        from hydro2d.cli import main
+        main(sys.argv[1:])
+    """
+    out = tmp_path / "out"
+    root = Path(__file__).parents[2]
+    options = ["--set", "output.restart_interval=1e-9", "--set", "output.vtk_interval=1e-7", "--set", "stop.time=1 ms"]
+    child = subprocess.Popen([sys.executable, "-c", textwrap.dedent(code), "run", deck, "--out", str(out), *options],
+                             cwd=root, stdout=subprocess.DEVNULL)  # fmt: skip
+    until = time.monotonic() + 60
+    while not (out / "restart.previous.h5").exists() and time.monotonic() < until:
+        time.sleep(0.05)
+    time.sleep(0.3)
+    child.kill()
+    child.wait(60)
+    snapshot.read_latest(out)
+    for _, file in vtk.read_series(out / "series.pvd"):
+        vtk.read_grid(out / file)
