@@ -61,7 +61,7 @@ def profiling(on: bool) -> None:
 
 def point(function):
     """Compiles a scalar function of physics."""
-    return numba.njit(function, **_COMMON)
+    return numba.njit(function, forceinline=True, **_COMMON)
 
 
 def _timed(function, compiled):
@@ -81,7 +81,11 @@ def _timed(function, compiled):
 
 
 def kernel(function):
-    """Compiles loops over the mesh whose outermost ``prange`` runs over rows."""
+    """Compiles loops over the mesh whose outermost ``prange`` runs over rows.
+
+    Array views inside the ``prange`` must be assigned one by one: through a tuple (``a, b = x[j], y[j]``) numba 0.68
+    loses writes to them, silently. A test holds every kernel against its own source, interpreted.
+    """
     return _timed(function, numba.njit(function, parallel=True, **_COMMON))
 
 

@@ -29,14 +29,22 @@ def total_stress(j0, j1, dt, face_r, az_in, az_out, vol_r, dz, span, occupied, m
     """
     bodies = vof.shape[0]
     for j in prange(j0, j1):
-        lo, hi = occupied[j, 0], occupied[j, 1]
-        rr, zz, tt, rz, ph_j = sig_rr[j], sig_zz[j], sig_tt[j], sig_rz[j], ph[j]
+        lo = occupied[j, 0]
+        hi = occupied[j, 1]
+        rr = sig_rr[j]
+        zz = sig_zz[j]
+        tt = sig_tt[j]
+        rz = sig_rz[j]
+        ph_j = ph[j]
         for i in range(lo, hi):
             rr[i] = 0.0
             zz[i] = 0.0
             rz[i] = 0.0
         for m in range(bodies):
-            f_j, a_j, b_j, c_j = vof[m, j], q[SRR, m, j], q[SZZ, m, j], q[SRZ, m, j]
+            f_j = vof[m, j]
+            a_j = q[SRR, m, j]
+            b_j = q[SZZ, m, j]
+            c_j = q[SRZ, m, j]
             for i in range(span[m, j, 0], span[m, j, 1]):
                 rr[i] += f_j[i] * a_j[i]
                 zz[i] += f_j[i] * b_j[i]
@@ -49,9 +57,17 @@ def total_stress(j0, j1, dt, face_r, az_in, az_out, vol_r, dz, span, occupied, m
             rz[i] *= scale
             for m in range(bodies):
                 if hard[m] and vof[m, j, i] >= hard_threshold:
-                    rr[i], zz[i], rz[i] = q[SRR, m, j, i], q[SZZ, m, j, i], q[SRZ, m, j, i]
-        ub, ut, vb, vt = u[0, j], u[0, j + 1], v[0, j], v[0, j + 1]
-        p_j, k_j, qr_j, qz_j = p[j], bulk[j], qr[j], qz[j]
+                    rr[i] = q[SRR, m, j, i]
+                    zz[i] = q[SZZ, m, j, i]
+                    rz[i] = q[SRZ, m, j, i]
+        ub = u[0, j]
+        ut = u[0, j + 1]
+        vb = v[0, j]
+        vt = v[0, j + 1]
+        p_j = p[j]
+        k_j = bulk[j]
+        qr_j = qr[j]
+        qz_j = qz[j]
         h = dz[j]
         for i in range(lo, hi):
             div = divergence(i, ub, ut, vb, vt, face_r, az_in, az_out, vol_r, h)
@@ -72,7 +88,9 @@ def vertex_masses(j0, j1, i0, i1, cm_in, cm_out, reach, cell_mass, mass):
     for j in prange(j0, j1):
         lo, hi = union(reach, j - 1, j + 1)
         lo, hi = max(lo, i0), min(hi + 1, i1)
-        below, above, m_j = cell_mass[j - 1], cell_mass[j], mass[0, j]
+        below = cell_mass[j - 1]
+        above = cell_mass[j]
+        m_j = mass[0, j]
         for i in range(lo, hi):
             m_j[i] = cm_out[i - 1] * (below[i - 1] + above[i - 1]) + cm_in[i] * (below[i] + above[i])
 
@@ -92,13 +110,29 @@ def accelerate(j0, j1, i0, i1, dt, hourglass, speed_limit, light_density, face_r
     for j in prange(j0, j1):
         lo, hi = union(occupied, j - 1, j + 1)
         lo, hi = max(lo, i0), min(hi + 1, i1)
-        hb, ht = dz[j - 1], dz[j]
-        rr_b, rr_t, zz_b, zz_t = sig_rr[j - 1], sig_rr[j], sig_zz[j - 1], sig_zz[j]
-        tt_b, tt_t, rz_b, rz_t = sig_tt[j - 1], sig_tt[j], sig_rz[j - 1], sig_rz[j]
-        rho_b, rho_t, c2_b, c2_t = rhobar[j - 1], rhobar[j], cs2[j - 1], cs2[j]
-        u_b, u_c, u_t = u0[0, j - 1], u0[0, j], u0[0, j + 1]
-        v_b, v_c, v_t = v0[0, j - 1], v0[0, j], v0[0, j + 1]
-        m_j, un, vn = mass[0, j], u[0, j], v[0, j]
+        hb = dz[j - 1]
+        ht = dz[j]
+        rr_b = sig_rr[j - 1]
+        rr_t = sig_rr[j]
+        zz_b = sig_zz[j - 1]
+        zz_t = sig_zz[j]
+        tt_b = sig_tt[j - 1]
+        tt_t = sig_tt[j]
+        rz_b = sig_rz[j - 1]
+        rz_t = sig_rz[j]
+        rho_b = rhobar[j - 1]
+        rho_t = rhobar[j]
+        c2_b = cs2[j - 1]
+        c2_t = cs2[j]
+        u_b = u0[0, j - 1]
+        u_c = u0[0, j]
+        u_t = u0[0, j + 1]
+        v_b = v0[0, j - 1]
+        v_c = v0[0, j]
+        v_t = v0[0, j + 1]
+        m_j = mass[0, j]
+        un = u[0, j]
+        vn = v[0, j]
         lost_p, lost_e, count = 0.0, 0.0, 0.0
         for i in range(lo, hi):
             k = i - 1
@@ -161,9 +195,14 @@ def swept_volumes(j0, j1, i0, i1, dt, face_r, az_in, az_out, dz, reach, u0, v0, 
     for j in prange(j0, j1):
         lo, hi = union(reach, j - 1, j + 1)
         lo, hi = max(lo, i0), min(hi, i1)
-        ub, ub0, ut, ut0 = u[0, j], u0[0, j], u[0, j + 1], u0[0, j + 1]
-        vb, vb0 = v[0, j], v0[0, j]
-        fr_j, fz_j = fr[j], fz[j]
+        ub = u[0, j]
+        ub0 = u0[0, j]
+        ut = u[0, j + 1]
+        ut0 = u0[0, j + 1]
+        vb = v[0, j]
+        vb0 = v0[0, j]
+        fr_j = fr[j]
+        fz_j = fz[j]
         h = dz[j]
         for i in range(lo, hi):
             fr_j[i] = 0.25 * dt * face_r[i] * h * ((ub[i] + ub0[i]) + (ut[i] + ut0[i]))

@@ -64,16 +64,37 @@ def deform(j0, j1, m, dt, hourglass, face_r, hoop, az_in, az_out, vol_r, dr, dz,
     Reads    u0, v0, u, v [b, j, i]; fr, fz, sig_.., rhobar, cs2 [j, i]; vof, pm, tm [m, j, i]
     Updates  q [k, m, j, i]
     """
-    model, par, dmodel, dpar = strength_model[m], strength_par[m], damage_model[m], damage_par[m]
+    model = strength_model[m]
+    par = strength_par[m]
+    dmodel = damage_model[m]
+    dpar = damage_par[m]
     scale = factor[m]
     for j in prange(j0, j1):
-        ub, ut, vb, vt = u[0, j], u[0, j + 1], v[0, j], v[0, j + 1]
-        ub0, ut0, vb0, vt0 = u0[0, j], u0[0, j + 1], v0[0, j], v0[0, j + 1]
-        fr_j, fz_b, fz_t = fr[j], fz[j], fz[j + 1]
-        rr_j, zz_j, tt_j, rz_j = sig_rr[j], sig_zz[j], sig_tt[j], sig_rz[j]
-        f_j, p_j, t_j = vof[m, j], pm[m, j], tm[m, j]
-        rho_j, e_j, ep_j, d_j = q[RHO, m, j], q[E, m, j], q[EP, m, j], q[DMG, m, j]
-        srr_j, szz_j, srz_j = q[SRR, m, j], q[SZZ, m, j], q[SRZ, m, j]
+        ub = u[0, j]
+        ut = u[0, j + 1]
+        vb = v[0, j]
+        vt = v[0, j + 1]
+        ub0 = u0[0, j]
+        ut0 = u0[0, j + 1]
+        vb0 = v0[0, j]
+        vt0 = v0[0, j + 1]
+        fr_j = fr[j]
+        fz_b = fz[j]
+        fz_t = fz[j + 1]
+        rr_j = sig_rr[j]
+        zz_j = sig_zz[j]
+        tt_j = sig_tt[j]
+        rz_j = sig_rz[j]
+        f_j = vof[m, j]
+        p_j = pm[m, j]
+        t_j = tm[m, j]
+        rho_j = q[RHO, m, j]
+        e_j = q[E, m, j]
+        ep_j = q[EP, m, j]
+        d_j = q[DMG, m, j]
+        srr_j = q[SRR, m, j]
+        szz_j = q[SZZ, m, j]
+        srz_j = q[SRZ, m, j]
         h = dz[j]
         for i in range(span[m, j, 0], span[m, j, 1]):
             if f_j[i] != 1.0:
@@ -111,4 +132,6 @@ def deform(j0, j1, m, dt, hourglass, face_r, hoop, az_in, az_out, vol_r, dr, dz,
                 if d_j[i] >= 1.0:
                     d_j[i] = 1.0
                     srr, szz, srz = 0.0, 0.0, 0.0
-            srr_j[i], szz_j[i], srz_j[i] = srr, szz, srz
+            srr_j[i] = srr
+            szz_j[i] = szz
+            srz_j[i] = srz

@@ -124,7 +124,10 @@ def donor_volumes(dj, di, j0, j1, i0, i1, open_faces, span, f_face, vof, flux_vo
             if lo >= hi:
                 continue
             lo, hi = max(lo, i0), min(hi, i1 + di)
-            swept, out, here, before = f_face[j], flux_volume[m, j], vof[m, j], vof[m, j - dj]
+            swept = f_face[j]
+            out = flux_volume[m, j]
+            here = vof[m, j]
+            before = vof[m, j - dj]
             for i in range(lo, hi):
                 donor = before[i - di] if swept[i] > 0.0 else here[i]
                 out[i] = swept[i] * donor
@@ -152,7 +155,9 @@ def interface_volumes(dj, di, j0, j1, dr, dz, order, mixed_count, mixed, f_face,
     """
     bodies = order.shape[0]
     for j in prange(j0, j1):
-        left, right, middle = strips[j, 0], strips[j, 1], strips[j, 2]
+        left = strips[j, 0]
+        right = strips[j, 1]
+        middle = strips[j, 2]
         for k in range(mixed_count[j]):
             i = mixed[j, k]
             out_low = max(-f_face[j, i], 0.0)

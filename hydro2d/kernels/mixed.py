@@ -54,7 +54,8 @@ def tear_mixed(j0, j1, smallest, max_opening, vol_r, dz, mixed_count, mixed, eos
                 if f == 0.0:
                     continue
                 if pm[m, j, i] < 0.0:
-                    rho, e = q[RHO, m, j, i], q[E, m, j, i]
+                    rho = q[RHO, m, j, i]
+                    e = q[E, m, j, i]
                     target = max(zero_pressure_density(eos_model[m], rho, e, eos_par[m]), rho)
                     share = max(rho / target, 1.0 - max_opening)
                     opened[j] += f * (1.0 - share) * vol_r[i] * dz[j]
@@ -100,10 +101,23 @@ def deform_mixed(j0, j1, dt, hourglass, relaxation, tipton, mode, hard, hard_thr
     """
     bodies = vof.shape[0]
     for j in prange(j0, j1):
-        ub, ut, vb, vt = u[0, j], u[0, j + 1], v[0, j], v[0, j + 1]
-        ub0, ut0, vb0, vt0 = u0[0, j], u0[0, j + 1], v0[0, j], v0[0, j + 1]
+        ub = u[0, j]
+        ut = u[0, j + 1]
+        vb = v[0, j]
+        vt = v[0, j + 1]
+        ub0 = u0[0, j]
+        ut0 = u0[0, j + 1]
+        vb0 = v0[0, j]
+        vt0 = v0[0, j + 1]
         h = dz[j]
-        weight, share, yields, heat, s_rr, s_zz, s_rz, modulus = mix[j]
+        weight = mix[j, 0]
+        share = mix[j, 1]
+        yields = mix[j, 2]
+        heat = mix[j, 3]
+        s_rr = mix[j, 4]
+        s_zz = mix[j, 5]
+        s_rz = mix[j, 6]
+        modulus = mix[j, 7]
         for k in range(mixed_count[j]):
             i = mixed[j, k]
             volume = vol_r[i] * h
@@ -144,7 +158,9 @@ def deform_mixed(j0, j1, dt, hourglass, relaxation, tipton, mode, hard, hard_thr
                 part = 1.0 if m == ruler else 0.0
                 if ruler < 0:
                     part = f if mode == MATERIAL else f / max(total, NO_VOID)
-                a, b, c = q[SRR, m, j, i], q[SZZ, m, j, i], q[SRZ, m, j, i]
+                a = q[SRR, m, j, i]
+                b = q[SZZ, m, j, i]
+                c = q[SRZ, m, j, i]
                 heat[m] = part * dt * ((a * m_rr - (a + b) * m_tt) + (b * m_zz + c * m_rz))
 
             # the new deviators, and the plastic heat of the hard zone
@@ -158,7 +174,9 @@ def deform_mixed(j0, j1, dt, hourglass, relaxation, tipton, mode, hard, hard_thr
                 if f == 0.0 or strength_model[m] == 0:
                     continue
                 par = strength_par[m]
-                rho, p_m, t_m = q[RHO, m, j, i], pm[m, j, i], tm[m, j, i]
+                rho = q[RHO, m, j, i]
+                p_m = pm[m, j, i]
+                t_m = tm[m, j, i]
                 modulus[m] = shear_modulus(strength_model[m], p_m, rho, t_m, par)
                 s_rr[m], s_zz[m], s_rz[m] = turn_and_strain(q[SRR, m, j, i], q[SZZ, m, j, i], q[SRZ, m, j, i], spin,
                                                             2.0 * modulus[m], strain_r, strain_z, strain_t, strain_s)
@@ -180,7 +198,9 @@ def deform_mixed(j0, j1, dt, hourglass, relaxation, tipton, mode, hard, hard_thr
                     continue
                 trial = von_mises(s_rr[m], s_zz[m], s_rz[m])
                 dep, final = 0.0, trial
-                rho, p_m, t_m = q[RHO, m, j, i], pm[m, j, i], tm[m, j, i]
+                rho = q[RHO, m, j, i]
+                p_m = pm[m, j, i]
+                t_m = tm[m, j, i]
                 if own:
                     dep, final = plastic_increment(strength_model[m], trial, q[EP, m, j, i], dt, t_m, p_m, rho, modulus[m],
                                                    factor[m], strength_par[m])

@@ -26,11 +26,24 @@ def dual_fluxes(dj, di, j0, j1, i0, i1, choice, cm_in, cm_out, reach, flux_mass,
         lo, hi = max(lo, i0) - di, min(hi + 1, i1 + 1)
         if lo >= hi:
             continue
-        d0, d1, d2, d3, d4 = dual[0, j], dual[1, j], dual[2, j], dual[3, j], dual[4, j]
-        below, here, above = flux_mass[j - di], flux_mass[j], flux_mass[j + dj]
-        m_l, m_r = mass[0, j], mass[0, j + dj]
-        u_ll, u_l, u_r, u_rr = u[0, j - dj], u[0, j], u[0, j + dj], u[0, j + 2 * dj]
-        v_ll, v_l, v_r, v_rr = v[0, j - dj], v[0, j], v[0, j + dj], v[0, j + 2 * dj]
+        d0 = dual[0, j]
+        d1 = dual[1, j]
+        d2 = dual[2, j]
+        d3 = dual[3, j]
+        d4 = dual[4, j]
+        below = flux_mass[j - di]
+        here = flux_mass[j]
+        above = flux_mass[j + dj]
+        m_l = mass[0, j]
+        m_r = mass[0, j + dj]
+        u_ll = u[0, j - dj]
+        u_l = u[0, j]
+        u_r = u[0, j + dj]
+        u_rr = u[0, j + 2 * dj]
+        v_ll = v[0, j - dj]
+        v_l = v[0, j]
+        v_r = v[0, j + dj]
+        v_rr = v[0, j + 2 * dj]
         for i in range(lo, hi):
             if di == 1:
                 flow = cm_out[i] * (below[i] + here[i]) + cm_in[i] * (below[i + 1] + here[i + 1])
@@ -71,7 +84,9 @@ def vertex_update(dj, di, j0, j1, i0, i1, choice, bound, still, cm_in, cm_out, r
     for j in prange(j0, j1):
         lo, hi = union(reach, j - 1, j + 1)
         lo, hi = max(lo, i0), min(hi + 1, i1)
-        below, above, m_j = cell_mass[j - 1], cell_mass[j], mass[0, j]
+        below = cell_mass[j - 1]
+        above = cell_mass[j]
+        m_j = mass[0, j]
         k_before, k_after, p_error, k_cut, p_wall = 0.0, 0.0, 0.0, 0.0, 0.0
         for i in range(lo, hi):
             old = m_j[i]

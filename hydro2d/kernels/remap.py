@@ -45,12 +45,18 @@ def body_fluxes(dj, di, j0, j1, i0, i1, m, carried, span, f_face, pre, flux_volu
         if n <= 0:
             continue
         swept = flux_volume[m, j, lo:hi]
-        f_ll, f_l = vof[m, j - 2 * dj, lo - 2 * di:hi - 2 * di], vof[m, j - dj, lo - di:hi - di]
-        f_r, f_rr = vof[m, j, lo:hi], vof[m, j + dj, lo + di:hi + di]
-        pre_l, pre_r = pre[j - dj, lo - di:hi - di], pre[j, lo:hi]
-        r_ll, r_l = q[RHO, m, j - 2 * dj, lo - 2 * di:hi - 2 * di], q[RHO, m, j - dj, lo - di:hi - di]
-        r_r, r_rr = q[RHO, m, j, lo:hi], q[RHO, m, j + dj, lo + di:hi + di]
-        mass, total = flux[RHO, j, lo:hi], flux_mass[j, lo:hi]
+        f_ll = vof[m, j - 2 * dj, lo - 2 * di:hi - 2 * di]
+        f_l = vof[m, j - dj, lo - di:hi - di]
+        f_r = vof[m, j, lo:hi]
+        f_rr = vof[m, j + dj, lo + di:hi + di]
+        pre_l = pre[j - dj, lo - di:hi - di]
+        pre_r = pre[j, lo:hi]
+        r_ll = q[RHO, m, j - 2 * dj, lo - 2 * di:hi - 2 * di]
+        r_l = q[RHO, m, j - dj, lo - di:hi - di]
+        r_r = q[RHO, m, j, lo:hi]
+        r_rr = q[RHO, m, j + dj, lo + di:hi + di]
+        mass = flux[RHO, j, lo:hi]
+        total = flux_mass[j, lo:hi]
         for x in range(n):
             up = swept[x] > 0.0
             clean = f_l[x] == 1.0 and f_r[x] == 1.0 and (f_ll[x] == 1.0 if up else f_rr[x] == 1.0)
@@ -60,8 +66,10 @@ def body_fluxes(dj, di, j0, j1, i0, i1, m, carried, span, f_face, pre, flux_volu
             mass[x] = swept[x] * (donor + (0.5 * (1.0 - courant) * slope if clean else 0.0))
             total[x] += mass[x]
         for k in range(1, carried):
-            a_ll, a_l = q[k, m, j - 2 * dj, lo - 2 * di:hi - 2 * di], q[k, m, j - dj, lo - di:hi - di]
-            a_r, a_rr = q[k, m, j, lo:hi], q[k, m, j + dj, lo + di:hi + di]
+            a_ll = q[k, m, j - 2 * dj, lo - 2 * di:hi - 2 * di]
+            a_l = q[k, m, j - dj, lo - di:hi - di]
+            a_r = q[k, m, j, lo:hi]
+            a_rr = q[k, m, j + dj, lo + di:hi + di]
             out = flux[k, j, lo:hi]
             by_mass = k == E or k >= EP
             for x in range(n):
@@ -93,12 +101,19 @@ def body_update(dj, di, j0, j1, i0, i1, m, carried, span, f_face, pre, flux_volu
         n = hi - lo
         if n <= 0:
             continue
-        v_in, v_out = flux_volume[m, j, lo:hi], flux_volume[m, j + dj, lo + di:hi + di]
-        s_in, s_out = f_face[j, lo:hi], f_face[j + dj, lo + di:hi + di]
-        m_in, m_out = flux[RHO, j, lo:hi], flux[RHO, j + dj, lo + di:hi + di]
-        f_j, r_j, pre_j = vof[m, j, lo:hi], q[RHO, m, j, lo:hi], pre[j, lo:hi]
+        v_in = flux_volume[m, j, lo:hi]
+        v_out = flux_volume[m, j + dj, lo + di:hi + di]
+        s_in = f_face[j, lo:hi]
+        s_out = f_face[j + dj, lo + di:hi + di]
+        m_in = flux[RHO, j, lo:hi]
+        m_out = flux[RHO, j + dj, lo + di:hi + di]
+        f_j = vof[m, j, lo:hi]
+        r_j = q[RHO, m, j, lo:hi]
+        pre_j = pre[j, lo:hi]
         for k in range(1, carried):
-            a_j, a_in, a_out = q[k, m, j, lo:hi], flux[k, j, lo:hi], flux[k, j + dj, lo + di:hi + di]
+            a_j = q[k, m, j, lo:hi]
+            a_in = flux[k, j, lo:hi]
+            a_out = flux[k, j + dj, lo + di:hi + di]
             by_mass = k == E or k >= EP
             for x in range(n):
                 old = f_j[x] * pre_j[x]
@@ -163,7 +178,8 @@ def tidy(j0, j1, trace, cm_in, cm_out, volume, reach, pre, dj, di, fr, fz, secon
                 post = pre[j, i] - (dj * (fz[j + 1, i] - fz[j, i]) + di * (fr[j, i + 1] - fr[j, i]))
             total = 0.0
             for m in range(bodies):
-                f, rho = vof[m, j, i], q[RHO, m, j, i]
+                f = vof[m, j, i]
+                rho = q[RHO, m, j, i]
                 if f > 0.0 and (f < trace or not rho > 0.0):
                     mass = f * rho * post
                     inner, outer = cm_in[i] * mass, cm_out[i] * mass
@@ -204,7 +220,8 @@ def bound_history(j0, j1, m, span, carried, q):
     for j in prange(j0, j1):
         if carried < CARRIED_SOLID:
             continue
-        ep, damage = q[EP, m, j], q[DMG, m, j]
+        ep = q[EP, m, j]
+        damage = q[DMG, m, j]
         for i in range(span[m, j, 0], span[m, j, 1]):
             ep[i] = max(ep[i], 0.0)
             damage[i] = min(max(damage[i], 0.0), 1.0)

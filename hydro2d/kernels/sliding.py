@@ -26,7 +26,7 @@ def line_centre(n1, n2, fraction):
     return (1.0 - x if n1 < 0.0 else x), (1.0 - y if n2 < 0.0 else y)
 
 
-@serial
+@point
 def paint(j, i, r0, z0, n_r, n_z, half, reach, rc, zc, dr, dz, low_j, high_j, low_i, high_i, hard, distance, normal):
     """Distance of the cells around (j, i) to a piece of surface at (r0, z0), where it is the nearest so far.
 
@@ -86,7 +86,10 @@ def slip_zones(j0, j1, i0, i1, width_bl, width_sl, threshold, rc, zc, dr, dz, ha
             f = hard[j, i]
             if f < SURFACE:
                 continue
-            w, e, s, n = hard[j, i - 1], hard[j, i + 1], hard[j - 1, i], hard[j + 1, i]
+            w = hard[j, i - 1]
+            e = hard[j, i + 1]
+            s = hard[j - 1, i]
+            n = hard[j + 1, i]
             if f == 1.0:
                 half_r, half_z = 0.5 * dr[i], 0.5 * dz[j]
                 if e < SURFACE:
@@ -102,7 +105,10 @@ def slip_zones(j0, j1, i0, i1, width_bl, width_sl, threshold, rc, zc, dr, dz, ha
                     paint(j, i, rc[i], zc[j] - half_z, 0.0, -1.0, half_r, reach, rc, zc, dr, dz, j0, j1, i0, i1, hard, distance,
                           normal)
                 continue
-            sw, se, nw, ne = hard[j - 1, i - 1], hard[j - 1, i + 1], hard[j + 1, i - 1], hard[j + 1, i + 1]
+            sw = hard[j - 1, i - 1]
+            se = hard[j - 1, i + 1]
+            nw = hard[j + 1, i - 1]
+            ne = hard[j + 1, i + 1]
             n_r = ((nw + sw) + 2.0 * w) - ((ne + se) + 2.0 * e)
             n_z = ((sw + se) + 2.0 * s) - ((nw + ne) + 2.0 * n)
             size = abs(n_r) + abs(n_z)
@@ -136,7 +142,8 @@ def cut_shear(j0, j1, treatment, friction, occupied, zone, normal, hard_body, vo
         for i in range(occupied[j, 0], occupied[j, 1]):
             if zone[j, i] != SLIP_LAYER:
                 continue
-            n_r, n_z = normal[0, j, i], normal[1, j, i]
+            n_r = normal[0, j, i]
+            n_z = normal[1, j, i]
             for m in range(vof.shape[0]):
                 if hard_body[m] or vof[m, j, i] == 0.0:
                     continue
@@ -145,7 +152,9 @@ def cut_shear(j0, j1, treatment, friction, occupied, zone, normal, hard_body, vo
                     q[SZZ, m, j, i] = 0.0
                     q[SRZ, m, j, i] = 0.0
                     continue
-                rr, zz, rz = q[SRR, m, j, i], q[SZZ, m, j, i], q[SRZ, m, j, i]
+                rr = q[SRR, m, j, i]
+                zz = q[SZZ, m, j, i]
+                rz = q[SRZ, m, j, i]
                 nn = n_r * n_r * rr + 2.0 * n_r * n_z * rz + n_z * n_z * zz
                 nt = n_r * n_z * (zz - rr) + (n_r * n_r - n_z * n_z) * rz
                 limit = friction * max(pm[m, j, i] - nn, 0.0)

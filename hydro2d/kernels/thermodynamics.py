@@ -46,8 +46,13 @@ def pressures(j0, j1, max_opening, vol_r, dz, span, occupied, eos_model, eos_par
     """
     bodies = vof.shape[0]
     for j in prange(j0, j1):
-        lo, hi = occupied[j, 0], occupied[j, 1]
-        p_j, bulk_j, rho_j, solid_j, cs2_j = p[j], bulk[j], rhobar[j], solid[j], cs2[j]
+        lo = occupied[j, 0]
+        hi = occupied[j, 1]
+        p_j = p[j]
+        bulk_j = bulk[j]
+        rho_j = rhobar[j]
+        solid_j = solid[j]
+        cs2_j = cs2[j]
         for i in range(lo, hi):
             p_j[i] = 0.0
             bulk_j[i] = 0.0
@@ -59,12 +64,21 @@ def pressures(j0, j1, max_opening, vol_r, dz, span, occupied, eos_model, eos_par
         wrong_i = 0
         wrong_m = 0
         for m in range(bodies):
-            model, par = eos_model[m], eos_par[m]
-            smodel, spar = strength_model[m], strength_par[m]
-            f_j, r_j, e_j, d_j = vof[m, j], q[RHO, m, j], q[E, m, j], q[DMG, m, j]
-            pm_j, km_j, tm_j = pm[m, j], km[m, j], tm[m, j]
+            model = eos_model[m]
+            par = eos_par[m]
+            smodel = strength_model[m]
+            spar = strength_par[m]
+            f_j = vof[m, j]
+            r_j = q[RHO, m, j]
+            e_j = q[E, m, j]
+            d_j = q[DMG, m, j]
+            pm_j = pm[m, j]
+            km_j = km[m, j]
+            tm_j = tm[m, j]
             for i in range(span[m, j, 0], span[m, j, 1]):
-                f, rho, e = f_j[i], r_j[i], e_j[i]
+                f = f_j[i]
+                rho = r_j[i]
+                e = e_j[i]
                 if f == 0.0:
                     continue
                 pressure, dpdrho, dpde, temperature = evaluate(model, rho, e, par)
@@ -118,10 +132,19 @@ def viscosity_and_step(j0, j1, linear, quadratic, courant, advective, dr, dz, vo
     Writes   qr, qz [j, i]; row_dt [j], row_cause [j, 2] (cause, column); row_bad [j] velocities that are not finite
     """
     for j in prange(j0, j1):
-        lo, hi = occupied[j, 0], occupied[j, 1]
-        ub, ut = u[0, j], u[0, j + 1]
-        vbb, vb, vt, vtt = v[0, j - 1], v[0, j], v[0, j + 1], v[0, j + 2]
-        qr_j, qz_j, rho_j, c2_j, bulk_j = qr[j], qz[j], rhobar[j], cs2[j], bulk[j]
+        lo = occupied[j, 0]
+        hi = occupied[j, 1]
+        ub = u[0, j]
+        ut = u[0, j + 1]
+        vbb = v[0, j - 1]
+        vb = v[0, j]
+        vt = v[0, j + 1]
+        vtt = v[0, j + 2]
+        qr_j = qr[j]
+        qz_j = qz[j]
+        rho_j = rhobar[j]
+        c2_j = cs2[j]
+        bulk_j = bulk[j]
         h = dz[j]
         best = 1e300
         cause = 0
