@@ -302,7 +302,7 @@ class Cycle:
         """Pressure and sound speed of every body; void where a cell tears."""
         s, g, t, method, (j0, j1, _, _) = self.state, self.grid, self.table, self.method, self.box
         thermodynamics.pressures(
-            j0, j1, method.max_opening, g.vol_r, g.dz, s.span, s.occupied, t.eos_model, t.eos_par, t.strength_model,
+            j0, j1, method.max_opening, g.vol_r, g.dz, s.span, s.reach, t.eos_model, t.eos_par, t.strength_model,
             t.strength_par, t.fracture_pressure, s.vof, s.q, s.pm, s.km, s.tm, s.p, s.bulk, s.rhobar, s.solid, s.cs2, s.rows[0],
             s.row_numbers)
         self._report_bad(j0, j1)
@@ -327,7 +327,7 @@ class Cycle:
         s, g, method, (j0, j1, _, _) = self.state, self.grid, self.method, self.box
         thermodynamics.viscosity_and_step(
             j0, j1, method.linear, method.quadratic, method.courant, method.advective, g.dr, g.dz, g.vol_r, g.face_r, g.az_in,
-            g.az_out, s.occupied, s.u, s.v, s.rhobar, s.bulk, s.cs2, s.qr, s.qz, s.rows[1], s.row_moving, s.row_numbers[:, 0])
+            g.az_out, s.reach, s.u, s.v, s.rhobar, s.bulk, s.cs2, s.qr, s.qz, s.rows[1], s.row_moving, s.row_numbers[:, 0])
         j = j0 + int(np.argmin(s.rows[1, j0:j1]))
         stable = float(s.rows[1, j])
         if s.row_numbers[j0:j1, 0].any():
@@ -351,8 +351,8 @@ class Cycle:
         """Total stress of every cell at half the step."""
         s, g, method, (j0, j1, _, _) = self.state, self.grid, self.method, self.box
         acceleration.total_stress(
-            j0, j1, self.dt, g.face_r, g.az_in, g.az_out, g.vol_r, g.dz, s.span, s.occupied, s.mixed_count, s.mixed,
-            method.strength_mode != mixed.MATERIAL, method.hard, method.threshold, s.u, s.v, s.vof, s.q, s.p, s.bulk, s.solid,
+            j0, j1, self.dt, g.face_r, g.az_in, g.az_out, g.vol_r, g.dz, s.span, s.reach, s.mixed_count, s.mixed,
+            method.strength_mode == mixed.SOLID, method.hard, method.threshold, s.u, s.v, s.vof, s.q, s.p, s.bulk, s.solid,
             s.qr, s.qz, s.ph, s.sig_rr, s.sig_zz, s.sig_tt, s.sig_rz)
 
     def accelerate(self) -> None:

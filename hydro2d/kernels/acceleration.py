@@ -16,21 +16,30 @@ def divergence(i, ub, ut, vb, vt, face_r, az_in, az_out, vol_r, h):
     return (radial + axial) / (vol_r[i] * h)
 
 
+@point
+def stress_scale(solid_mode, solids):
+    """Factor on sum f_m s_m of a mixed cell: 1, or in mode `solid` one over the share of solids.
+
+    Not more than 2: a thinly filled cell with the stiffness of a full one would outrun the time step.
+    """
+    return 1.0 / max(solids, 0.5) if solid_mode else 1.0
+
+
 @kernel
-def total_stress(j0, j1, dt, face_r, az_in, az_out, vol_r, dz, span, occupied, mixed_count, mixed, shared_strength, hard,
+def total_stress(j0, j1, dt, face_r, az_in, az_out, vol_r, dz, span, reach, mixed_count, mixed, solid_mode, hard,
                  hard_threshold, u, v, vof, q, p, bulk, solid, qr, qz, ph, sig_rr, sig_zz, sig_tt, sig_rz):
     """sigma = s - (p + q) I with the pressure at half the step, p^(n+1/2) = p - (dt/2) K div u^n.
 
-    The cell's deviator is sum f_m s_m; where strength is shared (every mixed-cell mode but `material`) it is divided by the
-    share of solids; in the hard zone of a slip layer it is the hard body's own (explanation/mixed-cells, sliding).
+    The cell's deviator is sum f_m s_m, in mode `solid` divided by the share of solids; in the hard zone of a slip layer it is
+    the hard body's own times the share of solids (explanation/mixed-cells, sliding).
 
     Reads    u, v [b, j, i]; vof [m, j, i]; q (deviators) [k, m, j, i]; p, bulk, solid, qr, qz [j, i]; hard [m]
     Writes   ph, sig_rr, sig_zz, sig_tt, sig_rz [j, i]
     """
     bodies = vof.shape[0]
     for j in prange(j0, j1):
-        lo = occupied[j, 0]
-        hi = occupied[j, 1]
+        lo = reach[j, 0]
+        hi = reach[j, 1]
         rr = sig_rr[j]
         zz = sig_zz[j]
         tt = sig_tt[j]
@@ -51,15 +60,15 @@ def total_stress(j0, j1, dt, face_r, az_in, az_out, vol_r, dz, span, occupied, m
                 rz[i] += f_j[i] * c_j[i]
         for k in range(mixed_count[j]):
             i = mixed[j, k]
-            scale = 1.0 / max(solid[j, i], 1e-12) if shared_strength else 1.0
+            scale = stress_scale(solid_mode, solid[j, i])
             rr[i] *= scale
             zz[i] *= scale
             rz[i] *= scale
             for m in range(bodies):
                 if hard[m] and vof[m, j, i] >= hard_threshold:
-                    rr[i] = q[SRR, m, j, i]
-                    zz[i] = q[SZZ, m, j, i]
-                    rz[i] = q[SRZ, m, j, i]
+                    rr[i] = solid[j, i] * q[SRR, m, j, i]
+                    zz[i] = solid[j, i] * q[SZZ, m, j, i]
+                    rz[i] = solid[j, i] * q[SRZ, m, j, i]
         ub = u[0, j]
         ut = u[0, j + 1]
         vb = v[0, j]

@@ -3,6 +3,7 @@
 from eos.dispatch import evaluate, zero_pressure_density
 from hydro2d.fields import DMG, EP, RHO, SRR, SRZ, SZZ, E
 from hydro2d.jit import kernel, point, prange
+from hydro2d.kernels.acceleration import stress_scale
 from hydro2d.kernels.deformation import (
     hourglass_mode,
     hourglass_weight,
@@ -155,9 +156,9 @@ def deform_mixed(j0, j1, dt, hourglass, relaxation, tipton, mode, hard, hard_thr
                 f = vof[m, j, i]
                 if f == 0.0:
                     continue
-                part = 1.0 if m == ruler else 0.0
+                part = total if m == ruler else 0.0
                 if ruler < 0:
-                    part = f if mode == MATERIAL else f / max(total, NO_VOID)
+                    part = f * stress_scale(mode == SOLID, total)
                 a = q[SRR, m, j, i]
                 b = q[SZZ, m, j, i]
                 c = q[SRZ, m, j, i]
@@ -185,9 +186,8 @@ def deform_mixed(j0, j1, dt, hourglass, relaxation, tipton, mode, hard, hard_thr
                     yields[m] = 0.0
                 shared_yield += f * yields[m]
                 largest_yield = max(largest_yield, yields[m])
-            if mode == SOLID:
-                shared_yield /= max(total, NO_VOID)
-            elif mode == ZERO:
+            shared_yield /= total
+            if mode == ZERO:
                 shared_yield = 0.0
             elif mode == MAX:
                 shared_yield = largest_yield
@@ -219,7 +219,7 @@ def deform_mixed(j0, j1, dt, hourglass, relaxation, tipton, mode, hard, hard_thr
                 q[SZZ, m, j, i] = shrink * s_zz[m]
                 q[SRZ, m, j, i] = shrink * s_rz[m]
                 if m == ruler and dep > 0.0:
-                    plastic = dep * final * volume
+                    plastic = dep * final * volume * total
                     for n in range(bodies):
                         share[n] = vof[n, j, i] / max(yields[n], 1e-3 * yields[m])
                         softness += share[n]

@@ -30,7 +30,7 @@ def directional_viscosity(rho, c, du, psi, linear, quadratic):
 
 
 @kernel
-def pressures(j0, j1, max_opening, vol_r, dz, span, occupied, eos_model, eos_par, strength_model, strength_par,
+def pressures(j0, j1, max_opening, vol_r, dz, span, reach, eos_model, eos_par, strength_model, strength_par,
               fracture_pressure, vof, q, pm, km, tm, p, bulk, rhobar, solid, cs2, opened, bad):
     """Equation of state of every body, void opened in pure cells that tear, and the sums over a cell.
 
@@ -46,8 +46,8 @@ def pressures(j0, j1, max_opening, vol_r, dz, span, occupied, eos_model, eos_par
     """
     bodies = vof.shape[0]
     for j in prange(j0, j1):
-        lo = occupied[j, 0]
-        hi = occupied[j, 1]
+        lo = reach[j, 0]
+        hi = reach[j, 1]
         p_j = p[j]
         bulk_j = bulk[j]
         rho_j = rhobar[j]
@@ -120,7 +120,7 @@ def pressures(j0, j1, max_opening, vol_r, dz, span, occupied, eos_model, eos_par
 
 
 @kernel
-def viscosity_and_step(j0, j1, linear, quadratic, courant, advective, dr, dz, vol_r, face_r, az_in, az_out, occupied, u, v,
+def viscosity_and_step(j0, j1, linear, quadratic, courant, advective, dr, dz, vol_r, face_r, az_in, az_out, reach, u, v,
                        rhobar, bulk, cs2, qr, qz, row_dt, row_cause, row_bad):
     """Artificial viscosity direction by direction, and the smallest time step of each row.
 
@@ -132,8 +132,8 @@ def viscosity_and_step(j0, j1, linear, quadratic, courant, advective, dr, dz, vo
     Writes   qr, qz [j, i]; row_dt [j], row_cause [j, 2] (cause, column); row_bad [j] velocities that are not finite
     """
     for j in prange(j0, j1):
-        lo = occupied[j, 0]
-        hi = occupied[j, 1]
+        lo = reach[j, 0]
+        hi = reach[j, 1]
         ub = u[0, j]
         ut = u[0, j + 1]
         vbb = v[0, j - 1]
