@@ -1,0 +1,1 @@
+"""Shipped decks, shortened, and what must never change."""

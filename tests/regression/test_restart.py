@@ -1,0 +1,67 @@
+"""A run of the real solver that was interrupted continues to the same bits, and outputs change none of them."""
+
+import pytest
+
+from hydro2d import deck as decks
+from hydro2d import history, snapshot
+from hydro2d.run import run
+
+SHOT = """
+[mesh]
+r = [{to = "12 mm", cells = 12}]
+z_start = "-25 mm"
+z = [{to = "30 mm", size = "1 mm"}]
+[[body]]
+name = "rod"
+material = "W_alloy"
+shape = "rod"
+nose = "hemispherical"
+radius = "4 mm"
+length = "20 mm"
+tip = "-0.5 mm"
+velocity = "1000 m/s"
+[[body]]
+name = "plate"
+material = "Al5083"
+shape = "plate"
+z_front = 0.0
+thickness = "25 mm"
+[[tracer]]
+name = "nose"
+r = 0.0
+z = "-0.5 mm"
+[stop]
+time = "6 us"
+cycles = 10000
+[output]
+history_interval = "0.1 us"
+vtk_interval = "2 us"
+"""
+SLIP = ['sliding.method="slip-layer"', 'sliding.hard=["rod"]', "sliding.yield_factor=1.0"]
+
+
+def final(directory):
+    saved = snapshot.read(directory / "restart.h5")
+    return {name: array.tobytes() for name, array in saved.arrays.items()}, saved.scalars
+
+
+@pytest.mark.parametrize("options", [[], SLIP], ids=["sticking", "slip-layer"])
+@pytest.mark.parametrize("cycles", [1, 97, 200])
+def test_restart_gives_the_same_bits(tmp_path, options, cycles):
+    whole, parts = tmp_path / "whole", tmp_path / "parts"
+    deck = decks.loads(SHOT, options)
+    run(deck, whole, quiet=True)
+    assert run(decks.loads(SHOT, [*options, f"stop.cycles={cycles}"]), parts, quiet=True)["cycles"] == cycles
+    run(deck, parts, restart=True, quiet=True)
+    assert final(whole) == final(parts)
+    one, two = (history.read(directory / "history.h5") for directory in (whole, parts))
+    assert {name: column.tobytes() for name, column in one.items()} == {n: c.tobytes() for n, c in two.items()}
+    for file in (whole / "vtk").iterdir():
+        assert file.read_bytes() == (parts / "vtk" / file.name).read_bytes()
+
+
+def test_outputs_change_no_bit(tmp_path):
+    often = [f"output.{key}" for key in ("history_interval=1e-9", "vtk_interval=1e-7", "restart_interval=1e-9")]
+    run(decks.loads(SHOT, ["stop.cycles=60"]), tmp_path / "rarely", quiet=True)
+    run(decks.loads(SHOT, ["stop.cycles=60", *often]), tmp_path / "often", quiet=True)
+    assert final(tmp_path / "rarely") == final(tmp_path / "often")
