@@ -198,7 +198,7 @@ def plot(
     field: str = "pressure",
     mirror: str | None = None,
     time: Annotated[list[str] | None, Parameter(negative="")] = None,
-    window: str | None = None,
+    window: Annotated[str | None, Parameter(allow_leading_hyphen=True)] = None,
     quantity: Annotated[list[str] | None, Parameter(negative="")] = None,
 ) -> int:
     """Draws runs: mirrored sections, histories, or a three-dimensional cut-away.
@@ -220,7 +220,7 @@ def plot(
     time
         Moment, such as "80 us"; the nearest dump is drawn, without it the last. Several stand beside one another.
     window
-        Part of the section, z0,z1,r1, such as "-2 cm,8 cm,2 cm".
+        Part of the mesh, z0,z1,r1, such as "-2 cm,8 cm,2 cm".
     quantity
         Column of the history; may be given several times.
     """
@@ -231,7 +231,7 @@ def plot(
     if kind == "cutaway":
         if len(opened) != 1 or len(times) != 1 or output.suffix != ".png":
             raise UsageError("--kind cutaway draws one run at one time into a .png")
-        figures.cutaway(opened[0].dump_file(times[0]), output, field)
+        figures.cutaway(opened[0].dump_file(times[0]), output, field, _window(window))
     elif kind == "history":
         figures.save(figures.histories(opened, quantity or figures.HISTORIES), output)
     else:

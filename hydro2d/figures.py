@@ -156,8 +156,9 @@ def section(axes, dump: Dump, field: str = "pressure", mirror: str | None = None
         _legend(axes, dump)
     if depth_line is not None:
         axes.axvline(depth_line * 1e3, color="crimson", linestyle="--", linewidth=1.0)
-        axes.annotate("experiment", (depth_line * 1e3, 1), xycoords=("data", "axes fraction"), color="crimson",
-                      fontsize=7, rotation=90, ha="right", va="top")  # fmt: skip
+        word = axes.text(depth_line * 1e3, 0.98, "experiment ", transform=axes.get_xaxis_transform(), color="crimson",
+                         fontsize=7, rotation=90, ha="right", va="top", clip_on=True)  # fmt: skip
+        word.set_in_layout(False)  # a line outside of the window must not stretch the figure
     axes.axhline(0, color="black", linewidth=0.3, linestyle="-.")
     axes.set_aspect("equal")
     axes.set_xlim(dump.z_edges[0] * 1e3, dump.z_edges[-1] * 1e3)
@@ -199,7 +200,8 @@ def draw_sections(panels: list[list[tuple[Dump, str, float | None]]], field: str
             axes[j, i].set_ylim(-r1 * 1e3, r1 * 1e3)
             axes[j, i].tick_params(labelsize=7)
             axes[j, i].set_ylabel("r [mm]", fontsize=8)
-        axes[-1, 0].set_xlabel("z [mm]", fontsize=8)
+    for place in axes[-1]:
+        place.set_xlabel("z [mm]", fontsize=8)
     for word, mappable in dict(drawn).items():
         if mappable is not None:
             bar = figure.colorbar(mappable, ax=axes, fraction=0.03, pad=0.01)
@@ -276,13 +278,15 @@ def save(figure, path: Path) -> None:
 # ---------------------------------------------------------------------------------------------- three dimensions
 
 
-def cutaway(dump_file: Path, path: Path, field: str = "pressure", size: tuple[int, int] = (1400, 900)) -> None:
+def cutaway(dump_file: Path, path: Path, field: str = "pressure", window=None, size=(1400, 900)) -> None:
     """Renders the bodies turned round the axis with a quarter cut out, the cut coloured by a field.
+
+    window = (z0, z1, r1) in m, size in pixels.
 
     A process of its own does it: with the display where there is one, else with EGL, else with OSMesa. Raises
     FigureError where none of them works.
     """
-    task = json.dumps({"dump": str(dump_file), "path": str(path), "field": field, "size": size})
+    task = json.dumps({"dump": str(dump_file), "path": str(path), "field": field, "window": window, "size": size})
     windows = [None] if os.environ.get("DISPLAY") else ["vtkEGLRenderWindow", "vtkOSOpenGLRenderWindow"]
     said = ""
     for window in windows:
@@ -299,13 +303,13 @@ def cutaway(dump_file: Path, path: Path, field: str = "pressure", size: tuple[in
     raise FigureError(f"the three-dimensional picture could not be rendered on this machine: {said}")
 
 
-def _render(dump: str, path: str, field: str, size) -> None:
+def _render(dump: str, path: str, field: str, window, size) -> None:
     """What the rendering process does."""
     import pyvista
 
     from .vtk import read_grid
 
-    state = read_grid(Path(dump))
+    state = _cropped(read_grid(Path(dump)), window)
     shown = chosen(state, field)
     plotter = pyvista.Plotter(off_screen=True, window_size=list(size))
     count = len(state.bodies)

@@ -67,6 +67,7 @@ def test_run_plot_export(simulation, deck, tmp_path, capsys):
     assert "--overwrite" in capsys.readouterr().err
     picture = tmp_path / "x.png"
     assert call(["plot", str(out), "-o", str(picture), "--field", "density", "--time", "10 us", "--time", "20 us"]) == 0
+    assert call(["plot", str(out), "-o", str(picture), "--window", "-2 cm,2 cm,5 mm"]) == 0
     assert call(["plot", str(out), "-o", str(picture), "--kind", "history", "--quantity", "rod_length_m"]) == 0
     assert call(["export", str(out), "-o", str(tmp_path / "e"), "--fields", "pressure", "velocity"]) == 0
     (_, file), *_ = vtk.read_series(tmp_path / "e" / "series.pvd")

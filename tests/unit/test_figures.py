@@ -38,6 +38,11 @@ def test_the_experiment_is_a_line_at_its_depth(dump):
     assert any(line.get_xdata()[0] == pytest.approx(12.1) for line in axes.lines)
 
 
+def test_a_line_outside_of_the_window_does_not_stretch_the_figure(dump, tmp_path, recwarn):
+    figures.save(figures.draw_sections([[(dump, "", 0.5)]], "pressure", "velocity"), tmp_path / "x.png")
+    assert not [each for each in recwarn if "layout" in str(each.message)]
+
+
 def test_panels_share_their_colours(dump):
     other = Dump(dump.r_edges, dump.z_edges, {n: 2 * v for n, v in dump.fields.items()} | {
         n: v for n, v in dump.fields.items() if n.startswith("Vol") or n == "Material"}, 0.0)  # fmt: skip
