@@ -420,7 +420,7 @@ class Cycle:
         face = s.fr if di else s.fz
         for m in range(s.bodies):
             arguments = (dj, di, *box, m, self.carried[m], s.span, face, s.pre, s.flux_volume)
-            remap.body_fluxes(*arguments, s.vof, s.q, s.flux, s.flux_mass)
+            remap.body_fluxes(*arguments, s.vof, s.q, s.half, s.flux, s.flux_mass)
             remap.body_update(*arguments, s.flux, s.vof, s.q)
             self._book_outflow(di, m)
         self._cell_mass(dj, di, bool(second))

@@ -47,6 +47,7 @@ class State:
         self.fz = np.zeros((nj + 1, ni + 1))
         self.flux_volume = np.zeros((bodies, nj + 1, ni + 1))
         self.flux = np.zeros((fields.BODY_FIELDS, nj + 1, ni + 1))
+        self.half = np.zeros((2, nj + 1, ni + 1))
         self.flux_mass = np.zeros((nj + 1, ni + 1))
         self.dual = np.zeros((5, nj + 1, ni + 1))
         self.deficit = np.zeros((nj + 1, ni + 1))

@@ -15,6 +15,7 @@ from strength import (
     power_law,
     steinberg_guinan,
 )
+from strength.layout import YIELD
 
 STRENGTH_MODULES = (hydrodynamic, elastic_plastic, johnson_cook, steinberg_guinan, power_law)
 DAMAGE_MODULES = (no_damage, johnson_cook_damage)
@@ -57,6 +58,16 @@ def flow_stress(model, ep, rate, T, p, rho, par):
     if model == power_law.ID:
         return power_law.flow_stress(ep, rate, T, p, rho, par)
     return float("nan")
+
+
+@point
+def yield_floor(model, par):
+    """A stress that the flow stress never falls below, Pa: 0 for models that soften. Saves evaluating it in elastic cells."""
+    if model == power_law.ID:
+        return par[YIELD]
+    if model == elastic_plastic.ID and par[elastic_plastic.INVERSE_RANGE] == 0.0 and par[elastic_plastic.HARDENING] >= 0.0:
+        return par[YIELD]
+    return 0.0
 
 
 @point

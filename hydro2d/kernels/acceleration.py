@@ -1,5 +1,7 @@
 """Forces on vertices from the total stress of the cells around them, and the velocities they give."""
 
+from math import sqrt
+
 from hydro2d.fields import SRR, SRZ, SZZ
 from hydro2d.jit import kernel, point, prange
 from hydro2d.kernels.spans import union
@@ -156,10 +158,10 @@ def accelerate(j0, j1, i0, i1, dt, hourglass, speed_limit, light_density, face_r
             shear_z = g_k * (hb * rz_b[k] + ht * rz_t[k]) - g_i * (hb * rz_b[i] + ht * rz_t[i])
             force_z = -(normal_z + shear_z)
             # hourglass mode of the four cells, + - + - from the inner bottom vertex
-            w_kb = hourglass * rho_b[k] * c2_b[k] ** 0.5 * vol_r[k] * hb / max(dr[k], hb)
-            w_kt = hourglass * rho_t[k] * c2_t[k] ** 0.5 * vol_r[k] * ht / max(dr[k], ht)
-            w_ib = hourglass * rho_b[i] * c2_b[i] ** 0.5 * vol_r[i] * hb / max(dr[i], hb)
-            w_it = hourglass * rho_t[i] * c2_t[i] ** 0.5 * vol_r[i] * ht / max(dr[i], ht)
+            w_kb = hourglass * rho_b[k] * sqrt(c2_b[k]) * vol_r[k] * hb / max(dr[k], hb)
+            w_kt = hourglass * rho_t[k] * sqrt(c2_t[k]) * vol_r[k] * ht / max(dr[k], ht)
+            w_ib = hourglass * rho_b[i] * sqrt(c2_b[i]) * vol_r[i] * hb / max(dr[i], hb)
+            w_it = hourglass * rho_t[i] * sqrt(c2_t[i]) * vol_r[i] * ht / max(dr[i], ht)
             h_kb = (u_b[k] - u_b[i]) + (u_c[i] - u_c[k])
             h_kt = (u_c[k] - u_c[i]) + (u_t[i] - u_t[k])
             h_ib = (u_b[i] - u_b[i + 1]) + (u_c[i + 1] - u_c[i])
@@ -178,7 +180,7 @@ def accelerate(j0, j1, i0, i1, dt, hourglass, speed_limit, light_density, face_r
             b = b if m > 0.0 and abs(b) > SILENCE else 0.0
             light = m < light_density * 0.25 * (vol_r[k] + vol_r[i]) * (hb + ht)
             if light and a * a + b * b > speed_limit * speed_limit:
-                shrink = speed_limit / (a * a + b * b) ** 0.5
+                shrink = speed_limit / sqrt(a * a + b * b)
                 lost_p += m * b * (1.0 - shrink)
                 lost_e += 0.5 * m * (a * a + b * b) * (1.0 - shrink * shrink)
                 count += 1.0

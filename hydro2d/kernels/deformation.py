@@ -1,8 +1,10 @@
 """The rest of the Lagrangian step in pure cells: work, volume, rotation and strain of the deviators, radial return."""
 
+from math import sqrt
+
 from hydro2d.fields import DMG, EP, RHO, SRR, SRZ, SZZ, E
 from hydro2d.jit import kernel, point, prange
-from strength.dispatch import damage_increment, shear_modulus
+from strength.dispatch import damage_increment, shear_modulus, yield_floor
 from strength.radial_return import plastic_increment
 
 
@@ -27,7 +29,7 @@ def hourglass_mode(i, b, t):
 @point
 def hourglass_weight(i, hourglass, rho, cs2, vol_r, dr, h):
     """Coefficient of the hourglass filter, kg/s, as `accelerate` uses it."""
-    return 0.25 * hourglass * rho * cs2**0.5 * vol_r[i] * h / max(dr[i], h)
+    return 0.25 * hourglass * rho * sqrt(cs2) * vol_r[i] * h / max(dr[i], h)
 
 
 @point
@@ -49,7 +51,7 @@ def turn_and_strain(rr, zz, rz, spin, g2, drr, dzz, dtt, drz):
 @point
 def von_mises(rr, zz, rz):
     """sqrt(3/2 s:s) of a deviator whose hoop component is -(rr + zz)."""
-    return (3.0 * ((rr * rr + zz * zz) + (rr * zz + rz * rz))) ** 0.5
+    return sqrt(3.0 * ((rr * rr + zz * zz) + (rr * zz + rz * rz)))
 
 
 @kernel
@@ -69,6 +71,7 @@ def deform(j0, j1, m, dt, hourglass, face_r, hoop, az_in, az_out, vol_r, dr, dz,
     dmodel = damage_model[m]
     dpar = damage_par[m]
     scale = factor[m]
+    floor = scale * yield_floor(model, par)  # below it no flow stress need be evaluated
     for j in prange(j0, j1):
         ub = u[0, j]
         ut = u[0, j + 1]
@@ -122,16 +125,16 @@ def deform(j0, j1, m, dt, hourglass, face_r, hoop, az_in, az_out, vol_r, dr, dz,
             srr, szz, srz = turn_and_strain(srr_j[i], szz_j[i], srz_j[i], 0.5 * (rbz - zbr) * rate * dt, 2.0 * shear,
                                             drr * dt, dzz * dt, dtt * dt, drz * dt)
             trial = von_mises(srr, szz, srz)
-            if trial > 0.0:
+            if trial > floor:
                 dep, yield_stress = plastic_increment(model, trial, ep_j[i], dt, t_j[i], p_j[i], rho, shear, scale, par)
                 if dep > 0.0:
                     shrink = yield_stress / trial
                     srr, szz, srz = srr * shrink, szz * shrink, srz * shrink
                     ep_j[i] += dep
                     d_j[i] += damage_increment(dmodel, dep, dep / dt, t_j[i], p_j[i], yield_stress, dpar)
-                if d_j[i] >= 1.0:
-                    d_j[i] = 1.0
-                    srr, szz, srz = 0.0, 0.0, 0.0
+            if d_j[i] >= 1.0:
+                d_j[i] = 1.0
+                srr, szz, srz = 0.0, 0.0, 0.0
             srr_j[i] = srr
             szz_j[i] = szz
             srz_j[i] = srz

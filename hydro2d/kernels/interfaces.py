@@ -5,6 +5,8 @@ formulas are exact (explanation/interfaces). More than two materials are nested:
 stated order bounds their cumulative fraction, void comes last.
 """
 
+from math import sqrt
+
 from hydro2d.jit import kernel, point, prange
 
 
@@ -17,7 +19,7 @@ def line_constant(m1, m2, fraction):
     small, large = min(m1, m2), max(m1, m2)
     f = min(fraction, 1.0 - fraction)
     if f * 2.0 * large < small:
-        alpha = (2.0 * small * large * f) ** 0.5
+        alpha = sqrt(2.0 * small * large * f)
     else:
         alpha = f * large + 0.5 * small
     return alpha if fraction <= 0.5 else 1.0 - alpha

@@ -1,5 +1,7 @@
 """The remap of momentum on dual cells, and what the three advection choices make of the kinetic energy."""
 
+from math import sqrt
+
 from hydro2d.fields import E
 from hydro2d.jit import kernel, prange
 from hydro2d.kernels.remap import limited_difference
@@ -115,7 +117,7 @@ def vertex_update(dj, di, j0, j1, i0, i1, choice, bound, still, cm_in, cm_out, r
                 if choice != MOMENTUM:
                     kinetic = max(0.5 * old * a * a + (dual[3 + c, j - dj, i - di] - dual[3 + c, j, i]), 0.0)
                     if choice == KE:
-                        speed = (2.0 * kinetic / new) ** 0.5
+                        speed = sqrt(2.0 * kinetic / new)
                         k_cut += max(kinetic - 0.5 * new * (bound * mean) ** 2, 0.0)
                         speed = min(speed, bound * abs(mean))
                         p_error += (new * speed - new * abs(mean)) * (1.0 if mean > 0.0 else -1.0) if c == 1 else 0.0

@@ -8,13 +8,18 @@ from hydro2d.jit import kernel, point, prange
 from hydro2d.kernels.interfaces import face_range
 from hydro2d.kernels.spans import union
 
+#: keeps a quotient of two zeros finite
+TINY = 1e-300
+
 
 @point
 def limited_difference(upwind, donor, downwind):
     """Monotonized central difference of three neighbours (van Leer, J. Comput. Phys. 23 (1977) 276)."""
-    a, b = donor - upwind, downwind - donor
+    a = donor - upwind
+    b = downwind - donor
     size = min(min(2.0 * abs(a), 2.0 * abs(b)), 0.5 * abs(a + b))
-    return size if a > 0.0 and b > 0.0 else (-size if a < 0.0 and b < 0.0 else 0.0)
+    size = size if a * b > 0.0 else 0.0
+    return size if a > 0.0 else -size
 
 
 @kernel
@@ -27,7 +32,7 @@ def clear_mass_flux(dj, j0, j1, i0, i1, reach, flux_mass):
 
 
 @kernel
-def body_fluxes(dj, di, j0, j1, i0, i1, m, carried, span, f_face, pre, flux_volume, vof, q, flux, flux_mass):
+def body_fluxes(dj, di, j0, j1, i0, i1, m, carried, span, f_face, pre, flux_volume, vof, q, half, flux, flux_mass):
     """Fluxes of mass, energy, deviators, plastic strain and damage of body m through the faces.
 
     Second order, monotone, in cells whose neighbours are full of the same body; the donor's own value in and next to mixed
@@ -35,6 +40,7 @@ def body_fluxes(dj, di, j0, j1, i0, i1, m, carried, span, f_face, pre, flux_volu
 
     Reads    f_face, pre [j, i]; flux_volume, vof [m, j, i]; q [k, m, j, i]
     Writes   flux [k, j, i];  updates flux_mass [j, i], the sum over bodies
+    Scratch  half [2, j, i], the weights of the slopes by volume and by mass
     """
     for j in prange(j0, j1 + dj):
         lo, hi = face_range(dj, m, j, span)
@@ -57,14 +63,20 @@ def body_fluxes(dj, di, j0, j1, i0, i1, m, carried, span, f_face, pre, flux_volu
         r_rr = q[RHO, m, j + dj, lo + di:hi + di]
         mass = flux[RHO, j, lo:hi]
         total = flux_mass[j, lo:hi]
+        half_v = half[0, j, lo:hi]
+        half_m = half[1, j, lo:hi]
         for x in range(n):
             up = swept[x] > 0.0
-            clean = f_l[x] == 1.0 and f_r[x] == 1.0 and (f_ll[x] == 1.0 if up else f_rr[x] == 1.0)
+            least = min(min(f_l[x], f_r[x]), f_ll[x] if up else f_rr[x])
+            clean = 0.5 if least == 1.0 else 0.0
             donor = r_l[x] if up else r_r[x]
             slope = limited_difference(r_ll[x] if up else r_rr[x], donor, r_r[x] if up else r_l[x])
-            courant = abs(swept[x]) / (pre_l[x] if up else pre_r[x])
-            mass[x] = swept[x] * (donor + (0.5 * (1.0 - courant) * slope if clean else 0.0))
-            total[x] += mass[x]
+            volume = pre_l[x] if up else pre_r[x]
+            half_v[x] = clean * (1.0 - abs(swept[x]) / volume)
+            flow = swept[x] * (donor + half_v[x] * slope)
+            half_m[x] = clean * (1.0 - abs(flow) / max(volume * donor, TINY))
+            mass[x] = flow
+            total[x] += flow
         for k in range(1, carried):
             a_ll = q[k, m, j - 2 * dj, lo - 2 * di:hi - 2 * di]
             a_l = q[k, m, j - dj, lo - di:hi - di]
@@ -72,15 +84,13 @@ def body_fluxes(dj, di, j0, j1, i0, i1, m, carried, span, f_face, pre, flux_volu
             a_rr = q[k, m, j + dj, lo + di:hi + di]
             out = flux[k, j, lo:hi]
             by_mass = k == E or k >= EP
+            carrier = flux[RHO, j, lo:hi] if by_mass else flux_volume[m, j, lo:hi]
+            weight = half[1 if by_mass else 0, j, lo:hi]
             for x in range(n):
                 up = swept[x] > 0.0
-                clean = f_l[x] == 1.0 and f_r[x] == 1.0 and (f_ll[x] == 1.0 if up else f_rr[x] == 1.0)
                 donor = a_l[x] if up else a_r[x]
                 slope = limited_difference(a_ll[x] if up else a_rr[x], donor, a_r[x] if up else a_l[x])
-                whole = (pre_l[x] if up else pre_r[x]) * ((r_l[x] if up else r_r[x]) if by_mass else 1.0)
-                carrier = mass[x] if by_mass else swept[x]
-                courant = abs(carrier) / whole if clean else 0.0
-                out[x] = carrier * (donor + (0.5 * (1.0 - courant) * slope if clean else 0.0))
+                out[x] = carrier[x] * (donor + weight[x] * slope)
 
 
 @kernel
@@ -167,11 +177,12 @@ def tidy(j0, j1, trace, cm_in, cm_out, volume, reach, pre, dj, di, fr, fz, secon
         for row in range(4 + bodies):
             booked[row, j] = 0.0
         for i in range(reach[j, 0], reach[j, 1]):
-            total, largest = 0.0, 0.0
+            present = 0
+            largest = 0.0
             for m in range(bodies):
-                total += vof[m, j, i]
+                present += 1 if vof[m, j, i] > 0.0 else 0
                 largest = max(largest, vof[m, j, i])
-            if total == 0.0 or (total == 1.0 and largest == 1.0):
+            if present == 0 or (present == 1 and largest == 1.0):
                 continue
             post = volume[j, i]
             if not second:

@@ -1,5 +1,7 @@
 """The slip layer: distance to the hard bodies' surface, zones beside it, and the cut of shear (explanation/sliding)."""
 
+from math import sqrt
+
 from hydro2d.fields import SRR, SRZ, SZZ
 from hydro2d.jit import kernel, point, prange, serial
 from hydro2d.kernels.interfaces import line_constant
@@ -52,7 +54,7 @@ def paint(j, i, r0, z0, n_r, n_z, half, reach, rc, zc, dr, dz, low_j, high_j, lo
             if along_n < 0.0 or hard[row, column] >= 1.0:
                 continue
             beside = max(along_t - half, 0.0)
-            d = (along_n * along_n + beside * beside) ** 0.5
+            d = sqrt(along_n * along_n + beside * beside)
             if d < distance[row, column]:
                 distance[row, column] = d
                 size = d if d > 0.0 else 1.0
@@ -116,7 +118,7 @@ def slip_zones(j0, j1, i0, i1, width_bl, width_sl, threshold, rc, zc, dr, dz, ha
                 continue
             x, y = line_centre(n_r / size, n_z / size, f)
             g_r, g_z = n_r / dr[i], n_z / dz[j]
-            length = (g_r * g_r + g_z * g_z) ** 0.5
+            length = sqrt(g_r * g_r + g_z * g_z)
             paint(j, i, rc[i] + (x - 0.5) * dr[i], zc[j] + (y - 0.5) * dz[j], g_r / length, g_z / length,
                   0.5 * max(dr[i], dz[j]), reach, rc, zc, dr, dz, j0, j1, i0, i1, hard, distance, normal)
     for j in range(j0, j1):

@@ -1,5 +1,7 @@
 """Pressure, sound speed, artificial viscosity and the local time step, in one pass over the rows."""
 
+from math import sqrt
+
 from eos.dispatch import evaluate, sound_speed_squared, zero_pressure_density
 from hydro2d.fields import DMG, EP, RHO, SRR, SRZ, SZZ, E
 from hydro2d.jit import kernel, point, prange
@@ -164,11 +166,11 @@ def viscosity_and_step(j0, j1, linear, quadratic, courant, advective, dr, dz, vo
             dv_t = 0.5 * ((vtt[i] - vt[i]) + (vtt[i + 1] - vt[i + 1]))
             inward = face_r[i + 1] * (ub[i + 1] + ut[i + 1]) - face_r[i] * (ub[i] + ut[i])
             c = bulk_j[i] / rho
-            c = c**0.5 if c > 0.0 else c2_j[i] ** 0.5
+            c = sqrt(c) if c > 0.0 else sqrt(c2_j[i])
             du_q = du if inward < 0.0 else 0.0
             qr_j[i] = directional_viscosity(rho, c, du_q, smoothness(du_l, du, du_r), linear, quadratic)
             qz_j[i] = directional_viscosity(rho, c, dv, smoothness(dv_b, dv, dv_t), linear, quadratic)
-            speed = (c2_j[i] + 2.0 * max(qr_j[i], qz_j[i]) / rho) ** 0.5
+            speed = sqrt(c2_j[i] + 2.0 * max(qr_j[i], qz_j[i]) / rho)
             t = courant * min(dr[i], h) / speed
             if t < best:
                 best, cause, where = t, 0, i
