@@ -303,7 +303,7 @@ class Cycle:
         s, g, t, method, (j0, j1, _, _) = self.state, self.grid, self.table, self.method, self.box
         thermodynamics.pressures(
             j0, j1, method.max_opening, g.vol_r, g.dz, s.span, s.reach, t.eos_model, t.eos_par, t.strength_model,
-            t.strength_par, t.fracture_pressure, s.vof, s.q, s.pm, s.km, s.tm, s.p, s.bulk, s.rhobar, s.solid, s.cs2, s.rows[0],
+            t.strength_par, t.fracture_pressure, s.vof, s.q, s.pm, s.km, s.tm, s.p, s.bulk, s.rhobar, s.solid, s.cl, s.rows[0],
             s.row_numbers)
         self._report_bad(j0, j1)
         self._list_mixed()
@@ -327,7 +327,7 @@ class Cycle:
         s, g, method, (j0, j1, _, _) = self.state, self.grid, self.method, self.box
         thermodynamics.viscosity_and_step(
             j0, j1, method.linear, method.quadratic, method.courant, method.advective, g.dr, g.dz, g.vol_r, g.face_r, g.az_in,
-            g.az_out, s.reach, s.u, s.v, s.rhobar, s.bulk, s.cs2, s.qr, s.qz, s.rows[1], s.row_moving, s.row_numbers[:, 0])
+            g.az_out, s.reach, s.u, s.v, s.rhobar, s.bulk, s.cl, s.qr, s.qz, s.rows[1], s.row_moving, s.row_numbers[:, 0])
         j = j0 + int(np.argmin(s.rows[1, j0:j1]))
         stable = float(s.rows[1, j])
         if s.row_numbers[j0:j1, 0].any():
@@ -362,7 +362,7 @@ class Cycle:
         limited = s.rows[2:5]
         acceleration.accelerate(
             j0, j1 + 1, i0, i1 + 1, self.dt, self.method.hourglass, self.speed_limit, self.light_density, g.face_r, g.hoop, g.az_in, g.az_out, g.vol_r,
-            g.dr, g.dz, s.occupied, s.mass, s.rhobar, s.cs2, s.sig_rr, s.sig_zz, s.sig_tt, s.sig_rz, s.u0, s.v0, s.u, s.v, limited)
+            g.dr, g.dz, s.occupied, s.mass, s.rhobar, s.cl, s.sig_rr, s.sig_zz, s.sig_tt, s.sig_rz, s.u0, s.v0, s.u, s.v, limited)
         if limited[2, j0:j1 + 1].any():
             self.ledger.book("speed_limit", momentum=float(limited[0, j0:j1 + 1].sum()),
                              energy=float(limited[1, j0:j1 + 1].sum()))
@@ -382,12 +382,12 @@ class Cycle:
             deformation.deform(
                 j0, j1, m, self.dt, method.hourglass, g.face_r, g.hoop, g.az_in, g.az_out, g.vol_r, g.dr, g.dz, s.span,
                 t.strength_model, t.strength_par, t.damage_model, t.damage_par, method.factor, s.u0, s.v0, s.u, s.v, s.fr, s.fz,
-                s.sig_rr, s.sig_zz, s.sig_tt, s.sig_rz, s.rhobar, s.cs2, s.vof, s.pm, s.tm, s.q)
+                s.sig_rr, s.sig_zz, s.sig_tt, s.sig_rz, s.rhobar, s.cl, s.vof, s.pm, s.tm, s.q)
         mixed.deform_mixed(
             j0, j1, self.dt, method.hourglass, method.relaxation, method.tipton, method.strength_mode, method.hard,
             method.threshold, g.face_r, g.hoop, g.az_in, g.az_out, g.vol_r, g.dr, g.dz, s.mixed_count, s.mixed, t.strength_model,
             t.strength_par, t.damage_model, t.damage_par, method.factor, s.u0, s.v0, s.u, s.v, s.fr, s.fz, s.ph, s.qr, s.qz,
-            s.rhobar, s.cs2, s.solid, s.pm, s.km, s.tm, s.vof, s.q, s.mix)
+            s.rhobar, s.cl, s.solid, s.pm, s.km, s.tm, s.vof, s.q, s.mix)
 
     def cut_shear(self) -> None:
         """Takes the shear from the slip layer."""
@@ -459,7 +459,7 @@ class Cycle:
         for face, sign in self._open_faces(di):
             np.moveaxis(s.dual, 2 if di else 1, 0)[face if sign > 0 else face - 1] = 0.0
         self._keep_velocities()
-        momentum.dual_fluxes(dj, di, j0, j1, i0, i1, method.choice, g.cm_in, g.cm_out, s.reach, flow, s.mass, s.u0, s.v0, s.dual)
+        momentum.dual_fluxes(dj, di, j0, j1, i0, i1, g.cm_in, g.cm_out, s.reach, flow, s.mass, s.u0, s.v0, s.dual)
         sums = s.rows[:5]
         momentum.vertex_update(dj, di, j0, j1 + 1, i0, i1 + 1, method.choice, method.ke_bound, self.still, g.cm_in, g.cm_out,
                                s.reach, s.cell_mass, s.dual, s.velocity0, s.velocity, s.mass, s.deficit, sums)
@@ -479,11 +479,10 @@ class Cycle:
         for face, sign in self._open_faces(di):
             edge = face if sign > 0 else face - 1
             where = (slice(j0, j1 + 1), edge) if di else (edge, slice(i0, i1 + 1))
-            vertex = (0, slice(j0, j1 + 1), face) if di else (0, face, slice(i0, i1 + 1))
             flow = s.dual[(0, *where)]
             if not flow.any():
                 continue
-            energy = sign * float(np.sum(flow * 0.5 * (s.u0[vertex] ** 2 + s.v0[vertex] ** 2)))
+            energy = sign * float(np.sum(s.dual[(3, *where)] + s.dual[(4, *where)]))
             self.ledger.book("outflow", momentum=sign * float(np.sum(s.dual[(2, *where)])), energy=energy)
             total += energy
         return total

@@ -35,7 +35,7 @@ class State:
         self.pm, self.km, self.tm = self._derived
 
         self._cells = np.zeros((16, nj, ni))
-        (self.p, self.ph, self.bulk, self.rhobar, self.solid, self.cs2, self.qr, self.qz, self.cell_mass, self.sig_rr,
+        (self.p, self.ph, self.bulk, self.rhobar, self.solid, self.cl, self.qr, self.qz, self.cell_mass, self.sig_rr,
          self.sig_zz, self.sig_tt, self.sig_rz, self.pre, self.hard, self.distance) = self._cells
         self.pre[...] = grid.volume  # ghosts keep it: a face beside them divides by it
 

@@ -9,6 +9,9 @@ from hydro2d.kernels.spans import union
 #: speeds below this are no signal: set to zero, so that the active region has an edge (explanation/active-region)
 SILENCE = 1e-20
 
+#: keeps a quotient of two zeros finite
+TINY = 1e-300
+
 
 @point
 def divergence(i, ub, ut, vb, vt, face_r, az_in, az_out, vol_r, h):
@@ -107,7 +110,7 @@ def vertex_masses(j0, j1, i0, i1, cm_in, cm_out, reach, cell_mass, mass):
 
 
 @kernel
-def accelerate(j0, j1, i0, i1, dt, hourglass, speed_limit, light_density, face_r, hoop, az_in, az_out, vol_r, dr, dz, occupied, mass, rhobar, cs2,
+def accelerate(j0, j1, i0, i1, dt, hourglass, speed_limit, light_density, face_r, hoop, az_in, az_out, vol_r, dr, dz, occupied, mass, rhobar, cl,
                sig_rr, sig_zz, sig_tt, sig_rz, u0, v0, u, v, limited):
     """Velocities at the end of the Lagrangian step: u = u0 + dt f/M, f the sum of the corner forces of four cells.
 
@@ -115,7 +118,7 @@ def accelerate(j0, j1, i0, i1, dt, hourglass, speed_limit, light_density, face_r
     hourglass mode (explanation/lagrangian-step, equations 4 and 6). The same corner forces do the work in `deform`. A vertex whose
     dual cell is filled more thinly than light_density is held to speed_limit.
 
-    Reads    u0, v0, mass [b, j, i]; sig_rr, sig_zz, sig_tt, sig_rz, rhobar, cs2 [j, i]
+    Reads    u0, v0, mass [b, j, i]; sig_rr, sig_zz, sig_tt, sig_rz, rhobar, cl [j, i]
     Writes   u, v [b, j, i]; limited [3, j]: momentum and energy taken by the speed limit, and its count
     """
     for j in prange(j0, j1):
@@ -133,8 +136,8 @@ def accelerate(j0, j1, i0, i1, dt, hourglass, speed_limit, light_density, face_r
         rz_t = sig_rz[j]
         rho_b = rhobar[j - 1]
         rho_t = rhobar[j]
-        c2_b = cs2[j - 1]
-        c2_t = cs2[j]
+        c_b = cl[j - 1]
+        c_t = cl[j]
         u_b = u0[0, j - 1]
         u_c = u0[0, j]
         u_t = u0[0, j + 1]
@@ -158,10 +161,10 @@ def accelerate(j0, j1, i0, i1, dt, hourglass, speed_limit, light_density, face_r
             shear_z = g_k * (hb * rz_b[k] + ht * rz_t[k]) - g_i * (hb * rz_b[i] + ht * rz_t[i])
             force_z = -(normal_z + shear_z)
             # hourglass mode of the four cells, + - + - from the inner bottom vertex
-            w_kb = hourglass * rho_b[k] * sqrt(c2_b[k]) * vol_r[k] * hb / max(dr[k], hb)
-            w_kt = hourglass * rho_t[k] * sqrt(c2_t[k]) * vol_r[k] * ht / max(dr[k], ht)
-            w_ib = hourglass * rho_b[i] * sqrt(c2_b[i]) * vol_r[i] * hb / max(dr[i], hb)
-            w_it = hourglass * rho_t[i] * sqrt(c2_t[i]) * vol_r[i] * ht / max(dr[i], ht)
+            w_kb = hourglass * rho_b[k] * c_b[k] * vol_r[k] * hb / max(dr[k], hb)
+            w_kt = hourglass * rho_t[k] * c_t[k] * vol_r[k] * ht / max(dr[k], ht)
+            w_ib = hourglass * rho_b[i] * c_b[i] * vol_r[i] * hb / max(dr[i], hb)
+            w_it = hourglass * rho_t[i] * c_t[i] * vol_r[i] * ht / max(dr[i], ht)
             h_kb = (u_b[k] - u_b[i]) + (u_c[i] - u_c[k])
             h_kt = (u_c[k] - u_c[i]) + (u_t[i] - u_t[k])
             h_ib = (u_b[i] - u_b[i + 1]) + (u_c[i + 1] - u_c[i])
@@ -172,22 +175,23 @@ def accelerate(j0, j1, i0, i1, dt, hourglass, speed_limit, light_density, face_r
             h_ib = (v_b[i] - v_b[i + 1]) + (v_c[i + 1] - v_c[i])
             h_it = (v_c[i] - v_c[i + 1]) + (v_t[i + 1] - v_t[i])
             force_z += 0.25 * ((w_kt * h_kt - w_kb * h_kb) + (w_ib * h_ib - w_it * h_it))
+            keep = 1.0 if m_j[i] > 0.0 else 0.0
+            scale = keep * dt / max(m_j[i], TINY)
+            a = keep * u_c[i] + scale * force_r
+            b = keep * v_c[i] + scale * force_z
+            un[i] = a if abs(a) > SILENCE else 0.0
+            vn[i] = b if abs(b) > SILENCE else 0.0
+        for i in range(lo, hi):
             m = m_j[i]
-            scale = dt / m if m > 0.0 else 0.0
-            a = u_c[i] + scale * force_r
-            b = v_c[i] + scale * force_z
-            a = a if m > 0.0 and abs(a) > SILENCE else 0.0
-            b = b if m > 0.0 and abs(b) > SILENCE else 0.0
-            light = m < light_density * 0.25 * (vol_r[k] + vol_r[i]) * (hb + ht)
-            if light and a * a + b * b > speed_limit * speed_limit:
-                shrink = speed_limit / sqrt(a * a + b * b)
-                lost_p += m * b * (1.0 - shrink)
-                lost_e += 0.5 * m * (a * a + b * b) * (1.0 - shrink * shrink)
-                count += 1.0
-                a *= shrink
-                b *= shrink
-            un[i] = a
-            vn[i] = b
+            square = un[i] * un[i] + vn[i] * vn[i]
+            if square <= speed_limit * speed_limit or m >= light_density * 0.25 * (vol_r[i - 1] + vol_r[i]) * (hb + ht):
+                continue
+            shrink = speed_limit / sqrt(square)
+            lost_p += m * vn[i] * (1.0 - shrink)
+            lost_e += 0.5 * m * square * (1.0 - shrink * shrink)
+            count += 1.0
+            un[i] *= shrink
+            vn[i] *= shrink
         limited[0, j] = lost_p
         limited[1, j] = lost_e
         limited[2, j] = count

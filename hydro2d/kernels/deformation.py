@@ -27,9 +27,9 @@ def hourglass_mode(i, b, t):
 
 
 @point
-def hourglass_weight(i, hourglass, rho, cs2, vol_r, dr, h):
+def hourglass_weight(i, hourglass, rho, cl, vol_r, dr, h):
     """Coefficient of the hourglass filter, kg/s, as `accelerate` uses it."""
-    return 0.25 * hourglass * rho * sqrt(cs2) * vol_r[i] * h / max(dr[i], h)
+    return 0.25 * hourglass * rho * cl * vol_r[i] * h / max(dr[i], h)
 
 
 @point
@@ -56,14 +56,14 @@ def von_mises(rr, zz, rz):
 
 @kernel
 def deform(j0, j1, m, dt, hourglass, face_r, hoop, az_in, az_out, vol_r, dr, dz, span, strength_model, strength_par,
-           damage_model, damage_par, factor, u0, v0, u, v, fr, fz, sig_rr, sig_zz, sig_tt, sig_rz, rhobar, cs2, vof, pm, tm,
+           damage_model, damage_par, factor, u0, v0, u, v, fr, fz, sig_rr, sig_zz, sig_tt, sig_rz, rhobar, cl, vof, pm, tm,
            q):
     """Energy, density, deviator, plastic strain and damage of body m in the cells that it fills, over one Lagrangian step.
 
     de = V dt sigma : D(u mid-step) / m, the work of the same corner forces that moved the vertices; rho V is constant;
     the deviators are strained with the velocities at the end of the step (explanation/lagrangian-step, equations 5 and 7).
 
-    Reads    u0, v0, u, v [b, j, i]; fr, fz, sig_.., rhobar, cs2 [j, i]; vof, pm, tm [m, j, i]
+    Reads    u0, v0, u, v [b, j, i]; fr, fz, sig_.., rhobar, cl [j, i]; vof, pm, tm [m, j, i]
     Updates  q [k, m, j, i]
     """
     model = strength_model[m]
@@ -107,7 +107,7 @@ def deform(j0, j1, m, dt, hourglass, face_r, hoop, az_in, az_out, vol_r, dr, dz,
             a_rr, a_tt, a_zz, a_rbz, a_zbr = velocity_gradient(
                 i, ub0, ut0, vb0, vt0, face_r, hoop, az_in, az_out, vol_r, dr, h)
             rr, tt, zz, rbz, zbr = velocity_gradient(i, ub, ut, vb, vt, face_r, hoop, az_in, az_out, vol_r, dr, h)
-            w = hourglass_weight(i, hourglass, rhobar[j, i], cs2[j, i], vol_r, dr, h)
+            w = hourglass_weight(i, hourglass, rhobar[j, i], cl[j, i], vol_r, dr, h)
             h_u0, h_v0 = hourglass_mode(i, ub0, ut0), hourglass_mode(i, vb0, vt0)
             h_u, h_v = hourglass_mode(i, ub, ut), hourglass_mode(i, vb, vt)
             work = 0.5 * dt * (

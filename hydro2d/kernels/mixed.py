@@ -87,7 +87,7 @@ def split_volume(void, change, volume):
 @kernel
 def deform_mixed(j0, j1, dt, hourglass, relaxation, tipton, mode, hard, hard_threshold, face_r, hoop, az_in, az_out, vol_r, dr,
                  dz, mixed_count, mixed, strength_model, strength_par, damage_model, damage_par, factor, u0, v0, u, v, fr, fz,
-                 ph, qr, qz, rhobar, cs2, solid, pm, km, tm, vof, q, mix):
+                 ph, qr, qz, rhobar, cl, solid, pm, km, tm, vof, q, mix):
     """The Lagrangian step of the bodies in mixed cells.
 
     Volume: void first, then by compressibility, w_m = R_m/Rbar with R_m = f_m/K_m, then relaxation of the pressures,
@@ -128,7 +128,7 @@ def deform_mixed(j0, j1, dt, hourglass, relaxation, tipton, mode, hard, hard_thr
             rr, tt, zz, rbz, zbr = velocity_gradient(i, ub, ut, vb, vt, face_r, hoop, az_in, az_out, vol_r, dr, h)
             m_rr, m_tt, m_zz = 0.5 * (a_rr + rr), 0.5 * (a_tt + tt), 0.5 * (a_zz + zz)
             m_rz = 0.5 * ((a_rbz + rbz) + (a_zbr + zbr))
-            w = hourglass_weight(i, hourglass, rhobar[j, i], cs2[j, i], vol_r, dr, h)
+            w = hourglass_weight(i, hourglass, rhobar[j, i], cl[j, i], vol_r, dr, h)
             h_u0, h_v0 = hourglass_mode(i, ub0, ut0), hourglass_mode(i, vb0, vt0)
             h_u, h_v = hourglass_mode(i, ub, ut), hourglass_mode(i, vb, vt)
             work_q = 0.5 * dt * w * (h_u0 * (h_u0 + h_u) + h_v0 * (h_v0 + h_v))

@@ -4,7 +4,7 @@ from math import sqrt
 
 from hydro2d.fields import E
 from hydro2d.jit import kernel, prange
-from hydro2d.kernels.remap import limited_difference
+from hydro2d.kernels.remap import TINY, limited_difference
 from hydro2d.kernels.spans import union
 
 #: advection by name, in the order of the integer that the kernels take
@@ -13,7 +13,7 @@ MOMENTUM, KE, BOTH = range(3)
 
 
 @kernel
-def dual_fluxes(dj, di, j0, j1, i0, i1, choice, cm_in, cm_out, reach, flux_mass, mass, u, v, dual):
+def dual_fluxes(dj, di, j0, j1, i0, i1, cm_in, cm_out, reach, flux_mass, mass, u, v, dual):
     """Mass, momentum and kinetic energy that flow between neighbouring vertices, stored at the lower vertex of the edge.
 
     r-sweep: Phi = cm_out (F_left) + cm_in (F_right) of the column between, summed over the two rows beside the vertex;
@@ -46,25 +46,27 @@ def dual_fluxes(dj, di, j0, j1, i0, i1, choice, cm_in, cm_out, reach, flux_mass,
         v_l = v[0, j]
         v_r = v[0, j + dj]
         v_rr = v[0, j + 2 * dj]
+        if di == 1:
+            for i in range(lo, hi):
+                d0[i] = cm_out[i] * (below[i] + here[i]) + cm_in[i] * (below[i + 1] + here[i + 1])
+        else:
+            for i in range(lo, hi):
+                d0[i] = cm_in[i] * (here[i] + above[i]) + cm_out[i - 1] * (here[i - 1] + above[i - 1])
         for i in range(lo, hi):
-            if di == 1:
-                flow = cm_out[i] * (below[i] + here[i]) + cm_in[i] * (below[i + 1] + here[i + 1])
-            else:
-                flow = cm_in[i] * (here[i] + above[i]) + cm_out[i - 1] * (here[i - 1] + above[i - 1])
+            flow = d0[i]
             up = flow > 0.0
             whole = m_l[i] if up else m_r[i + di]
-            half = 0.5 * (1.0 - abs(flow) / whole) if whole > 0.0 else 0.0
-            a, b = (u_l[i], u_r[i + di]) if up else (u_r[i + di], u_l[i])
+            half = 0.5 * (1.0 - min(abs(flow) / max(whole, TINY), 1.0))
+            a = u_l[i] if up else u_r[i + di]
+            b = u_r[i + di] if up else u_l[i]
             z = u_ll[i - di] if up else u_rr[i + 2 * di]
-            d0[i] = flow
             d1[i] = flow * (a + half * limited_difference(z, a, b))
-            if choice != MOMENTUM:
-                d3[i] = flow * (0.5 * a * a + half * limited_difference(0.5 * z * z, 0.5 * a * a, 0.5 * b * b))
-            a, b = (v_l[i], v_r[i + di]) if up else (v_r[i + di], v_l[i])
+            d3[i] = flow * (0.5 * a * a + half * limited_difference(0.5 * z * z, 0.5 * a * a, 0.5 * b * b))
+            a = v_l[i] if up else v_r[i + di]
+            b = v_r[i + di] if up else v_l[i]
             z = v_ll[i - di] if up else v_rr[i + 2 * di]
             d2[i] = flow * (a + half * limited_difference(z, a, b))
-            if choice != MOMENTUM:
-                d4[i] = flow * (0.5 * a * a + half * limited_difference(0.5 * z * z, 0.5 * a * a, 0.5 * b * b))
+            d4[i] = flow * (0.5 * a * a + half * limited_difference(0.5 * z * z, 0.5 * a * a, 0.5 * b * b))
 
 
 @kernel

@@ -33,17 +33,17 @@ def directional_viscosity(rho, c, du, psi, linear, quadratic):
 
 @kernel
 def pressures(j0, j1, max_opening, vol_r, dz, span, reach, eos_model, eos_par, strength_model, strength_par,
-              fracture_pressure, vof, q, pm, km, tm, p, bulk, rhobar, solid, cs2, opened, bad):
+              fracture_pressure, vof, q, pm, km, tm, p, bulk, rhobar, solid, cl, opened, bad):
     """Equation of state of every body, void opened in pure cells that tear, and the sums over a cell.
 
     p = sum f_m p_m;  rhobar = sum f_m rho_m;  1/bulk = sum f_m / K_m (explanation/equation-of-state, mixed-cells);
-    cs2 = max over bodies of (K + 4 G/3)/rho, for the time step.
+    cl = max over bodies of sqrt((K + 4 G/3)/rho), for the time step.
     A pure cell below its fracture pressure is given void until p(rho*, e) = 0, at most max_opening of it in a cycle,
     and its deviator is set to zero (explanation/fracture).
 
     Reads    q (rho, e, damage) [k, m, j, i], span [m, j, 2], fracture_pressure [m]
     Updates  vof [m, j, i], q (rho and deviators where a cell tears)
-    Writes   pm, km, tm [m, j, i]; p, bulk, rhobar, solid, cs2 [j, i]; opened [j] volume of new void; bad [j, 3] count of
+    Writes   pm, km, tm [m, j, i]; p, bulk, rhobar, solid, cl [j, i]; opened [j] volume of new void; bad [j, 3] count of
              cells that are not finite, the column and body of the first
     """
     bodies = vof.shape[0]
@@ -54,13 +54,13 @@ def pressures(j0, j1, max_opening, vol_r, dz, span, reach, eos_model, eos_par, s
         bulk_j = bulk[j]
         rho_j = rhobar[j]
         solid_j = solid[j]
-        cs2_j = cs2[j]
+        cl_j = cl[j]
         for i in range(lo, hi):
             p_j[i] = 0.0
             bulk_j[i] = 0.0
             rho_j[i] = 0.0
             solid_j[i] = 0.0
-            cs2_j[i] = 0.0
+            cl_j[i] = 0.0
         new_void = 0.0
         wrong = 0
         wrong_i = 0
@@ -111,10 +111,11 @@ def pressures(j0, j1, max_opening, vol_r, dz, span, reach, eos_model, eos_par, s
                 bulk_j[i] += f / (rho * c2)
                 rho_j[i] += f * rho
                 solid_j[i] += f
-                cs2_j[i] = max(cs2_j[i], c2 + 4.0 / 3.0 * modulus / rho)
+                cl_j[i] = max(cl_j[i], c2 + 4.0 / 3.0 * modulus / rho)
         for i in range(lo, hi):
             full = solid_j[i] > 1.0 - 1e-12
             bulk_j[i] = 1.0 / bulk_j[i] if full and bulk_j[i] > 0.0 else 0.0
+            cl_j[i] = sqrt(cl_j[i])
         opened[j] = new_void
         bad[j, 0] = wrong
         bad[j, 1] = wrong_i
@@ -123,14 +124,15 @@ def pressures(j0, j1, max_opening, vol_r, dz, span, reach, eos_model, eos_par, s
 
 @kernel
 def viscosity_and_step(j0, j1, linear, quadratic, courant, advective, dr, dz, vol_r, face_r, az_in, az_out, reach, u, v,
-                       rhobar, bulk, cs2, qr, qz, row_dt, row_cause, row_bad):
+                       rhobar, bulk, cl, qr, qz, row_dt, row_cause, row_bad):
     """Artificial viscosity direction by direction, and the smallest time step of each row.
 
-    q_r answers only to the radial difference du, q_z only to the axial one (a shock along z must not see dr); Christensen's
-    limiter switches both off where the velocity is smooth. dt <= courant min(dr, dz)/sqrt(c_l^2 + 2 q/rho),
+    q_r answers only to the radial difference du, q_z only to the axial one (a shock along z must not see dr), and neither to
+    more than the loss of volume, |div u| dx: at a stagnation point, where one direction gives what the other takes, there is
+    no shock and no q. Christensen's limiter switches both off where the velocity is smooth. dt <= courant min(dr, dz)/sqrt(c_l^2 + 2 q/rho),
     |u| dt <= advective dx, |div u| dt <= 0.2 in compression (explanation/lagrangian-step).
 
-    Reads    u, v [b, j, i]; rhobar, bulk, cs2 [j, i]
+    Reads    u, v [b, j, i]; rhobar, bulk, cl [j, i]
     Writes   qr, qz [j, i]; row_dt [j], row_cause [j, 2] (cause, column); row_bad [j] velocities that are not finite
     """
     for j in prange(j0, j1):
@@ -145,7 +147,7 @@ def viscosity_and_step(j0, j1, linear, quadratic, courant, advective, dr, dz, vo
         qr_j = qr[j]
         qz_j = qz[j]
         rho_j = rhobar[j]
-        c2_j = cs2[j]
+        cl_j = cl[j]
         bulk_j = bulk[j]
         h = dz[j]
         best = 1e300
@@ -166,11 +168,13 @@ def viscosity_and_step(j0, j1, linear, quadratic, courant, advective, dr, dz, vo
             dv_t = 0.5 * ((vtt[i] - vt[i]) + (vtt[i + 1] - vt[i + 1]))
             inward = face_r[i + 1] * (ub[i + 1] + ut[i + 1]) - face_r[i] * (ub[i] + ut[i])
             c = bulk_j[i] / rho
-            c = sqrt(c) if c > 0.0 else sqrt(c2_j[i])
-            du_q = du if inward < 0.0 else 0.0
+            c = sqrt(c) if c > 0.0 else cl_j[i]
+            shrink = -(0.5 * inward * h + az_in[i] * (vt[i] - vb[i]) + az_out[i] * (vt[i + 1] - vb[i + 1])) / (vol_r[i] * h)
+            du_q = max(du, -max(shrink, 0.0) * dr[i])
+            dv_q = max(dv, -max(shrink, 0.0) * h)
             qr_j[i] = directional_viscosity(rho, c, du_q, smoothness(du_l, du, du_r), linear, quadratic)
-            qz_j[i] = directional_viscosity(rho, c, dv, smoothness(dv_b, dv, dv_t), linear, quadratic)
-            speed = sqrt(c2_j[i] + 2.0 * max(qr_j[i], qz_j[i]) / rho)
+            qz_j[i] = directional_viscosity(rho, c, dv_q, smoothness(dv_b, dv, dv_t), linear, quadratic)
+            speed = sqrt(cl_j[i] * cl_j[i] + 2.0 * max(qr_j[i], qz_j[i]) / rho)
             t = courant * min(dr[i], h) / speed
             if t < best:
                 best, cause, where = t, 0, i
@@ -180,7 +184,6 @@ def viscosity_and_step(j0, j1, linear, quadratic, courant, advective, dr, dz, vo
             fastest = max(max(abs(vb[i]), abs(vb[i + 1])), max(abs(vt[i]), abs(vt[i + 1])))
             if advective * h < best * fastest:
                 best, cause, where = advective * h / fastest, 2, i
-            shrink = -(0.5 * inward * h + az_in[i] * (vt[i] - vb[i]) + az_out[i] * (vt[i + 1] - vb[i + 1])) / (vol_r[i] * h)
             if 0.2 < best * shrink:
                 best, cause, where = 0.2 / shrink, 3, i
             if not (abs(du) < 1e300 and abs(dv) < 1e300):
