@@ -88,7 +88,7 @@ class Line:
 
 
 def crossing(x: np.ndarray, values: np.ndarray, level: float, side: int = 1) -> float:
-    """Outermost position on side +1 or -1 where values falls through level outward, interpolated; nan if it does not."""
+    """Outermost position on side +1 or -1 where values falls through level, interpolated; nan if it does not."""
     above = np.nonzero(values > level)[0]
     if len(above) == 0:
         return float("nan")
