@@ -1,3 +1,13 @@
 """hydro2d: a small, CTH-like, two-dimensional axisymmetric Eulerian hydrocode for rod-into-plate impact."""
 
 __version__ = "0.1.0"
+
+
+def load(directory):
+    """The results of a run: summary, history, dumps, sections. See `hydro2d.results.Results`.
+
+    directory : path of a run directory
+    """
+    from hydro2d import results
+
+    return results.load(directory)

@@ -307,7 +307,8 @@ class Cycle:
             s.row_numbers)
         self._report_bad(j0, j1)
         self._list_mixed()
-        mixed.tear_mixed(j0, j1, method.smallest_tension, method.max_opening, g.vol_r, g.dz, s.mixed_count, s.mixed, t.eos_model,
+        mixed.tear_mixed(j0, j1, method.smallest_tension, method.max_opening, g.vol_r, g.dz, s.mixed_count, s.mixed,
+                         t.eos_model,
                          t.eos_par, t.fracture_pressure, s.vof, s.q, s.pm, s.km, s.p, s.solid, s.bulk, s.rows[0])
 
     def _report_bad(self, j0: int, j1: int) -> None:
@@ -361,8 +362,10 @@ class Cycle:
         self._keep_velocities()
         limited = s.rows[2:5]
         acceleration.accelerate(
-            j0, j1 + 1, i0, i1 + 1, self.dt, self.method.hourglass, self.speed_limit, self.light_density, g.face_r, g.hoop, g.az_in, g.az_out, g.vol_r,
-            g.dr, g.dz, s.occupied, s.mass, s.rhobar, s.cl, s.sig_rr, s.sig_zz, s.sig_tt, s.sig_rz, s.u0, s.v0, s.u, s.v, limited)
+            j0, j1 + 1, i0, i1 + 1, self.dt, self.method.hourglass, self.speed_limit, self.light_density, g.face_r,
+            g.hoop, g.az_in, g.az_out, g.vol_r,
+            g.dr, g.dz, s.occupied, s.mass, s.rhobar, s.cl, s.sig_rr, s.sig_zz, s.sig_tt, s.sig_rz, s.u0, s.v0, s.u,
+            s.v, limited)
         if limited[2, j0:j1 + 1].any():
             self.ledger.book("speed_limit", momentum=float(limited[0, j0:j1 + 1].sum()),
                              energy=float(limited[1, j0:j1 + 1].sum()))
@@ -372,7 +375,8 @@ class Cycle:
     def sweep_faces(self) -> None:
         """Volumes that the faces sweep in the step; they are the change of volume, and later the remap's fluxes."""
         s, g, (j0, j1, i0, i1) = self.state, self.grid, self.box
-        acceleration.swept_volumes(j0, j1 + 1, i0, i1, self.dt, g.face_r, g.az_in, g.az_out, g.dz, s.reach, s.u0, s.v0, s.u, s.v,
+        acceleration.swept_volumes(j0, j1 + 1, i0, i1, self.dt, g.face_r, g.az_in, g.az_out, g.dz, s.reach, s.u0, s.v0,
+                                   s.u, s.v,
                                    s.fr, s.fz)
 
     def deform(self) -> None:
@@ -385,7 +389,8 @@ class Cycle:
                 s.sig_rr, s.sig_zz, s.sig_tt, s.sig_rz, s.rhobar, s.cl, s.vof, s.pm, s.tm, s.q)
         mixed.deform_mixed(
             j0, j1, self.dt, method.hourglass, method.relaxation, method.tipton, method.strength_mode, method.hard,
-            method.threshold, g.face_r, g.hoop, g.az_in, g.az_out, g.vol_r, g.dr, g.dz, s.mixed_count, s.mixed, t.strength_model,
+            method.threshold, g.face_r, g.hoop, g.az_in, g.az_out, g.vol_r, g.dr, g.dz, s.mixed_count, s.mixed,
+            t.strength_model,
             t.strength_par, t.damage_model, t.damage_par, method.factor, s.u0, s.v0, s.u, s.v, s.fr, s.fz, s.ph, s.qr, s.qz,
             s.rhobar, s.cl, s.solid, s.pm, s.km, s.tm, s.vof, s.q, s.mix)
 
@@ -393,7 +398,8 @@ class Cycle:
         """Takes the shear from the slip layer."""
         s, method, (j0, j1, _, _) = self.state, self.method, self.box
         if method.slip_widths is not None:
-            sliding.cut_shear(j0, j1, method.shear, method.friction, s.occupied, s.zone, s.normal, method.hard, s.vof, s.pm, s.q)
+            sliding.cut_shear(j0, j1, method.shear, method.friction, s.occupied, s.zone, s.normal, method.hard, s.vof,
+                              s.pm, s.q)
 
     # ------------------------------------------------------------------------------------------------ remap
 
@@ -490,7 +496,8 @@ class Cycle:
     def tidy(self, dj: int, di: int, second: int) -> None:
         """Removes traces, makes full cells full, and finds the bodies anew."""
         s, g, (j0, j1, _, _) = self.state, self.grid, self.box
-        remap.tidy(j0, j1, self.method.trace, g.cm_in, g.cm_out, g.volume, s.reach, s.pre, dj, di, s.fr, s.fz, bool(second), s.u,
+        remap.tidy(j0, j1, self.method.trace, g.cm_in, g.cm_out, g.volume, s.reach, s.pre, dj, di, s.fr, s.fz,
+                   bool(second), s.u,
                    s.v, s.vof, s.q, s.cell_mass, s.booked)
         internal, kinetic, axial, _, *mass = s.booked[:, j0:j1].sum(axis=1)
         self.ledger.book("traces", mass=np.array(mass), momentum=float(axial), energy=float(internal + kinetic))

@@ -110,12 +110,14 @@ def vertex_masses(j0, j1, i0, i1, cm_in, cm_out, reach, cell_mass, mass):
 
 
 @kernel
-def accelerate(j0, j1, i0, i1, dt, hourglass, speed_limit, light_density, face_r, hoop, az_in, az_out, vol_r, dr, dz, occupied, mass, rhobar, cl,
+def accelerate(j0, j1, i0, i1, dt, hourglass, speed_limit, light_density, face_r, hoop, az_in, az_out, vol_r, dr, dz,
+               occupied, mass, rhobar, cl,
                sig_rr, sig_zz, sig_tt, sig_rz, u0, v0, u, v, limited):
     """Velocities at the end of the Lagrangian step: u = u0 + dt f/M, f the sum of the corner forces of four cells.
 
     f_r = -[sig_rr (c_r - A/4) + sig_tt A/4 + sig_rz c_z],  f_z = -[sig_zz c_z + sig_rz g] per corner, and the filter of the
-    hourglass mode (explanation/lagrangian-step, equations 4 and 6). The same corner forces do the work in `deform`. A vertex whose
+    hourglass mode (explanation/lagrangian-step, equations 4 and 6). The same corner forces do the work in `deform`. A
+    vertex whose
     dual cell is filled more thinly than light_density is held to speed_limit.
 
     Reads    u0, v0, mass [b, j, i]; sig_rr, sig_zz, sig_tt, sig_rz, rhobar, cl [j, i]

@@ -129,7 +129,8 @@ def viscosity_and_step(j0, j1, linear, quadratic, courant, advective, dr, dz, vo
 
     q_r answers only to the radial difference du, q_z only to the axial one (a shock along z must not see dr), and neither to
     more than the loss of volume, |div u| dx: at a stagnation point, where one direction gives what the other takes, there is
-    no shock and no q. Christensen's limiter switches both off where the velocity is smooth. dt <= courant min(dr, dz)/sqrt(c_l^2 + 2 q/rho),
+    no shock and no q. Christensen's limiter switches both off where the velocity is smooth. dt <= courant min(dr,
+    dz)/sqrt(c_l^2 + 2 q/rho),
     |u| dt <= advective dx, |div u| dt <= 0.2 in compression (explanation/lagrangian-step).
 
     Reads    u, v [b, j, i]; rhobar, bulk, cl [j, i]
