@@ -47,10 +47,14 @@ def test_two_waves(choice):
 
 @pytest.mark.parametrize("choice", ADVECTION)
 def test_yield_surface_and_symmetry(choice):
-    """Nowhere is the stress beyond yield; before a wave reaches a free face the motion is along z alone; energy is kept."""
+    """No stress beyond yield, no radial motion, and energy is kept.
+
+    Round-off: a cell that the flyer's rear leaves holds a sliver down to the trace fraction 1e-8, whose density is a
+    difference of numbers with 16 digits. So its pressure is known to 1e-8 of the bulk modulus, 1e3 Pa.
+    """
     simulation = finish(decks.load(f"{FOLDER}/elastic_precursor.toml", ["stop.time=0.7e-6", advection(choice)]))
     s = simulation.state
     von_mises = np.sqrt(3 * (s.srr**2 + s.szz**2 + s.srr * s.szz + s.srz**2))
     assert von_mises.max() <= YIELD * (1 + 1e-9)
-    assert np.max(np.abs(s.u)) < 1e-10 * 800
+    assert np.max(np.abs(s.u)) < 1e-8 * 800
     assert abs(simulation.conservation()["total_energy"]) < 1e-12
