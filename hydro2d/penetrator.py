@@ -10,8 +10,8 @@ from hydro2d import deck as decks
 HALF = 0.5
 #: the rod is rigid while it has lost less than this share of its length and its radius has grown by less than that
 RIGID_LENGTH, RIGID_RADIUS = 0.02, 0.10
-#: it is eroding once it has lost more than this share of its length
-ERODING_LENGTH = 0.25
+#: it is eroding once more than this share of its mass has left its core
+ERODED_MASS = 0.10
 
 
 class Penetrator:
@@ -19,8 +19,10 @@ class Penetrator:
 
     Lengths are taken along the axis, from runs of cells that the rod fills by half or more, so that fragments behind the
     tail do not count: the depth from the deepest run in the columns within half a radius of the axis, the rod's length from
-    the longest run on the axis. The regime is "rigid" while the rod has lost less than 2 % of its length and no section
-    has swollen beyond 1.1 of its radius, "eroding" beyond a loss of 25 %, else "deforming".
+    the longest run on the axis. Its core is what hangs together from the axis outward, row by row, along that run: debris
+    behind the tail and a skirt of turned-back material do not belong to it. The regime is "rigid" while the rod has lost less
+    than 2 % of its length and no section has swollen beyond 1.1 of its radius, "eroding" once more than 10 % of its mass has
+    left the core, else "deforming".
     """
 
     def __init__(self, sim, deck):
@@ -92,12 +94,22 @@ class Penetrator:
         """Axial velocity on the axis at z, m/s."""
         return float(self.sim.velocity_at(np.array([[0.0, z]]))[0, 1])
 
-    def regime(self, length: float, radius: float) -> str:
-        """"rigid", "deforming" or "eroding"."""
-        lost = 1.0 - length / self.length
-        if lost > ERODING_LENGTH:
+    def _core_mass(self, rows: slice) -> float:
+        """Mass of the cells that hang together from the axis outward in the given rows, kg; the first cell that the rod does
+        not fill by half ends a row, and still counts, unless it is the one on the axis."""
+        g, s = self.sim.grid, self.sim.state
+        fraction = self._fraction()[rows]
+        inside = np.logical_and.accumulate(fraction >= HALF, axis=1)
+        edge = np.zeros_like(inside)
+        edge[:, 1:] = inside[:, :-1]
+        mass = fraction * g.interior(s.rho)[self.m][rows] * g.volume[g.inside][rows]
+        return float(np.sum(mass[inside | edge]) * (2 * np.pi if g.cylindrical else 1.0))
+
+    def regime(self, length: float, radius: float, core: float) -> str:
+        """"rigid", "deforming" or "eroding", from the length and largest radius in m and the mass of the core in kg."""
+        if core < (1.0 - ERODED_MASS) * self.mass:
             return "eroding"
-        if lost < RIGID_LENGTH and radius < (1.0 + RIGID_RADIUS) * self.radius:
+        if length > (1.0 - RIGID_LENGTH) * self.length and radius < (1.0 + RIGID_RADIUS) * self.radius:
             return "rigid"
         return "deforming"
 
@@ -106,8 +118,10 @@ class Penetrator:
         grid, state = self.sim.grid, self.sim.state
         length, low, high = self._length()
         tail, nose = (low, high) if self.direction > 0 else (high, low)
-        rows = slice(np.searchsorted(grid.z_edges, low), max(np.searchsorted(grid.z_edges, high), 1))
+        first, last = np.searchsorted(grid.z_edges, (low, high))
+        rows = slice(max(int(first) - 1, 0), int(last) + 1)
         radius = self._largest_radius(rows)
+        core = self._core_mass(rows)
         fraction, strain = self._fraction(), grid.interior(state.ep)[self.m]
         mean = self.sim.mean_velocity(self.m)
         mass = self._mass()
@@ -116,6 +130,7 @@ class Penetrator:
             "rod_length_m": length,
             "rod_initial_length_m": self.length,
             "rod_mass_kg": mass,
+            "rod_core_mass_kg": core,
             "rod_max_radius_m": radius,
             "rod_initial_radius_m": self.radius,
             "rod_max_plastic_strain": float(np.max(strain[fraction >= HALF], initial=0.0)),
@@ -123,5 +138,5 @@ class Penetrator:
             "rod_nose_velocity_m_s": self._axis_velocity(nose) if length else 0.0,
             "rod_tail_velocity_m_s": self._axis_velocity(tail) if length else 0.0,
             "rod_kinetic_energy_J": 0.5 * mass * mean * mean,
-            "regime": self.regime(length, radius),
+            "regime": self.regime(length, radius, core),
         }
