@@ -9,6 +9,9 @@ from math import sqrt
 
 from hydro2d.jit import kernel, point, prange
 
+#: void below this share of a cell is round-off: its interface has no direction
+FULL = 1e-12
+
 
 @point
 def line_constant(m1, m2, fraction):
@@ -40,13 +43,15 @@ def area_below(m1, m2, alpha):
 def strip_share(nx, ny, fraction, width, high):
     """Material in the strip of given width at the low or high x side of the unit square, as a share of the square.
 
-    (nx, ny) is the outward normal of the material, |nx| + |ny| = 1; fraction its share of the square.
+    (nx, ny) is the outward normal of the material, |nx| + |ny| = 1 or 0 (spread evenly); fraction its share.
     """
     if fraction <= 0.0:
         return 0.0
     if fraction >= 1.0:
         return width
     m1, m2 = abs(nx), abs(ny)
+    if m1 + m2 == 0.0:
+        return width * fraction
     alpha = line_constant(m1, m2, fraction)
     if high == (nx > 0.0):  # the strip lies where the material ends, once x is turned along the normal
         alpha -= m1 * (1.0 - width)
@@ -66,7 +71,7 @@ def cumulative(j, i, last, order, vof):
 def youngs_normal(j, i, last, order, vof, dr, dz):
     """Outward normal of the nested interface in the unit square, |n_r| + |n_z| = 1: minus Youngs' gradient over 3 x 3 cells.
 
-    D. L. Youngs in Numerical Methods for Fluid Dynamics (1982) 273; sums in mirror pairs.
+    D. L. Youngs in Numerical Methods for Fluid Dynamics (1982) 273; sums in mirror pairs. (0, 0) without a gradient.
     """
     sw, s, se = cumulative(j - 1, i - 1, last, order, vof), cumulative(j - 1, i, last, order, vof), cumulative(
         j - 1, i + 1, last, order, vof)
@@ -79,7 +84,7 @@ def youngs_normal(j, i, last, order, vof, dr, dz):
     along_z *= dz[j] / (dz[j] + 0.5 * (dz[j - 1] + dz[j + 1]))
     size = abs(along_r) + abs(along_z)
     if size < 1e-14:
-        return 0.5, 0.5
+        return 0.0, 0.0
     return along_r / size, along_z / size
 
 
@@ -172,7 +177,8 @@ def interface_volumes(dj, di, j0, j1, dr, dz, order, mixed_count, mixed, f_face,
             for n in range(bodies):
                 f = vof[order[n], j, i]
                 before = total
-                total = min(total + f, 1.0)
+                total += f
+                total = total if total < 1.0 - FULL else 1.0
                 if f == 0.0:
                     left[n] = 0.0
                     right[n] = 0.0
