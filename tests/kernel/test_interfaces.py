@@ -1,0 +1,236 @@
+"""Interfaces: the line in the unit square, strips of it, and circles in prescribed flows."""
+
+from functools import partial
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from hydro2d import deck
+from hydro2d.kernels.interfaces import area_below, line_constant, strip_share
+from hydro2d.simulation import Simulation
+
+UNIT = st.floats(0.0, 1.0)
+WIDTH = st.floats(1e-9, 1.0 - 1e-9)  # a strip without width is never asked for
+
+#: E_geo = sum |f - f0| h^2 of Youngs' method with directionally split sweeps, a prototype's: flow, cells -> error
+YOUNGS = {
+    ("vortex 2", 32): 2.98e-3,
+    ("vortex 2", 64): 8.38e-4,
+    ("vortex 2", 128): 2.92e-4,
+    ("vortex 8", 32): 6.50e-2,
+    ("vortex 8", 64): 1.22e-2,
+    ("vortex 8", 128): 2.23e-3,
+    ("rotation", 32): 1.31e-3,
+    ("rotation", 64): 4.04e-4,
+    ("rotation", 128): 1.96e-4,
+}
+CIRCLE = """
+[mesh]
+geometry = "planar"
+r = [{{ to = 1.0, cells = {n} }}]
+z = [{{ to = 1.0, cells = {n} }}]
+[boundaries]
+r_max = "wall"
+z_min = "wall"
+z_max = "wall"
+[[body]]
+name = "circle"
+material = "gas_7_5"
+shape = "sphere"
+centre = [0.5, 0.75]
+radius = 0.15
+energy = 2.5
+[numerics]
+active_region = false
+[stop]
+time = 1.0
+"""
+
+
+def cancellation(m1, m2):
+    """Accuracy of an area: differences of squares over the smaller component; below 1e-7 the line is level."""
+    return 2e-15 + min(1e-7, 1e-15 / max(min(abs(m1), abs(m2)), 1e-300))
+
+
+@settings(deadline=None)
+@given(UNIT, UNIT)
+def test_line_constant_gives_the_area_back(m1, fraction):
+    alpha = line_constant(m1, 1.0 - m1, fraction)
+    assert -1e-15 <= alpha <= 1.0 + 1e-15
+    assert area_below(m1, 1.0 - m1, alpha) == pytest.approx(fraction, abs=cancellation(m1, 1.0 - m1))
+
+
+@pytest.mark.parametrize("m1", [0.0, 1e-12, 0.1, 0.37, 0.5, 0.8, 1.0])
+@pytest.mark.parametrize("fraction", [1e-6, 0.1, 0.33, 0.5, 0.9])
+def test_area_agrees_with_sampling(m1, fraction):
+    alpha = line_constant(m1, 1.0 - m1, fraction)
+    x, y = np.meshgrid((np.arange(1000) + 0.5) / 1000, (np.arange(1000) + 0.5) / 1000)
+    assert np.mean(m1 * x + (1.0 - m1) * y <= alpha) == pytest.approx(fraction, abs=1.1e-3)
+
+
+@settings(deadline=None)
+@given(st.floats(-1.0, 1.0), st.booleans(), UNIT, WIDTH)
+def test_strips_add_up_to_the_cell(nx, up, fraction, width):
+    ny = (1.0 - abs(nx)) * (1.0 if up else -1.0)
+    low = strip_share(nx, ny, fraction, width, False)
+    high = strip_share(nx, ny, fraction, 1.0 - width, True)
+    small = cancellation(nx, ny)
+    assert low + high == pytest.approx(fraction, abs=2.0 * small)
+    assert -small <= low <= width + small
+    assert -small <= high <= 1.0 - width + small
+
+
+@settings(deadline=None)
+@given(st.floats(-1.0, 1.0), UNIT, WIDTH)
+def test_mirrored_strips_are_the_same_bits(nx, fraction, width):
+    ny = 1.0 - abs(nx)
+    high = strip_share(nx, ny, fraction, width, True)
+    if nx != 0.0:
+        assert strip_share(-nx, ny, fraction, width, False) == high
+    assert strip_share(nx, -ny, fraction, width, True) == high
+
+
+def test_a_strip_of_a_level_interface():
+    assert strip_share(1.0, 0.0, 0.7, 0.25, True) == 0.0
+    assert strip_share(1.0, 0.0, 0.7, 0.25, False) == pytest.approx(0.25, abs=1e-15)
+    assert strip_share(-1.0, 0.0, 0.7, 0.4, False) == pytest.approx(0.1, abs=1e-15)
+    assert strip_share(0.0, 1.0, 0.7, 0.25, True) == pytest.approx(0.175, abs=1e-15)
+
+
+def vortex(x, y, t, period):
+    """Stream function of Rider & Kothe, J. Comput. Phys. 141 (1998) 112: a vortex that turns back."""
+    return np.sin(np.pi * x) ** 2 * np.sin(np.pi * y) ** 2 * np.cos(np.pi * t / period) / np.pi
+
+
+def rotation(x, y, t):
+    """Stream function of a rigid rotation in unit time, held at the walls."""
+    return -np.pi * np.minimum((x - 0.5) ** 2 + (y - 0.5) ** 2, 0.25)
+
+
+FLOWS = {"vortex 2": (partial(vortex, period=2.0), 2.0, 1.0), "vortex 8": (partial(vortex, period=8.0), 8.0, 1.0),
+         "rotation": (rotation, 1.0, np.pi)}
+
+
+def carry(engine, flow, steps: int) -> None:
+    """Carries the bodies of an engine by the program's own interfaces and remap: flow(step) sets the swept volumes."""
+    for step in range(steps):
+        flow(step)
+        for second, (dj, di) in enumerate(((0, 1), (1, 0)) if step % 2 == 0 else ((1, 0), (0, 1))):
+            engine.interface_fluxes(dj, di, second)
+            engine.remap_bodies(dj, di, second)
+            engine.tidy(dj, di, second)
+        vof = engine.state.vof
+        assert vof.min() >= 0.0
+        assert np.sum(vof, axis=0).max() <= 1.0 + 1e-12
+
+
+def by_stream_function(engine, stream, dt: float):
+    """Swept volumes that are free of divergence to the last bit: differences of the stream function at mid-step."""
+    s, g = engine.state, engine.grid
+    r, z = np.meshgrid(g.r_edges, g.z_edges)
+    rows, columns = g.inside_vertices
+
+    def flow(step):
+        psi = dt * stream(r, z, (step + 0.5) * dt)
+        s.fr[rows, columns][:-1] = np.diff(psi, axis=0)
+        s.fz[rows, columns][:, :-1] = -np.diff(psi, axis=1)
+
+    return flow
+
+
+@pytest.mark.parametrize(("name", "n"), list(YOUNGS))
+def test_circle_in_a_flow(name, n):
+    stream, period, fastest = FLOWS[name]
+    engine = Simulation(deck.loads(CIRCLE.format(n=n))).engine
+    s, g = engine.state, engine.grid
+    first = g.interior(s.vof[0]).copy()
+    steps = int(np.ceil(period * fastest * n / 0.5))  # half a cell a step
+    carry(engine, by_stream_function(engine, stream, period / steps), steps)
+    vof = g.interior(s.vof[0])
+    assert np.mean(np.abs(vof - first)) < 1.5 * YOUNGS[name, n]
+    mass = np.sum(g.interior(s.vof[0] * s.rho[0])) + engine.ledger.sinks["traces"].mass[0] * n * n
+    assert mass == pytest.approx(np.sum(first), rel=1e-12)
+    np.testing.assert_allclose(g.interior(s.e[0])[vof > 0], 2.5, rtol=1e-12)
+    np.testing.assert_allclose(g.interior(s.rho[0])[vof > 0], 1.0, atol=1e-7)  # cells that lack a trace are made full
+
+
+def test_three_bodies_without_void_fill_every_cell():
+    text = CIRCLE.format(n=32).replace("[numerics]", """
+[[body]]
+name = "half"
+material = "gas_5_3"
+shape = "box"
+r = [0.0, 0.5]
+z = [0.0, 1.0]
+[[body]]
+name = "rest"
+material = "gas_7_5"
+shape = "box"
+z = [0.0, 1.0]
+[numerics]""")
+    engine = Simulation(deck.loads(text)).engine
+    s, g = engine.state, engine.grid
+    before = g.interior(s.vof * s.rho).sum(axis=(1, 2))
+    assert np.abs(g.interior(s.vof).sum(axis=0) - 1.0).max() < 1e-12
+    carry(engine, by_stream_function(engine, rotation, 1.0 / 256), 128)
+    assert np.abs(g.interior(s.vof).sum(axis=0) - 1.0).max() < 1e-12
+    after = g.interior(s.vof * s.rho).sum(axis=(1, 2)) + 32**2 * engine.ledger.sinks["traces"].mass
+    np.testing.assert_allclose(after, before, rtol=1e-12)
+
+
+RING = """
+[mesh]
+r = [{ to = 1.0, cells = 40 }]
+z = [{ to = 0.2, cells = 8 }]
+[boundaries]
+z_min = "wall"
+z_max = "wall"
+[[body]]
+name = "ring"
+material = "gas_7_5"
+shape = "box"
+r = [0.63, 0.81]
+z = [0.0, 0.2]
+[numerics]
+active_region = false
+[stop]
+time = 1.0
+"""
+
+
+def test_ring_that_shrinks_keeps_its_volume():
+    """u = -C/r: the square of every radius falls by 2 C t; a straight interface in r^2/2 is kept exactly."""
+    engine = Simulation(deck.loads(RING)).engine
+    s, g = engine.state, engine.grid
+    step, steps = 2e-4, 400
+
+    def flow(_):
+        s.fr[:, g.g + 1:] = -step * g.dz[0]
+
+    carry(engine, flow, steps)
+    low, high = (0.5 * radius**2 - step * steps for radius in (0.63, 0.81))
+    edges = 0.5 * g.r_edges**2
+    exact = np.clip(np.minimum(high, edges[1:]) - np.maximum(low, edges[:-1]), 0.0, None) / np.diff(edges)
+    np.testing.assert_allclose(g.interior(s.vof[0]), np.broadcast_to(exact, (8, 40)), atol=1e-7)
+    volume = np.sum(g.interior(s.vof[0] * s.rho[0] * g.volume))
+    assert volume + engine.ledger.sinks["traces"].mass[0] == pytest.approx((high - low) * 0.2, rel=1e-12)
+
+
+@pytest.mark.parametrize(("n", "error"), [(16, 4e-5), (32, 2e-5)])
+def test_sphere_moved_along_the_axis_and_back(n, error):
+    text = CIRCLE.replace('geometry = "planar"', "").replace("[0.5, 0.75]", "0.3").format(n=n)
+    engine = Simulation(deck.loads(text.replace("radius = 0.15", "radius = 0.2"))).engine
+    s, g = engine.state, engine.grid
+    first = g.interior(s.vof[0]).copy()
+
+    def flow(step):
+        s.fz[g.g + 1:g.g + n, :-1] = (0.4 if step < n else -0.4) * g.dz[0] * g.vol_r
+
+    carry(engine, flow, 2 * n)
+    volume = g.interior(g.volume)
+    change = np.sum(volume * np.abs(g.interior(s.vof[0]) - first))
+    assert change < error
+    mass = np.sum(volume * g.interior(s.vof[0] * s.rho[0])) + engine.ledger.sinks["traces"].mass[0]
+    assert mass == pytest.approx(np.sum(volume * first), rel=1e-12)

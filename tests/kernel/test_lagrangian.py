@@ -1,0 +1,271 @@
+"""The Lagrangian step: cell vectors, masses of vertices, energy, rotation and strain of stress."""
+
+import numpy as np
+import pytest
+
+from hydro2d import deck
+from hydro2d.grid import Grid
+from hydro2d.kernels import mixed
+from hydro2d.kernels.deformation import velocity_gradient, von_mises
+from hydro2d.simulation import Simulation
+
+BLOCK = """
+[mesh]
+geometry = "cylindrical"
+r = [{ to = 0.5, cells = 6 }, { cells = 4, ratio = 1.1 }]
+z = [{ to = 0.6, cells = 7 }, { cells = 3, ratio = 1.15 }]
+[boundaries]
+r_max = "wall"
+z_min = "wall"
+z_max = "wall"
+[[body]]
+name = "block"
+material = "metal"
+shape = "box"
+z = [0.0, 5.0]
+[materials.metal]
+based_on = "Al6061_T6"
+[materials.metal.strength]
+model = "elastic-plastic"
+shear_modulus = "26 GPa"
+yield_stress = "1e6 GPa"
+[numerics]
+active_region = false
+[failure]
+tensile = "none"
+[stop]
+time = 1.0
+"""
+GEOMETRIES = ("cylindrical", "planar")
+
+
+def engine(text: str = BLOCK, *overrides: str):
+    return Simulation(deck.loads(text, overrides)).engine
+
+
+def lagrangian(e, dt: float) -> None:
+    """The Lagrangian step of the cycle, with a time step of one's own."""
+    e.ghost_vertices()
+    e.equation_of_state()
+    e.choose_step()
+    e.dt = dt
+    e.stress()
+    e.accelerate()
+    e.sweep_faces()
+    e.deform()
+    e.cut_shear()
+
+
+# ---------------------------------------------------------------------------------------------------- cell vectors
+
+
+def quadrature(grid, j, i, u, v):
+    """Integrals of the gradient of the bilinear velocity over a cell, per radian: D_rr, D_tt, D_zz, du/dz, dv/dr."""
+    points, weights = np.polynomial.legendre.leggauss(4)
+    r1, dr, dz = grid.r[i], grid.dr[i], grid.dz[j]
+    total = np.zeros(5)
+    for x, wx in zip(0.5 + 0.5 * points, 0.5 * weights, strict=True):
+        for y, wy in zip(0.5 + 0.5 * points, 0.5 * weights, strict=True):
+            r = r1 + x * dr
+            a, b = ((w[j:j + 2, i:i + 2]) for w in (u, v))
+            at = a[0, 0] * (1 - x) * (1 - y) + a[0, 1] * x * (1 - y) + a[1, 0] * (1 - x) * y + a[1, 1] * x * y
+            by_r = [((w[0, 1] - w[0, 0]) * (1 - y) + (w[1, 1] - w[1, 0]) * y) / dr for w in (a, b)]
+            by_z = [((w[1, 0] - w[0, 0]) * (1 - x) + (w[1, 1] - w[0, 1]) * x) / dz for w in (a, b)]
+            weight = wx * wy * dr * dz * (r if grid.cylindrical else 1.0)
+            total += weight * np.array([by_r[0], at / r if grid.cylindrical else 0.0, by_z[1], by_z[0], by_r[1]])
+    return total
+
+
+@pytest.mark.parametrize("geometry", GEOMETRIES)
+def test_cell_vectors_are_the_integrals_of_the_bilinear_velocity(geometry):
+    g = Grid([0.0, 0.1, 0.25, 0.3], [0.0, 0.2, 0.5], geometry)
+    random = np.random.default_rng(1)
+    u, v = random.normal(size=(2, *g.vertex_shape))
+    if geometry == "cylindrical":
+        u[:, g.g] = 0.0
+    for j in range(g.g, g.g + g.nz):
+        for i in range(g.g, g.g + g.nr):
+            columns = g.face_r, g.hoop, g.az_in, g.az_out, g.vol_r, g.dr
+            mine = velocity_gradient(i, u[j], u[j + 1], v[j], v[j + 1], *columns, g.dz[j])
+            np.testing.assert_allclose(mine, quadrature(g, j, i, u, v), rtol=1e-12, atol=1e-15)
+
+
+@pytest.mark.parametrize("geometry", GEOMETRIES)
+def test_linear_velocity_has_a_uniform_gradient(geometry):
+    g = Grid([0.0, 0.1, 0.25, 0.3], [0.0, 0.2, 0.5], geometry)
+    r, z = np.meshgrid(g.r, g.z)
+    u, v = 3.0 * r, 0.7 * z + 0.2 * r
+    for i in range(g.g, g.g + g.nr):
+        mine = velocity_gradient(i, u[2], u[3], v[2], v[3], g.face_r, g.hoop, g.az_in, g.az_out, g.vol_r, g.dr, g.dz[2])
+        expected = np.array([3.0, 3.0 if g.cylindrical else 0.0, 0.7, 0.0, 0.2]) * g.volume[2, i]
+        np.testing.assert_allclose(mine, expected, rtol=1e-12, atol=1e-16)
+
+
+@pytest.mark.parametrize("geometry", GEOMETRIES)
+def test_corner_masses_add_up(geometry):
+    g = Grid([0.0, 0.1, 0.25, 0.3], [0.0, 0.2, 0.5], geometry)
+    inside = slice(g.g, g.g + g.nr)
+    np.testing.assert_allclose(2 * g.cm_in[inside] + 2 * g.cm_out[inside], 1.0, rtol=1e-15)
+
+
+# ---------------------------------------------------------------------------------------------------- forces
+
+
+@pytest.mark.parametrize("geometry", GEOMETRIES)
+def test_axis_accelerates_like_the_rest(geometry):
+    """An axial pressure gradient, uniform on a graded mesh, gives all vertices the same axial acceleration."""
+    e = engine(BLOCK, f'mesh.geometry="{geometry}"')
+    s, g = e.state, e.grid
+    gradient = 1e9
+    e.ghost_vertices()
+    e.equation_of_state()
+    e.choose_step()
+    e.stress()
+    for stress in (s.sig_rr, s.sig_zz, s.sig_tt):
+        g.interior(stress)[...] = -(5e8 + gradient * g.zc[g.inside[0], None])
+    e.accelerate()
+    rows, columns = slice(g.g + 1, g.g + g.nz), slice(g.g, g.g + g.nr)  # not the walls
+    exact = -gradient / e.table.rho0[0] * e.dt
+    np.testing.assert_allclose(s.v[0, rows, columns], exact, rtol=1e-13)
+    assert np.abs(s.u[0, rows, columns]).max() < 1e-12 * abs(exact)
+
+
+@pytest.mark.parametrize("geometry", GEOMETRIES)
+def test_uniform_pressure_moves_nothing(geometry):
+    e = engine(BLOCK, f'mesh.geometry="{geometry}"', "body.block.energy=1e5")
+    s, g = e.state, e.grid
+    lagrangian(e, 1e-6)
+    assert s.p[g.inside].min() > 1e8
+    assert np.hypot(s.u, s.v).max() < 1e-12 * 1e-6 * s.p[g.inside].max() / e.table.rho0[0] / g.dr.min()
+
+
+# ---------------------------------------------------------------------------------------------------- energy
+
+SECOND = """
+[[body]]
+name = "tungsten"
+material = "W_alloy"
+shape = "sphere"
+centre = 0.3
+radius = 0.26
+[[body]]
+name = "block"
+material = "metal"
+shape = "box"
+z = [0.12, 0.77]
+r = [0.0, 0.83]
+"""
+MIXED = BLOCK[:BLOCK.index("[[body]]")] + SECOND + BLOCK[BLOCK.index("[materials.metal]"):]
+MODES = [f'numerics.mixed_strength="{mode}"' for mode in mixed.STRENGTH_MODES]
+SLIDING = 'sliding.method="slip-layer"', 'sliding.hard=["tungsten"]', "sliding.yield_factor=1.3"
+
+
+def energy(e) -> float:
+    """Internal energy by the masses of the bodies, which the Lagrangian step keeps, and kinetic energy."""
+    s, g = e.state, e.grid
+    if not hasattr(e, "masses"):
+        e.masses = s.vof * s.rho * g.volume
+    return np.sum(e.masses * s.e) + 0.5 * np.sum(s.mass * (s.u**2 + s.v**2))
+
+
+@pytest.mark.parametrize("geometry", GEOMETRIES)
+@pytest.mark.parametrize(("text", "options"), [
+    (BLOCK, ()), *((MIXED, (mode,)) for mode in MODES), (MIXED, ('numerics.mixed_cell="uniform"',)), (MIXED, SLIDING)],
+    ids=["pure", *mixed.STRENGTH_MODES, "uniform closure", "slip-layer"])
+def test_lagrangian_step_conserves_energy_to_round_off(geometry, text, options):
+    e = engine(text, f'mesh.geometry="{geometry}"', *options)
+    s, g = e.state, e.grid
+    random = np.random.default_rng(2)
+    inside = (slice(None), *g.inside)
+    present = s.vof[inside] > 0
+    for k, size in ((1, 2e4), (2, 2e7), (3, 2e7), (4, 2e7)):
+        s.q[(k, *inside)] = np.where(present, size * random.normal(size=present.shape), 0.0)
+    for w in (s.u, s.v):
+        w[0][g.inside_vertices] = 20.0 * random.normal(size=(g.nz + 1, g.nr + 1))
+    s.u[s.mass == 0.0] = s.v[s.mass == 0.0] = 0.0
+    e._hold_still()
+    e.find_slip_zones()
+    before = energy(e)
+    lagrangian(e, 2e-6)
+    work = 0.5 * np.sum(s.mass * ((s.u - s.u0) ** 2 + (s.v - s.v0) ** 2))
+    assert work > 1e-5 * before  # it moves
+    assert energy(e) == pytest.approx(before, rel=1e-13)
+
+
+# ---------------------------------------------------------------------------------------------------- strain and spin
+
+
+def driven(e, u, v, dt: float, steps: int):
+    """Strains the bodies by a prescribed velocity, without forces and without a remap."""
+    s = e.state
+    for _ in range(steps):
+        e.ghost_vertices()
+        e.equation_of_state()
+        e.choose_step()
+        e.dt = dt
+        e.stress()
+        s.u[0] = s.u0[0] = u
+        s.v[0] = s.v0[0] = v
+        e.sweep_faces()
+        e.deform()
+        e.state.q[:2] = e.first  # neither heat nor the second-order volume of a rotation in finite steps
+
+
+def deviators(e):
+    """(rr, zz, rz) of the block in MPa, once it is the same everywhere."""
+    s, g = e.state, e.grid
+    fields = [g.interior(field[0]) for field in (s.srr, s.szz, s.srz)]
+    for field in fields:
+        np.testing.assert_allclose(field, field[0, 0], rtol=1e-9, atol=1e-3)
+    return np.array([field[0, 0] for field in fields]) / 1e6
+
+
+def planar_block(*overrides):
+    e = engine(BLOCK, 'mesh.geometry="planar"', *overrides)
+    e.first = e.state.q[:2].copy()
+    return e, *np.meshgrid(e.grid.r - 0.4, e.grid.z - 0.5)
+
+
+@pytest.mark.parametrize(("degrees", "expected"), [
+    (30, (75.0, 25.0, 43.301)), (90, (0.0, 100.0, 0.0)), (360, (100.0, 0.0, 0.0)), (-30, (75.0, 25.0, -43.301))])
+def test_stress_turns_with_a_rigid_block(degrees, expected):
+    e, r, z = planar_block()
+    e.state.srr[0][e.grid.inside] = 100e6
+    rate = np.radians(np.sign(degrees)) / 1e-6
+    driven(e, -rate * z, rate * r, 1e-6, abs(degrees))
+    stress = deviators(e)
+    np.testing.assert_allclose(stress, expected, atol=0.1)
+    assert von_mises(*stress) == pytest.approx(von_mises(100.0, 0.0, 0.0), rel=1e-11)
+    assert np.all(e.state.ep == 0.0)
+
+
+@pytest.mark.parametrize("steps", [100, 200])
+def test_rotation_converges_at_second_order(steps):
+    """Per step the angle is 2 atan(spin/2): the error of a turn is 2 pi spin^2/12."""
+    e, r, z = planar_block()
+    e.state.srr[0][e.grid.inside] = 100e6
+    spin = 2 * np.pi / steps
+    driven(e, -spin / 1e-6 * z, spin / 1e-6 * r, 1e-6, steps)
+    angle = steps * 2 * np.arctan(spin / 2)
+    np.testing.assert_allclose(deviators(e), 100 * np.array(
+        [np.cos(angle) ** 2, np.sin(angle) ** 2, np.sin(angle) * np.cos(angle)]), atol=1e-7)
+
+
+@pytest.mark.parametrize(("strain", "srz", "srr"), [(0.1, 2.59567e3, 0.129892e3), (1.0, 21.8782e3, 11.9521e3)])
+def test_simple_shear_with_jaumanns_rate(strain, srz, srr):
+    """s_rz = G sin(gamma), s_rr = G (1 - cos(gamma))."""
+    e, r, z = planar_block()
+    driven(e, strain / 1000 / 1e-7 * z, np.zeros_like(r), 1e-7, 1000)
+    np.testing.assert_allclose(deviators(e), (srr, -srr, srz), rtol=2e-3)
+
+
+def test_simple_shear_beyond_yield():
+    e, r, z = planar_block('materials.metal.strength.yield_stress="300 MPa"')
+    driven(e, 1e-3 / 1e-7 * z, np.zeros_like(r), 1e-7, 1000)
+    rr, zz, rz = deviators(e)
+    assert rz == pytest.approx(173.2013, rel=1e-5)
+    assert rr == pytest.approx(1.1538, rel=2e-3)
+    assert von_mises(rr, zz, rz) == pytest.approx(300.0, rel=1e-12)
+    elastic = 300e6 / (3 * 26e9) * np.sqrt(3)
+    ep = e.grid.interior(e.state.ep[0])
+    np.testing.assert_allclose(ep, (1.0 - elastic) / np.sqrt(3), rtol=1e-4)

@@ -1,0 +1,132 @@
+"""What must not change one bit: the number of threads, an interruption, the active region."""
+
+import os
+import subprocess
+import sys
+
+import numba
+import numpy as np
+import pytest
+
+from hydro2d import deck as decks
+from hydro2d import snapshot
+from hydro2d.simulation import Simulation
+
+SHOT = """
+[mesh]
+r = [{ to = "9 mm", cells = 18 }, { cells = 6, ratio = 1.1 }]
+z_start = "-14 mm"
+z = [{ to = "16 mm", size = "0.5 mm" }]
+[[body]]
+name = "rod"
+material = "W_alloy"
+shape = "rod"
+nose = "hemispherical"
+radius = "2.7 mm"
+length = "10 mm"
+tip = "-0.2 mm"
+velocity = "1200 m/s"
+[[body]]
+name = "plate"
+material = "Al7039"
+shape = "plate"
+z_front = 0.0
+thickness = "12 mm"
+[[tracer]]
+name = "nose"
+r = "0.4 mm"
+z = "-1 mm"
+[failure]
+damage = "material"
+[stop]
+time = "1 ms"
+cycles = 120
+"""
+SLIP = 'sliding.method="slip-layer"', 'sliding.hard=["rod"]', "sliding.yield_factor=1.5"
+CASES = {
+    "ke": (),
+    "both": ('numerics.advection="both"',),
+    "momentum": ('numerics.advection="momentum"', 'numerics.mixed_strength="material"'),
+    "slip-layer": SLIP,
+    "friction": (*SLIP, 'sliding.shear="shear"', "sliding.friction=0.1"),
+}
+every_case = pytest.mark.parametrize("options", CASES.values(), ids=CASES)
+
+
+def started(*options: str) -> Simulation:
+    return Simulation(decks.loads(SHOT, options))
+
+
+def cycles(simulation: Simulation, count: int) -> Simulation:
+    for _ in range(count):
+        simulation.step()
+    return simulation
+
+
+def assert_same(one: Simulation, two: Simulation) -> None:
+    assert (one.time, one.dt, one.cycle, one.dt_cause) == (two.time, two.dt, two.cycle, two.dt_cause)
+    second = two.restart_arrays()
+    for name, array in one.restart_arrays().items():
+        g = one.grid
+        cells = array.ndim >= 2 and array.shape[-2:] in (g.shape, g.vertex_shape)
+        a, b = ((x[..., g.g:-g.g, g.g:-g.g] if cells else x) for x in (array, second[name]))
+        np.testing.assert_array_equal(a, b, err_msg=name)
+
+
+@pytest.mark.skipif(numba.config.NUMBA_NUM_THREADS < 2, reason="numba was started with one thread")
+@every_case
+def test_one_and_two_threads(options):
+    runs = []
+    for threads in (1, 2):
+        numba.set_num_threads(threads)
+        try:
+            runs.append(cycles(started(*options), 120))
+        finally:
+            numba.set_num_threads(numba.config.NUMBA_NUM_THREADS)
+    assert_same(*runs)
+    assert runs[0].restart_scalars()["ledger"] == runs[1].restart_scalars()["ledger"]
+
+
+@every_case
+@pytest.mark.parametrize("at", [1, 37, 60])
+def test_restart(options, at):
+    whole = cycles(started(*options), 120)
+    first = cycles(started(*options), at)
+    arrays = {name: array.copy() for name, array in first.restart_arrays().items()}
+    scalars = first.restart_scalars()
+    second = started(*options)
+    second.load_restart_arrays(arrays)
+    second.load_restart_scalars(scalars)
+    cycles(second, 120 - at)
+    assert_same(whole, second)
+    assert whole.restart_scalars() == second.restart_scalars()
+
+
+@every_case
+def test_active_region(options):
+    on = cycles(started(*options), 120)
+    off = cycles(started("numerics.active_region=false", *options), 120)
+    assert_same(on, off)
+    early = started(*options)  # it does skip cells
+    j0, j1, i0, i1 = early.engine.box
+    assert (j1 - j0) * (i1 - i0) < 0.5 * early.grid.cells
+
+
+def command(folder, *arguments: str, threads: int) -> None:
+    environment = {**os.environ, "NUMBA_NUM_THREADS": str(threads)}
+    subprocess.run([sys.executable, "-m", "hydro2d", "run", *arguments], cwd=folder, env=environment, check=True,
+                   capture_output=True, timeout=300)
+
+
+def final(directory) -> tuple[dict, dict]:
+    saved = snapshot.read(directory / "restart.h5")
+    return {name: array.tobytes() for name, array in saved.arrays.items()}, saved.scalars
+
+
+def test_command_with_other_threads_and_a_restart(tmp_path):
+    """`hydro2d run` with two threads; and with one, interrupted, and continued by --restart."""
+    (tmp_path / "shot.toml").write_text(SHOT)
+    command(tmp_path, "shot.toml", "--out", "whole", threads=2)
+    command(tmp_path, "shot.toml", "--out", "parts", "--set", "stop.cycles=50", threads=1)
+    command(tmp_path, "shot.toml", "--out", "parts", "--restart", "--threads", "1", threads=2)
+    assert final(tmp_path / "whole") == final(tmp_path / "parts")

@@ -1,0 +1,54 @@
+"""Every shipped deck runs, and keeps what it has to keep."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from hydro2d import deck as decks
+from hydro2d.simulation import Simulation
+
+PROBLEMS = Path(__file__).resolve().parents[2] / "problems"
+DECKS = sorted(file for file in PROBLEMS.rglob("*.toml") if "materials" not in file.parts)
+QUICK = PROBLEMS / "cth_nose_shape" / "hemi_5083_1086_quick.toml"
+
+
+def test_there_are_decks():
+    assert len(DECKS) > 8
+
+
+@pytest.mark.parametrize("file", DECKS, ids=lambda file: f"{file.parent.name}/{file.stem}")
+def test_deck_runs(file):
+    """Twenty cycles: no unphysical state, nothing lost that is not booked, nothing lost at all but through open edges."""
+    simulation = Simulation(decks.load(file))
+    for _ in range(20):
+        simulation.step()
+    s, g = simulation.state, simulation.grid
+    vof = g.interior(s.vof)
+    assert vof.min() >= 0.0
+    assert vof.sum(axis=0).max() <= 1.0 + 1e-12
+    assert np.all(g.interior(s.rho)[vof > 0] > 0.0)
+    assert np.isfinite(g.interior_vertices(s.u)).all()
+    assert np.isfinite(g.interior_vertices(s.v)).all()
+    balance = simulation.conservation()
+    assert max(abs(x) for x in balance["mass"].values()) < 1e-12
+    assert abs(balance["axial_momentum"]) < 1e-12
+    assert abs(balance["total_energy"]) < 1e-11
+    for name in ("traces", "speed_limit"):
+        assert abs(balance["sinks"][name]["energy_J"]) < 1e-6 * balance["start_energy_J"], name
+
+
+def test_quick_deck_begins_to_penetrate():
+    """The quick deck on a rod and a plate cut short: the nose is in the plate, the rod as fast as before, nothing lost."""
+    short = ["body.rod.length='20 mm'", "body.plate.thickness='40 mm'", "mesh.z_start='-24 mm'", "tracer=[]",
+             "mesh.z=[{to=0.0, cells=42}, {cells=100, across='rod', cells_across=6}]"]
+    simulation = Simulation(decks.load(QUICK, short))
+    while simulation.time < 12e-6:
+        simulation.step()
+    found, balance = simulation.diagnostics(), simulation.conservation()
+    assert 6e-3 < found["penetration_depth_m"] < 13e-3
+    assert simulation.state.ep.max() > 0.5
+    assert simulation.mean_velocity(0) > 800.0
+    assert abs(balance["total_energy"]) < 1e-11
+    assert max(abs(x) for x in balance["mass"].values()) < 1e-12
+    assert abs(balance["sinks"]["advection"]["energy_J"]) < 0.05 * balance["start_energy_J"]

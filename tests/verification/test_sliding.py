@@ -1,0 +1,104 @@
+"""A hard block that slides on a soft one, in planar geometry: what the slip layer does to the exchange of momentum.
+
+Tungsten slides at 200 m/s along z on aluminium. The ends of the blocks are free and 24 mm away: no news of them comes
+to the middle, where the motion depends on r alone, and the momentum of the aluminium is the traction times the time.
+
+What the slip layer can do: beyond it the aluminium feels friction times pressure, and nothing without friction. What it
+cannot: the boundary layer, two cells of aluminium, sticks to the tungsten and takes its velocity, which costs the
+tungsten their momentum once; and the width of both layers, not the surface of the bodies, is where it slides.
+"""
+
+import functools
+
+import numpy as np
+import pytest
+
+from hydro2d import deck
+from hydro2d.simulation import Simulation
+
+SPEED, YIELD = 200.0, 0.3e9
+SURFACE, CELL = 2.1e-3, 0.25e-3
+LAYERS = SURFACE + 4 * CELL
+BLOCKS = """
+[mesh]
+geometry = "planar"
+r = [{ to = "6 mm", cells = 24 }]
+z = [{ to = "48 mm", cells = 96 }]
+[boundaries]
+r_min = "wall"
+r_max = "wall"
+[[body]]
+name = "hard"
+material = "elastic_W"
+shape = "box"
+r = [0.0, "2.1 mm"]
+z = ["-1 m", "1 m"]
+velocity = "200 m/s"
+[[body]]
+name = "soft"
+material = "elastic_Al"
+shape = "box"
+r = ["2.1 mm", "6 mm"]
+z = ["-1 m", "1 m"]
+[materials.elastic_W]
+based_on = "W_alloy"
+[materials.elastic_Al]
+based_on = "Al5083"
+strength = { model = "elastic-plastic", shear_modulus = "26 GPa", yield_stress = "0.3 GPa" }
+[numerics]
+initial_dt_factor = 1.0
+[stop]
+time = "2.5 us"
+"""
+SLIP = 'sliding.method="slip-layer"', 'sliding.hard=["hard"]'
+SHEAR = *SLIP, 'sliding.shear="shear"'
+
+
+@functools.cache
+def slid(pressure: float, *options: str) -> tuple[float, float, float]:
+    """Mean shear traction on the aluminium beyond the layers and on all of it, mean pressure in the slip layer: Pa."""
+    loaded = [f"body.{name}.pressure={pressure}" for name in ("hard", "soft")] if pressure else []
+    simulation = Simulation(deck.loads(BLOCKS, [*options, *loaded]))
+    s, g = simulation.state, simulation.grid
+    j, slip, impulse = g.g + g.nz // 2, int(np.searchsorted(g.r, SURFACE + 3 * CELL)) - 1, 0.0
+    while simulation.stop_reason() is None:
+        simulation.step()
+        impulse += s.p[j, slip] * simulation.dt
+    v = 0.25 * (s.v[0, j, :-1] + s.v[0, j, 1:] + s.v[0, j + 1, :-1] + s.v[0, j + 1, 1:])
+    momentum = s.vof[1, j] * s.rho[1, j] * g.dr * v
+    beyond = momentum[g.r[:-1] > LAYERS].sum()
+    return beyond / simulation.time, momentum.sum() / simulation.time, impulse / simulation.time
+
+
+@pytest.mark.parametrize("pressure", [0.0, 1e9])
+def test_without_treatment_the_traction_is_the_yield_in_shear(pressure):
+    """Y/sqrt 3 = 173 MPa would act on the aluminium; what is beyond the layers gets it less what is on its way."""
+    beyond, everywhere, _ = slid(pressure)
+    assert 0.75 < beyond / (YIELD / 3**0.5) < 1.0
+    assert everywhere > YIELD / 3**0.5
+
+
+@pytest.mark.parametrize("options", [SLIP, SHEAR], ids=["fluid", "shear"])
+@pytest.mark.parametrize("pressure", [0.0, 1e9])
+def test_slip_layer_lets_no_traction_through(options, pressure):
+    beyond, everywhere, _ = slid(pressure, *options)
+    assert abs(beyond) < 1e-4 * slid(pressure)[0]
+    # what is exchanged is the momentum of the boundary layer, a part of it in cells that it shares with the slip layer
+    layer = 2660.0 * 2.6 * CELL * SPEED / 2.5e-6
+    assert 0.6 * layer < everywhere < layer
+
+
+@pytest.mark.parametrize("friction", [0.05, 0.1])
+def test_friction_times_pressure_gets_through(friction):
+    free, _, _ = slid(1e9, *SHEAR)
+    beyond, _, pressure = slid(1e9, *SHEAR, f"sliding.friction={friction}")
+    assert (beyond - free) / pressure == pytest.approx(friction, rel=0.2)
+
+
+def test_much_friction_is_sticking():
+    beyond, _, _ = slid(1e9, *SHEAR, "sliding.friction=0.5")
+    assert beyond == pytest.approx(slid(1e9)[0], rel=0.1)
+
+
+def test_friction_needs_pressure():
+    assert slid(0.0, *SHEAR, "sliding.friction=0.1")[0] < 0.05 * slid(0.0)[0]
