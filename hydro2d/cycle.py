@@ -29,6 +29,8 @@ from hydro2d.kernels import (
 MARGIN = 6
 #: vertices may be this much faster than the fastest body was at the start, or than the slowest wave
 SPEED_LIMIT_FACTOR = 5.0
+#: material below this share of its reference density is no solid: metals melt when heat has expanded them by some 6 %
+LOOSE = 0.94
 
 
 class UnphysicalState(Exception):
@@ -137,6 +139,7 @@ class Cycle:
         self.box = list(self.edges)
         self.ledger = None
         self.speed_limit = 0.0
+        self.loose = LOOSE * table.rho0
         self.light_density = method.mass_floor * float(np.max(table.rho0))
 
     def _carried(self, m: int) -> int:
@@ -303,7 +306,8 @@ class Cycle:
         s, g, t, method, (j0, j1, _, _) = self.state, self.grid, self.table, self.method, self.box
         thermodynamics.pressures(
             j0, j1, method.max_opening, g.vol_r, g.dz, s.span, s.reach, t.eos_model, t.eos_par, t.strength_model,
-            t.strength_par, t.fracture_pressure, s.vof, s.q, s.pm, s.km, s.tm, s.p, s.bulk, s.rhobar, s.solid, s.cl, s.rows[0],
+            t.strength_par, t.fracture_pressure, self.loose, s.vof, s.q, s.pm, s.km, s.tm, s.p, s.bulk, s.rhobar,
+            s.solid, s.cl, s.rows[0],
             s.row_numbers)
         self._report_bad(j0, j1)
         self._list_mixed()
@@ -385,13 +389,15 @@ class Cycle:
         for m in range(s.bodies):
             deformation.deform(
                 j0, j1, m, self.dt, method.hourglass, g.face_r, g.hoop, g.az_in, g.az_out, g.vol_r, g.dr, g.dz, s.span,
-                t.strength_model, t.strength_par, t.damage_model, t.damage_par, method.factor, s.u0, s.v0, s.u, s.v, s.fr, s.fz,
+                t.strength_model, t.strength_par, t.damage_model, t.damage_par, method.factor, self.loose, s.u0, s.v0,
+                s.u, s.v, s.fr, s.fz,
                 s.sig_rr, s.sig_zz, s.sig_tt, s.sig_rz, s.rhobar, s.cl, s.vof, s.pm, s.tm, s.q)
         mixed.deform_mixed(
             j0, j1, self.dt, method.hourglass, method.relaxation, method.tipton, method.strength_mode, method.hard,
             method.threshold, g.face_r, g.hoop, g.az_in, g.az_out, g.vol_r, g.dr, g.dz, s.mixed_count, s.mixed,
             t.strength_model,
-            t.strength_par, t.damage_model, t.damage_par, method.factor, s.u0, s.v0, s.u, s.v, s.fr, s.fz, s.ph, s.qr, s.qz,
+            t.strength_par, t.damage_model, t.damage_par, method.factor, self.loose, s.u0, s.v0, s.u, s.v, s.fr, s.fz,
+            s.ph, s.qr, s.qz,
             s.rhobar, s.cl, s.solid, s.pm, s.km, s.tm, s.vof, s.q, s.mix)
 
     def cut_shear(self) -> None:

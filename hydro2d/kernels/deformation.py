@@ -56,12 +56,14 @@ def von_mises(rr, zz, rz):
 
 @kernel
 def deform(j0, j1, m, dt, hourglass, face_r, hoop, az_in, az_out, vol_r, dr, dz, span, strength_model, strength_par,
-           damage_model, damage_par, factor, u0, v0, u, v, fr, fz, sig_rr, sig_zz, sig_tt, sig_rz, rhobar, cl, vof, pm, tm,
+           damage_model, damage_par, factor, loose, u0, v0, u, v, fr, fz, sig_rr, sig_zz, sig_tt, sig_rz, rhobar, cl,
+           vof, pm, tm,
            q):
     """Energy, density, deviator, plastic strain and damage of body m in the cells that it fills, over one Lagrangian step.
 
     de = V dt sigma : D(u mid-step) / m, the work of the same corner forces that moved the vertices; rho V is constant;
-    the deviators are strained with the velocities at the end of the step (explanation/lagrangian-step, equations 5 and 7).
+    the deviators are strained with the velocities at the end of the step (explanation/lagrangian-step, equations 5 and
+    7). Failed or loose (rho <= loose[m]) material carries no deviator.
 
     Reads    u0, v0, u, v [b, j, i]; fr, fz, sig_.., rhobar, cl [j, i]; vof, pm, tm [m, j, i]
     Updates  q [k, m, j, i]
@@ -132,8 +134,8 @@ def deform(j0, j1, m, dt, hourglass, face_r, hoop, az_in, az_out, vol_r, dr, dz,
                     srr, szz, srz = srr * shrink, szz * shrink, srz * shrink
                     ep_j[i] += dep
                     d_j[i] += damage_increment(dmodel, dep, dep / dt, t_j[i], p_j[i], yield_stress, dpar)
-            if d_j[i] >= 1.0:
-                d_j[i] = 1.0
+            d_j[i] = min(d_j[i], 1.0)
+            if d_j[i] >= 1.0 or rho <= loose[m]:
                 srr, szz, srz = 0.0, 0.0, 0.0
             srr_j[i] = srr
             szz_j[i] = szz

@@ -86,7 +86,8 @@ def split_volume(void, change, volume):
 
 @kernel
 def deform_mixed(j0, j1, dt, hourglass, relaxation, tipton, mode, hard, hard_threshold, face_r, hoop, az_in, az_out, vol_r, dr,
-                 dz, mixed_count, mixed, strength_model, strength_par, damage_model, damage_par, factor, u0, v0, u, v, fr, fz,
+                 dz, mixed_count, mixed, strength_model, strength_par, damage_model, damage_par, factor, loose, u0, v0,
+                 u, v, fr, fz,
                  ph, qr, qz, rhobar, cl, solid, pm, km, tm, vof, q, mix):
     """The Lagrangian step of the bodies in mixed cells.
 
@@ -96,7 +97,7 @@ def deform_mixed(j0, j1, dt, hourglass, relaxation, tipton, mode, hard, hard_thr
     did; in the hard zone the hard body's plastic heat is shared by f_m/Y_m, as in layers under one stress.
     Strength: by mode, see STRENGTH_MODES.
 
-    Reads    velocities, swept volumes, stresses as `deform`; ph, qr, qz, solid [j, i]; hard, factor [m]
+    Reads    velocities, swept volumes, stresses as `deform`; ph, qr, qz, solid [j, i]; hard, factor, loose [m]
     Updates  vof [m, j, i] (share of the volume after the step), q [k, m, j, i]
     Scratch  mix [j, 8, m]
     """
@@ -182,7 +183,7 @@ def deform_mixed(j0, j1, dt, hourglass, relaxation, tipton, mode, hard, hard_thr
                 s_rr[m], s_zz[m], s_rz[m] = turn_and_strain(q[SRR, m, j, i], q[SZZ, m, j, i], q[SRZ, m, j, i], spin,
                                                             2.0 * modulus[m], strain_r, strain_z, strain_t, strain_s)
                 yields[m] = factor[m] * flow_stress(strength_model[m], q[EP, m, j, i], 0.0, t_m, p_m, rho, par)
-                if q[DMG, m, j, i] >= 1.0:
+                if q[DMG, m, j, i] >= 1.0 or rho <= loose[m]:
                     yields[m] = 0.0
                 shared_yield += f * yields[m]
                 largest_yield = max(largest_yield, yields[m])
@@ -212,8 +213,8 @@ def deform_mixed(j0, j1, dt, hourglass, relaxation, tipton, mode, hard, hard_thr
                     shrink = final / trial
                     q[EP, m, j, i] += dep
                     q[DMG, m, j, i] += damage_increment(damage_model[m], dep, dep / dt, t_m, p_m, final, damage_par[m])
-                if q[DMG, m, j, i] >= 1.0:
-                    q[DMG, m, j, i] = 1.0
+                q[DMG, m, j, i] = min(q[DMG, m, j, i], 1.0)
+                if q[DMG, m, j, i] >= 1.0 or rho <= loose[m]:
                     shrink = 0.0
                 q[SRR, m, j, i] = shrink * s_rr[m]
                 q[SZZ, m, j, i] = shrink * s_zz[m]

@@ -33,15 +33,16 @@ def directional_viscosity(rho, c, du, psi, linear, quadratic):
 
 @kernel
 def pressures(j0, j1, max_opening, vol_r, dz, span, reach, eos_model, eos_par, strength_model, strength_par,
-              fracture_pressure, vof, q, pm, km, tm, p, bulk, rhobar, solid, cl, opened, bad):
+              fracture_pressure, loose, vof, q, pm, km, tm, p, bulk, rhobar, solid, cl, opened, bad):
     """Equation of state of every body, void opened in pure cells that tear, and the sums over a cell.
 
     p = sum f_m p_m;  rhobar = sum f_m rho_m;  1/bulk = sum f_m / K_m (explanation/equation-of-state, mixed-cells);
+    Below its density loose[m] a body is no solid any more and has no shear modulus.
     cl = max over bodies of sqrt((K + 4 G/3)/rho), for the time step.
     A pure cell below its fracture pressure is given void until p(rho*, e) = 0, at most max_opening of it in a cycle,
     and its deviator is set to zero (explanation/fracture).
 
-    Reads    q (rho, e, damage) [k, m, j, i], span [m, j, 2], fracture_pressure [m]
+    Reads    q (rho, e, damage) [k, m, j, i], span [m, j, 2], fracture_pressure, loose [m]
     Updates  vof [m, j, i], q (rho and deviators where a cell tears)
     Writes   pm, km, tm [m, j, i]; p, bulk, rhobar, solid, cl [j, i]; opened [j] volume of new void; bad [j, 3] count of
              cells that are not finite, the column and body of the first
@@ -103,7 +104,7 @@ def pressures(j0, j1, max_opening, vol_r, dz, span, reach, eos_model, eos_par, s
                     wrong_i = i if wrong == 0 else wrong_i
                     wrong_m = m if wrong == 0 else wrong_m
                     wrong += 1
-                modulus = shear_modulus(smodel, pressure, rho, temperature, spar)
+                modulus = shear_modulus(smodel, pressure, rho, temperature, spar) if rho > loose[m] else 0.0
                 pm_j[i] = pressure
                 km_j[i] = rho * c2
                 tm_j[i] = temperature
