@@ -7,8 +7,9 @@ import numpy as np
 from hydro2d import deck as decks
 from hydro2d import insertion, materials
 from hydro2d.audit import Ledger
-from hydro2d.cycle import Cycle, Method, UnphysicalState
+from hydro2d.cycle import Cycle, UnphysicalState
 from hydro2d.grid import Grid
+from hydro2d.method import Method
 from hydro2d.penetrator import Penetrator
 from hydro2d.state import State
 
