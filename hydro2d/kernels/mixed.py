@@ -94,7 +94,8 @@ def deform_mixed(j0, j1, dt, hourglass, relaxation, tipton, mode, hard, hard_thr
     Volume: void first, then by compressibility, w_m = R_m/Rbar with R_m = f_m/K_m, then relaxation of the pressures,
     df_m = gamma R_m (p_m - pbar), with pbar = sum R_m p_m/Rbar, or 0 where void is left (explanation/mixed-cells).
     Energy: pressure work by w_m, viscous and hourglass work by volume fraction, deviatoric work by what each body's stress
-    did; in the hard zone the hard body's plastic heat is shared by f_m/Y_m, as in layers under one stress.
+    did; in the hard zone the hard body's plastic heat is shared by f_m/Y_m among what is solid, as in
+    layers under one stress.
     Strength: by mode, see STRENGTH_MODES.
 
     Reads    velocities, swept volumes, stresses as `deform`; ph, qr, qz, solid [j, i]; hard, factor, loose [m]
@@ -219,10 +220,10 @@ def deform_mixed(j0, j1, dt, hourglass, relaxation, tipton, mode, hard, hard_thr
                 q[SRR, m, j, i] = shrink * s_rr[m]
                 q[SZZ, m, j, i] = shrink * s_zz[m]
                 q[SRZ, m, j, i] = shrink * s_rz[m]
-                if m == ruler and dep > 0.0:
+                if m == ruler and dep > 0.0 and yields[m] > 0.0:
                     plastic = dep * final * volume * total
                     for n in range(bodies):
-                        share[n] = vof[n, j, i] / max(yields[n], 1e-3 * yields[m])
+                        share[n] = vof[n, j, i] / yields[n] if yields[n] > 0.0 else 0.0
                         softness += share[n]
                     for n in range(bodies):
                         heat[n] += plastic * share[n] / softness
