@@ -28,8 +28,6 @@ from hydro2d.method import Method
 MARGIN = 6
 #: vertices may be this much faster than the fastest body was at the start, or than the slowest wave
 SPEED_LIMIT_FACTOR = 5.0
-#: material below this share of its reference density is no solid: metals melt when heat has expanded them by some 6 %
-LOOSE = 0.94
 
 
 class UnphysicalState(Exception):
@@ -66,7 +64,7 @@ class Cycle:
         self.box = list(self.edges)
         self.ledger = None
         self.speed_limit = 0.0
-        self.loose = LOOSE * table.rho0
+        self.loose = method.loose * table.rho0
         self.light_density = method.mass_floor * float(np.max(table.rho0))
 
     def _carried(self, m: int) -> int:

@@ -153,6 +153,9 @@ class Failure(Section):
     damage: Literal["material", "none"] = Field("none", description="damage model of each material, or never")
     tension: Literal["mean", "min"] = Field("mean", description="fracture pressure of a mixed cell, by share or least")
     max_opening: Fraction = Field(0.2, gt=0, description="largest share of a cell that becomes void in one cycle")
+    loose: Fraction = Field(
+        0.94, lt=1, description="share of the reference density below which a material carries no shear; 0: never"
+    )
 
 
 class Stop(Section):

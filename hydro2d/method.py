@@ -33,6 +33,7 @@ class Method:
     order: np.ndarray
     smallest_tension: bool
     max_opening: float
+    loose: float
     hard: np.ndarray
     threshold: float
     slip_widths: tuple[float, float] | None
@@ -70,6 +71,7 @@ class Method:
             order=np.array([slots.index(name) for name in order], dtype=np.int64),
             smallest_tension=failure.tension == "min",
             max_opening=failure.max_opening,
+            loose=failure.loose,
             hard=hard,
             threshold=slide.threshold,
             slip_widths=widths if layer else None,

@@ -1,0 +1,42 @@
+"""Material that heat has expanded beyond `failure.loose` is no solid any more."""
+
+import numpy as np
+import pytest
+
+from hydro2d import deck
+from hydro2d.simulation import Simulation
+
+TEXT = """
+[mesh]
+geometry = "planar"
+r = [{ to = "10 mm", cells = 10 }]
+z = [{ to = "10 mm", cells = 10 }]
+[boundaries]
+r_min = "wall"
+r_max = "wall"
+z_min = "wall"
+z_max = "wall"
+[[body]]
+name = "block"
+material = "Al5083"
+shape = "box"
+r = [0.0, "10 mm"]
+z = [0.0, "10 mm"]
+density = "DENSITY kg/m^3"
+pressure = "0 Pa"
+[failure]
+loose = LOOSE
+[stop]
+time = "1 us"
+"""
+
+
+@pytest.mark.parametrize(("density", "loose", "solid"), [(2600, 0.94, True), (2450, 0.94, False), (2450, 0.0, True)])
+def test_shear_ends_where_the_material_is_loose(density, loose, solid):
+    simulation = Simulation(deck.loads(TEXT.replace("DENSITY", str(density)).replace("LOOSE", str(loose))))
+    simulation.state.v[0] += 10.0 * simulation.grid.r / 10e-3  # a shear flow
+    simulation.state.v[0, 2], simulation.state.v[0, 12] = 0.0, 0.0
+    simulation.step()
+    stress = np.abs(simulation.grid.interior(simulation.state.srz)).max()
+    assert (stress > 1e3) == solid
+    assert solid or stress == 0.0
