@@ -237,8 +237,7 @@ class Cycle:
         self._report_bad(j0, j1)
         self._list_mixed()
         mixed.tear_mixed(j0, j1, method.smallest_tension, method.max_opening, g.vol_r, g.dz, s.mixed_count, s.mixed,
-                         t.eos_model,
-                         t.eos_par, t.fracture_pressure, s.vof, s.q, s.pm, s.km, s.p, s.solid, s.bulk, s.rows[0])
+                         t.eos_model, t.eos_par, t.fracture_pressure, s.vof, s.q, s.pm, s.p, s.solid, s.bulk, s.rows[0])
 
     def _report_bad(self, j0: int, j1: int) -> None:
         s, g = self.state, self.grid
@@ -341,7 +340,7 @@ class Cycle:
         low_r, high_r, low_z, high_z = self.method.mirrors
         boundaries.ghost_columns(j0, j1, g.nr, low_r, high_r, s.vof, s.q)
         boundaries.ghost_rows(i0 - 2, i1 + 2, g.nz, low_z, high_z, s.vof, s.q)
-        interfaces.sweep_volumes(dj, di, *box, second == 0, g.volume, s.reach, s.fr, s.fz, s.pre)
+        interfaces.sweep_volumes(dj, di, j0, j1, second == 0, g.volume, s.reach, s.fr, s.fz, s.pre)
         self._list_mixed()
         for face, _ in self._open_faces(di):  # rows without the body are not visited, and are booked nevertheless
             np.moveaxis(s.flux_volume, 2 if di else 1, 0)[face] = 0.0
@@ -349,7 +348,7 @@ class Cycle:
         interfaces.donor_volumes(dj, di, *box, self.edges, s.span, face, s.vof, s.flux_volume)
         interfaces.interface_volumes(dj, di, j0, j1, g.dr, g.dz, self.method.order, s.mixed_count, s.mixed, face, s.pre, s.vof,
                                      s.flux_volume, s.mix)
-        remap.clear_mass_flux(dj, *box, s.reach, s.flux_mass)
+        remap.clear_mass_flux(*box, s.reach, s.flux_mass)
 
     def remap_bodies(self, dj: int, di: int, second: int) -> None:
         """Fluxes and update of every body's fields."""
@@ -403,7 +402,7 @@ class Cycle:
         before, after, p_gained, _, p_wall = sums[:, j0:j1 + 1].sum(axis=1)
         lost = before - after - self._kinetic_outflow(di)
         if method.choice == momentum.BOTH:
-            momentum.deposit(j0, j1, i0, i1, g.cm_in, g.cm_out, s.reach, s.deficit, s.cell_mass, s.vof, s.q, s.rows[5])
+            momentum.deposit(j0, j1, g.cm_in, g.cm_out, s.reach, s.deficit, s.cell_mass, s.vof, s.q, s.rows[5])
             lost -= s.rows[5, j0:j1].sum()
         self.ledger.book("advection", momentum=-float(p_gained), energy=float(lost))
         self.ledger.book("walls", momentum=float(p_wall))

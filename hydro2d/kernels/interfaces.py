@@ -89,7 +89,7 @@ def youngs_normal(j, i, last, order, vof, dr, dz):
 
 
 @kernel
-def sweep_volumes(dj, di, j0, j1, i0, i1, first, volume, reach, fr, fz, pre):
+def sweep_volumes(dj, di, j0, j1, first, volume, reach, fr, fz, pre):
     """Volume of cells before a sweep: V + dF_r + dF_z for the first sweep, V + dF of its own direction for the second.
 
     Reads    volume [j, i], fr, fz [j, i]
@@ -164,7 +164,6 @@ def interface_volumes(dj, di, j0, j1, dr, dz, order, mixed_count, mixed, f_face,
     for j in prange(j0, j1):
         left = strips[j, 0]
         right = strips[j, 1]
-        middle = strips[j, 2]
         for k in range(mixed_count[j]):
             i = mixed[j, k]
             out_low = max(-f_face[j, i], 0.0)
@@ -176,7 +175,6 @@ def interface_volumes(dj, di, j0, j1, dr, dz, order, mixed_count, mixed, f_face,
             below_low, below_high, total = 0.0, 0.0, 0.0
             for n in range(bodies):
                 f = vof[order[n], j, i]
-                before = total
                 total += f
                 total = total if total < 1.0 - FULL else 1.0
                 if f == 0.0:
@@ -194,7 +192,6 @@ def interface_volumes(dj, di, j0, j1, dr, dz, order, mixed_count, mixed, f_face,
                 right[n] = high - below_high
                 below_low = low
                 below_high = high
-                middle[n] = total - before
             # two strips together may not take more of a body than there is; the excess moves on to the next body
             if w_low > 0.0 and w_high > 0.0:
                 excess = 0.0

@@ -27,7 +27,7 @@ NO_VOID = 1e-12
 
 @kernel
 def tear_mixed(j0, j1, smallest, max_opening, vol_r, dz, mixed_count, mixed, eos_model, eos_par, fracture_pressure, vof, q, pm,
-               km, p, solid, bulk, opened):
+               p, solid, bulk, opened):
     """Opens void in mixed cells whose pressure falls below their fracture pressure, and frees them of stress.
 
     The threshold is the mean of the bodies' by volume fraction, or the smallest (explanation/fracture).

@@ -4,7 +4,8 @@ from math import sqrt
 
 from hydro2d.fields import E
 from hydro2d.jit import kernel, prange
-from hydro2d.kernels.remap import TINY, limited_difference
+from hydro2d.kernels.acceleration import TINY
+from hydro2d.kernels.remap import limited_difference
 from hydro2d.kernels.spans import union
 
 #: advection by name, in the order of the integer that the kernels take
@@ -137,7 +138,7 @@ def vertex_update(dj, di, j0, j1, i0, i1, choice, bound, still, cm_in, cm_out, r
 
 
 @kernel
-def deposit(j0, j1, i0, i1, cm_in, cm_out, reach, deficit, cell_mass, vof, q, sums):
+def deposit(j0, j1, cm_in, cm_out, reach, deficit, cell_mass, vof, q, sums):
     """Gives the kinetic energy that `both` found missing to the cells around each vertex, by corner mass, then by body mass.
 
     Reads    deficit [j, i] per vertex mass, cell_mass [j, i], vof [m, j, i]

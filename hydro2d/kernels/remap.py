@@ -5,11 +5,9 @@ One body of code serves both directions by the offsets (dj, di): (0, 1) along r,
 
 from hydro2d.fields import BODY_FIELDS, CARRIED_SOLID, DMG, EP, RHO, E
 from hydro2d.jit import kernel, point, prange
+from hydro2d.kernels.acceleration import TINY
 from hydro2d.kernels.interfaces import face_range
 from hydro2d.kernels.spans import union
-
-#: keeps a quotient of two zeros finite
-TINY = 1e-300
 
 
 @point
@@ -23,7 +21,7 @@ def limited_difference(upwind, donor, downwind):
 
 
 @kernel
-def clear_mass_flux(dj, j0, j1, i0, i1, reach, flux_mass):
+def clear_mass_flux(j0, j1, i0, i1, reach, flux_mass):
     """Sets the total mass flux to zero wherever the dual fluxes of this sweep will read it."""
     for j in prange(j0 - 1, j1 + 2):
         lo, hi = union(reach, j - 3, j + 3)

@@ -29,7 +29,7 @@ def line_centre(n1, n2, fraction):
 
 
 @point
-def paint(j, i, r0, z0, n_r, n_z, half, reach, rc, zc, dr, dz, low_j, high_j, low_i, high_i, hard, distance, normal):
+def paint(j, i, r0, z0, n_r, n_z, half, reach, rc, zc, low_j, high_j, low_i, high_i, hard, distance, normal):
     """Distance of the cells around (j, i) to a piece of surface at (r0, z0), where it is the nearest so far.
 
     half is half the length of the piece; cells on its inner side are left out. Mirror images across the axis follow from
@@ -95,16 +95,16 @@ def slip_zones(j0, j1, i0, i1, width_bl, width_sl, threshold, rc, zc, dr, dz, ha
             if f == 1.0:
                 half_r, half_z = 0.5 * dr[i], 0.5 * dz[j]
                 if e < SURFACE:
-                    paint(j, i, rc[i] + half_r, zc[j], 1.0, 0.0, half_z, reach, rc, zc, dr, dz, j0, j1, i0, i1, hard, distance,
+                    paint(j, i, rc[i] + half_r, zc[j], 1.0, 0.0, half_z, reach, rc, zc, j0, j1, i0, i1, hard, distance,
                           normal)
                 if w < SURFACE:
-                    paint(j, i, rc[i] - half_r, zc[j], -1.0, 0.0, half_z, reach, rc, zc, dr, dz, j0, j1, i0, i1, hard, distance,
+                    paint(j, i, rc[i] - half_r, zc[j], -1.0, 0.0, half_z, reach, rc, zc, j0, j1, i0, i1, hard, distance,
                           normal)
                 if n < SURFACE:
-                    paint(j, i, rc[i], zc[j] + half_z, 0.0, 1.0, half_r, reach, rc, zc, dr, dz, j0, j1, i0, i1, hard, distance,
+                    paint(j, i, rc[i], zc[j] + half_z, 0.0, 1.0, half_r, reach, rc, zc, j0, j1, i0, i1, hard, distance,
                           normal)
                 if s < SURFACE:
-                    paint(j, i, rc[i], zc[j] - half_z, 0.0, -1.0, half_r, reach, rc, zc, dr, dz, j0, j1, i0, i1, hard, distance,
+                    paint(j, i, rc[i], zc[j] - half_z, 0.0, -1.0, half_r, reach, rc, zc, j0, j1, i0, i1, hard, distance,
                           normal)
                 continue
             sw = hard[j - 1, i - 1]
@@ -120,7 +120,7 @@ def slip_zones(j0, j1, i0, i1, width_bl, width_sl, threshold, rc, zc, dr, dz, ha
             g_r, g_z = n_r / dr[i], n_z / dz[j]
             length = sqrt(g_r * g_r + g_z * g_z)
             paint(j, i, rc[i] + (x - 0.5) * dr[i], zc[j] + (y - 0.5) * dz[j], g_r / length, g_z / length,
-                  0.5 * max(dr[i], dz[j]), reach, rc, zc, dr, dz, j0, j1, i0, i1, hard, distance, normal)
+                  0.5 * max(dr[i], dz[j]), reach, rc, zc, j0, j1, i0, i1, hard, distance, normal)
     for j in range(j0, j1):
         for i in range(i0, i1):
             if hard[j, i] >= threshold:
