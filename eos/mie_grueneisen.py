@@ -1,8 +1,11 @@
-"""Mie-Grueneisen equation of state about the Hugoniot Us = c0 + s up, with Gamma rho = Gamma0 rho0.
+"""Mie-Grueneisen equation of state about the Hugoniot Us = c0 + s up.
 
-The reference curve is written in the compression eta = 1 - rho0/rho, in which an isentrope obeys
+Gamma rho = Gamma0 rho0 in compression and Gamma = Gamma0 in expansion, so that the thermal pressure of expanded
+material falls with its density. The reference curve is written in the compression eta = 1 - rho0/rho, in which an
+isentrope obeys de = p deta/rho0 and dT/T = Gamma rho deta/rho0, hence
 
-    de = p deta / rho0,    dT/T = Gamma0 deta,    hence    e_s' = p_ref/rho0 + Gamma0 e_s,    T_s = T0 exp(Gamma0 eta).
+    e_s' = p_ref/rho0 + Gamma0 e_s,            T_s = T0 exp(Gamma0 eta)             compression
+    e_s' = p_ref/rho0 + Gamma0 e_s/(1 - eta),  T_s = T0 (1 - eta)^-Gamma0           expansion
 
 The cold temperature T_s - e_s/cv is tabulated once per material, uniformly in eta and with a node at eta = 0; what is
 left to do per cell is one interpolation, T = T_cold(eta) + e/cv.
@@ -21,15 +24,15 @@ ID = 0
 EQUATION = """\
 eta = 1 - rho0/rho,  mu = rho/rho0 - 1
 p = rho0 c0^2 eta (1 - Gamma0 eta/2) / (1 - s eta)^2 + Gamma0 rho0 e     compression
-p = rho0 c0^2 mu + Gamma0 rho0 e                                         tension
-T = T0 exp(Gamma0 eta) + (e - e_s(eta))/cv,  e_s the isentrope through (rho0, 0)"""
+p = rho0 c0^2 mu + Gamma0 rho e                                          expansion
+T = T_s(eta) + (e - e_s(eta))/cv,  T_s and e_s on the isentrope through (rho0, T0, 0)"""
 SOURCE = (
     "McQueen, Marsh, Taylor, Fritz & Carter, in Kinslow (ed.), High-Velocity Impact Phenomena (1970); "
-    "the linear tension branch is our choice, continuous with its slope"
+    "the expansion branch is our choice: linear, continuous in p, and Gamma constant so that hot material can expand"
 )
 VALIDITY = (
     "solids up to s eta = 0.95, beyond which the reference curve goes on along its tangent; constant cv; neither "
-    "melting nor vaporisation change p: material far below rho0 and hot has too high a pressure"
+    "melting nor vaporisation change p: far below rho0 the material is still as stiff as a solid with Gamma0 e in c^2"
 )
 PARAMETERS = (
     Parameter("reference_density", "kg/m^3", REQUIRED, "density at zero pressure and energy", "rho0", POSITIVE),
@@ -75,18 +78,19 @@ def evaluate(rho, e, par):
     """
     v = par[RHO0] / rho
     eta = 1.0 - v
-    thermal = par[GAMMA_RHO] * e
     if eta >= 0.0:
         near = min(eta, par[GUARD])
         d = 1.0 / (1.0 - par[S] * near)
         slope = reference_slope(near, par[S], par[HALF_GAMMA])
-        p = par[BULK] * (near * (1.0 - par[HALF_GAMMA] * near) * (d * d) + slope * (eta - near)) + thermal
+        p = par[BULK] * (near * (1.0 - par[HALF_GAMMA] * near) * (d * d) + slope * (eta - near))
         dpdrho = par[BULK] * slope * (v * v) * par[INVERSE_RHO0]
+        dpde = par[GAMMA_RHO]
     else:
-        p = par[C0_SQUARED] * (rho - par[RHO0]) + thermal
-        dpdrho = par[C0_SQUARED]
+        p = par[C0_SQUARED] * (rho - par[RHO0])
+        dpdrho = par[C0_SQUARED] + 2.0 * par[HALF_GAMMA] * e
+        dpde = 2.0 * par[HALF_GAMMA] * rho
     T = cold_temperature(eta, par) + e * par[INVERSE_CV]
-    return p, dpdrho, par[GAMMA_RHO], max(T, 0.0)
+    return p + dpde * e, dpdrho, dpde, max(T, 0.0)
 
 
 def row(values) -> np.ndarray:
@@ -107,8 +111,7 @@ def row(values) -> np.ndarray:
     par[INVERSE_CV], par[INVERSE_STEP], par[ORIGIN] = 1.0 / given["specific_heat"], 1.0 / step, origin
     eta = (np.arange(TABLE_SIZE) - origin) * step
     energy = isentrope(eta, origin, c0, s, half_gamma, guard)
-    isentropic = given["reference_temperature"] * np.exp(2.0 * half_gamma * eta)
-    par[TABLE:] = isentropic - energy / given["specific_heat"]
+    par[TABLE:] = given["reference_temperature"] * heating(eta, 2.0 * half_gamma) - energy / given["specific_heat"]
     return par
 
 
@@ -119,11 +122,15 @@ def _guard(s: float, half_gamma: float) -> float:
     return float(eta[falls[0] - 1]) if falls.size else float(eta[-1])
 
 
+def heating(eta, gamma: float):
+    """T_s/T0 on an isentrope, by which e_s scales too where the reference pressure is zero."""
+    return np.where(eta < 0.0, (1.0 - np.minimum(eta, 0.0)) ** -gamma, np.exp(gamma * eta))
+
+
 def isentrope(eta: np.ndarray, origin: int, c0: float, s: float, half_gamma: float, guard: float) -> np.ndarray:
     """e_s at the uniform points ``eta``, with e_s = 0 at index ``origin``; J/kg.
 
-    exp(-Gamma0 eta) e_s is the integral of exp(-Gamma0 eta) p_ref/rho0, taken by Gauss-Legendre with eight points per
-    interval.
+    e_s T0/T_s is the integral of (T0/T_s) p_ref/rho0, taken by Gauss-Legendre with eight points per interval.
     """
     nodes, weights = np.polynomial.legendre.leggauss(8)
     step = eta[1] - eta[0]
@@ -132,6 +139,6 @@ def isentrope(eta: np.ndarray, origin: int, c0: float, s: float, half_gamma: flo
     tangent = reference_slope(guard, s, half_gamma)
     squeezed = near * (1.0 - half_gamma * near) / (1.0 - s * near) ** 2 + tangent * (x - near)
     reference = c0 * c0 * np.where(x < 0.0, x / (1.0 - x), squeezed)
-    pieces = 0.5 * step * (reference * np.exp(-2.0 * half_gamma * x)) @ weights
+    pieces = 0.5 * step * (reference / heating(x, 2.0 * half_gamma)) @ weights
     integral = np.concatenate([[0.0], np.cumsum(pieces)])
-    return np.exp(2.0 * half_gamma * eta) * (integral - integral[origin])
+    return heating(eta, 2.0 * half_gamma) * (integral - integral[origin])
