@@ -89,7 +89,7 @@ class Numerics(Section):
     dt_min: Time = Field(1e-14, description="a time step below this ends the run as unphysical")
     viscosity_linear: NotNegative = Field(0.5, description="linear coefficient of the artificial viscosity")
     viscosity_quadratic: NotNegative = Field(1.3, description="quadratic coefficient of the artificial viscosity")
-    hourglass: NotNegative = Field(0.02, le=1, description="coefficient of the hourglass filter")
+    hourglass: NotNegative = Field(0.05, le=1, description="coefficient of the hourglass filter")
     mixed_cell: Literal["tipton", "uniform"] = Field("tipton", description="how materials share a volume change")
     relaxation: PositiveNumber = Field(0.25, description="gamma of the pressure relaxation in mixed cells")
     mixed_strength: Literal["volume", "solid", "zero", "max", "material"] = Field(
