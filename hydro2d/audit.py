@@ -10,6 +10,7 @@ import numpy as np
 SINKS = {
     "traces": "bodies below the trace fraction, removed from their cell",
     "advection": "kinetic energy that the remap of velocities discarded (negative: gained), and the momentum it gained",
+    "ke_bound": "kinetic energy that `ke` would have turned into more speed than ke_bound allows",
     "outflow": "what left through open edges",
     "walls": "momentum taken by walls",
     "speed_limit": "vertices with little mass, held to the speed limit",

@@ -399,12 +399,13 @@ class Cycle:
         sums = s.rows[:5]
         momentum.vertex_update(dj, di, j0, j1 + 1, i0, i1 + 1, method.choice, method.ke_bound, self.still, g.cm_in, g.cm_out,
                                s.reach, s.cell_mass, s.dual, s.velocity0, s.velocity, s.mass, s.deficit, sums)
-        before, after, p_gained, _, p_wall = sums[:, j0:j1 + 1].sum(axis=1)
+        before, after, p_gained, k_cut, p_wall = sums[:, j0:j1 + 1].sum(axis=1)
         lost = before - after - self._kinetic_outflow(di)
         if method.choice == momentum.BOTH:
             momentum.deposit(j0, j1, g.cm_in, g.cm_out, s.reach, s.deficit, s.cell_mass, s.vof, s.q, s.rows[5])
             lost -= s.rows[5, j0:j1].sum()
-        self.ledger.book("advection", momentum=-float(p_gained), energy=float(lost))
+        self.ledger.book("advection", momentum=-float(p_gained), energy=float(lost - k_cut))
+        self.ledger.book("ke_bound", energy=float(k_cut))
         self.ledger.book("walls", momentum=float(p_wall))
         self.ghost_vertices()
 

@@ -110,6 +110,8 @@ def test_remap_conserves(choice, geometry, text):
         assert abs(sinks["advection"].momentum) < 1e-13 * np.sqrt(2 * start * e.ledger.start.mass.sum())
     else:
         assert sinks["advection"].momentum != 0.0
+        assert abs(sinks["advection"].energy) < 1e-13 * start
+        assert sinks["ke_bound"].energy > 1e-4 * start
 
 
 def test_unbounded_ke_keeps_kinetic_energy():
