@@ -31,15 +31,38 @@ def evaluate(model, rho, e, par):
 
 
 @point
+def pressure_row(model, par, floor, first, number, f, rho, e, damage, p, c2, T):
+    """Fills rows of pressure, c^2 and temperature, 0 where the body is not (f = 0); failed material bears no tension.
+
+    explanation/equation-of-state, explanation/fracture
+    """
+    if model == mie_grueneisen.ID:
+        for x in range(number):
+            i = first + x
+            p[i], c2[i], T[i] = _state(f[i], damage[i], rho[i], floor, mie_grueneisen.evaluate(rho[i], e[i], par))
+    else:
+        for x in range(number):
+            i = first + x
+            p[i], c2[i], T[i] = _state(f[i], damage[i], rho[i], floor, evaluate(model, rho[i], e[i], par))
+
+
+@point
+def _state(f, damage, rho, floor, state):
+    """(p, c^2, T) of a cell from (p, dp/drho, dp/de, T) of its material."""
+    pressure = max(state[0], 0.0) if damage >= 1.0 else state[0]
+    square = sound_speed_squared(rho, pressure, state[1], state[2], floor)
+    there = f > 0.0
+    return pressure if there else 0.0, square if there else 0.0, state[3] if there else 0.0
+
+
+@point
 def sound_speed_squared(rho, p, dpdrho, dpde, floor):
     """c^2 = dp/drho|e + (p/rho^2) dp/de|rho, not below ``floor``; m^2/s^2. A NaN stays a NaN.
 
     explanation/equation-of-state, (5)
     """
     c2 = dpdrho + p * dpde / (rho * rho)
-    if c2 < floor:
-        return floor
-    return c2
+    return floor if c2 < floor else c2
 
 
 @point

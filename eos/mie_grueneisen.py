@@ -61,11 +61,9 @@ def reference_slope(eta, s, half_gamma):
 def cold_temperature(eta, par):
     """T at the compression ``eta`` and e = 0 (it may be negative), held constant outside the table; K."""
     x = eta * par[INVERSE_STEP] + par[ORIGIN]
-    if not x > 0.0:
-        return par[TABLE]
-    if x >= TABLE_SIZE - 1:
-        return par[TABLE + TABLE_SIZE - 1]
-    k = int(x)
+    x = x if x > 0.0 else 0.0  # a NaN too
+    x = min(x, TABLE_SIZE - 1.0)
+    k = min(int(x), TABLE_SIZE - 2)
     w = x - k
     return (1.0 - w) * par[TABLE + k] + w * par[TABLE + k + 1]
 
@@ -78,17 +76,15 @@ def evaluate(rho, e, par):
     """
     v = par[RHO0] / rho
     eta = 1.0 - v
-    if eta >= 0.0:
-        near = min(eta, par[GUARD])
-        d = 1.0 / (1.0 - par[S] * near)
-        slope = reference_slope(near, par[S], par[HALF_GAMMA])
-        p = par[BULK] * (near * (1.0 - par[HALF_GAMMA] * near) * (d * d) + slope * (eta - near))
-        dpdrho = par[BULK] * slope * (v * v) * par[INVERSE_RHO0]
-        dpde = par[GAMMA_RHO]
-    else:
-        p = par[C0_SQUARED] * (rho - par[RHO0])
-        dpdrho = par[C0_SQUARED] + 2.0 * par[HALF_GAMMA] * e
-        dpde = 2.0 * par[HALF_GAMMA] * rho
+    gamma = 2.0 * par[HALF_GAMMA]
+    near = min(max(eta, 0.0), par[GUARD])
+    d = 1.0 / (1.0 - par[S] * near)
+    slope = reference_slope(near, par[S], par[HALF_GAMMA])
+    squeezed = par[BULK] * (near * (1.0 - par[HALF_GAMMA] * near) * (d * d) + slope * (eta - near))
+    compressed = eta >= 0.0
+    p = squeezed if compressed else par[C0_SQUARED] * (rho - par[RHO0])
+    dpdrho = par[BULK] * slope * (v * v) * par[INVERSE_RHO0] if compressed else par[C0_SQUARED] + gamma * e
+    dpde = par[GAMMA_RHO] if compressed else gamma * rho
     T = cold_temperature(eta, par) + e * par[INVERSE_CV]
     return p + dpde * e, dpdrho, dpde, max(T, 0.0)
 

@@ -232,8 +232,7 @@ class Cycle:
         thermodynamics.pressures(
             j0, j1, method.max_opening, g.vol_r, g.dz, s.span, s.reach, t.eos_model, t.eos_par, t.strength_model,
             t.strength_par, t.fracture_pressure, self.loose, s.vof, s.q, s.pm, s.km, s.tm, s.p, s.bulk, s.rhobar,
-            s.solid, s.cl, s.rows[0],
-            s.row_numbers)
+            s.solid, s.cl, s.qr, s.rows[0], s.row_numbers)
         self._report_bad(j0, j1)
         self._list_mixed()
         mixed.tear_mixed(j0, j1, method.smallest_tension, method.max_opening, g.vol_r, g.dz, s.mixed_count, s.mixed,
@@ -256,14 +255,17 @@ class Cycle:
         s, g, method, (j0, j1, _, _) = self.state, self.grid, self.method, self.box
         thermodynamics.viscosity_and_step(
             j0, j1, method.linear, method.quadratic, method.courant, method.advective, g.dr, g.dz, g.vol_r, g.face_r, g.az_in,
-            g.az_out, s.reach, s.u, s.v, s.rhobar, s.bulk, s.cl, s.qr, s.qz, s.rows[1], s.row_moving, s.row_numbers[:, 0])
+            g.az_out, s.reach, s.u, s.v, s.rhobar, s.bulk, s.cl, s.qr, s.qz, s.ph, s.rows[1], s.row_numbers[:, 0])
         j = j0 + int(np.argmin(s.rows[1, j0:j1]))
         stable = float(s.rows[1, j])
         if s.row_numbers[j0:j1, 0].any():
             j = j0 + int(np.nonzero(s.row_numbers[j0:j1, 0])[0][0])
             raise UnphysicalState(f"cycle {self.number}, time {self.time:.6g} s: velocities that are not finite near "
                                   f"z = {g.zc[j]:.6g} m")
-        cause, i = s.row_moving[j]
+        thermodynamics.step_cause(
+            j, stable, method.courant, method.advective, g.dr, g.dz, g.vol_r, g.face_r, g.az_in, g.az_out, s.reach, s.u, s.v,
+            s.rhobar, s.cl, s.qr, s.qz, s.ph, s.row_numbers[j])
+        cause, i = s.row_numbers[j, :2]
         ramp = min(1.0, method.first + (1.0 - method.first) * self.number / max(method.ramp_cycles, 1))
         dt, self.cause = stable * ramp, (f"{thermodynamics.CAUSES[cause]} at r = {g.rc[i] * 1e3:.3f} mm, "
                                          f"z = {g.zc[j] * 1e3:.3f} mm")
@@ -315,7 +317,7 @@ class Cycle:
                 j0, j1, m, self.dt, method.hourglass, g.face_r, g.hoop, g.az_in, g.az_out, g.vol_r, g.dr, g.dz, s.span,
                 t.strength_model, t.strength_par, t.damage_model, t.damage_par, method.factor, self.loose, s.u0, s.v0,
                 s.u, s.v, s.fr, s.fz,
-                s.sig_rr, s.sig_zz, s.sig_tt, s.sig_rz, s.rhobar, s.cl, s.vof, s.pm, s.tm, s.q)
+                s.sig_rr, s.sig_zz, s.sig_tt, s.sig_rz, s.rhobar, s.cl, s.vof, s.pm, s.tm, s.half, s.q)
         mixed.deform_mixed(
             j0, j1, self.dt, method.hourglass, method.relaxation, method.tipton, method.strength_mode, method.hard,
             method.threshold, g.face_r, g.hoop, g.az_in, g.az_out, g.vol_r, g.dr, g.dz, s.mixed_count, s.mixed,
@@ -395,7 +397,7 @@ class Cycle:
         for face, sign in self._open_faces(di):
             np.moveaxis(s.dual, 2 if di else 1, 0)[face if sign > 0 else face - 1] = 0.0
         self._keep_velocities()
-        momentum.dual_fluxes(dj, di, j0, j1, i0, i1, g.cm_in, g.cm_out, s.reach, flow, s.mass, s.u0, s.v0, s.dual)
+        momentum.dual_fluxes(dj, di, j0, j1, i0, i1, g.cm_in, g.cm_out, s.reach, flow, s.mass, s.velocity0, s.dual)
         sums = s.rows[:5]
         momentum.vertex_update(dj, di, j0, j1 + 1, i0, i1 + 1, method.choice, method.ke_bound, self.still, g.cm_in, g.cm_out,
                                s.reach, s.cell_mass, s.dual, s.velocity0, s.velocity, s.mass, s.deficit, sums)

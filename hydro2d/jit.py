@@ -17,6 +17,7 @@ import tempfile
 import time
 from pathlib import Path
 
+import llvmlite.binding
 import numba
 
 
@@ -46,6 +47,9 @@ CACHE_FOLDER = _cache_folder()
 numba.config.CACHE_DIR = CACHE_FOLDER
 numba.config.THREADING_LAYER = "omp"
 
+# rows are views into a dozen arrays: the loops are vectorised only if that many checks that they do not overlap are allowed
+llvmlite.binding.set_option("hydro2d", "-vectorize-memory-check-threshold=1024")
+
 _COMMON = {"cache": True, "error_model": "numpy", "fastmath": False, "nogil": True}
 
 #: wall seconds and calls per kernel name, filled while `profiling(True)` is on
@@ -63,6 +67,12 @@ def profiling(on: bool) -> None:
 def point(function):
     """Compiles a scalar function of physics."""
     return numba.njit(function, forceinline=True, **_COMMON)
+
+
+@numba.njit(forceinline=True, **{**_COMMON, "fastmath": {"reassoc"}})
+def plus(total, term):
+    """total + term, the terms of a loop in any order: what lets the compiler sum in lanes. It hides no NaN."""
+    return total + term
 
 
 def _timed(function, compiled):

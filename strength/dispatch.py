@@ -41,6 +41,19 @@ def shear_modulus(model, p, rho, T, par):
 
 
 @point
+def modulus_row(model, par, first, number, p, rho, T, shear):
+    """Fills shear[first:first + number] with the shear modulus, Pa, from rows of pressure, density and temperature."""
+    if model == steinberg_guinan.ID:
+        for x in range(number):
+            i = first + x
+            shear[i] = steinberg_guinan.shear_modulus(p[i], rho[i], T[i], par) if rho[i] > 0.0 else 0.0
+    else:
+        constant = shear_modulus(model, 0.0, 0.0, 0.0, par)
+        for x in range(number):
+            shear[first + x] = constant
+
+
+@point
 def flow_stress(model, ep, rate, T, p, rho, par):
     """Flow stress of the strength model ``model``, Pa.
 

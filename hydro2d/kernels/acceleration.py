@@ -4,7 +4,7 @@ from math import sqrt
 
 from hydro2d.fields import SRR, SRZ, SZZ
 from hydro2d.jit import kernel, point, prange
-from hydro2d.kernels.spans import union
+from hydro2d.kernels.spans import columns, union
 
 #: speeds below this are no signal: set to zero, so that the active region has an edge (explanation/active-region)
 SILENCE = 1e-20
@@ -43,14 +43,14 @@ def total_stress(j0, j1, dt, face_r, az_in, az_out, vol_r, dz, span, reach, mixe
     """
     bodies = vof.shape[0]
     for j in prange(j0, j1):
-        lo = reach[j, 0]
-        hi = reach[j, 1]
+        lo, n = columns(reach[j, 0], reach[j, 1])
         rr = sig_rr[j]
         zz = sig_zz[j]
         tt = sig_tt[j]
         rz = sig_rz[j]
         ph_j = ph[j]
-        for i in range(lo, hi):
+        for x in range(n):
+            i = lo + x
             rr[i] = 0.0
             zz[i] = 0.0
             rz[i] = 0.0
@@ -59,7 +59,9 @@ def total_stress(j0, j1, dt, face_r, az_in, az_out, vol_r, dz, span, reach, mixe
             a_j = q[SRR, m, j]
             b_j = q[SZZ, m, j]
             c_j = q[SRZ, m, j]
-            for i in range(span[m, j, 0], span[m, j, 1]):
+            first, number = columns(span[m, j, 0], span[m, j, 1])
+            for x in range(number):
+                i = first + x
                 rr[i] += f_j[i] * a_j[i]
                 zz[i] += f_j[i] * b_j[i]
                 rz[i] += f_j[i] * c_j[i]
@@ -83,7 +85,8 @@ def total_stress(j0, j1, dt, face_r, az_in, az_out, vol_r, dz, span, reach, mixe
         qr_j = qr[j]
         qz_j = qz[j]
         h = dz[j]
-        for i in range(lo, hi):
+        for x in range(n):
+            i = lo + x
             div = divergence(i, ub, ut, vb, vt, face_r, az_in, az_out, vol_r, h)
             pressure = p_j[i] - 0.5 * dt * k_j[i] * div
             ph_j[i] = pressure
@@ -101,11 +104,12 @@ def vertex_masses(j0, j1, i0, i1, cm_in, cm_out, reach, cell_mass, mass):
     """
     for j in prange(j0, j1):
         lo, hi = union(reach, j - 1, j + 1)
-        lo, hi = max(lo, i0), min(hi + 1, i1)
+        lo, n = columns(max(lo, i0), min(hi + 1, i1))
         below = cell_mass[j - 1]
         above = cell_mass[j]
         m_j = mass[0, j]
-        for i in range(lo, hi):
+        for x in range(n):
+            i = lo + x
             m_j[i] = cm_out[i - 1] * (below[i - 1] + above[i - 1]) + cm_in[i] * (below[i] + above[i])
 
 
@@ -125,7 +129,7 @@ def accelerate(j0, j1, i0, i1, dt, hourglass, speed_limit, light_density, face_r
     """
     for j in prange(j0, j1):
         lo, hi = union(occupied, j - 1, j + 1)
-        lo, hi = max(lo, i0), min(hi + 1, i1)
+        lo, n = columns(max(lo, i0), min(hi + 1, i1))
         hb = dz[j - 1]
         ht = dz[j]
         rr_b = sig_rr[j - 1]
@@ -150,7 +154,8 @@ def accelerate(j0, j1, i0, i1, dt, hourglass, speed_limit, light_density, face_r
         un = u[0, j]
         vn = v[0, j]
         lost_p, lost_e, count = 0.0, 0.0, 0.0
-        for i in range(lo, hi):
+        for x in range(n):
+            i = lo + x
             k = i - 1
             half_r = 0.5 * face_r[i]
             # (cell left below + cell left above) + (cell right below + cell right above): mirror pairs in z
@@ -183,7 +188,8 @@ def accelerate(j0, j1, i0, i1, dt, hourglass, speed_limit, light_density, face_r
             b = keep * v_c[i] + scale * force_z
             un[i] = a if abs(a) > SILENCE else 0.0
             vn[i] = b if abs(b) > SILENCE else 0.0
-        for i in range(lo, hi):
+        for x in range(n):
+            i = lo + x
             m = m_j[i]
             square = un[i] * un[i] + vn[i] * vn[i]
             if square <= speed_limit * speed_limit or m >= light_density * 0.25 * (vol_r[i - 1] + vol_r[i]) * (hb + ht):
@@ -211,7 +217,7 @@ def swept_volumes(j0, j1, i0, i1, dt, face_r, az_in, az_out, dz, reach, u0, v0, 
     """
     for j in prange(j0, j1):
         lo, hi = union(reach, j - 1, j + 1)
-        lo, hi = max(lo, i0), min(hi, i1)
+        lo, n = columns(max(lo, i0), min(hi, i1))
         ub = u[0, j]
         ub0 = u0[0, j]
         ut = u[0, j + 1]
@@ -221,8 +227,10 @@ def swept_volumes(j0, j1, i0, i1, dt, face_r, az_in, az_out, dz, reach, u0, v0, 
         fr_j = fr[j]
         fz_j = fz[j]
         h = dz[j]
-        for i in range(lo, hi):
+        for x in range(n):
+            i = lo + x
             fr_j[i] = 0.25 * dt * face_r[i] * h * ((ub[i] + ub0[i]) + (ut[i] + ut0[i]))
             fz_j[i] = 0.5 * dt * (az_in[i] * (vb[i] + vb0[i]) + az_out[i] * (vb[i + 1] + vb0[i + 1]))
-        if lo < hi:
-            fr_j[hi] = 0.25 * dt * face_r[hi] * h * ((ub[hi] + ub0[hi]) + (ut[hi] + ut0[hi]))
+        if n > 0:
+            i = lo + n
+            fr_j[i] = 0.25 * dt * face_r[i] * h * ((ub[i] + ub0[i]) + (ut[i] + ut0[i]))

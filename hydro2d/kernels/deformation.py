@@ -4,7 +4,8 @@ from math import sqrt
 
 from hydro2d.fields import DMG, EP, RHO, SRR, SRZ, SZZ, E
 from hydro2d.jit import kernel, point, prange
-from strength.dispatch import damage_increment, shear_modulus, yield_floor
+from hydro2d.kernels.spans import columns
+from strength.dispatch import damage_increment, modulus_row, yield_floor
 from strength.radial_return import plastic_increment
 
 
@@ -57,7 +58,7 @@ def von_mises(rr, zz, rz):
 @kernel
 def deform(j0, j1, m, dt, hourglass, face_r, hoop, az_in, az_out, vol_r, dr, dz, span, strength_model, strength_par,
            damage_model, damage_par, factor, loose, u0, v0, u, v, fr, fz, sig_rr, sig_zz, sig_tt, sig_rz, rhobar, cl,
-           vof, pm, tm,
+           vof, pm, tm, scratch,
            q):
     """Energy, density, deviator, plastic strain and damage of body m in the cells that it fills, over one Lagrangian step.
 
@@ -67,6 +68,7 @@ def deform(j0, j1, m, dt, hourglass, face_r, hoop, az_in, az_out, vol_r, dr, dz,
 
     Reads    u0, v0, u, v [b, j, i]; fr, fz, sig_.., rhobar, cl [j, i]; vof, pm, tm [m, j, i]
     Updates  q [k, m, j, i]
+    Scratch  scratch [2, j, i], shear modulus and trial stress
     """
     model = strength_model[m]
     par = strength_par[m]
@@ -101,15 +103,20 @@ def deform(j0, j1, m, dt, hourglass, face_r, hoop, az_in, az_out, vol_r, dr, dz,
         szz_j = q[SZZ, m, j]
         srz_j = q[SRZ, m, j]
         h = dz[j]
-        for i in range(span[m, j, 0], span[m, j, 1]):
-            if f_j[i] != 1.0:
-                continue
+        rhobar_j = rhobar[j]
+        cl_j = cl[j]
+        shear_j = scratch[0, j]
+        trial_j = scratch[1, j]  # of loose material negative, where the body does not fill the cell 0
+        first, n = columns(span[m, j, 0], span[m, j, 1])
+        modulus_row(model, par, first, n, p_j, rho_j, t_j, shear_j)
+        for x in range(n):
+            i = first + x
+            pure = f_j[i] == 1.0
             volume = vol_r[i] * h
-            change = (fr_j[i + 1] - fr_j[i]) + (fz_t[i] - fz_b[i])
             a_rr, a_tt, a_zz, a_rbz, a_zbr = velocity_gradient(
                 i, ub0, ut0, vb0, vt0, face_r, hoop, az_in, az_out, vol_r, dr, h)
             rr, tt, zz, rbz, zbr = velocity_gradient(i, ub, ut, vb, vt, face_r, hoop, az_in, az_out, vol_r, dr, h)
-            w = hourglass_weight(i, hourglass, rhobar[j, i], cl[j, i], vol_r, dr, h)
+            w = hourglass_weight(i, hourglass, rhobar_j[i], cl_j[i], vol_r, dr, h)
             h_u0, h_v0 = hourglass_mode(i, ub0, ut0), hourglass_mode(i, vb0, vt0)
             h_u, h_v = hourglass_mode(i, ub, ut), hourglass_mode(i, vb, vt)
             work = 0.5 * dt * (
@@ -117,26 +124,40 @@ def deform(j0, j1, m, dt, hourglass, face_r, hoop, az_in, az_out, vol_r, dr, dz,
                 + (zz_j[i] * (a_zz + zz) + rz_j[i] * ((a_rbz + rbz) + (a_zbr + zbr)))
                 + w * (h_u0 * (h_u0 + h_u) + h_v0 * (h_v0 + h_v)))
             rho = rho_j[i]
-            e_j[i] += work / (rho * volume)
-            rho_j[i] = rho * (volume / (volume + change))
-            if model == 0:
-                continue
+            gain = work / (rho * volume)
+            e_j[i] += gain if pure else 0.0
             rate = 1.0 / volume
             drr, dzz, dtt, drz = rr * rate, zz * rate, tt * rate, 0.5 * (rbz + zbr) * rate
-            shear = shear_modulus(model, p_j[i], rho, t_j[i], par)
-            srr, szz, srz = turn_and_strain(srr_j[i], szz_j[i], srz_j[i], 0.5 * (rbz - zbr) * rate * dt, 2.0 * shear,
+            srr, szz, srz = turn_and_strain(srr_j[i], szz_j[i], srz_j[i], 0.5 * (rbz - zbr) * rate * dt, 2.0 * shear_j[i],
                                             drr * dt, dzz * dt, dtt * dt, drz * dt)
-            trial = von_mises(srr, szz, srz)
-            if trial > floor:
-                dep, yield_stress = plastic_increment(model, trial, ep_j[i], dt, t_j[i], p_j[i], rho, shear, scale, par)
-                if dep > 0.0:
-                    shrink = yield_stress / trial
-                    srr, szz, srz = srr * shrink, szz * shrink, srz * shrink
-                    ep_j[i] += dep
-                    d_j[i] += damage_increment(dmodel, dep, dep / dt, t_j[i], p_j[i], yield_stress, dpar)
-            d_j[i] = min(d_j[i], 1.0)
-            if d_j[i] >= 1.0 or rho <= loose[m]:
-                srr, szz, srz = 0.0, 0.0, 0.0
-            srr_j[i] = srr
-            szz_j[i] = szz
-            srz_j[i] = srz
+            srr_j[i] = srr if pure else srr_j[i]
+            szz_j[i] = szz if pure else szz_j[i]
+            srz_j[i] = srz if pure else srz_j[i]
+            size = von_mises(srr, szz, srz)
+            size = -size if rho <= loose[m] else size
+            trial_j[i] = size if pure else 0.0
+        if model > 0:
+            for x in range(n):
+                i = first + x
+                size = abs(trial_j[i])
+                if size > floor:
+                    dep, yield_stress = plastic_increment(
+                        model, size, ep_j[i], dt, t_j[i], p_j[i], rho_j[i], shear_j[i], scale, par)
+                    if dep > 0.0:
+                        shrink = yield_stress / size
+                        srr_j[i] *= shrink
+                        szz_j[i] *= shrink
+                        srz_j[i] *= shrink
+                        ep_j[i] += dep
+                        d_j[i] += damage_increment(dmodel, dep, dep / dt, t_j[i], p_j[i], yield_stress, dpar)
+        for x in range(n):
+            i = first + x
+            pure = f_j[i] == 1.0
+            volume = vol_r[i] * h
+            change = (fr_j[i + 1] - fr_j[i]) + (fz_t[i] - fz_b[i])
+            rho_j[i] = rho_j[i] * (volume / (volume + change)) if pure else rho_j[i]
+            d_j[i] = min(d_j[i], 1.0) if pure else d_j[i]
+            gone = pure and (d_j[i] >= 1.0 or trial_j[i] < 0.0)
+            srr_j[i] = 0.0 if gone else srr_j[i]
+            szz_j[i] = 0.0 if gone else szz_j[i]
+            srz_j[i] = 0.0 if gone else srz_j[i]

@@ -8,6 +8,7 @@ stated order bounds their cumulative fraction, void comes last.
 from math import sqrt
 
 from hydro2d.jit import kernel, point, prange
+from hydro2d.kernels.spans import columns
 
 #: void below this share of a cell is round-off: its interface has no direction
 FULL = 1e-12
@@ -96,13 +97,17 @@ def sweep_volumes(dj, di, j0, j1, first, volume, reach, fr, fz, pre):
     Writes   pre [j, i]
     """
     for j in prange(j0, j1):
-        for i in range(reach[j, 0], reach[j, 1]):
-            along_r = fr[j, i + 1] - fr[j, i]
-            along_z = fz[j + 1, i] - fz[j, i]
-            if first:
-                pre[j, i] = volume[j, i] + (along_r + along_z)
-            else:
-                pre[j, i] = volume[j, i] + (dj * along_z + di * along_r)
+        lo, n = columns(reach[j, 0], reach[j, 1])
+        fr_j = fr[j]
+        fz_b = fz[j]
+        fz_t = fz[j + 1]
+        volume_j = volume[j]
+        out = pre[j]
+        for x in range(n):
+            i = lo + x
+            along_r = fr_j[i + 1] - fr_j[i]
+            along_z = fz_t[i] - fz_b[i]
+            out[i] = volume_j[i] + (along_r + along_z if first else dj * along_z + di * along_r)
 
 
 @point

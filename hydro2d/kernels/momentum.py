@@ -3,7 +3,7 @@
 from math import sqrt
 
 from hydro2d.fields import E
-from hydro2d.jit import kernel, prange
+from hydro2d.jit import kernel, plus, prange
 from hydro2d.kernels.acceleration import TINY
 from hydro2d.kernels.remap import limited_difference
 from hydro2d.kernels.spans import union
@@ -14,60 +14,52 @@ MOMENTUM, KE, BOTH = range(3)
 
 
 @kernel
-def dual_fluxes(dj, di, j0, j1, i0, i1, cm_in, cm_out, reach, flux_mass, mass, u, v, dual):
+def dual_fluxes(dj, di, j0, j1, i0, i1, cm_in, cm_out, reach, flux_mass, mass, w, dual):
     """Mass, momentum and kinetic energy that flow between neighbouring vertices, stored at the lower vertex of the edge.
 
     r-sweep: Phi = cm_out (F_left) + cm_in (F_right) of the column between, summed over the two rows beside the vertex;
     z-sweep: the column's share of the vertex times (F_bottom + F_top). With these the dual masses after the sweep are again
     the corner sums of the cell masses (explanation/remap, equation 6).
 
-    Reads    flux_mass [j, i]; mass, u, v [b, j, i]
+    Reads    flux_mass [j, i]; mass [b, j, i], w = (u, v) [c, b, j, i]
     Writes   dual [k, j, i]: mass, radial and axial momentum, and kinetic energy of each component
     """
     for j in prange(j0 - dj, j1 + 1):
         lo, hi = union(reach, j - 1 - dj, j + 1 + dj)
         lo, hi = max(lo, i0) - di, min(hi + 1, i1 + 1)
-        if lo >= hi:
+        n = hi - lo
+        if n <= 0:
             continue
-        d0 = dual[0, j]
-        d1 = dual[1, j]
-        d2 = dual[2, j]
-        d3 = dual[3, j]
-        d4 = dual[4, j]
-        below = flux_mass[j - di]
-        here = flux_mass[j]
-        above = flux_mass[j + dj]
-        m_l = mass[0, j]
-        m_r = mass[0, j + dj]
-        u_ll = u[0, j - dj]
-        u_l = u[0, j]
-        u_r = u[0, j + dj]
-        u_rr = u[0, j + 2 * dj]
-        v_ll = v[0, j - dj]
-        v_l = v[0, j]
-        v_r = v[0, j + dj]
-        v_rr = v[0, j + 2 * dj]
+        flow = dual[0, j, lo:hi]
+        here = flux_mass[j, lo - 1:hi + 1]
+        inner = cm_in[lo:hi]
+        outer = cm_out[lo - dj:hi]
         if di == 1:
-            for i in range(lo, hi):
-                d0[i] = cm_out[i] * (below[i] + here[i]) + cm_in[i] * (below[i + 1] + here[i + 1])
+            below = flux_mass[j - 1, lo:hi + 1]
+            for x in range(n):
+                flow[x] = outer[x] * (below[x] + here[x + 1]) + inner[x] * (below[x + 1] + here[x + 2])
         else:
-            for i in range(lo, hi):
-                d0[i] = cm_in[i] * (here[i] + above[i]) + cm_out[i - 1] * (here[i - 1] + above[i - 1])
-        for i in range(lo, hi):
-            flow = d0[i]
-            up = flow > 0.0
-            whole = m_l[i] if up else m_r[i + di]
-            half = 0.5 * (1.0 - min(abs(flow) / max(whole, TINY), 1.0))
-            a = u_l[i] if up else u_r[i + di]
-            b = u_r[i + di] if up else u_l[i]
-            z = u_ll[i - di] if up else u_rr[i + 2 * di]
-            d1[i] = flow * (a + half * limited_difference(z, a, b))
-            d3[i] = flow * (0.5 * a * a + half * limited_difference(0.5 * z * z, 0.5 * a * a, 0.5 * b * b))
-            a = v_l[i] if up else v_r[i + di]
-            b = v_r[i + di] if up else v_l[i]
-            z = v_ll[i - di] if up else v_rr[i + 2 * di]
-            d2[i] = flow * (a + half * limited_difference(z, a, b))
-            d4[i] = flow * (0.5 * a * a + half * limited_difference(0.5 * z * z, 0.5 * a * a, 0.5 * b * b))
+            above = flux_mass[j + 1, lo - 1:hi]
+            for x in range(n):
+                flow[x] = inner[x] * (here[x + 1] + above[x + 1]) + outer[x] * (here[x] + above[x])
+        m_l = mass[0, j, lo:hi]
+        m_r = mass[0, j + dj, lo + di:hi + di]
+        for c in range(2):
+            a_ll = w[c, 0, j - dj, lo - di:hi - di]
+            a_l = w[c, 0, j, lo:hi]
+            a_r = w[c, 0, j + dj, lo + di:hi + di]
+            a_rr = w[c, 0, j + 2 * dj, lo + 2 * di:hi + 2 * di]
+            carried = dual[1 + c, j, lo:hi]
+            kinetic = dual[3 + c, j, lo:hi]
+            for x in range(n):
+                up = flow[x] > 0.0
+                whole = m_l[x] if up else m_r[x]
+                half = 0.5 * (1.0 - min(abs(flow[x]) / max(whole, TINY), 1.0))
+                a = a_l[x] if up else a_r[x]
+                b = a_r[x] if up else a_l[x]
+                z = a_ll[x] if up else a_rr[x]
+                carried[x] = flow[x] * (a + half * limited_difference(z, a, b))
+                kinetic[x] = flow[x] * (0.5 * a * a + half * limited_difference(0.5 * z * z, 0.5 * a * a, 0.5 * b * b))
 
 
 @kernel
@@ -89,52 +81,66 @@ def vertex_update(dj, di, j0, j1, i0, i1, choice, bound, still, cm_in, cm_out, r
     for j in prange(j0, j1):
         lo, hi = union(reach, j - 1, j + 1)
         lo, hi = max(lo, i0), min(hi + 1, i1)
-        below = cell_mass[j - 1]
-        above = cell_mass[j]
-        m_j = mass[0, j]
-        k_before, k_after, p_error, k_cut, p_wall = 0.0, 0.0, 0.0, 0.0, 0.0
-        for i in range(lo, hi):
-            old = m_j[i]
-            new = cm_out[i - 1] * (below[i - 1] + above[i - 1]) + cm_in[i] * (below[i] + above[i])
-            left = 0.0
-            m_j[i] = new
-            k_before += 0.5 * old * (w_old[0, 0, j, i] ** 2 + w_old[1, 0, j, i] ** 2)
-            if new <= 0.0:
-                w[0, 0, j, i] = 0.0
-                w[1, 0, j, i] = 0.0
-                deficit[j, i] = 0.0
-                continue
-            for c in range(2):
-                a = w_old[c, 0, j, i]
-                if dual[0, j, i] == 0.0 and dual[0, j - dj, i - di] == 0.0:
-                    w[c, 0, j, i] = a
-                    k_after += 0.5 * new * a * a
-                    continue
-                momentum = old * a + (dual[1 + c, j - dj, i - di] - dual[1 + c, j, i])
-                least = min(a, min(w_old[c, 0, j - dj, i - di], w_old[c, 0, j + dj, i + di]))
-                most = max(a, max(w_old[c, 0, j - dj, i - di], w_old[c, 0, j + dj, i + di]))
-                mean = min(max(momentum / new, least), most)
-                if (i == still[0] or i == still[1]) if c == 0 else (j == still[2] or j == still[3]):
-                    p_wall += momentum if c == 1 else 0.0
-                    mean = 0.0
-                if choice != MOMENTUM:
-                    kinetic = max(0.5 * old * a * a + (dual[3 + c, j - dj, i - di] - dual[3 + c, j, i]), 0.0)
-                    if choice == KE:
-                        speed = sqrt(2.0 * kinetic / new)
-                        k_cut += max(kinetic - 0.5 * new * (bound * mean) ** 2, 0.0)
-                        speed = min(speed, bound * abs(mean))
-                        p_error += (new * speed - new * abs(mean)) * (1.0 if mean > 0.0 else -1.0) if c == 1 else 0.0
-                        mean = speed if mean > 0.0 else -speed
-                    else:
-                        left += kinetic - 0.5 * new * mean * mean
-                w[c, 0, j, i] = mean
-                k_after += 0.5 * new * mean * mean
-            deficit[j, i] = left / new
-        sums[0, j] = k_before
-        sums[1, j] = k_after
-        sums[2, j] = p_error
-        sums[3, j] = k_cut
-        sums[4, j] = p_wall
+        n = hi - lo
+        for row in range(5):
+            sums[row, j] = 0.0
+        if n <= 0:
+            continue
+        below = cell_mass[j - 1, lo - 1:hi]
+        above = cell_mass[j, lo - 1:hi]
+        inner = cm_in[lo:hi]
+        outer = cm_out[lo - 1:hi]
+        m_j = mass[0, j, lo:hi]
+        left = deficit[j, lo:hi]
+        f_in = dual[0, j - dj, lo - di:hi - di]
+        f_out = dual[0, j, lo:hi]
+        for x in range(n):
+            left[x] = 0.0
+        for c in range(2):
+            p_in = dual[1 + c, j - dj, lo - di:hi - di]
+            p_out = dual[1 + c, j, lo:hi]
+            k_in = dual[3 + c, j - dj, lo - di:hi - di]
+            k_out = dual[3 + c, j, lo:hi]
+            a_j = w_old[c, 0, j, lo:hi]
+            a_low = w_old[c, 0, j - dj, lo - di:hi - di]
+            a_high = w_old[c, 0, j + dj, lo + di:hi + di]
+            out = w[c, 0, j, lo:hi]
+            k_before, k_after, k_cut, p_gained, p_wall = 0.0, 0.0, 0.0, 0.0, 0.0
+            wall_row = c == 1 and (j == still[2] or j == still[3])
+            for x in range(n):
+                a = a_j[x]
+                old = m_j[x]
+                new = outer[x] * (below[x] + above[x]) + inner[x] * (below[x + 1] + above[x + 1])
+                held = f_in[x] == 0.0 and f_out[x] == 0.0  # nothing flows: not a bit may change
+                wall = wall_row or (c == 0 and (lo + x == still[0] or lo + x == still[1]))
+                some = max(new, TINY)
+                momentum = old * a + (p_in[x] - p_out[x])
+                mean = min(max(momentum / some, min(a, min(a_low[x], a_high[x]))), max(a, max(a_low[x], a_high[x])))
+                mean = 0.0 if wall else mean
+                kinetic = max(0.5 * old * a * a + (k_in[x] - k_out[x]), 0.0)
+                speed = min(sqrt(2.0 * kinetic / some), bound * abs(mean))
+                speed = speed if mean > 0.0 else -speed
+                after = speed if choice == KE else mean
+                after = a if held else after
+                after = after if new > 0.0 else 0.0
+                out[x] = after
+                k_before = plus(k_before, 0.5 * old * a * a)
+                k_after = plus(k_after, 0.5 * new * after * after)
+                if choice == KE:
+                    moves = not held and new > 0.0
+                    k_cut = plus(k_cut, max(kinetic - 0.5 * new * (bound * mean) * (bound * mean), 0.0) if moves else 0.0)
+                    p_gained = plus(p_gained, new * (after - mean) if moves else 0.0)
+                if choice == BOTH:
+                    left[x] += 0.0 if held else (kinetic - 0.5 * new * mean * mean) / some
+                p_wall = plus(p_wall, momentum if wall and not held else 0.0)
+            sums[0, j] += k_before
+            sums[1, j] += k_after
+            sums[3, j] += k_cut
+            if c == 1:
+                sums[2, j] = p_gained
+                sums[4, j] = p_wall
+        for x in range(n):
+            m_j[x] = outer[x] * (below[x] + above[x]) + inner[x] * (below[x + 1] + above[x + 1])
 
 
 @kernel

@@ -7,7 +7,7 @@ from hydro2d.fields import BODY_FIELDS, CARRIED_SOLID, DMG, EP, RHO, E
 from hydro2d.jit import kernel, point, prange
 from hydro2d.kernels.acceleration import TINY
 from hydro2d.kernels.interfaces import face_range
-from hydro2d.kernels.spans import union
+from hydro2d.kernels.spans import columns, union
 
 
 @point
@@ -150,13 +150,25 @@ def sum_cell_mass(j0, j1, reach, pre, dj, di, fr, fz, second, volume, vof, q, ce
     """
     bodies = vof.shape[0]
     for j in prange(j0, j1):
-        for i in range(reach[j, 0], reach[j, 1]):
-            swept = dj * (fz[j + 1, i] - fz[j, i]) + di * (fr[j, i + 1] - fr[j, i])
-            post = volume[j, i] if second else pre[j, i] - swept
-            total = 0.0
-            for m in range(bodies):
-                total += vof[m, j, i] * q[RHO, m, j, i]
-            cell_mass[j, i] = total * post
+        lo, n = columns(reach[j, 0], reach[j, 1])
+        out = cell_mass[j]
+        for x in range(n):
+            out[lo + x] = 0.0
+        for m in range(bodies):
+            f_j = vof[m, j]
+            rho_j = q[RHO, m, j]
+            for x in range(n):
+                i = lo + x
+                out[i] += f_j[i] * rho_j[i]
+        fr_j = fr[j]
+        fz_b = fz[j]
+        fz_t = fz[j + 1]
+        pre_j = pre[j]
+        volume_j = volume[j]
+        for x in range(n):
+            i = lo + x
+            swept = dj * (fz_t[i] - fz_b[i]) + di * (fr_j[i + 1] - fr_j[i])
+            out[i] *= volume_j[i] if second else pre_j[i] - swept
 
 
 @kernel

@@ -19,6 +19,17 @@ def union(ranges, j0, j1):
     return lo, hi
 
 
+@point
+def columns(lo, hi):
+    """(first column, number of columns) of a range, for loops that the compiler can vectorise.
+
+    It does so where it knows that no index is negative: with x in range(number), i = first + x and, since every mesh has
+    two columns of ghosts, first >= 2.
+    """
+    first = max(lo, 2)
+    return first, hi - first
+
+
 @kernel
 def body_spans(j0, j1, i0, i1, vof, span, occupied):
     """First column and one past the last in which each body lies, for the rows and columns of the active box.
