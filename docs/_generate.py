@@ -1,4 +1,4 @@
-"""Reference pages from the code: deck keys, fields, models, materials, commands.
+"""Reference pages from the code: deck keys, fields, models, materials, penetration models and their figures, commands.
 
 ``write(folder)`` is called by conf.py; ``pages()`` gives the same pages as text.
 """
@@ -12,6 +12,8 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 NOTE = "Generated from the code."
+#: velocities of a penetration model's figure
+POINTS = 81
 
 
 def table(heads: Iterable[str], rows: Iterable[Iterable[str]]) -> str:
@@ -165,6 +167,52 @@ def models_page() -> str:
     return "\n\n".join(parts)
 
 
+def _penetration_model(model) -> str:
+    from hydro2d import model_text
+
+    inputs = (
+        (f"`{entry.name}`", entry.symbol, entry.unit or "word", model_text.default(entry), model_text.meaning(entry))
+        for entry in model.inputs
+    )
+    outputs = ((f"`{entry.name}`", entry.symbol, entry.unit or "word", entry.description) for entry in model.outputs)
+    parts = [
+        f"## `{model.name}`", f"{model.title}.", f"Source: {model.source}.", f"Validity: {model.validity}.",
+        table(("input", "symbol", "unit", "default", "meaning"), inputs),
+        table(("output", "symbol", "unit", "meaning"), outputs),
+        f"```sh\n{model_text.example_command(model)}\n```",
+        f"![{model.title}](models/{model.name}.png)",
+    ]  # fmt: skip
+    return "\n\n".join(parts)
+
+
+def penetration_page() -> str:
+    """Every analytic penetration model: inputs, outputs, example, figure."""
+    from hydro2d.penetration import catalogue
+
+    lead = (
+        f"{NOTE} `hydro2d model NAME` prints the same. Where the default is *material*, the material library gives the value "
+        "of the rod or the target that is named. The figures show the models' own examples."
+    )
+    return "\n\n".join([f"# Penetration models\n\n{lead}", *map(_penetration_model, catalogue.MODELS.values())])
+
+
+def draw_models(folder: Path) -> None:
+    """A figure of every penetration model at its example, ``folder/NAME.png``; those that are newer than the code stay."""
+    from hydro2d import figures, model, model_figures
+    from hydro2d.penetration import catalogue
+
+    folder.mkdir(parents=True, exist_ok=True)
+    sources = [*Path(catalogue.__file__).parent.glob("*.py"), Path(model.__file__), Path(model_figures.__file__)]
+    changed = max(file.stat().st_mtime for file in sources)
+    for entry in catalogue.MODELS.values():
+        file = folder / f"{entry.name}.png"
+        if not file.is_file() or file.stat().st_mtime < changed:
+            low, high = entry.example.velocities
+            case = model.example(entry)
+            velocities = [low + (high - low) * n / (POINTS - 1) for n in range(POINTS)]
+            figures.save(model_figures.draw(case, case.rows(velocities)), file)
+
+
 def materials_page() -> str:
     """Every material of the library, number by number."""
     from hydro2d import materials
@@ -183,6 +231,7 @@ def commands_page() -> str:
     for name in cli.app:
         if not name.startswith("-"):
             parts.append(f"## `hydro2d {name}`\n\n{code(_help(name))}")
+    parts.append(f"## `hydro2d model transition`\n\n{code(_help('model', 'transition'))}")
     return "\n\n".join(parts)
 
 
@@ -210,13 +259,15 @@ def pages() -> dict[str, str]:
         "fields.md": fields_page(),
         "models.md": models_page(),
         "materials.md": materials_page(),
+        "penetration-models.md": penetration_page(),
         "commands.md": commands_page(),
     }
 
 
 def write(folder: Path) -> None:
-    """Writes the pages that changed."""
+    """Writes the pages and the figures that changed."""
     folder.mkdir(parents=True, exist_ok=True)
+    draw_models(folder / "models")
     for name, text in pages().items():
         file = folder / name
         if not file.is_file() or file.read_text(encoding="utf-8") != text + "\n":

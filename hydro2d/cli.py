@@ -11,6 +11,8 @@ import cyclopts
 from cyclopts import App, Parameter
 
 from . import __version__
+from .cli_base import Overrides, UsageError, quantity
+from .cli_model import model
 
 WRONG_INPUT = 2
 
@@ -22,11 +24,7 @@ app = App(
     help_epilogue="Exit status: 0 done, 2 deck or arguments wrong, 3 unphysical state, 130/143 interrupted.",
 )
 
-Overrides = Annotated[list[str] | None, Parameter(name="--set", negative="")]
-
-
-class UsageError(Exception):
-    """Arguments that do not go together; the message is for the user."""
+app.command(model)
 
 
 def _user_errors() -> tuple[type[Exception], ...]:
@@ -35,7 +33,7 @@ def _user_errors() -> tuple[type[Exception], ...]:
     for module, name in (
         ("deck_errors", "DeckError"), ("run", "RunError"), ("snapshot", "SnapshotError"), ("history", "HistoryError"),
         ("vtk", "VtkError"), ("figures", "FigureError"), ("results", "ResultsError"), ("derived", "FieldError"),
-        ("files", "LockError"),
+        ("files", "LockError"), ("penetration.model", "InputError"),
     ):  # fmt: skip
         loaded = sys.modules.get(f"hydro2d.{module}")
         if loaded is not None:
@@ -156,25 +154,7 @@ def info(name: str | None = None) -> int:
 
 
 def _times(texts: list[str] | None) -> list[float | None]:
-    return [_quantity(text, "s", "--time") for text in texts] if texts else [None]
-
-
-def _quantity(text: str, unit: str, option: str) -> float:
-    """A number in SI or with a unit."""
-    from . import units
-
-    try:
-        return units.to_si(float(text) if _is_number(text) else text, unit)
-    except ValueError as error:
-        raise UsageError(f"{option}: {error}") from None
-
-
-def _is_number(text: str) -> bool:
-    try:
-        float(text)
-    except ValueError:
-        return False
-    return True
+    return [quantity(text, "s", "--time") for text in texts] if texts else [None]
 
 
 def _window(text: str | None) -> tuple[float, float, float] | None:
@@ -183,7 +163,7 @@ def _window(text: str | None) -> tuple[float, float, float] | None:
     parts = text.split(",")
     if len(parts) != 3:
         raise UsageError(f'--window "{text}": three lengths are expected, z0,z1,r1, such as "-2 cm,8 cm,2 cm"')
-    z0, z1, r1 = (_quantity(part.strip(), "m", "--window") for part in parts)
+    z0, z1, r1 = (quantity(part.strip(), "m", "--window") for part in parts)
     if not (z0 < z1 and r1 > 0):
         raise UsageError(f'--window "{text}": z0 < z1 and r1 > 0 are needed')
     return z0, z1, r1

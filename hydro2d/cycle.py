@@ -180,7 +180,7 @@ class Cycle:
 
     def _list_mixed(self) -> None:
         s, (j0, j1, _, _) = self.state, self.box
-        spans.list_mixed(j0, j1, s.occupied, s.vof, s.mixed_count, s.mixed)
+        spans.list_mixed(j0, j1, s.reach, s.vof, s.mixed_count, s.mixed, s.half[0])
 
     def _cell_mass(self, dj: int, di: int, second: bool) -> None:
         s, g, (j0, j1, _, _) = self.state, self.grid, self.box
@@ -340,7 +340,7 @@ class Cycle:
         s, g, box = self.state, self.grid, self.box
         j0, j1, i0, i1 = box
         low_r, high_r, low_z, high_z = self.method.mirrors
-        boundaries.ghost_columns(j0, j1, g.nr, low_r, high_r, s.vof, s.q)
+        boundaries.ghost_columns(j0, j1, g.nr, low_r, high_r, s.span, s.vof, s.q)
         boundaries.ghost_rows(i0 - 2, i1 + 2, g.nz, low_z, high_z, s.vof, s.q)
         interfaces.sweep_volumes(dj, di, j0, j1, second == 0, g.volume, s.reach, s.fr, s.fz, s.pre)
         self._list_mixed()
@@ -429,7 +429,8 @@ class Cycle:
     def tidy(self, dj: int, di: int, second: int) -> None:
         """Removes traces, makes full cells full, and finds the bodies anew."""
         s, g, (j0, j1, _, _) = self.state, self.grid, self.box
-        remap.tidy(j0, j1, self.method.trace, g.cm_in, g.cm_out, g.volume, s.reach, s.pre, dj, di, s.fr, s.fz,
+        self._list_mixed()
+        remap.tidy(j0, j1, self.method.trace, g.cm_in, g.cm_out, g.volume, s.mixed_count, s.mixed, s.pre, dj, di, s.fr, s.fz,
                    bool(second), s.u,
                    s.v, s.vof, s.q, s.cell_mass, s.booked)
         internal, kinetic, axial, _, *mass = s.booked[:, j0:j1].sum(axis=1)

@@ -78,7 +78,8 @@ def page(name: str) -> str:
     import eos
     import strength
 
-    from . import materials
+    from . import materials, model_text
+    from .penetration import catalogue
 
     found = []
     if name in materials.names():
@@ -90,6 +91,8 @@ def page(name: str) -> str:
     ):
         if name in models:
             found.append(str(describe(name)))
+    if name in catalogue.MODELS:
+        found.append(model_text.page(catalogue.MODELS[name]))
     if name in derived.BY_KEY:
         found.append(_field_page(derived.BY_KEY[name]))
     keys = deck_keys()
@@ -97,7 +100,7 @@ def page(name: str) -> str:
     found += [_key_page(key, keys[key], others) for key, others in groups.items()]
     if not found:
         known = {*materials.names(), *eos.MODELS, *strength.STRENGTH_MODELS, *strength.DAMAGE_MODELS,
-                 *derived.BY_KEY, *keys, *(key.rsplit(".", 1)[-1] for key in keys)}  # fmt: skip
+                 *catalogue.MODELS, *derived.BY_KEY, *keys, *(key.rsplit(".", 1)[-1] for key in keys)}  # fmt: skip
         raise DeckError(unknown("name", name, known).split(" (allowed")[0] + "; `hydro2d info` lists what there is")
     return "\n\n".join(text.rstrip() for text in found)
 
@@ -117,6 +120,7 @@ def overview() -> str:
     import strength
 
     from . import materials
+    from .penetration import catalogue
 
     models = [(name, eos.describe(name).kind) for name in eos.MODELS]
     models += [(name, strength.describe(name).kind) for name in strength.STRENGTH_MODELS]
@@ -125,6 +129,7 @@ def overview() -> str:
     parts = (
         ("materials", [(name, materials.load(name).title) for name in materials.names()]),
         ("models", models),
+        ("penetration models", [(model.name, model.title) for model in catalogue.MODELS.values()]),
         ("fields", [(entry.key, entry.meaning) for entry in derived.TABLE]),
         ("sections of a deck", [(key, keys[key].get("description", "")) for key in keys if "." not in key]),
     )

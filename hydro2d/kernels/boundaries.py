@@ -9,22 +9,28 @@ from hydro2d.jit import kernel, prange
 
 
 @kernel
-def ghost_columns(j0, j1, nr, mirror_low, mirror_high, vof, q):
-    """Ghost cells left and right of rows j0 to j1.
+def ghost_columns(j0, j1, nr, mirror_low, mirror_high, span, vof, q):
+    """Ghost cells left and right of rows j0 to j1, of bodies that are near or were.
 
+    Reads    span [m, j, 2]
     Updates  vof [m, j, i], q [k, m, j, i]
     """
     g = GHOSTS
     for j in prange(j0, j1):
         for m in range(vof.shape[0]):
+            near_low = span[m, j, 0] < 2 * g or vof[m, j, g - 1] > 0.0 or vof[m, j, g - 2] > 0.0
+            near_high = span[m, j, 1] > nr or vof[m, j, g + nr] > 0.0 or vof[m, j, g + nr + 1] > 0.0
             for n in range(g):
-                low = g + n if mirror_low else g
-                high = g + nr - 1 - n if mirror_high else g + nr - 1
-                vof[m, j, g - 1 - n] = vof[m, j, low]
-                vof[m, j, g + nr + n] = vof[m, j, high]
-                for k in range(q.shape[0]):
-                    q[k, m, j, g - 1 - n] = q[k, m, j, low] * (-1.0 if k == SRZ and mirror_low else 1.0)
-                    q[k, m, j, g + nr + n] = q[k, m, j, high] * (-1.0 if k == SRZ and mirror_high else 1.0)
+                if near_low:
+                    low = g + n if mirror_low else g
+                    vof[m, j, g - 1 - n] = vof[m, j, low]
+                    for k in range(q.shape[0]):
+                        q[k, m, j, g - 1 - n] = q[k, m, j, low] * (-1.0 if k == SRZ and mirror_low else 1.0)
+                if near_high:
+                    high = g + nr - 1 - n if mirror_high else g + nr - 1
+                    vof[m, j, g + nr + n] = vof[m, j, high]
+                    for k in range(q.shape[0]):
+                        q[k, m, j, g + nr + n] = q[k, m, j, high] * (-1.0 if k == SRZ and mirror_high else 1.0)
 
 
 @kernel

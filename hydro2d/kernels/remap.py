@@ -172,13 +172,13 @@ def sum_cell_mass(j0, j1, reach, pre, dj, di, fr, fz, second, volume, vof, q, ce
 
 
 @kernel
-def tidy(j0, j1, trace, cm_in, cm_out, volume, reach, pre, dj, di, fr, fz, second, u, v, vof, q, cell_mass, booked):
+def tidy(j0, j1, trace, cm_in, cm_out, volume, mixed_count, mixed, pre, dj, di, fr, fz, second, u, v, vof, q, cell_mass, booked):
     """Removes traces of bodies and of void, makes fractions that should be 1 exactly 1, and books what was removed.
 
     A body below the trace fraction is removed with its mass, internal energy, momentum and kinetic energy; void below it is
     closed by scaling the bodies' volumes at constant mass. A negative density or volume counts as a trace.
 
-    Reads    u, v [b, j, i]
+    Reads    u, v [b, j, i]; mixed [j, k], in which the cells that are not full of one body are listed
     Updates  vof [m, j, i], q [k, m, j, i], cell_mass [j, i]
     Writes   booked [4 + m, j]: internal energy, kinetic energy, axial momentum, volume closed; then mass of each body
     """
@@ -186,14 +186,8 @@ def tidy(j0, j1, trace, cm_in, cm_out, volume, reach, pre, dj, di, fr, fz, secon
     for j in prange(j0, j1):
         for row in range(4 + bodies):
             booked[row, j] = 0.0
-        for i in range(reach[j, 0], reach[j, 1]):
-            present = 0
-            largest = 0.0
-            for m in range(bodies):
-                present += 1 if vof[m, j, i] > 0.0 else 0
-                largest = max(largest, vof[m, j, i])
-            if present == 0 or (present == 1 and largest == 1.0):
-                continue
+        for k in range(mixed_count[j]):
+            i = mixed[j, k]
             post = volume[j, i]
             if not second:
                 post = pre[j, i] - (dj * (fz[j + 1, i] - fz[j, i]) + di * (fr[j, i + 1] - fr[j, i]))
@@ -214,8 +208,8 @@ def tidy(j0, j1, trace, cm_in, cm_out, volume, reach, pre, dj, di, fr, fz, secon
                     f = 0.0
                     vof[m, j, i] = 0.0
                 if f == 0.0:
-                    for k in range(BODY_FIELDS):
-                        q[k, m, j, i] = 0.0
+                    for field in range(BODY_FIELDS):
+                        q[field, m, j, i] = 0.0
                 total += f
             if total > 1.0 - trace and total != 1.0:
                 booked[3, j] += max(1.0 - total, 0.0) * post

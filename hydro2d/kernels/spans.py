@@ -75,26 +75,31 @@ def reached(j0, j1, i0, i1, occupied, reach):
 
 
 @kernel
-def list_mixed(j0, j1, occupied, vof, count, mixed):
+def list_mixed(j0, j1, reach, vof, count, mixed, scratch):
     """Lists, row by row, the cells in which a body and something else (another body or void) meet.
 
-    Reads    vof [m, j, i], occupied [j, 2]
+    Reads    vof [m, j, i], reach [j, 2]
     Writes   count [j], mixed [j, k] (columns, ascending)
+    Scratch  scratch [j, i]: a thousand per body that fills the cell, one per body in it
     """
     bodies = vof.shape[0]
     for j in prange(j0, j1):
-        n = 0
-        for i in range(occupied[j, 0], occupied[j, 1]):
-            pure = 0
-            present = 0
-            for m in range(bodies):
-                f = vof[m, j, i]
-                pure += 1 if f == 1.0 else 0
-                present += 1 if f > 0.0 else 0
-            if present > 0 and pure == 0:
-                mixed[j, n] = i
-                n += 1
-        count[j] = n
+        first, n = columns(reach[j, 0], reach[j, 1])
+        kind = scratch[j]
+        for x in range(n):
+            kind[first + x] = 0.0
+        for m in range(bodies):
+            f_j = vof[m, j]
+            for x in range(n):
+                i = first + x
+                kind[i] += (1000.0 if f_j[i] == 1.0 else 0.0) + (1.0 if f_j[i] > 0.0 else 0.0)
+        out = mixed[j]
+        found = 0
+        for x in range(n):
+            i = first + x
+            out[found] = i
+            found += 0 if kind[i] == 0.0 or kind[i] == 1001.0 else 1
+        count[j] = found
 
 
 @kernel

@@ -11,12 +11,17 @@ import eos
 import hydro2d
 import strength
 from hydro2d import deck, derived, fields, materials
+from hydro2d.penetration import catalogue
 from strength import tensile_pressure
 from tests.rules import source
 
 DOCS = source.ROOT / "docs"
 EXPLANATION = DOCS / "explanation"
-PAGES = {file.stem: file.read_text(encoding="utf-8") for file in sorted(EXPLANATION.glob("*.md"))}
+#: pages by name, those of the analytic models as penetration/NAME
+PAGES = {
+    str(file.relative_to(EXPLANATION).with_suffix("")): file.read_text(encoding="utf-8")
+    for file in sorted(EXPLANATION.rglob("*.md"))
+}
 #: what people wrote: the pages without the generated ones, and the README
 WRITTEN = [file for file in source.tracked_files() if file.suffix == ".md" and DOCS in file.parents]
 WRITTEN.append(source.ROOT / "README.md")
@@ -85,6 +90,19 @@ def test_every_model_is_explained(page, names):
     assert [name for name in names if f"`{name}`" not in PAGES[page]] == []
 
 
+def test_every_penetration_model_is_explained():
+    """Each module has a page of its name with the figure of each of its models, and the table of all names them."""
+    lost = []
+    for module in catalogue.MODULES:
+        page = "penetration/" + module.__name__.rsplit(".", 1)[-1].replace("_", "-")
+        names = [name for name, model in catalogue.MODELS.items() if model in catalogue.of(module)]
+        assert names
+        lost += [f"{page}: {name}" for name in names if f"generated/models/{name}.png" not in PAGES.get(page, "")]
+        linked = f"({page.removeprefix('penetration/')}.md)" in PAGES["penetration/index"]
+        lost += [f"penetration/index: {name}" for name in names if not linked or f"`{name}`" not in PAGES["penetration/index"]]
+    assert lost == []
+
+
 def choices(section: str, key: str) -> list[str]:
     """Words that a key of a deck may have."""
     definition = next(d for d in deck.schema()["$defs"].values() if d.get("title") == section)
@@ -120,7 +138,9 @@ def test_the_reference_has_everything():
     assert [name for name in models if f"### `{name}`" not in pages["models.md"]] == []
     assert [name for name in materials.names() if f"## `{name}`" not in pages["materials.md"]] == []
     assert [key for key in deck.schema()["properties"] if key not in pages["deck.md"]] == []
+    assert [name for name in catalogue.MODELS if f"## `{name}`" not in pages["penetration-models.md"]] == []
     assert "hydro2d run" in pages["commands.md"]
+    assert "hydro2d model transition" in pages["commands.md"]
 
 
 def test_every_key_of_a_deck_says_what_it_is():
@@ -134,7 +154,7 @@ def test_every_key_of_a_deck_says_what_it_is():
 
 @pytest.mark.parametrize("file", WRITTEN, ids=name_of)
 def test_links_lead_somewhere(file):
-    made = {f"generated/{name}" for name in generated()}
+    made = {f"generated/{name}" for name in [*generated(), *(f"models/{name}.png" for name in catalogue.MODELS)]}
     lost = []
     for target in re.findall(r"\]\(([^)#]+)(?:#[^)]*)?\)", file.read_text(encoding="utf-8")):
         if "://" in target:

@@ -1,0 +1,31 @@
+"""What the commands share: arguments that are wrong, and quantities in arguments."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from cyclopts import Parameter
+
+Overrides = Annotated[list[str] | None, Parameter(name="--set", negative="")]
+
+
+class UsageError(Exception):
+    """Arguments that do not go together; the message is for the user."""
+
+
+def quantity(text: str, unit: str, option: str) -> float:
+    """A number in SI or with a unit."""
+    from . import units
+
+    try:
+        return units.to_si(float(text) if _is_number(text) else text, unit)
+    except ValueError as error:
+        raise UsageError(f"{option}: {error}") from None
+
+
+def _is_number(text: str) -> bool:
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True

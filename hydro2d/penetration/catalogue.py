@@ -1,0 +1,59 @@
+"""Every analytic model by its name. A new model is one more file and one more entry of ``MODULES``."""
+
+from __future__ import annotations
+
+from types import ModuleType
+
+from . import (
+    anderson_riegel,
+    cavity,
+    chen_li,
+    christman_gehring,
+    forrestal,
+    hydrodynamic,
+    lambert_jonas,
+    luk_piekutowski,
+    poncelet,
+    ravid_bodner,
+    recht_ipson,
+    rigid_axial,
+    rigid_body,
+    secondary_penetration,
+    target_resistance,
+    tate,
+    tate_poncelet,
+    walker_anderson,
+    walker_anderson_finite,
+)
+from .model import Model
+
+#: in the order of the review by Anderson (2017), the others after it
+MODULES: tuple[ModuleType, ...] = (
+    poncelet,
+    hydrodynamic,
+    christman_gehring,
+    recht_ipson,
+    lambert_jonas,
+    tate,
+    tate_poncelet,
+    secondary_penetration,
+    target_resistance,
+    cavity,
+    forrestal,
+    chen_li,
+    walker_anderson,
+    walker_anderson_finite,
+    ravid_bodner,
+    anderson_riegel,
+    luk_piekutowski,
+    rigid_axial,
+    rigid_body,
+)
+
+
+def of(module: ModuleType) -> tuple[Model, ...]:
+    """The models of a module: its ``MODELS``, or its one ``MODEL``."""
+    return tuple(getattr(module, "MODELS", ())) or (module.MODEL,)
+
+
+MODELS: dict[str, Model] = {model.name: model for module in MODULES for model in of(module)}

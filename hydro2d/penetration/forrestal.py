@@ -1,0 +1,194 @@
+"""Forrestal's rigid rod: the force of a cavity-expansion pressure on the nose, integrated in closed form.
+
+On every element of the nose the normal stress is A Y + B rho Vn^2 with the normal component Vn of the rod's velocity, and
+sliding friction adds mu times it along the surface. The sum along the axis is pi a^2 (A Y N1 + B rho N2 V^2), from which
+deceleration, duration and depth follow. Forrestal, Okajima & Luk, J. Appl. Mech. 55 (1988) 755 [recalled]; Anderson,
+Int. J. Impact Engng 108 (2017) 3, equations (39) to (46). explanation/penetration/forrestal
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from types import MappingProxyType
+
+from . import inputs
+from .cavity import CAVITY_VELOCITY, given_or_fitted
+from .model import Example, Input, Model, Output, non_negative, positive
+from .surface import SHAPES, checked_half_angle, nose_length, radius_of_ogive
+
+
+@dataclass(frozen=True)
+class Nose:
+    """A nose with friction; ``crh`` counts for an ogive, ``half_angle`` (rad) for a cone. InputError for the impossible."""
+
+    shape: str
+    diameter: float
+    crh: float = 3.0
+    half_angle: float = 0.5
+    friction: float = 0.0
+
+    def __post_init__(self) -> None:
+        nose_length(self.shape, self.diameter, self.crh, self.half_angle)
+        non_negative(friction=self.friction)
+
+    @property
+    def length(self) -> float:
+        return nose_length(self.shape, self.diameter, self.crh, self.half_angle)
+
+    def factors(self, immersed: float = math.inf) -> tuple[float, float]:
+        """N1 and N2 of what lies within ``immersed`` (m) of the tip; explanation/penetration/forrestal, equations 3 to 6."""
+        if immersed <= 0.0 and self.shape != "flat":
+            return 0.0, 0.0
+        if self.shape == "flat":
+            return 1.0, 1.0
+        if self.shape == "conical":
+            return self._cone(immersed)
+        return self._arc(immersed)
+
+    def _cone(self, immersed: float) -> tuple[float, float]:
+        angle = checked_half_angle(self.half_angle)
+        covered = min(immersed / self.length, 1.0) ** 2 * (1.0 + self.friction / math.tan(angle))
+        return covered, covered * math.sin(angle) ** 2
+
+    def _arc(self, immersed: float) -> tuple[float, float]:
+        half = 0.5 * self.diameter
+        radius = half if self.shape == "hemispherical" else radius_of_ogive(self.diameter, self.crh)
+        k, tip = (radius - half) / radius, math.acos((radius - half) / radius)
+        waterline = math.asin(min(max(self.length - immersed, 0.0) / radius, 1.0))
+        scale = 2.0 * (radius / half) ** 2
+        top, low = _integrals(tip, k, self.friction), _integrals(waterline, k, self.friction)
+        return scale * (top[0] - low[0]), scale * (top[1] - low[1])
+
+
+def _integrals(theta: float, k: float, friction: float) -> tuple[float, float]:
+    """Antiderivatives of (cos - k)(sin + mu cos) and of the same times sin^2."""
+    sine, cosine = math.sin(theta), math.cos(theta)
+    first = 0.5 * sine**2 + k * cosine + friction * (0.5 * (theta + sine * cosine) - k * sine)
+    plain = 0.25 * sine**4 + k * (cosine - cosine**3 / 3.0)
+    rubbed = theta / 8.0 - math.sin(4.0 * theta) / 32.0 - k * sine**3 / 3.0
+    return first, plain + friction * rubbed
+
+
+@dataclass(frozen=True)
+class Target:
+    """A Y + B rho Vn^2: ``static`` is A Y (Pa), ``dynamic`` is B rho (kg/m^3)."""
+
+    static: float
+    dynamic: float
+
+    def __post_init__(self) -> None:
+        positive(static=self.static)
+        non_negative(dynamic=self.dynamic)
+
+
+def force(velocity: float, nose: Nose, target: Target, immersed: float = math.inf) -> float:
+    """The axial force on the part of the nose within ``immersed`` (m) of the tip, N; explanation/penetration/forrestal, (2)."""
+    n1, n2 = nose.factors(immersed)
+    return 0.25 * math.pi * nose.diameter**2 * (target.static * n1 + target.dynamic * n2 * velocity**2)
+
+
+def deep(velocity: float, mass: float, nose: Nose, target: Target) -> tuple[float, float]:
+    """Depth (m) and time (s) to rest under the force on the whole nose; explanation/penetration/forrestal, equations 7 and 8.
+
+    Anderson (2017), eq. (44), for a hemispherical nose without friction.
+    """
+    positive(mass=mass)
+    non_negative(velocity=velocity)
+    n1, n2 = nose.factors()
+    area = 0.25 * math.pi * nose.diameter**2
+    constant, quadratic = target.static * n1 * area / mass, target.dynamic * n2 * area / mass
+    if quadratic * velocity**2 < 1e-12 * constant:
+        return 0.5 * velocity**2 / constant, velocity / constant
+    depth = 0.5 / quadratic * math.log1p(quadratic * velocity**2 / constant)
+    return depth, math.atan(velocity * math.sqrt(quadratic / constant)) / math.sqrt(constant * quadratic)
+
+
+def entering(velocity: float, mass: float, nose: Nose, target: Target) -> tuple[float, float]:
+    """Depth and time to rest with the force on the immersed part of the nose only; explanation/penetration/forrestal, (9)."""
+    from scipy.integrate import solve_ivp
+
+    positive(mass=mass)
+    non_negative(velocity=velocity)
+    if velocity == 0.0 or nose.length == 0.0:
+        return deep(velocity, mass, nose, target)
+
+    def slopes(_, state):
+        return state[1], -force(state[1], nose, target, state[0]) / mass
+
+    def buried(_, state):
+        return state[0] - nose.length
+
+    def stopped(_, state):
+        return state[1]
+
+    buried.terminal = stopped.terminal = True
+    small = (1e-12 * nose.length, 1e-12 * velocity)
+    done = solve_ivp(slopes, (0.0, math.inf), (0.0, velocity), events=(buried, stopped), rtol=1e-10, atol=small)
+    further, longer = deep(max(float(done.y[1, -1]), 0.0), mass, nose, target) if done.t_events[0].size else (0.0, 0.0)
+    return float(done.y[0, -1]) + further, float(done.t[-1]) + longer
+
+
+def of_inputs(
+    *, rod_diameter, nose_shape, nose_crh, nose_half_angle, friction, target_density, target_strength, cavity_a, cavity_b,
+    target_youngs_modulus, target_poisson_ratio, target_hardening_exponent, cavity_velocity,
+) -> tuple[Nose, Target]:  # fmt: skip
+    """Nose and target of a model's inputs, SI. InputError for the impossible."""
+    a, b = given_or_fitted(
+        cavity_a, cavity_b, target_density=target_density, target_strength=target_strength,
+        target_youngs_modulus=target_youngs_modulus, target_poisson_ratio=target_poisson_ratio,
+        target_hardening_exponent=target_hardening_exponent, cavity_velocity=cavity_velocity,
+    )  # fmt: skip
+    nose = Nose(nose_shape, rod_diameter, nose_crh, nose_half_angle, friction)
+    return nose, Target(a * target_strength, b * target_density)
+
+
+def evaluate(velocity, *, rod_mass, nose_entry, **shot):
+    """A rigid rod from ``velocity`` to rest; keywords are those of ``MODEL.inputs``, in SI."""
+    nose, target = of_inputs(**shot)
+    depth, duration = (deep if nose_entry == "ignored" else entering)(velocity, rod_mass, nose, target)
+    pushed = force(velocity, nose, target)
+    return {
+        "depth": depth,
+        "duration": duration,
+        "deceleration": pushed / rod_mass,
+        "resistance": pushed / (0.25 * math.pi * nose.diameter**2),
+        "cavity_a": target.static / shot["target_strength"],
+        "cavity_b": target.dynamic / shot["target_density"],
+    }
+
+
+NOSE_ENTRY = Input(
+    "nose.entry", "", "whether the force acts in full from first touch, or on the part of the nose that is inside",
+    default="ignored", choices=("ignored", "resisted"),
+)  # fmt: skip
+#: what the rigid models share: see ``of_inputs``
+SHOT = (
+    inputs.ROD_DIAMETER, inputs.NOSE_SHAPE.but(choices=SHAPES), inputs.NOSE_CRH, inputs.NOSE_HALF_ANGLE, inputs.FRICTION,
+    inputs.TARGET_DENSITY, inputs.TARGET_STRENGTH, inputs.CAVITY_A, inputs.CAVITY_B,
+    inputs.TARGET_YOUNGS_MODULUS.but(default=None), inputs.TARGET_POISSON_RATIO.but(default=None),
+    inputs.TARGET_HARDENING_EXPONENT, CAVITY_VELOCITY,
+)  # fmt: skip
+
+MODEL = Model(
+    name="forrestal",
+    title="Forrestal's rigid rod: cavity-expansion pressure on the nose, in closed form",
+    source="Forrestal, Okajima & Luk, J. Appl. Mech. 55 (1988) 755 [recalled]; Anderson, Int. J. Impact Engng 108 (2017) 3, "
+    "eqs. (39) to (46)",
+    validity="rods that do not deform, at normal impact on thick and wide targets, in a tunnel of their own diameter",
+    inputs=(inputs.ROD_MASS, *SHOT, NOSE_ENTRY),
+    outputs=(
+        Output("depth", "m", "final depth of the tip below the struck face", "P"),
+        Output("duration", "s", "time from touch to rest"),
+        Output("deceleration", "m/s^2", "deceleration at the impact velocity with the whole nose inside"),
+        Output("resistance", "Pa", "force over the rod's section at the impact velocity with the whole nose inside"),
+        Output("cavity_a", "1", "A, given or from the target", "A"),
+        Output("cavity_b", "1", "B, given or from the target", "B"),
+    ),
+    main="depth",
+    example=Example(
+        rod="steel_4340", target="Al6061_T651", velocity=781.0, velocities=(200.0, 1200.0),
+        values=MappingProxyType({"rod.mass": 0.023, "rod.diameter": 7.11e-3}),
+    ),
+    evaluate=evaluate,
+)  # fmt: skip

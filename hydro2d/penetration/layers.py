@@ -1,0 +1,85 @@
+"""A target of plane layers, each with its own cavity pressure and free faces between which alone it resists."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from .model import InputError, non_negative, positive
+
+
+@dataclass(frozen=True)
+class Layer:
+    """``thickness`` (m, math.inf for a half space) of a material that resists with a Y + b rho Vn^2.
+
+    ``density`` rho in kg/m^3, ``strength`` Y in Pa, ``a`` and ``b`` from the expansion of a cavity, without unit.
+    """
+
+    thickness: float
+    density: float
+    strength: float
+    a: float
+    b: float
+
+    def __post_init__(self) -> None:
+        if not self.thickness > 0.0:
+            raise InputError(f"thickness of a layer = {self.thickness:g}: must be positive")
+        non_negative(density=self.density, strength=self.strength, a=self.a, b=self.b)
+
+    @property
+    def static(self) -> float:
+        """a Y, Pa."""
+        return self.a * self.strength
+
+    @property
+    def dynamic(self) -> float:
+        """b rho, kg/m^3."""
+        return self.b * self.density
+
+
+def gap(thickness: float) -> Layer:
+    """An empty space of that width between two plates."""
+    positive(thickness=thickness)
+    return Layer(thickness, 0.0, 0.0, 0.0, 0.0)
+
+
+@dataclass(frozen=True)
+class Target:
+    """Layers stacked from depth 0 on: ``faces`` (m) between them, and pressures by layer with nothing before and behind.
+
+    Entry k of ``static`` (Pa) and ``dynamic`` (kg/m^3) belongs to what ``locate`` calls k: 0 lies in front of the
+    target, k the k-th layer, the last the space behind it.
+    """
+
+    faces: np.ndarray
+    static: np.ndarray
+    dynamic: np.ndarray
+
+    @property
+    def back(self) -> float:
+        """Depth of the rear face, m; infinite for a half space."""
+        return float(self.faces[-1])
+
+    def locate(self, depth: np.ndarray) -> np.ndarray:
+        """The index of the layer at each depth; a face belongs to the layer behind it."""
+        return np.searchsorted(self.faces, depth, side="right")
+
+
+def stack(layers: Sequence[Layer]) -> Target:
+    """The target of these layers, the first one struck. InputError for none, or for one behind a half space."""
+    if not layers:
+        raise InputError("layers: a target has at least one")
+    thickness = [layer.thickness for layer in layers]
+    if math.inf in thickness[:-1]:
+        raise InputError("layers: nothing can lie behind a layer without end")
+    if thickness[-1] == math.inf and layers[-1].static == 0.0:
+        raise InputError("layers: a half space without strength never stops a rod")
+    faces = np.concatenate([[0.0], np.cumsum(thickness)])
+    return Target(faces, _padded([layer.static for layer in layers]), _padded([layer.dynamic for layer in layers]))
+
+
+def _padded(values: list[float]) -> np.ndarray:
+    return np.array([0.0, *values, 0.0])

@@ -1,0 +1,170 @@
+"""What an analytic model says about itself: its inputs, its outputs, and how it is evaluated."""
+
+from __future__ import annotations
+
+import difflib
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+from types import MappingProxyType
+
+
+class InputError(ValueError):
+    """An input that a model cannot take; the message is for the user."""
+
+
+class Required:
+    """The default of an input that has none."""
+
+    def __repr__(self) -> str:
+        return "required"
+
+
+REQUIRED = Required()
+ANY, POSITIVE, NON_NEGATIVE, FRACTION = "any", "positive", "non-negative", "fraction"
+
+Value = float | str | None
+
+
+@dataclass(frozen=True)
+class Input:
+    """One quantity that a model needs.
+
+    ``name`` is that of the shared vocabulary (``inputs.py``); ``unit`` is in SI, "1" for a pure number. ``default`` is a
+    number, a word where ``choices`` are given, None where the model does without, or ``REQUIRED``. ``sign`` is ``ANY``,
+    ``POSITIVE``, ``NON_NEGATIVE`` or ``FRACTION`` (from 0 up to, but without, 1).
+    """
+
+    name: str
+    unit: str
+    description: str
+    symbol: str = ""
+    default: Value | Required = REQUIRED
+    sign: str = POSITIVE
+    choices: tuple[str, ...] = ()
+
+    @property
+    def required(self) -> bool:
+        return isinstance(self.default, Required)
+
+    @property
+    def keyword(self) -> str:
+        """The name of the argument of ``evaluate``: rod.density is rod_density."""
+        return self.name.replace(".", "_")
+
+    def but(self, **changes) -> Input:
+        """This input with a default, symbol or description of a model's own."""
+        return replace(self, **changes)
+
+    def check(self, value: Value) -> Value:
+        """The value as a float (or as the word it is); InputError where it is impossible."""
+        if value is None and self.default is None:
+            return None
+        if self.choices:
+            if value not in self.choices:
+                known = ", ".join(self.choices)
+                raise InputError(f"{self.name} = {value!r}: choose one of {known}{_near(value, self.choices)}")
+            return value
+        try:
+            number = float(value)
+        except (TypeError, ValueError):
+            raise InputError(f"{self.name} = {value!r}: not a number") from None
+        complain(self.name, number, self.sign)
+        return number
+
+
+@dataclass(frozen=True)
+class Output:
+    """One quantity that a model gives; ``unit`` as for an input, "" for a word such as the regime."""
+
+    name: str
+    unit: str
+    description: str
+    symbol: str = ""
+
+
+@dataclass(frozen=True)
+class Example:
+    """A shot that shows the model: names of the material library, and what else its page's figure uses."""
+
+    rod: str
+    target: str
+    velocity: float
+    velocities: tuple[float, float]
+    values: Mapping[str, Value] = field(default_factory=lambda: MappingProxyType({}))
+
+
+@dataclass(frozen=True)
+class Model:
+    """An analytic model, for the command line, the pages and the comparison with runs.
+
+    ``evaluate(velocity, **values)`` takes the impact velocity in m/s and every input by keyword, in SI, and gives a
+    mapping with the outputs by name. ``main`` is the output that a figure shows. ``transition(**values)``, where there
+    is one, gives the impact velocity above which the rod no longer stays rigid, m/s, or None where it always does.
+    """
+
+    name: str
+    title: str
+    source: str
+    validity: str
+    inputs: tuple[Input, ...]
+    outputs: tuple[Output, ...]
+    main: str
+    example: Example
+    evaluate: Callable[..., Mapping[str, float | str]]
+    transition: Callable[..., float | None] | None = None
+
+    def collect(self, values: Mapping[str, Value]) -> dict[str, Value]:
+        """Every input by keyword, defaults filled in; InputError for a missing, unknown or impossible value."""
+        known = {entry.name: entry for entry in self.inputs}
+        for name in values:
+            if name not in known:
+                raise InputError(f"{self.name}: no input is named {name!r}{_near(name, known)} (known: {', '.join(known)})")
+        found = {}
+        for name, entry in known.items():
+            value = values.get(name, entry.default)
+            if isinstance(value, Required):
+                unit = "" if entry.unit in ("", "1") else f", {entry.unit}"
+                raise InputError(f"{self.name}: {name} is missing ({entry.description}{unit})")
+            try:
+                found[entry.keyword] = entry.check(value)
+            except InputError as error:
+                raise InputError(f"{self.name}: {error}") from None
+        return found
+
+    def __call__(self, velocity: float, values: Mapping[str, Value]) -> dict[str, float | str]:
+        """The outputs at one impact velocity; InputError for what the model cannot take."""
+        complain("velocity", velocity, NON_NEGATIVE)
+        return dict(self.evaluate(velocity, **self.collect(values)))
+
+
+def complain(name: str, number: float, sign: str = POSITIVE) -> None:
+    """InputError where a number is not finite or outside its range."""
+    if not math.isfinite(number):
+        raise InputError(f"{name} = {number}: not a finite number")
+    bad = {
+        POSITIVE: number <= 0.0,
+        NON_NEGATIVE: number < 0.0,
+        FRACTION: not 0.0 <= number < 1.0,
+        ANY: False,
+    }[sign]
+    if bad:
+        allowed = "from 0 up to, but without, 1" if sign == FRACTION else sign
+        raise InputError(f"{name} = {number:g}: must be {allowed}")
+
+
+def positive(**numbers: float) -> None:
+    """InputError for the first number that is not finite and positive."""
+    for name, number in numbers.items():
+        complain(name, number, POSITIVE)
+
+
+def non_negative(**numbers: float) -> None:
+    """InputError for the first number that is not finite and non-negative."""
+    for name, number in numbers.items():
+        complain(name, number, NON_NEGATIVE)
+
+
+def _near(name, known) -> str:
+    near = difflib.get_close_matches(str(name), list(known), n=1)
+    return f"; did you mean {near[0]}?" if near else ""

@@ -1,0 +1,165 @@
+"""What every analytic model keeps to, whoever wrote it."""
+
+import functools
+import inspect
+import math
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from hydro2d import model as models
+from hydro2d.penetration import catalogue
+from hydro2d.penetration.model import ANY, FRACTION, POSITIVE, InputError, Model
+
+ROOT = Path(__file__).resolve().parents[2]
+MODELS = list(catalogue.MODELS.values())
+INPUTS = [pytest.param(model, entry, id=f"{model.name}-{entry.name}") for model in MODELS for entry in model.inputs]
+
+
+def by_name(models: list[Model]):
+    return pytest.mark.parametrize("model", models, ids=lambda model: model.name)
+
+
+@functools.cache
+def example(name: str) -> models.Case:
+    return models.example(catalogue.MODELS[name])
+
+
+def values_of(model: Model) -> dict:
+    return example(model.name).values
+
+
+def test_names_are_unique_and_every_module_is_listed():
+    assert len(catalogue.MODELS) == sum(len(catalogue.of(module)) for module in catalogue.MODULES)
+    folder = Path(catalogue.__file__).parent
+    with_models = {
+        file.stem for file in folder.glob("*.py")
+        if any(line.startswith(("MODEL =", "MODELS =", "MODEL:", "MODELS:")) for line in file.read_text().splitlines())
+    } - {"catalogue"}  # fmt: skip
+    assert with_models == {module.__name__.rsplit(".", 1)[-1] for module in catalogue.MODULES}
+
+
+def test_import_needs_nothing_heavy():
+    """What a page of a model needs is there at once; scipy and pint are imported where they are used."""
+    heavy = set("scipy numba matplotlib pint h5py pydantic".split())
+    script = f"import sys; from hydro2d.penetration import catalogue; print(sorted({heavy!r} & set(sys.modules)))"
+    done = subprocess.run([sys.executable, "-c", script], cwd=ROOT, capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "[]"
+
+
+@by_name(MODELS)
+def test_it_says_what_it_is(model):
+    assert all(text.strip() for text in (model.name, model.title, model.source, model.validity))
+    assert model.name == model.name.lower()
+    assert not set(" _/.") & set(model.name)
+    entries = [*model.inputs, *model.outputs]
+    assert [entry.name for entry in entries if not entry.description.strip()] == []
+    assert len({entry.name for entry in model.inputs}) == len(model.inputs)
+    assert len({entry.name for entry in model.outputs}) == len(model.outputs)
+    main = [entry for entry in model.outputs if entry.name == model.main]
+    assert len(main) == 1
+    assert main[0].unit != "", "a figure shows a number"
+
+
+@by_name(MODELS)
+def test_arguments_are_the_inputs(model):
+    """evaluate and transition take every input by keyword, and name none that the model does not have."""
+    keywords = {entry.keyword: None for entry in model.inputs}
+    for function, positional in ((model.evaluate, ("velocity",)), (model.transition, ())):
+        if function is None:
+            continue
+        signature = inspect.signature(function)
+        signature.bind(*(1.0 for _ in positional), **keywords)
+        named = [entry for entry in signature.parameters.values() if entry.kind is not inspect.Parameter.VAR_KEYWORD]
+        assert tuple(entry.name for entry in named)[: len(positional)] == positional
+        assert {entry.name for entry in named[len(positional) :]} <= set(keywords)
+        assert {entry.kind for entry in named[len(positional) :]} <= {inspect.Parameter.KEYWORD_ONLY}
+
+
+@by_name(MODELS)
+def test_the_example_has_every_output_and_they_are_finite(model):
+    low, high = model.example.velocities
+    assert 0.0 <= low < high
+    known = {entry.name for entry in model.inputs}
+    assert set(model.example.values) <= known
+    for row in example(model.name).rows([low, model.example.velocity, high]):
+        assert set(row) == {models.VELOCITY, *(entry.name for entry in model.outputs)}
+        for entry in model.outputs:
+            value = row[entry.name]
+            if entry.unit == "":
+                assert isinstance(value, str), entry.name
+                assert value
+            else:
+                assert isinstance(value, (int, float)), entry.name
+                assert not isinstance(value, bool)
+                assert math.isfinite(value), entry.name
+
+
+@by_name(MODELS)
+def test_the_same_twice(model):
+    case = example(model.name)
+    assert case.rows([model.example.velocity]) == case.rows([model.example.velocity])
+
+
+@by_name([model for model in MODELS if model.transition is not None])
+def test_the_example_has_a_transition_or_none(model):
+    velocity = example(model.name).transition()
+    assert velocity is None or (math.isfinite(velocity) and velocity >= 0.0)
+
+
+@pytest.mark.parametrize(("model", "entry"), INPUTS)
+def test_impossible_values_are_refused(model, entry):
+    """Not a number, infinite, or of the wrong sign: InputError with the input's name."""
+    if entry.choices:
+        bad = ["no such word", -1.0]
+    else:
+        bad = [math.nan, math.inf, "a word"]
+        bad += [] if entry.sign == ANY else [-1.0]
+        bad += {POSITIVE: [0.0], FRACTION: [1.0]}.get(entry.sign, [])
+    for value in bad:
+        with pytest.raises(InputError, match=entry.name.replace(".", r"\.")):
+            model(model.example.velocity, {**values_of(model), entry.name: value})
+
+
+@by_name(MODELS)
+def test_a_missing_and_an_unknown_input_are_refused(model):
+    values = values_of(model)
+    for entry in model.inputs:
+        if entry.required:
+            with pytest.raises(InputError, match="is missing"):
+                model(model.example.velocity, {name: value for name, value in values.items() if name != entry.name})
+    with pytest.raises(InputError, match="no input is named"):
+        model(model.example.velocity, {**values, "rod.colour": 1.0})
+
+
+@by_name(MODELS)
+@pytest.mark.parametrize("velocity", [-1.0, math.nan, math.inf])
+def test_an_impossible_velocity_is_refused(model, velocity):
+    with pytest.raises(InputError, match="velocity"):
+        model(velocity, values_of(model))
+
+
+def outcome(model: Model, velocity: float) -> str:
+    """"numbers", or the message of the InputError; anything else that is raised goes on."""
+    try:
+        found = model(velocity, values_of(model))
+    except InputError as error:
+        return str(error)
+    assert [entry.name for entry in model.outputs if entry.unit != "" and not math.isfinite(found[entry.name])] == []
+    return "numbers"
+
+
+@by_name(MODELS)
+def test_velocity_zero_gives_numbers_or_one_message(model):
+    """A model that needs a moving rod says so; none divides by zero."""
+    said = outcome(model, 0.0)
+    assert said == "numbers" or "velocity" in said
+    assert "\n" not in said
+
+
+@by_name(MODELS)
+@pytest.mark.parametrize("velocity", [1.0, 30.0, 2000.0])
+def test_small_and_large_velocities_give_numbers_or_one_message(model, velocity):
+    assert "\n" not in outcome(model, velocity)
