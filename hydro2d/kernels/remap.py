@@ -172,7 +172,8 @@ def sum_cell_mass(j0, j1, reach, pre, dj, di, fr, fz, second, volume, vof, q, ce
 
 
 @kernel
-def tidy(j0, j1, trace, cm_in, cm_out, volume, mixed_count, mixed, pre, dj, di, fr, fz, second, u, v, vof, q, cell_mass, booked):
+def tidy(j0, j1, trace, cm_in, cm_out, volume, mixed_count, mixed, pre, dj, di, fr, fz, second, u, v, vof, q, cell_mass,
+         booked):
     """Removes traces of bodies and of void, makes fractions that should be 1 exactly 1, and books what was removed.
 
     A body below the trace fraction is removed with its mass, internal energy, momentum and kinetic energy; void below it is
