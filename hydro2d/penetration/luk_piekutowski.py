@@ -111,18 +111,28 @@ def _growth(rod: Rod, target: Target, last: Head) -> float:
     return 0.5 * diameter * last.penetration * math.sqrt(target.density / target.plain_strength)
 
 
-def evaluate(
-    velocity, *, rod_diameter, rod_length, rod_density, rod_strength, rod_ultimate_strength, rod_youngs_modulus,
-    rod_poisson_ratio, friction, target_density, target_strength, target_plain_strength, critical_velocity, **cavity,
+def pair_of(
+    *, rod_diameter, rod_length, rod_density, rod_strength, rod_ultimate_strength, rod_youngs_modulus, rod_poisson_ratio,
+    friction, target_density, target_strength, target_plain_strength, **cavity,
 ):  # fmt: skip
-    """All stages of a rod of impact ``velocity``; keywords are those of ``MODEL.inputs``, in SI."""
+    """(Rod, Target) of the inputs, in SI."""
     a, b = given_or_fitted(target_density=target_density, target_strength=target_strength, **cavity)
     plain = target_strength if target_plain_strength is None else target_plain_strength
     rod = Rod(rod_diameter, rod_length, rod_density, rod_strength, rod_ultimate_strength, rod_youngs_modulus, rod_poisson_ratio)
-    target = Target(target_density, target_strength, a, b, plain, friction)
+    return rod, Target(target_density, target_strength, a, b, plain, friction)
+
+
+def transition(*, critical_velocity: float | None, **values: float | None) -> float:
+    """The velocity below which no mushroom head is stable and the rod is taken as rigid, m/s: given, or the fold's."""
+    return fold(*pair_of(**values)).rod if critical_velocity is None else critical_velocity
+
+
+def evaluate(velocity: float, *, critical_velocity: float | None, **values: float | None) -> dict[str, float | str]:
+    """All stages of a rod of impact ``velocity``; keywords are those of ``MODEL.inputs``, in SI."""
+    rod, target = pair_of(**values)
     found = penetrate(rod, target, velocity, critical_velocity)
     return {
-        "depth": found.depth, "depth_over_length": found.depth / rod_length, "cavity_diameter": found.cavity_diameter,
+        "depth": found.depth, "depth_over_length": found.depth / rod.length, "cavity_diameter": found.cavity_diameter,
         "penetration_velocity": found.first.penetration, "ejecta_velocity": found.first.ejecta,
         "primary_depth": found.primary, "rod_depth": found.rod, "ejecta_depth": found.ejecta, "growth_depth": found.growth,
         "duration": found.duration, "residual_length": found.residual_length, "limit_velocity": fold(rod, target).rod,
@@ -175,4 +185,5 @@ MODEL = Model(
         }),
     ),
     evaluate=evaluate,
+    transition=transition,
 )  # fmt: skip

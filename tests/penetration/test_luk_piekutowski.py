@@ -157,6 +157,15 @@ def test_model():
     assert found["depth"] == pytest.approx(sum(found[f"{part}_depth"] for part in ("primary", "rod", "ejecta", "growth")))
 
 
+def test_the_transition_is_the_least_velocity_or_the_one_given():
+    values = MODEL.collect(MODEL.example.values | {"target.youngs_modulus": 68.95e9, "target.poisson_ratio": 0.33})
+    least = MODEL.transition(**values)
+    assert least == MODEL.evaluate(2660.0, **values)["limit_velocity"]
+    with pytest.raises(InputError):
+        MODEL.evaluate(least - 1.0, **values)
+    assert MODEL.transition(**values | {"critical_velocity": 1960.0}) == 1960.0
+
+
 @pytest.mark.parametrize(("velocity", "change", "message"), [
     (0.0, {}, "velocity"),
     (1900.0, {}, "critical 1989 m/s"),
