@@ -31,28 +31,35 @@ def evaluate(model, rho, e, par):
 
 
 @point
-def pressure_row(model, par, floor, first, number, f, rho, e, damage, p, c2, T):
-    """Fills rows of pressure, c^2 and temperature, 0 where the body is not (f = 0); failed material bears no tension.
+def pressure_row(model, par, floor, first, number, f, rho, e, damage, p, c2):
+    """Fills rows of pressure and c^2, 0 where the body is not (f = 0); failed material bears no tension.
 
     explanation/equation-of-state, explanation/fracture
     """
     if model == mie_grueneisen.ID:
         for x in range(number):
             i = first + x
-            p[i], c2[i], T[i] = _state(f[i], damage[i], rho[i], floor, mie_grueneisen.evaluate(rho[i], e[i], par))
+            p[i], c2[i] = _state(f[i], damage[i], rho[i], floor, mie_grueneisen.evaluate(rho[i], e[i], par))
     else:
         for x in range(number):
             i = first + x
-            p[i], c2[i], T[i] = _state(f[i], damage[i], rho[i], floor, evaluate(model, rho[i], e[i], par))
+            p[i], c2[i] = _state(f[i], damage[i], rho[i], floor, evaluate(model, rho[i], e[i], par))
+
+
+@point
+def temperature_row(model, par, first, number, f, rho, e, T):
+    """Fills a row of temperature, 0 where the body is not. Apart from the pressure: a table cannot be read in lanes."""
+    for x in range(number):
+        i = first + x
+        T[i] = evaluate(model, rho[i], e[i], par)[3] if f[i] > 0.0 else 0.0
 
 
 @point
 def _state(f, damage, rho, floor, state):
-    """(p, c^2, T) of a cell from (p, dp/drho, dp/de, T) of its material."""
+    """(p, c^2) of a cell from (p, dp/drho, dp/de, T) of its material."""
     pressure = max(state[0], 0.0) if damage >= 1.0 else state[0]
     square = sound_speed_squared(rho, pressure, state[1], state[2], floor)
-    there = f > 0.0
-    return pressure if there else 0.0, square if there else 0.0, state[3] if there else 0.0
+    return pressure if f > 0.0 else 0.0, square if f > 0.0 else 0.0
 
 
 @point

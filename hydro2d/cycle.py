@@ -231,8 +231,8 @@ class Cycle:
         s, g, t, method, (j0, j1, _, _) = self.state, self.grid, self.table, self.method, self.box
         thermodynamics.pressures(
             j0, j1, method.max_opening, g.vol_r, g.dz, s.span, s.reach, t.eos_model, t.eos_par, t.strength_model,
-            t.strength_par, t.fracture_pressure, self.loose, s.vof, s.q, s.pm, s.km, s.tm, s.p, s.bulk, s.rhobar,
-            s.solid, s.cl, s.qr, s.rows[0], s.row_numbers)
+            t.strength_par, t.damage_model, t.fracture_pressure, self.loose, s.vof, s.q, s.pm, s.km, s.tm, s.p, s.bulk,
+            s.rhobar, s.solid, s.cl, s.qr, s.rows[0], s.row_numbers)
         self._report_bad(j0, j1)
         self._list_mixed()
         mixed.tear_mixed(j0, j1, method.smallest_tension, method.max_opening, g.vol_r, g.dz, s.mixed_count, s.mixed,

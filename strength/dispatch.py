@@ -84,6 +84,12 @@ def yield_floor(model, par):
 
 
 @point
+def feels_temperature(model, damage_model):
+    """Whether the temperature is asked for at all."""
+    return not (damage_model == no_damage.ID and (model == hydrodynamic.ID or model == power_law.ID))
+
+
+@point
 def damage_increment(model, dep, rate, T, p, seq, par):
     """Increment of damage of the damage model ``model``: see ``johnson_cook_damage.damage_increment``."""
     if model == no_damage.ID:

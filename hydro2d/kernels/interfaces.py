@@ -136,13 +136,16 @@ def donor_volumes(dj, di, j0, j1, i0, i1, open_faces, span, f_face, vof, flux_vo
             if lo >= hi:
                 continue
             lo, hi = max(lo, i0), min(hi, i1 + di)
+            if lo >= hi:
+                continue
+            swept = f_face[j, lo:hi]
+            given = flux_volume[m, j, lo:hi]
+            here = vof[m, j, lo:hi]
+            before = vof[m, j - dj, lo - di:hi - di]
+            for x in range(hi - lo):
+                given[x] = max(swept[x], 0.0) * before[x] + min(swept[x], 0.0) * here[x]
             swept = f_face[j]
             out = flux_volume[m, j]
-            here = vof[m, j]
-            before = vof[m, j - dj]
-            for i in range(lo, hi):
-                donor = before[i - di] if swept[i] > 0.0 else here[i]
-                out[i] = swept[i] * donor
             if dj == 1:
                 for i in range(lo, hi):
                     if (j == open_faces[0] and swept[i] > 0.0) or (j == open_faces[1] and swept[i] < 0.0):

@@ -5,7 +5,7 @@ from math import sqrt
 from hydro2d.fields import E
 from hydro2d.jit import kernel, plus, prange
 from hydro2d.kernels.acceleration import TINY
-from hydro2d.kernels.remap import limited_difference
+from hydro2d.kernels.remap import upwind
 from hydro2d.kernels.spans import union
 
 #: advection by name, in the order of the integer that the kernels take
@@ -55,11 +55,11 @@ def dual_fluxes(dj, di, j0, j1, i0, i1, cm_in, cm_out, reach, flux_mass, mass, w
                 up = flow[x] > 0.0
                 whole = m_l[x] if up else m_r[x]
                 half = 0.5 * (1.0 - min(abs(flow[x]) / max(whole, TINY), 1.0))
-                a = a_l[x] if up else a_r[x]
-                b = a_r[x] if up else a_l[x]
-                z = a_ll[x] if up else a_rr[x]
-                carried[x] = flow[x] * (a + half * limited_difference(z, a, b))
-                kinetic[x] = flow[x] * (0.5 * a * a + half * limited_difference(0.5 * z * z, 0.5 * a * a, 0.5 * b * b))
+                donor, slope = upwind(up, a_ll[x], a_l[x], a_r[x], a_rr[x])
+                carried[x] = flow[x] * (donor + half * slope)
+                donor, slope = upwind(up, 0.5 * a_ll[x] * a_ll[x], 0.5 * a_l[x] * a_l[x], 0.5 * a_r[x] * a_r[x],
+                                      0.5 * a_rr[x] * a_rr[x])
+                kinetic[x] = flow[x] * (donor + half * slope)
 
 
 @kernel

@@ -2,11 +2,11 @@
 
 from math import sqrt
 
-from eos.dispatch import evaluate, pressure_row, zero_pressure_density
+from eos.dispatch import evaluate, pressure_row, temperature_row, zero_pressure_density
 from hydro2d.fields import DMG, EP, RHO, SRR, SRZ, SZZ, E
 from hydro2d.jit import kernel, point, prange, serial
 from hydro2d.kernels.spans import columns
-from strength.dispatch import modulus_row
+from strength.dispatch import feels_temperature, modulus_row
 
 #: what set the time step, in the order that `step_limits` gives
 CAUSES = ("sound", "radial velocity", "axial velocity", "volume change")
@@ -34,7 +34,7 @@ def directional_viscosity(rho, c, du, psi, linear, quadratic):
 
 @kernel
 def pressures(j0, j1, max_opening, vol_r, dz, span, reach, eos_model, eos_par, strength_model, strength_par,
-              fracture_pressure, loose, vof, q, pm, km, tm, p, bulk, rhobar, solid, cl, scratch, opened,
+              damage_model, fracture_pressure, loose, vof, q, pm, km, tm, p, bulk, rhobar, solid, cl, scratch, opened,
               bad):
     """Equation of state of every body, void opened in pure cells that tear, and the sums over a cell.
 
@@ -46,8 +46,8 @@ def pressures(j0, j1, max_opening, vol_r, dz, span, reach, eos_model, eos_par, s
 
     Reads    q (rho, e, damage) [k, m, j, i], span [m, j, 2], fracture_pressure, loose [m]
     Updates  vof [m, j, i], q (rho and deviators where a cell tears)
-    Writes   pm, km, tm [m, j, i]; p, bulk, rhobar, solid, cl [j, i]; opened [j] volume of new void; bad [j, 3] count of
-             cells that are not finite, the column and body of the first
+    Writes   pm, km, tm [m, j, i] (tm of bodies that feel temperature); p, bulk, rhobar, solid, cl [j, i]; opened [j]
+             volume of new void; bad [j, 3] count of cells that are not finite, the column and body of the first
     Scratch  scratch [j, i]
     """
     bodies = vof.shape[0]
@@ -80,7 +80,7 @@ def pressures(j0, j1, max_opening, vol_r, dz, span, reach, eos_model, eos_par, s
             km_j = km[m, j]
             tm_j = tm[m, j]
             first, number = columns(span[m, j, 0], span[m, j, 1])
-            pressure_row(model, par, SOUND_FLOOR, first, number, f_j, r_j, e_j, d_j, pm_j, km_j, tm_j)
+            pressure_row(model, par, SOUND_FLOOR, first, number, f_j, r_j, e_j, d_j, pm_j, km_j)
             torn = 0
             wrong = 0
             for x in range(number):
@@ -103,7 +103,7 @@ def pressures(j0, j1, max_opening, vol_r, dz, span, reach, eos_model, eos_par, s
                         q[SRR, m, j, i] = 0.0
                         q[SZZ, m, j, i] = 0.0
                         q[SRZ, m, j, i] = 0.0
-                pressure_row(model, par, SOUND_FLOOR, first, number, f_j, r_j, e_j, d_j, pm_j, km_j, tm_j)
+                pressure_row(model, par, SOUND_FLOOR, first, number, f_j, r_j, e_j, d_j, pm_j, km_j)
             if wrong > 0:
                 for x in range(number):
                     i = first + x
@@ -112,6 +112,8 @@ def pressures(j0, j1, max_opening, vol_r, dz, span, reach, eos_model, eos_par, s
                         bad[j, 1] = i if bad[j, 0] == 0 else bad[j, 1]
                         bad[j, 2] = m if bad[j, 0] == 0 else bad[j, 2]
                         bad[j, 0] += 1
+            if feels_temperature(strength_model[m], damage_model[m]):
+                temperature_row(model, par, first, number, f_j, r_j, e_j, tm_j)
             modulus_row(strength_model[m], strength_par[m], first, number, pm_j, r_j, tm_j, shear_j)
             for x in range(number):
                 i = first + x
