@@ -340,8 +340,9 @@ class Cycle:
         s, g, box = self.state, self.grid, self.box
         j0, j1, i0, i1 = box
         low_r, high_r, low_z, high_z = self.method.mirrors
-        boundaries.ghost_columns(j0, j1, g.nr, low_r, high_r, s.span, s.vof, s.q)
-        boundaries.ghost_rows(i0 - 2, i1 + 2, g.nz, low_z, high_z, s.vof, s.q)
+        along_r, along_z = di * fields.BODY_FIELDS, dj * fields.BODY_FIELDS  # the other direction's interfaces need fractions
+        boundaries.ghost_columns(j0, j1, g.nr, low_r, high_r, along_r, s.span, s.vof, s.q)
+        boundaries.ghost_rows(i0 - 2, i1 + 2, g.nz, low_z, high_z, along_z, s.vof, s.q)
         interfaces.sweep_volumes(dj, di, j0, j1, second == 0, g.volume, s.reach, s.fr, s.fz, s.pre)
         self._list_mixed()
         for face, _ in self._open_faces(di):  # rows without the body are not visited, and are booked nevertheless

@@ -9,8 +9,8 @@ from hydro2d.jit import kernel, prange
 
 
 @kernel
-def ghost_columns(j0, j1, nr, mirror_low, mirror_high, span, vof, q):
-    """Ghost cells left and right of rows j0 to j1, of bodies that are near or were.
+def ghost_columns(j0, j1, nr, mirror_low, mirror_high, fields, span, vof, q):
+    """Ghost cells left and right of rows j0 to j1, of bodies that are near or were: fractions and the first `fields` of q.
 
     Reads    span [m, j, 2]
     Updates  vof [m, j, i], q [k, m, j, i]
@@ -24,18 +24,18 @@ def ghost_columns(j0, j1, nr, mirror_low, mirror_high, span, vof, q):
                 if near_low:
                     low = g + n if mirror_low else g
                     vof[m, j, g - 1 - n] = vof[m, j, low]
-                    for k in range(q.shape[0]):
+                    for k in range(fields):
                         q[k, m, j, g - 1 - n] = q[k, m, j, low] * (-1.0 if k == SRZ and mirror_low else 1.0)
                 if near_high:
                     high = g + nr - 1 - n if mirror_high else g + nr - 1
                     vof[m, j, g + nr + n] = vof[m, j, high]
-                    for k in range(q.shape[0]):
+                    for k in range(fields):
                         q[k, m, j, g + nr + n] = q[k, m, j, high] * (-1.0 if k == SRZ and mirror_high else 1.0)
 
 
 @kernel
-def ghost_rows(i0, i1, nz, mirror_low, mirror_high, vof, q):
-    """Ghost cells below and above the mesh, columns i0 to i1 (threaded over columns: there are only two rows).
+def ghost_rows(i0, i1, nz, mirror_low, mirror_high, fields, vof, q):
+    """Ghost cells below and above the mesh, columns i0 to i1 (threaded over columns: there are only two rows); likewise.
 
     Updates  vof [m, j, i], q [k, m, j, i]
     """
@@ -47,7 +47,7 @@ def ghost_rows(i0, i1, nz, mirror_low, mirror_high, vof, q):
                 high = g + nz - 1 - n if mirror_high else g + nz - 1
                 vof[m, g - 1 - n, i] = vof[m, low, i]
                 vof[m, g + nz + n, i] = vof[m, high, i]
-                for k in range(q.shape[0]):
+                for k in range(fields):
                     q[k, m, g - 1 - n, i] = q[k, m, low, i] * (-1.0 if k == SRZ and mirror_low else 1.0)
                     q[k, m, g + nz + n, i] = q[k, m, high, i] * (-1.0 if k == SRZ and mirror_high else 1.0)
 
