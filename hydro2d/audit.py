@@ -6,6 +6,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from hydro2d.sums import body_totals, vertex_totals
+
 #: sinks by name, and what each of them is
 SINKS = {
     "traces": "bodies below the trace fraction, removed from their cell",
@@ -43,15 +45,13 @@ class Totals:
 def totals(state) -> Totals:
     """Totals of a state, with the interior cells and vertices only."""
     grid = state.grid
-    mass = grid.interior(state.vof * state.rho * grid.volume)
-    vertex_mass = grid.interior_vertices(state.mass)
-    u, v = grid.interior_vertices(state.u), grid.interior_vertices(state.v)
-    return Totals(
-        mass=mass.sum(axis=(1, 2)),
-        momentum=float(np.sum(vertex_mass * v)),
-        internal=float(np.sum(mass * grid.interior(state.e))),
-        kinetic=float(0.5 * np.sum(vertex_mass * (u * u + v * v))),
-    )
+    size = grid.g, grid.nz, grid.nr
+    bodies, vertices = np.zeros((state.bodies, 2)), np.zeros(2)
+    for m in range(state.bodies):
+        body_totals(*size, m, grid.volume, state.vof, state.rho, state.e, bodies[m])
+    vertex_totals(*size, state.mass, state.u, state.v, vertices)
+    momentum, kinetic = vertices.tolist()
+    return Totals(mass=bodies[:, 0].copy(), momentum=momentum, internal=float(bodies[:, 1].sum()), kinetic=kinetic)
 
 
 @dataclass

@@ -249,7 +249,7 @@ def export(
 
 
 @app.command
-def bench(*, json: Path | None = None, threads: int | None = None) -> int:
+def bench(*, json: Path | None = None, shot: bool = False, threads: int | None = None) -> int:
     """Time per cell and cycle, phase by phase, beside a triad measured in the same run.
 
     Example: hydro2d bench --json bench.json
@@ -258,13 +258,15 @@ def bench(*, json: Path | None = None, threads: int | None = None) -> int:
     ----------
     json
         Writes the numbers into this file as well.
+    shot
+        Runs the shot at 1086 m/s to rest as well, with all its outputs, on one thread and on all: minutes.
     threads
         Number of threads; default: all cores.
     """
     _set_threads(threads)
     from . import bench as benches
 
-    return benches.main(json) or 0
+    return benches.main(json, shot=shot)
 
 
 @app.command

@@ -60,7 +60,7 @@ class Cycle:
         low_r, high_r, low_z, high_z = method.mirrors
         self.still = np.array([g if low_r else -1, g + grid.nr if high_r else -1, g if low_z else -1,
                                g + grid.nz if high_z else -1], dtype=np.int64)
-        self.carried = [self._carried(m) for m in range(state.bodies)]
+        self.carried = np.array([self._carried(m) for m in range(state.bodies)])
         self.box = list(self.edges)
         self.ledger = None
         self.speed_limit = 0.0
@@ -107,7 +107,8 @@ class Cycle:
         self.box = list(self.edges)
         self._spans()
         s.cell_mass[...] = 0.0
-        self._cell_mass(0, 0, True)
+        j0, j1, _, _ = self.box
+        remap.sum_cell_mass(j0, j1, s.reach, self.grid.volume, s.vof, s.q, s.cell_mass)
         self._vertex_mass()
         if self.ledger is None:
             self.box = self._first_box() if self.method.active_region else list(self.edges)
@@ -122,6 +123,7 @@ class Cycle:
             s.occupied[:, 0], s.occupied[:, 1] = 1 << 30, 0
             s.reach[:, 0], s.reach[:, 1] = 1 << 30, 0
             self._spans()
+        self._list_mixed()
 
     def _slowest_wave(self) -> float:
         from eos.dispatch import evaluate, sound_speed_squared
@@ -172,6 +174,7 @@ class Cycle:
         if box != self.box:
             self.box = box
             self._spans()
+            self._list_mixed()
 
     def _spans(self) -> None:
         s, box = self.state, self.box
@@ -180,11 +183,7 @@ class Cycle:
 
     def _list_mixed(self) -> None:
         s, (j0, j1, _, _) = self.state, self.box
-        spans.list_mixed(j0, j1, s.reach, s.vof, s.mixed_count, s.mixed, s.half[0])
-
-    def _cell_mass(self, dj: int, di: int, second: bool) -> None:
-        s, g, (j0, j1, _, _) = self.state, self.grid, self.box
-        remap.sum_cell_mass(j0, j1, s.reach, s.pre, dj, di, s.fr, s.fz, second, g.volume, s.vof, s.q, s.cell_mass)
+        spans.list_mixed(j0, j1, s.reach, s.vof, s.mixed_count, s.mixed, s.trial[0])
 
     def _vertex_mass(self) -> None:
         s, g, (j0, j1, i0, i1) = self.state, self.grid, self.box
@@ -196,13 +195,6 @@ class Cycle:
         j0, j1, i0, i1 = self.box
         boundaries.ghost_vertices_r(j0, j1 + 1, g.nr, low_r, high_r, s.u, s.v)
         boundaries.ghost_vertices_z(i0 - 2, i1 + 3, g.nz, low_z, high_z, s.u, s.v)
-
-    def _keep_velocities(self) -> None:
-        """Copies the velocities, ghosts included, to where the next kernel reads the old ones."""
-        s, (j0, j1, _, _) = self.state, self.box
-        rows = slice(j0 - 2, j1 + 3)
-        np.copyto(s.u0[:, rows], s.u[:, rows])
-        np.copyto(s.v0[:, rows], s.v[:, rows])
 
     def _hold_still(self) -> None:
         """Zero normal velocity on the axis and on walls; the impulse on walls is booked."""
@@ -234,7 +226,8 @@ class Cycle:
             t.strength_par, t.damage_model, t.fracture_pressure, self.loose, s.vof, s.q, s.pm, s.km, s.tm, s.p, s.bulk,
             s.rhobar, s.solid, s.cl, s.qr, s.rows[0], s.row_numbers)
         self._report_bad(j0, j1)
-        self._list_mixed()
+        if s.rows[0, j0:j1].any():  # void has opened in pure cells
+            self._list_mixed()
         mixed.tear_mixed(j0, j1, method.smallest_tension, method.max_opening, g.vol_r, g.dz, s.mixed_count, s.mixed,
                          t.eos_model, t.eos_par, t.fracture_pressure, s.vof, s.q, s.pm, s.p, s.solid, s.bulk, s.rows[0])
 
@@ -289,7 +282,7 @@ class Cycle:
     def accelerate(self) -> None:
         """Velocities at the end of the step."""
         s, g, (j0, j1, i0, i1) = self.state, self.grid, self.box
-        self._keep_velocities()
+        s.swap_velocities()
         limited = s.rows[2:5]
         acceleration.accelerate(
             j0, j1 + 1, i0, i1 + 1, self.dt, self.method.hourglass, self.speed_limit, self.light_density, g.face_r,
@@ -317,7 +310,7 @@ class Cycle:
                 j0, j1, m, self.dt, method.hourglass, g.face_r, g.hoop, g.az_in, g.az_out, g.vol_r, g.dr, g.dz, s.span,
                 t.strength_model, t.strength_par, t.damage_model, t.damage_par, method.factor, self.loose, s.u0, s.v0,
                 s.u, s.v, s.fr, s.fz,
-                s.sig_rr, s.sig_zz, s.sig_tt, s.sig_rz, s.rhobar, s.cl, s.vof, s.pm, s.tm, s.half, s.q)
+                s.sig_rr, s.sig_zz, s.sig_tt, s.sig_rz, s.rhobar, s.cl, s.vof, s.pm, s.tm, s.trial, s.q)
         mixed.deform_mixed(
             j0, j1, self.dt, method.hourglass, method.relaxation, method.tipton, method.strength_mode, method.hard,
             method.threshold, g.face_r, g.hoop, g.az_in, g.az_out, g.vol_r, g.dr, g.dz, s.mixed_count, s.mixed,
@@ -344,25 +337,24 @@ class Cycle:
         boundaries.ghost_columns(j0, j1, g.nr, low_r, high_r, along_r, s.span, s.vof, s.q)
         boundaries.ghost_rows(i0 - 2, i1 + 2, g.nz, low_z, high_z, along_z, s.vof, s.q)
         interfaces.sweep_volumes(dj, di, j0, j1, second == 0, g.volume, s.reach, s.fr, s.fz, s.pre)
-        self._list_mixed()
+        if not second:  # cells may have been filled by the Lagrangian step
+            self._list_mixed()
         for face, _ in self._open_faces(di):  # rows without the body are not visited, and are booked nevertheless
             np.moveaxis(s.flux_volume, 2 if di else 1, 0)[face] = 0.0
         face = s.fr if di else s.fz
         interfaces.donor_volumes(dj, di, *box, self.edges, s.span, face, s.vof, s.flux_volume)
         interfaces.interface_volumes(dj, di, j0, j1, g.dr, g.dz, self.method.order, s.mixed_count, s.mixed, face, s.pre, s.vof,
                                      s.flux_volume, s.mix)
-        remap.clear_mass_flux(*box, s.reach, s.flux_mass)
 
     def remap_bodies(self, dj: int, di: int, second: int) -> None:
-        """Fluxes and update of every body's fields."""
-        s, box = self.state, self.box
-        face = s.fr if di else s.fz
-        for m in range(s.bodies):
-            arguments = (dj, di, *box, m, self.carried[m], s.span, face, s.pre, s.flux_volume)
-            remap.body_fluxes(*arguments, s.vof, s.q, s.half, s.flux, s.flux_mass)
-            remap.body_update(*arguments, s.flux, s.vof, s.q)
-            self._book_outflow(di, m)
-        self._cell_mass(dj, di, bool(second))
+        """Fluxes and update of every body's fields; the cells' masses, and which of them are mixed."""
+        s, g, box = self.state, self.grid, self.box
+        if dj:
+            remap.shared_fluxes(*box, self.carried, s.span, s.pre, s.flux_volume, s.vof, s.q, s.scratch, s.flux)
+        sweep = remap.sweep_r if di else remap.sweep_z
+        sweep(*box, self.carried, self.edges, s.span, s.reach, s.fr if di else s.fz, s.pre, g.volume, bool(second),
+              s.flux_volume, s.scratch, s.flux, s.flux_mass, s.edge_flux, s.vof, s.q, s.cell_mass, s.mixed_count, s.mixed)
+        self._book_outflow(di)
 
     def _open_faces(self, di: int):
         """(index of the face, outward sign) of the open edges of a direction, where the active box has reached them."""
@@ -373,16 +365,14 @@ class Cycle:
         if not high and box[1] == edges[1]:
             yield int(edges[1]), 1.0
 
-    def _book_outflow(self, di: int, m: int) -> None:
+    def _book_outflow(self, di: int) -> None:
         s, (j0, j1, i0, i1) = self.state, self.box
         for face, sign in self._open_faces(di):
-            where = (slice(j0, j1), face) if di else (face, slice(i0, i1))
-            open_here = s.flux_volume[(m, *where)] != 0.0
-            if not open_here.any():
-                continue
-            left = np.zeros(s.bodies)
-            left[m] = sign * float(np.sum(s.flux[(fields.RHO, *where)][open_here]))
-            self.ledger.book("outflow", mass=left, energy=sign * float(np.sum(s.flux[(fields.E, *where)][open_here])))
+            side, along = int(sign > 0), slice(j0, j1) if di else slice(i0, i1)
+            volume = s.flux_volume[(slice(None), along, face) if di else (slice(None), face, along)]
+            if volume.any():
+                mass, energy = sign * np.sum(s.edge_flux[side, ..., along], axis=-1, where=volume != 0.0)
+                self.ledger.book("outflow", mass=mass, energy=float(energy.sum()))
 
     def remap_momentum(self, dj: int, di: int) -> None:
         """Velocities after the sweep, by the advection choice; what it discards is booked."""
@@ -395,13 +385,10 @@ class Cycle:
                 flow[:, beyond] = flow[:, face]
             else:
                 flow[beyond] = flow[face]
-        for face, sign in self._open_faces(di):
-            np.moveaxis(s.dual, 2 if di else 1, 0)[face if sign > 0 else face - 1] = 0.0
-        self._keep_velocities()
-        momentum.dual_fluxes(dj, di, j0, j1, i0, i1, g.cm_in, g.cm_out, s.reach, flow, s.mass, s.velocity0, s.dual)
+        s.swap_velocities()
         sums = s.rows[:5]
-        momentum.vertex_update(dj, di, j0, j1 + 1, i0, i1 + 1, method.choice, method.ke_bound, self.still, g.cm_in, g.cm_out,
-                               s.reach, s.cell_mass, s.dual, s.velocity0, s.velocity, s.mass, s.deficit, sums)
+        momentum.sweep_momentum(dj, di, *self.box, method.choice, method.ke_bound, self.still, self.edges, g.cm_in, g.cm_out,
+                                s.reach, s.cell_mass, flow, s.mass, s.velocity0, s.velocity, s.dual, s.edge_dual, s.deficit, sums)
         before, after, p_gained, k_cut, p_wall = sums[:, j0:j1 + 1].sum(axis=1)
         lost = before - after - self._kinetic_outflow(di)
         if method.choice == momentum.BOTH:
@@ -417,26 +404,21 @@ class Cycle:
         s, (j0, j1, i0, i1) = self.state, self.box
         total = 0.0
         for face, sign in self._open_faces(di):
-            edge = face if sign > 0 else face - 1
-            where = (slice(j0, j1 + 1), edge) if di else (edge, slice(i0, i1 + 1))
-            flow = s.dual[(0, *where)]
-            if not flow.any():
+            flow = s.edge_dual[int(sign > 0), :, j0:j1 + 1] if di else s.edge_dual[int(sign > 0), :, i0:i1 + 1]
+            if not flow[0].any():
                 continue
-            energy = sign * float(np.sum(s.dual[(3, *where)] + s.dual[(4, *where)]))
-            self.ledger.book("outflow", momentum=sign * float(np.sum(s.dual[(2, *where)])), energy=energy)
+            energy = sign * float(np.sum(flow[3:]))
+            self.ledger.book("outflow", momentum=sign * float(np.sum(flow[2])), energy=energy)
             total += energy
         return total
 
     def tidy(self, dj: int, di: int, second: int) -> None:
         """Removes traces, makes full cells full, and finds the bodies anew."""
         s, g, (j0, j1, _, _) = self.state, self.grid, self.box
-        self._list_mixed()
         remap.tidy(j0, j1, self.method.trace, g.cm_in, g.cm_out, g.volume, s.mixed_count, s.mixed, s.pre, dj, di, s.fr, s.fz,
                    bool(second), s.u,
                    s.v, s.vof, s.q, s.cell_mass, s.booked)
         internal, kinetic, axial, _, *mass = s.booked[:, j0:j1].sum(axis=1)
         self.ledger.book("traces", mass=np.array(mass), momentum=float(axial), energy=float(internal + kinetic))
-        for m in range(s.bodies):
-            remap.bound_history(j0, j1, m, s.span, self.carried[m], s.q)
         self._spans()
         self._vertex_mass()

@@ -159,7 +159,7 @@ class Failure(Section):
 
 
 class Stop(Section):
-    """When the run ends: whichever comes first."""
+    """When the run ends: whichever comes first. The speed of a body is looked at every 10 cycles."""
 
     time: PositiveTime | None = Field(None, description="end time")
     cycles: int | None = Field(None, gt=0, description="number of cycles")

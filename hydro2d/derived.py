@@ -8,7 +8,7 @@ every body. Where there is no material the value is zero.
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -22,16 +22,25 @@ class FieldError(Exception):
     """A field that there is not; the message is for the user."""
 
 
+def _sum_of_products(weights: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """Sum over bodies of weights times values, arrays (m, nz, nr)."""
+    total = weights[0] * values[0]
+    for weight, value in zip(weights[1:], values[1:], strict=True):
+        total += weight * value
+    return total
+
+
 class Cells:
     """The state of a simulation cell by cell, without ghosts: arrays (m, nz, nr), zero where the body is not."""
 
     def __init__(self, sim):
         self._sim = sim
-        self.vof = sim.grid.interior(sim.state.vof)
+        self.vof = np.ascontiguousarray(sim.grid.interior(sim.state.vof))
+        self._there = self.vof > 0
 
     def __getattr__(self, name: str) -> np.ndarray:
         """rho, e, srr, szz, srz, ep or dmg of the state; computed once."""
-        values = np.where(self.vof > 0, self._sim.grid.interior(getattr(self._sim.state, name)), 0.0)
+        values = np.where(self._there, self._sim.grid.interior(getattr(self._sim.state, name)), 0.0)
         setattr(self, name, values)
         return values
 
@@ -51,14 +60,20 @@ class Cells:
         """Temperature, K."""
         return self._thermal[1]
 
+    @functools.cached_property
+    def _mass(self) -> tuple[np.ndarray, np.ndarray]:
+        """Mass per volume of every body, and of all of them, which is nowhere zero."""
+        mass = self.vof * self.rho
+        return mass, np.maximum(np.sum(mass, axis=0), TINY)
+
     def by_volume(self, values: np.ndarray) -> np.ndarray:
         """Sum over bodies of volume fraction times value, shape (nz, nr): a stress of the cell."""
-        return np.sum(self.vof * values, axis=0)
+        return _sum_of_products(self.vof, values)
 
     def by_mass(self, values: np.ndarray) -> np.ndarray:
         """Mean over bodies weighted by mass, shape (nz, nr)."""
-        mass = self.vof * self.rho
-        return np.sum(mass * values, axis=0) / np.maximum(np.sum(mass, axis=0), TINY)
+        mass, total = self._mass
+        return _sum_of_products(mass, values) / total
 
     def von_mises(self) -> np.ndarray:
         """sqrt(3/2 s:s) of the cell's deviator, hoop component included."""
@@ -81,8 +96,12 @@ class Cells:
 
     def material(self) -> np.ndarray:
         """1 + index of the body with the largest volume fraction; 0 where there is more void than anything else."""
-        shares = np.concatenate([1 - np.sum(self.vof, axis=0, keepdims=True), self.vof])
-        return np.argmax(shares, axis=0).astype(np.int32)
+        largest = 1 - np.sum(self.vof, axis=0)
+        number = np.zeros(largest.shape, dtype=np.int32)
+        for m, share in enumerate(self.vof):
+            number[share > largest] = m + 1
+            np.maximum(largest, share, out=largest)
+        return number
 
 
 @dataclass(frozen=True)
@@ -159,16 +178,20 @@ def expand(keys) -> tuple[str, ...]:
     return tuple(dict.fromkeys((*expanded, *ALWAYS)))
 
 
-def evaluate(sim, keys=("all",)) -> dict[str, np.ndarray]:
-    """Values by file name of the quantities `keys` and of those that are always written.
+def evaluated(sim, keys=("all",)) -> Iterator[tuple[str, np.ndarray]]:
+    """File name and values, one after the other, of the quantities `keys` and of those that are always written.
 
     Shapes (nz, nr) or (nz, nr, 3). Raises FieldError.
     """
-    cells, values = Cells(sim), {}
+    cells = Cells(sim)
     for quantity in (BY_KEY[key] for key in expand(keys)):
-        array = quantity.evaluate(cells)
+        values = quantity.evaluate(cells)
         if quantity.per_body:
-            values.update({quantity.name(body): array[m] for m, body in enumerate(sim.table.names)})
+            yield from ((quantity.name(body), values[m]) for m, body in enumerate(sim.table.names))
         else:
-            values[quantity.name()] = array
-    return values
+            yield quantity.name(), values
+
+
+def evaluate(sim, keys=("all",)) -> dict[str, np.ndarray]:
+    """The same, all at once, by file name."""
+    return dict(evaluated(sim, keys))

@@ -36,7 +36,7 @@ def export(run: Results, out: Path, keys=("all",)) -> list[Path]:
     for number, dump in enumerate(dumps):
         name = f"{vtk.FOLDER}/dump_{number:06d}.vtr"
         fields = {name: dump.fields[name] for name in names(dump, keys)}
-        vtk.write_grid(out / name, dump.r_edges, dump.z_edges, fields, dump.time)
+        vtk.write_grid(out / name, dump.r_edges, dump.z_edges, fields.items(), dump.time)
         entries.append((dump.time, name))
     written = [out / vtk.SERIES["dump"]]
     vtk.write_series(written[0], entries)

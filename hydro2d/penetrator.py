@@ -32,19 +32,15 @@ class Penetrator:
         self.m = slots.index(body.join or body.name)
         self.surface = decks.surface(deck)
         self.radius = getattr(body, "rod_radius", None) or self._largest_radius(slice(None))
+        self._around = 2 * np.pi if sim.grid.cylindrical else 1.0
         self.direction = 1.0 if sim.mean_velocity(self.m) >= 0 else -1.0
         grid = sim.grid
         self.columns = max(1, int(np.searchsorted(grid.r_edges[1:], 0.5 * self.radius)))
         self.length = self._length()[0]
-        self.mass = self._mass()
+        self.mass = float(sim.body_sums(self.m)[0].sum()) * self._around
 
     def _fraction(self) -> np.ndarray:
         return self.sim.grid.interior(self.sim.state.vof)[self.m]
-
-    def _mass(self) -> float:
-        g, s = self.sim.grid, self.sim.state
-        around = 2 * np.pi if g.cylindrical else 1.0
-        return float(np.sum(g.interior(s.vof[self.m] * s.rho[self.m] * g.volume)) * around)
 
     def _runs(self, column: np.ndarray) -> list[tuple[int, int]]:
         """(first, one past last) of the runs of cells filled by half or more, in the direction of flight."""
@@ -94,6 +90,14 @@ class Penetrator:
         """Axial velocity on the axis at z, m/s."""
         return float(self.sim.velocity_at(np.array([[0.0, z]]))[0, 1])
 
+    def _largest_strain(self, rows: np.ndarray) -> float:
+        """Largest plastic strain of the cells that the rod fills by half or more; rows are those that hold some of it."""
+        if len(rows) == 0:
+            return 0.0
+        rows = slice(rows[0], rows[-1] + 1)
+        strain = self.sim.grid.interior(self.sim.state.ep)[self.m][rows]
+        return float(np.max(strain, where=self._fraction()[rows] >= HALF, initial=0.0))
+
     def _core_mass(self, rows: slice) -> float:
         """Mass of the cells that hang together from the axis outward in the given rows, kg; the first cell that the rod does
         not fill by half ends a row, and still counts, unless it is the one on the axis."""
@@ -103,7 +107,7 @@ class Penetrator:
         edge = np.zeros_like(inside)
         edge[:, 1:] = inside[:, :-1]
         mass = fraction * g.interior(s.rho)[self.m][rows] * g.volume[g.inside][rows]
-        return float(np.sum(mass[inside | edge]) * (2 * np.pi if g.cylindrical else 1.0))
+        return float(np.sum(mass[inside | edge]) * self._around)
 
     def regime(self, length: float, radius: float, core: float) -> str:
         """"rigid", "deforming" or "eroding", from the length and largest radius in m and the mass of the core in kg."""
@@ -115,16 +119,17 @@ class Penetrator:
 
     def measure(self) -> dict:
         """The keys of summary.json that concern the rod; SI, whole circumference."""
-        grid, state = self.sim.grid, self.sim.state
+        grid = self.sim.grid
         length, low, high = self._length()
         tail, nose = (low, high) if self.direction > 0 else (high, low)
         first, last = np.searchsorted(grid.z_edges, (low, high))
         rows = slice(max(int(first) - 1, 0), int(last) + 1)
         radius = self._largest_radius(rows)
         core = self._core_mass(rows)
-        fraction, strain = self._fraction(), grid.interior(state.ep)[self.m]
-        mean = self.sim.mean_velocity(self.m)
-        mass = self._mass()
+        mass_of_rows, momentum_of_rows = self.sim.body_sums(self.m)
+        mass = float(mass_of_rows.sum())
+        mean = float(momentum_of_rows.sum()) / mass if mass > 0.0 else 0.0
+        mass *= self._around
         return {
             "penetration_depth_m": self._depth(),
             "rod_length_m": length,
@@ -133,7 +138,7 @@ class Penetrator:
             "rod_core_mass_kg": core,
             "rod_max_radius_m": radius,
             "rod_initial_radius_m": self.radius,
-            "rod_max_plastic_strain": float(np.max(strain[fraction >= HALF], initial=0.0)),
+            "rod_max_plastic_strain": self._largest_strain(np.nonzero(mass_of_rows)[0]),
             "rod_mean_velocity_m_s": mean,
             "rod_nose_velocity_m_s": self._axis_velocity(nose) if length else 0.0,
             "rod_tail_velocity_m_s": self._axis_velocity(tail) if length else 0.0,

@@ -35,7 +35,7 @@ DECK, SUMMARY, HISTORY, LOG, LOCK = "deck.toml", "summary.json", "history.h5", "
 OWN_FILES = (DECK, SUMMARY, HISTORY, LOG, snapshot.NAME, snapshot.PREVIOUS, *SERIES.values())
 
 #: cycles between copies of the state kept in memory as the last good one
-GOOD_EVERY = 200
+GOOD_EVERY = 500
 #: seconds between writes of the history
 FLUSH_SECONDS = 10.0
 
@@ -189,8 +189,11 @@ class Run:
         """Seconds spent on the run, in this process and before."""
         return self.wall_before + clock.perf_counter() - self.started
 
-    def execute(self, interrupt: Interrupt) -> dict:
-        """Runs to a stop reason. Returns the summary, which is also in summary.json."""
+    def execute(self, interrupt: Interrupt, compiled=None) -> dict:
+        """Runs to a stop reason. Returns the summary, which is also in summary.json.
+
+        compiled : what tells after the first cycle how long the kernels were compiled, see compilation.announced
+        """
         from .simulation import UnphysicalState
 
         self.report.begin(self)
@@ -199,6 +202,8 @@ class Run:
         try:
             while reason is None and not interrupt.reason:
                 self._step()
+                if compiled and self.stepped == 1:
+                    compiled.report()
                 self._outputs()
                 reason = self.sim.stop_reason()
         except UnphysicalState as error:
@@ -228,15 +233,20 @@ class Run:
         if now - self.saved_at >= self.deck.output.restart_interval:
             self._save(self._snapshot())
         if sim.cycle % GOOD_EVERY == 0:
-            self.good = self._snapshot()
+            self.good = self._snapshot(self.good)
         if now - self.flushed >= FLUSH_SECONDS:
             self.history.write()
             self.flushed = clock.perf_counter()
         self.report.update(self)
 
-    def _snapshot(self) -> snapshot.Snapshot:
+    def _snapshot(self, reuse: snapshot.Snapshot | None = None) -> snapshot.Snapshot:
+        """A copy of the state, in the memory of an earlier one that is no longer needed."""
+        arrays = self.sim.restart_arrays()
+        copies = reuse.arrays if reuse else {name: np.empty_like(array) for name, array in arrays.items()}
+        for name, array in arrays.items():
+            np.copyto(copies[name], array)
         return snapshot.Snapshot(
-            arrays={name: np.array(array) for name, array in self.sim.restart_arrays().items()},
+            arrays=copies,
             scalars=self.sim.restart_scalars(),
             run={
                 "due": {name: due.saved() for name, due in self.due.items()},
@@ -337,6 +347,8 @@ def run(deck, directory: Path | None = None, *, restart=False, overwrite=False, 
 
     Raises RunError, SnapshotError, FieldError, LockError (another process runs there).
     """
+    from .compilation import announced
+
     directory = Path(directory or deck.output.directory)
     interrupt = interrupt or Interrupt()
     derived.expand(deck.output.fields)  # an unknown field is told before anything is touched
@@ -345,8 +357,12 @@ def run(deck, directory: Path | None = None, *, restart=False, overwrite=False, 
     with locked(directory / LOCK):
         if not restart:
             clear(directory)
-        with reporter(directory / LOG, quiet=quiet) as report, _signals(interrupt):
-            return Run(deck, directory, restart=restart, report=report).execute(interrupt)
+        with (
+            reporter(directory / LOG, quiet=quiet) as report,
+            _signals(interrupt),
+            announced(report.line) as compiled,
+        ):
+            return Run(deck, directory, restart=restart, report=report).execute(interrupt, compiled)
 
 
 def exit_status(summary: dict) -> int:

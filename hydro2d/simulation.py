@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from hydro2d import deck as decks
-from hydro2d import insertion, materials
+from hydro2d import insertion, materials, sums, tracers
 from hydro2d.audit import Ledger
 from hydro2d.cycle import Cycle, UnphysicalState
 from hydro2d.grid import Grid
@@ -14,6 +14,9 @@ from hydro2d.penetrator import Penetrator
 from hydro2d.state import State
 
 __all__ = ["Simulation", "UnphysicalState"]
+
+#: cycles between looks at the speed of the body that stop.speed_below and stop.rebound watch
+WATCH_EVERY = 10
 
 
 class Simulation:
@@ -40,6 +43,7 @@ class Simulation:
         self.engine = Cycle(self.state, self.table, method)
         self.engine.prepare()
         self.tracers = np.array([[t.r, t.z] for t in deck.tracer]).reshape(-1, 2)
+        self._rows = np.zeros((2, self.grid.shape[0]))
         self.penetrator = Penetrator(self, deck) if deck.penetration else None
         self.watched = slots.index(deck.stop.body) if deck.stop.body else None
         self._sign = None
@@ -107,35 +111,24 @@ class Simulation:
 
     def _move_tracers(self) -> None:
         """Tracers follow the bilinear velocity of their cell, by the midpoint rule."""
-        half = self.tracers + 0.5 * self.dt * self.velocity_at(self.tracers)
-        self.tracers = self.tracers + self.dt * self.velocity_at(half)
+        g, s = self.grid, self.state
+        tracers.follow(g.g, g.nr, g.nz, self.dt, g.r, g.z, s.u[0], s.v[0], self.tracers)
 
     def velocity_at(self, points: np.ndarray) -> np.ndarray:
         """Velocity (u, v) at points (r, z), shape [n, 2], bilinear in the cell; m/s."""
+        return tracers.velocity_at(self.grid, self.state, points)
+
+    def body_sums(self, m: int) -> tuple[np.ndarray, np.ndarray]:
+        """Mass and axial momentum of body m by row, shape (nz,); per radian (per unit depth in planar geometry)."""
         g, s = self.grid, self.state
-        i = np.clip(np.searchsorted(g.r, points[:, 0], side="right") - 1, g.g, g.g + g.nr - 1)
-        j = np.clip(np.searchsorted(g.z, points[:, 1], side="right") - 1, g.g, g.g + g.nz - 1)
-        x = np.clip((points[:, 0] - g.r[i]) / g.dr[i], 0.0, 1.0)
-        y = np.clip((points[:, 1] - g.z[j]) / g.dz[j], 0.0, 1.0)
-        result = np.empty_like(points)
-        for c, w in enumerate((s.u[0], s.v[0])):
-            low, high = w[j, i] * (1 - x) + w[j, i + 1] * x, w[j + 1, i] * (1 - x) + w[j + 1, i + 1] * x
-            result[:, c] = low * (1 - y) + high * y
-        return result
+        sums.body_sums(g.g, g.nz, g.nr, m, g.cm_in, g.cm_out, g.volume, s.vof, s.rho, s.v[0], self._rows)
+        mass, momentum = self._rows[:, g.inside[0]]
+        return mass, momentum
 
     def mean_velocity(self, m: int) -> float:
-        """Axial velocity of the centre of mass of body m, m/s."""
-        g, s = self.grid, self.state
-        rows, columns = g.inside
-        mass = s.vof[m, rows, columns] * s.rho[m, rows, columns] * g.volume[rows, columns]
-        j, i = np.nonzero(mass)
-        if len(j) == 0:
-            return 0.0
-        weight = mass[j, i]
-        j, i = j + g.g, i + g.g
-        v = s.v[0]
-        mean = g.cm_in[i] * (v[j, i] + v[j + 1, i]) + g.cm_out[i] * (v[j, i + 1] + v[j + 1, i + 1])
-        return float(np.sum(weight * mean) / np.sum(weight))
+        """Axial velocity of the centre of mass of body m, m/s; 0 where there is nothing of it."""
+        mass, momentum = (float(rows.sum()) for rows in self.body_sums(m))
+        return momentum / mass if mass > 0.0 else 0.0
 
     def stop_reason(self) -> str | None:
         """Why the run is over, or None."""
@@ -144,7 +137,8 @@ class Simulation:
             return "end time"
         if stop.cycles is not None and self.cycle >= stop.cycles:
             return "number of cycles"
-        if self.watched is not None and (stop.speed_below is not None or stop.rebound):
+        watching = self.watched is not None and self.cycle % WATCH_EVERY == 0
+        if watching and (stop.speed_below is not None or stop.rebound):
             v = self.mean_velocity(self.watched)
             if self._sign is None:
                 self._sign = 1.0 if v >= 0 else -1.0

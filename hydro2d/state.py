@@ -6,6 +6,8 @@ import numpy as np
 
 from hydro2d import fields
 from hydro2d.grid import Grid
+from hydro2d.kernels import remap
+from hydro2d.kernels.spans import number_of_blocks
 
 #: a range (low, high) that holds nothing, so that min and max of ranges need no special case
 EMPTY = (1 << 30, 0)
@@ -46,10 +48,15 @@ class State:
         self.fr = np.zeros((nj + 1, ni + 1))
         self.fz = np.zeros((nj + 1, ni + 1))
         self.flux_volume = np.zeros((bodies, nj + 1, ni + 1))
-        self.flux = np.zeros((fields.BODY_FIELDS, nj + 1, ni + 1))
-        self.half = np.zeros((2, nj + 1, ni + 1))
         self.flux_mass = np.zeros((nj + 1, ni + 1))
-        self.dual = np.zeros((5, nj + 1, ni + 1))
+        blocks = number_of_blocks(0, nj + 1)  # at most: an active box that begins elsewhere has no more
+        self.flux = np.zeros((fields.BODY_FIELDS, bodies, 6 * blocks, ni + 1))
+        self.scratch = np.zeros((remap.SCRATCH, blocks, ni + 1))
+        self.dual = np.zeros((6, 2 * blocks, ni + 1))
+        longest = max(nj, ni) + 1
+        self.edge_flux = np.zeros((2, 2, bodies, longest))
+        self.edge_dual = np.zeros((2, 5, longest))
+        self.trial = np.zeros((2, nj, ni))
         self.deficit = np.zeros((nj + 1, ni + 1))
 
         self.span = np.zeros((bodies, nj, 2), dtype=np.int64)
@@ -67,6 +74,12 @@ class State:
         self.booked = np.zeros((4 + bodies, nj + 1))
         self.row_numbers = np.zeros((nj + 1, 3), dtype=np.int64)
         self.row_moving = np.zeros((nj + 1, 2), dtype=np.int64)
+
+    def swap_velocities(self) -> None:
+        """Makes the velocities the old ones; what were the old ones is written next."""
+        self.velocity, self.velocity0 = self.velocity0, self.velocity
+        self.u, self.v = self.velocity
+        self.u0, self.v0 = self.velocity0
 
     def restartable(self) -> dict[str, np.ndarray]:
         """The arrays from which every other one follows."""

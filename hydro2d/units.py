@@ -1,6 +1,6 @@
 """Quantities at the door: "1086 m/s" becomes SI on the way in, SI becomes the reader's unit on the way out.
 
-pint does the arithmetic and is imported only when a string with a unit is met, so that numbers cost nothing.
+Common units stand in a table; pint, which takes long to import, knows all others.
 """
 
 from __future__ import annotations
@@ -28,6 +28,17 @@ KINDS = {
     "rad": "an angle",
 }
 
+#: common units: name -> (SI unit, how many of it)
+COMMON = {
+    "m": ("m", 1.0), "cm": ("m", 1e-2), "mm": ("m", 1e-3), "um": ("m", 1e-6), "km": ("m", 1e3),
+    "s": ("s", 1.0), "ms": ("s", 1e-3), "us": ("s", 1e-6), "ns": ("s", 1e-9),
+    "m/s": ("m/s", 1.0), "km/s": ("m/s", 1e3), "mm/us": ("m/s", 1e3), "cm/us": ("m/s", 1e4),
+    "kg/m^3": ("kg/m^3", 1.0), "kg/m3": ("kg/m^3", 1.0), "g/cm^3": ("kg/m^3", 1e3), "g/cm3": ("kg/m^3", 1e3),
+    "Pa": ("Pa", 1.0), "kPa": ("Pa", 1e3), "MPa": ("Pa", 1e6), "GPa": ("Pa", 1e9), "Mbar": ("Pa", 1e11),
+    "/Mbar": ("1/Pa", 1e-11), "K": ("K", 1.0), "/K": ("1/K", 1.0), "J/kg": ("J/kg", 1.0), "rad": ("rad", 1.0),
+    "kg": ("kg", 1.0), "g": ("kg", 1e-3), "J": ("J", 1.0), "1/s": ("1/s", 1.0),
+}  # fmt: skip
+
 _NUMBER = re.compile(r"\s*([+-]?(?:\d[\d_]*\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*$")
 
 
@@ -46,8 +57,6 @@ def _registry():
 @functools.lru_cache(maxsize=4096)
 def _parsed(text: str, unit: str) -> float:
     """SI value of a string with a unit; ValueError names what was expected."""
-    import pint
-
     match = _NUMBER.match(text)
     if match is None:
         raise ValueError(f'"{text}" is not a number with a unit; {_expected(unit)}')
@@ -56,16 +65,24 @@ def _parsed(text: str, unit: str) -> float:
         if unit == "1":
             return number
         raise ValueError(f'"{text}" has no unit; {_expected(unit)}')
+    known, factor = COMMON.get(name, ("", 0.0))
+    si = number * factor if known == unit else _by_pint(text, number, name, unit)
+    return float(f"{si:.15g}")  # 18.16 g/cm^3 is 18160, not 18159.999999999996
+
+
+def _by_pint(text: str, number: float, name: str, unit: str) -> float:
+    """The same for any unit that pint knows, before rounding."""
+    import pint
+
     registry = _registry()
     try:
         quantity = registry.Quantity(number, registry.parse_units(_spelled(name)))
     except Exception as problem:  # pint raises a dozen kinds for text that is no unit
         raise ValueError(f'"{name}" is not a unit; {_expected(unit)}') from problem
     try:
-        si = quantity.to("dimensionless" if unit == "1" else unit).magnitude
+        return quantity.to("dimensionless" if unit == "1" else unit).magnitude
     except pint.DimensionalityError:
         raise ValueError(f'"{text}" is {_name_of(quantity)}; {_expected(unit)}') from None
-    return float(f"{si:.15g}")  # 18.16 g/cm^3 is 18160, not 18159.999999999996
 
 
 def _spelled(name: str) -> str:

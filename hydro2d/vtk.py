@@ -6,6 +6,7 @@ x = r, y = z. Float32, appended raw, LZ4. Beside the fields, the outlines of the
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 from xml.etree import ElementTree
@@ -18,6 +19,9 @@ from .outlines import outlines
 
 FOLDER = "vtk"
 SERIES = {"dump": "series.pvd", "interfaces": "interfaces.pvd", "tracers": "tracers.pvd"}
+
+#: bytes that are compressed at a time
+BLOCK = 1 << 18
 
 
 class VtkError(Exception):
@@ -35,6 +39,7 @@ def _write(dataset, path: Path, time: float, writer) -> None:
     writer.SetDataModeToAppended()
     writer.EncodeAppendedDataOff()
     writer.SetCompressorTypeToLZ4()
+    writer.SetBlockSize(BLOCK)
     with replacing(path) as temporary:
         writer.SetFileName(str(temporary))
         if writer.Write() != 1:
@@ -60,10 +65,10 @@ def _coordinates(values, name: str):
     return array
 
 
-def write_grid(path: Path, r_edges, z_edges, fields: dict[str, np.ndarray], time: float) -> None:
+def write_grid(path: Path, r_edges, z_edges, fields: Iterable[tuple[str, np.ndarray]], time: float) -> None:
     """Writes cell data on a rectilinear grid.
 
-    r_edges (nr + 1,), z_edges (nz + 1,) in m;  fields: values (nz, nr) or (nz, nr, 3) by name;  time in s
+    r_edges (nr + 1,), z_edges (nz + 1,) in m;  fields: names and values (nz, nr) or (nz, nr, 3);  time in s
     """
     from vtkmodules.vtkCommonDataModel import vtkRectilinearGrid
     from vtkmodules.vtkIOXML import vtkXMLRectilinearGridWriter
@@ -74,7 +79,7 @@ def write_grid(path: Path, r_edges, z_edges, fields: dict[str, np.ndarray], time
     grid.SetYCoordinates(_coordinates(z_edges, "z"))
     grid.SetZCoordinates(_coordinates([0.0], "height"))
     cells = (len(z_edges) - 1) * (len(r_edges) - 1)
-    for name, values in fields.items():
+    for name, values in fields:
         grid.GetCellData().AddArray(_array(values.reshape(cells, *values.shape[2:]), name))
     _write(grid, path, time, vtkXMLRectilinearGridWriter())
 
@@ -173,7 +178,7 @@ class Series:
         number, time = len(self._times), sim.time
         (self.directory / FOLDER).mkdir(exist_ok=True)
         path = self._path("dump", number)
-        write_grid(path, sim.grid.r_edges, sim.grid.z_edges, derived.evaluate(sim, self.fields), time)
+        write_grid(path, sim.grid.r_edges, sim.grid.z_edges, derived.evaluated(sim, self.fields), time)
         write_lines(self._path("interfaces", number), _body_lines(sim), time)
         if len(sim.tracers):
             write_points(self._path("tracers", number), np.asarray(sim.tracers), time)

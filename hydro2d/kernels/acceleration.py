@@ -4,7 +4,7 @@ from math import sqrt
 
 from hydro2d.fields import SRR, SRZ, SZZ
 from hydro2d.jit import kernel, point, prange
-from hydro2d.kernels.spans import columns, union
+from hydro2d.kernels.spans import columns, copy_beside, union
 
 #: speeds below this are no signal: set to zero, so that the active region has an edge (explanation/active-region)
 SILENCE = 1e-20
@@ -125,11 +125,13 @@ def accelerate(j0, j1, i0, i1, dt, hourglass, speed_limit, light_density, face_r
     dual cell is filled more thinly than light_density is held to speed_limit.
 
     Reads    u0, v0, mass [b, j, i]; sig_rr, sig_zz, sig_tt, sig_rz, rhobar, cl [j, i]
-    Writes   u, v [b, j, i]; limited [3, j]: momentum and energy taken by the speed limit, and its count
+    Writes   u, v [b, j, i] for whole rows; limited [3, j]: momentum and energy taken by the speed limit, and its count
     """
     for j in prange(j0, j1):
         lo, hi = union(occupied, j - 1, j + 1)
         lo, n = columns(max(lo, i0), min(hi + 1, i1))
+        copy_beside(u0[0, j], u[0, j], i0 - 2, lo, lo + n, i1 + 2)
+        copy_beside(v0[0, j], v[0, j], i0 - 2, lo, lo + n, i1 + 2)
         hb = dz[j - 1]
         ht = dz[j]
         rr_b = sig_rr[j - 1]

@@ -3,34 +3,33 @@
 from math import sqrt
 
 from hydro2d.fields import E
-from hydro2d.jit import kernel, plus, prange
+from hydro2d.grid import GHOSTS
+from hydro2d.jit import kernel, plus, point, prange
 from hydro2d.kernels.acceleration import TINY
 from hydro2d.kernels.remap import upwind
-from hydro2d.kernels.spans import union
+from hydro2d.kernels.spans import block_rows, copy_beside, number_of_blocks, spread, union
 
 #: advection by name, in the order of the integer that the kernels take
 CHOICES = ("momentum", "ke", "both")
 MOMENTUM, KE, BOTH = range(3)
 
 
-@kernel
-def dual_fluxes(dj, di, j0, j1, i0, i1, cm_in, cm_out, reach, flux_mass, mass, w, dual):
-    """Mass, momentum and kinetic energy that flow between neighbouring vertices, stored at the lower vertex of the edge.
+@point
+def dual_row(dj, di, j, i0, i1, slot, cm_in, cm_out, reach, flux_mass, mass, w, dual):
+    """Mass, momentum and kinetic energy that flow between the vertices of row j and their neighbours at higher r or z.
 
     r-sweep: Phi = cm_out (F_left) + cm_in (F_right) of the column between, summed over the two rows beside the vertex;
     z-sweep: the column's share of the vertex times (F_bottom + F_top). With these the dual masses after the sweep are again
     the corner sums of the cell masses (explanation/remap, equation 6).
 
     Reads    flux_mass [j, i]; mass [b, j, i], w = (u, v) [c, b, j, i]
-    Writes   dual [k, j, i]: mass, radial and axial momentum, and kinetic energy of each component
+    Writes   dual [k, slot, i]: mass, radial and axial momentum, and kinetic energy of each component
     """
-    for j in prange(j0 - dj, j1 + 1):
-        lo, hi = union(reach, j - 1 - dj, j + 1 + dj)
-        lo, hi = max(lo, i0) - di, min(hi + 1, i1 + 1)
-        n = hi - lo
-        if n <= 0:
-            continue
-        flow = dual[0, j, lo:hi]
+    lo, hi = dual_range(dj, di, i0, i1, j, reach)
+    n = hi - lo
+    if n > 0:
+        flow = dual[0, slot, lo:hi]
+        half = dual[5, slot, lo:hi]
         here = flux_mass[j, lo - 1:hi + 1]
         inner = cm_in[lo:hi]
         outer = cm_out[lo - dj:hi]
@@ -44,28 +43,36 @@ def dual_fluxes(dj, di, j0, j1, i0, i1, cm_in, cm_out, reach, flux_mass, mass, w
                 flow[x] = inner[x] * (here[x + 1] + above[x + 1]) + outer[x] * (here[x] + above[x])
         m_l = mass[0, j, lo:hi]
         m_r = mass[0, j + dj, lo + di:hi + di]
+        for x in range(n):
+            whole = m_l[x] if flow[x] > 0.0 else m_r[x]
+            half[x] = 0.5 * (1.0 - min(abs(flow[x]) / max(whole, TINY), 1.0))
         for c in range(2):
             a_ll = w[c, 0, j - dj, lo - di:hi - di]
             a_l = w[c, 0, j, lo:hi]
             a_r = w[c, 0, j + dj, lo + di:hi + di]
             a_rr = w[c, 0, j + 2 * dj, lo + 2 * di:hi + 2 * di]
-            carried = dual[1 + c, j, lo:hi]
-            kinetic = dual[3 + c, j, lo:hi]
+            carried = dual[1 + c, slot, lo:hi]
+            kinetic = dual[3 + c, slot, lo:hi]
             for x in range(n):
                 up = flow[x] > 0.0
-                whole = m_l[x] if up else m_r[x]
-                half = 0.5 * (1.0 - min(abs(flow[x]) / max(whole, TINY), 1.0))
                 donor, slope = upwind(up, a_ll[x], a_l[x], a_r[x], a_rr[x])
-                carried[x] = flow[x] * (donor + half * slope)
+                carried[x] = flow[x] * (donor + half[x] * slope)
                 donor, slope = upwind(up, 0.5 * a_ll[x] * a_ll[x], 0.5 * a_l[x] * a_l[x], 0.5 * a_r[x] * a_r[x],
                                       0.5 * a_rr[x] * a_rr[x])
-                kinetic[x] = flow[x] * (donor + half * slope)
+                kinetic[x] = flow[x] * (donor + half[x] * slope)
 
 
-@kernel
-def vertex_update(dj, di, j0, j1, i0, i1, choice, bound, still, cm_in, cm_out, reach, cell_mass, dual, w_old, w, mass, deficit,
-                  sums):
-    """Velocities after the sweep, by the advection choice (explanation/remap, equations 7 to 9).
+@point
+def dual_range(dj, di, i0, i1, j, reach):
+    """Vertices of row j from which something may flow within the active columns."""
+    lo, hi = union(reach, j - 1 - dj, j + 1 + dj)
+    return max(lo, i0) - di, min(hi + 1, i1 + 1)
+
+
+@point
+def vertex_row(dj, di, j, i0, i1, below, above, choice, bound, still, cm_in, cm_out, reach, cell_mass, dual, w_old, w, mass,
+               deficit, sums):
+    """Velocities of row j after the sweep, by the advection choice (explanation/remap, equations 7 to 9).
 
     momentum   u = P/M
     ke         u = sign(P) sqrt(2 K/M) per component, |u| <= bound |P/M|
@@ -73,34 +80,37 @@ def vertex_update(dj, di, j0, j1, i0, i1, choice, bound, still, cm_in, cm_out, r
     P/M is kept within the velocities of the three vertices that it comes from, which removes round-off only. The normal
     velocity on the axis and on walls is zero: still holds the columns (2) and the rows (2) of those, -1 for none.
 
-    Reads    cell_mass [j, i] after the sweep, dual [k, j, i]; w_old = (u, v) [c, b, j, i] and mass [b, j, i] before it
-    Writes   w = (u, v) [c, b, j, i], mass [b, j, i]; deficit [j, i]
+    Reads    cell_mass [j, i] after the sweep, dual [k, slot, i] in the slots `below` and `above`; w_old = (u, v) [c, b, j, i]
+             and mass [b, j, i] before it
+    Writes   w = (u, v) [c, b, j, i] for the whole row; deficit [j, i]
     Writes   sums [5, j]: kinetic energy before and after; axial momentum after less P; kinetic energy cut by the bound;
              axial momentum given to walls
     """
-    for j in prange(j0, j1):
-        lo, hi = union(reach, j - 1, j + 1)
-        lo, hi = max(lo, i0), min(hi + 1, i1)
-        n = hi - lo
-        for row in range(5):
-            sums[row, j] = 0.0
-        if n <= 0:
-            continue
-        below = cell_mass[j - 1, lo - 1:hi]
-        above = cell_mass[j, lo - 1:hi]
+    lo, hi = union(reach, j - 1, j + 1)
+    lo, hi = max(lo, i0), min(hi + 1, i1)
+    n = hi - lo
+    for row in range(5):
+        sums[row, j] = 0.0
+    for c in range(2):
+        copy_beside(w_old[c, 0, j], w[c, 0, j], i0 - GHOSTS, lo, hi, i1 + GHOSTS)
+    if n > 0:
+        low = cell_mass[j - 1, lo - 1:hi]
+        high = cell_mass[j, lo - 1:hi]
         inner = cm_in[lo:hi]
         outer = cm_out[lo - 1:hi]
         m_j = mass[0, j, lo:hi]
         left = deficit[j, lo:hi]
-        f_in = dual[0, j - dj, lo - di:hi - di]
-        f_out = dual[0, j, lo:hi]
+        f_in = dual[0, below, lo - di:hi - di]
+        f_out = dual[0, above, lo:hi]
+        new_j = dual[5, below, lo:hi]  # the weights that stood there have done their work
         for x in range(n):
             left[x] = 0.0
+            new_j[x] = outer[x] * (low[x] + high[x]) + inner[x] * (low[x + 1] + high[x + 1])
         for c in range(2):
-            p_in = dual[1 + c, j - dj, lo - di:hi - di]
-            p_out = dual[1 + c, j, lo:hi]
-            k_in = dual[3 + c, j - dj, lo - di:hi - di]
-            k_out = dual[3 + c, j, lo:hi]
+            p_in = dual[1 + c, below, lo - di:hi - di]
+            p_out = dual[1 + c, above, lo:hi]
+            k_in = dual[3 + c, below, lo - di:hi - di]
+            k_out = dual[3 + c, above, lo:hi]
             a_j = w_old[c, 0, j, lo:hi]
             a_low = w_old[c, 0, j - dj, lo - di:hi - di]
             a_high = w_old[c, 0, j + dj, lo + di:hi + di]
@@ -110,15 +120,15 @@ def vertex_update(dj, di, j0, j1, i0, i1, choice, bound, still, cm_in, cm_out, r
             for x in range(n):
                 a = a_j[x]
                 old = m_j[x]
-                new = outer[x] * (below[x] + above[x]) + inner[x] * (below[x + 1] + above[x + 1])
+                new = new_j[x]
                 held = f_in[x] == 0.0 and f_out[x] == 0.0  # nothing flows: not a bit may change
                 wall = wall_row or (c == 0 and (lo + x == still[0] or lo + x == still[1]))
-                some = max(new, TINY)
+                over = 1.0 / max(new, TINY)
                 momentum = old * a + (p_in[x] - p_out[x])
-                mean = min(max(momentum / some, min(a, min(a_low[x], a_high[x]))), max(a, max(a_low[x], a_high[x])))
+                mean = min(max(momentum * over, min(a, min(a_low[x], a_high[x]))), max(a, max(a_low[x], a_high[x])))
                 mean = 0.0 if wall else mean
                 kinetic = max(0.5 * old * a * a + (k_in[x] - k_out[x]), 0.0)
-                speed = min(sqrt(2.0 * kinetic / some), bound * abs(mean))
+                speed = min(sqrt(2.0 * kinetic * over), bound * abs(mean))
                 speed = speed if mean > 0.0 else -speed
                 after = speed if choice == KE else mean
                 after = a if held else after
@@ -131,7 +141,7 @@ def vertex_update(dj, di, j0, j1, i0, i1, choice, bound, still, cm_in, cm_out, r
                     k_cut = plus(k_cut, max(kinetic - 0.5 * new * (bound * mean) * (bound * mean), 0.0) if moves else 0.0)
                     p_gained = plus(p_gained, new * (after - mean) if moves else 0.0)
                 if choice == BOTH:
-                    left[x] += 0.0 if held else (kinetic - 0.5 * new * mean * mean) / some
+                    left[x] += 0.0 if held else (kinetic - 0.5 * new * mean * mean) * over
                 p_wall = plus(p_wall, momentum if wall and not held else 0.0)
             sums[0, j] += k_before
             sums[1, j] += k_after
@@ -139,8 +149,37 @@ def vertex_update(dj, di, j0, j1, i0, i1, choice, bound, still, cm_in, cm_out, r
             if c == 1:
                 sums[2, j] = p_gained
                 sums[4, j] = p_wall
-        for x in range(n):
-            m_j[x] = outer[x] * (below[x] + above[x]) + inner[x] * (below[x + 1] + above[x + 1])
+
+
+@kernel
+def sweep_momentum(dj, di, j0, j1, i0, i1, choice, bound, still, edges, cm_in, cm_out, reach, cell_mass, flux_mass, mass, w_old,
+                   w, dual, edge_dual, deficit, sums):
+    """Carries the momentum of the vertices j0 to j1 along one direction.
+
+    Reads    what dual_row and vertex_row read; edges (j0, j1, i0, i1 of the mesh)
+    Writes   w = (u, v) [c, b, j, i]; deficit [j, i], sums [5, j]; edge_dual [side, k, j or i], what flows over the mesh's edges
+    Scratch  dual [k, slot, i], two slots to a block of rows; in z they take turns
+    """
+    blocks = number_of_blocks(j0, j1 + 1)
+    for p in prange(blocks):
+        b = spread(p, blocks)
+        first, last = block_rows(b, blocks, j0, j1 + 1)
+        for j in range(first - dj, last):
+            slot = 2 * b + dj * (j % 2)
+            dual_row(dj, di, j, i0, i1, slot, cm_in, cm_out, reach, flux_mass, mass, w_old, dual)
+            lo, hi = dual_range(dj, di, i0, i1, j, reach)
+            for side in range(2):
+                at = edges[2 * di + side] + side - 1  # the edge from a ghost vertex to the mesh, or from the mesh to one
+                for k in range(5):
+                    if di == 1:
+                        edge_dual[side, k, j] = dual[k, slot, at] if lo <= at < hi else 0.0
+                    elif j == at and (j >= first or b == 0):
+                        for i in range(i0, i1 + 1):
+                            edge_dual[side, k, i] = dual[k, slot, i] if lo <= i < hi else 0.0
+            if j >= first:
+                below = 2 * b + dj * ((j - 1) % 2)
+                vertex_row(dj, di, j, i0, i1 + 1, below, slot, choice, bound, still, cm_in, cm_out, reach, cell_mass, dual,
+                           w_old, w, mass, deficit, sums)
 
 
 @kernel

@@ -1,13 +1,19 @@
 """The remap of body fields: fluxes through faces, update of cells, and the tidying of what is left over.
 
-One body of code serves both directions by the offsets (dj, di): (0, 1) along r, (1, 0) along z.
+One body of code serves both directions by the offsets (dj, di): (0, 1) along r, (1, 0) along z. Fluxes live in a few
+rows of a buffer, ``flux[k, m, slot, i]``: a cell is updated as soon as nothing needs its old values any more, while they are
+still in the processor's cache (explanation/remap, blocks of rows).
 """
 
-from hydro2d.fields import BODY_FIELDS, CARRIED_SOLID, DMG, EP, RHO, E
+from hydro2d.fields import BODY_FIELDS, DMG, EP, RHO, E
 from hydro2d.jit import kernel, point, prange
 from hydro2d.kernels.acceleration import TINY
 from hydro2d.kernels.interfaces import face_range
-from hydro2d.kernels.spans import columns, union
+from hydro2d.kernels.spans import BLOCK, block_rows, columns, mixed_row, number_of_blocks, spread, union
+
+#: rows of scratch [s, block, i]: the weights of the slopes by volume and by mass; or volume and mass before the sweep, and
+#: one over those after it
+SCRATCH = 4
 
 
 @point
@@ -29,34 +35,33 @@ def upwind(up, ll, l, r, rr):
     return l if up else r, limited_difference(behind, across if up else -across)
 
 
-@kernel
-def clear_mass_flux(j0, j1, i0, i1, reach, flux_mass):
-    """Sets the total mass flux to zero wherever the dual fluxes of this sweep will read it."""
-    for j in prange(j0 - 1, j1 + 2):
-        lo, hi = union(reach, j - 3, j + 3)
-        for i in range(max(lo - 2, i0 - 2), min(hi + 3, i1 + 3)):
-            flux_mass[j, i] = 0.0
+@point
+def by_mass(k):
+    """Whether field k is carried per mass (energy, plastic strain, damage) or per volume (deviators)."""
+    return k == E or k >= EP
 
 
-@kernel
-def body_fluxes(dj, di, j0, j1, i0, i1, m, carried, span, f_face, pre, flux_volume, vof, q, half, flux, flux_mass):
-    """Fluxes of mass, energy, deviators, plastic strain and damage of body m through the faces.
+@point
+def flux_range(dj, di, i0, i1, m, j, span):
+    """Faces of row j through which body m may flow within the active columns; an empty range is (0, 0)."""
+    lo, hi = face_range(dj, m, j, span)
+    lo, hi = max(lo, i0), min(hi, i1 + di)
+    return (lo, hi) if lo < hi else (0, 0)
+
+
+@point
+def flux_row(dj, di, j, i0, i1, m, carried, slot, b, span, pre, flux_volume, vof, q, scratch, flux):
+    """Fluxes of what body m carries through the faces of row j.
 
     Second order, monotone, in cells whose neighbours are full of the same body; the donor's own value in and next to mixed
     cells. Specific quantities in the mass coordinate, deviators in the volume coordinate (explanation/remap, equation 4).
 
-    Reads    f_face, pre [j, i]; flux_volume, vof [m, j, i]; q [k, m, j, i]
-    Writes   flux [k, j, i];  updates flux_mass [j, i], the sum over bodies
-    Scratch  half [2, j, i], the weights of the slopes by volume and by mass
+    Reads    pre [j, i]; flux_volume, vof [m, j, i]; q [k, m, j, i]
+    Writes   flux [k, m, slot, i]
     """
-    for j in prange(j0, j1 + dj):
-        lo, hi = face_range(dj, m, j, span)
-        if lo >= hi:
-            continue
-        lo, hi = max(lo, i0), min(hi, i1 + di)
-        n = hi - lo
-        if n <= 0:
-            continue
+    lo, hi = flux_range(dj, di, i0, i1, m, j, span)
+    n = hi - lo
+    if n > 0:
         swept = flux_volume[m, j, lo:hi]
         f_ll = vof[m, j - 2 * dj, lo - 2 * di:hi - 2 * di]
         f_l = vof[m, j - dj, lo - di:hi - di]
@@ -68,10 +73,9 @@ def body_fluxes(dj, di, j0, j1, i0, i1, m, carried, span, f_face, pre, flux_volu
         r_l = q[RHO, m, j - dj, lo - di:hi - di]
         r_r = q[RHO, m, j, lo:hi]
         r_rr = q[RHO, m, j + dj, lo + di:hi + di]
-        mass = flux[RHO, j, lo:hi]
-        total = flux_mass[j, lo:hi]
-        half_v = half[0, j, lo:hi]
-        half_m = half[1, j, lo:hi]
+        mass = flux[RHO, m, slot, lo:hi]
+        half_v = scratch[0, b, lo:hi]
+        half_m = scratch[1, b, lo:hi]
         for x in range(n):
             up = swept[x] > 0.0
             least = min(min(f_l[x], f_r[x]), f_ll[x] if up else f_rr[x])
@@ -82,99 +86,235 @@ def body_fluxes(dj, di, j0, j1, i0, i1, m, carried, span, f_face, pre, flux_volu
             flow = swept[x] * (donor + half_v[x] * slope)
             half_m[x] = clean * (1.0 - abs(flow) / max(volume * donor, TINY))
             mass[x] = flow
-            total[x] += flow
         for k in range(1, carried):
             a_ll = q[k, m, j - 2 * dj, lo - 2 * di:hi - 2 * di]
             a_l = q[k, m, j - dj, lo - di:hi - di]
             a_r = q[k, m, j, lo:hi]
             a_rr = q[k, m, j + dj, lo + di:hi + di]
-            out = flux[k, j, lo:hi]
-            by_mass = k == E or k >= EP
-            carrier = flux[RHO, j, lo:hi] if by_mass else flux_volume[m, j, lo:hi]
-            weight = half[1 if by_mass else 0, j, lo:hi]
+            out = flux[k, m, slot, lo:hi]
+            carrier = flux[RHO, m, slot, lo:hi] if by_mass(k) else flux_volume[m, j, lo:hi]
+            weight = scratch[1 if by_mass(k) else 0, b, lo:hi]
             for x in range(n):
                 donor, slope = upwind(swept[x] > 0.0, a_ll[x], a_l[x], a_r[x], a_rr[x])
                 out[x] = carrier[x] * (donor + weight[x] * slope)
 
 
-@kernel
-def body_update(dj, di, j0, j1, i0, i1, m, carried, span, f_face, pre, flux_volume, flux, vof, q):
-    """Body m after the sweep: volume, mass and what it carries, from the fluxes. A cell without flux keeps its bits.
+@point
+def update_row(dj, di, j, i0, i1, m, carried, below, above, b, span, face, pre, flux_volume, flux, scratch, vof, q):
+    """Body m in row j after the sweep: volume, mass and what it carries. A cell without flux keeps its bits.
 
-    Reads    f_face, pre [j, i]; flux_volume [m, j, i]; flux [k, j, i]
+    Plastic strain stays positive, damage between 0 and 1.
+
+    Reads    face, pre [j, i]; flux_volume [m, j, i]; flux [k, m, slot, i] in the slots `below` and `above`
     Updates  vof [m, j, i] (share of the volume after the sweep), q [k, m, j, i]
     """
-    for j in prange(j0, j1):
-        lo, hi = 1 << 30, 0
-        for row in range(max(j - dj, 0), min(j + dj + 1, span.shape[1])):
-            lo = min(lo, span[m, row, 0])
-            hi = max(hi, span[m, row, 1])
-        if lo >= hi:
-            continue
-        lo, hi = max(lo - di, i0), min(hi + di, i1)
-        n = hi - lo
-        if n <= 0:
-            continue
+    lo, hi = union(span[m], j - dj, j + dj + 1)
+    lo, hi = max(lo - di, i0), min(hi + di, i1)
+    n = hi - lo
+    if n > 0:
         v_in = flux_volume[m, j, lo:hi]
         v_out = flux_volume[m, j + dj, lo + di:hi + di]
-        s_in = f_face[j, lo:hi]
-        s_out = f_face[j + dj, lo + di:hi + di]
-        m_in = flux[RHO, j, lo:hi]
-        m_out = flux[RHO, j + dj, lo + di:hi + di]
+        s_in = face[j, lo:hi]
+        s_out = face[j + dj, lo + di:hi + di]
+        m_in = flux[RHO, m, below, lo:hi]
+        m_out = flux[RHO, m, above, lo + di:hi + di]
         f_j = vof[m, j, lo:hi]
         r_j = q[RHO, m, j, lo:hi]
         pre_j = pre[j, lo:hi]
+        old_v = scratch[0, b, lo:hi]
+        old_m = scratch[1, b, lo:hi]
+        new_v = scratch[2, b, lo:hi]
+        new_m = scratch[3, b, lo:hi]
+        for x in range(n):
+            volume = f_j[x] * pre_j[x]
+            mass = volume * r_j[x]
+            after = volume + (v_in[x] - v_out[x])
+            mass_after = mass + (m_in[x] - m_out[x])
+            post = pre_j[x] - (s_out[x] - s_in[x])
+            same = v_in[x] == 0.0 and v_out[x] == 0.0
+            still = same and s_in[x] == 0.0 and s_out[x] == 0.0
+            density = mass_after / after if after > 0.0 else 0.0
+            fraction = max(after / post, 0.0)
+            r_j[x] = r_j[x] if still else density
+            f_j[x] = f_j[x] if still else fraction
+            # what a cell without flux is multiplied and divided by is one
+            old_v[x] = 1.0 if same else volume
+            old_m[x] = 1.0 if same else mass
+            new_v[x] = 1.0 if same else (1.0 / after if after > 0.0 else 0.0)
+            new_m[x] = 1.0 if same else (1.0 / mass_after if mass_after > 0.0 else 0.0)
         for k in range(1, carried):
             a_j = q[k, m, j, lo:hi]
-            a_in = flux[k, j, lo:hi]
-            a_out = flux[k, j + dj, lo + di:hi + di]
-            by_mass = k == E or k >= EP
+            a_in = flux[k, m, below, lo:hi]
+            a_out = flux[k, m, above, lo + di:hi + di]
+            before = scratch[1 if by_mass(k) else 0, b, lo:hi]
+            inverse = scratch[3 if by_mass(k) else 2, b, lo:hi]
             for x in range(n):
-                old = f_j[x] * pre_j[x]
-                new = old + (v_in[x] - v_out[x])
-                old = old * r_j[x] if by_mass else old
-                new = old + (m_in[x] - m_out[x]) if by_mass else new
-                same = v_in[x] == 0.0 and v_out[x] == 0.0
-                value = (a_j[x] * old + (a_in[x] - a_out[x])) / new if new > 0.0 else 0.0
-                a_j[x] = a_j[x] if same else value
+                a_j[x] = (a_j[x] * before[x] + (a_in[x] - a_out[x])) * inverse[x]
+            if k >= EP:
+                most = 1.0 if k == DMG else 1e300
+                for x in range(n):
+                    a_j[x] = min(max(a_j[x], 0.0), most)
+
+
+@point
+def mass_flux_row(dj, di, j, i0, i1, slot, reach, span, flux, flux_mass):
+    """Total mass flux through the faces of row j, zero wherever the dual fluxes read it and nothing flows.
+
+    Reads    flux [k, m, slot, i];  writes flux_mass [j, i]
+    """
+    lo, hi = union(reach, j - 3, j + 3)
+    lo, n = columns(max(lo - 2, i0 - 2), min(hi + 3, i1 + 3))
+    total = flux_mass[j]
+    for x in range(n):
+        total[lo + x] = 0.0
+    for m in range(span.shape[0]):
+        lo, hi = flux_range(dj, di, i0, i1, m, j, span)
+        lo, n = columns(lo, hi)
+        mass = flux[RHO, m, slot]
         for x in range(n):
-            old = f_j[x] * pre_j[x]
-            new = old + (v_in[x] - v_out[x])
-            post = pre_j[x] - (s_out[x] - s_in[x])
-            same = v_in[x] == 0.0 and v_out[x] == 0.0 and s_in[x] == 0.0 and s_out[x] == 0.0
-            density = (r_j[x] * old + (m_in[x] - m_out[x])) / new if new > 0.0 else 0.0
-            r_j[x] = r_j[x] if same else density
-            f_j[x] = f_j[x] if same else max(new / post, 0.0)
+            total[lo + x] += mass[lo + x]
+
+
+@point
+def cell_mass_row(dj, di, j, reach, pre, face, volume, second, vof, q, cell_mass):
+    """Mass of the cells of row j in the volume that they have after the sweep.
+
+    Reads    pre, face, volume [j, i]; vof [m, j, i]; q [k, m, j, i]
+    Writes   cell_mass [j, i]
+    """
+    lo, n = columns(reach[j, 0], reach[j, 1])
+    out = cell_mass[j]
+    for x in range(n):
+        out[lo + x] = 0.0
+    for m in range(vof.shape[0]):
+        f_j = vof[m, j]
+        rho_j = q[RHO, m, j]
+        for x in range(n):
+            i = lo + x
+            out[i] += f_j[i] * rho_j[i]
+    if second:
+        volume_j = volume[j]
+        for x in range(n):
+            out[lo + x] *= volume_j[lo + x]
+    else:
+        s_in = face[j]
+        s_out = face[j + dj]
+        pre_j = pre[j]
+        for x in range(n):
+            i = lo + x
+            out[i] *= pre_j[i] - (s_out[i + di] - s_in[i])
 
 
 @kernel
-def sum_cell_mass(j0, j1, reach, pre, dj, di, fr, fz, second, volume, vof, q, cell_mass):
-    """Mass of every cell in the volume that it has after the sweep.
+def sum_cell_mass(j0, j1, reach, volume, vof, q, cell_mass):
+    """Mass of every cell, without a sweep.
 
-    Reads    pre, fr, fz, volume [j, i]; vof [m, j, i]; q [k, m, j, i]
+    Reads    volume [j, i]; vof [m, j, i]; q [k, m, j, i]
     Writes   cell_mass [j, i]
     """
-    bodies = vof.shape[0]
     for j in prange(j0, j1):
-        lo, n = columns(reach[j, 0], reach[j, 1])
-        out = cell_mass[j]
-        for x in range(n):
-            out[lo + x] = 0.0
-        for m in range(bodies):
-            f_j = vof[m, j]
-            rho_j = q[RHO, m, j]
-            for x in range(n):
-                i = lo + x
-                out[i] += f_j[i] * rho_j[i]
-        fr_j = fr[j]
-        fz_b = fz[j]
-        fz_t = fz[j + 1]
-        pre_j = pre[j]
-        volume_j = volume[j]
-        for x in range(n):
-            i = lo + x
-            swept = dj * (fz_t[i] - fz_b[i]) + di * (fr_j[i + 1] - fr_j[i])
-            out[i] *= volume_j[i] if second else pre_j[i] - swept
+        cell_mass_row(0, 0, j, reach, volume, volume, volume, True, vof, q, cell_mass)
+
+
+@point
+def sweep_row(dj, di, j, i0, i1, below, above, b, carried, span, reach, face, pre, volume, second, flux_volume, flux, scratch,
+              vof, q, cell_mass, mixed_count, mixed):
+    """Row j after the sweep: every body, the mass of the cells and the list of those that are mixed."""
+    for m in range(span.shape[0]):
+        update_row(dj, di, j, i0, i1, m, carried[m], below, above, b, span, face, pre, flux_volume, flux, scratch, vof, q)
+    cell_mass_row(dj, di, j, reach, pre, face, volume, second, vof, q, cell_mass)
+    mixed_row(j, reach, vof, scratch[0, b], mixed_count, mixed)
+
+
+@kernel
+def sweep_r(j0, j1, i0, i1, carried, edges, span, reach, face, pre, volume, second, flux_volume, scratch, flux, flux_mass,
+            edge_flux, vof, q, cell_mass, mixed_count, mixed):
+    """Carries every body along r: fluxes and update row by row.
+
+    Reads    carried [m]; edges (j0, j1, i0, i1 of the mesh), span, reach; face, pre, volume [j, i]; flux_volume [m, j, i]
+    Updates  vof [m, j, i], q [k, m, j, i]
+    Writes   flux_mass, cell_mass [j, i]; edge_flux [side, k, m, j] of mass and energy; mixed_count [j], mixed [j, k]
+    Scratch  scratch [s, block, i], flux [k, m, slot, i]
+    """
+    blocks = number_of_blocks(j0, j1)
+    for p in prange(blocks):
+        b = spread(p, blocks)
+        slot = slot_of(-1, b, j0, blocks)
+        first, last = block_rows(b, blocks, j0, j1)
+        for j in range(first, last):
+            for m in range(span.shape[0]):
+                flux_row(0, 1, j, i0, i1, m, carried[m], slot, b, span, pre, flux_volume, vof, q, scratch, flux)
+                lo, hi = flux_range(0, 1, i0, i1, m, j, span)
+                for side in range(2):
+                    i = edges[2 + side]
+                    for k in range(2):
+                        edge_flux[side, k, m, j] = flux[k, m, slot, i] if lo <= i < hi else 0.0
+            mass_flux_row(0, 1, j, i0, i1, slot, reach, span, flux, flux_mass)
+            sweep_row(0, 1, j, i0, i1, slot, slot, b, carried, span, reach, face, pre, volume, second, flux_volume, flux,
+                      scratch, vof, q, cell_mass, mixed_count, mixed)
+
+
+@point
+def shared(f, j0, blocks):
+    """Whether the flux through face f needs rows of two blocks, where a row is updated two faces after it was below one."""
+    k = f - j0 + 1
+    return k % BLOCK < 3 and 1 <= k // BLOCK < blocks
+
+
+@point
+def slot_of(f, b, j0, blocks):
+    """Slot of face f of block b: its own for a shared face, one of three that take turns for the others."""
+    k = f - j0 + 1
+    return 6 * (k // BLOCK) + k % BLOCK if shared(f, j0, blocks) else 6 * b + 3 + f % 3
+
+
+@kernel
+def shared_fluxes(j0, j1, i0, i1, carried, span, pre, flux_volume, vof, q, scratch, flux):
+    """Fluxes along z through the faces that two blocks of rows share, before either changes.
+
+    Reads    as sweep_z;  writes flux [k, m, slot, i];  scratch [s, block, i]
+    """
+    blocks = number_of_blocks(j0, j1)
+    for b in prange(1, blocks):
+        for f in range(j0 + b * BLOCK - 1, j0 + b * BLOCK + 2):
+            for m in range(span.shape[0]):
+                flux_row(1, 0, f, i0, i1, m, carried[m], slot_of(f, b, j0, blocks), b, span, pre, flux_volume, vof, q,
+                         scratch, flux)
+
+
+@kernel
+def sweep_z(j0, j1, i0, i1, carried, edges, span, reach, face, pre, volume, second, flux_volume, scratch, flux, flux_mass,
+            edge_flux, vof, q, cell_mass, mixed_count, mixed):
+    """Carries every body along z: a row is updated as soon as the fluxes of the faces that need it are known.
+
+    Reads    flux of the shared faces (shared_fluxes), and what sweep_r reads
+    Updates, writes and scratch as sweep_r; edge_flux [side, k, m, i]
+    """
+    blocks = number_of_blocks(j0, j1)
+    for p in prange(blocks):
+        b = spread(p, blocks)
+        first, last = block_rows(b, blocks, j0, j1)
+        for f in range(first, last + 2):
+            if f <= last:
+                slot = slot_of(f, b, j0, blocks)
+                if not shared(f, j0, blocks):
+                    for m in range(span.shape[0]):
+                        flux_row(1, 0, f, i0, i1, m, carried[m], slot, b, span, pre, flux_volume, vof, q, scratch, flux)
+                if f < last or last == j1:
+                    mass_flux_row(1, 0, f, i0, i1, slot, reach, span, flux, flux_mass)
+                for side in range(2):
+                    if f == edges[side]:
+                        for m in range(span.shape[0]):
+                            lo, hi = flux_range(1, 0, i0, i1, m, f, span)
+                            for k in range(2):
+                                for i in range(lo, hi):
+                                    edge_flux[side, k, m, i] = flux[k, m, slot, i]
+            j = f - 2 if f <= last else last - 1
+            if j >= first and (f > last or j < last - 1):
+                below = slot_of(j, b, j0, blocks)
+                above = slot_of(j + 1, b, j0, blocks)
+                sweep_row(1, 0, j, i0, i1, below, above, b, carried, span, reach, face, pre, volume, second, flux_volume,
+                          flux, scratch, vof, q, cell_mass, mixed_count, mixed)
 
 
 @kernel
@@ -185,14 +325,15 @@ def tidy(j0, j1, trace, cm_in, cm_out, volume, mixed_count, mixed, pre, dj, di, 
     A body below the trace fraction is removed with its mass, internal energy, momentum and kinetic energy; void below it is
     closed by scaling the bodies' volumes at constant mass. A negative density or volume counts as a trace.
 
-    Reads    u, v [b, j, i]; mixed [j, k], in which the cells that are not full of one body are listed
-    Updates  vof [m, j, i], q [k, m, j, i], cell_mass [j, i]
+    Reads    u, v [b, j, i]
+    Updates  mixed_count [j], mixed [j, k], the list of cells that are not full of one body; vof [m, j, i], q [k, m, j, i], cell_mass [j, i]
     Writes   booked [4 + m, j]: internal energy, kinetic energy, axial momentum, volume closed; then mass of each body
     """
     bodies = vof.shape[0]
     for j in prange(j0, j1):
         for row in range(4 + bodies):
             booked[row, j] = 0.0
+        left = 0
         for k in range(mixed_count[j]):
             i = mixed[j, k]
             post = volume[j, i]
@@ -231,19 +372,9 @@ def tidy(j0, j1, trace, cm_in, cm_out, volume, mixed_count, mixed, pre, dj, di, 
             for m in range(bodies):
                 mass += vof[m, j, i] * q[RHO, m, j, i]
             cell_mass[j, i] = mass * post
-
-
-@kernel
-def bound_history(j0, j1, m, span, carried, q):
-    """After the remap plastic strain is not negative and damage lies between 0 and 1.
-
-    Updates  q [k, m, j, i]
-    """
-    for j in prange(j0, j1):
-        if carried < CARRIED_SOLID:
-            continue
-        ep = q[EP, m, j]
-        damage = q[DMG, m, j]
-        for i in range(span[m, j, 0], span[m, j, 1]):
-            ep[i] = max(ep[i], 0.0)
-            damage[i] = min(max(damage[i], 0.0), 1.0)
+            kind = 0.0
+            for m in range(bodies):
+                kind += (1000.0 if vof[m, j, i] == 1.0 else 0.0) + (1.0 if vof[m, j, i] > 0.0 else 0.0)
+            mixed[j, left] = i
+            left += 0 if kind == 0.0 or kind == 1001.0 else 1
+        mixed_count[j] = left

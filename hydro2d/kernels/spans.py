@@ -8,6 +8,9 @@ from hydro2d.jit import kernel, point, prange
 
 NOTHING = 1 << 30
 
+#: rows that a thread carries through a sweep at a time: few enough to stay in its cache
+BLOCK = 32
+
 
 @point
 def union(ranges, j0, j1):
@@ -28,6 +31,34 @@ def columns(lo, hi):
     """
     first = max(lo, 2)
     return first, hi - first
+
+
+@point
+def number_of_blocks(j0, j1):
+    """Number of blocks of rows between j0 and j1; the last has the rest, fewer than 2 BLOCK rows."""
+    return max((j1 - j0) // BLOCK, 1)
+
+
+@point
+def block_rows(b, blocks, j0, j1):
+    """First row and one past the last of block b."""
+    return j0 + b * BLOCK, j1 if b == blocks - 1 else j0 + (b + 1) * BLOCK
+
+
+@point
+def spread(p, blocks):
+    """Block that comes at place p: the even ones, then the odd ones, so that two threads share cheap and dear rows."""
+    even = (blocks + 1) // 2
+    return 2 * p if p < even else 2 * (p - even) + 1
+
+
+@point
+def copy_beside(old, new, first, lo, hi, last):
+    """Copies old[first:last] to new but for lo:hi."""
+    for i in range(first, min(lo, last)):
+        new[i] = old[i]
+    for i in range(max(hi, first), last):
+        new[i] = old[i]
 
 
 @kernel
@@ -74,32 +105,36 @@ def reached(j0, j1, i0, i1, occupied, reach):
         reach[j, 1] = hi
 
 
-@kernel
-def list_mixed(j0, j1, reach, vof, count, mixed, scratch):
-    """Lists, row by row, the cells in which a body and something else (another body or void) meet.
+@point
+def mixed_row(j, reach, vof, kind, count, mixed):
+    """Lists the cells of row j in which a body and something else (another body or void) meet.
 
     Reads    vof [m, j, i], reach [j, 2]
     Writes   count [j], mixed [j, k] (columns, ascending)
-    Scratch  scratch [j, i]: a thousand per body that fills the cell, one per body in it
+    Scratch  kind [i]: a thousand per body that fills the cell, one per body in it
     """
-    bodies = vof.shape[0]
-    for j in prange(j0, j1):
-        first, n = columns(reach[j, 0], reach[j, 1])
-        kind = scratch[j]
-        for x in range(n):
-            kind[first + x] = 0.0
-        for m in range(bodies):
-            f_j = vof[m, j]
-            for x in range(n):
-                i = first + x
-                kind[i] += (1000.0 if f_j[i] == 1.0 else 0.0) + (1.0 if f_j[i] > 0.0 else 0.0)
-        out = mixed[j]
-        found = 0
+    first, n = columns(reach[j, 0], reach[j, 1])
+    for x in range(n):
+        kind[first + x] = 0.0
+    for m in range(vof.shape[0]):
+        f_j = vof[m, j]
         for x in range(n):
             i = first + x
-            out[found] = i
-            found += 0 if kind[i] == 0.0 or kind[i] == 1001.0 else 1
-        count[j] = found
+            kind[i] += (1000.0 if f_j[i] == 1.0 else 0.0) + (1.0 if f_j[i] > 0.0 else 0.0)
+    out = mixed[j]
+    found = 0
+    for x in range(n):
+        i = first + x
+        out[found] = i
+        found += 0 if kind[i] == 0.0 or kind[i] == 1001.0 else 1
+    count[j] = found
+
+
+@kernel
+def list_mixed(j0, j1, reach, vof, count, mixed, scratch):
+    """mixed_row for the rows j0 to j1, each with its own row of scratch [j, i]."""
+    for j in prange(j0, j1):
+        mixed_row(j, reach, vof, scratch[j], count, mixed)
 
 
 @kernel

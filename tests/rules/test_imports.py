@@ -11,10 +11,10 @@ from tests.rules import source
 
 #: from the bottom to the top; a name stands for itself and for all modules inside it, and a * for what it likes
 LAYERS = (
-    ("hydro2d.jit", "hydro2d.units", "hydro2d.files", "hydro2d.provenance", "hydro2d.deck_errors"),
+    ("hydro2d.jit", "hydro2d.compilation", "hydro2d.units", "hydro2d.files", "hydro2d.provenance", "hydro2d.deck_errors"),
     ("eos", "strength", "hydro2d.penetration"),
     ("hydro2d.fields", "hydro2d.grid", "hydro2d.state", "hydro2d.deck", "hydro2d.deck_*", "hydro2d.materials",
-     "hydro2d.thermal", "hydro2d.shapes", "hydro2d.insertion"),
+     "hydro2d.thermal", "hydro2d.sums", "hydro2d.tracers", "hydro2d.shapes", "hydro2d.insertion"),
     ("hydro2d.kernels",),
     ("hydro2d.audit", "hydro2d.method", "hydro2d.cycle"),
     ("hydro2d.penetrator", "hydro2d.simulation"),

@@ -73,3 +73,11 @@ def test_numbers_do_not_need_pint():
     script = "import sys; from hydro2d import units; units.to_si(3.0, 'm'); print('pint' in sys.modules)"
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "False"
+
+
+@pytest.mark.parametrize("name", units.COMMON)
+def test_the_table_of_common_units_agrees_with_pint(name):
+    unit, _ = units.COMMON[name]
+    for number in (1.0, 8.12, 0.422275, 1086.0, 5.25e-4):
+        si = units.to_si(f"{number!r} {name}", unit)
+        assert si == float(f"{units._by_pint('', number, name, unit):.15g}")

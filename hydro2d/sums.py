@@ -1,0 +1,75 @@
+"""Sums over the mesh that a run looks at, in the order of the rows; per radian (per unit depth in planar geometry)."""
+
+from __future__ import annotations
+
+from hydro2d.jit import plus, serial
+
+
+@serial
+def body_sums(g, nz, nr, m, cm_in, cm_out, volume, vof, rho, v, sums):
+    """Mass and axial momentum of body m by row; a cell moves with the mean of its vertices, weighted by corner masses.
+
+    Reads    volume [j, i];  vof, rho [m, j, i];  v [j-1/2, i-1/2]
+    Writes   sums [2, j]
+    """
+    inner = cm_in[g:g + nr]
+    outer = cm_out[g:g + nr]
+    for j in range(g, g + nz):
+        f_j = vof[m, j, g:g + nr]
+        rho_j = rho[m, j, g:g + nr]
+        volume_j = volume[j, g:g + nr]
+        v00 = v[j, g:g + nr]
+        v10 = v[j + 1, g:g + nr]
+        v01 = v[j, g + 1:g + nr + 1]
+        v11 = v[j + 1, g + 1:g + nr + 1]
+        mass = 0.0
+        momentum = 0.0
+        for i in range(nr):
+            share = f_j[i] * rho_j[i] * volume_j[i]
+            mass = plus(mass, share)
+            momentum = plus(momentum, share * (inner[i] * (v00[i] + v10[i]) + outer[i] * (v01[i] + v11[i])))
+        sums[0, j] = mass
+        sums[1, j] = momentum
+
+
+@serial
+def body_totals(g, nz, nr, m, volume, vof, rho, e, sums):
+    """Mass and internal energy of body m, added to sums[0] and sums[1].
+
+    Reads    volume [j, i];  vof, rho, e [m, j, i]
+    Updates  sums [2]
+    """
+    for j in range(g, g + nz):
+        f_j = vof[m, j, g:g + nr]
+        rho_j = rho[m, j, g:g + nr]
+        e_j = e[m, j, g:g + nr]
+        volume_j = volume[j, g:g + nr]
+        mass = 0.0
+        internal = 0.0
+        for i in range(nr):
+            share = f_j[i] * rho_j[i] * volume_j[i]
+            mass = plus(mass, share)
+            internal = plus(internal, share * e_j[i])
+        sums[0] += mass
+        sums[1] += internal
+
+
+@serial
+def vertex_totals(g, nz, nr, mass, u, v, sums):
+    """Axial momentum and kinetic energy of all vertices, added to sums[0] and sums[1].
+
+    Reads    mass, u, v [b, j, i]
+    Updates  sums [2]
+    """
+    for b in range(mass.shape[0]):
+        for j in range(g, g + nz + 1):
+            mass_j = mass[b, j, g:g + nr + 1]
+            u_j = u[b, j, g:g + nr + 1]
+            v_j = v[b, j, g:g + nr + 1]
+            momentum = 0.0
+            kinetic = 0.0
+            for i in range(nr + 1):
+                momentum = plus(momentum, mass_j[i] * v_j[i])
+                kinetic = plus(kinetic, 0.5 * mass_j[i] * (u_j[i] * u_j[i] + v_j[i] * v_j[i]))
+            sums[0] += momentum
+            sums[1] += kinetic

@@ -1,0 +1,127 @@
+"""A cycle takes no memory that grows with the mesh, neither for arrays of numpy nor inside of kernels."""
+
+import importlib
+import pkgutil
+import tracemalloc
+
+import numpy as np
+import pytest
+from numba.core.runtime import _nrt_python, rtsys
+
+from hydro2d import deck, kernels, tracers
+from hydro2d.simulation import Simulation
+
+DECK = """
+[mesh]
+r = [{ to = "12 mm", cells = CELLS_R }]
+z_start = "-12 mm"
+z = [{ to = "24 mm", cells = CELLS_Z }]
+[[body]]
+name = "rod"
+material = "W_alloy"
+shape = "rod"
+nose = "hemispherical"
+radius = "3 mm"
+length = "10 mm"
+tip = "-0.1 mm"
+velocity = "1000 m/s"
+[[body]]
+name = "plate"
+material = "Al5083"
+shape = "plate"
+z_front = 0.0
+thickness = "20 mm"
+[numerics]
+ramp_cycles = 0
+active_region = ACTIVE
+advection = "ADVECTION"
+[sliding]
+method = "SLIDING"
+hard = ["rod"]
+[[tracer]]
+name = "tip"
+r = 0.0
+z = "-1 mm"
+[stop]
+time = "1 us"
+"""
+#: bytes: views and numbers of Python, the same on every mesh
+SLACK = 512
+#: cycles before memory is looked at, and while it is: both orders of the sweeps, with and without new slip zones
+WARM, LOOKED_AT = 6, 10
+
+
+def started(columns: int, rows: int, **options: str) -> Simulation:
+    text = DECK.replace("CELLS_R", str(columns)).replace("CELLS_Z", str(rows))
+    for name, value in options.items():
+        text = text.replace(name.upper(), value)
+    simulation = Simulation(deck.loads(text))
+    for _ in range(WARM):
+        simulation.step()
+    return simulation
+
+
+def peaks(simulation: Simulation) -> list[int]:
+    """The most memory that every one of a few cycles holds beyond what was there before it, bytes."""
+    found = []
+    tracemalloc.start()
+    try:
+        simulation.step()
+        for _ in range(LOOKED_AT):
+            before, _ = tracemalloc.get_traced_memory()
+            tracemalloc.reset_peak()
+            simulation.step()
+            found.append(tracemalloc.get_traced_memory()[1] - before)
+    finally:
+        tracemalloc.stop()
+    return found
+
+
+every_choice = pytest.mark.parametrize(
+    "options",
+    [
+        {"active": "true", "advection": "ke", "sliding": "slip-layer"},
+        {"active": "false", "advection": "both", "sliding": "slip-layer"},
+        {"active": "true", "advection": "momentum", "sliding": "none"},
+    ],
+    ids=lambda options: ", ".join(options.values()),
+)
+
+
+@every_choice
+def test_numpy(options):
+    small, wide, high = (max(peaks(started(*size, **options))) for size in ((12, 36), (96, 36), (12, 1500)))
+    assert max(wide, high) <= small + SLACK, f"{small} bytes on 12 x 36 cells, {wide} on 96 x 36, {high} on 12 x 1500"
+
+
+@every_choice
+def test_kernels(monkeypatch, options):
+    """numba keeps a record for every array that it is given; kernels allocate nothing beyond these."""
+    simulation = started(24, 72, **options)
+    given = 0
+
+    def counted(function):
+        def call(*arguments):
+            nonlocal given
+            given += sum(isinstance(argument, np.ndarray) for argument in arguments)
+            return function(*arguments)
+
+        return call
+
+    names = [entry.name for entry in pkgutil.iter_modules(kernels.__path__, "hydro2d.kernels.")]
+    for module in (tracers, *map(importlib.import_module, names)):
+        for name, value in list(vars(module).items()):
+            if hasattr(value, "compiled") and value.__module__ == module.__name__:
+                monkeypatch.setattr(module, name, counted(value))
+    counting = _nrt_python.memsys_stats_enabled()
+    _nrt_python.memsys_enable_stats()
+    try:
+        before = rtsys.get_allocation_stats()
+        for _ in range(LOOKED_AT):
+            simulation.step()
+        after = rtsys.get_allocation_stats()
+    finally:
+        if not counting:
+            _nrt_python.memsys_disable_stats()
+    assert after.alloc - before.alloc == given
+    assert after.free - before.free == given
