@@ -79,14 +79,13 @@ class Cycle:
         self.activate()
         self.ghost_vertices()
         self.find_slip_zones()
-        self.equation_of_state()
+        self.close_cells()
         self.choose_step()
 
         self.stress()
         self.accelerate()
         self.sweep_faces()
         self.deform()
-        self.cut_shear()
 
         directions = ((0, 1), (1, 0)) if self.number % 2 == 0 else ((1, 0), (0, 1))
         for second, (dj, di) in enumerate(directions):
@@ -218,24 +217,25 @@ class Cycle:
         sliding.slip_zones(*self.box, *method.slip_widths, method.threshold, g.rc, g.zc, g.dr, g.dz, method.hard, s.vof, s.hard,
                            s.distance, s.zone, s.normal)
 
-    def equation_of_state(self) -> None:
-        """Pressure and sound speed of every body; void where a cell tears."""
+    def close_cells(self) -> None:
+        """Pressure and sound speed of every body, void where a cell tears, artificial viscosity, the step a cell allows."""
         s, g, t, method, (j0, j1, _, _) = self.state, self.grid, self.table, self.method, self.box
-        thermodynamics.pressures(
-            j0, j1, method.max_opening, g.vol_r, g.dz, s.span, s.reach, t.eos_model, t.eos_par, t.strength_model,
-            t.strength_par, t.damage_model, t.fracture_pressure, self.loose, s.vof, s.q, s.pm, s.km, s.tm, s.p, s.bulk,
-            s.rhobar, s.solid, s.cl, s.qr, s.rows[0], s.row_numbers)
-        self._report_bad(j0, j1)
-        if s.rows[0, j0:j1].any():  # void has opened in pure cells
-            self._list_mixed()
-        mixed.tear_mixed(j0, j1, method.smallest_tension, method.max_opening, g.vol_r, g.dz, s.mixed_count, s.mixed,
-                         t.eos_model, t.eos_par, t.fracture_pressure, s.vof, s.q, s.pm, s.p, s.solid, s.bulk, s.rows[0])
+        mixed.close_cells(
+            j0, j1, method.max_opening, method.smallest_tension, method.linear, method.quadratic, method.courant,
+            method.advective, method.hourglass, g.face_r, g.az_in, g.az_out, g.vol_r, g.dr, g.dz, s.span, s.reach,
+            s.mixed_count, s.mixed, t.eos_model, t.eos_par, t.strength_model, t.strength_par, t.damage_model,
+            t.fracture_pressure, self.loose, s.u, s.v, s.vof, s.q, s.pm, s.km, s.tm, s.p, s.bulk, s.rhobar, s.solid, s.cl,
+            s.qr, s.qz, s.weight, s.ph, s.rows[0], s.rows[1], s.row_numbers, s.trial[0])
+        if s.row_numbers[j0:j1, 0].any():
+            self._report_bad(j0, j1)
+        if s.row_numbers[j0:j1, 3].any():
+            j = j0 + int(np.nonzero(s.row_numbers[j0:j1, 3])[0][0])
+            raise UnphysicalState(f"cycle {self.number}, time {self.time:.6g} s: velocities that are not finite near "
+                                  f"z = {g.zc[j]:.6g} m")
 
     def _report_bad(self, j0: int, j1: int) -> None:
         s, g = self.state, self.grid
         bad = s.row_numbers[j0:j1, 0]
-        if not bad.any():
-            return
         j = j0 + int(np.nonzero(bad)[0][0])
         i, m = int(s.row_numbers[j, 1]), int(s.row_numbers[j, 2])
         raise UnphysicalState(
@@ -244,17 +244,10 @@ class Cycle:
             f"{s.e[m, j, i]:.6g} J/kg, pressure {s.pm[m, j, i]:.6g} Pa ({int(bad.sum())} such cells)")
 
     def choose_step(self) -> None:
-        """Artificial viscosity, and the time step with the cell and the term that set it."""
+        """The time step, with the cell and the term that set it."""
         s, g, method, (j0, j1, _, _) = self.state, self.grid, self.method, self.box
-        thermodynamics.viscosity_and_step(
-            j0, j1, method.linear, method.quadratic, method.courant, method.advective, g.dr, g.dz, g.vol_r, g.face_r, g.az_in,
-            g.az_out, s.reach, s.u, s.v, s.rhobar, s.bulk, s.cl, s.qr, s.qz, s.ph, s.rows[1], s.row_numbers[:, 0])
         j = j0 + int(np.argmin(s.rows[1, j0:j1]))
         stable = float(s.rows[1, j])
-        if s.row_numbers[j0:j1, 0].any():
-            j = j0 + int(np.nonzero(s.row_numbers[j0:j1, 0])[0][0])
-            raise UnphysicalState(f"cycle {self.number}, time {self.time:.6g} s: velocities that are not finite near "
-                                  f"z = {g.zc[j]:.6g} m")
         thermodynamics.step_cause(
             j, stable, method.courant, method.advective, g.dr, g.dz, g.vol_r, g.face_r, g.az_in, g.az_out, s.reach, s.u, s.v,
             s.rhobar, s.cl, s.qr, s.qz, s.ph, s.row_numbers[j])
@@ -285,10 +278,9 @@ class Cycle:
         s.swap_velocities()
         limited = s.rows[2:5]
         acceleration.accelerate(
-            j0, j1 + 1, i0, i1 + 1, self.dt, self.method.hourglass, self.speed_limit, self.light_density, g.face_r,
-            g.hoop, g.az_in, g.az_out, g.vol_r,
-            g.dr, g.dz, s.occupied, s.mass, s.rhobar, s.cl, s.sig_rr, s.sig_zz, s.sig_tt, s.sig_rz, s.u0, s.v0, s.u,
-            s.v, limited)
+            j0, j1 + 1, i0, i1 + 1, self.dt, self.speed_limit, self.light_density, g.face_r,
+            g.hoop, g.az_in, g.az_out, g.vol_r, g.mid_r, g.dz, s.occupied, s.mass, s.weight, s.sig_rr, s.sig_zz, s.sig_tt,
+            s.sig_rz, s.u0, s.v0, s.u, s.v, limited)
         if limited[2, j0:j1 + 1].any():
             self.ledger.book("speed_limit", momentum=float(limited[0, j0:j1 + 1].sum()),
                              energy=float(limited[1, j0:j1 + 1].sum()))
@@ -303,28 +295,20 @@ class Cycle:
                                    s.fr, s.fz)
 
     def deform(self) -> None:
-        """Work, volume, strain: body by body in pure cells, then the mixed cells."""
+        """Work, volume, strain: body by body in pure cells, then the mixed cells; no shear in the slip layer."""
         s, g, t, method, (j0, j1, _, _) = self.state, self.grid, self.table, self.method, self.box
-        for m in range(s.bodies):
-            deformation.deform(
-                j0, j1, m, self.dt, method.hourglass, g.face_r, g.hoop, g.az_in, g.az_out, g.vol_r, g.dr, g.dz, s.span,
-                t.strength_model, t.strength_par, t.damage_model, t.damage_par, method.factor, self.loose, s.u0, s.v0,
-                s.u, s.v, s.fr, s.fz,
-                s.sig_rr, s.sig_zz, s.sig_tt, s.sig_rz, s.rhobar, s.cl, s.vof, s.pm, s.tm, s.trial, s.q)
-        mixed.deform_mixed(
-            j0, j1, self.dt, method.hourglass, method.relaxation, method.tipton, method.strength_mode, method.hard,
-            method.threshold, g.face_r, g.hoop, g.az_in, g.az_out, g.vol_r, g.dr, g.dz, s.mixed_count, s.mixed,
-            t.strength_model,
+        deformation.deform(
+            j0, j1, self.dt, g.face_r, g.hoop, g.az_in, g.az_out, g.vol_r, g.mid_r, g.dz, s.span, t.strength_model,
             t.strength_par, t.damage_model, t.damage_par, method.factor, self.loose, s.u0, s.v0, s.u, s.v, s.fr, s.fz,
-            s.ph, s.qr, s.qz,
-            s.rhobar, s.cl, s.solid, s.pm, s.km, s.tm, s.vof, s.q, s.mix)
-
-    def cut_shear(self) -> None:
-        """Takes the shear from the slip layer."""
-        s, method, (j0, j1, _, _) = self.state, self.method, self.box
+            s.sig_rr, s.sig_zz, s.sig_tt, s.sig_rz, s.weight, s.vof, s.pm, s.tm, s.trial, s.q)
+        mixed.deform_mixed(
+            j0, j1, self.dt, method.relaxation, method.tipton, method.strength_mode, method.hard, method.threshold, g.face_r,
+            g.hoop, g.az_in, g.az_out, g.vol_r, g.mid_r, g.dz, s.mixed_count, s.mixed, t.strength_model, t.strength_par,
+            t.damage_model, t.damage_par, method.factor, self.loose, s.u0, s.v0, s.u, s.v, s.fr, s.fz, s.ph, s.qr, s.qz,
+            s.weight, s.solid, s.pm, s.km, s.tm, s.vof, s.q, s.mix)
         if method.slip_widths is not None:
-            sliding.cut_shear(j0, j1, method.shear, method.friction, s.occupied, s.zone, s.normal, method.hard, s.vof,
-                              s.pm, s.q)
+            sliding.cut_shear(j0, j1, method.shear, method.friction, s.occupied, s.zone, s.normal, method.hard, s.vof, s.pm,
+                              s.q)
 
     # ------------------------------------------------------------------------------------------------ remap
 
@@ -336,13 +320,13 @@ class Cycle:
         along_r, along_z = di * fields.BODY_FIELDS, dj * fields.BODY_FIELDS  # the other direction's interfaces need fractions
         boundaries.ghost_columns(j0, j1, g.nr, low_r, high_r, along_r, s.span, s.vof, s.q)
         boundaries.ghost_rows(i0 - 2, i1 + 2, g.nz, low_z, high_z, along_z, s.vof, s.q)
-        interfaces.sweep_volumes(dj, di, j0, j1, second == 0, g.volume, s.reach, s.fr, s.fz, s.pre)
         if not second:  # cells may have been filled by the Lagrangian step
             self._list_mixed()
         for face, _ in self._open_faces(di):  # rows without the body are not visited, and are booked nevertheless
             np.moveaxis(s.flux_volume, 2 if di else 1, 0)[face] = 0.0
         face = s.fr if di else s.fz
-        interfaces.donor_volumes(dj, di, *box, self.edges, s.span, face, s.vof, s.flux_volume)
+        interfaces.donor_volumes(dj, di, *box, second == 0, self.edges, g.volume, s.span, s.reach, s.fr, s.fz, s.vof, s.pre,
+                                 s.flux_volume)
         interfaces.interface_volumes(dj, di, j0, j1, g.dr, g.dz, self.method.order, s.mixed_count, s.mixed, face, s.pre, s.vof,
                                      s.flux_volume, s.mix)
 
@@ -387,8 +371,9 @@ class Cycle:
                 flow[beyond] = flow[face]
         s.swap_velocities()
         sums = s.rows[:5]
-        momentum.sweep_momentum(dj, di, *self.box, method.choice, method.ke_bound, self.still, self.edges, g.cm_in, g.cm_out,
-                                s.reach, s.cell_mass, flow, s.mass, s.velocity0, s.velocity, s.dual, s.edge_dual, s.deficit, sums)
+        momentum.sweep_momentum(
+            dj, di, *self.box, method.choice, method.ke_bound, self.still, self.edges, g.cm_in, g.cm_out, s.reach, s.cell_mass,
+            flow, s.mass, s.velocity0, s.velocity, s.dual, s.edge_dual, s.deficit, sums)
         before, after, p_gained, k_cut, p_wall = sums[:, j0:j1 + 1].sum(axis=1)
         lost = before - after - self._kinetic_outflow(di)
         if method.choice == momentum.BOTH:
@@ -403,7 +388,7 @@ class Cycle:
         """Books the momentum that left through open edges and returns the kinetic energy that left with it."""
         s, (j0, j1, i0, i1) = self.state, self.box
         total = 0.0
-        for face, sign in self._open_faces(di):
+        for _, sign in self._open_faces(di):
             flow = s.edge_dual[int(sign > 0), :, j0:j1 + 1] if di else s.edge_dual[int(sign > 0), :, i0:i1 + 1]
             if not flow[0].any():
                 continue

@@ -8,6 +8,7 @@ column, dr = r2 - r1 and h the height of a row (explanation/lagrangian-step, equ
     vol_r    volume of the column per height                         (r2^2 - r1^2)/2 planar: dr
     az_in    axial area of the inner vertex                          dr (2 r1 + r2)/6   planar: dr/2
     az_out   axial area of the outer vertex                          dr (r1 + 2 r2)/6   planar: dr/2
+    mid_r    half the mean radius of the column                      (r1 + r2)/4       planar: 1/2
     cm_in    share of the cell's mass at each inner vertex           az_in / (2 vol_r)
     cm_out   share of the cell's mass at each outer vertex           az_out / (2 vol_r)
 """
@@ -84,6 +85,7 @@ class Grid:
             self.vol_r = dr.copy()
             self.az_in = dr / 2
             self.az_out = dr / 2
+        self.mid_r = self.vol_r / (2 * dr)
         self.cm_in = self.az_in / (2 * self.vol_r)
         self.cm_out = self.az_out / (2 * self.vol_r)
 

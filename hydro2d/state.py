@@ -36,9 +36,9 @@ class State:
         self._derived = np.zeros((3, bodies, nj, ni))
         self.pm, self.km, self.tm = self._derived
 
-        self._cells = np.zeros((16, nj, ni))
+        self._cells = np.zeros((17, nj, ni))
         (self.p, self.ph, self.bulk, self.rhobar, self.solid, self.cl, self.qr, self.qz, self.cell_mass, self.sig_rr,
-         self.sig_zz, self.sig_tt, self.sig_rz, self.pre, self.hard, self.distance) = self._cells
+         self.sig_zz, self.sig_tt, self.sig_rz, self.pre, self.hard, self.distance, self.weight) = self._cells
         self.pre[...] = grid.volume  # ghosts keep it: a face beside them divides by it
 
         self._vertices = np.zeros((5, groups, nj + 1, ni + 1))
@@ -72,7 +72,7 @@ class State:
         self.mix = np.zeros((nj, 8, bodies))
         self.rows = np.zeros((8, nj + 1))
         self.booked = np.zeros((4 + bodies, nj + 1))
-        self.row_numbers = np.zeros((nj + 1, 3), dtype=np.int64)
+        self.row_numbers = np.zeros((nj + 1, 4), dtype=np.int64)
         self.row_moving = np.zeros((nj + 1, 2), dtype=np.int64)
 
     def swap_velocities(self) -> None:

@@ -3,7 +3,7 @@
 from math import sqrt
 
 from hydro2d.fields import SRR, SRZ, SZZ
-from hydro2d.jit import kernel, point, prange
+from hydro2d.jit import kernel, point, prange, rowwise
 from hydro2d.kernels.spans import columns, copy_beside, union
 
 #: speeds below this are no signal: set to zero, so that the active region has an edge (explanation/active-region)
@@ -30,9 +30,9 @@ def stress_scale(solid_mode, solids):
     return 1.0 / max(solids, 0.5) if solid_mode else 1.0
 
 
-@kernel
-def total_stress(j0, j1, dt, face_r, az_in, az_out, vol_r, dz, span, reach, mixed_count, mixed, solid_mode, hard,
-                 hard_threshold, u, v, vof, q, p, bulk, solid, qr, qz, ph, sig_rr, sig_zz, sig_tt, sig_rz):
+@rowwise
+def total_stress_row(j, dt, face_r, az_in, az_out, vol_r, dz, span, reach, mixed_count, mixed, solid_mode, hard,
+                     hard_threshold, u, v, vof, q, p, bulk, solid, qr, qz, ph, sig_rr, sig_zz, sig_tt, sig_rz):
     """sigma = s - (p + q) I with the pressure at half the step, p^(n+1/2) = p - (dt/2) K div u^n.
 
     The cell's deviator is sum f_m s_m, in mode `solid` divided by the share of solids; in the hard zone of a slip layer it is
@@ -42,81 +42,94 @@ def total_stress(j0, j1, dt, face_r, az_in, az_out, vol_r, dz, span, reach, mixe
     Writes   ph, sig_rr, sig_zz, sig_tt, sig_rz [j, i]
     """
     bodies = vof.shape[0]
-    for j in prange(j0, j1):
-        lo, n = columns(reach[j, 0], reach[j, 1])
-        rr = sig_rr[j]
-        zz = sig_zz[j]
-        tt = sig_tt[j]
-        rz = sig_rz[j]
-        ph_j = ph[j]
-        for x in range(n):
-            i = lo + x
-            rr[i] = 0.0
-            zz[i] = 0.0
-            rz[i] = 0.0
+    lo, n = columns(reach[j, 0], reach[j, 1])
+    rr = sig_rr[j]
+    zz = sig_zz[j]
+    tt = sig_tt[j]
+    rz = sig_rz[j]
+    ph_j = ph[j]
+    for x in range(n):
+        i = lo + x
+        rr[i] = 0.0
+        zz[i] = 0.0
+        rz[i] = 0.0
+    for m in range(bodies):
+        f_j = vof[m, j]
+        a_j = q[SRR, m, j]
+        b_j = q[SZZ, m, j]
+        c_j = q[SRZ, m, j]
+        first, number = columns(span[m, j, 0], span[m, j, 1])
+        for x in range(number):
+            i = first + x
+            rr[i] += f_j[i] * a_j[i]
+            zz[i] += f_j[i] * b_j[i]
+            rz[i] += f_j[i] * c_j[i]
+    for k in range(mixed_count[j]):
+        i = mixed[j, k]
+        scale = stress_scale(solid_mode, solid[j, i])
+        rr[i] *= scale
+        zz[i] *= scale
+        rz[i] *= scale
         for m in range(bodies):
-            f_j = vof[m, j]
-            a_j = q[SRR, m, j]
-            b_j = q[SZZ, m, j]
-            c_j = q[SRZ, m, j]
-            first, number = columns(span[m, j, 0], span[m, j, 1])
-            for x in range(number):
-                i = first + x
-                rr[i] += f_j[i] * a_j[i]
-                zz[i] += f_j[i] * b_j[i]
-                rz[i] += f_j[i] * c_j[i]
-        for k in range(mixed_count[j]):
-            i = mixed[j, k]
-            scale = stress_scale(solid_mode, solid[j, i])
-            rr[i] *= scale
-            zz[i] *= scale
-            rz[i] *= scale
-            for m in range(bodies):
-                if hard[m] and vof[m, j, i] >= hard_threshold:
-                    rr[i] = solid[j, i] * q[SRR, m, j, i]
-                    zz[i] = solid[j, i] * q[SZZ, m, j, i]
-                    rz[i] = solid[j, i] * q[SRZ, m, j, i]
-        ub = u[0, j]
-        ut = u[0, j + 1]
-        vb = v[0, j]
-        vt = v[0, j + 1]
-        p_j = p[j]
-        k_j = bulk[j]
-        qr_j = qr[j]
-        qz_j = qz[j]
-        h = dz[j]
-        for x in range(n):
-            i = lo + x
-            div = divergence(i, ub, ut, vb, vt, face_r, az_in, az_out, vol_r, h)
-            pressure = p_j[i] - 0.5 * dt * k_j[i] * div
-            ph_j[i] = pressure
-            tt[i] = -(rr[i] + zz[i]) - pressure - qr_j[i]
-            rr[i] = rr[i] - pressure - qr_j[i]
-            zz[i] = zz[i] - pressure - qz_j[i]
+            if hard[m] and vof[m, j, i] >= hard_threshold:
+                rr[i] = solid[j, i] * q[SRR, m, j, i]
+                zz[i] = solid[j, i] * q[SZZ, m, j, i]
+                rz[i] = solid[j, i] * q[SRZ, m, j, i]
+    ub = u[0, j]
+    ut = u[0, j + 1]
+    vb = v[0, j]
+    vt = v[0, j + 1]
+    p_j = p[j]
+    k_j = bulk[j]
+    qr_j = qr[j]
+    qz_j = qz[j]
+    h = dz[j]
+    for x in range(n):
+        i = lo + x
+        div = divergence(i, ub, ut, vb, vt, face_r, az_in, az_out, vol_r, h)
+        pressure = p_j[i] - 0.5 * dt * k_j[i] * div
+        ph_j[i] = pressure
+        tt[i] = -(rr[i] + zz[i]) - pressure - qr_j[i]
+        rr[i] = rr[i] - pressure - qr_j[i]
+        zz[i] = zz[i] - pressure - qz_j[i]
 
 
 @kernel
-def vertex_masses(j0, j1, i0, i1, cm_in, cm_out, reach, cell_mass, mass):
+def total_stress(j0, j1, dt, face_r, az_in, az_out, vol_r, dz, span, reach, mixed_count, mixed, solid_mode, hard,
+                 hard_threshold, u, v, vof, q, p, bulk, solid, qr, qz, ph, sig_rr, sig_zz, sig_tt, sig_rz):
+    """total_stress_row for rows j0 to j1."""
+    for j in prange(j0, j1):
+        total_stress_row(j, dt, face_r, az_in, az_out, vol_r, dz, span, reach, mixed_count, mixed, solid_mode, hard,
+                         hard_threshold, u, v, vof, q, p, bulk, solid, qr, qz, ph, sig_rr, sig_zz, sig_tt, sig_rz)
+
+
+@rowwise
+def vertex_masses_row(j, i0, i1, cm_in, cm_out, reach, cell_mass, mass):
     """Mass of the dual cells: corner shares of the four cells around a vertex, weighted by radius.
 
     Reads    cell_mass [j, i]
     Writes   mass [b, j, i]
     """
-    for j in prange(j0, j1):
-        lo, hi = union(reach, j - 1, j + 1)
-        lo, n = columns(max(lo, i0), min(hi + 1, i1))
-        below = cell_mass[j - 1]
-        above = cell_mass[j]
-        m_j = mass[0, j]
-        for x in range(n):
-            i = lo + x
-            m_j[i] = cm_out[i - 1] * (below[i - 1] + above[i - 1]) + cm_in[i] * (below[i] + above[i])
+    lo, hi = union(reach, j - 1, j + 1)
+    lo, n = columns(max(lo, i0), min(hi + 1, i1))
+    below = cell_mass[j - 1]
+    above = cell_mass[j]
+    m_j = mass[0, j]
+    for x in range(n):
+        i = lo + x
+        m_j[i] = cm_out[i - 1] * (below[i - 1] + above[i - 1]) + cm_in[i] * (below[i] + above[i])
 
 
 @kernel
-def accelerate(j0, j1, i0, i1, dt, hourglass, speed_limit, light_density, face_r, hoop, az_in, az_out, vol_r, dr, dz,
-               occupied, mass, rhobar, cl,
-               sig_rr, sig_zz, sig_tt, sig_rz, u0, v0, u, v, limited):
+def vertex_masses(j0, j1, i0, i1, cm_in, cm_out, reach, cell_mass, mass):
+    """vertex_masses_row for rows j0 to j1."""
+    for j in prange(j0, j1):
+        vertex_masses_row(j, i0, i1, cm_in, cm_out, reach, cell_mass, mass)
+
+
+@rowwise
+def accelerate_row(j, i0, i1, dt, speed_limit, light_density, face_r, hoop, az_in, az_out, vol_r, mid_r, dz,
+                   occupied, mass, weight, sig_rr, sig_zz, sig_tt, sig_rz, u0, v0, u, v, limited):
     """Velocities at the end of the Lagrangian step: u = u0 + dt f/M, f the sum of the corner forces of four cells.
 
     f_r = -[sig_rr (c_r - A/4) + sig_tt A/4 + sig_rz c_z],  f_z = -[sig_zz c_z + sig_rz g] per corner, and the filter of the
@@ -124,91 +137,92 @@ def accelerate(j0, j1, i0, i1, dt, hourglass, speed_limit, light_density, face_r
     vertex whose
     dual cell is filled more thinly than light_density is held to speed_limit.
 
-    Reads    u0, v0, mass [b, j, i]; sig_rr, sig_zz, sig_tt, sig_rz, rhobar, cl [j, i]
+    Reads    u0, v0, mass [b, j, i]; sig_rr, sig_zz, sig_tt, sig_rz, weight (of the hourglass filter) [j, i]
     Writes   u, v [b, j, i] for whole rows; limited [3, j]: momentum and energy taken by the speed limit, and its count
     """
-    for j in prange(j0, j1):
-        lo, hi = union(occupied, j - 1, j + 1)
-        lo, n = columns(max(lo, i0), min(hi + 1, i1))
-        copy_beside(u0[0, j], u[0, j], i0 - 2, lo, lo + n, i1 + 2)
-        copy_beside(v0[0, j], v[0, j], i0 - 2, lo, lo + n, i1 + 2)
-        hb = dz[j - 1]
-        ht = dz[j]
-        rr_b = sig_rr[j - 1]
-        rr_t = sig_rr[j]
-        zz_b = sig_zz[j - 1]
-        zz_t = sig_zz[j]
-        tt_b = sig_tt[j - 1]
-        tt_t = sig_tt[j]
-        rz_b = sig_rz[j - 1]
-        rz_t = sig_rz[j]
-        rho_b = rhobar[j - 1]
-        rho_t = rhobar[j]
-        c_b = cl[j - 1]
-        c_t = cl[j]
-        u_b = u0[0, j - 1]
-        u_c = u0[0, j]
-        u_t = u0[0, j + 1]
-        v_b = v0[0, j - 1]
-        v_c = v0[0, j]
-        v_t = v0[0, j + 1]
-        m_j = mass[0, j]
-        un = u[0, j]
-        vn = v[0, j]
-        lost_p, lost_e, count = 0.0, 0.0, 0.0
-        for x in range(n):
-            i = lo + x
-            k = i - 1
-            half_r = 0.5 * face_r[i]
-            # (cell left below + cell left above) + (cell right below + cell right above): mirror pairs in z
-            normal_r = (half_r - hoop[k]) * (hb * rr_b[k] + ht * rr_t[k]) - (half_r + hoop[i]) * (hb * rr_b[i] + ht * rr_t[i])
-            hoop_r = hoop[k] * (hb * tt_b[k] + ht * tt_t[k]) + hoop[i] * (hb * tt_b[i] + ht * tt_t[i])
-            shear_r = az_out[k] * (rz_b[k] - rz_t[k]) + az_in[i] * (rz_b[i] - rz_t[i])
-            force_r = -(normal_r + hoop_r + shear_r)
-            normal_z = az_out[k] * (zz_b[k] - zz_t[k]) + az_in[i] * (zz_b[i] - zz_t[i])
-            g_k, g_i = 0.5 * vol_r[k] / dr[k], 0.5 * vol_r[i] / dr[i]
-            shear_z = g_k * (hb * rz_b[k] + ht * rz_t[k]) - g_i * (hb * rz_b[i] + ht * rz_t[i])
-            force_z = -(normal_z + shear_z)
-            # hourglass mode of the four cells, + - + - from the inner bottom vertex
-            w_kb = hourglass * rho_b[k] * c_b[k] * vol_r[k] * hb / max(dr[k], hb)
-            w_kt = hourglass * rho_t[k] * c_t[k] * vol_r[k] * ht / max(dr[k], ht)
-            w_ib = hourglass * rho_b[i] * c_b[i] * vol_r[i] * hb / max(dr[i], hb)
-            w_it = hourglass * rho_t[i] * c_t[i] * vol_r[i] * ht / max(dr[i], ht)
-            h_kb = (u_b[k] - u_b[i]) + (u_c[i] - u_c[k])
-            h_kt = (u_c[k] - u_c[i]) + (u_t[i] - u_t[k])
-            h_ib = (u_b[i] - u_b[i + 1]) + (u_c[i + 1] - u_c[i])
-            h_it = (u_c[i] - u_c[i + 1]) + (u_t[i + 1] - u_t[i])
-            force_r += 0.25 * ((w_kt * h_kt - w_kb * h_kb) + (w_ib * h_ib - w_it * h_it))
-            h_kb = (v_b[k] - v_b[i]) + (v_c[i] - v_c[k])
-            h_kt = (v_c[k] - v_c[i]) + (v_t[i] - v_t[k])
-            h_ib = (v_b[i] - v_b[i + 1]) + (v_c[i + 1] - v_c[i])
-            h_it = (v_c[i] - v_c[i + 1]) + (v_t[i + 1] - v_t[i])
-            force_z += 0.25 * ((w_kt * h_kt - w_kb * h_kb) + (w_ib * h_ib - w_it * h_it))
-            keep = 1.0 if m_j[i] > 0.0 else 0.0
-            scale = keep * dt / max(m_j[i], TINY)
-            a = keep * u_c[i] + scale * force_r
-            b = keep * v_c[i] + scale * force_z
-            un[i] = a if abs(a) > SILENCE else 0.0
-            vn[i] = b if abs(b) > SILENCE else 0.0
-        for x in range(n):
-            i = lo + x
-            m = m_j[i]
-            square = un[i] * un[i] + vn[i] * vn[i]
-            if square <= speed_limit * speed_limit or m >= light_density * 0.25 * (vol_r[i - 1] + vol_r[i]) * (hb + ht):
-                continue
-            shrink = speed_limit / sqrt(square)
-            lost_p += m * vn[i] * (1.0 - shrink)
-            lost_e += 0.5 * m * square * (1.0 - shrink * shrink)
-            count += 1.0
-            un[i] *= shrink
-            vn[i] *= shrink
-        limited[0, j] = lost_p
-        limited[1, j] = lost_e
-        limited[2, j] = count
+    lo, hi = union(occupied, j - 1, j + 1)
+    lo, n = columns(max(lo, i0), min(hi + 1, i1))
+    copy_beside(u0[0, j], u[0, j], i0 - 2, lo, lo + n, i1 + 2)
+    copy_beside(v0[0, j], v[0, j], i0 - 2, lo, lo + n, i1 + 2)
+    hb = dz[j - 1]
+    ht = dz[j]
+    rr_b = sig_rr[j - 1]
+    rr_t = sig_rr[j]
+    zz_b = sig_zz[j - 1]
+    zz_t = sig_zz[j]
+    tt_b = sig_tt[j - 1]
+    tt_t = sig_tt[j]
+    rz_b = sig_rz[j - 1]
+    rz_t = sig_rz[j]
+    w_b = weight[j - 1]
+    w_t = weight[j]
+    u_b = u0[0, j - 1]
+    u_c = u0[0, j]
+    u_t = u0[0, j + 1]
+    v_b = v0[0, j - 1]
+    v_c = v0[0, j]
+    v_t = v0[0, j + 1]
+    m_j = mass[0, j]
+    un = u[0, j]
+    vn = v[0, j]
+    lost_p, lost_e, count = 0.0, 0.0, 0.0
+    for x in range(n):
+        i = lo + x
+        k = i - 1
+        half_r = 0.5 * face_r[i]
+        # (cell left below + cell left above) + (cell right below + cell right above): mirror pairs in z
+        normal_r = (half_r - hoop[k]) * (hb * rr_b[k] + ht * rr_t[k]) - (half_r + hoop[i]) * (hb * rr_b[i] + ht * rr_t[i])
+        hoop_r = hoop[k] * (hb * tt_b[k] + ht * tt_t[k]) + hoop[i] * (hb * tt_b[i] + ht * tt_t[i])
+        shear_r = az_out[k] * (rz_b[k] - rz_t[k]) + az_in[i] * (rz_b[i] - rz_t[i])
+        force_r = -(normal_r + hoop_r + shear_r)
+        normal_z = az_out[k] * (zz_b[k] - zz_t[k]) + az_in[i] * (zz_b[i] - zz_t[i])
+        shear_z = mid_r[k] * (hb * rz_b[k] + ht * rz_t[k]) - mid_r[i] * (hb * rz_b[i] + ht * rz_t[i])
+        force_z = -(normal_z + shear_z)
+        # hourglass mode of the four cells, + - + - from the inner bottom vertex
+        h_kb = (u_b[k] - u_b[i]) + (u_c[i] - u_c[k])
+        h_kt = (u_c[k] - u_c[i]) + (u_t[i] - u_t[k])
+        h_ib = (u_b[i] - u_b[i + 1]) + (u_c[i + 1] - u_c[i])
+        h_it = (u_c[i] - u_c[i + 1]) + (u_t[i + 1] - u_t[i])
+        force_r += ((w_t[k] * h_kt - w_b[k] * h_kb) + (w_b[i] * h_ib - w_t[i] * h_it))
+        h_kb = (v_b[k] - v_b[i]) + (v_c[i] - v_c[k])
+        h_kt = (v_c[k] - v_c[i]) + (v_t[i] - v_t[k])
+        h_ib = (v_b[i] - v_b[i + 1]) + (v_c[i + 1] - v_c[i])
+        h_it = (v_c[i] - v_c[i + 1]) + (v_t[i + 1] - v_t[i])
+        force_z += ((w_t[k] * h_kt - w_b[k] * h_kb) + (w_b[i] * h_ib - w_t[i] * h_it))
+        keep = 1.0 if m_j[i] > 0.0 else 0.0
+        scale = keep * dt / max(m_j[i], TINY)
+        a = keep * u_c[i] + scale * force_r
+        b = keep * v_c[i] + scale * force_z
+        un[i] = a if abs(a) > SILENCE else 0.0
+        vn[i] = b if abs(b) > SILENCE else 0.0
+    for x in range(n):
+        i = lo + x
+        m = m_j[i]
+        square = un[i] * un[i] + vn[i] * vn[i]
+        if square <= speed_limit * speed_limit or m >= light_density * 0.25 * (vol_r[i - 1] + vol_r[i]) * (hb + ht):
+            continue
+        shrink = speed_limit / sqrt(square)
+        lost_p += m * vn[i] * (1.0 - shrink)
+        lost_e += 0.5 * m * square * (1.0 - shrink * shrink)
+        count += 1.0
+        un[i] *= shrink
+        vn[i] *= shrink
+    limited[0, j] = lost_p
+    limited[1, j] = lost_e
+    limited[2, j] = count
 
 
 @kernel
-def swept_volumes(j0, j1, i0, i1, dt, face_r, az_in, az_out, dz, reach, u0, v0, u, v, fr, fz):
+def accelerate(j0, j1, i0, i1, dt, speed_limit, light_density, face_r, hoop, az_in, az_out, vol_r, mid_r, dz,
+               occupied, mass, weight, sig_rr, sig_zz, sig_tt, sig_rz, u0, v0, u, v, limited):
+    """accelerate_row for rows j0 to j1."""
+    for j in prange(j0, j1):
+        accelerate_row(j, i0, i1, dt, speed_limit, light_density, face_r, hoop, az_in, az_out, vol_r, mid_r, dz,
+                       occupied, mass, weight, sig_rr, sig_zz, sig_tt, sig_rz, u0, v0, u, v, limited)
+
+
+@rowwise
+def swept_volumes_row(j, i0, i1, dt, face_r, az_in, az_out, dz, reach, u0, v0, u, v, fr, fz):
     """Volumes swept by the faces in the step, from the velocity at mid-step (explanation/remap, equation 1).
 
     F_r = dt r h <u>,  F_z = dt (a v_inner + b v_outer), with the areas of the cell vectors, so that their sum over a cell is
@@ -217,22 +231,29 @@ def swept_volumes(j0, j1, i0, i1, dt, face_r, az_in, az_out, dz, reach, u0, v0, 
     Reads    u0, v0, u, v [b, j, i]
     Writes   fr, fz [j, i]
     """
+    lo, hi = union(reach, j - 1, j + 1)
+    lo, n = columns(max(lo, i0), min(hi, i1))
+    ub = u[0, j]
+    ub0 = u0[0, j]
+    ut = u[0, j + 1]
+    ut0 = u0[0, j + 1]
+    vb = v[0, j]
+    vb0 = v0[0, j]
+    fr_j = fr[j]
+    fz_j = fz[j]
+    h = dz[j]
+    for x in range(n):
+        i = lo + x
+        fr_j[i] = 0.25 * dt * face_r[i] * h * ((ub[i] + ub0[i]) + (ut[i] + ut0[i]))
+        fz_j[i] = 0.5 * dt * (az_in[i] * (vb[i] + vb0[i]) + az_out[i] * (vb[i + 1] + vb0[i + 1]))
+    if n > 0:
+        i = lo + n
+        fr_j[i] = 0.25 * dt * face_r[i] * h * ((ub[i] + ub0[i]) + (ut[i] + ut0[i]))
+
+
+
+@kernel
+def swept_volumes(j0, j1, i0, i1, dt, face_r, az_in, az_out, dz, reach, u0, v0, u, v, fr, fz):
+    """swept_volumes_row for rows j0 to j1."""
     for j in prange(j0, j1):
-        lo, hi = union(reach, j - 1, j + 1)
-        lo, n = columns(max(lo, i0), min(hi, i1))
-        ub = u[0, j]
-        ub0 = u0[0, j]
-        ut = u[0, j + 1]
-        ut0 = u0[0, j + 1]
-        vb = v[0, j]
-        vb0 = v0[0, j]
-        fr_j = fr[j]
-        fz_j = fz[j]
-        h = dz[j]
-        for x in range(n):
-            i = lo + x
-            fr_j[i] = 0.25 * dt * face_r[i] * h * ((ub[i] + ub0[i]) + (ut[i] + ut0[i]))
-            fz_j[i] = 0.5 * dt * (az_in[i] * (vb[i] + vb0[i]) + az_out[i] * (vb[i + 1] + vb0[i + 1]))
-        if n > 0:
-            i = lo + n
-            fr_j[i] = 0.25 * dt * face_r[i] * h * ((ub[i] + ub0[i]) + (ut[i] + ut0[i]))
+        swept_volumes_row(j, i0, i1, dt, face_r, az_in, az_out, dz, reach, u0, v0, u, v, fr, fz)

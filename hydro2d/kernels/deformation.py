@@ -10,14 +10,14 @@ from strength.radial_return import plastic_increment
 
 
 @point
-def velocity_gradient(i, ub, ut, vb, vt, face_r, hoop, az_in, az_out, vol_r, dr, h):
+def velocity_gradient(i, ub, ut, vb, vt, face_r, hoop, az_in, az_out, mid_r, h):
     """Volume times the velocity gradient of cell i: (D_rr, D_tt, D_zz, du_r/dz, du_z/dr) (lagrangian-step, equation 2)."""
     outer, inner = ub[i + 1] + ut[i + 1], ub[i] + ut[i]
     tt = h * hoop[i] * (outer + inner)
     rr = 0.5 * h * (face_r[i + 1] * outer - face_r[i] * inner) - tt
     zz = az_in[i] * (vt[i] - vb[i]) + az_out[i] * (vt[i + 1] - vb[i + 1])
     r_by_z = az_in[i] * (ut[i] - ub[i]) + az_out[i] * (ut[i + 1] - ub[i + 1])
-    z_by_r = 0.5 * vol_r[i] * h / dr[i] * ((vb[i + 1] + vt[i + 1]) - (vb[i] + vt[i]))
+    z_by_r = mid_r[i] * h * ((vb[i + 1] + vt[i + 1]) - (vb[i] + vt[i]))
     return rr, tt, zz, r_by_z, z_by_r
 
 
@@ -25,12 +25,6 @@ def velocity_gradient(i, ub, ut, vb, vt, face_r, hoop, az_in, az_out, vol_r, dr,
 def hourglass_mode(i, b, t):
     """u0 - u1 + u2 - u3 of cell i from the vertex rows below and above it."""
     return (b[i] - b[i + 1]) + (t[i + 1] - t[i])
-
-
-@point
-def hourglass_weight(i, hourglass, rho, cl, vol_r, dr, h):
-    """Coefficient of the hourglass filter, kg/s, as `accelerate` uses it."""
-    return 0.25 * hourglass * rho * cl * vol_r[i] * h / max(dr[i], h)
 
 
 @point
@@ -56,26 +50,18 @@ def von_mises(rr, zz, rz):
 
 
 @kernel
-def deform(j0, j1, m, dt, hourglass, face_r, hoop, az_in, az_out, vol_r, dr, dz, span, strength_model, strength_par,
-           damage_model, damage_par, factor, loose, u0, v0, u, v, fr, fz, sig_rr, sig_zz, sig_tt, sig_rz, rhobar, cl,
-           vof, pm, tm, scratch,
-           q):
-    """Energy, density, deviator, plastic strain and damage of body m in the cells that it fills, over one Lagrangian step.
+def deform(j0, j1, dt, face_r, hoop, az_in, az_out, vol_r, mid_r, dz, span, strength_model, strength_par, damage_model, damage_par,
+           factor, loose, u0, v0, u, v, fr, fz, sig_rr, sig_zz, sig_tt, sig_rz, weight, vof, pm, tm, scratch, q):
+    """Energy, density, deviator, plastic strain and damage of every body in the cells that it fills, over one Lagrangian step.
 
     de = V dt sigma : D(u mid-step) / m, the work of the same corner forces that moved the vertices; rho V is constant;
     the deviators are strained with the velocities at the end of the step (explanation/lagrangian-step, equations 5 and
     7). Failed or loose (rho <= loose[m]) material carries no deviator.
 
-    Reads    u0, v0, u, v [b, j, i]; fr, fz, sig_.., rhobar, cl [j, i]; vof, pm, tm [m, j, i]
+    Reads    u0, v0, u, v [b, j, i]; fr, fz, sig_.., weight [j, i]; vof, pm, tm [m, j, i]
     Updates  q [k, m, j, i]
     Scratch  scratch [2, j, i], shear modulus and trial stress
     """
-    model = strength_model[m]
-    par = strength_par[m]
-    dmodel = damage_model[m]
-    dpar = damage_par[m]
-    scale = factor[m]
-    floor = scale * yield_floor(model, par)  # below it no flow stress need be evaluated
     for j in prange(j0, j1):
         ub = u[0, j]
         ut = u[0, j + 1]
@@ -92,72 +78,78 @@ def deform(j0, j1, m, dt, hourglass, face_r, hoop, az_in, az_out, vol_r, dr, dz,
         zz_j = sig_zz[j]
         tt_j = sig_tt[j]
         rz_j = sig_rz[j]
-        f_j = vof[m, j]
-        p_j = pm[m, j]
-        t_j = tm[m, j]
-        rho_j = q[RHO, m, j]
-        e_j = q[E, m, j]
-        ep_j = q[EP, m, j]
-        d_j = q[DMG, m, j]
-        srr_j = q[SRR, m, j]
-        szz_j = q[SZZ, m, j]
-        srz_j = q[SRZ, m, j]
         h = dz[j]
-        rhobar_j = rhobar[j]
-        cl_j = cl[j]
+        weight_j = weight[j]
         shear_j = scratch[0, j]
         trial_j = scratch[1, j]  # of loose material negative, where the body does not fill the cell 0
-        first, n = columns(span[m, j, 0], span[m, j, 1])
-        modulus_row(model, par, first, n, p_j, rho_j, t_j, shear_j)
-        for x in range(n):
-            i = first + x
-            pure = f_j[i] == 1.0
-            volume = vol_r[i] * h
-            a_rr, a_tt, a_zz, a_rbz, a_zbr = velocity_gradient(
-                i, ub0, ut0, vb0, vt0, face_r, hoop, az_in, az_out, vol_r, dr, h)
-            rr, tt, zz, rbz, zbr = velocity_gradient(i, ub, ut, vb, vt, face_r, hoop, az_in, az_out, vol_r, dr, h)
-            w = hourglass_weight(i, hourglass, rhobar_j[i], cl_j[i], vol_r, dr, h)
-            h_u0, h_v0 = hourglass_mode(i, ub0, ut0), hourglass_mode(i, vb0, vt0)
-            h_u, h_v = hourglass_mode(i, ub, ut), hourglass_mode(i, vb, vt)
-            work = 0.5 * dt * (
-                (rr_j[i] * (a_rr + rr) + tt_j[i] * (a_tt + tt))
-                + (zz_j[i] * (a_zz + zz) + rz_j[i] * ((a_rbz + rbz) + (a_zbr + zbr)))
-                + w * (h_u0 * (h_u0 + h_u) + h_v0 * (h_v0 + h_v)))
-            rho = rho_j[i]
-            gain = work / (rho * volume)
-            e_j[i] += gain if pure else 0.0
-            rate = 1.0 / volume
-            drr, dzz, dtt, drz = rr * rate, zz * rate, tt * rate, 0.5 * (rbz + zbr) * rate
-            srr, szz, srz = turn_and_strain(srr_j[i], szz_j[i], srz_j[i], 0.5 * (rbz - zbr) * rate * dt, 2.0 * shear_j[i],
-                                            drr * dt, dzz * dt, dtt * dt, drz * dt)
-            srr_j[i] = srr if pure else srr_j[i]
-            szz_j[i] = szz if pure else szz_j[i]
-            srz_j[i] = srz if pure else srz_j[i]
-            size = von_mises(srr, szz, srz)
-            size = -size if rho <= loose[m] else size
-            trial_j[i] = size if pure else 0.0
-        if model > 0:
+        for m in range(vof.shape[0]):
+            model = strength_model[m]
+            par = strength_par[m]
+            dmodel = damage_model[m]
+            dpar = damage_par[m]
+            scale = factor[m]
+            floor = scale * yield_floor(model, par)  # below it no flow stress need be evaluated
+            f_j = vof[m, j]
+            p_j = pm[m, j]
+            t_j = tm[m, j]
+            rho_j = q[RHO, m, j]
+            e_j = q[E, m, j]
+            ep_j = q[EP, m, j]
+            d_j = q[DMG, m, j]
+            srr_j = q[SRR, m, j]
+            szz_j = q[SZZ, m, j]
+            srz_j = q[SRZ, m, j]
+            first, n = columns(span[m, j, 0], span[m, j, 1])
+            modulus_row(model, par, first, n, p_j, rho_j, t_j, shear_j)
             for x in range(n):
                 i = first + x
-                size = abs(trial_j[i])
-                if size > floor:
-                    dep, yield_stress = plastic_increment(
-                        model, size, ep_j[i], dt, t_j[i], p_j[i], rho_j[i], shear_j[i], scale, par)
-                    if dep > 0.0:
-                        shrink = yield_stress / size
-                        srr_j[i] *= shrink
-                        szz_j[i] *= shrink
-                        srz_j[i] *= shrink
-                        ep_j[i] += dep
-                        d_j[i] += damage_increment(dmodel, dep, dep / dt, t_j[i], p_j[i], yield_stress, dpar)
-        for x in range(n):
-            i = first + x
-            pure = f_j[i] == 1.0
-            volume = vol_r[i] * h
-            change = (fr_j[i + 1] - fr_j[i]) + (fz_t[i] - fz_b[i])
-            rho_j[i] = rho_j[i] * (volume / (volume + change)) if pure else rho_j[i]
-            d_j[i] = min(d_j[i], 1.0) if pure else d_j[i]
-            gone = pure and (d_j[i] >= 1.0 or trial_j[i] < 0.0)
-            srr_j[i] = 0.0 if gone else srr_j[i]
-            szz_j[i] = 0.0 if gone else szz_j[i]
-            srz_j[i] = 0.0 if gone else srz_j[i]
+                pure = f_j[i] == 1.0
+                volume = vol_r[i] * h
+                a_rr, a_tt, a_zz, a_rbz, a_zbr = velocity_gradient(
+                    i, ub0, ut0, vb0, vt0, face_r, hoop, az_in, az_out, mid_r, h)
+                rr, tt, zz, rbz, zbr = velocity_gradient(i, ub, ut, vb, vt, face_r, hoop, az_in, az_out, mid_r, h)
+                w = weight_j[i]
+                h_u0, h_v0 = hourglass_mode(i, ub0, ut0), hourglass_mode(i, vb0, vt0)
+                h_u, h_v = hourglass_mode(i, ub, ut), hourglass_mode(i, vb, vt)
+                work = 0.5 * dt * (
+                    (rr_j[i] * (a_rr + rr) + tt_j[i] * (a_tt + tt))
+                    + (zz_j[i] * (a_zz + zz) + rz_j[i] * ((a_rbz + rbz) + (a_zbr + zbr)))
+                    + w * (h_u0 * (h_u0 + h_u) + h_v0 * (h_v0 + h_v)))
+                rho = rho_j[i]
+                gain = work / (rho * volume)
+                e_j[i] += gain if pure else 0.0
+                rate = 1.0 / volume
+                drr, dzz, dtt, drz = rr * rate, zz * rate, tt * rate, 0.5 * (rbz + zbr) * rate
+                srr, szz, srz = turn_and_strain(srr_j[i], szz_j[i], srz_j[i], 0.5 * (rbz - zbr) * rate * dt, 2.0 * shear_j[i],
+                                                drr * dt, dzz * dt, dtt * dt, drz * dt)
+                srr_j[i] = srr if pure else srr_j[i]
+                szz_j[i] = szz if pure else szz_j[i]
+                srz_j[i] = srz if pure else srz_j[i]
+                size = von_mises(srr, szz, srz)
+                size = -size if rho <= loose[m] else size
+                trial_j[i] = size if pure else 0.0
+            if model > 0:
+                for x in range(n):
+                    i = first + x
+                    size = abs(trial_j[i])
+                    if size > floor:
+                        dep, yield_stress = plastic_increment(
+                            model, size, ep_j[i], dt, t_j[i], p_j[i], rho_j[i], shear_j[i], scale, par)
+                        if dep > 0.0:
+                            shrink = yield_stress / size
+                            srr_j[i] *= shrink
+                            szz_j[i] *= shrink
+                            srz_j[i] *= shrink
+                            ep_j[i] += dep
+                            d_j[i] += damage_increment(dmodel, dep, dep / dt, t_j[i], p_j[i], yield_stress, dpar)
+            for x in range(n):
+                i = first + x
+                pure = f_j[i] == 1.0
+                volume = vol_r[i] * h
+                change = (fr_j[i + 1] - fr_j[i]) + (fz_t[i] - fz_b[i])
+                rho_j[i] = rho_j[i] * (volume / (volume + change)) if pure else rho_j[i]
+                d_j[i] = min(d_j[i], 1.0) if pure else d_j[i]
+                gone = pure and (d_j[i] >= 1.0 or trial_j[i] < 0.0)
+                srr_j[i] = 0.0 if gone else srr_j[i]
+                szz_j[i] = 0.0 if gone else szz_j[i]
+                srz_j[i] = 0.0 if gone else srz_j[i]

@@ -7,7 +7,7 @@ stated order bounds their cumulative fraction, void comes last.
 
 from math import sqrt
 
-from hydro2d.jit import kernel, point, prange
+from hydro2d.jit import kernel, point, prange, rowwise
 from hydro2d.kernels.spans import columns
 
 #: void below this share of a cell is round-off: its interface has no direction
@@ -89,25 +89,24 @@ def youngs_normal(j, i, last, order, vof, dr, dz):
     return along_r / size, along_z / size
 
 
-@kernel
-def sweep_volumes(dj, di, j0, j1, first, volume, reach, fr, fz, pre):
+@rowwise
+def sweep_volumes_row(j, dj, di, first, volume, reach, fr, fz, pre):
     """Volume of cells before a sweep: V + dF_r + dF_z for the first sweep, V + dF of its own direction for the second.
 
     Reads    volume [j, i], fr, fz [j, i]
     Writes   pre [j, i]
     """
-    for j in prange(j0, j1):
-        lo, n = columns(reach[j, 0], reach[j, 1])
-        fr_j = fr[j]
-        fz_b = fz[j]
-        fz_t = fz[j + 1]
-        volume_j = volume[j]
-        out = pre[j]
-        for x in range(n):
-            i = lo + x
-            along_r = fr_j[i + 1] - fr_j[i]
-            along_z = fz_t[i] - fz_b[i]
-            out[i] = volume_j[i] + (along_r + along_z if first else dj * along_z + di * along_r)
+    lo, n = columns(reach[j, 0], reach[j, 1])
+    fr_j = fr[j]
+    fz_b = fz[j]
+    fz_t = fz[j + 1]
+    volume_j = volume[j]
+    out = pre[j]
+    for x in range(n):
+        i = lo + x
+        along_r = fr_j[i + 1] - fr_j[i]
+        along_z = fz_t[i] - fz_b[i]
+        out[i] = volume_j[i] + (along_r + along_z if first else dj * along_z + di * along_r)
 
 
 @point
@@ -120,8 +119,8 @@ def face_range(dj, m, j, span):
     return lo - 1, hi + 2
 
 
-@kernel
-def donor_volumes(dj, di, j0, j1, i0, i1, open_faces, span, f_face, vof, flux_volume):
+@rowwise
+def donor_volumes_row(j, dj, di, i0, i1, open_faces, span, f_face, vof, flux_volume):
     """Volume of each body through each face, taken as if the donor cell were filled evenly: right where it is pure.
 
     Nothing but void flows in through the faces of the mesh's edge.
@@ -130,35 +129,34 @@ def donor_volumes(dj, di, j0, j1, i0, i1, open_faces, span, f_face, vof, flux_vo
     Writes   flux_volume [m, j, i]
     """
     bodies = vof.shape[0]
-    for j in prange(j0, j1 + dj):
-        for m in range(bodies):
-            lo, hi = face_range(dj, m, j, span)
-            if lo >= hi:
-                continue
-            lo, hi = max(lo, i0), min(hi, i1 + di)
-            if lo >= hi:
-                continue
-            swept = f_face[j, lo:hi]
-            given = flux_volume[m, j, lo:hi]
-            here = vof[m, j, lo:hi]
-            before = vof[m, j - dj, lo - di:hi - di]
-            for x in range(hi - lo):
-                given[x] = max(swept[x], 0.0) * before[x] + min(swept[x], 0.0) * here[x]
-            swept = f_face[j]
-            out = flux_volume[m, j]
-            if dj == 1:
-                for i in range(lo, hi):
-                    if (j == open_faces[0] and swept[i] > 0.0) or (j == open_faces[1] and swept[i] < 0.0):
-                        out[i] = 0.0
-            else:
-                if lo <= open_faces[2] < hi and swept[open_faces[2]] > 0.0:
-                    out[open_faces[2]] = 0.0
-                if lo <= open_faces[3] < hi and swept[open_faces[3]] < 0.0:
-                    out[open_faces[3]] = 0.0
+    for m in range(bodies):
+        lo, hi = face_range(dj, m, j, span)
+        if lo >= hi:
+            continue
+        lo, hi = max(lo, i0), min(hi, i1 + di)
+        if lo >= hi:
+            continue
+        swept = f_face[j, lo:hi]
+        given = flux_volume[m, j, lo:hi]
+        here = vof[m, j, lo:hi]
+        before = vof[m, j - dj, lo - di:hi - di]
+        for x in range(hi - lo):
+            given[x] = max(swept[x], 0.0) * before[x] + min(swept[x], 0.0) * here[x]
+        swept = f_face[j]
+        out = flux_volume[m, j]
+        if dj == 1:
+            for i in range(lo, hi):
+                if (j == open_faces[0] and swept[i] > 0.0) or (j == open_faces[1] and swept[i] < 0.0):
+                    out[i] = 0.0
+        else:
+            if lo <= open_faces[2] < hi and swept[open_faces[2]] > 0.0:
+                out[open_faces[2]] = 0.0
+            if lo <= open_faces[3] < hi and swept[open_faces[3]] < 0.0:
+                out[open_faces[3]] = 0.0
 
 
-@kernel
-def interface_volumes(dj, di, j0, j1, dr, dz, order, mixed_count, mixed, f_face, pre, vof, flux_volume, strips):
+@rowwise
+def interface_volumes_row(j, dj, di, dr, dz, order, mixed_count, mixed, f_face, pre, vof, flux_volume, strips):
     """Volume of each body out of each mixed cell, from the nested linear interfaces.
 
     The cumulative volumes of a strip are kept monotone, each body gives no more than it has, and what two opposite strips
@@ -169,48 +167,66 @@ def interface_volumes(dj, di, j0, j1, dr, dz, order, mixed_count, mixed, f_face,
     Scratch  strips [j, 8, m]
     """
     bodies = order.shape[0]
-    for j in prange(j0, j1):
-        left = strips[j, 0]
-        right = strips[j, 1]
-        for k in range(mixed_count[j]):
-            i = mixed[j, k]
-            out_low = max(-f_face[j, i], 0.0)
-            out_high = max(f_face[j + dj, i + di], 0.0)
-            if out_low == 0.0 and out_high == 0.0:
+    left = strips[j, 0]
+    right = strips[j, 1]
+    for k in range(mixed_count[j]):
+        i = mixed[j, k]
+        out_low = max(-f_face[j, i], 0.0)
+        out_high = max(f_face[j + dj, i + di], 0.0)
+        if out_low == 0.0 and out_high == 0.0:
+            continue
+        size = pre[j, i]
+        w_low, w_high = out_low / size, out_high / size
+        below_low, below_high, total = 0.0, 0.0, 0.0
+        for n in range(bodies):
+            f = vof[order[n], j, i]
+            total += f
+            total = total if total < 1.0 - FULL else 1.0
+            if f == 0.0:
+                left[n] = 0.0
+                right[n] = 0.0
                 continue
-            size = pre[j, i]
-            w_low, w_high = out_low / size, out_high / size
-            below_low, below_high, total = 0.0, 0.0, 0.0
+            n_r, n_z = youngs_normal(j, i, n, order, vof, dr, dz)
+            if dj == 1:
+                n_r, n_z = n_z, n_r
+            low = strip_share(n_r, n_z, total, w_low, False) if w_low > 0.0 else 0.0
+            high = strip_share(n_r, n_z, total, w_high, True) if w_high > 0.0 else 0.0
+            low = min(max(low, max(below_low, w_low - (1.0 - total))), min(below_low + f, w_low))
+            high = min(max(high, max(below_high, w_high - (1.0 - total))), min(below_high + f, w_high))
+            left[n] = low - below_low
+            right[n] = high - below_high
+            below_low = low
+            below_high = high
+        # two strips together may not take more of a body than there is; the excess moves on to the next body
+        if w_low > 0.0 and w_high > 0.0:
+            excess = 0.0
             for n in range(bodies):
                 f = vof[order[n], j, i]
-                total += f
-                total = total if total < 1.0 - FULL else 1.0
-                if f == 0.0:
-                    left[n] = 0.0
-                    right[n] = 0.0
-                    continue
-                n_r, n_z = youngs_normal(j, i, n, order, vof, dr, dz)
-                if dj == 1:
-                    n_r, n_z = n_z, n_r
-                low = strip_share(n_r, n_z, total, w_low, False) if w_low > 0.0 else 0.0
-                high = strip_share(n_r, n_z, total, w_high, True) if w_high > 0.0 else 0.0
-                low = min(max(low, max(below_low, w_low - (1.0 - total))), min(below_low + f, w_low))
-                high = min(max(high, max(below_high, w_high - (1.0 - total))), min(below_high + f, w_high))
-                left[n] = low - below_low
-                right[n] = high - below_high
-                below_low = low
-                below_high = high
-            # two strips together may not take more of a body than there is; the excess moves on to the next body
-            if w_low > 0.0 and w_high > 0.0:
-                excess = 0.0
-                for n in range(bodies):
-                    f = vof[order[n], j, i]
-                    right[n] += excess
-                    kept = min(right[n], max(f - left[n], 0.0))
-                    excess = right[n] - kept
-                    right[n] = kept
-            for n in range(bodies):
-                if w_low > 0.0:
-                    flux_volume[order[n], j, i] = -left[n] * size
-                if w_high > 0.0:
-                    flux_volume[order[n], j + dj, i + di] = right[n] * size
+                right[n] += excess
+                kept = min(right[n], max(f - left[n], 0.0))
+                excess = right[n] - kept
+                right[n] = kept
+        for n in range(bodies):
+            if w_low > 0.0:
+                flux_volume[order[n], j, i] = -left[n] * size
+            if w_high > 0.0:
+                flux_volume[order[n], j + dj, i + di] = right[n] * size
+
+
+@kernel
+def donor_volumes(dj, di, j0, j1, i0, i1, first, open_faces, volume, span, reach, fr, fz, vof, pre, flux_volume):
+    """Rows j0 to j1 before a sweep: sweep_volumes_row, and donor_volumes_row, which has one more row of faces along z."""
+    for j in prange(j0, j1 + dj):
+        if j < j1:
+            sweep_volumes_row(j, dj, di, first, volume, reach, fr, fz, pre)
+        if di == 1:
+            donor_volumes_row(j, dj, di, i0, i1, open_faces, span, fr, vof, flux_volume)
+        else:
+            donor_volumes_row(j, dj, di, i0, i1, open_faces, span, fz, vof, flux_volume)
+
+
+@kernel
+def interface_volumes(dj, di, j0, j1, dr, dz, order, mixed_count, mixed, face, pre, vof, flux_volume, strips):
+    """interface_volumes_row for rows j0 to j1."""
+    for j in prange(j0, j1):
+        interface_volumes_row(j, dj, di, dr, dz, order, mixed_count, mixed, face, pre, vof, flux_volume, strips)

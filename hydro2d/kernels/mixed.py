@@ -2,15 +2,16 @@
 
 from eos.dispatch import evaluate, zero_pressure_density
 from hydro2d.fields import DMG, EP, RHO, SRR, SRZ, SZZ, E
-from hydro2d.jit import kernel, point, prange
+from hydro2d.jit import kernel, point, prange, rowwise
 from hydro2d.kernels.acceleration import stress_scale
 from hydro2d.kernels.deformation import (
     hourglass_mode,
-    hourglass_weight,
     turn_and_strain,
     velocity_gradient,
     von_mises,
 )
+from hydro2d.kernels.spans import mixed_row
+from hydro2d.kernels.thermodynamics import pressures_row, viscosity_row
 from strength.dispatch import damage_increment, flow_stress, shear_modulus
 from strength.radial_return import plastic_increment
 
@@ -25,9 +26,9 @@ TENSIONS = ("mean", "min")
 NO_VOID = 1e-12
 
 
-@kernel
-def tear_mixed(j0, j1, smallest, max_opening, vol_r, dz, mixed_count, mixed, eos_model, eos_par, fracture_pressure, vof, q, pm,
-               p, solid, bulk, opened):
+@rowwise
+def tear_mixed_row(j, smallest, max_opening, vol_r, dz, mixed_count, mixed, eos_model, eos_par, fracture_pressure, vof, q,
+                   pm, p, solid, bulk, opened):
     """Opens void in mixed cells whose pressure falls below their fracture pressure, and frees them of stress.
 
     The threshold is the mean of the bodies' by volume fraction, or the smallest (explanation/fracture).
@@ -36,43 +37,63 @@ def tear_mixed(j0, j1, smallest, max_opening, vol_r, dz, mixed_count, mixed, eos
     Updates  vof, pm [m, j, i]; q (rho, deviators); p, solid, bulk [j, i]; opened [j]
     """
     bodies = vof.shape[0]
-    for j in prange(j0, j1):
-        for k in range(mixed_count[j]):
-            i = mixed[j, k]
-            mean, least = 0.0, 1e300
-            for m in range(bodies):
-                f = vof[m, j, i]
-                if f > 0.0:
-                    limit = fracture_pressure[m] if q[DMG, m, j, i] < 1.0 else 0.0
-                    mean += f * limit
-                    least = min(least, limit)
-            threshold = least * solid[j, i] if smallest else mean
-            if not p[j, i] < -threshold:
+    for k in range(mixed_count[j]):
+        i = mixed[j, k]
+        mean, least = 0.0, 1e300
+        for m in range(bodies):
+            f = vof[m, j, i]
+            if f > 0.0:
+                limit = fracture_pressure[m] if q[DMG, m, j, i] < 1.0 else 0.0
+                mean += f * limit
+                least = min(least, limit)
+        threshold = least * solid[j, i] if smallest else mean
+        if not p[j, i] < -threshold:
+            continue
+        total, pressure = 0.0, 0.0
+        for m in range(bodies):
+            f = vof[m, j, i]
+            if f == 0.0:
                 continue
-            total, pressure = 0.0, 0.0
-            for m in range(bodies):
-                f = vof[m, j, i]
-                if f == 0.0:
-                    continue
-                if pm[m, j, i] < 0.0:
-                    rho = q[RHO, m, j, i]
-                    e = q[E, m, j, i]
-                    target = max(zero_pressure_density(eos_model[m], rho, e, eos_par[m]), rho)
-                    share = max(rho / target, 1.0 - max_opening)
-                    opened[j] += f * (1.0 - share) * vol_r[i] * dz[j]
-                    f *= share
-                    vof[m, j, i] = f
-                    q[RHO, m, j, i] = rho / share
-                    pm[m, j, i] = evaluate(eos_model[m], rho / share, e, eos_par[m])[0]
-                q[SRR, m, j, i] = 0.0
-                q[SZZ, m, j, i] = 0.0
-                q[SRZ, m, j, i] = 0.0
-                total += f
-                pressure += f * pm[m, j, i]
-            p[j, i] = pressure
-            solid[j, i] = total
-            if total < 1.0 - NO_VOID:
-                bulk[j, i] = 0.0
+            if pm[m, j, i] < 0.0:
+                rho = q[RHO, m, j, i]
+                e = q[E, m, j, i]
+                target = max(zero_pressure_density(eos_model[m], rho, e, eos_par[m]), rho)
+                share = max(rho / target, 1.0 - max_opening)
+                opened[j] += f * (1.0 - share) * vol_r[i] * dz[j]
+                f *= share
+                vof[m, j, i] = f
+                q[RHO, m, j, i] = rho / share
+                pm[m, j, i] = evaluate(eos_model[m], rho / share, e, eos_par[m])[0]
+            q[SRR, m, j, i] = 0.0
+            q[SZZ, m, j, i] = 0.0
+            q[SRZ, m, j, i] = 0.0
+            total += f
+            pressure += f * pm[m, j, i]
+        p[j, i] = pressure
+        solid[j, i] = total
+        if total < 1.0 - NO_VOID:
+            bulk[j, i] = 0.0
+
+
+@kernel
+def close_cells(j0, j1, max_opening, smallest_tension, linear, quadratic, courant, advective, hourglass, face_r, az_in, az_out,
+                vol_r, dr, dz, span, reach, mixed_count, mixed, eos_model, eos_par, strength_model, strength_par, damage_model,
+                fracture_pressure, loose, u, v, vof, q, pm, km, tm, p, bulk, rhobar, solid, cl, qr, qz, weight, step, opened,
+                row_step, bad, scratch):
+    """Equation of state, void where a cell tears, artificial viscosity and the time step that every cell allows.
+
+    Reads, updates and writes what pressures_row, tear_mixed_row and viscosity_row do, and the list of mixed cells
+    Scratch  scratch [j, i]
+    """
+    for j in prange(j0, j1):
+        pressures_row(j, max_opening, vol_r, dz, span, reach, eos_model, eos_par, strength_model, strength_par, damage_model,
+                      fracture_pressure, loose, vof, q, pm, km, tm, p, bulk, rhobar, solid, cl, scratch, opened, bad)
+        if opened[j] > 0.0:
+            mixed_row(j, reach, vof, scratch, j, mixed_count, mixed)
+        tear_mixed_row(j, smallest_tension, max_opening, vol_r, dz, mixed_count, mixed, eos_model, eos_par, fracture_pressure,
+                       vof, q, pm, p, solid, bulk, opened)
+        viscosity_row(j, linear, quadratic, courant, advective, hourglass, dr, dz, vol_r, face_r, az_in, az_out, reach, u, v,
+                      rhobar, bulk, cl, qr, qz, weight, step, row_step, bad)
 
 
 @point
@@ -85,10 +106,9 @@ def split_volume(void, change, volume):
 
 
 @kernel
-def deform_mixed(j0, j1, dt, hourglass, relaxation, tipton, mode, hard, hard_threshold, face_r, hoop, az_in, az_out, vol_r, dr,
-                 dz, mixed_count, mixed, strength_model, strength_par, damage_model, damage_par, factor, loose, u0, v0,
-                 u, v, fr, fz,
-                 ph, qr, qz, rhobar, cl, solid, pm, km, tm, vof, q, mix):
+def deform_mixed(j0, j1, dt, relaxation, tipton, mode, hard, hard_threshold, face_r, hoop, az_in, az_out, vol_r,
+                 mid_r, dz, mixed_count, mixed, strength_model, strength_par, damage_model, damage_par, factor, loose, u0,
+                 v0, u, v, fr, fz, ph, qr, qz, weight, solid, pm, km, tm, vof, q, mix):
     """The Lagrangian step of the bodies in mixed cells.
 
     Volume: void first, then by compressibility, w_m = R_m/Rbar with R_m = f_m/K_m, then relaxation of the pressures,
@@ -113,7 +133,7 @@ def deform_mixed(j0, j1, dt, hourglass, relaxation, tipton, mode, hard, hard_thr
         vb0 = v0[0, j]
         vt0 = v0[0, j + 1]
         h = dz[j]
-        weight = mix[j, 0]
+        part_v = mix[j, 0]
         share = mix[j, 1]
         yields = mix[j, 2]
         heat = mix[j, 3]
@@ -126,11 +146,11 @@ def deform_mixed(j0, j1, dt, hourglass, relaxation, tipton, mode, hard, hard_thr
             volume = vol_r[i] * h
             change = (fr[j, i + 1] - fr[j, i]) + (fz[j + 1, i] - fz[j, i])
             a_rr, a_tt, a_zz, a_rbz, a_zbr = velocity_gradient(
-                i, ub0, ut0, vb0, vt0, face_r, hoop, az_in, az_out, vol_r, dr, h)
-            rr, tt, zz, rbz, zbr = velocity_gradient(i, ub, ut, vb, vt, face_r, hoop, az_in, az_out, vol_r, dr, h)
+                i, ub0, ut0, vb0, vt0, face_r, hoop, az_in, az_out, mid_r, h)
+            rr, tt, zz, rbz, zbr = velocity_gradient(i, ub, ut, vb, vt, face_r, hoop, az_in, az_out, mid_r, h)
             m_rr, m_tt, m_zz = 0.5 * (a_rr + rr), 0.5 * (a_tt + tt), 0.5 * (a_zz + zz)
             m_rz = 0.5 * ((a_rbz + rbz) + (a_zbr + zbr))
-            w = hourglass_weight(i, hourglass, rhobar[j, i], cl[j, i], vol_r, dr, h)
+            w = weight[j, i]
             h_u0, h_v0 = hourglass_mode(i, ub0, ut0), hourglass_mode(i, vb0, vt0)
             h_u, h_v = hourglass_mode(i, ub, ut), hourglass_mode(i, vb, vt)
             work_q = 0.5 * dt * w * (h_u0 * (h_u0 + h_u) + h_v0 * (h_v0 + h_v))
@@ -146,11 +166,11 @@ def deform_mixed(j0, j1, dt, hourglass, relaxation, tipton, mode, hard, hard_thr
             compliance, mean_p, softness = 0.0, 0.0, 0.0
             for m in range(bodies):
                 f = vof[m, j, i]
-                weight[m] = f / km[m, j, i] if f > 0.0 else 0.0
+                part_v[m] = f / km[m, j, i] if f > 0.0 else 0.0
                 if not tipton:
-                    weight[m] = f
-                compliance += weight[m]
-                mean_p += weight[m] * pm[m, j, i]
+                    part_v[m] = f
+                compliance += part_v[m]
+                mean_p += part_v[m] * pm[m, j, i]
                 heat[m] = 0.0
             inverse = 1.0 / compliance
             mean_p *= inverse
@@ -250,9 +270,9 @@ def deform_mixed(j0, j1, dt, hourglass, relaxation, tipton, mode, hard, hard_thr
                     continue
                 mass = q[RHO, m, j, i] * f * volume
                 shift = bound * f * relaxation * (pm[m, j, i] - target) / km[m, j, i] * volume if tipton else 0.0
-                filled = f * volume + weight[m] * inverse * rest + shift
+                filled = f * volume + part_v[m] * inverse * rest + shift
                 filled = max(filled, 0.5 * f * volume)
                 q[RHO, m, j, i] = mass / filled if filled != f * volume else q[RHO, m, j, i]
                 vof[m, j, i] = filled / after if filled != f * volume or change != 0.0 else f
-                gained = weight[m] * inverse * work_p + f / total * work_q + heat[m]
+                gained = part_v[m] * inverse * work_p + f / total * work_q + heat[m]
                 q[E, m, j, i] += (gained - target * shift) / mass

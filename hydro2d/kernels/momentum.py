@@ -4,7 +4,7 @@ from math import sqrt
 
 from hydro2d.fields import E
 from hydro2d.grid import GHOSTS
-from hydro2d.jit import kernel, plus, point, prange
+from hydro2d.jit import kernel, plus, point, prange, rowwise
 from hydro2d.kernels.acceleration import TINY
 from hydro2d.kernels.remap import upwind
 from hydro2d.kernels.spans import block_rows, copy_beside, number_of_blocks, spread, union
@@ -14,7 +14,7 @@ CHOICES = ("momentum", "ke", "both")
 MOMENTUM, KE, BOTH = range(3)
 
 
-@point
+@rowwise
 def dual_row(dj, di, j, i0, i1, slot, cm_in, cm_out, reach, flux_mass, mass, w, dual):
     """Mass, momentum and kinetic energy that flow between the vertices of row j and their neighbours at higher r or z.
 
@@ -69,7 +69,7 @@ def dual_range(dj, di, i0, i1, j, reach):
     return max(lo, i0) - di, min(hi + 1, i1 + 1)
 
 
-@point
+@rowwise
 def vertex_row(dj, di, j, i0, i1, below, above, choice, bound, still, cm_in, cm_out, reach, cell_mass, dual, w_old, w, mass,
                deficit, sums):
     """Velocities of row j after the sweep, by the advection choice (explanation/remap, equations 7 to 9).

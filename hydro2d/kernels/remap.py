@@ -6,7 +6,7 @@ still in the processor's cache (explanation/remap, blocks of rows).
 """
 
 from hydro2d.fields import BODY_FIELDS, DMG, EP, RHO, E
-from hydro2d.jit import kernel, point, prange
+from hydro2d.jit import kernel, point, prange, rowwise
 from hydro2d.kernels.acceleration import TINY
 from hydro2d.kernels.interfaces import face_range
 from hydro2d.kernels.spans import BLOCK, block_rows, columns, mixed_row, number_of_blocks, spread, union
@@ -49,7 +49,7 @@ def flux_range(dj, di, i0, i1, m, j, span):
     return (lo, hi) if lo < hi else (0, 0)
 
 
-@point
+@rowwise
 def flux_row(dj, di, j, i0, i1, m, carried, slot, b, span, pre, flux_volume, vof, q, scratch, flux):
     """Fluxes of what body m carries through the faces of row j.
 
@@ -99,7 +99,7 @@ def flux_row(dj, di, j, i0, i1, m, carried, slot, b, span, pre, flux_volume, vof
                 out[x] = carrier[x] * (donor + weight[x] * slope)
 
 
-@point
+@rowwise
 def update_row(dj, di, j, i0, i1, m, carried, below, above, b, span, face, pre, flux_volume, flux, scratch, vof, q):
     """Body m in row j after the sweep: volume, mass and what it carries. A cell without flux keeps its bits.
 
@@ -156,7 +156,7 @@ def update_row(dj, di, j, i0, i1, m, carried, below, above, b, span, face, pre, 
                     a_j[x] = min(max(a_j[x], 0.0), most)
 
 
-@point
+@rowwise
 def mass_flux_row(dj, di, j, i0, i1, slot, reach, span, flux, flux_mass):
     """Total mass flux through the faces of row j, zero wherever the dual fluxes read it and nothing flows.
 
@@ -175,7 +175,7 @@ def mass_flux_row(dj, di, j, i0, i1, slot, reach, span, flux, flux_mass):
             total[lo + x] += mass[lo + x]
 
 
-@point
+@rowwise
 def cell_mass_row(dj, di, j, reach, pre, face, volume, second, vof, q, cell_mass):
     """Mass of the cells of row j in the volume that they have after the sweep.
 
@@ -216,14 +216,14 @@ def sum_cell_mass(j0, j1, reach, volume, vof, q, cell_mass):
         cell_mass_row(0, 0, j, reach, volume, volume, volume, True, vof, q, cell_mass)
 
 
-@point
+@rowwise
 def sweep_row(dj, di, j, i0, i1, below, above, b, carried, span, reach, face, pre, volume, second, flux_volume, flux, scratch,
               vof, q, cell_mass, mixed_count, mixed):
     """Row j after the sweep: every body, the mass of the cells and the list of those that are mixed."""
     for m in range(span.shape[0]):
         update_row(dj, di, j, i0, i1, m, carried[m], below, above, b, span, face, pre, flux_volume, flux, scratch, vof, q)
     cell_mass_row(dj, di, j, reach, pre, face, volume, second, vof, q, cell_mass)
-    mixed_row(j, reach, vof, scratch[0, b], mixed_count, mixed)
+    mixed_row(j, reach, vof, scratch[0], b, mixed_count, mixed)
 
 
 @kernel
@@ -326,7 +326,8 @@ def tidy(j0, j1, trace, cm_in, cm_out, volume, mixed_count, mixed, pre, dj, di, 
     closed by scaling the bodies' volumes at constant mass. A negative density or volume counts as a trace.
 
     Reads    u, v [b, j, i]
-    Updates  mixed_count [j], mixed [j, k], the list of cells that are not full of one body; vof [m, j, i], q [k, m, j, i], cell_mass [j, i]
+    Updates  mixed_count [j], mixed [j, k], the list of cells that are not full of one body; vof [m, j, i], q [k, m, j, i],
+             cell_mass [j, i]
     Writes   booked [4 + m, j]: internal energy, kinetic energy, axial momentum, volume closed; then mass of each body
     """
     bodies = vof.shape[0]

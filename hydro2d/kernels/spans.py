@@ -4,7 +4,7 @@ A range (lo, hi) means lo <= i < hi; an empty range is (2**30, 0), so that the u
 other kernel loops over these ranges: a row of void costs nothing, and a pure cell pays for the one body in it.
 """
 
-from hydro2d.jit import kernel, point, prange
+from hydro2d.jit import kernel, point, prange, rowwise
 
 NOTHING = 1 << 30
 
@@ -105,15 +105,16 @@ def reached(j0, j1, i0, i1, occupied, reach):
         reach[j, 1] = hi
 
 
-@point
-def mixed_row(j, reach, vof, kind, count, mixed):
+@rowwise
+def mixed_row(j, reach, vof, scratch, row, count, mixed):
     """Lists the cells of row j in which a body and something else (another body or void) meet.
 
     Reads    vof [m, j, i], reach [j, 2]
     Writes   count [j], mixed [j, k] (columns, ascending)
-    Scratch  kind [i]: a thousand per body that fills the cell, one per body in it
+    Scratch  scratch [row, i]: a thousand per body that fills the cell, one per body in it
     """
     first, n = columns(reach[j, 0], reach[j, 1])
+    kind = scratch[row]
     for x in range(n):
         kind[first + x] = 0.0
     for m in range(vof.shape[0]):
@@ -132,9 +133,9 @@ def mixed_row(j, reach, vof, kind, count, mixed):
 
 @kernel
 def list_mixed(j0, j1, reach, vof, count, mixed, scratch):
-    """mixed_row for the rows j0 to j1, each with its own row of scratch [j, i]."""
+    """mixed_row for rows j0 to j1, each with its own row of scratch [j, i]."""
     for j in prange(j0, j1):
-        mixed_row(j, reach, vof, scratch[j], count, mixed)
+        mixed_row(j, reach, vof, scratch, j, count, mixed)
 
 
 @kernel

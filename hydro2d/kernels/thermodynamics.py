@@ -4,7 +4,7 @@ from math import sqrt
 
 from eos.dispatch import evaluate, pressure_row, temperature_row, zero_pressure_density
 from hydro2d.fields import DMG, EP, RHO, SRR, SRZ, SZZ, E
-from hydro2d.jit import kernel, point, prange, serial
+from hydro2d.jit import point, rowwise, serial
 from hydro2d.kernels.spans import columns
 from strength.dispatch import feels_temperature, modulus_row
 
@@ -32,10 +32,9 @@ def directional_viscosity(rho, c, du, psi, linear, quadratic):
     return (1.0 - psi) * rho * jump * (quadratic * jump + linear * c)
 
 
-@kernel
-def pressures(j0, j1, max_opening, vol_r, dz, span, reach, eos_model, eos_par, strength_model, strength_par,
-              damage_model, fracture_pressure, loose, vof, q, pm, km, tm, p, bulk, rhobar, solid, cl, scratch, opened,
-              bad):
+@rowwise
+def pressures_row(j, max_opening, vol_r, dz, span, reach, eos_model, eos_par, strength_model, strength_par, damage_model,
+                  fracture_pressure, loose, vof, q, pm, km, tm, p, bulk, rhobar, solid, cl, scratch, opened, bad):
     """Equation of state of every body, void opened in pure cells that tear, and the sums over a cell.
 
     p = sum f_m p_m;  rhobar = sum f_m rho_m;  1/bulk = sum f_m / K_m (explanation/equation-of-state, mixed-cells);
@@ -47,94 +46,93 @@ def pressures(j0, j1, max_opening, vol_r, dz, span, reach, eos_model, eos_par, s
     Reads    q (rho, e, damage) [k, m, j, i], span [m, j, 2], fracture_pressure, loose [m]
     Updates  vof [m, j, i], q (rho and deviators where a cell tears)
     Writes   pm, km, tm [m, j, i] (tm of bodies that feel temperature); p, bulk, rhobar, solid, cl [j, i]; opened [j]
-             volume of new void; bad [j, 3] count of cells that are not finite, the column and body of the first
+             volume of new void; bad [j, :3] count of cells that are not finite, the column and body of the first
     Scratch  scratch [j, i]
     """
     bodies = vof.shape[0]
-    for j in prange(j0, j1):
-        lo, n = columns(reach[j, 0], reach[j, 1])
-        p_j = p[j]
-        bulk_j = bulk[j]
-        rhobar_j = rhobar[j]
-        solid_j = solid[j]
-        cl_j = cl[j]
-        shear_j = scratch[j]
-        for x in range(n):
-            i = lo + x
-            p_j[i] = 0.0
-            bulk_j[i] = 0.0
-            rhobar_j[i] = 0.0
-            solid_j[i] = 0.0
-            cl_j[i] = 0.0
-        new_void = 0.0
-        bad[j, 0] = 0
-        for m in range(bodies):
-            model = eos_model[m]
-            par = eos_par[m]
-            f_j = vof[m, j]
-            r_j = q[RHO, m, j]
-            e_j = q[E, m, j]
-            d_j = q[DMG, m, j]
-            ep_j = q[EP, m, j]
-            pm_j = pm[m, j]
-            km_j = km[m, j]
-            tm_j = tm[m, j]
-            first, number = columns(span[m, j, 0], span[m, j, 1])
+    lo, n = columns(reach[j, 0], reach[j, 1])
+    p_j = p[j]
+    bulk_j = bulk[j]
+    rhobar_j = rhobar[j]
+    solid_j = solid[j]
+    cl_j = cl[j]
+    shear_j = scratch[j]
+    for x in range(n):
+        i = lo + x
+        p_j[i] = 0.0
+        bulk_j[i] = 0.0
+        rhobar_j[i] = 0.0
+        solid_j[i] = 0.0
+        cl_j[i] = 0.0
+    new_void = 0.0
+    bad[j, 0] = 0
+    for m in range(bodies):
+        model = eos_model[m]
+        par = eos_par[m]
+        f_j = vof[m, j]
+        r_j = q[RHO, m, j]
+        e_j = q[E, m, j]
+        d_j = q[DMG, m, j]
+        ep_j = q[EP, m, j]
+        pm_j = pm[m, j]
+        km_j = km[m, j]
+        tm_j = tm[m, j]
+        first, number = columns(span[m, j, 0], span[m, j, 1])
+        pressure_row(model, par, SOUND_FLOOR, first, number, f_j, r_j, e_j, d_j, pm_j, km_j)
+        torn = 0
+        wrong = 0
+        for x in range(number):
+            i = first + x
+            tears = f_j[i] == 1.0 and (pm_j[i] < -fracture_pressure[m] or d_j[i] >= 1.0)
+            good = r_j[i] > 0.0 and abs(pm_j[i]) < 1e300 and abs(ep_j[i]) < 1e300
+            torn += 1 if tears else 0
+            wrong += 0 if good or f_j[i] == 0.0 else 1
+        if torn > 0:
+            for x in range(number):
+                i = first + x
+                rho = r_j[i]
+                threshold = fracture_pressure[m] if d_j[i] < 1.0 else 0.0
+                if f_j[i] == 1.0 and evaluate(model, rho, e_j[i], par)[0] < -threshold:
+                    target = max(zero_pressure_density(model, rho, e_j[i], par), rho)
+                    f = max(rho / target, 1.0 - max_opening)
+                    new_void += (1.0 - f) * vol_r[i] * dz[j]
+                    f_j[i] = f
+                    r_j[i] = rho / f
+                    q[SRR, m, j, i] = 0.0
+                    q[SZZ, m, j, i] = 0.0
+                    q[SRZ, m, j, i] = 0.0
             pressure_row(model, par, SOUND_FLOOR, first, number, f_j, r_j, e_j, d_j, pm_j, km_j)
-            torn = 0
-            wrong = 0
+        if wrong > 0:
             for x in range(number):
                 i = first + x
-                tears = f_j[i] == 1.0 and (pm_j[i] < -fracture_pressure[m] or d_j[i] >= 1.0)
                 good = r_j[i] > 0.0 and abs(pm_j[i]) < 1e300 and abs(ep_j[i]) < 1e300
-                torn += 1 if tears else 0
-                wrong += 0 if good or f_j[i] == 0.0 else 1
-            if torn > 0:
-                for x in range(number):
-                    i = first + x
-                    rho = r_j[i]
-                    threshold = fracture_pressure[m] if d_j[i] < 1.0 else 0.0
-                    if f_j[i] == 1.0 and evaluate(model, rho, e_j[i], par)[0] < -threshold:
-                        target = max(zero_pressure_density(model, rho, e_j[i], par), rho)
-                        f = max(rho / target, 1.0 - max_opening)
-                        new_void += (1.0 - f) * vol_r[i] * dz[j]
-                        f_j[i] = f
-                        r_j[i] = rho / f
-                        q[SRR, m, j, i] = 0.0
-                        q[SZZ, m, j, i] = 0.0
-                        q[SRZ, m, j, i] = 0.0
-                pressure_row(model, par, SOUND_FLOOR, first, number, f_j, r_j, e_j, d_j, pm_j, km_j)
-            if wrong > 0:
-                for x in range(number):
-                    i = first + x
-                    good = r_j[i] > 0.0 and abs(pm_j[i]) < 1e300 and abs(ep_j[i]) < 1e300
-                    if f_j[i] > 0.0 and not good:
-                        bad[j, 1] = i if bad[j, 0] == 0 else bad[j, 1]
-                        bad[j, 2] = m if bad[j, 0] == 0 else bad[j, 2]
-                        bad[j, 0] += 1
-            if feels_temperature(strength_model[m], damage_model[m]):
-                temperature_row(model, par, first, number, f_j, r_j, e_j, tm_j)
-            modulus_row(strength_model[m], strength_par[m], first, number, pm_j, r_j, tm_j, shear_j)
-            for x in range(number):
-                i = first + x
-                f = f_j[i]
-                there = f > 0.0
-                rho = r_j[i] if there else 1.0
-                c2 = km_j[i]
-                modulus = shear_j[i] if rho > loose[m] else 0.0
-                stiffness = rho * c2
-                km_j[i] = stiffness
-                p_j[i] += f * pm_j[i]
-                bulk_j[i] += f / stiffness if there else 0.0
-                rhobar_j[i] += f * rho
-                solid_j[i] += f
-                cl_j[i] = max(cl_j[i], c2 + 4.0 / 3.0 * modulus / rho if there else 0.0)
-        for x in range(n):
-            i = lo + x
-            full = solid_j[i] > 1.0 - 1e-12
-            bulk_j[i] = 1.0 / bulk_j[i] if full and bulk_j[i] > 0.0 else 0.0
-            cl_j[i] = sqrt(cl_j[i])
-        opened[j] = new_void
+                if f_j[i] > 0.0 and not good:
+                    bad[j, 1] = i if bad[j, 0] == 0 else bad[j, 1]
+                    bad[j, 2] = m if bad[j, 0] == 0 else bad[j, 2]
+                    bad[j, 0] += 1
+        if feels_temperature(strength_model[m], damage_model[m]):
+            temperature_row(model, par, first, number, f_j, r_j, e_j, tm_j)
+        modulus_row(strength_model[m], strength_par[m], first, number, pm_j, r_j, tm_j, shear_j)
+        for x in range(number):
+            i = first + x
+            f = f_j[i]
+            there = f > 0.0
+            rho = r_j[i] if there else 1.0
+            c2 = km_j[i]
+            modulus = shear_j[i] if rho > loose[m] else 0.0
+            stiffness = rho * c2
+            km_j[i] = stiffness
+            p_j[i] += f * pm_j[i]
+            bulk_j[i] += f / stiffness if there else 0.0
+            rhobar_j[i] += f * rho
+            solid_j[i] += f
+            cl_j[i] = max(cl_j[i], c2 + 4.0 / 3.0 * modulus / rho if there else 0.0)
+    for x in range(n):
+        i = lo + x
+        full = solid_j[i] > 1.0 - 1e-12
+        bulk_j[i] = 1.0 / bulk_j[i] if full and bulk_j[i] > 0.0 else 0.0
+        cl_j[i] = sqrt(cl_j[i])
+    opened[j] = new_void
 
 
 @point
@@ -167,9 +165,9 @@ def step_limits(i, ub, ut, vb, vt, courant, advective, dr, h, rho, cl, q, loss):
     return sound, advective * dr[i] / radial, advective * h / axial, 0.2 / loss if loss > 0.0 else 1e300
 
 
-@kernel
-def viscosity_and_step(j0, j1, linear, quadratic, courant, advective, dr, dz, vol_r, face_r, az_in, az_out, reach, u, v,
-                       rhobar, bulk, cl, qr, qz, step, row_step, row_bad):
+@rowwise
+def viscosity_row(j, linear, quadratic, courant, advective, hourglass, dr, dz, vol_r, face_r, az_in, az_out, reach, u, v,
+                  rhobar, bulk, cl, qr, qz, weight, step, row_step, bad):
     """Artificial viscosity direction by direction, and the time step that every cell allows.
 
     q_r answers only to the radial difference du, q_z only to the axial one (a shock along z must not see dr), and neither to
@@ -178,49 +176,51 @@ def viscosity_and_step(j0, j1, linear, quadratic, courant, advective, dr, dz, vo
     dz)/sqrt(c_l^2 + 2 q/rho), |u| dt <= advective dx, |div u| dt <= 0.2 in compression (explanation/lagrangian-step).
 
     Reads    u, v [b, j, i]; rhobar, bulk, cl [j, i]
-    Writes   qr, qz, step [j, i]; row_step [j], the least of a row; row_bad [j] velocities that are not finite
+    Writes   qr, qz, step [j, i]; weight [j, i], coefficient of the hourglass filter, kg/s; row_step [j], the least of a row;
+             bad [j, 3] velocities that are not finite
     """
-    for j in prange(j0, j1):
-        lo, n = columns(reach[j, 0], reach[j, 1])
-        ub = u[0, j]
-        ut = u[0, j + 1]
-        vbb = v[0, j - 1]
-        vb = v[0, j]
-        vt = v[0, j + 1]
-        vtt = v[0, j + 2]
-        qr_j = qr[j]
-        qz_j = qz[j]
-        rho_j = rhobar[j]
-        cl_j = cl[j]
-        bulk_j = bulk[j]
-        step_j = step[j]
-        h = dz[j]
-        wrong = 0
-        for x in range(n):
-            i = lo + x
-            void = rho_j[i] == 0.0
-            rho = 1.0 if void else rho_j[i]
-            du = 0.5 * ((ub[i + 1] - ub[i]) + (ut[i + 1] - ut[i]))
-            du_l = 0.5 * ((ub[i] - ub[i - 1]) + (ut[i] - ut[i - 1]))
-            du_r = 0.5 * ((ub[i + 2] - ub[i + 1]) + (ut[i + 2] - ut[i + 1]))
-            dv = 0.5 * ((vt[i] - vb[i]) + (vt[i + 1] - vb[i + 1]))
-            dv_b = 0.5 * ((vb[i] - vbb[i]) + (vb[i + 1] - vbb[i + 1]))
-            dv_t = 0.5 * ((vtt[i] - vt[i]) + (vtt[i + 1] - vt[i + 1]))
-            c = bulk_j[i] / rho
-            c = sqrt(c) if c > 0.0 else cl_j[i]
-            loss = volume_loss(i, ub, ut, vb, vt, face_r, az_in, az_out, vol_r, h)
-            du_q = max(du, -max(loss, 0.0) * dr[i])
-            dv_q = max(dv, -max(loss, 0.0) * h)
-            q_r = directional_viscosity(rho, c, du_q, smoothness(du_l, du, du_r), linear, quadratic)
-            q_z = directional_viscosity(rho, c, dv_q, smoothness(dv_b, dv, dv_t), linear, quadratic)
-            sound, radial, axial, volume = step_limits(
-                i, ub, ut, vb, vt, courant, advective, dr, h, rho, cl_j[i], max(q_r, q_z), loss)
-            qr_j[i] = 0.0 if void else q_r
-            qz_j[i] = 0.0 if void else q_z
-            step_j[i] = 1e300 if void else min(min(sound, radial), min(axial, volume))
-            wrong += 0 if void or (abs(du) < 1e300 and abs(dv) < 1e300) else 1
-        row_step[j] = row_minimum(step_j, lo, n)
-        row_bad[j] = wrong
+    lo, n = columns(reach[j, 0], reach[j, 1])
+    ub = u[0, j]
+    ut = u[0, j + 1]
+    vbb = v[0, j - 1]
+    vb = v[0, j]
+    vt = v[0, j + 1]
+    vtt = v[0, j + 2]
+    qr_j = qr[j]
+    qz_j = qz[j]
+    rho_j = rhobar[j]
+    cl_j = cl[j]
+    bulk_j = bulk[j]
+    step_j = step[j]
+    weight_j = weight[j]
+    h = dz[j]
+    wrong = 0
+    for x in range(n):
+        i = lo + x
+        void = rho_j[i] == 0.0
+        rho = 1.0 if void else rho_j[i]
+        du = 0.5 * ((ub[i + 1] - ub[i]) + (ut[i + 1] - ut[i]))
+        du_l = 0.5 * ((ub[i] - ub[i - 1]) + (ut[i] - ut[i - 1]))
+        du_r = 0.5 * ((ub[i + 2] - ub[i + 1]) + (ut[i + 2] - ut[i + 1]))
+        dv = 0.5 * ((vt[i] - vb[i]) + (vt[i + 1] - vb[i + 1]))
+        dv_b = 0.5 * ((vb[i] - vbb[i]) + (vb[i + 1] - vbb[i + 1]))
+        dv_t = 0.5 * ((vtt[i] - vt[i]) + (vtt[i + 1] - vt[i + 1]))
+        c = bulk_j[i] / rho
+        c = sqrt(c) if c > 0.0 else cl_j[i]
+        loss = volume_loss(i, ub, ut, vb, vt, face_r, az_in, az_out, vol_r, h)
+        du_q = max(du, -max(loss, 0.0) * dr[i])
+        dv_q = max(dv, -max(loss, 0.0) * h)
+        q_r = directional_viscosity(rho, c, du_q, smoothness(du_l, du, du_r), linear, quadratic)
+        q_z = directional_viscosity(rho, c, dv_q, smoothness(dv_b, dv, dv_t), linear, quadratic)
+        sound, radial, axial, volume = step_limits(
+            i, ub, ut, vb, vt, courant, advective, dr, h, rho, cl_j[i], max(q_r, q_z), loss)
+        weight_j[i] = 0.25 * hourglass * rho_j[i] * cl_j[i] * vol_r[i] * h / max(dr[i], h)
+        qr_j[i] = 0.0 if void else q_r
+        qz_j[i] = 0.0 if void else q_z
+        step_j[i] = 1e300 if void else min(min(sound, radial), min(axial, volume))
+        wrong += 0 if void or (abs(du) < 1e300 and abs(dv) < 1e300) else 1
+    row_step[j] = row_minimum(step_j, lo, n)
+    bad[j, 3] = wrong
 
 
 @serial
