@@ -179,6 +179,7 @@ class Cycle:
         s, box = self.state, self.box
         spans.body_spans(*box, s.vof, s.span, s.occupied)
         spans.reached(*box, s.occupied, s.reach)
+        spans.neighbours(box[0], box[1], s.near, s.around)
 
     def _list_mixed(self) -> None:
         s, (j0, j1, _, _) = self.state, self.box
@@ -186,7 +187,7 @@ class Cycle:
 
     def _vertex_mass(self) -> None:
         s, g, (j0, j1, i0, i1) = self.state, self.grid, self.box
-        acceleration.vertex_masses(j0, j1 + 1, i0, i1 + 1, g.cm_in, g.cm_out, s.reach, s.cell_mass, s.mass)
+        acceleration.vertex_masses(j0, j1 + 1, i0, i1 + 1, g.cm_in, g.cm_out, s.around, s.cell_mass, s.mass)
 
     def ghost_vertices(self) -> None:
         """Mirrors or copies velocities beyond the edges of the mesh."""
@@ -290,7 +291,7 @@ class Cycle:
     def sweep_faces(self) -> None:
         """Volumes that the faces sweep in the step; they are the change of volume, and later the remap's fluxes."""
         s, g, (j0, j1, i0, i1) = self.state, self.grid, self.box
-        acceleration.swept_volumes(j0, j1 + 1, i0, i1, self.dt, g.face_r, g.az_in, g.az_out, g.dz, s.reach, s.u0, s.v0,
+        acceleration.swept_volumes(j0, j1 + 1, i0, i1, self.dt, g.face_r, g.az_in, g.az_out, g.dz, s.around, s.u0, s.v0,
                                    s.u, s.v,
                                    s.fr, s.fz)
 
@@ -325,7 +326,7 @@ class Cycle:
         for face, _ in self._open_faces(di):  # rows without the body are not visited, and are booked nevertheless
             np.moveaxis(s.flux_volume, 2 if di else 1, 0)[face] = 0.0
         face = s.fr if di else s.fz
-        interfaces.donor_volumes(dj, di, *box, second == 0, self.edges, g.volume, s.span, s.reach, s.fr, s.fz, s.vof, s.pre,
+        interfaces.donor_volumes(dj, di, *box, second == 0, self.edges, g.volume, s.near, s.reach, s.fr, s.fz, s.vof, s.pre,
                                  s.flux_volume)
         interfaces.interface_volumes(dj, di, j0, j1, g.dr, g.dz, self.method.order, s.mixed_count, s.mixed, face, s.pre, s.vof,
                                      s.flux_volume, s.mix)
@@ -334,9 +335,9 @@ class Cycle:
         """Fluxes and update of every body's fields; the cells' masses, and which of them are mixed."""
         s, g, box = self.state, self.grid, self.box
         if dj:
-            remap.shared_fluxes(*box, self.carried, s.span, s.pre, s.flux_volume, s.vof, s.q, s.scratch, s.flux)
+            remap.shared_fluxes(*box, self.carried, s.near, s.pre, s.flux_volume, s.vof, s.q, s.scratch, s.flux)
         sweep = remap.sweep_r if di else remap.sweep_z
-        sweep(*box, self.carried, self.edges, s.span, s.reach, s.fr if di else s.fz, s.pre, g.volume, bool(second),
+        sweep(*box, self.carried, self.edges, s.near, s.around, s.fr if di else s.fz, s.pre, g.volume, bool(second),
               s.flux_volume, s.scratch, s.flux, s.flux_mass, s.edge_flux, s.vof, s.q, s.cell_mass, s.mixed_count, s.mixed)
         self._book_outflow(di)
 
@@ -372,7 +373,7 @@ class Cycle:
         s.swap_velocities()
         sums = s.rows[:5]
         momentum.sweep_momentum(
-            dj, di, *self.box, method.choice, method.ke_bound, self.still, self.edges, g.cm_in, g.cm_out, s.reach, s.cell_mass,
+            dj, di, *self.box, method.choice, method.ke_bound, self.still, self.edges, g.cm_in, g.cm_out, s.around, s.cell_mass,
             flow, s.mass, s.velocity0, s.velocity, s.dual, s.edge_dual, s.deficit, sums)
         before, after, p_gained, k_cut, p_wall = sums[:, j0:j1 + 1].sum(axis=1)
         lost = before - after - self._kinetic_outflow(di)

@@ -59,11 +59,12 @@ class State:
         self.trial = np.zeros((2, nj, ni))
         self.deficit = np.zeros((nj + 1, ni + 1))
 
-        self.span = np.zeros((bodies, nj, 2), dtype=np.int64)
-        self.span[..., 0], self.span[..., 1] = EMPTY
+        self.near = np.zeros((3, bodies, nj, 2), dtype=np.int64)
+        self.around = np.zeros((4, nj, 2), dtype=np.int64)
         self.occupied = np.zeros((nj, 2), dtype=np.int64)
-        self.occupied[:, 0], self.occupied[:, 1] = EMPTY
-        self.reach = self.occupied.copy()
+        for ranges in (self.near, self.around, self.occupied):
+            ranges[..., 0], ranges[..., 1] = EMPTY
+        self.span, self.reach = self.near[0], self.around[0]
         self.mixed_count = np.zeros(nj, dtype=np.int64)
         self.mixed = np.zeros((nj, ni), dtype=np.int64)
 

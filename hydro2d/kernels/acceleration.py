@@ -104,13 +104,13 @@ def total_stress(j0, j1, dt, face_r, az_in, az_out, vol_r, dz, span, reach, mixe
 
 
 @rowwise
-def vertex_masses_row(j, i0, i1, cm_in, cm_out, reach, cell_mass, mass):
+def vertex_masses_row(j, i0, i1, cm_in, cm_out, around, cell_mass, mass):
     """Mass of the dual cells: corner shares of the four cells around a vertex, weighted by radius.
 
     Reads    cell_mass [j, i]
     Writes   mass [b, j, i]
     """
-    lo, hi = union(reach, j - 1, j + 1)
+    lo, hi = around[1, j, 0], around[1, j, 1]
     lo, n = columns(max(lo, i0), min(hi + 1, i1))
     below = cell_mass[j - 1]
     above = cell_mass[j]
@@ -121,10 +121,10 @@ def vertex_masses_row(j, i0, i1, cm_in, cm_out, reach, cell_mass, mass):
 
 
 @kernel
-def vertex_masses(j0, j1, i0, i1, cm_in, cm_out, reach, cell_mass, mass):
+def vertex_masses(j0, j1, i0, i1, cm_in, cm_out, around, cell_mass, mass):
     """vertex_masses_row for rows j0 to j1."""
     for j in prange(j0, j1):
-        vertex_masses_row(j, i0, i1, cm_in, cm_out, reach, cell_mass, mass)
+        vertex_masses_row(j, i0, i1, cm_in, cm_out, around, cell_mass, mass)
 
 
 @rowwise
@@ -222,7 +222,7 @@ def accelerate(j0, j1, i0, i1, dt, speed_limit, light_density, face_r, hoop, az_
 
 
 @rowwise
-def swept_volumes_row(j, i0, i1, dt, face_r, az_in, az_out, dz, reach, u0, v0, u, v, fr, fz):
+def swept_volumes_row(j, i0, i1, dt, face_r, az_in, az_out, dz, around, u0, v0, u, v, fr, fz):
     """Volumes swept by the faces in the step, from the velocity at mid-step (explanation/remap, equation 1).
 
     F_r = dt r h <u>,  F_z = dt (a v_inner + b v_outer), with the areas of the cell vectors, so that their sum over a cell is
@@ -231,7 +231,7 @@ def swept_volumes_row(j, i0, i1, dt, face_r, az_in, az_out, dz, reach, u0, v0, u
     Reads    u0, v0, u, v [b, j, i]
     Writes   fr, fz [j, i]
     """
-    lo, hi = union(reach, j - 1, j + 1)
+    lo, hi = around[1, j, 0], around[1, j, 1]
     lo, n = columns(max(lo, i0), min(hi, i1))
     ub = u[0, j]
     ub0 = u0[0, j]
@@ -253,7 +253,7 @@ def swept_volumes_row(j, i0, i1, dt, face_r, az_in, az_out, dz, reach, u0, v0, u
 
 
 @kernel
-def swept_volumes(j0, j1, i0, i1, dt, face_r, az_in, az_out, dz, reach, u0, v0, u, v, fr, fz):
+def swept_volumes(j0, j1, i0, i1, dt, face_r, az_in, az_out, dz, around, u0, v0, u, v, fr, fz):
     """swept_volumes_row for rows j0 to j1."""
     for j in prange(j0, j1):
-        swept_volumes_row(j, i0, i1, dt, face_r, az_in, az_out, dz, reach, u0, v0, u, v, fr, fz)
+        swept_volumes_row(j, i0, i1, dt, face_r, az_in, az_out, dz, around, u0, v0, u, v, fr, fz)

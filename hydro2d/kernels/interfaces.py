@@ -110,17 +110,14 @@ def sweep_volumes_row(j, dj, di, first, volume, reach, fr, fz, pre):
 
 
 @point
-def face_range(dj, m, j, span):
-    """Faces of row j at which body m can flow: one beyond its columns, over the rows that a sweep couples."""
-    lo, hi = 1 << 30, 0
-    for row in range(max(j - 2 * dj, 0), min(j + dj + 1, span.shape[1])):
-        lo = min(lo, span[m, row, 0])
-        hi = max(hi, span[m, row, 1])
-    return lo - 1, hi + 2
+def flux_range(dj, di, i0, i1, m, j, near):
+    """Faces of row j through which body m may flow within the active columns: one beyond its own; empty is (0, 0)."""
+    lo, hi = max(near[2 * dj, m, j, 0] - 1, i0), min(near[2 * dj, m, j, 1] + 2, i1 + di)
+    return (lo, hi) if lo < hi else (0, 0)
 
 
 @rowwise
-def donor_volumes_row(j, dj, di, i0, i1, open_faces, span, f_face, vof, flux_volume):
+def donor_volumes_row(j, dj, di, i0, i1, open_faces, near, f_face, vof, flux_volume):
     """Volume of each body through each face, taken as if the donor cell were filled evenly: right where it is pure.
 
     Nothing but void flows in through the faces of the mesh's edge.
@@ -130,10 +127,7 @@ def donor_volumes_row(j, dj, di, i0, i1, open_faces, span, f_face, vof, flux_vol
     """
     bodies = vof.shape[0]
     for m in range(bodies):
-        lo, hi = face_range(dj, m, j, span)
-        if lo >= hi:
-            continue
-        lo, hi = max(lo, i0), min(hi, i1 + di)
+        lo, hi = flux_range(dj, di, i0, i1, m, j, near)
         if lo >= hi:
             continue
         swept = f_face[j, lo:hi]
@@ -214,15 +208,15 @@ def interface_volumes_row(j, dj, di, dr, dz, order, mixed_count, mixed, f_face, 
 
 
 @kernel
-def donor_volumes(dj, di, j0, j1, i0, i1, first, open_faces, volume, span, reach, fr, fz, vof, pre, flux_volume):
+def donor_volumes(dj, di, j0, j1, i0, i1, first, open_faces, volume, near, reach, fr, fz, vof, pre, flux_volume):
     """Rows j0 to j1 before a sweep: sweep_volumes_row, and donor_volumes_row, which has one more row of faces along z."""
     for j in prange(j0, j1 + dj):
         if j < j1:
             sweep_volumes_row(j, dj, di, first, volume, reach, fr, fz, pre)
         if di == 1:
-            donor_volumes_row(j, dj, di, i0, i1, open_faces, span, fr, vof, flux_volume)
+            donor_volumes_row(j, dj, di, i0, i1, open_faces, near, fr, vof, flux_volume)
         else:
-            donor_volumes_row(j, dj, di, i0, i1, open_faces, span, fz, vof, flux_volume)
+            donor_volumes_row(j, dj, di, i0, i1, open_faces, near, fz, vof, flux_volume)
 
 
 @kernel

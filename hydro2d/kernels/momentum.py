@@ -7,7 +7,7 @@ from hydro2d.grid import GHOSTS
 from hydro2d.jit import kernel, plus, point, prange, rowwise
 from hydro2d.kernels.acceleration import TINY
 from hydro2d.kernels.remap import upwind
-from hydro2d.kernels.spans import block_rows, copy_beside, number_of_blocks, spread, union
+from hydro2d.kernels.spans import block_rows, copy_beside, number_of_blocks, spread
 
 #: advection by name, in the order of the integer that the kernels take
 CHOICES = ("momentum", "ke", "both")
@@ -15,7 +15,7 @@ MOMENTUM, KE, BOTH = range(3)
 
 
 @rowwise
-def dual_row(dj, di, j, i0, i1, slot, cm_in, cm_out, reach, flux_mass, mass, w, dual):
+def dual_row(dj, di, j, i0, i1, slot, cm_in, cm_out, around, flux_mass, mass, w, dual):
     """Mass, momentum and kinetic energy that flow between the vertices of row j and their neighbours at higher r or z.
 
     r-sweep: Phi = cm_out (F_left) + cm_in (F_right) of the column between, summed over the two rows beside the vertex;
@@ -25,7 +25,7 @@ def dual_row(dj, di, j, i0, i1, slot, cm_in, cm_out, reach, flux_mass, mass, w, 
     Reads    flux_mass [j, i]; mass [b, j, i], w = (u, v) [c, b, j, i]
     Writes   dual [k, slot, i]: mass, radial and axial momentum, and kinetic energy of each component
     """
-    lo, hi = dual_range(dj, di, i0, i1, j, reach)
+    lo, hi = dual_range(dj, di, i0, i1, j, around)
     n = hi - lo
     if n > 0:
         flow = dual[0, slot, lo:hi]
@@ -44,8 +44,8 @@ def dual_row(dj, di, j, i0, i1, slot, cm_in, cm_out, reach, flux_mass, mass, w, 
         m_l = mass[0, j, lo:hi]
         m_r = mass[0, j + dj, lo + di:hi + di]
         for x in range(n):
-            whole = m_l[x] if flow[x] > 0.0 else m_r[x]
-            half[x] = 0.5 * (1.0 - min(abs(flow[x]) / max(whole, TINY), 1.0))
+            whole = max(m_l[x], TINY) if flow[x] > 0.0 else max(m_r[x], TINY)
+            half[x] = 0.5 * (1.0 - min(abs(flow[x]) / whole, 1.0))
         for c in range(2):
             a_ll = w[c, 0, j - dj, lo - di:hi - di]
             a_l = w[c, 0, j, lo:hi]
@@ -63,14 +63,13 @@ def dual_row(dj, di, j, i0, i1, slot, cm_in, cm_out, reach, flux_mass, mass, w, 
 
 
 @point
-def dual_range(dj, di, i0, i1, j, reach):
+def dual_range(dj, di, i0, i1, j, around):
     """Vertices of row j from which something may flow within the active columns."""
-    lo, hi = union(reach, j - 1 - dj, j + 1 + dj)
-    return max(lo, i0) - di, min(hi + 1, i1 + 1)
+    return max(around[1 + dj, j, 0], i0) - di, min(around[1 + dj, j, 1] + 1, i1 + 1)
 
 
 @rowwise
-def vertex_row(dj, di, j, i0, i1, below, above, choice, bound, still, cm_in, cm_out, reach, cell_mass, dual, w_old, w, mass,
+def vertex_row(dj, di, j, i0, i1, below, above, choice, bound, still, cm_in, cm_out, around, cell_mass, dual, w_old, w, mass,
                deficit, sums):
     """Velocities of row j after the sweep, by the advection choice (explanation/remap, equations 7 to 9).
 
@@ -86,8 +85,7 @@ def vertex_row(dj, di, j, i0, i1, below, above, choice, bound, still, cm_in, cm_
     Writes   sums [5, j]: kinetic energy before and after; axial momentum after less P; kinetic energy cut by the bound;
              axial momentum given to walls
     """
-    lo, hi = union(reach, j - 1, j + 1)
-    lo, hi = max(lo, i0), min(hi + 1, i1)
+    lo, hi = max(around[1, j, 0], i0), min(around[1, j, 1] + 1, i1)
     n = hi - lo
     for row in range(5):
         sums[row, j] = 0.0
@@ -152,7 +150,7 @@ def vertex_row(dj, di, j, i0, i1, below, above, choice, bound, still, cm_in, cm_
 
 
 @kernel
-def sweep_momentum(dj, di, j0, j1, i0, i1, choice, bound, still, edges, cm_in, cm_out, reach, cell_mass, flux_mass, mass, w_old,
+def sweep_momentum(dj, di, j0, j1, i0, i1, choice, bound, still, edges, cm_in, cm_out, around, cell_mass, flux_mass, mass, w_old,
                    w, dual, edge_dual, deficit, sums):
     """Carries the momentum of the vertices j0 to j1 along one direction.
 
@@ -166,8 +164,8 @@ def sweep_momentum(dj, di, j0, j1, i0, i1, choice, bound, still, edges, cm_in, c
         first, last = block_rows(b, blocks, j0, j1 + 1)
         for j in range(first - dj, last):
             slot = 2 * b + dj * (j % 2)
-            dual_row(dj, di, j, i0, i1, slot, cm_in, cm_out, reach, flux_mass, mass, w_old, dual)
-            lo, hi = dual_range(dj, di, i0, i1, j, reach)
+            dual_row(dj, di, j, i0, i1, slot, cm_in, cm_out, around, flux_mass, mass, w_old, dual)
+            lo, hi = dual_range(dj, di, i0, i1, j, around)
             for side in range(2):
                 at = edges[2 * di + side] + side - 1  # the edge from a ghost vertex to the mesh, or from the mesh to one
                 for k in range(5):
@@ -178,7 +176,7 @@ def sweep_momentum(dj, di, j0, j1, i0, i1, choice, bound, still, edges, cm_in, c
                             edge_dual[side, k, i] = dual[k, slot, i] if lo <= i < hi else 0.0
             if j >= first:
                 below = 2 * b + dj * ((j - 1) % 2)
-                vertex_row(dj, di, j, i0, i1 + 1, below, slot, choice, bound, still, cm_in, cm_out, reach, cell_mass, dual,
+                vertex_row(dj, di, j, i0, i1 + 1, below, slot, choice, bound, still, cm_in, cm_out, around, cell_mass, dual,
                            w_old, w, mass, deficit, sums)
 
 

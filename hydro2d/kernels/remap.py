@@ -8,8 +8,8 @@ still in the processor's cache (explanation/remap, blocks of rows).
 from hydro2d.fields import BODY_FIELDS, DMG, EP, RHO, E
 from hydro2d.jit import kernel, point, prange, rowwise
 from hydro2d.kernels.acceleration import TINY
-from hydro2d.kernels.interfaces import face_range
-from hydro2d.kernels.spans import BLOCK, block_rows, columns, mixed_row, number_of_blocks, spread, union
+from hydro2d.kernels.interfaces import flux_range
+from hydro2d.kernels.spans import BLOCK, block_rows, columns, mixed_row, number_of_blocks, spread
 
 #: rows of scratch [s, block, i]: the weights of the slopes by volume and by mass; or volume and mass before the sweep, and
 #: one over those after it
@@ -41,16 +41,8 @@ def by_mass(k):
     return k == E or k >= EP
 
 
-@point
-def flux_range(dj, di, i0, i1, m, j, span):
-    """Faces of row j through which body m may flow within the active columns; an empty range is (0, 0)."""
-    lo, hi = face_range(dj, m, j, span)
-    lo, hi = max(lo, i0), min(hi, i1 + di)
-    return (lo, hi) if lo < hi else (0, 0)
-
-
 @rowwise
-def flux_row(dj, di, j, i0, i1, m, carried, slot, b, span, pre, flux_volume, vof, q, scratch, flux):
+def flux_row(dj, di, j, i0, i1, m, carried, slot, b, near, pre, flux_volume, vof, q, scratch, flux):
     """Fluxes of what body m carries through the faces of row j.
 
     Second order, monotone, in cells whose neighbours are full of the same body; the donor's own value in and next to mixed
@@ -59,7 +51,7 @@ def flux_row(dj, di, j, i0, i1, m, carried, slot, b, span, pre, flux_volume, vof
     Reads    pre [j, i]; flux_volume, vof [m, j, i]; q [k, m, j, i]
     Writes   flux [k, m, slot, i]
     """
-    lo, hi = flux_range(dj, di, i0, i1, m, j, span)
+    lo, hi = flux_range(dj, di, i0, i1, m, j, near)
     n = hi - lo
     if n > 0:
         swept = flux_volume[m, j, lo:hi]
@@ -78,10 +70,11 @@ def flux_row(dj, di, j, i0, i1, m, carried, slot, b, span, pre, flux_volume, vof
         half_m = scratch[1, b, lo:hi]
         for x in range(n):
             up = swept[x] > 0.0
-            least = min(min(f_l[x], f_r[x]), f_ll[x] if up else f_rr[x])
+            both = min(f_l[x], f_r[x])
+            least = min(both, f_ll[x]) if up else min(both, f_rr[x])
             clean = 0.5 if least == 1.0 else 0.0
             donor, slope = upwind(up, r_ll[x], r_l[x], r_r[x], r_rr[x])
-            volume = pre_l[x] if up else pre_r[x]
+            volume = max(pre_l[x], TINY) if up else max(pre_r[x], TINY)
             half_v[x] = clean * (1.0 - abs(swept[x]) / volume)
             flow = swept[x] * (donor + half_v[x] * slope)
             half_m[x] = clean * (1.0 - abs(flow) / max(volume * donor, TINY))
@@ -100,7 +93,7 @@ def flux_row(dj, di, j, i0, i1, m, carried, slot, b, span, pre, flux_volume, vof
 
 
 @rowwise
-def update_row(dj, di, j, i0, i1, m, carried, below, above, b, span, face, pre, flux_volume, flux, scratch, vof, q):
+def update_row(dj, di, j, i0, i1, m, carried, below, above, b, near, face, pre, flux_volume, flux, scratch, vof, q):
     """Body m in row j after the sweep: volume, mass and what it carries. A cell without flux keeps its bits.
 
     Plastic strain stays positive, damage between 0 and 1.
@@ -108,8 +101,7 @@ def update_row(dj, di, j, i0, i1, m, carried, below, above, b, span, face, pre, 
     Reads    face, pre [j, i]; flux_volume [m, j, i]; flux [k, m, slot, i] in the slots `below` and `above`
     Updates  vof [m, j, i] (share of the volume after the sweep), q [k, m, j, i]
     """
-    lo, hi = union(span[m], j - dj, j + dj + 1)
-    lo, hi = max(lo - di, i0), min(hi + di, i1)
+    lo, hi = max(near[dj, m, j, 0] - di, i0), min(near[dj, m, j, 1] + di, i1)
     n = hi - lo
     if n > 0:
         v_in = flux_volume[m, j, lo:hi]
@@ -157,18 +149,17 @@ def update_row(dj, di, j, i0, i1, m, carried, below, above, b, span, face, pre, 
 
 
 @rowwise
-def mass_flux_row(dj, di, j, i0, i1, slot, reach, span, flux, flux_mass):
+def mass_flux_row(dj, di, j, i0, i1, slot, around, near, flux, flux_mass):
     """Total mass flux through the faces of row j, zero wherever the dual fluxes read it and nothing flows.
 
     Reads    flux [k, m, slot, i];  writes flux_mass [j, i]
     """
-    lo, hi = union(reach, j - 3, j + 3)
-    lo, n = columns(max(lo - 2, i0 - 2), min(hi + 3, i1 + 3))
+    lo, n = columns(max(around[3, j, 0] - 2, i0 - 2), min(around[3, j, 1] + 3, i1 + 3))
     total = flux_mass[j]
     for x in range(n):
         total[lo + x] = 0.0
-    for m in range(span.shape[0]):
-        lo, hi = flux_range(dj, di, i0, i1, m, j, span)
+    for m in range(near.shape[1]):
+        lo, hi = flux_range(dj, di, i0, i1, m, j, near)
         lo, n = columns(lo, hi)
         mass = flux[RHO, m, slot]
         for x in range(n):
@@ -217,21 +208,21 @@ def sum_cell_mass(j0, j1, reach, volume, vof, q, cell_mass):
 
 
 @rowwise
-def sweep_row(dj, di, j, i0, i1, below, above, b, carried, span, reach, face, pre, volume, second, flux_volume, flux, scratch,
+def sweep_row(dj, di, j, i0, i1, below, above, b, carried, near, around, face, pre, volume, second, flux_volume, flux, scratch,
               vof, q, cell_mass, mixed_count, mixed):
     """Row j after the sweep: every body, the mass of the cells and the list of those that are mixed."""
-    for m in range(span.shape[0]):
-        update_row(dj, di, j, i0, i1, m, carried[m], below, above, b, span, face, pre, flux_volume, flux, scratch, vof, q)
-    cell_mass_row(dj, di, j, reach, pre, face, volume, second, vof, q, cell_mass)
-    mixed_row(j, reach, vof, scratch[0], b, mixed_count, mixed)
+    for m in range(near.shape[1]):
+        update_row(dj, di, j, i0, i1, m, carried[m], below, above, b, near, face, pre, flux_volume, flux, scratch, vof, q)
+    cell_mass_row(dj, di, j, around[0], pre, face, volume, second, vof, q, cell_mass)
+    mixed_row(j, around[0], vof, scratch[0], b, mixed_count, mixed)
 
 
 @kernel
-def sweep_r(j0, j1, i0, i1, carried, edges, span, reach, face, pre, volume, second, flux_volume, scratch, flux, flux_mass,
+def sweep_r(j0, j1, i0, i1, carried, edges, near, around, face, pre, volume, second, flux_volume, scratch, flux, flux_mass,
             edge_flux, vof, q, cell_mass, mixed_count, mixed):
     """Carries every body along r: fluxes and update row by row.
 
-    Reads    carried [m]; edges (j0, j1, i0, i1 of the mesh), span, reach; face, pre, volume [j, i]; flux_volume [m, j, i]
+    Reads    carried [m]; edges (j0, j1, i0, i1 of the mesh), near, around; face, pre, volume [j, i]; flux_volume [m, j, i]
     Updates  vof [m, j, i], q [k, m, j, i]
     Writes   flux_mass, cell_mass [j, i]; edge_flux [side, k, m, j] of mass and energy; mixed_count [j], mixed [j, k]
     Scratch  scratch [s, block, i], flux [k, m, slot, i]
@@ -242,15 +233,16 @@ def sweep_r(j0, j1, i0, i1, carried, edges, span, reach, face, pre, volume, seco
         slot = slot_of(-1, b, j0, blocks)
         first, last = block_rows(b, blocks, j0, j1)
         for j in range(first, last):
-            for m in range(span.shape[0]):
-                flux_row(0, 1, j, i0, i1, m, carried[m], slot, b, span, pre, flux_volume, vof, q, scratch, flux)
-                lo, hi = flux_range(0, 1, i0, i1, m, j, span)
+            for m in range(near.shape[1]):
+                flux_row(0, 1, j, i0, i1, m, carried[m], slot, b, near, pre, flux_volume, vof, q, scratch, flux)
+                lo, hi = flux_range(0, 1, i0, i1, m, j, near)
                 for side in range(2):
                     i = edges[2 + side]
-                    for k in range(2):
-                        edge_flux[side, k, m, j] = flux[k, m, slot, i] if lo <= i < hi else 0.0
-            mass_flux_row(0, 1, j, i0, i1, slot, reach, span, flux, flux_mass)
-            sweep_row(0, 1, j, i0, i1, slot, slot, b, carried, span, reach, face, pre, volume, second, flux_volume, flux,
+                    if lo <= i < hi:
+                        edge_flux[side, RHO, m, j] = flux[RHO, m, slot, i]
+                        edge_flux[side, E, m, j] = flux[E, m, slot, i]
+            mass_flux_row(0, 1, j, i0, i1, slot, around, near, flux, flux_mass)
+            sweep_row(0, 1, j, i0, i1, slot, slot, b, carried, near, around, face, pre, volume, second, flux_volume, flux,
                       scratch, vof, q, cell_mass, mixed_count, mixed)
 
 
@@ -269,7 +261,7 @@ def slot_of(f, b, j0, blocks):
 
 
 @kernel
-def shared_fluxes(j0, j1, i0, i1, carried, span, pre, flux_volume, vof, q, scratch, flux):
+def shared_fluxes(j0, j1, i0, i1, carried, near, pre, flux_volume, vof, q, scratch, flux):
     """Fluxes along z through the faces that two blocks of rows share, before either changes.
 
     Reads    as sweep_z;  writes flux [k, m, slot, i];  scratch [s, block, i]
@@ -277,13 +269,13 @@ def shared_fluxes(j0, j1, i0, i1, carried, span, pre, flux_volume, vof, q, scrat
     blocks = number_of_blocks(j0, j1)
     for b in prange(1, blocks):
         for f in range(j0 + b * BLOCK - 1, j0 + b * BLOCK + 2):
-            for m in range(span.shape[0]):
-                flux_row(1, 0, f, i0, i1, m, carried[m], slot_of(f, b, j0, blocks), b, span, pre, flux_volume, vof, q,
+            for m in range(near.shape[1]):
+                flux_row(1, 0, f, i0, i1, m, carried[m], slot_of(f, b, j0, blocks), b, near, pre, flux_volume, vof, q,
                          scratch, flux)
 
 
 @kernel
-def sweep_z(j0, j1, i0, i1, carried, edges, span, reach, face, pre, volume, second, flux_volume, scratch, flux, flux_mass,
+def sweep_z(j0, j1, i0, i1, carried, edges, near, around, face, pre, volume, second, flux_volume, scratch, flux, flux_mass,
             edge_flux, vof, q, cell_mass, mixed_count, mixed):
     """Carries every body along z: a row is updated as soon as the fluxes of the faces that need it are known.
 
@@ -298,14 +290,14 @@ def sweep_z(j0, j1, i0, i1, carried, edges, span, reach, face, pre, volume, seco
             if f <= last:
                 slot = slot_of(f, b, j0, blocks)
                 if not shared(f, j0, blocks):
-                    for m in range(span.shape[0]):
-                        flux_row(1, 0, f, i0, i1, m, carried[m], slot, b, span, pre, flux_volume, vof, q, scratch, flux)
+                    for m in range(near.shape[1]):
+                        flux_row(1, 0, f, i0, i1, m, carried[m], slot, b, near, pre, flux_volume, vof, q, scratch, flux)
                 if f < last or last == j1:
-                    mass_flux_row(1, 0, f, i0, i1, slot, reach, span, flux, flux_mass)
+                    mass_flux_row(1, 0, f, i0, i1, slot, around, near, flux, flux_mass)
                 for side in range(2):
                     if f == edges[side]:
-                        for m in range(span.shape[0]):
-                            lo, hi = flux_range(1, 0, i0, i1, m, f, span)
+                        for m in range(near.shape[1]):
+                            lo, hi = flux_range(1, 0, i0, i1, m, f, near)
                             for k in range(2):
                                 for i in range(lo, hi):
                                     edge_flux[side, k, m, i] = flux[k, m, slot, i]
@@ -313,7 +305,7 @@ def sweep_z(j0, j1, i0, i1, carried, edges, span, reach, face, pre, volume, seco
             if j >= first and (f > last or j < last - 1):
                 below = slot_of(j, b, j0, blocks)
                 above = slot_of(j + 1, b, j0, blocks)
-                sweep_row(1, 0, j, i0, i1, below, above, b, carried, span, reach, face, pre, volume, second, flux_volume,
+                sweep_row(1, 0, j, i0, i1, below, above, b, carried, near, around, face, pre, volume, second, flux_volume,
                           flux, scratch, vof, q, cell_mass, mixed_count, mixed)
 
 

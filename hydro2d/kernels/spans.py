@@ -105,6 +105,26 @@ def reached(j0, j1, i0, i1, occupied, reach):
         reach[j, 1] = hi
 
 
+@kernel
+def neighbours(j0, j1, near, around):
+    """The ranges of a row joined with those of its neighbours, for rows j0 - 1 to j1.
+
+    Reads    near[0], the span of each body, around[0], the reach
+    Writes   near[1, m, j] joined over rows j-1 to j+1, the cells that a sweep along z can change; near[2, m, j] over j-2 to
+             j+1, the faces through which it flows; around[n, j] over the n rows below face or vertex j and the n above
+    """
+    for j in prange(j0 - 1, j1 + 1):
+        for m in range(near.shape[1]):
+            for n in range(1, 3):
+                lo, hi = union(near[0, m], j - n, j + 2)
+                near[n, m, j, 0] = lo
+                near[n, m, j, 1] = hi
+        for n in range(1, around.shape[0]):
+            lo, hi = union(around[0], j - n, j + n)
+            around[n, j, 0] = lo
+            around[n, j, 1] = hi
+
+
 @rowwise
 def mixed_row(j, reach, vof, scratch, row, count, mixed):
     """Lists the cells of row j in which a body and something else (another body or void) meet.
