@@ -104,7 +104,7 @@ class Cycle:
         s = self.state
         every = self.box
         self.box = list(self.edges)
-        self._spans()
+        self._spans(anew=True)
         s.cell_mass[...] = 0.0
         j0, j1, _, _ = self.box
         remap.sum_cell_mass(j0, j1, s.reach, self.grid.volume, s.vof, s.q, s.cell_mass)
@@ -121,7 +121,7 @@ class Cycle:
             s.span[..., 0], s.span[..., 1] = 1 << 30, 0
             s.occupied[:, 0], s.occupied[:, 1] = 1 << 30, 0
             s.reach[:, 0], s.reach[:, 1] = 1 << 30, 0
-            self._spans()
+            self._spans(anew=True)
         self._list_mixed()
 
     def _slowest_wave(self) -> float:
@@ -172,18 +172,18 @@ class Cycle:
         box = [min(j0, grown[0]), max(j1, grown[1]), min(i0, grown[2]), max(i1, grown[3])]
         if box != self.box:
             self.box = box
-            self._spans()
+            self._spans(anew=True)
             self._list_mixed()
 
-    def _spans(self) -> None:
+    def _spans(self, anew: bool) -> None:
         s, box = self.state, self.box
-        spans.body_spans(*box, s.vof, s.span, s.occupied)
+        spans.body_spans(*box, anew, s.vof, s.near, s.occupied)
         spans.reached(*box, s.occupied, s.reach)
         spans.neighbours(box[0], box[1], s.near, s.around)
 
     def _list_mixed(self) -> None:
         s, (j0, j1, _, _) = self.state, self.box
-        spans.list_mixed(j0, j1, s.reach, s.vof, s.mixed_count, s.mixed, s.trial[0])
+        spans.list_mixed(j0, j1, s.reach, s.vof, s.mixed_count, s.mixed, s.scratch)
 
     def _vertex_mass(self) -> None:
         s, g, (j0, j1, i0, i1) = self.state, self.grid, self.box
@@ -226,7 +226,7 @@ class Cycle:
             method.advective, method.hourglass, g.face_r, g.az_in, g.az_out, g.vol_r, g.dr, g.dz, s.span, s.reach,
             s.mixed_count, s.mixed, t.eos_model, t.eos_par, t.strength_model, t.strength_par, t.damage_model,
             t.fracture_pressure, self.loose, s.u, s.v, s.vof, s.q, s.pm, s.km, s.tm, s.p, s.bulk, s.rhobar, s.solid, s.cl,
-            s.qr, s.qz, s.weight, s.ph, s.rows[0], s.rows[1], s.row_numbers, s.trial[0])
+            s.qr, s.qz, s.weight, s.rows[0], s.rows[1], s.row_numbers, s.scratch)
         if s.row_numbers[j0:j1, 0].any():
             self._report_bad(j0, j1)
         if s.row_numbers[j0:j1, 3].any():
@@ -251,7 +251,7 @@ class Cycle:
         stable = float(s.rows[1, j])
         thermodynamics.step_cause(
             j, stable, method.courant, method.advective, g.dr, g.dz, g.vol_r, g.face_r, g.az_in, g.az_out, s.reach, s.u, s.v,
-            s.rhobar, s.cl, s.qr, s.qz, s.ph, s.row_numbers[j])
+            s.rhobar, s.cl, s.qr, s.qz, s.row_numbers[j])
         cause, i = s.row_numbers[j, :2]
         ramp = min(1.0, method.first + (1.0 - method.first) * self.number / max(method.ramp_cycles, 1))
         dt, self.cause = stable * ramp, (f"{thermodynamics.CAUSES[cause]} at r = {g.rc[i] * 1e3:.3f} mm, "
@@ -301,7 +301,7 @@ class Cycle:
         deformation.deform(
             j0, j1, self.dt, g.face_r, g.hoop, g.az_in, g.az_out, g.vol_r, g.mid_r, g.dz, s.span, t.strength_model,
             t.strength_par, t.damage_model, t.damage_par, method.factor, self.loose, s.u0, s.v0, s.u, s.v, s.fr, s.fz,
-            s.sig_rr, s.sig_zz, s.sig_tt, s.sig_rz, s.weight, s.vof, s.pm, s.tm, s.trial, s.q)
+            s.sig_rr, s.sig_zz, s.sig_tt, s.sig_rz, s.weight, s.vof, s.pm, s.tm, s.scratch, s.q)
         mixed.deform_mixed(
             j0, j1, self.dt, method.relaxation, method.tipton, method.strength_mode, method.hard, method.threshold, g.face_r,
             g.hoop, g.az_in, g.az_out, g.vol_r, g.mid_r, g.dz, s.mixed_count, s.mixed, t.strength_model, t.strength_par,
@@ -406,5 +406,5 @@ class Cycle:
                    s.v, s.vof, s.q, s.cell_mass, s.booked)
         internal, kinetic, axial, _, *mass = s.booked[:, j0:j1].sum(axis=1)
         self.ledger.book("traces", mass=np.array(mass), momentum=float(axial), energy=float(internal + kinetic))
-        self._spans()
+        self._spans(anew=False)
         self._vertex_mass()

@@ -56,7 +56,6 @@ class State:
         longest = max(nj, ni) + 1
         self.edge_flux = np.zeros((2, 2, bodies, longest))
         self.edge_dual = np.zeros((2, 5, longest))
-        self.trial = np.zeros((2, nj, ni))
         self.deficit = np.zeros((nj + 1, ni + 1))
 
         self.near = np.zeros((3, bodies, nj, 2), dtype=np.int64)

@@ -4,7 +4,7 @@ from math import sqrt
 
 from hydro2d.fields import SRR, SRZ, SZZ
 from hydro2d.jit import kernel, point, prange, rowwise
-from hydro2d.kernels.spans import columns, copy_beside, union
+from hydro2d.kernels.spans import block_rows, columns, copy_beside, number_of_blocks, spread, union
 
 #: speeds below this are no signal: set to zero, so that the active region has an edge (explanation/active-region)
 SILENCE = 1e-20
@@ -98,9 +98,13 @@ def total_stress_row(j, dt, face_r, az_in, az_out, vol_r, dz, span, reach, mixed
 def total_stress(j0, j1, dt, face_r, az_in, az_out, vol_r, dz, span, reach, mixed_count, mixed, solid_mode, hard,
                  hard_threshold, u, v, vof, q, p, bulk, solid, qr, qz, ph, sig_rr, sig_zz, sig_tt, sig_rz):
     """total_stress_row for rows j0 to j1."""
-    for j in prange(j0, j1):
-        total_stress_row(j, dt, face_r, az_in, az_out, vol_r, dz, span, reach, mixed_count, mixed, solid_mode, hard,
-                         hard_threshold, u, v, vof, q, p, bulk, solid, qr, qz, ph, sig_rr, sig_zz, sig_tt, sig_rz)
+    blocks = number_of_blocks(j0, j1)
+    for place in prange(blocks):
+        b = spread(place, blocks)
+        first_row, last_row = block_rows(b, blocks, j0, j1)
+        for j in range(first_row, last_row):
+            total_stress_row(j, dt, face_r, az_in, az_out, vol_r, dz, span, reach, mixed_count, mixed, solid_mode, hard,
+                             hard_threshold, u, v, vof, q, p, bulk, solid, qr, qz, ph, sig_rr, sig_zz, sig_tt, sig_rz)
 
 
 @rowwise
@@ -216,9 +220,13 @@ def accelerate_row(j, i0, i1, dt, speed_limit, light_density, face_r, hoop, az_i
 def accelerate(j0, j1, i0, i1, dt, speed_limit, light_density, face_r, hoop, az_in, az_out, vol_r, mid_r, dz,
                occupied, mass, weight, sig_rr, sig_zz, sig_tt, sig_rz, u0, v0, u, v, limited):
     """accelerate_row for rows j0 to j1."""
-    for j in prange(j0, j1):
-        accelerate_row(j, i0, i1, dt, speed_limit, light_density, face_r, hoop, az_in, az_out, vol_r, mid_r, dz,
-                       occupied, mass, weight, sig_rr, sig_zz, sig_tt, sig_rz, u0, v0, u, v, limited)
+    blocks = number_of_blocks(j0, j1)
+    for place in prange(blocks):
+        b = spread(place, blocks)
+        first_row, last_row = block_rows(b, blocks, j0, j1)
+        for j in range(first_row, last_row):
+            accelerate_row(j, i0, i1, dt, speed_limit, light_density, face_r, hoop, az_in, az_out, vol_r, mid_r, dz,
+                           occupied, mass, weight, sig_rr, sig_zz, sig_tt, sig_rz, u0, v0, u, v, limited)
 
 
 @rowwise

@@ -4,7 +4,7 @@ from math import sqrt
 
 from hydro2d.fields import DMG, EP, RHO, SRR, SRZ, SZZ, E
 from hydro2d.jit import kernel, point, prange
-from hydro2d.kernels.spans import columns
+from hydro2d.kernels.spans import block_rows, columns, number_of_blocks, spread
 from strength.dispatch import damage_increment, modulus_row, yield_floor
 from strength.radial_return import plastic_increment
 
@@ -50,8 +50,8 @@ def von_mises(rr, zz, rz):
 
 
 @kernel
-def deform(j0, j1, dt, face_r, hoop, az_in, az_out, vol_r, mid_r, dz, span, strength_model, strength_par, damage_model, damage_par,
-           factor, loose, u0, v0, u, v, fr, fz, sig_rr, sig_zz, sig_tt, sig_rz, weight, vof, pm, tm, scratch, q):
+def deform(j0, j1, dt, face_r, hoop, az_in, az_out, vol_r, mid_r, dz, span, strength_model, strength_par, damage_model,
+           damage_par, factor, loose, u0, v0, u, v, fr, fz, sig_rr, sig_zz, sig_tt, sig_rz, weight, vof, pm, tm, scratch, q):
     """Energy, density, deviator, plastic strain and damage of every body in the cells that it fills, over one Lagrangian step.
 
     de = V dt sigma : D(u mid-step) / m, the work of the same corner forces that moved the vertices; rho V is constant;
@@ -60,96 +60,101 @@ def deform(j0, j1, dt, face_r, hoop, az_in, az_out, vol_r, mid_r, dz, span, stre
 
     Reads    u0, v0, u, v [b, j, i]; fr, fz, sig_.., weight [j, i]; vof, pm, tm [m, j, i]
     Updates  q [k, m, j, i]
-    Scratch  scratch [2, j, i], shear modulus and trial stress
+    Scratch  scratch [s, block, i], shear modulus and trial stress
     """
-    for j in prange(j0, j1):
-        ub = u[0, j]
-        ut = u[0, j + 1]
-        vb = v[0, j]
-        vt = v[0, j + 1]
-        ub0 = u0[0, j]
-        ut0 = u0[0, j + 1]
-        vb0 = v0[0, j]
-        vt0 = v0[0, j + 1]
-        fr_j = fr[j]
-        fz_b = fz[j]
-        fz_t = fz[j + 1]
-        rr_j = sig_rr[j]
-        zz_j = sig_zz[j]
-        tt_j = sig_tt[j]
-        rz_j = sig_rz[j]
-        h = dz[j]
-        weight_j = weight[j]
-        shear_j = scratch[0, j]
-        trial_j = scratch[1, j]  # of loose material negative, where the body does not fill the cell 0
-        for m in range(vof.shape[0]):
-            model = strength_model[m]
-            par = strength_par[m]
-            dmodel = damage_model[m]
-            dpar = damage_par[m]
-            scale = factor[m]
-            floor = scale * yield_floor(model, par)  # below it no flow stress need be evaluated
-            f_j = vof[m, j]
-            p_j = pm[m, j]
-            t_j = tm[m, j]
-            rho_j = q[RHO, m, j]
-            e_j = q[E, m, j]
-            ep_j = q[EP, m, j]
-            d_j = q[DMG, m, j]
-            srr_j = q[SRR, m, j]
-            szz_j = q[SZZ, m, j]
-            srz_j = q[SRZ, m, j]
-            first, n = columns(span[m, j, 0], span[m, j, 1])
-            modulus_row(model, par, first, n, p_j, rho_j, t_j, shear_j)
-            for x in range(n):
-                i = first + x
-                pure = f_j[i] == 1.0
-                volume = vol_r[i] * h
-                a_rr, a_tt, a_zz, a_rbz, a_zbr = velocity_gradient(
-                    i, ub0, ut0, vb0, vt0, face_r, hoop, az_in, az_out, mid_r, h)
-                rr, tt, zz, rbz, zbr = velocity_gradient(i, ub, ut, vb, vt, face_r, hoop, az_in, az_out, mid_r, h)
-                w = weight_j[i]
-                h_u0, h_v0 = hourglass_mode(i, ub0, ut0), hourglass_mode(i, vb0, vt0)
-                h_u, h_v = hourglass_mode(i, ub, ut), hourglass_mode(i, vb, vt)
-                work = 0.5 * dt * (
-                    (rr_j[i] * (a_rr + rr) + tt_j[i] * (a_tt + tt))
-                    + (zz_j[i] * (a_zz + zz) + rz_j[i] * ((a_rbz + rbz) + (a_zbr + zbr)))
-                    + w * (h_u0 * (h_u0 + h_u) + h_v0 * (h_v0 + h_v)))
-                rho = rho_j[i]
-                gain = work / (rho * volume)
-                e_j[i] += gain if pure else 0.0
-                rate = 1.0 / volume
-                drr, dzz, dtt, drz = rr * rate, zz * rate, tt * rate, 0.5 * (rbz + zbr) * rate
-                srr, szz, srz = turn_and_strain(srr_j[i], szz_j[i], srz_j[i], 0.5 * (rbz - zbr) * rate * dt, 2.0 * shear_j[i],
-                                                drr * dt, dzz * dt, dtt * dt, drz * dt)
-                srr_j[i] = srr if pure else srr_j[i]
-                szz_j[i] = szz if pure else szz_j[i]
-                srz_j[i] = srz if pure else srz_j[i]
-                size = von_mises(srr, szz, srz)
-                size = -size if rho <= loose[m] else size
-                trial_j[i] = size if pure else 0.0
-            if model > 0:
+    blocks = number_of_blocks(j0, j1)
+    for place in prange(blocks):
+        b = spread(place, blocks)
+        first_row, last_row = block_rows(b, blocks, j0, j1)
+        for j in range(first_row, last_row):
+            ub = u[0, j]
+            ut = u[0, j + 1]
+            vb = v[0, j]
+            vt = v[0, j + 1]
+            ub0 = u0[0, j]
+            ut0 = u0[0, j + 1]
+            vb0 = v0[0, j]
+            vt0 = v0[0, j + 1]
+            fr_j = fr[j]
+            fz_b = fz[j]
+            fz_t = fz[j + 1]
+            rr_j = sig_rr[j]
+            zz_j = sig_zz[j]
+            tt_j = sig_tt[j]
+            rz_j = sig_rz[j]
+            h = dz[j]
+            weight_j = weight[j]
+            shear_j = scratch[0, b]
+            trial_j = scratch[1, b]  # of loose material negative, where the body does not fill the cell 0
+            for m in range(vof.shape[0]):
+                model = strength_model[m]
+                par = strength_par[m]
+                dmodel = damage_model[m]
+                dpar = damage_par[m]
+                scale = factor[m]
+                floor = scale * yield_floor(model, par)  # below it no flow stress need be evaluated
+                f_j = vof[m, j]
+                p_j = pm[m, j]
+                t_j = tm[m, j]
+                rho_j = q[RHO, m, j]
+                e_j = q[E, m, j]
+                ep_j = q[EP, m, j]
+                d_j = q[DMG, m, j]
+                srr_j = q[SRR, m, j]
+                szz_j = q[SZZ, m, j]
+                srz_j = q[SRZ, m, j]
+                first, n = columns(span[m, j, 0], span[m, j, 1])
+                modulus_row(model, par, first, n, p_j, rho_j, t_j, shear_j)
                 for x in range(n):
                     i = first + x
-                    size = abs(trial_j[i])
-                    if size > floor:
-                        dep, yield_stress = plastic_increment(
-                            model, size, ep_j[i], dt, t_j[i], p_j[i], rho_j[i], shear_j[i], scale, par)
-                        if dep > 0.0:
-                            shrink = yield_stress / size
-                            srr_j[i] *= shrink
-                            szz_j[i] *= shrink
-                            srz_j[i] *= shrink
-                            ep_j[i] += dep
-                            d_j[i] += damage_increment(dmodel, dep, dep / dt, t_j[i], p_j[i], yield_stress, dpar)
-            for x in range(n):
-                i = first + x
-                pure = f_j[i] == 1.0
-                volume = vol_r[i] * h
-                change = (fr_j[i + 1] - fr_j[i]) + (fz_t[i] - fz_b[i])
-                rho_j[i] = rho_j[i] * (volume / (volume + change)) if pure else rho_j[i]
-                d_j[i] = min(d_j[i], 1.0) if pure else d_j[i]
-                gone = pure and (d_j[i] >= 1.0 or trial_j[i] < 0.0)
-                srr_j[i] = 0.0 if gone else srr_j[i]
-                szz_j[i] = 0.0 if gone else szz_j[i]
-                srz_j[i] = 0.0 if gone else srz_j[i]
+                    pure = f_j[i] == 1.0
+                    volume = vol_r[i] * h
+                    a_rr, a_tt, a_zz, a_rbz, a_zbr = velocity_gradient(
+                        i, ub0, ut0, vb0, vt0, face_r, hoop, az_in, az_out, mid_r, h)
+                    rr, tt, zz, rbz, zbr = velocity_gradient(i, ub, ut, vb, vt, face_r, hoop, az_in, az_out, mid_r, h)
+                    w = weight_j[i]
+                    h_u0, h_v0 = hourglass_mode(i, ub0, ut0), hourglass_mode(i, vb0, vt0)
+                    h_u, h_v = hourglass_mode(i, ub, ut), hourglass_mode(i, vb, vt)
+                    work = 0.5 * dt * (
+                        (rr_j[i] * (a_rr + rr) + tt_j[i] * (a_tt + tt))
+                        + (zz_j[i] * (a_zz + zz) + rz_j[i] * ((a_rbz + rbz) + (a_zbr + zbr)))
+                        + w * (h_u0 * (h_u0 + h_u) + h_v0 * (h_v0 + h_v)))
+                    rho = rho_j[i]
+                    gain = work / (rho * volume)
+                    e_j[i] += gain if pure else 0.0
+                    rate = 1.0 / volume
+                    drr, dzz, dtt, drz = rr * rate, zz * rate, tt * rate, 0.5 * (rbz + zbr) * rate
+                    spin = 0.5 * (rbz - zbr) * rate * dt
+                    srr, szz, srz = turn_and_strain(srr_j[i], szz_j[i], srz_j[i], spin, 2.0 * shear_j[i], drr * dt, dzz * dt,
+                                                    dtt * dt, drz * dt)
+                    srr_j[i] = srr if pure else srr_j[i]
+                    szz_j[i] = szz if pure else szz_j[i]
+                    srz_j[i] = srz if pure else srz_j[i]
+                    size = von_mises(srr, szz, srz)
+                    size = -size if rho <= loose[m] else size
+                    trial_j[i] = size if pure else 0.0
+                if model > 0:
+                    for x in range(n):
+                        i = first + x
+                        size = abs(trial_j[i])
+                        if size > floor:
+                            dep, yield_stress = plastic_increment(
+                                model, size, ep_j[i], dt, t_j[i], p_j[i], rho_j[i], shear_j[i], scale, par)
+                            if dep > 0.0:
+                                shrink = yield_stress / size
+                                srr_j[i] *= shrink
+                                szz_j[i] *= shrink
+                                srz_j[i] *= shrink
+                                ep_j[i] += dep
+                                d_j[i] += damage_increment(dmodel, dep, dep / dt, t_j[i], p_j[i], yield_stress, dpar)
+                for x in range(n):
+                    i = first + x
+                    pure = f_j[i] == 1.0
+                    volume = vol_r[i] * h
+                    change = (fr_j[i + 1] - fr_j[i]) + (fz_t[i] - fz_b[i])
+                    rho_j[i] = rho_j[i] * (volume / (volume + change)) if pure else rho_j[i]
+                    d_j[i] = min(d_j[i], 1.0) if pure else d_j[i]
+                    gone = pure and (d_j[i] >= 1.0 or trial_j[i] < 0.0)
+                    srr_j[i] = 0.0 if gone else srr_j[i]
+                    szz_j[i] = 0.0 if gone else szz_j[i]
+                    srz_j[i] = 0.0 if gone else srz_j[i]

@@ -10,7 +10,7 @@ from hydro2d.kernels.deformation import (
     velocity_gradient,
     von_mises,
 )
-from hydro2d.kernels.spans import mixed_row
+from hydro2d.kernels.spans import block_rows, mixed_row, number_of_blocks, spread
 from hydro2d.kernels.thermodynamics import pressures_row, viscosity_row
 from strength.dispatch import damage_increment, flow_stress, shear_modulus
 from strength.radial_return import plastic_increment
@@ -78,22 +78,27 @@ def tear_mixed_row(j, smallest, max_opening, vol_r, dz, mixed_count, mixed, eos_
 @kernel
 def close_cells(j0, j1, max_opening, smallest_tension, linear, quadratic, courant, advective, hourglass, face_r, az_in, az_out,
                 vol_r, dr, dz, span, reach, mixed_count, mixed, eos_model, eos_par, strength_model, strength_par, damage_model,
-                fracture_pressure, loose, u, v, vof, q, pm, km, tm, p, bulk, rhobar, solid, cl, qr, qz, weight, step, opened,
+                fracture_pressure, loose, u, v, vof, q, pm, km, tm, p, bulk, rhobar, solid, cl, qr, qz, weight, opened,
                 row_step, bad, scratch):
     """Equation of state, void where a cell tears, artificial viscosity and the time step that every cell allows.
 
     Reads, updates and writes what pressures_row, tear_mixed_row and viscosity_row do, and the list of mixed cells
-    Scratch  scratch [j, i]
+    Scratch  scratch [s, block, i]
     """
-    for j in prange(j0, j1):
-        pressures_row(j, max_opening, vol_r, dz, span, reach, eos_model, eos_par, strength_model, strength_par, damage_model,
-                      fracture_pressure, loose, vof, q, pm, km, tm, p, bulk, rhobar, solid, cl, scratch, opened, bad)
-        if opened[j] > 0.0:
-            mixed_row(j, reach, vof, scratch, j, mixed_count, mixed)
-        tear_mixed_row(j, smallest_tension, max_opening, vol_r, dz, mixed_count, mixed, eos_model, eos_par, fracture_pressure,
-                       vof, q, pm, p, solid, bulk, opened)
-        viscosity_row(j, linear, quadratic, courant, advective, hourglass, dr, dz, vol_r, face_r, az_in, az_out, reach, u, v,
-                      rhobar, bulk, cl, qr, qz, weight, step, row_step, bad)
+    blocks = number_of_blocks(j0, j1)
+    for place in prange(blocks):
+        b = spread(place, blocks)
+        first_row, last_row = block_rows(b, blocks, j0, j1)
+        for j in range(first_row, last_row):
+            pressures_row(j, b, max_opening, vol_r, dz, span, reach, eos_model, eos_par, strength_model, strength_par,
+                          damage_model, fracture_pressure, loose, vof, q, pm, km, tm, p, bulk, rhobar, solid, cl, scratch,
+                          opened, bad)
+            if opened[j] > 0.0:
+                mixed_row(j, reach, vof, scratch[0], b, mixed_count, mixed)
+            tear_mixed_row(j, smallest_tension, max_opening, vol_r, dz, mixed_count, mixed, eos_model, eos_par,
+                           fracture_pressure, vof, q, pm, p, solid, bulk, opened)
+            viscosity_row(j, b, linear, quadratic, courant, advective, hourglass, dr, dz, vol_r, face_r, az_in, az_out, reach,
+                          u, v, rhobar, bulk, cl, qr, qz, weight, row_step, bad, scratch)
 
 
 @point
@@ -123,156 +128,160 @@ def deform_mixed(j0, j1, dt, relaxation, tipton, mode, hard, hard_threshold, fac
     Scratch  mix [j, 8, m]
     """
     bodies = vof.shape[0]
-    for j in prange(j0, j1):
-        ub = u[0, j]
-        ut = u[0, j + 1]
-        vb = v[0, j]
-        vt = v[0, j + 1]
-        ub0 = u0[0, j]
-        ut0 = u0[0, j + 1]
-        vb0 = v0[0, j]
-        vt0 = v0[0, j + 1]
-        h = dz[j]
-        part_v = mix[j, 0]
-        share = mix[j, 1]
-        yields = mix[j, 2]
-        heat = mix[j, 3]
-        s_rr = mix[j, 4]
-        s_zz = mix[j, 5]
-        s_rz = mix[j, 6]
-        modulus = mix[j, 7]
-        for k in range(mixed_count[j]):
-            i = mixed[j, k]
-            volume = vol_r[i] * h
-            change = (fr[j, i + 1] - fr[j, i]) + (fz[j + 1, i] - fz[j, i])
-            a_rr, a_tt, a_zz, a_rbz, a_zbr = velocity_gradient(
-                i, ub0, ut0, vb0, vt0, face_r, hoop, az_in, az_out, mid_r, h)
-            rr, tt, zz, rbz, zbr = velocity_gradient(i, ub, ut, vb, vt, face_r, hoop, az_in, az_out, mid_r, h)
-            m_rr, m_tt, m_zz = 0.5 * (a_rr + rr), 0.5 * (a_tt + tt), 0.5 * (a_zz + zz)
-            m_rz = 0.5 * ((a_rbz + rbz) + (a_zbr + zbr))
-            w = weight[j, i]
-            h_u0, h_v0 = hourglass_mode(i, ub0, ut0), hourglass_mode(i, vb0, vt0)
-            h_u, h_v = hourglass_mode(i, ub, ut), hourglass_mode(i, vb, vt)
-            work_q = 0.5 * dt * w * (h_u0 * (h_u0 + h_u) + h_v0 * (h_v0 + h_v))
-            work_q -= dt * (qr[j, i] * (m_rr + m_tt) + qz[j, i] * m_zz)
-            work_p = -ph[j, i] * dt * ((m_rr + m_tt) + m_zz)
+    blocks = number_of_blocks(j0, j1)
+    for place in prange(blocks):
+        b = spread(place, blocks)
+        first_row, last_row = block_rows(b, blocks, j0, j1)
+        for j in range(first_row, last_row):
+            ub = u[0, j]
+            ut = u[0, j + 1]
+            vb = v[0, j]
+            vt = v[0, j + 1]
+            ub0 = u0[0, j]
+            ut0 = u0[0, j + 1]
+            vb0 = v0[0, j]
+            vt0 = v0[0, j + 1]
+            h = dz[j]
+            part_v = mix[j, 0]
+            share = mix[j, 1]
+            yields = mix[j, 2]
+            heat = mix[j, 3]
+            s_rr = mix[j, 4]
+            s_zz = mix[j, 5]
+            s_rz = mix[j, 6]
+            modulus = mix[j, 7]
+            for k in range(mixed_count[j]):
+                i = mixed[j, k]
+                volume = vol_r[i] * h
+                change = (fr[j, i + 1] - fr[j, i]) + (fz[j + 1, i] - fz[j, i])
+                a_rr, a_tt, a_zz, a_rbz, a_zbr = velocity_gradient(
+                    i, ub0, ut0, vb0, vt0, face_r, hoop, az_in, az_out, mid_r, h)
+                rr, tt, zz, rbz, zbr = velocity_gradient(i, ub, ut, vb, vt, face_r, hoop, az_in, az_out, mid_r, h)
+                m_rr, m_tt, m_zz = 0.5 * (a_rr + rr), 0.5 * (a_tt + tt), 0.5 * (a_zz + zz)
+                m_rz = 0.5 * ((a_rbz + rbz) + (a_zbr + zbr))
+                w = weight[j, i]
+                h_u0, h_v0 = hourglass_mode(i, ub0, ut0), hourglass_mode(i, vb0, vt0)
+                h_u, h_v = hourglass_mode(i, ub, ut), hourglass_mode(i, vb, vt)
+                work_q = 0.5 * dt * w * (h_u0 * (h_u0 + h_u) + h_v0 * (h_v0 + h_v))
+                work_q -= dt * (qr[j, i] * (m_rr + m_tt) + qz[j, i] * m_zz)
+                work_p = -ph[j, i] * dt * ((m_rr + m_tt) + m_zz)
 
-            # which body's strength rules the cell, and what each body's stress did in the step
-            total = solid[j, i]
-            ruler = -1
-            for m in range(bodies):
-                if hard[m] and vof[m, j, i] >= hard_threshold:
-                    ruler = m
-            compliance, mean_p, softness = 0.0, 0.0, 0.0
-            for m in range(bodies):
-                f = vof[m, j, i]
-                part_v[m] = f / km[m, j, i] if f > 0.0 else 0.0
-                if not tipton:
-                    part_v[m] = f
-                compliance += part_v[m]
-                mean_p += part_v[m] * pm[m, j, i]
-                heat[m] = 0.0
-            inverse = 1.0 / compliance
-            mean_p *= inverse
-            for m in range(bodies):
-                f = vof[m, j, i]
-                if f == 0.0:
-                    continue
-                part = total if m == ruler else 0.0
-                if ruler < 0:
-                    part = f * stress_scale(mode == SOLID, total)
-                a = q[SRR, m, j, i]
-                b = q[SZZ, m, j, i]
-                c = q[SRZ, m, j, i]
-                heat[m] = part * dt * ((a * m_rr - (a + b) * m_tt) + (b * m_zz + c * m_rz))
+                # which body's strength rules the cell, and what each body's stress did in the step
+                total = solid[j, i]
+                ruler = -1
+                for m in range(bodies):
+                    if hard[m] and vof[m, j, i] >= hard_threshold:
+                        ruler = m
+                compliance, mean_p, softness = 0.0, 0.0, 0.0
+                for m in range(bodies):
+                    f = vof[m, j, i]
+                    part_v[m] = f / km[m, j, i] if f > 0.0 else 0.0
+                    if not tipton:
+                        part_v[m] = f
+                    compliance += part_v[m]
+                    mean_p += part_v[m] * pm[m, j, i]
+                    heat[m] = 0.0
+                inverse = 1.0 / compliance
+                mean_p *= inverse
+                for m in range(bodies):
+                    f = vof[m, j, i]
+                    if f == 0.0:
+                        continue
+                    part = total if m == ruler else 0.0
+                    if ruler < 0:
+                        part = f * stress_scale(mode == SOLID, total)
+                    a = q[SRR, m, j, i]
+                    b = q[SZZ, m, j, i]
+                    c = q[SRZ, m, j, i]
+                    heat[m] = part * dt * ((a * m_rr - (a + b) * m_tt) + (b * m_zz + c * m_rz))
 
-            # the new deviators, and the plastic heat of the hard zone
-            rate = 1.0 / volume
-            strain_r, strain_z, strain_t = rr * rate * dt, zz * rate * dt, tt * rate * dt
-            strain_s, spin = 0.5 * (rbz + zbr) * rate * dt, 0.5 * (rbz - zbr) * rate * dt
-            shared_yield, largest_yield = 0.0, 0.0
-            for m in range(bodies):
-                f = vof[m, j, i]
-                yields[m] = 0.0
-                if f == 0.0 or strength_model[m] == 0:
-                    continue
-                par = strength_par[m]
-                rho = q[RHO, m, j, i]
-                p_m = pm[m, j, i]
-                t_m = tm[m, j, i]
-                modulus[m] = shear_modulus(strength_model[m], p_m, rho, t_m, par)
-                s_rr[m], s_zz[m], s_rz[m] = turn_and_strain(q[SRR, m, j, i], q[SZZ, m, j, i], q[SRZ, m, j, i], spin,
-                                                            2.0 * modulus[m], strain_r, strain_z, strain_t, strain_s)
-                yields[m] = factor[m] * flow_stress(strength_model[m], q[EP, m, j, i], 0.0, t_m, p_m, rho, par)
-                if q[DMG, m, j, i] >= 1.0 or rho <= loose[m]:
+                # the new deviators, and the plastic heat of the hard zone
+                rate = 1.0 / volume
+                strain_r, strain_z, strain_t = rr * rate * dt, zz * rate * dt, tt * rate * dt
+                strain_s, spin = 0.5 * (rbz + zbr) * rate * dt, 0.5 * (rbz - zbr) * rate * dt
+                shared_yield, largest_yield = 0.0, 0.0
+                for m in range(bodies):
+                    f = vof[m, j, i]
                     yields[m] = 0.0
-                shared_yield += f * yields[m]
-                largest_yield = max(largest_yield, yields[m])
-            shared_yield /= total
-            if mode == ZERO:
-                shared_yield = 0.0
-            elif mode == MAX:
-                shared_yield = largest_yield
-            own = mode == MATERIAL or ruler >= 0
-            for m in range(bodies):
-                f = vof[m, j, i]
-                if f == 0.0 or strength_model[m] == 0:
-                    continue
-                trial = von_mises(s_rr[m], s_zz[m], s_rz[m])
-                dep, final = 0.0, trial
-                rho = q[RHO, m, j, i]
-                p_m = pm[m, j, i]
-                t_m = tm[m, j, i]
-                if own:
-                    dep, final = plastic_increment(strength_model[m], trial, q[EP, m, j, i], dt, t_m, p_m, rho, modulus[m],
-                                                   factor[m], strength_par[m])
-                elif trial > shared_yield:
-                    final = shared_yield
-                    dep = (trial - final) / (3.0 * modulus[m]) if modulus[m] > 0.0 else 0.0
-                shrink = 1.0
-                if dep > 0.0:
-                    shrink = final / trial
-                    q[EP, m, j, i] += dep
-                    q[DMG, m, j, i] += damage_increment(damage_model[m], dep, dep / dt, t_m, p_m, final, damage_par[m])
-                q[DMG, m, j, i] = min(q[DMG, m, j, i], 1.0)
-                if q[DMG, m, j, i] >= 1.0 or rho <= loose[m]:
-                    shrink = 0.0
-                q[SRR, m, j, i] = shrink * s_rr[m]
-                q[SZZ, m, j, i] = shrink * s_zz[m]
-                q[SRZ, m, j, i] = shrink * s_rz[m]
-                if m == ruler and dep > 0.0 and yields[m] > 0.0:
-                    plastic = dep * final * volume * total
-                    for n in range(bodies):
-                        share[n] = vof[n, j, i] / yields[n] if yields[n] > 0.0 else 0.0
-                        softness += share[n]
-                    for n in range(bodies):
-                        heat[n] += plastic * share[n] / softness
-                    heat[m] -= plastic
+                    if f == 0.0 or strength_model[m] == 0:
+                        continue
+                    par = strength_par[m]
+                    rho = q[RHO, m, j, i]
+                    p_m = pm[m, j, i]
+                    t_m = tm[m, j, i]
+                    modulus[m] = shear_modulus(strength_model[m], p_m, rho, t_m, par)
+                    s_rr[m], s_zz[m], s_rz[m] = turn_and_strain(q[SRR, m, j, i], q[SZZ, m, j, i], q[SRZ, m, j, i], spin,
+                                                                2.0 * modulus[m], strain_r, strain_z, strain_t, strain_s)
+                    yields[m] = factor[m] * flow_stress(strength_model[m], q[EP, m, j, i], 0.0, t_m, p_m, rho, par)
+                    if q[DMG, m, j, i] >= 1.0 or rho <= loose[m]:
+                        yields[m] = 0.0
+                    shared_yield += f * yields[m]
+                    largest_yield = max(largest_yield, yields[m])
+                shared_yield /= total
+                if mode == ZERO:
+                    shared_yield = 0.0
+                elif mode == MAX:
+                    shared_yield = largest_yield
+                own = mode == MATERIAL or ruler >= 0
+                for m in range(bodies):
+                    f = vof[m, j, i]
+                    if f == 0.0 or strength_model[m] == 0:
+                        continue
+                    trial = von_mises(s_rr[m], s_zz[m], s_rz[m])
+                    dep, final = 0.0, trial
+                    rho = q[RHO, m, j, i]
+                    p_m = pm[m, j, i]
+                    t_m = tm[m, j, i]
+                    if own:
+                        dep, final = plastic_increment(strength_model[m], trial, q[EP, m, j, i], dt, t_m, p_m, rho, modulus[m],
+                                                       factor[m], strength_par[m])
+                    elif trial > shared_yield:
+                        final = shared_yield
+                        dep = (trial - final) / (3.0 * modulus[m]) if modulus[m] > 0.0 else 0.0
+                    shrink = 1.0
+                    if dep > 0.0:
+                        shrink = final / trial
+                        q[EP, m, j, i] += dep
+                        q[DMG, m, j, i] += damage_increment(damage_model[m], dep, dep / dt, t_m, p_m, final, damage_par[m])
+                    q[DMG, m, j, i] = min(q[DMG, m, j, i], 1.0)
+                    if q[DMG, m, j, i] >= 1.0 or rho <= loose[m]:
+                        shrink = 0.0
+                    q[SRR, m, j, i] = shrink * s_rr[m]
+                    q[SZZ, m, j, i] = shrink * s_zz[m]
+                    q[SRZ, m, j, i] = shrink * s_rz[m]
+                    if m == ruler and dep > 0.0 and yields[m] > 0.0:
+                        plastic = dep * final * volume * total
+                        for n in range(bodies):
+                            share[n] = vof[n, j, i] / yields[n] if yields[n] > 0.0 else 0.0
+                            softness += share[n]
+                        for n in range(bodies):
+                            heat[n] += plastic * share[n] / softness
+                        heat[m] -= plastic
 
-            # volumes: void first, then by compressibility, then relaxation
-            void = max(1.0 - total, 0.0)
-            taken, rest = split_volume(void, change, volume)
-            void_left = void * volume + taken
-            void_stays = void_left > NO_VOID * volume
-            target = 0.0 if void_stays else mean_p
-            bound, growth = 1.0, 0.0
-            for m in range(bodies):
-                if vof[m, j, i] > 0.0 and tipton:
-                    shift = relaxation * (pm[m, j, i] - target) / km[m, j, i]
-                    growth += vof[m, j, i] * shift
-                    bound = min(bound, 0.1 / max(abs(shift), 0.1))
-            if void_stays and growth * volume * bound > void_left:
-                bound = void_left / (growth * volume)
-            after = volume + change
-            for m in range(bodies):
-                f = vof[m, j, i]
-                if f == 0.0:
-                    continue
-                mass = q[RHO, m, j, i] * f * volume
-                shift = bound * f * relaxation * (pm[m, j, i] - target) / km[m, j, i] * volume if tipton else 0.0
-                filled = f * volume + part_v[m] * inverse * rest + shift
-                filled = max(filled, 0.5 * f * volume)
-                q[RHO, m, j, i] = mass / filled if filled != f * volume else q[RHO, m, j, i]
-                vof[m, j, i] = filled / after if filled != f * volume or change != 0.0 else f
-                gained = part_v[m] * inverse * work_p + f / total * work_q + heat[m]
-                q[E, m, j, i] += (gained - target * shift) / mass
+                # volumes: void first, then by compressibility, then relaxation
+                void = max(1.0 - total, 0.0)
+                taken, rest = split_volume(void, change, volume)
+                void_left = void * volume + taken
+                void_stays = void_left > NO_VOID * volume
+                target = 0.0 if void_stays else mean_p
+                bound, growth = 1.0, 0.0
+                for m in range(bodies):
+                    if vof[m, j, i] > 0.0 and tipton:
+                        shift = relaxation * (pm[m, j, i] - target) / km[m, j, i]
+                        growth += vof[m, j, i] * shift
+                        bound = min(bound, 0.1 / max(abs(shift), 0.1))
+                if void_stays and growth * volume * bound > void_left:
+                    bound = void_left / (growth * volume)
+                after = volume + change
+                for m in range(bodies):
+                    f = vof[m, j, i]
+                    if f == 0.0:
+                        continue
+                    mass = q[RHO, m, j, i] * f * volume
+                    shift = bound * f * relaxation * (pm[m, j, i] - target) / km[m, j, i] * volume if tipton else 0.0
+                    filled = f * volume + part_v[m] * inverse * rest + shift
+                    filled = max(filled, 0.5 * f * volume)
+                    q[RHO, m, j, i] = mass / filled if filled != f * volume else q[RHO, m, j, i]
+                    vof[m, j, i] = filled / after if filled != f * volume or change != 0.0 else f
+                    gained = part_v[m] * inverse * work_p + f / total * work_q + heat[m]
+                    q[E, m, j, i] += (gained - target * shift) / mass

@@ -150,8 +150,8 @@ def vertex_row(dj, di, j, i0, i1, below, above, choice, bound, still, cm_in, cm_
 
 
 @kernel
-def sweep_momentum(dj, di, j0, j1, i0, i1, choice, bound, still, edges, cm_in, cm_out, around, cell_mass, flux_mass, mass, w_old,
-                   w, dual, edge_dual, deficit, sums):
+def sweep_momentum(dj, di, j0, j1, i0, i1, choice, bound, still, edges, cm_in, cm_out, around, cell_mass, flux_mass, mass,
+                   w_old, w, dual, edge_dual, deficit, sums):
     """Carries the momentum of the vertices j0 to j1 along one direction.
 
     Reads    what dual_row and vertex_row read; edges (j0, j1, i0, i1 of the mesh)
@@ -159,8 +159,8 @@ def sweep_momentum(dj, di, j0, j1, i0, i1, choice, bound, still, edges, cm_in, c
     Scratch  dual [k, slot, i], two slots to a block of rows; in z they take turns
     """
     blocks = number_of_blocks(j0, j1 + 1)
-    for p in prange(blocks):
-        b = spread(p, blocks)
+    for place in prange(blocks):
+        b = spread(place, blocks)
         first, last = block_rows(b, blocks, j0, j1 + 1)
         for j in range(first - dj, last):
             slot = 2 * b + dj * (j % 2)

@@ -228,8 +228,8 @@ def sweep_r(j0, j1, i0, i1, carried, edges, near, around, face, pre, volume, sec
     Scratch  scratch [s, block, i], flux [k, m, slot, i]
     """
     blocks = number_of_blocks(j0, j1)
-    for p in prange(blocks):
-        b = spread(p, blocks)
+    for place in prange(blocks):
+        b = spread(place, blocks)
         slot = slot_of(-1, b, j0, blocks)
         first, last = block_rows(b, blocks, j0, j1)
         for j in range(first, last):
@@ -283,8 +283,8 @@ def sweep_z(j0, j1, i0, i1, carried, edges, near, around, face, pre, volume, sec
     Updates, writes and scratch as sweep_r; edge_flux [side, k, m, i]
     """
     blocks = number_of_blocks(j0, j1)
-    for p in prange(blocks):
-        b = spread(p, blocks)
+    for place in prange(blocks):
+        b = spread(place, blocks)
         first, last = block_rows(b, blocks, j0, j1)
         for f in range(first, last + 2):
             if f <= last:

@@ -46,10 +46,10 @@ def block_rows(b, blocks, j0, j1):
 
 
 @point
-def spread(p, blocks):
-    """Block that comes at place p: the even ones, then the odd ones, so that two threads share cheap and dear rows."""
+def spread(place, blocks):
+    """Block at a place of the loop: the even ones, then the odd ones, so that two threads share cheap and dear rows."""
     even = (blocks + 1) // 2
-    return 2 * p if p < even else 2 * (p - even) + 1
+    return 2 * place if place < even else 2 * (place - even) + 1
 
 
 @point
@@ -62,27 +62,30 @@ def copy_beside(old, new, first, lo, hi, last):
 
 
 @kernel
-def body_spans(j0, j1, i0, i1, vof, span, occupied):
+def body_spans(j0, j1, i0, i1, anew, vof, near, occupied):
     """First column and one past the last in which each body lies, for the rows and columns of the active box.
 
+    A body moves by no more than a cell: unless `anew`, it is looked for around the columns near[1] that it was in.
+
     Reads    vof [m, j, i]
-    Writes   span [m, j, 2], occupied [j, 2] (the union over bodies)
+    Updates  near [n, m, j, 2], of which near[0] is the span; writes occupied [j, 2] (the union over bodies)
     """
     bodies = vof.shape[0]
     for j in prange(j0, j1):
         olo, ohi = NOTHING, 0
         for m in range(bodies):
             row = vof[m, j]
-            lo = i0
-            while lo < i1 and row[lo] == 0.0:
+            lo = i0 if anew else max(near[1, m, j, 0] - 1, i0)
+            end = i1 if anew else min(near[1, m, j, 1] + 1, i1)
+            while lo < end and row[lo] == 0.0:
                 lo += 1
-            hi = i1
+            hi = max(end, lo)
             while hi > lo and row[hi - 1] == 0.0:
                 hi -= 1
             if lo == hi:
                 lo, hi = NOTHING, 0
-            span[m, j, 0] = lo
-            span[m, j, 1] = hi
+            near[0, m, j, 0] = lo
+            near[0, m, j, 1] = hi
             olo = min(olo, lo)
             ohi = max(ohi, hi)
         occupied[j, 0] = olo
@@ -153,9 +156,16 @@ def mixed_row(j, reach, vof, scratch, row, count, mixed):
 
 @kernel
 def list_mixed(j0, j1, reach, vof, count, mixed, scratch):
-    """mixed_row for rows j0 to j1, each with its own row of scratch [j, i]."""
-    for j in prange(j0, j1):
-        mixed_row(j, reach, vof, scratch, j, count, mixed)
+    """mixed_row for rows j0 to j1.
+
+    Scratch  scratch [s, block, i]
+    """
+    blocks = number_of_blocks(j0, j1)
+    for place in prange(blocks):
+        b = spread(place, blocks)
+        first_row, last_row = block_rows(b, blocks, j0, j1)
+        for j in range(first_row, last_row):
+            mixed_row(j, reach, vof, scratch[0], b, count, mixed)
 
 
 @kernel

@@ -33,7 +33,7 @@ def directional_viscosity(rho, c, du, psi, linear, quadratic):
 
 
 @rowwise
-def pressures_row(j, max_opening, vol_r, dz, span, reach, eos_model, eos_par, strength_model, strength_par, damage_model,
+def pressures_row(j, b, max_opening, vol_r, dz, span, reach, eos_model, eos_par, strength_model, strength_par, damage_model,
                   fracture_pressure, loose, vof, q, pm, km, tm, p, bulk, rhobar, solid, cl, scratch, opened, bad):
     """Equation of state of every body, void opened in pure cells that tear, and the sums over a cell.
 
@@ -47,7 +47,7 @@ def pressures_row(j, max_opening, vol_r, dz, span, reach, eos_model, eos_par, st
     Updates  vof [m, j, i], q (rho and deviators where a cell tears)
     Writes   pm, km, tm [m, j, i] (tm of bodies that feel temperature); p, bulk, rhobar, solid, cl [j, i]; opened [j]
              volume of new void; bad [j, :3] count of cells that are not finite, the column and body of the first
-    Scratch  scratch [j, i]
+    Scratch  scratch [s, b, i]
     """
     bodies = vof.shape[0]
     lo, n = columns(reach[j, 0], reach[j, 1])
@@ -56,7 +56,7 @@ def pressures_row(j, max_opening, vol_r, dz, span, reach, eos_model, eos_par, st
     rhobar_j = rhobar[j]
     solid_j = solid[j]
     cl_j = cl[j]
-    shear_j = scratch[j]
+    shear_j = scratch[0, b]
     for x in range(n):
         i = lo + x
         p_j[i] = 0.0
@@ -166,8 +166,8 @@ def step_limits(i, ub, ut, vb, vt, courant, advective, dr, h, rho, cl, q, loss):
 
 
 @rowwise
-def viscosity_row(j, linear, quadratic, courant, advective, hourglass, dr, dz, vol_r, face_r, az_in, az_out, reach, u, v,
-                  rhobar, bulk, cl, qr, qz, weight, step, row_step, bad):
+def viscosity_row(j, b, linear, quadratic, courant, advective, hourglass, dr, dz, vol_r, face_r, az_in, az_out, reach, u, v,
+                  rhobar, bulk, cl, qr, qz, weight, row_step, bad, scratch):
     """Artificial viscosity direction by direction, and the time step that every cell allows.
 
     q_r answers only to the radial difference du, q_z only to the axial one (a shock along z must not see dr), and neither to
@@ -176,8 +176,9 @@ def viscosity_row(j, linear, quadratic, courant, advective, hourglass, dr, dz, v
     dz)/sqrt(c_l^2 + 2 q/rho), |u| dt <= advective dx, |div u| dt <= 0.2 in compression (explanation/lagrangian-step).
 
     Reads    u, v [b, j, i]; rhobar, bulk, cl [j, i]
-    Writes   qr, qz, step [j, i]; weight [j, i], coefficient of the hourglass filter, kg/s; row_step [j], the least of a row;
+    Writes   qr, qz [j, i]; weight [j, i], coefficient of the hourglass filter, kg/s; row_step [j], the least of a row;
              bad [j, 3] velocities that are not finite
+    Scratch  scratch [s, b, i]
     """
     lo, n = columns(reach[j, 0], reach[j, 1])
     ub = u[0, j]
@@ -191,7 +192,7 @@ def viscosity_row(j, linear, quadratic, courant, advective, hourglass, dr, dz, v
     rho_j = rhobar[j]
     cl_j = cl[j]
     bulk_j = bulk[j]
-    step_j = step[j]
+    step_j = scratch[1, b]
     weight_j = weight[j]
     h = dz[j]
     wrong = 0
@@ -224,15 +225,14 @@ def viscosity_row(j, linear, quadratic, courant, advective, hourglass, dr, dz, v
 
 
 @serial
-def step_cause(j, best, courant, advective, dr, dz, vol_r, face_r, az_in, az_out, reach, u, v, rhobar, cl, qr, qz, step,
-               cause):
+def step_cause(j, best, courant, advective, dr, dz, vol_r, face_r, az_in, az_out, reach, u, v, rhobar, cl, qr, qz, cause):
     """Which cell of row j allows no more than `best`, and which of the bounds it is.
 
-    Reads    what viscosity_and_step read and wrote
+    Reads    what viscosity_row read and wrote
     Writes   cause [2]: index into CAUSES, column
     """
     for i in range(reach[j, 0], reach[j, 1]):
-        if step[j, i] == best:
+        if rhobar[j, i] > 0.0:
             loss = volume_loss(i, u[0, j], u[0, j + 1], v[0, j], v[0, j + 1], face_r, az_in, az_out, vol_r, dz[j])
             limits = step_limits(i, u[0, j], u[0, j + 1], v[0, j], v[0, j + 1], courant, advective, dr, dz[j], rhobar[j, i],
                                  cl[j, i], max(qr[j, i], qz[j, i]), loss)
