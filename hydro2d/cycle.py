@@ -164,11 +164,11 @@ class Cycle:
             return
         s, (j0, j1, i0, i1) = self.state, self.box
         spans.moving_columns(j0, j1 + 1, i0, i1 + 1, s.u, s.v, s.row_moving)
-        limits = s.row_moving[j0:j1 + 1]
-        rows = np.nonzero(limits[:, 1] > 0)[0]
-        if len(rows) == 0:
+        spans.moving_box(j0, j1 + 1, s.row_moving, s.found)
+        first, last, low, high = s.found
+        if first == last:
             return
-        grown = self._clipped([j0 + rows[0] - 1, j0 + rows[-1] + 1, limits[:, 0].min() - 1, limits[:, 1].max()], MARGIN)
+        grown = self._clipped([first - 1, last, low - 1, high], MARGIN)
         box = [min(j0, grown[0]), max(j1, grown[1]), min(i0, grown[2]), max(i1, grown[3])]
         if box != self.box:
             self.box = box
@@ -227,27 +227,25 @@ class Cycle:
             s.mixed_count, s.mixed, t.eos_model, t.eos_par, t.strength_model, t.strength_par, t.damage_model,
             t.fracture_pressure, self.loose, s.u, s.v, s.vof, s.q, s.pm, s.km, s.tm, s.p, s.bulk, s.rhobar, s.solid, s.cl,
             s.qr, s.qz, s.weight, s.rows[0], s.rows[1], s.row_numbers, s.scratch)
-        if s.row_numbers[j0:j1, 0].any():
-            self._report_bad(j0, j1)
-        if s.row_numbers[j0:j1, 3].any():
-            j = j0 + int(np.nonzero(s.row_numbers[j0:j1, 3])[0][0])
+        thermodynamics.least_step(j0, j1, s.rows[1], s.row_numbers, s.found)
+        if s.found[1] >= 0:
+            self._report_bad(s.found[1])
+        if s.found[2] >= 0:
             raise UnphysicalState(f"cycle {self.number}, time {self.time:.6g} s: velocities that are not finite near "
-                                  f"z = {g.zc[j]:.6g} m")
+                                  f"z = {g.zc[s.found[2]]:.6g} m")
 
-    def _report_bad(self, j0: int, j1: int) -> None:
+    def _report_bad(self, j: int) -> None:
         s, g = self.state, self.grid
-        bad = s.row_numbers[j0:j1, 0]
-        j = j0 + int(np.nonzero(bad)[0][0])
         i, m = int(s.row_numbers[j, 1]), int(s.row_numbers[j, 2])
         raise UnphysicalState(
             f"cycle {self.number}, time {self.time:.6g} s, cell (r, z) = ({g.rc[i]:.6g}, {g.zc[j]:.6g}) m, body "
             f'"{self.table.names[m]}": volume fraction {s.vof[m, j, i]:.6g}, density {s.rho[m, j, i]:.6g} kg/m^3, energy '
-            f"{s.e[m, j, i]:.6g} J/kg, pressure {s.pm[m, j, i]:.6g} Pa ({int(bad.sum())} such cells)")
+            f"{s.e[m, j, i]:.6g} J/kg, pressure {s.pm[m, j, i]:.6g} Pa ({int(s.row_numbers[j, 0])} such cells in its row)")
 
     def choose_step(self) -> None:
         """The time step, with the cell and the term that set it."""
-        s, g, method, (j0, j1, _, _) = self.state, self.grid, self.method, self.box
-        j = j0 + int(np.argmin(s.rows[1, j0:j1]))
+        s, g, method = self.state, self.grid, self.method
+        j = int(s.found[0])
         stable = float(s.rows[1, j])
         thermodynamics.step_cause(
             j, stable, method.courant, method.advective, g.dr, g.dz, g.vol_r, g.face_r, g.az_in, g.az_out, s.reach, s.u, s.v,
@@ -323,8 +321,6 @@ class Cycle:
         boundaries.ghost_rows(i0 - 2, i1 + 2, g.nz, low_z, high_z, along_z, s.vof, s.q)
         if not second:  # cells may have been filled by the Lagrangian step
             self._list_mixed()
-        for face, _ in self._open_faces(di):  # rows without the body are not visited, and are booked nevertheless
-            np.moveaxis(s.flux_volume, 2 if di else 1, 0)[face] = 0.0
         face = s.fr if di else s.fz
         interfaces.donor_volumes(dj, di, *box, second == 0, self.edges, g.volume, s.near, s.reach, s.fr, s.fz, s.vof, s.pre,
                                  s.flux_volume)
@@ -352,11 +348,10 @@ class Cycle:
 
     def _book_outflow(self, di: int) -> None:
         s, (j0, j1, i0, i1) = self.state, self.box
-        for face, sign in self._open_faces(di):
+        for _, sign in self._open_faces(di):
             side, along = int(sign > 0), slice(j0, j1) if di else slice(i0, i1)
-            volume = s.flux_volume[(slice(None), along, face) if di else (slice(None), face, along)]
-            if volume.any():
-                mass, energy = sign * np.sum(s.edge_flux[side, ..., along], axis=-1, where=volume != 0.0)
+            mass, energy = sign * s.edge_flux[side, ..., along].sum(axis=-1)
+            if mass.any():
                 self.ledger.book("outflow", mass=mass, energy=float(energy.sum()))
 
     def remap_momentum(self, dj: int, di: int) -> None:
@@ -391,10 +386,10 @@ class Cycle:
         total = 0.0
         for _, sign in self._open_faces(di):
             flow = s.edge_dual[int(sign > 0), :, j0:j1 + 1] if di else s.edge_dual[int(sign > 0), :, i0:i1 + 1]
-            if not flow[0].any():
-                continue
-            energy = sign * float(np.sum(flow[3:]))
-            self.ledger.book("outflow", momentum=sign * float(np.sum(flow[2])), energy=energy)
+            _, _, axial, *kinetic = sign * flow.sum(axis=1)
+            energy = float(sum(kinetic))
+            if energy != 0.0:
+                self.ledger.book("outflow", momentum=float(axial), energy=energy)
             total += energy
         return total
 

@@ -14,6 +14,12 @@ BODY_FIELDS = 7
 CARRIED_FLUID, CARRIED_SOLID, CARRIED_DAMAGE = 2, 6, 7
 
 
+#: rows that a thread carries through a phase at a time: few enough to stay in its cache
+BLOCK = 32
+#: rows of scratch of a block
+SCRATCH = 4
+
+
 @dataclass(frozen=True)
 class Field:
     """One line of the field table.

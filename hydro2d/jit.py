@@ -28,8 +28,8 @@ def _source_files() -> list[Path]:
     """Every Python file whose text can end up in a compiled kernel."""
     here = Path(__file__).resolve().parent
     folders = [here / "kernels", here.parent / "eos", here.parent / "strength"]
-    return [Path(__file__).resolve(),
-    here / "fields.py"] + sorted(file for folder in folders for file in folder.glob("**/*.py"))
+    modules = sorted(file for folder in folders for file in folder.glob("**/*.py"))
+    return [Path(__file__).resolve(), here / "fields.py", here / "grid.py", *modules]
 
 
 def _cache_folder() -> str:

@@ -6,8 +6,6 @@ import numpy as np
 
 from hydro2d import fields
 from hydro2d.grid import Grid
-from hydro2d.kernels import remap
-from hydro2d.kernels.spans import number_of_blocks
 
 #: a range (low, high) that holds nothing, so that min and max of ranges need no special case
 EMPTY = (1 << 30, 0)
@@ -49,9 +47,9 @@ class State:
         self.fz = np.zeros((nj + 1, ni + 1))
         self.flux_volume = np.zeros((bodies, nj + 1, ni + 1))
         self.flux_mass = np.zeros((nj + 1, ni + 1))
-        blocks = number_of_blocks(0, nj + 1)  # at most: an active box that begins elsewhere has no more
+        blocks = nj // fields.BLOCK + 1
         self.flux = np.zeros((fields.BODY_FIELDS, bodies, 6 * blocks, ni + 1))
-        self.scratch = np.zeros((remap.SCRATCH, blocks, ni + 1))
+        self.scratch = np.zeros((fields.SCRATCH, blocks, ni + 1))
         self.dual = np.zeros((6, 2 * blocks, ni + 1))
         longest = max(nj, ni) + 1
         self.edge_flux = np.zeros((2, 2, bodies, longest))
@@ -74,6 +72,7 @@ class State:
         self.booked = np.zeros((4 + bodies, nj + 1))
         self.row_numbers = np.zeros((nj + 1, 4), dtype=np.int64)
         self.row_moving = np.zeros((nj + 1, 2), dtype=np.int64)
+        self.found = np.zeros(4, dtype=np.int64)
 
     def swap_velocities(self) -> None:
         """Makes the velocities the old ones; what were the old ones is written next."""

@@ -5,15 +5,11 @@ rows of a buffer, ``flux[k, m, slot, i]``: a cell is updated as soon as nothing 
 still in the processor's cache (explanation/remap, blocks of rows).
 """
 
-from hydro2d.fields import BODY_FIELDS, DMG, EP, RHO, E
+from hydro2d.fields import BLOCK, BODY_FIELDS, DMG, EP, RHO, E
 from hydro2d.jit import kernel, point, prange, rowwise
 from hydro2d.kernels.acceleration import TINY
 from hydro2d.kernels.interfaces import flux_range
-from hydro2d.kernels.spans import BLOCK, block_rows, columns, mixed_row, number_of_blocks, spread
-
-#: rows of scratch [s, block, i]: the weights of the slopes by volume and by mass; or volume and mass before the sweep, and
-#: one over those after it
-SCRATCH = 4
+from hydro2d.kernels.spans import block_rows, columns, mixed_row, number_of_blocks, spread
 
 
 @point
@@ -238,9 +234,8 @@ def sweep_r(j0, j1, i0, i1, carried, edges, near, around, face, pre, volume, sec
                 lo, hi = flux_range(0, 1, i0, i1, m, j, near)
                 for side in range(2):
                     i = edges[2 + side]
-                    if lo <= i < hi:
-                        edge_flux[side, RHO, m, j] = flux[RHO, m, slot, i]
-                        edge_flux[side, E, m, j] = flux[E, m, slot, i]
+                    edge_flux[side, RHO, m, j] = flux[RHO, m, slot, i] if lo <= i < hi else 0.0
+                    edge_flux[side, E, m, j] = flux[E, m, slot, i] if lo <= i < hi else 0.0
             mass_flux_row(0, 1, j, i0, i1, slot, around, near, flux, flux_mass)
             sweep_row(0, 1, j, i0, i1, slot, slot, b, carried, near, around, face, pre, volume, second, flux_volume, flux,
                       scratch, vof, q, cell_mass, mixed_count, mixed)
@@ -299,8 +294,8 @@ def sweep_z(j0, j1, i0, i1, carried, edges, near, around, face, pre, volume, sec
                         for m in range(near.shape[1]):
                             lo, hi = flux_range(1, 0, i0, i1, m, f, near)
                             for k in range(2):
-                                for i in range(lo, hi):
-                                    edge_flux[side, k, m, i] = flux[k, m, slot, i]
+                                for i in range(i0, i1):
+                                    edge_flux[side, k, m, i] = flux[k, m, slot, i] if lo <= i < hi else 0.0
             j = f - 2 if f <= last else last - 1
             if j >= first and (f > last or j < last - 1):
                 below = slot_of(j, b, j0, blocks)

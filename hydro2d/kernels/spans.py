@@ -4,12 +4,10 @@ A range (lo, hi) means lo <= i < hi; an empty range is (2**30, 0), so that the u
 other kernel loops over these ranges: a row of void costs nothing, and a pure cell pays for the one body in it.
 """
 
-from hydro2d.jit import kernel, point, prange, rowwise
+from hydro2d.fields import BLOCK
+from hydro2d.jit import kernel, point, prange, rowwise, serial
 
 NOTHING = 1 << 30
-
-#: rows that a thread carries through a sweep at a time: few enough to stay in its cache
-BLOCK = 32
 
 
 @point
@@ -190,3 +188,20 @@ def moving_columns(j0, j1, i0, i1, u, v, limits):
                 hi = max(hi, last)
         limits[j, 0] = lo
         limits[j, 1] = hi
+
+
+@serial
+def moving_box(j0, j1, limits, box):
+    """Rows and columns of the vertices that move: what moving_columns found, joined over the rows.
+
+    Reads    limits [j, 2]
+    Writes   box [4]: first row and one past the last, first column and one past the last; the rows are equal if none moves
+    """
+    box[0], box[1], box[2], box[3] = j1, j1, NOTHING, 0
+    for j in range(j0, j1):
+        if limits[j, 1] > 0:
+            box[0] = min(box[0], j)
+            box[1] = j + 1
+            box[2] = min(box[2], limits[j, 0])
+            box[3] = max(box[3], limits[j, 1])
+    box[1] = max(box[1], box[0])

@@ -225,6 +225,20 @@ def viscosity_row(j, b, linear, quadratic, courant, advective, hourglass, dr, dz
 
 
 @serial
+def least_step(j0, j1, row_step, bad, found):
+    """Row of the least time step, and the first rows with cells and with velocities that are not finite, -1 for none.
+
+    Reads    row_step [j], bad [j, 4]
+    Writes   found [3]
+    """
+    found[0], found[1], found[2] = j0, -1, -1
+    for j in range(j1 - 1, j0 - 1, -1):
+        found[0] = j if row_step[j] <= row_step[found[0]] else found[0]
+        found[1] = j if bad[j, 0] > 0 else found[1]
+        found[2] = j if bad[j, 3] > 0 else found[2]
+
+
+@serial
 def step_cause(j, best, courant, advective, dr, dz, vol_r, face_r, az_in, az_out, reach, u, v, rhobar, cl, qr, qz, cause):
     """Which cell of row j allows no more than `best`, and which of the bounds it is.
 

@@ -84,7 +84,7 @@ def test_cell_vectors_are_the_integrals_of_the_bilinear_velocity(geometry):
         u[:, g.g] = 0.0
     for j in range(g.g, g.g + g.nz):
         for i in range(g.g, g.g + g.nr):
-            columns = g.face_r, g.hoop, g.az_in, g.az_out, g.vol_r, g.dr
+            columns = g.face_r, g.hoop, g.az_in, g.az_out, g.mid_r
             mine = velocity_gradient(i, u[j], u[j + 1], v[j], v[j + 1], *columns, g.dz[j])
             np.testing.assert_allclose(mine, quadrature(g, j, i, u, v), rtol=1e-12, atol=1e-15)
 
@@ -95,7 +95,7 @@ def test_linear_velocity_has_a_uniform_gradient(geometry):
     r, z = np.meshgrid(g.r, g.z)
     u, v = 3.0 * r, 0.7 * z + 0.2 * r
     for i in range(g.g, g.g + g.nr):
-        mine = velocity_gradient(i, u[2], u[3], v[2], v[3], g.face_r, g.hoop, g.az_in, g.az_out, g.vol_r, g.dr, g.dz[2])
+        mine = velocity_gradient(i, u[2], u[3], v[2], v[3], g.face_r, g.hoop, g.az_in, g.az_out, g.mid_r, g.dz[2])
         expected = np.array([3.0, 3.0 if g.cylindrical else 0.0, 0.7, 0.0, 0.2]) * g.volume[2, i]
         np.testing.assert_allclose(mine, expected, rtol=1e-12, atol=1e-16)
 
