@@ -1,6 +1,7 @@
 """Every numba option of the code, in one place.
 
 ``@point``   a scalar function of physics, inlined by the compiler into the loops that call it
+``@apart``   a function that kernels call for what is rare
 ``@rowwise`` one row of one phase, a piece of kernels
 ``@kernel``  loops over the mesh, threaded over rows by one outermost ``prange``
 ``@serial``  loops over a short list, one thread
@@ -96,6 +97,11 @@ def rowwise(function):
 def point(function):
     """Compiles a scalar function of physics."""
     return numba.njit(function, forceinline=True, **_COMMON)
+
+
+def apart(function):
+    """Compiles a function that is called, not inlined: what runs rarely need not be compiled again at every place."""
+    return numba.njit(function, **_COMMON)
 
 
 @numba.njit(forceinline=True, **{**_COMMON, "fastmath": {"reassoc"}})

@@ -5,7 +5,17 @@ Through an open edge material leaves freely; beyond it is void without stress, a
 
 from hydro2d.fields import SRZ
 from hydro2d.grid import GHOSTS
-from hydro2d.jit import kernel, prange
+from hydro2d.jit import apart, kernel, prange
+
+
+@apart
+def fill(m, j, i, from_j, from_i, mirror, fields, vof, q):
+    """Makes cell (j, i) of body m a copy or, in a mirror, an image of cell (from_j, from_i)."""
+    vof[m, j, i] = vof[m, from_j, from_i]
+    for k in range(fields):
+        q[k, m, j, i] = q[k, m, from_j, from_i]
+    if mirror and fields > SRZ:
+        q[SRZ, m, j, i] = -q[SRZ, m, from_j, from_i]
 
 
 @kernel
@@ -18,19 +28,17 @@ def ghost_columns(j0, j1, nr, mirror_low, mirror_high, fields, span, vof, q):
     g = GHOSTS
     for j in prange(j0, j1):
         for m in range(vof.shape[0]):
-            near_low = span[m, j, 0] < 2 * g or vof[m, j, g - 1] > 0.0 or vof[m, j, g - 2] > 0.0
-            near_high = span[m, j, 1] > nr or vof[m, j, g + nr] > 0.0 or vof[m, j, g + nr + 1] > 0.0
-            for n in range(g):
-                if near_low:
-                    low = g + n if mirror_low else g
-                    vof[m, j, g - 1 - n] = vof[m, j, low]
-                    for k in range(fields):
-                        q[k, m, j, g - 1 - n] = q[k, m, j, low] * (-1.0 if k == SRZ and mirror_low else 1.0)
-                if near_high:
-                    high = g + nr - 1 - n if mirror_high else g + nr - 1
-                    vof[m, j, g + nr + n] = vof[m, j, high]
-                    for k in range(fields):
-                        q[k, m, j, g + nr + n] = q[k, m, j, high] * (-1.0 if k == SRZ and mirror_high else 1.0)
+            for side in range(2):
+                edge = g + nr - 1 if side else g  # the last cell of the mesh
+                out = 1 if side else -1
+                near = span[m, j, 1] > nr if side else span[m, j, 0] < 2 * g
+                if not (near or vof[m, j, edge + out] > 0.0 or vof[m, j, edge + 2 * out] > 0.0):
+                    continue
+                mirror = mirror_high if side else mirror_low
+                for n in range(g):
+                    ghost = edge + (n + 1) * out
+                    source = edge - n * out if mirror else edge
+                    fill(m, j, ghost, j, source, mirror, fields, vof, q)
 
 
 @kernel
@@ -42,14 +50,14 @@ def ghost_rows(i0, i1, nz, mirror_low, mirror_high, fields, vof, q):
     g = GHOSTS
     for i in prange(i0, i1):
         for m in range(vof.shape[0]):
-            for n in range(g):
-                low = g + n if mirror_low else g
-                high = g + nz - 1 - n if mirror_high else g + nz - 1
-                vof[m, g - 1 - n, i] = vof[m, low, i]
-                vof[m, g + nz + n, i] = vof[m, high, i]
-                for k in range(fields):
-                    q[k, m, g - 1 - n, i] = q[k, m, low, i] * (-1.0 if k == SRZ and mirror_low else 1.0)
-                    q[k, m, g + nz + n, i] = q[k, m, high, i] * (-1.0 if k == SRZ and mirror_high else 1.0)
+            for side in range(2):
+                edge = g + nz - 1 if side else g
+                out = 1 if side else -1
+                mirror = mirror_high if side else mirror_low
+                for n in range(g):
+                    ghost = edge + (n + 1) * out
+                    source = edge - n * out if mirror else edge
+                    fill(m, ghost, i, source, i, mirror, fields, vof, q)
 
 
 @kernel

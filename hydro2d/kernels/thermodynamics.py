@@ -78,16 +78,18 @@ def pressures_row(j, b, max_opening, vol_r, dz, span, reach, eos_model, eos_par,
         km_j = km[m, j]
         tm_j = tm[m, j]
         first, number = columns(span[m, j, 0], span[m, j, 1])
-        pressure_row(model, par, SOUND_FLOOR, first, number, f_j, r_j, e_j, d_j, pm_j, km_j)
-        torn = 0
-        wrong = 0
-        for x in range(number):
-            i = first + x
-            tears = f_j[i] == 1.0 and (pm_j[i] < -fracture_pressure[m] or d_j[i] >= 1.0)
-            good = r_j[i] > 0.0 and abs(pm_j[i]) < 1e300 and abs(ep_j[i]) < 1e300
-            torn += 1 if tears else 0
-            wrong += 0 if good or f_j[i] == 0.0 else 1
-        if torn > 0:
+        for attempt in range(2):  # once more where a cell has torn
+            pressure_row(model, par, SOUND_FLOOR, first, number, f_j, r_j, e_j, d_j, pm_j, km_j)
+            torn = 0
+            wrong = 0
+            for x in range(number):
+                i = first + x
+                tears = f_j[i] == 1.0 and (pm_j[i] < -fracture_pressure[m] or d_j[i] >= 1.0)
+                good = r_j[i] > 0.0 and abs(pm_j[i]) < 1e300 and abs(ep_j[i]) < 1e300
+                torn += 1 if tears else 0
+                wrong += 0 if good or f_j[i] == 0.0 else 1
+            if torn == 0 or attempt == 1:
+                break
             for x in range(number):
                 i = first + x
                 rho = r_j[i]
@@ -101,7 +103,6 @@ def pressures_row(j, b, max_opening, vol_r, dz, span, reach, eos_model, eos_par,
                     q[SRR, m, j, i] = 0.0
                     q[SZZ, m, j, i] = 0.0
                     q[SRZ, m, j, i] = 0.0
-            pressure_row(model, par, SOUND_FLOOR, first, number, f_j, r_j, e_j, d_j, pm_j, km_j)
         if wrong > 0:
             for x in range(number):
                 i = first + x
