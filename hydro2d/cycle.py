@@ -118,9 +118,7 @@ class Cycle:
         else:
             self.box = every
         if self.box != list(self.edges):  # beyond the box nothing has a span yet
-            s.span[..., 0], s.span[..., 1] = 1 << 30, 0
-            s.occupied[:, 0], s.occupied[:, 1] = 1 << 30, 0
-            s.reach[:, 0], s.reach[:, 1] = 1 << 30, 0
+            s.empty_spans()
             self._spans(anew=True)
         self._list_mixed()
 

@@ -59,9 +59,8 @@ class State:
         self.near = np.zeros((3, bodies, nj, 2), dtype=np.int64)
         self.around = np.zeros((4, nj, 2), dtype=np.int64)
         self.occupied = np.zeros((nj, 2), dtype=np.int64)
-        for ranges in (self.near, self.around, self.occupied):
-            ranges[..., 0], ranges[..., 1] = EMPTY
         self.span, self.reach = self.near[0], self.around[0]
+        self.empty_spans()
         self.mixed_count = np.zeros(nj, dtype=np.int64)
         self.mixed = np.zeros((nj, ni), dtype=np.int64)
 
@@ -73,6 +72,11 @@ class State:
         self.row_numbers = np.zeros((nj + 1, 4), dtype=np.int64)
         self.row_moving = np.zeros((nj + 1, 2), dtype=np.int64)
         self.found = np.zeros(4, dtype=np.int64)
+
+    def empty_spans(self) -> None:
+        """No body is in any row."""
+        for ranges in (self.near, self.around, self.occupied):
+            ranges[..., 0], ranges[..., 1] = EMPTY
 
     def swap_velocities(self) -> None:
         """Makes the velocities the old ones; what were the old ones is written next."""

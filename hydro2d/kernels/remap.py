@@ -226,7 +226,7 @@ def sweep_r(j0, j1, i0, i1, carried, edges, near, around, face, pre, volume, sec
     blocks = number_of_blocks(j0, j1)
     for place in prange(blocks):
         b = spread(place, blocks)
-        slot = slot_of(-1, b, j0, blocks)
+        slot = 6 * b + 3
         first, last = block_rows(b, blocks, j0, j1)
         for j in range(first, last):
             for m in range(near.shape[1]):
