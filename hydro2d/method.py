@@ -41,6 +41,7 @@ class Method:
     friction: float
     refresh: int
     factor: np.ndarray
+    group: np.ndarray
     mirrors: tuple[bool, bool, bool, bool]
 
     @classmethod
@@ -79,5 +80,6 @@ class Method:
             friction=slide.friction,
             refresh=slide.refresh,
             factor=np.where(hard, factor, 1.0),
+            group=np.zeros(len(slots), dtype=np.int64),
             mirrors=tuple(e in ("wall", "axis") for e in (edge.r_min, edge.r_max, edge.z_min, edge.z_max)),
         )

@@ -21,12 +21,14 @@ class State:
     ----------
     grid : Grid
     bodies : int
-    groups : int
-        Number of velocity fields.
+    group : int64[m], optional
+        Body group of every body, which is the velocity field that it moves with: 0, and 1 for the hard bodies of a contact.
     """
 
-    def __init__(self, grid: Grid, bodies: int, groups: int = 1):
-        self.grid, self.bodies, self.groups = grid, bodies, groups
+    def __init__(self, grid: Grid, bodies: int, group=None):
+        self.grid, self.bodies = grid, bodies
+        self.group = np.zeros(bodies, dtype=np.int64) if group is None else np.asarray(group, dtype=np.int64)
+        groups = self.groups = int(self.group.max()) + 1
         nj, ni = grid.shape
         self.vof = np.zeros((bodies, nj, ni))
         self.q = np.zeros((fields.BODY_FIELDS, bodies, nj, ni))
