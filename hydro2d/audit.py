@@ -18,12 +18,27 @@ SINKS = {
     "speed_limit": "vertices with little mass, held to the speed limit",
 }
 
+#: what a contact passes on within the balance: axial momentum from the hard bodies to the rest, and the heat that it makes
+EXCHANGES = {
+    "contact": "the impulse along the normal, and along the tangent, where hard bodies and the rest share a vertex",
+    "friction": "heat of the impulse along the tangent",
+    "light vertices": "heat of what moves with a neighbour because there is too little of it",
+}
+
 
 @dataclass
 class Sink:
     """What left by one name: mass per body, axial momentum, energy; per radian (per unit depth in planar geometry)."""
 
     mass: np.ndarray
+    momentum: float = 0.0
+    energy: float = 0.0
+
+
+@dataclass
+class Exchange:
+    """What passed between two groups by one name: axial momentum and heat; per radian (per unit depth in planar geometry)."""
+
     momentum: float = 0.0
     energy: float = 0.0
 
@@ -62,15 +77,18 @@ class Ledger:
     ----------
     start : Totals
     sinks : name -> Sink
+    exchanges : name -> Exchange, empty without contact
     """
 
     start: Totals
     sinks: dict[str, Sink] = field(default_factory=dict)
+    exchanges: dict[str, Exchange] = field(default_factory=dict)
 
     @classmethod
     def open(cls, state) -> Ledger:
         """A ledger that begins with the state as it is."""
-        return cls(totals(state), {name: Sink(np.zeros(state.bodies)) for name in SINKS})
+        return cls(totals(state), {name: Sink(np.zeros(state.bodies)) for name in SINKS},
+                   {name: Exchange() for name in EXCHANGES if state.groups > 1})
 
     def book(self, name: str, mass=0.0, momentum: float = 0.0, energy: float = 0.0) -> None:
         """Adds to a sink what left the totals."""
@@ -78,6 +96,12 @@ class Ledger:
         sink.mass += mass
         sink.momentum += momentum
         sink.energy += energy
+
+    def exchange(self, name: str, momentum: float = 0.0, energy: float = 0.0) -> None:
+        """Adds to what a contact passed on: axial momentum that the rest gained from hard bodies, and heat."""
+        entry = self.exchanges[name]
+        entry.momentum += momentum
+        entry.energy += energy
 
     def balance(self, state) -> dict:
         """Relative changes that no sink explains, and the sinks; SI, full circumference in cylindrical geometry."""
@@ -103,6 +127,10 @@ class Ledger:
                 }
                 for name, sink in self.sinks.items()
             },
+            "exchanges": {
+                name: {"momentum_N_s": entry.momentum * around, "energy_J": entry.energy * around}
+                for name, entry in self.exchanges.items()
+            },
         }
 
     def saved(self) -> dict:
@@ -110,6 +138,7 @@ class Ledger:
         return {
             "start": {**vars(self.start), "mass": self.start.mass.tolist()},
             "sinks": {name: {**vars(sink), "mass": sink.mass.tolist()} for name, sink in self.sinks.items()},
+            "exchanges": {name: vars(entry) for name, entry in self.exchanges.items()},
         }
 
     @classmethod
@@ -117,4 +146,5 @@ class Ledger:
         """The ledger that `saved` described."""
         start = Totals(**{**saved["start"], "mass": np.array(saved["start"]["mass"])})
         sinks = {name: Sink(**{**entry, "mass": np.array(entry["mass"])}) for name, entry in saved["sinks"].items()}
-        return cls(start, sinks)
+        exchanges = {name: Exchange(**entry) for name, entry in saved["exchanges"].items()}
+        return cls(start, sinks, exchanges)

@@ -48,7 +48,8 @@ class Check:
             found.append(f"body      {body}: {material.name}, {_mass(self.masses[body], grid)}, v = {_speed(entry)}"
                          + self._across(entry))  # fmt: skip
             found.append(f"          eos {material.eos.name}, strength {material.strength.name}")
-        found += ["", f"stop      {_stop(deck.stop)}"]
+        found += ["", f"sliding   {_sliding(deck)}"]
+        found += [f"stop      {_stop(deck.stop)}"]
         found += [f"cost      about {self.cycles} cycles, {_duration(self.seconds / threads)} on {threads} threads "
                   f"(a guess), {self.memory / 2**20:.0f} MiB"]  # fmt: skip
         return found + [f"warning   {text}" for text in self.warnings]
@@ -71,8 +72,9 @@ def check(deck) -> Check:
     cycles = _cycles(deck, grid, table, start)
     return Check(
         deck=deck, grid=grid, table=table, dump=_dump(grid, table, start),
-        masses=dict(zip(table.names, mass.tolist(), strict=True)), memory=State(grid, len(table)).nbytes(),
-        cycles=cycles, seconds=cycles * grid.cells * NANOSECONDS * 1e-9, warnings=empty + decks.warnings(deck),
+        masses=dict(zip(table.names, mass.tolist(), strict=True)),
+        memory=State(grid, len(table), decks.body_groups(deck)).nbytes(), cycles=cycles,
+        seconds=cycles * grid.cells * NANOSECONDS * 1e-9, warnings=empty + decks.warnings(deck),
     )  # fmt: skip
 
 
@@ -83,7 +85,7 @@ def _dump(grid, table, start) -> Dump:
     fields |= {
         "Material": np.argmax(shares, axis=0),
         "Density [kg/m3]": np.sum(vof * start["rho"], axis=0),
-        "Velocity [m/s]": np.stack([start["u_cell"], start["v_cell"], np.zeros_like(start["u_cell"])], axis=-1),
+        "Velocity [m/s]": np.stack([start["u_cell"][0], start["v_cell"][0], np.zeros(vof.shape[1:])], axis=-1),
     }
     return Dump(grid.r_edges, grid.z_edges, fields, 0.0)
 
@@ -120,6 +122,14 @@ def _mass(mass: float, grid) -> str:
 def _speed(entry) -> str:
     radial, axial = entry.velocity
     return f"{axial:g} m/s" + (f" (radial {radial:g} m/s)" if radial else "") + (" and a flow" if entry.flow else "")
+
+
+def _sliding(deck) -> str:
+    slide = deck.sliding
+    if slide.method == "none":
+        return slide.method
+    return (f"{slide.method}; hard: {', '.join(slide.hard)}; friction {slide.friction:g}, "
+            f"yield factor {decks.yield_factor(deck):.5g}")  # fmt: skip
 
 
 def _stop(stop) -> str:

@@ -13,6 +13,7 @@ from hydro2d.audit import Ledger
 from hydro2d.kernels import (
     acceleration,
     boundaries,
+    contact,
     deformation,
     interfaces,
     mixed,
@@ -107,7 +108,7 @@ class Cycle:
         self._spans(anew=True)
         s.cell_mass[...] = 0.0
         j0, j1, _, _ = self.box
-        remap.sum_cell_mass(j0, j1, s.reach, self.grid.volume, s.vof, s.q, s.cell_mass)
+        remap.sum_cell_mass(j0, j1, s.around, s.group, self.grid.volume, s.vof, s.q, s.cell_mass)
         self._vertex_mass()
         if self.ledger is None:
             self.box = self._first_box() if self.method.active_region else list(self.edges)
@@ -175,8 +176,8 @@ class Cycle:
 
     def _spans(self, anew: bool) -> None:
         s, box = self.state, self.box
-        spans.body_spans(*box, anew, s.vof, s.near, s.occupied)
-        spans.reached(*box, s.occupied, s.reach)
+        spans.body_spans(*box, anew, s.group, s.vof, s.near, s.occupied)
+        spans.reached(*box, s.occupied, s.around)
         spans.neighbours(box[0], box[1], s.near, s.around)
 
     def _list_mixed(self) -> None:
@@ -186,6 +187,12 @@ class Cycle:
     def _vertex_mass(self) -> None:
         s, g, (j0, j1, i0, i1) = self.state, self.grid, self.box
         acceleration.vertex_masses(j0, j1 + 1, i0, i1 + 1, g.cm_in, g.cm_out, s.around, s.cell_mass, s.mass)
+        self._keep_one()
+
+    def _keep_one(self) -> None:
+        s, g = self.state, self.grid
+        if s.groups > 1:
+            contact.keep_one(*self.box, s.around, s.mass, s.u, s.v)
 
     def ghost_vertices(self) -> None:
         """Mirrors or copies velocities beyond the edges of the mesh."""
@@ -222,15 +229,32 @@ class Cycle:
         mixed.close_cells(
             j0, j1, method.max_opening, method.smallest_tension, method.linear, method.quadratic, method.courant,
             method.advective, method.hourglass, g.face_r, g.az_in, g.az_out, g.vol_r, g.dr, g.dz, s.span, s.reach,
-            s.mixed_count, s.mixed, t.eos_model, t.eos_par, t.strength_model, t.strength_par, t.damage_model,
+            s.mixed_count, s.mixed, s.group, t.eos_model, t.eos_par, t.strength_model, t.strength_par, t.damage_model,
             t.fracture_pressure, self.loose, s.u, s.v, s.vof, s.q, s.pm, s.km, s.tm, s.p, s.bulk, s.rhobar, s.solid, s.cl,
             s.qr, s.qz, s.weight, s.rows[0], s.rows[1], s.row_numbers, s.scratch)
+        if s.groups > 1:
+            self._find_contact()
         thermodynamics.least_step(j0, j1, s.rows[1], s.row_numbers, s.found)
         if s.found[1] >= 0:
             self._report_bad(s.found[1])
         if s.found[2] >= 0:
             raise UnphysicalState(f"cycle {self.number}, time {self.time:.6g} s: velocities that are not finite near "
                                   f"z = {g.zc[s.found[2]]:.6g} m")
+
+    def _find_contact(self) -> None:
+        """Where two groups meet: weights of faces, normals, light vertices; volume rate and viscosity of the cut cells."""
+        s, g, method, (j0, j1, _, _) = self.state, self.grid, self.method, self.box
+        contact.find_shared(j0, j1, self.edges, s.around, s.mass, s.group, s.vof, s.shared_count, s.shared, s.hard, s.soft,
+                            s.tied, s.heat)
+        contact.cut_lines(j0, j1, self.edges, g.dr, g.dz, s.shared_count, s.shared, s.hard, s.soft, s.cut, s.line)
+        contact.face_weights(j0, j1, self.edges, self.still, s.cut, s.line, s.hard, s.soft, s.mass, s.shared_count, s.shared,
+                             s.wet_r, s.wet_z, s.contact_normal, s.touch)
+        contact.link_light(j0, j1, self.edges, g.volume, g.cm_in, g.cm_out, s.shared_count, s.shared, s.contact_normal,
+                           s.hard, s.soft, s.mass, s.link)
+        contact.cut_viscosity(j0, j1, method.linear, method.quadratic, method.courant, g.dr, g.dz, g.vol_r, g.face_r, g.az_in,
+                              g.az_out, s.cut, s.line, s.around, s.contact_normal, s.wet_r, s.wet_z, s.u, s.v, s.cl, s.rhobar,
+                              s.vof, s.q, s.p, s.solid, s.bulk, s.qr, s.qz, s.rate, s.rows[1], s.mixed_count, s.mixed,
+                              s.deficit[0])
 
     def _report_bad(self, j: int) -> None:
         s, g = self.state, self.grid
@@ -246,7 +270,7 @@ class Cycle:
         j = int(s.found[0])
         stable = float(s.rows[1, j])
         thermodynamics.step_cause(
-            j, stable, method.courant, method.advective, g.dr, g.dz, g.vol_r, g.face_r, g.az_in, g.az_out, s.reach, s.u, s.v,
+            j, method.courant, method.advective, g.dr, g.dz, g.vol_r, g.face_r, g.az_in, g.az_out, s.reach, s.u, s.v,
             s.rhobar, s.cl, s.qr, s.qz, s.row_numbers[j])
         cause, i = s.row_numbers[j, :2]
         ramp = min(1.0, method.first + (1.0 - method.first) * self.number / max(method.ramp_cycles, 1))
@@ -268,6 +292,9 @@ class Cycle:
             j0, j1, self.dt, g.face_r, g.az_in, g.az_out, g.vol_r, g.dz, s.span, s.reach, s.mixed_count, s.mixed,
             method.strength_mode == mixed.SOLID, method.hard, method.threshold, s.u, s.v, s.vof, s.q, s.p, s.bulk, s.solid,
             s.qr, s.qz, s.ph, s.sig_rr, s.sig_zz, s.sig_tt, s.sig_rz)
+        if s.groups > 1:
+            contact.cut_stress(j0, j1, self.dt, s.cut, s.around, s.line, s.hard, s.soft, s.rate, s.p, s.bulk, s.ph, s.sig_rr,
+                               s.sig_zz, s.sig_tt, s.sig_rz, s.contact_pressure)
 
     def accelerate(self) -> None:
         """Velocities at the end of the step."""
@@ -281,30 +308,55 @@ class Cycle:
         if limited[2, j0:j1 + 1].any():
             self.ledger.book("speed_limit", momentum=float(limited[0, j0:j1 + 1].sum()),
                              energy=float(limited[1, j0:j1 + 1].sum()))
+        if s.groups > 1:
+            self._meet()
         self._hold_still()
+        self._keep_one()
         self.ghost_vertices()
+
+    def _meet(self) -> None:
+        """Velocities of both groups where they share vertices: forces, light vertices, contact and friction."""
+        s, g, method, (j0, j1, _, _) = self.state, self.grid, self.method, self.box
+        contact.shared_forces(
+            j0, j1, self.dt, s.group, method.strength_mode == mixed.SOLID, g.face_r, g.hoop, g.az_in, g.az_out, g.mid_r, g.dz,
+            self.still, s.shared_count, s.shared, s.wet_r, s.wet_z, s.ph, s.qr, s.solid, s.vof, s.q, s.weight, s.hard, s.soft,
+            s.mass, s.u0, s.v0, s.trial, s.exchange)
+        contact.join(j0, j1, self.dt, method.friction, self.still, g.face_r, g.hoop, g.az_in, g.az_out, g.dz, s.cut, s.line, s.shared_count,
+                     s.shared, s.contact_normal, s.touch, s.link, s.sig_rr, s.sig_zz, s.sig_rz, s.mass, s.trial, s.tied, s.u0,
+                     s.v0, s.u, s.v, s.heat, s.exchange)
+        pushed, *heats, walls = s.exchange[:, j0:j1 + 1].sum(axis=1)
+        self.ledger.book("walls", momentum=float(walls))
+        self.ledger.exchange("contact", momentum=float(pushed), energy=float(heats[0]))
+        self.ledger.exchange("friction", energy=float(heats[1]))
+        self.ledger.exchange("light vertices", energy=float(heats[2]))
 
     def sweep_faces(self) -> None:
         """Volumes that the faces sweep in the step; they are the change of volume, and later the remap's fluxes."""
         s, g, (j0, j1, i0, i1) = self.state, self.grid, self.box
         acceleration.swept_volumes(j0, j1 + 1, i0, i1, self.dt, g.face_r, g.az_in, g.az_out, g.dz, s.around, s.u0, s.v0,
-                                   s.u, s.v,
-                                   s.fr, s.fz)
+                                   s.u, s.v, s.fr, s.fz)
+        if s.groups > 1:
+            contact.cut_volumes(j0, j1, self.dt, g.face_r, g.az_in, g.az_out, g.dz, s.cut, s.wet_r, s.wet_z, s.u0, s.v0, s.u,
+                                s.v, s.fr, s.fz, s.own_r, s.own_z)
 
     def deform(self) -> None:
         """Work, volume, strain: body by body in pure cells, then the mixed cells; no shear in the slip layer."""
         s, g, t, method, (j0, j1, _, _) = self.state, self.grid, self.table, self.method, self.box
         deformation.deform(
-            j0, j1, self.dt, g.face_r, g.hoop, g.az_in, g.az_out, g.vol_r, g.mid_r, g.dz, s.span, t.strength_model,
+            j0, j1, self.dt, g.face_r, g.hoop, g.az_in, g.az_out, g.vol_r, g.mid_r, g.dz, s.span, s.group, t.strength_model,
             t.strength_par, t.damage_model, t.damage_par, method.factor, self.loose, s.u0, s.v0, s.u, s.v, s.fr, s.fz,
             s.sig_rr, s.sig_zz, s.sig_tt, s.sig_rz, s.weight, s.vof, s.pm, s.tm, s.scratch, s.q)
         mixed.deform_mixed(
             j0, j1, self.dt, method.relaxation, method.tipton, method.strength_mode, method.hard, method.threshold, g.face_r,
-            g.hoop, g.az_in, g.az_out, g.vol_r, g.mid_r, g.dz, s.mixed_count, s.mixed, t.strength_model, t.strength_par,
+            g.hoop, g.az_in, g.az_out, g.vol_r, g.mid_r, g.dz, s.mixed_count, s.mixed, s.group, s.cut, s.cell_mass, t.strength_model, t.strength_par,
             t.damage_model, t.damage_par, method.factor, self.loose, s.u0, s.v0, s.u, s.v, s.fr, s.fz, s.ph, s.qr, s.qz,
-            s.weight, s.solid, s.pm, s.km, s.tm, s.vof, s.q, s.mix)
+            s.weight, s.solid, s.pm, s.km, s.tm, s.vof, s.q, s.mix, s.motion)
+        if s.groups > 1:
+            contact.cut_work(j0, j1, self.dt, g.face_r, g.az_in, g.az_out, g.dz, s.cut, s.group, s.wet_r, s.wet_z, s.ph, s.qr,
+                             s.u0, s.v0, s.u, s.v, s.fr, s.fz, s.cell_mass, s.vof, s.q)
+            momentum.deposit(j0, j1, g.cm_in, g.cm_out, s.around[1, 0], s.group, s.heat, s.cell_mass, s.vof, s.q, s.rows[5])
         if method.slip_widths is not None:
-            sliding.cut_shear(j0, j1, method.shear, method.friction, s.occupied, s.zone, s.normal, method.hard, s.vof, s.pm,
+            sliding.cut_shear(j0, j1, method.shear, method.friction, s.occupied[0], s.zone, s.normal, method.hard, s.vof, s.pm,
                               s.q)
 
     # ------------------------------------------------------------------------------------------------ remap
@@ -324,6 +376,9 @@ class Cycle:
                                  s.flux_volume)
         interfaces.interface_volumes(dj, di, j0, j1, g.dr, g.dz, self.method.order, s.mixed_count, s.mixed, face, s.pre, s.vof,
                                      s.flux_volume, s.mix)
+        if s.groups > 1:
+            contact.cut_fluxes(dj, di, j0, j1, self.edges, g.dr, g.dz, self.method.order, s.group, s.cut, face,
+                               s.own_r if di else s.own_z, s.pre, s.vof, s.flux_volume)
 
     def remap_bodies(self, dj: int, di: int, second: int) -> None:
         """Fluxes and update of every body's fields; the cells' masses, and which of them are mixed."""
@@ -331,7 +386,7 @@ class Cycle:
         if dj:
             remap.shared_fluxes(*box, self.carried, s.near, s.pre, s.flux_volume, s.vof, s.q, s.scratch, s.flux)
         sweep = remap.sweep_r if di else remap.sweep_z
-        sweep(*box, self.carried, self.edges, s.near, s.around, s.fr if di else s.fz, s.pre, g.volume, bool(second),
+        sweep(*box, self.carried, s.group, self.edges, s.near, s.around, s.fr if di else s.fz, s.pre, g.volume, bool(second),
               s.flux_volume, s.scratch, s.flux, s.flux_mass, s.edge_flux, s.vof, s.q, s.cell_mass, s.mixed_count, s.mixed)
         self._book_outflow(di)
 
@@ -360,9 +415,9 @@ class Cycle:
         for face, sign in self._open_faces(di):  # beyond an open edge the flux goes on as it was
             beyond = face + int(sign)
             if di:
-                flow[:, beyond] = flow[:, face]
+                flow[:, :, beyond] = flow[:, :, face]
             else:
-                flow[beyond] = flow[face]
+                flow[:, beyond] = flow[:, face]
         s.swap_velocities()
         sums = s.rows[:5]
         momentum.sweep_momentum(
@@ -371,7 +426,7 @@ class Cycle:
         before, after, p_gained, k_cut, p_wall = sums[:, j0:j1 + 1].sum(axis=1)
         lost = before - after - self._kinetic_outflow(di)
         if method.choice == momentum.BOTH:
-            momentum.deposit(j0, j1, g.cm_in, g.cm_out, s.reach, s.deficit, s.cell_mass, s.vof, s.q, s.rows[5])
+            momentum.deposit(j0, j1, g.cm_in, g.cm_out, s.reach, s.group, s.deficit, s.cell_mass, s.vof, s.q, s.rows[5])
             lost -= s.rows[5, j0:j1].sum()
         self.ledger.book("advection", momentum=-float(p_gained), energy=float(lost - k_cut))
         self.ledger.book("ke_bound", energy=float(k_cut))
@@ -383,8 +438,8 @@ class Cycle:
         s, (j0, j1, i0, i1) = self.state, self.box
         total = 0.0
         for _, sign in self._open_faces(di):
-            flow = s.edge_dual[int(sign > 0), :, j0:j1 + 1] if di else s.edge_dual[int(sign > 0), :, i0:i1 + 1]
-            _, _, axial, *kinetic = sign * flow.sum(axis=1)
+            flow = s.edge_dual[:, int(sign > 0), :, j0:j1 + 1] if di else s.edge_dual[:, int(sign > 0), :, i0:i1 + 1]
+            _, _, axial, *kinetic = sign * flow.sum(axis=-1).sum(axis=0)
             energy = float(sum(kinetic))
             if energy != 0.0:
                 self.ledger.book("outflow", momentum=float(axial), energy=energy)
@@ -394,9 +449,8 @@ class Cycle:
     def tidy(self, dj: int, di: int, second: int) -> None:
         """Removes traces, makes full cells full, and finds the bodies anew."""
         s, g, (j0, j1, _, _) = self.state, self.grid, self.box
-        remap.tidy(j0, j1, self.method.trace, g.cm_in, g.cm_out, g.volume, s.mixed_count, s.mixed, s.pre, dj, di, s.fr, s.fz,
-                   bool(second), s.u,
-                   s.v, s.vof, s.q, s.cell_mass, s.booked)
+        remap.tidy(j0, j1, self.method.trace, g.cm_in, g.cm_out, g.volume, s.group, s.mixed_count, s.mixed, s.pre, dj, di, s.fr,
+                   s.fz, bool(second), s.u, s.v, s.vof, s.q, s.cell_mass, s.booked)
         internal, kinetic, axial, _, *mass = s.booked[:, j0:j1].sum(axis=1)
         self.ledger.book("traces", mass=np.array(mass), momentum=float(axial), energy=float(internal + kinetic))
         self._spans(anew=False)

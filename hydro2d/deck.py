@@ -1,8 +1,8 @@
 """The input deck: strict TOML in, a frozen and validated Deck in SI units out.
 
 ``load`` and ``loads`` read a deck with its includes and overrides; every mistake is a DeckError that names file, line,
-key and what is allowed. ``edges``, ``slots``, ``sliding_widths``, ``yield_factor`` and ``surface`` answer what follows
-from a deck; ``warnings`` lists what is allowed but unwise.
+key and what is allowed. ``edges``, ``slots``, ``body_groups``, ``sliding_widths``, ``yield_factor`` and ``surface``
+answer what follows from a deck; ``warnings`` lists what is allowed but unwise.
 """
 
 from __future__ import annotations
@@ -27,6 +27,7 @@ __all__ = [
     "Deck",
     "DeckError",
     "body",
+    "body_groups",
     "edges",
     "find",
     "load",
@@ -212,7 +213,8 @@ def _with_defaults(deck: Deck) -> Deck:
         if data["output"][key] is None and deck.stop.time is not None:
             data["output"][key] = deck.stop.time / share
     if not deck.numerics.interface_order:
-        data["numerics"]["interface_order"] = [entry.name for entry in deck.body if entry.join is None]
+        names, group = slots(deck), body_groups(deck)
+        data["numerics"]["interface_order"] = sorted(names, key=lambda name: -group[names.index(name)])
     for section in ("boundaries", "penetration", "stop", "output", "numerics"):
         if data[section] is not None:
             kind = _section(Deck, section)
@@ -230,6 +232,12 @@ def _face(deck: Deck, rod: str, target: str) -> float:
 def slots(deck: Deck) -> list[str]:
     """Names of the bodies that have a place of their own in the arrays, in the order of index m."""
     return [entry.name for entry in deck.body if entry.join is None]
+
+
+def body_groups(deck: Deck) -> list[int]:
+    """Body group of every slot, which is the velocity field it moves with: 1 for the hard bodies of a contact, else 0."""
+    hard = deck.sliding.hard if deck.sliding.method == "contact" else ()
+    return [int(name in hard) for name in slots(deck)]
 
 
 def edges(deck: Deck) -> tuple[np.ndarray, np.ndarray]:

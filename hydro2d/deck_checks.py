@@ -8,8 +8,11 @@ import numpy as np
 
 from hydro2d.deck_errors import unknown
 from hydro2d.deck_mesh import SegmentError, axis_edges, body, body_radius
-from hydro2d.deck_models import Deck
+from hydro2d.deck_models import Deck, Sliding
 from hydro2d.shapes import outline
+
+#: keys of `sliding` that mean nothing in a contact
+OF_SLIP_LAYER = ("boundary_layer", "slip_layer", "threshold", "shear", "refresh")
 
 
 def inconsistencies(deck: Deck) -> Iterator[tuple[tuple, str]]:
@@ -26,7 +29,9 @@ def inconsistencies(deck: Deck) -> Iterator[tuple[tuple, str]]:
         yield ("stop",), "needs a time or a number of cycles"
     if deck.sliding.method == "slip-layer" and not deck.sliding.hard:
         yield ("sliding", "hard"), "a slip layer needs the names of the hard bodies"
-    if deck.sliding.friction > 0 and deck.sliding.shear != "shear":
+    if deck.sliding.method == "contact":
+        yield from _bad_contact(deck)
+    elif deck.sliding.friction > 0 and deck.sliding.shear != "shear":
         yield ("sliding", "friction"), 'friction acts only with shear = "shear"; a fluid slip layer has none'
 
 
@@ -38,6 +43,20 @@ def _bad_join(deck: Deck, number: int) -> Iterator[tuple[tuple, str]]:
         yield path, unknown("earlier body", entry.join, earlier)
     elif earlier[entry.join].material != entry.material:
         yield path, f'"{entry.join}" is made of {earlier[entry.join].material}, not of {entry.material}'
+
+
+def _bad_contact(deck: Deck) -> Iterator[tuple[tuple, str]]:
+    slide = deck.sliding
+    if not slide.hard:
+        yield ("sliding", "hard"), "a contact needs the names of the hard bodies"
+    elif all(entry.name in slide.hard for entry in deck.body if entry.join is None):
+        yield ("sliding", "hard"), "a contact needs a body that is not hard"
+    if slide.yield_factor in ("radius", "printed"):
+        word = slide.yield_factor
+        yield ("sliding", "yield_factor"), f'"{word}" belongs to the slip layer; a contact takes "off" or a number'
+    for key in OF_SLIP_LAYER:
+        if getattr(slide, key) != Sliding.model_fields[key].default:
+            yield ("sliding", key), f'{key} belongs to the slip layer and means nothing with method = "contact"'
 
 
 def _bad_names(deck: Deck, names: list[str]) -> Iterator[tuple[tuple, str]]:

@@ -98,7 +98,9 @@ class Numerics(Section):
     trace: Fraction = Field(1e-8, lt=0.01, description="volume fractions below this are removed and booked")
     mass_floor: Fraction = Field(1e-6, description="share of a vertex's full mass below which its velocity is limited")
     active_region: bool = Field(True, description="skip cells that no signal has reached")
-    interface_order: tuple[str, ...] = Field((), description="nesting of bodies in mixed cells; default: deck order")
+    interface_order: tuple[str, ...] = Field(
+        (), description="nesting of bodies in mixed cells; default: the hard bodies of a contact, then deck order"
+    )
 
 
 def _width(value):
@@ -128,21 +130,30 @@ Factor = Annotated[float | str, BeforeValidator(_factor), WithJsonSchema(_NUMBER
 
 
 class Sliding(Section):
-    """Sliding between hard bodies and the rest."""
+    """Sliding between hard bodies and the rest; keys that say nothing of a contact belong to the slip layer."""
 
-    method: Literal["none", "slip-layer"] = Field("none", description="none: bodies stick as the mesh lets them")
-    hard: tuple[str, ...] = Field((), description="bodies that keep their own strength in mixed cells")
+    method: Literal["none", "slip-layer", "contact"] = Field(
+        "none",
+        description="none: bodies stick as the mesh lets them; slip-layer: soft material beside the hard bodies loses its "
+        "shear; contact: the hard bodies have velocities of their own",
+    )
+    hard: tuple[str, ...] = Field(
+        (), description="bodies that keep their own strength in mixed cells, or that a contact gives velocities of their own"
+    )
     boundary_layer: Width = Field(2.0, description="soft material that moves with the hard body: cells, or a length")
     slip_layer: Width = Field(2.0, description="soft material beyond it whose shear is cut: cells, or a length")
     threshold: Fraction = Field(0.3, description="share of hard material from which a cell counts as hard")
     yield_factor: Factor = Field(
         "off",
-        description='on the hard yield: ((R + w)/R)^2 ("radius"), with the density in cgs for R ("printed"), a number',
+        description='on the hard yield: ((R + w)/R)^2 ("radius"), with the density in cgs for R ("printed"), a number; '
+        'a contact takes "off" or a number',
     )
     shear: Literal["fluid", "shear"] = Field(
         "fluid", description="slip layer without deviator, or without shear along n"
     )
-    friction: NotNegative = Field(0.0, description='Coulomb coefficient in the slip layer; needs shear = "shear"')
+    friction: NotNegative = Field(
+        0.0, description='Coulomb coefficient at the interface of a contact, or in the slip layer with shear = "shear"'
+    )
     refresh: int = Field(5, ge=1, description="cycles between updates of the distance field")
 
 

@@ -81,18 +81,31 @@ class Cells:
         return np.sqrt(1.5 * (rr**2 + zz**2 + (rr + zz) ** 2 + 2 * rz**2))
 
     def velocity(self) -> np.ndarray:
-        """Mean of the four vertices, shape (nz, nr, 3)."""
-        u, v = self._vertex_mean(self._sim.state.u), self._vertex_mean(self._sim.state.v)
+        """Mean of the four vertices, and with two body groups the mean of both weighted by mass; shape (nz, nr, 3)."""
+        rest = self._vertex_mean(0)
+        if self._sim.state.groups == 1:
+            return rest
+        mass, total = self._mass
+        share = (np.sum(mass[self._sim.state.group == 1], axis=0) / total)[..., None]
+        return np.where(share > 0, (1 - share) * rest + share * self._vertex_mean(1), rest)
+
+    def group_velocity(self, b: int) -> np.ndarray:
+        """Mean of the four vertices of body group b, zero where nothing of the group is; shape (nz, nr, 3)."""
+        return np.where(self.group_share(b)[..., None] > 0, self._vertex_mean(b), 0.0)
+
+    def group_share(self, b: int) -> np.ndarray:
+        """Share of the cell that the bodies of group b fill, shape (nz, nr)."""
+        return np.sum(self.vof[self._sim.state.group == b], axis=0)
+
+    def _vertex_mean(self, b: int) -> np.ndarray:
+        """Mean velocity of the four vertices in the field of body group b, shape (nz, nr, 3)."""
+        w = self._sim.grid.interior_vertices(np.stack([self._sim.state.u[b], self._sim.state.v[b]]))
+        u, v = 0.25 * ((w[:, :-1, :-1] + w[:, 1:, 1:]) + (w[:, :-1, 1:] + w[:, 1:, :-1]))
         return np.stack([u, v, np.zeros_like(u)], axis=-1)
 
-    def _vertex_mean(self, vertex: np.ndarray) -> np.ndarray:
-        """Mean of the four vertices; where vertices carry several groups, weighted by the groups' masses."""
-        single = vertex[0]
-        if len(vertex) > 1:
-            mass = self._sim.state.mass
-            single = np.sum(mass * vertex, axis=0) / np.maximum(np.sum(mass, axis=0), TINY)
-        v = self._sim.grid.interior_vertices(single)
-        return 0.25 * ((v[:-1, :-1] + v[1:, 1:]) + (v[:-1, 1:] + v[1:, :-1]))
+    def contact_pressure(self) -> np.ndarray:
+        """Normal pressure at the interface of a contact in cells that hold it, else zero; Pa."""
+        return self._sim.grid.interior(self._sim.state.contact_pressure).copy()
 
     def material(self) -> np.ndarray:
         """1 + index of the body with the largest volume fraction; 0 where there is more void than anything else."""
@@ -106,13 +119,15 @@ class Cells:
 
 @dataclass(frozen=True)
 class Quantity:
-    """A row of the table. `title` holds {body} where the quantity is one of every body."""
+    """A row of the table. `title` holds {body} where the quantity is one of every body; one of `contact` is written only
+    where there are two body groups."""
 
     key: str
     title: str
     unit: str
     meaning: str
     evaluate: Callable[[Cells], np.ndarray]
+    contact: bool = False
 
     @property
     def per_body(self) -> bool:
@@ -128,7 +143,8 @@ TABLE: tuple[Quantity, ...] = (
     Quantity("pressure", "Pressure", "Pa", "sum of volume fraction times pressure; positive in compression",
              lambda c: c.by_volume(c.p)),
     Quantity("density", "Density", "kg/m3", "mass of all bodies per volume of the cell", lambda c: c.by_volume(c.rho)),
-    Quantity("velocity", "Velocity", "m/s", "mean of the four vertices, as the vector (r, z, 0)", Cells.velocity),
+    Quantity("velocity", "Velocity", "m/s", "mean of the four vertices, as the vector (r, z, 0); mean by mass of both "
+             "velocities of a contact", Cells.velocity),
     Quantity("energy", "Specific Internal Energy", "J/kg", "mean by mass over the bodies", lambda c: c.by_mass(c.e)),
     Quantity("temperature", "Temperature", "K", "mean by mass over the bodies", lambda c: c.by_mass(c.t)),
     Quantity("von_mises", "Von Mises Stress", "Pa", "sqrt(3/2 s:s) of the stress deviator of the cell",
@@ -144,6 +160,14 @@ TABLE: tuple[Quantity, ...] = (
     Quantity("damage", "Damage", "", "0 intact, 1 failed; mean by mass over the bodies", lambda c: c.by_mass(c.dmg)),
     Quantity("material", "Material", "", "number of the body, from 1, that fills most of the cell; 0: void",
              Cells.material),
+    Quantity("velocity_hard", "Velocity of Hard Bodies", "m/s", "that of the hard bodies in a contact, as the vector (r, z, 0)",
+             lambda c: c.group_velocity(1), contact=True),
+    Quantity("velocity_rest", "Velocity of the Rest", "m/s", "that of the other bodies in a contact, as the vector (r, z, 0)",
+             lambda c: c.group_velocity(0), contact=True),
+    Quantity("hard_share", "Share of Hard Bodies", "", "share of the cell that the hard bodies of a contact fill",
+             lambda c: c.group_share(1), contact=True),
+    Quantity("contact_pressure", "Contact Pressure", "Pa", "normal pressure at the interface of a contact, in its cells",
+             Cells.contact_pressure, contact=True),
     Quantity("volume_fraction", "Volume Fraction for {body}", "", "share of the cell that the body fills",
              lambda c: c.vof),
     Quantity("body_density", "Density of {body}", "kg/m3", "mass per volume of the body itself", lambda c: c.rho),
@@ -181,10 +205,12 @@ def expand(keys) -> tuple[str, ...]:
 def evaluated(sim, keys=("all",)) -> Iterator[tuple[str, np.ndarray]]:
     """File name and values, one after the other, of the quantities `keys` and of those that are always written.
 
-    Shapes (nz, nr) or (nz, nr, 3). Raises FieldError.
+    Shapes (nz, nr) or (nz, nr, 3). Those of a contact are left out where there is none. Raises FieldError.
     """
     cells = Cells(sim)
     for quantity in (BY_KEY[key] for key in expand(keys)):
+        if quantity.contact and sim.state.groups == 1:
+            continue
         values = quantity.evaluate(cells)
         if quantity.per_body:
             yield from ((quantity.name(body), values[m]) for m, body in enumerate(sim.table.names))

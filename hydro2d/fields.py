@@ -53,6 +53,7 @@ FIELDS = (
     Field("pressure", "p", "cell", "Pa", 1, "", True, "pressure of the cell, void counts nothing"),
     Field("viscosity_r", "qr", "cell", "Pa", 1, "", False, "artificial viscosity against radial compression"),
     Field("viscosity_z", "qz", "cell", "Pa", 1, "", False, "artificial viscosity against axial compression"),
+    Field("contact_pressure", "contact_pressure", "cell", "Pa", 1, "", True, "normal pressure at the interface of a contact"),
     Field("radial_velocity", "u", "vertex", "m/s", -1, "momentum", True, "radial velocity"),
     Field("axial_velocity", "v", "vertex", "m/s", 1, "momentum", True, "axial velocity"),
     Field("vertex_mass", "mass", "vertex", "kg", 1, "mass", False, "mass of the dual cell, per radian"),

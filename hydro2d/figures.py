@@ -30,6 +30,7 @@ READER = {
 BODY_COLOURS = ("#5b6770", "#c9a66b", "#7aa6c2", "#a3b18a", "#b57ba6", "#d08c60", "#8d99ae", "#c05a5a")
 HISTORIES = ("penetration_depth_m", "rod_tail_velocity_m_s", "rod_length_m", "rod_max_plastic_strain")
 COMPONENTS = {"r": 0, "z": 1}
+VECTORS = ("velocity", "velocity_hard", "velocity_rest")
 #: seconds before a rendering process is given up
 RENDER_SECONDS = 180
 
@@ -63,8 +64,8 @@ def chosen(dump: Dump, field: str) -> Shown:
     quantity = derived.BY_KEY[key]
     if quantity.per_body and part not in dump.bodies:
         raise FigureError(f'field "{key}" is one of every body: write {key}:NAME; {unknown("body", part, dump.bodies)}')
-    if not quantity.per_body and part and (key != "velocity" or part not in COMPONENTS):
-        raise FigureError(f'field "{field}": only velocity has components, velocity:r and velocity:z')
+    if not quantity.per_body and part and (key not in VECTORS or part not in COMPONENTS):
+        raise FigureError(f'field "{field}": only {", ".join(VECTORS)} have components, such as velocity:r and velocity:z')
     name = quantity.name(part)
     if name not in dump.fields:
         raise FigureError(f'the file holds no "{name}"; output.fields of the deck decides what is written')

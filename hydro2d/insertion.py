@@ -220,20 +220,26 @@ def _energy_for(body, table, m: int, rho: float, which: int, target: float) -> f
     return low
 
 
-def initial_state(deck, grid, table) -> dict[str, np.ndarray]:
+def initial_state(deck, grid, table, group=None) -> dict[str, np.ndarray]:
     """The state at time zero, in interior cells.
+
+    Parameters
+    ----------
+    group : int64[m], optional
+        Body group b of every slot; without it there is one.
 
     Returns
     -------
     dict with float64 arrays
         ``vof``, ``rho`` (kg/m^3), ``e`` (J/kg), shape (m, nz, nr); density and energy also where a body is not.
-        ``u_cell``, ``v_cell`` (m/s), shape (nz, nr): momentum over mass, 0 in void.
+        ``u_cell``, ``v_cell`` (m/s), shape (b, nz, nr): momentum over mass of the group, 0 where nothing of it is.
     """
     shares, slots = _body_fractions(deck, grid), _slot_of(deck, table)
     shape = (len(table), grid.nz, grid.nr)
     vof, mass, energy = np.zeros(shape), np.zeros(shape), np.zeros(shape)
     rho, e = np.zeros(shape), np.zeros(shape)
-    momentum = np.zeros((2, grid.nz, grid.nr))
+    group = np.zeros(len(table), dtype=np.int64) if group is None else group
+    momentum = np.zeros((2, int(group.max()) + 1, grid.nz, grid.nr))
     g = grid.g
     r, z = grid.rc[g : g + grid.nr][None, :], grid.zc[g : g + grid.nz][:, None]
     for body, m, share in reversed(list(zip(deck.body, slots, shares, strict=True))):
@@ -245,7 +251,7 @@ def initial_state(deck, grid, table) -> dict[str, np.ndarray]:
         energy[m] += share * density * heat
         rho[m][lone], e[m][lone] = density, heat
         rho[m][both], e[m][both] = mass[m][both] / vof[m][both], energy[m][both] / mass[m][both]
-        momentum += share * density * np.stack(body_velocity(body, r, z))
-    total = mass.sum(axis=0)
+        momentum[:, group[m]] += share * density * np.stack(body_velocity(body, r, z))
+    total = np.stack([mass[group == b].sum(axis=0) for b in range(momentum.shape[1])])
     velocity = np.where(total > 0, momentum / np.where(total > 0, total, 1.0), 0.0)
     return {"vof": np.minimum(vof, 1.0), "rho": rho, "e": e, "u_cell": velocity[0], "v_cell": velocity[1]}

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from hydro2d import deck as decks
 from hydro2d.kernels import mixed, momentum, sliding
 
 
@@ -41,6 +42,7 @@ class Method:
     friction: float
     refresh: int
     factor: np.ndarray
+    contact: bool
     group: np.ndarray
     mirrors: tuple[bool, bool, bool, bool]
 
@@ -51,6 +53,7 @@ class Method:
         order = list(n.interface_order) + [name for name in slots if name not in n.interface_order]
         layer = slide.method == "slip-layer"
         hard = np.array([layer and name in slide.hard for name in slots])
+        group = np.array(decks.body_groups(deck), dtype=np.int64)
         return cls(
             choice=momentum.CHOICES.index(n.advection),
             ke_bound=n.ke_bound,
@@ -79,7 +82,8 @@ class Method:
             shear=sliding.SHEARS.index(slide.shear),
             friction=slide.friction,
             refresh=slide.refresh,
-            factor=np.where(hard, factor, 1.0),
-            group=np.zeros(len(slots), dtype=np.int64),
+            factor=np.where(hard | (group == 1), factor, 1.0),
+            contact=slide.method == "contact",
+            group=group,
             mirrors=tuple(e in ("wall", "axis") for e in (edge.r_min, edge.r_max, edge.z_min, edge.z_max)),
         )

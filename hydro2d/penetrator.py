@@ -87,8 +87,8 @@ class Penetrator:
         return float(np.max(np.sqrt(2.0 * area) if grid.cylindrical else area, initial=0.0))
 
     def _axis_velocity(self, z: float) -> float:
-        """Axial velocity on the axis at z, m/s."""
-        return float(self.sim.velocity_at(np.array([[0.0, z]]))[0, 1])
+        """Axial velocity of the rod's body group on the axis at z, m/s."""
+        return float(self.sim.velocity_at(np.array([[0.0, z]]), self.sim.state.group[self.m])[0, 1])
 
     def _largest_strain(self, rows: np.ndarray) -> float:
         """Largest plastic strain of the cells that the rod fills by half or more; rows are those that hold some of it."""

@@ -49,24 +49,29 @@ class Simulation:
         self._sign = None
 
     def _insert(self) -> None:
-        """Fills the mesh; vertex velocities are the mass-weighted means of the cells around them."""
+        """Fills the mesh.
+
+        Vertex velocities of a body group are the mass-weighted means of its own in the cells around; where nothing of it is
+        around, those of the other group.
+        """
         s, g = self.state, self.grid
-        first = insertion.initial_state(self.deck, g, self.table)
+        first = insertion.initial_state(self.deck, g, self.table, s.group)
         for name in ("vof", "rho", "e"):
             g.interior(getattr(s, name))[...] = first[name]
-        mass = np.zeros(g.shape)
-        g.interior(mass)[...] = np.sum(first["vof"] * first["rho"], axis=0) * g.volume[g.inside]
-        dual = np.zeros(g.vertex_shape)
+        mass, dual = np.zeros((s.groups, *g.shape)), np.zeros((s.groups, *g.vertex_shape))
+        for b in range(s.groups):
+            own = s.group == b
+            g.interior(mass)[b] = np.sum(first["vof"][own] * first["rho"][own], axis=0) * g.volume[g.inside]
         for cell, vertex in ((first["u_cell"], s.u), (first["v_cell"], s.v)):
-            momentum = np.zeros(g.shape)
+            momentum = np.zeros_like(mass)
             g.interior(momentum)[...] = cell * g.interior(mass)
-            self._gather(momentum, vertex[0])
+            self._gather(momentum, vertex)
         self._gather(mass, dual)
         for vertex in (s.u, s.v):
-            np.divide(vertex[0], dual, out=vertex[0], where=dual > 0)
-            vertex[0][dual == 0] = 0.0
+            np.divide(vertex, dual, out=vertex, where=dual > 0)
+            vertex[...] = np.where(dual > 0, vertex, vertex[::-1])
         for velocity, m_low, m_high, axis in ((s.u, "r_min", "r_max", -1), (s.v, "z_min", "z_max", -2)):
-            view = np.moveaxis(velocity[0], axis, 0)
+            view = np.moveaxis(velocity, axis, 0)
             last = g.g + (g.nr if axis == -1 else g.nz)
             if getattr(self.deck.boundaries, m_low) in ("axis", "wall"):
                 view[g.g] = 0.0
@@ -76,10 +81,10 @@ class Simulation:
     def _gather(self, cell: np.ndarray, vertex: np.ndarray) -> None:
         """Adds the corner shares of a cell quantity to the vertices."""
         inner, outer = cell * self.grid.cm_in, cell * self.grid.cm_out
-        vertex[:-1, :-1] += inner
-        vertex[1:, :-1] += inner
-        vertex[:-1, 1:] += outer
-        vertex[1:, 1:] += outer
+        vertex[..., :-1, :-1] += inner
+        vertex[..., 1:, :-1] += inner
+        vertex[..., :-1, 1:] += outer
+        vertex[..., 1:, 1:] += outer
 
     # ------------------------------------------------------------------------------------------------ running
 
@@ -112,16 +117,16 @@ class Simulation:
     def _move_tracers(self) -> None:
         """Tracers follow the bilinear velocity of their cell, by the midpoint rule."""
         g, s = self.grid, self.state
-        tracers.follow(g.g, g.nr, g.nz, self.dt, g.r, g.z, s.u[0], s.v[0], self.tracers)
+        tracers.follow(g.g, g.nr, g.nz, self.dt, g.r, g.z, s.group, s.vof, s.u, s.v, self.tracers)
 
-    def velocity_at(self, points: np.ndarray) -> np.ndarray:
-        """Velocity (u, v) at points (r, z), shape [n, 2], bilinear in the cell; m/s."""
-        return tracers.velocity_at(self.grid, self.state, points)
+    def velocity_at(self, points: np.ndarray, group: int | None = None) -> np.ndarray:
+        """Velocity (u, v) at points (r, z), shape [n, 2], m/s: of a body group, or of that which the cell moves with."""
+        return tracers.velocity_at(self.grid, self.state, points, group)
 
     def body_sums(self, m: int) -> tuple[np.ndarray, np.ndarray]:
         """Mass and axial momentum of body m by row, shape (nz,); per radian (per unit depth in planar geometry)."""
         g, s = self.grid, self.state
-        sums.body_sums(g.g, g.nz, g.nr, m, g.cm_in, g.cm_out, g.volume, s.vof, s.rho, s.v[0], self._rows)
+        sums.body_sums(g.g, g.nz, g.nr, m, g.cm_in, g.cm_out, g.volume, s.vof, s.rho, s.v[s.group[m]], self._rows)
         mass, momentum = self._rows[:, g.inside[0]]
         return mass, momentum
 

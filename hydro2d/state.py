@@ -37,8 +37,9 @@ class State:
         self.pm, self.km, self.tm = self._derived
 
         self._cells = np.zeros((17, nj, ni))
-        (self.p, self.ph, self.bulk, self.rhobar, self.solid, self.cl, self.qr, self.qz, self.cell_mass, self.sig_rr,
-         self.sig_zz, self.sig_tt, self.sig_rz, self.pre, self.hard, self.distance, self.weight) = self._cells
+        (self.p, self.ph, self.bulk, self.rhobar, self.solid, self.cl, self.qr, self.qz, self.sig_rr, self.sig_zz, self.sig_tt,
+         self.sig_rz, self.pre, self.hard, self.distance, self.weight, self.contact_pressure) = self._cells
+        self.cell_mass = np.zeros((groups, nj, ni))
         self.pre[...] = grid.volume  # ghosts keep it: a face beside them divides by it
 
         self._vertices = np.zeros((5, groups, nj + 1, ni + 1))
@@ -48,23 +49,28 @@ class State:
         self.fr = np.zeros((nj + 1, ni + 1))
         self.fz = np.zeros((nj + 1, ni + 1))
         self.flux_volume = np.zeros((bodies, nj + 1, ni + 1))
-        self.flux_mass = np.zeros((nj + 1, ni + 1))
+        self.flux_mass = np.zeros((groups, nj + 1, ni + 1))
         blocks = nj // fields.BLOCK + 1
         self.flux = np.zeros((fields.BODY_FIELDS, bodies, 6 * blocks, ni + 1))
         self.scratch = np.zeros((fields.SCRATCH, blocks, ni + 1))
         self.dual = np.zeros((6, 2 * blocks, ni + 1))
         longest = max(nj, ni) + 1
         self.edge_flux = np.zeros((2, 2, bodies, longest))
-        self.edge_dual = np.zeros((2, 5, longest))
-        self.deficit = np.zeros((nj + 1, ni + 1))
+        self.edge_dual = np.zeros((groups, 2, 5, longest))
+        self.deficit = np.zeros((groups, nj + 1, ni + 1))
 
         self.near = np.zeros((3, bodies, nj, 2), dtype=np.int64)
-        self.around = np.zeros((4, nj, 2), dtype=np.int64)
-        self.occupied = np.zeros((nj, 2), dtype=np.int64)
-        self.span, self.reach = self.near[0], self.around[0]
+        self.around = np.zeros((groups, 4, nj, 2), dtype=np.int64)
+        self.occupied = np.zeros((groups, nj, 2), dtype=np.int64)
+        self.span, self.reach = self.near[0], self.around[0, 0]
         self.empty_spans()
         self.mixed_count = np.zeros(nj, dtype=np.int64)
         self.mixed = np.zeros((nj, ni), dtype=np.int64)
+
+        self.motion = np.zeros((nj, groups, 10))
+        self.cut = np.zeros((nj, 2), dtype=np.int64)
+        if groups > 1:
+            self._contact(nj, ni)
 
         self.zone = np.zeros((nj, ni), dtype=np.int8)
         self.normal = np.zeros((2, nj, ni))
@@ -74,6 +80,19 @@ class State:
         self.row_numbers = np.zeros((nj + 1, 4), dtype=np.int64)
         self.row_moving = np.zeros((nj + 1, 2), dtype=np.int64)
         self.found = np.zeros(4, dtype=np.int64)
+
+    def _contact(self, nj: int, ni: int) -> None:
+        """What the contact of two groups needs, see kernels/contact."""
+        self.shared_count = np.zeros(nj + 1, dtype=np.int64)
+        self.shared = np.zeros((nj + 1, ni + 1), dtype=np.int64)
+        self.link = np.zeros((2, nj + 1, ni + 1), dtype=np.int8)
+        self.soft, self.rate = np.zeros((2, nj, ni))
+        self.line = np.zeros((6, nj, ni))
+        self.wet_r, self.wet_z, self.own_r, self.own_z, self.contact_normal, self.heat = np.zeros((6, 2, nj + 1, ni + 1))
+        self.touch = np.zeros((nj + 1, ni + 1))
+        self.trial = np.zeros((2, 2, nj + 1, ni + 1))
+        self.tied = np.zeros((3, 2, nj + 1, ni + 1))
+        self.exchange = np.zeros((5, nj + 1))
 
     def empty_spans(self) -> None:
         """No body is in any row."""

@@ -9,7 +9,7 @@ from hydro2d.jit import plus, serial
 def body_sums(g, nz, nr, m, cm_in, cm_out, volume, vof, rho, v, sums):
     """Mass and axial momentum of body m by row; a cell moves with the mean of its vertices, weighted by corner masses.
 
-    Reads    volume [j, i];  vof, rho [m, j, i];  v [j-1/2, i-1/2]
+    Reads    volume [j, i];  vof, rho [m, j, i];  v [j-1/2, i-1/2] of the body's group, of no account where the body is not
     Writes   sums [2, j]
     """
     inner = cm_in[g:g + nr]
@@ -26,8 +26,9 @@ def body_sums(g, nz, nr, m, cm_in, cm_out, volume, vof, rho, v, sums):
         momentum = 0.0
         for i in range(nr):
             share = f_j[i] * rho_j[i] * volume_j[i]
+            mean = inner[i] * (v00[i] + v10[i]) + outer[i] * (v01[i] + v11[i])
             mass = plus(mass, share)
-            momentum = plus(momentum, share * (inner[i] * (v00[i] + v10[i]) + outer[i] * (v01[i] + v11[i])))
+            momentum = plus(momentum, share * mean if share > 0.0 else 0.0)
         sums[0, j] = mass
         sums[1, j] = momentum
 

@@ -28,40 +28,58 @@ def between(w, j, i, x, y):
     return low * (1 - y) + high * y
 
 
+@point
+def group_of(group, vof, j, i):
+    """Body group that a point of a cell moves with: 1 where hard bodies fill half of the cell or more, else 0."""
+    hard = 0.0
+    for m in range(group.shape[0]):
+        hard += group[m] * vof[m, j, i]
+    return int(hard >= 0.5)
+
+
 @serial
-def velocities(g, nr, nz, r, z, u, v, points, result):
+def velocities(g, nr, nz, own, r, z, group, vof, u, v, points, result):
     """Velocity (u, v) at points (r, z), bilinear in the cell; those beyond the mesh have that of its edge.
 
-    Reads    r, z edges;  u, v [j-1/2, i-1/2];  points [n, 2]
+    It is that of body group `own`, or of the group of the cell where `own` is negative.
+
+    Reads    r, z edges;  group [m];  vof [m, j, i];  u, v [b, j-1/2, i-1/2];  points [n, 2]
     Writes   result [n, 2]
     """
     for n in range(points.shape[0]):
         i, x = place(r, g, nr, points[n, 0])
         j, y = place(z, g, nz, points[n, 1])
-        result[n, 0] = between(u, j, i, x, y)
-        result[n, 1] = between(v, j, i, x, y)
+        b = own if own >= 0 else group_of(group, vof, j, i)
+        result[n, 0] = between(u[b], j, i, x, y)
+        result[n, 1] = between(v[b], j, i, x, y)
 
 
 @serial
-def follow(g, nr, nz, dt, r, z, u, v, points):
-    """Moves points (r, z) with the velocity of their cell over dt, by the midpoint rule.
+def follow(g, nr, nz, dt, r, z, group, vof, u, v, points):
+    """Moves points (r, z) with the velocity of the body group of their cell over dt, by the midpoint rule.
 
-    Reads    r, z edges;  u, v [j-1/2, i-1/2]
+    Reads    r, z edges;  group [m];  vof [m, j, i];  u, v [b, j-1/2, i-1/2]
     Updates  points [n, 2]
     """
     for n in range(points.shape[0]):
         i, x = place(r, g, nr, points[n, 0])
         j, y = place(z, g, nz, points[n, 1])
-        half_r = points[n, 0] + 0.5 * dt * between(u, j, i, x, y)
-        half_z = points[n, 1] + 0.5 * dt * between(v, j, i, x, y)
+        b = group_of(group, vof, j, i)
+        half_r = points[n, 0] + 0.5 * dt * between(u[b], j, i, x, y)
+        half_z = points[n, 1] + 0.5 * dt * between(v[b], j, i, x, y)
         i, x = place(r, g, nr, half_r)
         j, y = place(z, g, nz, half_z)
-        points[n, 0] += dt * between(u, j, i, x, y)
-        points[n, 1] += dt * between(v, j, i, x, y)
+        b = group_of(group, vof, j, i)
+        points[n, 0] += dt * between(u[b], j, i, x, y)
+        points[n, 1] += dt * between(v[b], j, i, x, y)
 
 
-def velocity_at(grid, state, points: np.ndarray) -> np.ndarray:
-    """Velocity (u, v) at points (r, z), shape [n, 2], bilinear in the cell; m/s."""
+def velocity_at(grid, state, points: np.ndarray, group: int | None = None) -> np.ndarray:
+    """Velocity (u, v) at points (r, z), shape [n, 2], bilinear in the cell; m/s.
+
+    group : body group whose velocity it is; without it that which the cell moves with
+    """
     result = np.empty_like(points)
-    velocities(grid.g, grid.nr, grid.nz, grid.r, grid.z, state.u[0], state.v[0], points, result)
+    own = -1 if group is None else int(group)
+    velocities(grid.g, grid.nr, grid.nz, own, grid.r, grid.z, state.group, state.vof, state.u, state.v, points, result)
     return result

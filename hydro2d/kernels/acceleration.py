@@ -107,47 +107,44 @@ def total_stress(j0, j1, dt, face_r, az_in, az_out, vol_r, dz, span, reach, mixe
                              hard_threshold, u, v, vof, q, p, bulk, solid, qr, qz, ph, sig_rr, sig_zz, sig_tt, sig_rz)
 
 
-@rowwise
-def vertex_masses_row(j, i0, i1, cm_in, cm_out, around, cell_mass, mass):
-    """Mass of the dual cells: corner shares of the four cells around a vertex, weighted by radius.
-
-    Reads    cell_mass [j, i]
-    Writes   mass [b, j, i]
-    """
-    lo, hi = around[1, j, 0], around[1, j, 1]
-    lo, n = columns(max(lo, i0), min(hi + 1, i1))
-    below = cell_mass[j - 1]
-    above = cell_mass[j]
-    m_j = mass[0, j]
-    for x in range(n):
-        i = lo + x
-        m_j[i] = cm_out[i - 1] * (below[i - 1] + above[i - 1]) + cm_in[i] * (below[i] + above[i])
-
-
 @kernel
 def vertex_masses(j0, j1, i0, i1, cm_in, cm_out, around, cell_mass, mass):
-    """vertex_masses_row for rows j0 to j1."""
+    """Mass of the dual cells: corner shares of the four cells around a vertex, weighted by radius.
+
+    Reads    cell_mass [b, j, i]
+    Writes   mass [b, j, i]
+    """
     for j in prange(j0, j1):
-        vertex_masses_row(j, i0, i1, cm_in, cm_out, around, cell_mass, mass)
+        for b in range(mass.shape[0]):
+            lo, hi = around[b, 1, j, 0], around[b, 1, j, 1]
+            lo, n = columns(max(lo, i0), min(hi + 1, i1))
+            below = cell_mass[b, j - 1]
+            above = cell_mass[b, j]
+            m_j = mass[b, j]
+            for x in range(n):
+                i = lo + x
+                m_j[i] = cm_out[i - 1] * (below[i - 1] + above[i - 1]) + cm_in[i] * (below[i] + above[i])
 
 
 @rowwise
-def accelerate_row(j, i0, i1, dt, speed_limit, light_density, face_r, hoop, az_in, az_out, vol_r, mid_r, dz,
+def accelerate_row(b, j, i0, i1, dt, speed_limit, light_density, face_r, hoop, az_in, az_out, vol_r, mid_r, dz,
                    occupied, mass, weight, sig_rr, sig_zz, sig_tt, sig_rz, u0, v0, u, v, limited):
     """Velocities at the end of the Lagrangian step: u = u0 + dt f/M, f the sum of the corner forces of four cells.
 
     f_r = -[sig_rr (c_r - A/4) + sig_tt A/4 + sig_rz c_z],  f_z = -[sig_zz c_z + sig_rz g] per corner, and the filter of the
     hourglass mode (explanation/lagrangian-step, equations 4 and 6). The same corner forces do the work in `deform`. A
-    vertex whose
-    dual cell is filled more thinly than light_density is held to speed_limit.
+    vertex whose dual cell is filled more thinly than light_density is held to speed_limit. Vertices that two groups share
+    are the contact's (explanation/sliding).
 
     Reads    u0, v0, mass [b, j, i]; sig_rr, sig_zz, sig_tt, sig_rz, weight (of the hourglass filter) [j, i]
-    Writes   u, v [b, j, i] for whole rows; limited [3, j]: momentum and energy taken by the speed limit, and its count
+    Writes   u, v [b, j, i], of group 0 for whole rows
+    Updates  limited [3, j]: momentum and energy taken by the speed limit, and its count
     """
-    lo, hi = union(occupied, j - 1, j + 1)
+    lo, hi = union(occupied[b], j - 1, j + 1)
     lo, n = columns(max(lo, i0), min(hi + 1, i1))
-    copy_beside(u0[0, j], u[0, j], i0 - 2, lo, lo + n, i1 + 2)
-    copy_beside(v0[0, j], v[0, j], i0 - 2, lo, lo + n, i1 + 2)
+    if b == 0:
+        copy_beside(u0[0, j], u[0, j], i0 - 2, lo, lo + n, i1 + 2)
+        copy_beside(v0[0, j], v[0, j], i0 - 2, lo, lo + n, i1 + 2)
     hb = dz[j - 1]
     ht = dz[j]
     rr_b = sig_rr[j - 1]
@@ -160,15 +157,17 @@ def accelerate_row(j, i0, i1, dt, speed_limit, light_density, face_r, hoop, az_i
     rz_t = sig_rz[j]
     w_b = weight[j - 1]
     w_t = weight[j]
-    u_b = u0[0, j - 1]
-    u_c = u0[0, j]
-    u_t = u0[0, j + 1]
-    v_b = v0[0, j - 1]
-    v_c = v0[0, j]
-    v_t = v0[0, j + 1]
-    m_j = mass[0, j]
-    un = u[0, j]
-    vn = v[0, j]
+    u_b = u0[b, j - 1]
+    u_c = u0[b, j]
+    u_t = u0[b, j + 1]
+    v_b = v0[b, j - 1]
+    v_c = v0[b, j]
+    v_t = v0[b, j + 1]
+    m_j = mass[b, j]
+    un = u[b, j]
+    vn = v[b, j]
+    other = mass[mass.shape[0] - 1 - b, j]
+    alone = mass.shape[0] == 1
     lost_p, lost_e, count = 0.0, 0.0, 0.0
     for x in range(n):
         i = lo + x
@@ -195,15 +194,17 @@ def accelerate_row(j, i0, i1, dt, speed_limit, light_density, face_r, hoop, az_i
         force_z += ((w_t[k] * h_kt - w_b[k] * h_kb) + (w_b[i] * h_ib - w_t[i] * h_it))
         keep = 1.0 if m_j[i] > 0.0 else 0.0
         scale = keep * dt / max(m_j[i], TINY)
-        a = keep * u_c[i] + scale * force_r
-        b = keep * v_c[i] + scale * force_z
-        un[i] = a if abs(a) > SILENCE else 0.0
-        vn[i] = b if abs(b) > SILENCE else 0.0
+        radial = keep * u_c[i] + scale * force_r
+        axial = keep * v_c[i] + scale * force_z
+        un[i] = radial if abs(radial) > SILENCE else 0.0
+        vn[i] = axial if abs(axial) > SILENCE else 0.0
     for x in range(n):
         i = lo + x
         m = m_j[i]
         square = un[i] * un[i] + vn[i] * vn[i]
         if square <= speed_limit * speed_limit or m >= light_density * 0.25 * (vol_r[i - 1] + vol_r[i]) * (hb + ht):
+            continue
+        if not alone and other[i] > 0.0:
             continue
         shrink = speed_limit / sqrt(square)
         lost_p += m * vn[i] * (1.0 - shrink)
@@ -211,9 +212,9 @@ def accelerate_row(j, i0, i1, dt, speed_limit, light_density, face_r, hoop, az_i
         count += 1.0
         un[i] *= shrink
         vn[i] *= shrink
-    limited[0, j] = lost_p
-    limited[1, j] = lost_e
-    limited[2, j] = count
+    limited[0, j] += lost_p
+    limited[1, j] += lost_e
+    limited[2, j] += count
 
 
 @kernel
@@ -222,15 +223,17 @@ def accelerate(j0, j1, i0, i1, dt, speed_limit, light_density, face_r, hoop, az_
     """accelerate_row for rows j0 to j1."""
     blocks = number_of_blocks(j0, j1)
     for place in prange(blocks):
-        b = spread(place, blocks)
-        first_row, last_row = block_rows(b, blocks, j0, j1)
+        first_row, last_row = block_rows(spread(place, blocks), blocks, j0, j1)
         for j in range(first_row, last_row):
-            accelerate_row(j, i0, i1, dt, speed_limit, light_density, face_r, hoop, az_in, az_out, vol_r, mid_r, dz,
-                           occupied, mass, weight, sig_rr, sig_zz, sig_tt, sig_rz, u0, v0, u, v, limited)
+            for row in range(3):
+                limited[row, j] = 0.0
+            for b in range(mass.shape[0]):
+                accelerate_row(b, j, i0, i1, dt, speed_limit, light_density, face_r, hoop, az_in, az_out, vol_r, mid_r, dz,
+                               occupied, mass, weight, sig_rr, sig_zz, sig_tt, sig_rz, u0, v0, u, v, limited)
 
 
-@rowwise
-def swept_volumes_row(j, i0, i1, dt, face_r, az_in, az_out, dz, around, u0, v0, u, v, fr, fz):
+@kernel
+def swept_volumes(j0, j1, i0, i1, dt, face_r, az_in, az_out, dz, around, u0, v0, u, v, fr, fz):
     """Volumes swept by the faces in the step, from the velocity at mid-step (explanation/remap, equation 1).
 
     F_r = dt r h <u>,  F_z = dt (a v_inner + b v_outer), with the areas of the cell vectors, so that their sum over a cell is
@@ -239,29 +242,22 @@ def swept_volumes_row(j, i0, i1, dt, face_r, az_in, az_out, dz, around, u0, v0, 
     Reads    u0, v0, u, v [b, j, i]
     Writes   fr, fz [j, i]
     """
-    lo, hi = around[1, j, 0], around[1, j, 1]
-    lo, n = columns(max(lo, i0), min(hi, i1))
-    ub = u[0, j]
-    ub0 = u0[0, j]
-    ut = u[0, j + 1]
-    ut0 = u0[0, j + 1]
-    vb = v[0, j]
-    vb0 = v0[0, j]
-    fr_j = fr[j]
-    fz_j = fz[j]
-    h = dz[j]
-    for x in range(n):
-        i = lo + x
-        fr_j[i] = 0.25 * dt * face_r[i] * h * ((ub[i] + ub0[i]) + (ut[i] + ut0[i]))
-        fz_j[i] = 0.5 * dt * (az_in[i] * (vb[i] + vb0[i]) + az_out[i] * (vb[i + 1] + vb0[i + 1]))
-    if n > 0:
-        i = lo + n
-        fr_j[i] = 0.25 * dt * face_r[i] * h * ((ub[i] + ub0[i]) + (ut[i] + ut0[i]))
-
-
-
-@kernel
-def swept_volumes(j0, j1, i0, i1, dt, face_r, az_in, az_out, dz, around, u0, v0, u, v, fr, fz):
-    """swept_volumes_row for rows j0 to j1."""
     for j in prange(j0, j1):
-        swept_volumes_row(j, i0, i1, dt, face_r, az_in, az_out, dz, around, u0, v0, u, v, fr, fz)
+        lo, hi = around[0, 1, j, 0], around[0, 1, j, 1]
+        lo, n = columns(max(lo, i0), min(hi, i1))
+        ub = u[0, j]
+        ub0 = u0[0, j]
+        ut = u[0, j + 1]
+        ut0 = u0[0, j + 1]
+        vb = v[0, j]
+        vb0 = v0[0, j]
+        fr_j = fr[j]
+        fz_j = fz[j]
+        h = dz[j]
+        for x in range(n):
+            i = lo + x
+            fr_j[i] = 0.25 * dt * face_r[i] * h * ((ub[i] + ub0[i]) + (ut[i] + ut0[i]))
+            fz_j[i] = 0.5 * dt * (az_in[i] * (vb[i] + vb0[i]) + az_out[i] * (vb[i + 1] + vb0[i + 1]))
+        if n > 0:
+            i = lo + n
+            fr_j[i] = 0.25 * dt * face_r[i] * h * ((ub[i] + ub0[i]) + (ut[i] + ut0[i]))

@@ -50,7 +50,7 @@ def von_mises(rr, zz, rz):
 
 
 @kernel
-def deform(j0, j1, dt, face_r, hoop, az_in, az_out, vol_r, mid_r, dz, span, strength_model, strength_par, damage_model,
+def deform(j0, j1, dt, face_r, hoop, az_in, az_out, vol_r, mid_r, dz, span, group, strength_model, strength_par, damage_model,
            damage_par, factor, loose, u0, v0, u, v, fr, fz, sig_rr, sig_zz, sig_tt, sig_rz, weight, vof, pm, tm, scratch, q):
     """Energy, density, deviator, plastic strain and damage of every body in the cells that it fills, over one Lagrangian step.
 
@@ -58,7 +58,7 @@ def deform(j0, j1, dt, face_r, hoop, az_in, az_out, vol_r, mid_r, dz, span, stre
     the deviators are strained with the velocities at the end of the step (explanation/lagrangian-step, equations 5 and
     7). Failed or loose (rho <= loose[m]) material carries no deviator.
 
-    Reads    u0, v0, u, v [b, j, i]; fr, fz, sig_.., weight [j, i]; vof, pm, tm [m, j, i]
+    Reads    group [m]; u0, v0, u, v [b, j, i]; fr, fz, sig_.., weight [j, i]; vof, pm, tm [m, j, i]
     Updates  q [k, m, j, i]
     Scratch  scratch [s, block, i], shear modulus and trial stress
     """
@@ -67,14 +67,6 @@ def deform(j0, j1, dt, face_r, hoop, az_in, az_out, vol_r, mid_r, dz, span, stre
         b = spread(place, blocks)
         first_row, last_row = block_rows(b, blocks, j0, j1)
         for j in range(first_row, last_row):
-            ub = u[0, j]
-            ut = u[0, j + 1]
-            vb = v[0, j]
-            vt = v[0, j + 1]
-            ub0 = u0[0, j]
-            ut0 = u0[0, j + 1]
-            vb0 = v0[0, j]
-            vt0 = v0[0, j + 1]
             fr_j = fr[j]
             fz_b = fz[j]
             fz_t = fz[j + 1]
@@ -87,6 +79,15 @@ def deform(j0, j1, dt, face_r, hoop, az_in, az_out, vol_r, mid_r, dz, span, stre
             shear_j = scratch[0, b]
             trial_j = scratch[1, b]  # of loose material negative, where the body does not fill the cell 0
             for m in range(vof.shape[0]):
+                g = group[m]
+                ub = u[g, j]
+                ut = u[g, j + 1]
+                vb = v[g, j]
+                vt = v[g, j + 1]
+                ub0 = u0[g, j]
+                ut0 = u0[g, j + 1]
+                vb0 = v0[g, j]
+                vt0 = v0[g, j + 1]
                 model = strength_model[m]
                 par = strength_par[m]
                 dmodel = damage_model[m]

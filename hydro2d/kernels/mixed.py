@@ -25,28 +25,37 @@ TENSIONS = ("mean", "min")
 
 NO_VOID = 1e-12
 
+#: columns of the scratch `motion`: volume times the velocity gradient at the end of the step (du_r/dz, du_z/dr apart) and at
+#: its middle, and the work of the hourglass filter
+RR, TT, ZZ, RBZ, ZBR, MEAN_RR, MEAN_TT, MEAN_ZZ, MEAN_RZ, HOURGLASS = range(10)
+
 
 @rowwise
-def tear_mixed_row(j, smallest, max_opening, vol_r, dz, mixed_count, mixed, eos_model, eos_par, fracture_pressure, vof, q,
-                   pm, p, solid, bulk, opened):
+def tear_mixed_row(j, smallest, max_opening, vol_r, dz, mixed_count, mixed, group, eos_model, eos_par, fracture_pressure, vof,
+                   q, pm, p, solid, bulk, opened):
     """Opens void in mixed cells whose pressure falls below their fracture pressure, and frees them of stress.
 
-    The threshold is the mean of the bodies' by volume fraction, or the smallest (explanation/fracture).
+    The threshold is the mean of the bodies' by volume fraction, or the smallest (explanation/fracture). Two groups hold
+    together by nothing: they part at zero pressure, and each keeps its stress.
 
-    Reads    mixed [j, k], fracture_pressure [m]
+    Reads    mixed [j, k], group, fracture_pressure [m]
     Updates  vof, pm [m, j, i]; q (rho, deviators); p, solid, bulk [j, i]; opened [j]
     """
     bodies = vof.shape[0]
     for k in range(mixed_count[j]):
         i = mixed[j, k]
         mean, least = 0.0, 1e300
+        low, high = 1, 0
         for m in range(bodies):
             f = vof[m, j, i]
             if f > 0.0:
+                low, high = min(low, group[m]), max(high, group[m])
                 limit = fracture_pressure[m] if q[DMG, m, j, i] < 1.0 else 0.0
                 mean += f * limit
                 least = min(least, limit)
         threshold = least * solid[j, i] if smallest else mean
+        parts = low < high
+        threshold = 0.0 if parts else threshold
         if not p[j, i] < -threshold:
             continue
         total, pressure = 0.0, 0.0
@@ -64,9 +73,10 @@ def tear_mixed_row(j, smallest, max_opening, vol_r, dz, mixed_count, mixed, eos_
                 vof[m, j, i] = f
                 q[RHO, m, j, i] = rho / share
                 pm[m, j, i] = evaluate(eos_model[m], rho / share, e, eos_par[m])[0]
-            q[SRR, m, j, i] = 0.0
-            q[SZZ, m, j, i] = 0.0
-            q[SRZ, m, j, i] = 0.0
+            if not parts:
+                q[SRR, m, j, i] = 0.0
+                q[SZZ, m, j, i] = 0.0
+                q[SRZ, m, j, i] = 0.0
             total += f
             pressure += f * pm[m, j, i]
         p[j, i] = pressure
@@ -77,7 +87,7 @@ def tear_mixed_row(j, smallest, max_opening, vol_r, dz, mixed_count, mixed, eos_
 
 @kernel
 def close_cells(j0, j1, max_opening, smallest_tension, linear, quadratic, courant, advective, hourglass, face_r, az_in, az_out,
-                vol_r, dr, dz, span, reach, mixed_count, mixed, eos_model, eos_par, strength_model, strength_par, damage_model,
+                vol_r, dr, dz, span, reach, mixed_count, mixed, group, eos_model, eos_par, strength_model, strength_par, damage_model,
                 fracture_pressure, loose, u, v, vof, q, pm, km, tm, p, bulk, rhobar, solid, cl, qr, qz, weight, opened,
                 row_step, bad, scratch):
     """Equation of state, void where a cell tears, artificial viscosity and the time step that every cell allows.
@@ -95,7 +105,7 @@ def close_cells(j0, j1, max_opening, smallest_tension, linear, quadratic, couran
                           opened, bad)
             if opened[j] > 0.0:
                 mixed_row(j, reach, vof, scratch[0], b, mixed_count, mixed)
-            tear_mixed_row(j, smallest_tension, max_opening, vol_r, dz, mixed_count, mixed, eos_model, eos_par,
+            tear_mixed_row(j, smallest_tension, max_opening, vol_r, dz, mixed_count, mixed, group, eos_model, eos_par,
                            fracture_pressure, vof, q, pm, p, solid, bulk, opened)
             viscosity_row(j, b, linear, quadratic, courant, advective, hourglass, dr, dz, vol_r, face_r, az_in, az_out, reach,
                           u, v, rhobar, bulk, cl, qr, qz, weight, row_step, bad, scratch)
@@ -112,8 +122,8 @@ def split_volume(void, change, volume):
 
 @kernel
 def deform_mixed(j0, j1, dt, relaxation, tipton, mode, hard, hard_threshold, face_r, hoop, az_in, az_out, vol_r,
-                 mid_r, dz, mixed_count, mixed, strength_model, strength_par, damage_model, damage_par, factor, loose, u0,
-                 v0, u, v, fr, fz, ph, qr, qz, weight, solid, pm, km, tm, vof, q, mix):
+                 mid_r, dz, mixed_count, mixed, group, cut, cell_mass, strength_model, strength_par, damage_model, damage_par, factor, loose, u0,
+                 v0, u, v, fr, fz, ph, qr, qz, weight, solid, pm, km, tm, vof, q, mix, motion):
     """The Lagrangian step of the bodies in mixed cells.
 
     Volume: void first, then by compressibility, w_m = R_m/Rbar with R_m = f_m/K_m, then relaxation of the pressures,
@@ -121,26 +131,21 @@ def deform_mixed(j0, j1, dt, relaxation, tipton, mode, hard, hard_threshold, fac
     Energy: pressure work by w_m, viscous and hourglass work by volume fraction, deviatoric work by what each body's stress
     did; in the hard zone the hard body's plastic heat is shared by f_m/Y_m among what is solid, as in
     layers under one stress.
-    Strength: by mode, see STRENGTH_MODES.
+    Strength: by mode, see STRENGTH_MODES; every body moves with its group. In the cut cells of a contact pressure and
+    viscosity do the work of the one change of volume, and each body has its own strength where two groups meet.
 
-    Reads    velocities, swept volumes, stresses as `deform`; ph, qr, qz, solid [j, i]; hard, factor, loose [m]
+    Reads    velocities, swept volumes, stresses as `deform`; ph, qr, qz, solid [j, i]; cut [j, 2]; cell_mass [b, j, i];
+             group, hard, factor, loose [m]
     Updates  vof [m, j, i] (share of the volume after the step), q [k, m, j, i]
-    Scratch  mix [j, 8, m]
+    Scratch  mix [j, 8, m], motion [j, b, 10]
     """
     bodies = vof.shape[0]
+    groups = cell_mass.shape[0]
     blocks = number_of_blocks(j0, j1)
     for place in prange(blocks):
         b = spread(place, blocks)
         first_row, last_row = block_rows(b, blocks, j0, j1)
         for j in range(first_row, last_row):
-            ub = u[0, j]
-            ut = u[0, j + 1]
-            vb = v[0, j]
-            vt = v[0, j + 1]
-            ub0 = u0[0, j]
-            ut0 = u0[0, j + 1]
-            vb0 = v0[0, j]
-            vt0 = v0[0, j + 1]
             h = dz[j]
             part_v = mix[j, 0]
             share = mix[j, 1]
@@ -154,17 +159,35 @@ def deform_mixed(j0, j1, dt, relaxation, tipton, mode, hard, hard_threshold, fac
                 i = mixed[j, k]
                 volume = vol_r[i] * h
                 change = (fr[j, i + 1] - fr[j, i]) + (fz[j + 1, i] - fz[j, i])
-                a_rr, a_tt, a_zz, a_rbz, a_zbr = velocity_gradient(
-                    i, ub0, ut0, vb0, vt0, face_r, hoop, az_in, az_out, mid_r, h)
-                rr, tt, zz, rbz, zbr = velocity_gradient(i, ub, ut, vb, vt, face_r, hoop, az_in, az_out, mid_r, h)
-                m_rr, m_tt, m_zz = 0.5 * (a_rr + rr), 0.5 * (a_tt + tt), 0.5 * (a_zz + zz)
-                m_rz = 0.5 * ((a_rbz + rbz) + (a_zbr + zbr))
                 w = weight[j, i]
-                h_u0, h_v0 = hourglass_mode(i, ub0, ut0), hourglass_mode(i, vb0, vt0)
-                h_u, h_v = hourglass_mode(i, ub, ut), hourglass_mode(i, vb, vt)
-                work_q = 0.5 * dt * w * (h_u0 * (h_u0 + h_u) + h_v0 * (h_v0 + h_v))
-                work_q -= dt * (qr[j, i] * (m_rr + m_tt) + qz[j, i] * m_zz)
-                work_p = -ph[j, i] * dt * ((m_rr + m_tt) + m_zz)
+                work_q, work_p, held = 0.0, 0.0, 0
+                for g in range(groups):
+                    if cell_mass[g, j, i] == 0.0:
+                        continue
+                    held += 1
+                    a_rr, a_tt, a_zz, a_rbz, a_zbr = velocity_gradient(
+                        i, u0[g, j], u0[g, j + 1], v0[g, j], v0[g, j + 1], face_r, hoop, az_in, az_out, mid_r, h)
+                    rr, tt, zz, rbz, zbr = velocity_gradient(
+                        i, u[g, j], u[g, j + 1], v[g, j], v[g, j + 1], face_r, hoop, az_in, az_out, mid_r, h)
+                    m_rr, m_tt, m_zz = 0.5 * (a_rr + rr), 0.5 * (a_tt + tt), 0.5 * (a_zz + zz)
+                    h_u0, h_v0 = hourglass_mode(i, u0[g, j], u0[g, j + 1]), hourglass_mode(i, v0[g, j], v0[g, j + 1])
+                    h_u, h_v = hourglass_mode(i, u[g, j], u[g, j + 1]), hourglass_mode(i, v[g, j], v[g, j + 1])
+                    motion[j, g, RR] = rr
+                    motion[j, g, TT] = tt
+                    motion[j, g, ZZ] = zz
+                    motion[j, g, RBZ] = rbz
+                    motion[j, g, ZBR] = zbr
+                    motion[j, g, MEAN_RR] = m_rr
+                    motion[j, g, MEAN_TT] = m_tt
+                    motion[j, g, MEAN_ZZ] = m_zz
+                    motion[j, g, MEAN_RZ] = 0.5 * ((a_rbz + rbz) + (a_zbr + zbr))
+                    motion[j, g, HOURGLASS] = 0.5 * dt * w * (h_u0 * (h_u0 + h_u) + h_v0 * (h_v0 + h_v))
+                    work_q = -dt * (qr[j, i] * (m_rr + m_tt) + qz[j, i] * m_zz)
+                    work_p = -ph[j, i] * dt * ((m_rr + m_tt) + m_zz)
+                meet = held > 1
+                if groups > 1 and cut[j, 0] <= i < cut[j, 1]:
+                    work_q = -qr[j, i] * change
+                    work_p = -ph[j, i] * change
 
                 # which body's strength rules the cell, and what each body's stress did in the step
                 total = solid[j, i]
@@ -193,12 +216,12 @@ def deform_mixed(j0, j1, dt, relaxation, tipton, mode, hard, hard_threshold, fac
                     a = q[SRR, m, j, i]
                     b = q[SZZ, m, j, i]
                     c = q[SRZ, m, j, i]
-                    heat[m] = part * dt * ((a * m_rr - (a + b) * m_tt) + (b * m_zz + c * m_rz))
+                    g = group[m]
+                    heat[m] = part * dt * ((a * motion[j, g, MEAN_RR] - (a + b) * motion[j, g, MEAN_TT])
+                                           + (b * motion[j, g, MEAN_ZZ] + c * motion[j, g, MEAN_RZ]))
 
                 # the new deviators, and the plastic heat of the hard zone
-                rate = 1.0 / volume
-                strain_r, strain_z, strain_t = rr * rate * dt, zz * rate * dt, tt * rate * dt
-                strain_s, spin = 0.5 * (rbz + zbr) * rate * dt, 0.5 * (rbz - zbr) * rate * dt
+                rate = dt / volume
                 shared_yield, largest_yield = 0.0, 0.0
                 for m in range(bodies):
                     f = vof[m, j, i]
@@ -210,6 +233,10 @@ def deform_mixed(j0, j1, dt, relaxation, tipton, mode, hard, hard_threshold, fac
                     p_m = pm[m, j, i]
                     t_m = tm[m, j, i]
                     modulus[m] = shear_modulus(strength_model[m], p_m, rho, t_m, par)
+                    g = group[m]
+                    strain_r, strain_z, strain_t = motion[j, g, RR] * rate, motion[j, g, ZZ] * rate, motion[j, g, TT] * rate
+                    strain_s = 0.5 * (motion[j, g, RBZ] + motion[j, g, ZBR]) * rate
+                    spin = 0.5 * (motion[j, g, RBZ] - motion[j, g, ZBR]) * rate
                     s_rr[m], s_zz[m], s_rz[m] = turn_and_strain(q[SRR, m, j, i], q[SZZ, m, j, i], q[SRZ, m, j, i], spin,
                                                                 2.0 * modulus[m], strain_r, strain_z, strain_t, strain_s)
                     yields[m] = factor[m] * flow_stress(strength_model[m], q[EP, m, j, i], 0.0, t_m, p_m, rho, par)
@@ -222,7 +249,7 @@ def deform_mixed(j0, j1, dt, relaxation, tipton, mode, hard, hard_threshold, fac
                     shared_yield = 0.0
                 elif mode == MAX:
                     shared_yield = largest_yield
-                own = mode == MATERIAL or ruler >= 0
+                own = mode == MATERIAL or ruler >= 0 or meet
                 for m in range(bodies):
                     f = vof[m, j, i]
                     if f == 0.0 or strength_model[m] == 0:
@@ -283,5 +310,5 @@ def deform_mixed(j0, j1, dt, relaxation, tipton, mode, hard, hard_threshold, fac
                     filled = max(filled, 0.5 * f * volume)
                     q[RHO, m, j, i] = mass / filled if filled != f * volume else q[RHO, m, j, i]
                     vof[m, j, i] = filled / after if filled != f * volume or change != 0.0 else f
-                    gained = part_v[m] * inverse * work_p + f / total * work_q + heat[m]
+                    gained = part_v[m] * inverse * work_p + f / total * (work_q + motion[j, group[m], HOURGLASS]) + heat[m]
                     q[E, m, j, i] += (gained - target * shift) / mass

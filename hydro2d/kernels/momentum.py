@@ -15,42 +15,42 @@ MOMENTUM, KE, BOTH = range(3)
 
 
 @rowwise
-def dual_row(dj, di, j, i0, i1, slot, cm_in, cm_out, around, flux_mass, mass, w, dual):
-    """Mass, momentum and kinetic energy that flow between the vertices of row j and their neighbours at higher r or z.
+def dual_row(g, dj, di, j, i0, i1, slot, cm_in, cm_out, around, flux_mass, mass, w, dual):
+    """Mass, momentum and kinetic energy of group g that flow between the vertices of row j and those at higher r or z.
 
     r-sweep: Phi = cm_out (F_left) + cm_in (F_right) of the column between, summed over the two rows beside the vertex;
     z-sweep: the column's share of the vertex times (F_bottom + F_top). With these the dual masses after the sweep are again
     the corner sums of the cell masses (explanation/remap, equation 6).
 
-    Reads    flux_mass [j, i]; mass [b, j, i], w = (u, v) [c, b, j, i]
+    Reads    flux_mass, mass [b, j, i], w = (u, v) [c, b, j, i]
     Writes   dual [k, slot, i]: mass, radial and axial momentum, and kinetic energy of each component
     """
-    lo, hi = dual_range(dj, di, i0, i1, j, around)
+    lo, hi = dual_range(dj, di, i0, i1, j, around[g])
     n = hi - lo
     if n > 0:
         flow = dual[0, slot, lo:hi]
         half = dual[5, slot, lo:hi]
-        here = flux_mass[j, lo - 1:hi + 1]
+        here = flux_mass[g, j, lo - 1:hi + 1]
         inner = cm_in[lo:hi]
         outer = cm_out[lo - dj:hi]
         if di == 1:
-            below = flux_mass[j - 1, lo:hi + 1]
+            below = flux_mass[g, j - 1, lo:hi + 1]
             for x in range(n):
                 flow[x] = outer[x] * (below[x] + here[x + 1]) + inner[x] * (below[x + 1] + here[x + 2])
         else:
-            above = flux_mass[j + 1, lo - 1:hi]
+            above = flux_mass[g, j + 1, lo - 1:hi]
             for x in range(n):
                 flow[x] = inner[x] * (here[x + 1] + above[x + 1]) + outer[x] * (here[x] + above[x])
-        m_l = mass[0, j, lo:hi]
-        m_r = mass[0, j + dj, lo + di:hi + di]
+        m_l = mass[g, j, lo:hi]
+        m_r = mass[g, j + dj, lo + di:hi + di]
         for x in range(n):
             whole = max(m_l[x], TINY) if flow[x] > 0.0 else max(m_r[x], TINY)
             half[x] = 0.5 * (1.0 - min(abs(flow[x]) / whole, 1.0))
         for c in range(2):
-            a_ll = w[c, 0, j - dj, lo - di:hi - di]
-            a_l = w[c, 0, j, lo:hi]
-            a_r = w[c, 0, j + dj, lo + di:hi + di]
-            a_rr = w[c, 0, j + 2 * dj, lo + 2 * di:hi + 2 * di]
+            a_ll = w[c, g, j - dj, lo - di:hi - di]
+            a_l = w[c, g, j, lo:hi]
+            a_r = w[c, g, j + dj, lo + di:hi + di]
+            a_rr = w[c, g, j + 2 * dj, lo + 2 * di:hi + 2 * di]
             carried = dual[1 + c, slot, lo:hi]
             kinetic = dual[3 + c, slot, lo:hi]
             for x in range(n):
@@ -69,9 +69,9 @@ def dual_range(dj, di, i0, i1, j, around):
 
 
 @rowwise
-def vertex_row(dj, di, j, i0, i1, below, above, choice, bound, still, cm_in, cm_out, around, cell_mass, dual, w_old, w, mass,
-               deficit, sums):
-    """Velocities of row j after the sweep, by the advection choice (explanation/remap, equations 7 to 9).
+def vertex_row(g, dj, di, j, i0, i1, below, above, choice, bound, still, cm_in, cm_out, around, cell_mass, dual, w_old, w,
+               mass, deficit, sums):
+    """Velocities of group g in row j after the sweep, by the advection choice (explanation/remap, equations 7 to 9).
 
     momentum   u = P/M
     ke         u = sign(P) sqrt(2 K/M) per component, |u| <= bound |P/M|
@@ -79,25 +79,24 @@ def vertex_row(dj, di, j, i0, i1, below, above, choice, bound, still, cm_in, cm_
     P/M is kept within the velocities of the three vertices that it comes from, which removes round-off only. The normal
     velocity on the axis and on walls is zero: still holds the columns (2) and the rows (2) of those, -1 for none.
 
-    Reads    cell_mass [j, i] after the sweep, dual [k, slot, i] in the slots `below` and `above`; w_old = (u, v) [c, b, j, i]
+    Reads    cell_mass [b, j, i] after the sweep, dual [k, slot, i] in the slots `below` and `above`; w_old = (u, v) [c, b, j, i]
              and mass [b, j, i] before it
-    Writes   w = (u, v) [c, b, j, i] for the whole row; deficit [j, i]
-    Writes   sums [5, j]: kinetic energy before and after; axial momentum after less P; kinetic energy cut by the bound;
+    Writes   w = (u, v) [c, b, j, i], of group 0 for the whole row; deficit [b, j, i]
+    Updates  sums [5, j]: kinetic energy before and after; axial momentum after less P; kinetic energy cut by the bound;
              axial momentum given to walls
     """
-    lo, hi = max(around[1, j, 0], i0), min(around[1, j, 1] + 1, i1)
+    lo, hi = max(around[g, 1, j, 0], i0), min(around[g, 1, j, 1] + 1, i1)
     n = hi - lo
-    for row in range(5):
-        sums[row, j] = 0.0
-    for c in range(2):
-        copy_beside(w_old[c, 0, j], w[c, 0, j], i0 - GHOSTS, lo, hi, i1 + GHOSTS)
+    if g == 0:
+        for c in range(2):
+            copy_beside(w_old[c, 0, j], w[c, 0, j], i0 - GHOSTS, lo, hi, i1 + GHOSTS)
     if n > 0:
-        low = cell_mass[j - 1, lo - 1:hi]
-        high = cell_mass[j, lo - 1:hi]
+        low = cell_mass[g, j - 1, lo - 1:hi]
+        high = cell_mass[g, j, lo - 1:hi]
         inner = cm_in[lo:hi]
         outer = cm_out[lo - 1:hi]
-        m_j = mass[0, j, lo:hi]
-        left = deficit[j, lo:hi]
+        m_j = mass[g, j, lo:hi]
+        left = deficit[g, j, lo:hi]
         f_in = dual[0, below, lo - di:hi - di]
         f_out = dual[0, above, lo:hi]
         new_j = dual[5, below, lo:hi]  # the weights that stood there have done their work
@@ -109,10 +108,10 @@ def vertex_row(dj, di, j, i0, i1, below, above, choice, bound, still, cm_in, cm_
             p_out = dual[1 + c, above, lo:hi]
             k_in = dual[3 + c, below, lo - di:hi - di]
             k_out = dual[3 + c, above, lo:hi]
-            a_j = w_old[c, 0, j, lo:hi]
-            a_low = w_old[c, 0, j - dj, lo - di:hi - di]
-            a_high = w_old[c, 0, j + dj, lo + di:hi + di]
-            out = w[c, 0, j, lo:hi]
+            a_j = w_old[c, g, j, lo:hi]
+            a_low = w_old[c, g, j - dj, lo - di:hi - di]
+            a_high = w_old[c, g, j + dj, lo + di:hi + di]
+            out = w[c, g, j, lo:hi]
             k_before, k_after, k_cut, p_gained, p_wall = 0.0, 0.0, 0.0, 0.0, 0.0
             wall_row = c == 1 and (j == still[2] or j == still[3])
             for x in range(n):
@@ -145,8 +144,8 @@ def vertex_row(dj, di, j, i0, i1, below, above, choice, bound, still, cm_in, cm_
             sums[1, j] += k_after
             sums[3, j] += k_cut
             if c == 1:
-                sums[2, j] = p_gained
-                sums[4, j] = p_wall
+                sums[2, j] += p_gained
+                sums[4, j] += p_wall
 
 
 @kernel
@@ -155,45 +154,51 @@ def sweep_momentum(dj, di, j0, j1, i0, i1, choice, bound, still, edges, cm_in, c
     """Carries the momentum of the vertices j0 to j1 along one direction.
 
     Reads    what dual_row and vertex_row read; edges (j0, j1, i0, i1 of the mesh)
-    Writes   w = (u, v) [c, b, j, i]; deficit [j, i], sums [5, j]; edge_dual [side, k, j or i], what flows over the mesh's edges
+    Writes   w = (u, v) [c, b, j, i]; deficit [b, j, i], sums [5, j]; edge_dual [b, side, k, j or i], what flows over the mesh's edges
     Scratch  dual [k, slot, i], two slots to a block of rows; in z they take turns
     """
     blocks = number_of_blocks(j0, j1 + 1)
     for place in prange(blocks):
         b = spread(place, blocks)
         first, last = block_rows(b, blocks, j0, j1 + 1)
-        for j in range(first - dj, last):
-            slot = 2 * b + dj * (j % 2)
-            dual_row(dj, di, j, i0, i1, slot, cm_in, cm_out, around, flux_mass, mass, w_old, dual)
-            lo, hi = dual_range(dj, di, i0, i1, j, around)
-            for side in range(2):
-                at = edges[2 * di + side] + side - 1  # the edge from a ghost vertex to the mesh, or from the mesh to one
-                for k in range(5):
-                    if di == 1:
-                        edge_dual[side, k, j] = dual[k, slot, at] if lo <= at < hi else 0.0
-                    elif j == at and (j >= first or b == 0):
-                        for i in range(i0, i1 + 1):
-                            edge_dual[side, k, i] = dual[k, slot, i] if lo <= i < hi else 0.0
-            if j >= first:
-                below = 2 * b + dj * ((j - 1) % 2)
-                vertex_row(dj, di, j, i0, i1 + 1, below, slot, choice, bound, still, cm_in, cm_out, around, cell_mass, dual,
-                           w_old, w, mass, deficit, sums)
+        for g in range(mass.shape[0]):
+            for j in range(first - dj, last):
+                slot = 2 * b + dj * (j % 2)
+                dual_row(g, dj, di, j, i0, i1, slot, cm_in, cm_out, around, flux_mass, mass, w_old, dual)
+                lo, hi = dual_range(dj, di, i0, i1, j, around[g])
+                for side in range(2):
+                    at = edges[2 * di + side] + side - 1  # the edge from a ghost vertex to the mesh, or from the mesh to one
+                    for k in range(5):
+                        if di == 1:
+                            edge_dual[g, side, k, j] = dual[k, slot, at] if lo <= at < hi else 0.0
+                        elif j == at and (j >= first or b == 0):
+                            for i in range(i0, i1 + 1):
+                                edge_dual[g, side, k, i] = dual[k, slot, i] if lo <= i < hi else 0.0
+                if j >= first:
+                    below = 2 * b + dj * ((j - 1) % 2)
+                    for row in range(5):
+                        sums[row, j] = 0.0 if g == 0 else sums[row, j]
+                    vertex_row(g, dj, di, j, i0, i1 + 1, below, slot, choice, bound, still, cm_in, cm_out, around, cell_mass,
+                               dual, w_old, w, mass, deficit, sums)
 
 
 @kernel
-def deposit(j0, j1, cm_in, cm_out, reach, deficit, cell_mass, vof, q, sums):
-    """Gives the kinetic energy that `both` found missing to the cells around each vertex, by corner mass, then by body mass.
+def deposit(j0, j1, cm_in, cm_out, ranges, group, deficit, cell_mass, vof, q, sums):
+    """Gives energy found at vertices (what `both` misses, the heat of a contact) to the cells around, by the group's mass.
 
-    Reads    deficit [j, i] per vertex mass, cell_mass [j, i], vof [m, j, i]
+    Reads    ranges [j, 2], columns; deficit [b, j, i] per vertex mass, cell_mass [b, j, i], vof [m, j, i], group [m]
     Updates  q (e) [k, m, j, i];  writes sums [j], the energy given
     """
     bodies = vof.shape[0]
     for j in prange(j0, j1):
         given = 0.0
-        for i in range(reach[j, 0], reach[j, 1]):
-            gain = cm_in[i] * (deficit[j, i] + deficit[j + 1, i]) + cm_out[i] * (deficit[j, i + 1] + deficit[j + 1, i + 1])
-            given += gain * cell_mass[j, i]
-            for m in range(bodies):
-                if vof[m, j, i] > 0.0:
-                    q[E, m, j, i] += gain
+        for g in range(deficit.shape[0]):
+            low = deficit[g, j]
+            high = deficit[g, j + 1]
+            for i in range(ranges[j, 0], ranges[j, 1]):
+                gain = cm_in[i] * (low[i] + high[i]) + cm_out[i] * (low[i + 1] + high[i + 1])
+                given += gain * cell_mass[g, j, i]
+                for m in range(bodies):
+                    if group[m] == g and vof[m, j, i] > 0.0:
+                        q[E, m, j, i] += gain
         sums[j] = given

@@ -145,82 +145,86 @@ def update_row(dj, di, j, i0, i1, m, carried, below, above, b, near, face, pre, 
 
 
 @rowwise
-def mass_flux_row(dj, di, j, i0, i1, slot, around, near, flux, flux_mass):
-    """Total mass flux through the faces of row j, zero wherever the dual fluxes read it and nothing flows.
+def mass_flux_row(dj, di, j, i0, i1, slot, around, near, group, flux, flux_mass):
+    """Mass flux of each group through the faces of row j, zero wherever the dual fluxes read it and nothing flows.
 
-    Reads    flux [k, m, slot, i];  writes flux_mass [j, i]
+    Reads    group [m]; flux [k, m, slot, i];  writes flux_mass [b, j, i]
     """
-    lo, n = columns(max(around[3, j, 0] - 2, i0 - 2), min(around[3, j, 1] + 3, i1 + 3))
-    total = flux_mass[j]
-    for x in range(n):
-        total[lo + x] = 0.0
+    for g in range(flux_mass.shape[0]):
+        lo, n = columns(max(around[g, 3, j, 0] - 2, i0 - 2), min(around[g, 3, j, 1] + 3, i1 + 3))
+        total = flux_mass[g, j]
+        for x in range(n):
+            total[lo + x] = 0.0
     for m in range(near.shape[1]):
         lo, hi = flux_range(dj, di, i0, i1, m, j, near)
         lo, n = columns(lo, hi)
         mass = flux[RHO, m, slot]
+        total = flux_mass[group[m], j]
         for x in range(n):
             total[lo + x] += mass[lo + x]
 
 
 @rowwise
-def cell_mass_row(dj, di, j, reach, pre, face, volume, second, vof, q, cell_mass):
-    """Mass of the cells of row j in the volume that they have after the sweep.
+def cell_mass_row(dj, di, j, around, group, pre, face, volume, second, vof, q, cell_mass):
+    """Mass of each group in the cells of row j, in the volume that they have after the sweep.
 
-    Reads    pre, face, volume [j, i]; vof [m, j, i]; q [k, m, j, i]
-    Writes   cell_mass [j, i]
+    Reads    group [m]; pre, face, volume [j, i]; vof [m, j, i]; q [k, m, j, i]
+    Writes   cell_mass [b, j, i]
     """
-    lo, n = columns(reach[j, 0], reach[j, 1])
-    out = cell_mass[j]
-    for x in range(n):
-        out[lo + x] = 0.0
-    for m in range(vof.shape[0]):
-        f_j = vof[m, j]
-        rho_j = q[RHO, m, j]
+    for g in range(cell_mass.shape[0]):
+        lo, n = columns(around[g, 0, j, 0], around[g, 0, j, 1])
+        out = cell_mass[g, j]
         for x in range(n):
-            i = lo + x
-            out[i] += f_j[i] * rho_j[i]
-    if second:
-        volume_j = volume[j]
-        for x in range(n):
-            out[lo + x] *= volume_j[lo + x]
-    else:
-        s_in = face[j]
-        s_out = face[j + dj]
-        pre_j = pre[j]
-        for x in range(n):
-            i = lo + x
-            out[i] *= pre_j[i] - (s_out[i + di] - s_in[i])
+            out[lo + x] = 0.0
+        for m in range(vof.shape[0]):
+            if group[m] == g:
+                f_j = vof[m, j]
+                rho_j = q[RHO, m, j]
+                for x in range(n):
+                    i = lo + x
+                    out[i] += f_j[i] * rho_j[i]
+        if second:
+            volume_j = volume[j]
+            for x in range(n):
+                out[lo + x] *= volume_j[lo + x]
+        else:
+            s_in = face[j]
+            s_out = face[j + dj]
+            pre_j = pre[j]
+            for x in range(n):
+                i = lo + x
+                out[i] *= pre_j[i] - (s_out[i + di] - s_in[i])
 
 
 @kernel
-def sum_cell_mass(j0, j1, reach, volume, vof, q, cell_mass):
-    """Mass of every cell, without a sweep.
+def sum_cell_mass(j0, j1, around, group, volume, vof, q, cell_mass):
+    """Mass of each group in every cell, without a sweep.
 
-    Reads    volume [j, i]; vof [m, j, i]; q [k, m, j, i]
-    Writes   cell_mass [j, i]
+    Reads    group [m]; volume [j, i]; vof [m, j, i]; q [k, m, j, i]
+    Writes   cell_mass [b, j, i]
     """
     for j in prange(j0, j1):
-        cell_mass_row(0, 0, j, reach, volume, volume, volume, True, vof, q, cell_mass)
+        cell_mass_row(0, 0, j, around, group, volume, volume, volume, True, vof, q, cell_mass)
 
 
 @rowwise
-def sweep_row(dj, di, j, i0, i1, below, above, b, carried, near, around, face, pre, volume, second, flux_volume, flux, scratch,
+def sweep_row(dj, di, j, i0, i1, below, above, b, carried, group, near, around, face, pre, volume, second, flux_volume, flux, scratch,
               vof, q, cell_mass, mixed_count, mixed):
     """Row j after the sweep: every body, the mass of the cells and the list of those that are mixed."""
     for m in range(near.shape[1]):
         update_row(dj, di, j, i0, i1, m, carried[m], below, above, b, near, face, pre, flux_volume, flux, scratch, vof, q)
-    cell_mass_row(dj, di, j, around[0], pre, face, volume, second, vof, q, cell_mass)
-    mixed_row(j, around[0], vof, scratch[0], b, mixed_count, mixed)
+    cell_mass_row(dj, di, j, around, group, pre, face, volume, second, vof, q, cell_mass)
+    mixed_row(j, around[0, 0], vof, scratch[0], b, mixed_count, mixed)
 
 
 @kernel
-def sweep_r(j0, j1, i0, i1, carried, edges, near, around, face, pre, volume, second, flux_volume, scratch, flux, flux_mass,
+def sweep_r(j0, j1, i0, i1, carried, group, edges, near, around, face, pre, volume, second, flux_volume, scratch, flux, flux_mass,
             edge_flux, vof, q, cell_mass, mixed_count, mixed):
     """Carries every body along r: fluxes and update row by row.
 
-    Reads    carried [m]; edges (j0, j1, i0, i1 of the mesh), near, around; face, pre, volume [j, i]; flux_volume [m, j, i]
+    Reads    carried, group [m]; edges (j0, j1, i0, i1 of the mesh), near, around; face, pre, volume [j, i]; flux_volume [m, j, i]
     Updates  vof [m, j, i], q [k, m, j, i]
-    Writes   flux_mass, cell_mass [j, i]; edge_flux [side, k, m, j] of mass and energy; mixed_count [j], mixed [j, k]
+    Writes   flux_mass, cell_mass [b, j, i]; edge_flux [side, k, m, j] of mass and energy; mixed_count [j], mixed [j, k]
     Scratch  scratch [s, block, i], flux [k, m, slot, i]
     """
     blocks = number_of_blocks(j0, j1)
@@ -236,8 +240,8 @@ def sweep_r(j0, j1, i0, i1, carried, edges, near, around, face, pre, volume, sec
                     i = edges[2 + side]
                     edge_flux[side, RHO, m, j] = flux[RHO, m, slot, i] if lo <= i < hi else 0.0
                     edge_flux[side, E, m, j] = flux[E, m, slot, i] if lo <= i < hi else 0.0
-            mass_flux_row(0, 1, j, i0, i1, slot, around, near, flux, flux_mass)
-            sweep_row(0, 1, j, i0, i1, slot, slot, b, carried, near, around, face, pre, volume, second, flux_volume, flux,
+            mass_flux_row(0, 1, j, i0, i1, slot, around, near, group, flux, flux_mass)
+            sweep_row(0, 1, j, i0, i1, slot, slot, b, carried, group, near, around, face, pre, volume, second, flux_volume, flux,
                       scratch, vof, q, cell_mass, mixed_count, mixed)
 
 
@@ -270,7 +274,7 @@ def shared_fluxes(j0, j1, i0, i1, carried, near, pre, flux_volume, vof, q, scrat
 
 
 @kernel
-def sweep_z(j0, j1, i0, i1, carried, edges, near, around, face, pre, volume, second, flux_volume, scratch, flux, flux_mass,
+def sweep_z(j0, j1, i0, i1, carried, group, edges, near, around, face, pre, volume, second, flux_volume, scratch, flux, flux_mass,
             edge_flux, vof, q, cell_mass, mixed_count, mixed):
     """Carries every body along z: a row is updated as soon as the fluxes of the faces that need it are known.
 
@@ -288,7 +292,7 @@ def sweep_z(j0, j1, i0, i1, carried, edges, near, around, face, pre, volume, sec
                     for m in range(near.shape[1]):
                         flux_row(1, 0, f, i0, i1, m, carried[m], slot, b, near, pre, flux_volume, vof, q, scratch, flux)
                 if f < last or last == j1:
-                    mass_flux_row(1, 0, f, i0, i1, slot, around, near, flux, flux_mass)
+                    mass_flux_row(1, 0, f, i0, i1, slot, around, near, group, flux, flux_mass)
                 for side in range(2):
                     if f == edges[side]:
                         for m in range(near.shape[1]):
@@ -300,21 +304,21 @@ def sweep_z(j0, j1, i0, i1, carried, edges, near, around, face, pre, volume, sec
             if j >= first and (f > last or j < last - 1):
                 below = slot_of(j, b, j0, blocks)
                 above = slot_of(j + 1, b, j0, blocks)
-                sweep_row(1, 0, j, i0, i1, below, above, b, carried, near, around, face, pre, volume, second, flux_volume,
+                sweep_row(1, 0, j, i0, i1, below, above, b, carried, group, near, around, face, pre, volume, second, flux_volume,
                           flux, scratch, vof, q, cell_mass, mixed_count, mixed)
 
 
 @kernel
-def tidy(j0, j1, trace, cm_in, cm_out, volume, mixed_count, mixed, pre, dj, di, fr, fz, second, u, v, vof, q, cell_mass,
-         booked):
+def tidy(j0, j1, trace, cm_in, cm_out, volume, group, mixed_count, mixed, pre, dj, di, fr, fz, second, u, v, vof, q,
+         cell_mass, booked):
     """Removes traces of bodies and of void, makes fractions that should be 1 exactly 1, and books what was removed.
 
     A body below the trace fraction is removed with its mass, internal energy, momentum and kinetic energy; void below it is
     closed by scaling the bodies' volumes at constant mass. A negative density or volume counts as a trace.
 
-    Reads    u, v [b, j, i]
+    Reads    group [m]; u, v [b, j, i]
     Updates  mixed_count [j], mixed [j, k], the list of cells that are not full of one body; vof [m, j, i], q [k, m, j, i],
-             cell_mass [j, i]
+             cell_mass [b, j, i]
     Writes   booked [4 + m, j]: internal energy, kinetic energy, axial momentum, volume closed; then mass of each body
     """
     bodies = vof.shape[0]
@@ -334,9 +338,10 @@ def tidy(j0, j1, trace, cm_in, cm_out, volume, mixed_count, mixed, pre, dj, di, 
                 if f > 0.0 and (f < trace or not rho > 0.0):
                     mass = f * rho * post
                     inner, outer = cm_in[i] * mass, cm_out[i] * mass
-                    v_in, v_out = v[0, j, i] + v[0, j + 1, i], v[0, j, i + 1] + v[0, j + 1, i + 1]
-                    k_in = (v[0, j, i] ** 2 + v[0, j + 1, i] ** 2) + (u[0, j, i] ** 2 + u[0, j + 1, i] ** 2)
-                    k_out = (v[0, j, i + 1] ** 2 + v[0, j + 1, i + 1] ** 2) + (u[0, j, i + 1] ** 2 + u[0, j + 1, i + 1] ** 2)
+                    g = group[m]
+                    v_in, v_out = v[g, j, i] + v[g, j + 1, i], v[g, j, i + 1] + v[g, j + 1, i + 1]
+                    k_in = (v[g, j, i] ** 2 + v[g, j + 1, i] ** 2) + (u[g, j, i] ** 2 + u[g, j + 1, i] ** 2)
+                    k_out = (v[g, j, i + 1] ** 2 + v[g, j + 1, i + 1] ** 2) + (u[g, j, i + 1] ** 2 + u[g, j + 1, i + 1] ** 2)
                     booked[0, j] += mass * q[E, m, j, i]
                     booked[1, j] += 0.5 * (inner * k_in + outer * k_out)
                     booked[2, j] += inner * v_in + outer * v_out
@@ -356,10 +361,12 @@ def tidy(j0, j1, trace, cm_in, cm_out, volume, mixed_count, mixed, pre, dj, di, 
                         f = 1.0 if f > 1.0 - trace else f
                         q[RHO, m, j, i] *= vof[m, j, i] / f
                         vof[m, j, i] = f
-            mass = 0.0
-            for m in range(bodies):
-                mass += vof[m, j, i] * q[RHO, m, j, i]
-            cell_mass[j, i] = mass * post
+            for g in range(cell_mass.shape[0]):
+                mass = 0.0
+                for m in range(bodies):
+                    if group[m] == g:
+                        mass += vof[m, j, i] * q[RHO, m, j, i]
+                cell_mass[g, j, i] = mass * post
             kind = 0.0
             for m in range(bodies):
                 kind += (1000.0 if vof[m, j, i] == 1.0 else 0.0) + (1.0 if vof[m, j, i] > 0.0 else 0.0)

@@ -60,17 +60,20 @@ def copy_beside(old, new, first, lo, hi, last):
 
 
 @kernel
-def body_spans(j0, j1, i0, i1, anew, vof, near, occupied):
+def body_spans(j0, j1, i0, i1, anew, group, vof, near, occupied):
     """First column and one past the last in which each body lies, for the rows and columns of the active box.
 
     A body moves by no more than a cell: unless `anew`, it is looked for around the columns near[1] that it was in.
 
-    Reads    vof [m, j, i]
-    Updates  near [n, m, j, 2], of which near[0] is the span; writes occupied [j, 2] (the union over bodies)
+    Reads    vof [m, j, i], group [m]
+    Updates  near [n, m, j, 2], of which near[0] is the span
+    Writes   occupied [b, j, 2], the union over the bodies: for b = 0 all of them, for b = 1 those of group 1
     """
     bodies = vof.shape[0]
     for j in prange(j0, j1):
-        olo, ohi = NOTHING, 0
+        for b in range(occupied.shape[0]):
+            occupied[b, j, 0] = NOTHING
+            occupied[b, j, 1] = 0
         for m in range(bodies):
             row = vof[m, j]
             lo = i0 if anew else max(near[1, m, j, 0] - 1, i0)
@@ -84,35 +87,35 @@ def body_spans(j0, j1, i0, i1, anew, vof, near, occupied):
                 lo, hi = NOTHING, 0
             near[0, m, j, 0] = lo
             near[0, m, j, 1] = hi
-            olo = min(olo, lo)
-            ohi = max(ohi, hi)
-        occupied[j, 0] = olo
-        occupied[j, 1] = ohi
+            for b in range(group[m] + 1):
+                occupied[b, j, 0] = min(occupied[b, j, 0], lo)
+                occupied[b, j, 1] = max(occupied[b, j, 1], hi)
 
 
 @kernel
-def reached(j0, j1, i0, i1, occupied, reach):
+def reached(j0, j1, i0, i1, occupied, around):
     """Columns that a body can touch within one cycle: those occupied in rows j-2 to j+2, and two more on either side.
 
-    Reads    occupied [j, 2]
-    Writes   reach [j, 2]
+    Reads    occupied [b, j, 2]
+    Writes   around[b, 0], the reach [j, 2]
     """
     for j in prange(j0, j1):
-        lo, hi = union(occupied, j - 2, j + 3)
-        if lo < hi:
-            lo = max(lo - 2, i0)
-            hi = min(hi + 2, i1)
-        reach[j, 0] = lo
-        reach[j, 1] = hi
+        for b in range(occupied.shape[0]):
+            lo, hi = union(occupied[b], j - 2, j + 3)
+            if lo < hi:
+                lo = max(lo - 2, i0)
+                hi = min(hi + 2, i1)
+            around[b, 0, j, 0] = lo
+            around[b, 0, j, 1] = hi
 
 
 @kernel
 def neighbours(j0, j1, near, around):
     """The ranges of a row joined with those of its neighbours, for rows j0 - 1 to j1.
 
-    Reads    near[0], the span of each body, around[0], the reach
+    Reads    near[0], the span of each body, around[b, 0], the reach
     Writes   near[1, m, j] joined over rows j-1 to j+1, the cells that a sweep along z can change; near[2, m, j] over j-2 to
-             j+1, the faces through which it flows; around[n, j] over the n rows below face or vertex j and the n above
+             j+1, the faces through which it flows; around[b, n, j] over the n rows below face or vertex j and the n above
     """
     for j in prange(j0 - 1, j1 + 1):
         for m in range(near.shape[1]):
@@ -120,10 +123,11 @@ def neighbours(j0, j1, near, around):
                 lo, hi = union(near[0, m], j - n, j + 2)
                 near[n, m, j, 0] = lo
                 near[n, m, j, 1] = hi
-        for n in range(1, around.shape[0]):
-            lo, hi = union(around[0], j - n, j + n)
-            around[n, j, 0] = lo
-            around[n, j, 1] = hi
+        for b in range(around.shape[0]):
+            for n in range(1, around.shape[1]):
+                lo, hi = union(around[b, 0], j - n, j + n)
+                around[b, n, j, 0] = lo
+                around[b, n, j, 1] = hi
 
 
 @rowwise
@@ -168,26 +172,20 @@ def list_mixed(j0, j1, reach, vof, count, mixed, scratch):
 
 @kernel
 def moving_columns(j0, j1, i0, i1, u, v, limits):
-    """First and one past the last vertex of each row that moves.
+    """First and one past the last vertex of each row that moves; what a second group has next to the first follows it.
 
     Reads    u, v [b, j, i]
     Writes   limits [j, 2]
     """
-    groups = u.shape[0]
     for j in prange(j0, j1):
-        lo, hi = NOTHING, 0
-        for b in range(groups):
-            first = i0
-            while first < i1 and u[b, j, first] == 0.0 and v[b, j, first] == 0.0:
-                first += 1
-            last = i1
-            while last > first and u[b, j, last - 1] == 0.0 and v[b, j, last - 1] == 0.0:
-                last -= 1
-            if first < last:
-                lo = min(lo, first)
-                hi = max(hi, last)
-        limits[j, 0] = lo
-        limits[j, 1] = hi
+        first = i0
+        while first < i1 and u[0, j, first] == 0.0 and v[0, j, first] == 0.0:
+            first += 1
+        last = i1
+        while last > first and u[0, j, last - 1] == 0.0 and v[0, j, last - 1] == 0.0:
+            last -= 1
+        limits[j, 0] = first if first < last else NOTHING
+        limits[j, 1] = last if first < last else 0
 
 
 @serial

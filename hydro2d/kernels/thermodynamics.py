@@ -240,19 +240,20 @@ def least_step(j0, j1, row_step, bad, found):
 
 
 @serial
-def step_cause(j, best, courant, advective, dr, dz, vol_r, face_r, az_in, az_out, reach, u, v, rhobar, cl, qr, qz, cause):
-    """Which cell of row j allows no more than `best`, and which of the bounds it is.
+def step_cause(j, courant, advective, dr, dz, vol_r, face_r, az_in, az_out, reach, u, v, rhobar, cl, qr, qz, cause):
+    """Which cell of row j allows the least step, and which of the bounds it is.
 
     Reads    what viscosity_row read and wrote
     Writes   cause [2]: index into CAUSES, column
     """
+    best = 1e300
     for i in range(reach[j, 0], reach[j, 1]):
         if rhobar[j, i] > 0.0:
             loss = volume_loss(i, u[0, j], u[0, j + 1], v[0, j], v[0, j + 1], face_r, az_in, az_out, vol_r, dz[j])
             limits = step_limits(i, u[0, j], u[0, j + 1], v[0, j], v[0, j + 1], courant, advective, dr, dz[j], rhobar[j, i],
                                  cl[j, i], max(qr[j, i], qz[j, i]), loss)
             for k in range(4):
-                if limits[k] == best:
+                if limits[k] < best:
+                    best = limits[k]
                     cause[0] = k
                     cause[1] = i
-                    return

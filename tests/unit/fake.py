@@ -62,7 +62,7 @@ class Simulation:
         body, vertex = (lambda: np.zeros((2, *shape))), (lambda: np.zeros((1, *vertices)))
         self.state = SimpleNamespace(
             vof=body(), rho=body(), e=body(), srr=body(), szz=body(), srz=body(), ep=body(), dmg=body(),
-            u=vertex(), v=vertex(), mass=vertex() + 1.0,
+            u=vertex(), v=vertex(), mass=vertex() + 1.0, group=np.zeros(2, dtype=np.int64), groups=1,
         )  # fmt: skip
         rows = [materials.load(name) for name in ("W_alloy", "Al5083")]
         self.table = SimpleNamespace(

@@ -157,6 +157,58 @@ def test_a_hard_body_needs_strength():
     )
 
 
+CONTACT = changed('method = "slip-layer"', 'method = "contact"').replace('yield_factor = "radius"', "friction = 0.1")
+
+
+def test_a_contact_asks_for_no_strength_and_no_factor():
+    fluid = '[materials.fluid]\nbased_on = "W_alloy"\nstrength.model = "hydrodynamic"\n'
+    for text in (CONTACT, CONTACT.replace("W_alloy", "fluid") + fluid):
+        d = deck.loads(text)
+        assert deck.warnings(d) == []
+        assert deck.yield_factor(d) == 1.0
+        assert deck.loads(d.to_toml()).to_toml() == d.to_toml()
+    assert deck.yield_factor(deck.loads(CONTACT, ["sliding.yield_factor=1.5"])) == 1.5
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "line", "complaint"),
+    [
+        ('hard = ["rod"]\n', "", 24, "sliding.hard: a contact needs the names of the hard bodies"),
+        ('["rod"]', '["plate", "rod"]', 26, "sliding.hard: a contact needs a body that is not hard"),
+        ('["rod"]', '["rood"]', 26, 'sliding.hard[0]: unknown body "rood"; did you mean "rod"?'),
+        ("friction = 0.1", 'yield_factor = "radius"', 27, '"radius" belongs to the slip layer; a contact takes "off" or'),
+        ("friction = 0.1", 'yield_factor = "printed"', 27, '"printed" belongs to the slip layer; a contact takes "off" or'),
+        ("friction = 0.1", "boundary_layer = 1", 27, "sliding.boundary_layer: boundary_layer belongs to the slip layer"),
+        ("friction = 0.1", 'slip_layer = "1 mm"', 27, "sliding.slip_layer: slip_layer belongs to the slip layer"),
+        ("friction = 0.1", "threshold = 0.5", 27, "sliding.threshold: threshold belongs to the slip layer"),
+        ("friction = 0.1", 'shear = "shear"', 27, "sliding.shear: shear belongs to the slip layer"),
+        ("friction = 0.1", "refresh = 1", 27, "sliding.refresh: refresh belongs to the slip layer"),
+        ("friction = 0.1", "friction = -0.1", 27, "sliding.friction: must not be negative"),
+        ('"contact"', '"contct"', 25, 'unknown value "contct"; did you mean "contact"?'),
+    ],
+)
+def test_mistakes_in_a_contact_are_named_with_their_line(old, new, line, complaint):
+    assert CONTACT.count(old) == 1
+    found = message(CONTACT.replace(old, new))
+    assert found.startswith(f"deck.toml:{line}: sliding.")
+    assert complaint in found
+
+
+def test_keys_of_the_slip_layer_at_their_defaults_are_no_mistake_in_a_contact():
+    text = CONTACT.replace("friction = 0.1", 'boundary_layer = 2\nslip_layer = 2.0\nshear = "fluid"\nyield_factor = "off"')
+    assert deck.loads(text).sliding.method == "contact"
+
+
+def test_the_hard_bodies_of_a_contact_come_first_in_mixed_cells():
+    other = CONTACT.replace('["rod"]', '["plate"]')
+    assert deck.loads(other).numerics.interface_order == ("plate", "rod")
+    assert deck.body_groups(deck.loads(other)) == [0, 1]
+    kept = other.replace("[stop]", '[numerics]\ninterface_order = ["rod", "plate"]\n[stop]')
+    assert deck.loads(kept).numerics.interface_order == ("rod", "plate")
+    assert deck.loads(TEXT, ['sliding.hard=["plate"]', "sliding.yield_factor=1.5"]).numerics.interface_order == ("rod", "plate")
+    assert deck.body_groups(deck.loads(TEXT)) == [0, 0]
+
+
 @pytest.mark.parametrize(
     ("nose", "fragment"),
     [
@@ -345,6 +397,7 @@ def test_schema_is_json_and_knows_every_section():
     assert set(schema["required"]) == {"mesh", "body", "stop"}
     assert {"include", "numerics", "sliding", "tracer"} <= set(schema["properties"])
     assert schema["$defs"]["Numerics"]["properties"]["advection"]["enum"] == ["ke", "momentum", "both"]
+    assert schema["$defs"]["Sliding"]["properties"]["method"]["enum"] == ["none", "slip-layer", "contact"]
 
 
 def test_every_key_has_a_description():

@@ -228,7 +228,7 @@ def start(text, overrides=()):
 def test_material_at_rest_has_exactly_no_pressure():
     _, grid, table, state = start(TEXT)
     assert state["vof"].shape == state["rho"].shape == state["e"].shape == (2, 120, 32)
-    assert state["u_cell"].shape == state["v_cell"].shape == (120, 32)
+    assert state["u_cell"].shape == state["v_cell"].shape == (1, 120, 32)
     for m in range(2):
         assert set(np.unique(state["rho"][m])) == {table.rho0[m]}
         assert set(np.unique(state["e"][m])) == {0.0}
@@ -239,12 +239,25 @@ def test_velocity_is_momentum_over_mass():
     _, grid, table, state = start(TEXT, ["body.rod.velocity=[3.0, 1000.0]", 'body.rod.tip="0.3 mm"'])
     vof, rho = state["vof"], state["rho"]
     mass = (vof * rho).sum(axis=0)
-    assert state["v_cell"] * mass == pytest.approx(vof[0] * rho[0] * 1000.0, rel=1e-12)
-    assert state["u_cell"] * mass == pytest.approx(vof[0] * rho[0] * 3.0, rel=1e-12)
-    assert np.all(state["v_cell"][mass == 0.0] == 0.0)
+    u, v = state["u_cell"][0], state["v_cell"][0]
+    assert v * mass == pytest.approx(vof[0] * rho[0] * 1000.0, rel=1e-12)
+    assert u * mass == pytest.approx(vof[0] * rho[0] * 3.0, rel=1e-12)
+    assert np.all(v[mass == 0.0] == 0.0)
     pure = (vof[0] == 1.0)
-    assert np.all(state["v_cell"][pure] == 1000.0)
+    assert np.all(v[pure] == 1000.0)
     assert ((vof[0] > 0) & (vof[1] > 0)).any()
+
+
+def test_body_groups_keep_their_momentum_apart():
+    d = deck.loads(TEXT, ["body.rod.velocity=[3.0, 1000.0]", 'body.rod.tip="0.3 mm"', "body.plate.velocity=-50"])
+    grid, table = Grid(*deck.edges(d), d.mesh.geometry), materials.resolve(d)
+    state = insertion.initial_state(d, grid, table, np.array([1, 0]))
+    rod, plate = state["vof"] > 0
+    assert (rod & plate).any()
+    for name, of_rest, of_rod in (("u_cell", 0.0, 3.0), ("v_cell", -50.0, 1000.0)):
+        assert state[name].shape == (2, 120, 32)
+        np.testing.assert_allclose(state[name][0], np.where(plate, of_rest, 0.0), rtol=1e-15)
+        np.testing.assert_allclose(state[name][1], np.where(rod, of_rod, 0.0), rtol=1e-15)
 
 
 def test_insert_is_the_fraction_of_the_initial_state():

@@ -1,0 +1,117 @@
+"""The force on a rod against its speed, from run directories, beside the resistance of cavity expansion.
+
+    python -m problems.sliding.drag RUN [RUN ...] [--window MICROSECONDS] [--json]
+
+The force is the deceleration of the rod's centre of mass, the slope of a line through the velocities of a window of time, times
+the rod's mass over its section. Cavity expansion is the model `forrestal` on the run's own deck: A Y N1 + B rho N2 V^2 on the
+whole nose, with A and B of the compressible cavity in the target's material. Runs need not have ended.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import math
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from hydro2d import model, model_deck, results
+from hydro2d.deck_errors import DeckError
+from hydro2d.history import HistoryError
+
+#: rows of the history that a line is put through, at least
+ROWS = 4
+
+
+@dataclass(frozen=True)
+class Window:
+    """Means over a window: time (s) and depth (m) at its middle, speed (m/s) and deceleration (m/s^2) of the line there."""
+
+    time: float
+    depth: float
+    speed: float
+    deceleration: float
+
+
+def windows(time: np.ndarray, speed: np.ndarray, depth: np.ndarray, width: float) -> list[Window]:
+    """Windows of ``width`` (s) one after another, from the first time on; none that the history fills by less than half."""
+    found = []
+    for k in range(math.ceil((time[-1] - time[0]) / width * (1.0 - 1e-9))):
+        here = (time >= time[0] + (k - 1e-9) * width) & (time <= time[0] + (k + 1 + 1e-9) * width)
+        if np.count_nonzero(here) < ROWS or np.ptp(time[here]) < 0.5 * width:
+            continue
+        middle = float(0.5 * (time[here][0] + time[here][-1]))
+        slope, level = np.polyfit(time[here] - middle, speed[here], 1)
+        found.append(Window(middle, float(np.interp(middle, time, depth)), float(level), -float(slope)))
+    return found
+
+
+def measure(directory: Path | str, width: float = 10e-6) -> dict:
+    """Force (Pa, over the rod's section) by window and what theory and experiment have beside it; SI. Raises ResultsError,
+    HistoryError, DeckError."""
+    run = results.load(directory)
+    if "rod_mean_velocity_m_s" not in run.history:
+        raise results.ResultsError(f"{directory} has no rod: its deck has no [penetration]")
+    shot = model_deck.read(run.directory / results.DECK)
+    case = model.resolve(model.named("forrestal"), model.Request(shot.rod, shot.target, geometry=shot.values))
+    mass, section = case.values["rod.mass"], 0.25 * math.pi * case.values["rod.diameter"] ** 2
+    time, depth = run.history["time"], run.history["penetration_depth_m"]
+    speed = run.direction * run.history["rod_mean_velocity_m_s"]
+    rows = [
+        {"time": at.time, "depth": at.depth, "speed": at.speed, "force": mass * at.deceleration / section,
+         "cavity": case.rows([max(at.speed, 0.0)])[0]["resistance"]}
+        for at in windows(time, speed, depth, width)
+    ]  # fmt: skip
+
+    def mean(reached: float, left: float = 0.0) -> float | None:
+        """Mean resistance over a depth (m) at the end of which the rod has a speed left."""
+        return 0.5 * mass * (shot.velocity**2 - left**2) / (section * reached) if reached else None
+
+    return {
+        "run": run.label, "ended": bool(run.summary), "velocity": shot.velocity, "mass": mass, "section": section, "rows": rows,
+        "speed": float(speed[-1]), "depth": float(depth[-1]), "mean": mean(depth[-1], speed[-1]),
+        "cavity_depth": case.rows([shot.velocity])[0]["depth"],
+        "measured_depth": run.measured_depth, "measured_mean": mean(run.measured_depth),
+    }  # fmt: skip
+
+
+def table(found: dict) -> str:
+    """What was measured, as Markdown."""
+    lines = [f"**{found['run']}**, {found['velocity']:.0f} m/s{'' if found['ended'] else ', not ended'}", "",
+             "| time, us | depth, cm | speed, m/s | force, GPa | cavity expansion, GPa | ratio |",
+             "|---|---|---|---|---|---|"]  # fmt: skip
+    for row in found["rows"]:
+        lines.append(
+            f"| {row['time'] * 1e6:.0f} | {row['depth'] * 1e2:.2f} | {row['speed']:.1f} | {row['force'] * 1e-9:.2f} "
+            f"| {row['cavity'] * 1e-9:.2f} | {row['force'] / row['cavity']:.2f} |"
+        )
+    mean = "" if found["mean"] is None else f", mean resistance {found['mean'] * 1e-9:.2f} GPa"
+    lines += ["", f"* run: {found['depth'] * 1e2:.1f} cm with {found['speed']:.0f} m/s left{mean}",
+              f"* cavity expansion: {found['cavity_depth'] * 1e2:.1f} cm"]  # fmt: skip
+    if found["measured_depth"]:
+        lines.append(f"* experiment: {found['measured_depth'] * 1e2:.1f} cm; from a rigid rod a mean resistance of "
+                     f"{found['measured_mean'] * 1e-9:.2f} GPa")  # fmt: skip
+    return "\n".join(lines)
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """The command; 2 where a directory holds no run with a rod."""
+    parser = argparse.ArgumentParser(prog="python -m problems.sliding.drag", description=__doc__.splitlines()[0])
+    parser.add_argument("run", nargs="+", type=Path, help="a run directory, finished or not")
+    parser.add_argument("--window", type=float, default=10.0, help="length of a window in microseconds (10)")
+    parser.add_argument("--json", action="store_true", help="print JSON, SI units")
+    given = parser.parse_args(arguments)
+    try:
+        found = [measure(directory, given.window * 1e-6) for directory in given.run]
+    except (results.ResultsError, HistoryError, DeckError) as error:
+        print(error, file=sys.stderr)
+        return 2
+    print(json.dumps(found, indent=2) if given.json else "\n\n".join(map(table, found)))
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

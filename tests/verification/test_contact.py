@@ -1,0 +1,199 @@
+"""Contact with two velocity fields, on the decks of problems/sliding: what must happen at an interface, and what must not."""
+
+import functools
+import math
+
+import numpy as np
+import pytest
+
+from hydro2d import deck as decks
+from hydro2d.derived import Cells
+from hydro2d.simulation import Simulation
+from tests.verification.running import ADVECTION, Line, advection, between, finish
+
+FOLDER = "problems/sliding"
+#: the single velocity of all bodies, which is what contact is held against
+SINGLE = 'sliding.method="none"', "sliding.friction=0.0"
+#: upper end of the tungsten in mm, in cells of 0.5 mm, and the share of its cell that it fills
+CUTS = {"2 %": 0.01, "50 %": 0.25, "98 %": 0.49}
+EDGE = {"edge": 0.0}
+P, U = 14.1016e9, 817.535  # impedance match at 1 km/s, as in test_planar_impact.py
+
+
+def cases(table):
+    """The values of a table, with its keys as names."""
+    return [pytest.param(value, id=key) for key, value in table.items()]
+
+
+def cut_at(end: float) -> str:
+    """The override that puts the interface of impact_head_on and parting at ``end`` (mm)."""
+    return f'body.flyer.z=["-30 mm", "{end} mm"]'
+
+
+@functools.cache
+def run(name: str, *overrides: str):
+    """A deck of problems/sliding at its end; each combination of overrides runs once. Not to be written to."""
+    return finish(decks.load(f"{FOLDER}/{name}.toml", list(overrides)))
+
+
+def velocities(simulation, m: int):
+    """u and v of the group of body m, at the vertices where it has mass."""
+    s, k = simulation.state, simulation.state.group[m]
+    there = simulation.grid.interior_vertices(s.mass[k]) > 0.0
+    return (simulation.grid.interior_vertices(w[k])[there] for w in (s.u, s.v))
+
+
+def closed(simulation) -> None:
+    """Mass, momentum and energy are kept, and no vertex was held to the speed limit."""
+    balance = simulation.conservation()
+    assert max(abs(x) for x in balance["mass"].values()) < 1e-12
+    assert abs(balance["axial_momentum"]) < 1e-12
+    assert abs(balance["total_energy"]) < 1e-12
+    assert balance["sinks"]["speed_limit"]["energy_J"] == 0.0
+
+
+# ---------------------------------------------------------------------------------------------------- head-on, parting
+
+
+def plateau(simulation) -> tuple[float, float]:
+    """Pressure and velocity of the target between the interface and its shock."""
+    line, cells = Line(simulation), Cells(simulation)
+    here = between(line.x, U * simulation.time + 1e-3, 6484.55 * simulation.time)
+    return cells.by_volume(cells.p)[here].mean(), cells.velocity()[here, :, 1].mean()
+
+
+@pytest.mark.parametrize("choice", ADVECTION)
+@pytest.mark.parametrize("end", cases(CUTS))
+def test_head_on_impact(end, choice):
+    simulation = run("impact_head_on", cut_at(end), advection(choice))
+    p, u = plateau(simulation)
+    assert p == pytest.approx(P, rel=5e-3)
+    assert u == pytest.approx(U, rel=5e-3)
+    closed(simulation)
+
+
+@pytest.mark.parametrize("choice", ADVECTION)
+@pytest.mark.parametrize("end", cases(CUTS))
+def test_head_on_impact_is_that_of_a_single_velocity(end, choice):
+    single = plateau(run("impact_head_on", cut_at(end), advection(choice), *SINGLE))
+    assert single == pytest.approx((P, U), rel=5e-3)
+    assert plateau(run("impact_head_on", cut_at(end), advection(choice))) == pytest.approx(single, rel=5e-3)
+
+
+@pytest.mark.parametrize("choice", ADVECTION)
+@pytest.mark.parametrize("end", cases(CUTS | EDGE))
+def test_parting_bodies_do_not_hold_each_other(end, choice):
+    pressure = []
+    simulation = finish(
+        decks.load(f"{FOLDER}/parting.toml", [cut_at(end), advection(choice)]),
+        watch=lambda s: pressure.append(np.abs(s.state.p).max()),
+    )
+    assert max(pressure) < 1e6
+    for m, v in enumerate((-100.0, 100.0)):
+        assert np.abs(list(velocities(simulation, m))[1] - v).max() < 1e-9 * 100.0
+    closed(simulation)
+
+
+def test_a_single_velocity_holds_parting_bodies():
+    """What the test before this one would see without contact."""
+    assert np.abs(run("parting", *SINGLE).state.p).max() > 1e8
+
+
+# ---------------------------------------------------------------------------------------------------- level blocks
+
+
+@pytest.mark.parametrize("choice", ADVECTION)
+def test_level_blocks_keep_their_momentum(choice):
+    """Without load, without friction: not so much as 1e-10 of the slider's momentum goes to the base."""
+    simulation = run("block_level", advection(choice))
+    (mass, slider), (_, base) = ([float(rows.sum()) for rows in simulation.body_sums(m)] for m in (0, 1))
+    assert slider == pytest.approx(mass * 100.0, rel=1e-10)
+    assert abs(base) < 1e-10 * mass * 100.0
+    closed(simulation)
+
+
+def test_a_single_velocity_drags_the_base_along():
+    simulation = run("block_level", *SINGLE)
+    assert simulation.body_sums(1)[1].sum() > 0.02 * simulation.body_sums(0)[1].sum()
+
+
+def tractions(simulation) -> tuple[float, float, float]:
+    """Shear traction on slider and base from the momentum of the rows that the ends do not reach, and their pressure; Pa."""
+    rows = np.abs(simulation.grid.zc[simulation.grid.inside[0]] - 24e-3) < 4e-3
+    area = rows.sum() * 0.25e-3
+    cells = Cells(simulation)
+    gained = []
+    for m, v in enumerate((50.0, 0.0)):
+        mass, momentum = (values[rows].sum() for values in simulation.body_sums(m))
+        gained.append((momentum - mass * v) / (area * simulation.time))
+    return *gained, cells.by_volume(cells.p)[rows].mean()
+
+
+@pytest.mark.parametrize("friction", [0.1, 0.2, 0.3])
+def test_friction_is_the_coefficient_times_the_load(friction):
+    """Deceleration mu N/m of the slider and acceleration of the base, within 2 %; the load is 100 MPa."""
+    simulation = run("block_level_friction", f"sliding.friction={friction}")
+    slider, base, p = tractions(simulation)
+    closed(simulation)
+    assert p == pytest.approx(100e6, rel=0.02)
+    assert base == pytest.approx(friction * 100e6, rel=0.02)
+    assert slider == pytest.approx(-friction * 100e6, rel=0.02)
+
+
+def test_load_without_friction_drags_nothing():
+    slider, base, p = tractions(run("block_level_friction", "sliding.friction=0.0"))
+    assert p == pytest.approx(100e6, rel=1e-3)
+    assert abs(base) < 1e-4 * p
+    assert abs(slider) < 1e-4 * p
+
+
+def test_a_single_velocity_sticks():
+    """Welded, the blocks send shear waves of 50 m/s/(1/Z_W + 1/Z_Al) into each other: 358 MPa, until 1.49 us."""
+    slider, base, _ = tractions(run("block_level_friction", *SINGLE, "stop.time=1.4e-6"))
+    impedance = [math.sqrt(rho * modulus) for rho, modulus in ((18160.0, 145e9), (2660.0, 26e9))]
+    assert base == pytest.approx(50.0 / sum(1.0 / z for z in impedance), rel=0.02)
+    assert slider == pytest.approx(-base, rel=1e-3)
+
+
+# ---------------------------------------------------------------------------------------------------- inclined blocks
+
+
+def drift(simulation) -> tuple[float, float]:
+    """Work that slip has done in |r|, |z| < 2 mm over p L s, and the largest departure from p over p.
+
+    L is the interface's length there, s the slip. The work is what the specific energies have grown by, so that it does not
+    matter how much of which body the region holds.
+    """
+    g, slider, cells = simulation.grid, simulation.deck.body[0], Cells(simulation)
+    middle = np.ix_(*(np.abs(x) < 2e-3 for x in (g.zc[g.inside[0]], g.rc[g.inside[1]])))
+    first = Cells(Simulation(simulation.deck)).e.max(axis=(1, 2), keepdims=True)
+    work = np.sum((cells.vof * cells.rho * (cells.e - first))[:, *middle]) * 0.25e-3**2
+    u, v = slider.velocity
+    length, slip = 4e-3 * math.hypot(u, v) / v, math.hypot(u, v) * simulation.time
+    departure = np.abs(cells.by_volume(cells.p)[middle] / slider.pressure - 1.0).max()
+    return float(work) / (slider.pressure * length * slip), float(departure)
+
+
+@pytest.mark.parametrize("angle", [15, 30, 45])
+def test_slip_along_an_inclined_interface_does_no_work(angle):
+    """One cell slid under 1 GPa: the energy drifts by less than 1e-4 of p L s, the pressure stays uniform."""
+    work, departure = drift(run(f"block_inclined_{angle}"))
+    assert abs(work) < 1e-4
+    assert departure < 1e-2
+
+
+@pytest.mark.parametrize("angle", [15, 30, 45])
+def test_a_single_velocity_does_work(angle):
+    assert drift(run(f"block_inclined_{angle}", *SINGLE))[0] > 1e-3
+
+
+# ---------------------------------------------------------------------------------------------------- a rod and its hole
+
+
+@pytest.mark.parametrize("choice", ADVECTION)
+def test_rod_leaves_its_hole_without_drag(choice):
+    simulation = run("rod_leaving_hole", advection(choice))
+    mass = simulation.body_sums(0)[0].sum()
+    assert simulation.mean_velocity(0) == pytest.approx(-200.0, rel=1e-9)
+    assert abs(simulation.body_sums(1)[1].sum()) < 1e-9 * mass * 200.0
+    assert np.abs(simulation.state.p).max() < 1e6
