@@ -62,6 +62,8 @@ class Cycle:
         self.still = np.array([g if low_r else -1, g + grid.nr if high_r else -1, g if low_z else -1,
                                g + grid.nz if high_z else -1], dtype=np.int64)
         self.carried = np.array([self._carried(m) for m in range(state.bodies)])
+        order = method.order
+        self.orders = np.array([[*order[state.group[order] == b], *order[state.group[order] != b]] for b in range(2)], dtype=np.int64)
         self.box = list(self.edges)
         self.ledger = None
         self.speed_limit = 0.0
@@ -342,6 +344,9 @@ class Cycle:
     def deform(self) -> None:
         """Work, volume, strain: body by body in pure cells, then the mixed cells; no shear in the slip layer."""
         s, g, t, method, (j0, j1, _, _) = self.state, self.grid, self.table, self.method, self.box
+        if s.groups > 1:
+            contact.cut_work(j0, j1, self.dt, g.face_r, g.az_in, g.az_out, g.dz, s.cut, s.group, s.wet_r, s.wet_z, s.ph, s.qr,
+                             s.u0, s.v0, s.u, s.v, s.fr, s.fz, s.cell_mass, s.vof, s.q)
         deformation.deform(
             j0, j1, self.dt, g.face_r, g.hoop, g.az_in, g.az_out, g.vol_r, g.mid_r, g.dz, s.span, s.group, t.strength_model,
             t.strength_par, t.damage_model, t.damage_par, method.factor, self.loose, s.u0, s.v0, s.u, s.v, s.fr, s.fz,
@@ -352,8 +357,6 @@ class Cycle:
             t.damage_model, t.damage_par, method.factor, self.loose, s.u0, s.v0, s.u, s.v, s.fr, s.fz, s.ph, s.qr, s.qz,
             s.weight, s.solid, s.pm, s.km, s.tm, s.vof, s.q, s.mix, s.motion)
         if s.groups > 1:
-            contact.cut_work(j0, j1, self.dt, g.face_r, g.az_in, g.az_out, g.dz, s.cut, s.group, s.wet_r, s.wet_z, s.ph, s.qr,
-                             s.u0, s.v0, s.u, s.v, s.fr, s.fz, s.cell_mass, s.vof, s.q)
             momentum.deposit(j0, j1, g.cm_in, g.cm_out, s.around[1, 0], s.group, s.heat, s.cell_mass, s.vof, s.q, s.rows[5])
         if method.slip_widths is not None:
             sliding.cut_shear(j0, j1, method.shear, method.friction, s.occupied[0], s.zone, s.normal, method.hard, s.vof, s.pm,
@@ -377,8 +380,9 @@ class Cycle:
         interfaces.interface_volumes(dj, di, j0, j1, g.dr, g.dz, self.method.order, s.mixed_count, s.mixed, face, s.pre, s.vof,
                                      s.flux_volume, s.mix)
         if s.groups > 1:
-            contact.cut_fluxes(dj, di, j0, j1, self.edges, g.dr, g.dz, self.method.order, s.group, s.cut, face,
+            contact.cut_fluxes(dj, di, j0, j1, self.edges, g.dr, g.dz, self.orders, s.group, s.cut, s.line, face,
                                s.own_r if di else s.own_z, s.pre, s.vof, s.flux_volume)
+            contact.limit_fluxes(dj, di, j0, j1, self.edges, s.cut, s.pre, s.vof, s.flux_volume)
 
     def remap_bodies(self, dj: int, di: int, second: int) -> None:
         """Fluxes and update of every body's fields; the cells' masses, and which of them are mixed."""

@@ -22,13 +22,17 @@ LIGHT = 0.05
 #: share of void in a cell of both groups up to which they touch
 GAP = 0.01
 #: void given to cells without pressure whose groups part, so that it takes the opening and nothing is stretched
-SEED = 1e-9
+SEED = 1e-11
 
-#: rows of `line`: normal of the hard side in the unit square, its constant, share of the hard among the solids, slope
-LINE_R, LINE_Z, CONSTANT, SHARE, SLOPE_R, SLOPE_Z = range(6)
+#: square of the ratio of two slopes from which the steeper surface alone draws the line
+FLATTER = 1.001
 
-#: how a light vertex moves: 0 to 8 with a neighbour of its own group, else
-HEAVY, STUCK = -1, 9
+#: rows of `line`: normal of the hard side in the unit square, its constant, share of the hard among the solids; slopes, down
+#: the hard bodies' fraction and up that of the rest; the group whose surface is the flatter, 1 where none is
+LINE_R, LINE_Z, CONSTANT, SHARE, HARD_R, HARD_Z, SOFT_R, SOFT_Z, FIRST = range(9)
+
+#: how a light vertex moves: 0 to 24 with a vertex of its own group up to two away, else
+HEAVY, STUCK = -1, 25
 
 
 @kernel
@@ -61,15 +65,26 @@ def find_shared(j0, j1, edges, around, mass, group, vof, count, shared, hard, so
                         soft[j, i] += vof[m, j, i]
 
 
+@point
+def slope(j, i, below, above, left, right, dr, dz, f):
+    """Youngs' difference of a fraction over the 3 x 3 cells between the given rows and columns, downwards, per cell."""
+    along_r = ((f[above, left] + f[below, left]) + 2.0 * f[j, left]) - ((f[above, right] + f[below, right]) + 2.0 * f[j, right])
+    along_z = ((f[below, left] + f[below, right]) + 2.0 * f[below, i]) - ((f[above, left] + f[above, right]) + 2.0 * f[above, i])
+    along_r *= dr[i] / (dr[i] + 0.5 * (dr[i - 1] + dr[i + 1]))
+    along_z *= dz[j] / (dz[j] + 0.5 * (dz[j - 1] + dz[j + 1]))
+    return along_r, along_z
+
+
 @kernel
 def cut_lines(j0, j1, edges, dr, dz, count, shared, hard, soft, cut, line):
     """The cut columns of every row, and in them the line that parts the hard side of a cell from the rest.
 
-    The normal is Youngs' from f_hard - f_soft, the line encloses the hard share of what is solid. Beyond the edges of the mesh
-    the cells beside them are repeated.
+    The normal is Youngs' from f_hard - f_soft, the line encloses the hard share of what is solid. Near void, where one of the
+    two surfaces has a corner, the steeper slope is that of the flat one: then the line is its own, and the void of the cell
+    lies on the other side. Beyond the edges of the mesh the cells beside them are repeated.
 
     Reads    count [j], shared [j, k]; hard, soft [j, i]
-    Writes   cut [j, 2]; line [6, j, i]
+    Writes   cut [j, 2]; line [9, j, i]
     """
     for j in prange(j0, j1):
         lo, hi = 1 << 30, 0
@@ -85,25 +100,28 @@ def cut_lines(j0, j1, edges, dr, dz, count, shared, hard, soft, cut, line):
         below, above = max(j - 1, edges[0]), min(j + 1, edges[1] - 1)
         for i in range(lo, hi):
             left, right = max(i - 1, edges[2]), min(i + 1, edges[3] - 1)
-            sw, s, se = (hard[below, left] - soft[below, left], hard[below, i] - soft[below, i],
-                         hard[below, right] - soft[below, right])
-            w, e = hard[j, left] - soft[j, left], hard[j, right] - soft[j, right]
-            nw, n, ne = (hard[above, left] - soft[above, left], hard[above, i] - soft[above, i],
-                         hard[above, right] - soft[above, right])
-            along_r = ((nw + sw) + 2.0 * w) - ((ne + se) + 2.0 * e)
-            along_z = ((sw + se) + 2.0 * s) - ((nw + ne) + 2.0 * n)
-            along_r *= dr[i] / (dr[i] + 0.5 * (dr[i - 1] + dr[i + 1]))
-            along_z *= dz[j] / (dz[j] + 0.5 * (dz[j - 1] + dz[j + 1]))
+            hard_r, hard_z = slope(j, i, below, above, left, right, dr, dz, hard)
+            soft_r, soft_z = slope(j, i, below, above, left, right, dr, dz, soft)
+            along_r, along_z = hard_r - soft_r, hard_z - soft_z
+            steep_h, steep_s = hard_r * hard_r + hard_z * hard_z, soft_r * soft_r + soft_z * soft_z
             size = abs(along_r) + abs(along_z)
             total = hard[j, i] + soft[j, i]
             share = min(max(hard[j, i] / total, 0.0), 1.0) if total > 0.0 else -1.0
-            line[SLOPE_R, j, i] = along_r / dr[i]
-            line[SLOPE_Z, j, i] = along_z / dz[j]
+            line[HARD_R, j, i] = hard_r / dr[i]
+            line[HARD_Z, j, i] = hard_z / dz[j]
+            line[SOFT_R, j, i] = -soft_r / dr[i]
+            line[SOFT_Z, j, i] = -soft_z / dz[j]
             line[SHARE, j, i] = share
+            line[FIRST, j, i] = 0.0 if steep_s > FLATTER * steep_h else 1.0
             line[LINE_R, j, i] = 0.0
             line[LINE_Z, j, i] = 0.0
             line[CONSTANT, j, i] = 0.0
             if size > 1e-14 and 0.0 < share < 1.0:
+                if steep_s > FLATTER * steep_h:
+                    along_r, along_z, share = -soft_r, -soft_z, 1.0 - soft[j, i]
+                elif steep_h > FLATTER * steep_s:
+                    along_r, along_z, share = hard_r, hard_z, hard[j, i]
+                size = abs(along_r) + abs(along_z)
                 n_r, n_z = along_r / size, along_z / size
                 line[LINE_R, j, i] = n_r
                 line[LINE_Z, j, i] = n_z
@@ -157,11 +175,12 @@ def face_weights(j0, j1, edges, still, cut, line, hard, soft, mass, count, share
     """Weights of the hard group on the faces around shared vertices, and normals and contact at these.
 
     The weight of a face is the mean of what the lines of both neighbours wet of it. A normal is the mean of the four cells'
-    slopes, from hard to soft, along the axis and along walls. Groups touch where a cell holds both and no more than GAP of
+    slopes, from hard to soft, along the axis and along walls: of f_hard - f_soft, of f_hard, and of -f_soft, which differ
+    where void is near. Groups touch where a cell holds both and no more than GAP of
     void, or where a full cell of one is a neighbour of a full cell of the other.
 
-    Reads    cut [j, 2], line [6, j, i], hard, soft [j, i], mass [b, j, i], count [j], shared [j, k]
-    Writes   wet_r, wet_z [end, j, i]; normal [2, j, i], touch [j, i] at shared vertices
+    Reads    cut [j, 2], line [9, j, i], hard, soft [j, i], mass [b, j, i], count [j], shared [j, k]
+    Writes   wet_r, wet_z [end, j, i]; normal [3, 2, j, i], touch [j, i] at shared vertices
     """
     for j in prange(j0, j1 + 1):
         if j < j1:
@@ -188,22 +207,27 @@ def face_weights(j0, j1, edges, still, cut, line, hard, soft, mass, count, share
             wet_z[1, j, i] = known((out_b + out_t) / number, mass[0, j, i + 1], mass[1, j, i + 1])
         for k in range(count[j]):
             i = shared[j, k]
-            n_r, n_z = 0.0, 0.0
+            hard_r, hard_z, soft_r, soft_z = 0.0, 0.0, 0.0, 0.0
             both, full_hard, full_soft = 1.0, 0, 0
             for row in range(max(j - 1, edges[0]), min(j + 1, edges[1])):
                 for column in range(max(i - 1, edges[2]), min(i + 1, edges[3])):
-                    n_r += line[SLOPE_R, row, column]
-                    n_z += line[SLOPE_Z, row, column]
+                    hard_r += line[HARD_R, row, column]
+                    hard_z += line[HARD_Z, row, column]
+                    soft_r += line[SOFT_R, row, column]
+                    soft_z += line[SOFT_Z, row, column]
                     h, s = hard[row, column], soft[row, column]
                     if h > 0.0 and s > 0.0:
                         both = min(both, 1.0 - (h + s))
                     full_hard += 1 if h > 1.0 - GAP else 0
                     full_soft += 1 if s > 1.0 - GAP else 0
-            n_r = 0.0 if i == still[0] or i == still[1] else n_r
-            n_z = 0.0 if j == still[2] or j == still[3] else n_z
-            size = sqrt(n_r * n_r + n_z * n_z)
-            normal[0, j, i] = n_r / size if size > 0.0 else 0.0
-            normal[1, j, i] = n_z / size if size > 0.0 else 0.0
+            free_r = 0.0 if i == still[0] or i == still[1] else 1.0
+            free_z = 0.0 if j == still[2] or j == still[3] else 1.0
+            for way in range(3):
+                n_r = free_r * ((hard_r if way != 2 else 0.0) + (soft_r if way != 1 else 0.0))
+                n_z = free_z * ((hard_z if way != 2 else 0.0) + (soft_z if way != 1 else 0.0))
+                size = sqrt(n_r * n_r + n_z * n_z)
+                normal[way, 0, j, i] = n_r / size if size > 0.0 else 0.0
+                normal[way, 1, j, i] = n_z / size if size > 0.0 else 0.0
             touch[j, i] = 1.0 if both <= GAP or (full_hard > 0 and full_soft > 0) else 0.0
 
 
@@ -244,7 +268,7 @@ def cut_viscosity(j0, j1, linear, quadratic, courant, dr, dz, vol_r, face_r, az_
                   scratch):
     """Volume rate and viscosity of the cut cells, the step they allow, and room where their groups part.
 
-    One q answers to the one rate of volume over the cell's length along the normal. Where the groups part at a vertex of a
+    One q answers to the one rate of volume over the cell's length along the normal, unless the cell has void to lose. Where the groups part at a vertex of a
     cell without pressure, the cell is given a seed of void.
 
     Reads    what face_weights wrote; u, v [b, j, i]; cl, rhobar, p [j, i]
@@ -258,8 +282,8 @@ def cut_viscosity(j0, j1, linear, quadratic, courant, dr, dz, vol_r, face_r, az_
             opens = 0.0
             for row in range(j, j + 2):
                 for column in range(i, i + 2):
-                    w = (normal[0, row, column] * (u[1, row, column] - u[0, row, column])
-                         + normal[1, row, column] * (v[1, row, column] - v[0, row, column]))
+                    w = (normal[0, 0, row, column] * (u[1, row, column] - u[0, row, column])
+                         + normal[0, 1, row, column] * (v[1, row, column] - v[0, row, column]))
                     opens = min(opens, w)
             if opens < 0.0 and p[j, i] <= 0.0 and solid[j, i] > 1.0 - SEED:
                 for m in range(vof.shape[0]):
@@ -277,12 +301,14 @@ def cut_viscosity(j0, j1, linear, quadratic, courant, dr, dz, vol_r, face_r, az_
             qz[j, i] = 0.0
             rho = rhobar[j, i]
             if rho > 0.0:
+                shock = 1.0 if solid[j, i] >= 1.0 - GAP else 0.0
                 c = bulk[j, i] / rho
                 c = sqrt(c) if c > 0.0 else cl[j, i]
-                slope_r, slope_z = abs(line[SLOPE_R, j, i]), abs(line[SLOPE_Z, j, i])
+                slope_r = abs(line[HARD_R, j, i] + line[SOFT_R, j, i])
+                slope_z = abs(line[HARD_Z, j, i] + line[SOFT_Z, j, i])
                 steep = sqrt(slope_r * slope_r + slope_z * slope_z)
                 length = steep / (slope_r / dr[i] + slope_z / h) if steep > 0.0 else min(dr[i], h)
-                viscosity = directional_viscosity(rho, c, -max(loss, 0.0) * length, 0.0, linear, quadratic)
+                viscosity = shock * directional_viscosity(rho, c, -max(loss, 0.0) * length, 0.0, linear, quadratic)
                 qr[j, i] = viscosity
                 qz[j, i] = viscosity
                 sound = courant * min(dr[i], h) / sqrt(cl[j, i] * cl[j, i] + 2.0 * viscosity / rho)
@@ -301,7 +327,7 @@ def normal_pressure(j, i, n_r, n_z, sig_rr, sig_zz, sig_rz):
 def cut_stress(j0, j1, dt, cut, around, line, hard, soft, rate, p, bulk, ph, sig_rr, sig_zz, sig_tt, sig_rz, contact_pressure):
     """The pressure of cut cells at half the step by their one rate of volume, and the normal pressure of the contact.
 
-    Reads    rate, p, bulk, hard, soft, sig_rz [j, i], line [6, j, i]
+    Reads    rate, p, bulk, hard, soft, sig_rz [j, i], line [9, j, i]
     Updates  ph, sig_rr, sig_zz, sig_tt [j, i];  writes contact_pressure [j, i], 0 where a cell does not hold both groups
     """
     for j in prange(j0, j1):
@@ -314,7 +340,7 @@ def cut_stress(j0, j1, dt, cut, around, line, hard, soft, rate, p, bulk, ph, sig
             sig_rr[j, i] -= gain
             sig_zz[j, i] -= gain
             sig_tt[j, i] -= gain
-            n_r, n_z = line[SLOPE_R, j, i], line[SLOPE_Z, j, i]
+            n_r, n_z = line[HARD_R, j, i] + line[SOFT_R, j, i], line[HARD_Z, j, i] + line[SOFT_Z, j, i]
             steep = n_r * n_r + n_z * n_z
             if hard[j, i] > 0.0 and soft[j, i] > 0.0 and steep > 0.0:
                 contact_pressure[j, i] = normal_pressure(j, i, n_r, n_z, sig_rr, sig_zz, sig_rz) / steep
@@ -412,12 +438,13 @@ def dual_share(g, j, i, edges, volume, cm_in, cm_out, hard, soft):
 
 @kernel
 def link_light(j0, j1, edges, volume, cm_in, cm_out, count, shared, normal, hard, soft, mass, link):
-    """How each group moves at a shared vertex: by itself, or, where it is light, with a neighbour towards its inside.
+    """How each group moves at a shared vertex: by itself, or, where it is light, with a vertex towards its inside.
 
-    It is the one with the largest share of the group times the cosine between its direction and the normal inwards.
+    It is the one among its neighbours, or else among those two away, with the largest share of the group times the cosine
+    between its direction and the normal inwards over the distance. Where there is none the group sticks to the other.
 
-    Reads    normal [2, j, i], hard, soft [j, i], mass [b, j, i]
-    Writes   link [b, j, i]: HEAVY, 3 (dj + 1) + (di + 1), or STUCK to the other group
+    Reads    normal [3, 2, j, i], hard, soft [j, i], mass [b, j, i]
+    Writes   link [b, j, i]: HEAVY, 5 (dj + 2) + (di + 2), or STUCK to the other group
     """
     for j in prange(j0, j1 + 1):
         for k in range(count[j]):
@@ -429,22 +456,27 @@ def link_light(j0, j1, edges, volume, cm_in, cm_out, count, shared, normal, hard
                 link[g, j, i] = STUCK
                 most = 0.0
                 inward = 1.0 if g == 0 else -1.0
-                for dj in range(-1, 2):
-                    for di in range(-1, 2):
-                        row, column = j + dj, i + di
-                        inside = edges[0] <= row <= edges[1] and edges[2] <= column <= edges[3]
-                        if inside and (dj != 0 or di != 0) and mass[g, row, column] > 0.0:
+                for ring in range(1, 3):
+                    for dj in range(-ring, ring + 1):
+                        for di in range(-ring, ring + 1):
+                            row, column = j + dj, i + di
+                            if max(abs(dj), abs(di)) < ring or row < edges[0] or row > edges[1]:
+                                continue
+                            if column < edges[2] or column > edges[3] or mass[g, row, column] == 0.0:
+                                continue
                             share = dual_share(g, row, column, edges, volume, cm_in, cm_out, hard, soft)
-                            along = inward * (normal[0, j, i] * di + normal[1, j, i] * dj) / sqrt(1.0 * (di * di + dj * dj))
+                            along = inward * (normal[0, 0, j, i] * di + normal[0, 1, j, i] * dj) / (di * di + dj * dj)
                             if share >= LIGHT and share * along > most * (1.0 + 1e-9):
                                 most = share * along
-                                link[g, j, i] = 3 * (dj + 1) + (di + 1)
+                                link[g, j, i] = 5 * (dj + 2) + (di + 2)
+                    if most > 0.0:
+                        break
 
 
 @point
 def target(code, j, i):
     """Vertex that a link points to."""
-    return j + code // 3 - 1, i + code % 3 - 1
+    return j + code // 5 - 2, i + code % 5 - 2
 
 
 @point
@@ -466,12 +498,12 @@ def join(j0, j1, dt, friction, still, face_r, hoop, az_in, az_out, dz, cut, line
     """The velocities of both groups at shared vertices at the end of the step.
 
     Light vertices first: their momentum goes to the vertex that they are linked to, and they take its velocity. Then the contact:
-    where the groups touch and close, the impulse along the normal that gives them one normal velocity, and along the tangent
-    at most friction times the normal impulse, that of the impulse and that of the normal stress on the surface. Each impulse
+    where the groups touch and close by every normal, the impulse along that by which they close least that gives them one
+    normal velocity, and along the tangent at most friction times the normal impulse, that of the impulse and that of the normal stress on the surface. Each impulse
     J between two velocities makes the heat J . (w0 + w1)/2, w the difference of the two at either end of the step, which is
     what the work of the cells and the kinetic energy differ by (explanation/sliding, contact).
 
-    Reads    still; mass, u0, v0 [b, j, i]; trial [c, b, j, i]; normal [2, j, i], touch, link; line, sig_.. [j, i]
+    Reads    still; mass, u0, v0 [b, j, i]; trial [c, b, j, i]; normal [3, 2, j, i], touch, link; line, sig_.. [j, i]
     Updates  u, v [b, j, i]; tied [3, b, j, i] (mass, momentum)
     Writes   heat [b, j, i], J per kg of the group's mass at a vertex; exchange[:4, j]: axial momentum that the rest gains
              from the hard group, and the heat of contact, of friction and of light vertices; adds to exchange[4, j]
@@ -512,8 +544,12 @@ def join(j0, j1, dt, friction, still, face_r, hoop, az_in, az_out, dz, cut, line
             m_h = mass[1, j, i] + tied[0, 1, j, i]
             reduced = m_s * m_h / (m_s + m_h)
             w_r, w_z = u[1, j, i] - u[0, j, i], v[1, j, i] - v[0, j, i]
-            n_r, n_z = normal[0, j, i], normal[1, j, i]
-            closing = n_r * w_r + n_z * w_z
+            way, closing = 0, 1e300
+            for other in range(3):
+                w = normal[other, 0, j, i] * w_r + normal[other, 1, j, i] * w_z
+                way = other if w < closing else way
+                closing = min(closing, w)
+            n_r, n_z = normal[way, 0, j, i], normal[way, 1, j, i]
             along_r, along_z = w_r - closing * n_r, w_z - closing * n_z
             slip = sqrt(along_r * along_r + along_z * along_z)
             push, drag = 0.0, 0.0
@@ -564,10 +600,13 @@ def join(j0, j1, dt, friction, still, face_r, hoop, az_in, az_out, dz, cut, line
                     continue
                 row, column = target(code, j, i)
                 m = mass[g, j, i]
-                u[g, j, i] = u[g, row, column]
-                v[g, j, i] = v[g, row, column]
-                given_r, given_z = m * (trial[0, g, j, i] - u[g, j, i]), m * (trial[1, g, j, i] - v[g, j, i])
-                made = 0.5 * (given_r * (u0[g, j, i] - u0[g, row, column]) + given_z * (v0[g, j, i] - v0[g, row, column]))
+                u[g, j, i] = 0.0 if i == still[0] or i == still[1] else u[g, row, column]
+                v[g, j, i] = 0.0 if j == still[2] or j == still[3] else v[g, row, column]
+                made = 0.5 * m * (
+                    (trial[0, g, j, i] - u[g, j, i]) * (u0[g, j, i] + u[g, j, i])
+                    - (trial[0, g, j, i] - u[g, row, column]) * (u0[g, row, column] + u[g, row, column])
+                    + (trial[1, g, j, i] - v[g, j, i]) * (v0[g, j, i] + v[g, j, i])
+                    - (trial[1, g, j, i] - v[g, row, column]) * (v0[g, row, column] + v[g, row, column]))
                 heat[g, row, column] += made / mass[g, row, column]
                 exchange[3, j] += made
 
@@ -614,7 +653,7 @@ def cut_volumes(j0, j1, dt, face_r, az_in, az_out, dz, cut, wet_r, wet_z, u0, v0
 def cut_work(j0, j1, dt, face_r, az_in, az_out, dz, cut, group, wet_r, wet_z, ph, qr, u0, v0, u, v, fr, fz, cell_mass, vof, q):
     """Pressure work in the pure cells among the cut ones: by the volume that they lose, not by their group's own.
 
-    `deform` has done the work of the group's own rate of volume.
+    `deform` does the work of the group's own rate of volume; this is what is missing.
 
     Reads    ph, qr [j, i], velocities, fr, fz [j, i], cell_mass [b, j, i]
     Updates  q (e) [k, m, j, i]
@@ -631,15 +670,14 @@ def cut_work(j0, j1, dt, face_r, az_in, az_out, dz, cut, group, wet_r, wet_z, ph
 
 
 @apart
-def strip_of(n, j, i, along_z, width, high, order, vof, dr, dz):
-    """Volume of the n-th body of the order in a strip of cell (j, i), as a share of the cell; nested, never more than there is."""
+def strip_of(m, j, i, along_z, width, high, order, vof, dr, dz):
+    """Volume of body m in a strip of cell (j, i), as a share of the cell; nested in the order, never more than there is."""
     below, total, part = 0.0, 0.0, 0.0
-    for k in range(n + 1):
+    for k in range(order.shape[0]):
         f = vof[order[k], j, i]
         total += f
         total = total if total < 1.0 - FULL else 1.0
         if f == 0.0:
-            part = 0.0
             continue
         n_r, n_z = youngs_normal(j, i, k, order, vof, dr, dz)
         if along_z:
@@ -647,21 +685,24 @@ def strip_of(n, j, i, along_z, width, high, order, vof, dr, dz):
         filled = strip_share(n_r, n_z, total, width, high)
         filled = min(max(filled, max(below, width - (1.0 - total))), min(below + f, width))
         part = filled - below
+        if order[k] == m:
+            break
         below = filled
     return part
 
 
 @kernel
-def cut_fluxes(dj, di, j0, j1, edges, dr, dz, order, group, cut, face, own, pre, vof, flux_volume):
+def cut_fluxes(dj, di, j0, j1, edges, dr, dz, orders, group, cut, line, face, own, pre, vof, flux_volume):
     """Volume of every body through the faces of cut cells, with the velocity of its group.
 
-    What the bodies together are short of, or beyond, the volume that the face sweeps goes to the largest body of the cell
-    that loses it, unless that cell has void. No body gives more than it has.
+    In a cell the group with the flatter surface comes first among the nested interfaces. What the bodies together are short of, or beyond, the volume that the face sweeps goes to the largest body of the cell
+    that loses it, unless that cell has void.
 
-    Reads    face [j, i], own [b, j, i], pre [j, i], vof [m, j, i], order, group [m]
+    Reads    face [j, i], own [b, j, i], pre [j, i], vof [m, j, i], group [m], line [9, j, i]; orders [b, m], with the bodies of
+             group b first
     Updates  flux_volume [m, j, i]
     """
-    bodies = order.shape[0]
+    bodies = group.shape[0]
     for j in prange(j0, j1 + dj):
         lo, hi = union(cut, max(j - dj, j0), min(j + 1, j1))
         for i in range(lo, hi + di):
@@ -670,8 +711,7 @@ def cut_fluxes(dj, di, j0, j1, edges, dr, dz, order, group, cut, face, own, pre,
             if lo >= hi:
                 continue
             total = 0.0
-            for n in range(bodies):
-                m = order[n]
+            for m in range(bodies):
                 swept = own[group[m], j, i]
                 up = swept > 0.0
                 row, column = (j - dj, i - di) if up else (j, i)
@@ -681,16 +721,40 @@ def cut_fluxes(dj, di, j0, j1, edges, dr, dz, order, group, cut, face, own, pre,
                     volume = swept
                 elif f > 0.0 and swept != 0.0:
                     width = min(abs(swept) / pre[row, column], 1.0)
-                    part = strip_of(n, row, column, dj == 1, width, up, order, vof, dr, dz) * pre[row, column]
+                    first = 1
+                    if cut[row, 0] <= column < cut[row, 1]:
+                        first = int(line[FIRST, row, column])
+                    part = strip_of(m, row, column, dj == 1, width, up, orders[first], vof, dr, dz) * pre[row, column]
                     volume = part if up else -part
                 flux_volume[m, j, i] = volume
                 total += volume
             rest = face[j, i] - total
             up = face[j, i] > 0.0
             row, column = (j - dj, i - di) if up else (j, i)
-            filled = cumulative(row, column, bodies - 1, order, vof)
+            filled = cumulative(row, column, bodies - 1, orders[1], vof)
             if rest != 0.0 and filled > 1.0 - FULL:
                 largest = 0
                 for m in range(bodies):
                     largest = m if vof[m, row, column] > vof[largest, row, column] else largest
                 flux_volume[largest, j, i] += rest
+
+
+@kernel
+def limit_fluxes(dj, di, j0, j1, edges, cut, pre, vof, flux_volume):
+    """No cell gives more of a body through both of its faces than it has.
+
+    Reads    pre [j, i], vof [m, j, i]
+    Updates  flux_volume [m, j, i] of the faces around cut cells
+    """
+    for j in prange(j0, j1):
+        lo, hi = union(cut, max(j - dj, j0), min(j + dj + 1, j1))
+        for i in range(max(lo - di, edges[2]), min(hi + di, edges[3])):
+            for m in range(vof.shape[0]):
+                low, high = max(-flux_volume[m, j, i], 0.0), max(flux_volume[m, j + dj, i + di], 0.0)
+                there = vof[m, j, i] * pre[j, i]
+                if low + high > there and vof[m, j, i] > 0.0:
+                    keep = there / (low + high)
+                    if low > 0.0:
+                        flux_volume[m, j, i] = -keep * low
+                    if high > 0.0:
+                        flux_volume[m, j + dj, i + di] = keep * high
