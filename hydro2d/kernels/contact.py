@@ -474,9 +474,17 @@ def link_light(j0, j1, edges, volume, cm_in, cm_out, count, shared, normal, hard
 
 
 @point
-def target(code, j, i):
-    """Vertex that a link points to."""
-    return j + code // 5 - 2, i + code % 5 - 2
+def leader(g, j, i, link):
+    """(group, j, i) of the vertex that moves group g of vertex (j, i): itself, or that of a link, its own or its partner's."""
+    code = link[g, j, i]
+    if code == STUCK:
+        g = 1 - g
+        code = link[g, j, i]
+        if code == HEAVY or code == STUCK:
+            return 1 - g, j, i
+    elif code == HEAVY:
+        return g, j, i
+    return g, j + code // 5 - 2, i + code % 5 - 2
 
 
 @point
@@ -514,13 +522,12 @@ def join(j0, j1, dt, friction, still, face_r, hoop, az_in, az_out, dz, cut, line
         for k in range(count[j]):
             i = shared[j, k]
             for g in range(2):
-                code = link[g, j, i]
-                if code != HEAVY and code != STUCK:
-                    row, column = target(code, j, i)
+                by, row, column = leader(g, j, i, link)
+                if row != j or column != i:
                     m = mass[g, j, i]
-                    tied[0, g, row, column] += m
-                    tied[1, g, row, column] += m * trial[0, g, j, i]
-                    tied[2, g, row, column] += m * trial[1, g, j, i]
+                    tied[0, by, row, column] += m
+                    tied[1, by, row, column] += m * trial[0, g, j, i]
+                    tied[2, by, row, column] += m * trial[1, g, j, i]
     for j in range(j0, j1 + 1):
         for k in range(count[j]):
             i = shared[j, k]
@@ -528,12 +535,11 @@ def join(j0, j1, dt, friction, still, face_r, hoop, az_in, az_out, dz, cut, line
                 u[g, j, i] = trial[0, g, j, i]
                 v[g, j, i] = trial[1, g, j, i]
                 take_tied(g, j, i, still, mass, tied, u, v, exchange)
-                code = link[g, j, i]
-                if code != HEAVY and code != STUCK:  # a neighbour that is not shared has this group only
-                    row, column = target(code, j, i)
-                    if mass[1 - g, row, column] == 0.0 and tied[0, g, row, column] > 0.0:
-                        take_tied(g, row, column, still, mass, tied, u, v, exchange)
-                        tied[0, g, row, column] = 0.0
+                by, row, column = leader(g, j, i, link)
+                alone = mass[1 - by, row, column] == 0.0  # a leader that is not shared is not met elsewhere in these rows
+                if alone and tied[0, by, row, column] > 0.0:
+                    take_tied(by, row, column, still, mass, tied, u, v, exchange)
+                    tied[0, by, row, column] = 0.0
     for j in range(j0, j1 + 1):
         for k in range(count[j]):
             i = shared[j, k]
@@ -595,20 +601,22 @@ def join(j0, j1, dt, friction, still, face_r, hoop, az_in, az_out, dz, cut, line
         for k in range(count[j]):
             i = shared[j, k]
             for g in range(2):
-                code = link[g, j, i]
-                if code == HEAVY or code == STUCK:
+                by, row, column = leader(g, j, i, link)
+                if row == j and column == i:
                     continue
-                row, column = target(code, j, i)
                 m = mass[g, j, i]
-                u[g, j, i] = 0.0 if i == still[0] or i == still[1] else u[g, row, column]
-                v[g, j, i] = 0.0 if j == still[2] or j == still[3] else v[g, row, column]
+                u[g, j, i] = 0.0 if i == still[0] or i == still[1] else u[by, row, column]
+                v[g, j, i] = 0.0 if j == still[2] or j == still[3] else v[by, row, column]
                 made = 0.5 * m * (
                     (trial[0, g, j, i] - u[g, j, i]) * (u0[g, j, i] + u[g, j, i])
-                    - (trial[0, g, j, i] - u[g, row, column]) * (u0[g, row, column] + u[g, row, column])
+                    - (trial[0, g, j, i] - u[by, row, column]) * (u0[by, row, column] + u[by, row, column])
                     + (trial[1, g, j, i] - v[g, j, i]) * (v0[g, j, i] + v[g, j, i])
-                    - (trial[1, g, j, i] - v[g, row, column]) * (v0[g, row, column] + v[g, row, column]))
-                heat[g, row, column] += made / mass[g, row, column]
+                    - (trial[1, g, j, i] - v[by, row, column]) * (v0[by, row, column] + v[by, row, column]))
+                heat[by, row, column] += made / mass[by, row, column]
                 exchange[3, j] += made
+                if by != g:
+                    given = m * (v[g, j, i] - trial[1, g, j, i])
+                    exchange[0, j] += given if g == 0 else -given
 
 
 @kernel
