@@ -380,8 +380,9 @@ class Cycle:
         interfaces.interface_volumes(dj, di, j0, j1, g.dr, g.dz, self.method.order, s.mixed_count, s.mixed, face, s.pre, s.vof,
                                      s.flux_volume, s.mix)
         if s.groups > 1:
+            contact.cut_shares(j0, j1, self.edges, s.cut, g.volume, s.pre, s.vof, s.part, s.size)
             contact.cut_fluxes(dj, di, j0, j1, self.edges, g.dr, g.dz, self.orders, s.group, s.cut, s.line, face,
-                               s.own_r if di else s.own_z, s.pre, s.vof, s.flux_volume)
+                               s.own_r if di else s.own_z, s.part, s.size, s.vof, s.flux_volume)
             contact.limit_fluxes(dj, di, j0, j1, self.edges, s.cut, s.pre, s.vof, s.flux_volume)
 
     def remap_bodies(self, dj: int, di: int, second: int) -> None:

@@ -25,7 +25,7 @@ GAP = 0.01
 SEED = 1e-11
 
 #: square of the ratio of two slopes from which the steeper surface alone draws the line
-FLATTER = 1.001
+FLATTER = 1.0 + 1e-12
 
 #: rows of `line`: normal of the hard side in the unit square, its constant, share of the hard among the solids; slopes, down
 #: the hard bodies' fraction and up that of the rest; the group whose surface is the flatter, 1 where none is
@@ -677,70 +677,94 @@ def cut_work(j0, j1, dt, face_r, az_in, az_out, dz, cut, group, wet_r, wet_z, ph
                     q[E, m, j, i] -= (ph[j, i] + qr[j, i]) * (change - own) / cell_mass[g, j, i]
 
 
+@kernel
+def cut_shares(j0, j1, edges, cut, volume, pre, vof, part, size):
+    """Fractions of a volume that void does not stretch, in the cut cells and two around them.
+
+    A cell with void that one group leaves grows, and with it what the fractions say of the group that rests in it: its line
+    would move and turn. The fractions here are of the volume that the cell had, or of what its bodies fill if that is more;
+    a full cell keeps its own.
+
+    Reads    volume, pre [j, i], vof [m, j, i]
+    Writes   part [m, j, i], the fractions; size [j, i] (m^3), the volume that they are of
+    """
+    for j in prange(j0 - 2, j1 + 2):
+        lo, hi = union(cut, max(j - 2, j0), min(j + 3, j1))
+        for i in range(lo - 2, hi + 2):
+            total = 0.0
+            for m in range(vof.shape[0]):
+                total += vof[m, j, i]
+            scale = 1.0
+            inside = edges[0] <= j < edges[1] and edges[2] <= i < edges[3]
+            if inside and 0.0 < total < 1.0 - FULL:
+                scale = min(pre[j, i] / volume[j, i], 1.0 / total)
+            for m in range(vof.shape[0]):
+                part[m, j, i] = vof[m, j, i] * scale
+            size[j, i] = pre[j, i] / scale
+
+
 @apart
-def strip_of(m, j, i, along_z, width, high, order, vof, dr, dz):
+def strip_of(m, j, i, along_z, width, high, order, part, dr, dz):
     """Volume of body m in a strip of cell (j, i), as a share of the cell; nested in the order, never more than there is."""
-    below, total, part = 0.0, 0.0, 0.0
+    below, total, given = 0.0, 0.0, 0.0
     for k in range(order.shape[0]):
-        f = vof[order[k], j, i]
+        f = part[order[k], j, i]
         total += f
         total = total if total < 1.0 - FULL else 1.0
         if f == 0.0:
             continue
-        n_r, n_z = youngs_normal(j, i, k, order, vof, dr, dz)
+        n_r, n_z = youngs_normal(j, i, k, order, part, dr, dz)
         if along_z:
             n_r, n_z = n_z, n_r
         filled = strip_share(n_r, n_z, total, width, high)
         filled = min(max(filled, max(below, width - (1.0 - total))), min(below + f, width))
-        part = filled - below
+        given = filled - below
         if order[k] == m:
             break
         below = filled
-    return part
+    return given
 
 
 @kernel
-def cut_fluxes(dj, di, j0, j1, edges, dr, dz, orders, group, cut, line, face, own, pre, vof, flux_volume):
+def cut_fluxes(dj, di, j0, j1, edges, dr, dz, orders, group, cut, line, face, own, part, size, vof, flux_volume):
     """Volume of every body through the faces of cut cells, with the velocity of its group.
 
-    In a cell the group with the flatter surface comes first among the nested interfaces. What the bodies together are short of, or beyond, the volume that the face sweeps goes to the largest body of the cell
-    that loses it, unless that cell has void.
+    In a cell the group with the flatter surface comes first among the nested interfaces. What the bodies together are short of,
+    or beyond, the volume that the face sweeps goes to the largest body of the cell that loses it, unless that cell has void.
 
-    Reads    face [j, i], own [b, j, i], pre [j, i], vof [m, j, i], group [m], line [9, j, i]; orders [b, m], with the bodies of
-             group b first
+    Reads    face [j, i], own [b, j, i], what cut_shares wrote, vof [m, j, i], group [m], line [9, j, i]; orders [b, m], with
+             the bodies of group b first
     Updates  flux_volume [m, j, i]
     """
     bodies = group.shape[0]
     for j in prange(j0, j1 + dj):
         lo, hi = union(cut, max(j - dj, j0), min(j + 1, j1))
+        if lo >= hi:
+            continue
         for i in range(lo, hi + di):
             if (di == 1 and (i == edges[2] or i == edges[3])) or (dj == 1 and (j == edges[0] or j == edges[1])):
-                continue
-            if lo >= hi:
                 continue
             total = 0.0
             for m in range(bodies):
                 swept = own[group[m], j, i]
                 up = swept > 0.0
                 row, column = (j - dj, i - di) if up else (j, i)
-                f = vof[m, row, column]
                 volume = 0.0
-                if f == 1.0:
+                if vof[m, row, column] == 1.0:
                     volume = swept
-                elif f > 0.0 and swept != 0.0:
-                    width = min(abs(swept) / pre[row, column], 1.0)
+                elif vof[m, row, column] > 0.0 and swept != 0.0:
+                    width = min(abs(swept) / size[row, column], 1.0)
                     first = 1
                     if cut[row, 0] <= column < cut[row, 1]:
                         first = int(line[FIRST, row, column])
-                    part = strip_of(m, row, column, dj == 1, width, up, orders[first], vof, dr, dz) * pre[row, column]
-                    volume = part if up else -part
+                    given = strip_of(m, row, column, dj == 1, width, up, orders[first], part, dr, dz) * size[row, column]
+                    volume = given if up else -given
                 flux_volume[m, j, i] = volume
                 total += volume
             rest = face[j, i] - total
             up = face[j, i] > 0.0
             row, column = (j - dj, i - di) if up else (j, i)
-            filled = cumulative(row, column, bodies - 1, orders[1], vof)
-            if rest != 0.0 and filled > 1.0 - FULL:
+            if rest != 0.0 and cumulative(row, column, bodies - 1, orders[1], vof) > 1.0 - FULL:
                 largest = 0
                 for m in range(bodies):
                     largest = m if vof[m, row, column] > vof[largest, row, column] else largest
