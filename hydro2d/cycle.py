@@ -10,10 +10,10 @@ import numpy as np
 
 from hydro2d import fields
 from hydro2d.audit import Ledger
+from hydro2d.contact import Contact
 from hydro2d.kernels import (
     acceleration,
     boundaries,
-    contact,
     deformation,
     interfaces,
     mixed,
@@ -62,8 +62,7 @@ class Cycle:
         self.still = np.array([g if low_r else -1, g + grid.nr if high_r else -1, g if low_z else -1,
                                g + grid.nz if high_z else -1], dtype=np.int64)
         self.carried = np.array([self._carried(m) for m in range(state.bodies)])
-        order = method.order
-        self.orders = np.array([[*order[state.group[order] == b], *order[state.group[order] != b]] for b in range(2)], dtype=np.int64)
+        self.contact = Contact(state, method, self.edges, self.still) if state.groups > 1 else None
         self.box = list(self.edges)
         self.ledger = None
         self.speed_limit = 0.0
@@ -192,9 +191,8 @@ class Cycle:
         self._keep_one()
 
     def _keep_one(self) -> None:
-        s, g = self.state, self.grid
-        if s.groups > 1:
-            contact.keep_one(*self.box, s.around, s.mass, s.u, s.v)
+        if self.contact:
+            self.contact.keep_one(self.box)
 
     def ghost_vertices(self) -> None:
         """Mirrors or copies velocities beyond the edges of the mesh."""
@@ -234,29 +232,14 @@ class Cycle:
             s.mixed_count, s.mixed, s.group, t.eos_model, t.eos_par, t.strength_model, t.strength_par, t.damage_model,
             t.fracture_pressure, self.loose, s.u, s.v, s.vof, s.q, s.pm, s.km, s.tm, s.p, s.bulk, s.rhobar, s.solid, s.cl,
             s.qr, s.qz, s.weight, s.rows[0], s.rows[1], s.row_numbers, s.scratch)
-        if s.groups > 1:
-            self._find_contact()
+        if self.contact:
+            self.contact.find(j0, j1)
         thermodynamics.least_step(j0, j1, s.rows[1], s.row_numbers, s.found)
         if s.found[1] >= 0:
             self._report_bad(s.found[1])
         if s.found[2] >= 0:
             raise UnphysicalState(f"cycle {self.number}, time {self.time:.6g} s: velocities that are not finite near "
                                   f"z = {g.zc[s.found[2]]:.6g} m")
-
-    def _find_contact(self) -> None:
-        """Where two groups meet: weights of faces, normals, light vertices; volume rate and viscosity of the cut cells."""
-        s, g, method, (j0, j1, _, _) = self.state, self.grid, self.method, self.box
-        contact.find_shared(j0, j1, self.edges, s.around, s.mass, s.group, s.vof, s.shared_count, s.shared, s.hard, s.soft,
-                            s.tied, s.heat)
-        contact.cut_lines(j0, j1, self.edges, g.dr, g.dz, s.shared_count, s.shared, s.hard, s.soft, s.cut, s.line)
-        contact.face_weights(j0, j1, self.edges, self.still, s.cut, s.line, s.hard, s.soft, s.mass, s.shared_count, s.shared,
-                             s.wet_r, s.wet_z, s.contact_normal, s.touch)
-        contact.link_light(j0, j1, self.edges, g.volume, g.cm_in, g.cm_out, s.shared_count, s.shared, s.contact_normal,
-                           s.hard, s.soft, s.mass, s.link)
-        contact.cut_viscosity(j0, j1, method.linear, method.quadratic, method.courant, g.dr, g.dz, g.vol_r, g.face_r, g.az_in,
-                              g.az_out, s.cut, s.line, s.around, s.contact_normal, s.wet_r, s.wet_z, s.u, s.v, s.cl, s.rhobar,
-                              s.vof, s.q, s.p, s.solid, s.bulk, s.qr, s.qz, s.rate, s.rows[1], s.mixed_count, s.mixed,
-                              s.deficit[0])
 
     def _report_bad(self, j: int) -> None:
         s, g = self.state, self.grid
@@ -294,9 +277,8 @@ class Cycle:
             j0, j1, self.dt, g.face_r, g.az_in, g.az_out, g.vol_r, g.dz, s.span, s.reach, s.mixed_count, s.mixed,
             method.strength_mode == mixed.SOLID, method.hard, method.threshold, s.u, s.v, s.vof, s.q, s.p, s.bulk, s.solid,
             s.qr, s.qz, s.ph, s.sig_rr, s.sig_zz, s.sig_tt, s.sig_rz)
-        if s.groups > 1:
-            contact.cut_stress(j0, j1, self.dt, s.cut, s.around, s.line, s.hard, s.soft, s.rate, s.p, s.bulk, s.ph, s.sig_rr,
-                               s.sig_zz, s.sig_tt, s.sig_rz, s.contact_pressure)
+        if self.contact:
+            self.contact.stress(j0, j1, self.dt)
 
     def accelerate(self) -> None:
         """Velocities at the end of the step."""
@@ -310,54 +292,34 @@ class Cycle:
         if limited[2, j0:j1 + 1].any():
             self.ledger.book("speed_limit", momentum=float(limited[0, j0:j1 + 1].sum()),
                              energy=float(limited[1, j0:j1 + 1].sum()))
-        if s.groups > 1:
-            self._meet()
+        if self.contact:
+            self.contact.meet(j0, j1, self.dt, self.ledger)
         self._hold_still()
         self._keep_one()
         self.ghost_vertices()
-
-    def _meet(self) -> None:
-        """Velocities of both groups where they share vertices: forces, light vertices, contact and friction."""
-        s, g, method, (j0, j1, _, _) = self.state, self.grid, self.method, self.box
-        contact.shared_forces(
-            j0, j1, self.dt, s.group, method.strength_mode == mixed.SOLID, g.face_r, g.hoop, g.az_in, g.az_out, g.mid_r, g.dz,
-            self.still, s.shared_count, s.shared, s.wet_r, s.wet_z, s.ph, s.qr, s.solid, s.vof, s.q, s.weight, s.hard, s.soft,
-            s.mass, s.u0, s.v0, s.trial, s.exchange)
-        contact.join(j0, j1, self.dt, method.friction, self.still, g.face_r, g.hoop, g.az_in, g.az_out, g.dz, s.cut, s.line, s.shared_count,
-                     s.shared, s.contact_normal, s.touch, s.link, s.sig_rr, s.sig_zz, s.sig_rz, s.mass, s.trial, s.tied, s.u0,
-                     s.v0, s.u, s.v, s.heat, s.exchange)
-        pushed, *heats, walls = s.exchange[:, j0:j1 + 1].sum(axis=1)
-        self.ledger.book("walls", momentum=float(walls))
-        self.ledger.exchange("contact", momentum=float(pushed), energy=float(heats[0]))
-        self.ledger.exchange("friction", energy=float(heats[1]))
-        self.ledger.exchange("light vertices", energy=float(heats[2]))
 
     def sweep_faces(self) -> None:
         """Volumes that the faces sweep in the step; they are the change of volume, and later the remap's fluxes."""
         s, g, (j0, j1, i0, i1) = self.state, self.grid, self.box
         acceleration.swept_volumes(j0, j1 + 1, i0, i1, self.dt, g.face_r, g.az_in, g.az_out, g.dz, s.around, s.u0, s.v0,
                                    s.u, s.v, s.fr, s.fz)
-        if s.groups > 1:
-            contact.cut_volumes(j0, j1, self.dt, g.face_r, g.az_in, g.az_out, g.dz, s.cut, s.wet_r, s.wet_z, s.u0, s.v0, s.u,
-                                s.v, s.fr, s.fz, s.own_r, s.own_z)
+        if self.contact:
+            self.contact.volumes(j0, j1, self.dt)
 
     def deform(self) -> None:
         """Work, volume, strain: body by body in pure cells, then the mixed cells; no shear in the slip layer."""
         s, g, t, method, (j0, j1, _, _) = self.state, self.grid, self.table, self.method, self.box
-        if s.groups > 1:
-            contact.cut_work(j0, j1, self.dt, g.face_r, g.az_in, g.az_out, g.dz, s.cut, s.group, s.wet_r, s.wet_z, s.ph, s.qr,
-                             s.u0, s.v0, s.u, s.v, s.fr, s.fz, s.cell_mass, s.vof, s.q)
         deformation.deform(
             j0, j1, self.dt, g.face_r, g.hoop, g.az_in, g.az_out, g.vol_r, g.mid_r, g.dz, s.span, s.group, t.strength_model,
             t.strength_par, t.damage_model, t.damage_par, method.factor, self.loose, s.u0, s.v0, s.u, s.v, s.fr, s.fz,
             s.sig_rr, s.sig_zz, s.sig_tt, s.sig_rz, s.weight, s.vof, s.pm, s.tm, s.scratch, s.q)
         mixed.deform_mixed(
             j0, j1, self.dt, method.relaxation, method.tipton, method.strength_mode, method.hard, method.threshold, g.face_r,
-            g.hoop, g.az_in, g.az_out, g.vol_r, g.mid_r, g.dz, s.mixed_count, s.mixed, s.group, s.cut, s.cell_mass, t.strength_model, t.strength_par,
-            t.damage_model, t.damage_par, method.factor, self.loose, s.u0, s.v0, s.u, s.v, s.fr, s.fz, s.ph, s.qr, s.qz,
-            s.weight, s.solid, s.pm, s.km, s.tm, s.vof, s.q, s.mix, s.motion)
-        if s.groups > 1:
-            momentum.deposit(j0, j1, g.cm_in, g.cm_out, s.around[1, 0], s.group, s.heat, s.cell_mass, s.vof, s.q, s.rows[5])
+            g.hoop, g.az_in, g.az_out, g.vol_r, g.mid_r, g.dz, s.mixed_count, s.mixed, s.group, s.cut, s.cell_mass,
+            t.strength_model, t.strength_par, t.damage_model, t.damage_par, method.factor, self.loose, s.u0, s.v0, s.u, s.v,
+            s.fr, s.fz, s.ph, s.qr, s.qz, s.weight, s.solid, s.pm, s.km, s.tm, s.vof, s.q, s.mix, s.motion)
+        if self.contact:
+            self.contact.warm(j0, j1)
         if method.slip_widths is not None:
             sliding.cut_shear(j0, j1, method.shear, method.friction, s.occupied[0], s.zone, s.normal, method.hard, s.vof, s.pm,
                               s.q)
@@ -379,11 +341,8 @@ class Cycle:
                                  s.flux_volume)
         interfaces.interface_volumes(dj, di, j0, j1, g.dr, g.dz, self.method.order, s.mixed_count, s.mixed, face, s.pre, s.vof,
                                      s.flux_volume, s.mix)
-        if s.groups > 1:
-            contact.cut_shares(j0, j1, self.edges, s.cut, g.volume, s.pre, s.vof, s.part, s.size)
-            contact.cut_fluxes(dj, di, j0, j1, self.edges, g.dr, g.dz, self.orders, s.group, s.cut, s.line, face,
-                               s.own_r if di else s.own_z, s.part, s.size, s.vof, s.flux_volume)
-            contact.limit_fluxes(dj, di, j0, j1, self.edges, s.cut, s.pre, s.vof, s.flux_volume)
+        if self.contact:
+            self.contact.fluxes(dj, di, j0, j1)
 
     def remap_bodies(self, dj: int, di: int, second: int) -> None:
         """Fluxes and update of every body's fields; the cells' masses, and which of them are mixed."""

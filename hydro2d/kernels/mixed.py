@@ -87,9 +87,9 @@ def tear_mixed_row(j, smallest, max_opening, vol_r, dz, mixed_count, mixed, grou
 
 @kernel
 def close_cells(j0, j1, max_opening, smallest_tension, linear, quadratic, courant, advective, hourglass, face_r, az_in, az_out,
-                vol_r, dr, dz, span, reach, mixed_count, mixed, group, eos_model, eos_par, strength_model, strength_par, damage_model,
-                fracture_pressure, loose, u, v, vof, q, pm, km, tm, p, bulk, rhobar, solid, cl, qr, qz, weight, opened,
-                row_step, bad, scratch):
+                vol_r, dr, dz, span, reach, mixed_count, mixed, group, eos_model, eos_par, strength_model, strength_par,
+                damage_model, fracture_pressure, loose, u, v, vof, q, pm, km, tm, p, bulk, rhobar, solid, cl, qr, qz, weight,
+                opened, row_step, bad, scratch):
     """Equation of state, void where a cell tears, artificial viscosity and the time step that every cell allows.
 
     Reads, updates and writes what pressures_row, tear_mixed_row and viscosity_row do, and the list of mixed cells
@@ -122,8 +122,8 @@ def split_volume(void, change, volume):
 
 @kernel
 def deform_mixed(j0, j1, dt, relaxation, tipton, mode, hard, hard_threshold, face_r, hoop, az_in, az_out, vol_r,
-                 mid_r, dz, mixed_count, mixed, group, cut, cell_mass, strength_model, strength_par, damage_model, damage_par, factor, loose, u0,
-                 v0, u, v, fr, fz, ph, qr, qz, weight, solid, pm, km, tm, vof, q, mix, motion):
+                 mid_r, dz, mixed_count, mixed, group, cut, cell_mass, strength_model, strength_par, damage_model,
+                 damage_par, factor, loose, u0, v0, u, v, fr, fz, ph, qr, qz, weight, solid, pm, km, tm, vof, q, mix, motion):
     """The Lagrangian step of the bodies in mixed cells.
 
     Volume: void first, then by compressibility, w_m = R_m/Rbar with R_m = f_m/K_m, then relaxation of the pressures,

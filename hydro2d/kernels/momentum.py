@@ -79,8 +79,8 @@ def vertex_row(g, dj, di, j, i0, i1, below, above, choice, bound, still, cm_in, 
     P/M is kept within the velocities of the three vertices that it comes from, which removes round-off only. The normal
     velocity on the axis and on walls is zero: still holds the columns (2) and the rows (2) of those, -1 for none.
 
-    Reads    cell_mass [b, j, i] after the sweep, dual [k, slot, i] in the slots `below` and `above`; w_old = (u, v) [c, b, j, i]
-             and mass [b, j, i] before it
+    Reads    cell_mass [b, j, i] after the sweep, dual [k, slot, i] in the slots `below` and `above`;
+             w_old = (u, v) [c, b, j, i] and mass [b, j, i] before it
     Writes   w = (u, v) [c, b, j, i], of group 0 for the whole row; deficit [b, j, i]
     Updates  sums [5, j]: kinetic energy before and after; axial momentum after less P; kinetic energy cut by the bound;
              axial momentum given to walls
@@ -154,7 +154,8 @@ def sweep_momentum(dj, di, j0, j1, i0, i1, choice, bound, still, edges, cm_in, c
     """Carries the momentum of the vertices j0 to j1 along one direction.
 
     Reads    what dual_row and vertex_row read; edges (j0, j1, i0, i1 of the mesh)
-    Writes   w = (u, v) [c, b, j, i]; deficit [b, j, i], sums [5, j]; edge_dual [b, side, k, j or i], what flows over the mesh's edges
+    Writes   w = (u, v) [c, b, j, i]; deficit [b, j, i], sums [5, j]; edge_dual [b, side, k, j or i],
+             what flows over the mesh's edges
     Scratch  dual [k, slot, i], two slots to a block of rows; in z they take turns
     """
     blocks = number_of_blocks(j0, j1 + 1)

@@ -208,8 +208,8 @@ def sum_cell_mass(j0, j1, around, group, volume, vof, q, cell_mass):
 
 
 @rowwise
-def sweep_row(dj, di, j, i0, i1, below, above, b, carried, group, near, around, face, pre, volume, second, flux_volume, flux, scratch,
-              vof, q, cell_mass, mixed_count, mixed):
+def sweep_row(dj, di, j, i0, i1, below, above, b, carried, group, near, around, face, pre, volume, second, flux_volume, flux,
+              scratch, vof, q, cell_mass, mixed_count, mixed):
     """Row j after the sweep: every body, the mass of the cells and the list of those that are mixed."""
     for m in range(near.shape[1]):
         update_row(dj, di, j, i0, i1, m, carried[m], below, above, b, near, face, pre, flux_volume, flux, scratch, vof, q)
@@ -218,11 +218,12 @@ def sweep_row(dj, di, j, i0, i1, below, above, b, carried, group, near, around, 
 
 
 @kernel
-def sweep_r(j0, j1, i0, i1, carried, group, edges, near, around, face, pre, volume, second, flux_volume, scratch, flux, flux_mass,
-            edge_flux, vof, q, cell_mass, mixed_count, mixed):
+def sweep_r(j0, j1, i0, i1, carried, group, edges, near, around, face, pre, volume, second, flux_volume, scratch, flux,
+            flux_mass, edge_flux, vof, q, cell_mass, mixed_count, mixed):
     """Carries every body along r: fluxes and update row by row.
 
-    Reads    carried, group [m]; edges (j0, j1, i0, i1 of the mesh), near, around; face, pre, volume [j, i]; flux_volume [m, j, i]
+    Reads    carried, group [m]; edges (j0, j1, i0, i1 of the mesh), near, around; face, pre, volume [j, i];
+             flux_volume [m, j, i]
     Updates  vof [m, j, i], q [k, m, j, i]
     Writes   flux_mass, cell_mass [b, j, i]; edge_flux [side, k, m, j] of mass and energy; mixed_count [j], mixed [j, k]
     Scratch  scratch [s, block, i], flux [k, m, slot, i]
@@ -241,8 +242,8 @@ def sweep_r(j0, j1, i0, i1, carried, group, edges, near, around, face, pre, volu
                     edge_flux[side, RHO, m, j] = flux[RHO, m, slot, i] if lo <= i < hi else 0.0
                     edge_flux[side, E, m, j] = flux[E, m, slot, i] if lo <= i < hi else 0.0
             mass_flux_row(0, 1, j, i0, i1, slot, around, near, group, flux, flux_mass)
-            sweep_row(0, 1, j, i0, i1, slot, slot, b, carried, group, near, around, face, pre, volume, second, flux_volume, flux,
-                      scratch, vof, q, cell_mass, mixed_count, mixed)
+            sweep_row(0, 1, j, i0, i1, slot, slot, b, carried, group, near, around, face, pre, volume, second, flux_volume,
+                      flux, scratch, vof, q, cell_mass, mixed_count, mixed)
 
 
 @point
@@ -274,8 +275,8 @@ def shared_fluxes(j0, j1, i0, i1, carried, near, pre, flux_volume, vof, q, scrat
 
 
 @kernel
-def sweep_z(j0, j1, i0, i1, carried, group, edges, near, around, face, pre, volume, second, flux_volume, scratch, flux, flux_mass,
-            edge_flux, vof, q, cell_mass, mixed_count, mixed):
+def sweep_z(j0, j1, i0, i1, carried, group, edges, near, around, face, pre, volume, second, flux_volume, scratch, flux,
+            flux_mass, edge_flux, vof, q, cell_mass, mixed_count, mixed):
     """Carries every body along z: a row is updated as soon as the fluxes of the faces that need it are known.
 
     Reads    flux of the shared faces (shared_fluxes), and what sweep_r reads
@@ -304,8 +305,8 @@ def sweep_z(j0, j1, i0, i1, carried, group, edges, near, around, face, pre, volu
             if j >= first and (f > last or j < last - 1):
                 below = slot_of(j, b, j0, blocks)
                 above = slot_of(j + 1, b, j0, blocks)
-                sweep_row(1, 0, j, i0, i1, below, above, b, carried, group, near, around, face, pre, volume, second, flux_volume,
-                          flux, scratch, vof, q, cell_mass, mixed_count, mixed)
+                sweep_row(1, 0, j, i0, i1, below, above, b, carried, group, near, around, face, pre, volume, second,
+                          flux_volume, flux, scratch, vof, q, cell_mass, mixed_count, mixed)
 
 
 @kernel

@@ -16,7 +16,7 @@ LAYERS = (
     ("hydro2d.fields", "hydro2d.grid", "hydro2d.state", "hydro2d.deck", "hydro2d.deck_*", "hydro2d.materials",
      "hydro2d.thermal", "hydro2d.sums", "hydro2d.tracers", "hydro2d.shapes", "hydro2d.insertion"),
     ("hydro2d.kernels",),
-    ("hydro2d.audit", "hydro2d.method", "hydro2d.cycle"),
+    ("hydro2d.audit", "hydro2d.method", "hydro2d.contact", "hydro2d.cycle"),
     ("hydro2d.penetrator", "hydro2d.simulation"),
     ("hydro2d.derived", "hydro2d.outlines", "hydro2d.history", "hydro2d.snapshot", "hydro2d.progress", "hydro2d.vtk",
      "hydro2d.figures", "hydro2d.run", "hydro2d.results", "hydro2d.bench", "hydro2d.check", "hydro2d.export", "hydro2d.info",
@@ -127,7 +127,8 @@ def users(library: str) -> set[str]:
         ("vtk", ("hydro2d.vtk", "hydro2d.figures")),
         ("pint", ("hydro2d.units",)),
         ("scipy", ("hydro2d.penetration",)),
-        ("hydro2d.kernels", ("hydro2d.kernels", "hydro2d.method", "hydro2d.cycle", "hydro2d.bench")),
+        ("hydro2d.kernels", ("hydro2d.kernels", "hydro2d.method", "hydro2d.contact", "hydro2d.cycle",
+                             "hydro2d.bench")),
     ],
 )
 def test_only_these_import(library, allowed):

@@ -1,0 +1,199 @@
+"""Volumes in the cells that the contact of two groups cuts: one rate of change, what it does to pure cells, what flows.
+
+The faces are swept by both groups, each by its weight (kernels/contact); a body flows with the velocity of its group.
+"""
+
+from hydro2d.fields import E
+from hydro2d.jit import apart, kernel, point, prange
+from hydro2d.kernels.contact import FIRST
+from hydro2d.kernels.interfaces import FULL, cumulative, strip_share, youngs_normal
+from hydro2d.kernels.spans import union
+
+
+@point
+def blend(weight, hard, soft):
+    """Velocity of a face at one end: the hard group's by its weight, the other's for the rest."""
+    return weight * hard + (1.0 - weight) * soft
+
+
+@point
+def face_flow_r(j, i, g, wet_r, u):
+    """Sum over both ends of the velocity of r-face (j, i): of group g, or of both by weight for g < 0."""
+    if g >= 0:
+        return u[g, j, i] + u[g, j + 1, i]
+    return blend(wet_r[0, j, i], u[1, j, i], u[0, j, i]) + blend(wet_r[1, j, i], u[1, j + 1, i], u[0, j + 1, i])
+
+
+@point
+def face_flow_z(j, i, g, az_in, az_out, wet_z, v):
+    """Volume per time through z-face (j, i), of group g or of both by weight for g < 0."""
+    if g >= 0:
+        return az_in[i] * v[g, j, i] + az_out[i] * v[g, j, i + 1]
+    return az_in[i] * blend(wet_z[0, j, i], v[1, j, i], v[0, j, i]) + az_out[i] * blend(
+        wet_z[1, j, i], v[1, j, i + 1], v[0, j, i + 1])
+
+
+@point
+def volume_rate(j, i, g, face_r, az_in, az_out, h, wet_r, wet_z, u, v):
+    """Rate of change of the volume of cell (j, i) with the velocities of group g, or with both by weight for g < 0."""
+    radial = face_r[i + 1] * face_flow_r(j, i + 1, g, wet_r, u) - face_r[i] * face_flow_r(j, i, g, wet_r, u)
+    axial = face_flow_z(j + 1, i, g, az_in, az_out, wet_z, v) - face_flow_z(j, i, g, az_in, az_out, wet_z, v)
+    return 0.5 * h * radial + axial
+
+
+@kernel
+def cut_volumes(j0, j1, dt, face_r, az_in, az_out, dz, cut, wet_r, wet_z, u0, v0, u, v, fr, fz, own_r, own_z):
+    """Volumes swept in the step by the faces of cut cells: by weight, and by each group as if it were alone.
+
+    Reads    u0, v0, u, v [b, j, i]
+    Writes   fr, fz [j, i]; own_r, own_z [b, j, i]
+    """
+    for j in prange(j0, j1 + 1):
+        if j < j1:
+            for i in range(cut[j, 0], cut[j, 1] + 1):
+                scale = 0.25 * dt * face_r[i] * dz[j]
+                fr[j, i] = scale * (face_flow_r(j, i, -1, wet_r, u) + face_flow_r(j, i, -1, wet_r, u0))
+                for g in range(2):
+                    own_r[g, j, i] = scale * (face_flow_r(j, i, g, wet_r, u) + face_flow_r(j, i, g, wet_r, u0))
+        lo, hi = union(cut, max(j - 1, j0), min(j + 1, j1))
+        for i in range(lo, hi):
+            fz[j, i] = 0.5 * dt * (face_flow_z(j, i, -1, az_in, az_out, wet_z, v)
+                                   + face_flow_z(j, i, -1, az_in, az_out, wet_z, v0))
+            for g in range(2):
+                own_z[g, j, i] = 0.5 * dt * (face_flow_z(j, i, g, az_in, az_out, wet_z, v)
+                                             + face_flow_z(j, i, g, az_in, az_out, wet_z, v0))
+
+
+@kernel
+def cut_work(j0, j1, dt, face_r, az_in, az_out, dz, cut, group, wet_r, wet_z, ph, qr, u0, v0, u, v, fr, fz, cell_mass, vof, q):
+    """Pressure work in the pure cells among the cut ones: by the volume that they lose, not by their group's own.
+
+    `deform` does the work of the group's own rate of volume; this is what is missing.
+
+    Reads    ph, qr [j, i], velocities, fr, fz [j, i], cell_mass [b, j, i]
+    Updates  q (e) [k, m, j, i]
+    """
+    for j in prange(j0, j1):
+        for i in range(cut[j, 0], cut[j, 1]):
+            for m in range(vof.shape[0]):
+                if vof[m, j, i] == 1.0:
+                    g = group[m]
+                    own = 0.5 * dt * (volume_rate(j, i, g, face_r, az_in, az_out, dz[j], wet_r, wet_z, u, v)
+                                      + volume_rate(j, i, g, face_r, az_in, az_out, dz[j], wet_r, wet_z, u0, v0))
+                    change = (fr[j, i + 1] - fr[j, i]) + (fz[j + 1, i] - fz[j, i])
+                    q[E, m, j, i] -= (ph[j, i] + qr[j, i]) * (change - own) / cell_mass[g, j, i]
+
+
+@kernel
+def cut_shares(j0, j1, edges, cut, volume, pre, vof, part, size):
+    """Fractions of a volume that void does not stretch, in the cut cells and two around them.
+
+    A cell with void that one group leaves grows, and with it what the fractions say of the group that rests in it: its line
+    would move and turn. The fractions here are of the volume that the cell had, or of what its bodies fill if that is more;
+    a full cell keeps its own.
+
+    Reads    volume, pre [j, i], vof [m, j, i]
+    Writes   part [m, j, i], the fractions; size [j, i] (m^3), the volume that they are of
+    """
+    for j in prange(j0 - 2, j1 + 2):
+        lo, hi = union(cut, max(j - 2, j0), min(j + 3, j1))
+        for i in range(lo - 2, hi + 2):
+            total = 0.0
+            for m in range(vof.shape[0]):
+                total += vof[m, j, i]
+            scale = 1.0
+            inside = edges[0] <= j < edges[1] and edges[2] <= i < edges[3]
+            if inside and 0.0 < total < 1.0 - FULL:
+                scale = min(pre[j, i] / volume[j, i], 1.0 / total)
+            for m in range(vof.shape[0]):
+                part[m, j, i] = vof[m, j, i] * scale
+            size[j, i] = pre[j, i] / scale
+
+
+@apart
+def strip_of(m, j, i, along_z, width, high, order, part, dr, dz):
+    """Volume of body m in a strip of cell (j, i), as a share of the cell; nested in the order, never more than there is."""
+    below, total, given = 0.0, 0.0, 0.0
+    for k in range(order.shape[0]):
+        f = part[order[k], j, i]
+        total += f
+        total = total if total < 1.0 - FULL else 1.0
+        if f == 0.0:
+            continue
+        n_r, n_z = youngs_normal(j, i, k, order, part, dr, dz)
+        if along_z:
+            n_r, n_z = n_z, n_r
+        filled = strip_share(n_r, n_z, total, width, high)
+        filled = min(max(filled, max(below, width - (1.0 - total))), min(below + f, width))
+        given = filled - below
+        if order[k] == m:
+            break
+        below = filled
+    return given
+
+
+@kernel
+def cut_fluxes(dj, di, j0, j1, edges, dr, dz, orders, group, cut, line, face, own, part, size, vof, flux_volume):
+    """Volume of every body through the faces of cut cells, with the velocity of its group.
+
+    In a cell the group with the flatter surface comes first among the nested interfaces. What the bodies together are short of,
+    or beyond, the volume that the face sweeps goes to the largest body of the cell that loses it, unless that cell has void.
+
+    Reads    face [j, i], own [b, j, i], what cut_shares wrote, vof [m, j, i], group [m], line [9, j, i]; orders [b, m], with
+             the bodies of group b first
+    Updates  flux_volume [m, j, i]
+    """
+    bodies = group.shape[0]
+    for j in prange(j0, j1 + dj):
+        lo, hi = union(cut, max(j - dj, j0), min(j + 1, j1))
+        if lo >= hi:
+            continue
+        for i in range(lo, hi + di):
+            if (di == 1 and (i == edges[2] or i == edges[3])) or (dj == 1 and (j == edges[0] or j == edges[1])):
+                continue
+            total = 0.0
+            for m in range(bodies):
+                swept = own[group[m], j, i]
+                up = swept > 0.0
+                row, column = (j - dj, i - di) if up else (j, i)
+                volume = 0.0
+                if vof[m, row, column] == 1.0:
+                    volume = swept
+                elif vof[m, row, column] > 0.0 and swept != 0.0:
+                    width = min(abs(swept) / size[row, column], 1.0)
+                    first = 1
+                    if cut[row, 0] <= column < cut[row, 1]:
+                        first = int(line[FIRST, row, column])
+                    given = strip_of(m, row, column, dj == 1, width, up, orders[first], part, dr, dz) * size[row, column]
+                    volume = given if up else -given
+                flux_volume[m, j, i] = volume
+                total += volume
+            rest = face[j, i] - total
+            up = face[j, i] > 0.0
+            row, column = (j - dj, i - di) if up else (j, i)
+            if rest != 0.0 and cumulative(row, column, bodies - 1, orders[1], vof) > 1.0 - FULL:
+                largest = 0
+                for m in range(bodies):
+                    largest = m if vof[m, row, column] > vof[largest, row, column] else largest
+                flux_volume[largest, j, i] += rest
+
+
+@kernel
+def limit_fluxes(dj, di, j0, j1, edges, cut, pre, vof, flux_volume):
+    """No cell gives more of a body through both of its faces than it has.
+
+    Reads    pre [j, i], vof [m, j, i]
+    Updates  flux_volume [m, j, i] of the faces around cut cells
+    """
+    for j in prange(j0, j1):
+        lo, hi = union(cut, max(j - dj, j0), min(j + dj + 1, j1))
+        for i in range(max(lo - di, edges[2]), min(hi + di, edges[3])):
+            for m in range(vof.shape[0]):
+                low, high = max(-flux_volume[m, j, i], 0.0), max(flux_volume[m, j + dj, i + di], 0.0)
+                there = vof[m, j, i] * pre[j, i]
+                if low + high > there and vof[m, j, i] > 0.0:
+                    keep = there / (low + high)
+                    if low > 0.0:
+                        flux_volume[m, j, i] = -keep * low
+                    if high > 0.0:
+                        flux_volume[m, j + dj, i + di] = keep * high
