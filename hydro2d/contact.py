@@ -34,7 +34,7 @@ class Contact:
                             s.tied, s.heat)
         contact.cut_lines(j0, j1, self.edges, g.dr, g.dz, s.shared_count, s.shared, s.hard, s.soft, s.cut, s.line)
         contact.face_weights(j0, j1, self.edges, self.still, s.cut, s.line, s.hard, s.soft, s.mass, s.shared_count, s.shared,
-                             s.wet_r, s.wet_z, s.contact_normal, s.touch)
+                             s.u, s.v, s.wet_r, s.wet_z, s.contact_normal, s.touch)
         contact.link_light(j0, j1, self.edges, g.volume, g.cm_in, g.cm_out, s.shared_count, s.shared, s.contact_normal,
                            s.hard, s.soft, s.mass, s.link)
         contact_motion.cut_viscosity(

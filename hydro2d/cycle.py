@@ -378,10 +378,11 @@ class Cycle:
         flow = s.flux_mass
         for face, sign in self._open_faces(di):  # beyond an open edge the flux goes on as it was
             beyond = face + int(sign)
-            if di:
-                flow[:, :, beyond] = flow[:, :, face]
-            else:
-                flow[:, beyond] = flow[:, face]
+            for of_group in flow:
+                if di:
+                    of_group[:, beyond] = of_group[:, face]
+                else:
+                    of_group[beyond] = of_group[face]
         s.swap_velocities()
         sums = s.rows[:5]
         momentum.sweep_momentum(

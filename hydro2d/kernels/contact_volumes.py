@@ -6,7 +6,7 @@ The faces are swept by both groups, each by its weight (kernels/contact); a body
 from hydro2d.fields import E
 from hydro2d.jit import apart, kernel, point, prange
 from hydro2d.kernels.contact import FIRST
-from hydro2d.kernels.interfaces import FULL, cumulative, strip_share, youngs_normal
+from hydro2d.kernels.interfaces import FULL, strip_share, youngs_normal
 from hydro2d.kernels.spans import union
 
 
@@ -86,11 +86,10 @@ def cut_work(j0, j1, dt, face_r, az_in, az_out, dz, cut, group, wet_r, wet_z, ph
 
 @kernel
 def cut_shares(j0, j1, edges, cut, volume, pre, vof, part, size):
-    """Fractions of a volume that void does not stretch, in the cut cells and two around them.
+    """Fractions of the cell as it stands on the mesh, in the cut cells and two around them.
 
-    A cell with void that one group leaves grows, and with it what the fractions say of the group that rests in it: its line
-    would move and turn. The fractions here are of the volume that the cell had, or of what its bodies fill if that is more;
-    a full cell keeps its own.
+    The volume before a sweep is what both groups leave of the cell. Neither is stretched by what the other does: a line that
+    follows that volume would move and turn without its body. In void the bodies fill no more than the cell.
 
     Reads    volume, pre [j, i], vof [m, j, i]
     Writes   part [m, j, i], the fractions; size [j, i] (m^3), the volume that they are of
@@ -98,13 +97,15 @@ def cut_shares(j0, j1, edges, cut, volume, pre, vof, part, size):
     for j in prange(j0 - 2, j1 + 2):
         lo, hi = union(cut, max(j - 2, j0), min(j + 3, j1))
         for i in range(lo - 2, hi + 2):
-            total = 0.0
+            total, largest = 0.0, 0.0
             for m in range(vof.shape[0]):
                 total += vof[m, j, i]
+                largest = max(largest, vof[m, j, i])
             scale = 1.0
-            inside = edges[0] <= j < edges[1] and edges[2] <= i < edges[3]
-            if inside and 0.0 < total < 1.0 - FULL:
-                scale = min(pre[j, i] / volume[j, i], 1.0 / total)
+            if edges[0] <= j < edges[1] and edges[2] <= i < edges[3] and 0.0 < total and largest < 1.0:
+                scale = pre[j, i] / volume[j, i]
+                if total < 1.0 - FULL:
+                    scale = min(scale, 1.0 / total)
             for m in range(vof.shape[0]):
                 part[m, j, i] = vof[m, j, i] * scale
             size[j, i] = pre[j, i] / scale
@@ -132,12 +133,32 @@ def strip_of(m, j, i, along_z, width, high, order, part, dr, dz):
     return given
 
 
+@point
+def full(j, i, vof):
+    """Whether a cell has no void but round-off."""
+    total = 0.0
+    for m in range(vof.shape[0]):
+        total += vof[m, j, i]
+    return total > 1.0 - FULL
+
+
+@point
+def largest_of(g, j, i, group, vof):
+    """The body of group g that fills the most of cell (j, i), -1 if none is there."""
+    found, most = -1, 0.0
+    for m in range(vof.shape[0]):
+        if group[m] == g and vof[m, j, i] > most:
+            found, most = m, vof[m, j, i]
+    return found
+
+
 @kernel
 def cut_fluxes(dj, di, j0, j1, edges, dr, dz, orders, group, cut, line, face, own, part, size, vof, flux_volume):
     """Volume of every body through the faces of cut cells, with the velocity of its group.
 
-    In a cell the group with the flatter surface comes first among the nested interfaces. What the bodies together are short of,
-    or beyond, the volume that the face sweeps goes to the largest body of the cell that loses it, unless that cell has void.
+    In a cell with void the group with the flatter surface comes first among the nested interfaces, else the hard one. What the
+    bodies together are short of, or beyond, the volume that the face sweeps goes to the largest of the softer bodies in the
+    cell that this comes from, and to the hard one only if there is none; not if the cell that loses volume has void.
 
     Reads    face [j, i], own [b, j, i], what cut_shares wrote, vof [m, j, i], group [m], line [9, j, i]; orders [b, m], with
              the bodies of group b first
@@ -151,7 +172,7 @@ def cut_fluxes(dj, di, j0, j1, edges, dr, dz, orders, group, cut, line, face, ow
         for i in range(lo, hi + di):
             if (di == 1 and (i == edges[2] or i == edges[3])) or (dj == 1 and (j == edges[0] or j == edges[1])):
                 continue
-            total = 0.0
+            total, softer = 0.0, 0.0
             for m in range(bodies):
                 swept = own[group[m], j, i]
                 up = swept > 0.0
@@ -162,20 +183,22 @@ def cut_fluxes(dj, di, j0, j1, edges, dr, dz, orders, group, cut, line, face, ow
                 elif vof[m, row, column] > 0.0 and swept != 0.0:
                     width = min(abs(swept) / size[row, column], 1.0)
                     first = 1
-                    if cut[row, 0] <= column < cut[row, 1]:
+                    if cut[row, 0] <= column < cut[row, 1] and not full(row, column, vof):
                         first = int(line[FIRST, row, column])
                     given = strip_of(m, row, column, dj == 1, width, up, orders[first], part, dr, dz) * size[row, column]
                     volume = given if up else -given
                 flux_volume[m, j, i] = volume
                 total += volume
+                softer += volume if group[m] == 0 else 0.0
             rest = face[j, i] - total
-            up = face[j, i] > 0.0
-            row, column = (j - dj, i - di) if up else (j, i)
-            if rest != 0.0 and cumulative(row, column, bodies - 1, orders[1], vof) > 1.0 - FULL:
-                largest = 0
-                for m in range(bodies):
-                    largest = m if vof[m, row, column] > vof[largest, row, column] else largest
-                flux_volume[largest, j, i] += rest
+            row, column = (j - dj, i - di) if face[j, i] > 0.0 else (j, i)
+            if rest != 0.0 and full(row, column, vof):
+                taker = largest_of(0, j - dj if softer + rest > 0.0 else j, i - di if softer + rest > 0.0 else i, group, vof)
+                if taker < 0:
+                    taker = largest_of(1, row, column, group, vof)
+                if taker < 0:
+                    taker = largest_of(0, row, column, group, vof)
+                flux_volume[taker, j, i] += rest
 
 
 @kernel

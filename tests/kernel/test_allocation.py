@@ -83,6 +83,7 @@ every_choice = pytest.mark.parametrize(
         {"active": "true", "advection": "ke", "sliding": "slip-layer"},
         {"active": "false", "advection": "both", "sliding": "slip-layer"},
         {"active": "true", "advection": "momentum", "sliding": "none"},
+        {"active": "false", "advection": "both", "sliding": "contact"},
     ],
     ids=lambda options: ", ".join(options.values()),
 )

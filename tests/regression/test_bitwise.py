@@ -43,12 +43,15 @@ time = "1 ms"
 cycles = 120
 """
 SLIP = 'sliding.method="slip-layer"', 'sliding.hard=["rod"]', "sliding.yield_factor=1.5"
+CONTACT = 'sliding.method="contact"', 'sliding.hard=["rod"]'
 CASES = {
     "ke": (),
     "both": ('numerics.advection="both"',),
     "momentum": ('numerics.advection="momentum"', 'numerics.mixed_strength="material"'),
     "slip-layer": SLIP,
     "friction": (*SLIP, 'sliding.shear="shear"', "sliding.friction=0.1"),
+    "contact": CONTACT,
+    "contact, both, friction": (*CONTACT, 'numerics.advection="both"', "sliding.friction=0.1"),
 }
 every_case = pytest.mark.parametrize("options", CASES.values(), ids=CASES)
 
