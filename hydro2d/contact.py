@@ -34,7 +34,7 @@ class Contact:
                             s.tied, s.heat)
         contact.cut_lines(j0, j1, self.edges, g.dr, g.dz, s.shared_count, s.shared, s.hard, s.soft, s.cut, s.line)
         contact.face_weights(j0, j1, self.edges, self.still, s.cut, s.line, s.hard, s.soft, s.mass, s.shared_count, s.shared,
-                             s.u, s.v, s.wet_r, s.wet_z, s.contact_normal, s.touch)
+                             s.wet_r, s.wet_z, s.contact_normal, s.touch)
         contact.link_light(j0, j1, self.edges, g.volume, g.cm_in, g.cm_out, s.shared_count, s.shared, s.contact_normal,
                            s.hard, s.soft, s.mass, s.link)
         contact_motion.cut_viscosity(
@@ -58,9 +58,9 @@ class Contact:
         contact_motion.tie_light(j0, j1, self.still, s.shared_count, s.shared, s.link, s.mass, s.trial, s.tied, s.u, s.v,
                                  s.exchange)
         contact_motion.touch_and_rub(
-            j0, j1, dt, method.friction, g.face_r, g.hoop, g.az_in, g.az_out, g.dz, s.cut, s.line, s.shared_count, s.shared,
-            s.contact_normal, s.touch, s.link, s.sig_rr, s.sig_zz, s.sig_rz, s.mass, s.tied, s.u0, s.v0, s.u, s.v, s.heat,
-            s.exchange)
+            j0, j1, dt, method.friction, self.still, g.face_r, g.hoop, g.az_in, g.az_out, g.dz, s.cut, s.line, s.shared_count,
+            s.shared, s.contact_normal, s.touch, s.link, s.sig_rr, s.sig_zz, s.sig_rz, s.mass, s.tied, s.u0, s.v0, s.u, s.v,
+            s.impulse, s.heat, s.exchange)
         contact_motion.follow(j0, j1, self.still, s.shared_count, s.shared, s.link, s.mass, s.trial, s.u0, s.v0, s.u, s.v,
                               s.heat, s.exchange)
         pushed, *heats, walls = s.exchange[:, j0:j1 + 1].sum(axis=1)

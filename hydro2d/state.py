@@ -94,6 +94,7 @@ class State:
         self.touch = np.zeros((nj + 1, ni + 1))
         self.trial = np.zeros((2, 2, nj + 1, ni + 1))
         self.tied = np.zeros((3, 2, nj + 1, ni + 1))
+        self.impulse = np.zeros((4, nj + 1, ni + 1))
         self.exchange = np.zeros((5, nj + 1))
 
     def empty_spans(self) -> None:

@@ -158,17 +158,6 @@ def trace(j, i, x0, y0, x1, y1, inside, line, hard, soft):
 
 
 @point
-def upwind(flow, solid_low, first_low, last_low, solid_high, first_high, last_high):
-    """Weights of both ends of a face as the cell has them that the hard group flows from; the mean without flow or solid."""
-    if flow > 0.0 and solid_low > 0.0:
-        return first_low, last_low
-    if flow < 0.0 and solid_high > 0.0:
-        return first_high, last_high
-    number = max(solid_low + solid_high, 1.0)
-    return (first_low + first_high) / number, (last_low + last_high) / number
-
-
-@point
 def known(weight, rest, hard_mass):
     """A weight, all of which goes to the group that is alone at a vertex."""
     if hard_mass == 0.0:
@@ -177,17 +166,15 @@ def known(weight, rest, hard_mass):
 
 
 @kernel
-def face_weights(j0, j1, edges, still, cut, line, hard, soft, mass, count, shared, u, v, wet_r, wet_z, normal,
-                 touch):
+def face_weights(j0, j1, edges, still, cut, line, hard, soft, mass, count, shared, wet_r, wet_z, normal, touch):
     """Weights of the hard group on the faces around shared vertices, and normals and contact at these.
 
-    The weight of a face is what the line of the cell wets of it that the hard group flows from, so that the hard group sweeps
-    what it gives. A normal is the mean of the four cells'
+    The weight of a face is the mean of what the lines of both neighbours wet of it. A normal is the mean of the four cells'
     slopes, from hard to soft, along the axis and along walls: of f_hard - f_soft, of f_hard, and of -f_soft, which differ
     where void is near. Groups touch where a cell holds both and no more than GAP of
     void, or where a full cell of one is a neighbour of a full cell of the other.
 
-    Reads    cut [j, 2], line [9, j, i], hard, soft [j, i], mass [b, j, i], count [j], shared [j, k]; u, v [b, j, i]
+    Reads    cut [j, 2], line [9, j, i], hard, soft [j, i], mass [b, j, i], count [j], shared [j, k]
     Writes   wet_r, wet_z [end, j, i]; normal [3, 2, j, i], touch [j, i] at shared vertices
     """
     for j in prange(j0, j1 + 1):
@@ -199,9 +186,9 @@ def face_weights(j0, j1, edges, still, cut, line, hard, soft, mass, count, share
                     solid_l, low_l, high_l = trace(j, i - 1, 1.0, 0.0, 1.0, 1.0, i - 1 >= cut[j, 0], line, hard, soft)
                 if i < edges[3]:
                     solid_r, low_r, high_r = trace(j, i, 0.0, 0.0, 0.0, 1.0, i < cut[j, 1], line, hard, soft)
-                low, high = upwind(u[1, j, i] + u[1, j + 1, i], solid_l, low_l, high_l, solid_r, low_r, high_r)
-                wet_r[0, j, i] = known(low, mass[0, j, i], mass[1, j, i])
-                wet_r[1, j, i] = known(high, mass[0, j + 1, i], mass[1, j + 1, i])
+                number = max(solid_l + solid_r, 1.0)
+                wet_r[0, j, i] = known((low_l + low_r) / number, mass[0, j, i], mass[1, j, i])
+                wet_r[1, j, i] = known((high_l + high_r) / number, mass[0, j + 1, i], mass[1, j + 1, i])
         lo, hi = union(cut, max(j - 1, j0), min(j + 1, j1))
         for i in range(lo, hi):
             solid_b, in_b, out_b = 0.0, 0.0, 0.0
@@ -210,9 +197,9 @@ def face_weights(j0, j1, edges, still, cut, line, hard, soft, mass, count, share
                 solid_b, in_b, out_b = trace(j - 1, i, 0.0, 1.0, 1.0, 1.0, cut[j - 1, 0] <= i < cut[j - 1, 1], line, hard, soft)
             if j < edges[1]:
                 solid_t, in_t, out_t = trace(j, i, 0.0, 0.0, 1.0, 0.0, cut[j, 0] <= i < cut[j, 1], line, hard, soft)
-            inner, outer = upwind(v[1, j, i] + v[1, j, i + 1], solid_b, in_b, out_b, solid_t, in_t, out_t)
-            wet_z[0, j, i] = known(inner, mass[0, j, i], mass[1, j, i])
-            wet_z[1, j, i] = known(outer, mass[0, j, i + 1], mass[1, j, i + 1])
+            number = max(solid_b + solid_t, 1.0)
+            wet_z[0, j, i] = known((in_b + in_t) / number, mass[0, j, i], mass[1, j, i])
+            wet_z[1, j, i] = known((out_b + out_t) / number, mass[0, j, i + 1], mass[1, j, i + 1])
         for k in range(count[j]):
             i = shared[j, k]
             hard_r, hard_z, soft_r, soft_z = 0.0, 0.0, 0.0, 0.0

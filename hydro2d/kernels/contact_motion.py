@@ -232,7 +232,7 @@ def tie_light(j0, j1, still, count, shared, link, mass, trial, tied, u, v, excha
                 alone = mass[1 - by, row, column] == 0.0  # a leader that is not shared is not met elsewhere in these rows
                 if alone and tied[0, by, row, column] > 0.0:
                     take_tied(by, row, column, still, mass, tied, u, v, exchange)
-                    tied[0, by, row, column] = 0.0
+                    tied[0, by, row, column] *= -1.0  # taken
 
 
 @point
@@ -256,32 +256,51 @@ def pressed(j, i, n_r, n_z, cut, face_r, hoop, az_in, az_out, dz, line, sig_rr, 
     return max(pressure / cells, 0.0) * abs(n_r * area_r + n_z * area_z) if cells > 0.0 else 0.0
 
 
-@kernel
-def touch_and_rub(j0, j1, dt, friction, face_r, hoop, az_in, az_out, dz, cut, line, count, shared, normal, touch, link, sig_rr,
-                  sig_zz, sig_rz, mass, tied, u0, v0, u, v, heat, exchange):
-    """Impulses between the groups at shared vertices that move by themselves.
+@point
+def give(g, j, i, push_r, push_z, still, mass, tied, u, v, exchange):
+    """An impulse to a vertex and what is tied to it; the axis and walls take their component."""
+    m = mass[g, j, i] + abs(tied[0, g, j, i])
+    if i != still[0] and i != still[1]:
+        u[g, j, i] += push_r / m
+    if j == still[2] or j == still[3]:
+        exchange[4, j] += push_z
+    else:
+        v[g, j, i] += push_z / m
+
+
+@serial
+def touch_and_rub(j0, j1, dt, friction, still, face_r, hoop, az_in, az_out, dz, cut, line, count, shared, normal, touch, link,
+                  sig_rr, sig_zz, sig_rz, mass, tied, u0, v0, u, v, impulse, heat, exchange):
+    """Impulses between the groups at shared vertices, friction also between the vertices that these are linked to.
 
     Where the groups touch and close by every normal, the impulse along that by which they close least gives them one normal
-    velocity; along the tangent there is at most friction times the normal impulse, that one and that of the normal stress on
-    the surface. A light group that has nothing to move with takes the velocity of the other. An impulse J between two
-    velocities makes the heat J . (w0 + w1)/2, w their difference at either end of the step, which is what the work of the
+    velocity, unless one is linked: then the pressure between them is enough. Along the tangent there is at most friction
+    times the normal impulse, that one and that of the normal stress on the surface. Vertices come one after another, by rows:
+    two may be linked to one. A light group that has nothing to move with takes the velocity of the other. An impulse J between
+    two velocities makes the heat J . (w0 + w1)/2, w their difference at either end of the step, which is what the work of the
     cells and the kinetic energy differ by (explanation/sliding, contact).
 
     Reads    mass, u0, v0 [b, j, i]; tied [3, b, j, i]; normal [3, 2, j, i], touch, link; line, sig_.. [j, i]
-    Updates  u, v [b, j, i]; heat [b, j, i], J per kg of the group's mass at a vertex
+    Updates  u, v [b, j, i]; heat [b, j, i], J per kg of the group's mass at a vertex; adds to exchange[4, j]
     Writes   exchange[:3, j]: axial momentum that the rest gains from the hard group, heat of contact and of friction
+    Scratch  impulse [4, j, i]
     """
-    for j in prange(j0, j1 + 1):
-        gained, pushing, rubbing = 0.0, 0.0, 0.0
+    for j in range(j0, j1 + 1):
         for k in range(count[j]):
             i = shared[j, k]
-            if 0 <= link[0, j, i] < STUCK or 0 <= link[1, j, i] < STUCK:
+            for part in range(4):
+                impulse[part, j, i] = 0.0
+            s, j_s, i_s = leader(0, j, i, link)
+            h, j_h, i_h = leader(1, j, i, link)
+            if s == h:
                 continue
             stuck = link[0, j, i] == STUCK or link[1, j, i] == STUCK
-            m_s = mass[0, j, i] + tied[0, 0, j, i]
-            m_h = mass[1, j, i] + tied[0, 1, j, i]
+            if not stuck and touch[j, i] == 0.0:
+                continue
+            m_s = mass[0, j_s, i_s] + abs(tied[0, 0, j_s, i_s])
+            m_h = mass[1, j_h, i_h] + abs(tied[0, 1, j_h, i_h])
             reduced = m_s * m_h / (m_s + m_h)
-            w_r, w_z = u[1, j, i] - u[0, j, i], v[1, j, i] - v[0, j, i]
+            w_r, w_z = u[1, j_h, i_h] - u[0, j_s, i_s], v[1, j_h, i_h] - v[0, j_s, i_s]
             way, closing = 0, 1e300
             for other in range(3):
                 w = normal[other, 0, j, i] * w_r + normal[other, 1, j, i] * w_z
@@ -290,32 +309,44 @@ def touch_and_rub(j0, j1, dt, friction, face_r, hoop, az_in, az_out, dz, cut, li
             n_r, n_z = normal[way, 0, j, i], normal[way, 1, j, i]
             along_r, along_z = w_r - closing * n_r, w_z - closing * n_z
             slip = sqrt(along_r * along_r + along_z * along_z)
-            push, drag = 0.0, 0.0
             if stuck:
                 push, drag = reduced * closing, reduced * slip
-            elif touch[j, i] > 0.0:
-                push = reduced * max(closing, 0.0)
+            else:
+                itself = j_s == j and i_s == i and j_h == j and i_h == i
+                push, drag = reduced * max(closing, 0.0) if itself else 0.0, 0.0
                 if friction > 0.0 and slip > 0.0:
                     force = pressed(j, i, n_r, n_z, cut, face_r, hoop, az_in, az_out, dz, line, sig_rr, sig_zz, sig_rz)
                     drag = min(reduced * slip, friction * (push + force * dt))
             t_r = along_r / slip if slip > 0.0 else 0.0
             t_z = along_z / slip if slip > 0.0 else 0.0
-            push_r, push_z, drag_r, drag_z = push * n_r, push * n_z, drag * t_r, drag * t_z
-            u[1, j, i] -= (push_r + drag_r) / m_h
-            v[1, j, i] -= (push_z + drag_z) / m_h
-            u[0, j, i] += (push_r + drag_r) / m_s
-            v[0, j, i] += (push_z + drag_z) / m_s
-            w_r = 0.5 * ((u0[1, j, i] - u0[0, j, i]) + (u[1, j, i] - u[0, j, i]))
-            w_z = 0.5 * ((v0[1, j, i] - v0[0, j, i]) + (v[1, j, i] - v[0, j, i]))
-            pushed, rubbed = push_r * w_r + push_z * w_z, drag_r * w_r + drag_z * w_z
-            taker = 1 if stuck and mass[1, j, i] > mass[0, j, i] else 0
-            heat[taker, j, i] += (pushed + rubbed) / mass[taker, j, i]
-            gained += push_z + drag_z
-            pushing += pushed
-            rubbing += rubbed
-        exchange[0, j] = gained
-        exchange[1, j] = pushing
-        exchange[2, j] = rubbing
+            impulse[0, j, i] = push * n_r
+            impulse[1, j, i] = push * n_z
+            impulse[2, j, i] = drag * t_r
+            impulse[3, j, i] = drag * t_z
+            give_r, give_z = push * n_r + drag * t_r, push * n_z + drag * t_z
+            give(0, j_s, i_s, give_r, give_z, still, mass, tied, u, v, exchange)
+            give(1, j_h, i_h, -give_r, -give_z, still, mass, tied, u, v, exchange)
+    for j in range(j0, j1 + 1):
+        for row in range(3):
+            exchange[row, j] = 0.0
+        for k in range(count[j]):
+            i = shared[j, k]
+            s, j_s, i_s = leader(0, j, i, link)
+            h, j_h, i_h = leader(1, j, i, link)
+            if s == h:
+                continue
+            w_r = 0.5 * ((u0[1, j_h, i_h] - u0[0, j_s, i_s]) + (u[1, j_h, i_h] - u[0, j_s, i_s]))
+            w_z = 0.5 * ((v0[1, j_h, i_h] - v0[0, j_s, i_s]) + (v[1, j_h, i_h] - v[0, j_s, i_s]))
+            pushed = impulse[0, j, i] * w_r + impulse[1, j, i] * w_z
+            rubbed = impulse[2, j, i] * w_r + impulse[3, j, i] * w_z
+            stuck = link[0, j, i] == STUCK or link[1, j, i] == STUCK
+            if stuck and mass[1, j, i] > mass[0, j, i]:
+                heat[1, j, i] += (pushed + rubbed) / mass[1, j, i]
+            else:
+                heat[0, j_s, i_s] += (pushed + rubbed) / mass[0, j_s, i_s]
+            exchange[0, j] += impulse[1, j, i] + impulse[3, j, i]
+            exchange[1, j] += pushed
+            exchange[2, j] += rubbed
 
 
 @serial

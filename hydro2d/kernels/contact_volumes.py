@@ -156,7 +156,7 @@ def largest_of(g, j, i, group, vof):
 def cut_fluxes(dj, di, j0, j1, edges, dr, dz, orders, group, cut, line, face, own, part, size, vof, flux_volume):
     """Volume of every body through the faces of cut cells, with the velocity of its group.
 
-    In a cell with void the group with the flatter surface comes first among the nested interfaces, else the hard one. What the
+    In a cell the group with the flatter surface comes first among the nested interfaces. What the
     bodies together are short of, or beyond, the volume that the face sweeps goes to the largest of the softer bodies in the
     cell that this comes from, and to the hard one only if there is none; not if the cell that loses volume has void.
 
@@ -183,7 +183,7 @@ def cut_fluxes(dj, di, j0, j1, edges, dr, dz, orders, group, cut, line, face, ow
                 elif vof[m, row, column] > 0.0 and swept != 0.0:
                     width = min(abs(swept) / size[row, column], 1.0)
                     first = 1
-                    if cut[row, 0] <= column < cut[row, 1] and not full(row, column, vof):
+                    if cut[row, 0] <= column < cut[row, 1]:
                         first = int(line[FIRST, row, column])
                     given = strip_of(m, row, column, dj == 1, width, up, orders[first], part, dr, dz) * size[row, column]
                     volume = given if up else -given
