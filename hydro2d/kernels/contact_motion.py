@@ -354,7 +354,7 @@ def follow(j0, j1, still, count, shared, link, mass, trial, u0, v0, u, v, heat, 
     """Light vertices take the velocity of what they are linked to, and the heat that this makes goes there.
 
     Reads    link [b, j, i], mass, u0, v0 [b, j, i], trial [c, b, j, i]
-    Updates  u, v, heat [b, j, i]; adds to exchange[0, j];  writes exchange[3, j], the heat
+    Updates  u, v, heat [b, j, i]; adds to exchange[0, j] and exchange[4, j];  writes exchange[3, j], the heat
     """
     for j in range(j0, j1 + 1):
         exchange[3, j] = 0.0
@@ -366,7 +366,10 @@ def follow(j0, j1, still, count, shared, link, mass, trial, u0, v0, u, v, heat, 
                     continue
                 m = mass[g, j, i]
                 u[g, j, i] = 0.0 if i == still[0] or i == still[1] else u[by, row, column]
-                v[g, j, i] = 0.0 if j == still[2] or j == still[3] else v[by, row, column]
+                v[g, j, i] = v[by, row, column]
+                if j == still[2] or j == still[3]:
+                    v[g, j, i] = 0.0
+                    exchange[4, j] += m * v[by, row, column]
                 made = 0.5 * m * (
                     (trial[0, g, j, i] - u[g, j, i]) * (u0[g, j, i] + u[g, j, i])
                     - (trial[0, g, j, i] - u[by, row, column]) * (u0[by, row, column] + u[by, row, column])
