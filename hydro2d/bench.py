@@ -123,6 +123,7 @@ CASES = (
     Case("slip layer, ke"),
     Case("slip layer, momentum", overrides=('numerics.advection="momentum"',)),
     Case("slip layer, both", overrides=('numerics.advection="both"',)),
+    Case("contact, ke", overrides=('sliding.method="contact"', "sliding.yield_factor=1.5625")),
     Case("no sliding treatment, ke", overrides=('sliding.method="none"',)),
     Case("pure hydrodynamic", SHOT + FLUIDS),
     Case("single material", PURE),
