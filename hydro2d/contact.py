@@ -31,7 +31,7 @@ class Contact:
         """Where the groups meet: weights of faces, normals, light vertices; volume rate and viscosity of the cut cells."""
         s, g, method = self.state, self.grid, self.method
         contact.find_shared(j0, j1, self.edges, s.around, s.mass, s.group, s.vof, s.shared_count, s.shared, s.hard, s.soft,
-                            s.tied, s.heat)
+                            s.tied, s.heat, s.warmed)
         contact.cut_lines(j0, j1, self.edges, g.dr, g.dz, s.shared_count, s.shared, s.hard, s.soft, s.cut, s.line)
         contact.face_weights(j0, j1, self.edges, self.still, s.cut, s.line, s.hard, s.soft, s.mass, s.shared_count, s.shared,
                              s.wet_r, s.wet_z, s.contact_normal, s.touch)
@@ -85,7 +85,7 @@ class Contact:
     def warm(self, j0: int, j1: int) -> None:
         """Gives the heat of the impulses to the bodies around their vertices."""
         s, g = self.state, self.grid
-        momentum.deposit(j0, j1, g.cm_in, g.cm_out, s.around[1, 0], s.group, s.heat, s.cell_mass, s.vof, s.q, s.rows[5])
+        momentum.deposit(j0, j1, g.cm_in, g.cm_out, s.warmed, s.group, s.heat, s.cell_mass, s.vof, s.q, s.rows[5])
 
     def fluxes(self, dj: int, di: int, j0: int, j1: int) -> None:
         """Volume of every body through the faces of cut cells, in one direction."""

@@ -85,6 +85,7 @@ class State:
         """What the contact of two groups needs, see kernels/contact."""
         self.shared_count = np.zeros(nj + 1, dtype=np.int64)
         self.shared = np.zeros((nj + 1, ni + 1), dtype=np.int64)
+        self.warmed = np.zeros((nj + 1, 2), dtype=np.int64)
         self.link = np.zeros((2, nj + 1, ni + 1), dtype=np.int8)
         self.soft, self.rate, self.size = np.zeros((3, nj, ni))
         self.part = np.zeros_like(self.vof)

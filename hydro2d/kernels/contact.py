@@ -30,23 +30,29 @@ HEAVY, STUCK = -1, 25
 
 
 @kernel
-def find_shared(j0, j1, edges, around, mass, group, vof, count, shared, hard, soft, tied, heat):
+def find_shared(j0, j1, edges, around, mass, group, vof, count, shared, hard, soft, tied, heat, warmed):
     """Shared vertices of rows j0 to j1, and what hard and other bodies fill of the cells near hard ones.
 
     Reads    around[1] [n, j, 2], the columns near hard bodies; mass [b, j, i]; vof [m, j, i]; group [m]
-    Writes   count [j], shared [j, k] (columns, ascending); hard, soft [j, i]; zero in tied [3, b, j, i] and heat [b, j, i]
+    Writes   count [j], shared [j, k] (columns, ascending); hard, soft [j, i]; zero in tied [3, b, j, i] and heat [b, j, i];
+             warmed [j, 2], the cells around vertices that a shared one can be linked to
     """
     for j in prange(j0, j1 + 1):
         found = 0
-        for i in range(max(around[1, 1, j, 0], edges[2]), min(around[1, 1, j, 1] + 1, edges[3] + 1)):
+        lo, hi = union(around[1, 0], j - 2, j + 2)
+        for i in range(max(lo - 1, edges[2]), min(hi + 2, edges[3] + 1)):
             for g in range(2):
                 heat[g, j, i] = 0.0
                 for c in range(3):
                     tied[c, g, j, i] = 0.0
+        for i in range(max(around[1, 1, j, 0], edges[2]), min(around[1, 1, j, 1] + 1, edges[3] + 1)):
             if mass[0, j, i] > 0.0 and mass[1, j, i] > 0.0:
                 shared[j, found] = i
                 found += 1
         count[j] = found
+        lo, hi = union(around[1, 0], j - 1, j + 2)
+        warmed[j, 0] = max(lo - 1, edges[2])
+        warmed[j, 1] = min(hi + 1, edges[3])
         if j < j1:
             for i in range(around[1, 0, j, 0], around[1, 0, j, 1]):
                 hard[j, i] = 0.0
