@@ -25,7 +25,8 @@ class Contact:
     def __init__(self, state, method: Method, edges: np.ndarray, still: np.ndarray):
         self.state, self.grid, self.method, self.edges, self.still = state, state.grid, method, edges, still
         order, own = method.order, state.group[method.order]
-        self.orders = np.array([[*order[own == b], *order[own != b]] for b in range(2)], dtype=np.int64)
+        self.soft_first, self.hard_first = (
+            np.array([*order[own == b], *order[own != b]], dtype=np.int64) for b in range(2))
 
     def find(self, j0: int, j1: int) -> None:
         """Where the groups meet: weights of faces, normals, light vertices; volume rate and viscosity of the cut cells."""
@@ -92,6 +93,6 @@ class Contact:
         s, g = self.state, self.grid
         face, own = (s.fr, s.own_r) if di else (s.fz, s.own_z)
         contact_volumes.cut_shares(j0, j1, self.edges, s.cut, g.volume, s.pre, s.vof, s.part, s.size)
-        contact_volumes.cut_fluxes(dj, di, j0, j1, self.edges, g.dr, g.dz, self.orders, s.group, s.cut, s.line, face, own,
-                                   s.part, s.size, s.vof, s.flux_volume)
+        contact_volumes.cut_fluxes(dj, di, j0, j1, self.edges, g.dr, g.dz, self.hard_first, self.soft_first, s.group, s.cut,
+                                   s.line, face, own, s.part, s.size, s.vof, s.flux_volume)
         contact_volumes.limit_fluxes(dj, di, j0, j1, self.edges, s.cut, s.pre, s.vof, s.flux_volume)

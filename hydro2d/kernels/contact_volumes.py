@@ -134,7 +134,7 @@ def strip_of(m, j, i, along_z, width, high, order, part, dr, dz):
 
 
 @point
-def full(j, i, vof):
+def without_void(j, i, vof):
     """Whether a cell has no void but round-off."""
     total = 0.0
     for m in range(vof.shape[0]):
@@ -153,15 +153,16 @@ def largest_of(g, j, i, group, vof):
 
 
 @kernel
-def cut_fluxes(dj, di, j0, j1, edges, dr, dz, orders, group, cut, line, face, own, part, size, vof, flux_volume):
+def cut_fluxes(dj, di, j0, j1, edges, dr, dz, hard_first, soft_first, group, cut, line, face, own, part, size, vof,
+               flux_volume):
     """Volume of every body through the faces of cut cells, with the velocity of its group.
 
     In a cell the group with the flatter surface comes first among the nested interfaces. What the
     bodies together are short of, or beyond, the volume that the face sweeps goes to the largest of the softer bodies in the
     cell that this comes from, and to the hard one only if there is none; not if the cell that loses volume has void.
 
-    Reads    face [j, i], own [b, j, i], what cut_shares wrote, vof [m, j, i], group [m], line [9, j, i]; orders [b, m], with
-             the bodies of group b first
+    Reads    face [j, i], own [b, j, i], what cut_shares wrote, vof [m, j, i], group [m], line [9, j, i];
+             hard_first, soft_first [m], the bodies in the order in which their interfaces are nested
     Updates  flux_volume [m, j, i]
     """
     bodies = group.shape[0]
@@ -182,17 +183,17 @@ def cut_fluxes(dj, di, j0, j1, edges, dr, dz, orders, group, cut, line, face, ow
                     volume = swept
                 elif vof[m, row, column] > 0.0 and swept != 0.0:
                     width = min(abs(swept) / size[row, column], 1.0)
-                    first = 1
-                    if cut[row, 0] <= column < cut[row, 1]:
-                        first = int(line[FIRST, row, column])
-                    given = strip_of(m, row, column, dj == 1, width, up, orders[first], part, dr, dz) * size[row, column]
-                    volume = given if up else -given
+                    if cut[row, 0] <= column < cut[row, 1] and line[FIRST, row, column] == 0.0:
+                        given = strip_of(m, row, column, dj == 1, width, up, soft_first, part, dr, dz)
+                    else:
+                        given = strip_of(m, row, column, dj == 1, width, up, hard_first, part, dr, dz)
+                    volume = given * size[row, column] if up else -given * size[row, column]
                 flux_volume[m, j, i] = volume
                 total += volume
                 softer += volume if group[m] == 0 else 0.0
             rest = face[j, i] - total
             row, column = (j - dj, i - di) if face[j, i] > 0.0 else (j, i)
-            if rest != 0.0 and full(row, column, vof):
+            if rest != 0.0 and without_void(row, column, vof):
                 taker = largest_of(0, j - dj if softer + rest > 0.0 else j, i - di if softer + rest > 0.0 else i, group, vof)
                 if taker < 0:
                     taker = largest_of(1, row, column, group, vof)
