@@ -6,7 +6,7 @@ The faces are swept by both groups, each by its weight (kernels/contact); a body
 from hydro2d.fields import E
 from hydro2d.jit import apart, kernel, point, prange
 from hydro2d.kernels.contact import FIRST
-from hydro2d.kernels.interfaces import FULL, strip_share, youngs_normal
+from hydro2d.kernels.interfaces import FULL, cumulative, strip_share, youngs_normal
 from hydro2d.kernels.spans import union
 
 
@@ -134,15 +134,6 @@ def strip_of(m, j, i, along_z, width, high, order, part, dr, dz):
 
 
 @point
-def without_void(j, i, vof):
-    """Whether a cell has no void but round-off."""
-    total = 0.0
-    for m in range(vof.shape[0]):
-        total += vof[m, j, i]
-    return total > 1.0 - FULL
-
-
-@point
 def largest_of(g, j, i, group, vof):
     """The body of group g that fills the most of cell (j, i), -1 if none is there."""
     found, most = -1, 0.0
@@ -157,9 +148,9 @@ def cut_fluxes(dj, di, j0, j1, edges, dr, dz, hard_first, soft_first, group, cut
                flux_volume):
     """Volume of every body through the faces of cut cells, with the velocity of its group.
 
-    In a cell the group with the flatter surface comes first among the nested interfaces. What the
-    bodies together are short of, or beyond, the volume that the face sweeps goes to the largest of the softer bodies in the
-    cell that this comes from, and to the hard one only if there is none; not if the cell that loses volume has void.
+    In a cell the group with the flatter surface comes first among the nested interfaces. What the bodies together are short of,
+    or beyond, the volume that the face sweeps goes to the largest of the softer bodies in the cell that this comes from, and
+    to the hard one only if there is none; not if the cell that loses volume has void.
 
     Reads    face [j, i], own [b, j, i], what cut_shares wrote, vof [m, j, i], group [m], line [9, j, i];
              hard_first, soft_first [m], the bodies in the order in which their interfaces are nested
@@ -193,7 +184,7 @@ def cut_fluxes(dj, di, j0, j1, edges, dr, dz, hard_first, soft_first, group, cut
                 softer += volume if group[m] == 0 else 0.0
             rest = face[j, i] - total
             row, column = (j - dj, i - di) if face[j, i] > 0.0 else (j, i)
-            if rest != 0.0 and without_void(row, column, vof):
+            if rest != 0.0 and cumulative(row, column, bodies - 1, hard_first, vof) > 1.0 - FULL:
                 taker = largest_of(0, j - dj if softer + rest > 0.0 else j, i - di if softer + rest > 0.0 else i, group, vof)
                 if taker < 0:
                     taker = largest_of(1, row, column, group, vof)
