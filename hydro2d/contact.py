@@ -39,9 +39,9 @@ class Contact:
         contact.link_light(j0, j1, self.edges, g.volume, g.cm_in, g.cm_out, s.shared_count, s.shared, s.contact_normal,
                            s.hard, s.soft, s.mass, s.link)
         contact_motion.cut_viscosity(
-            j0, j1, method.linear, method.quadratic, method.courant, g.dr, g.dz, g.vol_r, g.face_r, g.az_in, g.az_out, s.cut,
-            s.line, s.around, s.contact_normal, s.wet_r, s.wet_z, s.u, s.v, s.cl, s.rhobar, s.vof, s.q, s.p, s.solid, s.bulk,
-            s.qr, s.qz, s.rate, s.rows[1], s.mixed_count, s.mixed, s.deficit[0])
+            j0, j1, self.edges, method.linear, method.quadratic, method.courant, g.dr, g.dz, g.vol_r, g.face_r, g.az_in,
+            g.az_out, s.cut, s.line, s.around, s.contact_normal, s.wet_r, s.wet_z, s.hard, s.soft, s.u, s.v, s.cl, s.rhobar,
+            s.vof, s.q, s.p, s.solid, s.bulk, s.qr, s.qz, s.rate, s.rows[1], s.mixed_count, s.mixed, s.deficit[0])
 
     def stress(self, j0: int, j1: int, dt: float) -> None:
         """Total stress of the cut cells, and the pressure of the contact."""

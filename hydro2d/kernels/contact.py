@@ -22,8 +22,13 @@ GAP = 0.01
 FLATTER = 1.0 + 1e-12
 
 #: rows of `line`: normal of the hard side in the unit square, its constant, share of the hard among the solids; slopes, down
-#: the hard bodies' fraction and up that of the rest; the group whose surface is the flatter, 1 where none is
+#: the hard bodies' fraction and up that of the rest; the group whose surface is the flatter, 1 where none is, or PARTED
 LINE_R, LINE_Z, CONSTANT, SHARE, HARD_R, HARD_Z, SOFT_R, SOFT_Z, FIRST = range(9)
+
+#: square of the ratio of the slope of all that is solid to those of the groups, below which void lies between them
+BETWEEN = 0.25
+#: in the place of a group: void lies between the two, and each has a surface of its own
+PARTED = 2.0
 
 #: how a light vertex moves: 0 to 24 with a vertex of its own group up to two away, else
 HEAVY, STUCK = -1, 25
@@ -82,7 +87,8 @@ def cut_lines(j0, j1, edges, dr, dz, count, shared, hard, soft, cut, line):
 
     The normal is Youngs' from f_hard - f_soft, the line encloses the hard share of what is solid. Near void, where one of the
     two surfaces has a corner, the steeper slope is that of the flat one: then the line is its own, and the void of the cell
-    lies on the other side. Beyond the edges of the mesh the cells beside them are repeated.
+    lies on the other side. Where there is more than GAP of void and the two slopes all but cancel, it lies between the groups.
+    Beyond the edges of the mesh the cells beside them are repeated.
 
     Reads    count [j], shared [j, k]; hard, soft [j, i]
     Writes   cut [j, 2]; line [9, j, i]
@@ -114,6 +120,9 @@ def cut_lines(j0, j1, edges, dr, dz, count, shared, hard, soft, cut, line):
             line[SOFT_Z, j, i] = -soft_z / dz[j]
             line[SHARE, j, i] = share
             line[FIRST, j, i] = 0.0 if steep_s > FLATTER * steep_h else 1.0
+            open_r, open_z = hard_r + soft_r, hard_z + soft_z
+            if total < 1.0 - GAP and open_r * open_r + open_z * open_z < BETWEEN * min(steep_h, steep_s):
+                line[FIRST, j, i] = PARTED
             line[LINE_R, j, i] = 0.0
             line[LINE_Z, j, i] = 0.0
             line[CONSTANT, j, i] = 0.0

@@ -15,16 +15,29 @@ from hydro2d.kernels.thermodynamics import directional_viscosity
 SEED = 1e-11
 
 
+@point
+def meeting(j, i, edges, hard, soft):
+    """Whether both groups are in cell (j, i), or one fills it and the other a cell beside it."""
+    h, s = hard[j, i] > 0.0, soft[j, i] > 0.0
+    if h and s:
+        return True
+    for row, column in ((j - 1, i), (j + 1, i), (j, i - 1), (j, i + 1)):
+        if edges[0] <= row < edges[1] and edges[2] <= column < edges[3]:
+            if (soft[row, column] if h else hard[row, column]) >= 1.0 - GAP:
+                return True
+    return False
+
+
 @kernel
-def cut_viscosity(j0, j1, linear, quadratic, courant, dr, dz, vol_r, face_r, az_in, az_out, cut, line, around, normal,
-                  wet_r, wet_z, u, v, cl, rhobar, vof, q, p, solid, bulk, qr, qz, rate, row_step, mixed_count, mixed,
-                  scratch):
+def cut_viscosity(j0, j1, edges, linear, quadratic, courant, dr, dz, vol_r, face_r, az_in, az_out, cut, line, around, normal,
+                  wet_r, wet_z, hard, soft, u, v, cl, rhobar, vof, q, p, solid, bulk, qr, qz, rate, row_step, mixed_count,
+                  mixed, scratch):
     """Volume rate and viscosity of the cut cells, the step they allow, and room where their groups part.
 
     One q answers to the one rate of volume over the cell's length along the normal, unless the cell has void to lose. Where
-    the groups part at a vertex of a cell without pressure, the cell is given a seed of void.
+    the groups part at a vertex of a cell without pressure where they meet, the cell is given a seed of void.
 
-    Reads    what face_weights wrote; u, v [b, j, i]; cl, rhobar, p [j, i]
+    Reads    what face_weights wrote; hard, soft [j, i]; u, v [b, j, i]; cl, rhobar, p [j, i]
     Updates  vof [m, j, i], q (rho) [k, m, j, i], solid, bulk [j, i], row_step [j], mixed_count [j], mixed [j, k]
     Writes   qr, qz, rate [j, i] (1/s)
     Scratch  scratch [row, i]
@@ -38,7 +51,7 @@ def cut_viscosity(j0, j1, linear, quadratic, courant, dr, dz, vol_r, face_r, az_
                     w = (normal[0, 0, row, column] * (u[1, row, column] - u[0, row, column])
                          + normal[0, 1, row, column] * (v[1, row, column] - v[0, row, column]))
                     opens = min(opens, w)
-            if opens < 0.0 and p[j, i] <= 0.0 and solid[j, i] > 1.0 - SEED:
+            if opens < 0.0 and p[j, i] <= 0.0 and solid[j, i] > 1.0 - SEED and meeting(j, i, edges, hard, soft):
                 for m in range(vof.shape[0]):
                     if vof[m, j, i] > 0.0:
                         vof[m, j, i] *= 1.0 - SEED

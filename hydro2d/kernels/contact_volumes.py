@@ -5,7 +5,7 @@ The faces are swept by both groups, each by its weight (kernels/contact); a body
 
 from hydro2d.fields import E
 from hydro2d.jit import apart, kernel, point, prange
-from hydro2d.kernels.contact import FIRST
+from hydro2d.kernels.contact import FIRST, PARTED
 from hydro2d.kernels.interfaces import FULL, cumulative, strip_share, youngs_normal
 from hydro2d.kernels.spans import union
 
@@ -148,9 +148,10 @@ def cut_fluxes(dj, di, j0, j1, edges, dr, dz, hard_first, soft_first, group, cut
                flux_volume):
     """Volume of every body through the faces of cut cells, with the velocity of its group.
 
-    In a cell the group with the flatter surface comes first among the nested interfaces. What the bodies together are short of,
-    or beyond, the volume that the face sweeps goes to the largest of the softer bodies in the cell that this comes from, and
-    to the hard one only if there is none; not if the cell that loses volume has void.
+    In a cell the group with the flatter surface comes first among the nested interfaces, where void parts them each group for
+    itself, and what enters a cell full of a body is that body alone. What the bodies together are short of, or beyond, the
+    volume that the face sweeps goes to the largest of the softer bodies in the cell that this comes from, and to the hard one
+    only if there is none; not if the cell that loses volume has void.
 
     Reads    face [j, i], own [b, j, i], what cut_shares wrote, vof [m, j, i], group [m], line [9, j, i];
              hard_first, soft_first [m], the bodies in the order in which their interfaces are nested
@@ -174,7 +175,10 @@ def cut_fluxes(dj, di, j0, j1, edges, dr, dz, hard_first, soft_first, group, cut
                     volume = swept
                 elif vof[m, row, column] > 0.0 and swept != 0.0:
                     width = min(abs(swept) / size[row, column], 1.0)
-                    if cut[row, 0] <= column < cut[row, 1] and line[FIRST, row, column] == 0.0:
+                    first = line[FIRST, row, column] if cut[row, 0] <= column < cut[row, 1] else 1.0
+                    if first == PARTED and vof[m, j if up else j - dj, i if up else i - di] == 1.0:
+                        given = min(width, part[m, row, column])
+                    elif first == 0.0 or (first == PARTED and group[m] == 0):
                         given = strip_of(m, row, column, dj == 1, width, up, soft_first, part, dr, dz)
                     else:
                         given = strip_of(m, row, column, dj == 1, width, up, hard_first, part, dr, dz)

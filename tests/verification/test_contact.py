@@ -17,6 +17,8 @@ SINGLE = 'sliding.method="none"', "sliding.friction=0.0"
 #: upper end of the tungsten in mm, in cells of 0.5 mm, and the share of its cell that it fills
 CUTS = {"2 %": 0.01, "50 %": 0.25, "98 %": 0.49}
 EDGE = {"edge": 0.0}
+#: a light vertex of tungsten, whose surface recedes into the next cell
+LIGHT = {"70 %": 0.35}
 P, U = 14.1016e9, 817.535  # impedance match at 1 km/s, as in test_planar_impact.py
 
 
@@ -81,7 +83,7 @@ def test_head_on_impact_is_that_of_a_single_velocity(end, choice):
 
 
 @pytest.mark.parametrize("choice", ADVECTION)
-@pytest.mark.parametrize("end", cases(CUTS | EDGE))
+@pytest.mark.parametrize("end", cases(CUTS | LIGHT | EDGE))
 def test_parting_bodies_do_not_hold_each_other(end, choice):
     pressure = []
     simulation = finish(
@@ -194,13 +196,13 @@ def test_a_single_velocity_does_work(angle):
 def test_rod_leaves_its_hole_without_drag(choice):
     simulation = run("rod_leaving_hole", advection(choice))
     mass = simulation.body_sums(0)[0].sum()
-    assert simulation.mean_velocity(0) == pytest.approx(-200.0, rel=0.02)
+    assert simulation.mean_velocity(0) == pytest.approx(-200.0, rel=0.005)
     gained = 1.0 + simulation.mean_velocity(0) / 200.0
     assert abs(simulation.body_sums(1)[1].sum() / (mass * 200.0)) == pytest.approx(gained, rel=0.05)
     closed(simulation)
 
 
-@pytest.mark.xfail(strict=True, reason="at the corners of rod and hole no straight line cuts the cells as the bodies do: 1.6 %")
+@pytest.mark.xfail(strict=True, reason="at the corners of rod and hole no straight line cuts the cells as the bodies do: 0.2 %")
 def test_rod_leaves_its_hole_as_it_was():
     simulation = run("rod_leaving_hole")
     assert simulation.mean_velocity(0) == pytest.approx(-200.0, rel=1e-9)
