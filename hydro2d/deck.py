@@ -219,7 +219,19 @@ def _with_defaults(deck: Deck) -> Deck:
         if data[section] is not None:
             kind = _section(Deck, section)
             update[section] = kind.model_validate(data[section])
-    return deck.model_copy(update=update)
+    deck = deck.model_copy(update=update)
+    return deck if _is_the_shot(deck) else deck.model_copy(update={"experiment": None})
+
+
+def _is_the_shot(deck: Deck) -> bool:
+    """Whether the deck's experiment was shot at the velocity and the target that the deck has."""
+    shot = deck.experiment
+    if shot is None or deck.penetration is None:
+        return True
+    rod, target = body(deck, deck.penetration.rod), body(deck, deck.penetration.target)
+    if shot.velocity is not None and abs(abs(rod.velocity[1]) - shot.velocity) > 0.01 * shot.velocity:
+        return False
+    return shot.target is None or target.material == shot.target
 
 
 def _face(deck: Deck, rod: str, target: str) -> float:

@@ -198,8 +198,14 @@ class Tracer(Section):
 
 
 class Experiment(Section):
-    """What was measured, to be shown beside the run; the run does not use it."""
+    """What was measured, to be shown beside the run; the run does not use it.
 
+    Where the deck, by an override or as it is laid over another, has another impact velocity (by more than 1 %) or target than
+    the shot's, the resolved deck has no experiment.
+    """
+
+    velocity: PositiveSpeed | None = Field(None, description="impact velocity of the shot; default: whatever the rod has")
+    target: str | None = Field(None, description="material that was shot at; default: whatever the target is made of")
     penetration: PositiveLength | None = Field(None, description="depth below the original surface")
     qualifier: Literal["measured", "estimated", "at least"] = Field("measured", description="what the depth is")
     source: str = Field(min_length=1, description="where the number comes from")

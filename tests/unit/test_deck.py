@@ -485,3 +485,11 @@ def test_key_lines(path, line):
 
 def test_key_lines_of_windows_files():
     assert key_lines(AWKWARD.replace("\n", "\r\n")) == key_lines(AWKWARD)
+
+
+@pytest.mark.parametrize(("override", "depth"), [
+    ("body.rod.velocity=1095 m/s", 0.448), ("body.rod.velocity=1100 m/s", None), ("body.plate.material=Al7039", None),
+])  # fmt: skip
+def test_an_experiment_goes_with_its_velocity_and_target(override, depth):
+    shot = deck.load("cth_nose_shape/hemi_5083_1086.toml", [override]).experiment
+    assert (shot and shot.penetration) == depth
