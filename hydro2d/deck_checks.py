@@ -140,5 +140,7 @@ def unsupported(deck: Deck) -> Iterator[tuple[tuple, str]]:
             )
     if (deck.stop.speed_below is not None or deck.stop.rebound) and deck.stop.body is None:
         yield ("stop", "body"), "the name of the body whose speed is watched is missing"
+    if deck.stop.perforation and deck.penetration is None:
+        yield ("stop", "perforation"), "without a rod and a target nothing is perforated"
     if deck.output.history_interval is None or deck.output.vtk_interval is None:
         yield ("output",), "without stop.time, history_interval and vtk_interval must be given"

@@ -37,6 +37,8 @@ class Penetrator:
         grid = sim.grid
         self.columns = max(1, int(np.searchsorted(grid.r_edges[1:], 0.5 * self.radius)))
         self.length = self._length()[0]
+        low, high = decks.extent(decks.body(deck, deck.penetration.target), deck, "z")
+        self.thickness = high - low
         self.mass = float(sim.body_sums(self.m)[0].sum()) * self._around
 
     def _fraction(self) -> np.ndarray:
@@ -70,7 +72,7 @@ class Penetrator:
         low, high = max(ends, key=lambda pair: pair[1] - pair[0])
         return high - low, low, high
 
-    def _depth(self) -> float:
+    def depth(self) -> float:
         """Deepest rod material near the axis, from the original surface, m; 0 before impact."""
         fraction, deepest = self._fraction(), -np.inf
         for i in range(self.columns):
@@ -109,6 +111,10 @@ class Penetrator:
         mass = fraction * g.interior(s.rho)[self.m][rows] * g.volume[g.inside][rows]
         return float(np.sum(mass[inside | edge]) * self._around)
 
+    def perforates(self) -> bool:
+        """Whether the nose is the rod's radius beyond the rear of the target."""
+        return self.depth() >= self.thickness + self.radius
+
     def regime(self, length: float, radius: float, core: float) -> str:
         """"rigid", "deforming" or "eroding", from the length and largest radius in m and the mass of the core in kg."""
         if core < (1.0 - ERODED_MASS) * self.mass:
@@ -131,7 +137,7 @@ class Penetrator:
         mean = float(momentum_of_rows.sum()) / mass if mass > 0.0 else 0.0
         mass *= self._around
         return {
-            "penetration_depth_m": self._depth(),
+            "penetration_depth_m": self.depth(),
             "rod_length_m": length,
             "rod_initial_length_m": self.length,
             "rod_mass_kg": mass,

@@ -15,7 +15,7 @@ from hydro2d.state import State
 
 __all__ = ["Simulation", "UnphysicalState"]
 
-#: cycles between looks at the speed of the body that stop.speed_below and stop.rebound watch
+#: cycles between looks at what stop.speed_below, stop.rebound and stop.perforation watch
 WATCH_EVERY = 10
 
 
@@ -142,8 +142,11 @@ class Simulation:
             return "end time"
         if stop.cycles is not None and self.cycle >= stop.cycles:
             return "number of cycles"
-        watching = self.watched is not None and self.cycle % WATCH_EVERY == 0
-        if watching and (stop.speed_below is not None or stop.rebound):
+        if self.cycle % WATCH_EVERY != 0:
+            return None
+        if stop.perforation and self.penetrator.perforates():
+            return f"perforation of {self.deck.penetration.target}"
+        if self.watched is not None and (stop.speed_below is not None or stop.rebound):
             v = self.mean_velocity(self.watched)
             if self._sign is None:
                 self._sign = 1.0 if v >= 0 else -1.0

@@ -107,3 +107,13 @@ def test_a_run_stops_at_the_same_cycle_after_a_restart():
         second.load_restart_arrays({name: array.copy() for name, array in first.restart_arrays().items()})
         second.load_restart_scalars(first.restart_scalars())
         assert run_on(second) == expected
+
+
+def test_a_rod_that_perforates_ends_the_run():
+    """At 2 km/s the rod is through 3 mm of aluminium, and its radius further, before the run's 50 us."""
+    text = TEXT.replace('"10 mm"\n[[tracer]]', '"3 mm"\n[[tracer]]').replace("60 m/s", "2 km/s")
+    simulation = Simulation(deck.loads(text, ["stop.perforation=true"]))
+    while (reason := simulation.stop_reason()) is None:
+        simulation.step()
+    assert reason == "perforation of plate"
+    assert 6e-3 <= simulation.diagnostics()["penetration_depth_m"] < 6.5e-3
