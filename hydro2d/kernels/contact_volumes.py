@@ -5,7 +5,7 @@ The faces are swept by both groups, each by its weight (kernels/contact); a body
 
 from hydro2d.fields import E
 from hydro2d.jit import apart, kernel, point, prange
-from hydro2d.kernels.contact import FIRST, PARTED
+from hydro2d.kernels.contact import FIRST, GAP, PARTED
 from hydro2d.kernels.interfaces import FULL, cumulative, strip_share, youngs_normal
 from hydro2d.kernels.spans import union
 
@@ -149,9 +149,9 @@ def cut_fluxes(dj, di, j0, j1, edges, dr, dz, hard_first, soft_first, group, cut
     """Volume of every body through the faces of cut cells, with the velocity of its group.
 
     In a cell the group with the flatter surface comes first among the nested interfaces, where void parts them each group for
-    itself, and what enters a cell full of a body is that body alone. What the bodies together are short of, or beyond, the
-    volume that the face sweeps goes to the largest of the softer bodies in the cell that this comes from, and to the hard one
-    only if there is none; not if the cell that loses volume has void.
+    itself. What the bodies together are short of, or beyond, the volume that the face sweeps goes to the largest of the softer
+    bodies in the cell that this comes from, and to the hard one only if there is none. Where that cell has a gap, a full cell
+    into which volume flows is short of nothing as long as there is more of its body: no void enters a body from its surface.
 
     Reads    face [j, i], own [b, j, i], what cut_shares wrote, vof [m, j, i], group [m], line [9, j, i];
              hard_first, soft_first [m], the bodies in the order in which their interfaces are nested
@@ -176,9 +176,7 @@ def cut_fluxes(dj, di, j0, j1, edges, dr, dz, hard_first, soft_first, group, cut
                 elif vof[m, row, column] > 0.0 and swept != 0.0:
                     width = min(abs(swept) / size[row, column], 1.0)
                     first = line[FIRST, row, column] if cut[row, 0] <= column < cut[row, 1] else 1.0
-                    if first == PARTED and vof[m, j if up else j - dj, i if up else i - di] == 1.0:
-                        given = min(width, part[m, row, column])
-                    elif first == 0.0 or (first == PARTED and group[m] == 0):
+                    if first == 0.0 or (first == PARTED and group[m] == 0):
                         given = strip_of(m, row, column, dj == 1, width, up, soft_first, part, dr, dz)
                     else:
                         given = strip_of(m, row, column, dj == 1, width, up, hard_first, part, dr, dz)
@@ -187,14 +185,23 @@ def cut_fluxes(dj, di, j0, j1, edges, dr, dz, hard_first, soft_first, group, cut
                 total += volume
                 softer += volume if group[m] == 0 else 0.0
             rest = face[j, i] - total
-            row, column = (j - dj, i - di) if face[j, i] > 0.0 else (j, i)
-            if rest != 0.0 and cumulative(row, column, bodies - 1, hard_first, vof) > 1.0 - FULL:
+            up = face[j, i] > 0.0
+            row, column = (j - dj, i - di) if up else (j, i)
+            filled = cumulative(row, column, bodies - 1, hard_first, vof)
+            if rest != 0.0 and filled > 1.0 - FULL:
                 taker = largest_of(0, j - dj if softer + rest > 0.0 else j, i - di if softer + rest > 0.0 else i, group, vof)
                 if taker < 0:
                     taker = largest_of(1, row, column, group, vof)
                 if taker < 0:
                     taker = largest_of(0, row, column, group, vof)
                 flux_volume[taker, j, i] += rest
+            elif rest != 0.0 and (rest > 0.0) == up and filled < 1.0 - GAP:
+                for m in range(bodies):
+                    if vof[m, j if up else j - dj, i if up else i - di] == 1.0:
+                        swept = own[group[m], j, i] if up else -own[group[m], j, i]
+                        most = min(swept, part[m, row, column] * size[row, column]) - abs(flux_volume[m, j, i])
+                        more = min(abs(rest), max(most, 0.0))
+                        flux_volume[m, j, i] += more if up else -more
 
 
 @kernel
