@@ -168,7 +168,7 @@ def section(axes, dump: Dump, field: str = "pressure", mirror: str | None = None
     return drawn
 
 
-def _figure(width: float, height: float, rows: int, columns: int):
+def new_figure(width: float, height: float, rows: int, columns: int):
     """A figure that belongs to no window, and its axes (rows, columns)."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
@@ -188,7 +188,7 @@ def draw_sections(panels: list[list[tuple[Dump, str, float | None]]], field: str
     rows, columns = len(panels), max(len(row) for row in panels)
     panel_width = min(11.0, max(4.0, 16.0 / columns))
     panel_height = min(max(panel_width * 2 * r1 / (z1 - z0), 0.8), 9.0) + 0.6
-    figure, axes = _figure(panel_width * columns + 1.2, panel_height * rows + 0.4, rows, columns)
+    figure, axes = new_figure(panel_width * columns + 1.2, panel_height * rows + 0.4, rows, columns)
     drawn = []
     for j, row in enumerate(panels):
         for i in range(columns):
@@ -240,7 +240,7 @@ def histories(runs: list, quantities=HISTORIES):
     """Quantities against time, one panel each, all runs in it; the experiment's depth as a line."""
     columns = 2 if len(quantities) > 1 else 1
     rows = -(-len(quantities) // columns)
-    figure, axes = _figure(5.0 * columns, 3.0 * rows, rows, columns)
+    figure, axes = new_figure(5.0 * columns, 3.0 * rows, rows, columns)
     for place, name in zip(axes.flat, quantities, strict=False):
         unit, scale = reader_unit(history.unit(name))
         for run in runs:

@@ -43,7 +43,7 @@ class LockError(Exception):
     """A directory that another process works in; the message is for the user."""
 
 
-def _holder(path: Path) -> str | None:
+def holder(path: Path) -> str | None:
     """Who holds a lock, in words; None where it is gone or its process on this host is."""
     try:
         host, number = path.read_text(encoding="utf-8").split()
@@ -71,10 +71,10 @@ def locked(path: Path) -> Iterator[None]:
                 os.link(own, path)  # the lock appears with its content, or not at all
                 break
             except FileExistsError:
-                holder = _holder(path)
-                if holder is not None:
+                process = holder(path)
+                if process is not None:
                     hint = f"if that is gone for good, remove {path}"
-                    raise LockError(f"{path.parent} is in use by {holder}; {hint}") from None
+                    raise LockError(f"{path.parent} is in use by {process}; {hint}") from None
                 path.unlink(missing_ok=True)
     finally:
         own.unlink()

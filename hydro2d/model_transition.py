@@ -31,7 +31,7 @@ KINDS = {"cth": "the CTH study", "test": "tests at thinner plates"}
 
 @dataclass(frozen=True)
 class Shot:
-    """One experiment; SI."""
+    """One experiment; SI. ``depth_is`` is "measured", "estimated" or "at least"."""
 
     number: str
     rod: str
@@ -42,6 +42,7 @@ class Shot:
     depth: float
     length: float
     diameter: float
+    depth_is: str = "measured"
 
     @property
     def stayed_rigid(self) -> bool:
@@ -91,7 +92,8 @@ def experiments() -> list[Shot]:
     """The shots of the study."""
     return [
         Shot(row["shot"], row["rod"], row["target"], row["nose"], float(row["velocity_m_s"]), 1e-3 * float(row["mass_g"]),
-             1e-2 * float(row["depth_cm"]), 1e-2 * float(row["length_cm"]), 1e-2 * float(row["diameter_cm"]))
+             1e-2 * float(row["depth_cm"]), 1e-2 * float(row["length_cm"]), 1e-2 * float(row["diameter_cm"]),
+             row["depth_is"])
         for row in _rows("experiments.csv")
     ]  # fmt: skip
 

@@ -38,7 +38,10 @@ class Results:
         except (OSError, ValueError) as error:
             raise ResultsError(f"{self.directory / DECK} cannot be read: {error}") from None
         file = self.directory / SUMMARY
-        self.summary = json.loads(file.read_text(encoding="utf-8")) if file.exists() else {}
+        try:
+            self.summary = json.loads(file.read_text(encoding="utf-8")) if file.exists() else {}
+        except (OSError, ValueError) as error:
+            raise ResultsError(f"{file} cannot be read: {error}") from None
 
     @property
     def label(self) -> str:

@@ -248,6 +248,31 @@ def read_grid(path: Path) -> Dump:
     return Dump(r.copy(), z.copy(), fields, time)
 
 
+def read_lines(path: Path) -> list[tuple[int, np.ndarray]]:
+    """Reads a .vtp of polylines as ``write_lines`` takes them: number of the body, r and z (n, 2). Raises VtkError."""
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+    from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
+
+    reader = vtkXMLPolyDataReader()
+    if not Path(path).is_file() or not reader.CanReadFile(str(path)):
+        raise VtkError(f"{path} is not a VTK file of a run")
+    reader.SetFileName(str(path))
+    reader.Update()
+    data = reader.GetOutput()
+    bodies = data.GetCellData().GetArray("Material")
+    if bodies is None:
+        raise VtkError(f"{path} cannot be read: its lines name no body")
+    if data.GetNumberOfCells() == 0:
+        return []
+    points = vtk_to_numpy(data.GetPoints().GetData())[:, :2].copy()
+    ends = vtk_to_numpy(data.GetLines().GetOffsetsArray())
+    order = vtk_to_numpy(data.GetLines().GetConnectivityArray())
+    return [
+        (int(bodies.GetTuple1(line)), points[order[first:last]])
+        for line, (first, last) in enumerate(zip(ends[:-1], ends[1:], strict=True))
+    ]
+
+
 def pyvista_grid(path: Path):
     """A .vtr as a pyvista.RectilinearGrid."""
     import pyvista

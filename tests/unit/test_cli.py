@@ -145,6 +145,14 @@ def test_a_damaged_restart_file_is_one_message(simulation, deck, tmp_path, capsy
     assert capsys.readouterr().err.count("\n") == 1
 
 
+def test_a_damaged_summary_is_one_message(simulation, deck, tmp_path, capsys):
+    out = tmp_path / "out"
+    call(["run", deck, "--out", str(out), "--quiet"])
+    (out / "summary.json").write_text('{"status": "do')
+    assert call(["plot", str(out), "-o", str(tmp_path / "x.png")]) == 2
+    assert "summary.json cannot be read" in capsys.readouterr().err
+
+
 def test_check(deck, tmp_path, capsys):
     assert call(["check", deck, "--picture", str(tmp_path / "start.png"), "--threads", "2"]) == 0
     shown = capsys.readouterr().out

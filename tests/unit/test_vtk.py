@@ -122,3 +122,17 @@ def test_every_quantity_is_described():
     for quantity in derived.TABLE:
         assert quantity.meaning
         assert quantity.title == quantity.title.strip()
+
+
+def test_lines_are_read_as_they_were_written(tmp_path):
+    lines = [(1, np.array([[0.0, 1.0], [2.0, 3.0], [0.5, 4.0]])), (2, np.array([[1.0, 1.0], [1.0, 9.0]]))]
+    vtk.write_lines(tmp_path / "a.vtp", lines, 1e-6)
+    read = vtk.read_lines(tmp_path / "a.vtp")
+    assert [body for body, _ in read] == [1, 2]
+    for (_, one), (_, other) in zip(lines, read, strict=True):
+        np.testing.assert_array_equal(one, other)
+    vtk.write_lines(tmp_path / "none.vtp", [], 0.0)
+    assert vtk.read_lines(tmp_path / "none.vtp") == []
+    (tmp_path / "b.vtp").write_text("not XML")
+    with pytest.raises(vtk.VtkError, match="is not a VTK file"):
+        vtk.read_lines(tmp_path / "b.vtp")

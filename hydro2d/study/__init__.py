@@ -1,0 +1,8 @@
+"""Studies: many runs, read back together, and the page that reports them."""
+
+
+def load(directory):
+    """A study directory, a run directory or a folder of runs, read back. See `hydro2d.study.layout.load`."""
+    from .layout import load as read
+
+    return read(directory)

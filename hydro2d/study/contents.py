@@ -1,0 +1,58 @@
+"""Everything that a report shows, read from the cases of a study."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from . import experiments, record, table
+from .experiments import Measurement
+from .layout import Study
+from .record import Record, Setup
+
+
+@dataclass
+class Contents:
+    """A study's cases, read; ``groups`` and ``measurements`` by setup, ``belonging`` is each case's measurement by its name."""
+
+    study: Study
+    records: list[Record]
+    groups: dict[Setup, list[Record]]
+    measurements: dict[Setup, list[Measurement]]
+    belonging: dict[str, Measurement]
+    rows: list[table.Row]
+    notes: list[str]
+
+
+def collect(study: Study) -> Contents:
+    """Reads every case and finds what was measured for it."""
+    records = [record.read(case) for case in study.cases]
+    notes = [f"{each.case.name}: {problem}" for each in records for problem in each.problems]
+    groups: dict[Setup, list[Record]] = {}
+    for each in records:
+        if each.setup:
+            groups.setdefault(each.setup, []).append(each)
+    unplaced = experiments.unplaced(records)
+    known, belonging, lost = {}, {}, set()
+    for setup, members in groups.items():
+        placed = [each for each in members if _key(each) not in unplaced]
+        known[setup] = experiments.measured(setup, placed)
+        for each in members:
+            found = experiments.belonging(each, known[setup])
+            if found is not None:
+                belonging[each.case.name] = found
+            elif _key(each) in unplaced and not any(experiments.same_depth(each, entry) for entry in known[setup]):
+                lost.add(_key(each))
+    notes += [_said(key, unplaced[key]) for key in unplaced if key in lost]
+    return Contents(study, records, groups, known, belonging, table.rows(study, records, belonging), notes)
+
+
+def _key(each: Record) -> tuple:
+    return each.experiment.get("source"), each.experiment.get("penetration")
+
+
+def _said(key: tuple, velocities: set[float]) -> str:
+    source, depth = key
+    return (
+        f"Decks at {len(velocities)} impact velocities name one experiment ({source}: {depth * 100:.4g} cm). Runs that no shot "
+        "of the catalogue belongs to are not compared with it: experiment.velocity in a deck says at which it was measured."
+    )

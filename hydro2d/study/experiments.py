@@ -1,0 +1,81 @@
+"""What was measured for the setups of a study, and how far runs are from it.
+
+A measurement belongs to a rod, a target and an impact velocity. It comes from the catalogue of shots or from a deck; a
+deck that was carried to other velocities keeps its `experiment`, which then says nothing of these runs.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import isclose
+
+from ..model_transition import experiments as catalogue
+from .record import Record, Setup
+
+#: shares by which geometry, velocity and depth may differ and still be the same
+SAME_GEOMETRY, SAME_VELOCITY, SAME_DEPTH = 0.01, 0.005, 1e-3
+AT_LEAST = "at least"
+
+
+@dataclass(frozen=True)
+class Measurement:
+    """One experiment: impact velocity in m/s, depth in m, "measured", "estimated" or "at least", and its source."""
+
+    velocity: float
+    depth: float
+    qualifier: str
+    source: str
+
+    def error(self, depth: float, perforated: bool = False) -> tuple[float, str] | None:
+        """Depth of a run less this one in m, and "exact", "at most" or "at least": so where one of both perforated the plate.
+
+        None where nothing can be said, because both did or because a run went deeper than "at least".
+        """
+        bound = self.qualifier == AT_LEAST
+        if bound and (perforated or depth >= self.depth):
+            return None
+        return depth - self.depth, "at most" if bound else AT_LEAST if perforated else "exact"
+
+
+def measured(setup: Setup, records: Sequence[Record]) -> list[Measurement]:
+    """The experiments of a setup by velocity: the catalogue's shots, and what the decks of its runs name beside them.
+
+    An experiment without a velocity belongs to that of the run; see ``unplaced``.
+    """
+    found = [
+        Measurement(shot.velocity, shot.depth, shot.depth_is, f"shot {shot.number} of the CTH nose-shape study")
+        for shot in catalogue()
+        if (shot.rod, shot.target, shot.nose) == setup[:3]
+        and isclose(shot.diameter, setup.diameter, rel_tol=SAME_GEOMETRY)
+        and isclose(shot.length, setup.length, rel_tol=SAME_GEOMETRY)
+    ]
+    for record in records:
+        data = record.experiment
+        if data and not any(same_depth(record, entry) for entry in found):
+            velocity = data.get("velocity") or record.velocity
+            found.append(Measurement(velocity, data["penetration"], data.get("qualifier", "measured"), data["source"]))
+    return sorted(found, key=lambda entry: entry.velocity)
+
+
+def same_depth(record: Record, measurement: Measurement) -> bool:
+    """Whether a measurement is the one that a run's deck names."""
+    return isclose(record.experiment["penetration"], measurement.depth, rel_tol=SAME_DEPTH)
+
+
+def unplaced(records: Sequence[Record]) -> dict[tuple, set[float]]:
+    """Experiments, by source and depth, that decks name at several impact velocities and do not say which is theirs."""
+    users: dict[tuple, set[float]] = {}
+    for record in records:
+        data = record.experiment
+        if data and record.velocity is not None and not data.get("velocity"):
+            users.setdefault((data["source"], data["penetration"]), set()).add(record.velocity)
+    return {key: velocities for key, velocities in users.items() if len(velocities) > 1}
+
+
+def belonging(record: Record, known: Sequence[Measurement]) -> Measurement | None:
+    """The measurement at the velocity of a run."""
+    if record.velocity is None:
+        return None
+    near = [entry for entry in known if isclose(entry.velocity, record.velocity, rel_tol=SAME_VELOCITY)]
+    return min(near, key=lambda entry: abs(entry.velocity - record.velocity), default=None)

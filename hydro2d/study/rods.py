@@ -1,0 +1,126 @@
+"""Rods at the end of their runs, side by side at one scale, pages of them; as in Figure 4 of the CTH nose-shape study."""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from ..figures import new_figure
+from .drawing import FONT, WIDTH
+from .experiments import Measurement
+from .record import Record
+
+COLUMNS, ROWS = 6, 3
+PER_PAGE = COLUMNS * ROWS
+#: rods are drawn at their depths where these span less than this many lengths of a rod, else tip beside tip
+MOST_LENGTHS = 2.5
+#: half the width of a panel, at least, over its height
+SLOT = 0.1
+#: letters in a line of a label, and lines
+LETTERS, LINES = 12, 4
+FILLED, START = "#5b6770", "#8a8a8a"
+
+
+def extent(record: Record) -> tuple[float, float]:
+    """Depth of the tail and the tip, m; what lies more than a length behind the tip does not count."""
+    points = np.concatenate(record.rod)
+    tip = float(points[:, 1].max())
+    return max(float(points[:, 1].min()), tip - 1.05 * record.setup.length), tip
+
+
+def span(records: Sequence[Record], measurements: Mapping[str, Measurement]) -> tuple[float, float]:
+    """Depths that hold all rods, and the experiments that belong to them, m."""
+    ends = [end for record in records for end in extent(record)]
+    ends += [measurements[record.case.name].depth for record in records if record.case.name in measurements]
+    return min(ends), max(ends)
+
+
+def at_their_depths(records: Sequence[Record], measurements: Mapping[str, Measurement]) -> bool:
+    """Whether all rods fit into one picture at the depths where they are, and are still seen."""
+    low, high = span(records, measurements)
+    return high - low <= MOST_LENGTHS * max(record.setup.length for record in records)
+
+
+def pages(records: Sequence[Record]) -> list[Sequence[Record]]:
+    """The records that have an outline, by the page."""
+    return [records[first : first + PER_PAGE] for first in range(0, len(records), PER_PAGE)]
+
+
+def draw(records: Sequence[Record], measurements: Mapping[str, Measurement], scale: Sequence[Record]):
+    """One page of rods, mirrored about the axis; z points down, as the rods fly.
+
+    measurements : by case; a dashed line at the depth, where rods are drawn at their depths
+    scale : the records of all pages, which share limits and scale
+    """
+    columns = min(COLUMNS, len(records))
+    rows = -(-len(records) // columns)
+    at_depth = at_their_depths(scale, measurements)
+    figure, places = new_figure(WIDTH, rows * min(5.0, 9.5 / rows), rows, columns)
+    low, high = span(scale, measurements) if at_depth else (min(np.subtract(*extent(record)) for record in scale), 0.0)
+    margin = 0.03 * (high - low)
+    radius = max(1.1 * max(_radius(record) for record in scale), SLOT * (high - low))
+    for axes, record in zip(places.flat, records, strict=False):
+        _rod(axes, record, 0.0 if at_depth else extent(record)[1])
+        if at_depth and record.case.name in measurements:
+            axes.axhline(measurements[record.case.name].depth * 100, color="black", linestyle="--", linewidth=1.2)
+        axes.set_title(_label(record), fontsize=FONT - 2)
+        axes.set_xlim(-radius * 100, radius * 100)
+        axes.set_ylim((high + margin) * 100, (low - margin) * 100)
+        _tidy(axes, first=axes in places[:, 0])
+    for axes in places.flat[len(records) :]:
+        axes.set_visible(False)
+    figure.supylabel("depth [cm]" if at_depth else "depth less that of the tip [cm]", fontsize=FONT)
+    return figure
+
+
+def _tidy(axes, *, first: bool) -> None:
+    """Equal scales, a light grid, numbers in the first column only."""
+    axes.set_aspect("equal")
+    axes.set_xticks([])
+    axes.grid(axis="y", alpha=0.3)
+    axes.set_axisbelow(True)
+    axes.tick_params(labelsize=FONT - 1, labelleft=first, left=first)
+    for side in ("top", "right", "bottom", *(() if first else ("left",))):
+        axes.spines[side].set_visible(False)
+
+
+def _radius(record: Record) -> float:
+    """Largest radius of what is shown of the rod, m."""
+    points = np.concatenate(record.rod)
+    return float(points[points[:, 1] >= extent(record)[0], 0].max())
+
+
+def _label(record: Record) -> str:
+    """The axes' values or the name, the depth, and the status where the run has not ended."""
+    words = list(record.case.values.values()) or [record.case.name]
+    lines = [line for word in words for line in textwrap.wrap(word.replace("_", " "), LETTERS)]
+    if len(lines) > LINES:
+        lines = [*lines[: LINES - 1], "…"]
+    lines += ["perforated"] if record.perforated else [] if record.depth is None else [f"{record.depth * 100:.1f} cm"]
+    return "\n".join(lines + ([] if record.done else [f"({record.case.status})"]))
+
+
+def _rod(axes, record: Record, shift: float) -> None:
+    """The rod as it ended, and as it began as a thin line with its tip at the same place."""
+    from matplotlib.patches import PathPatch
+
+    if record.start:
+        tip = max(line[:, 1].max() for line in record.start)
+        moved = [line - [0.0, tip - extent(record)[1]] for line in record.start]
+        axes.add_patch(PathPatch(_path(moved, shift), fill=False, edgecolor=START, linewidth=0.7, linestyle=":"))
+    axes.add_patch(PathPatch(_path(record.rod, shift), facecolor=FILLED, edgecolor="black", linewidth=0.5))
+
+
+def _path(lines: Sequence[np.ndarray], shift: float):
+    """Outlines and their mirror images as one path in cm: lines that end on the axis are joined to their images."""
+    from matplotlib.path import Path
+
+    parts = []
+    for line in lines:
+        points = (line - [0.0, shift]) * 100.0
+        mirrored = points[::-1] * [-1.0, 1.0]
+        closed = np.array_equal(line[0], line[-1])
+        parts += [points, mirrored] if closed else [np.concatenate([points, mirrored, points[:1]])]
+    return Path.make_compound_path(*(Path(part, closed=True) for part in parts))

@@ -1,0 +1,179 @@
+"""The table of cases: one row of values in SI for each, as CSV, and the columns that readers are shown."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+from .experiments import Measurement
+from .layout import Study
+from .record import Record
+from .series import is_velocity
+
+#: sinks that are named in the page, and the share of the start energy from which on
+NAMED_SINKS, SMALLEST_SHARE = 3, 1e-6
+
+Row = dict[str, object]
+
+
+def rows(study: Study, records: Sequence[Record], measurements: dict[str, Measurement]) -> list[Row]:
+    """One row for each case, values by name with their unit; None where there is none. ``measurements`` by case."""
+    found = [_row(study, record, measurements.get(record.case.name)) for record in records]
+    names = list(dict.fromkeys(name for row in found for name in row))
+    return [{name: row.get(name) for name in names} for row in found]
+
+
+def _row(study: Study, record: Record, measurement: Measurement | None) -> Row:
+    case, setup = record.case, record.setup
+    row: Row = {"case": case.name}
+    row |= {axis.name: case.values.get(axis.name) for axis in study.axes}
+    row |= {"status": case.status, "message": case.message, "velocity_m_s": record.velocity}
+    if setup:
+        row |= {"rod": setup.rod, "target": setup.target, "nose": setup.nose, "target_thickness_m": setup.thickness}
+    return row | _results(record) | _compared(record, measurement) | _books(case.summary) | _cost(record)
+
+
+def _results(record: Record) -> Row:
+    first = {name: record.value(f"rod_initial_{name}_m") for name in ("length", "radius")}
+    first["length"] = first["length"] or record.first.get("rod_length_m")
+    length, radius = record.value("rod_length_m"), record.value("rod_max_radius_m")
+    return {
+        "time_s": record.case.summary.get("time_s", record.last.get("time")),
+        "depth_m": record.depth,
+        "depth_is": "at least" if record.perforated else "computed",
+        "rod_length_m": length,
+        "rod_initial_length_m": first["length"],
+        "rod_length_ratio": _ratio(length, first["length"]),
+        "rod_max_radius_m": radius,
+        "rod_radius_ratio": _ratio(radius, first["radius"]),
+        "rod_tail_velocity_m_s": record.value("rod_tail_velocity_m_s"),
+        "rod_mass_kg": record.value("rod_mass_kg"),
+        "regime": record.value("regime"),
+    }
+
+
+def _ratio(value, reference) -> float | None:
+    return None if value is None or not reference else value / reference
+
+
+def _compared(record: Record, measurement: Measurement | None) -> Row:
+    """The experiment and the error; no error for a run that has not ended."""
+    names = ("experiment_depth_m", "experiment_is", "experiment_source", "depth_error_m", "depth_error_percent",
+             "depth_error_is")  # fmt: skip
+    if measurement is None:
+        return dict.fromkeys(names)
+    told = record.done and record.depth is not None
+    error, kind = measurement.error(record.depth, record.perforated) or (None, "none") if told else (None, None)
+    per_cent = None if error is None else 100.0 * error / measurement.depth
+    values = (measurement.depth, measurement.qualifier, measurement.source, error, per_cent, kind)
+    return dict(zip(names, values, strict=True))
+
+
+def _books(summary: dict) -> Row:
+    """The worst relative changes, and every sink's energy as a share of the energy at the start."""
+    books = summary.get("conservation") or {}
+    masses = [change for change in (books.get("mass") or {}).values() if change is not None]
+    row: Row = {
+        "mass_change_worst": max(masses, key=abs, default=None),
+        "momentum_change": books.get("axial_momentum"),
+        "energy_change": books.get("total_energy"),
+    }
+    start = books.get("start_energy_J")
+    for name, amounts in (books.get("sinks") or {}).items():
+        row[f"sink_{name}_share"] = _ratio(amounts.get("energy_J"), start)
+    return row
+
+
+def _cost(record: Record) -> Row:
+    summary = record.case.summary
+    row: Row = {name: summary.get(name) for name in ("cycles", "cells", "wall_s", "ns_per_cell_cycle")}
+    row["cycles"] = record.value("cycles") if row["cycles"] is None else row["cycles"]
+    return row | {"version": summary.get("version"), "directory": str(record.case.directory)}
+
+
+def to_csv(table: Sequence[Row]) -> str:
+    """The rows as CSV; numbers with all their digits."""
+    text = io.StringIO()
+    writer = csv.DictWriter(text, list(table[0]), lineterminator="\n")
+    writer.writeheader()
+    writer.writerows({name: "" if value is None else value for name, value in row.items()} for row in table)
+    return text.getvalue()
+
+
+@dataclass(frozen=True)
+class Column:
+    """A column of the page: its heading, the name of its value in a row, and how a value is shown."""
+
+    head: str
+    name: str
+    show: Callable[[Row], str]
+    number: bool = True
+
+
+def _number(name: str, form: str, factor: float = 1.0) -> Callable[[Row], str]:
+    return lambda row: "" if row.get(name) is None else form.format(float(row[name]) * factor).replace("-", "−")
+
+
+def _word(name: str) -> Callable[[Row], str]:
+    return lambda row: str(row.get(name) or "")
+
+
+SIGNS = {"at least": "≥ ", "at most": "≤ ", "estimated": "≈ "}
+
+
+def _qualified(name: str, qualifier: str, form: str, factor: float = 1.0) -> Callable[[Row], str]:
+    """A number with the sign of its qualifier; a word where two depths are as good as equal."""
+    number = _number(name, form, factor)
+
+    def show(row: Row) -> str:
+        if row.get(qualifier) == "none":
+            return "reached"
+        return SIGNS.get(str(row.get(qualifier)), "") + number(row)
+
+    return show
+
+
+def sinks(row: Row) -> list[tuple[str, float]]:
+    """The largest sinks with their shares of the start energy, the largest first."""
+    shares = [(name[5:-6], float(value)) for name, value in row.items()
+              if name.startswith("sink_") and name.endswith("_share") and value is not None]  # fmt: skip
+    largest = sorted(shares, key=lambda entry: -abs(entry[1]))[:NAMED_SINKS]
+    return [entry for entry in largest if abs(entry[1]) >= SMALLEST_SHARE]
+
+
+def _sinks(row: Row) -> str:
+    named = "; ".join(f"{name.replace('_', ' ')} {share * 100:.2g} %".replace("-", "−") for name, share in sinks(row))
+    return named or ("" if row["energy_change"] is None else "none")
+
+
+def columns_of_results(study: Study) -> list[Column]:
+    """Axes, the impact velocity where none of them is that, depth, experiment, rod, status."""
+    speed = Column("Speed [m/s]", "velocity_m_s", _number("velocity_m_s", "{:.0f}"))
+    return [
+        *(Column(axis.name, axis.name, _word(axis.name), number=False) for axis in study.axes),
+        *([] if any(map(is_velocity, study.axes)) else [speed]),
+        Column("Depth [cm]", "depth_m", _qualified("depth_m", "depth_is", "{:.1f}", 100.0)),
+        Column("Experiment [cm]", "experiment_depth_m", _qualified("experiment_depth_m", "experiment_is", "{:.1f}", 100.0)),
+        Column("Error [cm]", "depth_error_m", _qualified("depth_error_m", "depth_error_is", "{:+.1f}", 100.0)),
+        Column("Error [%]", "depth_error_percent", _qualified("depth_error_percent", "depth_error_is", "{:+.0f}")),
+        Column("Length final / initial", "rod_length_ratio", _number("rod_length_ratio", "{:.3f}")),
+        Column("Largest radius / initial", "rod_radius_ratio", _number("rod_radius_ratio", "{:.2f}")),
+        Column("Regime", "regime", _word("regime"), number=False),
+        Column("Status", "status", _word("status"), number=False),
+    ]
+
+
+def columns_of_books() -> list[Column]:
+    """Conservation and cost."""
+    return [
+        Column("Mass, worst body", "mass_change_worst", _number("mass_change_worst", "{:+.0e}")),
+        Column("Axial momentum", "momentum_change", _number("momentum_change", "{:+.0e}")),
+        Column("Total energy", "energy_change", _number("energy_change", "{:+.0e}")),
+        Column("Largest sinks, share of start energy", "", _sinks, number=False),
+        Column("Time [µs]", "time_s", _number("time_s", "{:.0f}", 1e6)),
+        Column("Cycles", "cycles", _number("cycles", "{:.0f}")),
+        Column("Wall time [s]", "wall_s", _number("wall_s", "{:.0f}")),
+        Column("ns per cell and cycle", "ns_per_cell_cycle", _number("ns_per_cell_cycle", "{:.0f}")),
+    ]

@@ -1,0 +1,70 @@
+"""Depth against impact velocity by the analytic models, for the rod and target of a setup."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from .. import model as models
+from .. import model_deck
+from ..penetration.model import InputError
+
+#: models of a rod into a thick target, from rigid to consumed
+MODELS = ("forrestal", "tate", "walker-anderson", "anderson-riegel", "hydrodynamic")
+POINTS = 31
+
+
+@dataclass(frozen=True)
+class Curve:
+    """A model's depth in m at impact velocities in m/s, NaN where it has none; ``note`` says why."""
+
+    name: str
+    title: str
+    velocity: np.ndarray
+    depth: np.ndarray
+    note: str = ""
+
+    @property
+    def drawable(self) -> bool:
+        return bool(np.isfinite(self.depth).any())
+
+
+def curves(shot: model_deck.Shot, low: float, high: float) -> list[Curve]:
+    """Every model of ``MODELS`` between two impact velocities, in m/s."""
+    velocity = np.linspace(low, high, POINTS)
+    request = models.Request(rod=shot.rod, target=shot.target, geometry=shot.values)
+    return [_curve(name, request, velocity) for name in MODELS]
+
+
+def _curve(name: str, request: models.Request, velocity: np.ndarray) -> Curve:
+    model = models.named(name)
+    title = model.title.split(":")[0]
+    try:
+        case = models.resolve(model, request)
+    except InputError as error:
+        return Curve(name, title, velocity, np.full(len(velocity), np.nan), str(error))
+    borrowed = sorted(key for key, given in case.inputs.items() if models.EXAMPLE in given.source)
+    if borrowed:
+        note = f"the deck and its materials do not give {', '.join(borrowed)}"
+        return Curve(name, title, velocity, np.full(len(velocity), np.nan), note)
+    depths, problems = zip(*(_depth(case, float(speed)) for speed in velocity), strict=True)
+    return Curve(name, title, velocity, np.array(depths, dtype=float), _first_problem(velocity, problems))
+
+
+def _depth(case: models.Case, velocity: float) -> tuple[float, str]:
+    """Depth in m, or NaN and the reason."""
+    try:
+        return float(case.rows([velocity])[0]["depth"]), ""
+    except InputError as error:
+        return float("nan"), str(error)
+
+
+def _first_problem(velocity: np.ndarray, problems: Sequence[str]) -> str:
+    """The first reason for a missing depth, and for how many velocities there is none."""
+    missing = [(speed, problem) for speed, problem in zip(velocity, problems, strict=True) if problem]
+    if not missing:
+        return ""
+    where = "" if len(missing) == len(velocity) else f"not from {missing[0][0]:.0f} to {missing[-1][0]:.0f} m/s: "
+    return where + missing[0][1]

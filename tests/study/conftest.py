@@ -1,0 +1,3 @@
+"""What the tests of reports share."""
+
+from .browser import browser  # noqa: F401

@@ -1,0 +1,227 @@
+"""The page says what the runs say, and what could not be read; it is one well-formed file."""
+
+import csv
+import shutil
+
+import pytest
+
+from hydro2d.cli import call
+from hydro2d.study import layout
+from hydro2d.study.contents import collect
+from hydro2d.study.report import report
+
+from . import fake
+from .html import Page
+
+AXES = {
+    "velocity": fake.velocities(1086, 1200, 1290),
+    "advection": {"ke": ("numerics.advection=ke",), "momentum": ("numerics.advection=momentum",)},
+}
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory):
+    """A study of six cases and the folder of its report."""
+    study = fake.write_study(tmp_path_factory.mktemp("made") / "study", AXES, "Depth <against> velocity")
+    said = []
+    report([study], say=said.append)
+    return study, said
+
+
+@pytest.fixture
+def study(made, tmp_path):
+    """A copy of the study, to be spoilt."""
+    shutil.copytree(made[0], tmp_path / "study", ignore=shutil.ignore_patterns("report"))
+    return tmp_path / "study"
+
+
+def page_of(directory, **options):
+    said = []
+    file = report([directory], say=said.append, **options)
+    return Page(file.read_text(encoding="utf-8")), said
+
+
+def table(folder):
+    with open(folder / "cases.csv", newline="", encoding="utf-8") as file:
+        return {row["case"]: row for row in csv.DictReader(file)}
+
+
+def test_one_well_formed_file(made):
+    text = (made[0] / "report" / "report.html").read_text(encoding="utf-8")
+    page = Page(text)
+    assert page.faults == []
+    assert page.all("html") == [{"lang": "en"}]
+    assert {"name": "viewport", "content": "width=device-width, initial-scale=1"} in page.all("meta")
+    assert "Depth <against> velocity hydro2d 0.1.0" in page.text
+    assert "6 cases: 6 done." in page.text
+    assert len(page.all("img")) == len(list((made[0] / "report").glob("*.png"))) == 3
+    assert len(page.all("table")) == len(page.all("caption")) == 4
+
+
+@pytest.mark.parametrize("spoilt", ["<p>", "</td>", '<a href="https://somewhere">x</a>', '<p id="results"></p>', "<img>"])
+def test_faults_are_found(made, spoilt):
+    text = (made[0] / "report" / "report.html").read_text(encoding="utf-8")
+    assert Page(text.replace("</main>", f"{spoilt}</main>")).faults != []
+
+
+def test_the_table(made):
+    rows = table(made[0] / "report")
+    assert list(rows) == ["1086m-s_ke", "1086m-s_momentum", "1200m-s_ke", "1200m-s_momentum", "1290m-s_ke", "1290m-s_momentum"]
+    row = rows["1200m-s_ke"]
+    assert (row["velocity"], row["advection"], row["status"]) == ("1200 m/s", "ke", "done")
+    assert float(row["depth_m"]) == pytest.approx(0.348)
+    assert float(row["rod_length_ratio"]) == pytest.approx(1 - 0.012)
+    assert float(row["rod_radius_ratio"]) == pytest.approx(1 + 0.012)
+    assert float(row["mass_change_worst"]) == 1e-14
+    assert float(row["sink_advection_share"]) == pytest.approx(300 / 37000)
+    assert (row["cycles"], row["wall_s"], row["ns_per_cell_cycle"]) == ("1000", "321.3", "120.0")
+    page = Page((made[0] / "report" / "report.html").read_text(encoding="utf-8"))
+    assert "1200m-s_ke 1200 m/s ke 34.8 20.0 +14.8 +74 0.988 1.01 rigid done" in page.text
+    assert "advection 0.81 %; outflow 0.032 % 600" in page.text  # traces are below the share that is named
+
+
+def test_a_run_is_compared_with_the_experiment_of_its_velocity(made):
+    """All cases come from the deck of the shot at 1086 m/s; there is a shot at 1200, and one at 1296 within 0.5 % of 1290."""
+    rows = table(made[0] / "report")
+    assert [float(rows[name]["experiment_depth_m"]) for name in ("1086m-s_ke", "1200m-s_ke", "1290m-s_ke")] == pytest.approx(
+        [0.448, 0.2, 0.216])  # fmt: skip
+    assert "shot 4345" in rows["1200m-s_ke"]["experiment_source"]
+    assert float(rows["1086m-s_ke"]["depth_error_m"]) == pytest.approx(0.35 - 0.448)
+    assert float(rows["1086m-s_ke"]["depth_error_percent"]) == pytest.approx(100 * (0.35 / 0.448 - 1))
+    assert made[1][0].startswith("wrote ")
+
+
+def test_provenance_and_decks(made):
+    text = Page((made[0] / "report" / "report.html").read_text(encoding="utf-8")).text
+    assert "c0ffee, with local changes" in text
+    assert "hydro2d run <deck> & more" in text
+    assert "numerics.advection ke advection = ke (3) momentum advection = momentum (3)" in text
+    assert "body.rod.velocity [0, 1086] velocity = 1086 m/s (2)" in text
+    assert "numerics.courant 0.5" in text.split("What all 6 decks share")[1]
+
+
+def test_cases_that_are_not_done_are_shown(study):
+    case = study / "cases" / "1086m-s_ke"
+    fake.edit_json(case / "summary.json", status="unphysical", stop_reason="density -1 kg/m3")
+    shutil.rmtree(study / "cases" / "1200m-s_ke")
+    (study / "cases" / "1290m-s_ke" / "summary.json").unlink()
+    page, _ = page_of(study)
+    assert page.faults == []
+    assert "6 cases: 1 unphysical, 3 done, 1 waiting, 1 interrupted." in page.text
+    assert "unphysical density -1 kg/m3" in page.text
+    rows = table(study / "report")
+    assert (rows["1086m-s_ke"]["depth_m"], rows["1086m-s_ke"]["depth_error_m"]) == ("0.35", "")
+    assert rows["1200m-s_ke"]["depth_m"] == ""
+    assert float(rows["1290m-s_ke"]["depth_m"]) == pytest.approx(0.346)  # of the history
+    assert "Hollow: runs that are done (3 of 5)" in page.text
+
+
+def test_a_study_that_has_not_begun(study):
+    shutil.rmtree(study / "cases")
+    page, _ = page_of(study)
+    assert page.faults == []
+    assert "6 cases: 6 waiting." in page.text
+    assert "There is no figure" in page.text
+    assert [row["velocity"] for row in table(study / "report").values()][::2] == ["1086 m/s", "1200 m/s", "1290 m/s"]
+
+
+@pytest.mark.parametrize(
+    ("file", "said"),
+    [
+        ("history.h5", "is not a history file"), ("deck.toml", "deck.toml cannot be read"),
+        ("interfaces.pvd", "is not a series of VTK files"), ("vtk/interfaces_000001.vtp", "is not a VTK file of a run"),
+    ],
+)  # fmt: skip
+@pytest.mark.filterwarnings("ignore")
+def test_what_cannot_be_read_is_said_and_the_rest_is_made(study, file, said):
+    (study / "cases" / "1086m-s_ke" / file).write_bytes(b"\x89HDF half a file")
+    page, lines = page_of(study)
+    assert page.faults == []
+    assert any(line.startswith("warning: 1086m-s_ke: ") and said in line for line in lines)
+    assert "Not everything could be used" in page.text
+    assert said in page.text
+    assert len(page.all("img")) == 3
+    assert len(table(study / "report")) == 6
+
+
+def test_a_perforated_plate_is_a_bound(tmp_path):
+    """A rod that went through and left the mesh: its depth is at least the thickness, whatever was measured last."""
+    ogive = ("body.rod.nose=ogive", "body.rod.crh=2.5", "body.rod.length=101.346 mm")
+    run = fake.write_run(tmp_path / "runs" / "through", 1227.0, 0.54, overrides=ogive)
+    fake.edit_json(run / "summary.json", penetration_depth_m=0.0)
+    fake.write_run(tmp_path / "runs" / "stopped", 1227.0, 0.40, overrides=ogive)
+    fake.write_run(tmp_path / "runs" / "slow", 923.0, 0.54, overrides=ogive)
+    page, _ = page_of(tmp_path / "runs")
+    rows = table(tmp_path / "runs" / "report")
+    found = {name: (row["depth_m"], row["depth_is"], row["depth_error_is"]) for name, row in rows.items()}
+    assert found == {"through": ("0.5334", "at least", "none"), "stopped": ("0.4", "computed", "at most"),
+                     "slow": ("0.5334", "at least", "at least")}  # fmt: skip
+    assert "1227 40.0 ≥ 53.3 ≤ −13.3 ≤ −25" in page.text
+    assert "923 ≥ 53.3 41.7 ≥ +11.6 ≥ +28" in page.text
+    assert "≥ 53.3 ≥ 53.3 reached reached" in page.text
+
+
+def test_an_experiment_at_an_unknown_velocity_is_compared_with_nothing(tmp_path):
+    """Another rod than the catalogue's: its experiment was measured at one velocity, and two are run."""
+    short = ("body.rod.length=60 mm",)
+    for speed in (1000, 1200):
+        fake.write_run(tmp_path / "runs" / f"v{speed}", speed, overrides=short)
+    page, lines = page_of(tmp_path / "runs")
+    assert "experiment.velocity in a deck says" in lines[0]
+    assert "experiment.velocity in a deck says" in page.text
+    assert {row["depth_error_m"] for row in table(tmp_path / "runs" / "report").values()} == {""}
+    shutil.rmtree(tmp_path / "runs")
+    for speed in (1000, 1200):
+        fake.write_run(tmp_path / "runs" / f"v{speed}", speed, 0.4, overrides=(*short, "experiment.velocity=1200 m/s"))
+    _, lines = page_of(tmp_path / "runs")
+    rows = table(tmp_path / "runs" / "report")
+    assert lines[0].startswith("wrote")
+    assert rows["v1000"]["depth_error_m"] == ""
+    assert float(rows["v1200"]["depth_error_m"]) == pytest.approx(0.4 - 0.448)
+
+
+def test_a_deck_without_rod_and_target(tmp_path):
+    run = fake.write_run(tmp_path / "runs" / "sod")
+    (run / "deck.toml").write_text('name = "x"\n[mesh]\nwrong = 1\n')
+    page, _ = page_of(tmp_path / "runs")
+    assert "There is no figure" in page.text
+    assert page.faults == []
+
+
+def test_pictures_of_an_earlier_report_are_removed(study, tmp_path):
+    out = tmp_path / "out"
+    out.mkdir()
+    for name in ("rods_07.png", "depth_other_hemispherical.png", "mine.png"):
+        (out / name).write_bytes(b"")
+    page_of(study, out=out)
+    names = {path.name for path in out.iterdir()}
+    assert {"mine.png", "report.html", "cases.csv", "rods_01.png"} <= names
+    assert not names & {"rods_07.png", "depth_other_hemispherical.png"}
+    assert not [name for name in names if "tmp" in name]
+
+
+def test_a_hundred_cases_weigh_little(tmp_path):
+    axes = {"velocity": fake.velocities(*range(900, 1150, 10)), "courant": {
+        str(number): (f"numerics.courant={number}",) for number in (0.3, 0.4, 0.5, 0.6)}}  # fmt: skip
+    study = fake.write_study(tmp_path / "study", axes)
+    page, _ = page_of(study)
+    assert (study / "report" / "report.html").stat().st_size < 10e6
+    assert page.faults == []
+    assert len(page.all("details")) == 101
+    assert "Page 6 of 6" in page.text
+
+
+def test_the_command(study, tmp_path, capsys):
+    assert call(["report", str(study), "--out", str(tmp_path / "out")]) == 0
+    assert "report.html" in capsys.readouterr().out
+    assert call(["report", str(tmp_path / "studie")]) == 2
+    assert 'did you mean "study"' in capsys.readouterr().err
+    assert call(["report"]) == 2
+    assert call(["report", str(study), "--out", str(study / "study.json")]) == 2
+    assert "is a file" in capsys.readouterr().err
+
+
+def test_reading_leaves_a_study_as_it_is(study):
+    before = {path: path.read_bytes() for path in study.rglob("*") if path.is_file()}
+    collect(layout.load(study))
+    assert {path: path.read_bytes() for path in study.rglob("*") if path.is_file()} == before
