@@ -209,7 +209,6 @@ class Experiment(Section):
     target: str | None = Field(None, description="material that was shot at; default: whatever the target is made of")
     penetration: PositiveLength | None = Field(None, description="depth below the original surface")
     qualifier: Literal["measured", "estimated", "at least"] = Field("measured", description="what the depth is")
-    velocity: PositiveSpeed | None = Field(None, description="impact velocity of the shot, to tell which runs it belongs to")
     source: str = Field(min_length=1, description="where the number comes from")
 
 

@@ -165,7 +165,8 @@ def test_an_experiment_at_an_unknown_velocity_is_compared_with_nothing(tmp_path)
     """Another rod than the catalogue's: its experiment was measured at one velocity, and two are run."""
     short = ("body.rod.length=60 mm",)
     for speed in (1000, 1200):
-        fake.write_run(tmp_path / "runs" / f"v{speed}", speed, overrides=short)
+        deck = fake.write_run(tmp_path / "runs" / f"v{speed}", speed, overrides=short) / "deck.toml"
+        deck.write_text(deck.read_text() + '\n[experiment]\npenetration = 0.448\nsource = "a laboratory"\n')
     page, lines = page_of(tmp_path / "runs")
     assert "experiment.velocity in a deck says" in lines[0]
     assert "experiment.velocity in a deck says" in page.text
