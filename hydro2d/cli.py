@@ -13,6 +13,7 @@ from cyclopts import App, Parameter
 from . import __version__
 from .cli_base import Overrides, UsageError, quantity
 from .cli_model import model
+from .cli_study import sweep
 
 WRONG_INPUT = 2
 
@@ -25,6 +26,7 @@ app = App(
 )
 
 app.command(model)
+app.command(sweep)
 
 
 def _user_errors() -> tuple[type[Exception], ...]:
@@ -33,7 +35,7 @@ def _user_errors() -> tuple[type[Exception], ...]:
     for module, name in (
         ("deck_errors", "DeckError"), ("run", "RunError"), ("snapshot", "SnapshotError"), ("history", "HistoryError"),
         ("vtk", "VtkError"), ("figures", "FigureError"), ("results", "ResultsError"), ("derived", "FieldError"),
-        ("files", "LockError"), ("penetration.model", "InputError"),
+        ("files", "LockError"), ("penetration.model", "InputError"), ("study.definition", "StudyError"),
     ):  # fmt: skip
         loaded = sys.modules.get(f"hydro2d.{module}")
         if loaded is not None:

@@ -43,13 +43,13 @@ class LockError(Exception):
     """A directory that another process works in; the message is for the user."""
 
 
-def _holder(path: Path) -> str | None:
+def holder(path: Path) -> str | None:
     """Who holds a lock, in words; None where it is gone or its process on this host is."""
     try:
         host, number = path.read_text(encoding="utf-8").split()
         if host == socket.gethostname():
             os.kill(int(number), 0)
-    except (FileNotFoundError, ProcessLookupError, ValueError):
+    except (FileNotFoundError, NotADirectoryError, ProcessLookupError, ValueError):
         return None
     except PermissionError:
         pass  # alive, and somebody else's
@@ -64,20 +64,20 @@ def locked(path: Path) -> Iterator[None]:
     """
     path = Path(path)
     own = path.with_name(f".{path.name}.{os.getpid()}")
-    own.write_text(f"{socket.gethostname()} {os.getpid()}\n", encoding="utf-8")
     try:
+        own.write_text(f"{socket.gethostname()} {os.getpid()}\n", encoding="utf-8")
         while True:
             try:
                 os.link(own, path)  # the lock appears with its content, or not at all
                 break
             except FileExistsError:
-                holder = _holder(path)
-                if holder is not None:
+                by = holder(path)
+                if by is not None:
                     hint = f"if that is gone for good, remove {path}"
-                    raise LockError(f"{path.parent} is in use by {holder}; {hint}") from None
+                    raise LockError(f"{path.parent} is in use by {by}; {hint}") from None
                 path.unlink(missing_ok=True)
     finally:
-        own.unlink()
+        own.unlink(missing_ok=True)
     try:
         yield
     finally:
