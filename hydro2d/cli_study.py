@@ -106,5 +106,5 @@ def _directory(study: Path) -> Path:
     """Where a study file's results are."""
     from .study import definition
 
-    found, _, _ = definition.read(study, [])
+    found, *_ = definition.read(study, [])
     return Path(found.out or f"runs/{study.stem}")

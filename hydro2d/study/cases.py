@@ -60,16 +60,14 @@ class Plan:
 def plan(path: Path, overrides: list[str] | None = None) -> Plan:
     """Reads a study file and resolves all decks. Raises StudyError for what is wrong with the study itself."""
     path = Path(path)
-    definition, text, sources = read(path, overrides or [])
-    return _Planner(path, definition, text, sources).plan()
+    return _Planner(path, *read(path, overrides or [])).plan()
 
 
 class _Planner:
     """Puts a plan together; `wrong` gathers what is wrong, one line each."""
 
-    def __init__(self, path: Path, definition: Definition, text: str, sources: Sources):
-        self.path, self.definition, self.text, self.sources = path, definition, text, sources
-        self.data = definition.model_dump(by_alias=True, exclude_none=True)
+    def __init__(self, path: Path, definition: Definition, text: str, data: dict, sources: Sources):
+        self.path, self.definition, self.text, self.data, self.sources = path, definition, text, data, sources
         self.wrong: list[str] = []
 
     def plan(self) -> Plan:
@@ -202,12 +200,14 @@ class _Planner:
 
     def _keys(self):
         """Every deck key of the study, and where it stands."""
-        yield from ((("set", key), key) for key in self.definition.set if key != DECK)
+        yield from ((_place(("set",), key, self.data.get("set", {})), key) for key in self.definition.set if key != DECK)
         for number, axis in enumerate(self.definition.axis):
             if axis.key:
                 yield ("axis", number, "key"), axis.key
             for name, settings in (axis.variants or {}).items():
-                yield from ((("axis", number, "variants", name, key), key) for key in settings if key != DECK)
+                table = self.data["axis"][number]["variants"][name]
+                place = ("axis", number, "variants", name)
+                yield from ((_place(place, key, table), key) for key in settings if key != DECK)
 
     def _resolved(self, labels: dict, base: str, overrides: list[str], files: dict[str, Path]) -> Planned:
         text = message = ""
@@ -220,6 +220,11 @@ class _Planner:
     def _named(self, cases: list[Planned], combinations: list[tuple[Choice, ...]]) -> list[Planned]:
         names = distinct(["_".join(choice.short for choice in combination) for combination in combinations])
         return [Planned(name, *_rest(case)) for name, case in zip(names, cases, strict=True)]
+
+
+def _place(table: tuple, key: str, given: dict) -> tuple:
+    """Where a deck key stands in the study file: quoted, or as a table of tables."""
+    return (*table, key) if key in given else (*table, *deck_toml.key_parts(key))
 
 
 def _rest(case: Planned) -> tuple:

@@ -96,8 +96,8 @@ def is_study(data: dict) -> bool:
     return "axis" in data
 
 
-def read(path: Path, overrides: list[str]) -> tuple[Definition, str, Sources]:
-    """A study file with the overrides of the command line laid over [set]; its text; where its keys stand.
+def read(path: Path, overrides: list[str]) -> tuple[Definition, str, dict, Sources]:
+    """A study file with the overrides of the command line laid over [set]: validated, as text, as tables; where keys stand.
 
     Raises StudyError, one line for each mistake.
     """
@@ -116,7 +116,7 @@ def read(path: Path, overrides: list[str]) -> tuple[Definition, str, Sources]:
     if overrides:
         data = {**data, "set": {**_settings(data), **dict(_assigned(entry) for entry in overrides)}}
         text = f"# with {len(overrides)} --set of the command line laid over\n\n{deck_toml.dumps(data)}"
-    return _validated(data, sources), text, sources
+    return _validated(data, sources), text, data, sources
 
 
 def _settings(data: dict) -> dict:

@@ -18,6 +18,8 @@ from hydro2d.study.layout import FAILED_STATUS, WAITING
 
 #: seconds that a worker which is told to go waits for the case to write its restart file
 PATIENCE = 60.0
+#: exit status of a worker that SIGTERM has ended
+GONE = 128 + signal.SIGTERM
 
 
 class _Process:
@@ -49,7 +51,7 @@ def work(sweep: str, directory: str, deck_text: str, threads: int, overwrite: bo
         _process.interrupt = None
         _process.busy.release()
     if _process.leaving:
-        _end_process()  # the scheduler gives the case to another worker
+        os._exit(GONE)  # the scheduler gives the case to another worker
     return outcome.plain()
 
 
@@ -66,18 +68,12 @@ def introduce(dask_worker) -> dict:
     return {"version": __version__, "threads": dask_worker.state.nthreads}
 
 
-def _end_process() -> None:
-    signal.signal(signal.SIGTERM, signal.SIG_DFL)
-    os.kill(os.getpid(), signal.SIGTERM)
-    time.sleep(PATIENCE)
-
-
 def _on_sigterm(_number, _frame) -> None:
     """The case writes its restart file first, where there is one."""
     _process.leaving = True
     interrupt = _process.interrupt
     if interrupt is None:
-        _end_process()
+        os._exit(GONE)
     interrupt("SIGTERM")
 
 

@@ -1,0 +1,1 @@
+"""Studies: files, cases, directories, sweeps."""

@@ -1,0 +1,3 @@
+"""What several of these tests need."""
+
+from tests.unit.conftest import simulation  # noqa: F401

@@ -1,0 +1,142 @@
+"""A study directory is read back as it was written, in any state of completion."""
+
+import json
+import os
+import socket
+
+import pytest
+
+from hydro2d import study
+from hydro2d.cli import call
+from hydro2d.files import write_json
+from hydro2d.study import cases, layout, sweep, table
+from hydro2d.study.definition import StudyError
+from tests.study import tubes
+
+
+@pytest.fixture
+def plan(tmp_path):
+    return cases.plan(tubes.write(tmp_path, tubes.STUDY.replace("0.2]", "0.2, '2 mm']")))
+
+
+@pytest.fixture
+def written(plan, tmp_path):
+    layout.write(plan, tmp_path / "out")
+    return tmp_path / "out"
+
+
+def state(directory, name):
+    return next(case for case in study.load(directory).cases if case.name == name)
+
+
+def pretend(directory, plan, name, status, **extra):
+    """What a run of a case leaves behind."""
+    place = directory / "cases" / name
+    place.mkdir(exist_ok=True)
+    planned = next(case for case in plan.cases if case.name == name)
+    (place / "deck.toml").write_text(planned.text)
+    if status is not None:
+        write_json(place / "summary.json", {"status": status, "stop_reason": "a reason", "deck_sha256": planned.sha256,
+                                            "wall_s": 100.0, "penetration_depth_m": 0.123} | extra)  # fmt: skip
+    return place
+
+
+def test_round_trip(plan, written):
+    found = study.load(written)
+    assert (found.title, found.name, found.directory) == ("Shock tubes", "tubes", written)
+    assert found.axes == [
+        {"name": "advection", "key": "numerics.advection", "values": ["ke", "momentum"]},
+        {"name": "pressure", "key": "body.low.pressure", "values": ["0.1", "0.2", "2 mm"]},
+    ]
+    assert [case.name for case in found.cases] == [case.name for case in plan.cases]
+    first = found.cases[0]
+    assert first.values == {"advection": "ke", "pressure": "0.1"}
+    assert first.directory == written / "cases" / "ke_0.1"
+    assert (first.base, first.status, first.summary, first.deck) == ("tube.toml", "waiting", {}, None)
+    assert first.deck_sha256 == plan.cases[0].sha256
+    assert "ke_2mm" == found.cases[2].name
+    assert found.cases[2].status == "invalid"
+    assert "body[1].pressure" in found.cases[2].message
+    assert (written / "study.toml").read_text() == plan.text
+
+
+def test_every_status(plan, written):
+    place = pretend(written, plan, "ke_0.1", "done")
+    assert state(written, "ke_0.1").status == "done"
+    assert state(written, "ke_0.1").deck["numerics"]["advection"] == "ke"
+    (place / "run.lock").write_text(f"{socket.gethostname()} {os.getppid()}")
+    write_json(place / "progress.json", {"fraction": 0.25, "left_s": 60.0, "host": "here", "process": 7})
+    assert state(written, "ke_0.1").status == "running"
+    assert table.row(state(written, "ke_0.1"))[3:] == ("25 %", "1 min 00 s", "here:7")
+    (place / "run.lock").unlink()
+    pretend(written, plan, "ke_0.1", "unphysical")
+    assert state(written, "ke_0.1").message == "a reason"
+    pretend(written, plan, "ke_0.1", "interrupted")
+    assert state(written, "ke_0.1").status == "interrupted"
+    write_json(place / "failed.json", {"reason": "the disk is full", "kind": "OSError", "host": "here", "time": ""})
+    assert (state(written, "ke_0.1").status, state(written, "ke_0.1").message) == ("failed", "the disk is full")
+    place = pretend(written, plan, "ke_0.2", None)
+    assert state(written, "ke_0.2").status == "waiting"
+    (place / "restart.h5").touch()
+    assert state(written, "ke_0.2").status == "interrupted"  # it was killed
+    pretend(written, plan, "momentum_0.1", "done")
+    (written / "cases" / "momentum_0.1" / "deck.toml").write_text("title = 'another'")
+    assert state(written, "momentum_0.1").status == "waiting"
+    (written / "cases" / "momentum_0.2").touch()
+    assert "is a file" in state(written, "momentum_0.2").message
+
+
+def test_status_command(plan, written, tmp_path, capsys):
+    pretend(written, plan, "ke_0.1", "done")
+    assert call(["sweep", str(written), "--status"]) == 0
+    shown = capsys.readouterr().out
+    assert "ke_0.1        done     12.30 cm  100 %" in shown
+    assert "1 of 6 done, 3 waiting, 2 invalid" in shown
+    assert call(["sweep", str(tmp_path / "tubes.toml"), "--out", str(written), "--status"]) == 0
+    assert call(["sweep", str(tmp_path), "--status"]) == 2
+    assert "not a study directory" in capsys.readouterr().err
+    (written / "study.json").write_text("{")
+    assert call(["sweep", str(written), "--status"]) == 2
+
+
+def test_time_left():
+    def case(status, **told):
+        return layout.Case("a", {}, None, "", [], "", status, **told)
+
+    done, waiting = case("done", summary={"wall_s": 100.0}), case("waiting")
+    running = case("running", progress={"left_s": 40.0, "wall_s": 60.0})
+    assert table.left([done, waiting, waiting, running], 2) == 120.0
+    assert table.left([running, waiting], 1) == 140.0
+    assert table.left([waiting], 1) is None
+
+
+def test_an_existing_study_is_kept_unless_told(plan, written, tmp_path):
+    sweep.prepare(plan, written, resume=False, overwrite=False)  # nothing has begun
+    pretend(written, plan, "ke_0.1", "done")
+    with pytest.raises(StudyError, match=r"1 of 6 done.*--resume continues it"):
+        sweep.prepare(plan, written, resume=False, overwrite=False)
+    assert sweep.prepare(plan, written, resume=True, overwrite=False) == []
+    with pytest.raises(StudyError, match="no study to continue"):
+        sweep.prepare(plan, tmp_path / "none", resume=True, overwrite=False)
+    with pytest.raises(StudyError, match="is a file"):
+        sweep.prepare(plan, tmp_path / "tube.toml", resume=False, overwrite=False)
+    with pytest.raises(StudyError, match="cannot be written"):
+        sweep.prepare(plan, tmp_path / "tube.toml" / "out", resume=False, overwrite=False)
+
+
+def test_a_changed_study_is_told(plan, written, tmp_path):
+    pretend(written, plan, "ke_0.1", "done")
+    wider = cases.plan(tubes.write(tmp_path, tubes.STUDY.replace("[0.1, 0.2]", "[0.1, 0.3]")))
+    told = sweep.prepare(wider, written, resume=True, overwrite=False)
+    assert told == [
+        "2 cases (ke_0.3, momentum_0.3) new",
+        "4 cases (ke_0.2, ke_2mm, momentum_0.2, momentum_2mm) no longer in the study; what is in cases stays",
+    ]
+    other = cases.plan(tubes.write(tmp_path), ["numerics.courant=0.3"])
+    before = (written / "study.json").read_text()
+    with pytest.raises(StudyError, match=r"1 case \(ke_0.1\) had another deck.*--overwrite"):
+        sweep.prepare(other, written, resume=True, overwrite=False)
+    assert (written / "study.json").read_text() == before
+    told = sweep.prepare(other, written, resume=True, overwrite=True)
+    assert "1 case (ke_0.1) with another deck than before" in told
+    assert json.loads((written / "study.json").read_text())["cases"][0]["deck_sha256"] == other.cases[0].sha256
