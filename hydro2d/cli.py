@@ -22,7 +22,7 @@ app = App(
     version=__version__,
     help="A two-dimensional axisymmetric Eulerian hydrocode for rod-into-plate impact.",
     help_format="plaintext",
-    help_epilogue="Exit status: 0 done, 2 deck or arguments wrong, 3 unphysical state, 130/143 interrupted.",
+    help_epilogue="Exit status: 0 done, 2 deck or arguments wrong, 3 unphysical state or failed cases, 130/143 interrupted.",
 )
 
 app.command(model)

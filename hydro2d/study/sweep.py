@@ -93,10 +93,10 @@ def sweep(plan: Plan, directory: Path, connect: AbstractContextManager, *, threa
             board.line(text)
         if overwrite and not resume:
             _clear(study)
+        started = time.perf_counter()
         with connect as client:
-            started = time.perf_counter()
-            _Sweep(plan, study, client, board, threads, overwrite).run(interrupt)
-        return _end(board, interrupt, time.perf_counter() - started)
+            spent = _Sweep(plan, study, client, board, threads, overwrite).run(interrupt)
+        return _end(board, interrupt, time.perf_counter() - started, spent)
 
 
 def _clear(study: layout.Study) -> None:
@@ -116,10 +116,11 @@ class _Sweep:
         self.texts = {case.name: case.text for case in plan.cases}
         self.name = uuid.uuid4().hex[:12]
         self.tasks: dict[str, layout.Case] = {}
+        self.spent = 0.0
         self.ended: queue.Queue = queue.Queue()
 
-    def run(self, interrupt: Interrupt) -> None:
-        """Returns when every case has ended."""
+    def run(self, interrupt: Interrupt) -> float:
+        """Returns when every case has ended: the seconds that they took in their workers."""
         self._submit()
         told = False
         while self.tasks:
@@ -134,6 +135,7 @@ class _Sweep:
                 pass
             self.board.workers = len(self.client.scheduler_info(n_workers=-1)["workers"]) if self.tasks else 0
             self.board.update()
+        return self.spent
 
     def _submit(self) -> None:
         from hydro2d.study import worker
@@ -161,6 +163,7 @@ class _Sweep:
         case = self.tasks.pop(future.key)
         outcome = _outcome(future)
         future.release()
+        self.spent += outcome.wall_s
         if outcome.status == FAILED_STATUS:
             self._record(case, outcome)
         self.board.moving.discard(case.name)
@@ -202,14 +205,14 @@ def _outcome(future) -> Outcome:
     return Outcome(**about, kind=type(error).__name__, message=f"{type(error).__name__}: {error}")
 
 
-def _end(board: table.Board, interrupt: Interrupt, seconds: float) -> int:
+def _end(board: table.Board, interrupt: Interrupt, seconds: float, spent: float) -> int:
     """The last word, and the exit status."""
     cases = [board.look(case.name) for case in board.cases]
     for case in cases:
         if case.status in (FAILED_STATUS, UNPHYSICAL, INVALID):
             for text in case.message.splitlines():
                 board.line(f"{case.name}: {case.status}: {text}")
-    board.line(f"{table.counts(cases)}, in {duration(seconds)}")
+    board.line(f"{table.counts(cases)}, in {duration(seconds)}; the cases took {spent:.1f} s in their workers")
     if interrupt.reason:
         board.line(f"interrupted ({interrupt.reason}); --resume continues")
         return 130 if interrupt.reason == "SIGINT" else 143
