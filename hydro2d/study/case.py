@@ -14,7 +14,7 @@ from hydro2d import compilation, jit, run, snapshot
 from hydro2d import deck as decks
 from hydro2d.deck_errors import DeckError
 from hydro2d.derived import FieldError
-from hydro2d.files import LockError
+from hydro2d.files import LockError, holder
 from hydro2d.history import HistoryError
 from hydro2d.study.layout import DONE, FAILED, FAILED_STATUS, UNPHYSICAL, read_json
 from hydro2d.vtk import VtkError
@@ -24,6 +24,8 @@ TOLD = (DeckError, FieldError, HistoryError, LockError, VtkError, run.RunError, 
 FULL = "No space left on device"
 #: cycles that call every kernel: more than simulation.WATCH_EVERY
 CYCLES = 11
+#: seconds without a sign of life after which a process on another machine has lost its lock; progress.json comes every 3
+SILENCE = 120.0
 
 
 @dataclass(frozen=True)
@@ -82,12 +84,30 @@ def _finished(directory: Path, deck_text: str) -> dict | None:
 def _run(directory: Path, deck_text: str, threads: int, overwrite: bool, interrupt: run.Interrupt | None) -> dict:
     if not directory.parent.is_dir():
         raise run.RunError(f"{directory.parent} is not there on {socket.gethostname()}: workers need the study's file system")
+    _wait_for_silence(directory, interrupt)
     deck = decks.loads(deck_text)
     restart = _can_continue(directory, deck_text, overwrite)
     jit.set_threads(min(threads, jit.max_threads()))
     compilation.once(kernels(deck), lambda: _compile(deck))
     (directory / FAILED).unlink(missing_ok=True)
     return run.run(deck, directory, restart=restart, overwrite=not restart, quiet=True, interrupt=interrupt)
+
+
+def _wait_for_silence(directory: Path, interrupt: run.Interrupt | None) -> None:
+    """Takes a lock away from a process on another machine that no longer shows progress: its worker is gone.
+
+    Waits for that; a process that goes on showing progress keeps its lock, and the run tells so.
+    """
+    lock, until = directory / run.LOCK, time.monotonic() + 2 * SILENCE
+    while time.monotonic() < until and not (interrupt and interrupt.reason):
+        by = holder(lock)
+        if by is None or by.endswith(f" on {socket.gethostname()}"):
+            return
+        signs = [file.stat().st_mtime for file in (lock, directory / run.PROGRESS) if file.exists()]
+        if time.time() - max(signs, default=0.0) > SILENCE:
+            lock.unlink(missing_ok=True)
+            return
+        time.sleep(1.0)
 
 
 def _can_continue(directory: Path, deck_text: str, overwrite: bool) -> bool:

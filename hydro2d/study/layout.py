@@ -80,11 +80,18 @@ class Study:
         return _case(self.directory, self.entries[number])
 
 
+def make(directory: Path) -> None:
+    """Makes the folders of a study where they are missing. Raises StudyError."""
+    try:
+        (Path(directory) / CASES).mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise StudyError(f"{directory}: the study cannot be written: {error.strerror or error}") from None
+
+
 def write(plan, directory: Path) -> None:
-    """Writes a study directory, or a changed study into one that is there. Raises StudyError."""
+    """Writes a study into its directory, which `make` has made. Raises StudyError."""
     directory = Path(directory)
     try:
-        (directory / CASES).mkdir(parents=True, exist_ok=True)
         write_text(directory / TEXT, plan.text)
         write_json(directory / STUDY, {
             "title": plan.title,

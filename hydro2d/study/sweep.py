@@ -28,8 +28,8 @@ ALL_DONE, SOME_FAILED = 0, 3
 BEAT = 0.5
 
 
-def prepare(plan: Plan, directory: Path, *, resume: bool, overwrite: bool) -> list[str]:
-    """Writes the study directory. Returns what has changed since it was written last, in words.
+def changes(plan: Plan, directory: Path, *, resume: bool, overwrite: bool) -> list[str]:
+    """What has changed since the study directory was written last, in words.
 
     Raises StudyError where a study is there and `resume` and `overwrite` do not allow it, or where its cases have other
     decks than before.
@@ -47,7 +47,6 @@ def prepare(plan: Plan, directory: Path, *, resume: bool, overwrite: bool) -> li
         told = _changes(plan, before, overwrite)
     elif resume:
         raise StudyError(f"{directory}: there is no study to continue")
-    layout.write(plan, directory)
     return told
 
 
@@ -85,14 +84,21 @@ def sweep(plan: Plan, directory: Path, connect: AbstractContextManager, *, threa
 
     Raises StudyError, LockError (another sweep runs there).
     """
-    told, interrupt = prepare(plan, directory, resume=resume, overwrite=overwrite), Interrupt()
-    study = layout.load(directory)
-    with locked(directory / LOCK), table.board(study, quiet) as board, signals(interrupt), _dask_told(board):
-        board.line(f"{study.name}: {len(study.cases)} cases in {directory}")
+    told, interrupt = changes(plan, directory, resume=resume, overwrite=overwrite), Interrupt()
+    layout.make(directory)
+    with locked(directory / LOCK):
+        layout.write(plan, directory)
+        if overwrite and not resume:
+            _clear(layout.load(directory))
+        return _sweep(plan, layout.load(directory), told, connect, interrupt, threads, overwrite, quiet)
+
+
+def _sweep(plan: Plan, study: layout.Study, told: list[str], connect: AbstractContextManager, interrupt: Interrupt,
+           threads: int, overwrite: bool, quiet: bool) -> int:  # fmt: skip
+    with table.board(study, quiet) as board, signals(interrupt), _dask_told(board):
+        board.line(f"{study.name}: {len(study.cases)} cases in {study.directory}")
         for text in told:
             board.line(text)
-        if overwrite and not resume:
-            _clear(study)
         started = time.perf_counter()
         with connect as client:
             spent = _Sweep(plan, study, client, board, threads, overwrite).run(interrupt)

@@ -5,6 +5,7 @@ import os
 import shutil
 import subprocess
 import sys
+import time
 
 import pytest
 
@@ -100,15 +101,29 @@ def test_a_fault_is_a_result_with_its_trace(simulation, text, place):
     assert "test_case.py" in outcome.trace
 
 
+def _locked(place, text, age):
+    """A lock with a last sign of life so many seconds ago."""
+    place.mkdir()
+    (place / "run.lock").write_text(text)
+    os.utime(place / "run.lock", (time.time() - age,) * 2)
+
+
+def test_the_lock_of_another_machine_that_fell_silent_is_taken_over(text, place):
+    _locked(place, "elsewhere 1", 1e4)
+    assert run_case(place, text).status == "done"
+
+
 @pytest.mark.parametrize(
     ("spoil", "said"),
     [
         (lambda place: place.touch(), "is a file, not a directory"),
         (lambda place: shutil.rmtree(place.parent), "workers need the study's file system"),
-        (lambda place: (place.mkdir(), (place / "run.lock").write_text("elsewhere 1")), "in use by process 1 on elsewhere"),
+        (lambda place: _locked(place, f"{os.uname().nodename} {os.getppid()}", 1e9), f"in use by process {os.getppid()}"),
+        (lambda place: _locked(place, "elsewhere 1", -1e9), "in use by process 1 on elsewhere"),
     ],
 )
-def test_what_the_user_can_mend_is_one_line(text, tmp_path, spoil, said):
+def test_what_the_user_can_mend_is_one_line(text, tmp_path, monkeypatch, spoil, said):
+    monkeypatch.setattr("hydro2d.study.case.SILENCE", 0.1)
     place = tmp_path / "cases" / "case"
     place.parent.mkdir()
     spoil(place)

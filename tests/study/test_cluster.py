@@ -40,6 +40,10 @@ def test_joins_a_running_cluster_and_leaves_it_running(tmp_path, others, capsys)
     assert {case.status for case in study.load(tmp_path / "a").cases} == {"done"}
     assert call(["sweep", str(file), "--scheduler", address, "--out", str(tmp_path / "b"), "--quiet"]) == 0
     assert "4 of 4 done" in capsys.readouterr().out
+    files = sorted((tmp_path / "a").glob("cases/*/summary.json"))
+    before = [file.stat().st_mtime_ns for file in files]
+    assert call(["sweep", str(file), "--scheduler", address, "--out", str(tmp_path / "a"), "--overwrite"]) == 0
+    assert all(file.stat().st_mtime_ns > then for file, then in zip(files, before, strict=True))
 
 
 def test_workers_of_several_threads_are_refused(tmp_path, others, capsys):
