@@ -1,9 +1,11 @@
 """A study directory is read back as it was written, in any state of completion."""
 
+import io
 import os
 import socket
 
 import pytest
+import rich.console
 
 from hydro2d import study
 from hydro2d.cli import call
@@ -138,3 +140,32 @@ def test_a_changed_study_is_told(plan, written, tmp_path):
         sweep.changes(other, written, resume=True, overwrite=False)
     told = sweep.changes(other, written, resume=True, overwrite=True)
     assert "1 case (ke_0.1) with another deck than before" in told
+
+
+def test_the_board_tells_of_running_cases(plan, written, capsys, monkeypatch):
+    monkeypatch.setattr(table, "LINE_SECONDS", 0.0)
+    place = pretend(written, plan, "ke_0.2", None)
+    pretend(written, plan, "ke_0.1", "done")
+    (place / "run.lock").write_text(f"{socket.gethostname()} {os.getppid()}")
+    write_json(place / "progress.json", {"fraction": 0.5, "left_s": 30.0, "wall_s": 30.0, "host": "here", "process": 7})
+    with table.board(study.load(written), quiet=False) as board:
+        board.workers = 1
+        board.line("two\nlines")
+        board.update()
+    shown = capsys.readouterr().out
+    assert "1 of 6 done, 2 waiting, 1 running, 2 invalid; 3 min 50 s left" in shown
+    assert "  ke_0.2  running  -  50 %  30 s  here:7" in shown
+    assert [line.split("  ")[1] for line in (written / "sweep.log").read_text().splitlines()] == ["two", "lines"]
+
+
+def test_the_live_table_fits_the_terminal(plan, written):
+    pretend(written, plan, "ke_0.1", "done")
+    board = table.Live(study.load(written), io.StringIO(), False)
+    board.close()
+    console = rich.console.Console(file=io.StringIO(), width=100, height=table.FRAME + 2)
+    board._live.console = console
+    console.print(board._picture())
+    shown = console.file.getvalue().splitlines()
+    assert shown[0].split() == ["case", "status", "depth", "done", "time", "left", "worker"]
+    assert shown[-2].strip() == "... and 4 more"
+    assert shown[-1].startswith("1 of 6 done")

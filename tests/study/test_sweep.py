@@ -92,6 +92,8 @@ def test_killed_workers_lose_nothing(tmp_path, undisturbed):
     assert process.returncode == 0, said
     assert set(statuses(out).values()) == {"done"}
     assert all_equal(out, undisturbed) == dict.fromkeys(undisturbed, True)
+    for name, had_restart_file in killed:
+        assert not had_restart_file or "continuing at cycle" in (out / "cases" / name / "log.txt").read_text()
     assert "Restarting worker" in (out / "sweep.log").read_text()
 
 
