@@ -139,7 +139,6 @@ class _Sweep:
                 self._finish(self.ended.get(timeout=BEAT))
             except queue.Empty:
                 pass
-            self.board.workers = len(self.client.scheduler_info(n_workers=-1)["workers"]) if self.tasks else 0
             self.board.update()
         return self.spent
 
@@ -148,6 +147,7 @@ class _Sweep:
 
         todo = [case for case in self.board.cases if case.status not in (INVALID, DONE, UNPHYSICAL)]
         self.board.moving = {case.name for case in todo}
+        self.board.workers = lambda: len(self.client.scheduler_info(n_workers=-1)["workers"])
         if todo and not compilation.is_compiled(kernels(decks.loads(self.texts[todo[0].name]))):
             self.board.line("kernels are compiled first where they are not kept from earlier runs: a minute or more")
         for case in todo:

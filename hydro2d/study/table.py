@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 import time
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from datetime import datetime
 from pathlib import Path
@@ -80,14 +80,15 @@ def status(study: Study) -> list[str]:
 class Board:
     """What is known of all cases, and where it is told.
 
-    cases : as they were read last; those of `moving` are read again at every look
+    cases : as they were read last; those of `moving` are read again for every line and table
+    workers : tells how many there are
     """
 
     def __init__(self, study: Study, log, quiet: bool):
         self.study, self.cases = study, list(study.cases)
         self.numbers = {case.name: n for n, case in enumerate(study.cases)}
         self.moving: set[str] = set()
-        self.workers = 0
+        self.workers: Callable[[], int] = lambda: 0
         self._log, self._quiet, self._last = log, quiet, time.monotonic()
 
     def line(self, text: str) -> None:
@@ -121,7 +122,7 @@ class Board:
     def summary(self) -> str:
         for name in self.moving:
             self.look(name)
-        seconds = left(self.cases, self.workers)
+        seconds = left(self.cases, self.workers())
         return counts(self.cases) + ("" if seconds is None else f"; {duration(seconds)} left")
 
     def update(self) -> None:

@@ -149,7 +149,7 @@ def test_the_board_tells_of_running_cases(plan, written, capsys, monkeypatch):
     (place / "run.lock").write_text(f"{socket.gethostname()} {os.getppid()}")
     write_json(place / "progress.json", {"fraction": 0.5, "left_s": 30.0, "wall_s": 30.0, "host": "here", "process": 7})
     with table.board(study.load(written), quiet=False) as board:
-        board.workers = 1
+        board.workers = lambda: 1
         board.line("two\nlines")
         board.update()
     shown = capsys.readouterr().out
