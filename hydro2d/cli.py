@@ -14,6 +14,7 @@ from . import __version__
 from .cli_base import Overrides, UsageError, quantity
 from .cli_model import model
 from .cli_report import report
+from .cli_study import sweep
 
 WRONG_INPUT = 2
 
@@ -22,11 +23,12 @@ app = App(
     version=__version__,
     help="A two-dimensional axisymmetric Eulerian hydrocode for rod-into-plate impact.",
     help_format="plaintext",
-    help_epilogue="Exit status: 0 done, 2 deck or arguments wrong, 3 unphysical state, 130/143 interrupted.",
+    help_epilogue="Exit status: 0 done, 2 deck or arguments wrong, 3 unphysical state or failed cases, 130/143 interrupted.",
 )
 
 app.command(model)
 app.command(report)
+app.command(sweep)
 
 
 def _user_errors() -> tuple[type[Exception], ...]:
@@ -35,7 +37,7 @@ def _user_errors() -> tuple[type[Exception], ...]:
     for module, name in (
         ("deck_errors", "DeckError"), ("run", "RunError"), ("snapshot", "SnapshotError"), ("history", "HistoryError"),
         ("vtk", "VtkError"), ("figures", "FigureError"), ("results", "ResultsError"), ("derived", "FieldError"),
-        ("files", "LockError"), ("penetration.model", "InputError"), ("study.layout", "StudyError"),
+        ("files", "LockError"), ("penetration.model", "InputError"), ("study.definition", "StudyError"),
     ):  # fmt: skip
         loaded = sys.modules.get(f"hydro2d.{module}")
         if loaded is not None:

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import fcntl
+import hashlib
+import os
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from pathlib import Path
 
 from hydro2d import jit
 
@@ -57,3 +61,35 @@ def announced(say: Callable[[str], None]) -> Iterator[Compilation]:
     finally:
         events.unregister(EVENT, listener)
         listener.report()
+
+
+def _mark(key: str) -> Path:
+    """The file that says that the kernels of a kind of deck are in the cache: for these sources and this processor."""
+    name = hashlib.sha256(f"{key} {jit.llvmlite.binding.get_host_cpu_name()}".encode()).hexdigest()[:16]
+    return Path(jit.CACHE_FOLDER) / f"{name}.compiled"
+
+
+def is_compiled(key: str) -> bool:
+    """Whether `once` has seen this key."""
+    return _mark(key).exists()
+
+
+def once(key: str, compile: Callable[[], None]) -> None:
+    """Calls `compile` unless some process did for this key; of several that come at once, one does and the others wait.
+
+    numba's cache can be spoilt by processes that compile the same kernels at the same time.
+
+    key : names the set of kernels
+    """
+    mark = _mark(key)
+    if mark.exists():
+        return
+    mark.parent.mkdir(parents=True, exist_ok=True)
+    handle = os.open(mark.with_name("compiling.lock"), os.O_CREAT | os.O_RDWR)
+    try:
+        fcntl.flock(handle, fcntl.LOCK_EX)  # gone with the process that holds it
+        if not mark.exists():
+            compile()
+            mark.touch()
+    finally:
+        os.close(handle)

@@ -19,7 +19,7 @@ from hydro2d import deck_toml, materials, units
 from hydro2d.deck_base import Section
 from hydro2d.deck_bodies import SHAPES
 from hydro2d.deck_checks import extent, inconsistencies, unsupported
-from hydro2d.deck_errors import DeckError, Sources, spelled, unknown
+from hydro2d.deck_errors import DeckError, Sources, entry_index, spelled, unknown
 from hydro2d.deck_mesh import axis_edges, body, body_radius
 from hydro2d.deck_models import Deck
 
@@ -30,6 +30,7 @@ __all__ = [
     "body_groups",
     "edges",
     "find",
+    "key_problem",
     "load",
     "loads",
     "schema",
@@ -156,9 +157,27 @@ def _allowed_keys(path: tuple, data: dict) -> list[str]:
             data = data[part]
             model = model or SHAPES.get(data.get("shape"))
         else:
-            data, model = data.get(part), _section(model, part)
+            data, model = (data or {}).get(part), _section(model, part)
     keys = list(model.model_fields) if model else []
     return [*keys, "include"] if model is Deck else keys
+
+
+def key_problem(data: dict, key: str) -> str | None:
+    """What is wrong with an override's key for a deck of these merged tables; None where a deck has such a key."""
+    path, place = (), data
+    for part in deck_toml.key_parts(key):
+        if isinstance(place, list):
+            index = entry_index(place, part)
+            if index is None:
+                names = [str(entry.get("name", n)) for n, entry in enumerate(place) if isinstance(entry, dict)]
+                return f"{spelled(path)}: {unknown('entry', part, names)}"
+            path, place = (*path, index), place[index]
+            continue
+        allowed = _allowed_keys(path, data)
+        if allowed and part not in allowed:
+            return f"{spelled(path)}: {unknown('key', part, allowed)}" if path else unknown("key", part, allowed)
+        path, place = (*path, part), place.get(part) if isinstance(place, dict) else None
+    return None
 
 
 def _section(model: Any, key: str) -> Any:

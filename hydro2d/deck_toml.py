@@ -7,6 +7,7 @@ import json
 import re
 import tomllib
 from pathlib import Path
+from typing import Any
 
 from hydro2d.deck_errors import DeckError, Sources, entry_index
 
@@ -94,20 +95,29 @@ def _merge_entries(old: list[dict], new: list[dict]) -> list[dict]:
     return result
 
 
+def key_parts(key: str) -> list[str]:
+    """The parts of a dotted key: body.rod.velocity, mesh.r[0].cells or mesh.r.0.cells, materials."a b".title."""
+    return [part.strip('"') for part in re.findall(r'"[^"]*"|[^.\[\]\s]+', key)]
+
+
+def assignment(text: str) -> tuple[str, Any]:
+    """Key and value of ``key=value``; the value is read as TOML and, where it is none, as a bare string."""
+    key, equals, value_text = text.partition("=")
+    if not equals or not key_parts(key):
+        raise DeckError(f"--set {text}: expected key=value, such as numerics.advection=momentum")
+    try:
+        return key.strip(), tomllib.loads(f"value = {value_text}")["value"]
+    except tomllib.TOMLDecodeError:
+        return key.strip(), value_text.strip()
+
+
 def override(data: dict, text: str, sources: Sources) -> dict:
     """Lays one ``key=value`` of the command line over the deck; entries of arrays go by name or by number from 0.
 
-    The value is read as TOML and, where it is none, as a bare string: ``body.rod.velocity=1200 m/s`` needs no quotes.
+    ``body.rod.velocity=1200 m/s`` needs no quotes.
     """
-    key, equals, value_text = text.partition("=")
-    keys = re.findall(r'"[^"]*"|[^.\[\]\s]+', key)
-    if not equals or not keys:
-        raise DeckError(f"--set {text}: expected key=value, such as numerics.advection=momentum")
-    keys = [part.strip('"') for part in keys]
-    try:
-        value = tomllib.loads(f"value = {value_text}")["value"]
-    except tomllib.TOMLDecodeError:
-        value = value_text.strip()
+    key, value = assignment(text)
+    keys = key_parts(key)
     result = copy.deepcopy(data)
     _put(result, keys, value, text)
     sources.add_override(_override_path(keys, result), text)
@@ -153,7 +163,8 @@ def _override_path(keys: list[str], data) -> tuple:
     return path
 
 
-def _inline(value) -> str:
+def inline(value) -> str:
+    """A value as TOML writes it on one line."""
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, str):
@@ -161,9 +172,9 @@ def _inline(value) -> str:
     if isinstance(value, (int, float)):
         return repr(value)
     if isinstance(value, dict):
-        inside = ", ".join(f"{_key(key)} = {_inline(entry)}" for key, entry in value.items() if entry is not None)
+        inside = ", ".join(f"{_key(key)} = {inline(entry)}" for key, entry in value.items() if entry is not None)
         return f"{{ {inside} }}"
-    return f"[{', '.join(_inline(entry) for entry in value)}]"
+    return f"[{', '.join(inline(entry) for entry in value)}]"
 
 
 def _key(name: str) -> str:
@@ -186,8 +197,8 @@ def dumps(data: dict, prefix: str = "") -> str:
         elif _is_table_list(value):
             tables += [f"\n[[{name}]]\n{dumps(entry, name + '.')}" for entry in value]
         elif isinstance(value, (list, tuple)) and value and all(isinstance(entry, dict) for entry in value):
-            rows = "".join(f"  {_inline(entry)},\n" for entry in value)
+            rows = "".join(f"  {inline(entry)},\n" for entry in value)
             plain.append(f"{_key(key)} = [\n{rows}]\n")
         else:
-            plain.append(f"{_key(key)} = {_inline(value)}\n")
+            plain.append(f"{_key(key)} = {inline(value)}\n")
     return "".join(plain + tables)

@@ -49,7 +49,7 @@ def holder(path: Path) -> str | None:
         host, number = path.read_text(encoding="utf-8").split()
         if host == socket.gethostname():
             os.kill(int(number), 0)
-    except (FileNotFoundError, ProcessLookupError, ValueError):
+    except (FileNotFoundError, NotADirectoryError, ProcessLookupError, ValueError):
         return None
     except PermissionError:
         pass  # alive, and somebody else's
@@ -64,8 +64,8 @@ def locked(path: Path) -> Iterator[None]:
     """
     path = Path(path)
     own = path.with_name(f".{path.name}.{os.getpid()}")
-    own.write_text(f"{socket.gethostname()} {os.getpid()}\n", encoding="utf-8")
     try:
+        own.write_text(f"{socket.gethostname()} {os.getpid()}\n", encoding="utf-8")
         while True:
             try:
                 os.link(own, path)  # the lock appears with its content, or not at all
@@ -77,7 +77,7 @@ def locked(path: Path) -> Iterator[None]:
                     raise LockError(f"{path.parent} is in use by {process}; {hint}") from None
                 path.unlink(missing_ok=True)
     finally:
-        own.unlink()
+        own.unlink(missing_ok=True)
     try:
         yield
     finally:

@@ -101,7 +101,7 @@ class Report:
 
     def __init__(self, log, quiet: bool):
         self._log, self._quiet = log, quiet
-        self._clock, self._last = None, 0.0
+        self._last = 0.0
 
     def line(self, text: str) -> None:
         """A line for the log and the screen."""
@@ -114,7 +114,6 @@ class Report:
         print(text, flush=True)
 
     def begin(self, run) -> None:
-        self._clock = Clock(run)
         grid, origin = run.sim.grid, run.provenance
         commit = ""
         if origin["git_commit"]:
@@ -134,7 +133,7 @@ class Report:
         now = clock.perf_counter()
         if now - self._last >= LINE_SECONDS:
             self._last = now
-            self.status(values(run, self._clock))
+            self.status(values(run, run.clock))
 
     def status(self, shown: dict[str, str]) -> None:
         rod = f"depth {shown['depth']}, tail {shown['tail speed']}, " if "depth" in shown else ""
@@ -186,9 +185,9 @@ class Live(Report):
         from rich.table import Table
 
         table = Table.grid(padding=(0, 2))
-        for name, value in values(run, self._clock).items():
+        for name, value in values(run, run.clock).items():
             table.add_row(name, value)
-        done = self._clock.done(run.sim)
+        done = run.clock.done(run.sim)
         return Group(ProgressBar(total=1.0, completed=done or 0.0, width=60, pulse=done is None), table)
 
     def close(self) -> None:

@@ -2,6 +2,7 @@
 
     deck.toml         the deck with every default written out
     summary.json      the result, where it comes from, and what was conserved
+    progress.json     how far it is, while it runs
     history.h5        quantities against time
     restart.h5        to continue to the same bits (and restart.previous.h5)
     vtk/, *.pvd       fields, outlines and tracers for ParaView
@@ -15,6 +16,7 @@ from __future__ import annotations
 
 import hashlib
 import math
+import os
 import signal
 import threading
 import time as clock
@@ -28,16 +30,19 @@ import numpy as np
 from . import __version__, derived, provenance, snapshot
 from .files import locked, write_json, write_text
 from .history import History
-from .progress import reporter
+from .progress import Clock, reporter
 from .vtk import FOLDER, SERIES, Series
 
 DECK, SUMMARY, HISTORY, LOG, LOCK = "deck.toml", "summary.json", "history.h5", "log.txt", "run.lock"
-OWN_FILES = (DECK, SUMMARY, HISTORY, LOG, snapshot.NAME, snapshot.PREVIOUS, *SERIES.values())
+PROGRESS = "progress.json"
+OWN_FILES = (DECK, SUMMARY, HISTORY, LOG, PROGRESS, snapshot.NAME, snapshot.PREVIOUS, *SERIES.values())
 
 #: cycles between copies of the state kept in memory as the last good one
 GOOD_EVERY = 500
 #: seconds between writes of the history
 FLUSH_SECONDS = 10.0
+#: seconds between writes of progress.json
+PROGRESS_SECONDS = 3.0
 
 DONE, WRONG_INPUT, UNPHYSICAL = 0, 2, 3
 
@@ -123,7 +128,7 @@ class Interrupt:
 
 
 @contextmanager
-def _signals(interrupt: Interrupt):
+def signals(interrupt: Interrupt):
     """SIGINT and SIGTERM set the interrupt; a second one does what it did before. Only the main thread gets signals."""
     if threading.current_thread() is not threading.main_thread():
         yield
@@ -179,7 +184,8 @@ class Run:
             rows, dumps, self.wall_before = (saved.run[name] for name in ("rows", "dumps", "wall_s"))
         self.history = History(self.directory / HISTORY, rows)
         self.series = Series(self.directory, deck.output.fields, dumps)
-        self.started = self.flushed = self.saved_at = clock.perf_counter()
+        self.clock = Clock(self)
+        self.started = self.flushed = self.saved_at = self.published = clock.perf_counter()
         self.good = None
         (self.directory / SUMMARY).unlink(missing_ok=True)
         write_text(self.directory / DECK, self.deck_text)
@@ -237,7 +243,25 @@ class Run:
         if now - self.flushed >= FLUSH_SECONDS:
             self.history.write()
             self.flushed = clock.perf_counter()
+        if now - self.published >= PROGRESS_SECONDS:
+            self._publish()
         self.report.update(self)
+
+    def _publish(self) -> None:
+        """Writes progress.json, which others look at."""
+        found = self.sim.diagnostics()
+        write_json(self.directory / PROGRESS, {
+            "time_s": self.sim.time,
+            "cycles": self.sim.cycle,
+            "fraction": self.clock.done(self.sim),
+            "left_s": self.clock.left(self.sim),
+            "wall_s": self.wall,
+            "penetration_depth_m": found.get("penetration_depth_m"),
+            "rod_tail_velocity_m_s": found.get("rod_tail_velocity_m_s"),
+            "host": self.provenance["host"],
+            "process": os.getpid(),
+        })  # fmt: skip
+        self.published = clock.perf_counter()
 
     def _snapshot(self, reuse: snapshot.Snapshot | None = None) -> snapshot.Snapshot:
         """A copy of the state, in the memory of an earlier one that is no longer needed."""
@@ -278,6 +302,7 @@ class Run:
             if self.series.last_time != self.sim.time:
                 self.series.dump(self.sim)
         summary = self.summary(status, reason)
+        (self.directory / PROGRESS).unlink(missing_ok=True)
         write_json(self.directory / SUMMARY, summary)
         self.report.end(self, summary)
         return summary
@@ -359,7 +384,7 @@ def run(deck, directory: Path | None = None, *, restart=False, overwrite=False, 
             clear(directory)
         with (
             reporter(directory / LOG, quiet=quiet) as report,
-            _signals(interrupt),
+            signals(interrupt),
             announced(report.line) as compiled,
         ):
             return Run(deck, directory, restart=restart, report=report).execute(interrupt, compiled)

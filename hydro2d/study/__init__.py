@@ -1,4 +1,4 @@
-"""Studies: many runs, read back together, and the page that reports them."""
+"""Studies: many runs from one file, on any number of machines, read back together, and the page that reports them."""
 
 
 def load(directory):

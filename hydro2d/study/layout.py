@@ -1,24 +1,34 @@
-"""A study read back from its directory: its axes and cases, each with its state; also plain folders of runs."""
+"""The study directory, written whole and read back in any state of completion; also plain folders of runs, read alike.
+
+    study.toml          the study file, with the overrides of the command line
+    study.json          axes and cases
+    cases/<name>/       a run directory for each case, as `hydro2d run` makes it
+    cases/<name>/failed.json   why the last try failed, where it did
+    sweep.log           what happened
+"""
 
 from __future__ import annotations
 
+import functools
+import hashlib
 import json
 import os
+import tomllib
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from ..deck_errors import nearest
-from ..files import holder
-from ..run import DECK, LOCK, SUMMARY
+from hydro2d import __version__, run, snapshot
+from hydro2d.deck_errors import nearest
+from hydro2d.files import holder, write_json, write_text
+from hydro2d.study.definition import StudyError
 
-STUDY, FAILED = "study.json", "failed.json"
-DONE = "done"
-STATUSES = ("waiting", "running", DONE, "interrupted", "unphysical", "failed", "invalid")
+STUDY, TEXT, CASES, LOG, LOCK = "study.json", "study.toml", "cases", "sweep.log", "study.lock"
+FAILED = "failed.json"
 
-
-class StudyError(Exception):
-    """A directory that holds no study and no run; the message is for the user."""
+WAITING, RUNNING, DONE, INTERRUPTED = "waiting", "running", "done", "interrupted"
+UNPHYSICAL, FAILED_STATUS, INVALID = "unphysical", "failed", "invalid"
+STATUSES = (WAITING, RUNNING, DONE, INTERRUPTED, UNPHYSICAL, FAILED_STATUS, INVALID)
 
 
 @dataclass(frozen=True)
@@ -32,35 +42,115 @@ class Axis:
 
 @dataclass(frozen=True)
 class Case:
-    """One run of a study; ``values`` are its labels by axis, ``summary`` is empty until it has ended.
+    """A case as its directory shows it.
 
-    ``status`` is one of ``STATUSES``, and ``message`` says why where it is not "done".
+    Attributes
+    ----------
+    name, values : its name, and its label on every axis
+    directory : its run directory, which need not exist
+    base, overrides, deck_sha256 : base deck, what is laid over, and the hash of the resolved deck (None where there is none)
+    status : one of STATUSES
+    message : why it failed, is invalid, unphysical or interrupted, or which process runs it
+    summary : what summary.json holds; empty until the run has ended
+    progress : what progress.json holds; empty while it does not run
     """
 
     name: str
     directory: Path
     values: dict[str, str] = field(default_factory=dict)
-    status: str = "waiting"
+    base: str = ""
+    overrides: tuple[str, ...] = ()
+    deck_sha256: str | None = None
+    status: str = WAITING
     message: str = ""
     summary: dict = field(default_factory=dict)
+    progress: dict = field(default_factory=dict)
+
+    @functools.cached_property
+    def deck(self) -> dict | None:
+        """The resolved deck in SI units; None before the case has begun."""
+        text = _text(self.directory / run.DECK)
+        return tomllib.loads(text) if text else None
 
 
 @dataclass(frozen=True)
 class Study:
-    """A study, or runs that were put together; without axes the decks say what varies."""
+    """A study directory, or runs that were put together; without axes the decks say what varies.
 
-    title: str
+    title, name : of the study;  axes, cases : in the order of the file;  entries : the cases in study.json
+    """
+
     directory: Path
+    title: str
+    name: str
     axes: tuple[Axis, ...]
     cases: tuple[Case, ...]
+    entries: tuple[dict, ...] = ()
+
+    def case(self, number: int) -> Case:
+        """One case of a study directory, read again."""
+        return _case(self.directory, self.entries[number])
+
+
+def make(directory: Path) -> None:
+    """Makes the folders of a study where they are missing. Raises StudyError."""
+    try:
+        (Path(directory) / CASES).mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise StudyError(f"{directory}: the study cannot be written: {error.strerror or error}") from None
+
+
+def write(plan, directory: Path) -> None:
+    """Writes a study into its directory, which `make` has made. Raises StudyError."""
+    directory = Path(directory)
+    try:
+        write_text(directory / TEXT, plan.text)
+        write_json(directory / STUDY, {
+            "title": plan.title,
+            "name": plan.name,
+            "version": __version__,
+            "study_sha256": hashlib.sha256(plan.text.encode()).hexdigest(),
+            "axes": plan.axes,
+            "cases": [_entry(case) for case in plan.cases],
+        })  # fmt: skip
+    except OSError as error:
+        raise StudyError(f"{directory}: the study cannot be written: {error.strerror or error}") from None
+
+
+def _entry(case) -> dict:
+    return {
+        "name": case.name,
+        "directory": f"{CASES}/{case.name}",
+        "values": case.values,
+        "deck": case.deck,
+        "overrides": case.overrides,
+        "deck_sha256": case.sha256,
+        "status0": None if case.text else INVALID,
+        "message": case.message,
+    }
 
 
 def load(directory: Path | str) -> Study:
     """Reads a study directory, a run directory or a folder of run directories. Raises StudyError."""
     directory = Path(directory)
-    if (directory / STUDY).is_file():
-        return _study(directory)
-    return gather([directory])
+    return read(directory) if (directory / STUDY).is_file() else gather([directory])
+
+
+def read(directory: Path | str) -> Study:
+    """Reads a study directory. Raises StudyError."""
+    directory = Path(directory)
+    if not (directory / STUDY).is_file():
+        raise StudyError(f"{directory} is not a study directory: it has no {STUDY}")
+    data = read_json(directory / STUDY)
+    try:
+        axes = tuple(Axis(entry["name"], entry["key"], tuple(map(str, entry["values"]))) for entry in data["axes"])
+        entries = tuple(data["cases"])
+        cases = tuple(_case(directory, entry) for entry in entries)
+        if not cases:
+            raise StudyError(f"{directory / STUDY}: the study has no cases")
+        return Study(directory, data.get("title") or data["name"], data["name"], axes, cases, entries)
+    except (KeyError, TypeError, AttributeError) as error:
+        raise StudyError(f"{directory / STUDY} is not that of a study: {error!r}") from None
 
 
 def gather(directories: Sequence[Path | str]) -> Study:
@@ -73,77 +163,86 @@ def gather(directories: Sequence[Path | str]) -> Study:
         found += [path for path in _runs(directory) if path.resolve() not in {each.resolve() for each in found}]
     first = Path(directories[0])
     base = os.path.commonpath([path.resolve().parent for path in found])
-    cases = [_case(os.path.relpath(path.resolve(), base), path) for path in found]
-    title = first.resolve().name if len(directories) == 1 else f"{len(cases)} runs"
-    return Study(title, first, (), tuple(cases))
+    cases = tuple(Case(os.path.relpath(path.resolve(), base), path, **_state(path, None)) for path in found)
+    name = first.resolve().name if len(directories) == 1 else f"{len(cases)} runs"
+    return Study(first, name, name, (), cases)
 
 
 def _runs(directory: Path) -> list[Path]:
     """The run directories that a directory is, lists as a study, or holds."""
     if (directory / STUDY).is_file():
-        return [case.directory for case in _study(directory).cases]
-    if (directory / DECK).is_file():
+        return [case.directory for case in read(directory).cases]
+    if (directory / run.DECK).is_file():
         return [directory]
     if directory.is_file():
         raise StudyError(f"{directory} is a file, not a directory of a study or a run")
     if not directory.is_dir():
         near = nearest(directory.name, (path.name for path in directory.parent.glob("*/")))
         raise StudyError(f"{directory}: there is no such directory" + (f'; did you mean "{near}"?' if near else ""))
-    found = sorted(path.parent for name in (DECK, SUMMARY) for path in directory.glob(f"*/{name}"))
+    found = sorted(path.parent for name in (run.DECK, run.SUMMARY) for path in directory.glob(f"*/{name}"))
     if not found:
-        raise StudyError(f"{directory} holds no runs: it has no {STUDY}, no {DECK}, and no directory with one")
+        raise StudyError(f"{directory} holds no runs: it has no {STUDY}, no {run.DECK}, and no directory with one")
     return list(dict.fromkeys(found))
 
 
-def _study(directory: Path) -> Study:
-    data = _json(directory / STUDY)
+def _text(file: Path) -> str:
+    """The text of a file; empty where there is none, or where a file stands in the place of its folder. Raises StudyError."""
     try:
-        axes = tuple(Axis(entry["name"], entry["key"], tuple(map(str, entry["values"]))) for entry in data["axes"])
-        cases = tuple(
-            _case(entry["name"], directory / entry["directory"], entry["values"], entry.get("status0"), entry.get("message"))
-            for entry in data["cases"]
-        )
-        if not cases:
-            raise StudyError(f"{directory / STUDY}: the study has no cases")
-        return Study(data.get("title") or data["name"], directory, axes, cases)
-    except (KeyError, TypeError, AttributeError) as error:
-        raise StudyError(f"{directory / STUDY} is not that of a study: {error!r}") from None
-
-
-def _json(path: Path) -> dict:
-    try:
-        found = json.loads(path.read_text(encoding="utf-8"))
+        return file.read_text(encoding="utf-8")
+    except (FileNotFoundError, NotADirectoryError):
+        return ""
     except (OSError, ValueError) as error:
-        raise StudyError(f"{path} cannot be read: {error}") from None
+        raise StudyError(f"{file} cannot be read: {error}") from None
+
+
+def read_json(file: Path) -> dict:
+    """A table of a JSON file; empty where there is no such file. Raises StudyError."""
+    text = _text(file)
+    try:
+        found = json.loads(text) if text else {}
+    except ValueError as error:
+        raise StudyError(f"{file} cannot be read: {error}") from None
     if not isinstance(found, dict):
-        raise StudyError(f"{path} cannot be read: it holds no table")
+        raise StudyError(f"{file} cannot be read: it holds no table")
     return found
 
 
-def _case(name: str, directory: Path, values=None, status=None, message=None) -> Case:
-    """A case with its state; what cannot be read is its message."""
-    values, summary = dict(values or {}), {}
-    if status is not None:
-        return Case(name, directory, values, status, message or "")
+def _case(directory: Path, entry: dict) -> Case:
+    place = directory / entry["directory"]
+    sha256 = entry.get("deck_sha256")
+    common = {
+        "name": entry["name"], "directory": place, "values": dict(entry["values"]), "base": entry.get("deck", ""),
+        "overrides": tuple(entry.get("overrides", ())), "deck_sha256": sha256,
+    }  # fmt: skip
+    if entry.get("status0") == INVALID:
+        return Case(**common, status=INVALID, message=entry.get("message") or "")
+    return Case(**common, **_state(place, sha256))
+
+
+def _state(place: Path, deck_sha256: str | None) -> dict:
+    """Status, message, summary and progress of a run directory; what cannot be read is its message."""
     try:
-        if (directory / SUMMARY).is_file():
-            summary = _json(directory / SUMMARY)
-        status, message = _state(directory, summary)
+        return _read_state(place, deck_sha256)
     except StudyError as error:
-        status, message = "failed", str(error)
-    return Case(name, directory, values, status, message, summary)
+        return {"status": FAILED_STATUS, "message": str(error)}
 
 
-def _state(directory: Path, summary: dict) -> tuple[str, str]:
-    """Status and the reason for it; no reason where it is done. Raises StudyError."""
-    process = holder(directory / LOCK)
+def _read_state(place: Path, deck_sha256: str | None) -> dict:
+    if place.is_file():
+        return {"status": FAILED_STATUS, "message": f"{place} is a file, not a directory"}
+    summary, failed, text = read_json(place / run.SUMMARY), read_json(place / FAILED), _text(place / run.DECK)
+    process = holder(place / run.LOCK)
     if process is not None:
-        return "running", process
-    if (directory / FAILED).is_file():
-        return "failed", str(_json(directory / FAILED).get("reason", "no reason is given"))
+        return {"status": RUNNING, "message": process, "progress": read_json(place / run.PROGRESS)}
+    if failed:
+        return {"status": FAILED_STATUS, "message": str(failed.get("reason", "no reason is given")), "summary": summary}
+    if text and deck_sha256 is not None and run.deck_hash(text) != deck_sha256:
+        return {"status": WAITING, "message": "its directory holds a run of another deck"}
     if summary:
-        status = str(summary.get("status", "interrupted"))
-        return status, "" if status == DONE else str(summary.get("stop_reason", ""))
-    if (directory / DECK).is_file():
-        return "interrupted", f"there is no {SUMMARY}: it was killed, or is not continued yet"
-    return "waiting", ""
+        status = str(summary.get("status", INTERRUPTED))
+        return {"status": status, "message": "" if status == DONE else str(summary.get("stop_reason", "")), "summary": summary}
+    if any((place / name).is_file() for name in (snapshot.NAME, snapshot.PREVIOUS)):
+        return {"status": INTERRUPTED, "message": "its process ended; the restart file is there"}
+    if text:
+        return {"status": WAITING, "message": f"there is no {run.SUMMARY}: its process ended before the first restart file"}
+    return {"status": WAITING}

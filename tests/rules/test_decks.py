@@ -5,11 +5,14 @@ import tomllib
 import pytest
 
 from hydro2d import deck
+from hydro2d.study import cases
+from hydro2d.study.definition import is_study
 from tests.rules import source
 
 PROBLEMS = source.ROOT / "problems"
 FILES = sorted(file for file in PROBLEMS.rglob("*.toml") if file.parent.name != "materials")
-DECKS = [file for file in FILES if "study" not in tomllib.loads(file.read_text())]
+STUDIES = [file for file in FILES if is_study(tomllib.loads(file.read_text()))]
+DECKS = [file for file in FILES if file not in STUDIES]
 COMPLETE = [file for file in DECKS if not file.stem.startswith("_")]
 
 
@@ -30,6 +33,13 @@ def test_deck_loads(file):
 def test_resolved_deck_is_the_same_deck(file):
     loaded = deck.load(file)
     assert deck.loads(loaded.to_toml()).to_toml() == loaded.to_toml()
+
+
+@pytest.mark.parametrize("file", STUDIES, ids=name_of)
+def test_study_has_a_title_and_no_wrong_deck(file):
+    plan = cases.plan(file)
+    assert plan.title
+    assert [case.message for case in plan.cases if case.message] == []
 
 
 @pytest.mark.parametrize("folder", sorted({file.parent for file in FILES}), ids=lambda folder: folder.name)

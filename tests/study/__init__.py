@@ -1,1 +1,1 @@
-"""Studies and their reports."""
+"""Studies: files, cases, directories, sweeps, reports."""

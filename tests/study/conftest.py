@@ -1,3 +1,5 @@
-"""What the tests of reports share."""
+"""What several of these tests need."""
+
+from tests.unit.conftest import simulation  # noqa: F401
 
 from .browser import browser  # noqa: F401

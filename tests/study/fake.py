@@ -11,6 +11,7 @@ import numpy as np
 from hydro2d import deck, vtk
 from hydro2d.files import write_json
 from hydro2d.history import History
+from hydro2d.run import deck_hash
 
 BASE = "problems/cth_nose_shape/hemi_5083_1086_quick.toml"
 LENGTH, RADIUS, TIME = 0.09779, 0.0033784, 6e-4
@@ -93,9 +94,10 @@ def write_study(directory: Path, axes: dict[str, dict[str, tuple[str, ...]]], ti
         overrides = [text for axis, label in values.items() for text in axes[axis][label]]
         speed = next((float(label.split()[0]) for label in values.values() if label.endswith("m/s")), 1086.0)
         others = tuple(text for text in overrides if "velocity" not in text)
-        write_run(directory / "cases" / name, speed, 0.35 - 1e-3 * number, 0.01 + 1e-3 * number, overrides=others)
+        place = write_run(directory / "cases" / name, speed, 0.35 - 1e-3 * number, 0.01 + 1e-3 * number, overrides=others)
+        sha256 = deck_hash((place / "deck.toml").read_text())
         entries.append({"name": name, "directory": f"cases/{name}", "values": values, "deck": BASE, "overrides": overrides,
-                        "deck_sha256": "ab" * 32, "status0": None, "message": ""})  # fmt: skip
+                        "deck_sha256": sha256, "status0": None, "message": ""})  # fmt: skip
     keys = {"velocity": "body.rod.velocity"}
     described = [{"name": axis, "key": keys.get(axis), "values": list(labels)} for axis, labels in axes.items()]
     data = {"title": title, "name": directory.name, "version": "0.1.0", "study_sha256": "cd" * 32, "axes": described,

@@ -39,6 +39,8 @@ def test_every_state_of_a_case(study):
     fake.edit_json(case / "summary.json", status="unphysical", stop_reason="cell (3, 4): density -1 kg/m3")
     assert statuses(study)[case.name] == ("unphysical", "cell (3, 4): density -1 kg/m3")
     (case / "summary.json").unlink()
+    assert statuses(study)[case.name][0] == "waiting"
+    (case / "restart.h5").touch()
     assert statuses(study)[case.name][0] == "interrupted"
     (case / "run.lock").write_text(f"{socket.gethostname()} {os.getpid()}")
     assert statuses(study)[case.name] == ("running", f"process {os.getpid()} on {socket.gethostname()}")

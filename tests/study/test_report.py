@@ -105,6 +105,7 @@ def test_cases_that_are_not_done_are_shown(study):
     fake.edit_json(case / "summary.json", status="unphysical", stop_reason="density -1 kg/m3")
     shutil.rmtree(study / "cases" / "1200m-s_ke")
     (study / "cases" / "1290m-s_ke" / "summary.json").unlink()
+    (study / "cases" / "1290m-s_ke" / "restart.h5").touch()
     page, _ = page_of(study)
     assert page.faults == []
     assert "6 cases: 1 unphysical, 3 done, 1 waiting, 1 interrupted." in page.text

@@ -179,7 +179,7 @@ def test_schema(capsys):
 
 
 def test_every_command_has_an_example():
-    for name in ("run", "check", "info", "plot", "export", "bench", "schema"):
+    for name in ("run", "check", "info", "plot", "export", "bench", "schema", "sweep"):
         assert f"Example: hydro2d {name}" in app[name].help
 
 

@@ -1,0 +1,151 @@
+"""One case in one directory: begun, continued or already there. It can be called any number of times, after anything."""
+
+from __future__ import annotations
+
+import json
+import socket
+import tempfile
+import time
+import traceback
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+from hydro2d import compilation, jit, run, snapshot
+from hydro2d import deck as decks
+from hydro2d.deck_errors import DeckError
+from hydro2d.derived import FieldError
+from hydro2d.files import LockError, holder
+from hydro2d.history import HistoryError
+from hydro2d.study.layout import DONE, FAILED, FAILED_STATUS, UNPHYSICAL, read_json
+from hydro2d.vtk import VtkError
+
+#: what is told in one line, without a traceback
+TOLD = (DeckError, FieldError, HistoryError, LockError, VtkError, run.RunError, snapshot.SnapshotError)
+FULL = "No space left on device"
+#: cycles that call every kernel: more than simulation.WATCH_EVERY
+CYCLES = 11
+#: seconds without a sign of life after which a process on another machine has lost its lock; progress.json comes every 3
+SILENCE = 120.0
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What became of a try.
+
+    status : of layout.STATUSES;  message : why, where it is not done;  kind : of the failure;  wall_s : spent in this try;
+    fresh : False where the result was there already;  trace : traceback of a failure that nobody foresaw
+    """
+
+    status: str
+    message: str = ""
+    kind: str = ""
+    host: str = ""
+    wall_s: float = 0.0
+    fresh: bool = True
+    trace: str = ""
+
+    def plain(self) -> dict:
+        return asdict(self)
+
+
+def run_case(directory: str | Path, deck_text: str, *, threads: int = 1, overwrite: bool = False,
+             interrupt: run.Interrupt | None = None) -> Outcome:  # fmt: skip
+    """Runs a resolved deck in a directory, or continues it from its restart file, or finds it done.
+
+    directory : its parent must exist, so that a machine that does not see the study's disk says so
+    deck_text : resolved TOML, as Deck.to_toml gives it
+    threads : number of threads that kernels use; the results do not depend on it
+    overwrite : remove the run of another deck that is in the directory, which is a failure otherwise
+    interrupt : call it from anywhere to stop after the cycle with a restart file
+
+    Never raises: what goes wrong is the outcome's message.
+    """
+    started, directory = time.perf_counter(), Path(directory)
+    about = {"host": socket.gethostname()}
+    try:
+        found = _finished(directory, deck_text)
+        fresh = found is None
+        summary = found or _run(directory, deck_text, threads, overwrite, interrupt)
+        if summary["status"] != DONE:
+            about["message"] = summary["stop_reason"]
+        about |= {"status": summary["status"], "fresh": fresh}
+    except Exception as error:
+        about |= _failure(error, directory)
+    return Outcome(**about, wall_s=time.perf_counter() - started)
+
+
+def _finished(directory: Path, deck_text: str) -> dict | None:
+    """The summary of this deck's finished run; a state that was unphysical would be so again."""
+    summary = read_json(directory / run.SUMMARY)
+    same = summary.get("deck_sha256") == run.deck_hash(deck_text)
+    return summary if same and summary["status"] in (DONE, UNPHYSICAL) else None
+
+
+def _run(directory: Path, deck_text: str, threads: int, overwrite: bool, interrupt: run.Interrupt | None) -> dict:
+    if not directory.parent.is_dir():
+        raise run.RunError(f"{directory.parent} is not there on {socket.gethostname()}: workers need the study's file system")
+    _wait_for_silence(directory, interrupt)
+    deck = decks.loads(deck_text)
+    restart = _can_continue(directory, deck_text, overwrite)
+    jit.set_threads(min(threads, jit.max_threads()))
+    compilation.once(kernels(deck), lambda: _compile(deck))
+    (directory / FAILED).unlink(missing_ok=True)
+    return run.run(deck, directory, restart=restart, overwrite=not restart, quiet=True, interrupt=interrupt)
+
+
+def _wait_for_silence(directory: Path, interrupt: run.Interrupt | None) -> None:
+    """Takes a lock away from a process on another machine that no longer shows progress: its worker is gone.
+
+    Waits for that; a process that goes on showing progress keeps its lock, and the run tells so.
+    """
+    lock, until = directory / run.LOCK, time.monotonic() + 2 * SILENCE
+    while time.monotonic() < until and not (interrupt and interrupt.reason):
+        by = holder(lock)
+        if by is None or by.endswith(f" on {socket.gethostname()}"):
+            return
+        signs = [file.stat().st_mtime for file in (lock, directory / run.PROGRESS) if file.exists()]
+        if time.time() - max(signs, default=0.0) > SILENCE:
+            lock.unlink(missing_ok=True)
+            return
+        time.sleep(1.0)
+
+
+def _can_continue(directory: Path, deck_text: str, overwrite: bool) -> bool:
+    """Whether a restart file of this deck is there. Raises RunError where another deck's run is in the directory."""
+    run.check_free(directory, restart=False, overwrite=True)
+    file = directory / run.DECK
+    if not file.is_file():
+        return False
+    if file.read_text(encoding="utf-8") != deck_text:
+        if not overwrite:
+            raise run.RunError(f"{directory} holds a run of another deck; --overwrite removes it")
+        return False
+    return any((directory / name).is_file() for name in (snapshot.NAME, snapshot.PREVIOUS))
+
+
+def kernels(deck) -> str:
+    """Names the set of kernels that a deck needs: the words of its methods."""
+    words = {name: getattr(deck, name).model_dump() for name in ("numerics", "sliding", "failure")}
+    chosen = {name: {k: v for k, v in table.items() if isinstance(v, str | bool)} for name, table in words.items()}
+    return json.dumps([deck.mesh.geometry, bool(deck.tracer), deck.penetration is not None, chosen], sort_keys=True)
+
+
+def _compile(deck) -> None:
+    """Runs a few cycles elsewhere, which leaves the kernels in the cache."""
+    few = deck.model_copy(update={"stop": deck.stop.model_copy(update={"cycles": CYCLES})})
+    with tempfile.TemporaryDirectory() as folder:
+        run.run(few, Path(folder) / "compile", quiet=True)
+
+
+def _failure(error: Exception, directory: Path) -> dict:
+    """What an exception means for the user."""
+    text = " ".join(str(error).split())
+    if FULL in text:
+        message, trace = f"the disk is full: {directory} could not be written; free some space and continue", ""
+    elif isinstance(error, TOLD):
+        message, trace = text, ""
+    elif isinstance(error, OSError):
+        message, trace = f"{error.filename or directory}: {error.strerror or text}", ""
+    else:
+        message, trace = f"{type(error).__name__}: {text}", traceback.format_exc()
+    return {"status": FAILED_STATUS, "message": message, "kind": type(error).__name__, "trace": trace}

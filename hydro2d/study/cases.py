@@ -1,0 +1,248 @@
+"""The cases of a study: the product of its axes without its exclusions, each with its resolved deck."""
+
+from __future__ import annotations
+
+import itertools
+import math
+import re
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from hydro2d import deck as decks
+from hydro2d import deck_toml
+from hydro2d.deck_errors import DeckError, Sources, unknown
+from hydro2d.run import deck_hash
+from hydro2d.study import ranges
+from hydro2d.study.definition import DECK, Axis, Definition, StudyError, read
+
+#: longest part of a case's name that one axis gives
+LONGEST = 40
+
+
+@dataclass(frozen=True)
+class Choice:
+    """One value or variant of an axis: its label, its part of a case's name, what it sets."""
+
+    label: str
+    short: str
+    settings: dict[str, Any]
+
+
+@dataclass(frozen=True)
+class Planned:
+    """A case before it runs. `text` is its resolved deck; where that is wrong it is empty and `message` says why."""
+
+    name: str
+    values: dict[str, str]
+    deck: str
+    overrides: list[str]
+    text: str
+    message: str
+
+    @property
+    def sha256(self) -> str | None:
+        return deck_hash(self.text) if self.text else None
+
+
+@dataclass(frozen=True)
+class Plan:
+    """A study before it runs: all decks of all cases are resolved."""
+
+    name: str
+    title: str
+    out: Path
+    text: str
+    axes: list[dict]
+    cases: list[Planned]
+
+
+def plan(path: Path, overrides: list[str] | None = None) -> Plan:
+    """Reads a study file and resolves all decks. Raises StudyError for what is wrong with the study itself."""
+    path = Path(path)
+    return _Planner(path, *read(path, overrides or [])).plan()
+
+
+class _Planner:
+    """Puts a plan together; `wrong` gathers what is wrong, one line each."""
+
+    def __init__(self, path: Path, definition: Definition, text: str, data: dict, sources: Sources):
+        self.path, self.definition, self.text, self.data, self.sources = path, definition, text, data, sources
+        self.wrong: list[str] = []
+
+    def plan(self) -> Plan:
+        axes = [self._choices(n, axis) for n, axis in enumerate(self.definition.axis)]
+        self._distinct_axes()
+        self._raise()
+        self._number(axes)
+        combinations = self._without_excluded(axes)
+        self._raise()
+        cases = [self._case(combination) for combination in combinations]
+        files = self._files(cases)
+        self._known_keys(files)
+        self._raise()
+        return Plan(
+            name=self.path.stem, title=self.definition.title, text=self.text,
+            out=Path(self.definition.out or f"runs/{self.path.stem}"),
+            axes=[{"name": axis.name, "key": axis.key, "values": [choice.label for choice in choices]}
+                  for axis, choices in zip(self.definition.axis, axes, strict=True)],
+            cases=self._named([self._resolved(*case, files) for case in cases], combinations),
+        )  # fmt: skip
+
+    def _say(self, key: tuple, message: str) -> None:
+        self.wrong.append(f"{self.sources.where(key, self.data)}: {message}")
+
+    def _raise(self) -> None:
+        if self.wrong:
+            raise StudyError("\n".join(self.wrong))
+
+    # ------------------------------------------------------------------------------------------------ axes
+
+    def _choices(self, number: int, axis: Axis) -> list[Choice]:
+        if axis.variants is not None:
+            return [Choice(name, short(name), settings) for name, settings in axis.variants.items()]
+        values = axis.values
+        if axis.range is not None:
+            try:
+                values = ranges.values(axis.range)
+            except ValueError as error:
+                self._say(("axis", number, "range"), f"axis[{number}].range: {error}")
+                return []
+        labels = [value if isinstance(value, str) else deck_toml.inline(value) for value in values]
+        for twice in sorted({label for label in labels if labels.count(label) > 1}):
+            self._say(("axis", number, "values"), f'axis "{axis.name}" has the value {twice} twice')
+        shorts = distinct([short(label) for label in labels])
+        return [Choice(label, slug, {axis.key: value}) for label, slug, value in zip(labels, shorts, values, strict=True)]
+
+    def _distinct_axes(self) -> None:
+        """No two axes have a name or set a key, or a part of it, in common."""
+        names = [axis.name for axis in self.definition.axis]
+        keys: dict[tuple, str] = {}
+        for number, axis in enumerate(self.definition.axis):
+            if axis.name in names[:number]:
+                self._say(("axis", number), f'axis[{number}].name: there is an axis "{axis.name}" already')
+            own = {axis.key} if axis.key else {key for settings in axis.variants.values() for key in settings}
+            for key in sorted(own):
+                parts = tuple(deck_toml.key_parts(key))
+                for other, owner in keys.items():
+                    if owner != axis.name and other[: len(parts)] == parts[: len(other)]:
+                        shared = ".".join(min(other, parts, key=len))
+                        self._say(("axis", number), f'axes "{owner}" and "{axis.name}" both set {shared}')
+                keys[parts] = axis.name
+
+    def _number(self, axes: list[list[Choice]]) -> None:
+        count = math.prod(len(choices) for choices in axes)
+        if count > ranges.MOST:
+            raise StudyError(f"{self.path}: the axes make {count} cases; at most {ranges.MOST} are allowed")
+
+    # ------------------------------------------------------------------------------------------------ cases
+
+    def _without_excluded(self, axes: list[list[Choice]]) -> list[tuple[Choice, ...]]:
+        names = [axis.name for axis in self.definition.axis]
+        rules = [self._rule(n, entry, dict(zip(names, axes, strict=True))) for n, entry in enumerate(self.definition.exclude)]
+        used, kept = set(), []
+        for combination in itertools.product(*axes):
+            labels = {name: choice.label for name, choice in zip(names, combination, strict=True)}
+            matching = {n for n, rule in enumerate(rules) if rule and rule.items() <= labels.items()}
+            used |= matching
+            if not matching:
+                kept.append(combination)
+        if not (kept or self.wrong):
+            raise StudyError(f"{self.path}: the exclusions leave no case")
+        return kept
+
+    def _rule(self, number: int, entry: dict, axes: dict[str, list[Choice]]) -> dict[str, str]:
+        """What an exclusion names, checked: every axis and value must be there, so that it matches something."""
+        rule = {name: value if isinstance(value, str) else deck_toml.inline(value) for name, value in entry.items()}
+        if not rule:
+            self._say(("exclude", number), f"exclude[{number}]: is empty and would leave out everything")
+        for name, label in rule.items():
+            if name not in axes:
+                self._say(("exclude", number), f"exclude[{number}]: {unknown('axis', name, axes)}")
+            elif label not in (labels := [choice.label for choice in axes[name]]):
+                self._say(("exclude", number), f"exclude[{number}].{name}: matches nothing; {unknown('value', label, labels)}")
+        return rule
+
+    def _case(self, combination: tuple[Choice, ...]) -> tuple[dict[str, str], str, list[str]]:
+        """Labels by axis, base deck, overrides of one combination."""
+        settings = dict(self.definition.set)
+        for choice in combination:
+            settings |= choice.settings
+        base = settings.pop(DECK, self.definition.deck)
+        if not isinstance(base, str):
+            raise StudyError(f"{self.path}: deck: " + ("is missing" if base is None else f"expected a file name, is {base!r}"))
+        labels = {axis.name: choice.label for axis, choice in zip(self.definition.axis, combination, strict=True)}
+        return labels, base, [f"{key}={deck_toml.inline(value)}" for key, value in settings.items()]
+
+    def _files(self, cases: list[tuple]) -> dict[str, Path]:
+        """The file of every base deck."""
+        files = {}
+        for base in dict.fromkeys(base for _, base, _ in cases):
+            beside = self.path.parent / base
+            try:
+                files[base] = beside if beside.is_file() else decks.find(base)
+            except DeckError as error:
+                self._say((DECK,), str(error))
+        return files
+
+    def _known_keys(self, files: dict[str, Path]) -> None:
+        """Every key must be one that some base deck has; what only some lack makes their cases invalid."""
+        tables = []
+        for file in files.values():
+            try:
+                tables.append(deck_toml.read(file, Sources()))
+            except DeckError as error:
+                self.wrong.append(str(error))
+        for place, key in self._keys():
+            problems = [decks.key_problem(table, key) for table in tables]
+            if problems and all(problems):
+                self._say(place, f"no deck has the key {key}: {problems[0]}")
+
+    def _keys(self):
+        """Every deck key of the study, and where it stands."""
+        yield from ((_place(("set",), key, self.data.get("set", {})), key) for key in self.definition.set if key != DECK)
+        for number, axis in enumerate(self.definition.axis):
+            if axis.key:
+                yield ("axis", number, "key"), axis.key
+            for name, settings in (axis.variants or {}).items():
+                table = self.data["axis"][number]["variants"][name]
+                place = ("axis", number, "variants", name)
+                yield from ((_place(place, key, table), key) for key in settings if key != DECK)
+
+    def _resolved(self, labels: dict, base: str, overrides: list[str], files: dict[str, Path]) -> Planned:
+        text = message = ""
+        try:
+            text = decks.load(files[base], overrides).to_toml()
+        except DeckError as error:
+            message = str(error)
+        return Planned("", labels, base, overrides, text, message)
+
+    def _named(self, cases: list[Planned], combinations: list[tuple[Choice, ...]]) -> list[Planned]:
+        names = distinct(["_".join(choice.short for choice in combination) for combination in combinations])
+        return [Planned(name, *_rest(case)) for name, case in zip(names, cases, strict=True)]
+
+
+def _place(table: tuple, key: str, given: dict) -> tuple:
+    """Where a deck key stands in the study file: quoted, or as a table of tables."""
+    return (*table, key) if key in given else (*table, *deck_toml.key_parts(key))
+
+
+def _rest(case: Planned) -> tuple:
+    return case.values, case.deck, case.overrides, case.text, case.message
+
+
+def short(label: str) -> str:
+    """A label as a part of a directory's name: "1086 m/s" is 1086m-s."""
+    text = re.sub(r"[^A-Za-z0-9.+-]+", "-", label.replace(" ", "").replace("_", "-")).strip("-.")
+    return text[:LONGEST] or "value"
+
+
+def distinct(names: list[str]) -> list[str]:
+    """The names with -2, -3 and so on behind those that were there before."""
+    found: list[str] = []
+    for name in names:
+        number, given = 2, name
+        while given in found:
+            given, number = f"{name}-{number}", number + 1
+        found.append(given)
+    return found

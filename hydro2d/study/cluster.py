@@ -1,0 +1,155 @@
+"""Where the workers come from: this machine, a cluster that runs, or SLURM. All of it is dask's."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+from pydantic import Field, ValidationError
+
+from hydro2d import __version__, deck_toml
+from hydro2d.deck_base import Section
+from hydro2d.deck_errors import DeckError, Sources, spelled, unknown
+from hydro2d.study.definition import StudyError
+
+#: seconds to wait for the scheduler of --scheduler
+ANSWER = 15
+#: one case at a time on each worker: a worker that dies takes only its own case with it
+CONFIG = {"distributed.scheduler.worker-saturation": 1.0}
+
+
+class Slurm(Section):
+    """Keyword arguments of dask_jobqueue.SLURMCluster for one job; threads and environment follow from --threads."""
+
+    cores: int = Field(ge=1, description="cores of a job; it has cores // threads workers")
+    memory: str = Field(description='memory of a job, such as "16 GB"')
+    queue: str | None = Field(None, description="partition")
+    account: str | None = None
+    walltime: str | None = Field(None, description='such as "12:00:00"')
+    interface: str | None = Field(None, description='network interface, such as "ib0"')
+    python: str | None = Field(None, description="the interpreter of the workers; default: this one")
+    shebang: str | None = None
+    local_directory: str | None = Field(None, description="dask's scratch folder on the nodes")
+    log_directory: str | None = Field(None, description="where the jobs' output goes")
+    death_timeout: float | None = Field(None, gt=0, description="seconds after which a worker without scheduler ends")
+    job_extra_directives: tuple[str, ...] = Field((), description="further lines for #SBATCH")
+    job_directives_skip: tuple[str, ...] = Field((), description="#SBATCH lines to leave out")
+    job_script_prologue: tuple[str, ...] = Field((), description="commands before the worker, such as module load")
+    worker_extra_args: tuple[str, ...] = Field((), description="arguments of `dask worker`")
+
+    def arguments(self, threads: int) -> dict[str, Any]:
+        """What SLURMCluster is given: dask sees one core per worker, SLURM all of them."""
+        given = {name: value for name, value in self.model_dump().items() if value not in (None, ())}
+        given = {name: list(value) if isinstance(value, tuple) else value for name, value in given.items()}
+        workers = max(self.cores // threads, 1)
+        exports = [f"export {name}={value}" for name, value in environment(threads).items()]
+        return given | {
+            "cores": workers, "processes": workers, "job_cpu": self.cores,
+            "job_script_prologue": [*exports, *given.get("job_script_prologue", [])],
+        }  # fmt: skip
+
+
+def read_slurm(path: Path) -> Slurm:
+    """The file of --slurm. Raises StudyError."""
+    sources = Sources()
+    try:
+        data = deck_toml.read(path, sources)
+        return Slurm.model_validate(data)
+    except DeckError as error:
+        raise StudyError(str(error)) from None
+    except ValidationError as error:
+        raise StudyError("\n".join(_explained(entry, data, sources) for entry in error.errors())) from None
+
+
+def _explained(entry: dict, data: dict, sources: Sources) -> str:
+    path = entry["loc"]
+    where = f"{sources.where(path, data)}: {spelled(path)}: "
+    if entry["type"] == "extra_forbidden":
+        return where + unknown("key", str(path[-1]), Slurm.model_fields)
+    return where + ("is missing" if entry["type"] == "missing" else f"{entry['msg'].lower()}, is {entry['input']!r}")
+
+
+def environment(threads: int) -> dict[str, str]:
+    """Variables of a worker process."""
+    found = {"NUMBA_NUM_THREADS": str(threads), "OMP_NUM_THREADS": str(threads)}
+    if "HYDRO2D_CACHE_DIR" in os.environ:
+        found["HYDRO2D_CACHE_DIR"] = os.environ["HYDRO2D_CACHE_DIR"]
+    return found
+
+
+@contextmanager
+def local(workers: int, threads: int) -> Iterator:
+    """A client of spawned worker processes on this machine."""
+    import dask
+    import distributed
+
+    with (
+        dask.config.set(CONFIG),
+        distributed.LocalCluster(
+            n_workers=workers, threads_per_worker=1, processes=True, memory_limit=0, dashboard_address=None,
+            env=environment(threads),
+        ) as cluster,
+        distributed.Client(cluster) as client,
+    ):  # fmt: skip
+        yield _with_checkpoints(client, silent=True)
+
+
+def _with_checkpoints(client, *, silent: bool):
+    """The client, whose workers write restart files before they go."""
+    from hydro2d.study import worker
+
+    client.register_plugin(worker.Checkpoint(silent))
+    return client
+
+
+@contextmanager
+def joined(address: str) -> Iterator:
+    """A client of a cluster that others have started. Raises StudyError where its workers do not fit."""
+    import distributed
+
+    try:
+        client = distributed.Client(address, timeout=ANSWER)
+    except (OSError, ValueError, TypeError) as error:
+        raise StudyError(f"--scheduler {address}: no scheduler answers there ({' '.join(str(error).split())})") from None
+    with client:
+        _check_workers(client, address)
+        yield _with_checkpoints(client, silent=False)
+
+
+def _check_workers(client, address: str) -> None:
+    """One thread each, and this version of hydro2d."""
+    from hydro2d.study import worker
+
+    try:
+        found = client.run(worker.introduce)
+    except Exception as error:
+        raise StudyError(f"--scheduler {address}: its workers cannot import hydro2d {__version__} ({error})") from None
+    for place, about in found.items():
+        has = f"--scheduler {address}: {place} has"
+        if about["version"] != __version__:
+            raise StudyError(f"{has} hydro2d {about['version']}, not {__version__}")
+        if about["threads"] != 1:
+            raise StudyError(f"{has} {about['threads']} threads; start `dask worker` with --nthreads 1")
+
+
+@contextmanager
+def slurm(path: Path, workers: int, threads: int) -> Iterator:
+    """A client of workers that SLURM starts. Raises StudyError."""
+    arguments = read_slurm(path).arguments(threads)
+    import dask
+    import distributed
+
+    try:
+        import dask_jobqueue
+    except ImportError:
+        raise StudyError("--slurm needs dask-jobqueue, which is not installed: pip install 'hydro2d[slurm]'") from None
+    with (
+        dask.config.set(CONFIG),
+        dask_jobqueue.SLURMCluster(**arguments) as cluster,
+        distributed.Client(cluster) as client,
+    ):  # fmt: skip
+        cluster.scale(n=workers)
+        yield _with_checkpoints(client, silent=False)

@@ -1,0 +1,154 @@
+"""The study file: a base deck, axes to vary, exclusions. Strict TOML in, a frozen and validated Definition out."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Any
+
+from pydantic import AfterValidator, Field, ValidationError, model_validator
+
+from hydro2d import deck_toml
+from hydro2d.deck_base import Section
+from hydro2d.deck_errors import DeckError, Sources, spelled, unknown
+
+#: the key of a variant that names another base deck
+DECK = "deck"
+
+
+class StudyError(Exception):
+    """A study, its directory or its workers are wrong; the message is for the user."""
+
+
+def _filled(value):
+    if not value:
+        raise ValueError("is empty: at least one is needed")
+    return value
+
+
+def _flat(table: Any, prefix: str = "") -> dict[str, Any]:
+    """Deck keys and values: sliding.method = ... and "sliding.method" = ... are the same key."""
+    if not isinstance(table, dict):
+        raise ValueError("expected a table of deck keys and values")
+    flat: dict[str, Any] = {}
+    for key, value in table.items():
+        if isinstance(value, dict):
+            flat |= _flat(value, f"{prefix}{key}.")
+        else:
+            flat[f"{prefix}{key}"] = value
+    return flat
+
+
+Keys = Annotated[dict[str, Any], AfterValidator(_flat)]
+
+
+class Range(Section):
+    """Values from one number to another: by a step, which may end before `to`, or a count, which ends at it."""
+
+    from_: float | int | str = Field(alias="from", description="first value")
+    to: float | int | str = Field(description="last value")
+    step: float | int | str | None = Field(None, description="distance of the values")
+    count: int | None = Field(None, ge=2, description="number of values")
+
+    @model_validator(mode="after")
+    def _one_way(self):
+        if (self.step is None) == (self.count is None):
+            raise ValueError("give either step or count")
+        return self
+
+
+class Axis(Section):
+    """One thing that is varied: the values of a key, or variants that set several keys."""
+
+    name: str = Field(min_length=1, description="what tables and exclusions call it")
+    key: str | None = Field(None, description="deck key, as in --set")
+    values: Annotated[tuple[Any, ...], AfterValidator(_filled)] | None = Field(None, description="values of the key")
+    range: Range | None = Field(None, description="values of the key, by from, to and step or count")
+    variants: Annotated[dict[str, Annotated[Keys, AfterValidator(_filled)]], AfterValidator(_filled)] | None = Field(
+        None, description="named sets of deck keys; the key `deck` names another base deck"
+    )
+
+    @model_validator(mode="after")
+    def _one_way(self):
+        given = [name for name in ("values", "range", "variants") if getattr(self, name) is not None]
+        if len(given) != 1:
+            raise ValueError(f"give one of values, range, variants; there are {' and '.join(given) or 'none'}")
+        if (self.key is None) != (self.variants is not None):
+            raise ValueError("variants name their own keys: key does not belong here" if self.key else "key is missing")
+        return self
+
+
+class Definition(Section):
+    """A study file."""
+
+    title: str = Field("", description="a line for tables and reports")
+    deck: str | None = Field(None, description="base deck: beside the study file, or as `hydro2d run` finds decks")
+    out: str | None = Field(None, description="directory of the study; default: runs/<name of the study file>")
+    set: Keys = Field({}, description="deck keys and values for every case")
+    axis: Annotated[tuple[Axis, ...], AfterValidator(_filled)] = Field(description="what is varied; the first varies slowest")
+    exclude: tuple[dict[str, Any], ...] = Field((), description="combinations that are left out")
+
+
+_TABLES: dict[tuple, type[Section]] = {(): Definition, ("axis",): Axis, ("axis", "range"): Range}
+
+
+def is_study(data: dict) -> bool:
+    """Whether parsed TOML is a study and not a deck."""
+    return "axis" in data
+
+
+def read(path: Path, overrides: list[str]) -> tuple[Definition, str, dict, Sources]:
+    """A study file with the overrides of the command line laid over [set]: validated, as text, as tables; where keys stand.
+
+    Raises StudyError, one line for each mistake.
+    """
+    try:
+        text = Path(path).read_text(encoding="utf-8")
+    except OSError as problem:
+        raise StudyError(f"{path}: cannot be read: {problem.strerror}") from None
+    except UnicodeDecodeError:
+        raise StudyError(f"{path}: is not UTF-8 text") from None
+    sources = Sources()
+    try:
+        data = deck_toml.parse(text, str(path))
+    except DeckError as error:
+        raise StudyError(str(error)) from None
+    sources.add(str(path), data, text)
+    if overrides:
+        data = {**data, "set": {**_settings(data), **dict(_assigned(entry) for entry in overrides)}}
+        text = f"# with {len(overrides)} --set of the command line laid over\n\n{deck_toml.dumps(data)}"
+    return _validated(data, sources), text, data, sources
+
+
+def _settings(data: dict) -> dict:
+    return _flat(data["set"]) if isinstance(data.get("set"), dict) else {}
+
+
+def _assigned(text: str) -> tuple[str, Any]:
+    """Key and value of --set key=value."""
+    try:
+        return deck_toml.assignment(text)
+    except DeckError as error:
+        raise StudyError(str(error)) from None
+
+
+def _validated(data: dict, sources: Sources) -> Definition:
+    try:
+        return Definition.model_validate(data)
+    except ValidationError as error:
+        found = [_explained(entry, data, sources) for entry in error.errors()]
+        raise StudyError("\n".join(dict.fromkeys(found))) from None
+
+
+def _explained(entry: dict, data: dict, sources: Sources) -> str:
+    """Our words for one of pydantic's errors."""
+    path, kind = tuple(entry["loc"]), entry["type"]
+    where = f"{sources.where(path, data)}: {spelled(path)}: "
+    if kind == "extra_forbidden":
+        table = _TABLES[tuple(part for part in path[:-1] if isinstance(part, str))]
+        return where + unknown("key", str(path[-1]), [f.alias or name for name, f in table.model_fields.items()])
+    if kind == "missing":
+        return where + "is missing"
+    if kind == "value_error":
+        return where + str(entry["ctx"]["error"])
+    message = entry["msg"][0].lower() + entry["msg"][1:]
+    return f"{where}{message.replace('input ', '')}, is {entry['input']!r}"

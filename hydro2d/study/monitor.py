@@ -1,0 +1,184 @@
+"""What a sweep tells while it runs: a table on a terminal, plain lines elsewhere, sweep.log always."""
+
+from __future__ import annotations
+
+import sys
+import time
+from collections import Counter
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from datetime import datetime
+from pathlib import Path
+
+from hydro2d.progress import duration, number
+from hydro2d.study.layout import DONE, LOG, RUNNING, STATUSES, WAITING, Case, Study
+
+#: seconds between lines, and between refreshes of the table
+LINE_SECONDS, TABLE_SECONDS = 5.0, 1.0
+HEADS = ("case", "status", "depth", "done", "time left", "worker")
+#: lines of a terminal that are not rows of the table
+FRAME = 8
+
+
+def row(case: Case) -> tuple[str, ...]:
+    """Name, status, depth, share done, time left and worker of a case."""
+    now = case.progress
+    depth = (now or case.summary).get("penetration_depth_m")
+    share = 1.0 if case.status == DONE else now.get("fraction")
+    left = now.get("left_s")
+    return (
+        case.name, case.status, number(depth, 1e2, ".2f", "cm"), "-" if share is None else f"{100 * share:.0f} %",
+        "-" if left is None else duration(left), f"{now['host']}:{now['process']}" if now else "-",
+    )  # fmt: skip
+
+
+def counts(cases: list[Case]) -> str:
+    """'3 of 24 done, 2 running, 19 waiting'."""
+    found = Counter(case.status for case in cases)
+    others = [f"{found[status]} {status}" for status in STATUSES if status != DONE and found[status]]
+    return ", ".join([f"{found[DONE]} of {len(cases)} done", *others])
+
+
+def left(cases: list[Case], workers: int) -> float | None:
+    """Seconds until all cases are done, at the mean time of those that are; None where nothing is known yet."""
+    running = [case.progress for case in cases if case.status == RUNNING]
+    rest = [now["left_s"] for now in running if now.get("left_s") is not None]
+    whole = [case.summary["wall_s"] for case in cases if case.status == DONE]
+    whole = whole or [now["wall_s"] + now["left_s"] for now in running if now.get("left_s") is not None]
+    if not whole or not workers:
+        return None
+    waiting = len([case for case in cases if case.status == WAITING]) + len(running) - len(rest)
+    return (sum(rest) + waiting * sum(whole) / len(whole)) / workers
+
+
+def grid(rows: list[tuple[str, ...]], heads: tuple[str, ...] = HEADS):
+    """A rich table."""
+    from rich.table import Table
+
+    table = Table(box=None, pad_edge=False, header_style="")
+    for name in heads:
+        table.add_column(name, no_wrap=True)
+    for cells in rows:
+        table.add_row(*cells)
+    return table
+
+
+def lines(rows: list[tuple[str, ...]], heads: tuple[str, ...] = HEADS) -> list[str]:
+    """The same as plain lines."""
+    widths = [max(len(cells[n]) for cells in (heads, *rows)) for n in range(len(heads))]
+    padded = ("  ".join(cell.ljust(width) for cell, width in zip(cells, widths, strict=True)) for cells in (heads, *rows))
+    return [line.rstrip() for line in padded]
+
+
+def status(study: Study) -> list[str]:
+    """The table of a study directory and its messages."""
+    told = [f"{case.name}: {text}" for case in study.cases for text in case.message.splitlines()]
+    heading = f"{study.name}: {study.title}" if study.title else study.name
+    return [heading, "", *lines([row(case) for case in study.cases]), "", counts(study.cases), *told]
+
+
+class Board:
+    """What is known of all cases, and where it is told.
+
+    cases : as they were read last; those of `moving` are read again for every line and table
+    workers : tells how many there are
+    """
+
+    def __init__(self, study: Study, log, quiet: bool):
+        self.study, self.cases = study, list(study.cases)
+        self.numbers = {case.name: n for n, case in enumerate(study.cases)}
+        self.moving: set[str] = set()
+        self.workers: Callable[[], int] = lambda: 0
+        self._log, self._quiet, self._last = log, quiet, time.monotonic()
+
+    def line(self, text: str) -> None:
+        """A line for the log and the screen."""
+        for part in text.splitlines():
+            self._write(part)
+            if not self._quiet:
+                self.show(part)
+
+    def note(self, text: str) -> None:
+        """Lines for the log alone."""
+        for part in text.splitlines():
+            self._write(part)
+
+    def _write(self, text: str) -> None:
+        try:
+            self._log.write(f"{datetime.now().isoformat(timespec='seconds')}  {text}\n")
+            self._log.flush()
+        except OSError as error:  # the cases go on; the screen still has it
+            self.show(f"warning: {LOG} cannot be written: {error.strerror}")
+
+    def show(self, text: str) -> None:
+        print(text, flush=True)
+
+    def look(self, name: str) -> Case:
+        """Reads a case again."""
+        number = self.numbers[name]
+        self.cases[number] = self.study.case(number)
+        return self.cases[number]
+
+    def summary(self) -> str:
+        for name in self.moving:
+            self.look(name)
+        seconds = left(self.cases, self.workers())
+        return counts(self.cases) + ("" if seconds is None else f"; {duration(seconds)} left")
+
+    def update(self) -> None:
+        """Called twice a second; speaks when it is time."""
+        now = time.monotonic()
+        if now - self._last >= LINE_SECONDS and not self._quiet:
+            self._last = now
+            self.show(self.summary())
+            for case in self.cases:
+                if case.status == RUNNING and case.progress:
+                    self.show("  " + "  ".join(row(case)))
+
+    def close(self) -> None:
+        pass
+
+
+class Live(Board):
+    """The same on a terminal: a table that is redrawn in place."""
+
+    def __init__(self, study: Study, log, quiet: bool):
+        from rich.live import Live as RichLive
+
+        super().__init__(study, log, quiet)
+        self._live = RichLive(refresh_per_second=2, transient=True)
+        self._live.start()
+
+    def show(self, text: str) -> None:
+        self._live.console.print(text, highlight=False, markup=False)
+
+    def update(self) -> None:
+        now = time.monotonic()
+        if now - self._last >= TABLE_SECONDS:
+            self._last = now
+            self._live.update(self._picture())
+
+    def _picture(self):
+        from rich.console import Group
+
+        total = self.summary()
+        order = {RUNNING: 0, WAITING: 2}
+        cases = sorted(self.cases, key=lambda case: order.get(case.status, 1))
+        shown = cases[: max(self._live.console.height - FRAME, 1)]
+        hidden = [f"... and {len(cases) - len(shown)} more"] if len(shown) < len(cases) else []
+        return Group(grid([row(case) for case in shown]), *hidden, total)
+
+    def close(self) -> None:
+        self._live.stop()
+
+
+@contextmanager
+def board(study: Study, quiet: bool) -> Iterator[Board]:
+    """The board that suits the output; appends to the log of the study."""
+    with open(Path(study.directory) / LOG, "a", encoding="utf-8") as file:
+        kind = Live if not quiet and sys.stdout.isatty() else Board
+        shown = kind(study, file, quiet)
+        try:
+            yield shown
+        finally:
+            shown.close()

@@ -1,0 +1,251 @@
+"""A sweep: the cases of a study given to dask, and what becomes of them told."""
+
+from __future__ import annotations
+
+import logging
+import queue
+import socket
+import time
+import uuid
+from collections.abc import Iterator
+from contextlib import AbstractContextManager, contextmanager
+from datetime import UTC, datetime
+from pathlib import Path
+
+from hydro2d import compilation
+from hydro2d import deck as decks
+from hydro2d.files import locked, write_json
+from hydro2d.progress import duration
+from hydro2d.run import Interrupt, clear, signals
+from hydro2d.study import layout, monitor
+from hydro2d.study.case import Outcome, kernels
+from hydro2d.study.cases import Plan
+from hydro2d.study.definition import StudyError
+from hydro2d.study.layout import CASES, DONE, FAILED, FAILED_STATUS, INTERRUPTED, INVALID, LOCK, STUDY, UNPHYSICAL, WAITING
+
+ALL_DONE, SOME_FAILED = 0, 3
+#: seconds between looks for a finished case, a signal, and the table
+BEAT = 0.5
+
+
+def changes(plan: Plan, directory: Path, *, resume: bool, overwrite: bool) -> list[str]:
+    """What has changed since the study directory was written last, in words.
+
+    Raises StudyError where a study is there and `resume` and `overwrite` do not allow it, or where its cases have other
+    decks than before.
+    """
+    if directory.exists() and not directory.is_dir():
+        raise StudyError(f"{directory} is a file, not a directory")
+    told = []
+    if (directory / STUDY).exists():
+        before = layout.read(directory)
+        if not (resume or overwrite) and any(case.directory.exists() for case in before.cases):
+            raise StudyError(
+                f"{directory} already holds a study ({monitor.counts(before.cases)}); --resume continues it, "
+                "--overwrite begins it anew"
+            )
+        told = _changes(plan, before, overwrite)
+    elif resume:
+        raise StudyError(f"{directory}: there is no study to continue")
+    return told
+
+
+def _changes(plan: Plan, before: layout.Study, overwrite: bool) -> list[str]:
+    """Cases that have come, gone, or changed."""
+    old = {case.name: case for case in before.cases}
+    new = {case.name: case for case in plan.cases}
+    begun = [name for name in new if name in old and old[name].directory.exists()]
+    changed = [name for name in begun if old[name].deck_sha256 != new[name].sha256]
+    if changed and not overwrite:
+        raise StudyError(
+            f"{before.directory}: {_names(changed)} had another deck when the study was begun; "
+            "--overwrite begins them anew, --out makes a study of its own"
+        )
+    added, gone = [name for name in new if name not in old], [name for name in old if name not in new]
+    told = [f"{_names(added)} new"] if added else []
+    told += [f"{_names(gone)} no longer in the study; what is in {CASES} stays"] if gone else []
+    return told + ([f"{_names(changed)} with another deck than before"] if changed else [])
+
+
+def _names(names: list[str]) -> str:
+    """'3 cases (a, b, c)'."""
+    shown = ", ".join(names[:5]) + (", ..." if len(names) > 5 else "")
+    return f"{len(names)} case{'s' if len(names) > 1 else ''} ({shown})"
+
+
+def sweep(plan: Plan, directory: Path, connect: AbstractContextManager, *, threads: int = 1, resume: bool = False,
+          overwrite: bool = False, quiet: bool = False) -> int:  # fmt: skip
+    """Runs all cases of a study and returns the exit status.
+
+    connect : gives a dask client, see cluster.local, joined and slurm
+    threads : numba threads of a case
+    resume : continue the study of the directory
+    overwrite : with resume, begin cases anew whose deck has changed; without it, all
+
+    Raises StudyError, LockError (another sweep runs there).
+    """
+    told, interrupt = changes(plan, directory, resume=resume, overwrite=overwrite), Interrupt()
+    layout.make(directory)
+    with locked(directory / LOCK):
+        layout.write(plan, directory)
+        if overwrite and not resume:
+            _clear(layout.read(directory))
+        return _sweep(plan, layout.read(directory), told, connect, interrupt, threads, overwrite, quiet)
+
+
+def _sweep(plan: Plan, study: layout.Study, told: list[str], connect: AbstractContextManager, interrupt: Interrupt,
+           threads: int, overwrite: bool, quiet: bool) -> int:  # fmt: skip
+    with monitor.board(study, quiet) as board, signals(interrupt), _dask_told(board):
+        board.line(f"{study.name}: {len(study.cases)} cases in {study.directory}")
+        for text in told:
+            board.line(text)
+        started = time.perf_counter()
+        with connect as client:
+            spent = _Sweep(plan, study, client, board, threads, overwrite).run(interrupt)
+        return _end(board, interrupt, time.perf_counter() - started, spent)
+
+
+def _clear(study: layout.Study) -> None:
+    """Removes what runs have left in the cases."""
+    for case in study.cases:
+        if case.directory.is_dir():
+            clear(case.directory)
+            (case.directory / FAILED).unlink(missing_ok=True)
+
+
+class _Sweep:
+    """The tasks that dask has, by the key of their future."""
+
+    def __init__(self, plan: Plan, study: layout.Study, client, board: monitor.Board, threads: int, overwrite: bool):
+        self.study, self.client, self.board = study, client, board
+        self.threads, self.overwrite = threads, overwrite
+        self.texts = {case.name: case.text for case in plan.cases}
+        self.name = uuid.uuid4().hex[:12]
+        self.tasks: dict[str, layout.Case] = {}
+        self.spent = 0.0
+        self.ended: queue.Queue = queue.Queue()
+
+    def run(self, interrupt: Interrupt) -> float:
+        """Returns when every case has ended: the seconds that they took in their workers."""
+        self._submit()
+        told = False
+        while self.tasks:
+            if interrupt.reason:
+                if not told:
+                    self.board.line(f"{interrupt.reason}: running cases write their restart files and stop")
+                    told = True
+                self._stop(interrupt.reason)
+            try:
+                self._finish(self.ended.get(timeout=BEAT))
+            except queue.Empty:
+                pass
+            self.board.update()
+        return self.spent
+
+    def _submit(self) -> None:
+        from hydro2d.study import worker
+
+        todo = [case for case in self.board.cases if case.status not in (INVALID, DONE, UNPHYSICAL)]
+        self.board.moving = {case.name for case in todo}
+        self.board.workers = lambda: len(self.client.scheduler_info(n_workers=-1)["workers"])
+        if todo and not compilation.is_compiled(kernels(decks.loads(self.texts[todo[0].name]))):
+            self.board.line("kernels are compiled first where they are not kept from earlier runs: a minute or more")
+        for case in todo:
+            key = f"{case.name}-{self.name}"
+            self.tasks[key] = case
+            future = self.client.submit(
+                worker.work, self.name, str(case.directory.resolve()), self.texts[case.name], self.threads,
+                self.overwrite, key=key, pure=False,
+            )  # fmt: skip
+            future.add_done_callback(self.ended.put)
+
+    def _stop(self, reason: str) -> None:
+        from hydro2d.study import worker
+
+        self.client.run(worker.stop, self.name, reason, on_error="ignore")
+
+    def _finish(self, future) -> None:
+        """Tells what became of a case."""
+        case = self.tasks.pop(future.key)
+        outcome = _outcome(future)
+        future.release()
+        self.spent += outcome.wall_s
+        if outcome.status == FAILED_STATUS:
+            self._record(case, outcome)
+        self.board.moving.discard(case.name)
+        name, *shown = monitor.row(self.board.look(case.name))
+        depth = "" if shown[1] == "-" else f"depth {shown[1]}"
+        words = [outcome.status, depth if outcome.status == DONE else outcome.message]
+        words += [] if outcome.fresh else ["was there already" if outcome.status == DONE else "not begun"]
+        where = f"({duration(outcome.wall_s)}, {outcome.host})" if outcome.host else ""
+        self.board.line(f"{name}: {', '.join(filter(None, words))} {where}".rstrip())
+        if outcome.trace:
+            self.board.note(outcome.trace)
+
+    def _record(self, case: layout.Case, outcome: Outcome) -> None:
+        """Writes failed.json; where that is impossible, table and log have the reason."""
+        try:
+            case.directory.mkdir(exist_ok=True)
+            write_json(case.directory / FAILED, {
+                "reason": outcome.message, "kind": outcome.kind, "host": outcome.host,
+                "time": datetime.now(UTC).isoformat(timespec="seconds"),
+            })  # fmt: skip
+        except OSError as error:
+            self.board.note(f"{case.name}: {FAILED} cannot be written: {error.strerror}")
+
+
+def _outcome(future) -> Outcome:
+    """What a task returned, or why dask gave it up."""
+    import distributed
+
+    if future.status == "finished":
+        return Outcome(**future.result())
+    about = {"status": FAILED_STATUS, "host": socket.gethostname()}
+    if future.status != "error":
+        return Outcome(**about, kind="lost", message=f"the scheduler lost it ({future.status})")
+    error = future.exception()
+    if isinstance(error, distributed.scheduler.KilledWorker):
+        times = error.allowed_failures + 1
+        words = f"its worker died {times} times (killed, out of memory, or a crash); the log of dask is in sweep.log"
+        return Outcome(**about, kind="KilledWorker", message=words)
+    return Outcome(**about, kind=type(error).__name__, message=f"{type(error).__name__}: {error}")
+
+
+def _end(board: monitor.Board, interrupt: Interrupt, seconds: float, spent: float) -> int:
+    """The last word, and the exit status."""
+    cases = [board.look(case.name) for case in board.cases]
+    for case in cases:
+        if case.status in (FAILED_STATUS, UNPHYSICAL, INVALID):
+            for text in case.message.splitlines():
+                board.line(f"{case.name}: {case.status}: {text}")
+    board.line(f"{monitor.counts(cases)}, in {duration(seconds)}; the cases took {spent:.1f} s in their workers")
+    if interrupt.reason:
+        board.line(f"interrupted ({interrupt.reason}); --resume continues")
+        return 130 if interrupt.reason == "SIGINT" else 143
+    if any(case.status in (WAITING, INTERRUPTED) for case in cases):
+        board.line("--resume continues")
+    return ALL_DONE if all(case.status == DONE for case in cases) else SOME_FAILED
+
+
+class _ToLog(logging.Handler):
+    """Lines of dask go to sweep.log."""
+
+    def __init__(self, board: monitor.Board):
+        super().__init__(logging.WARNING)
+        self.board = board
+
+    def emit(self, record) -> None:
+        self.board.note(f"{record.name}: {record.getMessage()}")
+
+
+@contextmanager
+def _dask_told(board: monitor.Board) -> Iterator[None]:
+    """What dask says of workers that die is in the log of the sweep, not on the screen."""
+    import distributed  # noqa: F401  (it sets its own handlers when it is imported)
+
+    logger, handler = logging.getLogger("distributed"), _ToLog(board)
+    before, logger.handlers = logger.handlers, [handler]
+    try:
+        yield
+    finally:
+        logger.handlers = before

@@ -1,0 +1,101 @@
+"""What happens in a dask worker: one case at a time, and a restart file before the worker goes."""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+import os
+import signal
+import threading
+import time
+
+import distributed
+
+from hydro2d import __version__
+from hydro2d.run import Interrupt
+from hydro2d.study.case import Outcome, run_case
+from hydro2d.study.layout import FAILED_STATUS, WAITING
+
+#: seconds that a worker which is told to go waits for the case to write its restart file
+PATIENCE = 60.0
+#: exit status of a worker that SIGTERM has ended
+GONE = 128 + signal.SIGTERM
+
+
+class _Process:
+    """The case that this process runs, and the sweeps that were told to stop."""
+
+    def __init__(self):
+        self.busy = threading.Lock()
+        self.interrupt: Interrupt | None = None
+        self.stopped: dict[str, str] = {}
+        self.leaving = False
+
+
+_process = _Process()
+
+
+def work(sweep: str, directory: str, deck_text: str, threads: int, overwrite: bool) -> dict:
+    """The task of dask: runs a case and returns its Outcome as a plain table.
+
+    sweep : name of the sweep, which `stop` may have stopped
+    """
+    if not _process.busy.acquire(blocking=False):
+        return Outcome(FAILED_STATUS, "its worker runs another case: workers must have one thread (--nthreads 1)").plain()
+    try:
+        _process.interrupt = Interrupt()
+        if sweep in _process.stopped:  # after the line above: a stop that comes now finds the interrupt
+            return Outcome(WAITING, fresh=False).plain()
+        outcome = run_case(directory, deck_text, threads=threads, overwrite=overwrite, interrupt=_process.interrupt)
+    finally:
+        _process.interrupt = None
+        _process.busy.release()
+    if _process.leaving:
+        os._exit(GONE)  # the scheduler gives the case to another worker
+    return outcome.plain()
+
+
+def stop(sweep: str, reason: str) -> None:
+    """Ends the running case after its cycle with a restart file; cases of this sweep that follow do not begin."""
+    _process.stopped[sweep] = reason
+    interrupt = _process.interrupt
+    if interrupt is not None:
+        interrupt(reason)
+
+
+def introduce(dask_worker) -> dict:
+    """What a sweep must know of a worker that others have started."""
+    return {"version": __version__, "threads": dask_worker.state.nthreads}
+
+
+def _on_sigterm(_number, _frame) -> None:
+    """The case writes its restart file first, where there is one."""
+    _process.leaving = True
+    interrupt = _process.interrupt
+    if interrupt is None:
+        os._exit(GONE)
+    interrupt("SIGTERM")
+
+
+class Checkpoint(distributed.WorkerPlugin):
+    """A worker that is told to go lets its case write a restart file; Ctrl-C is the sweep's business, not the worker's."""
+
+    name = "hydro2d-checkpoint"
+
+    def __init__(self, silent: bool):
+        self.silent = silent  # what dask says of lost connections as everything ends belongs on no screen
+
+    def setup(self, worker) -> None:
+        """Called by dask as the worker starts."""
+        if self.silent:
+            logging.getLogger("distributed").setLevel(logging.CRITICAL)
+        if threading.current_thread() is threading.main_thread():
+            signal.signal(signal.SIGINT, signal.SIG_IGN)
+            signal.signal(signal.SIGTERM, _on_sigterm)
+
+    async def teardown(self, worker) -> None:
+        """Called by dask as the worker closes."""
+        until = time.monotonic() + PATIENCE
+        while (interrupt := _process.interrupt) is not None and time.monotonic() < until:
+            interrupt("the worker closes")
+            await asyncio.sleep(0.05)

@@ -1,0 +1,170 @@
+"""A case can be called any number of times, after anything."""
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+import time
+
+import pytest
+
+from hydro2d import compilation, history, snapshot
+from hydro2d import deck as decks
+from hydro2d.run import Interrupt
+from hydro2d.study.case import kernels, run_case
+from tests.unit.test_cli import DECK
+
+
+@pytest.fixture
+def text(simulation, monkeypatch):
+    monkeypatch.setattr(compilation, "once", lambda key, compile: None)  # a fake compiles nothing
+    return decks.loads(DECK).to_toml()
+
+
+@pytest.fixture
+def place(tmp_path):
+    return tmp_path / "case"
+
+
+def interrupted(simulation, monkeypatch, text, place, cycles):
+    """Runs a case for some cycles."""
+    interrupt, step = Interrupt(), simulation.step
+
+    def counted(self):
+        step(self)
+        if self.cycle == cycles:
+            interrupt("SIGTERM")
+
+    with monkeypatch.context() as patch:
+        patch.setattr(simulation, "step", counted)
+        return run_case(place, text, interrupt=interrupt)
+
+
+def bits(place):
+    saved = snapshot.read(place / "restart.h5")
+    columns = history.read(place / "history.h5")
+    return saved.arrays["e"].tobytes(), saved.scalars, {name: column.tobytes() for name, column in columns.items()}
+
+
+def test_a_finished_case_is_not_run_again(text, place):
+    assert run_case(place, text).status == "done"
+    before = (place / "summary.json").stat().st_mtime_ns
+    again = run_case(place, text)
+    assert (again.status, again.fresh) == ("done", False)
+    assert (place / "summary.json").stat().st_mtime_ns == before
+
+
+def test_an_interrupted_case_continues_to_the_same_bits(simulation, monkeypatch, text, place, tmp_path):
+    first = interrupted(simulation, monkeypatch, text, place, 50)
+    assert first.status == "interrupted"
+    assert "SIGTERM" in first.message
+    assert run_case(place, text).status == "done"
+    assert "continuing at cycle 50" in (place / "log.txt").read_text()
+    assert run_case(tmp_path / "whole", text).status == "done"
+    assert bits(place) == bits(tmp_path / "whole")
+
+
+def test_a_case_that_died_before_its_first_restart_file_begins_anew(text, place):
+    child = subprocess.Popen([sys.executable, "-c", ""])
+    child.wait()
+    place.mkdir()
+    (place / "deck.toml").write_text(text)
+    (place / "run.lock").write_text(f"{os.uname().nodename} {child.pid}")
+    assert run_case(place, text).status == "done"
+
+
+def test_another_deck_is_a_failure_unless_told(text, place):
+    run_case(place, text)
+    kept = (place / "summary.json").read_text()
+    other = decks.loads(DECK, ["numerics.courant=0.3"]).to_toml()
+    outcome = run_case(place, other)
+    assert outcome.status == "failed"
+    assert "holds a run of another deck; --overwrite removes it" in outcome.message
+    assert (place / "summary.json").read_text() == kept
+    assert run_case(place, other, overwrite=True).status == "done"
+    assert (place / "deck.toml").read_text() == other
+
+
+def test_unphysical_is_a_result(simulation, text, place):
+    simulation.fail_at = 7
+    outcome = run_case(place, text)
+    assert (outcome.status, outcome.fresh) == ("unphysical", True)
+    assert "density -1" in outcome.message
+    assert run_case(place, text).fresh is False
+
+
+def test_a_fault_is_a_result_with_its_trace(simulation, text, place):
+    simulation.step = lambda self: 1 / 0
+    outcome = run_case(place, text)
+    assert (outcome.status, outcome.kind) == ("failed", "ZeroDivisionError")
+    assert "test_case.py" in outcome.trace
+
+
+def _locked(place, text, age):
+    """A lock with a last sign of life so many seconds ago."""
+    place.mkdir()
+    (place / "run.lock").write_text(text)
+    os.utime(place / "run.lock", (time.time() - age,) * 2)
+
+
+def test_the_lock_of_another_machine_that_fell_silent_is_taken_over(text, place):
+    _locked(place, "elsewhere 1", 1e4)
+    assert run_case(place, text).status == "done"
+
+
+@pytest.mark.parametrize(
+    ("spoil", "said"),
+    [
+        (lambda place: place.touch(), "is a file, not a directory"),
+        (lambda place: shutil.rmtree(place.parent), "workers need the study's file system"),
+        (lambda place: _locked(place, f"{os.uname().nodename} {os.getppid()}", 1e9), f"in use by process {os.getppid()}"),
+        (lambda place: _locked(place, "elsewhere 1", -1e9), "in use by process 1 on elsewhere"),
+    ],
+)
+def test_what_the_user_can_mend_is_one_line(text, tmp_path, monkeypatch, spoil, said):
+    monkeypatch.setattr("hydro2d.study.case.SILENCE", 0.1)
+    place = tmp_path / "cases" / "case"
+    place.parent.mkdir()
+    spoil(place)
+    outcome = run_case(place, text)
+    assert outcome.status == "failed"
+    assert said in outcome.message
+    assert "\n" not in outcome.message
+    assert outcome.trace == ""
+
+
+def test_a_full_disk(simulation, monkeypatch, text, place):
+    interrupted(simulation, monkeypatch, text, place, 50)
+    (place / "log.txt").unlink()
+    (place / "log.txt").symlink_to("/dev/full")  # every write to it fails as on a full disk
+    outcome = run_case(place, text)
+    assert outcome.status == "failed"
+    assert outcome.message.startswith("the disk is full: ")
+    (place / "log.txt").unlink()
+    assert run_case(place, text).status == "done"
+
+
+def test_progress_is_published_while_it_runs(simulation, monkeypatch, text, place):
+    monkeypatch.setattr("hydro2d.run.PROGRESS_SECONDS", 0.0)
+    interrupt, step, seen = Interrupt(), simulation.step, []
+
+    def watched(self):
+        step(self)
+        if (place / "progress.json").exists():
+            seen.append(json.loads((place / "progress.json").read_text()))
+
+    simulation.step = watched
+    assert run_case(place, text, interrupt=interrupt).status == "done"
+    assert [entry["cycles"] for entry in seen] == list(range(len(seen)))
+    assert 0.9 < seen[-1]["fraction"] < 1
+    assert seen[-1]["process"] == os.getpid()
+    assert seen[-1]["penetration_depth_m"] > 0.018
+    assert not (place / "progress.json").exists()
+
+
+def test_kernels_go_by_the_words_of_the_methods():
+    base = kernels(decks.loads(DECK))
+    assert kernels(decks.loads(DECK, ["numerics.courant=0.3", "body.rod.velocity=900 m/s"])) == base
+    assert kernels(decks.loads(DECK, ["numerics.advection=momentum"])) != base
+    assert kernels(decks.loads(DECK, ['sliding.method="contact"', 'sliding.hard=["rod"]'])) != base

@@ -1,0 +1,138 @@
+"""Workers that others have started, and those of SLURM."""
+
+import sys
+from types import SimpleNamespace
+
+import distributed
+import pytest
+
+from hydro2d import study
+from hydro2d.cli import call
+from hydro2d.study import cluster
+from hydro2d.study.definition import StudyError
+from tests.study import tubes
+
+JOB = """
+cores = 8
+memory = "16 GB"
+queue = "long"
+job_script_prologue = ["module load python"]
+"""
+
+
+@pytest.fixture
+def others():
+    """A cluster that somebody else has started, with as many threads per worker as asked for."""
+    started = []
+
+    def start(threads):
+        started.append(distributed.LocalCluster(n_workers=1, threads_per_worker=threads, dashboard_address=None))
+        return started[-1].scheduler_address
+
+    yield start
+    for each in started:
+        each.close()
+
+
+def test_joins_a_running_cluster_and_leaves_it_running(tmp_path, others, capsys):
+    file, address = tubes.write(tmp_path), others(1)
+    assert call(["sweep", str(file), "--scheduler", address, "--out", str(tmp_path / "a")]) == 0
+    assert {case.status for case in study.load(tmp_path / "a").cases} == {"done"}
+    assert call(["sweep", str(file), "--scheduler", address, "--out", str(tmp_path / "b"), "--quiet"]) == 0
+    assert "4 of 4 done" in capsys.readouterr().out
+    files = sorted((tmp_path / "a").glob("cases/*/summary.json"))
+    before = [file.stat().st_mtime_ns for file in files]
+    assert call(["sweep", str(file), "--scheduler", address, "--out", str(tmp_path / "a"), "--overwrite"]) == 0
+    assert all(file.stat().st_mtime_ns > then for file, then in zip(files, before, strict=True))
+
+
+def test_workers_of_several_threads_are_refused(tmp_path, others, capsys):
+    assert call(["sweep", str(tubes.write(tmp_path)), "--scheduler", others(2), "--out", str(tmp_path / "out")]) == 2
+    assert "has 2 threads; start `dask worker` with --nthreads 1" in capsys.readouterr().err
+
+
+def test_no_scheduler(tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr(cluster, "ANSWER", 0.5)
+    arguments = ["sweep", str(tubes.write(tmp_path)), "--out", str(tmp_path / "out"), "--scheduler", "tcp://127.0.0.1:9"]
+    for _ in range(2):  # the second finds the directory of the first, in which nothing has begun
+        assert call(arguments) == 2
+        assert "no scheduler answers" in capsys.readouterr().err
+
+
+class Fake(distributed.LocalCluster):
+    """A SLURM cluster without SLURM."""
+
+    def __init__(self, **arguments):
+        type(self).given = arguments
+        super().__init__(n_workers=1, threads_per_worker=arguments["cores"] // arguments["processes"], dashboard_address=None)
+
+
+def test_slurm(tmp_path, monkeypatch):
+    monkeypatch.setitem(sys.modules, "dask_jobqueue", SimpleNamespace(SLURMCluster=Fake))
+    (tmp_path / "job.toml").write_text(JOB)
+    arguments = ["--slurm", str(tmp_path / "job.toml"), "--threads", "2", "--workers", "1", "--quiet"]
+    assert call(["sweep", str(tubes.write(tmp_path)), "--out", str(tmp_path / "out"), *arguments]) == 0
+    assert {case.status for case in study.load(tmp_path / "out").cases} == {"done"}
+    prologue = Fake.given.pop("job_script_prologue")
+    assert Fake.given == {"cores": 4, "processes": 4, "job_cpu": 8, "memory": "16 GB", "queue": "long"}
+    assert "export NUMBA_NUM_THREADS=2" in prologue
+    assert prologue[-1] == "module load python"
+
+
+def test_slurm_arguments_are_those_of_dask_jobqueue():
+    """What a file may say, SLURMCluster knows."""
+    jobqueue = pytest.importorskip("dask_jobqueue")
+    every = cluster.Slurm(**{name: _example(field) for name, field in cluster.Slurm.model_fields.items()})
+    job = jobqueue.SLURMCluster(**{**every.arguments(1), "interface": "lo"})
+    try:
+        script = job.job_script()
+    finally:
+        job.close()
+    assert "#SBATCH --cpus-per-task=2" in script
+    assert "export NUMBA_NUM_THREADS=1" in script
+
+
+def _example(field):
+    if field.annotation is int:
+        return 2
+    if "tuple" in str(field.annotation):
+        return ["# x"]
+    return 60.0 if "float" in str(field.annotation) else "1 GB"
+
+
+def test_without_dask_jobqueue(tmp_path, monkeypatch, capsys):
+    monkeypatch.setitem(sys.modules, "dask_jobqueue", None)
+    (tmp_path / "job.toml").write_text(JOB)
+    status = call(["sweep", str(tubes.write(tmp_path)), "--out", str(tmp_path / "out"), "--slurm", str(tmp_path / "job.toml")])
+    assert status == 2
+    assert "pip install 'hydro2d[slurm]'" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ("queue", "qeue", 'job.toml:4: qeue: unknown key "qeue"; did you mean "queue"'),
+        ("cores = 8", "", "cores: is missing"),
+        ("cores = 8", "cores = 0", "job.toml:2: cores: "),
+    ],
+)
+def test_a_wrong_slurm_file(tmp_path, old, new, said):
+    (tmp_path / "job.toml").write_text(JOB.replace(old, new, 1))
+    with pytest.raises(StudyError) as error:
+        cluster.read_slurm(tmp_path / "job.toml")
+    assert said in str(error.value)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["--workers", "0"], "at least 1"),
+        (["--threads", "0"], "at least 1"),
+        (["--scheduler", "a", "--slurm", "b"], "one of them"),
+        (["--scheduler", "a", "--workers", "2"], "one of them"),
+        (["--slurm", "none.toml"], "cannot be read"),
+    ],
+)
+def test_arguments(tmp_path, capsys, arguments, said):
+    assert call(["sweep", str(tubes.write(tmp_path)), "--out", str(tmp_path / "out"), *arguments]) == 2
+    assert said in capsys.readouterr().err

@@ -1,0 +1,172 @@
+"""A study directory is read back as it was written, in any state of completion."""
+
+import io
+import os
+import socket
+from pathlib import Path
+
+import pytest
+import rich.console
+
+from hydro2d import study
+from hydro2d.cli import call
+from hydro2d.files import write_json
+from hydro2d.study import cases, layout, monitor, sweep
+from hydro2d.study.definition import StudyError
+from tests.study import tubes
+
+
+@pytest.fixture
+def plan(tmp_path):
+    return cases.plan(tubes.write(tmp_path, tubes.STUDY.replace("0.2]", "0.2, '2 mm']")))
+
+
+@pytest.fixture
+def written(plan, tmp_path):
+    layout.make(tmp_path / "out")
+    layout.write(plan, tmp_path / "out")
+    return tmp_path / "out"
+
+
+def state(directory, name):
+    return next(case for case in study.load(directory).cases if case.name == name)
+
+
+def pretend(directory, plan, name, status, **extra):
+    """What a run of a case leaves behind."""
+    place = directory / "cases" / name
+    place.mkdir(exist_ok=True)
+    planned = next(case for case in plan.cases if case.name == name)
+    (place / "deck.toml").write_text(planned.text)
+    if status is not None:
+        write_json(place / "summary.json", {"status": status, "stop_reason": "a reason", "deck_sha256": planned.sha256,
+                                            "wall_s": 100.0, "penetration_depth_m": 0.123} | extra)  # fmt: skip
+    return place
+
+
+def test_round_trip(plan, written):
+    found = study.load(written)
+    assert (found.title, found.name, found.directory) == ("Shock tubes", "tubes", written)
+    assert [(axis.name, axis.key, axis.values) for axis in found.axes] == [
+        ("advection", "numerics.advection", ("ke", "momentum")),
+        ("pressure", "body.low.pressure", ("0.1", "0.2", "2 mm")),
+    ]
+    assert [case.name for case in found.cases] == [case.name for case in plan.cases]
+    first = found.cases[0]
+    assert first.values == {"advection": "ke", "pressure": "0.1"}
+    assert first.directory == written / "cases" / "ke_0.1"
+    assert (first.base, first.status, first.summary, first.deck) == ("tube.toml", "waiting", {}, None)
+    assert first.deck_sha256 == plan.cases[0].sha256
+    assert "ke_2mm" == found.cases[2].name
+    assert found.cases[2].status == "invalid"
+    assert "body[1].pressure" in found.cases[2].message
+    assert (written / "study.toml").read_text() == plan.text
+
+
+def test_every_status(plan, written):
+    place = pretend(written, plan, "ke_0.1", "done")
+    assert state(written, "ke_0.1").status == "done"
+    assert state(written, "ke_0.1").deck["numerics"]["advection"] == "ke"
+    (place / "run.lock").write_text(f"{socket.gethostname()} {os.getppid()}")
+    write_json(place / "progress.json", {"fraction": 0.25, "left_s": 60.0, "host": "here", "process": 7})
+    assert state(written, "ke_0.1").status == "running"
+    assert monitor.row(state(written, "ke_0.1"))[3:] == ("25 %", "1 min 00 s", "here:7")
+    (place / "run.lock").unlink()
+    pretend(written, plan, "ke_0.1", "unphysical")
+    assert state(written, "ke_0.1").message == "a reason"
+    pretend(written, plan, "ke_0.1", "interrupted")
+    assert state(written, "ke_0.1").status == "interrupted"
+    write_json(place / "failed.json", {"reason": "the disk is full", "kind": "OSError", "host": "here", "time": ""})
+    assert (state(written, "ke_0.1").status, state(written, "ke_0.1").message) == ("failed", "the disk is full")
+    place = pretend(written, plan, "ke_0.2", None)
+    assert state(written, "ke_0.2").status == "waiting"
+    (place / "restart.h5").touch()
+    assert state(written, "ke_0.2").status == "interrupted"  # it was killed
+    pretend(written, plan, "momentum_0.1", "done")
+    (written / "cases" / "momentum_0.1" / "deck.toml").write_text("title = 'another'")
+    assert state(written, "momentum_0.1").status == "waiting"
+    (written / "cases" / "momentum_0.2").touch()
+    assert "is a file" in state(written, "momentum_0.2").message
+
+
+def test_status_command(plan, written, tmp_path, capsys):
+    pretend(written, plan, "ke_0.1", "done")
+    assert call(["sweep", str(written), "--status"]) == 0
+    shown = capsys.readouterr().out
+    assert "ke_0.1        done     12.30 cm  100 %" in shown
+    assert "1 of 6 done, 3 waiting, 2 invalid" in shown
+    assert call(["sweep", str(tmp_path / "tubes.toml"), "--out", str(written), "--status"]) == 0
+    assert call(["sweep", str(tmp_path), "--status"]) == 2
+    assert "not a study directory" in capsys.readouterr().err
+    (written / "study.json").write_text("{")
+    assert call(["sweep", str(written), "--status"]) == 2
+
+
+def test_time_left():
+    def case(status, **told):
+        return layout.Case("a", Path("a"), status=status, **told)
+
+    done, waiting = case("done", summary={"wall_s": 100.0}), case("waiting")
+    running = case("running", progress={"left_s": 40.0, "wall_s": 60.0})
+    assert monitor.left([done, waiting, waiting, running], 2) == 120.0
+    assert monitor.left([running, waiting], 1) == 140.0
+    assert monitor.left([waiting], 1) is None
+
+
+def test_an_existing_study_is_kept_unless_told(plan, written, tmp_path):
+    sweep.changes(plan, written, resume=False, overwrite=False)  # nothing has begun
+    pretend(written, plan, "ke_0.1", "done")
+    with pytest.raises(StudyError, match=r"1 of 6 done.*--resume continues it"):
+        sweep.changes(plan, written, resume=False, overwrite=False)
+    assert sweep.changes(plan, written, resume=True, overwrite=False) == []
+    with pytest.raises(StudyError, match="no study to continue"):
+        sweep.changes(plan, tmp_path / "none", resume=True, overwrite=False)
+    with pytest.raises(StudyError, match="is a file"):
+        sweep.changes(plan, tmp_path / "tube.toml", resume=False, overwrite=False)
+    with pytest.raises(StudyError, match="cannot be written"):
+        layout.make(tmp_path / "tube.toml" / "out")
+
+
+def test_a_changed_study_is_told(plan, written, tmp_path):
+    pretend(written, plan, "ke_0.1", "done")
+    wider = cases.plan(tubes.write(tmp_path, tubes.STUDY.replace("[0.1, 0.2]", "[0.1, 0.3]")))
+    told = sweep.changes(wider, written, resume=True, overwrite=False)
+    assert told == [
+        "2 cases (ke_0.3, momentum_0.3) new",
+        "4 cases (ke_0.2, ke_2mm, momentum_0.2, momentum_2mm) no longer in the study; what is in cases stays",
+    ]
+    layout.write(wider, written)
+    other = cases.plan(tubes.write(tmp_path), ["numerics.courant=0.3"])
+    with pytest.raises(StudyError, match=r"1 case \(ke_0.1\) had another deck.*--overwrite"):
+        sweep.changes(other, written, resume=True, overwrite=False)
+    told = sweep.changes(other, written, resume=True, overwrite=True)
+    assert "1 case (ke_0.1) with another deck than before" in told
+
+
+def test_the_board_tells_of_running_cases(plan, written, capsys, monkeypatch):
+    monkeypatch.setattr(monitor, "LINE_SECONDS", 0.0)
+    place = pretend(written, plan, "ke_0.2", None)
+    pretend(written, plan, "ke_0.1", "done")
+    (place / "run.lock").write_text(f"{socket.gethostname()} {os.getppid()}")
+    write_json(place / "progress.json", {"fraction": 0.5, "left_s": 30.0, "wall_s": 30.0, "host": "here", "process": 7})
+    with monitor.board(study.load(written), quiet=False) as board:
+        board.workers = lambda: 1
+        board.line("two\nlines")
+        board.update()
+    shown = capsys.readouterr().out
+    assert "1 of 6 done, 2 waiting, 1 running, 2 invalid; 3 min 50 s left" in shown
+    assert "  ke_0.2  running  -  50 %  30 s  here:7" in shown
+    assert [line.split("  ")[1] for line in (written / "sweep.log").read_text().splitlines()] == ["two", "lines"]
+
+
+def test_the_live_table_fits_the_terminal(plan, written):
+    pretend(written, plan, "ke_0.1", "done")
+    board = monitor.Live(study.load(written), io.StringIO(), False)
+    board.close()
+    console = rich.console.Console(file=io.StringIO(), width=100, height=monitor.FRAME + 2)
+    board._live.console = console
+    console.print(board._picture())
+    shown = console.file.getvalue().splitlines()
+    assert shown[0].split() == ["case", "status", "depth", "done", "time", "left", "worker"]
+    assert shown[-2].strip() == "... and 4 more"
+    assert shown[-1].startswith("1 of 6 done")

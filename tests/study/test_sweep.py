@@ -1,0 +1,201 @@
+"""Sweeps on two workers: whatever befalls them, every case ends as in an undisturbed run, or says why not."""
+
+import functools
+import json
+import os
+import random
+import shutil
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+
+from hydro2d import deck as decks
+from hydro2d import study
+from hydro2d.run import run
+from hydro2d.study import cases
+from tests.study import tubes
+
+
+@pytest.fixture(scope="module")
+def undisturbed(tmp_path_factory):
+    """Bits of every long case, run one after the other without dask."""
+    folder = tmp_path_factory.mktemp("undisturbed")
+    plan = cases.plan(tubes.write(folder), tubes.LONG[1::2])
+    for case in plan.cases:
+        run(decks.loads(case.text), folder / case.name, quiet=True)
+    return {case.name: tubes.bits(folder / case.name) for case in plan.cases}
+
+
+def statuses(directory):
+    return {case.name: case.status for case in study.load(directory).cases}
+
+
+def holders(directory):
+    """Process of every case that runs: of locks whose process lives."""
+    found = {}
+    for lock in (directory / "cases").glob("*/run.lock"):
+        try:
+            pid = int(lock.read_text().split()[1])
+            os.kill(pid, 0)
+        except (FileNotFoundError, ProcessLookupError):
+            continue
+        found[lock.parent.name] = pid
+    return found
+
+
+def begun(directory):
+    """Those that have a restart file."""
+    return {name: pid for name, pid in holders(directory).items() if (directory / "cases" / name / "restart.h5").exists()}
+
+
+def all_equal(directory, undisturbed):
+    return {name: tubes.bits(directory / "cases" / name) == found for name, found in undisturbed.items()}
+
+
+def test_all_cases_are_done_and_stay(tmp_path):
+    file, out = tubes.write(tmp_path), tmp_path / "out"
+    status, said = tubes.sweep(file, "--workers", 2, "--out", out)
+    assert status == 0, said
+    assert "4 of 4 done" in said
+    assert "Traceback" not in said
+    assert set(statuses(out).values()) == {"done"}
+    for case in study.load(out).cases:
+        assert case.deck["numerics"]["advection"] == case.values["advection"]
+        assert case.summary["deck_sha256"] == case.deck_sha256
+    assert "ke_0.1: done" in (out / "sweep.log").read_text()
+    before = {file: file.stat().st_mtime_ns for file in out.glob("cases/*/summary.json")}
+    status, said = tubes.sweep(file, "--workers", 1, "--out", out, "--resume")
+    assert status == 0, said
+    assert {file: file.stat().st_mtime_ns for file in out.glob("cases/*/summary.json")} == before
+    status, said = tubes.sweep(file, "--out", out)
+    assert status == 2
+    assert said.count("\n") == 1
+    assert "--resume continues it" in said
+
+
+def test_killed_workers_lose_nothing(tmp_path, undisturbed):
+    """kill -9 three times at random moments."""
+    out, moments = tmp_path / "out", random.Random(os.urandom(8))
+    process = tubes.start(tubes.write(tmp_path), "--workers", 2, "--out", out, *tubes.LONG)
+    killed = []
+    for seen in (holders, begun, begun):  # two of the three have a restart file to continue from
+        tubes.wait_for(functools.partial(seen, out))
+        time.sleep(moments.uniform(0, 1))
+        name, pid = moments.choice(list(tubes.wait_for(functools.partial(seen, out)).items()))
+        os.kill(pid, signal.SIGKILL)
+        killed.append((name, (out / "cases" / name / "restart.h5").exists()))
+    said, _ = process.communicate(timeout=900)
+    print("killed:", killed)
+    assert process.returncode == 0, said
+    assert set(statuses(out).values()) == {"done"}
+    assert all_equal(out, undisturbed) == dict.fromkeys(undisturbed, True)
+    for name, had_restart_file in killed:
+        assert not had_restart_file or "continuing at cycle" in (out / "cases" / name / "log.txt").read_text()
+    assert "Restarting worker" in (out / "sweep.log").read_text()
+
+
+@pytest.mark.parametrize(("number", "expected"), [(signal.SIGTERM, 143), (signal.SIGINT, 130)])
+def test_an_interrupted_sweep_continues(tmp_path, undisturbed, number, expected):
+    out, file = tmp_path / "out", tubes.write(tmp_path)
+    process = tubes.start(file, "--workers", 2, "--out", out, *tubes.LONG, start_new_session=True)
+    tubes.wait_for(lambda: holders(out))
+    time.sleep(random.uniform(0, 1))
+    os.killpg(process.pid, number) if number == signal.SIGINT else process.send_signal(number)
+    said, _ = process.communicate(timeout=300)
+    assert process.returncode == expected, said
+    assert "--resume continues" in said
+    assert "Traceback" not in said
+    assert set(statuses(out).values()) <= {"done", "interrupted", "waiting"}
+    assert "interrupted" in statuses(out).values()
+    assert not list(out.rglob("*.lock"))
+    status, said = tubes.sweep(file, "--workers", 2, "--out", out, "--resume", *tubes.LONG)
+    assert status == 0, said
+    assert all_equal(out, undisturbed) == dict.fromkeys(undisturbed, True)
+
+
+def test_a_worker_that_is_told_to_go_writes_a_restart_file_first(tmp_path, undisturbed):
+    out = tmp_path / "out"
+    never = [*tubes.LONG, "--set", "output.restart_interval=1000"]
+    process = tubes.start(tubes.write(tmp_path), "--workers", 1, "--out", out, *never)
+    name, pid = next(iter(tubes.wait_for(lambda: holders(out)).items()))
+    log = out / "cases" / name / "log.txt"
+    tubes.wait_for(lambda: log.exists() and "cycle 0" in log.read_text())
+    time.sleep(0.3)
+    os.kill(pid, signal.SIGTERM)
+    said, _ = process.communicate(timeout=900)
+    assert process.returncode == 0, said
+    assert "continuing at cycle" in log.read_text()
+    assert all_equal(out, undisturbed)[name]
+
+
+def test_what_fails_does_not_sink_the_rest(tmp_path):
+    """A case that always kills its worker, one that raises, a full disk, no directory, a wrong and an unphysical deck."""
+    text = tubes.STUDY.replace("[0.1, 0.2]", "[0.1, 0.2, 0.3, '2 mm']")
+    file, out = tubes.write(tmp_path, text), tmp_path / "out"
+    planned = {"ke_0.1": "kill", "ke_0.2": "raise", "momentum_0.1": "full", "momentum_0.3": "unphysical"}
+    environment = {"HYDRO2D_SABOTAGE": json.dumps(planned), "DASK_DISTRIBUTED__WORKER__PRELOAD": "tests.study.sabotage"}
+    (out / "cases").mkdir(parents=True)
+    (out / "cases" / "momentum_0.2").touch()
+    with pytest.MonkeyPatch.context() as patch:
+        for name, value in environment.items():
+            patch.setenv(name, value)
+        status, said = tubes.sweep(file, "--workers", 2, "--out", out)
+    assert status == 3, said
+    found = {case.name: case for case in study.load(out).cases}
+    expected = {
+        "ke_0.1": "failed", "ke_0.2": "failed", "ke_0.3": "done", "ke_2mm": "invalid",
+        "momentum_0.1": "failed", "momentum_0.2": "failed", "momentum_0.3": "unphysical", "momentum_2mm": "invalid",
+    }  # fmt: skip
+    assert {name: case.status for name, case in found.items()} == expected
+    assert "its worker died 4 times" in found["ke_0.1"].message
+    assert found["ke_0.2"].message == "ZeroDivisionError: a fault that nobody foresaw"
+    assert found["momentum_0.1"].message.startswith("the disk is full: ")
+    assert "is a file, not a directory" in found["momentum_0.2"].message
+    assert "a state that cannot be" in found["momentum_0.3"].message
+    assert "body[1].pressure" in found["ke_2mm"].message
+    failed = json.loads((out / "cases" / "ke_0.2" / "failed.json").read_text())
+    assert set(failed) == {"reason", "kind", "host", "time"}
+    for name, case in found.items():
+        if case.status != "done":
+            assert f"{name}: {case.status}: {case.message.splitlines()[0]}" in said
+    (out / "cases" / "momentum_0.2").unlink()
+    status, said = tubes.sweep(file, "--workers", 2, "--out", out, "--resume")
+    assert status == 3, said  # the wrong decks are still wrong, and the unphysical state is a result
+    expected |= dict.fromkeys(("ke_0.1", "ke_0.2", "momentum_0.1", "momentum_0.2"), "done")
+    assert statuses(out) == expected
+    assert not list(out.rglob("failed.json"))
+
+
+def _can_mount():
+    probe = ["unshare", "--mount", "--map-root-user", "mount", "-t", "tmpfs", "none", "/mnt"]
+    return shutil.which("unshare") is not None and subprocess.run(probe, capture_output=True, check=False).returncode == 0
+
+
+@pytest.mark.skipif(not _can_mount(), reason="no small file system can be mounted here")
+def test_a_disk_that_fills_up(tmp_path, undisturbed):
+    """All cases on a file system that is too small: one clear message each; with more room the sweep continues."""
+    file, out = tubes.write(tmp_path), tmp_path / "disk" / "out"
+    out.parent.mkdir()
+    command = [sys.executable, "-m", "hydro2d", "sweep", file, "--workers", "2", "--out", out, *tubes.LONG]
+    first, again = (" ".join(f"'{word}'" for word in words) for words in (command, [*command, "--resume"]))
+    script = f"""
+        mount -t tmpfs -o size=400k none {out.parent} || exit 99
+        {first} > {tmp_path}/first.txt 2>&1
+        echo $? >> {tmp_path}/first.txt
+        mount -o remount,size=100m {out.parent} || exit 98
+        {again} > {tmp_path}/again.txt 2>&1
+        status=$?
+        cp -r {out} {tmp_path}/saved
+        exit $status
+    """
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join([str(tubes.ROOT), os.environ.get("PYTHONPATH", "")])}
+    done = subprocess.run(["unshare", "--mount", "--map-root-user", "sh", "-c", script], env=environment, check=False)
+    said = (tmp_path / "first.txt").read_text()
+    assert said.endswith("\n3\n"), said
+    assert "failed: the disk is full: " in said
+    assert "Traceback" not in said
+    assert done.returncode == 0, (tmp_path / "again.txt").read_text()
+    assert all_equal(tmp_path / "saved", undisturbed) == dict.fromkeys(undisturbed, True)
