@@ -5,6 +5,7 @@ import tomllib
 import pytest
 
 from hydro2d import deck
+from hydro2d.model_transition import experiments
 from hydro2d.study import cases
 from hydro2d.study.definition import is_study
 from tests.rules import source
@@ -46,3 +47,15 @@ def test_study_has_a_title_and_no_wrong_deck(file):
 def test_every_study_has_a_readme(folder):
     text = (folder / "README.md").read_text(encoding="utf-8")
     assert [file.name for file in FILES if file.parent == folder and file.stem not in text] == []
+
+
+@pytest.mark.parametrize("shot", experiments(), ids=lambda shot: shot.number)
+def test_every_shot_of_the_study_has_its_deck(shot):
+    noses = {"hemispherical": "hemi", "ogival": "ogive"}
+    name = f"{noses[shot.nose]}_{shot.target[2:]}_{shot.velocity:.0f}"
+    found = deck.load(PROBLEMS / "cth_nose_shape" / f"{name}.toml")
+    rod, plate = found.body
+    assert (rod.velocity[1], rod.material, plate.material) == (shot.velocity, shot.rod, shot.target)
+    assert (rod.length, rod.rod_radius) == pytest.approx((shot.length, 0.5 * shot.diameter), rel=1e-9)
+    assert (found.experiment.penetration, found.experiment.qualifier) == (pytest.approx(shot.depth), shot.depth_is)
+    assert f"shot {shot.number} " in found.experiment.source
