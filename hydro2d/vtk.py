@@ -6,6 +6,8 @@ x = r, y = z. Float32, appended raw, LZ4. Beside the fields, the outlines of the
 
 from __future__ import annotations
 
+import errno
+import os
 from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
@@ -43,7 +45,18 @@ def _write(dataset, path: Path, time: float, writer) -> None:
     with replacing(path) as temporary:
         writer.SetFileName(str(temporary))
         if writer.Write() != 1:
-            raise OSError(f"{path}: VTK could not write the file (is the disk full?)")
+            raise _write_error(writer.GetErrorCode(), path)
+
+
+def _write_error(code: int, path: Path) -> OSError:
+    """VTK's reason for a file that it could not write: numbers below its own are the system's."""
+    from vtkmodules.vtkCommonMisc import vtkErrorCode
+
+    if code == vtkErrorCode.OutOfDiskSpaceError:
+        code = errno.ENOSPC
+    if 0 < code < vtkErrorCode.FirstVTKErrorCode:
+        return OSError(code, os.strerror(code), str(path))
+    return OSError(f"{path}: VTK could not write the file: {vtkErrorCode.GetStringFromErrorCode(code)}")
 
 
 def _array(values: np.ndarray, name: str):

@@ -1,5 +1,8 @@
 """VTK's own readers give back what the state holds."""
 
+import errno
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -136,3 +139,14 @@ def test_lines_are_read_as_they_were_written(tmp_path):
     (tmp_path / "b.vtp").write_text("not XML")
     with pytest.raises(vtk.VtkError, match="is not a VTK file"):
         vtk.read_lines(tmp_path / "b.vtp")
+
+
+def test_a_full_disk_is_told_by_its_name():
+    """By the system's number, from which a study knows the reason."""
+    from vtkmodules.vtkCommonMisc import vtkErrorCode
+
+    for code in (errno.ENOSPC, vtkErrorCode.OutOfDiskSpaceError):
+        error = vtk._write_error(code, Path("dump.vtr"))
+        assert (error.errno, error.filename) == (errno.ENOSPC, "dump.vtr")
+        assert "No space left on device" in str(error)
+    assert "FileFormatError" in str(vtk._write_error(vtkErrorCode.FileFormatError, Path("dump.vtr")))
