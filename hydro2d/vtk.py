@@ -241,17 +241,21 @@ class Dump:
         return cls(sim.grid.r_edges, sim.grid.z_edges, derived.evaluate(sim, keys), sim.time)
 
 
+def _read(reader, path: Path):
+    """What a reader of VTK makes of a file. Raises VtkError."""
+    if not Path(path).is_file() or not reader.CanReadFile(str(path)):
+        raise VtkError(f"{path} is not a VTK file of a run")
+    reader.SetFileName(str(path))
+    reader.Update()
+    return reader.GetOutput()
+
+
 def read_grid(path: Path) -> Dump:
     """Reads a .vtr. Raises VtkError."""
     from vtkmodules.util.numpy_support import vtk_to_numpy
     from vtkmodules.vtkIOXML import vtkXMLRectilinearGridReader
 
-    reader = vtkXMLRectilinearGridReader()
-    if not Path(path).is_file() or not reader.CanReadFile(str(path)):
-        raise VtkError(f"{path} is not a VTK file of a run")
-    reader.SetFileName(str(path))
-    reader.Update()
-    grid = reader.GetOutput()
+    grid = _read(vtkXMLRectilinearGridReader(), path)
     r, z = vtk_to_numpy(grid.GetXCoordinates()), vtk_to_numpy(grid.GetYCoordinates())
     data, fields = grid.GetCellData(), {}
     for number in range(data.GetNumberOfArrays()):
@@ -266,12 +270,7 @@ def read_lines(path: Path) -> list[tuple[int, np.ndarray]]:
     from vtkmodules.util.numpy_support import vtk_to_numpy
     from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 
-    reader = vtkXMLPolyDataReader()
-    if not Path(path).is_file() or not reader.CanReadFile(str(path)):
-        raise VtkError(f"{path} is not a VTK file of a run")
-    reader.SetFileName(str(path))
-    reader.Update()
-    data = reader.GetOutput()
+    data = _read(vtkXMLPolyDataReader(), path)
     bodies = data.GetCellData().GetArray("Material")
     if bodies is None:
         raise VtkError(f"{path} cannot be read: its lines name no body")

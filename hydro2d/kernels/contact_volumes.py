@@ -187,6 +187,7 @@ def cut_fluxes(dj, di, j0, j1, edges, dr, dz, hard_first, soft_first, group, cut
             rest = face[j, i] - total
             up = face[j, i] > 0.0
             row, column = (j - dj, i - di) if up else (j, i)
+            to_row, to_column = (j, i) if up else (j - dj, i - di)
             filled = cumulative(row, column, bodies - 1, hard_first, vof)
             if rest != 0.0 and filled > 1.0 - FULL:
                 taker = largest_of(0, j - dj if softer + rest > 0.0 else j, i - di if softer + rest > 0.0 else i, group, vof)
@@ -197,7 +198,7 @@ def cut_fluxes(dj, di, j0, j1, edges, dr, dz, hard_first, soft_first, group, cut
                 flux_volume[taker, j, i] += rest
             elif rest != 0.0 and (rest > 0.0) == up and filled < 1.0 - GAP:
                 for m in range(bodies):
-                    if vof[m, j if up else j - dj, i if up else i - di] == 1.0:
+                    if vof[m, to_row, to_column] == 1.0:
                         swept = own[group[m], j, i] if up else -own[group[m], j, i]
                         most = min(swept, part[m, row, column] * size[row, column]) - abs(flux_volume[m, j, i])
                         more = min(abs(rest), max(most, 0.0))

@@ -12,8 +12,8 @@ from pydantic import Field, ValidationError
 
 from hydro2d import __version__, deck_toml
 from hydro2d.deck_base import Section
-from hydro2d.deck_errors import DeckError, Sources, spelled, unknown
-from hydro2d.study.definition import StudyError
+from hydro2d.deck_errors import DeckError, Sources
+from hydro2d.study.definition import StudyError, explained
 
 #: seconds to wait for the scheduler of --scheduler
 ANSWER = 15
@@ -61,15 +61,7 @@ def read_slurm(path: Path) -> Slurm:
     except DeckError as error:
         raise StudyError(str(error)) from None
     except ValidationError as error:
-        raise StudyError("\n".join(_explained(entry, data, sources) for entry in error.errors())) from None
-
-
-def _explained(entry: dict, data: dict, sources: Sources) -> str:
-    path = entry["loc"]
-    where = f"{sources.where(path, data)}: {spelled(path)}: "
-    if entry["type"] == "extra_forbidden":
-        return where + unknown("key", str(path[-1]), Slurm.model_fields)
-    return where + ("is missing" if entry["type"] == "missing" else f"{entry['msg'].lower()}, is {entry['input']!r}")
+        raise StudyError(explained(error, data, sources, {(): Slurm})) from None
 
 
 def environment(threads: int) -> dict[str, str]:

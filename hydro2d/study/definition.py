@@ -135,16 +135,19 @@ def _validated(data: dict, sources: Sources) -> Definition:
     try:
         return Definition.model_validate(data)
     except ValidationError as error:
-        found = [_explained(entry, data, sources) for entry in error.errors()]
-        raise StudyError("\n".join(dict.fromkeys(found))) from None
+        raise StudyError(explained(error, data, sources, _TABLES)) from None
 
 
-def _explained(entry: dict, data: dict, sources: Sources) -> str:
-    """Our words for one of pydantic's errors."""
+def explained(error: ValidationError, data: dict, sources: Sources, tables: dict[tuple, type[Section]]) -> str:
+    """Our words for pydantic's errors, a line each; ``tables`` are the sections by the path of their keys."""
+    return "\n".join(dict.fromkeys(_explained(entry, data, sources, tables) for entry in error.errors()))
+
+
+def _explained(entry: dict, data: dict, sources: Sources, tables: dict[tuple, type[Section]]) -> str:
     path, kind = tuple(entry["loc"]), entry["type"]
     where = f"{sources.where(path, data)}: {spelled(path)}: "
     if kind == "extra_forbidden":
-        table = _TABLES[tuple(part for part in path[:-1] if isinstance(part, str))]
+        table = tables[tuple(part for part in path[:-1] if isinstance(part, str))]
         return where + unknown("key", str(path[-1]), [f.alias or name for name, f in table.model_fields.items()])
     if kind == "missing":
         return where + "is missing"

@@ -1,7 +1,7 @@
 """What was measured for the setups of a study, and how far runs are from it.
 
-A measurement belongs to a rod, a target and an impact velocity. It comes from the catalogue of shots or from a deck; a
-deck that was carried to other velocities keeps its `experiment`, which then says nothing of these runs.
+A measurement belongs to a rod, a target and an impact velocity. It comes from the catalogue of shots or from a deck. A deck
+with `experiment.velocity` loses it at other velocities (`hydro2d.deck`); one without keeps it, see ``unplaced``.
 """
 
 from __future__ import annotations

@@ -1,20 +1,14 @@
 """Every shipped deck runs, and keeps what it has to keep."""
 
-import tomllib
-from pathlib import Path
-
 import numpy as np
 import pytest
 
 from hydro2d import deck as decks
 from hydro2d.simulation import Simulation
-from hydro2d.study.definition import is_study
+from tests.rules import source
 
-PROBLEMS = Path(__file__).resolve().parents[2] / "problems"
-DECKS = sorted(
-    file for file in PROBLEMS.rglob("*.toml") if "materials" not in file.parts and not is_study(tomllib.loads(file.read_text()))
-)
-QUICK = PROBLEMS / "cth_nose_shape" / "hemi_5083_1086_quick.toml"
+DECKS, _ = source.problems()
+QUICK = source.PROBLEMS / "cth_nose_shape" / "hemi_5083_1086_quick.toml"
 
 
 def test_there_are_decks():

@@ -5,11 +5,23 @@ from __future__ import annotations
 import ast
 import functools
 import subprocess
+import tomllib
 from collections.abc import Iterator
 from pathlib import Path
 
+from hydro2d.study.definition import is_study
+
 ROOT = Path(__file__).resolve().parents[2]
+PROBLEMS = ROOT / "problems"
 PACKAGES = ("hydro2d", "eos", "strength")
+
+
+@functools.cache
+def problems() -> tuple[list[Path], list[Path]]:
+    """The decks and the studies in problems."""
+    files = sorted(file for file in PROBLEMS.rglob("*.toml") if file.parent.name != "materials")
+    studies = [file for file in files if is_study(tomllib.loads(file.read_text(encoding="utf-8")))]
+    return [file for file in files if file not in studies], studies
 
 
 @functools.cache

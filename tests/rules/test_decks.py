@@ -1,19 +1,15 @@
 """Every shipped deck loads, says where it comes from, and is named in its folder's README."""
 
-import tomllib
-
 import pytest
 
 from hydro2d import deck
 from hydro2d.model_transition import experiments
 from hydro2d.study import cases
-from hydro2d.study.definition import is_study
 from tests.rules import source
 
-PROBLEMS = source.ROOT / "problems"
-FILES = sorted(file for file in PROBLEMS.rglob("*.toml") if file.parent.name != "materials")
-STUDIES = [file for file in FILES if is_study(tomllib.loads(file.read_text()))]
-DECKS = [file for file in FILES if file not in STUDIES]
+PROBLEMS = source.PROBLEMS
+DECKS, STUDIES = source.problems()
+FILES = [*DECKS, *STUDIES]
 COMPLETE = [file for file in DECKS if not file.stem.startswith("_")]
 
 
