@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -63,6 +63,11 @@ def plan(path: Path, overrides: list[str] | None = None) -> Plan:
     return _Planner(path, *read(path, overrides or [])).plan()
 
 
+def _label(value) -> str:
+    """A value as a study file has it."""
+    return value if isinstance(value, str) else deck_toml.inline(value)
+
+
 class _Planner:
     """Puts a plan together; `wrong` gathers what is wrong, one line each."""
 
@@ -108,7 +113,7 @@ class _Planner:
             except ValueError as error:
                 self._say(("axis", number, "range"), f"axis[{number}].range: {error}")
                 return []
-        labels = [value if isinstance(value, str) else deck_toml.inline(value) for value in values]
+        labels = [_label(value) for value in values]
         for twice in sorted({label for label in labels if labels.count(label) > 1}):
             self._say(("axis", number, "values"), f'axis "{axis.name}" has the value {twice} twice')
         shorts = distinct([short(label) for label in labels])
@@ -143,7 +148,7 @@ class _Planner:
         used, kept = set(), []
         for combination in itertools.product(*axes):
             labels = {name: choice.label for name, choice in zip(names, combination, strict=True)}
-            matching = {n for n, rule in enumerate(rules) if rule and rule.items() <= labels.items()}
+            matching = {n for n, rule in enumerate(rules) if rule and all(labels[name] in some for name, some in rule.items())}
             used |= matching
             if not matching:
                 kept.append(combination)
@@ -151,17 +156,22 @@ class _Planner:
             raise StudyError(f"{self.path}: the exclusions leave no case")
         return kept
 
-    def _rule(self, number: int, entry: dict, axes: dict[str, list[Choice]]) -> dict[str, str]:
-        """What an exclusion names, checked: every axis and value must be there, so that it matches something."""
-        rule = {name: value if isinstance(value, str) else deck_toml.inline(value) for name, value in entry.items()}
-        if not rule:
+    def _rule(self, number: int, entry: dict, axes: dict[str, list[Choice]]) -> dict[str, list[str]]:
+        """What an exclusion names, values by axis, checked: each must be there, so that it matches something."""
+        if not entry:
             self._say(("exclude", number), f"exclude[{number}]: is empty and would leave out everything")
-        for name, label in rule.items():
+        rule = {}
+        for name, value in entry.items():
             if name not in axes:
                 self._say(("exclude", number), f"exclude[{number}]: {unknown('axis', name, axes)}")
-            elif label not in (labels := [choice.label for choice in axes[name]]):
-                self._say(("exclude", number), f"exclude[{number}].{name}: matches nothing; {unknown('value', label, labels)}")
-        return rule
+                continue
+            labels = [choice.label for choice in axes[name]]
+            several = isinstance(value, list) and deck_toml.inline(value) not in labels
+            rule[name] = [_label(each) for each in (value if several else [value])]
+            for label in set(rule[name]) - set(labels):
+                what = f"exclude[{number}].{name}: matches nothing; {unknown('value', label, labels)}"
+                self._say(("exclude", number), what)
+        return {} if self.wrong else rule
 
     def _case(self, combination: tuple[Choice, ...]) -> tuple[dict[str, str], str, list[str]]:
         """Labels by axis, base deck, overrides of one combination."""
@@ -219,16 +229,12 @@ class _Planner:
 
     def _named(self, cases: list[Planned], combinations: list[tuple[Choice, ...]]) -> list[Planned]:
         names = distinct(["_".join(choice.short for choice in combination) for combination in combinations])
-        return [Planned(name, *_rest(case)) for name, case in zip(names, cases, strict=True)]
+        return [replace(case, name=name) for name, case in zip(names, cases, strict=True)]
 
 
 def _place(table: tuple, key: str, given: dict) -> tuple:
     """Where a deck key stands in the study file: quoted, or as a table of tables."""
     return (*table, key) if key in given else (*table, *deck_toml.key_parts(key))
-
-
-def _rest(case: Planned) -> tuple:
-    return case.values, case.deck, case.overrides, case.text, case.message
 
 
 def short(label: str) -> str:

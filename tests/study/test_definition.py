@@ -21,6 +21,11 @@ def test_exclusions(tmp_path):
     assert names(tmp_path, text) == ["ke_0.1", "momentum_0.1", "momentum_0.2"]
 
 
+def test_exclusions_with_several_values(tmp_path):
+    text = tubes.STUDY + '[[exclude]]\nadvection = ["ke", "momentum"]\npressure = [0.2]\n'
+    assert names(tmp_path, text) == ["ke_0.1", "momentum_0.1"]
+
+
 def test_variants_set_several_keys_and_other_decks(tmp_path):
     (tmp_path / "other.toml").write_text(tubes.TUBE.replace("cells = 200", "cells = 100"))
     text = """
@@ -106,6 +111,7 @@ WRONG = [
     ("values = [0.1, 0.2]", "range = {form = 1, to = 2, count = 2}", 'did you mean "from"'),
     ("values = [0.1, 0.2]", 'values = [0.1]\n[[exclude]]\nadvection = "MV"', 'matches nothing; unknown value "MV"'),
     ("values = [0.1, 0.2]", 'values = [0.1]\n[[exclude]]\nadvecton = "ke"', 'did you mean "advection"'),
+    ("values = [0.1, 0.2]", 'values = [0.1]\n[[exclude]]\nadvection = ["ke", "MV"]', 'matches nothing; unknown value "MV"'),
     ("values = [0.1, 0.2]", "values = [0.1]\n[[exclude]]", "leave out everything"),
     ("values = [0.1, 0.2]", "values = [0.1]\n[[exclude]]\npressure = 0.1", "leave no case"),
     ("values = [0.1, 0.2]", "values = [0.1\n", "not valid TOML"),
