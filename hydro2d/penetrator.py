@@ -18,11 +18,11 @@ class Penetrator:
     """Measures a rod in a simulation.
 
     Lengths are taken along the axis, from runs of cells that the rod fills by half or more, so that fragments behind the
-    tail do not count: the depth from the deepest run in the columns within half a radius of the axis, the rod's length from
-    the longest run on the axis. Its core is what hangs together from the axis outward, row by row, along that run: debris
-    behind the tail and a skirt of turned-back material do not belong to it. The regime is "rigid" while the rod has lost less
-    than 2 % of its length and no section has swollen beyond 1.1 of its radius, "eroding" once more than 10 % of its mass has
-    left the core, else "deforming".
+    tail do not count: the depth from the deepest run in the columns within half a radius of the axis, failed or not, the rod's
+    length from the longest run on the axis that has not failed. Its core is what has not failed and hangs together from the
+    axis outward, row by row, along that run: debris behind the tail and a skirt of turned-back material do not belong to it.
+    The regime is "rigid" while the rod has lost less than 2 % of its length and no section has swollen beyond 1.1 of its
+    radius, "eroding" once more than 10 % of its mass has left the core, else "deforming".
     """
 
     def __init__(self, sim, deck):
@@ -37,12 +37,19 @@ class Penetrator:
         grid = sim.grid
         self.columns = max(1, int(np.searchsorted(grid.r_edges[1:], 0.5 * self.radius)))
         self.length = self._length()[0]
-        low, high = decks.extent(decks.body(deck, deck.penetration.target), deck, "z")
+        target = decks.body(deck, deck.penetration.target)
+        self.target = slots.index(target.join or target.name)
+        low, high = decks.extent(target, deck, "z")
         self.thickness = high - low
         self.mass = float(sim.body_sums(self.m)[0].sum()) * self._around
 
     def _fraction(self) -> np.ndarray:
+        """Volume fraction of the rod in the cells [j, i]."""
         return self.sim.grid.interior(self.sim.state.vof)[self.m]
+
+    def _intact(self) -> np.ndarray:
+        """The same, zero where the rod has failed."""
+        return np.where(self.sim.grid.interior(self.sim.state.dmg)[self.m] < 1.0, self._fraction(), 0.0)
 
     def _runs(self, column: np.ndarray) -> list[tuple[int, int]]:
         """(first, one past last) of the runs of cells filled by half or more, in the direction of flight."""
@@ -65,7 +72,7 @@ class Penetrator:
 
     def _length(self) -> tuple[float, float, float]:
         """Length, lower and upper end of the longest run on the axis, m; zeros where there is none."""
-        column = self._fraction()[:, 0]
+        column = self._intact()[:, 0]
         ends = [self._ends(column, run) for run in self._runs(column)]
         if not ends:
             return 0.0, 0.0, 0.0
@@ -85,7 +92,7 @@ class Penetrator:
     def _largest_radius(self, rows: slice) -> float:
         """Largest radius of a solid section with the rod's area in a row, m."""
         grid = self.sim.grid
-        area = np.sum(self._fraction()[rows] * grid.vol_r[grid.inside[1]], axis=1)
+        area = np.sum(self._intact()[rows] * grid.vol_r[grid.inside[1]], axis=1)
         return float(np.max(np.sqrt(2.0 * area) if grid.cylindrical else area, initial=0.0))
 
     def _axis_velocity(self, z: float) -> float:
@@ -104,12 +111,18 @@ class Penetrator:
         """Mass of the cells that hang together from the axis outward in the given rows, kg; the first cell that the rod does
         not fill by half ends a row, and still counts, unless it is the one on the axis."""
         g, s = self.sim.grid, self.sim.state
-        fraction = self._fraction()[rows]
+        fraction = self._intact()[rows]
         inside = np.logical_and.accumulate(fraction >= HALF, axis=1)
         edge = np.zeros_like(inside)
         edge[:, 1:] = inside[:, :-1]
         mass = fraction * g.interior(s.rho)[self.m][rows] * g.volume[g.inside][rows]
         return float(np.sum(mass[inside | edge]) * self._around)
+
+    def _failed_mass(self, m: int) -> float:
+        """Mass of a body's material that has failed by damage, kg, whole circumference."""
+        g, s = self.sim.grid, self.sim.state
+        failed = g.interior(s.dmg)[m] >= 1.0
+        return float(np.sum((g.interior(s.vof)[m] * g.interior(s.rho)[m] * g.volume[g.inside])[failed]) * self._around)
 
     def perforates(self) -> bool:
         """Whether the nose is the rod's radius beyond the rear of the target."""
@@ -142,6 +155,8 @@ class Penetrator:
             "rod_initial_length_m": self.length,
             "rod_mass_kg": mass,
             "rod_core_mass_kg": core,
+            "rod_failed_mass_kg": self._failed_mass(self.m),
+            "target_failed_mass_kg": self._failed_mass(self.target),
             "rod_max_radius_m": radius,
             "rod_initial_radius_m": self.radius,
             "rod_max_plastic_strain": self._largest_strain(np.nonzero(mass_of_rows)[0]),

@@ -15,8 +15,9 @@ NAME = "johnson-cook"
 ID = 1
 EQUATION = """\
 dD = dep/ef,  ef = [D1 + D2 exp(D3 p*)] [1 + D4 ln max(1, rate/rate0)] [1 + D5 T*],  not below ef_min
+or with [1 + rate/rate0]^n in the place of the logarithm
 p* = mean stress (tension positive) / von Mises stress,  T* = (T - Tr)/(Tm - Tr) in [0, 1];  fractured at D = 1"""
-SOURCE = "Johnson & Cook, Engng Fract. Mech. 21 (1985) 31"
+SOURCE = "Johnson & Cook, Engng Fract. Mech. 21 (1985) 31; power of the rate: Clausen & others, Mater. Sci. Eng. A364 (2004)"
 VALIDITY = "ductile metals; the fit's range of p* is about -1 to 1.5; without Tm the temperature does not matter"
 PARAMETERS = (
     Parameter("D1", "", REQUIRED, "fracture strain at high triaxiality", "D1", ANY),
@@ -24,13 +25,14 @@ PARAMETERS = (
     Parameter("D3", "", 0.0, "exponent of the triaxiality", "D3", ANY),
     Parameter("D4", "", 0.0, "increase per e-fold of strain rate", "D4", ANY),
     Parameter("D5", "", 0.0, "increase up to melt", "D5", ANY),
+    Parameter("rate_exponent", "", 0.0, "exponent of 1 + rate/rate0, in the place of D4", "n", ANY),
     Parameter("reference_rate", "1/s", 1.0, "strain rate below which the rate does not matter", "rate0", POSITIVE),
     Parameter("minimum_fracture_strain", "", 1e-6, "lower bound of the fracture strain", "ef_min", POSITIVE),
     *thermal.PARAMETERS,
 )
 
 #: slots of the row
-D1, D2, D3, D4, D5, INVERSE_RATE0, LEAST, REFERENCE_T, INVERSE_RANGE = range(9)
+D1, D2, D3, D4, D5, INVERSE_RATE0, LEAST, REFERENCE_T, INVERSE_RANGE, RATE_EXPONENT = range(10)
 
 #: the exponent is kept where exp() is finite, and the triaxiality of an unstressed material is taken against 1 Pa
 _STEEPEST, _UNSTRESSED = 700.0, 1.0
@@ -46,6 +48,8 @@ def fracture_strain(rate, T, p, seq, par):
     fast = rate * par[INVERSE_RATE0]
     if par[D4] != 0.0 and fast > 1.0:
         strain *= 1.0 + par[D4] * math.log(fast)
+    if par[RATE_EXPONENT] != 0.0:
+        strain *= (1.0 + fast) ** par[RATE_EXPONENT]
     strain *= 1.0 + par[D5] * thermal.homologous_temperature(T, par[REFERENCE_T], par[INVERSE_RANGE])
     return max(strain, par[LEAST])
 
@@ -65,9 +69,12 @@ def damage_increment(dep, rate, T, p, seq, par):
 def row(values) -> np.ndarray:
     """Packs the parameters, by name; float64[DAMAGE_ROW]. Raises ValueError for a missing or impossible value."""
     given = collect(NAME, PARAMETERS, values)
+    if given["D4"] != 0.0 and given["rate_exponent"] != 0.0:
+        raise ValueError(f"{NAME}: D4 and rate_exponent are two laws of the rate: give one of them")
     par = np.zeros(DAMAGE_ROW)
     for slot, name in ((D1, "D1"), (D2, "D2"), (D3, "D3"), (D4, "D4"), (D5, "D5")):
         par[slot] = given[name]
     par[INVERSE_RATE0], par[LEAST] = 1.0 / given["reference_rate"], given["minimum_fracture_strain"]
+    par[RATE_EXPONENT] = given["rate_exponent"]
     par[REFERENCE_T], par[INVERSE_RANGE] = given["reference_temperature"], thermal.inverse_range(NAME, given)
     return par

@@ -5,11 +5,14 @@ rows of a buffer, ``flux[k, m, slot, i]``: a cell is updated as soon as nothing 
 still in the processor's cache (explanation/remap, blocks of rows).
 """
 
-from hydro2d.fields import BLOCK, BODY_FIELDS, DMG, EP, RHO, E
+from hydro2d.fields import BLOCK, BODY_FIELDS, DMG, EP, RHO, SRR, SRZ, E
 from hydro2d.jit import kernel, point, prange, rowwise
 from hydro2d.kernels.acceleration import TINY
 from hydro2d.kernels.interfaces import flux_range
 from hydro2d.kernels.spans import block_rows, columns, mixed_row, number_of_blocks, spread
+
+#: damage from which a cell has failed: the mean of ones is one less round-off, which must heal nothing
+FAILED = 1.0 - 1e-6
 
 
 @point
@@ -92,7 +95,7 @@ def flux_row(dj, di, j, i0, i1, m, carried, slot, b, near, pre, flux_volume, vof
 def update_row(dj, di, j, i0, i1, m, carried, below, above, b, near, face, pre, flux_volume, flux, scratch, vof, q):
     """Body m in row j after the sweep: volume, mass and what it carries. A cell without flux keeps its bits.
 
-    Plastic strain stays positive, damage between 0 and 1.
+    Plastic strain stays positive, damage between 0 and 1; what has failed stays so, to the last bit, and has no deviator.
 
     Reads    face, pre [j, i]; flux_volume [m, j, i]; flux [k, m, slot, i] in the slots `below` and `above`
     Updates  vof [m, j, i] (share of the volume after the sweep), q [k, m, j, i]
@@ -139,9 +142,14 @@ def update_row(dj, di, j, i0, i1, m, carried, below, above, b, near, face, pre, 
             for x in range(n):
                 a_j[x] = (a_j[x] * before[x] + (a_in[x] - a_out[x])) * inverse[x]
             if k >= EP:
-                most = 1.0 if k == DMG else 1e300
+                least, most = (FAILED, 1.0) if k == DMG else (1e300, 1e300)
                 for x in range(n):
-                    a_j[x] = min(max(a_j[x], 0.0), most)
+                    a_j[x] = most if a_j[x] > least else max(a_j[x], 0.0)
+            if k == DMG:
+                for component in range(SRR, SRZ + 1):
+                    s_j = q[component, m, j, lo:hi]
+                    for x in range(n):
+                        s_j[x] = s_j[x] if a_j[x] < 1.0 else 0.0
 
 
 @rowwise

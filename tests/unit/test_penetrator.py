@@ -79,3 +79,17 @@ def test_regimes(simulation):
     found = simulation.diagnostics()
     assert found["rod_core_mass_kg"] < 0.9 * found["rod_mass_kg"]
     assert found["regime"] == "eroding"
+
+
+def test_what_has_failed_is_debris(simulation):
+    """The nose fails over 4 mm: it still counts for the depth and is mass of the rod, not of its core nor its length."""
+    before = simulation.diagnostics()
+    _, z = cells(simulation)
+    damage = simulation.grid.interior(simulation.state.dmg)
+    damage[0][z > -4e-3] = 1.0
+    found = simulation.diagnostics()
+    assert found["rod_length_m"] == pytest.approx(16.5e-3, rel=1e-9)
+    assert found["penetration_depth_m"] == before["penetration_depth_m"]
+    assert found["rod_failed_mass_kg"] == pytest.approx(np.pi * 3e-3**2 * 3.7e-3 * 18160, rel=1e-9)
+    assert found["rod_core_mass_kg"] < found["rod_mass_kg"] - found["rod_failed_mass_kg"] + 1e-12
+    assert (found["target_failed_mass_kg"], found["regime"]) == (0.0, "eroding")

@@ -45,6 +45,15 @@ def test_slow_rates_do_not_matter():
     assert damage.fracture_strain(10.0 * math.e, 298.0, 0.0, 1e9, row) == pytest.approx(0.55, rel=1e-14)
 
 
+def test_power_of_the_rate():
+    """5083-H116 of Clausen & others (2004): 1 + rate/rate0 to a power, in the place of the logarithm; both make no sense."""
+    values = {"D1": 0.0261, "D2": 0.263, "D3": -0.349, "rate_exponent": 0.147}
+    expected = (0.0261 + 0.263 * math.exp(-0.349 / 3)) * 1001.0**0.147
+    assert damage.fracture_strain(1000.0, 298.0, -3e8, 9e8, damage.row(values)) == pytest.approx(expected, rel=1e-14)
+    with pytest.raises(ValueError, match="D4 and rate_exponent"):
+        damage.row({**values, "D4": 0.1})
+
+
 @pytest.mark.parametrize("p", [-1e10, 0.0, 1e10])
 def test_unstressed_material_has_a_finite_answer(p):
     assert math.isfinite(damage.damage_increment(0.1, 1e5, 2000.0, p, 0.0, damage.row(STEEL_4340)))

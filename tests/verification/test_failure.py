@@ -1,0 +1,160 @@
+"""Material that has failed by damage: it stays failed, bears neither shear nor tension, and is counted."""
+
+import numpy as np
+import pytest
+
+from hydro2d import deck
+from hydro2d.fields import SRR, SRZ
+from hydro2d.simulation import Simulation
+
+STRAIN_FAILURE = """
+[materials.rod_fails]
+based_on = "W_alloy"
+variant = "strain-failure"
+[materials.plate_fails]
+based_on = "Al5083"
+variant = "strain-failure"
+[failure]
+damage = "material"
+"""
+FLIGHT = STRAIN_FAILURE + """
+[mesh]
+r = [{ to = "6 mm", cells = 12 }, { cells = 4, ratio = 1.1 }]
+z_start = "-13 mm"
+z = [{ to = "16 mm", size = "0.5 mm" }]
+[[body]]
+name = "rod"
+material = "rod_fails"
+shape = "rod"
+nose = "hemispherical"
+radius = "3.3 mm"
+length = "10 mm"
+tip = "-1.2 mm"
+velocity = "1000 m/s"
+[stop]
+time = "12 us"
+"""
+#: two halves of a bar of one material, which part in the middle, at r = const nothing happens
+BAR = STRAIN_FAILURE + """
+[mesh]
+r = [{ to = "2 mm", cells = 4 }]
+z_start = "-20 mm"
+z = [{ to = "20 mm", cells = 80 }]
+[boundaries]
+r_max = "wall"
+[[body]]
+name = "low"
+material = "rod_fails"
+shape = "box"
+z = ["-15 mm", "0 mm"]
+velocity = "-20 m/s"
+[[body]]
+name = "high"
+material = "rod_fails"
+shape = "box"
+z = ["0 mm", "15 mm"]
+velocity = "20 m/s"
+join = "low"
+[stop]
+time = "5 us"
+"""
+#: a short rod that fails at a strain of 0.5, so that much of it does within a few microseconds
+SHOT = STRAIN_FAILURE.replace('[materials.plate', 'damage.D1 = 0.5\n[materials.plate') + """
+[mesh]
+r = [{ to = "9 mm", cells = 18 }]
+z_start = "-12 mm"
+z = [{ to = "18 mm", cells = 60 }]
+[[body]]
+name = "rod"
+material = "rod_fails"
+shape = "rod"
+nose = "flat"
+radius = "2 mm"
+length = "10 mm"
+tip = 0.0
+velocity = "2000 m/s"
+[[body]]
+name = "plate"
+material = "plate_fails"
+shape = "plate"
+z_front = 0.0
+thickness = "16 mm"
+[stop]
+time = "9 us"
+"""
+SLIP_LAYER = """
+[sliding]
+method = "slip-layer"
+hard = ["rod"]
+yield_factor = "off"
+"""
+CONTACT = SLIP_LAYER.replace("slip-layer", "contact")
+
+
+def run(text: str, *options: str, watch=lambda simulation: None) -> Simulation:
+    simulation = Simulation(deck.loads(text, options))
+    while simulation.stop_reason() is None:
+        simulation.step()
+        watch(simulation)
+    return simulation
+
+
+def fail_everything(simulation: Simulation) -> None:
+    simulation.state.dmg[:] = np.where(simulation.state.vof > 0.0, 1.0, 0.0)
+
+
+def failed(simulation: Simulation) -> np.ndarray:
+    """Where a body [m, j, i] has failed."""
+    s = simulation.state
+    return (s.dmg >= 1.0) & (s.vof > 0.0)
+
+
+@pytest.mark.parametrize("advection", ["ke", "momentum", "both"])
+def test_what_has_failed_stays_failed_while_it_moves(advection):
+    """Some 120 cycles across 24 cells: a mean of ones, with round-off, is one."""
+    simulation = Simulation(deck.loads(FLIGHT, [f'numerics.advection="{advection}"']))
+    fail_everything(simulation)
+    while simulation.stop_reason() is None:
+        simulation.step()
+    present = simulation.state.vof > 0.0
+    assert np.all(simulation.state.dmg[present] == 1.0)
+
+
+@pytest.mark.parametrize(("broken", "speed"), [(True, 20.0), (False, 0.0)], ids=["failed", "intact"])
+def test_a_failed_bar_parts_without_tension(broken, speed):
+    """Halves at -20 and 20 m/s: a whole bar stops them by 1.5 GPa of tension, which it bears; a failed one parts."""
+    simulation = Simulation(deck.loads(BAR))
+    if broken:
+        fail_everything(simulation)
+    pull = 0.0
+    while simulation.time < 2e-6:
+        simulation.step()
+        pull = min(pull, float(simulation.state.p.min()))
+    middle = np.abs(simulation.grid.z_edges) < 6e-3
+    v = np.abs(simulation.grid.interior_vertices(simulation.state.v)[0, middle])
+    assert (pull == 0.0) == broken
+    assert np.median(v) == pytest.approx(speed, abs=1.0)
+
+
+@pytest.mark.parametrize("sliding", ["", SLIP_LAYER, CONTACT], ids=["sticking", "slip-layer", "contact"])
+def test_debris_bears_no_shear_and_no_tension_and_is_counted(sliding):
+    """In the cells of a shot in which rod and plate fail; the pressure is that of the cells as the cycle before left them."""
+    counts, alone = [], []
+
+    def watch(simulation):
+        s, where = simulation.state, failed(simulation)
+        if alone:
+            assert np.all(s.p[alone.pop()] >= 0.0)
+        if simulation.cycle % 5 == 0:
+            assert np.all(s.q[SRR : SRZ + 1, where] == 0.0)
+            alone.append((where & (s.vof == 1.0)).any(axis=0))
+            found = simulation.diagnostics()
+            counts.append((found["rod_failed_mass_kg"], found["target_failed_mass_kg"]))
+            assert found["rod_failed_mass_kg"] + found["rod_core_mass_kg"] <= found["rod_mass_kg"] * (1 + 1e-12)
+
+    simulation = run(SHOT + sliding, watch=watch)
+    found = simulation.diagnostics()
+    rod, plate = counts[-1]
+    assert 0.02 < rod / found["rod_mass_kg"] < 0.9
+    assert plate > 0.02 * found["rod_mass_kg"]
+    assert abs(simulation.conservation()["total_energy"]) < 1e-2
