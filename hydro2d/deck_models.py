@@ -175,7 +175,7 @@ class Stop(Section):
     time: PositiveTime | None = Field(None, description="end time")
     cycles: int | None = Field(None, gt=0, description="number of cycles")
     body: str | None = Field(None, description="the body watched; default: the rod")
-    speed_below: PositiveSpeed | None = Field(None, description="axial speed of that body's centre of mass")
+    speed_below: PositiveSpeed | None = Field(None, description="axial speed of that body's centre of mass, of a rod's core")
     rebound: bool = Field(False, description="stop when that body turns round")
     perforation: bool = Field(False, description="stop when the rod's nose is the rod's radius beyond the rear of the target")
 

@@ -107,16 +107,33 @@ class Penetrator:
         strain = self.sim.grid.interior(self.sim.state.ep)[self.m][rows]
         return float(np.max(strain, where=self._fraction()[rows] >= HALF, initial=0.0))
 
-    def _core_mass(self, rows: slice) -> float:
-        """Mass of the cells that hang together from the axis outward in the given rows, kg; the first cell that the rod does
-        not fill by half ends a row, and still counts, unless it is the one on the axis."""
+    def _core(self, rows: slice) -> tuple[float, float]:
+        """Mass in kg and axial momentum in N s of the cells that hang together from the axis outward in the given rows.
+
+        The first cell that the rod does not fill by half ends a row, and still counts, unless it is the one on the axis.
+        """
         g, s = self.sim.grid, self.sim.state
         fraction = self._intact()[rows]
         inside = np.logical_and.accumulate(fraction >= HALF, axis=1)
         edge = np.zeros_like(inside)
         edge[:, 1:] = inside[:, :-1]
-        mass = fraction * g.interior(s.rho)[self.m][rows] * g.volume[g.inside][rows]
-        return float(np.sum(mass[inside | edge]) * self._around)
+        density = g.interior(s.rho)[self.m][rows]
+        mass = np.where(inside | edge, fraction * density * g.volume[g.inside][rows], 0.0) * self._around
+        corners = g.interior_vertices(s.v)[s.group[self.m]][rows.start : rows.stop + 1]
+        mean = 0.25 * (corners[:-1, :-1] + corners[:-1, 1:] + corners[1:, :-1] + corners[1:, 1:])
+        return float(mass.sum()), float(np.sum(mass * mean))
+
+    def _rows(self, low: float, high: float) -> slice:
+        """The rows from z = low to high, and what is cut by either end."""
+        first, last = np.searchsorted(self.sim.grid.z_edges, (low, high))
+        return slice(max(int(first) - 1, 0), min(int(last) + 1, self.sim.grid.nz))
+
+    def velocity(self) -> float:
+        """Mean axial velocity of the core, m/s, so that what flies back from an eroding rod does not count; of all that is left
+        of the rod where nothing is left of its core."""
+        _, low, high = self._length()
+        mass, momentum = self._core(self._rows(low, high))
+        return momentum / mass if mass > 0.0 else self.sim.mean_velocity(self.m)
 
     def _failed_mass(self, m: int) -> float:
         """Mass of a body's material that has failed by damage, kg, whole circumference."""
@@ -138,13 +155,11 @@ class Penetrator:
 
     def measure(self) -> dict:
         """The keys of summary.json that concern the rod; SI, whole circumference."""
-        grid = self.sim.grid
         length, low, high = self._length()
         tail, nose = (low, high) if self.direction > 0 else (high, low)
-        first, last = np.searchsorted(grid.z_edges, (low, high))
-        rows = slice(max(int(first) - 1, 0), int(last) + 1)
+        rows = self._rows(low, high)
         radius = self._largest_radius(rows)
-        core = self._core_mass(rows)
+        core, core_momentum = self._core(rows)
         mass_of_rows, momentum_of_rows = self.sim.body_sums(self.m)
         mass = float(mass_of_rows.sum())
         mean = float(momentum_of_rows.sum()) / mass if mass > 0.0 else 0.0
@@ -161,6 +176,7 @@ class Penetrator:
             "rod_initial_radius_m": self.radius,
             "rod_max_plastic_strain": self._largest_strain(np.nonzero(mass_of_rows)[0]),
             "rod_mean_velocity_m_s": mean,
+            "rod_core_velocity_m_s": core_momentum / core if core > 0.0 else 0.0,
             "rod_nose_velocity_m_s": self._axis_velocity(nose) if length else 0.0,
             "rod_tail_velocity_m_s": self._axis_velocity(tail) if length else 0.0,
             "rod_kinetic_energy_J": 0.5 * mass * mean * mean,

@@ -147,7 +147,8 @@ class Simulation:
         if stop.perforation and self.penetrator.perforates():
             return f"perforation of {self.deck.penetration.target}"
         if self.watched is not None and (stop.speed_below is not None or stop.rebound):
-            v = self.mean_velocity(self.watched)
+            rod = self.penetrator is not None and self.penetrator.m == self.watched
+            v = self.penetrator.velocity() if rod else self.mean_velocity(self.watched)
             if self._sign is None:
                 self._sign = 1.0 if v >= 0 else -1.0
             if stop.rebound and v * self._sign < 0:

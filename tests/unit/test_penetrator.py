@@ -93,3 +93,17 @@ def test_what_has_failed_is_debris(simulation):
     assert found["rod_failed_mass_kg"] == pytest.approx(np.pi * 3e-3**2 * 3.7e-3 * 18160, rel=1e-9)
     assert found["rod_core_mass_kg"] < found["rod_mass_kg"] - found["rod_failed_mass_kg"] + 1e-12
     assert (found["target_failed_mass_kg"], found["regime"]) == (0.0, "eroding")
+
+
+def test_what_flies_back_does_not_stop_the_run(simulation):
+    """Half of the mass is torn off and flies back as fast as the core goes on: the mean is at rest, the core is not."""
+    fraction, z = cells(simulation)
+    fraction[(z > -11e-3) & (z < -10e-3)] = 0.0
+    v = simulation.grid.interior_vertices(simulation.state.v)[0]
+    v[:] = np.where(simulation.grid.z_edges < -10.4e-3, -1000.0, 1000.0)[:, None]
+    found = simulation.diagnostics()
+    assert abs(found["rod_mean_velocity_m_s"]) < 100.0
+    assert found["rod_core_velocity_m_s"] == pytest.approx(1000.0, rel=1e-12)
+    assert simulation.penetrator.velocity() == found["rod_core_velocity_m_s"]
+    simulation.penetrator._intact = lambda: 0.0 * fraction
+    assert simulation.penetrator.velocity() == pytest.approx(found["rod_mean_velocity_m_s"])
