@@ -26,8 +26,8 @@ from hydro2d.deck_errors import DeckError
 
 #: a cell is of one material from this share on
 PURE = 1.0 - 1e-4
-#: how far from the interface pressures are looked at, in radii of the jet
-REACH = 0.6
+#: how far from the interface pressures are looked at: in radii of the jet, but at least so many cells
+REACH, CELLS = 0.6, 4
 #: dumps that a window has, at least
 ROWS = 4
 #: densest state of an isentrope over the reference density, and its steps
@@ -100,7 +100,7 @@ def point(edges: np.ndarray, jet: np.ndarray, target: np.ndarray, pressures: tup
     low, high = int(before[-1]) + 1, int(beyond[0])
     position = edges[low] + float(np.sum(jet[low:high] * np.diff(edges)[low:high]))
     x = 0.5 * (edges[1:] + edges[:-1]) - position
-    near = np.abs(x) <= reach
+    near = np.abs(x) <= max(reach, CELLS * (edges[high] - edges[high - 1]))
     index = np.arange(len(x))
     sides = [near & (jet >= PURE) & (index < low - 1), near & (target >= PURE) & (index > high)]
     if any(np.count_nonzero(side) < 2 for side in sides):

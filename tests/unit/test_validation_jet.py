@@ -64,7 +64,8 @@ def test_without_jet_or_target_there_is_no_interface():
     share, rest, own, other = column(10e-3)
     assert jet.point(Z, 0.0 * share, rest, (own, other), 3e-3, 0.0) is None
     assert jet.point(Z, share, 0.0 * rest, (own, other), 3e-3, 0.0) is None
-    assert jet.point(Z, share, rest, (own, other), 0.5e-3, 0.0) is None
+    assert jet.point(Z, np.where(Z[:-1] > 8.9e-3, share, 0.0), rest, (own, other), 3e-3, 0.0) is None  # two cells of jet
+    assert jet.point(Z, np.where(Z[:-1] > 7.9e-3, share, 0.0), rest, (own, other), 0.0, 0.0).jet == pytest.approx(3e9)
 
 
 @pytest.fixture
