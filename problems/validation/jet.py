@@ -1,0 +1,209 @@
+"""Penetration velocity and stagnation pressure of a jet without strength, from run directories, beside compressible Bernoulli.
+
+    python -m problems.validation.jet RUN [RUN ...] [--first DIAMETERS] [--last DIAMETERS] [--json]
+
+All is read on the axis. The interface lies where the volume fractions put it between the last cell of jet alone and the first
+of target alone. On either side the pressure is p0 - a x^2 near a point of stagnation, x from the interface: p0 is that of least
+squares through cells of one material, within 0.6 radii of the jet. Velocities are slopes of lines and pressures means over
+windows of depth, counted in diameters of the jet. Runs need not have ended.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from scipy.integrate import solve_ivp
+
+import eos
+from eos.dispatch import evaluate
+from hydro2d import deck as decks
+from hydro2d import derived, results, vtk
+from hydro2d.deck_errors import DeckError
+
+#: a cell is of one material from this share on
+PURE = 1.0 - 1e-4
+#: how far from the interface pressures are looked at: in radii of the jet, but at least so many cells
+REACH, CELLS = 0.6, 4
+#: dumps that a window has, at least
+ROWS = 4
+#: densest state of an isentrope over the reference density, and its steps
+DENSEST, STEPS = 1.7, 2000
+
+
+def isentrope(material) -> tuple[np.ndarray, np.ndarray]:
+    """Pressure (Pa) and enthalpy e + p/rho (J/kg), which is w^2/2 of the stream that stagnates there; de = p/rho^2 drho.
+
+    material : one of a deck; its isentrope begins at the reference density without energy
+    """
+    model, start = eos.MODELS[material.eos.name], material.reference_density
+    row = model.row(material.eos.values)
+
+    def pressure(rho: float, e: float) -> float:
+        return evaluate(model.ID, rho, e, row)[0]
+
+    rho = np.linspace(start, DENSEST * start, STEPS + 1)
+
+    def slope(rho: float, e: np.ndarray) -> list[float]:
+        return [pressure(rho, e[0]) / rho**2]
+
+    e = solve_ivp(slope, (rho[0], rho[-1]), [0.0], t_eval=rho, rtol=1e-10, atol=1e-3).y[0]
+    p = np.array([pressure(*state) for state in zip(rho, e, strict=True)])
+    return p, e + p / rho
+
+
+def bernoulli(jet, target, velocity: float) -> tuple[float, float]:
+    """Penetration velocity (m/s) and stagnation pressure (Pa) of a steady jet at an impact velocity in m/s.
+
+    Both streams stagnate at one pressure, and their speeds, v - u of the jet and u of the target, add up to v.
+    """
+    own, other = isentrope(jet), isentrope(target)
+    p = np.linspace(0.0, 1.0, 20001) ** 2 * min(own[0][-1], other[0][-1])
+    target_speed = np.sqrt(2.0 * np.interp(p, *other))
+    sum_of_speeds = np.sqrt(2.0 * np.interp(p, *own)) + target_speed
+    if velocity > sum_of_speeds[-1]:
+        raise results.ResultsError(f"{velocity:g} m/s is beyond compressible Bernoulli as it is tabled here")
+    pressure = float(np.interp(velocity, sum_of_speeds, p))
+    return float(np.interp(pressure, p, target_speed)), pressure
+
+
+@dataclass(frozen=True)
+class Point:
+    """The interface on the axis at one time (s): position (m), and the pressure (Pa) there on the side of jet and of target."""
+
+    time: float
+    position: float
+    jet: float
+    target: float
+
+
+def stagnation(distance: np.ndarray, pressure: np.ndarray) -> float:
+    """p0 of p0 - a x^2 through pressures (Pa) at distances x (m) from the interface, by least squares."""
+    return float(np.linalg.lstsq(np.column_stack([np.ones_like(distance), distance**2]), pressure, rcond=None)[0][0])
+
+
+def point(edges: np.ndarray, jet: np.ndarray, target: np.ndarray, pressures: tuple[np.ndarray, np.ndarray], reach: float,
+          time: float) -> Point | None:  # fmt: skip
+    """The interface from what jet and target fill of the cells on the axis, the jet below; None with too little of either.
+
+    pressures : of both bodies in these cells, Pa;  reach : how far from the interface they are used, m. The cells next to a
+    mixed one are left out.
+    """
+    beyond = np.nonzero(target >= PURE)[0]
+    before = np.nonzero(jet[: beyond[0]] >= PURE)[0] if len(beyond) else beyond
+    if len(before) == 0:
+        return None
+    low, high = int(before[-1]) + 1, int(beyond[0])
+    position = edges[low] + float(np.sum(jet[low:high] * np.diff(edges)[low:high]))
+    x = 0.5 * (edges[1:] + edges[:-1]) - position
+    near = np.abs(x) <= max(reach, CELLS * (edges[high] - edges[high - 1]))
+    index = np.arange(len(x))
+    sides = [near & (jet >= PURE) & (index < low - 1), near & (target >= PURE) & (index > high)]
+    if any(np.count_nonzero(side) < 2 for side in sides):
+        return None
+    return Point(time, position, *(stagnation(x[side], p[side]) for side, p in zip(sides, pressures, strict=True)))
+
+
+def read(run: results.Results, jet: str, target: str, reach: float) -> list[Point]:
+    """The interface in every dump that has one. Raises ResultsError, VtkError."""
+    share, pressure = derived.BY_KEY["volume_fraction"], derived.BY_KEY["body_pressure"]
+    names = [quantity.name(body) for quantity in (share, pressure) for body in (jet, target)]
+    points = []
+    for _, file in run.dumps:
+        dump = vtk.read_grid(file)
+        if any(name not in dump.fields for name in names):
+            raise results.ResultsError(f'{file} lacks one of {", ".join(names)}: add "body_pressure" to output.fields')
+        columns = [dump.fields[name][:, 0].astype(float) for name in names]
+        points.append(point(dump.z_edges, *columns[:2], tuple(columns[2:]), reach, dump.time))
+    return [found for found in points if found is not None]
+
+
+def mean(points: list[Point], low: float, high: float) -> dict | None:
+    """Velocity (m/s) and mean pressures (Pa) with their scatter while the interface is between two positions (m)."""
+    inside = [at for at in points if low <= at.position < high]
+    if len(inside) < ROWS:
+        return None
+    keys = ("time", "position", "jet", "target")
+    time, position, jet, target = (np.array([getattr(at, key) for at in inside]) for key in keys)
+    return {"velocity": float(np.polyfit(time, position, 1)[0]), "dumps": len(inside),
+            "jet": float(jet.mean()), "jet_scatter": float(jet.std()),
+            "target": float(target.mean()), "target_scatter": float(target.std())}  # fmt: skip
+
+
+def measure(directory: Path | str, first: float = 3.0, last: float = 10.0) -> dict:
+    """By windows of one diameter, and from the first to the last of those given; SI.
+
+    Raises ResultsError, VtkError, DeckError.
+    """
+    run = results.load(directory)
+    deck = decks.load(run.directory / results.DECK)
+    if deck.penetration is None or run.direction < 0:
+        raise results.ResultsError(f"{directory} has no jet that flies towards +z: its deck has no [penetration] of that kind")
+    jet, target = (decks.body(deck, getattr(deck.penetration, key)) for key in ("rod", "target"))
+    diameter = 2.0 * decks.body_radius(deck, jet.name)
+    velocity = jet.velocity[1] - target.velocity[1]
+    u, p = bernoulli(deck.materials[jet.material], deck.materials[target.material], velocity)
+    points = read(run, jet.name, target.name, REACH * 0.5 * diameter)
+    if not points:
+        raise results.ResultsError(f"{directory} has no dump with jet and target side by side on the axis")
+    surface = decks.surface(deck)
+    deepest = int((points[-1].position - surface) / diameter)
+    rows = [
+        {"depth": k + 0.5, **found}
+        for k in range(deepest + 1)
+        if (found := mean(points, surface + k * diameter, surface + (k + 1) * diameter))
+    ]
+    return {
+        "run": run.label, "ended": bool(run.summary), "velocity": velocity, "diameter": diameter,
+        "advection": deck.numerics.advection, "exact": {"velocity": u, "pressure": p},
+        "rows": rows, "first": first, "last": last,
+        "steady": mean(points, surface + first * diameter, surface + last * diameter),
+    }  # fmt: skip
+
+
+def _cells(found: dict, exact: dict) -> str:
+    """Three columns of the table: velocity and both pressures, each with its error."""
+    cells = [f"{found['velocity']:.1f} ({100 * (found['velocity'] / exact['velocity'] - 1):+.2f} %)"]
+    for side in ("jet", "target"):
+        error, scatter = (100 * x / exact["pressure"] for x in (found[side] - exact["pressure"], found[f"{side}_scatter"]))
+        cells.append(f"{found[side] * 1e-9:.3f} ({error:+.1f} %, scatter {scatter:.1f} %)")
+    return " | ".join(cells)
+
+
+def table(found: dict) -> str:
+    """What was measured, as Markdown."""
+    exact = found["exact"]
+    ended = "" if found["ended"] else ", not ended"
+    lines = [f"**{found['run']}**, {found['velocity']:.0f} m/s, `{found['advection']}`{ended}; compressible Bernoulli: "
+             f"{exact['velocity']:.2f} m/s, {exact['pressure'] * 1e-9:.3f} GPa", "",
+             "| depth, diameters | velocity, m/s | pressure in the jet, GPa | pressure in the target, GPa |",
+             "|---|---|---|---|"]  # fmt: skip
+    lines += [f"| {row['depth']:.1f} | {_cells(row, exact)} |" for row in found["rows"]]
+    if found["steady"]:
+        lines.append(f"| {found['first']:g} to {found['last']:g} | {_cells(found['steady'], exact)} |")
+    return "\n".join(lines)
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """The command; 2 where a directory holds no run with a jet."""
+    parser = argparse.ArgumentParser(prog="python -m problems.validation.jet", description=__doc__.splitlines()[0])
+    parser.add_argument("run", nargs="+", type=Path, help="a run directory, finished or not")
+    parser.add_argument("--first", type=float, default=3.0, help="where the last row begins, in diameters (3)")
+    parser.add_argument("--last", type=float, default=10.0, help="where it ends, in diameters (10)")
+    parser.add_argument("--json", action="store_true", help="print JSON, SI units")
+    given = parser.parse_args(arguments)
+    try:
+        found = [measure(directory, given.first, given.last) for directory in given.run]
+    except (results.ResultsError, vtk.VtkError, DeckError) as error:
+        print(error, file=sys.stderr)
+        return 2
+    print(json.dumps(found, indent=2) if given.json else "\n\n".join(map(table, found)))
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
