@@ -9,6 +9,7 @@ import socket
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import NamedTuple
 
 
 def sync(path: Path) -> None:
@@ -43,17 +44,33 @@ class LockError(Exception):
     """A directory that another process works in; the message is for the user."""
 
 
-def holder(path: Path) -> str | None:
-    """Who holds a lock, in words; None where it is gone or its process on this host is."""
+class Holder(NamedTuple):
+    """Who holds a lock."""
+
+    host: str
+    process: int
+
+    @property
+    def is_here(self) -> bool:
+        """Whether that is a process of this machine."""
+        return self.host == socket.gethostname()
+
+    def __str__(self) -> str:
+        return f"process {self.process} on {self.host}"
+
+
+def holder(path: Path) -> Holder | None:
+    """Who holds a lock; None where it is gone or its process on this machine is."""
     try:
         host, number = path.read_text(encoding="utf-8").split()
-        if host == socket.gethostname():
-            os.kill(int(number), 0)
+        found = Holder(host, int(number))
+        if found.is_here:
+            os.kill(found.process, 0)
     except (FileNotFoundError, NotADirectoryError, ProcessLookupError, ValueError):
         return None
     except PermissionError:
         pass  # alive, and somebody else's
-    return f"process {number} on {host}"
+    return found
 
 
 @contextmanager

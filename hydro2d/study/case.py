@@ -101,7 +101,7 @@ def _wait_for_silence(directory: Path, interrupt: run.Interrupt | None) -> None:
     lock, until = directory / run.LOCK, time.monotonic() + 2 * SILENCE
     while time.monotonic() < until and not (interrupt and interrupt.reason):
         by = holder(lock)
-        if by is None or by.endswith(f" on {socket.gethostname()}"):
+        if by is None or by.is_here:
             return
         signs = [file.stat().st_mtime for file in (lock, directory / run.PROGRESS) if file.exists()]
         if time.time() - max(signs, default=0.0) > SILENCE:

@@ -233,7 +233,7 @@ def _read_state(place: Path, deck_sha256: str | None) -> dict:
     summary, failed, text = read_json(place / run.SUMMARY), read_json(place / FAILED), _text(place / run.DECK)
     process = holder(place / run.LOCK)
     if process is not None:
-        return {"status": RUNNING, "message": process, "progress": read_json(place / run.PROGRESS)}
+        return {"status": RUNNING, "message": str(process), "progress": read_json(place / run.PROGRESS)}
     if failed:
         return {"status": FAILED_STATUS, "message": str(failed.get("reason", "no reason is given")), "summary": summary}
     if text and deck_sha256 is not None and run.deck_hash(text) != deck_sha256:
