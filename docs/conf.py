@@ -20,11 +20,12 @@ author = "The hydro2d developers"
 copyright = f"2026, {author}"
 version = release = __version__
 
-extensions = ["myst_parser"]
+extensions = ["myst_nb"]
 myst_enable_extensions = ["dollarmath"]
 myst_heading_anchors = 3
+nb_execution_mode = "off"  # the outputs that are stored
 
-exclude_patterns = ["_build", "_static"]
+exclude_patterns = ["_build", "_static", "**/runs", "**/.ipynb_checkpoints"]
 html_theme = "furo"
 html_title = f"hydro2d {release}"
 html_static_path = ["_static"]

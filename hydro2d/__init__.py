@@ -6,7 +6,9 @@ __version__ = "0.1.0"
 def load(directory):
     """The results of a run: summary, history, dumps, sections. See `hydro2d.results.Results`.
 
-    directory : path of a run directory
+    directory : path of a run directory; `hydro2d.study.load` reads a study
+
+    Raises hydro2d.results.ResultsError.
     """
     from hydro2d import results
 

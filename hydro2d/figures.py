@@ -124,7 +124,7 @@ def _draw_outlines(axes, dump: Dump) -> None:
     lines = [
         np.column_stack([line[:, 1], sign * line[:, 0]]) * 1e3
         for body in dump.bodies
-        for line in outlines(dump.r_edges, dump.z_edges, dump.fields[f"Volume Fraction for {body}"])
+        for line in dump.outlines(body)
         for sign in (1, -1)
     ]
     axes.add_collection(LineCollection(lines, colors="black", linewidths=0.6))
@@ -138,19 +138,20 @@ def _legend(axes, dump: Dump) -> None:
 
 
 def section(axes, dump: Dump, field: str = "pressure", mirror: str | None = None, limits=None, *, title: str = "",
-            depth_line: float | None = None) -> list:  # fmt: skip
+            depth_line: float | None = None, window: tuple[float, float, float] | None = None) -> list:  # fmt: skip
     """Draws one mirrored section into matplotlib axes.
 
     field, mirror : words for the upper and the lower half, see `chosen` (mirror None: the same)
     limits : (low, high) per word in the reader's unit; from the data where absent
     depth_line : axial position of the experiment's depth, m
+    window : (z0, z1, r1) in m, what is shown and what the limits are from; the whole mesh where absent
 
-    Returns [(word, mappable)] for colour bars.
+    Returns [(word, mappable)] for `colour_bars`. Raises FigureError.
     """
-    limits, drawn = limits or {}, []
+    limits, drawn, seen = limits or {}, [], _cropped(dump, window)
     for word, sign in ((field, 1), (mirror or field, -1)):
         if word != "material" and word not in limits:
-            limits = {**limits, word: _limits([chosen(dump, word)])}
+            limits = {**limits, word: _limits([chosen(seen, word)])}
         drawn.append((word, _draw_half(axes, dump, word, sign, limits.get(word))))
     _draw_outlines(axes, dump)
     if "material" in (field, mirror):
@@ -162,10 +163,43 @@ def section(axes, dump: Dump, field: str = "pressure", mirror: str | None = None
         word.set_in_layout(False)  # a line outside of the window must not stretch the figure
     axes.axhline(0, color="black", linewidth=0.3, linestyle="-.")
     axes.set_aspect("equal")
-    axes.set_xlim(dump.z_edges[0] * 1e3, dump.z_edges[-1] * 1e3)
-    axes.set_ylim(-dump.r_edges[-1] * 1e3, dump.r_edges[-1] * 1e3)
+    z0, z1, r1 = window or _whole(dump)
+    axes.set_xlim(z0 * 1e3, z1 * 1e3)
+    axes.set_ylim(-r1 * 1e3, r1 * 1e3)
+    axes.tick_params(labelsize=7)
+    axes.set_xlabel("z [mm]", fontsize=8)
+    axes.set_ylabel("r [mm]", fontsize=8)
     axes.set_title(f"{title}  t = {dump.time * 1e6:.2f} µs".strip(), fontsize=9)
     return drawn
+
+
+def colour_bars(axes, dump: Dump, drawn: list) -> None:
+    """Adds a bar for every field of what `section` has drawn to axes, one or an array of them that share it."""
+    figure = np.ravel(axes)[0].figure
+    for word, mappable in dict(drawn).items():
+        if mappable is not None:
+            bar = figure.colorbar(mappable, ax=axes, fraction=0.03, pad=0.01)
+            bar.set_label(chosen(dump, word).label, fontsize=8)
+            bar.ax.tick_params(labelsize=7)
+
+
+def _whole(dump: Dump) -> tuple[float, float, float]:
+    """The window that shows all of the mesh."""
+    return dump.z_edges[0], dump.z_edges[-1], dump.r_edges[-1]
+
+
+def _panel_height(width: float, window: tuple[float, float, float]) -> float:
+    """Height in inches of a panel with a title that shows a window at one scale."""
+    z0, z1, r1 = window
+    return min(max(width * 2 * r1 / (z1 - z0), 0.8), 9.0) + 0.6
+
+
+def own_axes(dump: Dump, window: tuple[float, float, float] | None = None, width: float = 8.0):
+    """Axes of a new figure of pyplot, which a notebook shows by itself, in the shape of a section; width in inches."""
+    from matplotlib import pyplot
+
+    height = _panel_height(width, window or _whole(dump)) + 0.4
+    return pyplot.subplots(figsize=(width + 1.2, height), layout="constrained")[1]
 
 
 def new_figure(width: float, height: float, rows: int, columns: int):
@@ -184,10 +218,10 @@ def draw_sections(panels: list[list[tuple[Dump, str, float | None]]], field: str
     dumps = [dump for row in panels for dump, _, _ in row]
     words = dict.fromkeys(word for word in (field, mirror or field) if word != "material")
     limits = {word: _limits([chosen(_cropped(dump, window), word) for dump in dumps]) for word in words}
-    z0, z1, r1 = window or (dumps[0].z_edges[0], dumps[0].z_edges[-1], dumps[0].r_edges[-1])
+    window = window or _whole(dumps[0])
     rows, columns = len(panels), max(len(row) for row in panels)
     panel_width = min(11.0, max(4.0, 16.0 / columns))
-    panel_height = min(max(panel_width * 2 * r1 / (z1 - z0), 0.8), 9.0) + 0.6
+    panel_height = _panel_height(panel_width, window)
     figure, axes = new_figure(panel_width * columns + 1.2, panel_height * rows + 0.4, rows, columns)
     drawn = []
     for j, row in enumerate(panels):
@@ -196,18 +230,10 @@ def draw_sections(panels: list[list[tuple[Dump, str, float | None]]], field: str
                 axes[j, i].set_visible(False)
                 continue
             dump, title, line = row[i]
-            drawn = section(axes[j, i], dump, field, mirror, limits, title=title, depth_line=line)
-            axes[j, i].set_xlim(z0 * 1e3, z1 * 1e3)
-            axes[j, i].set_ylim(-r1 * 1e3, r1 * 1e3)
-            axes[j, i].tick_params(labelsize=7)
-            axes[j, i].set_ylabel("r [mm]", fontsize=8)
-    for place in axes[-1]:
-        place.set_xlabel("z [mm]", fontsize=8)
-    for word, mappable in dict(drawn).items():
-        if mappable is not None:
-            bar = figure.colorbar(mappable, ax=axes, fraction=0.03, pad=0.01)
-            bar.set_label(chosen(dumps[0], word).label, fontsize=8)
-            bar.ax.tick_params(labelsize=7)
+            drawn = section(axes[j, i], dump, field, mirror, limits, title=title, depth_line=line, window=window)
+    for place in axes[:-1].flat:
+        place.set_xlabel("")
+    colour_bars(axes, dumps[0], drawn)
     return figure
 
 
@@ -227,12 +253,7 @@ def _cropped(dump: Dump, window) -> Dump:
 
 def sections(runs: list, field: str = "pressure", *, mirror: str | None = None, times=(None,), window=None):
     """Sections of runs (results.Results), one row a run, one column a time in s (None: the last)."""
-    panels = []
-    for run in runs:
-        line = None
-        if run.measured_depth is not None and run.surface is not None:
-            line = run.surface + run.direction * run.measured_depth
-        panels.append([(run.dump(time), run.label, line) for time in times])
+    panels = [[(run.dump(time), run.label, run.measured_position) for time in times] for run in runs]
     return draw_sections(panels, field, mirror, window)
 
 
@@ -322,7 +343,7 @@ def _render(dump: str, path: str, field: str, window, size) -> None:
         plotter.add_mesh(turned, scalars="body", cmap=_body_colours(count), clim=(0.5, count + 0.5), specular=0.3,
                          show_scalar_bar=False, interpolate_before_map=False)  # fmt: skip
     for body in state.bodies:
-        for line in outlines(state.r_edges, state.z_edges, state.fields[f"Volume Fraction for {body}"]):
+        for line in state.outlines(body):
             points = np.column_stack([line[:, 0], np.zeros(len(line)), line[:, 1]]) * 1e3
             for angle in (0.0, 270.0):
                 plotter.add_mesh(pyvista.lines_from_points(points).rotate_z(angle), color="black", line_width=2)

@@ -32,6 +32,13 @@ def unit(name: str) -> str:
     return next((unit for ending, unit in _UNITS if name.endswith(ending)), "1")
 
 
+def attributes(name: str) -> dict:
+    """What a reader of a quantity should know: its unit, and for the regime the words of its numbers."""
+    if name == "regime":
+        return {"units": unit(name), "flag_values": np.arange(len(REGIMES), dtype=np.int8), "flag_meanings": " ".join(REGIMES)}
+    return {"units": unit(name)}
+
+
 def _encode(value) -> float:
     if isinstance(value, str):
         return float(REGIMES.index(value))
@@ -91,10 +98,7 @@ def _dataset(file, name: str, values: list[float]):
     if kind is not np.float64:
         numbers = np.nan_to_num(numbers, nan=-1)  # integers have no other word for "not known"
     dataset = file.create_dataset(name, data=numbers.astype(kind))
-    dataset.attrs["units"] = unit(name)
-    if name == "regime":
-        dataset.attrs["flag_values"] = np.arange(len(REGIMES), dtype=np.int8)
-        dataset.attrs["flag_meanings"] = " ".join(REGIMES)
+    dataset.attrs.update(attributes(name))
     return dataset
 
 

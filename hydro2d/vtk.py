@@ -16,6 +16,7 @@ from xml.etree import ElementTree
 import numpy as np
 
 from . import derived
+from .deck_errors import unknown
 from .files import replacing, write_text
 from .outlines import outlines
 
@@ -82,6 +83,8 @@ def write_grid(path: Path, r_edges, z_edges, fields: Iterable[tuple[str, np.ndar
     """Writes cell data on a rectilinear grid.
 
     r_edges (nr + 1,), z_edges (nz + 1,) in m;  fields: names and values (nz, nr) or (nz, nr, 3);  time in s
+
+    The first vector is marked as the one that filters turn and mirror with the geometry.
     """
     from vtkmodules.vtkCommonDataModel import vtkRectilinearGrid
     from vtkmodules.vtkIOXML import vtkXMLRectilinearGridWriter
@@ -91,9 +94,11 @@ def write_grid(path: Path, r_edges, z_edges, fields: Iterable[tuple[str, np.ndar
     grid.SetXCoordinates(_coordinates(r_edges, "r"))
     grid.SetYCoordinates(_coordinates(z_edges, "z"))
     grid.SetZCoordinates(_coordinates([0.0], "height"))
-    cells = (len(z_edges) - 1) * (len(r_edges) - 1)
+    data, cells = grid.GetCellData(), (len(z_edges) - 1) * (len(r_edges) - 1)
     for name, values in fields:
-        grid.GetCellData().AddArray(_array(values.reshape(cells, *values.shape[2:]), name))
+        data.AddArray(_array(values.reshape(cells, *values.shape[2:]), name))
+        if values.ndim == 3 and data.GetVectors() is None:
+            data.SetActiveVectors(name)
     _write(grid, path, time, vtkXMLRectilinearGridWriter())
 
 
@@ -234,6 +239,23 @@ class Dump:
         """Names of the bodies, in order."""
         prefix = derived.BY_KEY["volume_fraction"].title.format(body="")
         return [name.removeprefix(prefix) for name in self.fields if name.startswith(prefix)]
+
+    @property
+    def r_centres(self) -> np.ndarray:
+        """Radii of the cells' middles, m, shape (nr,)."""
+        return 0.5 * (self.r_edges[1:] + self.r_edges[:-1])
+
+    @property
+    def z_centres(self) -> np.ndarray:
+        """Axial positions of the cells' middles, m, shape (nz,)."""
+        return 0.5 * (self.z_edges[1:] + self.z_edges[:-1])
+
+    def outlines(self, body: str) -> list[np.ndarray]:
+        """Lines round a body, each an array (n, 2) of r, z in m; see `outlines.outlines`. Raises VtkError."""
+        if body not in self.bodies:
+            raise VtkError(unknown("body", body, self.bodies))
+        share = derived.BY_KEY["volume_fraction"].name(body)
+        return outlines(self.r_edges, self.z_edges, self.fields[share])
 
     @classmethod
     def of(cls, sim, keys=("all",)) -> Dump:

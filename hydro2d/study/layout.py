@@ -21,9 +21,10 @@ from pathlib import Path
 from hydro2d import __version__, run, snapshot
 from hydro2d.deck_errors import nearest
 from hydro2d.files import holder, write_json, write_text
+from hydro2d.results import STUDY
 from hydro2d.study.definition import StudyError
 
-STUDY, TEXT, CASES, LOG, LOCK = "study.json", "study.toml", "cases", "sweep.log", "study.lock"
+TEXT, CASES, LOG, LOCK = "study.toml", "cases", "sweep.log", "study.lock"
 FAILED = "failed.json"
 
 WAITING, RUNNING, DONE, INTERRUPTED = "waiting", "running", "done", "interrupted"

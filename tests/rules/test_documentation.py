@@ -22,8 +22,8 @@ PAGES = {
     str(file.relative_to(EXPLANATION).with_suffix("")): file.read_text(encoding="utf-8")
     for file in sorted(EXPLANATION.rglob("*.md"))
 }
-#: what people wrote: the pages without the generated ones, and the README
-WRITTEN = [file for file in source.tracked_files() if file.suffix == ".md" and DOCS in file.parents]
+#: what people wrote: the pages and notebooks without the generated ones, and the README
+WRITTEN = [file for file in source.tracked_files() if file.suffix in (".md", ".ipynb") and DOCS in file.parents]
 WRITTEN.append(source.ROOT / "README.md")
 CITATION = re.compile(
     r"\b(?P<page>" + "|".join(sorted(PAGES, key=len, reverse=True)) + r")(?:\.md)?,\s+"

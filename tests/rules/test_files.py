@@ -9,7 +9,7 @@ import pytest
 from tests.rules import source
 
 HERE = source.ROOT.parent
-TEXT = {".py", ".md", ".toml", ".cff", ".txt", ".rst", ".cfg", ".css", ".yml", ".yaml", ""}
+TEXT = {".py", ".md", ".toml", ".cff", ".txt", ".rst", ".cfg", ".css", ".yml", ".yaml", ".ipynb", ""}
 #: spelled in pieces, or this file would break its own rule
 MACHINE = re.compile(r"(?<![\w.~-])/(?:" + "|".join(["home", "root", "Users", "work", "mnt", "tmp"]) + r")/")
 INDEX = re.compile("|".join(["py" + r"pi\.org", "python" + "hosted", "index" + "-url", r"://[^/\s]*:[^/\s]*@"]))
