@@ -102,7 +102,7 @@ def _transitions(contents: Contents) -> Html:
 
 
 def _of_combination(each: regimes.Transitions, names: Sequence[str]) -> Html:
-    brackets = {bracket.name: model_transition.extent(bracket) for bracket in each.brackets}
+    brackets = {bracket.name: regimes.in_words(bracket) for bracket in each.brackets}
     known = [f"{bracket.name}: {model_transition.extent(bracket)}" for bracket in each.known]
     models = [f"{entry.model.name}: {entry.in_words}" for entry in each.predictions]
     cells = [*(brackets.get(name, "–") for name in names), "; ".join(known) or "–", "; ".join(models) or "–", len(each.runs)]

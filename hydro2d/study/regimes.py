@@ -128,7 +128,7 @@ class Transitions:
 
     def lines(self) -> list[str]:
         """For reading."""
-        told = [self.title, *columns((each.name, extent(each), each.source) for each in self.brackets)]
+        told = [self.title, *columns((each.name, in_words(each), each.source) for each in self.brackets)]
         told += [f"  {note}" for note in self.notes]
         told += ["", *columns([HEADS, *(run.row() for run in self.runs)])]
         if self.comparison is not None:
@@ -147,6 +147,11 @@ class Transitions:
             "runs": [run.data() for run in self.runs],
             "comparison": self.comparison and self.comparison.data(),
         }  # fmt: skip
+
+
+def in_words(bracket: Bracket) -> str:
+    """The extent of a bracket of `Transitions`."""
+    return extent(bracket, "deeper" if bracket.name == LIMIT else "rigid")
 
 
 def label(values: Mapping[str, str]) -> str:

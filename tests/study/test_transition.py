@@ -171,6 +171,7 @@ def test_what_is_printed(again, capsys):
     shown = capsys.readouterr().out
     assert "advection = ke\n  rigid to deforming  1050 to 1100 m/s" in shown
     assert "rigid at 1050 m/s, deforming at 1100 m/s" in shown
+    assert "none: deeper at 1500 m/s, not at 1100 m/s" in shown
     assert "  experiment  1086 to 1200 m/s  shots 4344, 4345, 4346" in shown
     assert "  hydro2d     1050 to 1100 m/s" in shown
     assert "walker-anderson" in shown
@@ -209,6 +210,22 @@ def test_an_interrupted_search_goes_on_where_it_was(tmp_path, finished, capsys):
     assert (status, found["complete"]) == (0, True)
     assert set(first.submitted) & set(again.submitted) == {first.submitted[-1]}
     assert set(first.submitted) | set(again.submitted) == whole
+
+
+def test_a_search_that_broke_off_runs_no_case_twice(tmp_path, finished):
+    """It ends in the middle of a case, with no last word; transition.json is not there yet."""
+
+    def dying(velocity, deck):
+        if len(first.submitted) == 6:
+            raise MemoryError
+        return usual(velocity, deck)
+
+    first, again = made_up.Client(dying), made_up.Client(usual)
+    with pytest.raises(MemoryError):
+        search(tmp_path, first)
+    assert not (tmp_path / "out" / "transition.json").exists()
+    assert search(tmp_path, again, resume=True)[1]["complete"]
+    assert [*first.submitted[:-1], *again.submitted] == finished[1].submitted
 
 
 def test_more_workers_than_combinations_try_several_velocities(tmp_path):
