@@ -14,7 +14,7 @@ from . import __version__
 from .cli_base import Overrides, UsageError, quantity
 from .cli_model import model
 from .cli_report import report
-from .cli_study import sweep
+from .cli_study import sweep, transition
 
 WRONG_INPUT = 2
 
@@ -29,6 +29,7 @@ app = App(
 app.command(model)
 app.command(report)
 app.command(sweep)
+app.command(transition)
 
 
 def _user_errors() -> tuple[type[Exception], ...]:

@@ -59,23 +59,98 @@ def sweep(
         return _status(study, out)
     from .study import cases
 
-    plan = cases.plan(study, set_)
+    plan = cases.plan(study, set_, search=False)
     if check:
         from .study import estimate
 
         return estimate.show(plan, workers or default_workers(threads))
-    from .study import cluster
     from .study import sweep as sweeps
+    from .study.choice import Choice
 
-    if scheduler is not None:
-        connect = cluster.joined(scheduler)
-    elif slurm is not None:
-        connect = cluster.slurm(slurm, workers or 1, threads)
-    else:
-        connect = cluster.local(min(workers or default_workers(threads), len(plan.cases)), threads)
+    connect = _workers(len(plan.cases), workers, threads, scheduler, slurm)
     return sweeps.sweep(
+        Choice(plan), out or plan.out, connect, threads=threads, resume=resume, overwrite=overwrite, quiet=quiet
+    )
+
+
+def transition(
+    study: Path,
+    *,
+    out: Path | None = None,
+    set_: Overrides = None,
+    workers: int | None = None,
+    threads: int = 1,
+    scheduler: str | None = None,
+    slurm: Path | None = None,
+    resume: bool = False,
+    overwrite: bool = False,
+    check: bool = False,
+    status: bool = False,
+    quiet: bool = False,
+) -> int:
+    """Searches the impact velocities at which a rod is no longer rigid and at which it erodes, by bisection.
+
+    Example: hydro2d transition problems/cth_nose_shape/transition_hemi_5083.toml --workers 2 --out runs/transition
+
+    The criteria, the runs, experiments and the predictions of the analytic models are printed beside the brackets;
+    transition.json in the directory has the same for programs, and `hydro2d report` shows it.
+
+    Parameters
+    ----------
+    study
+        The study file, TOML: a base deck, [transition] with the velocities to search, axes for several transitions. With
+        --status a study directory will do.
+    out
+        Directory of the study; default: what the study says, else runs/<name of the study file>.
+    set_
+        Replaces a value of the deck in all cases, key=value; may be given several times.
+    workers
+        Number of worker processes; default: cores / threads. More than there are combinations of the axes try several
+        velocities of one at a time. With --slurm, the number to ask for.
+    threads
+        Number of threads of a worker. The results do not depend on it.
+    scheduler
+        Address of a running dask scheduler, such as tcp://host:8786, whose workers see the same files.
+    slurm
+        Starts workers with SLURM: a TOML file of arguments of dask_jobqueue.SLURMCluster, such as cores, memory, queue.
+    resume
+        Continues the search of the directory: finished cases stay, begun ones continue where they are still needed.
+    overwrite
+        Begins cases anew: all of them, or with --resume those whose deck has changed.
+    check
+        Resolves the decks of all velocities and prints how many runs are needed and their time; runs nothing.
+    status
+        Prints the cases of the study directory and the transitions as far as they are known; runs nothing.
+    quiet
+        Prints nothing but errors; sweep.log and transition.json are written.
+    """
+    _fits(workers, threads, scheduler, slurm)
+    if status:
+        return _status(study, out)
+    from .study import cases
+
+    plan = cases.plan(study, set_, search=True)
+    if check:
+        from .study import estimate
+
+        return estimate.show_search(plan, workers or default_workers(threads))
+    from .study import transition as transitions
+
+    connect = _workers(len(plan.cases), workers, threads, scheduler, slurm)
+    return transitions.find(
         plan, out or plan.out, connect, threads=threads, resume=resume, overwrite=overwrite, quiet=quiet
     )
+
+
+def _workers(most: int, workers: int | None, threads: int, scheduler: str | None, slurm: Path | None):
+    """Gives a dask client of the workers that the arguments ask for, at most so many on this machine."""
+    from .study import cluster
+
+    if scheduler is not None:
+        return cluster.joined(scheduler)
+    if slurm is not None:
+        return cluster.slurm(slurm, workers or 1, threads)
+    return cluster.local(min(workers or default_workers(threads), most), threads)
 
 
 def default_workers(threads: int) -> int:
@@ -96,8 +171,13 @@ def _fits(workers: int | None, threads: int, scheduler: str | None, slurm: Path 
 def _status(study: Path, out: Path | None) -> int:
     from .study import layout, monitor
 
-    directory = out or (study if study.is_dir() else _directory(study))
-    for line in monitor.status(layout.read(directory)):
+    found = layout.read(out or (study if study.is_dir() else _directory(study)))
+    told = monitor.status(found)
+    if found.search is not None:
+        from .study import regimes
+
+        told += ["", *regimes.lines(regimes.of_study(found))]
+    for line in told:
         print(line)
     return 0
 

@@ -172,12 +172,13 @@ def inline(value) -> str:
     if isinstance(value, (int, float)):
         return repr(value)
     if isinstance(value, dict):
-        inside = ", ".join(f"{_key(key)} = {inline(entry)}" for key, entry in value.items() if entry is not None)
+        inside = ", ".join(f"{quoted(key)} = {inline(entry)}" for key, entry in value.items() if entry is not None)
         return f"{{ {inside} }}"
     return f"[{', '.join(inline(entry) for entry in value)}]"
 
 
-def _key(name: str) -> str:
+def quoted(name: str) -> str:
+    """A name as a part of a dotted key."""
     return name if _BARE.fullmatch(name) else json.dumps(name, ensure_ascii=False)
 
 
@@ -191,14 +192,14 @@ def dumps(data: dict, prefix: str = "") -> str:
     for key, value in data.items():
         if value is None:
             continue
-        name = prefix + _key(key)
+        name = prefix + quoted(key)
         if isinstance(value, dict):
             tables.append(f"\n[{name}]\n{dumps(value, name + '.')}")
         elif _is_table_list(value):
             tables += [f"\n[[{name}]]\n{dumps(entry, name + '.')}" for entry in value]
         elif isinstance(value, (list, tuple)) and value and all(isinstance(entry, dict) for entry in value):
             rows = "".join(f"  {inline(entry)},\n" for entry in value)
-            plain.append(f"{_key(key)} = [\n{rows}]\n")
+            plain.append(f"{quoted(key)} = [\n{rows}]\n")
         else:
-            plain.append(f"{_key(key)} = {inline(value)}\n")
+            plain.append(f"{quoted(key)} = {inline(value)}\n")
     return "".join(plain + tables)

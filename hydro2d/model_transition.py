@@ -29,6 +29,11 @@ OGIVE_CRH = 2.5
 KINDS = {"cth": "the CTH study", "test": "tests at thinner plates"}
 
 
+def hydrodynamic_limit(length: float, rod: materials.Material, target: materials.Material) -> float:
+    """Depth in m that a rod of this length in m reaches while it is consumed, at any velocity: L sqrt(rho_p/rho_t)."""
+    return length * math.sqrt(rod.reference_density / target.reference_density)
+
+
 @dataclass(frozen=True)
 class Shot:
     """One experiment; SI. ``depth_is`` is "measured", "estimated" or "at least"."""
@@ -47,8 +52,7 @@ class Shot:
     @property
     def stayed_rigid(self) -> bool:
         """Whether the rod stayed rigid, by ``RULE``."""
-        rod, target = (materials.load(name).reference_density for name in (self.rod, self.target))
-        return self.depth > self.length * math.sqrt(rod / target)
+        return self.depth > hydrodynamic_limit(self.length, materials.load(self.rod), materials.load(self.target))
 
 
 @dataclass(frozen=True)
@@ -75,6 +79,11 @@ class Prediction:
     case: models.Case
     velocity: float | None
     note: str = ""
+
+    @property
+    def in_words(self) -> str:
+        """The velocity, or why there is none."""
+        return self.note or "rigid at any velocity" if self.velocity is None else f"{self.velocity:.0f} m/s"
 
     @property
     def knows_nose(self) -> bool:
@@ -175,22 +184,22 @@ class Comparison:
     brackets: list[Bracket]
     runs: list[tuple[str, ...]]
 
-    def lines(self) -> list[str]:
-        """The table, the brackets, the runs and every input, for reading."""
+    def lines(self, inputs: bool = True) -> list[str]:
+        """The table, the brackets, the runs and, where wanted, every input, for reading."""
         heads = ("model", "transition", *(f"from {entry.name}" for entry in self.brackets), "nose")
         lines = [self.title, "", *columns([heads, *map(self._row, self.predictions)])]
         if self.brackets:
             lines += ["", *columns((entry.name, extent(entry), entry.source) for entry in self.brackets)]
         if self.runs:
             lines += ["", "runs", *columns(self.runs)]
-        return [*lines, "", "inputs", *columns(self._inputs())]
+        return [*lines, "", "inputs", *columns(self._inputs())] if inputs else lines
 
     def _row(self, entry: Prediction) -> tuple[str, ...]:
         nose = "counts" if entry.knows_nose else "not an input"
         if entry.velocity is None:
-            return entry.model.name, entry.note or "rigid at any velocity", *("" for _ in self.brackets), nose
+            return entry.model.name, entry.in_words, *("" for _ in self.brackets), nose
         away = (distance(bracket.off(entry.velocity)) for bracket in self.brackets)
-        return entry.model.name, f"{entry.velocity:.0f} m/s", *away, nose
+        return entry.model.name, entry.in_words, *away, nose
 
     def _inputs(self) -> list[tuple[str, ...]]:
         """Every input of any model; where models differ, each value with its models."""
@@ -221,13 +230,13 @@ def distance(off: float) -> str:
     return "inside" if off == 0.0 else f"{abs(off):.0f} m/s {'above' if off > 0.0 else 'below'}"
 
 
-def extent(bracket: Bracket) -> str:
-    """A bracket in words."""
+def extent(bracket: Bracket, state: str = "rigid") -> str:
+    """A bracket in words; ``state`` is what its low end still is."""
     if bracket.low is None or bracket.high is None:
         known = [f"{word} {end:g} m/s" for word, end in (("above", bracket.low), ("below", bracket.high)) if end is not None]
         return known[0] if known else "nothing known"
     if bracket.low > bracket.high:
-        return f"none: rigid at {bracket.low:g} m/s, not at {bracket.high:g} m/s"
+        return f"none: {state} at {bracket.low:g} m/s, not at {bracket.high:g} m/s"
     return f"{bracket.low:g} to {bracket.high:g} m/s"
 
 

@@ -1,4 +1,7 @@
-"""The cases of a study: the product of its axes without its exclusions, each with its resolved deck."""
+"""The cases of a study: the product of its axes without its exclusions, each with its resolved deck.
+
+A search for a transition has one axis more, the last: all velocities at which it may look.
+"""
 
 from __future__ import annotations
 
@@ -13,7 +16,7 @@ from hydro2d import deck as decks
 from hydro2d import deck_toml
 from hydro2d.deck_errors import DeckError, Sources, unknown
 from hydro2d.run import deck_hash
-from hydro2d.study import ranges
+from hydro2d.study import ranges, velocities
 from hydro2d.study.definition import DECK, Axis, Definition, StudyError, read
 
 #: longest part of a case's name that one axis gives
@@ -21,7 +24,7 @@ LONGEST = 40
 
 
 @dataclass(frozen=True)
-class Choice:
+class Option:
     """One value or variant of an axis: its label, its part of a case's name, what it sets."""
 
     label: str
@@ -55,12 +58,23 @@ class Plan:
     text: str
     axes: list[dict]
     cases: list[Planned]
+    search: velocities.Velocities | None = None
 
 
-def plan(path: Path, overrides: list[str] | None = None) -> Plan:
-    """Reads a study file and resolves all decks. Raises StudyError for what is wrong with the study itself."""
+def plan(path: Path, overrides: list[str] | None = None, *, search: bool | None = None) -> Plan:
+    """Reads a study file and resolves all decks.
+
+    search : whether it must be one for a search; None: it may be either
+
+    Raises StudyError for what is wrong with the study itself.
+    """
     path = Path(path)
-    return _Planner(path, *read(path, overrides or [])).plan()
+    return _Planner(path, *read(path, overrides or [])).plan(search)
+
+
+def _share(one: tuple[str, ...], other: tuple[str, ...]) -> bool:
+    """Whether two keys are the same, or one is a part of the other."""
+    return one[: len(other)] == other[: len(one)]
 
 
 def _label(value) -> str:
@@ -75,24 +89,40 @@ class _Planner:
         self.path, self.definition, self.text, self.data, self.sources = path, definition, text, data, sources
         self.wrong: list[str] = []
 
-    def plan(self) -> Plan:
+    def plan(self, search: bool | None) -> Plan:
+        self._of_the_kind(search)
         axes = [self._choices(n, axis) for n, axis in enumerate(self.definition.axis)]
         self._distinct_axes()
+        speeds = self._labels()
         self._raise()
-        self._number(axes)
+        self._number([*axes, speeds or [""]])
         combinations = self._without_excluded(axes)
         self._raise()
-        cases = [self._case(combination) for combination in combinations]
-        files = self._files(cases)
+        files = self._files([self._case(combination) for combination in combinations])
         self._known_keys(files)
         self._raise()
+        described = [{"name": axis.name, "key": axis.key, "values": [choice.label for choice in choices]}
+                     for axis, choices in zip(self.definition.axis, axes, strict=True)]  # fmt: skip
+        found = self._velocities(speeds, [self._case(each) for each in combinations], files) if speeds else None
+        if found is not None:
+            combinations = self._at_velocities(combinations, found)
+            described.append({"name": velocities.AXIS, "key": found.key, "values": list(found.labels)})
+        cases = self._named([self._resolved(*self._case(each), files) for each in combinations], combinations)
+        if found is not None:
+            self._check_impacts(cases, found)
         return Plan(
             name=self.path.stem, title=self.definition.title, text=self.text,
-            out=Path(self.definition.out or f"runs/{self.path.stem}"),
-            axes=[{"name": axis.name, "key": axis.key, "values": [choice.label for choice in choices]}
-                  for axis, choices in zip(self.definition.axis, axes, strict=True)],
-            cases=self._named([self._resolved(*case, files) for case in cases], combinations),
+            out=Path(self.definition.out or f"runs/{self.path.stem}"), axes=described, cases=cases, search=found,
         )  # fmt: skip
+
+    def _of_the_kind(self, search: bool | None) -> None:
+        """Raises StudyError for a search in the place of a sweep, and the other way round."""
+        if search is False and self.definition.transition is not None:
+            command = f"`hydro2d transition {self.path}` runs it; `hydro2d sweep` runs cases of [[axis]] alone"
+            self._say(("transition",), f"transition: is a search in velocity: {command}")
+        if search is True and self.definition.transition is None:
+            self._say((), 'transition: is missing: a table with the velocities to search, from = "900 m/s" and to = "1500 m/s"')
+        self._raise()
 
     def _say(self, key: tuple, message: str) -> None:
         self.wrong.append(f"{self.sources.where(key, self.data)}: {message}")
@@ -103,9 +133,9 @@ class _Planner:
 
     # ------------------------------------------------------------------------------------------------ axes
 
-    def _choices(self, number: int, axis: Axis) -> list[Choice]:
+    def _choices(self, number: int, axis: Axis) -> list[Option]:
         if axis.variants is not None:
-            return [Choice(name, short(name), settings) for name, settings in axis.variants.items()]
+            return [Option(name, short(name), settings) for name, settings in axis.variants.items()]
         values = axis.values
         if axis.range is not None:
             try:
@@ -117,7 +147,7 @@ class _Planner:
         for twice in sorted({label for label in labels if labels.count(label) > 1}):
             self._say(("axis", number, "values"), f'axis "{axis.name}" has the value {twice} twice')
         shorts = distinct([short(label) for label in labels])
-        return [Choice(label, slug, {axis.key: value}) for label, slug, value in zip(labels, shorts, values, strict=True)]
+        return [Option(label, slug, {axis.key: value}) for label, slug, value in zip(labels, shorts, values, strict=True)]
 
     def _distinct_axes(self) -> None:
         """No two axes have a name or set a key, or a part of it, in common."""
@@ -130,19 +160,63 @@ class _Planner:
             for key in sorted(own):
                 parts = tuple(deck_toml.key_parts(key))
                 for other, owner in keys.items():
-                    if owner != axis.name and other[: len(parts)] == parts[: len(other)]:
+                    if owner != axis.name and _share(parts, other):
                         shared = ".".join(min(other, parts, key=len))
                         self._say(("axis", number), f'axes "{owner}" and "{axis.name}" both set {shared}')
                 keys[parts] = axis.name
 
-    def _number(self, axes: list[list[Choice]]) -> None:
+    def _number(self, axes: list[list[Option]]) -> None:
         count = math.prod(len(choices) for choices in axes)
         if count > ranges.MOST:
             raise StudyError(f"{self.path}: the axes make {count} cases; at most {ranges.MOST} are allowed")
 
+    # ------------------------------------------------------------------------------------------------ velocities of a search
+
+    def _labels(self) -> list[str]:
+        """Velocities of a search, the slowest first; empty for a sweep."""
+        if self.definition.transition is None:
+            return []
+        for number, axis in enumerate(self.definition.axis):
+            if axis.name == velocities.AXIS:
+                self._say(("axis", number), f'axis[{number}].name: "{velocities.AXIS}" is the axis that [transition] makes')
+        try:
+            return list(velocities.labels(self.definition.transition))
+        except ValueError as error:
+            self._say(("transition",), f"transition: {error}")
+            return []
+
+    def _velocities(self, labels: list[str], cases: list[tuple], files: dict[str, Path]) -> velocities.Velocities:
+        """The velocities with their key, which no axis may set."""
+        key = self.definition.transition.key
+        try:
+            key = key or velocities.key((files[base], overrides) for _, base, overrides in cases)
+        except ValueError as error:
+            self._say(("transition",), f"transition: {error}")
+        self._raise()
+        parts = tuple(deck_toml.key_parts(key))
+        for number, axis in enumerate(self.definition.axis):
+            for own in {axis.key} if axis.key else {name for settings in axis.variants.values() for name in settings}:
+                if _share(parts, tuple(deck_toml.key_parts(own))):
+                    self._say(("axis", number), f'axis "{axis.name}" sets {own}, and the search varies {key}')
+        self._raise()
+        return velocities.Velocities(key, tuple(labels), self.definition.transition.tolerance)
+
+    def _at_velocities(self, combinations: list[tuple], found: velocities.Velocities) -> list[tuple]:
+        """Every combination at every velocity."""
+        choices = [Option(label, short(label), {found.key: label}) for label in found.labels]
+        return [(*combination, choice) for combination in combinations for choice in choices]
+
+    def _check_impacts(self, cases: list[Planned], found: velocities.Velocities) -> None:
+        """Raises StudyError where the velocity of the search is not that of the impact."""
+        for case in cases[:: len(found.labels)]:
+            fault = velocities.fault(decks.loads(case.text), found.key, found.labels[0]) if case.text else None
+            if fault and not self.wrong:
+                self._say(("transition", "key"), f"transition.key: {fault}")
+        self._raise()
+
     # ------------------------------------------------------------------------------------------------ cases
 
-    def _without_excluded(self, axes: list[list[Choice]]) -> list[tuple[Choice, ...]]:
+    def _without_excluded(self, axes: list[list[Option]]) -> list[tuple[Option, ...]]:
         names = [axis.name for axis in self.definition.axis]
         rules = [self._rule(n, entry, dict(zip(names, axes, strict=True))) for n, entry in enumerate(self.definition.exclude)]
         used, kept = set(), []
@@ -156,7 +230,7 @@ class _Planner:
             raise StudyError(f"{self.path}: the exclusions leave no case")
         return kept
 
-    def _rule(self, number: int, entry: dict, axes: dict[str, list[Choice]]) -> dict[str, list[str]]:
+    def _rule(self, number: int, entry: dict, axes: dict[str, list[Option]]) -> dict[str, list[str]]:
         """What an exclusion names, values by axis, checked: each must be there, so that it matches something."""
         if not entry:
             self._say(("exclude", number), f"exclude[{number}]: is empty and would leave out everything")
@@ -173,7 +247,7 @@ class _Planner:
                 self._say(("exclude", number), what)
         return {} if self.wrong else rule
 
-    def _case(self, combination: tuple[Choice, ...]) -> tuple[dict[str, str], str, list[str]]:
+    def _case(self, combination: tuple[Option, ...]) -> tuple[dict[str, str], str, list[str]]:
         """Labels by axis, base deck, overrides of one combination."""
         settings = dict(self.definition.set)
         for choice in combination:
@@ -181,7 +255,8 @@ class _Planner:
         base = settings.pop(DECK, self.definition.deck)
         if not isinstance(base, str):
             raise StudyError(f"{self.path}: deck: " + ("is missing" if base is None else f"expected a file name, is {base!r}"))
-        labels = {axis.name: choice.label for axis, choice in zip(self.definition.axis, combination, strict=True)}
+        names = [*(axis.name for axis in self.definition.axis), velocities.AXIS]
+        labels = {name: choice.label for name, choice in zip(names, combination, strict=False)}
         return labels, base, [f"{key}={deck_toml.inline(value)}" for key, value in settings.items()]
 
     def _files(self, cases: list[tuple]) -> dict[str, Path]:
@@ -210,6 +285,8 @@ class _Planner:
 
     def _keys(self):
         """Every deck key of the study, and where it stands."""
+        if self.definition.transition and self.definition.transition.key:
+            yield ("transition", "key"), self.definition.transition.key
         yield from ((_place(("set",), key, self.data.get("set", {})), key) for key in self.definition.set if key != DECK)
         for number, axis in enumerate(self.definition.axis):
             if axis.key:
@@ -227,7 +304,7 @@ class _Planner:
             message = str(error)
         return Planned("", labels, base, overrides, text, message)
 
-    def _named(self, cases: list[Planned], combinations: list[tuple[Choice, ...]]) -> list[Planned]:
+    def _named(self, cases: list[Planned], combinations: list[tuple[Option, ...]]) -> list[Planned]:
         names = distinct(["_".join(choice.short for choice in combination) for combination in combinations])
         return [replace(case, name=name) for name, case in zip(names, cases, strict=True)]
 

@@ -1,4 +1,4 @@
-"""The study file: a base deck, axes to vary, exclusions. Strict TOML in, a frozen and validated Definition out."""
+"""The study file: a base deck, axes to vary, exclusions, or a search in velocity. Strict TOML in, a frozen Definition out."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Annotated, Any
 from pydantic import AfterValidator, Field, ValidationError, model_validator
 
 from hydro2d import deck_toml
-from hydro2d.deck_base import Section
+from hydro2d.deck_base import PositiveSpeed, Section, Speed
 from hydro2d.deck_errors import DeckError, Sources, spelled, unknown
 
 #: the key of a variant that names another base deck
@@ -77,23 +77,41 @@ class Axis(Section):
         return self
 
 
+class Transition(Section):
+    """The impact velocities between which `hydro2d transition` searches, for every combination of the axes."""
+
+    from_: Speed = Field(alias="from", description="slowest: the rod should be rigid")
+    to: Speed = Field(description="fastest: the rod should erode; negative, as `from`, for a body that flies to -z")
+    tolerance: PositiveSpeed = Field(25.0, description="widest bracket; velocities lie this far apart, counted from `from`")
+    key: str | None = Field(None, description="deck key that is varied; default: the velocity of the deck's penetrating rod")
+
+    @model_validator(mode="after")
+    def _growing(self):
+        if not abs(self.from_) < abs(self.to) or self.from_ * self.to <= 0:
+            raise ValueError(f"from = {self.from_:g} m/s, to = {self.to:g} m/s: to must be the faster, in the same direction")
+        return self
+
+
 class Definition(Section):
-    """A study file."""
+    """A study file: of a sweep, with axes, or of a search for a transition, with or without."""
 
     title: str = Field("", description="a line for tables and reports")
     deck: str | None = Field(None, description="base deck: beside the study file, or as `hydro2d run` finds decks")
     out: str | None = Field(None, description="directory of the study; default: runs/<name of the study file>")
     set: Keys = Field({}, description="deck keys and values for every case")
-    axis: Annotated[tuple[Axis, ...], AfterValidator(_filled)] = Field(description="what is varied; the first varies slowest")
+    axis: Annotated[tuple[Axis, ...], AfterValidator(_filled)] = Field((), description="what is varied, the first slowest")
+    transition: Transition | None = Field(None, description="the search of `hydro2d transition`")
     exclude: tuple[dict[str, Any], ...] = Field((), description="combinations that are left out")
 
 
-_TABLES: dict[tuple, type[Section]] = {(): Definition, ("axis",): Axis, ("axis", "range"): Range}
+_TABLES: dict[tuple, type[Section]] = {
+    (): Definition, ("axis",): Axis, ("axis", "range"): Range, ("transition",): Transition,
+}  # fmt: skip
 
 
 def is_study(data: dict) -> bool:
     """Whether parsed TOML is a study and not a deck."""
-    return "axis" in data
+    return "axis" in data or "transition" in data
 
 
 def read(path: Path, overrides: list[str]) -> tuple[Definition, str, dict, Sources]:
@@ -133,9 +151,12 @@ def _assigned(text: str) -> tuple[str, Any]:
 
 def _validated(data: dict, sources: Sources) -> Definition:
     try:
-        return Definition.model_validate(data)
+        found = Definition.model_validate(data)
     except ValidationError as error:
         raise StudyError(explained(error, data, sources, _TABLES)) from None
+    if not (found.axis or found.transition):
+        raise StudyError(f"{sources.where(('axis',), data)}: axis: is missing")
+    return found
 
 
 def explained(error: ValidationError, data: dict, sources: Sources, tables: dict[tuple, type[Section]]) -> str:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from hydro2d import check
 from hydro2d import deck as decks
 from hydro2d.deck_errors import DeckError
@@ -14,12 +16,36 @@ HEADS = ("case", "deck", "cells", "cycles", "time")
 
 def show(plan: Plan, workers: int) -> int:
     """Prints the table of the cases and what is wrong with them. Returns 0, or 2 where a case is invalid."""
-    found = [_row(case) for case in plan.cases]
+    found = _table(plan, plan.cases)
+    total = sum(seconds for _, seconds, _ in found)
+    print(f"\n{len(found)} cases, about {duration(total / min(workers, len(found)))} on {workers} workers (a guess)")
+    return _wrong(found)
+
+
+def show_search(plan: Plan, workers: int) -> int:
+    """The same for a search: the ends of every combination, and how many runs it takes."""
+    count = len(plan.search.labels)
+    found = _table(plan, [case for number, case in enumerate(plan.cases) if number % count in (0, count - 1)])
+    combinations = len(plan.cases) // count
+    most = min(2 + 2 * (count - 2).bit_length(), count)
+    seconds = sum(seconds for _, seconds, _ in found) / 2 * most / min(workers, combinations)
+    of_axes = f"{combinations} combinations of the axes, " if combinations > 1 else ""
+    print(f"\n{of_axes}{count} velocities {plan.search.tolerance:g} m/s apart by {plan.search.key}")
+    print(f"at most about {most} runs{' each' if of_axes else ''}, {duration(seconds)} on {workers} workers (a guess)")
+    return _wrong(found)
+
+
+def _table(plan: Plan, cases: Sequence[Planned]) -> list[tuple[tuple[str, ...], float, str]]:
+    """Prints the title and the table of cases; returns what `_row` says of each."""
+    found = [_row(case) for case in cases]
     print(f"{plan.name}: {plan.title}\n" if plan.title else f"{plan.name}\n")
     for line in lines([cells for cells, _, _ in found], HEADS):
         print(line)
-    total = sum(seconds for _, seconds, _ in found)
-    print(f"\n{len(found)} cases, about {duration(total / min(workers, len(found)))} on {workers} workers (a guess)")
+    return found
+
+
+def _wrong(found: Sequence[tuple[tuple[str, ...], float, str]]) -> int:
+    """Prints what is wrong with cases. Returns the exit status."""
     wrong = [(cells[0], message) for cells, _, message in found if message]
     for name, message in wrong:
         print("\n".join(f"{name}: {text}" for text in message.splitlines()))

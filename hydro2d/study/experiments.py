@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from math import isclose
 
+from ..model_transition import Shot
 from ..model_transition import experiments as catalogue
 from .record import Record, Setup
 
@@ -38,6 +39,17 @@ class Measurement:
         return depth - self.depth, "at most" if bound else AT_LEAST if perforated else "exact"
 
 
+def of_materials(setup: Setup) -> list[Shot]:
+    """The catalogue's shots of a rod's and a target's material and of its nose."""
+    return [shot for shot in catalogue() if (shot.rod, shot.target, shot.nose) == setup[:3]]
+
+
+def same_geometry(shot: Shot, setup: Setup) -> bool:
+    """Whether a shot's rod has the size of a setup's."""
+    pairs = ((shot.diameter, setup.diameter), (shot.length, setup.length))
+    return all(isclose(one, other, rel_tol=SAME_GEOMETRY) for one, other in pairs)
+
+
 def measured(setup: Setup, records: Sequence[Record]) -> list[Measurement]:
     """The experiments of a setup by velocity: the catalogue's shots, and what the decks of its runs name beside them.
 
@@ -45,10 +57,8 @@ def measured(setup: Setup, records: Sequence[Record]) -> list[Measurement]:
     """
     found = [
         Measurement(shot.velocity, shot.depth, shot.depth_is, f"shot {shot.number} of the CTH nose-shape study")
-        for shot in catalogue()
-        if (shot.rod, shot.target, shot.nose) == setup[:3]
-        and isclose(shot.diameter, setup.diameter, rel_tol=SAME_GEOMETRY)
-        and isclose(shot.length, setup.length, rel_tol=SAME_GEOMETRY)
+        for shot in of_materials(setup)
+        if same_geometry(shot, setup)
     ]
     for record in records:
         data = record.experiment

@@ -5,6 +5,7 @@
     cases/<name>/       a run directory for each case, as `hydro2d run` makes it
     cases/<name>/failed.json   why the last try failed, where it did
     sweep.log           what happened
+    transition.json     what a search for a transition has found
 """
 
 from __future__ import annotations
@@ -22,6 +23,7 @@ from hydro2d import __version__, run, snapshot
 from hydro2d.deck_errors import nearest
 from hydro2d.files import holder, write_json, write_text
 from hydro2d.results import STUDY
+from hydro2d.study import velocities
 from hydro2d.study.definition import StudyError
 
 TEXT, CASES, LOG, LOCK = "study.toml", "cases", "sweep.log", "study.lock"
@@ -29,6 +31,8 @@ FAILED = "failed.json"
 
 WAITING, RUNNING, DONE, INTERRUPTED = "waiting", "running", "done", "interrupted"
 UNPHYSICAL, FAILED_STATUS, INVALID = "unphysical", "failed", "invalid"
+#: what is not run again
+ENDED = (INVALID, DONE, UNPHYSICAL)
 STATUSES = (WAITING, RUNNING, DONE, INTERRUPTED, UNPHYSICAL, FAILED_STATUS, INVALID)
 
 
@@ -75,10 +79,20 @@ class Case:
 
 
 @dataclass(frozen=True)
+class Interval:
+    """Where a search for a transition may look: velocities of a key of the deck, m/s, and its widest bracket, m/s."""
+
+    key: str
+    speeds: tuple[float, ...]
+    tolerance: float
+
+
+@dataclass(frozen=True)
 class Study:
     """A study directory, or runs that were put together; without axes the decks say what varies.
 
     title, name : of the study;  axes, cases : in the order of the file;  entries : the cases in study.json
+    search : of a search for a transition, whose last axis is the velocity and whose cases are those that were run
     """
 
     directory: Path
@@ -87,6 +101,7 @@ class Study:
     axes: tuple[Axis, ...]
     cases: tuple[Case, ...]
     entries: tuple[dict, ...] = ()
+    search: Interval | None = None
 
     def case(self, number: int) -> Case:
         """One case of a study directory, read again."""
@@ -106,16 +121,31 @@ def write(plan, directory: Path) -> None:
     directory = Path(directory)
     try:
         write_text(directory / TEXT, plan.text)
-        write_json(directory / STUDY, {
-            "title": plan.title,
-            "name": plan.name,
-            "version": __version__,
-            "study_sha256": hashlib.sha256(plan.text.encode()).hexdigest(),
-            "axes": plan.axes,
-            "cases": [_entry(case) for case in plan.cases],
-        })  # fmt: skip
+        write_json(directory / STUDY, _data(plan))
     except OSError as error:
         raise StudyError(f"{directory}: the study cannot be written: {error.strerror or error}") from None
+
+
+def of_plan(plan, directory: Path) -> Study:
+    """A plan with the state of its cases in a directory, whether it is written there or not."""
+    return _study(Path(directory), _data(plan))
+
+
+def _data(plan) -> dict:
+    """What study.json holds of a plan."""
+    found = plan.search
+    search = found and {
+        "key": found.key, "speeds_m_s": [velocities.speed(label) for label in found.labels], "tolerance_m_s": found.tolerance,
+    }  # fmt: skip
+    return {
+        "title": plan.title,
+        "name": plan.name,
+        "version": __version__,
+        "study_sha256": hashlib.sha256(plan.text.encode()).hexdigest(),
+        "axes": plan.axes,
+        "cases": [_entry(case) for case in plan.cases],
+        "search": search,
+    }
 
 
 def _entry(case) -> dict:
@@ -144,14 +174,22 @@ def read(directory: Path | str) -> Study:
         raise StudyError(f"{directory} is not a study directory: it has no {STUDY}")
     data = read_json(directory / STUDY)
     try:
-        axes = tuple(Axis(entry["name"], entry["key"], tuple(map(str, entry["values"]))) for entry in data["axes"])
-        entries = tuple(data["cases"])
-        cases = tuple(_case(directory, entry) for entry in entries)
-        if not cases:
-            raise StudyError(f"{directory / STUDY}: the study has no cases")
-        return Study(directory, data.get("title") or data["name"], data["name"], axes, cases, entries)
+        found = _study(directory, data)
     except (KeyError, TypeError, AttributeError) as error:
         raise StudyError(f"{directory / STUDY} is not that of a study: {error!r}") from None
+    if not found.cases:
+        raise StudyError(f"{directory / STUDY}: the study has no cases")
+    return found
+
+
+def _study(directory: Path, data: dict) -> Study:
+    """What study.json holds, with the state of every case."""
+    axes = tuple(Axis(entry["name"], entry["key"], tuple(map(str, entry["values"]))) for entry in data["axes"])
+    entries = tuple(data["cases"])
+    cases = tuple(_case(directory, entry) for entry in entries)
+    found = data.get("search")
+    search = found and Interval(found["key"], tuple(found["speeds_m_s"]), found["tolerance_m_s"])
+    return Study(directory, data.get("title") or data["name"], data["name"], axes, cases, entries, search)
 
 
 def gather(directories: Sequence[Path | str]) -> Study:

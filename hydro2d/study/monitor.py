@@ -6,7 +6,7 @@ import sys
 import time
 from collections import Counter
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from datetime import datetime
 from pathlib import Path
 
@@ -39,15 +39,15 @@ def counts(cases: list[Case]) -> str:
     return ", ".join([f"{found[DONE]} of {len(cases)} done", *others])
 
 
-def left(cases: list[Case], workers: int) -> float | None:
-    """Seconds until all cases are done, at the mean time of those that are; None where nothing is known yet."""
+def left(cases: list[Case], workers: int, further: int = 0) -> float | None:
+    """Seconds until all cases and so many further ones are done, at the mean time of those that are; None: not known yet."""
     running = [case.progress for case in cases if case.status == RUNNING]
     rest = [now["left_s"] for now in running if now.get("left_s") is not None]
     whole = [case.summary["wall_s"] for case in cases if case.status == DONE]
     whole = whole or [now["wall_s"] + now["left_s"] for now in running if now.get("left_s") is not None]
     if not whole or not workers:
         return None
-    waiting = len([case for case in cases if case.status == WAITING]) + len(running) - len(rest)
+    waiting = further + len([case for case in cases if case.status == WAITING]) + len(running) - len(rest)
     return (sum(rest) + waiting * sum(whole) / len(whole)) / workers
 
 
@@ -82,14 +82,20 @@ class Board:
 
     cases : as they were read last; those of `moving` are read again for every line and table
     workers : tells how many there are
+    further : cases that are expected to come
     """
 
     def __init__(self, study: Study, log, quiet: bool):
-        self.study, self.cases = study, list(study.cases)
-        self.numbers = {case.name: n for n, case in enumerate(study.cases)}
+        self.follow(study)
         self.moving: set[str] = set()
+        self.further = 0
         self.workers: Callable[[], int] = lambda: 0
         self._log, self._quiet, self._last = log, quiet, time.monotonic()
+
+    def follow(self, study: Study) -> None:
+        """Takes a study, or the same one with other cases."""
+        self.study, self.cases = study, list(study.cases)
+        self.numbers = {case.name: n for n, case in enumerate(study.cases)}
 
     def line(self, text: str) -> None:
         """A line for the log and the screen."""
@@ -122,8 +128,9 @@ class Board:
     def summary(self) -> str:
         for name in self.moving:
             self.look(name)
-        seconds = left(self.cases, self.workers())
-        return counts(self.cases) + ("" if seconds is None else f"; {duration(seconds)} left")
+        seconds = left(self.cases, self.workers(), self.further)
+        coming = f", about {self.further} to come" if self.further else ""
+        return counts(self.cases) + coming + ("" if seconds is None else f"; {duration(seconds)} left")
 
     def update(self) -> None:
         """Called twice a second; speaks when it is time."""
@@ -175,10 +182,12 @@ class Live(Board):
 @contextmanager
 def board(study: Study, quiet: bool) -> Iterator[Board]:
     """The board that suits the output; appends to the log of the study."""
-    with open(Path(study.directory) / LOG, "a", encoding="utf-8") as file:
-        kind = Live if not quiet and sys.stdout.isatty() else Board
-        shown = kind(study, file, quiet)
-        try:
-            yield shown
-        finally:
-            shown.close()
+    file = open(Path(study.directory) / LOG, "a", encoding="utf-8")
+    kind = Live if not quiet and sys.stdout.isatty() else Board
+    shown = kind(study, file, quiet)
+    try:
+        yield shown
+    finally:
+        shown.close()
+        with suppress(OSError):  # lines that could not be written have been told
+            file.close()

@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from datetime import UTC, datetime
 from importlib import resources
 
-from .. import __version__
-from . import differences
+from .. import __version__, model_transition
+from . import differences, regimes
 from .contents import Contents
 from .markup import Html, element, table
 from .pictures import Picture
@@ -23,7 +23,9 @@ POLICY = "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-s
 def page(contents: Contents, pictures: Sequence[Picture]) -> str:
     """The whole file."""
     study = contents.study
+    search = [("transitions", "Transitions", _transitions(contents))] if study.search else []
     sections = [
+        *search,
         ("results", "Results", _results(contents)),
         ("figures", "Figures", _figures(pictures)),
         ("conservation", "Conservation and cost", _books(contents)),
@@ -80,6 +82,31 @@ def _cell(row: Row, column: Column) -> Html:
         return element("td", shown, element("span", row["message"], class_="message"))
     value = row.get(column.name) if column.number else None
     return element("td", shown, class_="number" if column.number else None, data_value=value)
+
+
+def _transitions(contents: Contents) -> Html:
+    """The brackets of a search, one row for each combination of the axes; what is open; the criteria."""
+    found = regimes.of_study(contents.study, contents.records)
+    names = list(dict.fromkeys(bracket.name for each in found for bracket in each.brackets))
+    rows = [_of_combination(each, names) for each in found]
+    notes = [element("li", f"{each.title}: {note}") for each in found for note in each.notes]
+    criteria = [(element("dt", name), element("dd", text)) for name, text in regimes.CRITERIA.items()]
+    caption = "Impact velocities between which the regime changes, beside what is known and what analytic models predict"
+    legend = f"Known and models: where a rod is no longer rigid. {regimes.FILE} has all of it, with the models' inputs."
+    return Html(
+        table(caption, ("Combination", *names, "Known", "Models", "Runs"), rows)
+        + (element("ul", notes, class_="legend") if notes else "")
+        + element("dl", criteria)
+        + element("p", legend, class_="legend")
+    )
+
+
+def _of_combination(each: regimes.Transitions, names: Sequence[str]) -> Html:
+    brackets = {bracket.name: regimes.in_words(bracket) for bracket in each.brackets}
+    known = [f"{bracket.name}: {model_transition.extent(bracket)}" for bracket in each.known]
+    models = [f"{entry.model.name}: {entry.in_words}" for entry in each.predictions]
+    cells = [*(brackets.get(name, "–") for name in names), "; ".join(known) or "–", "; ".join(models) or "–", len(each.runs)]
+    return element("tr", element("th", each.title, scope="row"), [element("td", cell) for cell in cells])
 
 
 def _results(contents: Contents) -> Html:

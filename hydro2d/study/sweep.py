@@ -1,4 +1,7 @@
-"""A sweep: the cases of a study given to dask, and what becomes of them told."""
+"""A sweep: the cases of a study given to dask, and what becomes of them told.
+
+Which cases a study has and which run next is a `choice.Choice`.
+"""
 
 from __future__ import annotations
 
@@ -7,7 +10,7 @@ import queue
 import socket
 import time
 import uuid
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import AbstractContextManager, contextmanager
 from datetime import UTC, datetime
 from pathlib import Path
@@ -20,6 +23,7 @@ from hydro2d.run import Interrupt, clear, signals
 from hydro2d.study import layout, monitor
 from hydro2d.study.case import Outcome, kernels
 from hydro2d.study.cases import Plan
+from hydro2d.study.choice import Choice
 from hydro2d.study.definition import StudyError
 from hydro2d.study.layout import CASES, DONE, FAILED, FAILED_STATUS, INTERRUPTED, INVALID, LOCK, STUDY, UNPHYSICAL, WAITING
 
@@ -73,9 +77,9 @@ def _names(names: list[str]) -> str:
     return f"{len(names)} case{'s' if len(names) > 1 else ''} ({shown})"
 
 
-def sweep(plan: Plan, directory: Path, connect: AbstractContextManager, *, threads: int = 1, resume: bool = False,
+def sweep(choice: Choice, directory: Path, connect: AbstractContextManager, *, threads: int = 1, resume: bool = False,
           overwrite: bool = False, quiet: bool = False) -> int:  # fmt: skip
-    """Runs all cases of a study and returns the exit status.
+    """Runs the chosen cases of a study and returns the exit status.
 
     connect : gives a dask client, see cluster.local, joined and slurm
     threads : numba threads of a case
@@ -84,24 +88,24 @@ def sweep(plan: Plan, directory: Path, connect: AbstractContextManager, *, threa
 
     Raises StudyError, LockError (another sweep runs there).
     """
-    told, interrupt = changes(plan, directory, resume=resume, overwrite=overwrite), Interrupt()
+    told, interrupt = changes(choice.compared(directory), directory, resume=resume, overwrite=overwrite), Interrupt()
     layout.make(directory)
     with locked(directory / LOCK):
-        layout.write(plan, directory)
         if overwrite and not resume:
-            _clear(layout.read(directory))
-        return _sweep(plan, layout.read(directory), told, connect, interrupt, threads, overwrite, quiet)
+            _clear(layout.of_plan(choice.plan, directory))
+        layout.write(choice.begin(directory), directory)
+        return _sweep(choice, layout.read(directory), told, connect, interrupt, threads, overwrite, quiet)
 
 
-def _sweep(plan: Plan, study: layout.Study, told: list[str], connect: AbstractContextManager, interrupt: Interrupt,
+def _sweep(choice: Choice, study: layout.Study, told: list[str], connect: AbstractContextManager, interrupt: Interrupt,
            threads: int, overwrite: bool, quiet: bool) -> int:  # fmt: skip
     with monitor.board(study, quiet) as board, signals(interrupt), _dask_told(board):
-        board.line(f"{study.name}: {len(study.cases)} cases in {study.directory}")
+        board.line(choice.heading(study))
         for text in told:
             board.line(text)
         started = time.perf_counter()
         with connect as client:
-            spent = _Sweep(plan, study, client, board, threads, overwrite).run(interrupt)
+            spent = _Sweep(choice, client, board, threads, overwrite).run(interrupt)
         return _end(board, interrupt, time.perf_counter() - started, spent)
 
 
@@ -116,19 +120,21 @@ def _clear(study: layout.Study) -> None:
 class _Sweep:
     """The tasks that dask has, by the key of their future."""
 
-    def __init__(self, plan: Plan, study: layout.Study, client, board: monitor.Board, threads: int, overwrite: bool):
-        self.study, self.client, self.board = study, client, board
+    def __init__(self, choice: Choice, client, board: monitor.Board, threads: int, overwrite: bool):
+        self.choice, self.client, self.board = choice, client, board
         self.threads, self.overwrite = threads, overwrite
-        self.texts = {case.name: case.text for case in plan.cases}
+        self.texts = {case.name: case.text for case in choice.plan.cases}
         self.name = uuid.uuid4().hex[:12]
         self.tasks: dict[str, layout.Case] = {}
+        self.compiling = False
         self.spent = 0.0
         self.ended: queue.Queue = queue.Queue()
+        board.workers = lambda: len(client.scheduler_info(n_workers=-1)["workers"])
 
     def run(self, interrupt: Interrupt) -> float:
-        """Returns when every case has ended: the seconds that they took in their workers."""
-        self._submit()
+        """Returns when every case has ended and no other is wanted: the seconds that they took in their workers."""
         told = False
+        self._begin()
         while self.tasks:
             if interrupt.reason:
                 if not told:
@@ -139,25 +145,46 @@ class _Sweep:
                 self._finish(self.ended.get(timeout=BEAT))
             except queue.Empty:
                 pass
+            if not interrupt.reason:
+                self._begin()
             self.board.update()
         return self.spent
 
-    def _submit(self) -> None:
+    def _begin(self) -> None:
+        """Gives dask the cases that are wanted now."""
+        while names := self.choice.wanted(self.board.cases, self.board.moving, self.board.workers()):
+            if not set(names) <= set(self.board.numbers):
+                self._enlarge(names)
+            todo = [case for name in names if (case := self.board.look(name)).status not in layout.ENDED]
+            if todo and not self.compiling:
+                self.compiling = True
+                if not compilation.is_compiled(kernels(decks.loads(self.texts[todo[0].name]))):
+                    self.board.line("kernels are compiled first where they are not kept from earlier runs: a minute or more")
+            for case in todo:
+                self._give(case)
+        self.board.further = self.choice.further(self.board.cases, self.board.moving)
+
+    def _enlarge(self, names: Sequence[str]) -> None:
+        """Takes further cases into the study; where its file cannot be written, the cases run and the log has the reason."""
+        plan = self.choice.enlarged(names)
+        try:
+            layout.write(plan, self.board.study.directory)
+        except StudyError as error:
+            self.board.line(str(error))
+        self.board.follow(layout.of_plan(plan, self.board.study.directory))
+
+    def _give(self, case: layout.Case) -> None:
+        """Gives dask a case; those that stand first in the study go first."""
         from hydro2d.study import worker
 
-        todo = [case for case in self.board.cases if case.status not in (INVALID, DONE, UNPHYSICAL)]
-        self.board.moving = {case.name for case in todo}
-        self.board.workers = lambda: len(self.client.scheduler_info(n_workers=-1)["workers"])
-        if todo and not compilation.is_compiled(kernels(decks.loads(self.texts[todo[0].name]))):
-            self.board.line("kernels are compiled first where they are not kept from earlier runs: a minute or more")
-        for case in todo:
-            key = f"{case.name}-{self.name}"
-            self.tasks[key] = case
-            future = self.client.submit(
-                worker.work, self.name, str(case.directory.resolve()), self.texts[case.name], self.threads,
-                self.overwrite, key=key, pure=False,
-            )  # fmt: skip
-            future.add_done_callback(self.ended.put)
+        key = f"{case.name}-{self.name}"
+        self.tasks[key] = case
+        self.board.moving.add(case.name)
+        future = self.client.submit(
+            worker.work, self.name, str(case.directory.resolve()), self.texts[case.name], self.threads,
+            self.overwrite, key=key, pure=False, priority=-self.board.numbers[case.name],
+        )  # fmt: skip
+        future.add_done_callback(self.ended.put)
 
     def _stop(self, reason: str) -> None:
         from hydro2d.study import worker
@@ -181,6 +208,7 @@ class _Sweep:
         self.board.line(f"{name}: {', '.join(filter(None, words))} {where}".rstrip())
         if outcome.trace:
             self.board.note(outcome.trace)
+        self.board.line(self.choice.news(self.board.cases, case.name))
 
     def _record(self, case: layout.Case, outcome: Outcome) -> None:
         """Writes failed.json; where that is impossible, table and log have the reason."""

@@ -14,7 +14,7 @@ from hydro2d.history import History
 from hydro2d.run import deck_hash
 
 BASE = "problems/cth_nose_shape/hemi_5083_1086_quick.toml"
-LENGTH, RADIUS, TIME = 0.09779, 0.0033784, 6e-4
+LENGTH, RADIUS, MASS, TIME = 0.09779, 0.0033784, 0.063, 6e-4
 
 
 @functools.cache
@@ -24,10 +24,10 @@ def deck_text(*overrides: str) -> str:
 
 
 def write_run(directory: Path, velocity: float = 1086.0, depth: float = 0.31, shortened: float = 0.02, rows: int = 200,
-              overrides: tuple[str, ...] = (), **summary) -> Path:  # fmt: skip
-    """A finished run into a directory; ``summary`` replaces entries of summary.json."""
+              overrides: tuple[str, ...] = (), text: str = "", **summary) -> Path:  # fmt: skip
+    """A finished run into a directory; ``text`` is another deck's, ``summary`` replaces entries of summary.json."""
     directory.mkdir(parents=True)
-    (directory / "deck.toml").write_text(deck_text(f"body.rod.velocity={velocity} m/s", *overrides))
+    (directory / "deck.toml").write_text(text or deck_text(f"body.rod.velocity={velocity} m/s", *overrides))
     _write_history(directory, velocity, depth, shortened, rows)
     _write_outlines(directory, depth, shortened)
     write_json(directory / "summary.json", _summary(depth, shortened) | summary)
@@ -40,7 +40,7 @@ def _write_history(directory: Path, velocity: float, depth: float, shortened: fl
         history.append({
             "time": share * TIME, "cycle": int(1000 * share), "penetration_depth_m": depth * (2.0 - share) * share,
             "rod_tail_velocity_m_s": velocity * (1.0 - share), "rod_length_m": LENGTH * (1.0 - shortened * share),
-            "rod_max_radius_m": RADIUS * (1.0 + shortened), "regime": "rigid",
+            "rod_max_radius_m": RADIUS * (1.0 + shortened), "rod_mass_kg": MASS, "regime": "rigid",
         })  # fmt: skip
     history.write()
 
@@ -66,7 +66,7 @@ def _summary(depth: float, shortened: float) -> dict:
         "status": "done", "stop_reason": "speed of rod below 5 m/s", "time_s": TIME, "cycles": 1000, "cells": 60984,
         "wall_s": 321.3, "ns_per_cell_cycle": 120.0, "version": "0.1.0", "deck_sha256": "ab" * 32,
         "penetration_depth_m": depth, "rod_length_m": LENGTH * (1.0 - shortened), "rod_initial_length_m": LENGTH,
-        "rod_max_radius_m": RADIUS * (1.0 + shortened), "rod_initial_radius_m": RADIUS, "rod_mass_kg": 0.063,
+        "rod_max_radius_m": RADIUS * (1.0 + shortened), "rod_initial_radius_m": RADIUS, "rod_mass_kg": MASS,
         "rod_tail_velocity_m_s": 3.0, "regime": "rigid" if shortened < 0.02 else "deforming",
         "conservation": {
             "mass": {"rod": -3e-15, "plate": 1e-14}, "axial_momentum": -2e-16, "total_energy": 3e-9, "start_energy_J": 37000.0,

@@ -111,6 +111,7 @@ def test_time_left():
     assert monitor.left([done, waiting, waiting, running], 2) == 120.0
     assert monitor.left([running, waiting], 1) == 140.0
     assert monitor.left([waiting], 1) is None
+    assert monitor.left([done, waiting, running], 1, further=2) == 340.0
 
 
 def test_an_existing_study_is_kept_unless_told(plan, written, tmp_path):
@@ -153,6 +154,8 @@ def test_the_board_tells_of_running_cases(plan, written, capsys, monkeypatch):
         board.workers = lambda: 1
         board.line("two\nlines")
         board.update()
+        board.further = 5
+        assert "2 invalid, about 5 to come; 12 min 10 s left" in board.summary()
     shown = capsys.readouterr().out
     assert "1 of 6 done, 2 waiting, 1 running, 2 invalid; 3 min 50 s left" in shown
     assert "  ke_0.2  running  -  50 %  30 s  here:7" in shown

@@ -38,11 +38,11 @@ def write(folder: Path, text: str = STUDY) -> Path:
     return file
 
 
-def start(*arguments, **options) -> subprocess.Popen:
-    """`hydro2d sweep` as a process of its own."""
+def start(*arguments, command: str = "sweep", **options) -> subprocess.Popen:
+    """`hydro2d sweep`, or another command, as a process of its own."""
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join([str(ROOT), os.environ.get("PYTHONPATH", "")])}
-    command = [sys.executable, "-m", "hydro2d", "sweep", *map(str, arguments)]
-    return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=environment, **options)
+    words = [sys.executable, "-m", "hydro2d", command, *map(str, arguments)]
+    return subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=environment, **options)
 
 
 def sweep(*arguments, **options) -> tuple[int, str]:

@@ -1,0 +1,272 @@
+"""What the runs of a search say: transitions by regime and by depth, beside experiments, the CTH study and analytic models."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+from .. import __version__, model_transition, penetrator
+from .. import model as models
+from ..files import write_json
+from ..model_text import columns
+from ..model_transition import Bracket, Comparison, Prediction, extent
+from ..penetration.model import InputError
+from . import bisection, experiments, record, velocities
+from .layout import Interval, Study, StudyError
+from .record import Record
+
+FILE = "transition.json"
+#: names of the transitions by the regime that they lead to
+NAMES = {"deforming": "rigid to deforming", "eroding": "to eroding"}
+FALL, LIMIT = "depth falls", "hydrodynamic limit"
+#: how runs end that would have gone on, and the share of the impact velocity from which on a rod still moves
+CUT, MOVING = ("end time", "number of cycles"), 0.01
+CRITERIA = {
+    "rigid": f"less than {100 * penetrator.RIGID_LENGTH:g} % of the length lost, no section beyond "
+             f"{1 + penetrator.RIGID_RADIUS:g} of the radius",
+    "eroding": f"more than {100 * penetrator.ERODED_MASS:g} % of the mass has left the core; what is neither is deforming",
+    FALL: "between the deepest run and the next faster one, however far apart: no runs are made for it",
+    LIMIT: f"as for experiments: {model_transition.RULE}; likewise from the same runs",
+}  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Run:
+    """One case: its velocity in m/s, its regime, or None and why there is none."""
+
+    record: Record
+    velocity: float
+    regime: str | None
+    reason: str = ""
+
+    @property
+    def cut(self) -> bool:
+        """Whether the run ended while the rod still moved."""
+        summary = self.record.case.summary
+        speed = abs(summary.get("rod_mean_velocity_m_s") or 0.0)
+        return summary.get("stop_reason") in CUT and speed > MOVING * self.velocity
+
+    def data(self) -> dict:
+        """For programs, SI."""
+        case, summary = self.record.case, self.record.case.summary
+        names = ("rod_length_m", "rod_initial_length_m", "rod_max_radius_m", "rod_initial_radius_m", "rod_core_mass_kg")
+        return {
+            "case": case.name, "velocity_m_s": self.velocity, "status": case.status, "regime": self.regime,
+            "reason": self.reason, "depth_m": self.record.depth, "perforated": self.record.perforated,
+            **{name: summary.get(name) for name in names},
+            "rod_first_mass_kg": self.record.first.get("rod_mass_kg"), "stop_reason": summary.get("stop_reason"),
+        }  # fmt: skip
+
+    def row(self) -> tuple[str, ...]:
+        """Velocity, regime, depth, length, radius and core over their first values, and how it ended."""
+        value, first = self.record.case.summary.get, self.record.first.get("rod_mass_kg")
+        depth = "" if self.record.depth is None else f"{_at_least(self)}{100 * self.record.depth:.2f} cm"
+        return (
+            f"{self.velocity:g} m/s", self.regime or self.record.case.status, depth,
+            _share(value("rod_length_m"), value("rod_initial_length_m")),
+            _share(value("rod_max_radius_m"), value("rod_initial_radius_m")),
+            _share(value("rod_core_mass_kg"), first), self.reason or str(value("stop_reason") or ""),
+        )  # fmt: skip
+
+
+HEADS = ("velocity", "regime", "depth", "length", "radius", "core mass", "end")
+
+
+def _share(value: float | None, first: float | None) -> str:
+    return "" if value is None or not first else f"{value / first:.3f}"
+
+
+def _at_least(run: Run) -> str:
+    return "at least " if run.record.perforated else ""
+
+
+def judge(found: Record) -> Run:
+    """The regime of a case at its end.
+
+    None for one that is not done, and where the rod went through the target and out of the mesh: what has left the mesh would
+    count as eroded.
+    """
+    case = found.case
+    velocity = found.velocity if found.velocity is not None else velocities.speed(case.values[velocities.AXIS])
+    if not found.done:
+        reason = case.message.splitlines()[0] if case.message else ""
+        return Run(found, velocity, None, f"{case.status}: {reason}" if reason else case.status)
+    first, mass = found.first.get("rod_mass_kg"), found.value("rod_mass_kg")
+    if found.perforated and first and mass < (1.0 - penetrator.ERODED_MASS) * first:
+        why = "the rod went through the target and left the mesh; stop.perforation = true ends a run before that"
+        return Run(found, velocity, None, why)
+    return Run(found, velocity, case.summary.get("regime"))
+
+
+@dataclass(frozen=True)
+class Transitions:
+    """What the runs of one combination of the axes say.
+
+    values : labels of the axes without the velocity;  brackets : by regime, by depth, by the hydrodynamic limit
+    settled : by the name of a bracket of regimes, whether no further run could narrow it
+    notes : what is open and why, what is out of order, which runs did not end at rest
+    comparison : models, experiments, the CTH study and last these runs; None where there is nothing to compare, as a note says
+    """
+
+    title: str
+    values: dict[str, str]
+    brackets: list[Bracket]
+    settled: dict[str, bool]
+    runs: list[Run]
+    notes: list[str]
+    comparison: Comparison | None
+
+    @property
+    def known(self) -> list[Bracket]:
+        """Brackets of experiments and of the CTH study."""
+        return self.comparison.brackets[:-1] if self.comparison else []
+
+    @property
+    def predictions(self) -> list[Prediction]:
+        """What the analytic models say."""
+        return self.comparison.predictions if self.comparison else []
+
+    def lines(self) -> list[str]:
+        """For reading."""
+        told = [self.title, *columns((each.name, in_words(each), each.source) for each in self.brackets)]
+        told += [f"  {note}" for note in self.notes]
+        told += ["", *columns([HEADS, *(run.row() for run in self.runs)])]
+        if self.comparison is not None:
+            heading, _, *rest = self.comparison.lines(inputs=False)
+            told += ["", f"  {heading}", *rest]
+        return told
+
+    def data(self) -> dict:
+        """For programs, SI."""
+        return {
+            "title": self.title,
+            "values": self.values,
+            "transitions": [{"name": each.name, "low_m_s": each.low, "high_m_s": each.high, "in_words": each.source,
+                             "settled": self.settled.get(each.name)} for each in self.brackets],
+            "notes": self.notes,
+            "runs": [run.data() for run in self.runs],
+            "comparison": self.comparison and self.comparison.data(),
+        }  # fmt: skip
+
+
+def in_words(bracket: Bracket) -> str:
+    """The extent of a bracket of `Transitions`."""
+    return extent(bracket, "deeper" if bracket.name == LIMIT else "rigid")
+
+
+def label(values: Mapping[str, str]) -> str:
+    """A combination in words, by its axes without the velocity."""
+    return ", ".join(f"{name} = {value}" for name, value in values.items() if name != velocities.AXIS)
+
+
+def so_far(found: Mapping[float, str]) -> list[str]:
+    """The transitions of regimes by velocity in m/s, in words."""
+    return [f"{name} {extent(Bracket(name, *bisection.bracket(found, regime), ''))}" for regime, name in NAMES.items()]
+
+
+def of_study(study: Study, records: Sequence[Record] | None = None) -> list[Transitions]:
+    """The transitions of every combination of a search's axes. ``records`` : of the cases, where they have been read."""
+    groups: dict[str, list[Record]] = {}
+    for each in records if records is not None else map(record.read, study.cases):
+        groups.setdefault(label(each.case.values), []).append(each)
+    return [_transitions(study, words or study.title, members) for words, members in groups.items()]
+
+
+def _transitions(study: Study, title: str, members: Sequence[Record]) -> Transitions:
+    runs = sorted(map(judge, members), key=lambda run: run.velocity)
+    known = [run for run in runs if run.regime is not None]
+    found = {run.velocity: run.regime for run in known}
+    brackets, settled, notes = [], {}, []
+    for regime, name in NAMES.items():
+        bracket = Bracket(name, *bisection.bracket(found, regime), "")
+        brackets.append(replace(bracket, source=_ends(bracket, found)))
+        settled[name], why = _settled(bracket, study.search, runs)
+        notes += [f"{name}: {why}"] if why else []
+    brackets += [*_fall(known), *_limit(known)]
+    for slow, fast in bisection.disordered(found):
+        notes.append(f"out of order: {found[slow]} at {slow:g} m/s, {found[fast]} at {fast:g} m/s; the slowest change is given")
+    cut = [f"{run.velocity:g} m/s" for run in known if run.cut]
+    if cut:
+        notes.append(f"not at rest when they ended, regime and depth are those of that moment: {', '.join(cut)}")
+    comparison, problem = _compared(known, brackets[0])
+    notes += [problem] if problem else []
+    values = {name: value for name, value in members[0].case.values.items() if name != velocities.AXIS}
+    return Transitions(title, values, brackets, settled, runs, notes, comparison)
+
+
+def _ends(bracket: Bracket, found: Mapping[float, str]) -> str:
+    """The regimes at both ends."""
+    return ", ".join(f"{found[end]} at {end:g} m/s" for end in (bracket.low, bracket.high) if end is not None)
+
+
+def _settled(bracket: Bracket, interval: Interval, runs: Sequence[Run]) -> tuple[bool, str]:
+    """Whether no further run could narrow a bracket, and why it is wider than the tolerance where it is."""
+    low, high, slowest, fastest = bracket.low, bracket.high, interval.speeds[0], interval.speeds[-1]
+    if low is not None and high is not None and high - low <= interval.tolerance * (1.0 + velocities.SAME):
+        return True, ""
+    if high is None and low == fastest:
+        return True, f"open, not reached at {fastest:g} m/s, the fast end of the interval"
+    if low is None and high == slowest:
+        return True, f"open, reached already at {slowest:g} m/s, the slow end of the interval"
+    lost = [f"{run.velocity:g} m/s {run.reason}" for run in runs
+            if run.regime is None and (low or 0.0) < run.velocity < (high or 2.0 * fastest)]  # fmt: skip
+    return False, f"not narrowed to {interval.tolerance:g} m/s: " + ("; ".join(lost) or "not all runs were made")
+
+
+def _fall(known: Sequence[Run]) -> list[Bracket]:
+    """Where the depth falls with the velocity: from the deepest run to the next faster one."""
+    deep = [run for run in known if run.record.depth is not None]
+    if not deep:
+        return []
+    deepest = max(deep, key=lambda run: (run.record.depth, run.velocity))
+    after = next((run for run in deep if run.velocity > deepest.velocity), None)
+    depths = [f"{_at_least(run)}{100 * run.record.depth:.2f} cm" for run in (deepest, after) if run]
+    words = ", then ".join(depths) if after else f"{depths[0]} at the fastest run: no fall is seen"
+    return [Bracket(FALL, deepest.velocity, after.velocity if after else None, words)]
+
+
+def _limit(known: Sequence[Run]) -> list[Bracket]:
+    """Where the depth is no longer above the hydrodynamic limit."""
+    deep = [run for run in known if run.record.depth is not None and run.record.setup]
+    if not deep:
+        return []
+    shot, setup = deep[0].record.shot, deep[0].record.setup
+    limit = model_transition.hydrodynamic_limit(setup.length, shot.rod, shot.target)
+    deeper, others = ([run.velocity for run in deep if (run.record.depth > limit) is word] for word in (True, False))
+    return [model_transition.between(LIMIT, deeper, others, f"{100 * limit:.2f} cm")]
+
+
+def _compared(known: Sequence[Run], bracket: Bracket) -> tuple[Comparison | None, str]:
+    """What models, experiments and the CTH study say of the first run's rod and target, or why they say nothing."""
+    first = next((run.record for run in known if run.record.setup), None)
+    if first is None:
+        return None, f"nothing to compare with: {'the decks are none of a rod on the axis' if known else 'no run is done'}"
+    shot = first.shot
+    try:
+        found = model_transition.compare(models.Request(rod=shot.rod, target=shot.target, geometry=shot.values), shot.nose)
+    except InputError as error:
+        return None, f"the analytic models: {error}"
+    shots = experiments.of_materials(first.setup)
+    other = shots and not any(experiments.same_geometry(each, first.setup) for each in shots)
+    problem = f"the experiments' rods were {shots[0].length * 1e3:.4g} x {shots[0].diameter * 1e3:.4g} mm" if other else ""
+    return replace(found, brackets=[*found.brackets, replace(bracket, name="hydro2d")]), problem
+
+
+def write(study: Study, found: Sequence[Transitions]) -> None:
+    """Writes transition.json. Raises StudyError."""
+    interval = study.search
+    data = {
+        "title": study.title, "version": __version__, "key": interval.key, "from_m_s": interval.speeds[0],
+        "to_m_s": interval.speeds[-1], "tolerance_m_s": interval.tolerance, "criteria": CRITERIA,
+        "complete": all(all(each.settled.values()) for each in found), "combinations": [each.data() for each in found],
+    }  # fmt: skip
+    try:
+        write_json(study.directory / FILE, data)
+    except OSError as error:
+        raise StudyError(f"{study.directory / FILE} cannot be written: {error.strerror or error}") from None
+
+
+def lines(found: Sequence[Transitions]) -> list[str]:
+    """The transitions of a study in words, and the criteria."""
+    told = [line for each in found for line in (*each.lines(), "")]
+    return [*told, "criteria", *columns(CRITERIA.items())]

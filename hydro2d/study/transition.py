@@ -1,0 +1,140 @@
+"""`hydro2d transition`: the runs of a search for the velocities at which a rod's regime changes, and what they say."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from contextlib import AbstractContextManager
+from dataclasses import replace
+from pathlib import Path
+
+from hydro2d.study import layout, record, regimes, sweep, velocities
+from hydro2d.study.bisection import Search
+from hydro2d.study.cases import Plan, Planned
+from hydro2d.study.choice import Choice
+from hydro2d.study.layout import DONE, ENDED, INTERRUPTED, UNPHYSICAL, Case
+
+
+class Bisection(Choice):
+    """The cases that a search asks for: one search for each combination of the axes, all of them in turn.
+
+    A combination is the run of neighbouring cases of the plan that differ in the velocity alone, the slowest first.
+    """
+
+    def __init__(self, plan: Plan):
+        super().__init__(plan)
+        count = len(plan.search.labels)
+        self.groups = [plan.cases[first : first + count] for first in range(0, len(plan.cases), count)]
+        self.chosen: set[str] = set()
+        self.begun: set[str] = set()
+        self.tried: set[str] = set()
+        self.records: dict[str, record.Record] = {}
+
+    # ------------------------------------------------------------------------------------------------ cases of the study
+
+    def compared(self, directory: Path) -> Plan:
+        """Those that have been begun, and the ends of every combination."""
+        return self._only({case.name for case in layout.of_plan(self.plan, directory).cases if case.directory.exists()})
+
+    def begin(self, directory: Path) -> Plan:
+        """Those that have ended before, and the ends. Others that were begun come back where the search wants them."""
+        before = layout.of_plan(self.plan, directory).cases
+        self.begun = {case.name for case in before if case.status == INTERRUPTED}
+        self.chosen = {case.name for case in before if case.status in (DONE, UNPHYSICAL)}
+        return self._only(self.chosen)
+
+    def enlarged(self, names: Sequence[str]) -> Plan:
+        self.chosen |= set(names)
+        return self._only(self.chosen)
+
+    def _only(self, names: Collection[str]) -> Plan:
+        """The plan with these cases and the ends, by combination and velocity, and with their velocities alone on the axis."""
+        ends = {case.name for group in self.groups for case in (group[0], group[-1])}
+        kept = [case for case in self.plan.cases if case.name in ends or case.name in names]
+        used = {case.values[velocities.AXIS] for case in kept}
+        *others, axis = self.plan.axes
+        axes = [*others, axis | {"values": [label for label in axis["values"] if label in used]}]
+        return replace(self.plan, cases=kept, axes=axes)
+
+    # ------------------------------------------------------------------------------------------------ the search
+
+    def heading(self, study: layout.Study) -> str:
+        search, number = self.plan.search, len(self.groups)
+        combined = f", {number} combinations of the axes" if number > 1 else ""
+        return (
+            f"{study.name}: from {search.labels[0]} to {search.labels[-1]}, to {search.tolerance:g} m/s"
+            f"{combined}, in {study.directory}"
+        )
+
+    def wanted(self, cases: Sequence[Case], busy: Collection[str], workers: int) -> list[str]:
+        """As many cases as there are idle workers, those of combinations with the fewest under way first."""
+        names: list[str] = []
+        while len(busy) + len(names) < max(workers, 1):
+            found = self._next(cases, {*busy, *names})
+            if found is None:
+                break
+            names.append(found)
+        self.tried |= set(names)
+        return names
+
+    def _next(self, cases: Sequence[Case], busy: Collection[str]) -> str | None:
+        by_name = {case.name: case for case in cases}
+        for group in sorted(self.groups, key=lambda group: sum(case.name in busy for case in group)):
+            under_way = {position for position, case in enumerate(group) if case.name in busy}
+            position = self._search(group, by_name, busy).next(under_way)
+            if position is not None:
+                return group[position].name
+        return None
+
+    def _search(self, group: Sequence[Planned], cases: dict[str, Case], busy: Collection[str]) -> Search:
+        """What is known of a combination."""
+        search = Search(len(group), begun={n for n, case in enumerate(group) if case.name in self.begun})
+        for position, planned in enumerate(group):
+            case = cases.get(planned.name)
+            if case is None or planned.name in busy:
+                continue
+            regime = self._regime(case)
+            if regime is not None:
+                search.found[position] = regime
+            elif case.status in ENDED or case.name in self.tried:
+                search.failed.add(position)
+        return search
+
+    def record(self, case: Case) -> record.Record:
+        """A case, read; once, where it is done."""
+        if case.status != DONE:
+            return record.read(case)
+        if case.name not in self.records:
+            self.records[case.name] = record.read(case)
+        return self.records[case.name]
+
+    def _regime(self, case: Case) -> str | None:
+        return regimes.judge(self.record(case)).regime if case.status == DONE else None
+
+    def further(self, cases: Sequence[Case], busy: Collection[str]) -> int:
+        by_name = {case.name: case for case in cases}
+        return sum(self._search(group, by_name, busy).further() for group in self.groups)
+
+    def news(self, cases: Sequence[Case], name: str) -> str:
+        """The transitions of the combination as far as they are known."""
+        group = next(group for group in self.groups if any(case.name == name for case in group))
+        names = {case.name for case in group}
+        found = {velocities.speed(case.values[velocities.AXIS]): regime for case in cases
+                 if case.name in names and (regime := self._regime(case))}  # fmt: skip
+        label = regimes.label(group[0].values)
+        return "  " + (f"{label}: " if label else "") + "; ".join(regimes.so_far(found))
+
+
+def find(plan: Plan, directory: Path, connect: AbstractContextManager, *, threads: int = 1, resume: bool = False,
+         overwrite: bool = False, quiet: bool = False) -> int:  # fmt: skip
+    """Searches, writes transition.json and prints the transitions; returns the exit status. Arguments as of sweep.sweep.
+
+    Raises StudyError, LockError (another sweep runs there).
+    """
+    choice = Bisection(plan)
+    status = sweep.sweep(choice, directory, connect, threads=threads, resume=resume, overwrite=overwrite, quiet=quiet)
+    study = layout.read(directory)
+    found = regimes.of_study(study, [choice.record(case) for case in study.cases])
+    if not quiet:
+        print("\n".join(("", *regimes.lines(found))))
+    regimes.write(study, found)
+    return status

@@ -1,0 +1,76 @@
+"""The velocities of a search for a transition: equally spaced, so that runs are used again and their names can be read."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from hydro2d import deck as decks
+from hydro2d import deck_toml, model_deck
+from hydro2d.deck_errors import DeckError
+from hydro2d.study import ranges
+from hydro2d.study.definition import Range, Transition
+
+#: what the axis of a search is called
+AXIS = "velocity"
+#: share by which the velocity of the key and that of the impact may differ
+SAME = 1e-9
+
+
+@dataclass(frozen=True)
+class Velocities:
+    """Where a search may look.
+
+    key : of the deck;  labels : velocities as decks take them, the slowest first;  tolerance : widest bracket, m/s
+    """
+
+    key: str
+    labels: tuple[str, ...]
+    tolerance: float
+
+
+def labels(given: Transition) -> tuple[str, ...]:
+    """Velocities a tolerance apart, counted from the slowest; the last step may be shorter. ValueError: there are too many."""
+    first, last = (f"{speed:.12g} m/s" for speed in (given.from_, given.to))
+    step = f"{math.copysign(given.tolerance, given.to):.12g} m/s"
+    found = ranges.values(Range.model_validate({"from": first, "to": last, "step": step}))
+    return (*found, *([] if found[-1] == last else [last]))
+
+
+def speed(label: str) -> float:
+    """Impact velocity of a label, m/s."""
+    return abs(float(label.split()[0]))
+
+
+def key(bases: Iterable[tuple[Path, Sequence[str]]]) -> str:
+    """The velocity of the rod that penetrates in these decks, given as files with overrides; wrong ones do not count.
+
+    ValueError: none is right, one has no rod, or the rods have several names.
+    """
+    rods, problems = set(), []
+    for file, overrides in bases:
+        try:
+            deck = decks.load(file, overrides)
+        except DeckError as error:
+            problems.append(str(error))
+            continue
+        if deck.penetration is None:
+            raise ValueError(f"{file.name} has no rod and target; [penetration] names them")
+        rods.add(deck.penetration.rod)
+    if not rods:
+        raise ValueError(f"no deck is right: {problems[0]}")
+    if len(rods) > 1:
+        raise ValueError(f"the rods of the decks are called {', '.join(sorted(rods))}: key is needed")
+    return f"body.{deck_toml.quoted(rods.pop())}.velocity"
+
+
+def fault(deck: decks.Deck, key: str, label: str) -> str | None:
+    """Why a deck in which the key has this velocity has not this impact velocity; None where it has."""
+    if deck.penetration is None:
+        return "the deck has no rod and target; [penetration] names them"
+    impact = model_deck.impact_velocity(deck)
+    if math.isclose(impact, speed(label), rel_tol=SAME):
+        return None
+    return f"with {key} = {label} the rod meets the target at {impact:g} m/s: the key must set the impact velocity"

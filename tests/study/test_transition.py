@@ -1,0 +1,409 @@
+"""Searches: the study file, which cases run, what is told of them, and a real shot from rigid to eroding."""
+
+import json
+import shutil
+import signal
+import time
+
+import pytest
+
+from hydro2d import study
+from hydro2d.cli import call
+from hydro2d.study import cases, regimes, transition
+from hydro2d.study.case import Outcome
+from hydro2d.study.definition import StudyError
+from tests.study import fake, made_up, tubes
+from tests.study.html import Page
+
+STUDY = f"""
+title = "A search"
+deck = "{fake.BASE}"
+[transition]
+from = "900 m/s"
+to = "1500 m/s"
+tolerance = "50 m/s"
+[[axis]]
+name = "advection"
+key = "numerics.advection"
+values = ["ke", "momentum"]
+"""
+ALONE = STUDY.partition("[[axis]]")[0]
+
+
+def write(folder, text=STUDY):
+    file = folder / "search.toml"
+    file.write_text(text)
+    return file
+
+
+def search(folder, client, text=STUDY, **options):
+    """A search with a made-up client: exit status and transition.json."""
+    status = transition.find(cases.plan(write(folder, text)), folder / "out", client.connect(), **options)
+    return status, json.loads((folder / "out" / "transition.json").read_text())
+
+
+def brackets(found):
+    """Low and high end of every transition, by combination."""
+    return [{each["name"]: (each["low_m_s"], each["high_m_s"]) for each in one["transitions"]} for one in found["combinations"]]
+
+
+def usual(velocity, deck):
+    """With `ke` the rod deforms from 1085 m/s on and erodes from 1310, with `momentum` 100 m/s later."""
+    later = 100.0 * (deck["numerics"]["advection"] == "momentum")
+    word = made_up.regime(velocity, 1085.0 + later, 1310.0 + later)
+    return {"regime": word, "depth": (velocity if word == "rigid" else 0.5 * velocity) * 4e-4}
+
+
+# ------------------------------------------------------------------------------------------------ the study file
+
+
+def test_the_cases_are_the_combinations_at_all_velocities(tmp_path):
+    plan = cases.plan(write(tmp_path, STUDY.replace('"50 m/s"', '"250 m/s"')))
+    ends = [f"{advection}_{speed}m-s" for advection in ("ke", "momentum") for speed in (900, 1150, 1400, 1500)]
+    assert [case.name for case in plan.cases] == ends
+    assert plan.cases[1].values == {"advection": "ke", "velocity": "1150 m/s"}
+    assert "velocity = [0.0, 1150.0]" in plan.cases[1].text
+    assert (plan.search.key, plan.search.tolerance) == ("body.rod.velocity", 250.0)
+    assert plan.axes[-1] == {"name": "velocity", "key": "body.rod.velocity", "values": list(plan.search.labels)}
+
+
+def test_defaults_of_the_table_and_no_axis(tmp_path):
+    plan = cases.plan(write(tmp_path, ALONE.replace('tolerance = "50 m/s"', "").replace('"900 m/s"', '"1.2 km/s"')))
+    assert plan.search.labels == tuple(f"{speed} m/s" for speed in range(1200, 1501, 25))
+    assert [case.name for case in plan.cases[:2]] == ["1200m-s", "1225m-s"]
+
+
+def test_a_rod_that_flies_to_minus_z(tmp_path):
+    text = ALONE.replace('"900 m/s"', '"-900 m/s"').replace('"1500 m/s"', '"-1500 m/s"')
+    assert cases.plan(write(tmp_path, text)).search.labels[:2] == ("-900 m/s", "-950 m/s")
+
+
+WRONG = [
+    ("[transition]", "[transitoin]", 'search.toml:4: transitoin: unknown key "transitoin"; did you mean "transition"'),
+    ('tolerance = "50 m/s"', 'tolerence = "50 m/s"', 'search.toml:7: transition.tolerence: unknown key "tolerence"; did you'),
+    ('from = "900 m/s"', "", "search.toml:4: transition.from: is missing"),
+    ('"900 m/s"', '"900 mm"', 'search.toml:5: transition.from: "900 mm" is a length; expected a velocity'),
+    ('"900 m/s"', '"1600 m/s"', "search.toml:4: transition: from = 1600 m/s, to = 1500 m/s: to must be the faster"),
+    ('"900 m/s"', '"-900 m/s"', "in the same direction"),
+    ('"50 m/s"', '"0 m/s"', "search.toml:7: transition.tolerance: must be positive"),
+    ('"50 m/s"', '"1 mm/s"', "search.toml:4: transition: has 600001 values; at most 10000"),
+    ('"50 m/s"', '"50 m/s"\nkey = "body.rd.velocity"', 'toml:8: no deck has the key body.rd.velocity: body: unknown entry'),
+    ('"50 m/s"', '"50 m/s"\nkey = "body.plate.thickness"', 'body[1].thickness: "900 m/s" is a velocity; expected a length'),
+    ('"50 m/s"', '"50 m/s"\nkey = "body.rod.velocity"\n[set]\n"body.plate.velocity" = "-9 m/s"',
+     "search.toml:8: transition.key: with body.rod.velocity = 900 m/s the rod meets the target at 909 m/s"),
+    ('"numerics.advection"\nvalues = ["ke", "momentum"]', '"body.rod.velocity"\nvalues = [900, 1000]',
+     'search.toml:8: axis "advection" sets body.rod.velocity, and the search varies body.rod.velocity'),
+    ('name = "advection"', 'name = "velocity"', 'search.toml:8: axis[0].name: "velocity" is the axis that [transition] makes'),
+    ('["ke", "momentum"]', '["ke"]\n[[exclude]]\nvelocity = "900 m/s"', 'exclude[0]: unknown axis "velocity"'),
+    ('"problems/', '"problem/', "no such file"),
+    (fake.BASE, "problems/verification/sod_z.toml", "search.toml:4: transition: sod_z.toml has no rod and target"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("old", "new", "said"), WRONG, ids=[new or f"no {old}" for old, new, _ in WRONG])
+def test_a_wrong_file_is_one_message_and_status_2(tmp_path, capsys, old, new, said):
+    assert old in STUDY
+    assert call(["transition", str(write(tmp_path, STUDY.replace(old, new))), "--check"]) == 2
+    shown = capsys.readouterr()
+    assert said in shown.err + shown.out
+    assert "Traceback" not in shown.err
+
+
+def test_each_command_says_what_the_others_file_is_for(tmp_path, capsys):
+    file = write(tmp_path)
+    assert call(["sweep", str(file), "--check"]) == 2
+    assert f"search.toml:4: transition: is a search in velocity: `hydro2d transition {file}` runs it" in capsys.readouterr().err
+    assert call(["transition", str(tubes.write(tmp_path)), "--check"]) == 2
+    assert "tubes.toml: transition: is missing: a table with the velocities to search" in capsys.readouterr().err
+
+
+def test_check_prints_the_ends_and_the_number_of_runs(tmp_path, capsys):
+    assert call(["transition", str(write(tmp_path)), "--check", "--workers", "2"]) == 0
+    shown = capsys.readouterr().out
+    assert [line.split()[0] for line in shown.splitlines() if line.startswith(("ke", "mom"))] == [
+        "ke_900m-s", "ke_1500m-s", "momentum_900m-s", "momentum_1500m-s",
+    ]  # fmt: skip
+    assert "2 combinations of the axes, 13 velocities 50 m/s apart by body.rod.velocity" in shown
+    assert "at most about 10 runs each" in shown
+
+
+# ------------------------------------------------------------------------------------------------ made-up runs
+
+
+@pytest.fixture(scope="module")
+def finished(tmp_path_factory):
+    """A finished search, its client and what it printed."""
+    folder, client = tmp_path_factory.mktemp("finished"), made_up.Client(usual)
+    assert search(folder, client)[0] == 0
+    return folder, client
+
+
+@pytest.fixture
+def again(finished, tmp_path):
+    """A copy of the finished search."""
+    shutil.copytree(finished[0], tmp_path / "copy")
+    return tmp_path / "copy"
+
+
+def test_every_combination_has_its_brackets(finished):
+    folder, client = finished
+    found = json.loads((folder / "out" / "transition.json").read_text())
+    ke, momentum = brackets(found)
+    assert (ke["rigid to deforming"], ke["to eroding"], ke["depth falls"]) == ((1050, 1100), (1300, 1350), (1050, 1100))
+    assert (momentum["rigid to deforming"], momentum["to eroding"]) == ((1150, 1200), (1400, 1450))
+    assert found["complete"]
+    assert len(client.submitted) == len(set(client.submitted)) <= 2 * 10
+    assert [case.name for case in study.load(folder / "out").cases] == [
+        case.name for case in cases.plan(folder / "search.toml").cases if case.name in client.submitted
+    ]
+    assert {case.status for case in study.load(folder / "out").cases} == {"done"}
+
+
+def test_the_hydrodynamic_limit_is_that_of_the_experiments(finished):
+    """L sqrt(rho_p/rho_t) is 25 cm; rigid rods go 36 cm and deeper, others 22 cm at 1100 m/s and 27 cm at 1350 m/s."""
+    ke, _ = brackets(json.loads((finished[0] / "out" / "transition.json").read_text()))
+    assert ke["hydrodynamic limit"] == (1500, 1100)
+
+
+def test_what_is_printed(again, capsys):
+    client = made_up.Client(usual)
+    search(again, client, resume=True)
+    shown = capsys.readouterr().out
+    assert "advection = ke\n  rigid to deforming  1050 to 1100 m/s" in shown
+    assert "rigid at 1050 m/s, deforming at 1100 m/s" in shown
+    assert "none: deeper at 1500 m/s, not at 1100 m/s" in shown
+    assert "  experiment  1086 to 1200 m/s  shots 4344, 4345, 4346" in shown
+    assert "  hydro2d     1050 to 1100 m/s" in shown
+    assert "walker-anderson" in shown
+    assert "less than 2 % of the length lost, no section beyond 1.1 of the radius" in shown
+
+
+def test_a_second_call_runs_nothing_and_says_the_same(again):
+    before = (again / "out" / "transition.json").read_text()
+    with pytest.raises(StudyError, match="--resume continues it"):
+        search(again, made_up.Client(usual))
+    client = made_up.Client(usual, workers=4)
+    assert search(again, client, resume=True)[0] == 0
+    assert client.submitted == []
+    assert (again / "out" / "transition.json").read_text().replace(str(again), "") == before
+    assert search(again, client, overwrite=True)[0] == 0
+    assert len(client.submitted) == len(set(client.submitted)) > 8
+    assert set(client.submitted) == {case.name for case in study.load(again / "out").cases}
+
+
+def test_a_smaller_tolerance_uses_the_runs_that_are_there(again):
+    client = made_up.Client(usual)
+    status, found = search(again, client, STUDY.replace('"50 m/s"', '"25 m/s"'), resume=True)
+    assert status == 0
+    assert sorted(client.submitted) == ["ke_1075m-s", "ke_1325m-s", "momentum_1175m-s", "momentum_1425m-s"]
+    assert brackets(found)[0]["rigid to deforming"] == (1075, 1100)
+
+
+def test_an_interrupted_search_goes_on_where_it_was(tmp_path, finished, capsys):
+    whole = set(finished[1].submitted)
+    first = made_up.Client(usual, interrupt_at=6)
+    status, found = search(tmp_path, first)
+    assert (status, found["complete"]) == (130, False)
+    assert "not narrowed to 50 m/s" in capsys.readouterr().out
+    again = made_up.Client(usual)
+    status, found = search(tmp_path, again, resume=True)
+    assert (status, found["complete"]) == (0, True)
+    assert set(first.submitted) & set(again.submitted) == {first.submitted[-1]}
+    assert set(first.submitted) | set(again.submitted) == whole
+
+
+def test_a_search_that_broke_off_runs_no_case_twice(tmp_path, finished):
+    """It ends in the middle of a case, with no last word; transition.json is not there yet."""
+
+    def dying(velocity, deck):
+        if len(first.submitted) == 6:
+            raise MemoryError
+        return usual(velocity, deck)
+
+    first, again = made_up.Client(dying), made_up.Client(usual)
+    with pytest.raises(MemoryError):
+        search(tmp_path, first)
+    assert not (tmp_path / "out" / "transition.json").exists()
+    assert search(tmp_path, again, resume=True)[1]["complete"]
+    assert [*first.submitted[:-1], *again.submitted] == finished[1].submitted
+
+
+def test_more_workers_than_combinations_try_several_velocities(tmp_path):
+    client = made_up.Client(usual, workers=6)
+    status, found = search(tmp_path, client)
+    assert status == 0
+    first = client.submitted[:6]
+    assert [name.partition("_")[0] for name in first].count("ke") == 3
+    assert {"ke_900m-s", "ke_1500m-s", "ke_1200m-s"} <= set(first)
+    assert brackets(found)[0]["rigid to deforming"] == (1050, 1100)
+
+
+def test_a_case_that_fails_does_not_sink_the_rest(tmp_path, capsys):
+    """Its bracket stays as wide as it is and says why; the others are found; --resume tries it again."""
+
+    def failing(velocity, deck):
+        lost = deck["numerics"]["advection"] == "ke" and velocity in (1050, 1100)
+        return Outcome("failed", "a fault that nobody foresaw") if lost else usual(velocity, deck)
+
+    status, found = search(tmp_path, made_up.Client(failing))
+    assert status == 3
+    ke, momentum = brackets(found)
+    assert (ke["rigid to deforming"], ke["to eroding"]) == ((1000, 1150), (1300, 1350))
+    assert momentum["rigid to deforming"] == (1150, 1200)
+    assert not found["complete"]
+    assert [each["settled"] for each in found["combinations"][0]["transitions"][:2]] == [False, True]
+    lost = "rigid to deforming: not narrowed to 50 m/s: 1050 m/s failed: a fault that nobody foresaw; 1100 m/s failed: a fault"
+    assert lost in capsys.readouterr().out
+    client = made_up.Client(usual)
+    status, found = search(tmp_path, client, resume=True)
+    assert (status, brackets(found)[0]["rigid to deforming"]) == (0, (1050, 1100))
+    assert set(client.submitted) <= {"ke_1050m-s", "ke_1100m-s"}
+
+
+def test_a_combination_whose_deck_is_wrong_does_not_sink_the_rest(tmp_path):
+    client = made_up.Client(usual)
+    status, found = search(tmp_path, client, STUDY.replace('"momentum"', '"kinetic"'))
+    assert status == 3
+    ke, wrong = brackets(found)
+    assert ke["rigid to deforming"] == (1050, 1100)
+    assert wrong["rigid to deforming"] == (None, None)
+    assert all(name.startswith("ke") for name in client.submitted)
+    assert 'unknown value "kinetic"' in " ".join(found["combinations"][1]["notes"])
+
+
+def test_a_search_whose_runs_all_fail_ends(tmp_path):
+    client = made_up.Client(lambda velocity, deck: Outcome("failed", "the disk is full"))
+    status, found = search(tmp_path, client, ALONE)
+    assert (status, len(client.submitted)) == (3, 4)
+    assert "nothing to compare with" in found["combinations"][0]["notes"][-1]
+
+
+@pytest.mark.parametrize(
+    ("ends", "expected", "said"),
+    [
+        ((500, 500), (None, 900), "reached already at 900 m/s, the slow end of the interval"),
+        ((2000, 2000), (1500, None), "not reached at 1500 m/s, the fast end of the interval"),
+    ],
+)
+def test_an_interval_that_is_too_short_is_told(tmp_path, capsys, ends, expected, said):
+    client = made_up.Client(lambda velocity, deck: {"regime": made_up.regime(velocity, *ends)})
+    status, found = search(tmp_path, client, ALONE)
+    assert (status, len(client.submitted), found["complete"]) == (0, 2, True)
+    assert brackets(found)[0]["rigid to deforming"] == brackets(found)[0]["to eroding"] == expected
+    assert f"rigid to deforming: open, {said}" in capsys.readouterr().out
+
+
+def test_what_is_out_of_order_is_told(tmp_path, capsys):
+    def strange(velocity, deck):
+        return {"regime": "rigid" if velocity == 1500 else made_up.regime(velocity, 1000, 1100)}
+
+    search(tmp_path, made_up.Client(strange, workers=3), ALONE)
+    shown = capsys.readouterr().out
+    assert "out of order: eroding at 1200 m/s, rigid at 1500 m/s; the slowest change is given" in shown
+
+
+def test_a_rod_that_left_the_mesh_has_no_regime(tmp_path):
+    def through(velocity, deck):
+        gone = {"depth": 0.54, "rod_mass_kg": 0.0, "rod_core_mass_kg": 0.0, "regime": "eroding"}
+        return gone if velocity > 1400 else usual(velocity, deck)
+
+    status, found = search(tmp_path, made_up.Client(through), ALONE)
+    assert status == 0
+    assert brackets(found)[0]["to eroding"] == (1300, 1350)
+    runs = {run["velocity_m_s"]: run for run in found["combinations"][0]["runs"]}
+    assert runs[1500]["regime"] is None
+    assert "left the mesh; stop.perforation = true" in runs[1500]["reason"]
+
+
+def test_a_run_that_was_cut_short_is_told(tmp_path, capsys):
+    cut = {"stop_reason": "end time", "rod_mean_velocity_m_s": 300.0}
+    search(tmp_path, made_up.Client(lambda velocity, deck: usual(velocity, deck) | cut), ALONE)
+    assert "not at rest when they ended, regime and depth are those of that moment: 900 m/s, " in capsys.readouterr().out
+
+
+def test_another_rod_than_the_experiments_is_told(tmp_path, capsys):
+    text = ALONE.replace("[transition]", '[set]\n"body.rod.length" = "80 mm"\n[transition]')
+    _, found = search(tmp_path, made_up.Client(usual), text)
+    assert "the experiments' rods were 97.79 x 6.757 mm" in found["combinations"][0]["notes"]
+
+
+def test_status_and_report_show_the_transitions(again, capsys):
+    assert call(["transition", str(again / "out"), "--status"]) == 0
+    shown = capsys.readouterr().out
+    assert "ke_1050m-s" in shown
+    assert "rigid to deforming  1050 to 1100 m/s" in shown
+    assert call(["sweep", str(again / "out"), "--status"]) == 0
+    assert call(["report", str(again / "out")]) == 0
+    page = Page((again / "out" / "report" / "report.html").read_text(encoding="utf-8"))
+    assert page.faults == []
+    assert "Transitions" in page.text
+    assert "advection = momentum 1150 to 1200 m/s 1400 to 1450 m/s" in page.text
+    assert "experiment: 1086 to 1200 m/s" in page.text
+    assert regimes.CRITERIA["rigid"] in page.text
+
+
+# ------------------------------------------------------------------------------------------------ a real shot
+
+SHOT = """
+[mesh]
+r = [{to = "6 mm", size = "1 mm"}, {cells = 6, ratio = 1.2}]
+z_start = "-16 mm"
+z = [{to = "46 mm", size = "1 mm"}]
+[[body]]
+name = "rod"
+material = "W_alloy"
+shape = "rod"
+nose = "hemispherical"
+radius = "3 mm"
+length = "14 mm"
+tip = 0.0
+velocity = "1000 m/s"
+[[body]]
+name = "plate"
+material = "Al5083"
+shape = "plate"
+z_front = 0.0
+thickness = "44 mm"
+[stop]
+time = "30 us"
+[output]
+vtk_interval = "30 us"
+"""
+SHORT_ROD = """
+title = "A short rod, three cells across its radius"
+deck = "shot.toml"
+[transition]
+from = "300 m/s"
+to = "1900 m/s"
+tolerance = "200 m/s"
+"""
+
+
+def test_a_real_search_is_interrupted_and_goes_on(tmp_path):
+    """Rigid at 300 m/s, eroding from about 1500 m/s on; SIGINT while the third case runs."""
+    (tmp_path / "shot.toml").write_text(SHOT)
+    file, out = write(tmp_path, SHORT_ROD), tmp_path / "out"
+    process = tubes.start(file, "--workers", 1, "--out", out, command="transition", start_new_session=True)
+    tubes.wait_for(lambda: len(list(out.glob("cases/*/run.lock"))) == 1 and len(list(out.glob("cases/*/summary.json"))) >= 2)
+    time.sleep(0.2)
+    process.send_signal(signal.SIGINT)
+    said, _ = process.communicate(timeout=300)
+    assert process.returncode == 130, said
+    assert not json.loads((out / "transition.json").read_text())["complete"]
+    before = {case.name: case.directory.joinpath("summary.json").stat().st_mtime_ns
+              for case in study.load(out).cases if case.status == "done"}  # fmt: skip
+    process = tubes.start(file, "--workers", 1, "--out", out, "--resume", command="transition")
+    said, _ = process.communicate(timeout=300)
+    assert process.returncode == 0, said
+    assert "Traceback" not in said
+    found = json.loads((out / "transition.json").read_text())
+    (ends,) = brackets(found)
+    low, high = ends["rigid to deforming"]
+    assert (high - low, 300 <= low < 900) == (200, True)
+    low, high = ends["to eroding"]
+    assert (high - low, 1100 <= low < 1900) == (200, True)
+    assert found["complete"]
+    assert len(study.load(out).cases) <= 8
+    after = {case.name: case.directory.joinpath("summary.json").stat().st_mtime_ns for case in study.load(out).cases}
+    assert len(before) >= 2
+    assert {name: after[name] for name in before} == before
