@@ -35,6 +35,21 @@ def replacing(path: Path) -> Iterator[Path]:
         temporary.unlink(missing_ok=True)
 
 
+@contextmanager
+def hdf5(path: Path) -> Iterator:
+    """Gives an h5py.File in memory and writes it to the disk at the end, where a full disk is one OSError.
+
+    (A file on the disk meets it again with every object that is closed, which h5py prints and goes on.)
+    """
+    import h5py
+
+    with h5py.File(path.name, "w", driver="core", backing_store=False, libver=("earliest", "v110")) as file:
+        yield file
+        file.flush()
+        image = file.id.get_file_image()
+    path.write_bytes(image)
+
+
 def write_text(path: Path, text: str) -> None:
     with replacing(path) as temporary:
         temporary.write_text(text, encoding="utf-8")

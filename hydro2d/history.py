@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from .files import replacing
+from .files import hdf5, replacing
 
 REGIMES = ("rigid", "deforming", "eroding")
 
@@ -82,9 +82,7 @@ class History:
 
     def write(self) -> None:
         """Writes all rows."""
-        import h5py
-
-        with replacing(self.path) as temporary, h5py.File(temporary, "w", libver=("earliest", "v110")) as file:
+        with replacing(self.path) as temporary, hdf5(temporary) as file:
             time = _dataset(file, "time", self._columns.get("time", []))
             time.make_scale("time")
             for name, values in self._columns.items():

@@ -14,7 +14,7 @@ from pathlib import Path
 
 import numpy as np
 
-from .files import replacing, sync
+from .files import hdf5, replacing, sync
 
 FORMAT = "hydro2d restart 1"
 NAME, PREVIOUS = "restart.h5", "restart.previous.h5"
@@ -60,12 +60,10 @@ def _checksum(arrays: dict[str, np.ndarray], texts: dict[str, str]) -> str:
 
 def write(path: Path, snapshot: Snapshot) -> None:
     """Writes a restart file; an existing one becomes the previous one."""
-    import h5py
-
     path = Path(path)
     texts = snapshot.texts()
     with replacing(path) as temporary:
-        with h5py.File(temporary, "w", libver=("earliest", "v110")) as file:
+        with hdf5(temporary) as file:
             file.attrs["format"] = FORMAT
             group = file.create_group("arrays")
             for name, array in snapshot.arrays.items():
