@@ -44,6 +44,10 @@ class Axis:
     key: str | None
     values: tuple[str, ...]
 
+    def said(self, label: str) -> str:
+        """A label that can stand alone: behind the axis's name where some label of it begins as a number does."""
+        return f"{self.name} {label}" if any(value[:1] in set("+-.0123456789") for value in self.values) else label
+
 
 @dataclass(frozen=True)
 class Case:

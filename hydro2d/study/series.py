@@ -46,7 +46,7 @@ def grouped(records: Sequence[Record], axes: Sequence[Axis]) -> list[Series]:
     """The series of runs of one setup, in the order of the study."""
     if axes:
         kept = [axis for axis in axes if _tells_apart(axis, records)]
-        labels = [", ".join(record.case.values.get(axis.name, "") for axis in kept) for record in records]
+        labels = [", ".join(axis.said(record.case.values.get(axis.name, "")) for axis in kept) for record in records]
     else:
         labels = _labels_from_decks(records)
     found: dict[str, list[Record]] = {}

@@ -46,7 +46,7 @@ def test_a_variant_for_each_velocity_makes_no_series(tmp_path):
         (study / "cases" / case / "deck.toml").write_text(fake.deck_text(f"body.rod.velocity={speed} m/s"))
     found = collect(layout.load(study))
     groups = series.grouped(found.records, found.study.axes)
-    assert [each.label for each in groups] == ["0.5", "0.4"]
+    assert [each.label for each in groups] == ["courant 0.5", "courant 0.4"]
 
 
 def test_styles_differ_in_colour_and_in_marker():
