@@ -44,11 +44,10 @@ def test_debris_exceeds_the_resistance_above_the_onset(rho_p, Yp, rho_t, Rt):
         assert secondary.debris_pressure(max(0.9999 * onset, 1.0000001 * transition), **pair) <= Rt * (1.0 + 1e-6)
 
 
-@given(density, stress, density, stress, st.floats(100.0, 10000.0))
+@given(density, density, stress, stress, st.floats(100.0, 10000.0))
 @FAST
-def test_debris_of_a_light_weak_rod_flies_back(rho_p, Yp, rho_t, Rt, velocity):
-    assume(rho_p <= rho_t)
-    assume(Yp <= Rt)
+def test_debris_of_a_light_weak_rod_flies_back(one, other, weak, strong, velocity):
+    (rho_p, rho_t), (Yp, Rt) = sorted((one, other)), sorted((weak, strong))
     pair = {"rod_density": rho_p, "rod_strength": Yp, "target_density": rho_t, "resistance": Rt}
     assert secondary.onset_velocity(**pair) is None
     assert secondary.debris_velocity(velocity, **pair) <= 1e-9 * velocity
