@@ -1,8 +1,9 @@
-"""Which cases a study has and which of them run next: all of them at once; `transition` has the other answer."""
+"""Which cases a study has and which of them run next: all of them in their order; `transition` has the other answer."""
 
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
+from itertools import islice
 from pathlib import Path
 
 from hydro2d.study.cases import Plan
@@ -10,11 +11,15 @@ from hydro2d.study.layout import ENDED, Case, Study
 
 
 class Choice:
-    """All cases of a plan, at once."""
+    """All cases of a plan, one after another.
+
+    No more than there are workers are given to dask at a time: it would hand them out at once, and with a worker that dies it
+    blames every case that waits there.
+    """
 
     def __init__(self, plan: Plan):
         self.plan = plan
-        self._given = False
+        self._given: set[str] = set()
 
     def compared(self, directory: Path) -> Plan:
         """The cases that are held against those of the directory."""
@@ -30,8 +35,9 @@ class Choice:
 
     def wanted(self, cases: Sequence[Case], busy: Collection[str], workers: int) -> list[str]:
         """Names of cases to run now, which need not be in the study yet; those of `busy` have been given to dask."""
-        names = [] if self._given else [case.name for case in cases if case.status not in ENDED]
-        self._given = True
+        left = (case.name for case in cases if case.status not in ENDED and case.name not in self._given)
+        names = list(islice(left, max(max(workers, 1) - len(busy), 0)))
+        self._given |= set(names)
         return names
 
     def enlarged(self, names: Sequence[str]) -> Plan:

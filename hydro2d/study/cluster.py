@@ -17,8 +17,6 @@ from hydro2d.study.definition import StudyError, explained
 
 #: seconds to wait for the scheduler of --scheduler
 ANSWER = 15
-#: one case at a time on each worker: a worker that dies takes only its own case with it
-CONFIG = {"distributed.scheduler.worker-saturation": 1.0}
 
 
 class Slurm(Section):
@@ -75,11 +73,9 @@ def environment(threads: int) -> dict[str, str]:
 @contextmanager
 def local(workers: int, threads: int) -> Iterator:
     """A client of spawned worker processes on this machine."""
-    import dask
     import distributed
 
     with (
-        dask.config.set(CONFIG),
         distributed.LocalCluster(
             n_workers=workers, threads_per_worker=1, processes=True, memory_limit=0, dashboard_address=None,
             env=environment(threads),
@@ -131,7 +127,6 @@ def _check_workers(client, address: str) -> None:
 def slurm(path: Path, workers: int, threads: int) -> Iterator:
     """A client of workers that SLURM starts. Raises StudyError."""
     arguments = read_slurm(path).arguments(threads)
-    import dask
     import distributed
 
     try:
@@ -139,7 +134,6 @@ def slurm(path: Path, workers: int, threads: int) -> Iterator:
     except ImportError:
         raise StudyError("--slurm needs dask-jobqueue, which is not installed: pip install 'hydro2d[slurm]'") from None
     with (
-        dask.config.set(CONFIG),
         dask_jobqueue.SLURMCluster(**arguments) as cluster,
         distributed.Client(cluster) as client,
     ):  # fmt: skip

@@ -129,7 +129,14 @@ class _Sweep:
         self.compiling = False
         self.spent = 0.0
         self.ended: queue.Queue = queue.Queue()
-        board.workers = lambda: len(client.scheduler_info(n_workers=-1)["workers"])
+        self.counted, self.count = -BEAT, 0
+        board.workers = self.workers
+
+    def workers(self) -> int:
+        """How many there are; the scheduler is asked once a beat."""
+        if time.monotonic() - self.counted >= BEAT:
+            self.count, self.counted = len(self.client.scheduler_info(n_workers=-1)["workers"]), time.monotonic()
+        return self.count
 
     def run(self, interrupt: Interrupt) -> float:
         """Returns when every case has ended and no other is wanted: the seconds that they took in their workers."""
@@ -152,7 +159,7 @@ class _Sweep:
 
     def _begin(self) -> None:
         """Gives dask the cases that are wanted now."""
-        while names := self.choice.wanted(self.board.cases, self.board.moving, self.board.workers()):
+        while names := self.choice.wanted(self.board.cases, self.board.moving, self.workers()):
             if not set(names) <= set(self.board.numbers):
                 self._enlarge(names)
             todo = [case for name in names if (case := self.board.look(name)).status not in layout.ENDED]
@@ -174,7 +181,6 @@ class _Sweep:
         self.board.follow(layout.of_plan(plan, self.board.study.directory))
 
     def _give(self, case: layout.Case) -> None:
-        """Gives dask a case; those that stand first in the study go first."""
         from hydro2d.study import worker
 
         key = f"{case.name}-{self.name}"
@@ -182,7 +188,7 @@ class _Sweep:
         self.board.moving.add(case.name)
         future = self.client.submit(
             worker.work, self.name, str(case.directory.resolve()), self.texts[case.name], self.threads,
-            self.overwrite, key=key, pure=False, priority=-self.board.numbers[case.name],
+            self.overwrite, key=key, pure=False,
         )  # fmt: skip
         future.add_done_callback(self.ended.put)
 

@@ -43,7 +43,7 @@ class Client:
     def run(self, function, *arguments, on_error) -> None:
         """Stops workers, which have ended."""
 
-    def submit(self, work, sweep, directory, text, threads, overwrite, *, key, pure, priority):
+    def submit(self, work, sweep, directory, text, threads, overwrite, *, key, pure):
         place = Path(directory)
         self.submitted.append(place.name)
         if place.exists():
