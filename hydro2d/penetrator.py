@@ -47,9 +47,10 @@ class Penetrator:
         """Volume fraction of the rod in the cells [j, i]."""
         return self.sim.grid.interior(self.sim.state.vof)[self.m]
 
-    def _intact(self) -> np.ndarray:
-        """The same, zero where the rod has failed."""
-        return np.where(self.sim.grid.interior(self.sim.state.dmg)[self.m] < 1.0, self._fraction(), 0.0)
+    def _intact(self, rows: slice, columns=slice(None)) -> np.ndarray:
+        """The same in some rows and columns, zero where the rod has failed."""
+        damage = self.sim.grid.interior(self.sim.state.dmg)[self.m]
+        return np.where(damage[rows, columns] < 1.0, self._fraction()[rows, columns], 0.0)
 
     def _runs(self, column: np.ndarray) -> list[tuple[int, int]]:
         """(first, one past last) of the runs of cells filled by half or more, in the direction of flight."""
@@ -72,7 +73,7 @@ class Penetrator:
 
     def _length(self) -> tuple[float, float, float]:
         """Length, lower and upper end of the longest run on the axis, m; zeros where there is none."""
-        column = self._intact()[:, 0]
+        column = self._intact(slice(None), 0)
         ends = [self._ends(column, run) for run in self._runs(column)]
         if not ends:
             return 0.0, 0.0, 0.0
@@ -92,7 +93,7 @@ class Penetrator:
     def _largest_radius(self, rows: slice) -> float:
         """Largest radius of a solid section with the rod's area in a row, m."""
         grid = self.sim.grid
-        area = np.sum(self._intact()[rows] * grid.vol_r[grid.inside[1]], axis=1)
+        area = np.sum(self._intact(rows) * grid.vol_r[grid.inside[1]], axis=1)
         return float(np.max(np.sqrt(2.0 * area) if grid.cylindrical else area, initial=0.0))
 
     def _axis_velocity(self, z: float) -> float:
@@ -113,7 +114,7 @@ class Penetrator:
         The first cell that the rod does not fill by half ends a row, and still counts, unless it is the one on the axis.
         """
         g, s = self.sim.grid, self.sim.state
-        fraction = self._intact()[rows]
+        fraction = self._intact(rows)
         inside = np.logical_and.accumulate(fraction >= HALF, axis=1)
         edge = np.zeros_like(inside)
         edge[:, 1:] = inside[:, :-1]

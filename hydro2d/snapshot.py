@@ -73,7 +73,6 @@ def write(path: Path, snapshot: Snapshot) -> None:
             for name, text in texts.items():
                 file.create_dataset(name, data=text)
             file.attrs["sha256"] = _checksum(snapshot.arrays, texts)
-            file.flush()
             file.attrs["complete"] = True
         sync(temporary)
         if path.exists():

@@ -98,12 +98,13 @@ class _Planner:
         self._number([*axes, speeds or [""]])
         combinations = self._without_excluded(axes)
         self._raise()
-        files = self._files([self._case(combination) for combination in combinations])
+        bare = [self._case(combination) for combination in combinations]
+        files = self._files(bare)
         self._known_keys(files)
         self._raise()
         described = [{"name": axis.name, "key": axis.key, "values": [choice.label for choice in choices]}
                      for axis, choices in zip(self.definition.axis, axes, strict=True)]  # fmt: skip
-        found = self._velocities(speeds, [self._case(each) for each in combinations], files) if speeds else None
+        found = self._velocities(speeds, bare, files) if speeds else None
         if found is not None:
             combinations = self._at_velocities(combinations, found)
             described.append({"name": velocities.AXIS, "key": found.key, "values": list(found.labels)})
@@ -219,12 +220,10 @@ class _Planner:
     def _without_excluded(self, axes: list[list[Option]]) -> list[tuple[Option, ...]]:
         names = [axis.name for axis in self.definition.axis]
         rules = [self._rule(n, entry, dict(zip(names, axes, strict=True))) for n, entry in enumerate(self.definition.exclude)]
-        used, kept = set(), []
+        kept = []
         for combination in itertools.product(*axes):
             labels = {name: choice.label for name, choice in zip(names, combination, strict=True)}
-            matching = {n for n, rule in enumerate(rules) if rule and all(labels[name] in some for name, some in rule.items())}
-            used |= matching
-            if not matching:
+            if not any(rule and all(labels[name] in some for name, some in rule.items()) for rule in rules):
                 kept.append(combination)
         if not (kept or self.wrong):
             raise StudyError(f"{self.path}: the exclusions leave no case")

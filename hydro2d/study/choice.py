@@ -19,7 +19,7 @@ class Choice:
 
     def __init__(self, plan: Plan):
         self.plan = plan
-        self._given: set[str] = set()
+        self.given: set[str] = set()
 
     def compared(self, directory: Path) -> Plan:
         """The cases that are held against those of the directory."""
@@ -33,11 +33,11 @@ class Choice:
         """The first line."""
         return f"{study.name}: {len(study.cases)} cases in {study.directory}"
 
-    def wanted(self, cases: Sequence[Case], busy: Collection[str], workers: int) -> list[str]:
-        """Names of cases to run now, which need not be in the study yet; those of `busy` have been given to dask."""
-        left = (case.name for case in cases if case.status not in ENDED and case.name not in self._given)
-        names = list(islice(left, max(max(workers, 1) - len(busy), 0)))
-        self._given |= set(names)
+    def wanted(self, cases: Sequence[Case], busy: Collection[str], room: int) -> list[str]:
+        """Names of cases to run now, which need not be in the study yet; `room` more than those of `busy` at most."""
+        left = (case.name for case in cases if case.status not in ENDED and case.name not in self.given)
+        names = list(islice(left, room))
+        self.given |= set(names)
         return names
 
     def enlarged(self, names: Sequence[str]) -> Plan:

@@ -159,7 +159,7 @@ class _Sweep:
 
     def _begin(self) -> None:
         """Gives dask the cases that are wanted now."""
-        while names := self.choice.wanted(self.board.cases, self.board.moving, self.workers()):
+        while names := self.choice.wanted(self.board.cases, self.board.moving, self._room()):
             if not set(names) <= set(self.board.numbers):
                 self._enlarge(names)
             todo = [case for name in names if (case := self.board.look(name)).status not in layout.ENDED]
@@ -170,6 +170,10 @@ class _Sweep:
             for case in todo:
                 self._give(case)
         self.board.further = self.choice.further(self.board.cases, self.board.moving)
+
+    def _room(self) -> int:
+        """How many cases more than those under way can run; one is given out even while workers are still coming."""
+        return max(max(self.workers(), 1) - len(self.board.moving), 0)
 
     def _enlarge(self, names: Sequence[str]) -> None:
         """Takes further cases into the study; where its file cannot be written, the cases run and the log has the reason."""

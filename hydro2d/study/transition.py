@@ -26,7 +26,6 @@ class Bisection(Choice):
         self.groups = [plan.cases[first : first + count] for first in range(0, len(plan.cases), count)]
         self.chosen: set[str] = set()
         self.begun: set[str] = set()
-        self.tried: set[str] = set()
         self.records: dict[str, record.Record] = {}
 
     # ------------------------------------------------------------------------------------------------ cases of the study
@@ -65,15 +64,15 @@ class Bisection(Choice):
             f"{combined}, in {study.directory}"
         )
 
-    def wanted(self, cases: Sequence[Case], busy: Collection[str], workers: int) -> list[str]:
+    def wanted(self, cases: Sequence[Case], busy: Collection[str], room: int) -> list[str]:
         """As many cases as there are idle workers, those of combinations with the fewest under way first."""
         names: list[str] = []
-        while len(busy) + len(names) < max(workers, 1):
+        while len(names) < room:
             found = self._next(cases, {*busy, *names})
             if found is None:
                 break
             names.append(found)
-        self.tried |= set(names)
+        self.given |= set(names)
         return names
 
     def _next(self, cases: Sequence[Case], busy: Collection[str]) -> str | None:
@@ -95,7 +94,7 @@ class Bisection(Choice):
             regime = self._regime(case)
             if regime is not None:
                 search.found[position] = regime
-            elif case.status in ENDED or case.name in self.tried:
+            elif case.status in ENDED or case.name in self.given:
                 search.failed.add(position)
         return search
 

@@ -6,6 +6,8 @@ import pytest
 from hydro2d import deck
 from hydro2d.fields import SRR, SRZ
 from hydro2d.simulation import Simulation
+from tests.verification.running import finish
+from tests.verification.test_translation import ROD
 
 STRAIN_FAILURE = """
 [materials.rod_fails]
@@ -17,23 +19,7 @@ variant = "strain-failure"
 [failure]
 damage = "material"
 """
-FLIGHT = STRAIN_FAILURE + """
-[mesh]
-r = [{ to = "6 mm", cells = 12 }, { cells = 4, ratio = 1.1 }]
-z_start = "-13 mm"
-z = [{ to = "16 mm", size = "0.5 mm" }]
-[[body]]
-name = "rod"
-material = "rod_fails"
-shape = "rod"
-nose = "hemispherical"
-radius = "3.3 mm"
-length = "10 mm"
-tip = "-1.2 mm"
-velocity = "1000 m/s"
-[stop]
-time = "12 us"
-"""
+FLIGHT = STRAIN_FAILURE + ROD.replace("W_alloy", "rod_fails")
 #: two halves of a bar of one material, which part in the middle, at r = const nothing happens
 BAR = STRAIN_FAILURE + """
 [mesh]
@@ -91,14 +77,6 @@ yield_factor = "off"
 CONTACT = SLIP_LAYER.replace("slip-layer", "contact")
 
 
-def run(text: str, *options: str, watch=lambda simulation: None) -> Simulation:
-    simulation = Simulation(deck.loads(text, options))
-    while simulation.stop_reason() is None:
-        simulation.step()
-        watch(simulation)
-    return simulation
-
-
 def fail_everything(simulation: Simulation) -> None:
     simulation.state.dmg[:] = np.where(simulation.state.vof > 0.0, 1.0, 0.0)
 
@@ -112,7 +90,7 @@ def failed(simulation: Simulation) -> np.ndarray:
 @pytest.mark.parametrize("advection", ["ke", "momentum", "both"])
 def test_what_has_failed_stays_failed_while_it_moves(advection):
     """Some 120 cycles across 24 cells: a mean of ones, with round-off, is one."""
-    simulation = Simulation(deck.loads(FLIGHT, [f'numerics.advection="{advection}"']))
+    simulation = Simulation(deck.loads(FLIGHT, ["stop.time=12 us", f'numerics.advection="{advection}"']))
     fail_everything(simulation)
     while simulation.stop_reason() is None:
         simulation.step()
@@ -152,7 +130,7 @@ def test_debris_bears_no_shear_and_no_tension_and_is_counted(sliding):
             counts.append((found["rod_failed_mass_kg"], found["target_failed_mass_kg"]))
             assert found["rod_failed_mass_kg"] + found["rod_core_mass_kg"] <= found["rod_mass_kg"] * (1 + 1e-12)
 
-    simulation = run(SHOT + sliding, watch=watch)
+    simulation = finish(deck.loads(SHOT + sliding), watch)
     found = simulation.diagnostics()
     rod, plate = counts[-1]
     assert 0.02 < rod / found["rod_mass_kg"] < 0.9
