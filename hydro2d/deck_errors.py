@@ -6,6 +6,7 @@ tomllib gives values without line numbers, so ``key_lines`` walks the text once 
 from __future__ import annotations
 
 import difflib
+import functools
 from collections.abc import Iterable
 
 
@@ -170,6 +171,7 @@ class _Scanner:
         self._take()
 
 
+@functools.lru_cache(maxsize=16)
 def key_lines(text: str) -> dict[tuple, int]:
     """Line of every key of a valid TOML text; elements of arrays are addressed by their index, from 0."""
     return _Scanner(text.replace("\r\n", "\n")).run()
@@ -190,12 +192,12 @@ class Sources:
     """
 
     def __init__(self) -> None:
-        self._files: list[tuple[str, dict, dict[tuple, int]]] = []
+        self._files: list[tuple[str, dict, str]] = []
         self._set: dict[tuple, str] = {}
 
     def add(self, name: str, data: dict, text: str) -> None:
-        """Registers a file before those that it includes."""
-        self._files.append((name, data, key_lines(text)))
+        """Registers a file before those that it includes; its lines are looked for when one is asked for."""
+        self._files.append((name, data, text))
 
     def add_override(self, path: tuple, text: str) -> None:
         """Registers an override of the command line; the path has names where arrays hold named entries."""
@@ -208,8 +210,8 @@ class Sources:
             if named[: len(key)] == key:
                 return f"--set {text}"
         for length in range(len(named), 0, -1):
-            for name, data, lines in self._files:
-                line = _line_of(named[:length], data, lines)
+            for name, data, text in self._files:
+                line = _line_of(named[:length], data, key_lines(text))
                 if line is not None:
                     return f"{name}:{line}"
         return self._files[0][0] if self._files else ""

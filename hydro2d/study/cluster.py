@@ -78,6 +78,7 @@ def local(workers: int, threads: int) -> Iterator:
     with (
         distributed.LocalCluster(
             n_workers=workers, threads_per_worker=1, processes=True, memory_limit=0, dashboard_address=None,
+            scheduler_kwargs={"dashboard_address": ":0"},  # another sweep may have the usual port
             env=environment(threads),
         ) as cluster,
         distributed.Client(cluster) as client,

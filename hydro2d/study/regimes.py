@@ -41,9 +41,9 @@ class Run:
 
     @property
     def cut(self) -> bool:
-        """Whether the run ended while the rod still moved."""
+        """Whether the run ended while the rod's core still moved."""
         summary = self.record.case.summary
-        speed = abs(summary.get("rod_mean_velocity_m_s") or 0.0)
+        speed = abs(summary.get("rod_core_velocity_m_s") or 0.0)
         return summary.get("stop_reason") in CUT and speed > MOVING * self.velocity
 
     def data(self) -> dict:

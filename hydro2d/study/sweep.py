@@ -148,12 +148,13 @@ class _Sweep:
                     self.board.line(f"{interrupt.reason}: running cases write their restart files and stop")
                     told = True
                 self._stop(interrupt.reason)
-            try:
-                self._finish(self.ended.get(timeout=BEAT))
-            except queue.Empty:
-                pass
+            future = self._ended()
+            case = None if future is None else self._take(future)
             if not interrupt.reason:
                 self._begin()
+            if case is not None:
+                self._finish(case, _outcome(future))
+                future.release()
             self.board.update()
         return self.spent
 
@@ -201,15 +202,25 @@ class _Sweep:
 
         self.client.run(worker.stop, self.name, reason, on_error="ignore")
 
-    def _finish(self, future) -> None:
-        """Tells what became of a case."""
+    def _ended(self):
+        """The future of a case that has ended, or None after a beat without any."""
+        try:
+            return self.ended.get(timeout=BEAT)
+        except queue.Empty:
+            return None
+
+    def _take(self, future) -> layout.Case:
+        """The case that has ended; its worker is free for another before more is asked about this one."""
         case = self.tasks.pop(future.key)
-        outcome = _outcome(future)
-        future.release()
+        self.board.moving.discard(case.name)
+        self.board.look(case.name)
+        return case
+
+    def _finish(self, case: layout.Case, outcome: Outcome) -> None:
+        """Tells what became of a case."""
         self.spent += outcome.wall_s
         if outcome.status == FAILED_STATUS:
             self._record(case, outcome)
-        self.board.moving.discard(case.name)
         name, *shown = monitor.row(self.board.look(case.name))
         depth = "" if shown[1] == "-" else f"depth {shown[1]}"
         words = [outcome.status, depth if outcome.status == DONE else outcome.message]

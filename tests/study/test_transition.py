@@ -316,7 +316,7 @@ def test_a_rod_that_left_the_mesh_has_no_regime(tmp_path):
 
 
 def test_a_run_that_was_cut_short_is_told(tmp_path, capsys):
-    cut = {"stop_reason": "end time", "rod_mean_velocity_m_s": 300.0}
+    cut = {"stop_reason": "end time", "rod_core_velocity_m_s": 300.0}
     search(tmp_path, made_up.Client(lambda velocity, deck: usual(velocity, deck) | cut), ALONE)
     assert "not at rest when they ended, regime and depth are those of that moment: 900 m/s, " in capsys.readouterr().out
 
