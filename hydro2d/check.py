@@ -7,11 +7,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from . import deck as decks
-from . import derived, insertion, materials
-from .grid import Grid
-from .state import State
-from .vtk import Dump
+from hydro2d import deck as decks
+from hydro2d import derived, insertion, materials
+from hydro2d.grid import Grid
+from hydro2d.state import State
+from hydro2d.vtk import Dump
 
 #: nanoseconds per cell and cycle on one thread, as a first guess; `hydro2d bench` measures the machine
 NANOSECONDS = 250.0
@@ -142,6 +142,6 @@ def _stop(stop) -> str:
 
 
 def _duration(seconds: float) -> str:
-    from .progress import duration
+    from hydro2d.progress import duration
 
     return duration(seconds)

@@ -10,11 +10,11 @@ from typing import Annotated, Literal
 import cyclopts
 from cyclopts import App, Parameter
 
-from . import __version__
-from .cli_base import Overrides, UsageError, quantity
-from .cli_model import model
-from .cli_report import report
-from .cli_study import sweep, transition
+from hydro2d import __version__
+from hydro2d.cli_base import Overrides, UsageError, quantity
+from hydro2d.cli_model import model
+from hydro2d.cli_report import report
+from hydro2d.cli_study import sweep, transition
 
 WRONG_INPUT = 2
 
@@ -55,7 +55,7 @@ def _set_threads(threads: int | None) -> None:
     if "numba" not in sys.modules:
         os.environ["NUMBA_NUM_THREADS"] = str(threads)
         return
-    from .jit import max_threads, set_threads
+    from hydro2d.jit import max_threads, set_threads
 
     if threads > max_threads():
         raise UsageError(f"--threads {threads}: this process can use {max_threads()}")
@@ -63,7 +63,7 @@ def _set_threads(threads: int | None) -> None:
 
 
 def _load(deck: Path, overrides: list[str] | None):
-    from . import deck as decks
+    from hydro2d import deck as decks
 
     return decks.load(deck, overrides or [])
 
@@ -103,7 +103,7 @@ def run(
     if restart and overwrite:
         raise UsageError("--restart continues a run and --overwrite removes it: give one of them")
     _set_threads(threads)
-    from . import run as runs
+    from hydro2d import run as runs
 
     resolved = _load(deck, set_)
     return runs.exit_status(runs.run(resolved, out, restart=restart, overwrite=overwrite, quiet=quiet))
@@ -128,13 +128,13 @@ def check(
     picture
         Draws the initial state into this file (.png, .pdf, .svg).
     """
-    from . import check as checks
+    from hydro2d import check as checks
 
     found = checks.check(_load(deck, set_))
     for line in found.lines(threads or os.cpu_count() or 1):
         print(line)
     if picture is not None:
-        from . import figures
+        from hydro2d import figures
 
         figures.save(figures.draw_sections([[(found.dump, found.deck.name, None)]], "material"), picture)
         print(f"wrote     {picture}")
@@ -152,7 +152,7 @@ def info(name: str | None = None) -> int:
     name
         For example W_alloy, mie-grueneisen, pressure, numerics.courant.
     """
-    from . import info as pages
+    from hydro2d import info as pages
 
     print(pages.page(name) if name else pages.overview())
     return 0
@@ -209,8 +209,8 @@ def plot(
     quantity
         Column of the history; may be given several times.
     """
-    from . import figures
-    from .results import load
+    from hydro2d import figures
+    from hydro2d.results import load
 
     opened, times = [load(path) for path in runs], _times(time)
     if kind == "cutaway":
@@ -245,8 +245,8 @@ def export(
     fields
         Fields to take, keys of `hydro2d info`; default: all that were dumped.
     """
-    from .export import export as write
-    from .results import load
+    from hydro2d.export import export as write
+    from hydro2d.results import load
 
     for path in write(load(run), output or run / "export", fields or ("all",)):
         print(f"wrote {path}")
@@ -269,7 +269,7 @@ def bench(*, json: Path | None = None, shot: bool = False, threads: int | None =
         Number of threads; default: all cores.
     """
     _set_threads(threads)
-    from . import bench as benches
+    from hydro2d import bench as benches
 
     return benches.main(json, shot=shot)
 
@@ -282,7 +282,7 @@ def schema() -> int:
     """
     import json
 
-    from . import deck as decks
+    from hydro2d import deck as decks
 
     print(json.dumps(decks.schema(), indent=2))
     return 0

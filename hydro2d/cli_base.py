@@ -15,7 +15,7 @@ class UsageError(Exception):
 
 def quantity(text: str, unit: str, option: str) -> float:
     """A number in SI or with a unit."""
-    from . import units
+    from hydro2d import units
 
     try:
         return units.to_si(float(text) if _is_number(text) else text, unit)

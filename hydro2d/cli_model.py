@@ -7,7 +7,7 @@ from typing import Annotated
 
 from cyclopts import App, Parameter
 
-from .cli_base import Overrides, UsageError, quantity
+from hydro2d.cli_base import Overrides, UsageError, quantity
 
 #: the most rows that --velocity A:B:N makes
 MOST_ROWS = 100_000
@@ -62,8 +62,8 @@ def evaluate(
     """
     if name is None:
         return _without_name(help_, rod, target, velocity, set_, deck)
-    from . import model as models
-    from . import model_text
+    from hydro2d import model as models
+    from hydro2d import model_text
 
     chosen = models.named(name)
     if help_ or (velocity is None and deck is None):
@@ -89,7 +89,7 @@ def _without_name(help_: bool, *options) -> int:
         return 0
     if any(option is not None for option in options):
         raise UsageError("model: the name of a model is missing; `hydro2d model` lists them")
-    from . import model_text
+    from hydro2d import model_text
 
     print(model_text.overview())
     return 0
@@ -97,8 +97,8 @@ def _without_name(help_: bool, *options) -> int:
 
 def _request(known, rod, target, set_, deck, strain):
     """What the user chose, and the impact velocity of the deck or None."""
-    from . import model as models
-    from . import model_deck, model_materials
+    from hydro2d import model as models
+    from hydro2d import model_deck, model_materials
 
     shot = model_deck.read(deck) if deck is not None else None
     sides = {
@@ -137,11 +137,11 @@ def _write(case, rows, csv: Path | None, figure: Path | None) -> list[Path]:
         if path is not None and not path.parent.is_dir():
             raise UsageError(f"{path.parent}: there is no such directory")
     if csv is not None:
-        from . import model_text
+        from hydro2d import model_text
 
         model_text.write_csv(case.model, rows, csv)
     if figure is not None:
-        from . import figures, model_figures
+        from hydro2d import figures, model_figures
 
         figures.save(model_figures.draw(case, rows), figure)
     return [path for path in (csv, figure) if path is not None]
@@ -182,8 +182,8 @@ def transition(
     json
         Prints JSON.
     """
-    from . import model_deck, model_transition
-    from .penetration.inputs import NOSE_SHAPE
+    from hydro2d import model_deck, model_transition
+    from hydro2d.penetration.inputs import NOSE_SHAPE
 
     request, _ = _request(model_transition.with_transition(), rod, target, set_, deck, strain)
     shape = nose or request.settings.get("nose.shape") or getattr(request.geometry.get("nose.shape"), "value", "hemispherical")

@@ -20,7 +20,7 @@ def report(directories: Annotated[list[Path], Parameter(negative="")], *, out: P
     out
         Folder that is written into; default: `report` in the first directory.
     """
-    from .study.report import report as write
+    from hydro2d.study.report import report as write
 
     write(directories, out)
     return 0

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
-from .cli_base import Overrides, UsageError
+from hydro2d.cli_base import Overrides, UsageError
 
 
 def sweep(
@@ -57,15 +57,15 @@ def sweep(
     _fits(workers, threads, scheduler, slurm)
     if status:
         return _status(study, out)
-    from .study import cases
+    from hydro2d.study import cases
 
     plan = cases.plan(study, set_, search=False)
     if check:
-        from .study import estimate
+        from hydro2d.study import estimate
 
         return estimate.show(plan, workers or default_workers(threads))
-    from .study import sweep as sweeps
-    from .study.choice import Choice
+    from hydro2d.study import sweep as sweeps
+    from hydro2d.study.choice import Choice
 
     connect = _workers(len(plan.cases), workers, threads, scheduler, slurm)
     return sweeps.sweep(
@@ -127,14 +127,14 @@ def transition(
     _fits(workers, threads, scheduler, slurm)
     if status:
         return _status(study, out)
-    from .study import cases
+    from hydro2d.study import cases
 
     plan = cases.plan(study, set_, search=True)
     if check:
-        from .study import estimate
+        from hydro2d.study import estimate
 
         return estimate.show_search(plan, workers or default_workers(threads))
-    from .study import transition as transitions
+    from hydro2d.study import transition as transitions
 
     connect = _workers(len(plan.cases), workers, threads, scheduler, slurm)
     return transitions.find(
@@ -144,7 +144,7 @@ def transition(
 
 def _workers(most: int, workers: int | None, threads: int, scheduler: str | None, slurm: Path | None):
     """Gives a dask client of the workers that the arguments ask for, at most so many on this machine."""
-    from .study import cluster
+    from hydro2d.study import cluster
 
     if scheduler is not None:
         return cluster.joined(scheduler)
@@ -169,12 +169,12 @@ def _fits(workers: int | None, threads: int, scheduler: str | None, slurm: Path 
 
 
 def _status(study: Path, out: Path | None) -> int:
-    from .study import layout, monitor
+    from hydro2d.study import layout, monitor
 
     found = layout.read(out or (study if study.is_dir() else _directory(study)))
     told = monitor.status(found)
     if found.search is not None:
-        from .study import regimes
+        from hydro2d.study import regimes
 
         told += ["", *regimes.lines(regimes.of_study(found))]
     for line in told:
@@ -184,7 +184,7 @@ def _status(study: Path, out: Path | None) -> int:
 
 def _directory(study: Path) -> Path:
     """Where a study file's results are."""
-    from .study import definition
+    from hydro2d.study import definition
 
     found, *_ = definition.read(study, [])
     return Path(found.out or f"runs/{study.stem}")

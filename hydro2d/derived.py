@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .deck_errors import unknown
+from hydro2d.deck_errors import unknown
 
 TINY = 1e-300
 
@@ -46,7 +46,7 @@ class Cells:
 
     @functools.cached_property
     def _thermal(self) -> tuple[np.ndarray, np.ndarray]:
-        from . import thermal
+        from hydro2d import thermal
 
         return thermal.of(self._sim)
 

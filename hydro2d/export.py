@@ -5,9 +5,9 @@ from __future__ import annotations
 import shutil
 from pathlib import Path
 
-from . import derived, history, vtk
-from .results import Results, ResultsError
-from .run import HISTORY
+from hydro2d import derived, history, vtk
+from hydro2d.results import Results, ResultsError
+from hydro2d.run import HISTORY
 
 
 def names(dump: vtk.Dump, keys) -> list[str]:

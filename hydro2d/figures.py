@@ -16,11 +16,11 @@ from pathlib import Path
 
 import numpy as np
 
-from . import derived, history
-from .deck_errors import unknown
-from .files import replacing
-from .outlines import outlines
-from .vtk import Dump
+from hydro2d import derived, history
+from hydro2d.deck_errors import unknown
+from hydro2d.files import replacing
+from hydro2d.outlines import outlines
+from hydro2d.vtk import Dump
 
 #: what readers use: name of the unit and number of them in one SI unit
 READER = {
@@ -329,7 +329,7 @@ def _render(dump: str, path: str, field: str, window, size) -> None:
     """What the rendering process does."""
     import pyvista
 
-    from .vtk import read_grid
+    from hydro2d.vtk import read_grid
 
     state = _cropped(read_grid(Path(dump)), window)
     shown = chosen(state, field)

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from .files import hdf5, replacing
+from hydro2d.files import hdf5, replacing
 
 REGIMES = ("rigid", "deforming", "eroding")
 

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from . import derived
-from .deck_errors import DeckError, unknown
+from hydro2d import derived
+from hydro2d.deck_errors import DeckError, unknown
 
 
 def deck_keys() -> dict[str, dict]:
     """Every key of a deck by its dotted name, with its JSON schema; body keys as body.SHAPE.KEY."""
-    from . import deck as decks
+    from hydro2d import deck as decks
 
     schema = decks.schema()
     definitions, found = schema["$defs"], {}
@@ -77,9 +77,8 @@ def page(name: str) -> str:
     """Everything that goes by a name. Raises DeckError with the nearest name where there is nothing."""
     import eos
     import strength
-
-    from . import materials, model_text
-    from .penetration import catalogue
+    from hydro2d import materials, model_text
+    from hydro2d.penetration import catalogue
 
     found = []
     if name in materials.names():
@@ -118,9 +117,8 @@ def overview() -> str:
     """All names, by kind."""
     import eos
     import strength
-
-    from . import materials
-    from .penetration import catalogue
+    from hydro2d import materials
+    from hydro2d.penetration import catalogue
 
     models = [(name, eos.describe(name).kind) for name in eos.MODELS]
     models += [(name, strength.describe(name).kind) for name in strength.STRENGTH_MODELS]

@@ -10,13 +10,13 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
-from . import model_materials, units
-from .deck_errors import unknown
-from .materials import Material
-from .model_materials import Given
-from .penetration import catalogue
-from .penetration.inputs import FROM_LIBRARY, ROD_DIAMETER, ROD_LENGTH, ROD_MASS
-from .penetration.model import Input, InputError, Model, Value
+from hydro2d import model_materials, units
+from hydro2d.deck_errors import unknown
+from hydro2d.materials import Material
+from hydro2d.model_materials import Given
+from hydro2d.penetration import catalogue
+from hydro2d.penetration.inputs import FROM_LIBRARY, ROD_DIAMETER, ROD_LENGTH, ROD_MASS
+from hydro2d.penetration.model import Input, InputError, Model, Value
 
 VELOCITY = "velocity"
 EXAMPLE = "the model's example"

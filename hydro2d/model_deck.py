@@ -8,11 +8,11 @@ from pathlib import Path
 
 import numpy as np
 
-from . import deck as decks
-from . import insertion, shapes
-from .deck_errors import DeckError
-from .materials import Material
-from .model_materials import Given
+from hydro2d import deck as decks
+from hydro2d import insertion, shapes
+from hydro2d.deck_errors import DeckError
+from hydro2d.materials import Material
+from hydro2d.model_materials import Given
 
 #: words of decks for noses, where they differ from the models'
 NOSES = {"ogive": "ogival"}

@@ -6,8 +6,8 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from .figures import reader_unit
-from .model import VELOCITY, Case
+from hydro2d.figures import reader_unit
+from hydro2d.model import VELOCITY, Case
 
 COLOURS = ("#1f4e79", "#b5651d", "#4f7942", "#8b3a62", "#5b6770", "#c9a227")
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from . import materials
-from .penetration.model import InputError, Value
+from hydro2d import materials
+from hydro2d.penetration.model import InputError, Value
 
 #: state at which a flow stress is taken: plastic strain rate in 1/s, and the plastic strain that stands for "ultimate"
 RATE, ULTIMATE_STRAIN = 1.0, 1.0

@@ -8,13 +8,13 @@ import shlex
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
-from . import units
-from .files import replacing
-from .model import VELOCITY, Case
-from .model_materials import Given
-from .penetration import catalogue
-from .penetration.inputs import FROM_LIBRARY
-from .penetration.model import Input, Model, Value
+from hydro2d import units
+from hydro2d.files import replacing
+from hydro2d.model import VELOCITY, Case
+from hydro2d.model_materials import Given
+from hydro2d.penetration import catalogue
+from hydro2d.penetration.inputs import FROM_LIBRARY
+from hydro2d.penetration.model import Input, Model, Value
 
 
 def shown(value: Value, unit: str) -> str:

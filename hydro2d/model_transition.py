@@ -13,13 +13,13 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from . import materials, model_deck, results
-from . import model as models
-from .deck_toml import problems_folder
-from .model_materials import Given
-from .model_text import columns, given_data, shown
-from .penetration import catalogue
-from .penetration.model import InputError, Model
+from hydro2d import materials, model_deck, results
+from hydro2d import model as models
+from hydro2d.deck_toml import problems_folder
+from hydro2d.model_materials import Given
+from hydro2d.model_text import columns, given_data, shown
+from hydro2d.penetration import catalogue
+from hydro2d.penetration.model import InputError, Model
 
 STUDY = "cth_nose_shape"
 RULE = "rigid where deeper than the hydrodynamic limit L sqrt(rho_p/rho_t)"

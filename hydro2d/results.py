@@ -11,8 +11,8 @@ from pathlib import Path
 
 import numpy as np
 
-from . import history, snapshot, vtk
-from .run import DECK, HISTORY, SUMMARY
+from hydro2d import history, snapshot, vtk
+from hydro2d.run import DECK, HISTORY, SUMMARY
 
 #: the file of a study directory that lists its cases
 STUDY = "study.json"
@@ -106,8 +106,8 @@ class Results:
 
     def simulation(self):
         """The simulation as the restart file holds it. Raises SnapshotError."""
-        from . import deck as decks
-        from .simulation import Simulation
+        from hydro2d import deck as decks
+        from hydro2d.simulation import Simulation
 
         saved, _ = snapshot.read_latest(self.directory)
         sim = Simulation(decks.loads(saved.deck))
@@ -133,7 +133,7 @@ class Results:
 
         Raises ResultsError where no dump was written, and FigureError.
         """
-        from . import figures
+        from hydro2d import figures
 
         dump = self.dump(time)
         if axes is None:

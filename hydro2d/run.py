@@ -27,11 +27,11 @@ from pathlib import Path
 
 import numpy as np
 
-from . import __version__, derived, provenance, snapshot
-from .files import locked, write_json, write_text
-from .history import History
-from .progress import Clock, reporter
-from .vtk import FOLDER, SERIES, Series
+from hydro2d import __version__, derived, provenance, snapshot
+from hydro2d.files import locked, write_json, write_text
+from hydro2d.history import History
+from hydro2d.progress import Clock, reporter
+from hydro2d.vtk import FOLDER, SERIES, Series
 
 DECK, SUMMARY, HISTORY, LOG, LOCK = "deck.toml", "summary.json", "history.h5", "log.txt", "run.lock"
 PROGRESS = "progress.json"
@@ -161,8 +161,8 @@ class Run:
     """
 
     def __init__(self, deck, directory: Path, *, restart: bool, report):
-        from .jit import threads
-        from .simulation import Simulation
+        from hydro2d.jit import threads
+        from hydro2d.simulation import Simulation
 
         self.deck, self.directory, self.report = deck, Path(directory), report
         self.deck_text = deck.to_toml()
@@ -200,7 +200,7 @@ class Run:
 
         compiled : what tells after the first cycle how long the kernels were compiled, see compilation.announced
         """
-        from .simulation import UnphysicalState
+        from hydro2d.simulation import UnphysicalState
 
         self.report.begin(self)
         status, reason = "running", self.sim.stop_reason()
@@ -372,7 +372,7 @@ def run(deck, directory: Path | None = None, *, restart=False, overwrite=False, 
 
     Raises RunError, SnapshotError, FieldError, LockError (another process runs there).
     """
-    from .compilation import announced
+    from hydro2d.compilation import announced
 
     directory = Path(directory or deck.output.directory)
     interrupt = interrupt or Interrupt()

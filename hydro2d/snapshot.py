@@ -14,7 +14,7 @@ from pathlib import Path
 
 import numpy as np
 
-from .files import hdf5, replacing, sync
+from hydro2d.files import hdf5, replacing, sync
 
 FORMAT = "hydro2d restart 1"
 NAME, PREVIOUS = "restart.h5", "restart.previous.h5"

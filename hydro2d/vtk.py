@@ -15,10 +15,10 @@ from xml.etree import ElementTree
 
 import numpy as np
 
-from . import derived
-from .deck_errors import unknown
-from .files import replacing, write_text
-from .outlines import outlines
+from hydro2d import derived
+from hydro2d.deck_errors import unknown
+from hydro2d.files import replacing, write_text
+from hydro2d.outlines import outlines
 
 FOLDER = "vtk"
 SERIES = {"dump": "series.pvd", "interfaces": "interfaces.pvd", "tracers": "tracers.pvd"}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from types import ModuleType
 
-from . import (
+from hydro2d.penetration import (
     anderson_riegel,
     cavity,
     chen_li,
@@ -25,7 +25,7 @@ from . import (
     walker_anderson,
     walker_anderson_finite,
 )
-from .model import Model
+from hydro2d.penetration.model import Model
 
 #: in the order of the review by Anderson (2017), the others after it
 MODULES: tuple[ModuleType, ...] = (

@@ -15,8 +15,8 @@ from types import MappingProxyType
 
 import numpy as np
 
-from . import inputs
-from .model import NON_NEGATIVE, Example, Input, InputError, Model, Output, non_negative, positive
+from hydro2d.penetration import inputs
+from hydro2d.penetration.model import NON_NEGATIVE, Example, Input, InputError, Model, Output, non_negative, positive
 
 #: how far the solution is followed towards the wall: to exp(-DEEP) of the mass inside the plastic front
 DEEP = 32.0

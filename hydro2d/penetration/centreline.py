@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .model import NON_NEGATIVE, POSITIVE, InputError, complain, positive
+from hydro2d.penetration.model import NON_NEGATIVE, POSITIVE, InputError, complain, positive
 
 #: the penetration has ended where the interface moves no faster than this, m/s, or than this share of its first velocity
 LAST_SPEED, LAST_SHARE = 1.0, 0.01

@@ -11,9 +11,9 @@ import math
 from dataclasses import dataclass
 from types import MappingProxyType
 
-from . import inputs
-from .forrestal import SHOT, Nose, Target, of_inputs
-from .model import Example, InputError, Model, Output, non_negative, positive
+from hydro2d.penetration import inputs
+from hydro2d.penetration.forrestal import SHOT, Nose, Target, of_inputs
+from hydro2d.penetration.model import Example, InputError, Model, Output, non_negative, positive
 
 
 @dataclass(frozen=True)

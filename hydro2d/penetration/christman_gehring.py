@@ -11,8 +11,8 @@ from __future__ import annotations
 import math
 from types import MappingProxyType
 
-from . import inputs
-from .model import Example, Input, InputError, Model, Output, positive
+from hydro2d.penetration import inputs
+from hydro2d.penetration.model import Example, Input, InputError, Model, Output, positive
 
 #: coefficient of eq. (16) as printed, here of a correlation in consistent units
 CRATER_COEFFICIENT = 0.13

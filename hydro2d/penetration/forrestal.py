@@ -12,10 +12,10 @@ import math
 from dataclasses import dataclass
 from types import MappingProxyType
 
-from . import inputs
-from .cavity import CAVITY_VELOCITY, given_or_fitted
-from .model import Example, Input, Model, Output, non_negative, positive
-from .surface import SHAPES, checked_half_angle, nose_length, radius_of_ogive
+from hydro2d.penetration import inputs
+from hydro2d.penetration.cavity import CAVITY_VELOCITY, given_or_fitted
+from hydro2d.penetration.model import Example, Input, Model, Output, non_negative, positive
+from hydro2d.penetration.surface import SHAPES, checked_half_angle, nose_length, radius_of_ogive
 
 
 @dataclass(frozen=True)

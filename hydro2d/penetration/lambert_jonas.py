@@ -14,8 +14,8 @@ from types import MappingProxyType
 
 import numpy as np
 
-from .model import Example, Input, InputError, Model, Output, non_negative, positive
-from .recht_ipson import LIMIT_VELOCITY
+from hydro2d.penetration.model import Example, Input, InputError, Model, Output, non_negative, positive
+from hydro2d.penetration.recht_ipson import LIMIT_VELOCITY
 
 #: exponents from which a fit starts, and the range that it stays in; p = 1 would be a straight line
 STARTS, EXPONENTS = (1.5, 2.0, 3.0, 5.0), (1.0, 20.0)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .model import InputError, non_negative, positive
+from hydro2d.penetration.model import InputError, non_negative, positive
 
 
 @dataclass(frozen=True)

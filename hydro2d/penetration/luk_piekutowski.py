@@ -15,10 +15,10 @@ from types import MappingProxyType
 
 import numpy as np
 
-from . import inputs
-from .cavity import CAVITY_VELOCITY, given_or_fitted
-from .model import Example, Input, InputError, Model, Output
-from .mushroom import Head, Rod, Target, at_velocity, fold, head
+from hydro2d.penetration import inputs
+from hydro2d.penetration.cavity import CAVITY_VELOCITY, given_or_fitted
+from hydro2d.penetration.model import Example, Input, InputError, Model, Output
+from hydro2d.penetration.mushroom import Head, Rod, Target, at_velocity, fold, head
 
 #: degree of the polynomials in lambda that carry the primary stage
 DEGREE = 40

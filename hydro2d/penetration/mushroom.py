@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .model import FRACTION, InputError, complain, non_negative, positive
+from hydro2d.penetration.model import FRACTION, InputError, complain, non_negative, positive
 
 #: areas of head over rod among which the fold is looked for, the largest that is tried, and the growth of the search
 SPREADS, LARGEST, GROWTH = np.geomspace(1.02, 50.0, 60), 400.0, 1.25

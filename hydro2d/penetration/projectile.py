@@ -11,9 +11,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .layers import Target
-from .model import InputError, positive
-from .surface import Surface, body_surface, nose_length, nose_surface
+from hydro2d.penetration.layers import Target
+from hydro2d.penetration.model import InputError, positive
+from hydro2d.penetration.surface import Surface, body_surface, nose_length, nose_surface
 
 #: how far a surface may be from closed: resultant of a uniform pressure over the largest section
 OPEN = 1e-9

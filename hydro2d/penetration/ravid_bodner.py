@@ -18,8 +18,8 @@ from types import MappingProxyType
 
 import numpy as np
 
-from . import inputs
-from .model import Example, Model, Output, positive
+from hydro2d.penetration import inputs
+from hydro2d.penetration.model import Example, Model, Output, positive
 
 #: shear yield stress over yield stress, von Mises
 SHEAR = 1.0 / math.sqrt(3.0)

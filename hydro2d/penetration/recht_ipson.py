@@ -11,8 +11,8 @@ import math
 from dataclasses import dataclass
 from types import MappingProxyType
 
-from . import inputs
-from .model import Example, Input, Model, Output, non_negative, positive
+from hydro2d.penetration import inputs
+from hydro2d.penetration.model import Example, Input, Model, Output, non_negative, positive
 
 
 @dataclass(frozen=True)

@@ -16,12 +16,12 @@ from types import MappingProxyType
 
 import numpy as np
 
-from . import inputs
-from .cavity import CAVITY_VELOCITY, given_or_fitted
-from .layers import Layer, Target, stack
-from .model import ANY, Example, Input, InputError, Model, Output, non_negative, positive
-from .projectile import Body, load, projectile
-from .rotation import coast, matrix, pointing
+from hydro2d.penetration import inputs
+from hydro2d.penetration.cavity import CAVITY_VELOCITY, given_or_fitted
+from hydro2d.penetration.layers import Layer, Target, stack
+from hydro2d.penetration.model import ANY, Example, Input, InputError, Model, Output, non_negative, positive
+from hydro2d.penetration.projectile import Body, load, projectile
+from hydro2d.penetration.rotation import coast, matrix, pointing
 
 #: a step carries the rod by no more than this share of its diameter
 STRIDE = 0.04

@@ -10,8 +10,8 @@ from __future__ import annotations
 
 import math
 
-from . import tate
-from .model import Example, Model, Output, non_negative
+from hydro2d.penetration import tate
+from hydro2d.penetration.model import Example, Model, Output, non_negative
 
 
 def debris_velocity(velocity: float, *, rod_density: float, rod_strength: float, target_density: float,

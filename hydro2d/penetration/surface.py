@@ -21,7 +21,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .model import InputError, positive
+from hydro2d.penetration.model import InputError, positive
 
 SHAPES = ("hemispherical", "ogival", "conical", "flat")
 

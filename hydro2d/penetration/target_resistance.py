@@ -10,8 +10,8 @@ from __future__ import annotations
 
 import math
 
-from . import inputs
-from .model import FRACTION, NON_NEGATIVE, Example, Input, InputError, Model, Output, complain, positive
+from hydro2d.penetration import inputs
+from hydro2d.penetration.model import FRACTION, NON_NEGATIVE, Example, Input, InputError, Model, Output, complain, positive
 
 #: Tate's share of dynamic effects in the flow stress, lambda: Anderson (2017), section 6.4
 DYNAMIC_FACTOR = 0.7

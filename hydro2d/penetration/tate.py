@@ -18,10 +18,10 @@ from types import MappingProxyType
 
 import numpy as np
 
-from . import inputs
-from .hydrodynamic import interface_velocity
-from .model import NON_NEGATIVE, Example, Input, Model, Output, non_negative, positive
-from .target_resistance import RESISTANCE_INPUTS, resistance_of
+from hydro2d.penetration import inputs
+from hydro2d.penetration.hydrodynamic import interface_velocity
+from hydro2d.penetration.model import NON_NEGATIVE, Example, Input, Model, Output, non_negative, positive
+from hydro2d.penetration.target_resistance import RESISTANCE_INPUTS, resistance_of
 
 NO_PENETRATION, RIGID, ERODING, ERODING_THEN_RIGID = "no penetration", "rigid", "eroding", "eroding, then rigid"
 #: -ln(l/L) at which nothing is left of a rod

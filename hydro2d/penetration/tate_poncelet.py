@@ -11,9 +11,9 @@ import math
 from collections.abc import Sequence
 from types import MappingProxyType
 
-from . import inputs, poncelet
-from .model import Example, InputError, Model, Output, positive
-from .target_resistance import RESISTANCE_INPUTS, resistance_of
+from hydro2d.penetration import inputs, poncelet
+from hydro2d.penetration.model import Example, InputError, Model, Output, positive
+from hydro2d.penetration.target_resistance import RESISTANCE_INPUTS, resistance_of
 
 
 def depth_over_length(velocity: float, *, rod_density: float, target_density: float, resistance: float) -> float:

@@ -12,9 +12,9 @@ import math
 from collections.abc import Mapping
 from types import MappingProxyType
 
-from . import inputs
-from .centreline import LAST_SPEED, Centreline, Rod, Target, Track, plastic_extent
-from .model import Example, Input, Model, Output
+from hydro2d.penetration import inputs
+from hydro2d.penetration.centreline import LAST_SPEED, Centreline, Rod, Target, Track, plastic_extent
+from hydro2d.penetration.model import Example, Input, Model, Output
 
 #: highest impact velocity at which a transition is looked for, and the step of the search, m/s
 FASTEST, SEARCH_STEP = 6000.0, 50.0

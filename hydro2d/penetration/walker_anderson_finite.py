@@ -15,10 +15,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from types import MappingProxyType
 
-from . import inputs
-from .centreline import Centreline, Rod, Target
-from .model import Example, Input, Model, Output, positive
-from .walker_anderson import CRATER_RADIUS, ROD_INPUTS, TARGET_INPUTS, materials
+from hydro2d.penetration import inputs
+from hydro2d.penetration.centreline import Centreline, Rod, Target
+from hydro2d.penetration.model import Example, Input, Model, Output, positive
+from hydro2d.penetration.walker_anderson import CRATER_RADIUS, ROD_INPUTS, TARGET_INPUTS, materials
 
 #: the rear surface is reached where no more than this share of the plate is left ahead of the rod
 LAST_SHARE_OF_PLATE = 1e-6

@@ -3,6 +3,6 @@
 
 def load(directory):
     """A study directory, a run directory or a folder of runs, read back. See `hydro2d.study.layout.load`."""
-    from .layout import load as read
+    from hydro2d.study.layout import load as read
 
     return read(directory)

@@ -11,7 +11,7 @@ from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 from itertools import pairwise
 
-from ..history import REGIMES
+from hydro2d.history import REGIMES
 
 #: failed runs after which a search gives up
 MOST_FAILED = 4

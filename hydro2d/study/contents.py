@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from . import experiments, record, table
-from .experiments import Measurement
-from .layout import Study
-from .record import Record, Setup
+from hydro2d.study import experiments, record, table
+from hydro2d.study.experiments import Measurement
+from hydro2d.study.layout import Study
+from hydro2d.study.record import Record, Setup
 
 
 @dataclass

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ..figures import new_figure, reader_unit
-from ..history import unit
-from .experiments import AT_LEAST, Measurement
-from .record import DRAWN, Record, Setup
-from .series import Series, style
-from .theory import Curve
+from hydro2d.figures import new_figure, reader_unit
+from hydro2d.history import unit
+from hydro2d.study.experiments import AT_LEAST, Measurement
+from hydro2d.study.record import DRAWN, Record, Setup
+from hydro2d.study.series import Series, style
+from hydro2d.study.theory import Curve
 
 WIDTH, FONT = 5.0, 10.0
 #: entries of a legend beyond which the rest is counted

@@ -10,9 +10,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from math import isclose
 
-from ..model_transition import Shot
-from ..model_transition import experiments as catalogue
-from .record import Record, Setup
+from hydro2d.model_transition import Shot
+from hydro2d.model_transition import experiments as catalogue
+from hydro2d.study.record import Record, Setup
 
 #: shares by which geometry, velocity and depth may differ and still be the same
 SAME_GEOMETRY, SAME_VELOCITY, SAME_DEPTH = 0.01, 0.005, 1e-3

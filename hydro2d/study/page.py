@@ -7,13 +7,13 @@ from collections.abc import Sequence
 from datetime import UTC, datetime
 from importlib import resources
 
-from .. import __version__, model_transition
-from . import differences, regimes
-from .contents import Contents
-from .markup import Html, element, table
-from .pictures import Picture
-from .record import Record
-from .table import Column, Row, columns_of_books, columns_of_results
+from hydro2d import __version__, model_transition
+from hydro2d.study import differences, regimes
+from hydro2d.study.contents import Contents
+from hydro2d.study.markup import Html, element, table
+from hydro2d.study.pictures import Picture
+from hydro2d.study.record import Record
+from hydro2d.study.table import Column, Row, columns_of_books, columns_of_results
 
 STYLE, SCRIPT = "report.css", "report.js"
 #: the page fetches nothing, and browsers see to it

@@ -8,10 +8,10 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from .. import figures
-from . import drawing, experiments, record, rods, series, theory
-from .contents import Contents
-from .record import Record, Setup
+from hydro2d import figures
+from hydro2d.study import drawing, experiments, record, rods, series, theory
+from hydro2d.study.contents import Contents
+from hydro2d.study.record import Record, Setup
 
 #: names of pictures, for those that an earlier report has left
 NAMES = re.compile(r"(depth|histories|rods)_[\w-]+\.png")

@@ -10,11 +10,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .. import deck as decks
-from .. import history, model_deck, vtk
-from ..deck_errors import DeckError
-from ..run import DECK, HISTORY
-from .layout import DONE, Case
+from hydro2d import deck as decks
+from hydro2d import history, model_deck, vtk
+from hydro2d.deck_errors import DeckError
+from hydro2d.run import DECK, HISTORY
+from hydro2d.study.layout import DONE, Case
 
 #: columns of the history that are drawn, and the most points of a line
 DRAWN = ("penetration_depth_m", "rod_tail_velocity_m_s", "rod_length_m")

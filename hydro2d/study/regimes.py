@@ -5,15 +5,15 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from .. import __version__, model_transition, penetrator
-from .. import model as models
-from ..files import write_json
-from ..model_text import columns
-from ..model_transition import Bracket, Comparison, Prediction, extent
-from ..penetration.model import InputError
-from . import bisection, experiments, record, velocities
-from .layout import Interval, Study, StudyError
-from .record import Record
+from hydro2d import __version__, model_transition, penetrator
+from hydro2d import model as models
+from hydro2d.files import write_json
+from hydro2d.model_text import columns
+from hydro2d.model_transition import Bracket, Comparison, Prediction, extent
+from hydro2d.penetration.model import InputError
+from hydro2d.study import bisection, experiments, record, velocities
+from hydro2d.study.layout import Interval, Study, StudyError
+from hydro2d.study.record import Record
 
 FILE = "transition.json"
 #: names of the transitions by the regime that they lead to

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from ..files import write_text
-from . import layout, pictures, table
-from .contents import collect
-from .page import page
+from hydro2d.files import write_text
+from hydro2d.study import layout, pictures, table
+from hydro2d.study.contents import collect
+from hydro2d.study.page import page
 
 PAGE, TABLE = "report.html", "cases.csv"
 

@@ -7,10 +7,10 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from ..figures import new_figure
-from .drawing import FONT, WIDTH
-from .experiments import Measurement
-from .record import Record
+from hydro2d.figures import new_figure
+from hydro2d.study.drawing import FONT, WIDTH
+from hydro2d.study.experiments import Measurement
+from hydro2d.study.record import Record
 
 COLUMNS, ROWS = 6, 3
 PER_PAGE = COLUMNS * ROWS

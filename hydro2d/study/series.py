@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from .differences import compare
-from .layout import Axis
-from .record import Record
+from hydro2d.study.differences import compare
+from hydro2d.study.layout import Axis
+from hydro2d.study.record import Record
 
 #: colours that colour-blind readers tell apart (Okabe and Ito), the darker ones; markers and dashes for print
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#a14d7f", "#3a3a3a", "#b8860b")

@@ -7,10 +7,10 @@ import io
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from .experiments import Measurement
-from .layout import Study
-from .record import Record
-from .series import is_velocity
+from hydro2d.study.experiments import Measurement
+from hydro2d.study.layout import Study
+from hydro2d.study.record import Record
+from hydro2d.study.series import is_velocity
 
 #: sinks that are named in the page, and the share of the start energy from which on
 NAMED_SINKS, SMALLEST_SHARE = 3, 1e-6

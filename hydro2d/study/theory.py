@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .. import model as models
-from .. import model_deck
-from ..penetration.model import InputError
+from hydro2d import model as models
+from hydro2d import model_deck
+from hydro2d.penetration.model import InputError
 
 #: models of a rod into a thick target, from rigid to consumed
 MODELS = ("forrestal", "tate", "walker-anderson", "anderson-riegel", "hydrodynamic")

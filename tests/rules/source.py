@@ -41,8 +41,8 @@ def tree(file: Path) -> ast.Module:
     return ast.parse(file.read_text(encoding="utf-8"), str(file))
 
 
-def imports(name: str, syntax: ast.AST, package: bool, known: frozenset[str]) -> Iterator[tuple[str, int]]:
-    """Modules that the module ``name`` imports anywhere, also inside functions, with the line of each.
+def imports(syntax: ast.AST, known: frozenset[str]) -> Iterator[tuple[str, int]]:
+    """Modules that a module imports anywhere, also inside functions, with the line of each; no import is relative.
 
     ``from package import thing`` counts as package.thing where that is a module of ``known``.
     """
@@ -51,20 +51,14 @@ def imports(name: str, syntax: ast.AST, package: bool, known: frozenset[str]) ->
             for alias in node.names:
                 yield alias.name, node.lineno
         elif isinstance(node, ast.ImportFrom):
-            base = node.module or ""
-            if node.level:
-                home = name.split(".")
-                home = home[: len(home) - node.level + (1 if package else 0)]
-                base = ".".join([*home, *([base] if base else [])])
             for alias in node.names:
-                inner = f"{base}.{alias.name}"
-                yield (inner if inner in known else base), node.lineno
+                inner = f"{node.module}.{alias.name}"
+                yield (inner if inner in known else node.module), node.lineno
 
 
 def imports_of(name: str) -> list[tuple[str, int]]:
     """Modules that a module of the program imports, with the line of each."""
-    file = modules()[name]
-    return list(imports(name, tree(file), file.name == "__init__.py", frozenset(modules())))
+    return list(imports(tree(modules()[name]), frozenset(modules())))
 
 
 def functions(syntax: ast.AST, *decorators: str) -> Iterator[ast.FunctionDef]:

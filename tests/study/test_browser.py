@@ -5,8 +5,7 @@ from unicodedata import normalize
 import pytest
 
 from hydro2d.study.report import report
-
-from . import fake
+from tests.study import fake
 
 AXES = {
     "velocity": fake.velocities(1086, 1200, 1296),

@@ -5,8 +5,7 @@ import pytest
 
 from hydro2d.study import drawing, layout, rods, series, theory
 from hydro2d.study.contents import collect
-
-from . import fake
+from tests.study import fake
 
 
 @pytest.fixture(scope="module")

@@ -9,8 +9,7 @@ import pytest
 
 from hydro2d.study import layout
 from hydro2d.study.layout import StudyError
-
-from . import fake
+from tests.study import fake
 
 AXES = {"velocity": fake.velocities(1086, 1200), "advection": {"ke": ("numerics.advection=ke",)}}
 

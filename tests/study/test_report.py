@@ -9,9 +9,8 @@ from hydro2d.cli import call
 from hydro2d.study import layout
 from hydro2d.study.contents import collect
 from hydro2d.study.report import report
-
-from . import fake
-from .html import Page
+from tests.study import fake
+from tests.study.html import Page
 
 AXES = {
     "velocity": fake.velocities(1086, 1200, 1290),

@@ -5,7 +5,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from . import fake
+from tests.unit import fake
 
 
 @pytest.fixture

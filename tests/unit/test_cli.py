@@ -13,8 +13,7 @@ import pytest
 
 from hydro2d import snapshot, vtk
 from hydro2d.cli import app, call
-
-from . import fake
+from tests.unit import fake
 
 DECK = """
 [mesh]

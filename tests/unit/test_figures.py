@@ -8,8 +8,7 @@ from hydro2d.figures import FigureError
 from hydro2d.outlines import outlines
 from hydro2d.results import load
 from hydro2d.vtk import Dump
-
-from . import fake
+from tests.unit import fake
 
 
 @pytest.fixture

@@ -12,8 +12,7 @@ from hydro2d import figures, history, results, vtk
 from hydro2d.results import ResultsError
 from hydro2d.run import run as start
 from hydro2d.study import layout
-
-from . import fake
+from tests.unit import fake
 
 
 @pytest.fixture

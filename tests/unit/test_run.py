@@ -13,8 +13,7 @@ from hydro2d import history, snapshot, vtk
 from hydro2d.derived import FieldError
 from hydro2d.files import LockError
 from hydro2d.run import Due, Interrupt, RunError, exit_status, run
-
-from . import fake
+from tests.unit import fake
 
 
 def test_due_at_first_cycle_at_or_after_each_time():

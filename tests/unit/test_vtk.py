@@ -7,8 +7,7 @@ import numpy as np
 import pytest
 
 from hydro2d import derived, vtk
-
-from . import fake
+from tests.unit import fake
 
 
 @pytest.fixture
