@@ -27,11 +27,14 @@ class Client:
 
     outcome : from the velocity in m/s and the resolved deck to entries of the summary, or to an Outcome that is none
     interrupt_at : number of the submission at which SIGINT comes; its run leaves a restart file
+    submitted : names of the cases in their order
+    ahead : how many had been submitted whenever what became of a case was asked
     """
 
     def __init__(self, outcome: Callable, workers: int = 1, interrupt_at: int | None = None):
         self.outcome, self.workers, self.interrupt_at = outcome, workers, interrupt_at
         self.submitted: list[str] = []
+        self.ahead: list[int] = []
 
     def connect(self):
         """As cluster.local."""
@@ -48,7 +51,7 @@ class Client:
         self.submitted.append(place.name)
         if place.exists():
             shutil.rmtree(place)
-        return _Future(key, self._run(place, text))
+        return _Future(key, self._run(place, text), lambda: self.ahead.append(len(self.submitted)))
 
     def _run(self, place: Path, text: str) -> Outcome:
         if len(self.submitted) == self.interrupt_at:
@@ -70,13 +73,14 @@ class _Future:
 
     status = "finished"
 
-    def __init__(self, key: str, outcome: Outcome):
-        self.key, self.outcome = key, outcome
+    def __init__(self, key: str, outcome: Outcome, asked: Callable):
+        self.key, self.outcome, self.asked = key, outcome, asked
 
     def add_done_callback(self, function) -> None:
         function(self)
 
     def result(self) -> dict:
+        self.asked()
         return self.outcome.plain()
 
     def release(self) -> None:

@@ -159,6 +159,12 @@ def test_every_combination_has_its_brackets(finished):
     assert {case.status for case in study.load(folder / "out").cases} == {"done"}
 
 
+def test_a_free_worker_gets_its_next_case_before_the_last_one_is_told(finished):
+    """Asked of the first case, two have been given out, and so on; the last has no other behind it."""
+    client = finished[1]
+    assert client.ahead == [*range(2, len(client.submitted) + 1), len(client.submitted)]
+
+
 def test_the_hydrodynamic_limit_is_that_of_the_experiments(finished):
     """L sqrt(rho_p/rho_t) is 25 cm; rigid rods go 36 cm and deeper, others 22 cm at 1100 m/s and 27 cm at 1350 m/s."""
     ke, _ = brackets(json.loads((finished[0] / "out" / "transition.json").read_text()))
