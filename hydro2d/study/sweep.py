@@ -213,15 +213,15 @@ class _Sweep:
         """The case that has ended; its worker is free for another before more is asked about this one."""
         case = self.tasks.pop(future.key)
         self.board.moving.discard(case.name)
-        self.board.look(case.name)
-        return case
+        return self.board.look(case.name)
 
     def _finish(self, case: layout.Case, outcome: Outcome) -> None:
         """Tells what became of a case."""
         self.spent += outcome.wall_s
         if outcome.status == FAILED_STATUS:
             self._record(case, outcome)
-        name, *shown = monitor.row(self.board.look(case.name))
+            case = self.board.look(case.name)
+        name, *shown = monitor.row(case)
         depth = "" if shown[1] == "-" else f"depth {shown[1]}"
         words = [outcome.status, depth if outcome.status == DONE else outcome.message]
         words += [] if outcome.fresh else ["was there already" if outcome.status == DONE else "not begun"]
