@@ -46,6 +46,8 @@ class Grid:
         Edges with ghosts; index g is the first interior edge.
     volume : float64, shape (nz + 2 g, nr + 2 g)
         Cell volumes per radian (planar: per unit depth), positive in ghosts as well.
+    offset : float
+        How far the mesh has travelled along z since the start, m; see `move`.
     """
 
     def __init__(self, r_edges, z_edges, geometry: str = "cylindrical"):
@@ -64,6 +66,8 @@ class Grid:
         self.r, self.z = _with_ghosts(r_edges), _with_ghosts(z_edges)
         self.dr, self.dz = np.diff(self.r), np.diff(self.z)
         self.rc, self.zc = 0.5 * (self.r[1:] + self.r[:-1]), 0.5 * (self.z[1:] + self.z[:-1])
+        self.offset = 0.0
+        self._start = self.z.copy(), self.zc.copy()
         self._columns()
         self.volume = self.dz[:, None] * self.vol_r[None, :]
         self.shape = self.volume.shape
@@ -88,6 +92,12 @@ class Grid:
         self.mid_r = self.vol_r / (2 * dr)
         self.cm_in = self.az_in / (2 * self.vol_r)
         self.cm_out = self.az_out / (2 * self.vol_r)
+
+    def move(self, offset: float) -> None:
+        """Places the whole mesh at `offset` from where it was at the start: edges and centres along z, in place."""
+        self.offset = offset
+        for now, start in zip((self.z, self.zc), self._start, strict=True):
+            np.add(start, offset, out=now)
 
     @property
     def cells(self) -> int:
