@@ -376,6 +376,8 @@ class Cycle:
         s, g, method = self.state, self.grid, self.method
         j0, j1, i0, i1 = self.box
         flow = s.flux_mass
+        if di:  # a sweep along z has left its fluxes in the rows beyond the mesh, through which nothing flows along r
+            flow[:, [self.edges[0] - 1, self.edges[1]]] = 0.0
         for face, sign in self._open_faces(di):  # beyond an open edge the flux goes on as it was
             beyond = face + int(sign)
             for of_group in flow:
