@@ -11,6 +11,7 @@ import numpy as np
 from hydro2d import fields
 from hydro2d.audit import Ledger
 from hydro2d.contact import Contact
+from hydro2d.following import StandingMesh
 from hydro2d.kernels import (
     acceleration,
     boundaries,
@@ -43,6 +44,7 @@ class Cycle:
     state : State, with vof, q, u and v set
     table : MaterialTable
     method : Method
+    mesh : what says how the mesh moves; without it the mesh stands
 
     Attributes
     ----------
@@ -52,8 +54,9 @@ class Cycle:
     ledger : Ledger
     """
 
-    def __init__(self, state, table, method: Method):
+    def __init__(self, state, table, method: Method, mesh=None):
         self.state, self.table, self.method = state, table, method
+        self.mesh = mesh or StandingMesh()
         grid = self.grid = state.grid
         self.time, self.dt, self.number, self.cause = 0.0, 0.0, 0, "start"
         g = grid.g
@@ -61,6 +64,7 @@ class Cycle:
         low_r, high_r, low_z, high_z = method.mirrors
         self.still = np.array([g if low_r else -1, g + grid.nr if high_r else -1, g if low_z else -1,
                                g + grid.nz if high_z else -1], dtype=np.int64)
+        self.void_only = self._edges_with_void_beyond()
         self.carried = np.array([self._carried(m) for m in range(state.bodies)])
         self.contact = Contact(state, method, self.edges, self.still) if state.groups > 1 else None
         self.box = list(self.edges)
@@ -68,6 +72,14 @@ class Cycle:
         self.speed_limit = 0.0
         self.loose = method.loose * table.rho0
         self.light_density = method.mass_floor * float(np.max(table.rho0))
+
+    def _edges_with_void_beyond(self) -> np.ndarray:
+        """The edges of the mesh (rows j0, j1, columns i0, i1) through which nothing but void comes in, -1 for the others."""
+        found = self.edges.copy()
+        found[np.roll(self.method.transmits, 2)] = -1
+        if self.mesh.leading is not None:
+            found[self.mesh.leading] = -1
+        return found
 
     def _carried(self, m: int) -> int:
         if self.table.damage_model[m]:
@@ -81,6 +93,7 @@ class Cycle:
         self.activate()
         self.ghost_vertices()
         self.find_slip_zones()
+        self.mesh.follow()
         self.close_cells()
         self.choose_step()
 
@@ -88,6 +101,7 @@ class Cycle:
         self.accelerate()
         self.sweep_faces()
         self.deform()
+        self.mesh.leave(self.dt)
 
         directions = ((0, 1), (1, 0)) if self.number % 2 == 0 else ((1, 0), (0, 1))
         for second, (dj, di) in enumerate(directions):
@@ -96,6 +110,7 @@ class Cycle:
             self.remap_momentum(dj, di)
             self.tidy(dj, di, second)
 
+        self.mesh.move(self.dt)
         self.time += self.dt
         self.number += 1
 
@@ -106,13 +121,14 @@ class Cycle:
         s = self.state
         every = self.box
         self.box = list(self.edges)
+        self.mesh.announce()
         self._spans(anew=True)
         s.cell_mass[...] = 0.0
         j0, j1, _, _ = self.box
         remap.sum_cell_mass(j0, j1, s.around, s.group, self.grid.volume, s.vof, s.q, s.cell_mass)
         self._vertex_mass()
         if self.ledger is None:
-            self.box = self._first_box() if self.method.active_region else list(self.edges)
+            self.box = self._first_box() if self._skips_cells else list(self.edges)
             self.ledger = Ledger.open(s)
             sound = self._slowest_wave()
             fastest = float(np.sqrt(np.max(s.u**2 + s.v**2)))
@@ -123,6 +139,11 @@ class Cycle:
             s.empty_spans()
             self._spans(anew=True)
         self._list_mixed()
+
+    @property
+    def _skips_cells(self) -> bool:
+        """Whether quiet cells may be skipped: not where the mesh travels, and every cell hands on what it holds."""
+        return self.method.active_region and self.mesh.leading is None
 
     def _slowest_wave(self) -> float:
         from eos.dispatch import evaluate, sound_speed_squared
@@ -213,6 +234,18 @@ class Cycle:
                 self.ledger.book("walls", momentum=float(np.sum(s.mass[:, row] * s.v[:, row])))
                 s.v[:, row] = 0.0
 
+    def _transmit(self) -> None:
+        """What an endless plate would hold the transmitting edges with; what it takes is booked."""
+        s, g, taken = self.state, self.grid, np.zeros(2)
+        for along_r in (True, False):
+            j0, j1, i0, i1 = self.box
+            first, last = (j0, j1 + 1) if along_r else (i0, i1 + 1)
+            for at, _ in self._open_faces(along_r, self.method.transmits):
+                boundaries.transmit(along_r, at, first, last, self.dt, g.face_r, g.az_in, g.az_out, g.dz, s.rhobar, s.cl,
+                                    s.bulk, s.mass, s.u0, s.v0, s.u, s.v, taken)
+        if taken.any():
+            self.ledger.book("transmitted", momentum=float(taken[0]), energy=float(taken[1]))
+
     # ------------------------------------------------------------------------------------------------ Lagrangian step
 
     def find_slip_zones(self) -> None:
@@ -228,7 +261,7 @@ class Cycle:
         s, g, t, method, (j0, j1, _, _) = self.state, self.grid, self.table, self.method, self.box
         mixed.close_cells(
             j0, j1, method.max_opening, method.smallest_tension, method.linear, method.quadratic, method.courant,
-            method.advective, method.hourglass, g.face_r, g.az_in, g.az_out, g.vol_r, g.dr, g.dz, s.span, s.reach,
+            method.advective, self.mesh.velocity, method.hourglass, g.face_r, g.az_in, g.az_out, g.vol_r, g.dr, g.dz, s.span, s.reach,
             s.mixed_count, s.mixed, s.group, t.eos_model, t.eos_par, t.strength_model, t.strength_par, t.damage_model,
             t.fracture_pressure, self.loose, s.u, s.v, s.vof, s.q, s.pm, s.km, s.tm, s.p, s.bulk, s.rhobar, s.solid, s.cl,
             s.qr, s.qz, s.weight, s.rows[0], s.rows[1], s.row_numbers, s.scratch)
@@ -255,8 +288,8 @@ class Cycle:
         j = int(s.found[0])
         stable = float(s.rows[1, j])
         thermodynamics.step_cause(
-            j, method.courant, method.advective, g.dr, g.dz, g.vol_r, g.face_r, g.az_in, g.az_out, s.reach, s.u, s.v,
-            s.rhobar, s.cl, s.qr, s.qz, s.row_numbers[j])
+            j, method.courant, method.advective, self.mesh.velocity, g.dr, g.dz, g.vol_r, g.face_r, g.az_in, g.az_out,
+            s.reach, s.u, s.v, s.rhobar, s.cl, s.qr, s.qz, s.row_numbers[j])
         cause, i = s.row_numbers[j, :2]
         ramp = min(1.0, method.first + (1.0 - method.first) * self.number / max(method.ramp_cycles, 1))
         dt, self.cause = stable * ramp, (f"{thermodynamics.CAUSES[cause]} at r = {g.rc[i] * 1e3:.3f} mm, "
@@ -294,6 +327,7 @@ class Cycle:
                              energy=float(limited[1, j0:j1 + 1].sum()))
         if self.contact:
             self.contact.meet(j0, j1, self.dt, self.ledger)
+        self._transmit()
         self._hold_still()
         self._keep_one()
         self.ghost_vertices()
@@ -334,10 +368,11 @@ class Cycle:
         along_r, along_z = di * fields.BODY_FIELDS, dj * fields.BODY_FIELDS  # the other direction's interfaces need fractions
         boundaries.ghost_columns(j0, j1, g.nr, low_r, high_r, along_r, s.span, s.vof, s.q)
         boundaries.ghost_rows(i0 - 2, i1 + 2, g.nz, low_z, high_z, along_z, s.vof, s.q)
+        self.mesh.fill_ghosts(self.dt)
         if not second:  # cells may have been filled by the Lagrangian step
             self._list_mixed()
         face = s.fr if di else s.fz
-        interfaces.donor_volumes(dj, di, *box, second == 0, self.edges, g.volume, s.near, s.reach, s.fr, s.fz, s.vof, s.pre,
+        interfaces.donor_volumes(dj, di, *box, second == 0, self.void_only, g.volume, s.near, s.reach, s.fr, s.fz, s.vof, s.pre,
                                  s.flux_volume)
         interfaces.interface_volumes(dj, di, j0, j1, g.dr, g.dz, self.method.order, s.mixed_count, s.mixed, face, s.pre, s.vof,
                                      s.flux_volume, s.mix)
@@ -354,22 +389,26 @@ class Cycle:
               s.flux_volume, s.scratch, s.flux, s.flux_mass, s.edge_flux, s.vof, s.q, s.cell_mass, s.mixed_count, s.mixed)
         self._book_outflow(di)
 
-    def _open_faces(self, di: int):
-        """(index of the face, outward sign) of the open edges of a direction, where the active box has reached them."""
-        low, high = self.method.mirrors[0:2] if di else self.method.mirrors[2:4]
+    def _open_faces(self, di: int, kind=None):
+        """(index of the face, outward sign) of the open edges of a direction, or of those of a kind (four booleans as in
+        `Method`), where the active box has reached them."""
+        kind = self.method.opens if kind is None else kind
+        low, high = kind[0:2] if di else kind[2:4]
         box, edges = (self.box[2:4], self.edges[2:4]) if di else (self.box[0:2], self.edges[0:2])
-        if not low and box[0] == edges[0]:
+        if low and box[0] == edges[0]:
             yield int(edges[0]), -1.0
-        if not high and box[1] == edges[1]:
+        if high and box[1] == edges[1]:
             yield int(edges[1]), 1.0
 
     def _book_outflow(self, di: int) -> None:
         s, (j0, j1, i0, i1) = self.state, self.box
         for _, sign in self._open_faces(di):
             side, along = int(sign > 0), slice(j0, j1) if di else slice(i0, i1)
-            mass, energy = sign * s.edge_flux[side, ..., along].sum(axis=-1)
-            if mass.any():
-                self.ledger.book("outflow", mass=mass, energy=float(energy.sum()))
+            flow = sign * s.edge_flux[side, ..., along]  # outward [k, m, i]
+            for name, there in (("outflow", flow[0] > 0.0), ("inflow", flow[0] < 0.0)):
+                if there.any():
+                    mass, energy = np.where(there, flow, 0.0).sum(axis=-1)
+                    self.ledger.book(name, mass=mass, energy=float(energy.sum()))
 
     def remap_momentum(self, dj: int, di: int) -> None:
         """Velocities after the sweep, by the advection choice; what it discards is booked."""
@@ -401,16 +440,17 @@ class Cycle:
         self.ghost_vertices()
 
     def _kinetic_outflow(self, di: int) -> float:
-        """Books the momentum that left through open edges and returns the kinetic energy that left with it."""
+        """Books the momentum that went through open edges and returns the kinetic energy that left with it."""
         s, (j0, j1, i0, i1) = self.state, self.box
         total = 0.0
         for _, sign in self._open_faces(di):
             flow = s.edge_dual[:, int(sign > 0), :, j0:j1 + 1] if di else s.edge_dual[:, int(sign > 0), :, i0:i1 + 1]
-            _, _, axial, *kinetic = sign * flow.sum(axis=-1).sum(axis=0)
-            energy = float(sum(kinetic))
-            if energy != 0.0:
-                self.ledger.book("outflow", momentum=float(axial), energy=energy)
-            total += energy
+            for name, there in (("outflow", sign * flow[:, 0] > 0.0), ("inflow", sign * flow[:, 0] < 0.0)):
+                _, _, axial, *kinetic = sign * np.where(there[:, None], flow, 0.0).sum(axis=-1).sum(axis=0)
+                energy = float(sum(kinetic))
+                if energy != 0.0:
+                    self.ledger.book(name, momentum=float(axial), energy=energy)
+                total += energy
         return total
 
     def tidy(self, dj: int, di: int, second: int) -> None:

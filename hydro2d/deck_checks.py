@@ -88,7 +88,7 @@ def _bad_mesh(deck: Deck) -> Iterator[tuple[tuple, str]]:
         return
     if deck.boundaries.r_min == "axis" and not (cylindrical and deck.mesh.r_start == 0):
         yield ("boundaries", "r_min"), "an axis needs a cylindrical mesh that starts at r = 0"
-    if deck.boundaries.r_min in ("wall", "outflow") and cylindrical and deck.mesh.r_start == 0:
+    if deck.boundaries.r_min in ("wall", "outflow", "transmit") and cylindrical and deck.mesh.r_start == 0:
         yield ("boundaries", "r_min"), "r = 0 of a cylindrical mesh is the axis"
     try:
         r, z = axis_edges(deck, "r"), axis_edges(deck, "z")

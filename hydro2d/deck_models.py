@@ -63,17 +63,22 @@ class Mesh(Section):
     z_start: Length = Field(0.0, description="lower edge of the mesh")
     r: tuple[Segment, ...] = Field(min_length=1, description="segments from r_start outward")
     z: tuple[Segment, ...] = Field(min_length=1, description="segments from z_start upward")
+    follow: str | None = Field(
+        None, description="a body that the whole mesh travels with along z; what the deck has placed ahead enters in its turn; "
+        "default: the mesh stands still"
+    )
 
 
 class Boundaries(Section):
-    """What stands at the edges: the axis, a frictionless wall (or plane of symmetry), or an open end."""
+    """What stands at the edges: the axis; a frictionless wall (or plane of symmetry); outflow, an open end that bodies leave as
+    if the mesh went on; or transmit, the cut through an endless plate, which lets waves out and holds what they press on."""
 
-    r_min: Literal["axis", "wall", "outflow"] | None = Field(
+    r_min: Literal["axis", "wall", "outflow", "transmit"] | None = Field(
         None, description="default: axis where a cylindrical mesh starts at r = 0, else wall"
     )
-    r_max: Literal["wall", "outflow"] = Field("outflow", description="the outer edge")
-    z_min: Literal["wall", "outflow"] = Field("outflow", description="the lower edge")
-    z_max: Literal["wall", "outflow"] = Field("outflow", description="the upper edge")
+    r_max: Literal["wall", "outflow", "transmit"] = Field("outflow", description="the outer edge")
+    z_min: Literal["wall", "outflow", "transmit"] = Field("outflow", description="the lower edge")
+    z_max: Literal["wall", "outflow", "transmit"] = Field("outflow", description="the upper edge")
 
 
 class Numerics(Section):

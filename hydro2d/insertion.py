@@ -153,7 +153,7 @@ def _body_fractions(deck, grid) -> np.ndarray:
     return fractions(outlines, grid.r_edges, grid.z_edges, grid.cylindrical)
 
 
-def _slot_of(deck, table) -> list[int]:
+def slot_of(deck, table) -> list[int]:
     """Index m of every body of the deck."""
     return [table.names.index(body.join or body.name) for body in deck.body]
 
@@ -161,7 +161,7 @@ def _slot_of(deck, table) -> list[int]:
 def insert(deck, grid, table) -> np.ndarray:
     """Volume fractions of the slots, float64[m, nz, nr] without ghosts. Earlier bodies have the place of later ones."""
     result = np.zeros((len(table), grid.nz, grid.nr))
-    for m, share in zip(_slot_of(deck, table), _body_fractions(deck, grid), strict=True):
+    for m, share in zip(slot_of(deck, table), _body_fractions(deck, grid), strict=True):
         result[m] += share
     return np.minimum(result, 1.0)
 
@@ -234,7 +234,7 @@ def initial_state(deck, grid, table, group=None) -> dict[str, np.ndarray]:
         ``vof``, ``rho`` (kg/m^3), ``e`` (J/kg), shape (m, nz, nr); density and energy also where a body is not.
         ``u_cell``, ``v_cell`` (m/s), shape (b, nz, nr): momentum over mass of the group, 0 where nothing of it is.
     """
-    shares, slots = _body_fractions(deck, grid), _slot_of(deck, table)
+    shares, slots = _body_fractions(deck, grid), slot_of(deck, table)
     shape = (len(table), grid.nz, grid.nr)
     vof, mass, energy = np.zeros(shape), np.zeros(shape), np.zeros(shape)
     rho, e = np.zeros(shape), np.zeros(shape)

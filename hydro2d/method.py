@@ -45,6 +45,8 @@ class Method:
     contact: bool
     group: np.ndarray
     mirrors: tuple[bool, bool, bool, bool]
+    opens: tuple[bool, bool, bool, bool]
+    transmits: tuple[bool, bool, bool, bool]
 
     @classmethod
     def from_deck(cls, deck, slots: list[str], widths: tuple[float, float], factor: float) -> Method:
@@ -54,6 +56,7 @@ class Method:
         layer = slide.method == "slip-layer"
         hard = np.array([layer and name in slide.hard for name in slots])
         group = np.array(decks.body_groups(deck), dtype=np.int64)
+        kinds = (edge.r_min, edge.r_max, edge.z_min, edge.z_max)
         return cls(
             choice=momentum.CHOICES.index(n.advection),
             ke_bound=n.ke_bound,
@@ -85,5 +88,7 @@ class Method:
             factor=np.where(hard | (group == 1), factor, 1.0),
             contact=slide.method == "contact",
             group=group,
-            mirrors=tuple(e in ("wall", "axis") for e in (edge.r_min, edge.r_max, edge.z_min, edge.z_max)),
+            mirrors=tuple(kind in ("wall", "axis") for kind in kinds),
+            opens=tuple(kind in ("outflow", "transmit") for kind in kinds),
+            transmits=tuple(kind == "transmit" for kind in kinds),
         )

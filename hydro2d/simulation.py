@@ -8,6 +8,7 @@ from hydro2d import deck as decks
 from hydro2d import insertion, materials, sums, tracers
 from hydro2d.audit import Ledger
 from hydro2d.cycle import Cycle, UnphysicalState
+from hydro2d.following import FollowingMesh, StandingMesh, UndisturbedSpace
 from hydro2d.grid import Grid
 from hydro2d.method import Method
 from hydro2d.penetrator import Penetrator
@@ -40,13 +41,22 @@ class Simulation:
         method = Method.from_deck(deck, slots, decks.sliding_widths(deck), decks.yield_factor(deck))
         self.state = State(self.grid, len(slots), method.group)
         self._insert()
-        self.engine = Cycle(self.state, self.table, method)
+        self.engine = Cycle(self.state, self.table, method, self._mesh(slots, method))
         self.engine.prepare()
         self.tracers = np.array([[t.r, t.z] for t in deck.tracer]).reshape(-1, 2)
         self._rows = np.zeros((2, self.grid.shape[0]))
         self.penetrator = Penetrator(self, deck) if deck.penetration else None
         self.watched = slots.index(deck.stop.body) if deck.stop.body else None
         self._sign = None
+
+    def _mesh(self, slots: list[str], method: Method) -> StandingMesh | FollowingMesh:
+        """How the mesh moves."""
+        name = self.deck.mesh.follow
+        if name is None:
+            return StandingMesh()
+        direction = float(np.sign(decks.body(self.deck, name).velocity[1]))
+        space = UndisturbedSpace(self.deck, self.table, self.grid)
+        return FollowingMesh(self.state, space, slots.index(name), direction, method.mirrors[:2])
 
     def _insert(self) -> None:
         """Fills the mesh.
@@ -187,12 +197,13 @@ class Simulation:
         """What a restart needs beside the arrays; JSON keeps every bit of it."""
         e = self.engine
         return {"time": e.time, "dt": e.dt, "cycle": e.number, "cause": e.cause, "box": [int(x) for x in e.box],
-                "speed_limit": e.speed_limit, "sign": self._sign, "ledger": e.ledger.saved()}
+                "mesh_offset": self.grid.offset, "speed_limit": e.speed_limit, "sign": self._sign, "ledger": e.ledger.saved()}
 
     def load_restart_scalars(self, scalars: dict) -> None:
         """Continues from what `restart_scalars` gave; after `load_restart_arrays`."""
         e = self.engine
         e.time, e.dt, e.number, e.cause = (scalars[name] for name in ("time", "dt", "cycle", "cause"))
         e.box, e.speed_limit, self._sign = list(scalars["box"]), scalars["speed_limit"], scalars["sign"]
+        self.grid.move(scalars["mesh_offset"])
         e.ledger = Ledger.resume(scalars["ledger"])
         e.prepare()

@@ -16,7 +16,7 @@ import numpy as np
 
 from hydro2d.files import hdf5, replacing, sync
 
-FORMAT = "hydro2d restart 1"
+FORMAT = "hydro2d restart 2"
 NAME, PREVIOUS = "restart.h5", "restart.previous.h5"
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from hydro2d.jit import plus, serial
+from hydro2d.jit import plus, point, serial
 
 
 @serial
@@ -31,6 +31,51 @@ def body_sums(g, nz, nr, m, cm_in, cm_out, volume, vof, rho, v, sums):
             momentum = plus(momentum, share * mean if share > 0.0 else 0.0)
         sums[0, j] = mass
         sums[1, j] = momentum
+
+
+@point
+def intact(m, j, i, vof, dmg):
+    """Volume fraction of body m in cell (j, i), zero where it has failed."""
+    return vof[m, j, i] if dmg[m, j, i] < 1.0 else 0.0
+
+
+@serial
+def axis_run(g, nz, m, half, z, vof, dmg, run):
+    """The longest run of cells along the axis (the first column) of which body m, intact, fills the share `half` or more.
+
+    Reads    z edges;  vof, dmg [m, j, i]
+    Writes   run [2]: its first row and one past its last, equal where there is none
+    """
+    run[0], run[1] = g, g
+    first = g
+    for j in range(g, g + nz + 1):
+        if j < g + nz and intact(m, j, g, vof, dmg) >= half:
+            continue
+        if z[j] - z[first] > z[run[1]] - z[run[0]]:
+            run[0], run[1] = first, j
+        first = j + 1
+
+
+@serial
+def core_sums(g, nr, first, last, m, half, volume, vof, dmg, rho, v, sums):
+    """Mass and axial momentum of what of body m is intact and hangs together from the axis outward, rows `first` to `last`.
+
+    The first cell that it does not fill to the share `half` ends a row and still counts, unless it is the one on the axis. A
+    cell moves with the mean of its vertices.
+
+    Reads    volume [j, i];  vof, dmg, rho [m, j, i];  v [j-1/2, i-1/2] of the body's group
+    Writes   sums [2], per radian (per unit depth in planar geometry)
+    """
+    sums[0], sums[1] = 0.0, 0.0
+    for j in range(first, last):
+        for i in range(g, g + nr):
+            f = intact(m, j, i, vof, dmg)
+            if f > 0.0 and (f >= half or i > g):
+                mass = f * rho[m, j, i] * volume[j, i]
+                sums[0] += mass
+                sums[1] += mass * 0.25 * ((v[j, i] + v[j + 1, i]) + (v[j, i + 1] + v[j + 1, i + 1]))
+            if f < half:
+                break
 
 
 @serial

@@ -1,11 +1,14 @@
-"""Ghost cells and vertices: mirrored at the axis and at walls, copied where the mesh is open.
+"""Ghost cells and vertices: mirrored at the axis and at walls, copied where the mesh is open; what transmitting edges hold.
 
-Through an open edge material leaves freely; beyond it is void without stress, and only void comes in.
+Through an open edge material leaves freely; beyond it is void without stress, and only void comes in, or, where the mesh
+travels, what the deck has placed there (hydro2d/following). A transmitting edge lets in what is beside it.
 """
+
+from math import sqrt
 
 from hydro2d.fields import SRZ
 from hydro2d.grid import GHOSTS
-from hydro2d.jit import apart, kernel, prange
+from hydro2d.jit import apart, kernel, point, prange, serial
 
 
 @apart
@@ -90,3 +93,57 @@ def ghost_vertices_z(i0, i1, nz, mirror_low, mirror_high, u, v):
                 v[b, g - n, i] = -v[b, g + n, i] if mirror_low else v[b, g, i]
                 u[b, g + nz + n, i] = u[b, g + nz - n, i] if mirror_high else u[b, g + nz, i]
                 v[b, g + nz + n, i] = -v[b, g + nz - n, i] if mirror_high else v[b, g + nz, i]
+
+
+@point
+def impedances(j, i, rhobar, cl, bulk):
+    """rho c of longitudinal and of shear waves in cell (j, i), Pa s/m; a cell with void passes on no shear.
+
+    rho c_l^2 = K + 4 G/3 gives the shear modulus, rho c_s^2 = G.
+    """
+    rho = rhobar[j, i]
+    stiffness = rho * cl[j, i] * cl[j, i]
+    shear = max(0.75 * (stiffness - bulk[j, i]), 0.0) if bulk[j, i] > 0.0 else 0.0
+    return sqrt(rho * stiffness), sqrt(rho * shear)
+
+
+@point
+def held(dt, m, normal, shear, normal_velocity, velocity):
+    """Velocities (normal, along the edge) of a vertex of mass m that dashpots hold, in N s/m, taken at the end of the step."""
+    return normal_velocity * (m / (m + dt * normal)), velocity * (m / (m + dt * shear))
+
+
+@serial
+def transmit(along_r, at, first, last, dt, face_r, az_in, az_out, dz, rhobar, cl, bulk, mass, u0, v0, u, v, taken):
+    """Tractions -rho c_l v_n and -rho c_s v_t on the vertices first to last of an edge: what an endless plate would hold with.
+
+    J. Lysmer & R. L. Kuhlemeyer, J. Engng Mech. Div. ASCE 95 (1969) 859: exact for plane waves that meet the edge squarely.
+    Vertices that two groups share are the contact's. The edge is column `at` where along_r, else row `at`; what is taken from
+    the vertices goes on beyond the edge.
+
+    Reads    rhobar, cl, bulk [j, i]; mass, u0, v0 [b, j, i]
+    Updates  u, v [b, j, i]; adds to taken[0] axial momentum, to taken[1] energy
+    """
+    groups = mass.shape[0]
+    for place in range(first, last):
+        j, i = (place, at) if along_r else (at, place)
+        normal, shear = 0.0, 0.0
+        for row in range(j - 1, j + 1):
+            for column in range(i - 1, i + 1):
+                area = 0.5 * face_r[i] * dz[row] if along_r else (az_out[column] if column < i else az_in[column])
+                z_l, z_s = impedances(row, column, rhobar, cl, bulk)
+                normal += area * z_l
+                shear += area * z_s
+        for b in range(groups):
+            m = mass[b, j, i]
+            if m == 0.0 or (groups == 2 and mass[1 - b, j, i] > 0.0):
+                continue
+            if along_r:
+                radial, axial = held(dt, m, normal, shear, u[b, j, i], v[b, j, i])
+            else:
+                axial, radial = held(dt, m, normal, shear, v[b, j, i], u[b, j, i])
+            lost_r, lost_z = m * (u[b, j, i] - radial), m * (v[b, j, i] - axial)
+            taken[0] += lost_z
+            taken[1] += 0.5 * (lost_r * (u0[b, j, i] + radial) + lost_z * (v0[b, j, i] + axial))
+            u[b, j, i] = radial
+            v[b, j, i] = axial

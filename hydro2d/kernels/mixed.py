@@ -86,10 +86,10 @@ def tear_mixed_row(j, smallest, max_opening, vol_r, dz, mixed_count, mixed, grou
 
 
 @kernel
-def close_cells(j0, j1, max_opening, smallest_tension, linear, quadratic, courant, advective, hourglass, face_r, az_in, az_out,
-                vol_r, dr, dz, span, reach, mixed_count, mixed, group, eos_model, eos_par, strength_model, strength_par,
-                damage_model, fracture_pressure, loose, u, v, vof, q, pm, km, tm, p, bulk, rhobar, solid, cl, qr, qz, weight,
-                opened, row_step, bad, scratch):
+def close_cells(j0, j1, max_opening, smallest_tension, linear, quadratic, courant, advective, mesh_speed, hourglass, face_r,
+                az_in, az_out, vol_r, dr, dz, span, reach, mixed_count, mixed, group, eos_model, eos_par, strength_model,
+                strength_par, damage_model, fracture_pressure, loose, u, v, vof, q, pm, km, tm, p, bulk, rhobar, solid, cl, qr,
+                qz, weight, opened, row_step, bad, scratch):
     """Equation of state, void where a cell tears, artificial viscosity and the time step that every cell allows.
 
     Reads, updates and writes what pressures_row, tear_mixed_row and viscosity_row do, and the list of mixed cells
@@ -107,8 +107,8 @@ def close_cells(j0, j1, max_opening, smallest_tension, linear, quadratic, couran
                 mixed_row(j, reach, vof, scratch[0], b, mixed_count, mixed)
             tear_mixed_row(j, smallest_tension, max_opening, vol_r, dz, mixed_count, mixed, group, eos_model, eos_par,
                            fracture_pressure, vof, q, pm, p, solid, bulk, opened)
-            viscosity_row(j, b, linear, quadratic, courant, advective, hourglass, dr, dz, vol_r, face_r, az_in, az_out, reach,
-                          u, v, rhobar, bulk, cl, qr, qz, weight, row_step, bad, scratch)
+            viscosity_row(j, b, linear, quadratic, courant, advective, mesh_speed, hourglass, dr, dz, vol_r, face_r, az_in,
+                          az_out, reach, u, v, rhobar, bulk, cl, qr, qz, weight, row_step, bad, scratch)
 
 
 @point

@@ -158,17 +158,21 @@ def volume_loss(i, ub, ut, vb, vt, face_r, az_in, az_out, vol_r, h):
 
 
 @point
-def step_limits(i, ub, ut, vb, vt, courant, advective, dr, h, rho, cl, q, loss):
-    """The four bounds of the time step in cell i, s, in the order of CAUSES (explanation/lagrangian-step)."""
+def step_limits(i, ub, ut, vb, vt, courant, advective, mesh_speed, dr, h, rho, cl, q, loss):
+    """The four bounds of the time step in cell i, s, in the order of CAUSES (explanation/lagrangian-step).
+
+    What crosses a cell along z does so relative to the mesh, which travels at mesh_speed (explanation/following-mesh).
+    """
     sound = courant * min(dr[i], h) / sqrt(cl * cl + 2.0 * q / rho)
     radial = max(max(abs(ub[i]), abs(ub[i + 1])), max(abs(ut[i]), abs(ut[i + 1])))
-    axial = max(max(abs(vb[i]), abs(vb[i + 1])), max(abs(vt[i]), abs(vt[i + 1])))
+    axial = max(max(abs(vb[i] - mesh_speed), abs(vb[i + 1] - mesh_speed)),
+                max(abs(vt[i] - mesh_speed), abs(vt[i + 1] - mesh_speed)))
     return sound, advective * dr[i] / radial, advective * h / axial, 0.2 / loss if loss > 0.0 else 1e300
 
 
 @rowwise
-def viscosity_row(j, b, linear, quadratic, courant, advective, hourglass, dr, dz, vol_r, face_r, az_in, az_out, reach, u, v,
-                  rhobar, bulk, cl, qr, qz, weight, row_step, bad, scratch):
+def viscosity_row(j, b, linear, quadratic, courant, advective, mesh_speed, hourglass, dr, dz, vol_r, face_r, az_in, az_out,
+                  reach, u, v, rhobar, bulk, cl, qr, qz, weight, row_step, bad, scratch):
     """Artificial viscosity direction by direction, and the time step that every cell allows.
 
     q_r answers only to the radial difference du, q_z only to the axial one (a shock along z must not see dr), and neither to
@@ -215,7 +219,7 @@ def viscosity_row(j, b, linear, quadratic, courant, advective, hourglass, dr, dz
         q_r = directional_viscosity(rho, c, du_q, smoothness(du_l, du, du_r), linear, quadratic)
         q_z = directional_viscosity(rho, c, dv_q, smoothness(dv_b, dv, dv_t), linear, quadratic)
         sound, radial, axial, volume = step_limits(
-            i, ub, ut, vb, vt, courant, advective, dr, h, rho, cl_j[i], max(q_r, q_z), loss)
+            i, ub, ut, vb, vt, courant, advective, mesh_speed, dr, h, rho, cl_j[i], max(q_r, q_z), loss)
         weight_j[i] = 0.25 * hourglass * rho_j[i] * cl_j[i] * vol_r[i] * h / max(dr[i], h)
         qr_j[i] = 0.0 if void else q_r
         qz_j[i] = 0.0 if void else q_z
@@ -240,7 +244,7 @@ def least_step(j0, j1, row_step, bad, found):
 
 
 @serial
-def step_cause(j, courant, advective, dr, dz, vol_r, face_r, az_in, az_out, reach, u, v, rhobar, cl, qr, qz, cause):
+def step_cause(j, courant, advective, mesh_speed, dr, dz, vol_r, face_r, az_in, az_out, reach, u, v, rhobar, cl, qr, qz, cause):
     """Which cell of row j allows the least step, and which of the bounds it is.
 
     Reads    what viscosity_row read and wrote
@@ -250,8 +254,8 @@ def step_cause(j, courant, advective, dr, dz, vol_r, face_r, az_in, az_out, reac
     for i in range(reach[j, 0], reach[j, 1]):
         if rhobar[j, i] > 0.0:
             loss = volume_loss(i, u[0, j], u[0, j + 1], v[0, j], v[0, j + 1], face_r, az_in, az_out, vol_r, dz[j])
-            limits = step_limits(i, u[0, j], u[0, j + 1], v[0, j], v[0, j + 1], courant, advective, dr, dz[j], rhobar[j, i],
-                                 cl[j, i], max(qr[j, i], qz[j, i]), loss)
+            limits = step_limits(i, u[0, j], u[0, j + 1], v[0, j], v[0, j + 1], courant, advective, mesh_speed, dr, dz[j],
+                                 rhobar[j, i], cl[j, i], max(qr[j, i], qz[j, i]), loss)
             for k in range(4):
                 if limits[k] < best:
                     best = limits[k]
