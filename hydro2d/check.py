@@ -48,11 +48,31 @@ class Check:
             found.append(f"body      {body}: {material.name}, {_mass(self.masses[body], grid)}, v = {_speed(entry)}"
                          + self._across(entry))  # fmt: skip
             found.append(f"          eos {material.eos.name}, strength {material.strength.name}")
+        found += self._follow()
         found += ["", f"sliding   {_sliding(deck)}"]
         found += [f"stop      {_stop(deck.stop)}"]
         found += [f"cost      about {self.cycles} cycles, {_duration(self.seconds / threads)} on {threads} threads "
                   f"(a guess), {self.memory / 2**20:.0f} MiB"]  # fmt: skip
         return found + [f"warning   {text}" for text in self.warnings]
+
+    def _follow(self) -> list[str]:
+        """How far a travelling mesh reaches, and what will enter it."""
+        deck, z = self.deck, self.grid.z_edges
+        if deck.mesh.follow is None:
+            return []
+        entry, direction = decks.body(deck, deck.mesh.follow), decks.travel(deck)
+        ahead, behind = decks.room(deck, z)
+        radius = decks.extent(entry, deck, "r")[1]
+        found = ["", f"follow    {entry.name}: the mesh reaches {ahead * 1e3:.4g} mm ({ahead / radius:.3g} radii) ahead of it and "
+                     f"{behind * 1e3:.4g} mm behind"]  # fmt: skip
+        edge = z[-1] if direction > 0 else z[0]
+        for other in deck.body:
+            ends = sorted(direction * (end - edge) for end in decks.extent(other, deck, "z"))
+            if ends[1] > 0:
+                first = max(ends[0], 0.0)
+                found.append(f"          enters: {other.name}, from {first * 1e3:.4g} to {ends[1] * 1e3:.4g} mm of the way, at "
+                             f"{first / abs(entry.velocity[1]) * 1e6:.4g} us")  # fmt: skip
+        return found
 
     def _across(self, entry) -> str:
         if entry.shape != "rod":
@@ -68,7 +88,8 @@ def check(deck) -> Check:
     start = insertion.initial_state(deck, grid, table)
     full = 2 * math.pi if grid.cylindrical else 1.0
     mass = full * np.sum(start["vof"] * start["rho"] * grid.interior(grid.volume), axis=(1, 2))
-    empty = [f'body "{body}" fills no part of the mesh' for body, m in zip(table.names, mass, strict=True) if m == 0]
+    empty = [f'body "{body}" fills no part of the mesh' for body, m in zip(table.names, mass, strict=True)
+             if m == 0 and deck.mesh.follow is None]
     cycles = _cycles(deck, grid, table, start)
     return Check(
         deck=deck, grid=grid, table=table, dump=_dump(grid, table, start),
@@ -102,7 +123,8 @@ def _cycles(deck, grid, table, start) -> int:
         wave = sound_speed_squared(rho, p, dpdrho, dpde, 0.0) + 4 * table.strength_par[m, SHEAR] / (3 * rho)
         fastest = max(fastest, math.sqrt(wave))
     smallest = min(np.diff(grid.r_edges).min(), np.diff(grid.z_edges).min())
-    speed = float(np.max(np.hypot(start["u_cell"], start["v_cell"])))
+    mesh_speed = decks.body(deck, deck.mesh.follow).velocity[1] if deck.mesh.follow else 0.0
+    speed = float(np.max(np.hypot(start["u_cell"], start["v_cell"] - mesh_speed)))
     numerics = deck.numerics
     dt = smallest / max(fastest / numerics.courant, speed / numerics.advective_courant, 1e-30)
     by_time = math.ceil(deck.stop.time / dt) if deck.stop.time else deck.stop.cycles

@@ -18,7 +18,7 @@ from pydantic import ValidationError
 from hydro2d import deck_toml, materials, units
 from hydro2d.deck_base import Section
 from hydro2d.deck_bodies import SHAPES
-from hydro2d.deck_checks import extent, inconsistencies, unsupported
+from hydro2d.deck_checks import AHEAD, extent, inconsistencies, room, travel, unsupported
 from hydro2d.deck_errors import DeckError, Sources, entry_index, spelled, unknown
 from hydro2d.deck_mesh import axis_edges, body, body_radius
 from hydro2d.deck_models import Deck
@@ -29,14 +29,17 @@ __all__ = [
     "body",
     "body_groups",
     "edges",
+    "extent",
     "find",
     "key_problem",
     "load",
     "loads",
+    "room",
     "schema",
     "sliding_widths",
     "slots",
     "surface",
+    "travel",
     "warnings",
     "yield_factor",
 ]
@@ -325,6 +328,12 @@ def warnings(deck: Deck) -> list[str]:
         jump = float(np.max(np.maximum(sizes[1:] / sizes[:-1], sizes[:-1] / sizes[1:]), initial=1.0))
         if jump > 1.25:
             found.append(f"mesh.{axis}: neighbouring cells differ by a factor of {jump:.2f}; shocks reflect beyond 1.2")
+    if deck.mesh.follow is not None:
+        radius = extent(body(deck, deck.mesh.follow), deck, "r")[1]
+        ahead = room(deck, z)[0] / radius
+        if ahead < AHEAD:
+            found.append(f'mesh.follow: the mesh reaches {ahead:.3g} radii ahead of "{deck.mesh.follow}"; its edge can be felt '
+                         f"below {AHEAD}")  # fmt: skip
     if deck.sliding.method == "slip-layer" and deck.sliding.yield_factor == "off":
         found.append('sliding.yield_factor is "off": noise at the interface can yield a rod that should stay rigid')
     return found

@@ -11,6 +11,9 @@ from hydro2d.deck_mesh import SegmentError, axis_edges, body, body_radius
 from hydro2d.deck_models import Deck, Sliding
 from hydro2d.shapes import outline
 
+#: radii that a mesh should reach ahead of the rod that it follows: farther off a plate does not feel the mesh's edge
+AHEAD = 20
+
 #: keys of `sliding` that mean nothing in a contact
 OF_SLIP_LAYER = ("boundary_layer", "slip_layer", "threshold", "shear", "refresh")
 
@@ -95,10 +98,20 @@ def _bad_mesh(deck: Deck) -> Iterator[tuple[tuple, str]]:
     except SegmentError as problem:
         yield problem.path, str(problem)
         return
+    direction = 0.0
+    if deck.mesh.follow is not None:
+        problems = list(_bad_follow(deck, z))
+        if problems:
+            yield from problems
+            return
+        direction = travel(deck)
     for number, entry in enumerate(deck.body):
         path = ("body", number)
         low, high = extent(entry, deck, "z")
-        if high <= z[0] or low >= z[-1]:
+        if direction and _comes(low, high, z, direction):
+            if entry.velocity != (0.0, 0.0) or entry.flow is not None:
+                yield path, f'"{entry.name}" reaches beyond the mesh, which will meet it on its way; there it must be at rest'
+        elif high <= z[0] or low >= z[-1]:
             yield path, _outside(entry.name, "z", low, high, z)
         elif entry.shape == "rod" and (low < z[0] or high > z[-1]):
             yield path, _outside(entry.name, "z", low, high, z, "is cut off by")
@@ -112,6 +125,47 @@ def _bad_mesh(deck: Deck) -> Iterator[tuple[tuple, str]]:
     for number, tracer in enumerate(deck.tracer):
         if not (r[0] <= tracer.r <= r[-1] and z[0] <= tracer.z <= z[-1]):
             yield ("tracer", number), f'"{tracer.name}" at r = {tracer.r:g} m, z = {tracer.z:g} m lies outside the mesh'
+
+
+def travel(deck: Deck) -> float:
+    """The sense in which the mesh travels along z, +1 or -1; 0 where it stands."""
+    if deck.mesh.follow is None:
+        return 0.0
+    return float(np.sign(body(deck, deck.mesh.follow).velocity[1]))
+
+
+def _comes(low: float, high: float, z: np.ndarray, direction: float) -> bool:
+    """Whether what lies from low to high reaches beyond the edge of the mesh that goes ahead."""
+    return high > z[-1] if direction > 0 else low < z[0]
+
+
+def room(deck: Deck, z: np.ndarray) -> tuple[float, float]:
+    """How far a mesh with edges z reaches ahead of the body that it follows, and behind it, m."""
+    low, high = extent(body(deck, deck.mesh.follow), deck, "z")
+    below, above = low - float(z[0]), float(z[-1]) - high
+    return (above, below) if travel(deck) > 0 else (below, above)
+
+
+def _bad_follow(deck: Deck, z: np.ndarray) -> Iterator[tuple[tuple, str]]:
+    path, name = ("mesh", "follow"), deck.mesh.follow
+    slot_names = [entry.name for entry in deck.body if entry.join is None]
+    if name not in slot_names:
+        yield path, unknown("body", name, slot_names)
+        return
+    direction = travel(deck)
+    if direction == 0.0:
+        yield path, f'"{name}" has no velocity along z that a mesh could follow'
+        return
+    for key in ("z_min", "z_max"):
+        if getattr(deck.boundaries, key) == "wall":
+            yield ("boundaries", key), f'a mesh that follows "{name}" has open ends along z; a wall cannot travel with it'
+    ahead, behind = room(deck, z)
+    low, high = extent(body(deck, name), deck, "r")
+    if ahead < high - max(low, 0.0):
+        yield path, (f'the mesh is too short: it reaches {ahead:g} m ahead of "{name}", which needs its own radius of '
+                     f"{high - max(low, 0.0):g} m at least and {AHEAD} of them for an undisturbed flight")  # fmt: skip
+    if behind <= 0.0:
+        yield path, f'the mesh is too short: it ends {-behind:g} m before the tail of "{name}"'
 
 
 def _outside(name: str, axis: str, low: float, high: float, mesh: np.ndarray, how: str = "lies outside") -> str:
