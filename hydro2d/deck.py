@@ -18,10 +18,11 @@ from pydantic import ValidationError
 from hydro2d import deck_toml, materials, units
 from hydro2d.deck_base import Section
 from hydro2d.deck_bodies import SHAPES
-from hydro2d.deck_checks import AHEAD, extent, inconsistencies, room, travel, unsupported
+from hydro2d.deck_checks import extent, inconsistencies, room, travel, unsupported
 from hydro2d.deck_errors import DeckError, Sources, entry_index, spelled, unknown
 from hydro2d.deck_mesh import axis_edges, body, body_radius
 from hydro2d.deck_models import Deck
+from hydro2d.deck_warnings import warnings
 
 __all__ = [
     "Deck",
@@ -43,10 +44,6 @@ __all__ = [
     "warnings",
     "yield_factor",
 ]
-
-#: a rod needs at least this many cells across its radius to behave like one
-CELLS_ACROSS_RADIUS = 5
-
 
 def find(path: str | Path) -> Path:
     """The deck file: as given, or among the decks that hydro2d ships; DeckError where there is none."""
@@ -310,33 +307,6 @@ def yield_factor(deck: Deck) -> float:
 def surface(deck: Deck) -> float | None:
     """Axial position that the penetration depth is measured from, m; None for a deck without rod and target."""
     return deck.penetration.surface if deck.penetration else None
-
-
-def warnings(deck: Deck) -> list[str]:
-    """What is allowed but unwise, one sentence each."""
-    found = []
-    r, z = edges(deck)
-    for entry in deck.body:
-        if entry.shape == "rod":
-            cells = entry.rod_radius / float(np.diff(r)[r[:-1] < entry.rod_radius].max())
-            if cells < CELLS_ACROSS_RADIUS - 1e-9:
-                found.append(
-                    f'body "{entry.name}": {cells:.1f} cells across the radius; below {CELLS_ACROSS_RADIUS} a rod is '
-                    "neither rigid nor round"
-                )
-    for axis, sizes in (("r", np.diff(r)), ("z", np.diff(z))):
-        jump = float(np.max(np.maximum(sizes[1:] / sizes[:-1], sizes[:-1] / sizes[1:]), initial=1.0))
-        if jump > 1.25:
-            found.append(f"mesh.{axis}: neighbouring cells differ by a factor of {jump:.2f}; shocks reflect beyond 1.2")
-    if deck.mesh.follow is not None:
-        radius = extent(body(deck, deck.mesh.follow), deck, "r")[1]
-        ahead = room(deck, z)[0] / radius
-        if ahead < AHEAD:
-            found.append(f'mesh.follow: the mesh reaches {ahead:.3g} radii ahead of "{deck.mesh.follow}"; its edge can be felt '
-                         f"below {AHEAD}")  # fmt: skip
-    if deck.sliding.method == "slip-layer" and deck.sliding.yield_factor == "off":
-        found.append('sliding.yield_factor is "off": noise at the interface can yield a rod that should stay rigid')
-    return found
 
 
 def schema() -> dict:

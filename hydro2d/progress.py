@@ -127,6 +127,8 @@ class Report:
         )
         if run.sim.cycle:
             self.line(f"continuing at cycle {run.sim.cycle}, t = {moment(run.sim.time)}")
+        for text in run.warnings:
+            self.line(f"warning: {text}")
 
     def update(self, run) -> None:
         """Called after every cycle; speaks when it is time."""

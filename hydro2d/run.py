@@ -28,6 +28,7 @@ from pathlib import Path
 import numpy as np
 
 from hydro2d import __version__, derived, provenance, snapshot
+from hydro2d.deck_warnings import warnings
 from hydro2d.files import locked, write_json, write_text
 from hydro2d.history import History
 from hydro2d.progress import Clock, reporter
@@ -166,6 +167,7 @@ class Run:
 
         self.deck, self.directory, self.report = deck, Path(directory), report
         self.deck_text = deck.to_toml()
+        self.warnings = warnings(deck)
         self.provenance = provenance.collect(threads())
         self.sim = Simulation(deck)
         self.wall_before = 0.0

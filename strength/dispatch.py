@@ -15,10 +15,13 @@ from strength import (
     power_law,
     steinberg_guinan,
 )
-from strength.layout import YIELD
+from strength.layout import SHEAR, YIELD
 
 STRENGTH_MODULES = (hydrodynamic, elastic_plastic, johnson_cook, steinberg_guinan, power_law)
 DAMAGE_MODULES = (no_damage, johnson_cook_damage)
+
+#: ids of the models whose shear modulus is the number in slot SHEAR, whatever the state: no cell need be evaluated
+CONSTANT_MODULUS = tuple(module.ID for module in STRENGTH_MODULES if module.CONSTANT_MODULUS)
 
 
 @point
@@ -42,15 +45,18 @@ def shear_modulus(model, p, rho, T, par):
 
 @point
 def modulus_row(model, par, first, number, p, rho, T, shear):
-    """Fills shear[first:first + number] with the shear modulus, Pa, from rows of pressure, density and temperature."""
-    if model == steinberg_guinan.ID:
-        for x in range(number):
-            i = first + x
-            shear[i] = steinberg_guinan.shear_modulus(p[i], rho[i], T[i], par) if rho[i] > 0.0 else 0.0
-    else:
-        constant = shear_modulus(model, 0.0, 0.0, 0.0, par)
+    """Fills shear[first:first + number] with ``shear_modulus``, Pa, from rows of pressure, density and temperature.
+
+    In a cell without material, at density 0, it is any finite number.
+    """
+    if model in CONSTANT_MODULUS:
+        constant = par[SHEAR]
         for x in range(number):
             shear[first + x] = constant
+    else:
+        for x in range(number):
+            i = first + x
+            shear[i] = shear_modulus(model, p[i], rho[i], T[i], par) if rho[i] > 0.0 else 0.0
 
 
 @point

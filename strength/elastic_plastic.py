@@ -13,6 +13,7 @@ from strength.layout import ROW, SHEAR, YIELD
 
 NAME = "elastic-plastic"
 ID = 1
+CONSTANT_MODULUS = True
 EQUATION = "Y = min(Y0 + H ep, Ymax) (1 - T*),  T* = (T - Tr)/(Tm - Tr) in [0, 1],  G constant"
 SOURCE = "textbook; the linear softening is that of Johnson & Cook with an exponent of 1"
 VALIDITY = "rate-independent; by default perfectly plastic and independent of temperature"

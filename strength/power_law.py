@@ -14,6 +14,7 @@ from strength.layout import ROW, SHEAR, YIELD
 
 NAME = "power-law"
 ID = 4
+CONSTANT_MODULUS = True
 EQUATION = "Y = Y0 (E eps/Y0)^n,  eps = ep + Y/E the total strain,  G = E/(2 (1 + nu)) constant"
 SOURCE = "Forrestal, Luk & Brar, Mech. Mater. 10 (1990) 97; Luk & Piekutowski, Int. J. Impact Engng 11 (1991) 323"
 VALIDITY = "aluminium alloys at moderate strain rates; independent of rate, temperature and pressure; n < 1"

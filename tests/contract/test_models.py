@@ -2,6 +2,7 @@
 
 import itertools
 import math
+import types
 
 import numpy as np
 import pytest
@@ -247,6 +248,48 @@ def test_dispatch_chooses_the_strength_model(solid):
         assert dispatch.shear_modulus(module.ID, p, rho, T, row) == module.shear_modulus(p, rho, T, row)
     assert math.isnan(dispatch.flow_stress(99, 0.0, 0.0, 300.0, 0.0, 2700.0, row))
     assert math.isnan(dispatch.shear_modulus(99, 0.0, 2700.0, 300.0, row))
+
+
+def states():
+    """Rows of pressure, density and temperature: all combinations of some, with tension, expansion and melt among them."""
+    pressures, densities = (-2e9, 0.0, 1e5, 3.3e10), (1900.0, 2700.0, 4001.7)
+    return np.array(list(itertools.product(pressures, densities, (0.0, 298.0, 777.7, 3000.0)))).T
+
+
+def filled(fill, model, row):
+    """The moduli of ``states`` as ``fill`` gives them, between two entries that it has to leave alone."""
+    p, rho, T = (np.concatenate([[math.nan], values, [math.nan]]) for values in states())
+    shear = np.full(p.size, -1.0)
+    fill(model, row, 1, p.size - 2, p, rho, T, shear)
+    assert shear[0] == shear[-1] == -1.0
+    return shear[1:-1]
+
+
+def test_a_row_of_moduli_is_the_modulus_of_every_cell(solid):
+    module, row, values = solid
+    expected = np.array([module.shear_modulus(p, rho, T, row) for p, rho, T in states().T])
+    np.testing.assert_array_equal(filled(dispatch.modulus_row, module.ID, row), expected)
+    if module.CONSTANT_MODULUS:
+        assert set(expected) == {row[strength.SHEAR]}
+
+
+def test_a_model_that_says_nothing_of_its_modulus_has_it_evaluated_in_every_cell():
+    """A made-up model, G = G0 + 2 p + 3 rho + 5 T, in the text of ``modulus_row``."""
+
+    def modulus(model, p, rho, T, par):
+        return par[strength.SHEAR] + 2.0 * p + 3.0 * rho + 5.0 * T
+
+    text = dispatch.modulus_row.py_func.__code__
+    fill = types.FunctionType(text, {**vars(dispatch), "shear_modulus": modulus})
+    row = np.full(strength.ROW, G)
+    np.testing.assert_array_equal(filled(fill, 99, row), modulus(99, *states(), row))
+
+
+def test_no_cell_without_material_has_a_modulus_evaluated():
+    module = strength.STRENGTH_MODELS["steinberg-guinan"]
+    shear = np.ones(1)
+    dispatch.modulus_row(module.ID, module.row(STRENGTH_CASES[module.NAME]), 0, 1, *np.zeros((3, 1)), shear)
+    assert shear[0] == 0.0
 
 
 def test_virgin_material_at_rest(solid):

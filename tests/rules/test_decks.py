@@ -27,6 +27,11 @@ def test_deck_loads(file):
 
 
 @pytest.mark.parametrize("file", COMPLETE, ids=name_of)
+def test_deck_says_which_failure_it_means(file):
+    assert [text for text in deck.warnings(deck.load(file)) if "failure." in text] == []
+
+
+@pytest.mark.parametrize("file", COMPLETE, ids=name_of)
 def test_resolved_deck_is_the_same_deck(file):
     loaded = deck.load(file)
     assert deck.loads(loaded.to_toml()).to_toml() == loaded.to_toml()

@@ -8,6 +8,7 @@ import numpy as np
 
 import eos
 from hydro2d import materials
+from hydro2d.deck_models import Failure, Mesh, Segment, Sliding
 from hydro2d.grid import Grid
 
 ROD, PLATE = "rod", "plate"
@@ -31,6 +32,9 @@ class FakeDeck:
         self.experiment = SimpleNamespace(penetration=0.0121, qualifier="measured", source="a laboratory")
         self.tracer = (SimpleNamespace(name="nose"), SimpleNamespace(name="deep"))
         self.courant = 0.5
+        r, z = Segment(to=12e-3, cells=12), Segment(to=30e-3, cells=55)
+        self.mesh, self.body, self.materials = Mesh(r=(r,), z_start=-25e-3, z=(z,)), (), {}
+        self.sliding, self.failure = Sliding(), Failure()
 
     def to_toml(self) -> str:
         return f"""\

@@ -360,6 +360,53 @@ def test_coarse_rods_are_warned_of():
     assert deck.warnings(jump) == ["mesh.r: neighbouring cells differ by a factor of 2.00; shocks reflect beyond 1.2"]
 
 
+DAMAGED = changed("W_alloy", "alloy") + """\
+[materials.alloy]
+based_on = "W_alloy"
+variant = "strain-failure"
+"""
+BARE = changed("W_alloy", "Al7075_T6")
+
+
+@pytest.mark.parametrize(
+    ("text", "warned"),
+    [
+        (DAMAGED, 'body "rod": the johnson-cook damage model of alloy is off, because failure.damage is not given; '
+                  '"material" switches it on, "none" keeps it off'),
+        (DAMAGED + '[failure]\ndamage = "none"', None),
+        (DAMAGED.replace("Al5083", "alloy") + '[failure]\ndamage = "material"', None),
+        (DAMAGED + '[failure]\ndamage = "material"',
+         'body "plate": Al5083 has no damage model, so that with failure.damage = "material" it is never damaged'),
+        (BARE, 'body "rod": Al7075_T6 has no fracture_pressure, so that with failure.tensile = "material" it never '
+               "fractures in tension"),
+        (BARE + '[failure]\ntensile = "none"', None),
+    ],
+)  # fmt: skip
+def test_failure_that_is_left_out_is_warned_of(text, warned):
+    assert deck.warnings(deck.loads(text)) == ([warned] if warned else [])
+
+
+def test_what_has_no_strength_need_not_fail():
+    fluid = """\
+[failure]
+tensile = "material"
+damage = "DAMAGE"
+[materials.alloy]
+based_on = "copper_OFHC"
+variant = "johnson-cook"
+strength = { model = "hydrodynamic" }
+"""
+    text = CONTACT.replace("W_alloy", "alloy").replace("Al5083", "alloy") + fluid
+    for damage in ("none", "material"):
+        assert deck.warnings(deck.loads(text.replace("DAMAGE", damage))) == []
+    assert deck.warnings(deck.loads(text.replace('damage = "DAMAGE"\n', ""))) == []
+
+
+def test_bodies_that_join_are_warned_of_once():
+    again = '[[body]]\nname = "more"\nmaterial = "Al7075_T6"\nshape = "box"\nz = ["-5 mm", "-4 mm"]\njoin = "rod"\n'
+    assert len(deck.warnings(deck.loads(BARE.replace("[sliding]", again + "[sliding]")))) == 1
+
+
 @pytest.mark.parametrize(
     ("segments", "sizes"),
     [

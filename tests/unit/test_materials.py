@@ -92,6 +92,25 @@ def test_the_numbers_of_the_study():
     assert W.strength.values["pressure_coefficient"] == 1.03e-11
 
 
+def test_the_sintered_tungsten_says_what_is_recalled_and_what_is_taken_over():
+    material, W = materials.load("W_sintered"), materials.load("W_alloy")
+    recalled = {key: n.value for key, n in material.strength.numbers.items() if n.confidence == "recalled"}
+    assert recalled == {
+        "yield_stress": 1197e6, "hardening": 580e6, "hardening_exponent": 0.05, "rate_coefficient": 0.025,
+        "thermal_exponent": 1.9, "melt_temperature": 1752.0,
+    }  # fmt: skip
+    taken = [(number, W.eos.numbers[key]) for key, number in material.eos.numbers.items() if number.confidence == "chosen"]
+    taken += [(material.strength.numbers["shear_modulus"], W.strength.numbers["shear_modulus"])]
+    taken += [(material.fracture_pressure, W.fracture_pressure)]
+    assert len(taken) == 6
+    for number, other in taken:
+        assert number.value == other.value
+        assert "W_alloy" in number.source
+    row = strength.STRENGTH_MODELS["johnson-cook"].row(material.strength.values)
+    flow = strength.STRENGTH_MODELS["johnson-cook"].flow_stress(0.1, 1000.0, 298.0, 0.0, 17600.0, row)
+    assert flow == pytest.approx((1197e6 + 580e6 * 0.1**0.05) * (1 + 0.025 * np.log(1000.0)), rel=1e-12)
+
+
 def test_doubtful_numbers_are_variants():
     assert materials.load("W_alloy").eos.values["specific_heat"] == 143.0
     assert materials.load("W_alloy", "cv-printed").eos.values["specific_heat"] == 1430.5

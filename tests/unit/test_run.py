@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from hydro2d import history, snapshot, vtk
+from hydro2d.deck_models import Sliding
 from hydro2d.derived import FieldError
 from hydro2d.files import LockError
 from hydro2d.run import Due, Interrupt, RunError, exit_status, run
@@ -40,6 +41,17 @@ def test_run_directory(simulation, tmp_path):
                 "rod_tail_velocity_m_s", "regime", "conservation"):  # fmt: skip
         assert key in stored
     assert stored["conservation"]["total_energy"] is None  # not finite, and still JSON
+
+
+def test_a_run_begins_with_the_warnings(simulation, tmp_path, capsys):
+    deck = fake.FakeDeck()
+    run(deck, tmp_path / "a")
+    assert "warning" not in capsys.readouterr().out
+    deck.sliding = Sliding(method="slip-layer", hard=("rod",))
+    run(deck, tmp_path / "b")
+    for text in (capsys.readouterr().out, (tmp_path / "b" / "log.txt").read_text()):
+        assert text.count('warning: sliding.yield_factor is "off"') == 1
+        assert text.index("warning") < text.index("done: ")
 
 
 def test_existing_run_is_kept_unless_told(simulation, tmp_path):
