@@ -113,7 +113,8 @@ class Ledger:
             "momentum": max((2.0 * self.start.mass.sum() * abs(self.start.energy)) ** 0.5, 1e-300),
             "energy": max(abs(self.start.energy), self.start.kinetic, 1e-300),
         }
-        mass = (now.mass + lost["mass"] - self.start.mass) / np.maximum(self.start.mass, 1e-300)
+        whole = np.maximum(self.start.mass - self.sinks["inflow"].mass, 1e-300)
+        mass = (now.mass + lost["mass"] - self.start.mass) / whole
         return {
             "mass": mass,
             "axial_momentum": (now.momentum + lost["momentum"] - self.start.momentum) / scale["momentum"],

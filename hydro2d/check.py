@@ -63,7 +63,8 @@ class Check:
         entry, direction = decks.body(deck, deck.mesh.follow), decks.travel(deck)
         ahead, behind = decks.room(deck, z)
         radius = decks.extent(entry, deck, "r")[1]
-        found = ["", f"follow    {entry.name}: the mesh reaches {ahead * 1e3:.4g} mm ({ahead / radius:.3g} radii) ahead of it and "
+        radii = f" ({ahead / radius:.3g} radii)" if np.isfinite(radius) else ""
+        found = ["", f"follow    {entry.name}: the mesh reaches {ahead * 1e3:.4g} mm{radii} ahead of it and "
                      f"{behind * 1e3:.4g} mm behind"]  # fmt: skip
         edge = z[-1] if direction > 0 else z[0]
         for other in deck.body:

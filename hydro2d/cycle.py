@@ -127,6 +127,7 @@ class Cycle:
         j0, j1, _, _ = self.box
         remap.sum_cell_mass(j0, j1, s.around, s.group, self.grid.volume, s.vof, s.q, s.cell_mass)
         self._vertex_mass()
+        self._keep_one()
         if self.ledger is None:
             self.box = self._first_box() if self._skips_cells else list(self.edges)
             self.ledger = Ledger.open(s)
@@ -209,7 +210,6 @@ class Cycle:
     def _vertex_mass(self) -> None:
         s, g, (j0, j1, i0, i1) = self.state, self.grid, self.box
         acceleration.vertex_masses(j0, j1 + 1, i0, i1 + 1, g.cm_in, g.cm_out, s.around, s.cell_mass, s.mass)
-        self._keep_one()
 
     def _keep_one(self) -> None:
         if self.contact:
@@ -460,5 +460,6 @@ class Cycle:
                    s.fz, bool(second), s.u, s.v, s.vof, s.q, s.cell_mass, s.booked)
         internal, kinetic, axial, _, *mass = s.booked[:, j0:j1].sum(axis=1)
         self.ledger.book("traces", mass=np.array(mass), momentum=float(axial), energy=float(internal + kinetic))
+        self._vertex_mass()  # by the ranges before: where nothing is left there is no mass either
         self._spans(anew=False)
-        self._vertex_mass()
+        self._keep_one()

@@ -160,10 +160,10 @@ def _bad_follow(deck: Deck, z: np.ndarray) -> Iterator[tuple[tuple, str]]:
         if getattr(deck.boundaries, key) == "wall":
             yield ("boundaries", key), f'a mesh that follows "{name}" has open ends along z; a wall cannot travel with it'
     ahead, behind = room(deck, z)
-    low, high = extent(body(deck, name), deck, "r")
-    if ahead < high - max(low, 0.0):
+    radius = extent(body(deck, name), deck, "r")[1]
+    if ahead < (radius if np.isfinite(radius) else 0.0):
         yield path, (f'the mesh is too short: it reaches {ahead:g} m ahead of "{name}", which needs its own radius of '
-                     f"{high - max(low, 0.0):g} m at least and {AHEAD} of them for an undisturbed flight")  # fmt: skip
+                     f"{radius:g} m at least and {AHEAD} of them for an undisturbed flight")  # fmt: skip
     if behind <= 0.0:
         yield path, f'the mesh is too short: it ends {-behind:g} m before the tail of "{name}"'
 
