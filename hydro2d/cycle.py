@@ -413,10 +413,12 @@ class Cycle:
     def remap_momentum(self, dj: int, di: int) -> None:
         """Velocities after the sweep, by the advection choice; what it discards is booked."""
         s, g, method = self.state, self.grid, self.method
-        j0, j1, i0, i1 = self.box
         flow = s.flux_mass
-        if di:  # a sweep along z has left its fluxes in the rows beyond the mesh, through which nothing flows along r
-            flow[:, [self.edges[0] - 1, self.edges[1]]] = 0.0
+        j0, j1, i0, i1 = self.edges
+        if di:  # the sweep along the other direction has left its fluxes beyond the mesh, where nothing flows along this one
+            flow[:, [j0 - 1, j1]] = 0.0
+        else:
+            flow[:, :, [i0 - 1, i1]] = 0.0
         for face, sign in self._open_faces(di):  # beyond an open edge the flux goes on as it was
             beyond = face + int(sign)
             for of_group in flow:
@@ -429,6 +431,7 @@ class Cycle:
         momentum.sweep_momentum(
             dj, di, *self.box, method.choice, method.ke_bound, self.still, self.edges, g.cm_in, g.cm_out, s.around, s.cell_mass,
             flow, s.mass, s.velocity0, s.velocity, s.dual, s.edge_dual, s.deficit, sums)
+        j0, j1, _, _ = self.box
         before, after, p_gained, k_cut, p_wall = sums[:, j0:j1 + 1].sum(axis=1)
         lost = before - after - self._kinetic_outflow(di)
         if method.choice == momentum.BOTH:
