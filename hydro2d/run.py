@@ -3,7 +3,7 @@
     deck.toml         the deck with every default written out
     summary.json      the result, where it comes from, and what was conserved
     progress.json     how far it is, while it runs
-    history.h5        quantities against time
+    history.h5        quantities against time, and the hole in the target at the end
     restart.h5        to continue to the same bits (and restart.previous.h5)
     vtk/, *.pvd       fields, outlines and tracers for ParaView
     log.txt           what happened
@@ -290,6 +290,7 @@ class Run:
 
     def _finish(self, status: str, reason: str) -> dict:
         """The last outputs. A restart file never counts the extra row and dump that are written after the end."""
+        self.history.crater = self.sim.crater.profile() if self.sim.crater else None
         if status == "unphysical":
             if self.good is not None:
                 self._save(self.good)
@@ -324,6 +325,7 @@ class Run:
             "cells": sim.grid.cells,
             **dict.fromkeys(ROD_RESULTS),
             **sim.diagnostics(),
+            "crater": sim.crater.measure() if sim.crater else None,
             "experiment": experiment(self.deck),
             "conservation": sim.conservation(),
             "provenance": self.provenance,

@@ -7,6 +7,7 @@ import numpy as np
 from hydro2d import deck as decks
 from hydro2d import insertion, materials, sums, tracers
 from hydro2d.audit import Ledger
+from hydro2d.crater import Crater
 from hydro2d.cycle import Cycle, UnphysicalState
 from hydro2d.grid import Grid
 from hydro2d.method import Method
@@ -30,6 +31,7 @@ class Simulation:
     ----------
     grid, state, table, ledger : the mesh, the fields, the materials, what is conserved
     tracers : float64[n, 2], positions (r, z) in m
+    penetrator, crater : what measures the rod and the hole; None for a deck without rod and target
     """
 
     def __init__(self, deck):
@@ -45,6 +47,7 @@ class Simulation:
         self.tracers = np.array([[t.r, t.z] for t in deck.tracer]).reshape(-1, 2)
         self._rows = np.zeros((2, self.grid.shape[0]))
         self.penetrator = Penetrator(self, deck) if deck.penetration else None
+        self.crater = Crater(self, deck) if deck.penetration else None
         self.watched = slots.index(deck.stop.body) if deck.stop.body else None
         self._sign = None
 
@@ -113,6 +116,8 @@ class Simulation:
         self.engine.advance()
         if len(self.tracers):
             self._move_tracers()
+        if self.crater:
+            self.crater.record()
 
     def _move_tracers(self) -> None:
         """Tracers follow the bilinear velocity of their cell, by the midpoint rule."""
@@ -187,7 +192,8 @@ class Simulation:
         """What a restart needs beside the arrays; JSON keeps every bit of it."""
         e = self.engine
         return {"time": e.time, "dt": e.dt, "cycle": e.number, "cause": e.cause, "box": [int(x) for x in e.box],
-                "speed_limit": e.speed_limit, "sign": self._sign, "ledger": e.ledger.saved()}
+                "speed_limit": e.speed_limit, "sign": self._sign, "ledger": e.ledger.saved(),
+                "crater": self.crater and self.crater.saved()}
 
     def load_restart_scalars(self, scalars: dict) -> None:
         """Continues from what `restart_scalars` gave; after `load_restart_arrays`."""
@@ -195,4 +201,6 @@ class Simulation:
         e.time, e.dt, e.number, e.cause = (scalars[name] for name in ("time", "dt", "cycle", "cause"))
         e.box, e.speed_limit, self._sign = list(scalars["box"]), scalars["speed_limit"], scalars["sign"]
         e.ledger = Ledger.resume(scalars["ledger"])
+        if self.crater:
+            self.crater.resume(scalars["crater"])
         e.prepare()
