@@ -14,7 +14,9 @@ import numpy as np
 
 from hydro2d.files import hdf5, replacing
 
-REGIMES = ("rigid", "deforming", "eroding")
+#: regimes of a rod in the order of the impact velocity, and all of them by the number that stands in the file
+GROWING = ("rigid", "deforming", "eroding")
+REGIMES = (*GROWING, "left the mesh")
 
 #: the group of the hole in the target, and its datasets
 CRATER, CRATER_COLUMNS = "crater", ("z_m", "radius_m")
@@ -40,7 +42,8 @@ def unit(name: str) -> str:
 def attributes(name: str) -> dict:
     """What a reader of a quantity should know: its unit, and for the regime the words of its numbers."""
     if name == "regime":
-        return {"units": unit(name), "flag_values": np.arange(len(REGIMES), dtype=np.int8), "flag_meanings": " ".join(REGIMES)}
+        words = " ".join(word.replace(" ", "_") for word in REGIMES)
+        return {"units": unit(name), "flag_values": np.arange(len(REGIMES), dtype=np.int8), "flag_meanings": words}
     return {"units": unit(name)}
 
 

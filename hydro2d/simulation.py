@@ -116,7 +116,8 @@ class Simulation:
         self.engine.advance()
         if len(self.tracers):
             self._move_tracers()
-        if self.crater:
+        if self.penetrator:
+            self.penetrator.watch()
             self.crater.record()
 
     def _move_tracers(self) -> None:
@@ -151,9 +152,11 @@ class Simulation:
             return None
         if stop.perforation and self.penetrator.perforates():
             return f"perforation of {self.deck.penetration.target}"
+        watches_rod = self.penetrator is not None and self.watched == self.penetrator.m
+        if (stop.perforation or (watches_rod and (stop.speed_below is not None or stop.rebound))) and self.penetrator.gone:
+            return f"{self.deck.penetration.rod} left the mesh"
         if self.watched is not None and (stop.speed_below is not None or stop.rebound):
-            rod = self.penetrator is not None and self.penetrator.m == self.watched
-            v = self.penetrator.velocity() if rod else self.mean_velocity(self.watched)
+            v = self.penetrator.velocity() if watches_rod else self.mean_velocity(self.watched)
             if self._sign is None:
                 self._sign = 1.0 if v >= 0 else -1.0
             if stop.rebound and v * self._sign < 0:
@@ -193,7 +196,7 @@ class Simulation:
         e = self.engine
         return {"time": e.time, "dt": e.dt, "cycle": e.number, "cause": e.cause, "box": [int(x) for x in e.box],
                 "speed_limit": e.speed_limit, "sign": self._sign, "ledger": e.ledger.saved(),
-                "crater": self.crater and self.crater.saved()}
+                "penetrator": self.penetrator and self.penetrator.saved(), "crater": self.crater and self.crater.saved()}
 
     def load_restart_scalars(self, scalars: dict) -> None:
         """Continues from what `restart_scalars` gave; after `load_restart_arrays`."""
@@ -201,6 +204,7 @@ class Simulation:
         e.time, e.dt, e.number, e.cause = (scalars[name] for name in ("time", "dt", "cycle", "cause"))
         e.box, e.speed_limit, self._sign = list(scalars["box"]), scalars["speed_limit"], scalars["sign"]
         e.ledger = Ledger.resume(scalars["ledger"])
-        if self.crater:
+        if self.penetrator:
+            self.penetrator.resume(scalars["penetrator"])
             self.crater.resume(scalars["crater"])
         e.prepare()
