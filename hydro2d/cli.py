@@ -179,21 +179,21 @@ def plot(
     runs: list[Path],
     *,
     output: Annotated[Path, Parameter(name=["--output", "-o"])],
-    kind: Literal["section", "history", "cutaway"] = "section",
+    kind: Literal["section", "history", "cutaway", "crater"] = "section",
     field: str = "pressure",
     mirror: str | None = None,
     time: Annotated[list[str] | None, Parameter(negative="")] = None,
     window: Annotated[str | None, Parameter(allow_leading_hyphen=True)] = None,
     quantity: Annotated[list[str] | None, Parameter(negative="")] = None,
 ) -> int:
-    """Draws runs: mirrored sections, histories, or a three-dimensional cut-away.
+    """Draws runs: mirrored sections, histories, the holes in their targets, or a three-dimensional cut-away.
 
     Example: hydro2d plot runs/a runs/b -o both.png --field von_mises --mirror material --time "80 us"
 
     Parameters
     ----------
     runs
-        Run directories; several are drawn below one another, histories into the same axes.
+        Run directories; several are drawn below one another, histories and craters into the same axes.
     output
         The picture; its ending decides the format.
     kind
@@ -219,6 +219,8 @@ def plot(
         figures.cutaway(opened[0].dump_file(times[0]), output, field, _window(window))
     elif kind == "history":
         figures.save(figures.histories(opened, quantity or figures.HISTORIES), output)
+    elif kind == "crater":
+        figures.save(figures.craters(opened), output)
     else:
         figures.save(figures.sections(opened, field, mirror=mirror, times=times, window=_window(window)), output)
     print(f"wrote {output}")

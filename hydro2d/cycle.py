@@ -101,7 +101,7 @@ class Cycle:
         self.accelerate()
         self.sweep_faces()
         self.deform()
-        self.mesh.leave(self.dt)
+        self.mesh.leave(self.box, self.carried, self.dt)
 
         directions = ((0, 1), (1, 0)) if self.number % 2 == 0 else ((1, 0), (0, 1))
         for second, (dj, di) in enumerate(directions):
@@ -261,10 +261,10 @@ class Cycle:
         s, g, t, method, (j0, j1, _, _) = self.state, self.grid, self.table, self.method, self.box
         mixed.close_cells(
             j0, j1, method.max_opening, method.smallest_tension, method.linear, method.quadratic, method.courant,
-            method.advective, self.mesh.velocity, method.hourglass, g.face_r, g.az_in, g.az_out, g.vol_r, g.dr, g.dz, s.span, s.reach,
-            s.mixed_count, s.mixed, s.group, t.eos_model, t.eos_par, t.strength_model, t.strength_par, t.damage_model,
-            t.fracture_pressure, self.loose, s.u, s.v, s.vof, s.q, s.pm, s.km, s.tm, s.p, s.bulk, s.rhobar, s.solid, s.cl,
-            s.qr, s.qz, s.weight, s.rows[0], s.rows[1], s.row_numbers, s.scratch)
+            method.advective, self.mesh.velocity, method.hourglass, g.face_r, g.az_in, g.az_out, g.vol_r, g.dr, g.dz, s.span,
+            s.reach, s.mixed_count, s.mixed, s.group, t.eos_model, t.eos_par, t.strength_model, t.strength_par,
+            t.damage_model, t.fracture_pressure, self.loose, s.u, s.v, s.vof, s.q, s.pm, s.km, s.tm, s.p, s.bulk, s.rhobar,
+            s.solid, s.cl, s.qr, s.qz, s.weight, s.rows[0], s.rows[1], s.row_numbers, s.scratch)
         if self.contact:
             self.contact.find(j0, j1)
         thermodynamics.least_step(j0, j1, s.rows[1], s.row_numbers, s.found)
@@ -404,11 +404,23 @@ class Cycle:
         s, (j0, j1, i0, i1) = self.state, self.box
         for _, sign in self._open_faces(di):
             side, along = int(sign > 0), slice(j0, j1) if di else slice(i0, i1)
-            flow = sign * s.edge_flux[side, ..., along]  # outward [k, m, i]
-            for name, there in (("outflow", flow[0] > 0.0), ("inflow", flow[0] < 0.0)):
-                if there.any():
-                    mass, energy = np.where(there, flow, 0.0).sum(axis=-1)
-                    self.ledger.book(name, mass=mass, energy=float(energy.sum()))
+            for name, flow in self._out_and_in(sign, s.edge_flux[side, ..., along]):
+                mass, energy = flow.sum(axis=-1)
+                self.ledger.book(name, mass=mass, energy=float(energy.sum()))
+
+    @staticmethod
+    def _out_and_in(sign: float, flow: np.ndarray):
+        """(name of the sink, outward flow) for what goes out through an edge and for what comes in, if anything does.
+
+        flow : [k, ..., i], the first k the mass, which says which of the two it is
+        """
+        if sign < 0.0:
+            flow = -flow
+        least, most = flow[0].min(), flow[0].max()
+        if most > 0.0:
+            yield "outflow", flow if least >= 0.0 else np.where(flow[0] > 0.0, flow, 0.0)
+        if least < 0.0:
+            yield "inflow", flow if most <= 0.0 else np.where(flow[0] < 0.0, flow, 0.0)
 
     def remap_momentum(self, dj: int, di: int) -> None:
         """Velocities after the sweep, by the advection choice; what it discards is booked."""
@@ -448,8 +460,8 @@ class Cycle:
         total = 0.0
         for _, sign in self._open_faces(di):
             flow = s.edge_dual[:, int(sign > 0), :, j0:j1 + 1] if di else s.edge_dual[:, int(sign > 0), :, i0:i1 + 1]
-            for name, there in (("outflow", sign * flow[:, 0] > 0.0), ("inflow", sign * flow[:, 0] < 0.0)):
-                _, _, axial, *kinetic = sign * np.where(there[:, None], flow, 0.0).sum(axis=-1).sum(axis=0)
+            for name, part in self._out_and_in(sign, flow.swapaxes(0, 1)):
+                _, _, axial, *kinetic = part.sum(axis=-1).sum(axis=-1)
                 energy = float(sum(kinetic))
                 if energy != 0.0:
                     self.ledger.book(name, momentum=float(axial), energy=energy)

@@ -175,7 +175,10 @@ class Failure(Section):
 
 
 class Stop(Section):
-    """When the run ends: whichever comes first. The speed of a body is looked at every 10 cycles."""
+    """When the run ends: whichever comes first. The speed of a body is looked at every 10 cycles.
+
+    Where the rod's speed, its rebound or perforation is watched, the run also ends when the rod has left the mesh.
+    """
 
     time: PositiveTime | None = Field(None, description="end time")
     cycles: int | None = Field(None, gt=0, description="number of cycles")

@@ -43,7 +43,7 @@ def _short_mesh(deck: Deck) -> Iterator[str]:
     if deck.mesh.follow is not None:
         ahead = room(deck, axis_edges(deck, "z"))[0] / extent(body(deck, deck.mesh.follow), deck, "r")[1]
         if ahead < AHEAD:
-            yield f'mesh.follow: the mesh reaches {ahead:.3g} radii ahead of "{deck.mesh.follow}"; below {AHEAD} its edge is felt'
+            yield f'mesh.follow: the mesh ends {ahead:.3g} radii ahead of "{deck.mesh.follow}"; its edge is felt below {AHEAD}'
 
 
 def _yielding_rods(deck: Deck) -> Iterator[str]:

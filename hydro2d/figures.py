@@ -1,4 +1,4 @@
-"""Figures of runs: mirrored sections and histories by matplotlib, a cut-away in three dimensions by pyvista.
+"""Figures of runs: mirrored sections, histories and craters by matplotlib, a cut-away in three dimensions by pyvista.
 
 Sections show z to the right and r upwards, mirrored at the axis; the lower half may show another field. Runs stand
 below one another with one colour scale, moments beside one another. The three-dimensional picture is rendered in a
@@ -281,6 +281,35 @@ def histories(runs: list, quantities=HISTORIES):
     for place in axes.flat[len(quantities) :]:
         place.set_visible(False)
     axes[0, 0].legend(fontsize=7)
+    return figure
+
+
+def craters(runs: list):
+    """The holes in the targets of runs, mirrored at the axis: radius over the depth below the original surface, in mm.
+
+    Holes are long and thin: radii have a scale of their own. The experiment's depth is a line. Raises
+    FigureError where no run has a hole.
+    """
+    figure, ((axes,),) = new_figure(9.0, 4.0, 1, 1)
+    for run in runs:
+        z, radius = run.crater
+        if not len(z):
+            continue
+        depth = run.direction * (z - run.surface) * 1e3
+        upper, lower = np.column_stack([depth, radius * 1e3]), np.column_stack([depth, -radius * 1e3])[::-1]
+        axes.plot(*np.concatenate([upper, lower]).T, linewidth=1.2, label=run.label)
+    if not axes.lines:
+        raise FigureError("there is no hole to draw")
+    for depth in dict.fromkeys(run.measured_depth for run in runs):
+        if depth is not None:
+            axes.axvline(depth * 1e3, color="crimson", linestyle="--", linewidth=1.0, label="experiment")
+    axes.axvline(0.0, color="black", linewidth=0.6)
+    axes.axhline(0.0, color="black", linewidth=0.3, linestyle="-.")
+    axes.tick_params(labelsize=7)
+    axes.set_xlabel("depth below the original surface [mm]", fontsize=8)
+    axes.set_ylabel("radius of the hole [mm]", fontsize=8)
+    axes.margins(y=0.25)
+    axes.legend(fontsize=7, loc="upper right")
     return figure
 
 

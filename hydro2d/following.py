@@ -13,11 +13,11 @@ import numpy as np
 from hydro2d import insertion, sums
 from hydro2d.fields import RHO, E
 from hydro2d.grid import Grid
+from hydro2d.kernels import following
 from hydro2d.shapes import outline
 from hydro2d.state import EMPTY
+from hydro2d.sums import HALF
 
-#: a cell belongs to the core of the followed body from this share on
-HALF = 0.5
 #: what enters is looked up in a strip of at least this share of a cell, so that it has a height where the mesh rests
 THINNEST = 1e-9
 
@@ -37,7 +37,7 @@ class StandingMesh:
     def follow(self) -> None:
         """Chooses the velocity of the mesh for the step."""
 
-    def leave(self, dt: float) -> None:
+    def leave(self, box, carried, dt: float) -> None:
         """Makes the volumes that the faces sweep relative to the mesh."""
 
     def fill_ghosts(self, dt: float) -> None:
@@ -109,6 +109,7 @@ class FollowingMesh:
         self._pads = tuple("symmetric" if mirror else "edge" for mirror in mirrors)
         self._run = np.zeros(2, dtype=np.int64)
         self._sums = np.zeros(2)
+        self._last: tuple = (None, [])
 
     def announce(self) -> None:
         """Gives bodies that may enter the whole of the ghost rows ahead as their range of columns."""
@@ -136,13 +137,17 @@ class FollowingMesh:
         velocity = momentum / mass if mass > 0.0 else 0.0
         self.velocity = velocity if velocity * self.direction > 0.0 else 0.0
 
-    def leave(self, dt: float) -> None:
-        """F_z - w dt A for every face along z, and for each group of a contact. Faces far from all bodies are never read."""
-        s = self.state
-        swept = self.velocity * dt * self.grid.vol_r
-        s.fz[:, :-1] -= swept
+    def leave(self, box, carried, dt: float) -> None:
+        """F_z - w dt A for every face along z, and for each group of a contact; forgets what has faded.
+
+        box : [j0, j1, i0, i1] of the active cells;  carried : int64[m], fields that each body carries
+        """
+        s, vol_r, (j0, j1, _, _) = self.state, self.grid.vol_r, box
+        advance = self.velocity * dt
+        following.leave(j0, j1 + 1, advance, vol_r, s.around[0], s.fz)
         if s.groups > 1:
-            s.own_z[:, :, :-1] -= swept
+            following.leave_cut(j0, j1, advance, vol_r, s.cut, s.own_z)
+        following.silence(j0, j1, carried, s.span, s.q)
 
     def fill_ghosts(self, dt: float) -> None:
         """What the deck has placed in the strip that the leading edge crosses in the step, at rest and without stress."""
@@ -150,7 +155,9 @@ class FollowingMesh:
         row = self._ghost_rows[0]
         height = max(abs(self.velocity) * dt, THINNEST * g.dz[row])
         found = self.space.strip(*((z, z + height) if self.leading else (z - height, z)))
-        vof, rho, e = (self._padded(found[name]) for name in ("vof", "rho", "e"))
+        if found is not self._last[0]:
+            self._last = found, [self._padded(found[name]) for name in ("vof", "rho", "e")]
+        vof, rho, e = self._last[1]
         for row in self._ghost_rows:
             s.vof[:, row], s.q[:, :, row] = vof, 0.0
             s.q[RHO, :, row], s.q[E, :, row] = rho, e

@@ -1,18 +1,25 @@
-"""history.h5: one 1-D dataset per quantity against time.
+"""history.h5: one 1-D dataset per quantity against time, and at the end of a run the hole in the target.
 
-Every dataset carries `units` and has `time` as its dimension scale, so that xarray opens the file as it stands. The
-file is rewritten whole, beside its place, and renamed: a run that is killed leaves the last complete one.
+Every dataset carries `units` and has `time` as its dimension scale, so that xarray opens the file as it stands. The hole
+is the group `crater`: its radius over its axial positions. The file is rewritten whole, beside its place, and renamed:
+a run that is killed leaves the last complete one.
 """
 
 from __future__ import annotations
 
+from contextlib import contextmanager
 from pathlib import Path
 
 import numpy as np
 
 from hydro2d.files import hdf5, replacing
 
-REGIMES = ("rigid", "deforming", "eroding")
+#: regimes of a rod in the order of the impact velocity, and all of them by the number that stands in the file
+GROWING = ("rigid", "deforming", "eroding")
+REGIMES = (*GROWING, "left the mesh")
+
+#: the group of the hole in the target, and its datasets
+CRATER, CRATER_COLUMNS = "crater", ("z_m", "radius_m")
 
 #: unit by ending of the name, the longest first
 _UNITS = (
@@ -35,7 +42,8 @@ def unit(name: str) -> str:
 def attributes(name: str) -> dict:
     """What a reader of a quantity should know: its unit, and for the regime the words of its numbers."""
     if name == "regime":
-        return {"units": unit(name), "flag_values": np.arange(len(REGIMES), dtype=np.int8), "flag_meanings": " ".join(REGIMES)}
+        words = " ".join(word.replace(" ", "_") for word in REGIMES)
+        return {"units": unit(name), "flag_values": np.arange(len(REGIMES), dtype=np.int8), "flag_meanings": words}
     return {"units": unit(name)}
 
 
@@ -52,12 +60,17 @@ class History:
     ----------
     path : where the file is or will be
     rows : number of rows of the existing file to keep (a restart); 0 begins an empty one
+
+    Attributes
+    ----------
+    crater : axial positions and radii of the hole in the target, m, to be written as well; None before the end of a run
     """
 
     def __init__(self, path: Path, rows: int = 0):
         self.path = Path(path)
         self._columns: dict[str, list[float]] = {}
         self._rows = 0
+        self.crater: tuple[np.ndarray, np.ndarray] | None = None
         if rows:
             for name, values in read(self.path).items():
                 self._columns[name] = list(values[:rows])
@@ -88,6 +101,11 @@ class History:
             for name, values in self._columns.items():
                 if name != "time":
                     _dataset(file, name, values).dims[0].attach_scale(time)
+            if self.crater is not None:
+                group = file.create_group(CRATER)
+                z, radius = (_dataset(group, *column) for column in zip(CRATER_COLUMNS, self.crater, strict=True))
+                z.make_scale(CRATER_COLUMNS[0])
+                radius.dims[0].attach_scale(z)
 
 
 def _dataset(file, name: str, values: list[float]):
@@ -100,16 +118,29 @@ def _dataset(file, name: str, values: list[float]):
     return dataset
 
 
-def read(path: Path) -> dict[str, np.ndarray]:
-    """All columns by name, `time` first, shapes (rows,). Raises HistoryError."""
+@contextmanager
+def _opened(path: Path):
+    """A history file to be read. Raises HistoryError."""
     import h5py
 
     try:
         with h5py.File(path, "r") as file:
-            names = sorted(file, key=lambda name: (name != "time", name))
-            return {name: file[name][...] for name in names}
+            yield file
     except OSError as error:
         raise HistoryError(f"{path} is not a history file: {error}") from None
+
+
+def read(path: Path) -> dict[str, np.ndarray]:
+    """All columns by name, `time` first, shapes (rows,). Raises HistoryError."""
+    with _opened(path) as file:
+        names = sorted(file.keys() - {CRATER}, key=lambda name: (name != "time", name))
+        return {name: file[name][...] for name in names}
+
+
+def read_crater(path: Path) -> tuple[np.ndarray, np.ndarray] | None:
+    """Axial positions and radii of the hole in the target, m, shapes (n,); None where there are none. Raises HistoryError."""
+    with _opened(path) as file:
+        return tuple(file[CRATER][name][...] for name in CRATER_COLUMNS) if CRATER in file else None
 
 
 def write_csv(columns: dict[str, np.ndarray], path: Path) -> None:

@@ -20,6 +20,7 @@ from hydro2d.model_materials import Given
 from hydro2d.model_text import columns, given_data, shown
 from hydro2d.penetration import catalogue
 from hydro2d.penetration.model import InputError, Model
+from hydro2d.penetrator import LEFT
 
 STUDY = "cth_nose_shape"
 RULE = "rigid where deeper than the hydrodynamic limit L sqrt(rho_p/rho_t)"
@@ -138,11 +139,12 @@ def of_runs(directories: Sequence[Path], nose: str) -> tuple[Bracket, list[tuple
         if "regime" not in run.summary:
             raise results.ResultsError(f"{directory}: the run has not ended, it has no regime")
         shot, regime = model_deck.read(run.directory / results.DECK), run.summary["regime"]
-        counted = shot.nose == nose
+        counted = shot.nose == nose and regime != LEFT
         if counted:
             (rigid if regime == "rigid" else others).append(shot.velocity)
         words = (run.label, shot.rod.name, shot.target.name, shot.nose, f"{shot.velocity:g} m/s", regime)
-        lines.append((*words, "" if counted else "other nose, not counted"))
+        why = "other nose" if shot.nose != nose else "not followed to its end"
+        lines.append((*words, "" if counted else f"{why}, not counted"))
     return between("hydro2d", rigid, others, f"{len(rigid) + len(others)} runs; rigid by their summaries"), lines
 
 

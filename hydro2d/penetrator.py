@@ -2,16 +2,32 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 
 from hydro2d import deck as decks
+from hydro2d import sums
+from hydro2d.sums import HALF
 
-#: a cell belongs to the rod, for lengths, from this share on
-HALF = 0.5
 #: the rod is rigid while it has lost less than this share of its length and its radius has grown by less than that
 RIGID_LENGTH, RIGID_RADIUS = 0.02, 0.10
 #: it is eroding once more than this share of its mass has left its core
 ERODED_MASS = 0.10
+#: it has left the mesh once more than this share of its mass has flowed out since its core reached an open edge
+LEFT_MASS = 0.01
+#: the regime of such a rod
+LEFT = "left the mesh"
+
+
+class Exit(NamedTuple):
+    """A rod as its core reached an open edge of the mesh: core's velocity in m/s and mass in kg, depth in m, and the mass of
+    the rod that had flowed out of the mesh before, kg."""
+
+    velocity: float
+    mass: float
+    depth: float
+    outflow: float
 
 
 class Penetrator:
@@ -23,6 +39,11 @@ class Penetrator:
     axis outward, row by row, along that run: debris behind the tail and a skirt of turned-back material do not belong to it.
     The regime is "rigid" while the rod has lost less than 2 % of its length and no section has swollen beyond 1.1 of its
     radius, "eroding" once more than 10 % of its mass has left the core, else "deforming".
+
+    A rod can leave the mesh through an open edge in z. Its core has reached the edge when it fills half of the edge's cell on
+    the axis and moves outwards there, as the mesh sees it. When more than 1 % of the rod's mass has flowed out since, the
+    regime is "left the mesh" for good, and the depth stays what it was when the core reached the edge. Debris that leaves
+    through any edge changes nothing as long as the core is inside.
     """
 
     def __init__(self, sim, deck):
@@ -42,6 +63,10 @@ class Penetrator:
         low, high = decks.extent(target, deck, "z")
         self.thickness = high - low
         self.mass = float(sim.body_sums(self.m)[0].sum()) * self._around
+        self.exit: Exit | None = None
+        self._offset = grid.offset
+        closed = deck.boundaries.z_min == "wall", deck.boundaries.z_max == "wall"
+        self._open = [end for end, wall in zip(((0, -1.0), (grid.nz, 1.0)), closed, strict=True) if not wall]
 
     def _fraction(self) -> np.ndarray:
         """Volume fraction of the rod in the cells [j, i]."""
@@ -81,7 +106,12 @@ class Penetrator:
         return high - low, low, high
 
     def depth(self) -> float:
-        """Deepest rod material near the axis, from the original surface, m; 0 before impact."""
+        """Deepest rod material near the axis, from the original surface, m; 0 before impact.
+
+        Of a rod that has left the mesh, what it was when its core reached the edge.
+        """
+        if self.left:
+            return self.exit.depth
         fraction, deepest = self._fraction(), -np.inf
         for i in range(self.columns):
             column = fraction[:, i]
@@ -113,16 +143,11 @@ class Penetrator:
 
         The first cell that the rod does not fill by half ends a row, and still counts, unless it is the one on the axis.
         """
-        g, s = self.sim.grid, self.sim.state
-        fraction = self._intact(rows)
-        inside = np.logical_and.accumulate(fraction >= HALF, axis=1)
-        edge = np.zeros_like(inside)
-        edge[:, 1:] = inside[:, :-1]
-        density = g.interior(s.rho)[self.m][rows]
-        mass = np.where(inside | edge, fraction * density * g.volume[g.inside][rows], 0.0) * self._around
-        corners = g.interior_vertices(s.v)[s.group[self.m]][rows.start : rows.stop + 1]
-        mean = 0.25 * (corners[:-1, :-1] + corners[:-1, 1:] + corners[1:, :-1] + corners[1:, 1:])
-        return float(mass.sum()), float(np.sum(mass * mean))
+        g, s, found = self.sim.grid, self.sim.state, np.zeros(2)
+        sums.core_sums(g.g, g.nr, g.g + rows.start, g.g + rows.stop, self.m, HALF, g.volume, s.vof, s.dmg, s.rho,
+                       s.v[s.group[self.m]], found)
+        mass, momentum = (found * self._around).tolist()
+        return mass, momentum
 
     def _rows(self, low: float, high: float) -> slice:
         """The rows from z = low to high, and what is cut by either end."""
@@ -132,9 +157,64 @@ class Penetrator:
     def velocity(self) -> float:
         """Mean axial velocity of the core, m/s, so that what flies back from an eroding rod does not count; of all that is left
         of the rod where nothing is left of its core."""
-        _, low, high = self._length()
-        mass, momentum = self._core(self._rows(low, high))
+        mass, momentum = self._whole_core()
         return momentum / mass if mass > 0.0 else self.sim.mean_velocity(self.m)
+
+    def _whole_core(self) -> tuple[float, float]:
+        """Mass in kg and axial momentum in N s of the core."""
+        _, low, high = self._length()
+        return self._core(self._rows(low, high))
+
+    # ------------------------------------------------------------------------------------------------ leaving the mesh
+
+    def watch(self) -> None:
+        """After a cycle: remembers the rod as it is when its core reaches an open edge."""
+        grid, dt = self.sim.grid, self.sim.dt
+        drift = (grid.offset - self._offset) / dt if dt > 0.0 else 0.0
+        self._offset = grid.offset
+        if self.left:
+            return
+        if not any(self._reaches(vertex, sign, drift) for vertex, sign in self._open):
+            self.exit = None
+        elif self.exit is None:
+            mass, momentum = self._whole_core()
+            self.exit = Exit(momentum / mass if mass > 0.0 else 0.0, mass, self.depth(), self._outflow())
+
+    def _reaches(self, vertex: int, sign: float, drift: float) -> bool:
+        """Whether the core fills half of the edge's cell on the axis and moves out of a mesh that drifts, m/s, along z."""
+        s, g, edges = self.sim.state, self.sim.grid.g, self.sim.grid.z_edges
+        j = g + vertex - (sign > 0.0)
+        if s.vof[self.m, j, g] < HALF or s.dmg[self.m, j, g] >= 1.0:
+            return False
+        if sign * (s.v[s.group[self.m], g + vertex, g] - drift) <= 0.0:
+            return False
+        _, low, high = self._length()
+        return high > edges[-2] if sign > 0.0 else low < edges[1]
+
+    def _outflow(self) -> float:
+        """Mass of the rod that has left through open edges, kg."""
+        return float(self.sim.ledger.sinks["outflow"].mass[self.m]) * self._around
+
+    @property
+    def left(self) -> bool:
+        """Whether the rod has left the mesh, by the rule above."""
+        return self.exit is not None and self._outflow() - self.exit.outflow > LEFT_MASS * self.mass
+
+    @property
+    def gone(self) -> bool:
+        """Whether nothing of the core of a rod that has left the mesh is in it any more."""
+        return self.left and self._length()[0] == 0.0
+
+    def saved(self) -> dict:
+        """What a restart file keeps of it."""
+        return {"exit": self.exit and self.exit._asdict(), "offset": self._offset}
+
+    def resume(self, saved: dict) -> None:
+        """Continues from what was saved."""
+        self.exit = Exit(**saved["exit"]) if saved["exit"] else None
+        self._offset = saved["offset"]
+
+    # ------------------------------------------------------------------------------------------------ what is known
 
     def _failed_mass(self, m: int) -> float:
         """Mass of a body's material that has failed by damage, kg, whole circumference."""
@@ -144,10 +224,24 @@ class Penetrator:
 
     def perforates(self) -> bool:
         """Whether the nose is the rod's radius beyond the rear of the target."""
-        return self.depth() >= self.thickness + self.radius
+        return self._through(self.depth())
+
+    def _through(self, depth: float) -> bool:
+        return depth >= self.thickness + self.radius
+
+    def _residual(self, depth: float, core: float, momentum: float) -> tuple[float | None, float | None]:
+        """Velocity in m/s and mass in kg of what flies on, from the depth and the core's mass and momentum: of a rod that has
+        left the mesh, those at its edge; of one that has perforated the target, those of now; else None."""
+        if self.left:
+            return self.exit.velocity, self.exit.mass
+        if core > 0.0 and self._through(depth):
+            return momentum / core, core
+        return None, None
 
     def regime(self, length: float, radius: float, core: float) -> str:
-        """"rigid", "deforming" or "eroding", from the length and largest radius in m and the mass of the core in kg."""
+        """"rigid", "deforming", "eroding" or "left the mesh"; length and largest radius in m, mass of the core in kg."""
+        if self.left:
+            return LEFT
         if core < (1.0 - ERODED_MASS) * self.mass:
             return "eroding"
         if length > (1.0 - RIGID_LENGTH) * self.length and radius < (1.0 + RIGID_RADIUS) * self.radius:
@@ -165,8 +259,10 @@ class Penetrator:
         mass = float(mass_of_rows.sum())
         mean = float(momentum_of_rows.sum()) / mass if mass > 0.0 else 0.0
         mass *= self._around
+        depth = self.depth()
+        residual_velocity, residual_mass = self._residual(depth, core, core_momentum)
         return {
-            "penetration_depth_m": self.depth(),
+            "penetration_depth_m": depth,
             "rod_length_m": length,
             "rod_initial_length_m": self.length,
             "rod_mass_kg": mass,
@@ -181,5 +277,7 @@ class Penetrator:
             "rod_nose_velocity_m_s": self._axis_velocity(nose) if length else 0.0,
             "rod_tail_velocity_m_s": self._axis_velocity(tail) if length else 0.0,
             "rod_kinetic_energy_J": 0.5 * mass * mean * mean,
+            "rod_residual_velocity_m_s": residual_velocity,
+            "rod_residual_mass_kg": residual_mass,
             "regime": self.regime(length, radius, core),
         }

@@ -218,13 +218,19 @@ def result(summary: dict) -> list[str]:
 
 
 def _rod(summary: dict) -> list[str]:
+    from hydro2d.penetrator import LEFT
+
     depth, experiment = summary["penetration_depth_m"], summary["experiment"]
-    lines = [f"penetration depth     {number(depth, 1e2, '.2f', 'cm')}"]
+    bound = "at least " if summary["regime"] == LEFT else ""
+    lines = [f"penetration depth     {bound}{number(depth, 1e2, '.2f', 'cm')}"]
     if experiment and experiment["penetration_m"]:
         measured = experiment["penetration_m"]
         error = f" (error {(depth - measured) * 1e2:+.2f} cm, {100 * (depth / measured - 1):+.1f} %)"
         qualifier = "" if experiment["qualifier"] == "measured" else f"{experiment['qualifier']} "
         lines.append(f"  experiment          {qualifier}{measured * 1e2:.2f} cm{error}  {experiment['source']}")
+    if summary["rod_residual_mass_kg"] is not None:
+        velocity, mass = (summary[f"rod_residual_{name}"] for name in ("velocity_m_s", "mass_kg"))
+        lines.append(f"residual rod          {number(velocity, 1, '.1f', 'm/s')}, {number(mass, 1e3, '.2f', 'g')}")
     return [
         *lines,
         f"rod length            {number(summary['rod_length_m'], 1e2, '.2f', 'cm')}",

@@ -58,6 +58,17 @@ class Results:
         """Columns of the history by name, shapes (rows,). Raises HistoryError."""
         return history.read(self.directory / HISTORY)
 
+    @property
+    def crater(self) -> tuple[np.ndarray, np.ndarray]:
+        """Axial positions and radii of the hole in the target at the end, m, shapes (n,), from the entrance to the bottom.
+
+        Raises HistoryError, and ResultsError where the run has not ended or has no rod and target.
+        """
+        found = history.read_crater(self.directory / HISTORY)
+        if found is None:
+            raise ResultsError(f"{self.directory} has no crater: the run has not ended, or has no rod and target")
+        return found
+
     def to_pandas(self):
         """The history as a pandas.DataFrame with the time in s as index, the regime in words.
 

@@ -3,7 +3,7 @@
     deck.toml         the deck with every default written out
     summary.json      the result, where it comes from, and what was conserved
     progress.json     how far it is, while it runs
-    history.h5        quantities against time
+    history.h5        quantities against time, and the hole in the target at the end
     restart.h5        to continue to the same bits (and restart.previous.h5)
     vtk/, *.pvd       fields, outlines and tracers for ParaView
     log.txt           what happened
@@ -51,6 +51,7 @@ DONE, WRONG_INPUT, UNPHYSICAL = 0, 2, 3
 #: results that a summary always has; null for a deck without rod and target
 ROD_RESULTS = (
     "penetration_depth_m", "rod_length_m", "rod_mass_kg", "rod_max_plastic_strain", "rod_tail_velocity_m_s", "regime",
+    "rod_residual_velocity_m_s", "rod_residual_mass_kg",
 )  # fmt: skip
 
 
@@ -292,6 +293,7 @@ class Run:
 
     def _finish(self, status: str, reason: str) -> dict:
         """The last outputs. A restart file never counts the extra row and dump that are written after the end."""
+        self.history.crater = self.sim.crater.profile() if self.sim.crater else None
         if status == "unphysical":
             if self.good is not None:
                 self._save(self.good)
@@ -326,6 +328,7 @@ class Run:
             "cells": sim.grid.cells,
             **dict.fromkeys(ROD_RESULTS),
             **sim.diagnostics(),
+            "crater": sim.crater.measure() if sim.crater else None,
             "experiment": experiment(self.deck),
             "conservation": sim.conservation(),
             "provenance": self.provenance,

@@ -7,6 +7,7 @@ import numpy as np
 from hydro2d import deck as decks
 from hydro2d import insertion, materials, sums, tracers
 from hydro2d.audit import Ledger
+from hydro2d.crater import Crater
 from hydro2d.cycle import Cycle, UnphysicalState
 from hydro2d.following import FollowingMesh, StandingMesh, UndisturbedSpace
 from hydro2d.grid import Grid
@@ -31,6 +32,7 @@ class Simulation:
     ----------
     grid, state, table, ledger : the mesh, the fields, the materials, what is conserved
     tracers : float64[n, 2], positions (r, z) in m
+    penetrator, crater : what measures the rod and the hole; None for a deck without rod and target
     """
 
     def __init__(self, deck):
@@ -46,6 +48,7 @@ class Simulation:
         self.tracers = np.array([[t.r, t.z] for t in deck.tracer]).reshape(-1, 2)
         self._rows = np.zeros((2, self.grid.shape[0]))
         self.penetrator = Penetrator(self, deck) if deck.penetration else None
+        self.crater = Crater(self, deck) if deck.penetration else None
         self.watched = slots.index(deck.stop.body) if deck.stop.body else None
         self._sign = None
 
@@ -123,6 +126,9 @@ class Simulation:
         self.engine.advance()
         if len(self.tracers):
             self._move_tracers()
+        if self.penetrator:
+            self.penetrator.watch()
+            self.crater.record()
 
     def _move_tracers(self) -> None:
         """Tracers follow the bilinear velocity of their cell, by the midpoint rule."""
@@ -156,9 +162,11 @@ class Simulation:
             return None
         if stop.perforation and self.penetrator.perforates():
             return f"perforation of {self.deck.penetration.target}"
+        watches_rod = self.penetrator is not None and self.watched == self.penetrator.m
+        if (stop.perforation or (watches_rod and (stop.speed_below is not None or stop.rebound))) and self.penetrator.gone:
+            return f"{self.deck.penetration.rod} left the mesh"
         if self.watched is not None and (stop.speed_below is not None or stop.rebound):
-            rod = self.penetrator is not None and self.penetrator.m == self.watched
-            v = self.penetrator.velocity() if rod else self.mean_velocity(self.watched)
+            v = self.penetrator.velocity() if watches_rod else self.mean_velocity(self.watched)
             if self._sign is None:
                 self._sign = 1.0 if v >= 0 else -1.0
             if stop.rebound and v * self._sign < 0:
@@ -197,7 +205,8 @@ class Simulation:
         """What a restart needs beside the arrays; JSON keeps every bit of it."""
         e = self.engine
         return {"time": e.time, "dt": e.dt, "cycle": e.number, "cause": e.cause, "box": [int(x) for x in e.box],
-                "mesh_offset": self.grid.offset, "speed_limit": e.speed_limit, "sign": self._sign, "ledger": e.ledger.saved()}
+                "mesh_offset": self.grid.offset, "speed_limit": e.speed_limit, "sign": self._sign, "ledger": e.ledger.saved(),
+                "penetrator": self.penetrator and self.penetrator.saved(), "crater": self.crater and self.crater.saved()}
 
     def load_restart_scalars(self, scalars: dict) -> None:
         """Continues from what `restart_scalars` gave; after `load_restart_arrays`."""
@@ -206,4 +215,7 @@ class Simulation:
         e.box, e.speed_limit, self._sign = list(scalars["box"]), scalars["speed_limit"], scalars["sign"]
         self.grid.move(scalars["mesh_offset"])
         e.ledger = Ledger.resume(scalars["ledger"])
+        if self.penetrator:
+            self.penetrator.resume(scalars["penetrator"])
+            self.crater.resume(scalars["crater"])
         e.prepare()

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from hydro2d.jit import plus, point, serial
 
+#: a cell belongs to a body, where its length and its core are asked for, from this share on
+HALF = 0.5
+
 
 @serial
 def body_sums(g, nz, nr, m, cm_in, cm_out, volume, vof, rho, v, sums):

@@ -11,7 +11,7 @@ from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 from itertools import pairwise
 
-from hydro2d.history import REGIMES
+from hydro2d.history import GROWING
 
 #: failed runs after which a search gives up
 MOST_FAILED = 4
@@ -22,7 +22,7 @@ def bracket(found: Mapping[float, str], regime: str) -> tuple[float | None, floa
 
     found : regimes by velocity, or by anything that grows with it
     """
-    reached = {speed: REGIMES.index(each) >= REGIMES.index(regime) for speed, each in found.items()}
+    reached = {speed: GROWING.index(each) >= GROWING.index(regime) for speed, each in found.items()}
     high = min((speed for speed, yes in reached.items() if yes), default=None)
     low = max((speed for speed, yes in reached.items() if not yes and (high is None or speed < high)), default=None)
     return low, high
@@ -31,7 +31,7 @@ def bracket(found: Mapping[float, str], regime: str) -> tuple[float | None, floa
 def disordered(found: Mapping[float, str]) -> list[tuple[float, float]]:
     """Pairs (slower, faster) of runs next to one another of which the faster has the lower regime."""
     speeds = sorted(found)
-    return [(slow, fast) for slow, fast in pairwise(speeds) if REGIMES.index(found[fast]) < REGIMES.index(found[slow])]
+    return [(slow, fast) for slow, fast in pairwise(speeds) if GROWING.index(found[fast]) < GROWING.index(found[slow])]
 
 
 @dataclass
@@ -54,7 +54,7 @@ class Search:
         for end in (0, self.count - 1):
             if end not in self.found and end not in taken:
                 return end
-        options = [option for regime in REGIMES[1:] if (option := self._inside(regime, taken))]
+        options = [option for regime in GROWING[1:] if (option := self._inside(regime, taken))]
         return min(options)[-1] if options else None
 
     def _inside(self, regime: str, taken: set[int]) -> tuple[int, int, int] | None:
@@ -72,7 +72,7 @@ class Search:
         """About how many runs are still to come after those that are under way."""
         ends = len({0, self.count - 1} - set(self.found) - self.failed)
         gaps = []
-        for regime in REGIMES[1:]:
+        for regime in GROWING[1:]:
             low, high = bracket(self.found, regime)
             gaps.append((self.count - 1 if high is None else high) - (0 if low is None else low))
         return ends + sum((gap - 1).bit_length() for gap in gaps if gap > 1) if self.next() is not None else 0

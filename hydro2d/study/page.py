@@ -115,8 +115,9 @@ def _results(contents: Contents) -> Html:
     caption = "Cases: depth below the original surface, experiment, and the rod at the end"
     legend = (
         "Error: run less experiment, for runs that are done and within 0.5 % of its velocity. ≈ estimated; ≥ at least: "
-        "the plate was perforated. An error is then at least (≥) or at most (≤) what is shown, or the experiment's depth was "
-        "reached. Values of runs that are not done are the last that were written. All columns in SI: cases.csv."
+        "the plate was perforated, or the rod left the mesh. An error is then at least (≥) or at most (≤) what is shown, or "
+        "the experiment's depth was reached. Values of runs that are not done are the last that were written. All columns "
+        "in SI: cases.csv."
     )
     return Html(table(caption, _heads(columns), rows, class_="sortable") + element("p", legend, class_="legend"))
 

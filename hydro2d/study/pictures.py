@@ -50,6 +50,11 @@ def draw(contents: Contents, folder: Path) -> Iterator[Picture]:
     yield from _rods(contents, folder)
 
 
+def _depth(record: Record) -> str:
+    """The depth of a run in words."""
+    return "perforated" if record.perforated else f"{'at least ' * record.left}{record.depth * 100:.1f} cm"
+
+
 def _depths(contents: Contents, setup: Setup, members: Sequence[Record], file: Path) -> Picture:
     done = [each for each in members if each.done and each.depth is not None]
     shots = contents.measurements[setup]
@@ -57,7 +62,7 @@ def _depths(contents: Contents, setup: Setup, members: Sequence[Record], file: P
     beyond = BEYOND * ((max(speeds) - min(speeds)) or max(speeds))
     curves = theory.curves(members[0].shot, max(min(speeds) - beyond, 1.0), max(speeds) + beyond)
     figures.save(drawing.depths(setup, series.grouped(done, contents.study.axes), shots, curves), file)
-    depths = [f"{each.case.name} {'perforated' if each.perforated else f'{each.depth * 100:.1f} cm'}" for each in done[:12]]
+    depths = [f"{each.case.name} {_depth(each)}" for each in done[:12]]
     measured = [f"{shot.velocity:.0f} m/s {'at least ' if shot.qualifier == experiments.AT_LEAST else ''}"
                 f"{shot.depth * 100:.1f} cm" for shot in shots]  # fmt: skip
     alt = (

@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from hydro2d import deck as decks
-from hydro2d import history, model_deck, vtk
+from hydro2d import history, model_deck, penetrator, vtk
 from hydro2d.deck_errors import DeckError
 from hydro2d.run import DECK, HISTORY
 from hydro2d.study.layout import DONE, Case
@@ -86,6 +86,16 @@ class Record:
         """Whether the rod went through the target at any time, even if it has left the mesh since."""
         thickness = self.setup.thickness if self.setup else None
         return thickness is not None and max(self.deepest, self.value("penetration_depth_m") or 0.0) >= thickness
+
+    @property
+    def left(self) -> bool:
+        """Whether the rod left the mesh."""
+        return self.value("regime") == penetrator.LEFT
+
+    @property
+    def at_least(self) -> bool:
+        """Whether the rod would have gone deeper than `depth`: it went through the target, or left the mesh."""
+        return self.perforated or self.left
 
     @property
     def depth(self) -> float | None:

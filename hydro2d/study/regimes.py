@@ -77,14 +77,14 @@ def _share(value: float | None, first: float | None) -> str:
 
 
 def _at_least(run: Run) -> str:
-    return "at least " if run.record.perforated else ""
+    return "at least " if run.record.at_least else ""
 
 
 def judge(found: Record) -> Run:
     """The regime of a case at its end.
 
-    None for one that is not done, and where the rod went through the target and out of the mesh: what has left the mesh would
-    count as eroded.
+    None for one that is not done, and where the rod left the mesh: it was not followed to its end. Runs of versions that did
+    not know this regime are told by the mass that a perforating rod has lost.
     """
     case = found.case
     velocity = found.velocity if found.velocity is not None else velocities.speed(case.values[velocities.AXIS])
@@ -92,9 +92,11 @@ def judge(found: Record) -> Run:
         reason = case.message.splitlines()[0] if case.message else ""
         return Run(found, velocity, None, f"{case.status}: {reason}" if reason else case.status)
     first, mass = found.first.get("rod_mass_kg"), found.value("rod_mass_kg")
-    if found.perforated and first and mass < (1.0 - penetrator.ERODED_MASS) * first:
+    if found.perforated and (found.left or (first and mass < (1.0 - penetrator.ERODED_MASS) * first)):
         why = "the rod went through the target and left the mesh; stop.perforation = true ends a run before that"
         return Run(found, velocity, None, why)
+    if found.left:
+        return Run(found, velocity, None, "the rod left the mesh before it came to rest")
     return Run(found, velocity, case.summary.get("regime"))
 
 

@@ -98,7 +98,10 @@ def _label(record: Record) -> str:
     lines = [line for word in words for line in textwrap.wrap(word.replace("_", " "), LETTERS)]
     if len(lines) > LINES:
         lines = [*lines[: LINES - 1], "…"]
-    lines += ["perforated"] if record.perforated else [] if record.depth is None else [f"{record.depth * 100:.1f} cm"]
+    if record.perforated:
+        lines.append("perforated")
+    elif record.depth is not None:
+        lines.append(f"{'≥ ' * record.left}{record.depth * 100:.1f} cm")
     return "\n".join(lines + ([] if record.done else [f"({record.case.status})"]))
 
 

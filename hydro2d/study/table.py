@@ -42,7 +42,7 @@ def _results(record: Record) -> Row:
     return {
         "time_s": record.case.summary.get("time_s", record.last.get("time")),
         "depth_m": record.depth,
-        "depth_is": "at least" if record.perforated else "computed",
+        "depth_is": "at least" if record.at_least else "computed",
         "rod_length_m": length,
         "rod_initial_length_m": first["length"],
         "rod_length_ratio": _ratio(length, first["length"]),
@@ -65,7 +65,7 @@ def _compared(record: Record, measurement: Measurement | None) -> Row:
     if measurement is None:
         return dict.fromkeys(names)
     told = record.done and record.depth is not None
-    error, kind = measurement.error(record.depth, record.perforated) or (None, "none") if told else (None, None)
+    error, kind = measurement.error(record.depth, record.at_least) or (None, "none") if told else (None, None)
     per_cent = None if error is None else 100.0 * error / measurement.depth
     values = (measurement.depth, measurement.qualifier, measurement.source, error, per_cent, kind)
     return dict(zip(names, values, strict=True))

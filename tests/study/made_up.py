@@ -14,7 +14,7 @@ from hydro2d.run import deck_hash
 from hydro2d.study.case import Outcome
 from tests.study import fake
 
-REGIMES = {"rigid": 0.001, "deforming": 0.1, "eroding": 0.4}
+REGIMES = {"rigid": 0.001, "deforming": 0.1, "eroding": 0.4, "left the mesh": 0.9}
 
 
 def regime(velocity: float, deforming: float, eroding: float) -> str:

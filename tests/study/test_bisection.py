@@ -6,15 +6,15 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from hydro2d.history import REGIMES
+from hydro2d.history import GROWING
 from hydro2d.study.bisection import MOST_FAILED, Search, bracket, disordered
 
-RIGID, DEFORMING, ERODING = REGIMES
+RIGID, DEFORMING, ERODING = GROWING
 
 
 def ordered(count, deforming, eroding):
     """Regimes that grow: the positions of the first deforming and the first eroding rod."""
-    return [REGIMES[(n >= deforming) + (n >= eroding)] for n in range(count)]
+    return [GROWING[(n >= deforming) + (n >= eroding)] for n in range(count)]
 
 
 def play(regimes, workers=1, failing=(), finishes=lambda busy: busy[0]):
@@ -75,15 +75,15 @@ def test_three_runs_at_a_time_quarter_a_bracket(count, data):
     assert rounds <= math.ceil(math.log2(count) / 2) + 1
 
 
-@given(st.lists(st.sampled_from(REGIMES), min_size=2, max_size=60), st.integers(1, 4))
+@given(st.lists(st.sampled_from(GROWING), min_size=2, max_size=60), st.integers(1, 4))
 def test_regimes_out_of_order_end_too_and_are_seen(regimes, workers):
     search, made = play(regimes, workers)
     for regime in (DEFORMING, ERODING):
         low, high = bracket(search.found, regime)
         if low is not None and high is not None:
             assert high - low == 1
-            assert REGIMES.index(regimes[low]) < REGIMES.index(regime) <= REGIMES.index(regimes[high])
-    seen = [REGIMES.index(regimes[n]) for n in sorted(made)]
+            assert GROWING.index(regimes[low]) < GROWING.index(regime) <= GROWING.index(regimes[high])
+    seen = [GROWING.index(regimes[n]) for n in sorted(made)]
     assert bool(disordered(search.found)) == (seen != sorted(seen))
 
 

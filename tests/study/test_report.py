@@ -161,6 +161,15 @@ def test_a_perforated_plate_is_a_bound(tmp_path):
     assert "≥ 53.3 ≥ 53.3 reached reached" in page.text
 
 
+def test_a_rod_that_left_the_mesh_has_gone_at_least_so_deep(tmp_path):
+    fake.write_run(tmp_path / "runs" / "out", 1086.0, 0.30, regime="left the mesh")
+    page, _ = page_of(tmp_path / "runs")
+    row = table(tmp_path / "runs" / "report")["out"]
+    assert (row["depth_m"], row["regime"]) == ("0.3", "left the mesh")
+    assert (row["depth_is"], row["depth_error_is"]) == ("at least", "at least")
+    assert "≥ 30.0" in page.text
+
+
 def test_an_experiment_at_an_unknown_velocity_is_compared_with_nothing(tmp_path):
     """Another rod than the catalogue's: its experiment was measured at one velocity, and two are run."""
     short = ("body.rod.length=60 mm",)

@@ -321,6 +321,18 @@ def test_a_rod_that_left_the_mesh_has_no_regime(tmp_path):
     assert "left the mesh; stop.perforation = true" in runs[1500]["reason"]
 
 
+def test_a_rod_that_left_a_short_mesh_has_no_regime_either(tmp_path):
+    def out(velocity, deck):
+        gone = {"depth": 0.3, "rod_mass_kg": 0.0, "regime": "left the mesh", "rod_residual_velocity_m_s": 700.0}
+        return gone if velocity > 1400 else usual(velocity, deck)
+
+    status, found = search(tmp_path, made_up.Client(out), ALONE)
+    assert status == 0
+    assert brackets(found)[0]["to eroding"] == (1300, 1350)
+    runs = {run["velocity_m_s"]: run for run in found["combinations"][0]["runs"]}
+    assert (runs[1500]["regime"], runs[1500]["reason"]) == (None, "the rod left the mesh before it came to rest")
+
+
 def test_a_run_that_was_cut_short_is_told(tmp_path, capsys):
     cut = {"stop_reason": "end time", "rod_core_velocity_m_s": 300.0}
     search(tmp_path, made_up.Client(lambda velocity, deck: usual(velocity, deck) | cut), ALONE)

@@ -22,7 +22,7 @@ def test_xarray_opens_it(tmp_path):
     with xarray.open_dataset(tmp_path / "history.h5", engine="h5netcdf") as data:
         assert data["rod_length_m"].dims == ("time",)
         assert data["rod_length_m"].attrs["units"] == "m"
-        assert data["regime"].attrs["flag_meanings"] == "rigid deforming eroding"
+        assert data["regime"].attrs["flag_meanings"] == "rigid deforming eroding left_the_mesh"
         assert data["time"].values[3] == 3e-6
         assert int(data["regime"][0]) == 2
 

@@ -331,10 +331,12 @@ def run_directory(folder, velocity, regime, overrides=()):
 def test_runs_make_a_bracket(tmp_path):
     runs = [run_directory(tmp_path / str(v), v, word) for v, word in ((900, "rigid"), (1000, "rigid"), (1250, "deforming"),
                                                                        (1300, "eroding"))]  # fmt: skip
+    runs.append(run_directory(tmp_path / "out", 800, "left the mesh"))
     runs.append(run_directory(tmp_path / "ogive", 1800, "rigid", ("body.rod.nose=ogive", "body.rod.crh=2.5")))
     found, lines = model_transition.of_runs(runs, "hemispherical")
     assert (found.low, found.high) == (1000.0, 1250.0)
-    assert [line[-1] != "" for line in lines] == [False, False, False, False, True]
+    assert [line[-1] != "" for line in lines] == [False, False, False, False, True, True]
+    assert [line[-1] for line in lines[4:]] == ["not followed to its end, not counted", "other nose, not counted"]
     with pytest.raises(ResultsError, match="has not ended"):
         model_transition.of_runs([run_directory(tmp_path / "unfinished", 1000, "")], "hemispherical")
 

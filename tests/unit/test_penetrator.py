@@ -1,10 +1,13 @@
 """What is measured of a rod: lengths to a cell's share, and the regime by its stated rules."""
 
+import json
+
 import numpy as np
 import pytest
 
-from hydro2d import deck
-from hydro2d.simulation import Simulation
+from hydro2d import deck, history
+from hydro2d.penetrator import LEFT
+from hydro2d.simulation import WATCH_EVERY, Simulation
 
 TEXT = """
 [mesh]
@@ -107,3 +110,120 @@ def test_what_flies_back_does_not_stop_the_run(simulation):
     assert simulation.penetrator.velocity() == found["rod_core_velocity_m_s"]
     simulation.penetrator._intact = lambda rows, columns=slice(None): 0.0 * fraction[rows, columns]
     assert simulation.penetrator.velocity() == pytest.approx(found["rod_mean_velocity_m_s"])
+
+
+#: thin air behind a thin plate, and coarse cells: the rod is out of the mesh in a few hundred cycles
+SHORT = ["mesh.r.0.cells=12", "mesh.z.0.cells=36", "mesh.z.0.to=11e-3", "body.plate.thickness=2e-3", "body.rod.tip=-0.3e-3",
+         "body.rod.length=12e-3", "mesh.z_start=-13e-3"]  # fmt: skip
+BACKWARD = ["mesh.r.0.cells=12", "mesh.z.0.cells=36", "mesh.z_start=-11e-3", "mesh.z.0.to=13e-3", "body.plate.z_front=-2e-3",
+            "body.plate.thickness=2e-3", "body.rod.tip=0.3e-3", "body.rod.direction=-1", "body.rod.velocity=-1e3",
+            "body.rod.length=12e-3"]  # fmt: skip
+
+
+def shot(*options):
+    return Simulation(deck.loads(TEXT.replace("TIP", "-0.3"), ["stop.time=100e-6", *options]))
+
+
+@pytest.mark.parametrize("options", [SHORT, BACKWARD], ids=["to +z", "to -z"])
+def test_a_rod_that_leaves_the_mesh(options):
+    """Its velocity and mass are those of the moment when the nose reached the edge, and so is its depth."""
+    sim = shot(*options)
+    before = {}
+    while not sim.penetrator.left:
+        sim.step()
+        assert sim.time < 30e-6
+        if sim.penetrator.exit is None:
+            before = sim.diagnostics()
+    found = sim.diagnostics()
+    assert found["regime"] == LEFT
+    assert before["regime"] != LEFT
+    assert found["penetration_depth_m"] == pytest.approx(11e-3, abs=0.4e-3)
+    assert found["rod_residual_velocity_m_s"] == pytest.approx(before["rod_core_velocity_m_s"], rel=0.01)
+    assert found["rod_residual_mass_kg"] == pytest.approx(before["rod_core_mass_kg"], rel=0.02)  # its ends cut cells
+    assert found["rod_mass_kg"] < 0.99 * sim.penetrator.mass
+    names = ("regime", "penetration_depth_m", "rod_residual_velocity_m_s", "rod_residual_mass_kg")
+    while sim.penetrator._length()[0] > 0.0:
+        sim.step()
+    assert sim.penetrator.gone
+    assert {name: sim.diagnostics()[name] for name in names} == {name: found[name] for name in names}
+
+
+def test_a_rod_that_has_perforated_flies_on():
+    sim = shot(*SHORT)
+    while not sim.penetrator.perforates():
+        assert sim.diagnostics()["rod_residual_mass_kg"] is None
+        sim.step()
+    found = sim.diagnostics()
+    assert found["rod_residual_velocity_m_s"] == found["rod_core_velocity_m_s"] > 500.0
+    assert found["rod_residual_mass_kg"] == found["rod_core_mass_kg"]
+    assert found["regime"] != LEFT
+
+
+@pytest.mark.parametrize(
+    ("options", "reason"),
+    [(["stop.speed_below=1.0"], "rod left the mesh"), (["stop.rebound=true"], "rod left the mesh"),
+     (["stop.perforation=true", "body.plate.thickness=9e-3", "body.rod.velocity=2e3"], "rod left the mesh"), ([], None)],
+)  # fmt: skip
+def test_a_run_that_watches_its_rod_ends_when_that_is_gone(options, reason):
+    sim = shot(*SHORT, *options)
+    while sim.stop_reason() is None and not (reason is None and sim.penetrator.gone and sim.cycle % WATCH_EVERY == 0):
+        sim.step()
+    assert sim.penetrator.gone
+    assert sim.stop_reason() == reason
+
+
+def test_debris_does_not_leave_for_the_rod(simulation):
+    """Mass of the rod that flows out while its core is inside, or reaches an edge that it moves away from, says nothing."""
+    sim, sink = simulation, simulation.ledger.sinks["outflow"]
+    fraction, z = cells(sim)
+    sink.mass[0] += 0.3 * sim.penetrator.mass
+    sim.state.v[...], sim.engine.dt = 1000.0, 1e-9
+    sim.penetrator.watch()
+    assert (sim.penetrator.exit, sim.diagnostics()["regime"]) == (None, "rigid")
+    fraction[-4:, :6] = 1.0  # a fragment flies out before the rod
+    sim.penetrator.watch()
+    assert sim.penetrator.exit is None
+    fraction[z < -20e-3, :6] = 1.0  # the tail reaches the edge behind it, and flies away from it
+    sim.penetrator.watch()
+    assert sim.penetrator.exit is None
+    fraction[z > -1e-3, :6] = 1.0  # the nose reaches the one before it
+    sim.penetrator.watch()
+    assert sim.penetrator.exit is not None
+    assert sim.diagnostics()["regime"] != LEFT
+    sink.mass[0] += 0.02 * sim.penetrator.mass / (2 * np.pi)
+    assert sim.diagnostics()["regime"] == LEFT
+
+
+def test_a_mesh_that_travels_faster_than_the_rod_leaves_it_behind(simulation):
+    fraction, z = cells(simulation)
+    fraction[z < -20e-3, :6] = 1.0
+    simulation.state.v[...], simulation.engine.dt = 1000.0, 1e-9
+    for speed, reached in ((900.0, False), (1100.0, True)):
+        simulation.grid.move(simulation.grid.offset + speed * simulation.dt)
+        simulation.penetrator.watch()
+        assert (simulation.penetrator.exit is not None) is reached
+
+
+def test_a_wall_is_no_way_out():
+    sim = shot("boundaries.z_max=wall", "body.plate.thickness=24e-3")
+    fraction, _ = cells(sim)
+    fraction[-30:, :6] = 1.0
+    sim.state.v[...], sim.engine.dt = 1000.0, 1e-9
+    sim.penetrator.watch()
+    assert sim.penetrator.exit is None
+
+
+def test_a_restart_remembers_the_exit():
+    sim = shot(*SHORT)
+    while not sim.penetrator.left:
+        sim.step()
+    again = shot(*SHORT)
+    again.load_restart_arrays({name: array.copy() for name, array in sim.restart_arrays().items()})
+    again.load_restart_scalars(json.loads(json.dumps(sim.restart_scalars())))
+    assert again.diagnostics() == sim.diagnostics()
+    assert again.restart_scalars() == sim.restart_scalars()
+
+
+def test_the_word_is_known_to_the_history():
+    assert history.REGIMES.index(LEFT) == 3
+    assert history.REGIMES[:3] == history.GROWING == ("rigid", "deforming", "eroding")

@@ -95,7 +95,7 @@ def test_xarray_has_units(shot):
     data = shot.to_xarray()
     assert data["rod_length_m"].dims == ("time",)
     assert (data["rod_length_m"].attrs["units"], data["time"].attrs["units"]) == ("m", "s")
-    assert data["regime"].attrs["flag_meanings"] == "rigid deforming eroding"
+    assert data["regime"].attrs["flag_meanings"] == "rigid deforming eroding left_the_mesh"
 
 
 @pytest.mark.parametrize(("method", "package"), [("to_pandas", "pandas"), ("to_xarray", "xarray")])

@@ -122,6 +122,7 @@ strength = { model = "elastic-plastic", shear_modulus = "26 GPa", yield_stress =
 [stop]
 time = "8 us"
 """
+FREE = 'boundaries.z_min="outflow"', 'boundaries.z_max="outflow"'
 LONG = "mesh.z_start=-0.06", 'mesh.z=[{ to = "60 mm", size = "0.5 mm" }]'
 
 
@@ -145,7 +146,7 @@ def test_a_plane_wave_leaves_through_a_transmitting_edge(velocity, component, ti
     options = [f"body.kick.velocity={list(velocity)}", f"stop.time={time[0]}e-6"]
     left = middle(Simulation(decks.loads(WAVE, options)), component)
     endless = middle(Simulation(decks.loads(WAVE, [*options, *LONG])), component)
-    free = middle(Simulation(decks.loads(WAVE, [*options, 'boundaries.z_min="outflow"', 'boundaries.z_max="outflow"'])), component)
+    free = middle(Simulation(decks.loads(WAVE, [*options, *FREE])), component)
     assert np.abs(free - endless).max() > 3.0
     assert np.abs(left - endless).max() < (0.15 if component == "v" else 0.3)
 
