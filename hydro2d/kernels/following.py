@@ -1,4 +1,4 @@
-"""What a mesh that travels along z asks of the kernels: volumes swept relative to it, and an end to what fades ahead of waves."""
+"""A mesh that travels along z: volumes swept relative to it, and an end to what fades ahead of waves."""
 
 from hydro2d.fields import E
 from hydro2d.jit import kernel, prange
