@@ -78,8 +78,8 @@ class Check:
     def _across(self, entry) -> str:
         if entry.shape != "rod":
             return ""
-        cells = np.searchsorted(self.grid.r_edges, entry.rod_radius * (1 + 1e-9), "right") - 1
-        return f", {cells} cells across the radius of {entry.rod_radius * 1e3:.4g} mm"
+        edges, cells = self.grid.r_edges, np.arange(self.grid.nr + 1)
+        return f", {np.interp(entry.rod_radius, edges, cells):.3g} cells across the radius of {entry.rod_radius * 1e3:.4g} mm"
 
 
 def check(deck) -> Check:
