@@ -404,23 +404,21 @@ class Cycle:
         s, (j0, j1, i0, i1) = self.state, self.box
         for _, sign in self._open_faces(di):
             side, along = int(sign > 0), slice(j0, j1) if di else slice(i0, i1)
-            for name, flow in self._out_and_in(sign, s.edge_flux[side, ..., along]):
-                mass, energy = flow.sum(axis=-1)
+            for name, (mass, energy) in self._out_and_in(sign, s.edge_flux[side, ..., along]):
                 self.ledger.book(name, mass=mass, energy=float(energy.sum()))
 
     @staticmethod
     def _out_and_in(sign: float, flow: np.ndarray):
-        """(name of the sink, outward flow) for what goes out through an edge and for what comes in, if anything does.
+        """(name of the sink, sum over the edge) for what goes out through an edge and for what comes in, if anything does.
 
-        flow : [k, ..., i], the first k the mass, which says which of the two it is
+        flow : [k, ..., i] towards higher r or z, the first k the mass, which says which of the two it is; sign : of outward
         """
-        if sign < 0.0:
-            flow = -flow
-        least, most = flow[0].min(), flow[0].max()
-        if most > 0.0:
-            yield "outflow", flow if least >= 0.0 else np.where(flow[0] > 0.0, flow, 0.0)
-        if least < 0.0:
-            yield "inflow", flow if most <= 0.0 else np.where(flow[0] < 0.0, flow, 0.0)
+        ends = sign * flow[0].min(axis=-1).min(), sign * flow[0].max(axis=-1).max()  # all at once would copy the rows
+        both = min(ends) < 0.0 < max(ends)
+        for name, way, there in (("outflow", 1.0, max(ends) > 0.0), ("inflow", -1.0, min(ends) < 0.0)):
+            if there:
+                part = np.where(way * sign * flow[0] > 0.0, flow, 0.0) if both else flow
+                yield name, sign * part.sum(axis=-1)
 
     def remap_momentum(self, dj: int, di: int) -> None:
         """Velocities after the sweep, by the advection choice; what it discards is booked."""
@@ -461,7 +459,7 @@ class Cycle:
         for _, sign in self._open_faces(di):
             flow = s.edge_dual[:, int(sign > 0), :, j0:j1 + 1] if di else s.edge_dual[:, int(sign > 0), :, i0:i1 + 1]
             for name, part in self._out_and_in(sign, flow.swapaxes(0, 1)):
-                _, _, axial, *kinetic = part.sum(axis=-1).sum(axis=-1)
+                _, _, axial, *kinetic = part.sum(axis=-1)
                 energy = float(sum(kinetic))
                 if energy != 0.0:
                     self.ledger.book(name, momentum=float(axial), energy=energy)
