@@ -76,8 +76,8 @@ def vertex_row(g, dj, di, j, i0, i1, below, above, choice, bound, still, cm_in, 
     momentum   u = P/M
     ke         u = sign(P) sqrt(2 K/M) per component, |u| <= bound |P/M|
     both       u = P/M, and the deficit K - M u^2/2 is left in `deficit` for `deposit` to give to the cells
-    P/M is kept within the velocities of the three vertices that it comes from, which removes round-off only. The normal
-    velocity on the axis and on walls is zero: still holds the columns (2) and the rows (2) of those, -1 for none.
+    P/M is kept within the velocities of the three vertices that it comes from: this removes round-off, and what a vertex at an
+    open edge, which has half a cell's mass, lacks when the whole cell leaves. The normal velocity on the axis and on walls is zero: still holds the columns (2) and the rows (2) of those, -1 for none.
 
     Reads    cell_mass [b, j, i] after the sweep, dual [k, slot, i] in the slots `below` and `above`;
              w_old = (u, v) [c, b, j, i] and mass [b, j, i] before it
@@ -136,7 +136,7 @@ def vertex_row(g, dj, di, j, i0, i1, below, above, choice, bound, still, cm_in, 
                 if choice == KE:
                     moves = not held and new > 0.0
                     k_cut = plus(k_cut, max(kinetic - 0.5 * new * (bound * mean) * (bound * mean), 0.0) if moves else 0.0)
-                    p_gained = plus(p_gained, new * (after - mean) if moves else 0.0)
+                p_gained = plus(p_gained, 0.0 if held or wall else new * after - momentum)
                 if choice == BOTH:
                     left[x] += 0.0 if held else (kinetic - 0.5 * new * mean * mean) * over
                 p_wall = plus(p_wall, momentum if wall and not held else 0.0)
