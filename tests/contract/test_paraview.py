@@ -124,6 +124,22 @@ def test_every_grid_is_whole(shot):
         assert all(np.isfinite(values).all() for values in fields.values())
 
 
+def test_the_grid_of_the_series_moves(shot):
+    """The mesh follows the rod: each file has its own coordinates, and pyvista's reader of the series gives them by time."""
+    import pyvista
+
+    lows = [reader(shot, number).GetOutput().GetBounds()[2] for number in range(5)]
+    assert lows[0] == pytest.approx(-24e-3)
+    assert np.diff(lows) == pytest.approx(SPEED * 2e-6, rel=0.2)
+    whole = pyvista.get_reader(shot.directory / "series.pvd")
+    for number, time in enumerate(whole.time_values):
+        whole.set_active_time_point(number)
+        block = whole.read()[0]
+        assert time == shot.dumps[number][0]
+        assert block.bounds.y_min == pytest.approx(lows[number])
+        assert block["Volume Fraction for rod"].max() == pytest.approx(1.0)
+
+
 def test_the_page_names_what_the_files_have(shot):
     """Every array and every series that the page names, in backquotes, is there, and the columns of the history."""
     read, tracers = reader(shot, 0), reader(shot, 0, "tracers.pvd").GetOutput().GetPointData()

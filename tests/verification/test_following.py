@@ -244,3 +244,23 @@ def test_a_rod_that_flies_down_is_the_mirror_image():
     assert down.grid.offset == pytest.approx(-up.grid.offset, rel=1e-4)
     assert down.penetrator.velocity() == pytest.approx(-up.penetrator.velocity(), rel=1e-4)
     assert down.diagnostics()["penetration_depth_m"] == pytest.approx(up.diagnostics()["penetration_depth_m"], rel=1e-3)
+
+
+def test_a_plate_that_hits_a_resting_rod_is_the_same_shot():
+    """Galilean invariance: rod into resting plates on a following mesh, and the plates into a resting rod on a standing one."""
+    text = SHOT.replace('follow = "rod"\n', "").replace('velocity = "1000 m/s"', "velocity = 0.0")
+    text = text.replace("[[body]]\nname = \"rear\"", 'velocity = "-1000 m/s"\n[[body]]\nname = "rear"')
+    text = text.replace("[penetration]", 'velocity = "-1000 m/s"\n[penetration]').replace('z_start = "-24 mm"', "z_start = -0.032")
+    text = text.replace(SHOT.splitlines()[4], 'z = [{ to = "40 mm", size = "0.4 mm" }]')
+    moving, resting = following(), Simulation(decks.loads(text))
+    while moving.time < 50e-6:
+        moving.step()
+    while resting.time < moving.time:
+        resting.step()
+    lost = 1000.0 - moving.penetrator.velocity()
+    assert 30.0 < lost < 100.0
+    assert -resting.penetrator.velocity() == pytest.approx(lost, rel=0.05)
+    (length, _, nose), (other_length, _, other_nose) = moving.penetrator._length(), resting.penetrator._length()
+    assert other_length == pytest.approx(length, rel=0.01)
+    depth = nose - 0.0
+    assert other_nose + 1000.0 * resting.time == pytest.approx(depth, rel=0.01)
