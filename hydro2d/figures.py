@@ -214,14 +214,16 @@ def new_figure(width: float, height: float, rows: int, columns: int):
 
 def draw_sections(panels: list[list[tuple[Dump, str, float | None]]], field: str, mirror: str | None = None,
                   window: tuple[float, float, float] | None = None):  # fmt: skip
-    """Sections with one colour scale. `panels` holds rows of (dump, title, depth line); window = (z0, z1, r1) in m."""
+    """Sections with one colour scale. `panels` holds rows of (dump, title, depth line).
+
+    window = (z0, z1, r1) in m; without it each panel shows the whole mesh, where it was at the time.
+    """
     dumps = [dump for row in panels for dump, _, _ in row]
     words = dict.fromkeys(word for word in (field, mirror or field) if word != "material")
     limits = {word: _limits([chosen(_cropped(dump, window), word) for dump in dumps]) for word in words}
-    window = window or _whole(dumps[0])
     rows, columns = len(panels), max(len(row) for row in panels)
     panel_width = min(11.0, max(4.0, 16.0 / columns))
-    panel_height = _panel_height(panel_width, window)
+    panel_height = _panel_height(panel_width, window or _whole(dumps[0]))
     figure, axes = new_figure(panel_width * columns + 1.2, panel_height * rows + 0.4, rows, columns)
     drawn = []
     for j, row in enumerate(panels):

@@ -208,7 +208,8 @@ def accelerate_row(b, j, i0, i1, dt, speed_limit, light_density, face_r, hoop, a
             continue
         shrink = speed_limit / sqrt(square)
         lost_p += m * vn[i] * (1.0 - shrink)
-        lost_e += 0.5 * m * square * (1.0 - shrink * shrink)
+        # what the impulse takes from the work of the step, which goes by the mean of both velocities
+        lost_e += 0.5 * m * (1.0 - shrink) * (un[i] * (u_c[i] + shrink * un[i]) + vn[i] * (v_c[i] + shrink * vn[i]))
         count += 1.0
         un[i] *= shrink
         vn[i] *= shrink

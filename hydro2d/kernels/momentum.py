@@ -77,7 +77,8 @@ def vertex_row(g, dj, di, j, i0, i1, below, above, choice, bound, still, cm_in, 
     ke         u = sign(P) sqrt(2 K/M) per component, |u| <= bound |P/M|
     both       u = P/M, and the deficit K - M u^2/2 is left in `deficit` for `deposit` to give to the cells
     P/M is kept within the velocities of the three vertices that it comes from: this removes round-off, and what a vertex at an
-    open edge, which has half a cell's mass, lacks when the whole cell leaves. The normal velocity on the axis and on walls is zero: still holds the columns (2) and the rows (2) of those, -1 for none.
+    open edge, which has half a cell's mass, lacks when the whole cell leaves. The normal velocity on the axis and on walls is
+    zero: still holds the columns (2) and the rows (2) of those, -1 for none.
 
     Reads    cell_mass [b, j, i] after the sweep, dual [k, slot, i] in the slots `below` and `above`;
              w_old = (u, v) [c, b, j, i] and mass [b, j, i] before it

@@ -127,7 +127,7 @@ def users(library: str) -> set[str]:
         ("vtk", ("hydro2d.vtk", "hydro2d.figures")),
         ("pint", ("hydro2d.units",)),
         ("scipy", ("hydro2d.penetration", "hydro2d.crater")),
-        ("hydro2d.kernels", ("hydro2d.kernels", "hydro2d.method", "hydro2d.contact", "hydro2d.cycle",
+        ("hydro2d.kernels", ("hydro2d.kernels", "hydro2d.method", "hydro2d.contact", "hydro2d.following", "hydro2d.cycle",
                              "hydro2d.bench")),
     ],
 )

@@ -49,7 +49,8 @@ def message(*options: str, text: str = TEXT) -> str:
 
 @pytest.mark.parametrize(("old", "new", "said"), [
     ('follow = "rod"', 'follow = "rood"', 'deck.toml:2: mesh.follow: unknown body "rood"; did you mean "rod"?'),
-    ('follow = "rod"', 'follow = "plate"', 'deck.toml:2: mesh.follow: "plate" has no velocity along z that a mesh could follow'),
+    ('follow = "rod"', 'follow = "plate"',
+     'deck.toml:2: mesh.follow: "plate" has no velocity along z that a mesh could follow'),
     ('"1000 m/s"', "[300.0, 0.0]", 'deck.toml:2: mesh.follow: "rod" has no velocity along z that a mesh could follow'),
     ('to = "8 mm", cells = 40', 'to = "1 mm", cells = 26',
      "deck.toml:2: mesh.follow: the mesh is too short: it reaches 0.0013 m ahead of"),
