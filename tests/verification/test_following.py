@@ -250,7 +250,8 @@ def test_a_plate_that_hits_a_resting_rod_is_the_same_shot():
     """Galilean invariance: rod into resting plates on a following mesh, and the plates into a resting rod on a standing one."""
     text = SHOT.replace('follow = "rod"\n', "").replace('velocity = "1000 m/s"', "velocity = 0.0")
     text = text.replace("[[body]]\nname = \"rear\"", 'velocity = "-1000 m/s"\n[[body]]\nname = "rear"')
-    text = text.replace("[penetration]", 'velocity = "-1000 m/s"\n[penetration]').replace('z_start = "-24 mm"', "z_start = -0.032")
+    text = text.replace("[penetration]", 'velocity = "-1000 m/s"\n[penetration]')
+    text = text.replace('z_start = "-24 mm"', "z_start = -0.032")
     text = text.replace(SHOT.splitlines()[4], 'z = [{ to = "40 mm", size = "0.4 mm" }]')
     moving, resting = following(), Simulation(decks.loads(text))
     while moving.time < 50e-6:
