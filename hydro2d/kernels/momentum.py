@@ -137,7 +137,8 @@ def vertex_row(g, dj, di, j, i0, i1, below, above, choice, bound, still, cm_in, 
                 if choice == KE:
                     moves = not held and new > 0.0
                     k_cut = plus(k_cut, max(kinetic - 0.5 * new * (bound * mean) * (bound * mean), 0.0) if moves else 0.0)
-                p_gained = plus(p_gained, 0.0 if held or wall else new * after - momentum)
+                gained = new * (after - momentum * over) if new > 0.0 else -momentum
+                p_gained = plus(p_gained, 0.0 if held or wall else gained)
                 if choice == BOTH:
                     left[x] += 0.0 if held else (kinetic - 0.5 * new * mean * mean) * over
                 p_wall = plus(p_wall, momentum if wall and not held else 0.0)

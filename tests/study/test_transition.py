@@ -12,12 +12,14 @@ from hydro2d.cli import call
 from hydro2d.study import cases, regimes, transition
 from hydro2d.study.case import Outcome
 from hydro2d.study.definition import StudyError
-from tests.study import fake, made_up, tubes
+from tests.study import made_up, tubes
 from tests.study.html import Page
 
+#: a deck whose mesh stands, on which the plate may move as well
+BASE = "problems/cth_nose_shape/hemi_5083_1086_layer.toml"
 STUDY = f"""
 title = "A search"
-deck = "{fake.BASE}"
+deck = "{BASE}"
 [transition]
 from = "900 m/s"
 to = "1500 m/s"
@@ -96,7 +98,7 @@ WRONG = [
     ('name = "advection"', 'name = "velocity"', 'search.toml:8: axis[0].name: "velocity" is the axis that [transition] makes'),
     ('["ke", "momentum"]', '["ke"]\n[[exclude]]\nvelocity = "900 m/s"', 'exclude[0]: unknown axis "velocity"'),
     ('"problems/', '"problem/', "no such file"),
-    (fake.BASE, "problems/verification/sod_z.toml", "search.toml:4: transition: sod_z.toml has no rod and target"),
+    (BASE, "problems/verification/sod_z.toml", "search.toml:4: transition: sod_z.toml has no rod and target"),
 ]  # fmt: skip
 
 

@@ -63,7 +63,9 @@ def test_what_the_choices_conserve():
         booked[choice] = (sink.energy / simulation.ledger.start.energy, sink.momentum)
     assert abs(booked["both"][0]) < 1e-12
     assert 1e-4 < booked["momentum"][0] < 1e-3  # kinetic energy discarded
-    assert booked["momentum"][1] == booked["both"][1] == 0.0
+    start = simulation.ledger.start  # what the bound of P/M removes is round-off, and booked with the rest
+    scale = (2.0 * start.mass.sum() * start.energy) ** 0.5
+    assert max(abs(booked["momentum"][1]), abs(booked["both"][1])) < 1e-15 * scale
     assert abs(booked["ke"][0]) < 5e-5  # what the bound cuts
     assert booked["ke"][1] < 0.0  # momentum gained is a negative loss
 
