@@ -123,7 +123,7 @@ class Cycle:
         self.box = list(self.edges)
         self.mesh.announce()
         self._spans(anew=True)
-        s.cell_mass[...] = 0.0
+        s.cell_mass[...], s.mass[...] = 0.0, 0.0
         j0, j1, _, _ = self.box
         remap.sum_cell_mass(j0, j1, s.around, s.group, self.grid.volume, s.vof, s.q, s.cell_mass)
         self._vertex_mass()
