@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from hydro2d.audit import Ledger
-from hydro2d.kernels import contact, contact_motion, contact_volumes, mixed, momentum
+from hydro2d.kernels import contact, contact_motion, contact_velocities, contact_volumes, mixed, momentum
 from hydro2d.method import Method
 
 
@@ -32,7 +32,7 @@ class Contact:
         """Where the groups meet: weights of faces, normals, light vertices; volume rate and viscosity of the cut cells."""
         s, g, method = self.state, self.grid, self.method
         contact.find_shared(j0, j1, self.edges, s.around, s.mass, s.group, s.vof, s.shared_count, s.shared, s.hard, s.soft,
-                            s.tied, s.heat, s.warmed)
+                            s.heat, s.warmed)
         contact.cut_lines(j0, j1, self.edges, g.dr, g.dz, s.shared_count, s.shared, s.hard, s.soft, s.cut, s.line)
         contact.face_weights(j0, j1, self.edges, self.still, s.cut, s.line, s.hard, s.soft, s.mass, s.shared_count, s.shared,
                              s.wet_r, s.wet_z, s.contact_normal, s.touch)
@@ -41,7 +41,7 @@ class Contact:
         contact_motion.cut_viscosity(
             j0, j1, self.edges, method.linear, method.quadratic, method.courant, g.dr, g.dz, g.vol_r, g.face_r, g.az_in,
             g.az_out, s.cut, s.line, s.around, s.contact_normal, s.wet_r, s.wet_z, s.hard, s.soft, s.u, s.v, s.cl, s.rhobar,
-            s.vof, s.q, s.p, s.solid, s.bulk, s.qr, s.qz, s.rate, s.rows[1], s.mixed_count, s.mixed, s.deficit[0])
+            s.vof, s.q, s.pm, s.km, s.p, s.solid, s.bulk, s.qr, s.qz, s.rate, s.rows[1], s.mixed_count, s.mixed, s.deficit[0])
 
     def stress(self, j0: int, j1: int, dt: float) -> None:
         """Total stress of the cut cells, and the pressure of the contact."""
@@ -54,16 +54,12 @@ class Contact:
         s, g, method = self.state, self.grid, self.method
         contact_motion.shared_forces(
             j0, j1, dt, s.group, method.strength_mode == mixed.SOLID, g.face_r, g.hoop, g.az_in, g.az_out, g.mid_r, g.dz,
-            self.still, s.shared_count, s.shared, s.wet_r, s.wet_z, s.ph, s.qr, s.solid, s.vof, s.q, s.weight, s.hard, s.soft,
-            s.mass, s.u0, s.v0, s.trial, s.exchange)
-        contact_motion.tie_light(j0, j1, self.still, s.shared_count, s.shared, s.link, s.mass, s.trial, s.tied, s.u, s.v,
-                                 s.exchange)
-        contact_motion.touch_and_rub(
-            j0, j1, dt, method.friction, self.still, g.face_r, g.hoop, g.az_in, g.az_out, g.dz, s.cut, s.line, s.shared_count,
-            s.shared, s.contact_normal, s.touch, s.link, s.sig_rr, s.sig_zz, s.sig_rz, s.mass, s.tied, s.u0, s.v0, s.u, s.v,
-            s.impulse, s.heat, s.exchange)
-        contact_motion.follow(j0, j1, self.still, s.shared_count, s.shared, s.link, s.mass, s.trial, s.u0, s.v0, s.u, s.v,
-                              s.heat, s.exchange)
+            self.still, s.shared_count, s.shared, s.wet_r, s.wet_z, s.ph, s.qr, s.solid, s.vof, s.q, s.weight, s.cell_mass,
+            s.hard, s.soft, s.mass, s.u0, s.v0, s.u, s.v, s.exchange)
+        contact_velocities.settle(
+            j0, j1, dt, method.friction, self.still, g.r, g.z, g.face_r, g.hoop, g.az_in, g.az_out, g.dz, s.cut, s.line,
+            s.shared_count, s.shared, s.contact_normal, s.touch, s.link, s.sig_rr, s.sig_zz, s.sig_rz, s.mass, s.u0, s.v0, s.u,
+            s.v, s.taken, s.impulse, s.heat, s.exchange)
         pushed, *heats, walls = s.exchange[:, j0:j1 + 1].sum(axis=1)
         ledger.book("walls", momentum=float(walls))
         ledger.exchange("contact", momentum=float(pushed), energy=float(heats[0]))

@@ -9,12 +9,12 @@ A face has for either end the weight of the hard group, wet[end, j, i]; that of 
 
 from math import sqrt
 
-from hydro2d.jit import kernel, point, prange
+from hydro2d.jit import apart, kernel, point, prange
 from hydro2d.kernels.interfaces import line_constant
 from hydro2d.kernels.spans import union
 
-#: share of its dual cell below which a group is light at a vertex, and moves with a neighbour
-LIGHT = 0.25
+#: share of its dual cell below which a group is light at a vertex: it moves as its body inward of there does
+LIGHT = 0.5
 #: share of void in a cell of both groups up to which they touch
 GAP = 0.01
 
@@ -30,40 +30,45 @@ BETWEEN = 0.25
 #: in the place of a group: void lies between the two, and each has a surface of its own
 PARTED = 2.0
 
-#: how a light vertex moves: 0 to 24 with a vertex of its own group up to two away, else
-HEAVY, STUCK = -1, 25
+#: how a light vertex moves: from EXTENDS on as the linear field of a cell of its own group, 0 to 24 with a vertex of it up to
+#: two away, else STUCK to the other group
+HEAVY, STUCK, EXTENDS = -1, 25, 30
+#: the vertices of such a cell are up to so far away
+REACH = 3
+#: a cell is taken in the place of another only if it lies better by so much: two that lie alike must not take turns
+CLOSER = 1.05
 
 
 @kernel
-def find_shared(j0, j1, edges, around, mass, group, vof, count, shared, hard, soft, tied, heat, warmed):
+def find_shared(j0, j1, edges, around, mass, group, vof, count, shared, hard, soft, heat, warmed):
     """Shared vertices of rows j0 to j1, and what hard and other bodies fill of the cells near hard ones.
 
     Reads    around[1] [n, j, 2], the columns near hard bodies; mass [b, j, i]; vof [m, j, i]; group [m]
-    Writes   count [j], shared [j, k] (columns, ascending); hard, soft [j, i]; zero in tied [3, b, j, i] and heat [b, j, i];
+    Writes   count [j], shared [j, k] (columns, ascending); hard, soft [j, i]; zero in heat [b, j, i];
              warmed [j, 2], the cells around vertices that a shared one can be linked to
     """
     for j in prange(j0, j1 + 1):
         found = 0
-        lo, hi = union(around[1, 0], j - 2, j + 2)
-        for i in range(max(lo - 1, edges[2]), min(hi + 2, edges[3] + 1)):
+        lo, hi = union(around[1, 0], j - REACH - 1, j + REACH + 1)
+        for i in range(max(lo - REACH, edges[2]), min(hi + REACH + 1, edges[3] + 1)):
             for g in range(2):
                 heat[g, j, i] = 0.0
-                for c in range(3):
-                    tied[c, g, j, i] = 0.0
         for i in range(max(around[1, 1, j, 0], edges[2]), min(around[1, 1, j, 1] + 1, edges[3] + 1)):
             if mass[0, j, i] > 0.0 and mass[1, j, i] > 0.0:
                 shared[j, found] = i
                 found += 1
         count[j] = found
-        lo, hi = union(around[1, 0], j - 1, j + 2)
-        warmed[j, 0] = max(lo - 1, edges[2])
-        warmed[j, 1] = min(hi + 1, edges[3])
+        lo, hi = union(around[1, 0], j - REACH, j + REACH + 1)
+        warmed[j, 0] = max(lo - REACH, edges[2])
+        warmed[j, 1] = min(hi + REACH, edges[3])
         if j < j1:
-            for i in range(around[1, 0, j, 0], around[1, 0, j, 1]):
+            lo, hi = union(around[1, 0], j - 2, j + 3)
+            lo, hi = max(lo - 2, edges[2]), min(hi + 2, edges[3])
+            for i in range(lo, hi):
                 hard[j, i] = 0.0
                 soft[j, i] = 0.0
             for m in range(vof.shape[0]):
-                for i in range(around[1, 0, j, 0], around[1, 0, j, 1]):
+                for i in range(lo, hi):
                     if group[m] == 1:
                         hard[j, i] += vof[m, j, i]
                     else:
@@ -253,26 +258,73 @@ def dual_share(g, j, i, edges, volume, cm_in, cm_out, hard, soft):
     return part / whole
 
 
+@point
+def heavy(g, row, column, edges, volume, cm_in, cm_out, hard, soft, mass):
+    """Whether group g has mass at a vertex of the mesh and is not light there."""
+    if row < edges[0] or row > edges[1] or column < edges[2] or column > edges[3] or mass[g, row, column] == 0.0:
+        return False
+    return dual_share(g, row, column, edges, volume, cm_in, cm_out, hard, soft) >= LIGHT
+
+
+@apart
+def cell_to_extend(g, j, i, inward_r, inward_z, edges, volume, cm_in, cm_out, hard, soft, mass):
+    """Code of the cell of group g whose linear field the light vertex (j, i) takes, 0 where there is none.
+
+    None of the cell's own vertices is light. It is the one, among the nearest that there are, with the largest share of the
+    group times the cosine between its direction and the normal inwards over the distance.
+    """
+    most, code = 0.0, 0
+    for ring in range(1, REACH + 1):
+        for dj in range(-ring, ring):
+            for di in range(-ring, ring):
+                if -ring < dj < ring - 1 and -ring < di < ring - 1:
+                    continue
+                row, column = j + dj, i + di
+                if row < edges[0] or row >= edges[1] or column < edges[2] or column >= edges[3]:
+                    continue
+                part = hard[row, column] if g == 1 else soft[row, column]
+                if part < 0.5:
+                    continue
+                z, r = dj + 0.5, di + 0.5
+                along = part * (inward_r * r + inward_z * z) / (r * r + z * z)
+                if along <= CLOSER * most:
+                    continue
+                if (heavy(g, row, column, edges, volume, cm_in, cm_out, hard, soft, mass)
+                        and heavy(g, row + 1, column, edges, volume, cm_in, cm_out, hard, soft, mass)
+                        and heavy(g, row, column + 1, edges, volume, cm_in, cm_out, hard, soft, mass)
+                        and heavy(g, row + 1, column + 1, edges, volume, cm_in, cm_out, hard, soft, mass)):
+                    most = along
+                    code = EXTENDS + 2 * REACH * (dj + REACH) + di + REACH
+        if code > 0:
+            break
+    return code
+
+
 @kernel
 def link_light(j0, j1, edges, volume, cm_in, cm_out, count, shared, normal, hard, soft, mass, link):
-    """How each group moves at a shared vertex: by itself, or, where it is light, with a vertex towards its inside.
+    """How each group moves at a shared vertex: by itself, or, where it is light, as its body does inward of there.
 
-    It is the one among its neighbours, or else among those two away, with the largest share of the group times the cosine
-    between its direction and the normal inwards over the distance. Where there is none the group sticks to the other.
+    That is the linear field of the velocities of a cell, or, where no cell has four vertices of the group, one vertex: among
+    its neighbours, or else among those two away, by the same measure. Where there is none the group sticks to the other.
 
     Reads    normal [3, 2, j, i], hard, soft [j, i], mass [b, j, i]
-    Writes   link [b, j, i]: HEAVY, 5 (dj + 2) + (di + 2), or STUCK to the other group
+    Writes   link [b, j, i]: HEAVY, EXTENDS + 6 (dj + 3) + (di + 3), 5 (dj + 2) + (di + 2), or STUCK
     """
     for j in prange(j0, j1 + 1):
         for k in range(count[j]):
             i = shared[j, k]
             for g in range(2):
                 link[g, j, i] = HEAVY
-                if dual_share(g, j, i, edges, volume, cm_in, cm_out, hard, soft) >= LIGHT:
+                if heavy(g, j, i, edges, volume, cm_in, cm_out, hard, soft, mass):
                     continue
                 link[g, j, i] = STUCK
                 most = 0.0
                 inward = 1.0 if g == 0 else -1.0
+                code = cell_to_extend(g, j, i, inward * normal[0, 0, j, i], inward * normal[0, 1, j, i], edges, volume, cm_in,
+                                      cm_out, hard, soft, mass)
+                if code > 0:
+                    link[g, j, i] = code
+                    continue
                 for ring in range(1, 3):
                     for dj in range(-ring, ring + 1):
                         for di in range(-ring, ring + 1):
@@ -281,9 +333,11 @@ def link_light(j0, j1, edges, volume, cm_in, cm_out, count, shared, normal, hard
                                 continue
                             if column < edges[2] or column > edges[3] or mass[g, row, column] == 0.0:
                                 continue
+                            if not heavy(g, row, column, edges, volume, cm_in, cm_out, hard, soft, mass):
+                                continue
                             share = dual_share(g, row, column, edges, volume, cm_in, cm_out, hard, soft)
                             along = inward * (normal[0, 0, j, i] * di + normal[0, 1, j, i] * dj) / (di * di + dj * dj)
-                            if share >= LIGHT and share * along > most * (1.0 + 1e-9):
+                            if share * along > most * (1.0 + 1e-9):
                                 most = share * along
                                 link[g, j, i] = 5 * (dj + 2) + (di + 2)
                     if most > 0.0:

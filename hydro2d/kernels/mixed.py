@@ -185,6 +185,7 @@ def deform_mixed(j0, j1, dt, relaxation, tipton, mode, hard, hard_threshold, fac
                     work_q = -dt * (qr[j, i] * (m_rr + m_tt) + qz[j, i] * m_zz)
                     work_p = -ph[j, i] * dt * ((m_rr + m_tt) + m_zz)
                 meet = held > 1
+                all_mass = cell_mass[0, j, i] + cell_mass[groups - 1, j, i]
                 if groups > 1 and cut[j, 0] <= i < cut[j, 1]:
                     work_q = -qr[j, i] * change
                     work_p = -ph[j, i] * change
@@ -310,5 +311,7 @@ def deform_mixed(j0, j1, dt, relaxation, tipton, mode, hard, hard_threshold, fac
                     filled = max(filled, 0.5 * f * volume)
                     q[RHO, m, j, i] = mass / filled if filled != f * volume else q[RHO, m, j, i]
                     vof[m, j, i] = filled / after if filled != f * volume or change != 0.0 else f
-                    gained = part_v[m] * inverse * work_p + f / total * (work_q + motion[j, group[m], HOURGLASS]) + heat[m]
+                    part = mass / all_mass if meet else f / total
+                    filter_work = part * motion[j, group[m], HOURGLASS]
+                    gained = part_v[m] * inverse * work_p + f / total * work_q + filter_work + heat[m]
                     q[E, m, j, i] += (gained - target * shift) / mass
