@@ -311,7 +311,9 @@ def deform_mixed(j0, j1, dt, relaxation, tipton, mode, hard, hard_threshold, fac
                     filled = max(filled, 0.5 * f * volume)
                     q[RHO, m, j, i] = mass / filled if filled != f * volume else q[RHO, m, j, i]
                     vof[m, j, i] = filled / after if filled != f * volume or change != 0.0 else f
-                    part = mass / all_mass if meet else f / total
-                    filter_work = part * motion[j, group[m], HOURGLASS]
-                    gained = part_v[m] * inverse * work_p + f / total * work_q + filter_work + heat[m]
+                    filtered = motion[j, group[m], HOURGLASS]
+                    rubbed = f / total * (work_q + filtered)
+                    if meet:  # the filter acts on each group by its share of the mass
+                        rubbed = f / total * work_q + mass / all_mass * filtered
+                    gained = part_v[m] * inverse * work_p + rubbed + heat[m]
                     q[E, m, j, i] += (gained - target * shift) / mass

@@ -24,7 +24,7 @@ def shipped(name: str, *overrides: str) -> Simulation:
 
 
 def settled(simulation, disturb: float = 0.0):
-    """(velocities before and after `settle`, shared vertices): a linear field in each group, or rest with light ones disturbed."""
+    """(velocities before and after `settle`, shared vertices) of a linear field in each group, or of disturbed light ones."""
     engine, s, g = simulation.engine, simulation.state, simulation.grid
     r, z = np.meshgrid(g.r, g.z)
     for group, (a, b, c, d) in enumerate(((100.0, 2e4, -3e4, 50.0), (-40.0, 7e3, 5e3, 20.0))):
@@ -158,7 +158,8 @@ def test_a_sliver_neither_heats_nor_holds_up(sliver):
         beside = np.abs(g.zc - (7.1e-3 + 1000.0 * simulation.time)) < 2e-3
         hottest.append(s.e[1, beside][s.vof[1, beside] > 0.0].max())
 
-    finish(decks.load(f"{FOLDER}/sliver.toml", [f'body.slider.r=[0.0, "{edge} mm"]', f'body.base.r=["{edge} mm", "6 mm"]']), watch)
+    overrides = [f'body.slider.r=[0.0, "{edge} mm"]', f'body.base.r=["{edge} mm", "6 mm"]']
+    finish(decks.load(f"{FOLDER}/sliver.toml", overrides), watch)
     assert min(steps[200:]) > 0.2 * max(steps)
     assert max(hottest) < 900.0 * (933.0 - 300.0)  # J/kg, aluminium at its melting point
 
