@@ -178,13 +178,16 @@ def drift(simulation) -> tuple[float, float]:
 
 @pytest.mark.parametrize("angle", [15, 30, 45])
 def test_slip_along_an_inclined_interface_does_no_work(angle):
-    """One cell slid under 1 GPa: the energy drifts by less than 1e-4 of p L s, the pressure by less than 1.5 %.
+    """One cell slid under 1 GPa: the energy drifts by less than 1e-4 of p L s."""
+    assert abs(drift(run(f"block_inclined_{angle}"))[0]) < 1e-4
 
-    At 30 degrees it drifts by 1.33 % (0.9 % before light vertices moved with the linear field of their body).
-    """
-    work, departure = drift(run(f"block_inclined_{angle}"))
-    assert abs(work) < 1e-4
-    assert departure < 1.5e-2
+
+UNEVEN = pytest.mark.xfail(strict=True, reason="1.33 % since light vertices extend their body's motion; not explained")
+
+
+@pytest.mark.parametrize("angle", [15, pytest.param(30, marks=UNEVEN), 45])
+def test_slip_along_an_inclined_interface_keeps_the_pressure(angle):
+    assert drift(run(f"block_inclined_{angle}"))[1] < 1e-2
 
 
 @pytest.mark.parametrize("angle", [15, 30, 45])

@@ -1,5 +1,7 @@
 """A mesh that travels with a body: flight, impact, what enters, and that nothing of it depends on the frame."""
 
+import functools
+
 import numpy as np
 import pytest
 
@@ -234,17 +236,27 @@ radius = "3.1 mm"
     closes(simulation)
 
 
-def test_a_rod_that_flies_down_is_the_mirror_image():
+@functools.cache
+def mirror_images():
+    """The shot upwards and downwards, after 400 cycles."""
     mirrored = SHOT.replace('z_start = "-24 mm"', "z_start = -0.02")
     mirrored = mirrored.replace(SHOT.splitlines()[4], "z = [{ cells = 110, size = 4e-4 }]")
     down_text = mirrored.replace('tip = "-1 mm"', 'tip = "1 mm"\ndirection = -1').replace('"1000 m/s"', '"-1000 m/s"')
     down_text = down_text.replace("z_front = 0.0", 'z_front = "-6 mm"').replace('z_front = "25 mm"', 'z_front = "-31 mm"')
     up_text = mirrored.replace("z_start = -0.02", "z_start = -0.024")
-    # 3.2e-4: of two cells that lie alike a light vertex goes with the lower one, and conditions are met from below upwards
-    up, down = (advance(Simulation(decks.loads(text)), 400) for text in (up_text, down_text))
-    assert down.grid.offset == pytest.approx(-up.grid.offset, rel=1e-3)
-    assert down.penetrator.velocity() == pytest.approx(-up.penetrator.velocity(), rel=1e-3)
+    return [advance(Simulation(decks.loads(text)), 400) for text in (up_text, down_text)]
+
+
+def test_a_rod_that_flies_down_goes_as_deep():
+    up, down = mirror_images()
     assert down.diagnostics()["penetration_depth_m"] == pytest.approx(up.diagnostics()["penetration_depth_m"], rel=1e-3)
+
+
+@pytest.mark.xfail(strict=True, reason="3.2e-4: of two cells that lie alike a light vertex goes with the lower one")
+def test_a_rod_that_flies_down_is_the_mirror_image():
+    up, down = mirror_images()
+    assert down.grid.offset == pytest.approx(-up.grid.offset, rel=1e-4)
+    assert down.penetrator.velocity() == pytest.approx(-up.penetrator.velocity(), rel=1e-4)
 
 
 def test_a_plate_that_hits_a_resting_rod_is_the_same_shot():

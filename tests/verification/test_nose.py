@@ -195,16 +195,9 @@ def shape(simulation):
     return np.abs(departure).max() / dz[tip], radii[first - 110 : first].max() / radius
 
 
-def rod_after(name: str, time: float):
-    simulation = Simulation(decks.load(name, []))
-    while simulation.time < time:
-        simulation.step()
-    return simulation
-
-
 def test_an_undeformable_nose_keeps_its_shape():
     """After 100 us and 10 cm of aluminium: a hemisphere to a tenth of a cell, a shank to half a per cent, no plastic strain."""
-    simulation = rod_after(f"{FOLDER}/undeformable_following.toml", 100e-6)
+    simulation = finish(decks.load(f"{FOLDER}/undeformable_following.toml", ['stop.time="100 us"']))
     departure, radius = shape(simulation)
     assert departure < 0.1
     assert radius == pytest.approx(1.0, abs=5e-3)
@@ -213,7 +206,7 @@ def test_an_undeformable_nose_keeps_its_shape():
 
 def test_the_skin_of_the_alloys_nose_strains_as_the_rod_inside_it():
     """After 80 us at 1086 m/s no cell of the nose is strained by a quarter, and the nose is convex."""
-    simulation = rod_after("problems/cth_nose_shape/hemi_5083_1086_quick.toml", 80e-6)
+    simulation = finish(decks.load("problems/cth_nose_shape/hemi_5083_1086_quick.toml", ['stop.time="80 us"']))
     g = simulation.grid
     f, ep = g.interior(simulation.state.vof[0]), g.interior(simulation.state.q[EP, 0])
     tip = np.flatnonzero(f[:, 0] > 0.5).max()
