@@ -55,11 +55,11 @@ class Contact:
         contact_motion.shared_forces(
             j0, j1, dt, s.group, method.strength_mode == mixed.SOLID, g.face_r, g.hoop, g.az_in, g.az_out, g.mid_r, g.dz,
             self.still, s.shared_count, s.shared, s.wet_r, s.wet_z, s.ph, s.qr, s.solid, s.vof, s.q, s.weight, s.cell_mass,
-            s.hard, s.soft, s.mass, s.u0, s.v0, s.u, s.v, s.exchange)
+            s.mass, s.u0, s.v0, s.u, s.v, s.exchange)
         contact_velocities.settle(
             j0, j1, dt, method.friction, self.still, g.r, g.z, g.face_r, g.hoop, g.az_in, g.az_out, g.dz, s.cut, s.line,
             s.shared_count, s.shared, s.contact_normal, s.touch, s.link, s.sig_rr, s.sig_zz, s.sig_rz, s.mass, s.u0, s.v0, s.u,
-            s.v, s.taken, s.impulse, s.heat, s.exchange)
+            s.v, s.ease, s.taken, s.impulse, s.heat, s.exchange)
         pushed, *heats, walls = s.exchange[:, j0:j1 + 1].sum(axis=1)
         ledger.book("walls", momentum=float(walls))
         ledger.exchange("contact", momentum=float(pushed), energy=float(heats[0]))

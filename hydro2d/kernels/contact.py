@@ -259,11 +259,12 @@ def dual_share(g, j, i, edges, volume, cm_in, cm_out, hard, soft):
 
 
 @point
-def heavy(g, row, column, edges, volume, cm_in, cm_out, hard, soft, mass):
-    """Whether group g has mass at a vertex of the mesh and is not light there."""
+def weighty_share(g, row, column, edges, volume, cm_in, cm_out, hard, soft, mass):
+    """Share that group g fills of the dual cell of a vertex, 0 where it is light or the vertex is none of the mesh."""
     if row < edges[0] or row > edges[1] or column < edges[2] or column > edges[3] or mass[g, row, column] == 0.0:
-        return False
-    return dual_share(g, row, column, edges, volume, cm_in, cm_out, hard, soft) >= LIGHT
+        return 0.0
+    share = dual_share(g, row, column, edges, volume, cm_in, cm_out, hard, soft)
+    return share if share >= LIGHT else 0.0
 
 
 @apart
@@ -283,16 +284,16 @@ def cell_to_extend(g, j, i, inward_r, inward_z, edges, volume, cm_in, cm_out, ha
                 if row < edges[0] or row >= edges[1] or column < edges[2] or column >= edges[3]:
                     continue
                 part = hard[row, column] if g == 1 else soft[row, column]
-                if part < 0.5:
+                if part < LIGHT:
                     continue
                 z, r = dj + 0.5, di + 0.5
                 along = part * (inward_r * r + inward_z * z) / (r * r + z * z)
                 if along <= CLOSER * most:
                     continue
-                if (heavy(g, row, column, edges, volume, cm_in, cm_out, hard, soft, mass)
-                        and heavy(g, row + 1, column, edges, volume, cm_in, cm_out, hard, soft, mass)
-                        and heavy(g, row, column + 1, edges, volume, cm_in, cm_out, hard, soft, mass)
-                        and heavy(g, row + 1, column + 1, edges, volume, cm_in, cm_out, hard, soft, mass)):
+                if (weighty_share(g, row, column, edges, volume, cm_in, cm_out, hard, soft, mass) > 0.0
+                        and weighty_share(g, row + 1, column, edges, volume, cm_in, cm_out, hard, soft, mass) > 0.0
+                        and weighty_share(g, row, column + 1, edges, volume, cm_in, cm_out, hard, soft, mass) > 0.0
+                        and weighty_share(g, row + 1, column + 1, edges, volume, cm_in, cm_out, hard, soft, mass) > 0.0):
                     most = along
                     code = EXTENDS + 2 * REACH * (dj + REACH) + di + REACH
         if code > 0:
@@ -315,27 +316,23 @@ def link_light(j0, j1, edges, volume, cm_in, cm_out, count, shared, normal, hard
             i = shared[j, k]
             for g in range(2):
                 link[g, j, i] = HEAVY
-                if heavy(g, j, i, edges, volume, cm_in, cm_out, hard, soft, mass):
+                if weighty_share(g, j, i, edges, volume, cm_in, cm_out, hard, soft, mass) > 0.0:
                     continue
-                link[g, j, i] = STUCK
-                most = 0.0
                 inward = 1.0 if g == 0 else -1.0
                 code = cell_to_extend(g, j, i, inward * normal[0, 0, j, i], inward * normal[0, 1, j, i], edges, volume, cm_in,
                                       cm_out, hard, soft, mass)
                 if code > 0:
                     link[g, j, i] = code
                     continue
+                link[g, j, i] = STUCK
+                most = 0.0
                 for ring in range(1, 3):
                     for dj in range(-ring, ring + 1):
                         for di in range(-ring, ring + 1):
                             row, column = j + dj, i + di
-                            if max(abs(dj), abs(di)) < ring or row < edges[0] or row > edges[1]:
+                            if max(abs(dj), abs(di)) < ring:
                                 continue
-                            if column < edges[2] or column > edges[3] or mass[g, row, column] == 0.0:
-                                continue
-                            if not heavy(g, row, column, edges, volume, cm_in, cm_out, hard, soft, mass):
-                                continue
-                            share = dual_share(g, row, column, edges, volume, cm_in, cm_out, hard, soft)
+                            share = weighty_share(g, row, column, edges, volume, cm_in, cm_out, hard, soft, mass)
                             along = inward * (normal[0, 0, j, i] * di + normal[0, 1, j, i] * dj) / (di * di + dj * dj)
                             if share * along > most * (1.0 + 1e-9):
                                 most = share * along

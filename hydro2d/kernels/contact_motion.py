@@ -144,11 +144,10 @@ def group_stress(g, j, i, group, solid_mode, solid, vof, q):
 
 
 @apart
-def corner_force(g, j, i, at_j, at_i, group, solid_mode, solid, vof, q, weight, cell_mass, hard, soft, face_r, hoop, az_in,
-                 az_out, mid_r, dz, u0, v0):
+def corner_force(g, j, i, at_j, at_i, group, solid_mode, solid, vof, q, weight, cell_mass, face_r, hoop, az_in, az_out, mid_r,
+                 dz, u0, v0):
     """Force of the deviators of group g in cell (at_j, at_i), and of its hourglass filter, on vertex (j, i) (as accelerate)."""
-    share = hard[at_j, at_i] if g == 1 else soft[at_j, at_i]
-    if share == 0.0:
+    if cell_mass[g, at_j, at_i] == 0.0:
         return 0.0, 0.0
     rr, zz, rz = group_stress(g, at_j, at_i, group, solid_mode, solid, vof, q)
     tt = -(rr + zz)
@@ -171,13 +170,13 @@ def corner_force(g, j, i, at_j, at_i, group, solid_mode, solid, vof, q, weight, 
 
 @kernel
 def shared_forces(j0, j1, dt, group, solid_mode, face_r, hoop, az_in, az_out, mid_r, dz, still, count, shared, wet_r, wet_z,
-                  ph, qr, solid, vof, q, weight, cell_mass, hard, soft, mass, u0, v0, u, v, exchange):
+                  ph, qr, solid, vof, q, weight, cell_mass, mass, u0, v0, u, v, exchange):
     """Velocities that the forces alone would give both groups at shared vertices.
 
     The pressure of a cell acts on each group by the weights of the cell's faces, the deviators of a group act on it alone
     (explanation/sliding, contact).
 
-    Reads    ph, qr, solid, weight, hard, soft [j, i]; vof, q; mass, u0, v0 [b, j, i]
+    Reads    ph, qr, solid, weight [j, i]; vof, q; cell_mass, mass, u0, v0 [b, j, i]
     Writes   u, v [b, j, i], without what walls and the axis take; exchange[4, j], axial momentum given to walls
     """
     for j in prange(j0, j1 + 1):
@@ -195,7 +194,7 @@ def shared_forces(j0, j1, dt, group, solid_mode, face_r, hoop, az_in, az_out, mi
                 for row in range(j - 1, j + 1):
                     for column in range(i - 1, i + 1):
                         more_r, more_z = corner_force(g, j, i, row, column, group, solid_mode, solid, vof, q, weight,
-                                                      cell_mass, hard, soft, face_r, hoop, az_in, az_out, mid_r, dz, u0, v0)
+                                                      cell_mass, face_r, hoop, az_in, az_out, mid_r, dz, u0, v0)
                         force_r += more_r
                         force_z += more_z
                 u[g, j, i] = u0[g, j, i] + dt * force_r / mass[g, j, i]

@@ -78,7 +78,7 @@ def hand_over(g, j, i, code, push_r, push_z, still, r, z, mass, u, v, taken, exc
 
 
 @apart
-def fall_in(g, j, i, code, still, r, z, mass, u, v, taken, exchange):
+def fall_in(g, j, i, code, still, r, z, mass, u, v, ease, taken, exchange):
     """Brings a light vertex to the velocity of those it moves with, by the least impulse that does."""
     want_r, want_z = 0.0, 0.0
     for n in range(leaders(code)):
@@ -86,36 +86,34 @@ def fall_in(g, j, i, code, still, r, z, mass, u, v, taken, exchange):
         held_r, held_z = held(row, column, still)
         want_r += 0.0 if held_r else weight * u[by, row, column]
         want_z += 0.0 if held_z else weight * v[by, row, column]
-    soft_r, soft_z = yielding(g, j, i, code, still, r, z, mass)
     m = mass[g, j, i]
     held_r, held_z = held(j, i, still)
-    push_r = 0.0 if held_r else (u[g, j, i] - want_r) / (1.0 / m + soft_r)
-    push_z = 0.0 if held_z else (v[g, j, i] - want_z) / (1.0 / m + soft_z)
+    push_r = 0.0 if held_r else (u[g, j, i] - want_r) / (1.0 / m + ease[0, g, j, i])
+    push_z = 0.0 if held_z else (v[g, j, i] - want_z) / (1.0 / m + ease[1, g, j, i])
     hand_over(g, j, i, code, push_r, push_z, still, r, z, mass, u, v, taken, exchange)
     u[g, j, i] -= push_r / m
     v[g, j, i] -= push_z / m
 
 
 @apart
-def push_on(g, j, i, code, push_r, push_z, still, r, z, mass, u, v, taken, exchange):
+def push_on(g, j, i, code, push_r, push_z, still, r, z, mass, u, v, ease, taken, exchange):
     """An impulse on a vertex; a light one and those it moves with take it together, so that it goes on moving with them."""
     if code == HEAVY:
         give(g, j, i, push_r, push_z, still, mass, u, v, exchange)
         return
-    soft_r, soft_z = yielding(g, j, i, code, still, r, z, mass)
     m = mass[g, j, i]
-    pass_r, pass_z = push_r / (1.0 + m * soft_r), push_z / (1.0 + m * soft_z)
+    pass_r, pass_z = push_r / (1.0 + m * ease[0, g, j, i]), push_z / (1.0 + m * ease[1, g, j, i])
     hand_over(g, j, i, code, pass_r, pass_z, still, r, z, mass, u, v, taken, exchange)
     give(g, j, i, push_r - pass_r, push_z - pass_z, still, mass, u, v, exchange)
 
 
-@apart
-def mobility(g, j, i, code, still, r, z, mass):
+@point
+def mobility(g, j, i, code, mass, ease):
     """Velocity per impulse (1/kg) of a vertex, of a light one with those it moves with."""
     m = mass[g, j, i]
     if code == HEAVY:
         return 1.0 / m
-    soft = max(yielding(g, j, i, code, still, r, z, mass))
+    soft = max(ease[0, g, j, i], ease[1, g, j, i])
     return soft / (1.0 + m * soft)
 
 
@@ -159,7 +157,7 @@ def pressed(j, i, n_r, n_z, cut, face_r, hoop, az_in, az_out, dz, line, sig_rr, 
 
 @apart
 def touch_and_rub(j, i, dt, friction, still, r, z, face_r, hoop, az_in, az_out, dz, cut, line, normal, link, sig_rr, sig_zz,
-                  sig_rz, mass, u, v, taken, impulse, exchange):
+                  sig_rz, mass, u, v, ease, taken, impulse, exchange):
     """Impulses between the two groups at a shared vertex at which they touch.
 
     Where they close by every normal, the impulse along that by which they close least gives them one normal velocity, unless
@@ -179,7 +177,7 @@ def touch_and_rub(j, i, dt, friction, still, r, z, face_r, hoop, az_in, az_out, 
     n_r, n_z = normal[way, 0, j, i], normal[way, 1, j, i]
     along_r, along_z = w_r - closing * n_r, w_z - closing * n_z
     slip = sqrt(along_r * along_r + along_z * along_z)
-    reduced = 1.0 / (mobility(0, j, i, code_s, still, r, z, mass) + mobility(1, j, i, code_h, still, r, z, mass))
+    reduced = 1.0 / (mobility(0, j, i, code_s, mass, ease) + mobility(1, j, i, code_h, mass, ease))
     push, drag = reduced * max(closing, 0.0) if both else 0.0, 0.0
     impulse[PUSHED, j, i] += push
     if friction > 0.0 and slip > 0.0:
@@ -194,8 +192,8 @@ def touch_and_rub(j, i, dt, friction, still, r, z, face_r, hoop, az_in, az_out, 
     impulse[RUB_R, j, i] += drag * t_r
     impulse[RUB_Z, j, i] += drag * t_z
     give_r, give_z = push * n_r + drag * t_r, push * n_z + drag * t_z
-    push_on(0, j, i, code_s, give_r, give_z, still, r, z, mass, u, v, taken, exchange)
-    push_on(1, j, i, code_h, -give_r, -give_z, still, r, z, mass, u, v, taken, exchange)
+    push_on(0, j, i, code_s, give_r, give_z, still, r, z, mass, u, v, ease, taken, exchange)
+    push_on(1, j, i, code_h, -give_r, -give_z, still, r, z, mass, u, v, ease, taken, exchange)
 
 
 @apart
@@ -212,7 +210,7 @@ def mismatch(g, j, i, code, still, r, z, u0, v0, u, v):
 
 @serial
 def settle(j0, j1, dt, friction, still, r, z, face_r, hoop, az_in, az_out, dz, cut, line, count, shared, normal, touch, link,
-           sig_rr, sig_zz, sig_rz, mass, u0, v0, u, v, taken, impulse, heat, exchange):
+           sig_rr, sig_zz, sig_rz, mass, u0, v0, u, v, ease, taken, impulse, heat, exchange):
     """Velocities of both groups at shared vertices, from those that the forces alone would give.
 
     Light vertices move with others of their group, and groups that touch do not close: each such condition is met by
@@ -224,7 +222,8 @@ def settle(j0, j1, dt, friction, still, r, z, face_r, hoop, az_in, az_out, dz, c
     Updates  u, v [b, j, i]; heat [b, j, i], J per kg of the group's mass at a vertex; adds to exchange[4, j]
     Writes   exchange[:4, j]: axial momentum that the rest gains from the hard group, heat of contact, of friction and of light
              vertices
-    Scratch  taken [c, b, j, i], impulses that light vertices have given away; impulse [6, j, i]
+    Scratch  ease [c, b, j, i], what `yielding` gives for light vertices; taken [c, b, j, i], impulses that they have given
+             away; impulse [6, j, i]
     """
     for j in range(j0, j1 + 1):
         for k in range(count[j]):
@@ -234,19 +233,21 @@ def settle(j0, j1, dt, friction, still, r, z, face_r, hoop, az_in, az_out, dz, c
             for g in range(2):
                 taken[0, g, j, i] = 0.0
                 taken[1, g, j, i] = 0.0
+                if link[g, j, i] != HEAVY:
+                    ease[0, g, j, i], ease[1, g, j, i] = yielding(g, j, i, link[g, j, i], still, r, z, mass)
     for _ in range(PASSES):
         for j in range(j0, j1 + 1):
             for k in range(count[j]):
                 i = shared[j, k]
                 for g in range(2):
                     if link[g, j, i] != HEAVY:
-                        fall_in(g, j, i, link[g, j, i], still, r, z, mass, u, v, taken, exchange)
+                        fall_in(g, j, i, link[g, j, i], still, r, z, mass, u, v, ease, taken, exchange)
         for j in range(j0, j1 + 1):
             for k in range(count[j]):
                 i = shared[j, k]
                 if touch[j, i] > 0.0 and link[0, j, i] != STUCK and link[1, j, i] != STUCK:
                     touch_and_rub(j, i, dt, friction, still, r, z, face_r, hoop, az_in, az_out, dz, cut, line, normal, link,
-                                  sig_rr, sig_zz, sig_rz, mass, u, v, taken, impulse, exchange)
+                                  sig_rr, sig_zz, sig_rz, mass, u, v, ease, taken, impulse, exchange)
     for j in range(j0, j1 + 1):
         for row in range(4):
             exchange[row, j] = 0.0

@@ -128,9 +128,9 @@ def deform_mixed(j0, j1, dt, relaxation, tipton, mode, hard, hard_threshold, fac
 
     Volume: void first, then by compressibility, w_m = R_m/Rbar with R_m = f_m/K_m, then relaxation of the pressures,
     df_m = gamma R_m (p_m - pbar), with pbar = sum R_m p_m/Rbar, or 0 where void is left (explanation/mixed-cells).
-    Energy: pressure work by w_m, viscous and hourglass work by volume fraction, deviatoric work by what each body's stress
-    did; in the hard zone the hard body's plastic heat is shared by f_m/Y_m among what is solid, as in
-    layers under one stress.
+    Energy: pressure work by w_m, viscous and hourglass work by volume fraction (the latter by mass where two groups meet),
+    deviatoric work by what each body's stress did; in the hard zone the hard body's plastic heat is shared by f_m/Y_m among
+    what is solid, as in layers under one stress.
     Strength: by mode, see STRENGTH_MODES; every body moves with its group. In the cut cells of a contact pressure and
     viscosity do the work of the one change of volume, and each body has its own strength where two groups meet.
 
@@ -185,7 +185,6 @@ def deform_mixed(j0, j1, dt, relaxation, tipton, mode, hard, hard_threshold, fac
                     work_q = -dt * (qr[j, i] * (m_rr + m_tt) + qz[j, i] * m_zz)
                     work_p = -ph[j, i] * dt * ((m_rr + m_tt) + m_zz)
                 meet = held > 1
-                all_mass = cell_mass[0, j, i] + cell_mass[groups - 1, j, i]
                 if groups > 1 and cut[j, 0] <= i < cut[j, 1]:
                     work_q = -qr[j, i] * change
                     work_p = -ph[j, i] * change
@@ -312,8 +311,9 @@ def deform_mixed(j0, j1, dt, relaxation, tipton, mode, hard, hard_threshold, fac
                     q[RHO, m, j, i] = mass / filled if filled != f * volume else q[RHO, m, j, i]
                     vof[m, j, i] = filled / after if filled != f * volume or change != 0.0 else f
                     filtered = motion[j, group[m], HOURGLASS]
-                    rubbed = f / total * (work_q + filtered)
                     if meet:  # the filter acts on each group by its share of the mass
-                        rubbed = f / total * work_q + mass / all_mass * filtered
+                        rubbed = f / total * work_q + mass / (cell_mass[0, j, i] + cell_mass[1, j, i]) * filtered
+                    else:
+                        rubbed = f / total * (work_q + filtered)
                     gained = part_v[m] * inverse * work_p + rubbed + heat[m]
                     q[E, m, j, i] += (gained - target * shift) / mass
