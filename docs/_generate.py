@@ -101,7 +101,7 @@ def _default(value) -> str:
 
 def deck_page() -> str:
     """Every key of a deck."""
-    from hydro2d import deck
+    from hydro2d.deck import deck
 
     schema = Schema(deck.schema())
     sections, nested = [], {}
@@ -123,7 +123,8 @@ def deck_page() -> str:
 
 def fields_page() -> str:
     """The field table and the quantities of output files."""
-    from hydro2d import derived, fields
+    from hydro2d.mesh import fields
+    from hydro2d.output import derived
 
     state = table(
         ("field", "symbol", "centring", "unit", "parity at the axis", "remapped by", "meaning"),
@@ -168,7 +169,7 @@ def models_page() -> str:
 
 
 def _penetration_model(model) -> str:
-    from hydro2d import model_text
+    from hydro2d.analytic import model_text
 
     inputs = (
         (f"`{entry.name}`", entry.symbol, entry.unit or "word", model_text.default(entry), model_text.meaning(entry))
@@ -198,37 +199,38 @@ def penetration_page() -> str:
 
 def draw_models(folder: Path) -> None:
     """A figure of every penetration model at its example, ``folder/NAME.png``; those that are newer than the code stay."""
-    from hydro2d import figures, model, model_figures
+    from hydro2d.analytic import model_figures, models
     from hydro2d.penetration import catalogue
+    from hydro2d.results import figures
 
     folder.mkdir(parents=True, exist_ok=True)
-    sources = [*Path(catalogue.__file__).parent.glob("*.py"), Path(model.__file__), Path(model_figures.__file__)]
+    sources = [*Path(catalogue.__file__).parent.glob("*.py"), Path(models.__file__), Path(model_figures.__file__)]
     changed = max(file.stat().st_mtime for file in sources)
     for entry in catalogue.MODELS.values():
         file = folder / f"{entry.name}.png"
         if not file.is_file() or file.stat().st_mtime < changed:
             low, high = entry.example.velocities
-            case = model.example(entry)
+            case = models.example(entry)
             velocities = [low + (high - low) * n / (POINTS - 1) for n in range(POINTS)]
             figures.save(model_figures.draw(case, case.rows(velocities)), file)
 
 
 def materials_page() -> str:
     """Every material of the library, number by number."""
-    from hydro2d import materials
+    from hydro2d.materials import library
 
     parts = [f"# Materials\n\n{NOTE} `hydro2d info NAME` prints the same."]
-    for name in materials.names():
-        parts.append(f"## `{name}`\n\n{code(materials.describe(name))}")
+    for name in library.names():
+        parts.append(f"## `{name}`\n\n{code(library.describe(name))}")
     return "\n\n".join(parts)
 
 
 def commands_page() -> str:
     """The help text of every command."""
-    from hydro2d import cli
+    from hydro2d.cli import main
 
     parts = [f"# Commands\n\n{NOTE}", code(_help())]
-    for name in cli.app:
+    for name in main.app:
         if not name.startswith("-"):
             parts.append(f"## `hydro2d {name}`\n\n{code(_help(name))}")
     parts.append(f"## `hydro2d model transition`\n\n{code(_help('model', 'transition'))}")
@@ -236,14 +238,14 @@ def commands_page() -> str:
 
 
 def _help(*command: str) -> str:
-    from hydro2d import cli
+    from hydro2d.cli import main
 
     text = io.StringIO()
     columns = os.environ.get("COLUMNS")
     os.environ["COLUMNS"] = "110"
     try:
         with contextlib.redirect_stdout(text):
-            cli.call([*command, "--help"])
+            main.call([*command, "--help"])
     finally:
         if columns is None:
             del os.environ["COLUMNS"]

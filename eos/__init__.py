@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from eos.dispatch import MODULES
 from eos.layout import E0, RHO0, ROW
-from eos.parameters import REQUIRED, Description, Parameter, by_name, described
+from hydro2d.parameters import REQUIRED, Description, Parameter, by_name, described
 
 MODELS = {module.NAME: module for module in MODULES}
 

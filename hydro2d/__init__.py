@@ -4,12 +4,12 @@ __version__ = "0.1.0"
 
 
 def load(directory):
-    """The results of a run: summary, history, dumps, sections. See `hydro2d.results.Results`.
+    """The results of a run: summary, history, dumps, sections. See `hydro2d.results.reading.Results`.
 
     directory : path of a run directory; `hydro2d.study.load` reads a study
 
-    Raises hydro2d.results.ResultsError.
+    Raises hydro2d.results.reading.ResultsError.
     """
-    from hydro2d import results
+    from hydro2d.results import reading
 
-    return results.load(directory)
+    return reading.load(directory)

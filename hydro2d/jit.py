@@ -28,9 +28,9 @@ from numba.parfors import parfor_lowering
 def _source_files() -> list[Path]:
     """Every Python file whose text can end up in a compiled kernel."""
     here = Path(__file__).resolve().parent
-    folders = [here / "kernels", here.parent / "eos", here.parent / "strength"]
+    folders = [here / "physics", here / "kernels", here.parent / "eos", here.parent / "strength"]
     modules = sorted(file for folder in folders for file in folder.glob("**/*.py"))
-    return [Path(__file__).resolve(), here / "fields.py", here / "grid.py", *modules]
+    return [Path(__file__).resolve(), here / "parameters.py", here / "mesh" / "fields.py", here / "mesh" / "grid.py", *modules]
 
 
 def _cache_folder() -> str:

@@ -7,7 +7,7 @@ is the shear modulus and slot ``YIELD`` the yield stress of the virgin material 
 
 from __future__ import annotations
 
-from eos.parameters import REQUIRED, Description, Parameter, by_name, described
+from hydro2d.parameters import REQUIRED, Description, Parameter, by_name, described
 from strength import tensile_pressure
 from strength.dispatch import DAMAGE_MODULES, STRENGTH_MODULES
 from strength.layout import DAMAGE_ROW, ROW, SHEAR, YIELD

@@ -8,8 +8,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from eos.parameters import POSITIVE, REQUIRED, Parameter, collect
 from hydro2d.jit import point
+from hydro2d.parameters import POSITIVE, REQUIRED, Parameter, collect
 from strength.layout import ROW, SHEAR, YIELD
 
 NAME = "power-law"

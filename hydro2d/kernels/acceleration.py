@@ -2,9 +2,9 @@
 
 from math import sqrt
 
-from hydro2d.fields import SRR, SRZ, SZZ
 from hydro2d.jit import kernel, point, prange, rowwise
 from hydro2d.kernels.spans import block_rows, columns, copy_beside, number_of_blocks, spread, union
+from hydro2d.mesh.fields import SRR, SRZ, SZZ
 
 #: speeds below this are no signal: set to zero, so that the active region has an edge (explanation/active-region)
 SILENCE = 1e-20

@@ -6,9 +6,9 @@ travels, what the deck has placed there (hydro2d/following). A transmitting edge
 
 from math import sqrt
 
-from hydro2d.fields import SRZ
-from hydro2d.grid import GHOSTS
 from hydro2d.jit import apart, kernel, point, prange, serial
+from hydro2d.mesh.fields import SRZ
+from hydro2d.mesh.grid import GHOSTS
 
 
 @apart

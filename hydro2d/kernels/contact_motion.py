@@ -2,7 +2,6 @@
 
 from math import sqrt
 
-from hydro2d.fields import RHO, SRR, SRZ, SZZ
 from hydro2d.jit import apart, kernel, point, prange
 from hydro2d.kernels.acceleration import stress_scale
 from hydro2d.kernels.contact import GAP, HARD_R, HARD_Z, SOFT_R, SOFT_Z
@@ -10,6 +9,7 @@ from hydro2d.kernels.contact_volumes import volume_rate
 from hydro2d.kernels.deformation import hourglass_mode
 from hydro2d.kernels.spans import mixed_row
 from hydro2d.kernels.thermodynamics import directional_viscosity
+from hydro2d.mesh.fields import RHO, SRR, SRZ, SZZ
 
 #: void given to cells without pressure whose groups part, so that it takes the opening and nothing is stretched
 SEED = 1e-11

@@ -3,11 +3,11 @@
 The faces are swept by both groups, each by its weight (kernels/contact); a body flows with the velocity of its group.
 """
 
-from hydro2d.fields import E
 from hydro2d.jit import apart, kernel, point, prange
 from hydro2d.kernels.contact import FIRST, GAP, PARTED
 from hydro2d.kernels.interfaces import FULL, cumulative, strip_share, youngs_normal
 from hydro2d.kernels.spans import union
+from hydro2d.mesh.fields import E
 
 
 @point

@@ -2,9 +2,9 @@
 
 from math import sqrt
 
-from hydro2d.fields import DMG, EP, RHO, SRR, SRZ, SZZ, E
 from hydro2d.jit import kernel, point, prange
 from hydro2d.kernels.spans import block_rows, columns, number_of_blocks, spread
+from hydro2d.mesh.fields import DMG, EP, RHO, SRR, SRZ, SZZ, E
 from strength.dispatch import damage_increment, modulus_row, yield_floor
 from strength.radial_return import plastic_increment
 

@@ -1,8 +1,8 @@
 """A mesh that travels along z: volumes swept relative to it, and an end to what fades ahead of waves."""
 
-from hydro2d.fields import E
 from hydro2d.jit import kernel, prange
 from hydro2d.kernels.spans import columns, union
+from hydro2d.mesh.fields import E
 
 #: stresses (Pa), energies (J/kg) and strains below this are nothing; a mesh that travels would carry them on, ever smaller
 FADED = 1e-30

@@ -1,7 +1,6 @@
 """Cells in which bodies meet each other or void: tearing, closure of pressure and volume, shared strength."""
 
 from eos.dispatch import evaluate, zero_pressure_density
-from hydro2d.fields import DMG, EP, RHO, SRR, SRZ, SZZ, E
 from hydro2d.jit import kernel, point, prange, rowwise
 from hydro2d.kernels.acceleration import stress_scale
 from hydro2d.kernels.deformation import (
@@ -12,6 +11,7 @@ from hydro2d.kernels.deformation import (
 )
 from hydro2d.kernels.spans import block_rows, mixed_row, number_of_blocks, spread
 from hydro2d.kernels.thermodynamics import pressures_row, viscosity_row
+from hydro2d.mesh.fields import DMG, EP, RHO, SRR, SRZ, SZZ, E
 from strength.dispatch import damage_increment, flow_stress, shear_modulus
 from strength.radial_return import plastic_increment
 

@@ -5,11 +5,11 @@ rows of a buffer, ``flux[k, m, slot, i]``: a cell is updated as soon as nothing 
 still in the processor's cache (explanation/remap, blocks of rows).
 """
 
-from hydro2d.fields import BLOCK, BODY_FIELDS, DMG, EP, RHO, SRR, SRZ, E
 from hydro2d.jit import kernel, point, prange, rowwise
 from hydro2d.kernels.acceleration import TINY
 from hydro2d.kernels.interfaces import flux_range
 from hydro2d.kernels.spans import block_rows, columns, mixed_row, number_of_blocks, spread
+from hydro2d.mesh.fields import BLOCK, BODY_FIELDS, DMG, EP, RHO, SRR, SRZ, E
 
 #: damage from which a cell has failed: the mean of ones is one less round-off, which must heal nothing
 FAILED = 1.0 - 1e-6

@@ -2,9 +2,9 @@
 
 from math import sqrt
 
-from hydro2d.fields import SRR, SRZ, SZZ
 from hydro2d.jit import kernel, point, prange, serial
 from hydro2d.kernels.interfaces import line_constant
+from hydro2d.mesh.fields import SRR, SRZ, SZZ
 
 #: zones of a cell
 OUTSIDE, HARD, BOUNDARY_LAYER, SLIP_LAYER = range(4)

@@ -4,8 +4,8 @@ A range (lo, hi) means lo <= i < hi; an empty range is (2**30, 0), so that the u
 other kernel loops over these ranges: a row of void costs nothing, and a pure cell pays for the one body in it.
 """
 
-from hydro2d.fields import BLOCK
 from hydro2d.jit import kernel, point, prange, rowwise, serial
+from hydro2d.mesh.fields import BLOCK
 
 NOTHING = 1 << 30
 

@@ -3,9 +3,9 @@
 from math import sqrt
 
 from eos.dispatch import evaluate, pressure_row, temperature_row, zero_pressure_density
-from hydro2d.fields import DMG, EP, RHO, SRR, SRZ, SZZ, E
 from hydro2d.jit import point, rowwise, serial
 from hydro2d.kernels.spans import columns
+from hydro2d.mesh.fields import DMG, EP, RHO, SRR, SRZ, SZZ, E
 from strength.dispatch import feels_temperature, modulus_row
 
 #: what set the time step, in the order that `step_limits` gives

@@ -11,7 +11,7 @@ from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 from itertools import pairwise
 
-from hydro2d.history import GROWING
+from hydro2d.output.history import GROWING
 
 #: failed runs after which a search gives up
 MOST_FAILED = 4

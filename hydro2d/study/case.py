@@ -10,14 +10,16 @@ import traceback
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
-from hydro2d import compilation, jit, run, snapshot
-from hydro2d import deck as decks
-from hydro2d.deck_errors import DeckError
-from hydro2d.derived import FieldError
+from hydro2d import jit
+from hydro2d.deck import deck as decks
+from hydro2d.errors import DeckError
 from hydro2d.files import LockError, holder
-from hydro2d.history import HistoryError
+from hydro2d.output import snapshot
+from hydro2d.output.derived import FieldError
+from hydro2d.output.history import HistoryError
+from hydro2d.output.vtk import VtkError
+from hydro2d.running import compilation, run
 from hydro2d.study.layout import DONE, FAILED, FAILED_STATUS, UNPHYSICAL, read_json
-from hydro2d.vtk import VtkError
 
 #: what is told in one line, without a traceback
 TOLD = (DeckError, FieldError, HistoryError, LockError, VtkError, run.RunError, snapshot.SnapshotError)

@@ -12,10 +12,10 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from hydro2d import deck as decks
-from hydro2d import deck_toml
-from hydro2d.deck_errors import DeckError, Sources, unknown
-from hydro2d.run import deck_hash
+from hydro2d import toml
+from hydro2d.deck import deck as decks
+from hydro2d.errors import DeckError, Sources, unknown
+from hydro2d.running.run import deck_hash
 from hydro2d.study import ranges, velocities
 from hydro2d.study.definition import DECK, Axis, Definition, StudyError, read
 
@@ -79,7 +79,7 @@ def _share(one: tuple[str, ...], other: tuple[str, ...]) -> bool:
 
 def _label(value) -> str:
     """A value as a study file has it."""
-    return value if isinstance(value, str) else deck_toml.inline(value)
+    return value if isinstance(value, str) else toml.inline(value)
 
 
 class _Planner:
@@ -159,7 +159,7 @@ class _Planner:
                 self._say(("axis", number), f'axis[{number}].name: there is an axis "{axis.name}" already')
             own = {axis.key} if axis.key else {key for settings in axis.variants.values() for key in settings}
             for key in sorted(own):
-                parts = tuple(deck_toml.key_parts(key))
+                parts = tuple(toml.key_parts(key))
                 for other, owner in keys.items():
                     if owner != axis.name and _share(parts, other):
                         shared = ".".join(min(other, parts, key=len))
@@ -194,10 +194,10 @@ class _Planner:
         except ValueError as error:
             self._say(("transition",), f"transition: {error}")
         self._raise()
-        parts = tuple(deck_toml.key_parts(key))
+        parts = tuple(toml.key_parts(key))
         for number, axis in enumerate(self.definition.axis):
             for own in {axis.key} if axis.key else {name for settings in axis.variants.values() for name in settings}:
-                if _share(parts, tuple(deck_toml.key_parts(own))):
+                if _share(parts, tuple(toml.key_parts(own))):
                     self._say(("axis", number), f'axis "{axis.name}" sets {own}, and the search varies {key}')
         self._raise()
         return velocities.Velocities(key, tuple(labels), self.definition.transition.tolerance)
@@ -239,7 +239,7 @@ class _Planner:
                 self._say(("exclude", number), f"exclude[{number}]: {unknown('axis', name, axes)}")
                 continue
             labels = [choice.label for choice in axes[name]]
-            several = isinstance(value, list) and deck_toml.inline(value) not in labels
+            several = isinstance(value, list) and toml.inline(value) not in labels
             rule[name] = [_label(each) for each in (value if several else [value])]
             for label in set(rule[name]) - set(labels):
                 what = f"exclude[{number}].{name}: matches nothing; {unknown('value', label, labels)}"
@@ -256,7 +256,7 @@ class _Planner:
             raise StudyError(f"{self.path}: deck: " + ("is missing" if base is None else f"expected a file name, is {base!r}"))
         names = [*(axis.name for axis in self.definition.axis), velocities.AXIS]
         labels = {name: choice.label for name, choice in zip(names, combination, strict=False)}
-        return labels, base, [f"{key}={deck_toml.inline(value)}" for key, value in settings.items()]
+        return labels, base, [f"{key}={toml.inline(value)}" for key, value in settings.items()]
 
     def _files(self, cases: list[tuple]) -> dict[str, Path]:
         """The file of every base deck."""
@@ -274,7 +274,7 @@ class _Planner:
         tables = []
         for file in files.values():
             try:
-                tables.append(deck_toml.read(file, Sources()))
+                tables.append(toml.read(file, Sources()))
             except DeckError as error:
                 self.wrong.append(str(error))
         for place, key in self._keys():
@@ -310,7 +310,7 @@ class _Planner:
 
 def _place(table: tuple, key: str, given: dict) -> tuple:
     """Where a deck key stands in the study file: quoted, or as a table of tables."""
-    return (*table, key) if key in given else (*table, *deck_toml.key_parts(key))
+    return (*table, key) if key in given else (*table, *toml.key_parts(key))
 
 
 def short(label: str) -> str:

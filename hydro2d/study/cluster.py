@@ -10,9 +10,9 @@ from typing import Any
 
 from pydantic import Field, ValidationError
 
-from hydro2d import __version__, deck_toml
-from hydro2d.deck_base import Section
-from hydro2d.deck_errors import DeckError, Sources
+from hydro2d import __version__, toml
+from hydro2d.deck.base import Section
+from hydro2d.errors import DeckError, Sources
 from hydro2d.study.definition import StudyError, explained
 
 #: seconds to wait for the scheduler of --scheduler
@@ -54,7 +54,7 @@ def read_slurm(path: Path) -> Slurm:
     """The file of --slurm. Raises StudyError."""
     sources = Sources()
     try:
-        data = deck_toml.read(path, sources)
+        data = toml.read(path, sources)
         return Slurm.model_validate(data)
     except DeckError as error:
         raise StudyError(str(error)) from None

@@ -7,9 +7,9 @@ from typing import Annotated, Any
 
 from pydantic import AfterValidator, Field, ValidationError, model_validator
 
-from hydro2d import deck_toml
-from hydro2d.deck_base import PositiveSpeed, Section, Speed
-from hydro2d.deck_errors import DeckError, Sources, spelled, unknown
+from hydro2d import toml
+from hydro2d.deck.base import PositiveSpeed, Section, Speed
+from hydro2d.errors import DeckError, Sources, spelled, unknown
 
 #: the key of a variant that names another base deck
 DECK = "deck"
@@ -127,13 +127,13 @@ def read(path: Path, overrides: list[str]) -> tuple[Definition, str, dict, Sourc
         raise StudyError(f"{path}: is not UTF-8 text") from None
     sources = Sources()
     try:
-        data = deck_toml.parse(text, str(path))
+        data = toml.parse(text, str(path))
     except DeckError as error:
         raise StudyError(str(error)) from None
     sources.add(str(path), data, text)
     if overrides:
         data = {**data, "set": {**_settings(data), **dict(_assigned(entry) for entry in overrides)}}
-        text = f"# with {len(overrides)} --set of the command line laid over\n\n{deck_toml.dumps(data)}"
+        text = f"# with {len(overrides)} --set of the command line laid over\n\n{toml.dumps(data)}"
     return _validated(data, sources), text, data, sources
 
 
@@ -144,7 +144,7 @@ def _settings(data: dict) -> dict:
 def _assigned(text: str) -> tuple[str, Any]:
     """Key and value of --set key=value."""
     try:
-        return deck_toml.assignment(text)
+        return toml.assignment(text)
     except DeckError as error:
         raise StudyError(str(error)) from None
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from hydro2d.figures import new_figure, reader_unit
-from hydro2d.history import unit
+from hydro2d.output.history import unit
+from hydro2d.results.figures import new_figure, reader_unit
 from hydro2d.study.experiments import AT_LEAST, Measurement
 from hydro2d.study.record import DRAWN, Record, Setup
 from hydro2d.study.series import Series, style

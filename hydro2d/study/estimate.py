@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from hydro2d import check
-from hydro2d import deck as decks
-from hydro2d.deck_errors import DeckError
-from hydro2d.progress import duration
+from hydro2d.deck import deck as decks
+from hydro2d.errors import DeckError
+from hydro2d.running import check
+from hydro2d.running.progress import duration
 from hydro2d.study.cases import Plan, Planned
 from hydro2d.study.monitor import lines
 

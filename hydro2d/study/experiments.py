@@ -1,7 +1,7 @@
 """What was measured for the setups of a study, and how far runs are from it.
 
 A measurement belongs to a rod, a target and an impact velocity. It comes from the catalogue of shots or from a deck. A deck
-with `experiment.velocity` loses it at other velocities (`hydro2d.deck`); one without keeps it, see ``unplaced``.
+with `experiment.velocity` loses it at other velocities (`hydro2d.deck.deck`); one without keeps it, see ``unplaced``.
 """
 
 from __future__ import annotations
@@ -10,8 +10,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from math import isclose
 
-from hydro2d.model_transition import Shot
-from hydro2d.model_transition import experiments as catalogue
+from hydro2d.analytic.model_transition import Shot
+from hydro2d.analytic.model_transition import experiments as catalogue
 from hydro2d.study.record import Record, Setup
 
 #: shares by which geometry, velocity and depth may differ and still be the same

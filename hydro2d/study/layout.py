@@ -19,10 +19,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from hydro2d import __version__, run, snapshot
-from hydro2d.deck_errors import nearest
+from hydro2d import __version__
+from hydro2d.errors import nearest
 from hydro2d.files import holder, write_json, write_text
-from hydro2d.results import STUDY
+from hydro2d.output import snapshot
+from hydro2d.results.reading import STUDY
+from hydro2d.running import run
 from hydro2d.study import velocities
 from hydro2d.study.definition import StudyError
 

@@ -10,7 +10,7 @@ from contextlib import contextmanager, suppress
 from datetime import datetime
 from pathlib import Path
 
-from hydro2d.progress import duration, number
+from hydro2d.running.progress import duration, number
 from hydro2d.study.layout import DONE, LOG, RUNNING, STATUSES, WAITING, Case, Study
 
 #: seconds between lines, and between refreshes of the table

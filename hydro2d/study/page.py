@@ -7,7 +7,8 @@ from collections.abc import Sequence
 from datetime import UTC, datetime
 from importlib import resources
 
-from hydro2d import __version__, model_transition
+from hydro2d import __version__
+from hydro2d.analytic import model_transition
 from hydro2d.study import differences, regimes
 from hydro2d.study.contents import Contents
 from hydro2d.study.markup import Html, element, table

@@ -8,7 +8,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from hydro2d import figures
+from hydro2d.results import figures
 from hydro2d.study import drawing, experiments, record, rods, series, theory
 from hydro2d.study.contents import Contents
 from hydro2d.study.record import Record, Setup

@@ -10,10 +10,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from hydro2d import deck as decks
-from hydro2d import history, model_deck, penetrator, vtk
-from hydro2d.deck_errors import DeckError
-from hydro2d.run import DECK, HISTORY
+from hydro2d.analytic import model_deck
+from hydro2d.deck import deck as decks
+from hydro2d.errors import DeckError
+from hydro2d.output import history, vtk
+from hydro2d.running.run import DECK, HISTORY
+from hydro2d.solver import penetrator
 from hydro2d.study.layout import DONE, Case
 
 #: columns of the history that are drawn, and the most points of a line

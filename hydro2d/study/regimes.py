@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from hydro2d import __version__, model_transition, penetrator
-from hydro2d import model as models
+from hydro2d import __version__
+from hydro2d.analytic import model_transition, models
+from hydro2d.analytic.model_text import columns
+from hydro2d.analytic.model_transition import Bracket, Comparison, Prediction, extent
 from hydro2d.files import write_json
-from hydro2d.model_text import columns
-from hydro2d.model_transition import Bracket, Comparison, Prediction, extent
 from hydro2d.penetration.model import InputError
+from hydro2d.solver import penetrator
 from hydro2d.study import bisection, experiments, record, velocities
 from hydro2d.study.layout import Interval, Study, StudyError
 from hydro2d.study.record import Record

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from hydro2d.figures import new_figure
+from hydro2d.results.figures import new_figure
 from hydro2d.study.drawing import FONT, WIDTH
 from hydro2d.study.experiments import Measurement
 from hydro2d.study.record import Record

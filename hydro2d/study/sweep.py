@@ -15,11 +15,11 @@ from contextlib import AbstractContextManager, contextmanager
 from datetime import UTC, datetime
 from pathlib import Path
 
-from hydro2d import compilation
-from hydro2d import deck as decks
+from hydro2d.deck import deck as decks
 from hydro2d.files import locked, write_json
-from hydro2d.progress import duration
-from hydro2d.run import Interrupt, clear, signals
+from hydro2d.running import compilation
+from hydro2d.running.progress import duration
+from hydro2d.running.run import Interrupt, clear, signals
 from hydro2d.study import layout, monitor
 from hydro2d.study.case import Outcome, kernels
 from hydro2d.study.cases import Plan

@@ -7,8 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hydro2d import model as models
-from hydro2d import model_deck
+from hydro2d.analytic import model_deck, models
 from hydro2d.penetration.model import InputError
 
 #: models of a rod into a thick target, from rigid to consumed

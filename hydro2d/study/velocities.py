@@ -7,9 +7,10 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from hydro2d import deck as decks
-from hydro2d import deck_toml, model_deck
-from hydro2d.deck_errors import DeckError
+from hydro2d import toml
+from hydro2d.analytic import model_deck
+from hydro2d.deck import deck as decks
+from hydro2d.errors import DeckError
 from hydro2d.study import ranges
 from hydro2d.study.definition import Range, Transition
 
@@ -63,7 +64,7 @@ def key(bases: Iterable[tuple[Path, Sequence[str]]]) -> str:
         raise ValueError(f"no deck is right: {problems[0]}")
     if len(rods) > 1:
         raise ValueError(f"the rods of the decks are called {', '.join(sorted(rods))}: key is needed")
-    return f"body.{deck_toml.quoted(rods.pop())}.velocity"
+    return f"body.{toml.quoted(rods.pop())}.velocity"
 
 
 def fault(deck: decks.Deck, key: str, label: str) -> str | None:

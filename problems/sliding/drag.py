@@ -18,9 +18,10 @@ from pathlib import Path
 
 import numpy as np
 
-from hydro2d import model, model_deck, results
-from hydro2d.deck_errors import DeckError
-from hydro2d.history import HistoryError
+from hydro2d.analytic import model_deck, models
+from hydro2d.errors import DeckError
+from hydro2d.output.history import HistoryError
+from hydro2d.results import reading
 
 #: rows of the history that a line is put through, at least
 ROWS = 4
@@ -52,11 +53,11 @@ def windows(time: np.ndarray, speed: np.ndarray, depth: np.ndarray, width: float
 def measure(directory: Path | str, width: float = 10e-6) -> dict:
     """Force (Pa, over the rod's section) by window and what theory and experiment have beside it; SI. Raises ResultsError,
     HistoryError, DeckError."""
-    run = results.load(directory)
+    run = reading.load(directory)
     if "rod_mean_velocity_m_s" not in run.history:
-        raise results.ResultsError(f"{directory} has no rod: its deck has no [penetration]")
-    shot = model_deck.read(run.directory / results.DECK)
-    case = model.resolve(model.named("forrestal"), model.Request(shot.rod, shot.target, geometry=shot.values))
+        raise reading.ResultsError(f"{directory} has no rod: its deck has no [penetration]")
+    shot = model_deck.read(run.directory / reading.DECK)
+    case = models.resolve(models.named("forrestal"), models.Request(shot.rod, shot.target, geometry=shot.values))
     mass, section = case.values["rod.mass"], 0.25 * math.pi * case.values["rod.diameter"] ** 2
     time, depth = run.history["time"], run.history["penetration_depth_m"]
     speed = run.direction * run.history["rod_mean_velocity_m_s"]
@@ -106,7 +107,7 @@ def main(arguments: list[str] | None = None) -> int:
     given = parser.parse_args(arguments)
     try:
         found = [measure(directory, given.window * 1e-6) for directory in given.run]
-    except (results.ResultsError, HistoryError, DeckError) as error:
+    except (reading.ResultsError, HistoryError, DeckError) as error:
         print(error, file=sys.stderr)
         return 2
     print(json.dumps(found, indent=2) if given.json else "\n\n".join(map(table, found)))

@@ -16,7 +16,8 @@ from pathlib import Path
 
 import numpy as np
 
-from hydro2d import derived, results, vtk
+from hydro2d.output import derived, vtk
+from hydro2d.results import reading
 
 #: a cell belongs to the bar from this share on
 HALF = 0.5
@@ -53,7 +54,7 @@ def shape(r_edges: np.ndarray, z_edges: np.ndarray, fraction: np.ndarray, strain
     column = fraction[:, 0]
     inside = np.nonzero(column >= HALF)[0]
     if len(inside) == 0:
-        raise results.ResultsError(f"there is nothing of the bar on the axis at {time * 1e6:.3g} us")
+        raise reading.ResultsError(f"there is nothing of the bar on the axis at {time * 1e6:.3g} us")
     row = fraction[inside[0] if direction < 0 else inside[-1]]
     return Bar(
         time=time,
@@ -73,21 +74,21 @@ def reference(speed: float, length: float) -> tuple[Bar, ...]:
 
 def measure(directory: Path | str, name: str | None = None) -> dict:
     """The bar in every dump, and at the times of the reference what both have; SI. Raises ResultsError, VtkError."""
-    run = results.load(directory)
+    run = reading.load(directory)
     bodies = {body["name"]: body for body in run.deck["body"]}
     name = name or next(iter(bodies))
     if name not in bodies:
-        raise results.ResultsError(f'{directory} has no body "{name}"; its bodies are {", ".join(bodies)}')
+        raise reading.ResultsError(f'{directory} has no body "{name}"; its bodies are {", ".join(bodies)}')
     velocity = bodies[name]["velocity"][1]
     fields = [derived.BY_KEY[key].name(name) for key in ("volume_fraction", "body_plastic_strain")]
     bars = []
     for _, file in run.dumps:
         dump = vtk.read_grid(file)
         if any(field not in dump.fields for field in fields):
-            raise results.ResultsError(f'{file} lacks one of {", ".join(fields)}: add "body_plastic_strain" to output.fields')
+            raise reading.ResultsError(f'{file} lacks one of {", ".join(fields)}: add "body_plastic_strain" to output.fields')
         bars.append(shape(dump.r_edges, dump.z_edges, *(dump.fields[field] for field in fields), velocity, dump.time))
     if not bars:
-        raise results.ResultsError(f"{directory} has no fields: no dump was written yet")
+        raise reading.ResultsError(f"{directory} has no fields: no dump was written yet")
     known = reference(abs(velocity), bars[0].length)
     return {
         "run": run.label, "ended": bool(run.summary), "body": name, "velocity": velocity,
@@ -135,7 +136,7 @@ def main(arguments: list[str] | None = None) -> int:
     given = parser.parse_args(arguments)
     try:
         found = [measure(directory, given.body) for directory in given.run]
-    except (results.ResultsError, vtk.VtkError) as error:
+    except (reading.ResultsError, vtk.VtkError) as error:
         print(error, file=sys.stderr)
         return 2
     print(json.dumps(found, indent=2) if given.json else "\n\n".join(map(table, found)))

@@ -21,9 +21,10 @@ from scipy.integrate import solve_ivp
 
 import eos
 from eos.dispatch import evaluate
-from hydro2d import deck as decks
-from hydro2d import derived, results, vtk
-from hydro2d.deck_errors import DeckError
+from hydro2d.deck import deck as decks
+from hydro2d.errors import DeckError
+from hydro2d.output import derived, vtk
+from hydro2d.results import reading
 
 #: a cell is of one material from this share on
 PURE = 1.0 - 1e-4
@@ -66,7 +67,7 @@ def bernoulli(jet, target, velocity: float) -> tuple[float, float]:
     target_speed = np.sqrt(2.0 * np.interp(p, *other))
     sum_of_speeds = np.sqrt(2.0 * np.interp(p, *own)) + target_speed
     if velocity > sum_of_speeds[-1]:
-        raise results.ResultsError(f"{velocity:g} m/s is beyond compressible Bernoulli as it is tabled here")
+        raise reading.ResultsError(f"{velocity:g} m/s is beyond compressible Bernoulli as it is tabled here")
     pressure = float(np.interp(velocity, sum_of_speeds, p))
     return float(np.interp(pressure, p, target_speed)), pressure
 
@@ -108,7 +109,7 @@ def point(edges: np.ndarray, jet: np.ndarray, target: np.ndarray, pressures: tup
     return Point(time, position, *(stagnation(x[side], p[side]) for side, p in zip(sides, pressures, strict=True)))
 
 
-def read(run: results.Results, jet: str, target: str, reach: float) -> list[Point]:
+def read(run: reading.Results, jet: str, target: str, reach: float) -> list[Point]:
     """The interface in every dump that has one. Raises ResultsError, VtkError."""
     share, pressure = derived.BY_KEY["volume_fraction"], derived.BY_KEY["body_pressure"]
     names = [quantity.name(body) for quantity in (share, pressure) for body in (jet, target)]
@@ -116,7 +117,7 @@ def read(run: results.Results, jet: str, target: str, reach: float) -> list[Poin
     for _, file in run.dumps:
         dump = vtk.read_grid(file)
         if any(name not in dump.fields for name in names):
-            raise results.ResultsError(f'{file} lacks one of {", ".join(names)}: add "body_pressure" to output.fields')
+            raise reading.ResultsError(f'{file} lacks one of {", ".join(names)}: add "body_pressure" to output.fields')
         columns = [dump.fields[name][:, 0].astype(float) for name in names]
         points.append(point(dump.z_edges, *columns[:2], tuple(columns[2:]), reach, dump.time))
     return [found for found in points if found is not None]
@@ -139,17 +140,17 @@ def measure(directory: Path | str, first: float = 3.0, last: float = 10.0) -> di
 
     Raises ResultsError, VtkError, DeckError.
     """
-    run = results.load(directory)
-    deck = decks.load(run.directory / results.DECK)
+    run = reading.load(directory)
+    deck = decks.load(run.directory / reading.DECK)
     if deck.penetration is None or run.direction < 0:
-        raise results.ResultsError(f"{directory} has no jet that flies towards +z: its deck has no [penetration] of that kind")
+        raise reading.ResultsError(f"{directory} has no jet that flies towards +z: its deck has no [penetration] of that kind")
     jet, target = (decks.body(deck, getattr(deck.penetration, key)) for key in ("rod", "target"))
     diameter = 2.0 * decks.body_radius(deck, jet.name)
     velocity = jet.velocity[1] - target.velocity[1]
     u, p = bernoulli(deck.materials[jet.material], deck.materials[target.material], velocity)
     points = read(run, jet.name, target.name, REACH * 0.5 * diameter)
     if not points:
-        raise results.ResultsError(f"{directory} has no dump with jet and target side by side on the axis")
+        raise reading.ResultsError(f"{directory} has no dump with jet and target side by side on the axis")
     surface = decks.surface(deck)
     deepest = int((points[-1].position - surface) / diameter)
     rows = [
@@ -198,7 +199,7 @@ def main(arguments: list[str] | None = None) -> int:
     given = parser.parse_args(arguments)
     try:
         found = [measure(directory, given.first, given.last) for directory in given.run]
-    except (results.ResultsError, vtk.VtkError, DeckError) as error:
+    except (reading.ResultsError, vtk.VtkError, DeckError) as error:
         print(error, file=sys.stderr)
         return 2
     print(json.dumps(found, indent=2) if given.json else "\n\n".join(map(table, found)))

@@ -25,8 +25,8 @@ from vtkmodules.vtkFiltersParallel import vtkExtractCTHPart
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLRectilinearGridReader
 
 import hydro2d
-from hydro2d import deck as decks
-from hydro2d.run import run
+from hydro2d.deck import deck as decks
+from hydro2d.running.run import run
 from tests.rules import source
 
 PAGE = (source.ROOT / "docs" / "how-to" / "paraview.md").read_text(encoding="utf-8")

@@ -8,8 +8,10 @@ import numpy as np
 import pytest
 from numba.core.runtime import _nrt_python, rtsys
 
-from hydro2d import deck, kernels, tracers
-from hydro2d.simulation import Simulation
+from hydro2d import kernels
+from hydro2d.deck import deck
+from hydro2d.solver import tracers
+from hydro2d.solver.simulation import Simulation
 
 DECK = """
 [mesh]

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 import hydro2d.kernels
-from hydro2d import deck
-from hydro2d.simulation import Simulation
+from hydro2d.deck import deck
+from hydro2d.solver.simulation import Simulation
 
 DECK = """
 title = "a rod that strikes a plate, small"

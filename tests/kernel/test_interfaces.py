@@ -7,9 +7,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from hydro2d import deck
+from hydro2d.deck import deck
 from hydro2d.kernels.interfaces import area_below, line_constant, strip_share
-from hydro2d.simulation import Simulation
+from hydro2d.solver.simulation import Simulation
 
 UNIT = st.floats(0.0, 1.0)
 WIDTH = st.floats(1e-9, 1.0 - 1e-9)  # a strip without width is never asked for

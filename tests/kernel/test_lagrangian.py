@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from hydro2d import deck
-from hydro2d.grid import Grid
+from hydro2d.deck import deck
 from hydro2d.kernels import mixed
 from hydro2d.kernels.deformation import velocity_gradient, von_mises
-from hydro2d.simulation import Simulation
+from hydro2d.mesh.grid import Grid
+from hydro2d.solver.simulation import Simulation
 
 BLOCK = """
 [mesh]

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from hydro2d import deck
+from hydro2d.deck import deck
 from hydro2d.kernels import momentum
-from hydro2d.simulation import Simulation
+from hydro2d.solver.simulation import Simulation
 from tests.kernel.test_interfaces import CIRCLE, by_stream_function, carry, vortex
 
 GEOMETRIES = ("cylindrical", "planar")

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from hydro2d import model as models
+from hydro2d.analytic import models
 from hydro2d.penetration import catalogue
 from hydro2d.penetration.model import ANY, FRACTION, POSITIVE, InputError, Model
 

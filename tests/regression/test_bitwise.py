@@ -8,9 +8,9 @@ import numba
 import numpy as np
 import pytest
 
-from hydro2d import deck as decks
-from hydro2d import snapshot
-from hydro2d.simulation import Simulation
+from hydro2d.deck import deck as decks
+from hydro2d.output import snapshot
+from hydro2d.solver.simulation import Simulation
 
 SHOT = """
 [mesh]

@@ -2,9 +2,9 @@
 
 import pytest
 
-from hydro2d import deck as decks
-from hydro2d import history, snapshot
-from hydro2d.run import run
+from hydro2d.deck import deck as decks
+from hydro2d.output import history, snapshot
+from hydro2d.running.run import run
 
 SHOT = """
 [mesh]

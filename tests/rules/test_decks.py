@@ -2,8 +2,8 @@
 
 import pytest
 
-from hydro2d import deck
-from hydro2d.model_transition import experiments
+from hydro2d.analytic.model_transition import experiments
+from hydro2d.deck import deck
 from hydro2d.study import cases
 from tests.rules import source
 

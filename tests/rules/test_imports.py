@@ -11,25 +11,26 @@ from tests.rules import source
 
 #: from the bottom to the top; a name stands for itself and for all modules inside it, and a * for what it likes
 LAYERS = (
-    ("hydro2d.jit", "hydro2d.compilation", "hydro2d.units", "hydro2d.files", "hydro2d.provenance", "hydro2d.deck_errors"),
-    ("eos", "strength", "hydro2d.penetration"),
-    ("hydro2d.fields", "hydro2d.grid", "hydro2d.state", "hydro2d.deck", "hydro2d.deck_*", "hydro2d.materials",
-     "hydro2d.thermal", "hydro2d.sums", "hydro2d.tracers", "hydro2d.shapes", "hydro2d.insertion"),
+    ("hydro2d.jit", "hydro2d.units", "hydro2d.files", "hydro2d.parameters", "hydro2d.errors", "hydro2d.toml"),
+    ("hydro2d.mesh", "eos", "strength", "hydro2d.penetration"),
+    ("hydro2d.materials",),
+    ("hydro2d.physics", "hydro2d.deck"),
     ("hydro2d.kernels",),
-    ("hydro2d.audit", "hydro2d.method", "hydro2d.contact", "hydro2d.following", "hydro2d.cycle"),
-    ("hydro2d.penetrator", "hydro2d.crater", "hydro2d.simulation"),
-    ("hydro2d.derived", "hydro2d.outlines", "hydro2d.history", "hydro2d.snapshot", "hydro2d.progress", "hydro2d.vtk",
-     "hydro2d.figures", "hydro2d.run", "hydro2d.results", "hydro2d.bench", "hydro2d.check", "hydro2d.export", "hydro2d.info",
-     "hydro2d.model", "hydro2d.model_*"),
+    ("hydro2d.solver", "hydro2d.output"),
+    ("hydro2d.running",),
+    ("hydro2d.results",),
+    ("hydro2d.analytic",),
     ("hydro2d.study",),
-    ("hydro2d.cli", "hydro2d.cli_*", "hydro2d.__main__"),
+    ("hydro2d.cli", "hydro2d.__main__"),
 )
 OURS = ("hydro2d", "eos", "strength")
 #: packages of these modules and nothing else of hydro2d
 NARROW = {
-    "eos": ("eos", "hydro2d.jit"),
-    "strength": ("strength", "eos.parameters", "hydro2d.jit"),
-    "hydro2d.kernels": ("hydro2d.kernels", "hydro2d.jit", "hydro2d.fields", "hydro2d.grid", "eos", "strength"),
+    "eos": ("eos", "hydro2d.parameters", "hydro2d.jit"),
+    "strength": ("strength", "hydro2d.parameters", "hydro2d.jit"),
+    "hydro2d.physics": ("hydro2d.physics", "hydro2d.jit", "hydro2d.mesh.fields", "eos", "strength"),
+    "hydro2d.kernels": ("hydro2d.kernels", "hydro2d.physics", "hydro2d.jit", "hydro2d.mesh.fields", "hydro2d.mesh.grid", "eos",
+                        "strength"),
     "hydro2d.penetration": ("hydro2d.penetration", "hydro2d.units"),
 }
 
@@ -123,12 +124,12 @@ def users(library: str) -> set[str]:
     ("library", "allowed"),
     [
         ("numba", ("hydro2d.jit",)),
-        ("pyvista", ("hydro2d.vtk", "hydro2d.figures")),
-        ("vtk", ("hydro2d.vtk", "hydro2d.figures")),
+        ("pyvista", ("hydro2d.output.vtk", "hydro2d.results.figures")),
+        ("vtk", ("hydro2d.output.vtk", "hydro2d.results.figures")),
         ("pint", ("hydro2d.units",)),
-        ("scipy", ("hydro2d.penetration", "hydro2d.crater")),
-        ("hydro2d.kernels", ("hydro2d.kernels", "hydro2d.method", "hydro2d.contact", "hydro2d.following", "hydro2d.cycle",
-                             "hydro2d.bench")),
+        ("scipy", ("hydro2d.penetration", "hydro2d.solver.crater")),
+        ("hydro2d.kernels", ("hydro2d.kernels", "hydro2d.solver.method", "hydro2d.solver.contact", "hydro2d.solver.following",
+                             "hydro2d.solver.cycle", "hydro2d.running.bench")),
     ],
 )
 def test_only_these_import(library, allowed):
@@ -138,15 +139,16 @@ def test_only_these_import(library, allowed):
 @pytest.mark.parametrize(
     ("name", "text"),
     [
-        ("hydro2d.grid", "from hydro2d.cycle import advance"),
-        ("hydro2d.kernels.eos_sweep", "from hydro2d.state import State"),
+        ("hydro2d.mesh.grid", "from hydro2d.solver.cycle import advance"),
+        ("hydro2d.kernels.eos_sweep", "from hydro2d.mesh.state import State"),
         ("eos.ideal_gas", "from hydro2d import units"),
         ("strength.steinberg_guinan", "import eos.dispatch"),
-        ("hydro2d.penetration.tate", "def f():\n    from hydro2d.simulation import Simulation"),
+        ("hydro2d.penetration.tate", "def f():\n    from hydro2d.solver.simulation import Simulation"),
     ],
 )
 def test_a_forbidden_import_is_found(name, text):
-    known = frozenset({"hydro2d.units", "hydro2d.state", "hydro2d.cycle", "hydro2d.simulation", "eos.dispatch"})
+    known = frozenset({"hydro2d.units", "hydro2d.mesh.state", "hydro2d.solver.cycle", "hydro2d.solver.simulation",
+                       "eos.dispatch"})
     assert breaches(name, source.imports(ast.parse(text), known)) != []
 
 

@@ -8,10 +8,11 @@ from pathlib import Path
 
 import numpy as np
 
-from hydro2d import deck, vtk
+from hydro2d.deck import deck
 from hydro2d.files import write_json
-from hydro2d.history import History
-from hydro2d.run import deck_hash
+from hydro2d.output import vtk
+from hydro2d.output.history import History
+from hydro2d.running.run import deck_hash
 
 BASE = "problems/cth_nose_shape/hemi_5083_1086_quick.toml"
 LENGTH, RADIUS, MASS, TIME = 0.09779, 0.0033784, 0.063, 6e-4

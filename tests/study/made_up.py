@@ -10,7 +10,7 @@ import tomllib
 from collections.abc import Callable
 from pathlib import Path
 
-from hydro2d.run import deck_hash
+from hydro2d.running.run import deck_hash
 from hydro2d.study.case import Outcome
 from tests.study import fake
 

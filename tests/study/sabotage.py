@@ -5,7 +5,8 @@ import os
 import signal
 from pathlib import Path
 
-from hydro2d import run, simulation
+from hydro2d.running import run
+from hydro2d.solver import simulation
 
 PLANNED = json.loads(os.environ["HYDRO2D_SABOTAGE"])
 

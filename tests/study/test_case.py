@@ -9,9 +9,10 @@ import time
 
 import pytest
 
-from hydro2d import compilation, history, snapshot
-from hydro2d import deck as decks
-from hydro2d.run import Interrupt
+from hydro2d.deck import deck as decks
+from hydro2d.output import history, snapshot
+from hydro2d.running import compilation
+from hydro2d.running.run import Interrupt
 from hydro2d.study.case import kernels, run_case
 from tests.unit.test_cli import DECK
 
@@ -146,7 +147,7 @@ def test_a_full_disk(simulation, monkeypatch, text, place):
 
 
 def test_progress_is_published_while_it_runs(simulation, monkeypatch, text, place):
-    monkeypatch.setattr("hydro2d.run.PROGRESS_SECONDS", 0.0)
+    monkeypatch.setattr("hydro2d.running.run.PROGRESS_SECONDS", 0.0)
     interrupt, step, seen = Interrupt(), simulation.step, []
 
     def watched(self):

@@ -7,7 +7,7 @@ import distributed
 import pytest
 
 from hydro2d import study
-from hydro2d.cli import call
+from hydro2d.cli.main import call
 from hydro2d.study import cluster
 from hydro2d.study.definition import StudyError
 from tests.study import tubes

@@ -2,7 +2,7 @@
 
 import pytest
 
-from hydro2d.cli import call
+from hydro2d.cli.main import call
 from hydro2d.study import cases, ranges
 from hydro2d.study.definition import Range, StudyError
 from tests.study import tubes

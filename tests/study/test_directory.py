@@ -9,7 +9,7 @@ import pytest
 import rich.console
 
 from hydro2d import study
-from hydro2d.cli import call
+from hydro2d.cli.main import call
 from hydro2d.files import write_json
 from hydro2d.study import cases, layout, monitor, sweep
 from hydro2d.study.definition import StudyError

@@ -73,12 +73,12 @@ def test_runs_are_hollow_experiments_filled_and_the_rear_is_marked(contents, set
 
 def test_models_are_those_of_the_command(contents):
     """Tate's depth as `hydro2d model` gives it; a model without its inputs is a reason, not a line."""
-    from hydro2d import model
+    from hydro2d.analytic import models
 
     shot = contents.records[0].shot
     curves = {curve.name: curve for curve in theory.curves(shot, 900.0, 1300.0)}
-    request = model.Request(rod=shot.rod, target=shot.target, geometry=shot.values)
-    expected = model.resolve(model.named("tate"), request).rows([900.0, 1300.0])
+    request = models.Request(rod=shot.rod, target=shot.target, geometry=shot.values)
+    expected = models.resolve(models.named("tate"), request).rows([900.0, 1300.0])
     np.testing.assert_allclose(curves["tate"].depth[[0, -1]], [row["depth"] for row in expected])
     assert not curves["anderson-riegel"].drawable
     assert "target.effective_flow_stress" in curves["anderson-riegel"].note
@@ -129,7 +129,7 @@ def test_a_page_holds_eighteen_rods(contents):
 
 def test_a_hole_in_a_rod_stays_a_hole():
     """Lines of opposite sense: the outer edge of a rod and a void in it, off the axis."""
-    from hydro2d.outlines import outlines
+    from hydro2d.output.outlines import outlines
 
     r, z = np.linspace(0.0, 1.0, 41), np.linspace(0.0, 3.0, 121)
     rr, zz = np.meshgrid((r[1:] + r[:-1]) / 2, (z[1:] + z[:-1]) / 2)

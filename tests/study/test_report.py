@@ -5,7 +5,7 @@ import shutil
 
 import pytest
 
-from hydro2d.cli import call
+from hydro2d.cli.main import call
 from hydro2d.study import layout
 from hydro2d.study.contents import collect
 from hydro2d.study.report import report

@@ -12,9 +12,9 @@ import time
 
 import pytest
 
-from hydro2d import deck as decks
 from hydro2d import study
-from hydro2d.run import run
+from hydro2d.deck import deck as decks
+from hydro2d.running.run import run
 from hydro2d.study import cases
 from tests.study import tubes
 

@@ -8,7 +8,7 @@ import time
 import pytest
 
 from hydro2d import study
-from hydro2d.cli import call
+from hydro2d.cli.main import call
 from hydro2d.study import cases, regimes, transition
 from hydro2d.study.case import Outcome
 from hydro2d.study.definition import StudyError

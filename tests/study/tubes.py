@@ -8,7 +8,7 @@ import sys
 import time
 from pathlib import Path
 
-from hydro2d import history, snapshot
+from hydro2d.output import history, snapshot
 
 ROOT = Path(__file__).resolve().parents[2]
 TUBE = (ROOT / "problems" / "verification" / "sod_z.toml").read_text()

@@ -13,14 +13,14 @@ def simulation(monkeypatch):
     """The fake simulation in the place of the real one; the class is the test's own."""
     own = type("Simulation", (fake.Simulation,), {})
     module = SimpleNamespace(Simulation=own, UnphysicalState=fake.UnphysicalState)
-    monkeypatch.setitem(sys.modules, "hydro2d.simulation", module)
+    monkeypatch.setitem(sys.modules, "hydro2d.solver.simulation", module)
     return own
 
 
 @pytest.fixture
 def finished(simulation, tmp_path):
     """The directory of a fake run that has ended."""
-    from hydro2d.run import run
+    from hydro2d.running.run import run
 
     run(fake.FakeDeck(), tmp_path / "shot", quiet=True)
     return tmp_path / "shot"

@@ -7,9 +7,9 @@ from types import SimpleNamespace
 import numpy as np
 
 import eos
-from hydro2d import materials
-from hydro2d.deck_models import Failure, Mesh, Segment, Sliding
-from hydro2d.grid import Grid
+from hydro2d.deck.sections import Failure, Mesh, Segment, Sliding
+from hydro2d.materials import library
+from hydro2d.mesh.grid import Grid
 
 ROD, PLATE = "rod", "plate"
 RADIUS, LENGTH, SPEED, STOP = 4e-3, 20e-3, 1000.0, 20e-6
@@ -69,7 +69,7 @@ class Simulation:
             vof=body(), rho=body(), e=body(), srr=body(), szz=body(), srz=body(), ep=body(), dmg=body(),
             u=vertex(), v=vertex(), mass=vertex() + 1.0, group=np.zeros(2, dtype=np.int64), groups=1,
         )  # fmt: skip
-        rows = [materials.load(name) for name in ("W_alloy", "Al5083")]
+        rows = [library.load(name) for name in ("W_alloy", "Al5083")]
         self.table = SimpleNamespace(
             names=(ROD, PLATE),
             eos_model=np.array([eos.MODELS[material.eos.name].ID for material in rows]),

@@ -4,7 +4,9 @@ import json
 
 import pytest
 
-from hydro2d import bench, deck, jit
+from hydro2d import jit
+from hydro2d.deck import deck
+from hydro2d.running import bench
 
 SMALL = ("mesh.r=[{to=\"16.891 mm\", cells=10}]", 'mesh.z=[{to="0 mm", cells=40}, {to="540 mm", cells=100}]')
 

@@ -11,8 +11,8 @@ from pathlib import Path
 
 import pytest
 
-from hydro2d import snapshot, vtk
-from hydro2d.cli import app, call
+from hydro2d.cli.main import app, call
+from hydro2d.output import snapshot, vtk
 from tests.unit import fake
 
 DECK = """
@@ -186,7 +186,7 @@ def test_help_is_light():
     """Nothing heavy is imported to say what the commands are."""
     code = """
         import sys
-        from hydro2d.cli import call
+        from hydro2d.cli.main import call
         call(["--help"]); call(["run", "--help"])
         heavy = {"numpy", "numba", "h5py", "pint", "pyvista", "vtkmodules", "matplotlib", "scipy"} & set(sys.modules)
         assert not heavy, heavy
@@ -203,7 +203,7 @@ def test_signals_write_a_restart_file(deck, tmp_path, number, status):
             def step(self):
                 time.sleep(0.02)
                 super().step()
-        sys.modules["hydro2d.simulation"] = types.SimpleNamespace(
+        sys.modules["hydro2d.solver.simulation"] = types.SimpleNamespace(
             Simulation=Slow, UnphysicalState=fake.UnphysicalState)
         from hydro2d.cli import main
         main(sys.argv[1:])
@@ -228,7 +228,7 @@ def test_kill_leaves_whole_files(deck, tmp_path):
     code = """
         import sys, types
         from tests.unit import fake
-        sys.modules["hydro2d.simulation"] = types.SimpleNamespace(
+        sys.modules["hydro2d.solver.simulation"] = types.SimpleNamespace(
             Simulation=fake.Simulation, UnphysicalState=fake.UnphysicalState)
         from hydro2d.cli import main
         main(sys.argv[1:])

@@ -8,7 +8,7 @@ import numba
 import pytest
 
 from hydro2d import jit
-from hydro2d.compilation import announced, is_compiled, once
+from hydro2d.running.compilation import announced, is_compiled, once
 
 
 def test_what_is_compiled_is_said():

@@ -3,10 +3,14 @@
 import numpy as np
 import pytest
 
-from hydro2d import check, deck, derived, figures, snapshot, tracers
-from hydro2d.method import Method
-from hydro2d.simulation import Simulation
-from hydro2d.vtk import Dump
+from hydro2d.deck import deck
+from hydro2d.output import derived, snapshot
+from hydro2d.output.vtk import Dump
+from hydro2d.results import figures
+from hydro2d.running import check
+from hydro2d.solver import tracers
+from hydro2d.solver.method import Method
+from hydro2d.solver.simulation import Simulation
 
 TEXT = """
 [mesh]

@@ -6,14 +6,16 @@ import h5py
 import numpy as np
 import pytest
 
-from hydro2d import deck, figures, history
-from hydro2d.cli import call
-from hydro2d.figures import FigureError
-from hydro2d.insertion import fractions
-from hydro2d.results import ResultsError, load
-from hydro2d.run import run
-from hydro2d.shapes import polygon
-from hydro2d.simulation import Simulation
+from hydro2d.cli.main import call
+from hydro2d.deck import deck
+from hydro2d.deck.shapes import polygon
+from hydro2d.output import history
+from hydro2d.results import figures
+from hydro2d.results.figures import FigureError
+from hydro2d.results.reading import ResultsError, load
+from hydro2d.running.run import run
+from hydro2d.solver.insertion import fractions
+from hydro2d.solver.simulation import Simulation
 
 TEXT = """
 [mesh]

@@ -8,9 +8,9 @@ import textwrap
 import numpy as np
 import pytest
 
-from hydro2d import deck
-from hydro2d.deck_errors import key_lines, nearest
-from hydro2d.deck_mesh import axis_edges
+from hydro2d.deck import deck
+from hydro2d.deck.mesh import axis_edges
+from hydro2d.errors import key_lines, nearest
 
 TEXT = """\
 title = "a rod and a plate"
@@ -455,7 +455,7 @@ def test_every_key_has_a_description():
 
 
 def test_importing_decks_is_light():
-    script = "import sys; import hydro2d.deck; print({'pint', 'numba', 'pyvista', 'scipy'} & set(sys.modules))"
+    script = "import sys; import hydro2d.deck.deck; print({'pint', 'numba', 'pyvista', 'scipy'} & set(sys.modules))"
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "set()"
 

@@ -6,9 +6,12 @@ import math
 import numpy as np
 import pytest
 
-from hydro2d import deck, model_deck, results, run
-from hydro2d.history import History
+from hydro2d.analytic import model_deck
+from hydro2d.deck import deck
+from hydro2d.output.history import History
 from hydro2d.penetration import forrestal
+from hydro2d.results import reading
+from hydro2d.running import run
 from problems.sliding.drag import main, measure, windows
 
 DECK = "problems/cth_nose_shape/hemi_5083_1086_quick.toml"
@@ -35,7 +38,7 @@ def steady(tmp_path):
 
 def test_constant_force(steady):
     found = measure(steady)
-    mass = model_deck.read(steady / results.DECK).values["rod.mass"].value
+    mass = model_deck.read(steady / reading.DECK).values["rod.mass"].value
     assert [row["time"] for row in found["rows"]] == pytest.approx([5e-6, 15e-6, 25e-6, 35e-6])
     assert [row["speed"] for row in found["rows"]] == pytest.approx([SPEED - 1.5e6 * t for t in (5e-6, 15e-6, 25e-6, 35e-6)])
     assert [row["force"] for row in found["rows"]] == pytest.approx([mass * 1.5e6 / (math.pi * RADIUS**2)] * 4)

@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from hydro2d import figures
-from hydro2d.figures import FigureError
-from hydro2d.outlines import outlines
-from hydro2d.results import load
-from hydro2d.vtk import Dump
+from hydro2d.output.outlines import outlines
+from hydro2d.output.vtk import Dump
+from hydro2d.results import figures
+from hydro2d.results.figures import FigureError
+from hydro2d.results.reading import load
 from tests.unit import fake
 
 

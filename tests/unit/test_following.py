@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from hydro2d import check
-from hydro2d import deck as decks
-from hydro2d.following import FollowingMesh, StandingMesh, UndisturbedSpace
+from hydro2d.deck import deck as decks
 from hydro2d.kernels.boundaries import impedances
-from hydro2d.simulation import Simulation
+from hydro2d.running import check
+from hydro2d.solver.following import FollowingMesh, StandingMesh, UndisturbedSpace
+from hydro2d.solver.simulation import Simulation
 
 TEXT = """\
 [mesh]

@@ -4,7 +4,7 @@ import h5py
 import numpy as np
 import pytest
 
-from hydro2d.history import History, HistoryError, read, unit, write_csv
+from hydro2d.output.history import History, HistoryError, read, unit, write_csv
 
 
 def filled(path, rows=5):

@@ -9,8 +9,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from eos.dispatch import evaluate
-from hydro2d import deck, insertion, materials, shapes
-from hydro2d.grid import Grid
+from hydro2d.deck import deck, shapes
+from hydro2d.materials import library
+from hydro2d.mesh.grid import Grid
+from hydro2d.solver import insertion
 
 R_EDGES = np.concatenate([np.linspace(0, 0.012, 37), 0.012 + np.cumsum(0.0004 * 1.1 ** np.arange(12))])
 Z_EDGES = np.linspace(-0.021, 0.0307, 97)
@@ -221,7 +223,7 @@ time = "10 us"
 
 def start(text, overrides=()):
     d = deck.loads(text, overrides)
-    grid, table = Grid(*deck.edges(d), d.mesh.geometry), materials.resolve(d)
+    grid, table = Grid(*deck.edges(d), d.mesh.geometry), library.resolve(d)
     return d, grid, table, insertion.initial_state(d, grid, table)
 
 
@@ -250,7 +252,7 @@ def test_velocity_is_momentum_over_mass():
 
 def test_body_groups_keep_their_momentum_apart():
     d = deck.loads(TEXT, ["body.rod.velocity=[3.0, 1000.0]", 'body.rod.tip="0.3 mm"', "body.plate.velocity=-50"])
-    grid, table = Grid(*deck.edges(d), d.mesh.geometry), materials.resolve(d)
+    grid, table = Grid(*deck.edges(d), d.mesh.geometry), library.resolve(d)
     state = insertion.initial_state(d, grid, table, np.array([1, 0]))
     rod, plate = state["vof"] > 0
     assert (rod & plate).any()
@@ -288,13 +290,13 @@ def test_gas_states():
 
 
 def deck_text_of(name):
-    return (materials.problems_folder() / name).read_text(encoding="utf-8")
+    return (library.problems_folder() / name).read_text(encoding="utf-8")
 
 
 def test_a_temperature_without_an_energy_is_an_error():
     text = deck_text_of("verification/noh_spherical.toml").replace("energy = 0.0", "pressure = -1.0")
     d = deck.loads(text)
-    table = materials.resolve(d)
+    table = library.resolve(d)
     assert insertion.body_state(d.body[0], table, 0)[1] < 0  # a gas under tension: the solver will refuse it
     cold = SimpleNamespace(name="x", density=1e-3, energy=None, pressure=None, temperature=-5.0)
     with pytest.raises(deck.DeckError, match='body "x": no energy gives a temperature of -5'):

@@ -7,7 +7,8 @@ import pytest
 
 import eos
 import strength
-from hydro2d import deck, materials
+from hydro2d.deck import deck
+from hydro2d.materials import library
 from strength.layout import SHEAR, YIELD
 
 TEXT = """\
@@ -26,7 +27,7 @@ shape = "box"
 z = [0.01, 0.02]
 [stop]
 time = "1 us"
-[materials.A]
+[library.A]
 """
 
 
@@ -40,22 +41,22 @@ def message(text):
     return str(caught.value)
 
 
-@pytest.mark.parametrize("name", materials.names())
+@pytest.mark.parametrize("name", library.names())
 def test_every_number_of_the_library_has_a_source(name):
-    for variant in (None, *materials.load(name).variants):
-        material = materials.load(name, variant)
+    for variant in (None, *library.load(name).variants):
+        material = library.load(name, variant)
         assert material.title
         for model in (material.eos, material.strength, material.damage):
             for key, number in model.numbers.items():
                 assert number.source, f"{name}.{key}"
-                assert number.confidence in materials.CONFIDENCE
+                assert number.confidence in library.CONFIDENCE
         if material.fracture_pressure is not None:
             assert material.fracture_pressure.source
 
 
-@pytest.mark.parametrize("name", materials.names())
+@pytest.mark.parametrize("name", library.names())
 def test_every_material_makes_rows(name):
-    material = materials.load(name)
+    material = library.load(name)
     assert eos.MODELS[material.eos.name].row(material.eos.values)[eos.RHO0] == material.reference_density
     assert np.isfinite(strength.STRENGTH_MODELS[material.strength.name].row(material.strength.values)[SHEAR])
     strength.DAMAGE_MODELS[material.damage.name].row(material.damage.values)
@@ -63,8 +64,8 @@ def test_every_material_makes_rows(name):
 
 def test_metals_are_metals():
     """Poisson's ratio of every solid, from the bulk modulus rho0 c0^2 and G, is that of a metal; cv is near 3R."""
-    for name in materials.names():
-        material = materials.load(name)
+    for name in library.names():
+        material = library.load(name)
         if not material.has_strength:
             continue
         values = material.eos.values
@@ -77,7 +78,7 @@ def test_metals_are_metals():
 
 
 def test_the_numbers_of_the_study():
-    W, soft, hard = (materials.load(name) for name in ("W_alloy", "Al5083", "Al7039"))
+    W, soft, hard = (library.load(name) for name in ("W_alloy", "Al5083", "Al7039"))
     expected = {
         "reference_density": (18160.0, 2660.0, 2770.0),
         "sound_speed": (4030.0, 5340.0, 5200.0),
@@ -93,7 +94,7 @@ def test_the_numbers_of_the_study():
 
 
 def test_the_sintered_tungsten_says_what_is_recalled_and_what_is_taken_over():
-    material, W = materials.load("W_sintered"), materials.load("W_alloy")
+    material, W = library.load("W_sintered"), library.load("W_alloy")
     recalled = {key: n.value for key, n in material.strength.numbers.items() if n.confidence == "recalled"}
     assert recalled == {
         "yield_stress": 1197e6, "hardening": 580e6, "hardening_exponent": 0.05, "rate_coefficient": 0.025,
@@ -112,33 +113,33 @@ def test_the_sintered_tungsten_says_what_is_recalled_and_what_is_taken_over():
 
 
 def test_doubtful_numbers_are_variants():
-    assert materials.load("W_alloy").eos.values["specific_heat"] == 143.0
-    assert materials.load("W_alloy", "cv-printed").eos.values["specific_heat"] == 1430.5
-    assert materials.load("Al5083", "c0-5240").eos.values["sound_speed"] == 5240.0
+    assert library.load("W_alloy").eos.values["specific_heat"] == 143.0
+    assert library.load("W_alloy", "cv-printed").eos.values["specific_heat"] == 1430.5
+    assert library.load("Al5083", "c0-5240").eos.values["sound_speed"] == 5240.0
     for name in ("W_alloy", "Al5083", "Al7039"):
-        damage = materials.load(name, "strain-failure").damage
+        damage = library.load(name, "strain-failure").damage
         assert (damage.name, damage.values["D1"], damage.values["D2"]) == ("johnson-cook", 1.5, 0.0)
-    refit = materials.load("copper_OFHC", "johnson-cook")
+    refit = library.load("copper_OFHC", "johnson-cook")
     assert refit.strength.name == "johnson-cook"
     assert refit.strength.values["yield_stress"] == 90e6
 
 
 def test_describe_shows_sources_and_variants():
-    page = materials.describe("W_alloy")
+    page = library.describe("W_alloy")
     for fragment in ("specific_heat", "143", "J/(kg*K)", "cv-printed", "steinberg-guinan", "Table 1", "printed"):
         assert fragment in page
 
 
 def test_unknown_names():
     with pytest.raises(deck.DeckError, match='unknown material "W_aloy"; did you mean "W_alloy"?'):
-        materials.load("W_aloy")
+        library.load("W_aloy")
     with pytest.raises(deck.DeckError, match=r"tungsten\.toml:\d+: material W_alloy: unknown variant \"cv\""):
-        materials.load("W_alloy", "cv")
+        library.load("W_alloy", "cv")
 
 
 def test_a_material_based_on_another():
     d = with_material('based_on = "W_alloy"\nvariant = "cv-printed"\nstrength.yield_stress = "2 GPa"\n')
-    A, W = d.materials["A"], materials.load("W_alloy")
+    A, W = d.materials["A"], library.load("W_alloy")
     assert A.strength.values == {**W.strength.values, "yield_stress": 2e9}
     assert A.eos.values == {**W.eos.values, "specific_heat": 1430.5}
     assert A.strength.numbers["yield_stress"].confidence == "deck"
@@ -172,7 +173,7 @@ def test_strength_takes_what_the_eos_has():
     ("text", "line", "fragment"),
     [
         ('based_on = "W_aloy"', 17, 'based_on: unknown material "W_aloy"; did you mean "W_alloy"?'),
-        ('based_on = "B"\n[materials.B]\nbased_on = "A"', 19, "goes round in a circle: A -> B -> A"),
+        ('based_on = "B"\n[library.B]\nbased_on = "A"', 19, "goes round in a circle: A -> B -> A"),
         ('based_on = "W_alloy"\nvariant = "cv-prined"', 18, 'did you mean "cv-printed"?'),
         ('based_on = "W_alloy"\nvariant = 3', 18, "is the name of a variant or a list of names"),
         ('based_on = ["W_alloy"]', 17, "is the name of a material"),
@@ -187,7 +188,7 @@ def test_strength_takes_what_the_eos_has():
         ('based_on = "W_alloy"\nstrength.model = "steinberg"', 18, 'did you mean "steinberg-guinan"?'),
         ('based_on = "W_alloy"\nstrenth.model = "hydrodynamic"', 18, 'did you mean "strength"?'),
         ('based_on = "W_alloy"\nfracture_pressure = "-3 GPa"', 18, "must be positive (a tension)"),
-        ('[materials.A.eos]\nmodel = "ideal-gas"\nreference_density = 1.0', 17, "ideal-gas needs adiabatic_index"),
+        ('[library.A.eos]\nmodel = "ideal-gas"\nreference_density = 1.0', 17, "ideal-gas needs adiabatic_index"),
     ],
 )
 def test_mistakes_in_materials(text, line, fragment):
@@ -197,14 +198,14 @@ def test_mistakes_in_materials(text, line, fragment):
 
 
 def test_a_library_name_without_based_on_says_so():
-    text = TEXT.replace("[materials.A]", "[materials.W_alloy]\nstrength.yield_stress = 1e9")
+    text = TEXT.replace("[library.A]", "[library.W_alloy]\nstrength.yield_stress = 1e9")
     with pytest.raises(deck.DeckError, match='to change a material of the library, write based_on = "W_alloy"'):
         deck.loads(text)
 
 
 def test_the_table():
     d = with_material('based_on = "Al7039"\n')
-    table = materials.resolve(d)
+    table = library.resolve(d)
     assert table.names == ("a", "b")
     assert len(table) == 2
     assert list(table.rho0) == [2770.0, 2660.0]
@@ -221,24 +222,24 @@ def test_the_table():
 
 def test_failure_is_switched_by_the_deck():
     text = 'based_on = "Al7039"\n[failure]\ntensile = "none"\ndamage = "material"\n'
-    table = materials.resolve(with_material(text))
+    table = library.resolve(with_material(text))
     assert list(table.fracture_pressure) == [math.inf, math.inf]
     assert list(table.damage_model) == [strength.DAMAGE_MODELS["johnson-cook"].ID, 0]
 
 
 def test_bodies_that_join_share_a_slot():
     text = TEXT.replace('material = "Al5083"', 'material = "A"\njoin = "a"')
-    assert materials.resolve(deck.loads(text + 'based_on = "Al7039"\n')).names == ("a",)
+    assert library.resolve(deck.loads(text + 'based_on = "Al7039"\n')).names == ("a",)
 
 
 def test_what_a_model_refuses_is_a_deck_error():
     text = 'based_on = "Al5083"\nstrength.poisson_ratio = 0.7\n'
     with pytest.raises(deck.DeckError, match="material A: power-law: poisson_ratio = 0.7"):
-        materials.resolve(with_material(text))
+        library.resolve(with_material(text))
 
 
 def test_a_resolved_deck_gives_the_same_rows():
     d = with_material('based_on = "W_alloy"\nvariant = "strain-failure"\n[failure]\ndamage = "material"\n')
-    first, second = materials.resolve(d), materials.resolve(deck.loads(d.to_toml()))
+    first, second = library.resolve(d), library.resolve(deck.loads(d.to_toml()))
     for key in ("eos_par", "strength_par", "damage_par", "fracture_pressure", "rho0"):
         assert np.array_equal(getattr(first, key), getattr(second, key))

@@ -7,13 +7,13 @@ import shlex
 
 import pytest
 
-from hydro2d import materials, model_deck, model_materials, model_text, model_transition
-from hydro2d import model as models
-from hydro2d.cli import call
-from hydro2d.model_materials import Given
+from hydro2d.analytic import model_deck, model_materials, model_text, model_transition, models
+from hydro2d.analytic.model_materials import Given
+from hydro2d.cli.main import call
+from hydro2d.materials import library
 from hydro2d.penetration import catalogue, inputs
 from hydro2d.penetration.model import Example, Input, InputError, Model, Output
-from hydro2d.results import ResultsError
+from hydro2d.results.reading import ResultsError
 
 HEMI = "problems/cth_nose_shape/hemi_5083_1086.toml"
 W_INTO_5083 = ["--rod", "W_alloy", "--target", "Al5083"]
@@ -38,7 +38,7 @@ def toy(*extra: Input, values=None) -> Model:
 
 def test_numbers_of_a_steinberg_guinan_material():
     """K = rho0 c0^2 and G give E and nu; the ultimate strength is Y0 (1 + beta)^n, below the cap."""
-    found = {name: given.value for name, given in model_materials.quantities(materials.load("W_alloy")).items()}
+    found = {name: given.value for name, given in model_materials.quantities(library.load("W_alloy")).items()}
     K, G = 18160.0 * 4030.0**2, 145e9
     assert found["density"] == 18160.0
     assert found["sound_speed"] == 4030.0
@@ -53,7 +53,7 @@ def test_numbers_of_a_steinberg_guinan_material():
 
 def test_numbers_of_a_power_law():
     """E, nu and n are the law's own; at a strain the strength is hardened and n is not applied again."""
-    material = materials.load("Al5083")
+    material = library.load("Al5083")
     found = model_materials.quantities(material)
     assert (found["strength"].value, found["hardening_exponent"].value) == (276e6, 0.084)
     assert (found["youngs_modulus"].value, found["poisson_ratio"].value) == (70.3e9, 0.33333)
@@ -65,7 +65,7 @@ def test_numbers_of_a_power_law():
 
 
 def test_johnson_cook_at_a_strain_and_a_variant():
-    assert model_materials.quantities(materials.load("Al7039"), 0.2)["strength"].value == pytest.approx(
+    assert model_materials.quantities(library.load("Al7039"), 0.2)["strength"].value == pytest.approx(
         337e6 + 343e6 * 0.2**0.41, rel=1e-12)  # fmt: skip
     assert model_materials.quantities(model_materials.load("Al5083:c0-5240"))["sound_speed"].value == 5240.0
 
@@ -73,13 +73,13 @@ def test_johnson_cook_at_a_strain_and_a_variant():
 @pytest.mark.parametrize("strain", [-0.1, math.nan, math.inf])
 def test_an_impossible_strain_is_refused(strain):
     with pytest.raises(InputError, match="strain"):
-        model_materials.quantities(materials.load("Al5083"), strain)
+        model_materials.quantities(library.load("Al5083"), strain)
 
 
-@pytest.mark.parametrize("name", materials.names())
+@pytest.mark.parametrize("name", library.names())
 def test_every_material_of_the_library_is_read(name):
     """What a material gives is finite; a gas has no strength and says so."""
-    material = materials.load(name)
+    material = library.load(name)
     found = model_materials.quantities(material)
     assert set(found) <= set(inputs.FROM_LIBRARY)
     assert all(math.isfinite(given.value) and given.source.startswith(name) for given in found.values())
@@ -90,7 +90,7 @@ def test_every_material_of_the_library_is_read(name):
 
 
 def test_the_order_of_sources():
-    W, Al = materials.load("W_alloy"), materials.load("Al5083")
+    W, Al = library.load("W_alloy"), library.load("Al5083")
     request = models.Request(rod=W, target=Al, settings={"rod.strength": 2e9, "rod.diameter": 0.02})
     found = models.resolve(toy(), request).inputs
     assert found["rod.strength"] == Given(2e9, "given")
@@ -112,7 +112,7 @@ def test_the_example_is_taken_whole_where_nothing_is_chosen():
 
 def test_a_material_that_is_chosen_outranks_the_example():
     model = toy(values={"rod.diameter": 0.01, "rod.length": 0.1, "rod.strength": 1e9})
-    found = models.resolve(model, models.Request(rod=materials.load("W_alloy"))).inputs
+    found = models.resolve(model, models.Request(rod=library.load("W_alloy"))).inputs
     assert found["rod.strength"].value == pytest.approx(1.87e9)
 
 
@@ -120,7 +120,7 @@ def test_a_material_that_is_chosen_outranks_the_example():
 def test_the_third_of_diameter_length_and_mass(missing):
     """Two of them and the density give the third, whatever the example has."""
     whole = {"rod.diameter": 0.008, "rod.length": 0.05, "rod.mass": 18160.0 * math.pi / 4.0 * 0.008**2 * 0.05}
-    request = models.Request(rod=materials.load("W_alloy"), settings={k: v for k, v in whole.items() if k != missing})
+    request = models.Request(rod=library.load("W_alloy"), settings={k: v for k, v in whole.items() if k != missing})
     found = models.resolve(toy(), request).values
     assert {name: found[name] for name in whole} == pytest.approx(whole, rel=1e-14)
 
@@ -147,7 +147,7 @@ def test_a_deck_gives_the_geometry():
     ("nose", "key", "value"), [("ogive", "nose.crh", 2.5), ("conical", "nose.half_angle", 0.4)]
 )  # fmt: skip
 def test_a_nose_of_a_deck(nose, key, value):
-    from hydro2d import deck
+    from hydro2d.deck import deck
 
     given = f"{'crh' if nose == 'ogive' else 'half_angle'}={value}"
     loaded = deck.load(HEMI, [f"body.rod.nose={nose}", f"body.rod.{given}"])
@@ -320,7 +320,7 @@ def test_how_far_from_a_bracket():
 
 def run_directory(folder, velocity, regime, overrides=()):
     """A directory as a run leaves it, as far as the comparison reads it."""
-    from hydro2d import deck
+    from hydro2d.deck import deck
 
     folder.mkdir()
     (folder / "deck.toml").write_text(deck.load(HEMI, [f"body.rod.velocity={velocity}", *overrides]).to_toml())
@@ -352,6 +352,6 @@ def test_transition_side_by_side(capsys, tmp_path):
     data = json.loads(capsys.readouterr().out)
     assert data["brackets"][0] | {"source": ""} == {"name": "experiment", "low": 1086.0, "high": 1200.0, "source": ""}
     tate = next(entry for entry in data["models"] if entry["model"] == "tate")
-    case = models.resolve(catalogue.MODELS["tate"], models.Request(materials.load("W_alloy"), materials.load("Al5083")))
+    case = models.resolve(catalogue.MODELS["tate"], models.Request(library.load("W_alloy"), library.load("Al5083")))
     assert tate["transition_velocity"] == pytest.approx(case.transition(), rel=1e-12)
     assert tate["inputs"]["rod.strength"]["value"] == pytest.approx(1.87e9)

@@ -5,9 +5,10 @@ import json
 import numpy as np
 import pytest
 
-from hydro2d import deck, history
-from hydro2d.penetrator import LEFT
-from hydro2d.simulation import WATCH_EVERY, Simulation
+from hydro2d.deck import deck
+from hydro2d.output import history
+from hydro2d.solver.penetrator import LEFT
+from hydro2d.solver.simulation import WATCH_EVERY, Simulation
 
 TEXT = """
 [mesh]

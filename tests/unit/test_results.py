@@ -8,9 +8,10 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 import hydro2d
-from hydro2d import figures, history, results, vtk
-from hydro2d.results import ResultsError
-from hydro2d.run import run as start
+from hydro2d.output import history, vtk
+from hydro2d.results import figures, reading
+from hydro2d.results.reading import ResultsError
+from hydro2d.running.run import run as start
 from hydro2d.study import layout
 from tests.unit import fake
 
@@ -109,7 +110,7 @@ def test_a_package_that_is_broken_says_so_itself(shot, monkeypatch):
     def broken(name):
         raise ModuleNotFoundError("No module named 'dateutil'", name="dateutil")
 
-    monkeypatch.setattr(results.importlib, "import_module", broken)
+    monkeypatch.setattr(reading.importlib, "import_module", broken)
     with pytest.raises(ModuleNotFoundError, match="dateutil"):
         shot.to_pandas()
 

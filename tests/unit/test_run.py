@@ -9,11 +9,11 @@ import sys
 import numpy as np
 import pytest
 
-from hydro2d import history, snapshot, vtk
-from hydro2d.deck_models import Sliding
-from hydro2d.derived import FieldError
+from hydro2d.deck.sections import Sliding
 from hydro2d.files import LockError
-from hydro2d.run import Due, Interrupt, RunError, exit_status, run
+from hydro2d.output import history, snapshot, vtk
+from hydro2d.output.derived import FieldError
+from hydro2d.running.run import Due, Interrupt, RunError, exit_status, run
 from tests.unit import fake
 
 

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from hydro2d import deck
-from hydro2d.audit import totals
-from hydro2d.simulation import WATCH_EVERY, Simulation
+from hydro2d.deck import deck
+from hydro2d.solver.audit import totals
+from hydro2d.solver.simulation import WATCH_EVERY, Simulation
 
 TEXT = """
 [mesh]

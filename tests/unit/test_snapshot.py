@@ -6,8 +6,8 @@ import h5py
 import numpy as np
 import pytest
 
-from hydro2d import snapshot
-from hydro2d.snapshot import Snapshot, SnapshotError
+from hydro2d.output import snapshot
+from hydro2d.output.snapshot import Snapshot, SnapshotError
 
 
 def sample(value=1.0):

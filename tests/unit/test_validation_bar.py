@@ -5,7 +5,10 @@ import json
 import numpy as np
 import pytest
 
-from hydro2d import deck, files, run, vtk
+from hydro2d import files
+from hydro2d.deck import deck
+from hydro2d.output import vtk
+from hydro2d.running import run
 from problems.validation import bar
 
 DECK = "problems/validation/copper_bar.toml"

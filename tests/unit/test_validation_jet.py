@@ -5,7 +5,11 @@ import json
 import numpy as np
 import pytest
 
-from hydro2d import deck, files, materials, run, vtk
+from hydro2d import files
+from hydro2d.deck import deck
+from hydro2d.materials import library
+from hydro2d.output import vtk
+from hydro2d.running import run
 from problems.validation import jet
 
 DECK = "problems/validation/jet_w_5083_2.toml"
@@ -28,11 +32,11 @@ FIELDS = [f"{word} {body}{unit}" for word, unit in (("Volume Fraction for", ""),
 )
 def test_compressible_bernoulli(rod, target, velocity, u, p):
     """Against an independent solution; slow jets have the velocity and pressure of incompressible ones."""
-    found = jet.bernoulli(materials.load(rod), materials.load(target), velocity)
+    found = jet.bernoulli(library.load(rod), library.load(target), velocity)
     assert found == pytest.approx((u, p), rel=3e-4)
-    densities = [materials.load(name).reference_density for name in (rod, target)]
+    densities = [library.load(name).reference_density for name in (rod, target)]
     slow = 50.0 / (1.0 + (densities[1] / densities[0]) ** 0.5)
-    assert jet.bernoulli(materials.load(rod), materials.load(target), 50.0) == pytest.approx(
+    assert jet.bernoulli(library.load(rod), library.load(target), 50.0) == pytest.approx(
         (slow, 0.5 * densities[1] * slow**2), rel=1e-3
     )
 

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from hydro2d import derived, vtk
+from hydro2d.output import derived, vtk
 from tests.unit import fake
 
 

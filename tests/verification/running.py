@@ -6,8 +6,8 @@ import functools
 
 import numpy as np
 
-from hydro2d import deck as decks
-from hydro2d.simulation import Simulation
+from hydro2d.deck import deck as decks
+from hydro2d.solver.simulation import Simulation
 
 FOLDER = "problems/verification"
 ADVECTION = ("ke", "momentum", "both")

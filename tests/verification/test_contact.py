@@ -6,9 +6,9 @@ import math
 import numpy as np
 import pytest
 
-from hydro2d import deck as decks
-from hydro2d.derived import Cells
-from hydro2d.simulation import Simulation
+from hydro2d.deck import deck as decks
+from hydro2d.output.derived import Cells
+from hydro2d.solver.simulation import Simulation
 from tests.verification.running import ADVECTION, Line, advection, between, finish
 
 FOLDER = "problems/sliding"

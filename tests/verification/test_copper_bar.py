@@ -5,7 +5,7 @@ import functools
 import numpy as np
 import pytest
 
-from hydro2d import deck as decks
+from hydro2d.deck import deck as decks
 from problems.validation import bar
 from tests.verification.running import finish
 

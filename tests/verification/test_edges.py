@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from hydro2d import deck as decks
-from hydro2d.simulation import Simulation
+from hydro2d.deck import deck as decks
+from hydro2d.solver.simulation import Simulation
 from tests.verification.running import ADVECTION, advection
 
 FLIGHT = """

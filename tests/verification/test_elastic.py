@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from hydro2d import deck as decks
+from hydro2d.deck import deck as decks
 from tests.verification.running import ADVECTION, FOLDER, Line, advection, between, crossing, finish, speed
 
 # Solution of the piston at 400 m/s for Wilkins' aluminium, as tests/exact/test_elastic_plastic.py has it in print.

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from hydro2d import deck
-from hydro2d.fields import SRR, SRZ
-from hydro2d.simulation import Simulation
+from hydro2d.deck import deck
+from hydro2d.mesh.fields import SRR, SRZ
+from hydro2d.solver.simulation import Simulation
 from tests.verification.running import finish
 from tests.verification.test_translation import ROD
 

@@ -5,8 +5,8 @@ Both are means over several diameters of depth, since the impact sets jet and ta
 
 import pytest
 
-from hydro2d import deck as decks
-from hydro2d import thermal
+from hydro2d.deck import deck as decks
+from hydro2d.materials import thermal
 from problems.validation import jet
 from tests.verification.running import advection, finish
 

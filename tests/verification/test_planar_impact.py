@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from hydro2d import deck as decks
+from hydro2d.deck import deck as decks
 from tests.verification.running import ADVECTION, FOLDER, Line, advection, between, crossing, finish, run, speed
 
 # flyer speed: u m/s, p GPa, shock speeds m/s (relative to the metal ahead) in target and flyer, densities behind them.

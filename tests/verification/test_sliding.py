@@ -13,8 +13,8 @@ import functools
 import numpy as np
 import pytest
 
-from hydro2d import deck
-from hydro2d.simulation import Simulation
+from hydro2d.deck import deck
+from hydro2d.solver.simulation import Simulation
 
 SPEED, YIELD = 200.0, 0.3e9
 SURFACE, CELL = 2.1e-3, 0.25e-3

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from hydro2d import deck as decks
+from hydro2d.deck import deck as decks
 from tests.exact.impact import AL_5083, AL_7039, TUNGSTEN, Solid, pull_back
 from tests.verification.running import ADVECTION, Line, advection, finish
 

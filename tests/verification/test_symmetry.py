@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from hydro2d import deck
-from hydro2d.simulation import Simulation
+from hydro2d.deck import deck
+from hydro2d.solver.simulation import Simulation
 
 MESH = """
 [mesh]

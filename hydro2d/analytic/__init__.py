@@ -1,0 +1,1 @@
+"""The analytic penetration models, set beside materials, decks, experiments and runs."""

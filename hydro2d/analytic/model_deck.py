@@ -1,0 +1,91 @@
+"""The rod and the target of an input deck, as the analytic models want them."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from hydro2d.analytic.model_materials import Given
+from hydro2d.deck import deck as decks
+from hydro2d.deck import shapes
+from hydro2d.errors import DeckError
+from hydro2d.materials.library import Material
+from hydro2d.solver import insertion
+
+#: words of decks for noses, where they differ from the models'
+NOSES = {"ogive": "ogival"}
+
+
+@dataclass(frozen=True)
+class Shot:
+    """A deck's rod and target: their materials, the impact velocity in m/s, and the geometry by input name."""
+
+    name: str
+    rod: Material
+    target: Material
+    velocity: float
+    nose: str
+    values: dict[str, Given]
+
+
+def read(path: Path) -> Shot:
+    """The shot of a deck file. Raises DeckError where the deck is wrong or has no rod and target."""
+    return shot(decks.load(path))
+
+
+def shot(deck: decks.Deck) -> Shot:
+    """The shot of a resolved deck."""
+    if deck.penetration is None or deck.mesh.geometry != "cylindrical":
+        raise DeckError(f"{deck.name}: a rod on the axis and a target are needed; [penetration] names them")
+    rod, target = (decks.body(deck, getattr(deck.penetration, key)) for key in ("rod", "target"))
+    if rod.shape != "rod":
+        raise DeckError(f'{deck.name}: the penetrator "{rod.name}" is a {rod.shape}; the models take a rod')
+    numbers = {**_rod(rod, deck.materials[rod.material]), **_target(target)}
+    values = {name: Given(value, f"deck {deck.name}") for name, value in numbers.items()}
+    return Shot(deck.name, deck.materials[rod.material], deck.materials[target.material], impact_velocity(deck),
+                NOSES.get(rod.nose, rod.nose), values)  # fmt: skip
+
+
+def impact_velocity(deck: decks.Deck) -> float:
+    """The speed with which the rod meets the target, m/s; the deck must have both."""
+    rod, target = (decks.body(deck, getattr(deck.penetration, key)) for key in ("rod", "target"))
+    return abs(rod.velocity[1] - target.velocity[1])
+
+
+def _rod(rod, material: Material) -> dict[str, float | str]:
+    """Diameter, mass, length of the cylinder of that mass, and nose."""
+    R, nose = rod.rod_radius, rod.resolved_nose_length
+    volume = _volume(rod)
+    density = rod.density if rod.density is not None else material.reference_density
+    found = {
+        "rod.diameter": 2.0 * R,
+        "rod.mass": density * volume,
+        "rod.length": volume / (math.pi * R**2),
+        "nose.shape": NOSES.get(rod.nose, rod.nose),
+    }
+    if rod.density is not None:
+        found["rod.density"] = density
+    if rod.nose == "ogive":
+        found["nose.crh"] = (nose**2 + R**2) / (4.0 * R**2)
+    if rod.nose == "conical":
+        found["nose.half_angle"] = math.atan2(R, nose)
+    return found
+
+
+def _volume(rod) -> float:
+    """Volume of the rod, m^3: the share that it fills of the cylinder around it."""
+    outline = shapes.outline(rod, 0.0)
+    edges = np.array(outline.extent("z"))
+    share = insertion.fractions([outline], np.array([0.0, rod.rod_radius]), edges, cylindrical=True)
+    return float(share[0, 0, 0]) * math.pi * rod.rod_radius**2 * (edges[1] - edges[0])
+
+
+def _target(target) -> dict[str, float]:
+    if target.shape == "plate":
+        return {"target.thickness": target.thickness}
+    if target.shape == "box":
+        return {"target.thickness": target.z[1] - target.z[0]}
+    return {}

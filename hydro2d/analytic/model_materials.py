@@ -1,0 +1,106 @@
+"""What an analytic model needs of a material of the library, each number with a word on where it comes from."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from hydro2d.materials import library
+from hydro2d.penetration.model import InputError, Value
+
+#: state at which a flow stress is taken: plastic strain rate in 1/s, and the plastic strain that stands for "ultimate"
+RATE, ULTIMATE_STRAIN = 1.0, 1.0
+#: where an equation of state names no reference temperature, K
+ROOM = 298.0
+
+
+@dataclass(frozen=True)
+class Given:
+    """A value of an input in SI, and where it comes from."""
+
+    value: Value
+    source: str
+
+
+def load(text: str) -> library.Material:
+    """A material by NAME or NAME:VARIANT. Raises DeckError with the nearest name."""
+    name, colon, variant = text.partition(":")
+    return library.load(name, variant if colon else None)
+
+
+def quantities(material: library.Material, strain: float = 0.0) -> dict[str, Given]:
+    """Inputs by the last part of their name (``inputs.FROM_LIBRARY``), as far as the material has them.
+
+    ``strain`` is the equivalent plastic strain at which the strength is taken; 0 is initial yield. A strength taken at a
+    positive strain is hardened already, so that the hardening exponent is 0 there. Raises InputError.
+    """
+    if not (math.isfinite(strain) and strain >= 0.0):
+        raise InputError(f"strain = {strain:g}: must be non-negative")
+    return {**_equation_of_state(material), **_elastic(material), **_strength(material, strain)}
+
+
+def _printed(material: library.Material, part: str, name: str) -> str:
+    model = getattr(material, part)
+    return f"{material.name}: {name} of {model.name} ({model.numbers[name].confidence})"
+
+
+def _equation_of_state(material: library.Material) -> dict[str, Given]:
+    numbers = material.eos.numbers
+    names = {"density": "reference_density", "sound_speed": "sound_speed", "hugoniot_slope": "hugoniot_slope"}
+    return {
+        key: Given(numbers[name].value, _printed(material, "eos", name)) for key, name in names.items() if name in numbers
+    }
+
+
+def _at_rest(material: library.Material):
+    """The strength model, its row, and the state at rest: pressure, density and temperature."""
+    from strength import STRENGTH_MODELS
+
+    model = STRENGTH_MODELS[material.strength.name]
+    temperature = material.eos.numbers.get("reference_temperature")
+    T = temperature.value if temperature else ROOM
+    return model, model.row(material.strength.values), (0.0, material.reference_density, T)
+
+
+def _elastic(material: library.Material) -> dict[str, Given]:
+    """Shear modulus, Young's modulus and Poisson's ratio: the strength model's own, or with K = rho0 c0^2."""
+    if not material.has_strength:
+        return {}
+    model, row, state = _at_rest(material)
+    G = float(model.shear_modulus(*state, row))
+    found = {"shear_modulus": Given(G, f"{material.name}: shear modulus of {material.strength.name} at rest")}
+    own = material.strength.numbers
+    if "youngs_modulus" in own and "poisson_ratio" in own:
+        for key in ("youngs_modulus", "poisson_ratio"):
+            found[key] = Given(own[key].value, _printed(material, "strength", key))
+    elif "sound_speed" in material.eos.numbers:
+        K = material.reference_density * material.eos.numbers["sound_speed"].value ** 2
+        from_both = f"{material.name}: from the shear modulus and the bulk modulus rho0 c0^2 = {K / 1e9:.4g} GPa"
+        found["youngs_modulus"] = Given(9.0 * K * G / (3.0 * K + G), from_both)
+        found["poisson_ratio"] = Given((3.0 * K - 2.0 * G) / (2.0 * (3.0 * K + G)), from_both)
+    return found
+
+
+def _strength(material: library.Material, strain: float) -> dict[str, Given]:
+    name = material.strength.name
+    if not material.has_strength:
+        return {"strength": Given(0.0, f"{material.name}: {name}, no strength")}
+    model, row, (p, rho, T) = _at_rest(material)
+
+    def flow_stress(at: float) -> Given:
+        source = f"{material.name}: {name} at plastic strain {at:g}, {RATE:g}/s, {T:g} K"
+        return Given(float(model.flow_stress(at, RATE, T, p, rho, row)), source)
+
+    return {
+        "strength": flow_stress(strain),
+        "ultimate_strength": flow_stress(ULTIMATE_STRAIN),
+        "hardening_exponent": _hardening(material, strain),
+    }
+
+
+def _hardening(material: library.Material, strain: float) -> Given:
+    if material.strength.name != "power-law":
+        return Given(0.0, f"{material.name}: {material.strength.name} is no power law")
+    if strain > 0.0:
+        return Given(0.0, f"{material.name}: the strength at plastic strain {strain:g} is hardened already")
+    return Given(material.strength.numbers["hardening_exponent"].value, _printed(material, "strength", "hardening_exponent"))

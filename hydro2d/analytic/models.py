@@ -1,0 +1,182 @@
+"""Analytic models on materials of the library: every input found and its source told, then evaluated.
+
+An input comes, in this order, from what the user sets, from a deck, from the material library, from the geometry of a
+cylinder of equal mass, from its default, and last from the model's own example, which is always said.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+from hydro2d import units
+from hydro2d.analytic import model_materials
+from hydro2d.analytic.model_materials import Given
+from hydro2d.errors import unknown
+from hydro2d.materials.library import Material
+from hydro2d.penetration import catalogue
+from hydro2d.penetration.inputs import FROM_LIBRARY, ROD_DIAMETER, ROD_LENGTH, ROD_MASS
+from hydro2d.penetration.model import Input, InputError, Model, Value
+
+VELOCITY = "velocity"
+EXAMPLE = "the model's example"
+#: the side that an input belongs to, by the first part of its name
+SIDES = {"rod": "rod", "nose": "rod", "target": "target", "cavity": "target"}
+DIAMETER, LENGTH, MASS = CYLINDER = (ROD_DIAMETER.name, ROD_LENGTH.name, ROD_MASS.name)
+LIBRARY = {side: {f"{side}.{last}" for last in FROM_LIBRARY} for side in ("rod", "target")}
+
+
+@dataclass(frozen=True)
+class Request:
+    """What a user chose: materials, inputs by name in SI, a geometry (a deck's), the plastic strain of the strengths."""
+
+    rod: Material | None = None
+    target: Material | None = None
+    settings: Mapping[str, Value] = field(default_factory=dict)
+    geometry: Mapping[str, Given] = field(default_factory=dict)
+    strain: float = 0.0
+
+
+@dataclass(frozen=True)
+class Case:
+    """A model with all its inputs."""
+
+    model: Model
+    inputs: Mapping[str, Given]
+
+    @property
+    def values(self) -> dict[str, Value]:
+        return {name: given.value for name, given in self.inputs.items()}
+
+    def rows(self, velocities: Sequence[float]) -> list[dict[str, float | str]]:
+        """Outputs by name, with the velocity, at impact velocities in m/s. Raises InputError."""
+        return [{VELOCITY: velocity, **self._at(velocity, len(velocities) > 1)} for velocity in velocities]
+
+    def _at(self, velocity: float, one_of_many: bool) -> dict[str, float | str]:
+        try:
+            return self.model(velocity, self.values)
+        except InputError as error:
+            raise InputError(f"at {velocity:g} m/s: {error}" if one_of_many else str(error)) from None
+
+    def transition(self) -> float | None:
+        """Impact velocity above which the rod is no longer rigid, m/s; None where it always is."""
+        return self.model.transition(**self.model.collect(self.values))
+
+
+def named(name: str) -> Model:
+    """A model of the catalogue. Raises InputError with the nearest name."""
+    if name not in catalogue.MODELS:
+        raise InputError(unknown("model", name, catalogue.MODELS))
+    return catalogue.MODELS[name]
+
+
+def example(model: Model) -> Case:
+    """The model with the inputs of its example."""
+    return resolve(model, Request())
+
+
+def settings(texts: Sequence[str], models: Sequence[Model]) -> dict[str, Value]:
+    """Inputs by name in SI from key=value. Raises InputError where no model has the key or the value does not fit."""
+    known = {entry.name: entry for model in models for entry in model.inputs}
+    if set(CYLINDER) & set(known):
+        known |= {entry.name: entry for entry in (ROD_DIAMETER, ROD_LENGTH, ROD_MASS)}
+    found = {}
+    for text in texts:
+        key, equals, value = (part.strip() for part in text.partition("="))
+        if not equals:
+            raise InputError(f'--set "{text}": expected key=value')
+        if key not in known:
+            raise InputError(f"--set {text}: {unknown('input', key, known)}")
+        found[key] = known[key].check(_si(known[key], value))
+    return found
+
+
+def _si(entry: Input, text: str) -> Value:
+    """A word as it is, a quantity in SI."""
+    if entry.choices or entry.unit == "":
+        return text
+    try:
+        return units.to_si(_number(text), entry.unit)
+    except ValueError as error:
+        raise InputError(f"{entry.name}: {error}") from None
+
+
+def _number(text: str) -> float | str:
+    try:
+        return float(text)
+    except ValueError:
+        return text
+
+
+def resolve(model: Model, request: Request) -> Case:
+    """Every input of a model with its source. Raises InputError for an input that is impossible or that nothing gives."""
+    chosen = {name: Given(value, "given") for name, value in request.settings.items()}
+    given = {**_library(model, request), **request.geometry, **chosen}
+    given.update(_cylinder(model, request, chosen, given.get("rod.density")))
+    inputs = {}
+    for entry in model.inputs:
+        found = given.get(entry.name) or _fallback(model, request, entry)
+        if found is not None:
+            inputs[entry.name] = found
+    case = Case(model, inputs)
+    model.collect(case.values)
+    return case
+
+
+def _library(model: Model, request: Request) -> dict[str, Given]:
+    """What the materials give by input name; the example's own numbers and materials where none was chosen."""
+    found = {}
+    for side in ("rod", "target"):
+        wanted = {entry.name for entry in model.inputs if entry.name in LIBRARY[side]} | {f"{side}.density"}
+        material, about = getattr(request, side), ""
+        if material is None:
+            found.update((name, value) for name in wanted if (value := _example(model, name)) is not None)
+            wanted -= set(found)
+            name, about = getattr(model.example, side), f"; {EXAMPLE}"
+            material = model_materials.load(name) if name else None
+        if material is not None:
+            for last, given in model_materials.quantities(material, request.strain).items():
+                if f"{side}.{last}" in wanted:
+                    found[f"{side}.{last}"] = Given(given.value, given.source + about)
+    return found
+
+
+def _example(model: Model, name: str) -> Given | None:
+    return Given(model.example.values[name], EXAMPLE) if name in model.example.values else None
+
+
+def _fallback(model: Model, request: Request, entry: Input) -> Given | None:
+    """The example's value where the user chose nothing of that side; else the default; else the example's value."""
+    value, side = _example(model, entry.name), SIDES.get(entry.name.split(".")[0])
+    if value is not None and all(getattr(request, each) is None for each in ([side] if side else ["rod", "target"])):
+        return value
+    return value if entry.required else Given(entry.default, "default")
+
+
+def _cylinder(model: Model, request: Request, chosen: Mapping[str, Given], density: Given | None) -> dict[str, Given]:
+    """Diameter, length and mass of a cylinder: what the user chose, topped up to two, and the third from the density."""
+    have = {name: chosen[name] for name in CYLINDER if name in chosen}
+    if not have and not set(CYLINDER) & set(request.geometry) and request.rod is None:
+        have = {name: value for name in CYLINDER if (value := _example(model, name)) is not None}
+    needed = {entry.name for entry in model.inputs if entry.required}
+    offers = [(name, request.geometry.get(name)) for name in CYLINDER]
+    offers += [(name, _example(model, name)) for name in CYLINDER if name in needed]
+    for name, value in offers:
+        if value is not None and name not in have and len(have) < 2:
+            have[name] = value
+    missing = set(CYLINDER) - set(have)
+    if len(missing) == 1 and density is not None:
+        have.update(_third(missing.pop(), {name: entry.value for name, entry in have.items()}, density.value))
+    return have
+
+
+def _third(name: str, cylinder: Mapping[str, float], density: float) -> dict[str, Given]:
+    source = "cylinder of the other two of rod.diameter, rod.length, rod.mass, and rod.density"
+    if name == MASS:
+        value = density * math.pi / 4.0 * cylinder[DIAMETER] ** 2 * cylinder[LENGTH]
+    elif name == LENGTH:
+        value = cylinder[MASS] / (density * math.pi / 4.0 * cylinder[DIAMETER] ** 2)
+    else:
+        value = math.sqrt(cylinder[MASS] / (density * math.pi / 4.0 * cylinder[LENGTH]))
+    return {name: Given(value, source)}

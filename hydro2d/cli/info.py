@@ -1,0 +1,138 @@
+"""`hydro2d info`: a material, a model, a field, a key of the deck or a quantity of the history, in words."""
+
+from __future__ import annotations
+
+from hydro2d.errors import DeckError, unknown
+from hydro2d.output import derived
+
+
+def deck_keys() -> dict[str, dict]:
+    """Every key of a deck by its dotted name, with its JSON schema; body keys as body.SHAPE.KEY."""
+    from hydro2d.deck import deck as decks
+
+    schema = decks.schema()
+    definitions, found = schema["$defs"], {}
+
+    def target(entry: dict) -> list[dict]:
+        """The tables that a value may be."""
+        if "$ref" in entry:
+            return [definitions[entry["$ref"].rsplit("/", 1)[-1]]]
+        parts = [*entry.get("anyOf", []), *entry.get("oneOf", [])]
+        if isinstance(entry.get("items"), dict):
+            parts.append(entry["items"])
+        return [table for part in parts for table in target(part)]
+
+    def walk(prefix: str, table: dict) -> None:
+        for key, entry in table.get("properties", {}).items():
+            name = f"{prefix}{key}"
+            inner = target(entry)
+            found[name] = {"description": inner[0].get("description", ""), **entry} if len(inner) == 1 else entry
+            for each in inner:
+                shape = each.get("properties", {}).get("shape", {}).get("const")
+                if shape is not None:
+                    found[f"{name}.{shape}"] = each
+                walk(f"{name}.{shape}." if shape else f"{name}.", each)
+
+    walk("", schema)
+    return found
+
+
+def _type(entry: dict) -> str:
+    """What a value may be, in words."""
+    if "x-unit" in entry:
+        unit = entry["x-unit"]
+        return "number" if unit == "1" else f'number in {unit}, or a string with a unit such as "1 {unit}"'
+    if "enum" in entry:
+        return "one of " + ", ".join(map(str, entry["enum"]))
+    if "const" in entry:
+        return repr(entry["const"])
+    if "anyOf" in entry:
+        return " or ".join(dict.fromkeys(_type(part) for part in entry["anyOf"] if part.get("type") != "null"))
+    kind = entry.get("type", "object")
+    return {"array": "list", "object": "table", "boolean": "true or false"}.get(kind, kind)
+
+
+def _key_page(name: str, entry: dict, others: list[str]) -> str:
+    lines = [f"{name} (key of the deck): {entry.get('description', '')}".rstrip(": "), f"  takes    {_type(entry)}"]
+    if others:
+        lines.append(f"  also in  {', '.join(others)}")
+    if entry.get("default") is not None:
+        lines.append(f"  default  {entry['default']}")
+    inner = [key for key in deck_keys() if key.startswith(f"{name}.") and key.count(".") == name.count(".") + 1]
+    if inner:
+        lines += ["", *_table([(key.rsplit(".", 1)[-1], deck_keys()[key].get("description", "")) for key in inner])]
+    return "\n".join(lines)
+
+
+def _field_page(quantity: derived.Quantity) -> str:
+    return f'{quantity.key} (field): {quantity.meaning}\n  in files as "{quantity.name("NAME")}"'
+
+
+def _table(rows: list[tuple[str, str]]) -> list[str]:
+    width = max(len(name) for name, _ in rows)
+    return [f"  {name:<{width}}  {meaning.splitlines()[0] if meaning else ''}".rstrip() for name, meaning in rows]
+
+
+def page(name: str) -> str:
+    """Everything that goes by a name. Raises DeckError with the nearest name where there is nothing."""
+    import eos
+    import strength
+    from hydro2d.analytic import model_text
+    from hydro2d.materials import library
+    from hydro2d.penetration import catalogue
+
+    found = []
+    if name in library.names():
+        found.append(library.describe(name))
+    for models, describe in (
+        (eos.MODELS, eos.describe),
+        (strength.STRENGTH_MODELS, strength.describe),
+        (strength.DAMAGE_MODELS, strength.describe_damage),
+    ):
+        if name in models:
+            found.append(str(describe(name)))
+    if name in catalogue.MODELS:
+        found.append(model_text.page(catalogue.MODELS[name]))
+    if name in derived.BY_KEY:
+        found.append(_field_page(derived.BY_KEY[name]))
+    keys = deck_keys()
+    groups = {name: []} if name in keys else _same_last(keys, name)
+    found += [_key_page(key, keys[key], others) for key, others in groups.items()]
+    if not found:
+        known = {*library.names(), *eos.MODELS, *strength.STRENGTH_MODELS, *strength.DAMAGE_MODELS,
+                 *catalogue.MODELS, *derived.BY_KEY, *keys, *(key.rsplit(".", 1)[-1] for key in keys)}  # fmt: skip
+        raise DeckError(unknown("name", name, known).split(" (allowed")[0] + "; `hydro2d info` lists what there is")
+    return "\n\n".join(text.rstrip() for text in found)
+
+
+def _same_last(keys: dict[str, dict], name: str) -> dict[str, list[str]]:
+    """Keys that end in a name, each with those of the same section and meaning."""
+    groups: dict[tuple, list[str]] = {}
+    for key in keys:
+        if key.rsplit(".", 1)[-1] == name:
+            groups.setdefault((key.split(".")[0], keys[key].get("description")), []).append(key)
+    return {first: others for first, *others in groups.values()}
+
+
+def overview() -> str:
+    """All names, by kind."""
+    import eos
+    import strength
+    from hydro2d.materials import library
+    from hydro2d.penetration import catalogue
+
+    models = [(name, eos.describe(name).kind) for name in eos.MODELS]
+    models += [(name, strength.describe(name).kind) for name in strength.STRENGTH_MODELS]
+    models += [(name, strength.describe_damage(name).kind) for name in strength.DAMAGE_MODELS]
+    keys = deck_keys()
+    parts = (
+        ("materials", [(name, library.load(name).title) for name in library.names()]),
+        ("models", models),
+        ("penetration models", [(model.name, model.title) for model in catalogue.MODELS.values()]),
+        ("fields", [(entry.key, entry.meaning) for entry in derived.TABLE]),
+        ("sections of a deck", [(key, keys[key].get("description", "")) for key in keys if "." not in key]),
+    )
+    lines = []
+    for heading, rows in parts:
+        lines += [heading, *_table(rows), ""]
+    return "\n".join([*lines, "`hydro2d info NAME` explains each of them, and every key of a deck."])

@@ -1,0 +1,312 @@
+"""The command `hydro2d`. Everything heavy is imported where it is used, so that --help answers at once."""
+
+from __future__ import annotations
+
+import os
+import sys
+from pathlib import Path
+from typing import Annotated, Literal
+
+import cyclopts
+from cyclopts import App, Parameter
+
+from hydro2d import __version__
+from hydro2d.cli.base import Overrides, UsageError, quantity
+from hydro2d.cli.model import model
+from hydro2d.cli.report import report
+from hydro2d.cli.study import sweep, transition
+
+WRONG_INPUT = 2
+
+app = App(
+    name="hydro2d",
+    version=__version__,
+    help="A two-dimensional axisymmetric Eulerian hydrocode for rod-into-plate impact.",
+    help_format="plaintext",
+    help_epilogue="Exit status: 0 done, 2 deck or arguments wrong, 3 unphysical state or failed cases, 130/143 interrupted.",
+)
+
+app.command(model)
+app.command(report)
+app.command(sweep)
+app.command(transition)
+
+
+def _user_errors() -> tuple[type[Exception], ...]:
+    """What is the user's to mend: told in one message, without a traceback."""
+    found: list[type[Exception]] = [UsageError]
+    for module, name in (
+        ("deck_errors", "DeckError"), ("run", "RunError"), ("snapshot", "SnapshotError"), ("history", "HistoryError"),
+        ("vtk", "VtkError"), ("figures", "FigureError"), ("results", "ResultsError"), ("derived", "FieldError"),
+        ("files", "LockError"), ("penetration.model", "InputError"), ("study.definition", "StudyError"),
+    ):  # fmt: skip
+        loaded = sys.modules.get(f"hydro2d.{module}")
+        if loaded is not None:
+            found.append(getattr(loaded, name))
+    return tuple(found)
+
+
+def _set_threads(threads: int | None) -> None:
+    """Fixes the number of threads, best before numba is imported, which reads the largest number once."""
+    if threads is None:
+        return
+    if threads < 1:
+        raise UsageError(f"--threads {threads}: at least 1 is needed")
+    if "numba" not in sys.modules:
+        os.environ["NUMBA_NUM_THREADS"] = str(threads)
+        return
+    from hydro2d.jit import max_threads, set_threads
+
+    if threads > max_threads():
+        raise UsageError(f"--threads {threads}: this process can use {max_threads()}")
+    set_threads(threads)
+
+
+def _load(deck: Path, overrides: list[str] | None):
+    from hydro2d.deck import deck as decks
+
+    return decks.load(deck, overrides or [])
+
+
+@app.command
+def run(
+    deck: Path,
+    *,
+    out: Path | None = None,
+    set_: Overrides = None,
+    threads: int | None = None,
+    restart: bool = False,
+    overwrite: bool = False,
+    quiet: bool = False,
+) -> int:
+    """Runs a deck.
+
+    Example: hydro2d run problems/cth_nose_shape/hemi_5083_1086.toml --out runs/a --set mesh.r.0.cells=40 --threads 4
+
+    Parameters
+    ----------
+    deck
+        The input deck, TOML.
+    out
+        Directory of the run; default: what the deck says, else runs/<name of the deck>.
+    set_
+        Replaces a value of the deck, key=value; may be given several times.
+    threads
+        Number of threads; default: all cores. The results do not depend on it.
+    restart
+        Continues the run of the directory from its restart file, to the same bits.
+    overwrite
+        Removes a run that is in the directory.
+    quiet
+        Prints nothing; log.txt is written.
+    """
+    if restart and overwrite:
+        raise UsageError("--restart continues a run and --overwrite removes it: give one of them")
+    _set_threads(threads)
+    from hydro2d.running import run as runs
+
+    resolved = _load(deck, set_)
+    return runs.exit_status(runs.run(resolved, out, restart=restart, overwrite=overwrite, quiet=quiet))
+
+
+@app.command
+def check(
+    deck: Path, *, set_: Overrides = None, threads: int | None = None, picture: Path | None = None,
+) -> int:
+    """Validates a deck and shows what it amounts to: mesh, masses, cells across the rod, cost and memory.
+
+    Example: hydro2d check problems/cth_nose_shape/hemi_5083_1086.toml --picture start.png
+
+    Parameters
+    ----------
+    deck
+        The input deck, TOML.
+    set_
+        Replaces a value of the deck, key=value; may be given several times.
+    threads
+        Number of threads that the time is estimated for; default: all cores.
+    picture
+        Draws the initial state into this file (.png, .pdf, .svg).
+    """
+    from hydro2d.running import check as checks
+
+    found = checks.check(_load(deck, set_))
+    for line in found.lines(threads or os.cpu_count() or 1):
+        print(line)
+    if picture is not None:
+        from hydro2d.results import figures
+
+        figures.save(figures.draw_sections([[(found.dump, found.deck.name, None)]], "material"), picture)
+        print(f"wrote     {picture}")
+    return 0
+
+
+@app.command
+def info(name: str | None = None) -> int:
+    """Explains a material, a model, a field or a key of the deck; without a name, lists them.
+
+    Example: hydro2d info johnson-cook
+
+    Parameters
+    ----------
+    name
+        For example W_alloy, mie-grueneisen, pressure, numerics.courant.
+    """
+    from hydro2d.cli import info as pages
+
+    print(pages.page(name) if name else pages.overview())
+    return 0
+
+
+def _times(texts: list[str] | None) -> list[float | None]:
+    return [quantity(text, "s", "--time") for text in texts] if texts else [None]
+
+
+def _window(text: str | None) -> tuple[float, float, float] | None:
+    if text is None:
+        return None
+    parts = text.split(",")
+    if len(parts) != 3:
+        raise UsageError(f'--window "{text}": three lengths are expected, z0,z1,r1, such as "-2 cm,8 cm,2 cm"')
+    z0, z1, r1 = (quantity(part.strip(), "m", "--window") for part in parts)
+    if not (z0 < z1 and r1 > 0):
+        raise UsageError(f'--window "{text}": z0 < z1 and r1 > 0 are needed')
+    return z0, z1, r1
+
+
+@app.command
+def plot(
+    runs: list[Path],
+    *,
+    output: Annotated[Path, Parameter(name=["--output", "-o"])],
+    kind: Literal["section", "history", "cutaway", "crater"] = "section",
+    field: str = "pressure",
+    mirror: str | None = None,
+    time: Annotated[list[str] | None, Parameter(negative="")] = None,
+    window: Annotated[str | None, Parameter(allow_leading_hyphen=True)] = None,
+    quantity: Annotated[list[str] | None, Parameter(negative="")] = None,
+) -> int:
+    """Draws runs: mirrored sections, histories, the holes in their targets, or a three-dimensional cut-away.
+
+    Example: hydro2d plot runs/a runs/b -o both.png --field von_mises --mirror material --time "80 us"
+
+    Parameters
+    ----------
+    runs
+        Run directories; several are drawn below one another, histories and craters into the same axes.
+    output
+        The picture; its ending decides the format.
+    kind
+        What is drawn.
+    field
+        Field of the upper half: a key of `hydro2d info`, velocity:z for a component, body_temperature:rod for a body.
+    mirror
+        Field of the lower half; default: the same.
+    time
+        Moment, such as "80 us"; the nearest dump is drawn, without it the last. Several stand beside one another.
+    window
+        Part of the mesh, z0,z1,r1, such as "-2 cm,8 cm,2 cm".
+    quantity
+        Column of the history; may be given several times.
+    """
+    from hydro2d.results import figures
+    from hydro2d.results.reading import load
+
+    opened, times = [load(path) for path in runs], _times(time)
+    if kind == "cutaway":
+        if len(opened) != 1 or len(times) != 1 or output.suffix != ".png":
+            raise UsageError("--kind cutaway draws one run at one time into a .png")
+        figures.cutaway(opened[0].dump_file(times[0]), output, field, _window(window))
+    elif kind == "history":
+        figures.save(figures.histories(opened, quantity or figures.HISTORIES), output)
+    elif kind == "crater":
+        figures.save(figures.craters(opened), output)
+    else:
+        figures.save(figures.sections(opened, field, mirror=mirror, times=times, window=_window(window)), output)
+    print(f"wrote {output}")
+    return 0
+
+
+@app.command
+def export(
+    run: Path,
+    *,
+    output: Annotated[Path | None, Parameter(name=["--output", "-o"])] = None,
+    fields: Annotated[list[str] | None, Parameter(negative="", consume_multiple=True)] = None,
+) -> int:
+    """Writes a VTK series that ParaView opens with one click, and the history as CSV.
+
+    Example: hydro2d export runs/a --fields pressure velocity -o for_paraview
+
+    Parameters
+    ----------
+    run
+        The run directory. Without dumps, the state of its restart file is written, with all fields.
+    output
+        Default: the directory `export` in the run.
+    fields
+        Fields to take, keys of `hydro2d info`; default: all that were dumped.
+    """
+    from hydro2d.results.export import export as write
+    from hydro2d.results.reading import load
+
+    for path in write(load(run), output or run / "export", fields or ("all",)):
+        print(f"wrote {path}")
+    return 0
+
+
+@app.command
+def bench(*, json: Path | None = None, shot: bool = False, threads: int | None = None) -> int:
+    """Time per cell and cycle, phase by phase, beside a triad measured in the same run.
+
+    Example: hydro2d bench --json bench.json
+
+    Parameters
+    ----------
+    json
+        Writes the numbers into this file as well.
+    shot
+        Runs the shot at 1086 m/s to rest as well, with all its outputs, on one thread and on all: minutes.
+    threads
+        Number of threads; default: all cores.
+    """
+    _set_threads(threads)
+    from hydro2d.running import bench as benches
+
+    return benches.main(json, shot=shot)
+
+
+@app.command
+def schema() -> int:
+    """Prints the JSON schema of decks, for editors.
+
+    Example: hydro2d schema > deck.schema.json
+    """
+    import json
+
+    from hydro2d.deck import deck as decks
+
+    print(json.dumps(decks.schema(), indent=2))
+    return 0
+
+
+def main(arguments: list[str] | None = None) -> None:
+    """Runs the command line and exits with its status."""
+    sys.exit(call(sys.argv[1:] if arguments is None else arguments))
+
+
+def call(arguments: list[str]) -> int:
+    """Runs the command line and returns its status."""
+    try:
+        status = app(arguments, exit_on_error=False, print_error=False, result_action="return_value")
+    except cyclopts.CycloptsError as error:
+        print(f"hydro2d: {error}", file=sys.stderr)
+        return WRONG_INPUT
+    except KeyboardInterrupt:
+        return 130
+    except BrokenPipeError:
+        return 0
+    except _user_errors() as error:
+        print(f"hydro2d: {error}", file=sys.stderr)
+        return WRONG_INPUT
+    return status if isinstance(status, int) else 0

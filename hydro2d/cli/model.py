@@ -1,0 +1,192 @@
+"""The command `hydro2d model`: analytic penetration models, one by one and side by side."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+from cyclopts import App, Parameter
+
+from hydro2d.cli.base import Overrides, UsageError, quantity
+
+#: the most rows that --velocity A:B:N makes
+MOST_ROWS = 100_000
+
+#: `hydro2d model NAME --help` is a page of that model, so that --help is an option like any other
+model = App(name="model", help_flags=[], usage="Usage: hydro2d model [NAME] [OPTIONS]")
+
+
+@model.default
+def evaluate(
+    name: str | None = None,
+    *,
+    rod: str | None = None,
+    target: str | None = None,
+    velocity: str | None = None,
+    set_: Overrides = None,
+    deck: Path | None = None,
+    strain: float = 0.0,
+    csv: Path | None = None,
+    figure: Path | None = None,
+    json: bool = False,
+    help_: Annotated[bool, Parameter(name=["--help", "-h"], negative="")] = False,
+) -> int:
+    """Lists, explains or evaluates the analytic penetration models.
+
+    Example: hydro2d model tate --rod W_alloy --target Al5083 --velocity 1086m/s --set rod.diameter=6.7568mm
+
+    Parameters
+    ----------
+    name
+        The model. Without a velocity, its page is shown: equations' source, inputs, outputs, validity, an example.
+    rod
+        Material of the rod, of the library: NAME or NAME:VARIANT; default: that of the model's example.
+    target
+        Material of the target, likewise.
+    velocity
+        Impact velocity, such as 1086m/s, or a range A:B:N of N velocities, such as 500m/s:2000m/s:200.
+    set_
+        Gives an input, key=value, such as rod.diameter=8.12mm; may be given several times.
+    deck
+        Takes materials, geometry and, without --velocity, the velocity from an input deck.
+    strain
+        Equivalent plastic strain at which the strengths of the materials are taken; 0 is initial yield.
+    csv
+        Writes the results into this file.
+    figure
+        Draws the main output over a range of velocities into this file (.png, .pdf, .svg).
+    json
+        Prints JSON: inputs with their sources, units, results.
+    help_
+        Shows the page of the model, or this text.
+    """
+    if name is None:
+        return _without_name(help_, rod, target, velocity, set_, deck)
+    from hydro2d.analytic import model_text, models
+
+    chosen = models.named(name)
+    if help_ or (velocity is None and deck is None):
+        print(model_text.page(chosen))
+        return 0
+    request, at = _request([chosen], rod, target, set_, deck, strain)
+    velocities = _velocities(velocity) if velocity is not None else [at]
+    if figure is not None and len(velocities) < 2:
+        raise UsageError("--figure draws a range: give --velocity A:B:N")
+    case = models.resolve(chosen, request)
+    rows = case.rows(velocities)
+    written = _write(case, rows, csv, figure)
+    _show(model_text.data(case, rows) if json else model_text.report(case, rows))
+    if written and not json:
+        print("\n" + "\n".join(f"wrote {path}" for path in written))
+    return 0
+
+
+def _without_name(help_: bool, *options) -> int:
+    """The list of models, or the help of the command."""
+    if help_:
+        model.help_print([])
+        return 0
+    if any(option is not None for option in options):
+        raise UsageError("model: the name of a model is missing; `hydro2d model` lists them")
+    from hydro2d.analytic import model_text
+
+    print(model_text.overview())
+    return 0
+
+
+def _request(known, rod, target, set_, deck, strain):
+    """What the user chose, and the impact velocity of the deck or None."""
+    from hydro2d.analytic import model_deck, model_materials, models
+
+    shot = model_deck.read(deck) if deck is not None else None
+    sides = {
+        side: model_materials.load(name) if name is not None else getattr(shot, side, None)
+        for side, name in (("rod", rod), ("target", target))
+    }
+    geometry = shot.values if shot else {}
+    request = models.Request(**sides, settings=models.settings(set_ or [], known), geometry=geometry, strain=strain)
+    return request, shot.velocity if shot else None
+
+
+def _velocities(text: str) -> list[float]:
+    """One velocity, or N from A to B."""
+    parts = text.split(":")
+    if len(parts) == 1:
+        return [quantity(text, "m/s", "--velocity")]
+    if len(parts) != 3 or not parts[2].strip().isdigit():
+        raise UsageError(f"--velocity {text}: expected one velocity or a range A:B:N, such as 500m/s:2000m/s:200")
+    low, high = (quantity(part, "m/s", "--velocity") for part in parts[:2])
+    count = int(parts[2])
+    if not (low < high and 2 <= count <= MOST_ROWS):
+        raise UsageError(f"--velocity {text}: A < B and N from 2 to {MOST_ROWS} are needed")
+    return [low + (high - low) * n / (count - 1) for n in range(count)]
+
+
+def _show(found) -> None:
+    """Text as it is, data as JSON."""
+    import json
+
+    print(found if isinstance(found, str) else json.dumps(found, indent=2, allow_nan=False))
+
+
+def _write(case, rows, csv: Path | None, figure: Path | None) -> list[Path]:
+    """Writes the files that are asked for."""
+    for path in (csv, figure):
+        if path is not None and not path.parent.is_dir():
+            raise UsageError(f"{path.parent}: there is no such directory")
+    if csv is not None:
+        from hydro2d.analytic import model_text
+
+        model_text.write_csv(case.model, rows, csv)
+    if figure is not None:
+        from hydro2d.analytic import model_figures
+        from hydro2d.results import figures
+
+        figures.save(model_figures.draw(case, rows), figure)
+    return [path for path in (csv, figure) if path is not None]
+
+
+@model.command(help_flags=["--help", "-h"])
+def transition(
+    *,
+    rod: str | None = None,
+    target: str | None = None,
+    nose: str | None = None,
+    runs: Annotated[list[Path] | None, Parameter(negative="", consume_multiple=True)] = None,
+    set_: Overrides = None,
+    deck: Path | None = None,
+    strain: float = 0.0,
+    json: bool = False,
+) -> int:
+    """Compares the velocities at which a rod stops being rigid: models, experiments, the CTH study, runs.
+
+    Example: hydro2d model transition --rod W_alloy --target Al5083 --nose hemispherical
+
+    Parameters
+    ----------
+    rod
+        Material of the rod, of the library: NAME or NAME:VARIANT.
+    target
+        Material of the target, likewise.
+    nose
+        hemispherical, ogival, conical or flat; default: the deck's, else hemispherical.
+    runs
+        Run directories: the fastest run that stayed rigid and the slowest that did not are a bracket.
+    set_
+        Gives an input to every model that has it, key=value; may be given several times.
+    deck
+        Takes materials and geometry from an input deck.
+    strain
+        Equivalent plastic strain at which the strengths of the materials are taken; 0 is initial yield.
+    json
+        Prints JSON.
+    """
+    from hydro2d.analytic import model_deck, model_transition
+    from hydro2d.penetration.inputs import NOSE_SHAPE
+
+    request, _ = _request(model_transition.with_transition(), rod, target, set_, deck, strain)
+    shape = nose or request.settings.get("nose.shape") or getattr(request.geometry.get("nose.shape"), "value", "hemispherical")
+    shape = NOSE_SHAPE.check(model_deck.NOSES.get(shape, shape))
+    found = model_transition.compare(request, shape, runs or ())
+    _show(found.data() if json else "\n".join(found.lines()))
+    return 0

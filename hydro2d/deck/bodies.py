@@ -1,0 +1,217 @@
+"""The bodies of a deck: what they are made of, how they look and how they move."""
+
+from __future__ import annotations
+
+import math
+from typing import Annotated, Literal
+
+from pydantic import BeforeValidator, Field, WithJsonSchema, model_validator
+
+from hydro2d import units
+from hydro2d.deck.base import (
+    Angle,
+    Interval,
+    Length,
+    Number,
+    Point,
+    PositiveDensity,
+    PositiveLength,
+    PositiveNumber,
+    Pressure,
+    Section,
+    SpecificEnergy,
+    Speed,
+    Temperature,
+    Velocity,
+)
+
+
+class Flow(Section):
+    """A velocity that points away from a centre: speed (radius/distance)^exponent, for implosions and shells."""
+
+    pattern: Literal["spherical", "cylindrical"] = Field(description="away from a point or from a line")
+    speed: Speed = Field(description="speed at `radius`, outward positive")
+    centre: Length = Field(0.0, description="axial position of the point that a spherical flow leaves")
+    radius: PositiveLength = Field(1.0, description="distance at which `speed` holds")
+    exponent: Number = Field(0.0, description="decay with distance; 2 (spherical), 1 (cylindrical) keep the volume")
+
+
+class Body(Section):
+    """What all bodies have. Where bodies overlap, the one that stands first in the deck has the place."""
+
+    name: str = Field(min_length=1, description="how the body is called in fields, tables and other sections")
+    material: str = Field(description="a material of the library or of [materials]")
+    join: str | None = Field(None, description="an earlier body of the same material to be one with")
+    velocity: Velocity = Field((0.0, 0.0), description="axial velocity, or [radial, axial]")
+    flow: Flow | None = Field(None, description="velocity away from a centre, added to `velocity`")
+    density: PositiveDensity | None = Field(None, description="initial density; default: the material's")
+    energy: SpecificEnergy | None = Field(None, description="initial specific internal energy")
+    pressure: Pressure | None = Field(None, description="initial pressure, instead of `energy`")
+    temperature: Temperature | None = Field(None, description="initial temperature, instead of `energy`")
+
+    @model_validator(mode="after")
+    def _one_thermal_state(self):
+        given = [key for key in ("energy", "pressure", "temperature") if getattr(self, key) is not None]
+        if len(given) > 1:
+            raise ValueError(f"only one of energy, pressure, temperature can be given, not {' and '.join(given)}")
+        return self
+
+
+def _one_of(model: Section, *keys: str) -> str:
+    given = [key for key in keys if getattr(model, key) is not None]
+    if len(given) != 1:
+        raise ValueError(f"exactly one of {', '.join(keys)} is needed, found {', '.join(given) or 'none'}")
+    return given[0]
+
+
+class Rod(Body):
+    """A rod on the axis. `length` is the total length, nose included; the nose points along `direction`."""
+
+    shape: Literal["rod"] = Field(description="a rod on the axis")
+    nose: Literal["flat", "hemispherical", "ogive", "conical"] = Field("flat", description="profile of the nose")
+    radius: PositiveLength | None = Field(None, description="radius of the shank")
+    diameter: PositiveLength | None = Field(None, description="diameter of the shank, instead of `radius`")
+    length: PositiveLength = Field(description="total length, nose included")
+    tip: Length = Field(description="axial position of the tip of the nose")
+    direction: Literal[1, -1] = Field(1, description="+1: the nose points to +z")
+    crh: PositiveNumber | None = Field(None, description="ogive: radius of the arc in diameters (tangent ogive)")
+    half_angle: Angle | None = Field(None, description="cone: half the angle at the tip, a number in rad")
+    nose_length: PositiveLength | None = Field(None, description="ogive, cone: instead of `crh` or `half_angle`")
+
+    @model_validator(mode="before")
+    @classmethod
+    def _radius_or_diameter(cls, data):
+        if isinstance(data, dict) and data.get("radius") is not None and data.get("diameter") is not None:
+            if units.to_si(data["diameter"], "m") != 2 * units.to_si(data["radius"], "m"):
+                raise ValueError("radius and diameter are both given and disagree")
+        return data
+
+    @model_validator(mode="after")
+    def _geometry(self):
+        if self.radius is None and self.diameter is None:
+            raise ValueError("a rod needs its radius or its diameter")
+        if self.nose in ("flat", "hemispherical"):
+            stray = [key for key in ("crh", "half_angle", "nose_length") if getattr(self, key) is not None]
+            if stray:
+                raise ValueError(f"a {self.nose} nose has no {' and no '.join(stray)}")
+        elif self.nose == "ogive":
+            if self.half_angle is not None:
+                raise ValueError("an ogive has no half_angle; give crh or nose_length")
+            _one_of(self, "crh", "nose_length")
+            if self.crh is not None and self.crh < 0.5:
+                raise ValueError(f"an ogive has a crh of at least 0.5 (a hemisphere), is {self.crh:g}")
+            if self.nose_length is not None and self.nose_length < self.rod_radius:
+                raise ValueError("a tangent ogive is at least as long as the radius")
+        else:
+            if self.crh is not None:
+                raise ValueError("a cone has no crh; give half_angle or nose_length")
+            _one_of(self, "half_angle", "nose_length")
+            if self.half_angle is not None and not self.half_angle < math.pi / 2:
+                raise ValueError('half_angle must lie below 90 degrees; a number is in rad, write "30 deg"')
+        if self.length < self.resolved_nose_length:
+            raise ValueError(
+                f"length ({self.length:g} m) is the total length and must not be below that of the nose "
+                f"({self.resolved_nose_length:g} m)"
+            )
+        return self
+
+    @property
+    def rod_radius(self) -> float:
+        """Radius of the shank in m, from whichever of radius and diameter the deck gives."""
+        return self.radius if self.radius is not None else self.diameter / 2
+
+    @property
+    def resolved_nose_length(self) -> float:
+        """Length of the nose in m: a tangent ogive of caliber radius head crh has R sqrt(4 crh - 1)."""
+        if self.nose == "flat":
+            return 0.0
+        if self.nose == "hemispherical":
+            return self.rod_radius
+        if self.nose_length is not None:
+            return self.nose_length
+        if self.nose == "ogive":
+            return self.rod_radius * math.sqrt(4 * self.crh - 1)
+        return self.rod_radius / math.tan(self.half_angle)
+
+
+class Plate(Body):
+    """A plate across the axis, from `z_front` on towards +z."""
+
+    shape: Literal["plate"] = Field(description="a plate across the axis")
+    z_front: Length = Field(description="axial position of the face with the smaller z")
+    thickness: PositiveLength = Field(description="extent along z")
+    radius: PositiveLength | None = Field(None, description="outer radius; default: to the edge of the mesh")
+
+
+class Box(Body):
+    """A rectangle in the (r, z) plane: a cylinder, a tube or a washer."""
+
+    shape: Literal["box"] = Field(description="a rectangle in the (r, z) plane")
+    r: Interval | None = Field(None, description="[inner, outer] radius; default: the whole mesh")
+    z: Interval = Field(description="[low, high] axial position")
+
+
+def _centre(value) -> tuple[float, float]:
+    if isinstance(value, (list, tuple)):
+        if len(value) != 2:
+            raise ValueError("expected an axial position or [r, z]")
+        return units.to_si(value[0], "m"), units.to_si(value[1], "m")
+    return 0.0, units.to_si(value, "m")
+
+
+class Sphere(Body):
+    """A sphere or a shell on the axis (a circle anywhere in planar geometry)."""
+
+    shape: Literal["sphere"] = Field(description="a sphere or a shell")
+    centre: Annotated[
+        tuple[float, float],
+        BeforeValidator(_centre),
+        WithJsonSchema({"anyOf": [{"type": "number"}, {"type": "string"}, {"type": "array"}], "x-unit": "m"}),
+    ] = Field(description="axial position of the centre, or [r, z]; with r > 0 in r-z the body is a ring")
+    radius: PositiveLength = Field(description="outer radius")
+    inner_radius: PositiveLength | None = Field(None, description="of a shell")
+
+    @model_validator(mode="after")
+    def _shell(self):
+        if self.inner_radius is not None and not self.inner_radius < self.radius:
+            raise ValueError("inner_radius must be smaller than radius")
+        return self
+
+
+def _points(value):
+    if not isinstance(value, (list, tuple)) or len(value) < 3:
+        raise ValueError("a polygon needs at least three points [r, z]")
+    return value
+
+
+class Polygon(Body):
+    """A polygon in the (r, z) plane; its edges must not cross. It closes by itself."""
+
+    shape: Literal["polygon"] = Field(description="a polygon in the (r, z) plane")
+    points: Annotated[tuple[Point, ...], BeforeValidator(_points)] = Field(description="corners [r, z], in order")
+
+    @model_validator(mode="after")
+    def _simple(self):
+        corners = list(self.points)
+        edges = list(zip(corners, corners[1:] + corners[:1], strict=True))
+        for first in range(len(edges)):
+            if edges[first][0] == edges[first][1]:
+                raise ValueError(f"corner {first} is given twice")
+            for second in range(first + 1, len(edges)):
+                if _cross(*edges[first], *edges[second]):
+                    raise ValueError(f"the edges from corner {first} and from corner {second} cross")
+        return self
+
+
+def _cross(a, b, c, d) -> bool:
+    """True if the open segments ab and cd cross each other."""
+
+    def side(p, q, x):
+        return (q[0] - p[0]) * (x[1] - p[1]) - (q[1] - p[1]) * (x[0] - p[0])
+
+    return side(a, b, c) * side(a, b, d) < 0 and side(c, d, a) * side(c, d, b) < 0
+
+
+AnyBody = Annotated[Rod | Plate | Box | Sphere | Polygon, Field(discriminator="shape")]
+
+SHAPES = {"rod": Rod, "plate": Plate, "box": Box, "sphere": Sphere, "polygon": Polygon}

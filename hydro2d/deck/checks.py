@@ -1,0 +1,200 @@
+"""What no single key shows to be wrong: names that point nowhere, bodies outside the mesh, unsupported combinations."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from hydro2d.deck.mesh import SegmentError, axis_edges, body, body_radius
+from hydro2d.deck.sections import Deck, Sliding
+from hydro2d.deck.shapes import outline
+from hydro2d.errors import unknown
+
+#: radii that a mesh should reach ahead of the rod that it follows: farther off a plate does not feel the mesh's edge
+AHEAD = 20
+
+#: keys of `sliding` that mean nothing in a contact
+OF_SLIP_LAYER = ("boundary_layer", "slip_layer", "threshold", "shear", "refresh")
+
+
+def inconsistencies(deck: Deck) -> Iterator[tuple[tuple, str]]:
+    """What single keys cannot show: names that point nowhere, bodies outside the mesh, ends that cannot be."""
+    names = [entry.name for entry in deck.body]
+    for number, entry in enumerate(deck.body):
+        if entry.name in names[:number]:
+            yield ("body", number, "name"), f'the name "{entry.name}" is taken by an earlier body'
+        if entry.join is not None:
+            yield from _bad_join(deck, number)
+    yield from _bad_names(deck, names)
+    yield from _bad_mesh(deck)
+    if deck.stop.time is None and deck.stop.cycles is None:
+        yield ("stop",), "needs a time or a number of cycles"
+    if deck.sliding.method == "slip-layer" and not deck.sliding.hard:
+        yield ("sliding", "hard"), "a slip layer needs the names of the hard bodies"
+    if deck.sliding.method == "contact":
+        yield from _bad_contact(deck)
+    elif deck.sliding.friction > 0 and deck.sliding.shear != "shear":
+        yield ("sliding", "friction"), 'friction acts only with shear = "shear"; a fluid slip layer has none'
+
+
+def _bad_join(deck: Deck, number: int) -> Iterator[tuple[tuple, str]]:
+    entry = deck.body[number]
+    earlier = {other.name: other for other in deck.body[:number] if other.join is None}
+    path = ("body", number, "join")
+    if entry.join not in earlier:
+        yield path, unknown("earlier body", entry.join, earlier)
+    elif earlier[entry.join].material != entry.material:
+        yield path, f'"{entry.join}" is made of {earlier[entry.join].material}, not of {entry.material}'
+
+
+def _bad_contact(deck: Deck) -> Iterator[tuple[tuple, str]]:
+    slide = deck.sliding
+    if not slide.hard:
+        yield ("sliding", "hard"), "a contact needs the names of the hard bodies"
+    elif all(entry.name in slide.hard for entry in deck.body if entry.join is None):
+        yield ("sliding", "hard"), "a contact needs a body that is not hard"
+    if slide.yield_factor in ("radius", "printed"):
+        word = slide.yield_factor
+        yield ("sliding", "yield_factor"), f'"{word}" belongs to the slip layer; a contact takes "off" or a number'
+    for key in OF_SLIP_LAYER:
+        if getattr(slide, key) != Sliding.model_fields[key].default:
+            yield ("sliding", key), f'{key} belongs to the slip layer and means nothing with method = "contact"'
+
+
+def _bad_names(deck: Deck, names: list[str]) -> Iterator[tuple[tuple, str]]:
+    slot_names = [entry.name for entry in deck.body if entry.join is None]
+    lists = ((("sliding", "hard"), deck.sliding.hard), (("numerics", "interface_order"), deck.numerics.interface_order))
+    for path, given in lists:
+        for number, name in enumerate(given):
+            if name not in slot_names:
+                yield (*path, number), unknown("body", name, slot_names)
+    order = deck.numerics.interface_order
+    if order and sorted(order) != sorted(slot_names) and set(order) <= set(slot_names):
+        yield ("numerics", "interface_order"), f"must name every body once: {', '.join(slot_names)}"
+    singles = [(("stop", "body"), deck.stop.body)]
+    if deck.penetration:
+        singles += [(("penetration", key), getattr(deck.penetration, key)) for key in ("rod", "target")]
+    for path, name in singles:
+        if name is not None and name not in slot_names:
+            yield path, unknown("body", name, slot_names)
+    for axis in ("r", "z"):
+        for number, segment in enumerate(getattr(deck.mesh, axis)):
+            if segment.across is not None and segment.across not in names:
+                yield ("mesh", axis, number, "across"), unknown("body", segment.across, names)
+
+
+def _bad_mesh(deck: Deck) -> Iterator[tuple[tuple, str]]:
+    cylindrical = deck.mesh.geometry == "cylindrical"
+    if cylindrical and deck.mesh.r_start < 0:
+        yield ("mesh", "r_start"), f"a cylindrical mesh starts at r >= 0, not at {deck.mesh.r_start:g} m"
+        return
+    if deck.boundaries.r_min == "axis" and not (cylindrical and deck.mesh.r_start == 0):
+        yield ("boundaries", "r_min"), "an axis needs a cylindrical mesh that starts at r = 0"
+    if deck.boundaries.r_min in ("wall", "outflow", "transmit") and cylindrical and deck.mesh.r_start == 0:
+        yield ("boundaries", "r_min"), "r = 0 of a cylindrical mesh is the axis"
+    try:
+        r, z = axis_edges(deck, "r"), axis_edges(deck, "z")
+    except SegmentError as problem:
+        yield problem.path, str(problem)
+        return
+    direction = 0.0
+    if deck.mesh.follow is not None:
+        problems = list(_bad_follow(deck, z))
+        if problems:
+            yield from problems
+            return
+        direction = travel(deck)
+    for number, entry in enumerate(deck.body):
+        path = ("body", number)
+        low, high = extent(entry, deck, "z")
+        if direction and _comes(low, high, z, direction):
+            if entry.velocity != (0.0, 0.0) or entry.flow is not None:
+                yield path, f'"{entry.name}" reaches beyond the mesh, which will meet it on its way; there it must be at rest'
+        elif high <= z[0] or low >= z[-1]:
+            yield path, _outside(entry.name, "z", low, high, z)
+        elif entry.shape == "rod" and (low < z[0] or high > z[-1]):
+            yield path, _outside(entry.name, "z", low, high, z, "is cut off by")
+        inner, outer = extent(entry, deck, "r")
+        if outer <= r[0] or inner >= r[-1]:
+            yield path, _outside(entry.name, "r", inner, outer, r)
+        elif entry.shape == "rod" and (outer > r[-1] or r[0] > 0):
+            yield path, _outside(entry.name, "r", inner, outer, r, "is cut off by")
+        elif cylindrical and entry.shape in ("box", "polygon") and inner < 0:
+            yield (*path, "r" if entry.shape == "box" else "points"), f"r is negative at {inner:g} m"
+    for number, tracer in enumerate(deck.tracer):
+        if not (r[0] <= tracer.r <= r[-1] and z[0] <= tracer.z <= z[-1]):
+            yield ("tracer", number), f'"{tracer.name}" at r = {tracer.r:g} m, z = {tracer.z:g} m lies outside the mesh'
+
+
+def travel(deck: Deck) -> float:
+    """The sense in which the mesh travels along z, +1 or -1; 0 where it stands."""
+    if deck.mesh.follow is None:
+        return 0.0
+    return float(np.sign(body(deck, deck.mesh.follow).velocity[1]))
+
+
+def _comes(low: float, high: float, z: np.ndarray, direction: float) -> bool:
+    """Whether what lies from low to high reaches beyond the edge of the mesh that goes ahead."""
+    return high > z[-1] if direction > 0 else low < z[0]
+
+
+def room(deck: Deck, z: np.ndarray) -> tuple[float, float]:
+    """How far a mesh with edges z reaches ahead of the body that it follows, and behind it, m."""
+    low, high = extent(body(deck, deck.mesh.follow), deck, "z")
+    below, above = low - float(z[0]), float(z[-1]) - high
+    return (above, below) if travel(deck) > 0 else (below, above)
+
+
+def _bad_follow(deck: Deck, z: np.ndarray) -> Iterator[tuple[tuple, str]]:
+    path, name = ("mesh", "follow"), deck.mesh.follow
+    slot_names = [entry.name for entry in deck.body if entry.join is None]
+    if name not in slot_names:
+        yield path, unknown("body", name, slot_names)
+        return
+    direction = travel(deck)
+    if direction == 0.0:
+        yield path, f'"{name}" has no velocity along z that a mesh could follow'
+        return
+    for key in ("z_min", "z_max"):
+        if getattr(deck.boundaries, key) == "wall":
+            yield ("boundaries", key), f'a mesh that follows "{name}" has open ends along z; a wall cannot travel with it'
+    ahead, behind = room(deck, z)
+    radius = extent(body(deck, name), deck, "r")[1]
+    if ahead < (radius if np.isfinite(radius) else 0.0):
+        yield path, (f'the mesh is too short: it reaches {ahead:g} m ahead of "{name}", which needs its own radius of '
+                     f"{radius:g} m at least and {AHEAD} of them for an undisturbed flight")  # fmt: skip
+    if behind <= 0.0:
+        yield path, f'the mesh is too short: it ends {-behind:g} m before the tail of "{name}"'
+
+
+def _outside(name: str, axis: str, low: float, high: float, mesh: np.ndarray, how: str = "lies outside") -> str:
+    return f'"{name}" {how} the mesh: {axis} from {low:g} to {high:g} m, the mesh from {mesh[0]:g} to {mesh[-1]:g} m'
+
+
+def extent(entry, deck: Deck, axis: str) -> tuple[float, float]:
+    """Smallest and largest coordinate of a body along an axis."""
+    return outline(entry, deck.mesh.r_start).extent(axis)
+
+
+def unsupported(deck: Deck) -> Iterator[tuple[tuple, str]]:
+    """What the materials make impossible."""
+    if deck.sliding.method == "slip-layer":
+        for number, name in enumerate(deck.sliding.hard):
+            material = deck.materials[body(deck, name).material]
+            if not material.has_strength:
+                yield (
+                    ("sliding", "hard", number),
+                    f'"{name}" is made of {material.name}, which has no strength; a hard body needs one',
+                )
+        if deck.sliding.yield_factor in ("radius", "printed") and body_radius(deck, deck.sliding.hard[0]) is None:
+            yield (
+                ("sliding", "yield_factor"),
+                f'"{deck.sliding.yield_factor}" needs a hard body with a radius; give a number or "off"',
+            )
+    if (deck.stop.speed_below is not None or deck.stop.rebound) and deck.stop.body is None:
+        yield ("stop", "body"), "the name of the body whose speed is watched is missing"
+    if deck.stop.perforation and deck.penetration is None:
+        yield ("stop", "perforation"), "without a rod and a target nothing is perforated"
+    if deck.output.history_interval is None or deck.output.vtk_interval is None:
+        yield ("output",), "without stop.time, history_interval and vtk_interval must be given"

@@ -1,0 +1,321 @@
+"""The input deck: strict TOML in, a frozen and validated Deck in SI units out.
+
+``load`` and ``loads`` read a deck with its includes and overrides; every mistake is a DeckError that names file, line,
+key and what is allowed. ``edges``, ``slots``, ``body_groups``, ``sliding_widths``, ``yield_factor`` and ``surface``
+answer what follows from a deck; ``warnings`` lists what is allowed but unwise.
+"""
+
+from __future__ import annotations
+
+import copy
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from pydantic import ValidationError
+
+from hydro2d import toml, units
+from hydro2d.deck.base import Section
+from hydro2d.deck.bodies import SHAPES
+from hydro2d.deck.checks import extent, inconsistencies, room, travel, unsupported
+from hydro2d.deck.mesh import axis_edges, body, body_radius
+from hydro2d.deck.sections import Deck
+from hydro2d.deck.warnings import warnings
+from hydro2d.errors import DeckError, Sources, entry_index, spelled, unknown
+from hydro2d.materials import library
+
+__all__ = [
+    "Deck",
+    "DeckError",
+    "body",
+    "body_groups",
+    "edges",
+    "extent",
+    "find",
+    "key_problem",
+    "load",
+    "loads",
+    "room",
+    "schema",
+    "sliding_widths",
+    "slots",
+    "surface",
+    "travel",
+    "warnings",
+    "yield_factor",
+]
+
+def find(path: str | Path) -> Path:
+    """The deck file: as given, or among the decks that hydro2d ships; DeckError where there is none."""
+    path = Path(path)
+    if path.is_file():
+        return path
+    shipped = library.problems_folder()
+    parts = path.parts[1:] if path.parts[:1] == ("problems",) else path.parts
+    if not path.is_absolute() and shipped.joinpath(*parts).is_file():
+        return shipped.joinpath(*parts)
+    folder = path.parent if path.parent.is_dir() else shipped
+    decks = [str(file.relative_to(folder)) for file in folder.glob("*.toml" if folder != shipped else "*/*.toml")]
+    raise DeckError(f"{path}: there is no such file; {unknown('deck', path.name, decks)}")
+
+
+def load(path: str | Path, overrides: Sequence[str] = ()) -> Deck:
+    """Reads a deck file.
+
+    Parameters
+    ----------
+    path : str or Path
+        A file, or the path of a shipped deck below ``problems``.
+    overrides : list of str
+        ``key=value`` with dotted keys, laid over the deck in order: ``body.rod.velocity=1200 m/s``.
+
+    Raises
+    ------
+    DeckError
+        The deck is wrong; the message has one line for each mistake found.
+    """
+    file = find(path)
+    sources = Sources()
+    return _resolve(toml.read(file, sources), file.stem, overrides, sources)
+
+
+def loads(text: str, overrides: Sequence[str] = (), name: str = "deck", folder: str | Path = ".") -> Deck:
+    """Reads a deck from a string; includes are looked for in ``folder``. Raises DeckError as ``load`` does."""
+    sources = Sources()
+    data = toml.assemble(text, f"{name}.toml", Path(folder), sources)
+    return _resolve(data, name, overrides, sources)
+
+
+def _resolve(data: dict, name: str, overrides: Sequence[str], sources: Sources) -> Deck:
+    for text in overrides:
+        data = toml.override(data, text, sources)
+    data = {"name": name, **data}
+    problems: list[str] = []
+
+    def complaint(path: tuple, message: str) -> DeckError:
+        return DeckError(f"{sources.where(path, data)}: {spelled(path)}: {message}")
+
+    try:
+        deck = Deck.model_validate(data)
+    except ValidationError as error:
+        problems = [str(complaint(*_explained(entry, data))) for entry in error.errors()]
+        raise DeckError("\n".join(dict.fromkeys(problems))) from None
+    problems += [str(complaint(path, message)) for path, message in inconsistencies(deck)]
+    if problems:
+        raise DeckError("\n".join(problems))
+    deck = deck.model_copy(update={"materials": _materials(deck, complaint)})
+    deck = _with_defaults(deck)
+    problems = [str(complaint(path, message)) for path, message in unsupported(deck)]
+    if problems:
+        raise DeckError("\n".join(problems))
+    return deck
+
+
+def _explained(entry: dict, data: dict) -> tuple[tuple, str]:
+    """The key of the deck and our words for one of pydantic's errors."""
+    path, kind = _key_path(entry["loc"], data), entry["type"]
+    context = entry.get("ctx", {})
+    if kind == "extra_forbidden":
+        return path, unknown("key", str(path[-1]), _allowed_keys(path[:-1], data))
+    if kind == "missing":
+        return path, "is missing"
+    if kind == "value_error":
+        return path, str(context["error"])
+    if kind == "literal_error":
+        allowed = context["expected"].replace("'", '"').replace(" or ", ", ")
+        return path, unknown("value", str(entry["input"]), [word.strip('" ') for word in allowed.split(",")])
+    if kind == "union_tag_not_found":
+        return (*path, "shape"), f"is missing (allowed: {', '.join(SHAPES)})"
+    if kind == "union_tag_invalid":
+        return (*path, "shape"), unknown("shape", str(context["tag"]), SHAPES)
+    message = entry["msg"][0].lower() + entry["msg"][1:]
+    return path, f"{message.replace('input ', '')}, is {entry['input']!r}"
+
+
+def _key_path(loc: tuple, data: Any) -> tuple:
+    """pydantic's location without the tags of unions: what can be followed in the deck."""
+    path: tuple = ()
+    for depth, part in enumerate(loc):
+        last = depth == len(loc) - 1
+        if isinstance(data, dict) and part not in data and not last and part in SHAPES:
+            continue
+        path += (part,)
+        if isinstance(data, dict):
+            data = data.get(part)
+        elif isinstance(data, (list, tuple)) and isinstance(part, int) and part < len(data):
+            data = data[part]
+        else:
+            data = None
+    return path
+
+
+def _allowed_keys(path: tuple, data: dict) -> list[str]:
+    """Keys of the table at ``path``."""
+    model: Any = Deck
+    for part in path:
+        if isinstance(part, int):
+            data = data[part]
+            model = model or SHAPES.get(data.get("shape"))
+        else:
+            data, model = (data or {}).get(part), _section(model, part)
+    keys = list(model.model_fields) if model else []
+    return [*keys, "include"] if model is Deck else keys
+
+
+def key_problem(data: dict, key: str) -> str | None:
+    """What is wrong with an override's key for a deck of these merged tables; None where a deck has such a key."""
+    path, place = (), data
+    for part in toml.key_parts(key):
+        if isinstance(place, list):
+            index = entry_index(place, part)
+            if index is None:
+                names = [str(entry.get("name", n)) for n, entry in enumerate(place) if isinstance(entry, dict)]
+                return f"{spelled(path)}: {unknown('entry', part, names)}"
+            path, place = (*path, index), place[index]
+            continue
+        allowed = _allowed_keys(path, data)
+        if allowed and part not in allowed:
+            return f"{spelled(path)}: {unknown('key', part, allowed)}" if path else unknown("key", part, allowed)
+        path, place = (*path, part), place.get(part) if isinstance(place, dict) else None
+    return None
+
+
+def _section(model: Any, key: str) -> Any:
+    """The section that a key of a section holds; None for bodies, which their shape decides."""
+    field = model.model_fields.get(key) if model else None
+    return _first_section(field.annotation) if field else None
+
+
+def _first_section(annotation: Any) -> Any:
+    if isinstance(annotation, type) and issubclass(annotation, Section):
+        return annotation
+    inner = [_first_section(part) for part in getattr(annotation, "__args__", ())]
+    found = [section for section in inner if section is not None]
+    return found[0] if len(found) == 1 else None
+
+
+def _materials(deck: Deck, complaint) -> dict[str, library.Material]:
+    """The materials that bodies use, resolved, and those that the deck defines, checked."""
+
+    def fail(path: tuple, message: str) -> DeckError:
+        return complaint(("materials", *path), message)
+
+    chosen = {name: library.from_deck(name, deck.materials, fail) for name in deck.materials}
+    for number, entry in enumerate(deck.body):
+        if entry.material not in chosen:
+            known = {*deck.materials, *library.names()}
+            if entry.material not in known:
+                raise complaint(("body", number, "material"), unknown("material", entry.material, known))
+            chosen[entry.material] = library.load(entry.material)
+    return chosen
+
+
+def _with_defaults(deck: Deck) -> Deck:
+    """The deck with the defaults written in that follow from other keys."""
+    update: dict[str, Any] = {}
+    data = copy.deepcopy(deck.model_dump(exclude={"materials"}))
+    if deck.boundaries.r_min is None:
+        axis = deck.mesh.geometry == "cylindrical" and deck.mesh.r_start == 0
+        data["boundaries"]["r_min"] = "axis" if axis else "wall"
+    rods = [entry for entry in deck.body if entry.shape == "rod" and entry.join is None]
+    targets = [entry for entry in deck.body if entry.shape in ("plate", "box") and entry.join is None]
+    if deck.penetration is None and rods and targets:
+        data["penetration"] = {"rod": rods[0].name, "target": targets[0].name}
+    if data["penetration"] and data["penetration"].get("surface") is None:
+        data["penetration"]["surface"] = _face(deck, data["penetration"]["rod"], data["penetration"]["target"])
+    watched = deck.stop.speed_below is not None or deck.stop.rebound
+    if watched and deck.stop.body is None and data["penetration"]:
+        data["stop"]["body"] = data["penetration"]["rod"]
+    if deck.output.directory is None:
+        data["output"]["directory"] = f"runs/{deck.name}"
+    for key, share in (("history_interval", 1000), ("vtk_interval", 50)):
+        if data["output"][key] is None and deck.stop.time is not None:
+            data["output"][key] = deck.stop.time / share
+    if not deck.numerics.interface_order:
+        names, group = slots(deck), body_groups(deck)
+        data["numerics"]["interface_order"] = sorted(names, key=lambda name: -group[names.index(name)])
+    for section in ("boundaries", "penetration", "stop", "output", "numerics"):
+        if data[section] is not None:
+            kind = _section(Deck, section)
+            update[section] = kind.model_validate(data[section])
+    deck = deck.model_copy(update=update)
+    return deck if _is_the_shot(deck) else deck.model_copy(update={"experiment": None})
+
+
+def _is_the_shot(deck: Deck) -> bool:
+    """Whether the deck's experiment was shot at the velocity and the target that the deck has."""
+    shot = deck.experiment
+    if shot is None or deck.penetration is None:
+        return True
+    rod, target = body(deck, deck.penetration.rod), body(deck, deck.penetration.target)
+    if shot.velocity is not None and abs(abs(rod.velocity[1]) - shot.velocity) > 0.01 * shot.velocity:
+        return False
+    return shot.target is None or target.material == shot.target
+
+
+def _face(deck: Deck, rod: str, target: str) -> float:
+    """The face of the target that looks at the rod."""
+    low, high = extent(body(deck, target), deck, "z")
+    moving = body(deck, rod)
+    return high if moving.shape == "rod" and moving.direction < 0 else low
+
+
+def slots(deck: Deck) -> list[str]:
+    """Names of the bodies that have a place of their own in the arrays, in the order of index m."""
+    return [entry.name for entry in deck.body if entry.join is None]
+
+
+def body_groups(deck: Deck) -> list[int]:
+    """Body group of every slot, which is the velocity field it moves with: 1 for the hard bodies of a contact, else 0."""
+    hard = deck.sliding.hard if deck.sliding.method == "contact" else ()
+    return [int(name in hard) for name in slots(deck)]
+
+
+def edges(deck: Deck) -> tuple[np.ndarray, np.ndarray]:
+    """Edges of the cells in m without ghosts: float64[nr + 1] in r, float64[nz + 1] in z."""
+    return axis_edges(deck, "r"), axis_edges(deck, "z")
+
+
+def sliding_widths(deck: Deck) -> tuple[float, float]:
+    """Width of the boundary layer and of the slip layer in m; numbers of the deck count cells of the finest size."""
+    finest = min(float(np.diff(axis).min()) for axis in edges(deck))
+    finest = float(f"{finest:.12g}")  # edges carry round-off
+    given = (deck.sliding.boundary_layer, deck.sliding.slip_layer)
+    boundary, slip = (units.to_si(w, "m") if isinstance(w, str) else w * finest for w in given)
+    return boundary, slip
+
+
+def yield_factor(deck: Deck) -> float:
+    """The factor on the yield stress of hard bodies.
+
+    "radius" is ((R + w)/R)^2 with the radius of the first hard body and the width w of the boundary layer: the load is
+    carried over the area out to R + w. "printed" is the same with the hard body's density in g/cm^3 and w in cm in the
+    place of R, as Scheffler prints it.
+    """
+    factor = deck.sliding.yield_factor
+    if deck.sliding.method == "none" or factor == "off":
+        return 1.0
+    if not isinstance(factor, str):
+        return factor
+    width = sliding_widths(deck)[0]
+    hard = body(deck, deck.sliding.hard[0])
+    if factor == "radius":
+        return (1 + width / body_radius(deck, hard.name)) ** 2
+    return (1 + (width * 100) / (deck.materials[hard.material].reference_density / 1000)) ** 2
+
+
+def surface(deck: Deck) -> float | None:
+    """Axial position that the penetration depth is measured from, m; None for a deck without rod and target."""
+    return deck.penetration.surface if deck.penetration else None
+
+
+def schema() -> dict:
+    """The JSON schema of a deck, for editors."""
+    result = Deck.model_json_schema()
+    result["title"] = "hydro2d input deck"
+    result["properties"]["include"] = {
+        "anyOf": [{"type": "string"}, {"type": "array", "items": {"type": "string"}}],
+        "description": "decks that this one is laid over, relative to this file",
+    }
+    return result

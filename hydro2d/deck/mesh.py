@@ -1,0 +1,143 @@
+"""Edges of the mesh from its segments."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from hydro2d.deck.sections import Deck, Segment
+
+_FIT = 1e-6
+_LIMIT = 1_000_000
+
+
+class SegmentError(ValueError):
+    """A segment that cannot be laid; ``path`` is its key in the deck."""
+
+    def __init__(self, path: tuple, message: str):
+        super().__init__(message)
+        self.path = path
+
+
+def body(deck: Deck, name: str):
+    """The body of this name; KeyError where there is none."""
+    for entry in deck.body:
+        if entry.name == name:
+            return entry
+    raise KeyError(name)
+
+
+def body_radius(deck: Deck, name: str) -> float | None:
+    """Radius of a rod, a sphere or a plate with an edge; None for all else."""
+    for body in deck.body:
+        if body.name == name:
+            return body.rod_radius if body.shape == "rod" else getattr(body, "radius", None)
+    return None
+
+
+def axis_edges(deck: Deck, axis: str) -> np.ndarray:
+    """Edges along "r" or "z", float64[n + 1]; SegmentError where a segment cannot be laid."""
+    start = deck.mesh.r_start if axis == "r" else deck.mesh.z_start
+    edges, previous = [start], None
+    for number, segment in enumerate(getattr(deck.mesh, axis)):
+        try:
+            new = _segment(deck, segment, edges[-1], previous)
+        except ValueError as problem:
+            raise SegmentError(("mesh", axis, number), str(problem)) from None
+        previous = float(new[-1] - (new[-2] if len(new) > 1 else edges[-1]))
+        edges += new.tolist()
+    return np.array(edges)
+
+
+def _segment(deck: Deck, segment: Segment, start: float, previous: float | None) -> np.ndarray:
+    """Edges of one segment without its first."""
+    size = _size(deck, segment)
+    length = None if segment.to is None else segment.to - start
+    if length is not None and length <= 0:
+        raise ValueError(f"ends at {segment.to:g} m, which is not beyond its start at {start:g} m")
+    if segment.ratio is not None or segment.last is not None:
+        return _graded(segment, start, length, size, previous)
+    cells = segment.cells
+    if cells is None:
+        cells = round(length / size)
+        if cells < 1 or abs(cells * size - length) > _FIT * size:
+            fits = [start + max(1, cells + k) * size for k in (0, 1 if cells * size < length else -1)]
+            near = " or ".join(f"{value:.9g}" for value in dict.fromkeys(fits))
+            raise ValueError(f"cells of {size:.9g} m do not divide {length:.9g} m; to = {near} m would fit")
+    end = segment.to if length is not None else start + cells * size
+    return _checked(np.linspace(start, end, cells + 1)[1:])
+
+
+def _size(deck: Deck, segment: Segment) -> float | None:
+    if segment.across is None:
+        return segment.size if segment.size is not None else segment.first
+    radius = body_radius(deck, segment.across)
+    if radius is None:
+        raise ValueError(f'across: "{segment.across}" is not a body with a radius')
+    return radius / segment.cells_across
+
+
+def _graded(segment: Segment, start: float, length: float | None, first: float | None, previous: float | None):
+    if first is None:
+        if previous is None:
+            raise ValueError("the first segment of an axis needs the size of its first cell: first")
+        first = previous * (segment.ratio or 1.0)
+    if segment.cells is not None:
+        sizes = first * segment.ratio ** np.arange(segment.cells)
+        return _checked(start + np.cumsum(sizes))
+    if first > length:
+        raise ValueError(f"is {length:g} m long, less than its first cell of {first:g} m")
+    if segment.last is not None:
+        if segment.last > length:
+            raise ValueError(f"is {length:g} m long, less than its last cell of {segment.last:g} m")
+        ratio = (length - first) / (length - segment.last) if length > max(first, segment.last) else 1.0
+        cells = 1 if ratio == 1.0 and length <= first else _count(first, ratio, length)
+        target = None
+    else:
+        cells, target = _count(first, segment.ratio, length), segment.ratio
+    ratio = _fitted_ratio(first, cells, length)
+    if target is not None and abs(ratio - target) > 0.5 * abs(target - 1) + 0.01:
+        raise ValueError(f"no number of cells fits {length:g} m with first = {first:g} m and a ratio near {target:g}")
+    sizes = first * ratio ** np.arange(cells)
+    edges = start + np.cumsum(sizes)
+    edges[-1] = segment.to
+    return _checked(edges)
+
+
+def _count(first: float, ratio: float, length: float) -> int:
+    """The whole number of graded cells nearest to a length."""
+    if abs(ratio - 1) < 1e-12:
+        cells = length / first
+    else:
+        grown = 1 + length * (ratio - 1) / first
+        if grown <= 0:
+            raise ValueError(f"cells that shrink by {ratio:g} from {first:g} m never reach {length:g} m")
+        cells = np.log(grown) / np.log(ratio)
+    if cells > _LIMIT:
+        raise ValueError(f"would need {cells:.3g} cells")
+    return max(1, round(cells))
+
+
+def _fitted_ratio(first: float, cells: int, length: float) -> float:
+    """The ratio with which ``cells`` cells from ``first`` on fill ``length``, by bisection."""
+    if cells == 1:
+        return 1.0
+
+    def filled(ratio: float) -> float:
+        return first * float(np.sum(ratio ** np.arange(cells)))
+
+    low, high = 1e-3, 2.0
+    while filled(high) < length:
+        high *= 2
+    for _ in range(200):
+        middle = 0.5 * (low + high)
+        if filled(middle) < length:
+            low = middle
+        else:
+            high = middle
+    return 0.5 * (low + high)
+
+
+def _checked(edges: np.ndarray) -> np.ndarray:
+    if len(edges) > _LIMIT:
+        raise ValueError(f"has {len(edges)} cells")
+    return edges

@@ -1,0 +1,255 @@
+"""The sections of a deck and everything that can stand in them, with defaults and meanings."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+from pydantic import BeforeValidator, Field, WithJsonSchema, model_validator
+
+from hydro2d import units
+from hydro2d.deck.base import (
+    Fraction,
+    Length,
+    NotNegative,
+    PositiveLength,
+    PositiveNumber,
+    PositiveSpeed,
+    PositiveTime,
+    Section,
+    Time,
+)
+from hydro2d.deck.bodies import AnyBody
+
+_SEGMENTS = (
+    "{to, cells}, {to, size}, {cells, size}, {to, ratio}, {cells, ratio}, {to, last}; the last three take `first` too, "
+    "else they go on from the segment before; {across, cells_across} can stand for size and for first"
+)
+
+
+class Segment(Section):
+    """A run of cells along one axis; segments follow one another. A ratio is adjusted so that `to` is met."""
+
+    to: Length | None = Field(None, description="position of the far edge")
+    cells: int | None = Field(None, gt=0, le=1_000_000, description="number of cells")
+    size: PositiveLength | None = Field(None, description="size of every cell; must divide the segment")
+    first: PositiveLength | None = Field(None, description="size of the first cell; default: previous size x ratio")
+    last: PositiveLength | None = Field(None, description="size of the last cell")
+    ratio: PositiveNumber | None = Field(None, description="each cell's size over that of the one before")
+    across: str | None = Field(None, description="a body with a radius, to measure cells with")
+    cells_across: PositiveNumber | None = Field(None, description="cells across the radius of that body")
+
+    @model_validator(mode="after")
+    def _shape(self):
+        given = {key for key in ("to", "cells", "size", "first", "last", "ratio") if getattr(self, key) is not None}
+        if (self.across is None) != (self.cells_across is None):
+            raise ValueError("across and cells_across go together")
+        if self.across is not None:
+            graded = bool(given & {"ratio", "last"})
+            if ("first" if graded else "size") in given:
+                raise ValueError("across gives the size of the cells, which is given beside it once more")
+            given.add("first" if graded else "size")
+        allowed = ("to cells", "to size", "cells size", "to ratio", "cells ratio", "to last")
+        graded = ("to first ratio", "cells first ratio", "to first last")
+        if given not in [set(entry.split()) for entry in allowed + graded]:
+            raise ValueError(f"{', '.join(sorted(given)) or 'nothing'} does not define a segment; it takes {_SEGMENTS}")
+        return self
+
+
+class Mesh(Section):
+    """The mesh. r = 0 is the axis of symmetry in cylindrical geometry; z is the axis a rod flies along."""
+
+    geometry: Literal["cylindrical", "planar"] = Field("cylindrical", description="r-z with an axis, or plane strain")
+    r_start: Length = Field(0.0, description="inner edge of the mesh")
+    z_start: Length = Field(0.0, description="lower edge of the mesh")
+    r: tuple[Segment, ...] = Field(min_length=1, description="segments from r_start outward")
+    z: tuple[Segment, ...] = Field(min_length=1, description="segments from z_start upward")
+    follow: str | None = Field(
+        None, description="a body that the whole mesh travels with along z; what the deck has placed ahead enters in its turn; "
+        "default: the mesh stands still"
+    )
+
+
+class Boundaries(Section):
+    """What stands at the edges: the axis; a frictionless wall (or plane of symmetry); outflow, an open end that bodies leave as
+    if the mesh went on; or transmit, the cut through an endless plate, which lets waves out and holds what they press on."""
+
+    r_min: Literal["axis", "wall", "outflow", "transmit"] | None = Field(
+        None, description="default: axis where a cylindrical mesh starts at r = 0, else wall"
+    )
+    r_max: Literal["wall", "outflow", "transmit"] = Field("outflow", description="the outer edge")
+    z_min: Literal["wall", "outflow", "transmit"] = Field("outflow", description="the lower edge")
+    z_max: Literal["wall", "outflow", "transmit"] = Field("outflow", description="the upper edge")
+
+
+class Numerics(Section):
+    """How the equations are solved."""
+
+    advection: Literal["ke", "momentum", "both"] = Field("ke", description="what the remap of velocities conserves")
+    ke_bound: PositiveNumber = Field(1.05, description="bound of |u| over |momentum/mass| in the ke remap")
+    courant: PositiveNumber = Field(0.5, le=1, description="time step over that of the fastest wave")
+    advective_courant: PositiveNumber = Field(0.4, le=0.5, description="largest share of a cell crossed in one step")
+    max_growth: PositiveNumber = Field(1.1, ge=1, description="largest ratio of successive time steps")
+    ramp_cycles: int = Field(100, ge=0, description="cycles over which the time step rises from its initial factor")
+    initial_dt_factor: Fraction = Field(0.1, gt=0, description="first time step over the stable one")
+    dt_min: Time = Field(1e-14, description="a time step below this ends the run as unphysical")
+    viscosity_linear: NotNegative = Field(0.5, description="linear coefficient of the artificial viscosity")
+    viscosity_quadratic: NotNegative = Field(1.3, description="quadratic coefficient of the artificial viscosity")
+    hourglass: NotNegative = Field(0.05, le=1, description="coefficient of the hourglass filter")
+    mixed_cell: Literal["tipton", "uniform"] = Field("tipton", description="how materials share a volume change")
+    relaxation: PositiveNumber = Field(0.25, description="gamma of the pressure relaxation in mixed cells")
+    mixed_strength: Literal["volume", "solid", "zero", "max", "material"] = Field(
+        "volume", description="strength of a mixed cell: shared by volume, by solids, none, the largest, each its own"
+    )
+    trace: Fraction = Field(1e-8, lt=0.01, description="volume fractions below this are removed and booked")
+    mass_floor: Fraction = Field(1e-6, description="share of a vertex's full mass below which its velocity is limited")
+    active_region: bool = Field(True, description="skip cells that no signal has reached")
+    interface_order: tuple[str, ...] = Field(
+        (), description="nesting of bodies in mixed cells; default: the hard bodies of a contact, then deck order"
+    )
+
+
+def _width(value):
+    """A number counts cells of the finest size; a string is a length, and stays a string."""
+    if isinstance(value, str):
+        if units.to_si(value, "m") < 0:
+            raise ValueError("must not be negative")
+        return value
+    if isinstance(value, bool) or not isinstance(value, (int, float)) or value < 0:
+        raise ValueError('expected a number of cells such as 2, or a length such as "0.8 mm"')
+    return float(value)
+
+
+def _factor(value):
+    if isinstance(value, (int, float)) and not isinstance(value, bool):
+        if value <= 0:
+            raise ValueError("must be positive")
+        return float(value)
+    if value not in ("radius", "printed", "off"):
+        raise ValueError(f'{value!r} is none of "radius", "printed", "off" and no number')
+    return value
+
+
+_NUMBER_OR_TEXT = {"anyOf": [{"type": "number"}, {"type": "string"}]}
+Width = Annotated[float | str, BeforeValidator(_width), WithJsonSchema(_NUMBER_OR_TEXT)]
+Factor = Annotated[float | str, BeforeValidator(_factor), WithJsonSchema(_NUMBER_OR_TEXT)]
+
+
+class Sliding(Section):
+    """Sliding between hard bodies and the rest; keys that say nothing of a contact belong to the slip layer."""
+
+    method: Literal["none", "slip-layer", "contact"] = Field(
+        "none",
+        description="none: bodies stick as the mesh lets them; slip-layer: soft material beside the hard bodies loses its "
+        "shear; contact: the hard bodies have velocities of their own",
+    )
+    hard: tuple[str, ...] = Field(
+        (), description="bodies that keep their own strength in mixed cells, or that a contact gives velocities of their own"
+    )
+    boundary_layer: Width = Field(2.0, description="soft material that moves with the hard body: cells, or a length")
+    slip_layer: Width = Field(2.0, description="soft material beyond it whose shear is cut: cells, or a length")
+    threshold: Fraction = Field(0.3, description="share of hard material from which a cell counts as hard")
+    yield_factor: Factor = Field(
+        "off",
+        description='on the hard yield: ((R + w)/R)^2 ("radius"), with the density in cgs for R ("printed"), a number; '
+        'a contact takes "off" or a number',
+    )
+    shear: Literal["fluid", "shear"] = Field(
+        "fluid", description="slip layer without deviator, or without shear along n"
+    )
+    friction: NotNegative = Field(
+        0.0, description='Coulomb coefficient at the interface of a contact, or in the slip layer with shear = "shear"'
+    )
+    refresh: int = Field(5, ge=1, description="cycles between updates of the distance field")
+
+
+class Failure(Section):
+    """Which failure models of the materials act, and how void opens."""
+
+    tensile: Literal["material", "none"] = Field("material", description="fracture pressure of each material, or never")
+    damage: Literal["material", "none"] = Field("none", description="damage model of each material, or never")
+    tension: Literal["mean", "min"] = Field("mean", description="fracture pressure of a mixed cell, by share or least")
+    max_opening: Fraction = Field(0.2, gt=0, description="largest share of a cell that becomes void in one cycle")
+    loose: Fraction = Field(
+        0.94, lt=1, description="share of the reference density below which a material carries no shear; 0: never"
+    )
+
+
+class Stop(Section):
+    """When the run ends: whichever comes first. The speed of a body is looked at every 10 cycles.
+
+    Where the rod's speed, its rebound or perforation is watched, the run also ends when the rod has left the mesh.
+    """
+
+    time: PositiveTime | None = Field(None, description="end time")
+    cycles: int | None = Field(None, gt=0, description="number of cycles")
+    body: str | None = Field(None, description="the body watched; default: the rod")
+    speed_below: PositiveSpeed | None = Field(None, description="axial speed of that body's centre of mass, of a rod's core")
+    rebound: bool = Field(False, description="stop when that body turns round")
+    perforation: bool = Field(False, description="stop when the rod's nose is the rod's radius beyond the rear of the target")
+
+
+class Output(Section):
+    """What is written, and how often."""
+
+    directory: str | None = Field(None, description="default: runs/<name of the deck>")
+    history_interval: PositiveTime | None = Field(None, description="default: a thousandth of the end time")
+    vtk_interval: PositiveTime | None = Field(None, description="default: a fiftieth of the end time")
+    restart_interval: PositiveTime = Field(300.0, description="wall-clock time between restart files")
+    fields: tuple[str, ...] = Field(("standard",), description="fields of the VTK files, by name")
+
+
+class Tracer(Section):
+    """A point that moves with the material."""
+
+    name: str = Field(min_length=1, description="name of the tracer in the history")
+    r: Length = Field(description="radial position at time zero")
+    z: Length = Field(description="axial position at time zero")
+
+
+class Experiment(Section):
+    """What was measured, to be shown beside the run; the run does not use it.
+
+    Where the deck, by an override or as it is laid over another, has another impact velocity (by more than 1 %) or target than
+    the shot's, the resolved deck has no experiment.
+    """
+
+    velocity: PositiveSpeed | None = Field(None, description="impact velocity of the shot; default: whatever the rod has")
+    target: str | None = Field(None, description="material that was shot at; default: whatever the target is made of")
+    penetration: PositiveLength | None = Field(None, description="depth below the original surface")
+    qualifier: Literal["measured", "estimated", "at least"] = Field("measured", description="what the depth is")
+    source: str = Field(min_length=1, description="where the number comes from")
+
+
+class Penetration(Section):
+    """What the penetration depth is measured between."""
+
+    rod: str = Field(description="the body that penetrates")
+    target: str = Field(description="the body that is penetrated")
+    surface: Length | None = Field(None, description="where the target's face was; default: its face in the deck")
+
+
+class Deck(Section):
+    """A resolved input deck, in SI units. Sections are attributes: deck.numerics.courant, deck.body[0].name."""
+
+    name: str = Field("deck", min_length=1, description="name of the run; default: that of the file")
+    title: str = Field("", description="a line for logs and pictures")
+    mesh: Mesh
+    boundaries: Boundaries = Boundaries()
+    body: tuple[AnyBody, ...] = Field(min_length=1, description="bodies; the first has the place where they overlap")
+    materials: dict[str, Any] = Field({}, description="materials of this deck, each complete or `based_on` another")
+    numerics: Numerics = Numerics()
+    sliding: Sliding = Sliding()
+    failure: Failure = Failure()
+    stop: Stop
+    output: Output = Output()
+    tracer: tuple[Tracer, ...] = ()
+    experiment: Experiment | None = None
+    penetration: Penetration | None = None
+
+    def to_toml(self) -> str:
+        """The deck with every default written out and its materials in full; loading it gives the same deck."""
+        from hydro2d.toml import dumps
+
+        data = self.model_dump()
+        data["materials"] = {name: material.as_deck() for name, material in self.materials.items()}
+        return dumps(data)

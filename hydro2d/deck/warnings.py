@@ -1,0 +1,79 @@
+"""What a deck may say and its author seldom means, one sentence each."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from hydro2d.deck.checks import AHEAD, extent, room
+from hydro2d.deck.mesh import axis_edges, body
+from hydro2d.deck.sections import Deck
+
+#: a rod needs at least this many cells across its radius to behave like one
+CELLS_ACROSS_RADIUS = 5
+
+
+def warnings(deck: Deck) -> list[str]:
+    """What is allowed but unwise, one sentence each; `hydro2d check` and the start of a run show it."""
+    return [*_coarse_rods(deck), *_jumps(deck), *_short_mesh(deck), *_yielding_rods(deck), *_no_failure(deck)]
+
+
+def _coarse_rods(deck: Deck) -> Iterator[str]:
+    r = axis_edges(deck, "r")
+    for entry in deck.body:
+        if entry.shape == "rod":
+            cells = entry.rod_radius / float(np.diff(r)[r[:-1] < entry.rod_radius].max())
+            if cells < CELLS_ACROSS_RADIUS - 1e-9:
+                yield (
+                    f'body "{entry.name}": {cells:.1f} cells across the radius; below {CELLS_ACROSS_RADIUS} a rod is '
+                    "neither rigid nor round"
+                )
+
+
+def _jumps(deck: Deck) -> Iterator[str]:
+    for axis in ("r", "z"):
+        sizes = np.diff(axis_edges(deck, axis))
+        jump = float(np.max(np.maximum(sizes[1:] / sizes[:-1], sizes[:-1] / sizes[1:]), initial=1.0))
+        if jump > 1.25:
+            yield f"mesh.{axis}: neighbouring cells differ by a factor of {jump:.2f}; shocks reflect beyond 1.2"
+
+
+def _short_mesh(deck: Deck) -> Iterator[str]:
+    if deck.mesh.follow is not None:
+        ahead = room(deck, axis_edges(deck, "z"))[0] / extent(body(deck, deck.mesh.follow), deck, "r")[1]
+        if ahead < AHEAD:
+            yield f'mesh.follow: the mesh ends {ahead:.3g} radii ahead of "{deck.mesh.follow}"; its edge is felt below {AHEAD}'
+
+
+def _yielding_rods(deck: Deck) -> Iterator[str]:
+    if deck.sliding.method == "slip-layer" and deck.sliding.yield_factor == "off":
+        yield 'sliding.yield_factor is "off": noise at the interface can yield a rod that should stay rigid'
+
+
+def _no_failure(deck: Deck) -> Iterator[str]:
+    """Bodies with strength that cannot fail in a way that the deck or their material speaks of.
+
+    A deck that says itself that failure.damage is "none" means it; a resolved deck says so of every deck.
+    """
+    failure = deck.failure
+    forgotten = failure.damage == "none" and "damage" not in failure.model_fields_set
+    for entry in deck.body:
+        material = deck.materials[entry.material]
+        if entry.join is not None or not material.has_strength:
+            continue
+        if material.damage.name != "none" and forgotten:
+            yield (
+                f'body "{entry.name}": the {material.damage.name} damage model of {material.name} is off, because '
+                'failure.damage is not given; "material" switches it on, "none" keeps it off'
+            )
+        if material.fracture_pressure is None and failure.tensile == "material":
+            yield (
+                f'body "{entry.name}": {material.name} has no fracture_pressure, so that with failure.tensile = '
+                '"material" it never fractures in tension'
+            )
+        if material.damage.name == "none" and failure.damage == "material":
+            yield (
+                f'body "{entry.name}": {material.name} has no damage model, so that with failure.damage = "material" '
+                "it is never damaged"
+            )

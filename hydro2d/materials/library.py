@@ -1,0 +1,372 @@
+"""Named materials: the library, the materials of a deck, and the rows of numbers that kernels read.
+
+A material is an equation of state, a strength model, a damage model and a fracture pressure. Every number of the
+library carries its source and a confidence; printed values in doubt are kept as variants, beside the default.
+"""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from types import ModuleType
+
+import numpy as np
+
+from hydro2d import units
+from hydro2d.errors import DeckError, Sources, unknown
+from hydro2d.toml import merge, parse, problems_folder
+
+#: how far a number can be trusted
+CONFIDENCE = {
+    "printed": "printed in the study that the material is taken from",
+    "found": "read in a public source, not in the original",
+    "recalled": "quoted from memory of the source, not read again",
+    "doubtful": "quoted from memory with little certainty, or printed and improbable",
+    "derived": "computed from other entries",
+    "chosen": "a choice of this library",
+    "deck": "given by the deck",
+    "default": "the default of the model",
+}
+
+_PARTS = ("eos", "strength", "damage")
+_KEYS = (*_PARTS, "fracture_pressure", "title", "note", "source", "confidence", "variants", "variant", "based_on")
+_ABOUT = ("source", "confidence", "note")
+
+Fail = Callable[[tuple, str], Exception]
+
+
+@dataclass(frozen=True)
+class Number:
+    """A parameter in SI, with where it comes from."""
+
+    value: float
+    unit: str
+    source: str
+    confidence: str
+    note: str = ""
+
+
+@dataclass(frozen=True)
+class Model:
+    """A model by name, with a number for every parameter."""
+
+    name: str
+    numbers: Mapping[str, Number] = field(default_factory=dict)
+
+    @property
+    def values(self) -> dict[str, float]:
+        return {name: number.value for name, number in self.numbers.items()}
+
+
+@dataclass(frozen=True)
+class Material:
+    """A resolved material: nothing left to default."""
+
+    name: str
+    title: str
+    note: str
+    eos: Model
+    strength: Model
+    damage: Model
+    fracture_pressure: Number | None
+    variants: Mapping[str, str] = field(default_factory=dict)
+
+    @property
+    def reference_density(self) -> float:
+        """Density at zero pressure and energy, kg/m^3."""
+        return self.eos.numbers["reference_density"].value
+
+    @property
+    def has_strength(self) -> bool:
+        return self.strength.name != "hydrodynamic"
+
+    def as_deck(self) -> dict:
+        """The material as a table of a deck, every number in SI."""
+        data: dict = {"title": self.title} if self.title else {}
+        if self.fracture_pressure is not None:
+            data["fracture_pressure"] = self.fracture_pressure.value
+        for part in _PARTS:
+            model = getattr(self, part)
+            data[part] = {"model": model.name, **model.values}
+        return data
+
+
+@functools.cache
+def _library() -> tuple[dict[str, dict], Sources]:
+    """Raw tables of the library by name, and where their keys stand."""
+    tables: dict[str, dict] = {}
+    sources = Sources()
+    for file in sorted((problems_folder() / "materials").glob("*.toml")):
+        text = file.read_text(encoding="utf-8")
+        data = parse(text, str(file))
+        twice = sorted(set(data) & set(tables))
+        if twice:
+            raise DeckError(f"{file}: material {twice[0]} is defined in another file as well")
+        sources.add(str(file), data, text)
+        tables.update({name: _sourced(table, "chosen") for name, table in data.items()})
+    return tables, sources
+
+
+def _sourced(table: dict, confidence: str, about: dict | None = None) -> dict:
+    """The table with its source and confidence written to every number, so that it can be laid over another."""
+    about = {"source": "", "confidence": confidence, **(about or {}), **_about(table), "note": ""}
+    result = {key: value for key, value in table.items() if key not in ("source", "confidence")}
+    for part in _PARTS:
+        if isinstance(table.get(part), dict):
+            own = {**about, **_about(table[part])}
+            rest = {key: value for key, value in table[part].items() if key not in _ABOUT}
+            result[part] = {key: value if key == "model" else _with(value, own) for key, value in rest.items()}
+    if "fracture_pressure" in table:
+        result["fracture_pressure"] = _with(table["fracture_pressure"], about)
+    if "variants" in table:
+        result["variants"] = {key: _sourced(entry, confidence, about) for key, entry in table["variants"].items()}
+    return result
+
+
+def _about(table: dict) -> dict:
+    return {key: table[key] for key in ("source", "confidence") if key in table}
+
+
+def _with(number, about: dict) -> dict:
+    return {**about, **number} if isinstance(number, dict) else {**about, "value": number}
+
+
+def names() -> list[str]:
+    """The materials of the library."""
+    return sorted(_library()[0])
+
+
+def load(name: str, variant: str | None = None) -> Material:
+    """A material of the library, or one of its variants; DeckError where there is none."""
+    tables, sources = _library()
+
+    def fail(path: tuple, message: str) -> DeckError:
+        return DeckError(f"{sources.where((name, *path), tables)}: material {name}: {message}")
+
+    if name not in tables:
+        raise DeckError(unknown("material", name, tables))
+    return _build(name, _varied(tables[name], variant, fail), fail)
+
+
+def from_deck(name: str, tables: Mapping[str, dict], fail: Fail) -> Material:
+    """The material ``name`` of a deck: one of its own tables, or one of the library.
+
+    ``fail(path, message)`` makes the error for a key of [materials]; it is raised here.
+    """
+    if name not in tables:
+        return load(name)
+    return _build(name, _based(name, tables, fail, ()), lambda path, text: fail((name, *path), text))
+
+
+def _based(name: str, tables: Mapping[str, dict], fail: Fail, chain: tuple[str, ...]) -> dict:
+    """The raw table of a deck's material laid over what it is based on."""
+    if not isinstance(tables[name], dict):
+        raise fail((name,), "a material is a table")
+    variants = tables[name].get("variants", {})
+    if not isinstance(variants, dict) or not all(isinstance(entry, dict) for entry in variants.values()):
+        raise fail((name, "variants"), "holds a table for each variant")
+    own = _sourced(tables[name], "deck")
+    base = own.get("based_on")
+    if base is None:
+        if "eos" not in own:
+            hint = f'; to change a material of the library, write based_on = "{name}"' if name in names() else ""
+            raise fail((name,), f"has no eos{hint}")
+        raw = own
+    elif not isinstance(base, str):
+        raise fail((name, "based_on"), "is the name of a material")
+    elif base in tables and base != name:
+        if base in chain:
+            raise fail((name, "based_on"), f"goes round in a circle: {' -> '.join((*chain, name, base))}")
+        raw = _overlaid(_based(base, tables, fail, (*chain, name)), own)
+    elif base in names():
+        raw = _overlaid(_library()[0][base], own)
+    else:
+        raise fail((name, "based_on"), unknown("material", str(base), {*names(), *tables} - {name}))
+    return _varied(raw, own.get("variant"), lambda path, text: fail((name, *path), text), own)
+
+
+def _overlaid(base: dict, over: dict) -> dict:
+    """``over`` on ``base``; a part that names another model replaces the whole part."""
+    base = dict(base)
+    for part in _PARTS:
+        old, new = base.get(part), over.get(part)
+        if isinstance(old, dict) and isinstance(new, dict) and new.get("model", old.get("model")) != old.get("model"):
+            del base[part]
+    return merge(base, {key: value for key, value in over.items() if key not in ("based_on", "variant")})
+
+
+def _varied(raw: dict, variant, fail: Fail, own: dict | None = None) -> dict:
+    """The table with one or several of its variants laid over it, and the deck's own numbers on top of them."""
+    chosen = [] if variant is None else [variant] if isinstance(variant, str) else variant
+    known = raw.get("variants", {})
+    if not isinstance(chosen, list):
+        raise fail(("variant",), "is the name of a variant or a list of names")
+    for name in chosen:
+        if str(name) not in known:
+            raise fail(("variant",), unknown("variant", str(name), known))
+        raw = _overlaid(raw, {key: value for key, value in known[name].items() if key != "title"})
+    return _overlaid(raw, own) if own and chosen else raw
+
+
+def _build(name: str, raw: dict, fail: Fail) -> Material:
+    from eos import MODELS
+    from strength import DAMAGE_MODELS, STRENGTH_MODELS
+
+    for key in raw:
+        if key not in _KEYS:
+            raise fail((key,), unknown("key", key, _KEYS))
+    eos = _model(raw.get("eos"), "eos", MODELS, None, {}, fail)
+    own = eos.numbers
+    strength = _model(raw.get("strength"), "strength", STRENGTH_MODELS, "hydrodynamic", own, fail)
+    damage = _model(raw.get("damage"), "damage", DAMAGE_MODELS, "none", own, fail)
+    fracture = None
+    if "fracture_pressure" in raw:
+        fracture = _number(raw["fracture_pressure"], "Pa", ("fracture_pressure",), fail)
+        if fracture.value <= 0:
+            raise fail(("fracture_pressure",), f"must be positive (a tension), is {fracture.value:g}")
+    variants = {key: str(entry.get("title", "")) for key, entry in raw.get("variants", {}).items()}
+    title, note = str(raw.get("title", "")), str(raw.get("note", ""))
+    return Material(name, title, note, eos, strength, damage, fracture, variants)
+
+
+def _model(raw, part: str, models: Mapping[str, ModuleType], default: str | None, eos: Mapping, fail: Fail) -> Model:
+    """A model with all its parameters: given, taken from the equation of state, or the model's default."""
+    if raw is None:
+        if default is None:
+            raise fail((), f"has no {part}")
+        raw = {"model": default}
+    if not isinstance(raw, dict) or not isinstance(raw.get("model"), str):
+        raise fail((part,), f"needs a model (allowed: {', '.join(models)})")
+    if raw["model"] not in models:
+        raise fail((part, "model"), unknown(f"{part} model", raw["model"], models))
+    parameters = {parameter.name: parameter for parameter in models[raw["model"]].PARAMETERS}
+    numbers = {}
+    for key in raw:
+        if key not in (*parameters, "model"):
+            raise fail((part, key), _unknown_parameter(raw["model"], key, parameters))
+    for key, parameter in parameters.items():
+        if key in raw:
+            number = _number(raw[key], parameter.unit or "1", (part, key), fail)
+            try:
+                parameter.check(number.value)
+            except ValueError as problem:
+                raise fail((part, key), str(problem)) from None
+        elif parameter.from_eos and key in eos:
+            number = eos[key]
+        elif parameter.required:
+            raise fail((part,), f"{raw['model']} needs {key} ({parameter.description}, {parameter.unit or '1'})")
+        else:
+            number = Number(float(parameter.default), parameter.unit or "1", f"{raw['model']} model", "default")
+        numbers[key] = number
+    return Model(raw["model"], numbers)
+
+
+def _unknown_parameter(model: str, key: str, parameters: Mapping) -> str:
+    for parameter in parameters.values():
+        if key.lower() == parameter.symbol.lower():
+            return f'unknown parameter "{key}" of {model}; it is called "{parameter.name}"'
+    return unknown(f"parameter of {model}", key, parameters)
+
+
+def _number(raw: dict, unit: str, path: tuple, fail: Fail) -> Number:
+    """A number from {value, source, confidence, note}."""
+    for key in raw:
+        if key not in ("value", *_ABOUT):
+            raise fail((*path, key), unknown("key", key, ("value", *_ABOUT)))
+    if "value" not in raw:
+        raise fail(path, "needs a value")
+    if str(raw["confidence"]) not in CONFIDENCE:
+        raise fail(path, unknown("confidence", str(raw["confidence"]), CONFIDENCE))
+    try:
+        value = raw["value"] if raw["value"] == float("inf") else units.to_si(raw["value"], unit)
+    except ValueError as problem:
+        raise fail(path, str(problem)) from None
+    return Number(value, unit, raw["source"], raw["confidence"], raw["note"])
+
+
+@dataclass(frozen=True)
+class MaterialTable:
+    """What kernels need of the materials, one line per slot m (a body, with all bodies that join it).
+
+    ``eos_par`` is float64[m, eos.ROW], ``strength_par`` float64[m, strength.ROW], ``damage_par`` float64[m,
+    strength.DAMAGE_ROW]; the model ids are int64[m]; ``fracture_pressure`` is a positive tension, inf where never.
+    """
+
+    names: tuple[str, ...]
+    materials: tuple[Material, ...]
+    rho0: np.ndarray
+    e0: np.ndarray
+    eos_model: np.ndarray
+    eos_par: np.ndarray
+    strength_model: np.ndarray
+    strength_par: np.ndarray
+    damage_model: np.ndarray
+    damage_par: np.ndarray
+    fracture_pressure: np.ndarray
+
+    def __len__(self) -> int:
+        return len(self.names)
+
+
+def _row(module: ModuleType, model: Model, material: Material) -> np.ndarray:
+    try:
+        return module.row(model.values)
+    except ValueError as problem:
+        raise DeckError(f"material {material.name}: {problem}") from None
+
+
+def resolve(deck) -> MaterialTable:
+    """Model ids and parameter rows of the deck's slots; DeckError for values that a model refuses."""
+    import eos
+    from strength import DAMAGE_MODELS, STRENGTH_MODELS
+
+    slots = [body for body in deck.body if body.join is None]
+    chosen = [deck.materials[body.material] for body in slots]
+    eos_modules = [eos.MODELS[material.eos.name] for material in chosen]
+    strength_modules = [STRENGTH_MODELS[material.strength.name] for material in chosen]
+    damages = [material.damage if deck.failure.damage == "material" else Model("none") for material in chosen]
+    damage_modules = [DAMAGE_MODELS[damage.name] for damage in damages]
+    eos_par = np.stack([_row(m, c.eos, c) for m, c in zip(eos_modules, chosen, strict=True)])
+    strength_par = np.stack([_row(m, c.strength, c) for m, c in zip(strength_modules, chosen, strict=True)])
+    damage_par = np.stack([_row(m, d, c) for m, d, c in zip(damage_modules, damages, chosen, strict=True)])
+    tensile = [c.fracture_pressure.value if c.fracture_pressure else np.inf for c in chosen]
+    if deck.failure.tensile == "none":
+        tensile = [np.inf] * len(chosen)
+    return MaterialTable(
+        names=tuple(body.name for body in slots),
+        materials=tuple(chosen),
+        rho0=eos_par[:, eos.RHO0].copy(),
+        e0=eos_par[:, eos.E0].copy(),
+        eos_model=np.array([m.ID for m in eos_modules], dtype=np.int64),
+        eos_par=eos_par,
+        strength_model=np.array([m.ID for m in strength_modules], dtype=np.int64),
+        strength_par=strength_par,
+        damage_model=np.array([m.ID for m in damage_modules], dtype=np.int64),
+        damage_par=damage_par,
+        fracture_pressure=np.array(tensile),
+    )
+
+
+def describe(name: str, variant: str | None = None) -> str:
+    """The page of a material for ``hydro2d info``: every number with its unit, source and confidence."""
+    material = load(name, variant)
+    lines = [f"{material.name}: {material.title}"] + ([material.note] if material.note else [])
+    parts: list[tuple[str, Mapping[str, Number]]] = [
+        (f"{part}: {getattr(material, part).name}", getattr(material, part).numbers) for part in _PARTS
+    ]
+    if material.fracture_pressure is not None:
+        parts.append(("failure", {"fracture_pressure": material.fracture_pressure}))
+    for heading, numbers in parts:
+        lines += ["", heading] + [_line(key, number) for key, number in numbers.items()]
+    if material.variants:
+        lines += ["", "variants"] + [f"  {key}: {title}" for key, title in material.variants.items()]
+    used = {number.confidence for _, numbers in parts for number in numbers.values()}
+    lines += ["", "confidence"] + [f"  {key}: {CONFIDENCE[key]}" for key in CONFIDENCE if key in used]
+    return "\n".join(lines) + "\n"
+
+
+def _line(key: str, number: Number) -> str:
+    unit = "" if number.unit == "1" else number.unit
+    about = "; ".join(part for part in (number.source, number.note) if part)
+    return f"  {key:<24}{number.value:>12.6g} {unit:<10} {number.confidence:<9} {about}".rstrip()

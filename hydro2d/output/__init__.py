@@ -1,0 +1,1 @@
+"""What a run writes: quantities, histories, restart files, VTK."""

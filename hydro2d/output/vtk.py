@@ -1,0 +1,314 @@
+"""Fields as VTK files that ParaView opens with one click: one .vtr per dump and a .pvd with their times.
+
+x = r, y = z. Float32, appended raw, LZ4. Beside the fields, the outlines of the bodies and the tracers are series of
+.vtp files of their own. Names and units: derived.py.
+"""
+
+from __future__ import annotations
+
+import errno
+import os
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+from xml.etree import ElementTree
+
+import numpy as np
+
+from hydro2d.errors import unknown
+from hydro2d.files import replacing, write_text
+from hydro2d.output import derived
+from hydro2d.output.outlines import outlines
+
+FOLDER = "vtk"
+SERIES = {"dump": "series.pvd", "interfaces": "interfaces.pvd", "tracers": "tracers.pvd"}
+
+#: bytes that are compressed at a time
+BLOCK = 1 << 18
+
+
+class VtkError(Exception):
+    """A VTK file that cannot be read."""
+
+
+def _write(dataset, path: Path, time: float, writer) -> None:
+    from vtkmodules.vtkCommonCore import vtkDoubleArray
+
+    stamp = vtkDoubleArray()
+    stamp.SetName("TimeValue")
+    stamp.InsertNextValue(time)
+    dataset.GetFieldData().AddArray(stamp)
+    writer.SetInputData(dataset)
+    writer.SetDataModeToAppended()
+    writer.EncodeAppendedDataOff()
+    writer.SetCompressorTypeToLZ4()
+    writer.SetBlockSize(BLOCK)
+    with replacing(path) as temporary:
+        writer.SetFileName(str(temporary))
+        if writer.Write() != 1:
+            raise _write_error(writer.GetErrorCode(), path)
+
+
+def _write_error(code: int, path: Path) -> OSError:
+    """VTK's reason for a file that it could not write: numbers below its own are the system's."""
+    from vtkmodules.vtkCommonMisc import vtkErrorCode
+
+    if code == vtkErrorCode.OutOfDiskSpaceError:
+        code = errno.ENOSPC
+    if 0 < code < vtkErrorCode.FirstVTKErrorCode:
+        return OSError(code, os.strerror(code), str(path))
+    return OSError(f"{path}: VTK could not write the file: {vtkErrorCode.GetStringFromErrorCode(code)}")
+
+
+def _array(values: np.ndarray, name: str):
+    """A VTK array that owns its numbers: float32 for real numbers, int32 for integers."""
+    from vtkmodules.util.numpy_support import numpy_to_vtk
+
+    kind = np.int32 if values.dtype.kind in "iu" else np.float32
+    array = numpy_to_vtk(np.ascontiguousarray(values, dtype=kind), deep=True)
+    array.SetName(name)
+    return array
+
+
+def _coordinates(values, name: str):
+    """A float64 VTK array; with a name, or VTK writes an address of memory and no two files are the same."""
+    from vtkmodules.util.numpy_support import numpy_to_vtk
+
+    array = numpy_to_vtk(np.ascontiguousarray(values, dtype=float), deep=True)
+    array.SetName(name)
+    return array
+
+
+def write_grid(path: Path, r_edges, z_edges, fields: Iterable[tuple[str, np.ndarray]], time: float) -> None:
+    """Writes cell data on a rectilinear grid.
+
+    r_edges (nr + 1,), z_edges (nz + 1,) in m;  fields: names and values (nz, nr) or (nz, nr, 3);  time in s
+
+    The first vector is marked as the one that filters turn and mirror with the geometry.
+    """
+    from vtkmodules.vtkCommonDataModel import vtkRectilinearGrid
+    from vtkmodules.vtkIOXML import vtkXMLRectilinearGridWriter
+
+    grid = vtkRectilinearGrid()
+    grid.SetDimensions(len(r_edges), len(z_edges), 1)
+    grid.SetXCoordinates(_coordinates(r_edges, "r"))
+    grid.SetYCoordinates(_coordinates(z_edges, "z"))
+    grid.SetZCoordinates(_coordinates([0.0], "height"))
+    data, cells = grid.GetCellData(), (len(z_edges) - 1) * (len(r_edges) - 1)
+    for name, values in fields:
+        data.AddArray(_array(values.reshape(cells, *values.shape[2:]), name))
+        if values.ndim == 3 and data.GetVectors() is None:
+            data.SetActiveVectors(name)
+    _write(grid, path, time, vtkXMLRectilinearGridWriter())
+
+
+def write_lines(path: Path, lines: list[tuple[int, np.ndarray]], time: float) -> None:
+    """Writes polylines, each with the number of its body; every line is an array (n, 2) of r, z."""
+    from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
+    from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
+
+    cells, data, start = vtkCellArray(), vtkPolyData(), 0
+    for _, line in lines:
+        cells.InsertNextCell(len(line))
+        for point in range(start, start + len(line)):
+            cells.InsertCellPoint(point)
+        start += len(line)
+    data.SetPoints(_points(np.concatenate([line for _, line in lines]) if lines else np.zeros((0, 2))))
+    data.SetLines(cells)
+    data.GetCellData().AddArray(_array(np.array([body for body, _ in lines], dtype=np.int32), "Material"))
+    _write(data, path, time, vtkXMLPolyDataWriter())
+
+
+def write_points(path: Path, positions: np.ndarray, time: float) -> None:
+    """Writes tracers as vertices, with their number; positions (n, 2) of r, z."""
+    from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
+    from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
+
+    cells, data = vtkCellArray(), vtkPolyData()
+    for point in range(len(positions)):
+        cells.InsertNextCell(1)
+        cells.InsertCellPoint(point)
+    data.SetPoints(_points(positions))
+    data.SetVerts(cells)
+    data.GetPointData().AddArray(_array(np.arange(len(positions), dtype=np.int32), "Tracer"))
+    _write(data, path, time, vtkXMLPolyDataWriter())
+
+
+def _points(positions: np.ndarray):
+    from vtkmodules.vtkCommonCore import vtkPoints
+
+    points = vtkPoints()
+    points.SetDataTypeToDouble()
+    points.SetData(_coordinates(np.column_stack([positions, np.zeros(len(positions))]), "Points"))
+    return points
+
+
+def write_series(path: Path, entries: list[tuple[float, str]]) -> None:
+    """Writes a .pvd: times in s and files relative to it."""
+    root = ElementTree.Element("VTKFile", type="Collection", version="0.1", byte_order="LittleEndian")
+    collection = ElementTree.SubElement(root, "Collection")
+    for time, file in entries:
+        ElementTree.SubElement(collection, "DataSet", timestep=repr(float(time)), group="", part="0", file=file)
+    ElementTree.indent(root)
+    write_text(path, '<?xml version="1.0"?>\n' + ElementTree.tostring(root, encoding="unicode") + "\n")
+
+
+def read_series(path: Path) -> list[tuple[float, str]]:
+    """Times and files of a .pvd. Raises VtkError."""
+    try:
+        return [(float(e.get("timestep")), e.get("file")) for e in ElementTree.parse(path).getroot().iter("DataSet")]
+    except (OSError, ElementTree.ParseError, TypeError, ValueError) as error:
+        raise VtkError(f"{path} is not a series of VTK files: {error}") from None
+
+
+class Series:
+    """The dumps of a run directory.
+
+    Parameters
+    ----------
+    directory : the run directory
+    fields : keys of derived.TABLE, or words of derived.GROUPS, to write
+    dumps : number of dumps of the existing series to keep (a restart); later ones are removed
+    """
+
+    def __init__(self, directory: Path, fields=("standard",), dumps: int = 0):
+        self.directory, self.fields = Path(directory), fields
+        self._times: list[float] = []
+        if dumps:
+            self._times = [time for time, _ in read_series(self.directory / SERIES["dump"])][:dumps]
+        for kind in SERIES:
+            for file in (self.directory / FOLDER).glob(f"{kind}_*.vt?"):
+                if int(file.stem.split("_")[1]) >= len(self._times):
+                    file.unlink()
+        if self._times:
+            self._write_series()
+
+    def __len__(self) -> int:
+        return len(self._times)
+
+    @property
+    def last_time(self) -> float | None:
+        """Time of the last dump."""
+        return self._times[-1] if self._times else None
+
+    def dump(self, sim) -> Path:
+        """Writes fields, outlines and tracers of a simulation and lists them in the series."""
+        number, time = len(self._times), sim.time
+        (self.directory / FOLDER).mkdir(exist_ok=True)
+        path = self._path("dump", number)
+        write_grid(path, sim.grid.r_edges, sim.grid.z_edges, derived.evaluated(sim, self.fields), time)
+        write_lines(self._path("interfaces", number), _body_lines(sim), time)
+        if len(sim.tracers):
+            write_points(self._path("tracers", number), np.asarray(sim.tracers), time)
+        self._times.append(time)
+        self._write_series()
+        return path
+
+    def _path(self, kind: str, number: int) -> Path:
+        return self.directory / FOLDER / f"{kind}_{number:06d}.{'vtr' if kind == 'dump' else 'vtp'}"
+
+    def _write_series(self) -> None:
+        for kind, name in SERIES.items():
+            paths = [self._path(kind, number) for number in range(len(self._times))]
+            entries = [(time, f"{FOLDER}/{path.name}") for time, path in zip(self._times, paths, strict=True)
+                       if path.exists()]  # fmt: skip
+            if entries:
+                write_series(self.directory / name, entries)
+
+
+def _body_lines(sim) -> list[tuple[int, np.ndarray]]:
+    vof = sim.grid.interior(sim.state.vof)
+    return [
+        (m + 1, line)
+        for m in range(len(vof))
+        for line in outlines(sim.grid.r_edges, sim.grid.z_edges, vof[m])
+    ]  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Dump:
+    """A dump read back: r_edges (nr + 1,), z_edges (nz + 1,), fields by name (nz, nr[, 3]), time in s."""
+
+    r_edges: np.ndarray
+    z_edges: np.ndarray
+    fields: dict[str, np.ndarray]
+    time: float
+
+    @property
+    def bodies(self) -> list[str]:
+        """Names of the bodies, in order."""
+        prefix = derived.BY_KEY["volume_fraction"].title.format(body="")
+        return [name.removeprefix(prefix) for name in self.fields if name.startswith(prefix)]
+
+    @property
+    def r_centres(self) -> np.ndarray:
+        """Radii of the cells' middles, m, shape (nr,)."""
+        return 0.5 * (self.r_edges[1:] + self.r_edges[:-1])
+
+    @property
+    def z_centres(self) -> np.ndarray:
+        """Axial positions of the cells' middles, m, shape (nz,)."""
+        return 0.5 * (self.z_edges[1:] + self.z_edges[:-1])
+
+    def outlines(self, body: str) -> list[np.ndarray]:
+        """Lines round a body, each an array (n, 2) of r, z in m; see `outlines.outlines`. Raises VtkError."""
+        if body not in self.bodies:
+            raise VtkError(unknown("body", body, self.bodies))
+        share = derived.BY_KEY["volume_fraction"].name(body)
+        return outlines(self.r_edges, self.z_edges, self.fields[share])
+
+    @classmethod
+    def of(cls, sim, keys=("all",)) -> Dump:
+        """The state of a simulation as it would be written."""
+        return cls(sim.grid.r_edges, sim.grid.z_edges, derived.evaluate(sim, keys), sim.time)
+
+
+def _read(reader, path: Path):
+    """What a reader of VTK makes of a file. Raises VtkError."""
+    if not Path(path).is_file() or not reader.CanReadFile(str(path)):
+        raise VtkError(f"{path} is not a VTK file of a run")
+    reader.SetFileName(str(path))
+    reader.Update()
+    return reader.GetOutput()
+
+
+def read_grid(path: Path) -> Dump:
+    """Reads a .vtr. Raises VtkError."""
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+    from vtkmodules.vtkIOXML import vtkXMLRectilinearGridReader
+
+    grid = _read(vtkXMLRectilinearGridReader(), path)
+    r, z = vtk_to_numpy(grid.GetXCoordinates()), vtk_to_numpy(grid.GetYCoordinates())
+    data, fields = grid.GetCellData(), {}
+    for number in range(data.GetNumberOfArrays()):
+        values = vtk_to_numpy(data.GetArray(number))
+        fields[data.GetArrayName(number)] = values.reshape(len(z) - 1, len(r) - 1, *values.shape[1:]).copy()
+    time = grid.GetFieldData().GetArray("TimeValue").GetValue(0)
+    return Dump(r.copy(), z.copy(), fields, time)
+
+
+def read_lines(path: Path) -> list[tuple[int, np.ndarray]]:
+    """Reads a .vtp of polylines as ``write_lines`` takes them: number of the body, r and z (n, 2). Raises VtkError."""
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+    from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
+
+    data = _read(vtkXMLPolyDataReader(), path)
+    bodies = data.GetCellData().GetArray("Material")
+    if bodies is None:
+        raise VtkError(f"{path} cannot be read: its lines name no body")
+    if data.GetNumberOfCells() == 0:
+        return []
+    points = vtk_to_numpy(data.GetPoints().GetData())[:, :2].copy()
+    ends = vtk_to_numpy(data.GetLines().GetOffsetsArray())
+    order = vtk_to_numpy(data.GetLines().GetConnectivityArray())
+    return [
+        (int(bodies.GetTuple1(line)), points[order[first:last]])
+        for line, (first, last) in enumerate(zip(ends[:-1], ends[1:], strict=True))
+    ]
+
+
+def pyvista_grid(path: Path):
+    """A .vtr as a pyvista.RectilinearGrid."""
+    import pyvista
+
+    return pyvista.read(path)

@@ -1,0 +1,52 @@
+"""Takes fields out of a run: a VTK series with chosen fields, the state of the restart file, the history as CSV."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+from hydro2d.output import derived, history, vtk
+from hydro2d.results.reading import Results, ResultsError
+from hydro2d.running.run import HISTORY
+
+
+def names(dump: vtk.Dump, keys) -> list[str]:
+    """Names in a dump of the quantities `keys` (and words of derived.GROUPS), with those always written."""
+    wanted = []
+    for quantity in (derived.BY_KEY[key] for key in derived.expand(keys)):
+        found = [quantity.name(body) for body in dump.bodies] if quantity.per_body else [quantity.name()]
+        wanted += [name for name in found if name in dump.fields]
+    return wanted
+
+
+def export(run: Results, out: Path, keys=("all",)) -> list[Path]:
+    """Writes `out`/series.pvd with the dumps of a run, and `out`/history.csv. Returns the files to open.
+
+    keys : quantities of derived.TABLE to take. A run without dumps gives the state of its restart file.
+
+    Raises ResultsError, FieldError, SnapshotError.
+    """
+    derived.expand(keys)
+    out = Path(out)
+    if out.resolve() == run.directory.resolve():
+        raise ResultsError(f"{out} is the run itself; export to another directory")
+    (out / vtk.FOLDER).mkdir(parents=True, exist_ok=True)
+    dumps = [vtk.read_grid(file) for _, file in run.dumps] or [run.state()]
+    entries = []
+    for number, dump in enumerate(dumps):
+        name = f"{vtk.FOLDER}/dump_{number:06d}.vtr"
+        fields = {name: dump.fields[name] for name in names(dump, keys)}
+        vtk.write_grid(out / name, dump.r_edges, dump.z_edges, fields.items(), dump.time)
+        entries.append((dump.time, name))
+    written = [out / vtk.SERIES["dump"]]
+    vtk.write_series(written[0], entries)
+    for kind in ("interfaces", "tracers"):
+        if (run.directory / vtk.SERIES[kind]).exists():
+            for _, file in vtk.read_series(run.directory / vtk.SERIES[kind]):
+                shutil.copyfile(run.directory / file, out / file)
+            shutil.copyfile(run.directory / vtk.SERIES[kind], out / vtk.SERIES[kind])
+            written.append(out / vtk.SERIES[kind])
+    if (run.directory / HISTORY).exists():
+        written.append(out / "history.csv")
+        history.write_csv(run.history, written[-1])
+    return written

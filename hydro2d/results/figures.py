@@ -1,0 +1,414 @@
+"""Figures of runs: mirrored sections, histories and craters by matplotlib, a cut-away in three dimensions by pyvista.
+
+Sections show z to the right and r upwards, mirrored at the axis; the lower half may show another field. Runs stand
+below one another with one colour scale, moments beside one another. The three-dimensional picture is rendered in a
+process of its own, so that a driver that fails takes nothing with it.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from hydro2d.errors import unknown
+from hydro2d.files import replacing
+from hydro2d.output import derived, history
+from hydro2d.output.outlines import outlines
+from hydro2d.output.vtk import Dump
+
+#: what readers use: name of the unit and number of them in one SI unit
+READER = {
+    "Pa": ("GPa", 1e-9), "J/kg": ("MJ/kg", 1e-6), "kg/m3": ("g/cm$^3$", 1e-3), "m": ("mm", 1e3), "s": ("µs", 1e6),
+    "kg": ("g", 1e3), "J": ("kJ", 1e-3),
+}  # fmt: skip
+BODY_COLOURS = ("#5b6770", "#c9a66b", "#7aa6c2", "#a3b18a", "#b57ba6", "#d08c60", "#8d99ae", "#c05a5a")
+HISTORIES = ("penetration_depth_m", "rod_tail_velocity_m_s", "rod_length_m", "rod_max_plastic_strain")
+COMPONENTS = {"r": 0, "z": 1}
+VECTORS = ("velocity", "velocity_hard", "velocity_rest")
+#: seconds before a rendering process is given up
+RENDER_SECONDS = 180
+
+
+class FigureError(Exception):
+    """A figure that cannot be drawn; the message is for the user."""
+
+
+@dataclass(frozen=True)
+class Shown:
+    """A field ready to be drawn: values (nz, nr) in the reader's unit, label, colour map; NaN where there is void."""
+
+    values: np.ndarray
+    label: str
+    colours: str
+
+
+def reader_unit(unit: str) -> tuple[str, float]:
+    """The reader's name of a unit, and the factor to it."""
+    return READER.get(unit, (unit, 1.0))
+
+
+def chosen(dump: Dump, field: str) -> Shown:
+    """The field that a word names: a key of derived.TABLE, with ":r" or ":z" for a component and ":body" for a body.
+
+    Raises FigureError.
+    """
+    key, _, part = field.partition(":")
+    if key not in derived.BY_KEY:
+        raise FigureError(unknown("field", key, derived.BY_KEY))
+    quantity = derived.BY_KEY[key]
+    if quantity.per_body and part not in dump.bodies:
+        raise FigureError(f'field "{key}" is one of every body: write {key}:NAME; {unknown("body", part, dump.bodies)}')
+    if not quantity.per_body and part and (key not in VECTORS or part not in COMPONENTS):
+        raise FigureError(f'field "{field}": only {", ".join(VECTORS)} have components, such as velocity:r and velocity:z')
+    name = quantity.name(part)
+    if name not in dump.fields:
+        raise FigureError(f'the file holds no "{name}"; output.fields of the deck decides what is written')
+    values = dump.fields[name].astype(float)
+    if values.ndim == 3:
+        values = values[..., COMPONENTS[part]] if part else np.linalg.norm(values, axis=-1)
+    unit, scale = reader_unit(quantity.unit)
+    title = quantity.title.format(body=part) if quantity.per_body else quantity.title + (f" {part}" if part else "")
+    solid = dump.fields[f"Volume Fraction for {part}"] if quantity.per_body else _filled(dump)
+    if key == "volume_fraction":
+        solid = np.ones_like(values)
+    values = np.where(solid >= 0.5, values * scale, np.nan)
+    diverging = np.min(values, where=np.isfinite(values), initial=0.0) < 0
+    return Shown(values, f"{title} [{unit}]" if unit else title, "RdBu_r" if diverging else "viridis")
+
+
+def _filled(dump: Dump) -> np.ndarray:
+    return sum(dump.fields[f"Volume Fraction for {body}"] for body in dump.bodies)
+
+
+def _limits(shown: list[Shown]) -> tuple[float, float]:
+    """One range of colours for several panels: symmetric where negative values matter."""
+    values = np.concatenate([each.values[np.isfinite(each.values)] for each in shown])
+    if not values.size:
+        return 0.0, 1.0
+    low, high = float(values.min()), float(values.max())
+    if any(each.colours == "RdBu_r" for each in shown):
+        largest = max(abs(low), abs(high))
+        return -largest, largest
+    return (low, high) if high > low else (low, low + 1.0)
+
+
+def _body_colours(count: int):
+    from matplotlib.colors import ListedColormap
+
+    return ListedColormap([BODY_COLOURS[m % len(BODY_COLOURS)] for m in range(count)])
+
+
+def _draw_half(axes, dump: Dump, field: str, sign: int, limits: tuple[float, float]):
+    """Colours of one half, in mm; sign +1 above the axis, -1 below. Returns what a colour bar needs."""
+    z, r = dump.z_edges * 1e3, sign * dump.r_edges * 1e3
+    if field == "material":
+        numbers = np.ma.masked_equal(dump.fields["Material"], 0)
+        count = len(dump.bodies)
+        axes.pcolormesh(z, r, numbers.T, cmap=_body_colours(count), vmin=0.5, vmax=count + 0.5, rasterized=True)
+        return None
+    shown = chosen(dump, field)
+    colours = "RdBu_r" if limits[0] < 0 and limits[0] == -limits[1] else "viridis"
+    return axes.pcolormesh(z, r, np.ma.masked_invalid(shown.values).T, cmap=colours, vmin=limits[0], vmax=limits[1],
+                           rasterized=True)  # fmt: skip
+
+
+def _draw_outlines(axes, dump: Dump) -> None:
+    from matplotlib.collections import LineCollection
+
+    lines = [
+        np.column_stack([line[:, 1], sign * line[:, 0]]) * 1e3
+        for body in dump.bodies
+        for line in dump.outlines(body)
+        for sign in (1, -1)
+    ]
+    axes.add_collection(LineCollection(lines, colors="black", linewidths=0.6))
+
+
+def _legend(axes, dump: Dump) -> None:
+    from matplotlib.patches import Patch
+
+    patches = [Patch(color=BODY_COLOURS[m % len(BODY_COLOURS)], label=body) for m, body in enumerate(dump.bodies)]
+    axes.legend(handles=patches, fontsize=7, loc="upper right", framealpha=0.7)
+
+
+def section(axes, dump: Dump, field: str = "pressure", mirror: str | None = None, limits=None, *, title: str = "",
+            depth_line: float | None = None, window: tuple[float, float, float] | None = None) -> list:  # fmt: skip
+    """Draws one mirrored section into matplotlib axes.
+
+    field, mirror : words for the upper and the lower half, see `chosen` (mirror None: the same)
+    limits : (low, high) per word in the reader's unit; from the data where absent
+    depth_line : axial position of the experiment's depth, m
+    window : (z0, z1, r1) in m, what is shown and what the limits are from; the whole mesh where absent
+
+    Returns [(word, mappable)] for `colour_bars`. Raises FigureError.
+    """
+    limits, drawn, seen = limits or {}, [], _cropped(dump, window)
+    for word, sign in ((field, 1), (mirror or field, -1)):
+        if word != "material" and word not in limits:
+            limits = {**limits, word: _limits([chosen(seen, word)])}
+        drawn.append((word, _draw_half(axes, dump, word, sign, limits.get(word))))
+    _draw_outlines(axes, dump)
+    if "material" in (field, mirror):
+        _legend(axes, dump)
+    if depth_line is not None:
+        axes.axvline(depth_line * 1e3, color="crimson", linestyle="--", linewidth=1.0)
+        word = axes.text(depth_line * 1e3, 0.98, "experiment ", transform=axes.get_xaxis_transform(), color="crimson",
+                         fontsize=7, rotation=90, ha="right", va="top", clip_on=True)  # fmt: skip
+        word.set_in_layout(False)  # a line outside of the window must not stretch the figure
+    axes.axhline(0, color="black", linewidth=0.3, linestyle="-.")
+    axes.set_aspect("equal")
+    z0, z1, r1 = window or _whole(dump)
+    axes.set_xlim(z0 * 1e3, z1 * 1e3)
+    axes.set_ylim(-r1 * 1e3, r1 * 1e3)
+    axes.tick_params(labelsize=7)
+    axes.set_xlabel("z [mm]", fontsize=8)
+    axes.set_ylabel("r [mm]", fontsize=8)
+    axes.set_title(f"{title}  t = {dump.time * 1e6:.2f} µs".strip(), fontsize=9)
+    return drawn
+
+
+def colour_bars(axes, dump: Dump, drawn: list) -> None:
+    """Adds a bar for every field of what `section` has drawn to axes, one or an array of them that share it."""
+    figure = np.ravel(axes)[0].figure
+    for word, mappable in dict(drawn).items():
+        if mappable is not None:
+            bar = figure.colorbar(mappable, ax=axes, fraction=0.03, pad=0.01)
+            bar.set_label(chosen(dump, word).label, fontsize=8)
+            bar.ax.tick_params(labelsize=7)
+
+
+def _whole(dump: Dump) -> tuple[float, float, float]:
+    """The window that shows all of the mesh."""
+    return dump.z_edges[0], dump.z_edges[-1], dump.r_edges[-1]
+
+
+def _panel_height(width: float, window: tuple[float, float, float]) -> float:
+    """Height in inches of a panel with a title that shows a window at one scale."""
+    z0, z1, r1 = window
+    return min(max(width * 2 * r1 / (z1 - z0), 0.8), 9.0) + 0.6
+
+
+def own_axes(dump: Dump, window: tuple[float, float, float] | None = None, width: float = 8.0):
+    """Axes of a new figure of pyplot, which a notebook shows by itself, in the shape of a section; width in inches."""
+    from matplotlib import pyplot
+
+    height = _panel_height(width, window or _whole(dump)) + 0.4
+    return pyplot.subplots(figsize=(width + 1.2, height), layout="constrained")[1]
+
+
+def new_figure(width: float, height: float, rows: int, columns: int):
+    """A figure that belongs to no window, and its axes (rows, columns)."""
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(width, height), layout="constrained")
+    FigureCanvasAgg(figure)
+    return figure, figure.subplots(rows, columns, squeeze=False)
+
+
+def draw_sections(panels: list[list[tuple[Dump, str, float | None]]], field: str, mirror: str | None = None,
+                  window: tuple[float, float, float] | None = None):  # fmt: skip
+    """Sections with one colour scale. `panels` holds rows of (dump, title, depth line).
+
+    window = (z0, z1, r1) in m; without it each panel shows the whole mesh, where it was at the time.
+    """
+    dumps = [dump for row in panels for dump, _, _ in row]
+    words = dict.fromkeys(word for word in (field, mirror or field) if word != "material")
+    limits = {word: _limits([chosen(_cropped(dump, window), word) for dump in dumps]) for word in words}
+    rows, columns = len(panels), max(len(row) for row in panels)
+    panel_width = min(11.0, max(4.0, 16.0 / columns))
+    panel_height = _panel_height(panel_width, window or _whole(dumps[0]))
+    figure, axes = new_figure(panel_width * columns + 1.2, panel_height * rows + 0.4, rows, columns)
+    drawn = []
+    for j, row in enumerate(panels):
+        for i in range(columns):
+            if i >= len(row):
+                axes[j, i].set_visible(False)
+                continue
+            dump, title, line = row[i]
+            drawn = section(axes[j, i], dump, field, mirror, limits, title=title, depth_line=line, window=window)
+    for place in axes[:-1].flat:
+        place.set_xlabel("")
+    colour_bars(axes, dumps[0], drawn)
+    return figure
+
+
+def _cropped(dump: Dump, window) -> Dump:
+    """The part of a dump that a window shows, for its range of colours."""
+    if window is None:
+        return dump
+    z0, z1, r1 = window
+    low = max(int(np.searchsorted(dump.z_edges, z0, "right")) - 1, 0)
+    high = min(int(np.searchsorted(dump.z_edges, z1, "left")), len(dump.z_edges) - 1)
+    outer = min(int(np.searchsorted(dump.r_edges, r1, "left")), len(dump.r_edges) - 1)
+    if low >= high or outer < 1:
+        raise FigureError(f"the window z {z0:g} to {z1:g} m, r to {r1:g} m shows nothing of the mesh")
+    fields = {name: values[low:high, :outer] for name, values in dump.fields.items()}
+    return Dump(dump.r_edges[: outer + 1], dump.z_edges[low : high + 1], fields, dump.time)
+
+
+def sections(runs: list, field: str = "pressure", *, mirror: str | None = None, times=(None,), window=None):
+    """Sections of runs (results.Results), one row a run, one column a time in s (None: the last)."""
+    panels = [[(run.dump(time), run.label, run.measured_position) for time in times] for run in runs]
+    return draw_sections(panels, field, mirror, window)
+
+
+def histories(runs: list, quantities=HISTORIES):
+    """Quantities against time, one panel each, all runs in it; the experiment's depth as a line."""
+    columns = 2 if len(quantities) > 1 else 1
+    rows = -(-len(quantities) // columns)
+    figure, axes = new_figure(5.0 * columns, 3.0 * rows, rows, columns)
+    for place, name in zip(axes.flat, quantities, strict=False):
+        unit, scale = reader_unit(history.unit(name))
+        for run in runs:
+            if name not in run.history:
+                raise FigureError(f"{run.directory}: {unknown('quantity', name, run.history)}")
+            place.plot(run.history["time"] * 1e6, run.history[name] * scale, label=run.label, linewidth=1.2)
+        if name == "penetration_depth_m":
+            for depth in dict.fromkeys(run.measured_depth for run in runs):
+                if depth is not None:
+                    place.axhline(depth * scale, color="crimson", linestyle="--", linewidth=1.0, label="experiment")
+        place.set_xlabel("t [µs]", fontsize=8)
+        ending = "_" + history.unit(name).replace("/", "_").replace(" ", "_")
+        words = name.removesuffix(ending).replace("_", " ")
+        place.set_ylabel(words if unit == "1" else f"{words} [{unit}]", fontsize=8)
+        place.tick_params(labelsize=7)
+        place.grid(alpha=0.3)
+    for place in axes.flat[len(quantities) :]:
+        place.set_visible(False)
+    axes[0, 0].legend(fontsize=7)
+    return figure
+
+
+def craters(runs: list):
+    """The holes in the targets of runs, mirrored at the axis: radius over the depth below the original surface, in mm.
+
+    Holes are long and thin: radii have a scale of their own. The experiment's depth is a line. Raises
+    FigureError where no run has a hole.
+    """
+    figure, ((axes,),) = new_figure(9.0, 4.0, 1, 1)
+    for run in runs:
+        z, radius = run.crater
+        if not len(z):
+            continue
+        depth = run.direction * (z - run.surface) * 1e3
+        upper, lower = np.column_stack([depth, radius * 1e3]), np.column_stack([depth, -radius * 1e3])[::-1]
+        axes.plot(*np.concatenate([upper, lower]).T, linewidth=1.2, label=run.label)
+    if not axes.lines:
+        raise FigureError("there is no hole to draw")
+    for depth in dict.fromkeys(run.measured_depth for run in runs):
+        if depth is not None:
+            axes.axvline(depth * 1e3, color="crimson", linestyle="--", linewidth=1.0, label="experiment")
+    axes.axvline(0.0, color="black", linewidth=0.6)
+    axes.axhline(0.0, color="black", linewidth=0.3, linestyle="-.")
+    axes.tick_params(labelsize=7)
+    axes.set_xlabel("depth below the original surface [mm]", fontsize=8)
+    axes.set_ylabel("radius of the hole [mm]", fontsize=8)
+    axes.margins(y=0.25)
+    axes.legend(fontsize=7, loc="upper right")
+    return figure
+
+
+def save(figure, path: Path) -> None:
+    """Writes a figure; the ending of the name decides the format. Raises FigureError."""
+    path = Path(path)
+    allowed = figure.canvas.get_supported_filetypes()
+    ending = path.suffix.lower().lstrip(".")
+    if ending not in allowed:
+        raise FigureError(f'{path}: unknown picture format "{path.suffix}" (allowed: {", ".join(sorted(allowed))})')
+    if not path.parent.is_dir():
+        raise FigureError(f"{path.parent}: there is no such directory")
+    with replacing(path) as temporary:
+        figure.savefig(temporary, format=ending, dpi=160)
+
+
+# ---------------------------------------------------------------------------------------------- three dimensions
+
+
+def cutaway(dump_file: Path, path: Path, field: str = "pressure", window=None, size=(1400, 900)) -> None:
+    """Renders the bodies turned round the axis with a quarter cut out, the cut coloured by a field.
+
+    window = (z0, z1, r1) in m, size in pixels.
+
+    A process of its own does it: with the display where there is one, else with EGL, else with OSMesa. Raises
+    FigureError where none of them works.
+    """
+    task = json.dumps({"dump": str(dump_file), "path": str(path), "field": field, "window": window, "size": size})
+    windows = [None] if os.environ.get("DISPLAY") else ["vtkEGLRenderWindow", "vtkOSOpenGLRenderWindow"]
+    said = ""
+    for window in windows:
+        environment = os.environ | ({"VTK_DEFAULT_OPENGL_WINDOW": window} if window else {})
+        try:
+            done = subprocess.run([sys.executable, "-m", "hydro2d.results.figures"], input=task, text=True, env=environment,
+                                  capture_output=True, timeout=RENDER_SECONDS, check=False)  # fmt: skip
+        except subprocess.TimeoutExpired:
+            said = f"no picture after {RENDER_SECONDS} s"
+            continue
+        if done.returncode == 0:
+            return
+        said = (done.stderr.strip().splitlines() or [f"exit status {done.returncode}"])[-1]
+    raise FigureError(f"the three-dimensional picture could not be rendered on this machine: {said}")
+
+
+def _render(dump: str, path: str, field: str, window, size) -> None:
+    """What the rendering process does."""
+    import pyvista
+
+    from hydro2d.output.vtk import read_grid
+
+    state = _cropped(read_grid(Path(dump)), window)
+    shown = chosen(state, field)
+    plotter = pyvista.Plotter(off_screen=True, window_size=list(size))
+    count = len(state.bodies)
+    for line in outlines(state.r_edges, state.z_edges, _filled(state), closed=True):
+        points = np.column_stack([line[:, 0], np.zeros(len(line)), line[:, 1]]) * 1e3
+        curve = pyvista.lines_from_points(points)
+        curve["body"] = _nearest_body(state, line)
+        turned = curve.extrude_rotate(angle=270, resolution=90, capping=False)
+        plotter.add_mesh(turned, scalars="body", cmap=_body_colours(count), clim=(0.5, count + 0.5), specular=0.3,
+                         show_scalar_bar=False, interpolate_before_map=False)  # fmt: skip
+    for body in state.bodies:
+        for line in state.outlines(body):
+            points = np.column_stack([line[:, 0], np.zeros(len(line)), line[:, 1]]) * 1e3
+            for angle in (0.0, 270.0):
+                plotter.add_mesh(pyvista.lines_from_points(points).rotate_z(angle), color="black", line_width=2)
+    low, high = _limits([shown])
+    for angle in (0.0, 270.0):
+        plotter.add_mesh(_cut_face(pyvista, state, shown, angle), scalars=shown.label, cmap=shown.colours,
+                         clim=(low, high), lighting=False, scalar_bar_args={"title": shown.label})  # fmt: skip
+    plotter.add_text(f"t = {state.time * 1e6:.2f} us", font_size=10)
+    plotter.view_vector((1.0, -1.0, -0.7), viewup=(0, 0, -1))  # into the cut, +z down
+    with replacing(Path(path)) as temporary:
+        picture = temporary.with_suffix(".png")  # pyvista goes by the ending
+        plotter.screenshot(str(picture))
+        os.replace(picture, temporary)
+
+
+def _nearest_body(state: Dump, line: np.ndarray) -> np.ndarray:
+    """Number of the body that fills most of the 3 x 3 cells round each point of an outline, shape (n,)."""
+    j = np.clip(np.searchsorted(state.z_edges, line[:, 1], "right") - 1, 0, len(state.z_edges) - 2)
+    i = np.clip(np.searchsorted(state.r_edges, line[:, 0], "right") - 1, 0, len(state.r_edges) - 2)
+    shares = np.stack([np.pad(state.fields[f"Volume Fraction for {body}"], 1) for body in state.bodies])
+    around = sum(shares[:, j + dj, i + di] for dj in range(3) for di in range(3))
+    return 1.0 + np.argmax(around, axis=0)
+
+
+def _cut_face(pyvista, state: Dump, shown: Shown, angle: float):
+    """The section as a plane through the axis at an angle in degrees, without void, in mm."""
+    plane = pyvista.RectilinearGrid(state.r_edges * 1e3, np.zeros(1), state.z_edges * 1e3)
+    plane.cell_data[shown.label] = shown.values.ravel()
+    plane.cell_data["solid"] = np.isfinite(shown.values).ravel().astype(float)
+    return plane.threshold(0.5, scalars="solid").rotate_z(angle)
+
+
+if __name__ == "__main__":
+    try:
+        _render(**json.load(sys.stdin))
+    except FigureError as problem:
+        sys.exit(str(problem))

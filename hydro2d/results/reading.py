@@ -1,0 +1,227 @@
+"""A finished or interrupted run, read back: summary, history, fields. `hydro2d.load(directory)` gives one."""
+
+from __future__ import annotations
+
+import functools
+import html
+import importlib
+import json
+import tomllib
+from pathlib import Path
+
+import numpy as np
+
+from hydro2d.output import history, snapshot, vtk
+from hydro2d.running.run import DECK, HISTORY, SUMMARY
+
+#: the file of a study directory that lists its cases
+STUDY = "study.json"
+
+
+class ResultsError(Exception):
+    """A directory that holds no run, or not what is asked for; the message is for the user."""
+
+
+class Results:
+    """A run directory.
+
+    Attributes
+    ----------
+    directory : Path
+    deck : dict
+        The resolved deck, SI units.
+    summary : dict
+        What summary.json holds; empty while the run has not ended.
+    """
+
+    def __init__(self, directory: Path | str):
+        self.directory = Path(directory)
+        try:
+            self.deck = tomllib.loads((self.directory / DECK).read_text(encoding="utf-8"))
+        except FileNotFoundError:
+            raise ResultsError(_no_run(self.directory)) from None
+        except (OSError, ValueError) as error:
+            raise ResultsError(f"{self.directory / DECK} cannot be read: {error}") from None
+        file = self.directory / SUMMARY
+        try:
+            self.summary = json.loads(file.read_text(encoding="utf-8")) if file.exists() else {}
+        except (OSError, ValueError) as error:
+            raise ResultsError(f"{file} cannot be read: {error}") from None
+
+    @property
+    def label(self) -> str:
+        """What the run is called in figures: the name of its directory."""
+        return self.directory.resolve().name
+
+    @functools.cached_property
+    def history(self) -> dict[str, np.ndarray]:
+        """Columns of the history by name, shapes (rows,). Raises HistoryError."""
+        return history.read(self.directory / HISTORY)
+
+    @property
+    def crater(self) -> tuple[np.ndarray, np.ndarray]:
+        """Axial positions and radii of the hole in the target at the end, m, shapes (n,), from the entrance to the bottom.
+
+        Raises HistoryError, and ResultsError where the run has not ended or has no rod and target.
+        """
+        found = history.read_crater(self.directory / HISTORY)
+        if found is None:
+            raise ResultsError(f"{self.directory} has no crater: the run has not ended, or has no rod and target")
+        return found
+
+    def to_pandas(self):
+        """The history as a pandas.DataFrame with the time in s as index, the regime in words.
+
+        `attrs["units"]` of the frame has the unit of every column by name. Raises HistoryError, and ImportError without pandas.
+        """
+        pandas = _optional("pandas")
+        columns = dict(self.history)
+        if "regime" in columns:
+            columns["regime"] = pandas.Categorical.from_codes(columns["regime"], history.REGIMES)
+        frame = pandas.DataFrame(columns).set_index("time")
+        frame.attrs["units"] = {name: history.unit(name) for name in columns}
+        return frame
+
+    def to_xarray(self):
+        """The history as an xarray.Dataset over the time in s, every variable with its unit.
+
+        Raises HistoryError, and ImportError without xarray.
+        """
+        xarray = _optional("xarray")
+        variables = {name: ("time", column, history.attributes(name)) for name, column in self.history.items()}
+        return xarray.Dataset({name: entry for name, entry in variables.items() if name != "time"},
+                              coords={"time": variables["time"]})  # fmt: skip
+
+    @property
+    def dumps(self) -> list[tuple[float, Path]]:
+        """Times and files of the dumps; empty where none was written."""
+        series = self.directory / vtk.SERIES["dump"]
+        if not series.exists():
+            return []
+        return [(time, self.directory / file) for time, file in vtk.read_series(series)]
+
+    def dump_file(self, time: float | None = None) -> Path:
+        """The dump nearest to a time in s; the last one where no time is given. Raises ResultsError."""
+        dumps = self.dumps
+        if not dumps:
+            raise ResultsError(f"{self.directory} has no fields: no dump was written yet")
+        return dumps[-1][1] if time is None else min(dumps, key=lambda entry: abs(entry[0] - time))[1]
+
+    def dump(self, time: float | None = None) -> vtk.Dump:
+        """The fields at the dump nearest to a time in s, or at the last."""
+        return vtk.read_grid(self.dump_file(time))
+
+    def state(self) -> vtk.Dump:
+        """The fields in full precision at the restart file, whatever was dumped. Raises SnapshotError."""
+        return vtk.Dump.of(self.simulation())
+
+    def simulation(self):
+        """The simulation as the restart file holds it. Raises SnapshotError."""
+        from hydro2d.deck import deck as decks
+        from hydro2d.solver.simulation import Simulation
+
+        saved, _ = snapshot.read_latest(self.directory)
+        sim = Simulation(decks.loads(saved.deck))
+        sim.load_restart_arrays(saved.arrays)
+        sim.load_restart_scalars(saved.scalars)
+        return sim
+
+    def grid(self, time: float | None = None):
+        """The same as a pyvista.RectilinearGrid, x = r, y = z."""
+        return vtk.pyvista_grid(self.dump_file(time))
+
+    def section(self, field: str = "pressure", mirror: str | None = None, time: float | None = None, *, axes=None,
+                limits: dict[str, tuple[float, float]] | None = None, window: tuple[float, float, float] | None = None,
+                colour_bar: bool = True):  # fmt: skip
+        """Draws the section at the dump nearest to a time in s, or at the last, into matplotlib axes and returns them.
+
+        field, mirror : what the upper and the lower half show, such as "pressure", "velocity:z", "body_temperature:plate"
+            or "material"; mirror None: the same
+        axes : where to draw; None: in a figure of its own
+        limits : (low, high) of the colours by field, in the unit of the colour bar; None: those of the data
+        window : (z0, z1, r1) in m, what is shown; None: the whole mesh
+        colour_bar : whether a bar is added for each field
+
+        Raises ResultsError where no dump was written, and FigureError.
+        """
+        from hydro2d.results import figures
+
+        dump = self.dump(time)
+        if axes is None:
+            axes = figures.own_axes(dump, window)
+        drawn = figures.section(axes, dump, field, mirror, limits, title=self.label, depth_line=self.measured_position,
+                                window=window)  # fmt: skip
+        if colour_bar:
+            figures.colour_bars(axes, dump, drawn)
+        return axes
+
+    @property
+    def surface(self) -> float | None:
+        """Axial position of the target's original surface, m."""
+        return self.deck.get("penetration", {}).get("surface")
+
+    @property
+    def direction(self) -> int:
+        """+1 where the rod flies along +z, -1 otherwise."""
+        rod = self.deck.get("penetration", {}).get("rod")
+        return next((body.get("direction", 1) for body in self.deck["body"] if body["name"] == rod), 1)
+
+    @property
+    def measured_depth(self) -> float | None:
+        """The experiment's penetration, m."""
+        return self.deck.get("experiment", {}).get("penetration")
+
+    @property
+    def measured_position(self) -> float | None:
+        """Axial position of the experiment's penetration, m."""
+        if self.measured_depth is None or self.surface is None:
+            return None
+        return self.surface + self.direction * self.measured_depth
+
+    def _facts(self) -> dict[str, str]:
+        """What a person wants to know of a run first, in words."""
+        summary, dumps = self.summary, self.dumps
+        facts = {"shot": self.deck.get("title", "")}
+        facts["run"] = f"{summary['stop_reason']} at {summary['time_s'] * 1e6:.2f} µs" if summary else "has not ended"
+        if summary.get("penetration_depth_m") is not None:
+            facts["depth"] = _millimetres(summary["penetration_depth_m"])
+            facts["rod"] = f"{_millimetres(summary['rod_length_m'])} long, {summary['regime']}"
+        if self.measured_depth is not None:
+            facts["experiment's depth"] = _millimetres(self.measured_depth)
+        facts["dumps"] = f"{len(dumps)}, the last at {dumps[-1][0] * 1e6:.2f} µs" if dumps else "none"
+        return facts
+
+    def __repr__(self) -> str:
+        return f"<Results {self.label}: " + "; ".join(f"{name}: {said}" for name, said in self._facts().items()) + ">"
+
+    def _repr_html_(self) -> str:
+        rows = "".join(f"<tr><th>{name}</th><td>{html.escape(said)}</td></tr>" for name, said in self._facts().items())
+        return f"<table><caption>{html.escape(self.label)}</caption>{rows}</table>"
+
+
+def _millimetres(length: float | None) -> str:
+    return "none" if length is None else f"{length * 1e3:.1f} mm"
+
+
+def _optional(package: str):
+    """A package that hydro2d does not bring along. Raises ImportError with one line that says what to do."""
+    try:
+        return importlib.import_module(package)
+    except ModuleNotFoundError as error:
+        if error.name != package:
+            raise
+        raise ImportError(f"this needs {package}, which is not installed: pip install {package}", name=package) from None
+
+
+def _no_run(directory: Path) -> str:
+    """Why a directory without a deck is not a run, and what reads it if it is a study or holds runs."""
+    said = f"{directory} is not a run directory: it has no {DECK}"
+    if (directory / STUDY).is_file():
+        return f"{said}; it is a study, which hydro2d.study.load reads"
+    inside = sorted(file.parent.name for file in directory.glob(f"*/{DECK}"))
+    return f"{said}; it holds runs: {', '.join(inside[:5])}{', ...' if len(inside) > 5 else ''}" if inside else said
+
+
+def load(directory: Path | str) -> Results:
+    """Opens a run directory. Raises ResultsError."""
+    return Results(directory)

@@ -1,0 +1,349 @@
+"""`hydro2d bench`: time per cell and cycle, phase by phase, beside a triad measured in the same run.
+
+A triad update moves 24 bytes (two reads, one write of a double). The bandwidth of a shared machine drifts: it is measured
+before and after every case, and the mean of both is what the case is held against. Cases run on the whole mesh, with the
+active region off, so that a cell costs what it costs in the middle of a shot; "whole shot" runs as the deck says, with all
+its outputs.
+"""
+
+from __future__ import annotations
+
+import json as json_format
+import resource
+import statistics
+import sys
+import tempfile
+import time
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from hydro2d import jit
+from hydro2d.deck import deck as decks
+from hydro2d.kernels.triad import triad
+from hydro2d.running import progress, provenance, run
+from hydro2d.running.compilation import announced
+from hydro2d.solver.simulation import Simulation
+
+DECK = "problems/cth_nose_shape/hemi_5083_1086.toml"
+TRIAD_SHAPE, TRIAD_REPEATS = (2000, 4000), 7
+BYTES_PER_UPDATE = 24
+#: a case takes a multiple of so many cycles: the slip zones are found every few, and the order of the sweeps alternates
+CYCLES = 10
+#: cycles before the measurement on the mesh of the deck, and cell-cycles and cycles over these that are measured at most
+WARM_CYCLES, TIMED_WORK, TIMED_OVER_WARM = 60, 16e6, 2
+WHOLE_SHOT = "whole shot"
+#: kernels that only outputs and stop checks call
+OF_OUTPUTS = ("pressures_and_temperatures", "body_sums", "body_totals", "vertex_totals", "velocities")
+
+SHOT = """
+include = "cth_nose_shape/hemi_5083_1086.toml"
+[numerics]
+active_region = false
+"""
+FLUIDS = """
+[sliding]
+method = "none"
+[[body]]
+name = "rod"
+material = "W_fluid"
+[[body]]
+name = "plate"
+material = "Al_fluid"
+[materials.W_fluid]
+based_on = "W_alloy"
+strength.model = "hydrodynamic"
+[materials.Al_fluid]
+based_on = "Al5083"
+strength.model = "hydrodynamic"
+"""
+PURE = """
+[mesh]
+r = [{ to = "16 mm", cells = 128 }]
+z = [{ to = "128 mm", cells = 1024 }]
+[boundaries]
+r_max = "wall"
+z_max = "wall"
+[[body]]
+name = "plate"
+material = "Al5083"
+shape = "plate"
+z_front = 0.0
+thickness = "128 mm"
+velocity = "400 m/s"
+[numerics]
+active_region = false
+[stop]
+time = "1 ms"
+"""
+MESH = """
+[mesh]
+r = [{{ to = "16.891 mm", cells = {near} }}, {{ to = "87.7 mm", ratio = {ratio!r} }}]
+z = [{{ to = 0.0, cells = {behind} }}, {{ to = "546 mm", cells = {ahead} }}]
+"""
+LAYER = """
+[[body]]
+name = "{name}"
+material = "Al5083"
+shape = "plate"
+z_front = {front!r}
+thickness = {thickness!r}
+"""
+
+
+def layered(layers: int) -> str:
+    """The shot with a plate of this many layers, bodies of their own of one material, so that only their number differs."""
+    thickness = 0.5334 / layers
+    names = ["plate", *(f"plate {n}" for n in range(2, layers + 1))]
+    return SHOT + "".join(LAYER.format(name=name, front=n * thickness, thickness=thickness) for n, name in enumerate(names))
+
+
+@dataclass(frozen=True)
+class Case:
+    """A deck, as text, what is laid over it, and the cycles before the measurement."""
+
+    name: str
+    text: str = SHOT
+    overrides: tuple[str, ...] = ()
+    warm: int = WARM_CYCLES
+
+    def deck(self) -> decks.Deck:
+        return decks.loads(self.text, self.overrides, name=self.name)
+
+
+def refined(name: str, factor: float) -> Case:
+    """The shot with factor^2 times as many cells, as nearly as whole cells allow, measured at about the same time."""
+    near, behind, ahead = (round(cells * factor) for cells in (40, 252, 1293))
+    mesh = MESH.format(near=near, behind=behind, ahead=ahead, ratio=1.05 ** (1 / factor))
+    return Case(name, SHOT + mesh, warm=CYCLES * round(WARM_CYCLES * factor / CYCLES))
+
+
+CASES = (
+    Case("slip layer, ke"),
+    Case("slip layer, momentum", overrides=('numerics.advection="momentum"',)),
+    Case("slip layer, both", overrides=('numerics.advection="both"',)),
+    Case("contact, ke", overrides=('sliding.method="contact"', "sliding.yield_factor=1.5625")),
+    Case("no sliding treatment, ke", overrides=('sliding.method="none"',)),
+    Case("pure hydrodynamic", SHOT + FLUIDS),
+    Case("single material", PURE),
+    refined("10 thousand cells", 0.276),
+    refined("35 thousand cells", 0.516),
+    refined("130 thousand cells", 1.0),
+    refined("400 thousand cells", 1.745),
+    refined("1 million cells", 2.76),
+    Case("2 materials", layered(1)),
+    Case("3 materials", layered(2)),
+    Case("4 materials", layered(3)),
+)
+
+
+class Bandwidth:
+    """The triad, measured now and then.
+
+    Attributes
+    ----------
+    seen : list of every measurement with the present number of threads, GB/s
+    """
+
+    def __init__(self):
+        self.seen: list[float] = []
+
+    def __call__(self) -> float:
+        """Median bandwidth of a few triads with the present number of threads, GB/s."""
+        a, b, c = (np.full(TRIAD_SHAPE, value) for value in (0.0, 1.0, 2.0))
+        seconds = []
+        for _ in range(TRIAD_REPEATS):
+            start = time.perf_counter()
+            triad(0, TRIAD_SHAPE[0], 3.0, b, c, a)
+            seconds.append(time.perf_counter() - start)
+        self.seen.append(BYTES_PER_UPDATE * a.size / statistics.median(seconds[1:]) / 1e9)
+        return self.seen[-1]
+
+
+def timed_cycles(case: Case, cells: int) -> int:
+    """Cycles that are measured, a multiple of CYCLES."""
+    most = TIMED_OVER_WARM * case.warm
+    return CYCLES * max(1, round(min(TIMED_WORK / cells, most) / CYCLES))
+
+
+def measure(case: Case, bandwidth: Bandwidth, cycles: int | None = None) -> dict:
+    """One case with the present number of threads: ns per cell and cycle, in all and by phase (kernel).
+
+    cycles : how many are measured, after as many that are not; default: what the case and its cells ask for
+    """
+    simulation = Simulation(case.deck())
+    cells = simulation.grid.cells
+    for _ in range(cycles or case.warm):
+        simulation.step()
+    timed = cycles or timed_cycles(case, cells)
+    before = bandwidth()
+    jit.profiling(True)
+    start = time.perf_counter()
+    for _ in range(timed):
+        simulation.step()
+    seconds = time.perf_counter() - start
+    return _case(case.name, cells, timed, seconds, _kernel_seconds(), 0.5 * (before + bandwidth()))
+
+
+class _Shot(run.Run):
+    """A run that keeps the seconds of what it does beside its cycles, from the end of its first cycle on."""
+
+    def __init__(self, deck, directory: Path, report):
+        super().__init__(deck, directory, restart=False, report=report)
+        self.beside: dict[str, float] = {}
+        self.began, self._busy = 0.0, False
+        for name, owner, method in (
+            ("stop checks", self.sim, "stop_reason"), ("history", self.sim, "diagnostics"),
+            ("history", self.sim, "conservation"), ("history", self.history, "write"), ("fields", self.series, "dump"),
+            ("copies and restart files", self, "_snapshot"), ("copies and restart files", self, "_save"),
+        ):  # fmt: skip
+            setattr(owner, method, self._timed(name, getattr(owner, method)))
+
+    def _timed(self, name: str, method: Callable) -> Callable:
+        def call(*arguments):
+            if self._busy:
+                return method(*arguments)
+            self._busy, start = True, time.perf_counter()
+            try:
+                return method(*arguments)
+            finally:
+                self.beside[name] = self.beside.get(name, 0.0) + time.perf_counter() - start
+                self._busy = False
+
+        return call
+
+    def _step(self) -> None:
+        super()._step()
+        if self.stepped == 1:  # the first cycle loads or compiles the kernels
+            self.beside.clear()
+            self.began = time.perf_counter()
+            jit.profiling(True)
+
+
+def measure_shot(bandwidth: Bandwidth, overrides: tuple[str, ...] = ()) -> dict:
+    """The shot to rest, with all its outputs, in a directory that is removed: everything from its second cycle on."""
+    before = bandwidth()
+    with tempfile.TemporaryDirectory() as folder, progress.reporter(Path(folder) / run.LOG, quiet=True) as report:
+        shot = _Shot(decks.load(DECK, overrides), Path(folder), report)
+        summary = shot.execute(run.Interrupt())
+        seconds = time.perf_counter() - shot.began
+    phases = {name: spent for name, spent in _kernel_seconds().items() if name not in OF_OUTPUTS} | shot.beside
+    case = _case(WHOLE_SHOT, summary["cells"], summary["cycles"] - 1, seconds, phases, 0.5 * (before + bandwidth()))
+    return case | {
+        "stop_reason": summary["stop_reason"],
+        "penetration_depth_m": summary["penetration_depth_m"],
+        "wall_s": seconds,
+        "peak_memory_bytes": _peak_memory(),
+        "shares_beside_cycles": {name: spent / seconds for name, spent in shot.beside.items()},
+    }
+
+
+def _kernel_seconds() -> dict[str, float]:
+    """Seconds by kernel since profiling began, which ends."""
+    seconds = {name: spent for name, (spent, _) in jit.timings.items()}
+    jit.profiling(False)
+    return seconds
+
+
+def _peak_memory() -> int:
+    """Largest resident memory of the process so far, bytes."""
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * (1 if sys.platform == "darwin" else 1024)
+
+
+def _case(name: str, cells: int, cycles: int, seconds: float, phases: dict[str, float], bandwidth: float) -> dict:
+    """An entry of `cases`."""
+    phases = phases | {"between kernels": seconds - sum(phases.values())}
+    ns = 1e9 / (cells * cycles)
+    return {
+        "name": name,
+        "threads": jit.threads(),
+        "cells": cells,
+        "cycles": cycles,
+        "triad_gb_s": bandwidth,
+        "ns_per_cell_cycle": seconds * ns,
+        "triad_updates_per_cell_cycle": seconds * ns * bandwidth / BYTES_PER_UPDATE,
+        "phases": {phase: spent * ns for phase, spent in sorted(phases.items(), key=lambda item: -item[1])},
+    }
+
+
+def lines(case: dict) -> list[str]:
+    """What is printed of a case."""
+    shown = [f"  {case['name']:26s} {case['ns_per_cell_cycle']:7.1f} ns per cell and cycle, "
+             f"{case['triad_updates_per_cell_cycle']:6.1f} triad updates at {case['triad_gb_s']:.1f} GB/s  "
+             f"({case['cells']} cells, {case['cycles']} cycles)"]  # fmt: skip
+    if case["name"] == WHOLE_SHOT:
+        depth, memory = case["penetration_depth_m"] * 1e2, case["peak_memory_bytes"] / 2**20
+        shares = ", ".join(f"{name} {100 * share:.2f} %" for name, share in case["shares_beside_cycles"].items())
+        end = f"{case['stop_reason']} after {case['wall_s']:.0f} s"
+        shown.append(f"      {end}, depth {depth:.2f} cm, peak memory {memory:.0f} MiB")
+        shown.append(f"      beside the cycles: {shares}")
+    return shown
+
+
+def phase_lines(case: dict) -> list[str]:
+    """Time by phase."""
+    total = case["ns_per_cell_cycle"]
+    return [f"      {phase:26s} {ns:7.2f} ns  {100 * ns / total:5.1f} %" for phase, ns in case["phases"].items()]
+
+
+def header(about: dict) -> list[str]:
+    """Machine and versions."""
+    packages = about["packages"]
+    commit = (about["git_commit"] or "no repository")[:10] + (", modified" if about["git_dirty"] else "")
+    return [
+        f"hydro2d {about['version']} ({commit}), {about['written']}",
+        f"{about['cpu']}, {about['cpu_count']} cores, {about['threads']} threads at most, {about['system']}, {about['host']}",
+        ", ".join(f"{name} {packages[name]}" for name in ("python", "numpy", "numba", "llvmlite")),
+    ]
+
+
+def collect(cases: Iterable[Case] = CASES, *, threads: Iterable[int] | None = None, cycles: int | None = None,
+            shot: bool = False, shot_overrides: tuple[str, ...] = (), say: Callable[[str], None] = print) -> dict:  # fmt: skip
+    """Measures cases on one thread and on all; what `--json` writes.
+
+    cases, threads : which cases, on how many threads each
+    cycles : see `measure`
+    shot, shot_overrides : whether the whole shot is run as well, and keys of its deck
+    say : takes the lines of the report
+    """
+    about = provenance.collect(jit.max_threads())
+    result = {"provenance": about, "triad_gb_s": {}, "cases": []}
+    for line in header(about):
+        say(line)
+    if shot:
+        say("the whole shot takes minutes, on one thread and on all")
+    started_with = jit.threads()
+    try:
+        for number in sorted({1, jit.max_threads()}) if threads is None else threads:
+            jit.set_threads(number)
+            say(f"\n{number} thread{'s' if number > 1 else ''}")
+            bandwidth, first = Bandwidth(), True
+            if shot:
+                _tell(measure_shot(bandwidth, shot_overrides), result, say, phases=True)
+            for case in cases:
+                _tell(measure(case, bandwidth, cycles), result, say, phases=first)
+                first = False
+            if seen := bandwidth.seen:
+                result["triad_gb_s"][str(number)] = statistics.median(seen)
+                say(f"  triad {statistics.median(seen):.1f} GB/s, {min(seen):.1f} to {max(seen):.1f}")
+    finally:
+        jit.set_threads(started_with)
+    return result
+
+
+def _tell(case: dict, result: dict, say: Callable[[str], None], *, phases: bool) -> None:
+    result["cases"].append(case)
+    for line in lines(case) + (phase_lines(case) if phases else []):
+        say(line)
+
+
+def main(json: Path | None = None, *, shot: bool = False) -> int:
+    """Runs every case on one thread and on all, prints a table, and writes it as JSON where a file is named."""
+    with announced(print):
+        result = collect(shot=shot)
+    if json is not None:
+        Path(json).write_text(json_format.dumps(result, indent=1))
+        print(f"wrote {json}")
+    return 0

@@ -1,0 +1,172 @@
+"""What a deck amounts to before it runs: mesh, masses, cells across the rod, memory, time; and its picture."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from hydro2d.deck import deck as decks
+from hydro2d.materials import library
+from hydro2d.mesh.grid import Grid
+from hydro2d.mesh.state import State
+from hydro2d.output import derived
+from hydro2d.output.vtk import Dump
+from hydro2d.solver import insertion
+
+#: nanoseconds per cell and cycle on one thread, as a first guess; `hydro2d bench` measures the machine
+NANOSECONDS = 250.0
+
+
+@dataclass(frozen=True)
+class Check:
+    """A deck laid out on its mesh.
+
+    dump : the initial state, as far as pictures need it;  masses : kg by body, full circle;  memory : bytes;
+    cycles, seconds : estimates
+    """
+
+    deck: object
+    grid: Grid
+    table: object
+    dump: Dump
+    masses: dict[str, float]
+    memory: int
+    cycles: int
+    seconds: float
+    warnings: list[str]
+
+    def lines(self, threads: int) -> list[str]:
+        """The report."""
+        grid, deck = self.grid, self.deck
+        found = [f"{deck.name}: {deck.title}" if deck.title else deck.name, ""]
+        found += [f"mesh      {grid.nr} x {grid.nz} = {grid.cells} cells, {grid.geometry}; "
+                  + ("the axis is r = 0" if grid.cylindrical and grid.r_edges[0] == 0 else "no axis")]  # fmt: skip
+        found += [f"          {_axis(name, edges)}" for name, edges in (("r", grid.r_edges), ("z", grid.z_edges))]
+        found += [f"          boundaries: {', '.join(f'{key} {value}' for key, value in deck.boundaries)}", ""]
+        for m, body in enumerate(self.table.names):
+            entry, material = decks.body(deck, body), self.table.materials[m]
+            found.append(f"body      {body}: {material.name}, {_mass(self.masses[body], grid)}, v = {_speed(entry)}"
+                         + self._across(entry))  # fmt: skip
+            found.append(f"          eos {material.eos.name}, strength {material.strength.name}")
+        found += self._follow()
+        found += ["", f"sliding   {_sliding(deck)}"]
+        found += [f"stop      {_stop(deck.stop)}"]
+        found += [f"cost      about {self.cycles} cycles, {_duration(self.seconds / threads)} on {threads} threads "
+                  f"(a guess), {self.memory / 2**20:.0f} MiB"]  # fmt: skip
+        return found + [f"warning   {text}" for text in self.warnings]
+
+    def _follow(self) -> list[str]:
+        """How far a travelling mesh reaches, and what will enter it."""
+        deck, z = self.deck, self.grid.z_edges
+        if deck.mesh.follow is None:
+            return []
+        entry, direction = decks.body(deck, deck.mesh.follow), decks.travel(deck)
+        ahead, behind = decks.room(deck, z)
+        radius = decks.extent(entry, deck, "r")[1]
+        radii = f" ({ahead / radius:.3g} radii)" if np.isfinite(radius) else ""
+        found = ["", f"follow    {entry.name}: the mesh reaches {ahead * 1e3:.4g} mm{radii} ahead of it and "
+                     f"{behind * 1e3:.4g} mm behind"]  # fmt: skip
+        edge = z[-1] if direction > 0 else z[0]
+        for other in deck.body:
+            ends = sorted(direction * (end - edge) for end in decks.extent(other, deck, "z"))
+            if ends[1] > 0:
+                first = max(ends[0], 0.0)
+                found.append(f"          enters: {other.name}, from {first * 1e3:.4g} to {ends[1] * 1e3:.4g} mm of the way, at "
+                             f"{first / abs(entry.velocity[1]) * 1e6:.4g} us")  # fmt: skip
+        return found
+
+    def _across(self, entry) -> str:
+        if entry.shape != "rod":
+            return ""
+        edges, cells = self.grid.r_edges, np.arange(self.grid.nr + 1)
+        return f", {np.interp(entry.rod_radius, edges, cells):.3g} cells across the radius of {entry.rod_radius * 1e3:.4g} mm"
+
+
+def check(deck) -> Check:
+    """Lays a deck out. Raises DeckError for what only shows then."""
+    grid = Grid(*decks.edges(deck), deck.mesh.geometry)
+    table = library.resolve(deck)
+    start = insertion.initial_state(deck, grid, table)
+    full = 2 * math.pi if grid.cylindrical else 1.0
+    mass = full * np.sum(start["vof"] * start["rho"] * grid.interior(grid.volume), axis=(1, 2))
+    empty = [f'body "{body}" fills no part of the mesh' for body, m in zip(table.names, mass, strict=True)
+             if m == 0 and deck.mesh.follow is None]
+    cycles = _cycles(deck, grid, table, start)
+    return Check(
+        deck=deck, grid=grid, table=table, dump=_dump(grid, table, start),
+        masses=dict(zip(table.names, mass.tolist(), strict=True)),
+        memory=State(grid, len(table), decks.body_groups(deck)).nbytes(), cycles=cycles,
+        seconds=cycles * grid.cells * NANOSECONDS * 1e-9, warnings=empty + decks.warnings(deck),
+    )  # fmt: skip
+
+
+def _dump(grid, table, start) -> Dump:
+    vof = start["vof"]
+    shares = np.concatenate([1 - vof.sum(axis=0, keepdims=True), vof])
+    fields = {derived.BY_KEY["volume_fraction"].name(body): vof[m] for m, body in enumerate(table.names)}
+    fields |= {
+        "Material": np.argmax(shares, axis=0),
+        "Density [kg/m3]": np.sum(vof * start["rho"], axis=0),
+        "Velocity [m/s]": np.stack([start["u_cell"][0], start["v_cell"][0], np.zeros(vof.shape[1:])], axis=-1),
+    }
+    return Dump(grid.r_edges, grid.z_edges, fields, 0.0)
+
+
+def _cycles(deck, grid, table, start) -> int:
+    """Cycles to the end at the time step that the fastest elastic wave allows in the smallest cell."""
+    from eos.dispatch import evaluate, sound_speed_squared
+    from strength import SHEAR
+
+    fastest = 0.0
+    for m in range(len(table)):
+        rho, e = (float(start[name][m].flat[np.argmax(start["vof"][m])]) for name in ("rho", "e"))
+        p, dpdrho, dpde, _ = evaluate(table.eos_model[m], rho, e, table.eos_par[m])
+        wave = sound_speed_squared(rho, p, dpdrho, dpde, 0.0) + 4 * table.strength_par[m, SHEAR] / (3 * rho)
+        fastest = max(fastest, math.sqrt(wave))
+    smallest = min(np.diff(grid.r_edges).min(), np.diff(grid.z_edges).min())
+    mesh_speed = decks.body(deck, deck.mesh.follow).velocity[1] if deck.mesh.follow else 0.0
+    speed = float(np.max(np.hypot(start["u_cell"], start["v_cell"] - mesh_speed)))
+    numerics = deck.numerics
+    dt = smallest / max(fastest / numerics.courant, speed / numerics.advective_courant, 1e-30)
+    by_time = math.ceil(deck.stop.time / dt) if deck.stop.time else deck.stop.cycles
+    return min(by_time, deck.stop.cycles or by_time)
+
+
+def _axis(name: str, edges: np.ndarray) -> str:
+    sizes = np.diff(edges) * 1e3
+    spread = f"{sizes.min():.4g}" if np.ptp(sizes) < 1e-9 * sizes.max() else f"{sizes.min():.4g} to {sizes.max():.4g}"
+    return f"{name} from {edges[0] * 1e3:.6g} to {edges[-1] * 1e3:.6g} mm, cells of {spread} mm"
+
+
+def _mass(mass: float, grid) -> str:
+    return f"{mass * 1e3:.6g} g" if grid.cylindrical else f"{mass:.6g} kg/m"
+
+
+def _speed(entry) -> str:
+    radial, axial = entry.velocity
+    return f"{axial:g} m/s" + (f" (radial {radial:g} m/s)" if radial else "") + (" and a flow" if entry.flow else "")
+
+
+def _sliding(deck) -> str:
+    slide = deck.sliding
+    if slide.method == "none":
+        return slide.method
+    return (f"{slide.method}; hard: {', '.join(slide.hard)}; friction {slide.friction:g}, "
+            f"yield factor {decks.yield_factor(deck):.5g}")  # fmt: skip
+
+
+def _stop(stop) -> str:
+    parts = [f"t = {stop.time * 1e6:.6g} us"] if stop.time else []
+    parts += [f"{stop.cycles} cycles"] if stop.cycles else []
+    parts += [f"speed of {stop.body} below {stop.speed_below:g} m/s"] if stop.speed_below else []
+    parts += [f"rebound of {stop.body}"] if stop.rebound else []
+    parts += ["perforation"] if stop.perforation else []
+    return ", or ".join(parts)
+
+
+def _duration(seconds: float) -> str:
+    from hydro2d.running.progress import duration
+
+    return duration(seconds)

@@ -1,0 +1,404 @@
+"""A run and its directory: cycles, outputs when they are due, progress, the last word.
+
+    deck.toml         the deck with every default written out
+    summary.json      the result, where it comes from, and what was conserved
+    progress.json     how far it is, while it runs
+    history.h5        quantities against time, and the hole in the target at the end
+    restart.h5        to continue to the same bits (and restart.previous.h5)
+    vtk/, *.pvd       fields, outlines and tracers for ParaView
+    log.txt           what happened
+
+Outputs are due at the first cycle at or after their time: they never change a time step, and a run that was
+interrupted anywhere continues to the same bits as one that was not.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import math
+import os
+import signal
+import threading
+import time as clock
+import tomllib
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from hydro2d import __version__
+from hydro2d.deck.warnings import warnings
+from hydro2d.files import locked, write_json, write_text
+from hydro2d.output import derived, snapshot
+from hydro2d.output.history import History
+from hydro2d.output.vtk import FOLDER, SERIES, Series
+from hydro2d.running import provenance
+from hydro2d.running.progress import Clock, reporter
+
+DECK, SUMMARY, HISTORY, LOG, LOCK = "deck.toml", "summary.json", "history.h5", "log.txt", "run.lock"
+PROGRESS = "progress.json"
+OWN_FILES = (DECK, SUMMARY, HISTORY, LOG, PROGRESS, snapshot.NAME, snapshot.PREVIOUS, *SERIES.values())
+
+#: cycles between copies of the state kept in memory as the last good one
+GOOD_EVERY = 500
+#: seconds between writes of the history
+FLUSH_SECONDS = 10.0
+#: seconds between writes of progress.json
+PROGRESS_SECONDS = 3.0
+
+DONE, WRONG_INPUT, UNPHYSICAL = 0, 2, 3
+
+
+#: results that a summary always has; null for a deck without rod and target
+ROD_RESULTS = (
+    "penetration_depth_m", "rod_length_m", "rod_mass_kg", "rod_max_plastic_strain", "rod_tail_velocity_m_s", "regime",
+    "rod_residual_velocity_m_s", "rod_residual_mass_kg",
+)  # fmt: skip
+
+
+class RunError(Exception):
+    """A run that cannot begin: the directory is taken, or a restart does not fit; the message is for the user."""
+
+
+class Due:
+    """Output times k interval, k = 0, 1, ...: due at the first cycle at or after each; several at once count as one."""
+
+    def __init__(self, interval: float):
+        self.interval, self.count = interval, 0
+
+    def saved(self) -> list:
+        """What a restart file keeps of it."""
+        return [self.interval, self.count]
+
+    def resume(self, saved: list, time: float) -> None:
+        """Continues from what was saved at `time`; where the interval has changed since, from the next of the new."""
+        interval, count = saved
+        self.count = count if interval == self.interval else math.floor(time / self.interval) + 1
+
+    def __call__(self, time: float) -> bool:
+        """Whether an output is due at `time`; if so, the next one is moved beyond it."""
+        if time < self.count * self.interval:
+            return False
+        self.count = max(math.floor(time / self.interval), self.count) + 1
+        if (self.count - 1) * self.interval > time:  # the division was rounded up
+            self.count -= 1
+        return True
+
+
+def check_free(directory: Path, *, restart: bool, overwrite: bool) -> None:
+    """Raises RunError where the directory is not what the options allow."""
+    if directory.exists() and not directory.is_dir():
+        raise RunError(f"{directory} is a file, not a directory")
+    if restart and not directory.is_dir():
+        raise RunError(f"{directory}: there is no run to continue")
+    if not (restart or overwrite) and any((directory / name).exists() for name in OWN_FILES):
+        raise RunError(f"{directory} already holds a run; --restart continues it, --overwrite removes it")
+
+
+def clear(directory: Path) -> None:
+    """Removes what a run has left in a directory, and nothing else."""
+    for name in OWN_FILES:
+        (directory / name).unlink(missing_ok=True)
+    for file in (directory / FOLDER).glob("*_[0-9]*.vt?"):
+        file.unlink()
+
+
+#: sections of a deck that may differ when a run is continued
+FREE_SECTIONS = ("name", "title", "stop", "output", "experiment")
+
+
+def check_same_deck(now: str, before: str) -> None:
+    """Raises RunError if two resolved decks differ in anything that the state depends on."""
+    now, before = (tomllib.loads(text) for text in (now, before))
+    changed = sorted(
+        key for key in now.keys() | before.keys() if key not in FREE_SECTIONS and now.get(key) != before.get(key)
+    )
+    if changed:
+        raise RunError(
+            f"the deck is not the one that the run was begun with: {', '.join(changed)} differ "
+            f"(a restart may change only {', '.join(FREE_SECTIONS)})"
+        )
+
+
+@dataclass
+class Interrupt:
+    """Set by a signal, or by a program that runs a case and wants it to stop: the run ends after the cycle."""
+
+    reason: str = ""
+
+    def __call__(self, reason: str) -> None:
+        self.reason = reason
+
+
+@contextmanager
+def signals(interrupt: Interrupt):
+    """SIGINT and SIGTERM set the interrupt; a second one does what it did before. Only the main thread gets signals."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    before = {}
+
+    def handle(number, _frame):
+        interrupt(signal.Signals(number).name)
+        for each, handler in before.items():
+            signal.signal(each, handler)
+
+    for number in (signal.SIGINT, signal.SIGTERM):
+        before[number] = signal.signal(number, handle)
+    try:
+        yield
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
+
+
+class Run:
+    """One run in one directory.
+
+    Parameters
+    ----------
+    deck : the resolved deck
+    directory : where everything is written
+    restart : continue from restart.h5 of the directory
+    report : see progress.reporter
+    """
+
+    def __init__(self, deck, directory: Path, *, restart: bool, report):
+        from hydro2d.jit import threads
+        from hydro2d.solver.simulation import Simulation
+
+        self.deck, self.directory, self.report = deck, Path(directory), report
+        self.deck_text = deck.to_toml()
+        self.warnings = warnings(deck)
+        self.provenance = provenance.collect(threads())
+        self.sim = Simulation(deck)
+        self.wall_before = 0.0
+        self.stepping, self.stepped = 0.0, 0
+        self.due = {"history": Due(deck.output.history_interval), "vtk": Due(deck.output.vtk_interval)}
+        rows = dumps = 0
+        if restart:
+            saved, problems = snapshot.read_latest(self.directory)
+            for problem in problems:
+                report.line(f"warning: {problem}; continuing from the one before")
+            check_same_deck(self.deck_text, saved.deck)
+            self.sim.load_restart_arrays(saved.arrays)
+            self.sim.load_restart_scalars(saved.scalars)
+            for name, due in self.due.items():
+                due.resume(saved.run["due"][name], self.sim.time)
+            rows, dumps, self.wall_before = (saved.run[name] for name in ("rows", "dumps", "wall_s"))
+        self.history = History(self.directory / HISTORY, rows)
+        self.series = Series(self.directory, deck.output.fields, dumps)
+        self.clock = Clock(self)
+        self.started = self.flushed = self.saved_at = self.published = clock.perf_counter()
+        self.good = None
+        (self.directory / SUMMARY).unlink(missing_ok=True)
+        write_text(self.directory / DECK, self.deck_text)
+
+    @property
+    def wall(self) -> float:
+        """Seconds spent on the run, in this process and before."""
+        return self.wall_before + clock.perf_counter() - self.started
+
+    def execute(self, interrupt: Interrupt, compiled=None) -> dict:
+        """Runs to a stop reason. Returns the summary, which is also in summary.json.
+
+        compiled : what tells after the first cycle how long the kernels were compiled, see compilation.announced
+        """
+        from hydro2d.solver.simulation import UnphysicalState
+
+        self.report.begin(self)
+        status, reason = "running", self.sim.stop_reason()
+        self._outputs()
+        try:
+            while reason is None and not interrupt.reason:
+                self._step()
+                if compiled and self.stepped == 1:
+                    compiled.report()
+                self._outputs()
+                reason = self.sim.stop_reason()
+        except UnphysicalState as error:
+            return self._finish("unphysical", f"unphysical state: {error}")
+        if reason is None:
+            status, reason = "interrupted", f"interrupted ({interrupt.reason})"
+        else:
+            status = "done"
+        return self._finish(status, reason)
+
+    def _step(self) -> None:
+        """One cycle and its wall time; not that of the first, which compiles."""
+        before, first = clock.perf_counter(), self.stepped == 0
+        self.sim.step()
+        self.stepping += 0.0 if first else clock.perf_counter() - before
+        self.stepped += 1
+
+    # ------------------------------------------------------------------------------------------------ outputs
+
+    def _outputs(self) -> None:
+        """Everything that is due after a cycle."""
+        sim, now = self.sim, clock.perf_counter()
+        if self.due["history"](sim.time):
+            self.history.append(row(sim))
+        if self.due["vtk"](sim.time):
+            self.series.dump(sim)
+        if now - self.saved_at >= self.deck.output.restart_interval:
+            self._save(self._snapshot())
+        if sim.cycle % GOOD_EVERY == 0:
+            self.good = self._snapshot(self.good)
+        if now - self.flushed >= FLUSH_SECONDS:
+            self.history.write()
+            self.flushed = clock.perf_counter()
+        if now - self.published >= PROGRESS_SECONDS:
+            self._publish()
+        self.report.update(self)
+
+    def _publish(self) -> None:
+        """Writes progress.json, which others look at."""
+        found = self.sim.diagnostics()
+        write_json(self.directory / PROGRESS, {
+            "time_s": self.sim.time,
+            "cycles": self.sim.cycle,
+            "fraction": self.clock.done(self.sim),
+            "left_s": self.clock.left(self.sim),
+            "wall_s": self.wall,
+            "penetration_depth_m": found.get("penetration_depth_m"),
+            "rod_tail_velocity_m_s": found.get("rod_tail_velocity_m_s"),
+            "host": self.provenance["host"],
+            "process": os.getpid(),
+        })  # fmt: skip
+        self.published = clock.perf_counter()
+
+    def _snapshot(self, reuse: snapshot.Snapshot | None = None) -> snapshot.Snapshot:
+        """A copy of the state, in the memory of an earlier one that is no longer needed."""
+        arrays = self.sim.restart_arrays()
+        copies = reuse.arrays if reuse else {name: np.empty_like(array) for name, array in arrays.items()}
+        for name, array in arrays.items():
+            np.copyto(copies[name], array)
+        return snapshot.Snapshot(
+            arrays=copies,
+            scalars=self.sim.restart_scalars(),
+            run={
+                "due": {name: due.saved() for name, due in self.due.items()},
+                "rows": len(self.history),
+                "dumps": len(self.series),
+                "wall_s": self.wall,
+            },
+            deck=self.deck_text,
+            provenance=self.provenance,
+        )
+
+    def _save(self, state: snapshot.Snapshot) -> None:
+        """Writes the history and then the restart file, which counts on its rows."""
+        self.history.write()
+        snapshot.write(self.directory / snapshot.NAME, state)
+        self.flushed = self.saved_at = clock.perf_counter()
+
+    def _finish(self, status: str, reason: str) -> dict:
+        """The last outputs. A restart file never counts the extra row and dump that are written after the end."""
+        self.history.crater = self.sim.crater.profile() if self.sim.crater else None
+        if status == "unphysical":
+            if self.good is not None:
+                self._save(self.good)
+        else:
+            self._save(self._snapshot())
+        if status != "interrupted":
+            if self.history.last_time != self.sim.time:
+                self.history.append(row(self.sim))
+                self.history.write()
+            if self.series.last_time != self.sim.time:
+                self.series.dump(self.sim)
+        summary = self.summary(status, reason)
+        (self.directory / PROGRESS).unlink(missing_ok=True)
+        write_json(self.directory / SUMMARY, summary)
+        self.report.end(self, summary)
+        return summary
+
+    def summary(self, status: str, reason: str) -> dict:
+        """What summary.json holds."""
+        sim, cycles = self.sim, self.stepped - 1
+        return {
+            "deck": self.deck.name,
+            "title": self.deck.title,
+            "deck_sha256": deck_hash(self.deck_text),
+            "version": __version__,
+            "status": status,
+            "stop_reason": reason,
+            "time_s": sim.time,
+            "cycles": sim.cycle,
+            "wall_s": self.wall,
+            "ns_per_cell_cycle": 1e9 * self.stepping / (sim.grid.cells * cycles) if cycles > 0 else None,
+            "cells": sim.grid.cells,
+            **dict.fromkeys(ROD_RESULTS),
+            **sim.diagnostics(),
+            "crater": sim.crater.measure() if sim.crater else None,
+            "experiment": experiment(self.deck),
+            "conservation": sim.conservation(),
+            "provenance": self.provenance,
+        }
+
+
+def deck_hash(text: str) -> str:
+    """SHA-256 of a resolved deck: the same for the same case."""
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
+def experiment(deck) -> dict | None:
+    """The experiment that a deck names, or None."""
+    if deck.experiment is None:
+        return None
+    return {
+        "penetration_m": deck.experiment.penetration,
+        "qualifier": deck.experiment.qualifier,
+        "source": deck.experiment.source,
+    }
+
+
+def row(sim) -> dict:
+    """One row of the history."""
+    conserved = sim.conservation()
+    values = {"time": sim.time, "cycle": sim.cycle, "dt": sim.dt, **sim.diagnostics()}
+    values |= {f"mass_change_{body}": change for body, change in conserved["mass"].items()}
+    values |= {f"{name}_change": conserved[name] for name in ("axial_momentum", "total_energy")}
+    values |= {name: conserved[name] for name in ("internal_energy_J", "kinetic_energy_J")}
+    for tracer, (r, z) in zip(sim.deck.tracer, sim.tracers, strict=True):
+        values |= {f"tracer_{tracer.name}_r_m": float(r), f"tracer_{tracer.name}_z_m": float(z)}
+    for sink, amounts in conserved["sinks"].items():
+        values |= {f"sink_{sink}_{name}": amount for name, amount in amounts.items()}
+    return values
+
+
+def run(deck, directory: Path | None = None, *, restart=False, overwrite=False, quiet=False,
+        interrupt: Interrupt | None = None) -> dict:  # fmt: skip
+    """Runs a deck in a directory and returns its summary.
+
+    deck : as deck.load gives it
+    directory : default is the deck's own
+    restart, overwrite : continue a run that is there, or remove it
+    quiet : nothing is printed (log.txt is written)
+    interrupt : call it from anywhere to stop after the cycle with a restart file
+
+    Raises RunError, SnapshotError, FieldError, LockError (another process runs there).
+    """
+    from hydro2d.running.compilation import announced
+
+    directory = Path(directory or deck.output.directory)
+    interrupt = interrupt or Interrupt()
+    derived.expand(deck.output.fields)  # an unknown field is told before anything is touched
+    check_free(directory, restart=restart, overwrite=overwrite)
+    directory.mkdir(parents=True, exist_ok=True)
+    with locked(directory / LOCK):
+        if not restart:
+            clear(directory)
+        with (
+            reporter(directory / LOG, quiet=quiet) as report,
+            signals(interrupt),
+            announced(report.line) as compiled,
+        ):
+            return Run(deck, directory, restart=restart, report=report).execute(interrupt, compiled)
+
+
+def exit_status(summary: dict) -> int:
+    """0 done, 3 unphysical, 130 or 143 after SIGINT or SIGTERM, as shells do."""
+    if summary["status"] == "interrupted":
+        return 130 if "SIGINT" in summary["stop_reason"] else 143
+    return UNPHYSICAL if summary["status"] == "unphysical" else DONE

@@ -1,0 +1,153 @@
+"""Conservation: every total, and every named sink through which something left the mesh or the balance."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from hydro2d.mesh.sums import body_totals, vertex_totals
+
+#: sinks by name, and what each of them is
+SINKS = {
+    "traces": "bodies below the trace fraction, removed from their cell",
+    "advection": "kinetic energy that the remap of velocities discarded (negative: gained), and the momentum it gained",
+    "ke_bound": "kinetic energy that `ke` would have turned into more speed than ke_bound allows",
+    "outflow": "what left through open edges",
+    "inflow": "what came in through open edges of a mesh that travels, and through transmitting edges (negative)",
+    "transmitted": "momentum and energy that waves carried on through transmitting edges",
+    "walls": "momentum taken by walls",
+    "speed_limit": "vertices with little mass, held to the speed limit",
+}
+
+#: what a contact passes on within the balance: axial momentum from the hard bodies to the rest, and the heat that it makes
+EXCHANGES = {
+    "contact": "the impulse along the normal, and along the tangent, where hard bodies and the rest share a vertex",
+    "friction": "heat of the impulse along the tangent",
+    "light vertices": "heat of what moves with a neighbour because there is too little of it",
+}
+
+
+@dataclass
+class Sink:
+    """What left by one name: mass per body, axial momentum, energy; per radian (per unit depth in planar geometry)."""
+
+    mass: np.ndarray
+    momentum: float = 0.0
+    energy: float = 0.0
+
+
+@dataclass
+class Exchange:
+    """What passed between two groups by one name: axial momentum and heat; per radian (per unit depth in planar geometry)."""
+
+    momentum: float = 0.0
+    energy: float = 0.0
+
+
+@dataclass
+class Totals:
+    """Sums over the mesh: mass per body [m], axial momentum, internal and kinetic energy; per radian."""
+
+    mass: np.ndarray
+    momentum: float
+    internal: float
+    kinetic: float
+
+    @property
+    def energy(self) -> float:
+        return self.internal + self.kinetic
+
+
+def totals(state) -> Totals:
+    """Totals of a state, with the interior cells and vertices only."""
+    grid = state.grid
+    size = grid.g, grid.nz, grid.nr
+    bodies, vertices = np.zeros((state.bodies, 2)), np.zeros(2)
+    for m in range(state.bodies):
+        body_totals(*size, m, grid.volume, state.vof, state.rho, state.e, bodies[m])
+    vertex_totals(*size, state.mass, state.u, state.v, vertices)
+    momentum, kinetic = vertices.tolist()
+    return Totals(mass=bodies[:, 0].copy(), momentum=momentum, internal=float(bodies[:, 1].sum()), kinetic=kinetic)
+
+
+@dataclass
+class Ledger:
+    """The totals at the start and the sinks since.
+
+    Attributes
+    ----------
+    start : Totals
+    sinks : name -> Sink
+    exchanges : name -> Exchange, empty without contact
+    """
+
+    start: Totals
+    sinks: dict[str, Sink] = field(default_factory=dict)
+    exchanges: dict[str, Exchange] = field(default_factory=dict)
+
+    @classmethod
+    def open(cls, state) -> Ledger:
+        """A ledger that begins with the state as it is."""
+        return cls(totals(state), {name: Sink(np.zeros(state.bodies)) for name in SINKS},
+                   {name: Exchange() for name in EXCHANGES if state.groups > 1})
+
+    def book(self, name: str, mass=0.0, momentum: float = 0.0, energy: float = 0.0) -> None:
+        """Adds to a sink what left the totals."""
+        sink = self.sinks[name]
+        sink.mass += mass
+        sink.momentum += momentum
+        sink.energy += energy
+
+    def exchange(self, name: str, momentum: float = 0.0, energy: float = 0.0) -> None:
+        """Adds to what a contact passed on: axial momentum that the rest gained from hard bodies, and heat."""
+        entry = self.exchanges[name]
+        entry.momentum += momentum
+        entry.energy += energy
+
+    def balance(self, state) -> dict:
+        """Relative changes that no sink explains, and the sinks; SI, full circumference in cylindrical geometry."""
+        now, around = totals(state), 2 * np.pi if state.grid.cylindrical else 1.0
+        lost = {kind: sum(getattr(sink, kind) for sink in self.sinks.values()) for kind in ("mass", "momentum", "energy")}
+        scale = {
+            "momentum": max((2.0 * self.start.mass.sum() * abs(self.start.energy)) ** 0.5, 1e-300),
+            "energy": max(abs(self.start.energy), self.start.kinetic, 1e-300),
+        }
+        whole = np.maximum(self.start.mass - self.sinks["inflow"].mass, 1e-300)
+        mass = (now.mass + lost["mass"] - self.start.mass) / whole
+        return {
+            "mass": mass,
+            "axial_momentum": (now.momentum + lost["momentum"] - self.start.momentum) / scale["momentum"],
+            "total_energy": (now.energy + lost["energy"] - self.start.energy) / scale["energy"],
+            "internal_energy_J": now.internal * around,
+            "kinetic_energy_J": now.kinetic * around,
+            "start_energy_J": self.start.energy * around,
+            "sinks": {
+                name: {
+                    "mass_kg": float(sink.mass.sum() * around),
+                    "momentum_N_s": sink.momentum * around,
+                    "energy_J": sink.energy * around,
+                }
+                for name, sink in self.sinks.items()
+            },
+            "exchanges": {
+                name: {"momentum_N_s": entry.momentum * around, "energy_J": entry.energy * around}
+                for name, entry in self.exchanges.items()
+            },
+        }
+
+    def saved(self) -> dict:
+        """What a restart file keeps."""
+        return {
+            "start": {**vars(self.start), "mass": self.start.mass.tolist()},
+            "sinks": {name: {**vars(sink), "mass": sink.mass.tolist()} for name, sink in self.sinks.items()},
+            "exchanges": {name: vars(entry) for name, entry in self.exchanges.items()},
+        }
+
+    @classmethod
+    def resume(cls, saved: dict) -> Ledger:
+        """The ledger that `saved` described."""
+        start = Totals(**{**saved["start"], "mass": np.array(saved["start"]["mass"])})
+        sinks = {name: Sink(**{**entry, "mass": np.array(entry["mass"])}) for name, entry in saved["sinks"].items()}
+        exchanges = {name: Exchange(**entry) for name, entry in saved["exchanges"].items()}
+        return cls(start, sinks, exchanges)

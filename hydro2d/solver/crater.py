@@ -1,0 +1,186 @@
+"""The hole in the target: its radius row by row, also of rows that a travelling mesh has left behind."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from hydro2d.deck import deck as decks
+
+#: the target fills a cell, for the wall of the hole, from this share on
+HALF = 0.5
+#: a wall begins where a row is filled to this share of what its fullest cell beyond holds: the rest is round-off
+FULL = 0.999
+#: pieces of the target with less than this share of the largest one's volume are debris
+PIECE = 0.05
+
+
+class Rows(NamedTuple):
+    """Rows of cells along the rod's flight, arrays of shape (n,).
+
+    near, far : their ends as depths below the original surface, m;  radius : of the hole, m, NaN where there is no wall
+    axis : share of the cell on the axis that the target fills, of what a full cell of the row holds; 0 without a wall
+    """
+
+    near: np.ndarray
+    far: np.ndarray
+    radius: np.ndarray
+    axis: np.ndarray
+
+
+class Crater:
+    """Measures the hole that a rod makes.
+
+    The wall belongs to the target's pieces: cells that the target fills by half or more, failed or not, and that hang
+    together over faces, from 5 % of the largest piece's volume on that lies within the target's original extent. Smaller
+    pieces and the rest of the target are debris, which is part of the hole, as the rod is. The wall of a row is its first
+    run of such cells from the axis, up to a cell that is full. The hole's radius in the row is that of a circle, or in
+    planar geometry the width, with the row's area from the axis to there, less what the target fills of the wall's own
+    cells and of those next to them: exact for any straight wall, and smooth in time.
+
+    Parameters
+    ----------
+    sim : Simulation with a penetrator
+    deck : its deck
+    """
+
+    def __init__(self, sim, deck):
+        self.sim, self.m = sim, sim.penetrator.target
+        self.direction, self.surface = sim.penetrator.direction, sim.penetrator.surface
+        target = decks.slots(deck)[self.m]
+        extents = [decks.extent(body, deck, "z") for body in deck.body if target in (body.name, body.join)]
+        self.low, self.high = min(low for low, _ in extents), max(high for _, high in extents)
+        self.rear = float(self._depth(self.high if self.direction > 0 else self.low))
+        self._left: list[tuple[float, float]] = []
+        self._next = self._trailing_edge()
+
+    # ------------------------------------------------------------------------------------------------ rows in the mesh
+
+    def _depth(self, z):
+        """Depth below the original surface of an axial position, m."""
+        return self.direction * (z - self.surface)
+
+    def _trailing_edge(self) -> float:
+        """The mesh's edge behind the rod, as depth below the original surface, m."""
+        return float(self._depth(self.sim.grid.z_edges[0 if self.direction > 0 else -1]))
+
+    def _walls(self) -> tuple[np.ndarray, np.ndarray]:
+        """Which cells [j, i] belong to the target's pieces, and the target's share of these and of the cells next to them."""
+        from scipy import ndimage
+
+        grid = self.sim.grid
+        fraction = grid.interior(self.sim.state.vof)[self.m]
+        labels, count = ndimage.label(fraction >= HALF)
+        size = np.bincount(labels.ravel(), (fraction * grid.volume[grid.inside]).ravel(), count + 1)
+        centres = grid.zc[grid.inside[0]]
+        at_home = np.zeros(count + 1, dtype=bool)
+        at_home[labels[(centres > self.low) & (centres < self.high)]] = True
+        at_home[0] = False
+        pieces = at_home & (size >= PIECE * np.max(size, where=at_home, initial=0.0))
+        wall = pieces[labels]
+        return wall, np.where(ndimage.binary_dilation(wall), fraction, 0.0)
+
+    def _row(self, wall: np.ndarray, filled: np.ndarray) -> tuple[float, float]:
+        """(radius, share on the axis) of a row, shapes (nr,); (NaN, 0) where it has no wall."""
+        if not wall.any():
+            return np.nan, 0.0
+        first = int(np.argmax(wall))
+        beyond = wall[first:]
+        last = len(wall) if beyond.all() else first + int(np.argmin(beyond))
+        full = filled[first:last].max()
+        end = first + int(np.argmax(filled[first:last] >= FULL * full)) + 1
+        share = np.minimum(filled[:end] / full, 1.0)
+        share[share >= FULL] = 1.0
+        grid = self.sim.grid
+        area = float(np.sum((1.0 - share) * grid.vol_r[grid.inside[1]][:end]))
+        return float(np.sqrt(2.0 * area)) if grid.cylindrical else area, float(share[0])
+
+    def _rows(self) -> Rows:
+        """The rows of the mesh."""
+        edges = self._depth(self.sim.grid.z_edges)
+        found = np.array([self._row(*row) for row in zip(*self._walls(), strict=True)])
+        if self.direction < 0:
+            edges, found = edges[::-1], found[::-1]
+        return Rows(edges[:-1], edges[1:], found[:, 0], found[:, 1])
+
+    def _bottom(self, rows: Rows) -> tuple[int, float]:
+        """Row of the hole's bottom on the axis and its depth in m; the number of rows and the rear of a target shot through."""
+        closed = (rows.axis >= HALF) & (rows.near + rows.far > 0.0)
+        if not closed.any():
+            return len(closed), max(min(self.rear, float(rows.far[-1])), 0.0)
+        k = int(np.argmax(closed))
+        height = rows.far - rows.near
+        depth = rows.near[k] + (1.0 - rows.axis[k]) * height[k]
+        if k > 0:
+            depth -= rows.axis[k - 1] * height[k - 1]
+        return k, max(float(depth), 0.0)
+
+    # ------------------------------------------------------------------------------------------------ rows left behind
+
+    def record(self) -> None:
+        """After a cycle: keeps the radius in the mesh's last row, once for every height of it that the mesh has moved."""
+        edge = self._trailing_edge()
+        if self.sim.grid.offset == 0.0 or edge < self._next:
+            return
+        last = 0 if self.direction > 0 else -1
+        self._next = edge + float(np.diff(self.sim.grid.z_edges)[last])
+        radius, _ = self._row(*(cells[last] for cells in self._walls()))
+        if np.isfinite(radius):
+            self._left.append((float(self.sim.grid.zc[self.sim.grid.inside[0]][last]), radius))
+
+    def saved(self) -> dict:
+        """What a restart file keeps of it."""
+        return {"next": self._next, "left": [list(pair) for pair in self._left]}
+
+    def resume(self, saved: dict) -> None:
+        """Continues from what was saved."""
+        self._next, self._left = saved["next"], [(z, radius) for z, radius in saved["left"]]
+
+    # ------------------------------------------------------------------------------------------------ what is known
+
+    def _hole(self) -> tuple[np.ndarray, np.ndarray, np.ndarray, float]:
+        """Near and far ends of the hole's rows as depths and their radii, all (n,), and the depth of the bottom; m."""
+        rows = self._rows()
+        bottom, depth = self._bottom(rows)
+        live = np.nonzero(np.isfinite(rows.radius[: bottom + 1]))[0]
+        edge = rows.near[0]
+        left = np.array([(self._depth(z), radius) for z, radius in self._left]).reshape(-1, 2)
+        left = left[left[:, 0] < edge]
+        between = 0.5 * (left[1:, 0] + left[:-1, 0])
+        near = np.concatenate([left[:1, 0] - 0.5 * (rows.far[0] - edge), between, rows.near[live]])
+        far = np.concatenate([between, [edge] * min(len(left), 1), rows.far[live]])
+        radius = np.concatenate([left[:, 1], rows.radius[live]])
+        count = int(np.max(np.nonzero(radius)[0], initial=-1)) + 1
+        return near[:count], far[:count], radius[:count], depth
+
+    def profile(self) -> tuple[np.ndarray, np.ndarray]:
+        """Axial positions and radii of the hole in m, shapes (n,), along the rod's flight from the entrance to the bottom.
+
+        Rows of a lip before the target's original face and of a bulge behind its rear are in it; it is empty before impact.
+        """
+        near, far, radius, _ = self._hole()
+        return self.surface + self.direction * 0.5 * (near + far), radius
+
+    def measure(self) -> dict:
+        """What summary.json says of the hole; SI, whole circumference, within the target's original faces.
+
+        The entrance is the first row below the original surface; the mean diameter is that of the cylinder (in planar
+        geometry: the slot) with the hole's volume and depth, None where there is no hole.
+        """
+        near, far, radius, depth = self._hole()
+        below = near + far > 0.0
+        near, far, radius = near[below], far[below], radius[below]
+        near[:1] = np.minimum(near[:1], 0.0)  # a row that the original face cuts has no wall where less than half is left
+        height = np.maximum(np.minimum(far, self.rear) - np.maximum(near, 0.0), 0.0)
+        cylindrical = self.sim.grid.cylindrical
+        volume = float(np.sum((np.pi * radius**2 if cylindrical else radius) * height))
+        mean = None
+        if depth > 0.0:
+            mean = 2.0 * (float(np.sqrt(volume / (np.pi * depth))) if cylindrical else volume / depth)
+        return {
+            "entrance_diameter_m": 2.0 * float(radius[0]) if len(radius) else 0.0,
+            "mean_diameter_m": mean,
+            "volume_m3": volume,
+            "depth_m": depth,
+        }

@@ -1,0 +1,478 @@
+"""One step of the method. The only file that knows both the state and the kernels.
+
+`Cycle.advance` is the page to read: equation of state, mixed-cell closure, viscosity and time step; stress, forces and
+velocities, work and strain (the Lagrangian step); then the remap, one sweep per direction, their order reversed every cycle.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from hydro2d.kernels import (
+    acceleration,
+    boundaries,
+    deformation,
+    interfaces,
+    mixed,
+    momentum,
+    remap,
+    sliding,
+    spans,
+    thermodynamics,
+)
+from hydro2d.mesh import fields
+from hydro2d.solver.audit import Ledger
+from hydro2d.solver.contact import Contact
+from hydro2d.solver.following import StandingMesh
+from hydro2d.solver.method import Method
+
+#: cells that the active box leads the moving vertices by; one cycle spreads a signal by fewer
+MARGIN = 6
+#: vertices may be this much faster than the fastest body was at the start, or than the slowest wave
+SPEED_LIMIT_FACTOR = 5.0
+
+
+class UnphysicalState(Exception):
+    """The state has become one that no material can be in; the message says where, which body and the values."""
+
+
+class Cycle:
+    """Advances a state, cycle by cycle.
+
+    Parameters
+    ----------
+    state : State, with vof, q, u and v set
+    table : MaterialTable
+    method : Method
+    mesh : what says how the mesh moves; without it the mesh stands
+
+    Attributes
+    ----------
+    time, dt, number : time reached (s), last time step (s), cycles done
+    cause : str, what set the last time step, and where
+    box : [j0, j1, i0, i1] of the cells that are active
+    ledger : Ledger
+    """
+
+    def __init__(self, state, table, method: Method, mesh=None):
+        self.state, self.table, self.method = state, table, method
+        self.mesh = mesh or StandingMesh()
+        grid = self.grid = state.grid
+        self.time, self.dt, self.number, self.cause = 0.0, 0.0, 0, "start"
+        g = grid.g
+        self.edges = np.array([g, g + grid.nz, g, g + grid.nr], dtype=np.int64)
+        low_r, high_r, low_z, high_z = method.mirrors
+        self.still = np.array([g if low_r else -1, g + grid.nr if high_r else -1, g if low_z else -1,
+                               g + grid.nz if high_z else -1], dtype=np.int64)
+        self.void_only = self._edges_with_void_beyond()
+        self.carried = np.array([self._carried(m) for m in range(state.bodies)])
+        self.contact = Contact(state, method, self.edges, self.still) if state.groups > 1 else None
+        self.box = list(self.edges)
+        self.ledger = None
+        self.speed_limit = 0.0
+        self.loose = method.loose * table.rho0
+        self.light_density = method.mass_floor * float(np.max(table.rho0))
+
+    def _edges_with_void_beyond(self) -> np.ndarray:
+        """The edges of the mesh (rows j0, j1, columns i0, i1) through which nothing but void comes in, -1 for the others."""
+        found = self.edges.copy()
+        found[np.roll(self.method.transmits, 2)] = -1
+        if self.mesh.leading is not None:
+            found[self.mesh.leading] = -1
+        return found
+
+    def _carried(self, m: int) -> int:
+        if self.table.damage_model[m]:
+            return fields.CARRIED_DAMAGE
+        return fields.CARRIED_SOLID if self.table.strength_model[m] else fields.CARRIED_FLUID
+
+    # ------------------------------------------------------------------------------------------------ the page
+
+    def advance(self) -> None:
+        """One step: time n to n + 1."""
+        self.activate()
+        self.ghost_vertices()
+        self.find_slip_zones()
+        self.mesh.follow()
+        self.close_cells()
+        self.choose_step()
+
+        self.stress()
+        self.accelerate()
+        self.sweep_faces()
+        self.deform()
+        self.mesh.leave(self.box, self.carried, self.dt)
+
+        directions = ((0, 1), (1, 0)) if self.number % 2 == 0 else ((1, 0), (0, 1))
+        for second, (dj, di) in enumerate(directions):
+            self.interface_fluxes(dj, di, second)
+            self.remap_bodies(dj, di, second)
+            self.remap_momentum(dj, di)
+            self.tidy(dj, di, second)
+
+        self.mesh.move(self.dt)
+        self.time += self.dt
+        self.number += 1
+
+    # ------------------------------------------------------------------------------------------------ preparation
+
+    def prepare(self) -> None:
+        """Everything that follows from vof, q, u, v: masses, spans, the active box. Called once, and after a restart."""
+        s = self.state
+        every = self.box
+        self.box = list(self.edges)
+        self.mesh.announce()
+        self._spans(anew=True)
+        s.cell_mass[...], s.mass[...] = 0.0, 0.0
+        j0, j1, _, _ = self.box
+        remap.sum_cell_mass(j0, j1, s.around, s.group, self.grid.volume, s.vof, s.q, s.cell_mass)
+        self._vertex_mass()
+        self._keep_one()
+        if self.ledger is None:
+            self.box = self._first_box() if self._skips_cells else list(self.edges)
+            self.ledger = Ledger.open(s)
+            sound = self._slowest_wave()
+            fastest = float(np.sqrt(np.max(s.u**2 + s.v**2)))
+            self.speed_limit = SPEED_LIMIT_FACTOR * max(fastest, sound)
+        else:
+            self.box = every
+        if self.box != list(self.edges):  # beyond the box nothing has a span yet
+            s.empty_spans()
+            self._spans(anew=True)
+        self._list_mixed()
+
+    @property
+    def _skips_cells(self) -> bool:
+        """Whether quiet cells may be skipped: not where the mesh travels, and every cell hands on what it holds."""
+        return self.method.active_region and self.mesh.leading is None
+
+    def _slowest_wave(self) -> float:
+        from eos.dispatch import evaluate, sound_speed_squared
+
+        t = self.table
+        speeds = []
+        for m in range(self.state.bodies):
+            p, dpdrho, dpde, _ = evaluate(t.eos_model[m], t.rho0[m], t.e0[m], t.eos_par[m])
+            speeds.append(sound_speed_squared(t.rho0[m], p, dpdrho, dpde, thermodynamics.SOUND_FLOOR) ** 0.5)
+        return min(speeds)
+
+    def _first_box(self) -> list[int]:
+        """Smallest box around everything that moves or is under pressure or stress, and the margin."""
+        s, t = self.state, self.table
+        from eos.dispatch import evaluate
+
+        loud = np.zeros(self.grid.shape, dtype=bool)
+        for m in range(s.bodies):
+            present = s.vof[m] > 0
+            quiet_p = evaluate(t.eos_model[m], t.rho0[m], 0.0, t.eos_par[m])[0] == 0.0
+            at_rest = (s.rho[m] == t.rho0[m]) & (s.e[m] == 0.0) & (s.q[2:5, m] == 0.0).all(axis=0)
+            loud |= present & ~(at_rest & quiet_p)
+        moving = ((s.u != 0) | (s.v != 0)).any(axis=0)
+        loud |= moving[:-1, :-1] | moving[1:, :-1] | moving[:-1, 1:] | moving[1:, 1:]
+        j0, j1, i0, i1 = self.edges
+        rows, columns = np.nonzero(loud[j0:j1, i0:i1])
+        if len(rows) == 0:
+            return list(self.edges)
+        return self._clipped([rows.min() + j0, rows.max() + j0 + 1, columns.min() + i0, columns.max() + i0 + 1], MARGIN)
+
+    def _clipped(self, box, margin) -> list[int]:
+        j0, j1, i0, i1 = self.edges
+        return [int(max(box[0] - margin, j0)), int(min(box[1] + margin, j1)), int(max(box[2] - margin, i0)),
+                int(min(box[3] + margin, i1))]
+
+    def activate(self) -> None:
+        """Lets the active box grow ahead of whatever moves (explanation/active-region)."""
+        if self.box == list(self.edges):
+            return
+        s, (j0, j1, i0, i1) = self.state, self.box
+        spans.moving_columns(j0, j1 + 1, i0, i1 + 1, s.u, s.v, s.row_moving)
+        spans.moving_box(j0, j1 + 1, s.row_moving, s.found)
+        first, last, low, high = s.found
+        if first == last:
+            return
+        grown = self._clipped([first - 1, last, low - 1, high], MARGIN)
+        box = [min(j0, grown[0]), max(j1, grown[1]), min(i0, grown[2]), max(i1, grown[3])]
+        if box != self.box:
+            self.box = box
+            self._spans(anew=True)
+            self._list_mixed()
+
+    def _spans(self, anew: bool) -> None:
+        s, box = self.state, self.box
+        spans.body_spans(*box, anew, s.group, s.vof, s.near, s.occupied)
+        spans.reached(*box, s.occupied, s.around)
+        spans.neighbours(box[0], box[1], s.near, s.around)
+
+    def _list_mixed(self) -> None:
+        s, (j0, j1, _, _) = self.state, self.box
+        spans.list_mixed(j0, j1, s.reach, s.vof, s.mixed_count, s.mixed, s.scratch)
+
+    def _vertex_mass(self) -> None:
+        s, g, (j0, j1, i0, i1) = self.state, self.grid, self.box
+        acceleration.vertex_masses(j0, j1 + 1, i0, i1 + 1, g.cm_in, g.cm_out, s.around, s.cell_mass, s.mass)
+
+    def _keep_one(self) -> None:
+        if self.contact:
+            self.contact.keep_one(self.box)
+
+    def ghost_vertices(self) -> None:
+        """Mirrors or copies velocities beyond the edges of the mesh."""
+        s, g, (low_r, high_r, low_z, high_z) = self.state, self.grid, self.method.mirrors
+        j0, j1, i0, i1 = self.box
+        boundaries.ghost_vertices_r(j0, j1 + 1, g.nr, low_r, high_r, s.u, s.v)
+        boundaries.ghost_vertices_z(i0 - 2, i1 + 3, g.nz, low_z, high_z, s.u, s.v)
+
+    def _hold_still(self) -> None:
+        """Zero normal velocity on the axis and on walls; the impulse on walls is booked."""
+        s = self.state
+        r0, r1, z0, z1 = self.still
+        for column in (r0, r1):
+            if column >= 0:
+                s.u[:, :, column] = 0.0
+        for row in (z0, z1):
+            if row >= 0:
+                self.ledger.book("walls", momentum=float(np.sum(s.mass[:, row] * s.v[:, row])))
+                s.v[:, row] = 0.0
+
+    def _transmit(self) -> None:
+        """What an endless plate would hold the transmitting edges with; what it takes is booked."""
+        s, g, taken = self.state, self.grid, np.zeros(2)
+        for along_r in (True, False):
+            j0, j1, i0, i1 = self.box
+            first, last = (j0, j1 + 1) if along_r else (i0, i1 + 1)
+            for at, _ in self._open_faces(along_r, self.method.transmits):
+                boundaries.transmit(along_r, at, first, last, self.dt, g.face_r, g.az_in, g.az_out, g.dz, s.rhobar, s.cl,
+                                    s.bulk, s.mass, s.u0, s.v0, s.u, s.v, taken)
+        if taken.any():
+            self.ledger.book("transmitted", momentum=float(taken[0]), energy=float(taken[1]))
+
+    # ------------------------------------------------------------------------------------------------ Lagrangian step
+
+    def find_slip_zones(self) -> None:
+        """Distance to the hard bodies and the zones beside them, every few cycles."""
+        s, g, method = self.state, self.grid, self.method
+        if method.slip_widths is None or self.number % method.refresh:
+            return
+        sliding.slip_zones(*self.box, *method.slip_widths, method.threshold, g.rc, g.zc, g.dr, g.dz, method.hard, s.vof, s.hard,
+                           s.distance, s.zone, s.normal)
+
+    def close_cells(self) -> None:
+        """Pressure and sound speed of every body, void where a cell tears, artificial viscosity, the step a cell allows."""
+        s, g, t, method, (j0, j1, _, _) = self.state, self.grid, self.table, self.method, self.box
+        mixed.close_cells(
+            j0, j1, method.max_opening, method.smallest_tension, method.linear, method.quadratic, method.courant,
+            method.advective, self.mesh.velocity, method.hourglass, g.face_r, g.az_in, g.az_out, g.vol_r, g.dr, g.dz, s.span,
+            s.reach, s.mixed_count, s.mixed, s.group, t.eos_model, t.eos_par, t.strength_model, t.strength_par,
+            t.damage_model, t.fracture_pressure, self.loose, s.u, s.v, s.vof, s.q, s.pm, s.km, s.tm, s.p, s.bulk, s.rhobar,
+            s.solid, s.cl, s.qr, s.qz, s.weight, s.rows[0], s.rows[1], s.row_numbers, s.scratch)
+        if self.contact:
+            self.contact.find(j0, j1)
+        thermodynamics.least_step(j0, j1, s.rows[1], s.row_numbers, s.found)
+        if s.found[1] >= 0:
+            self._report_bad(s.found[1])
+        if s.found[2] >= 0:
+            raise UnphysicalState(f"cycle {self.number}, time {self.time:.6g} s: velocities that are not finite near "
+                                  f"z = {g.zc[s.found[2]]:.6g} m")
+
+    def _report_bad(self, j: int) -> None:
+        s, g = self.state, self.grid
+        i, m = int(s.row_numbers[j, 1]), int(s.row_numbers[j, 2])
+        raise UnphysicalState(
+            f"cycle {self.number}, time {self.time:.6g} s, cell (r, z) = ({g.rc[i]:.6g}, {g.zc[j]:.6g}) m, body "
+            f'"{self.table.names[m]}": volume fraction {s.vof[m, j, i]:.6g}, density {s.rho[m, j, i]:.6g} kg/m^3, energy '
+            f"{s.e[m, j, i]:.6g} J/kg, pressure {s.pm[m, j, i]:.6g} Pa ({int(s.row_numbers[j, 0])} such cells in its row)")
+
+    def choose_step(self) -> None:
+        """The time step, with the cell and the term that set it."""
+        s, g, method = self.state, self.grid, self.method
+        j = int(s.found[0])
+        stable = float(s.rows[1, j])
+        thermodynamics.step_cause(
+            j, method.courant, method.advective, self.mesh.velocity, g.dr, g.dz, g.vol_r, g.face_r, g.az_in, g.az_out,
+            s.reach, s.u, s.v, s.rhobar, s.cl, s.qr, s.qz, s.row_numbers[j])
+        cause, i = s.row_numbers[j, :2]
+        ramp = min(1.0, method.first + (1.0 - method.first) * self.number / max(method.ramp_cycles, 1))
+        dt, self.cause = stable * ramp, (f"{thermodynamics.CAUSES[cause]} at r = {g.rc[i] * 1e3:.3f} mm, "
+                                         f"z = {g.zc[j] * 1e3:.3f} mm")
+        if ramp < 1.0:
+            self.cause += " (ramp)"
+        if self.dt > 0.0 and dt > method.growth * self.dt:
+            dt, self.cause = method.growth * self.dt, "growth"
+        if not method.dt_min < dt < 1e300:
+            raise UnphysicalState(f"cycle {self.number}, time {self.time:.6g} s: time step {dt:.3g} s, below dt_min = "
+                                  f"{method.dt_min:.3g} s, set by {self.cause}")
+        self.dt = dt
+
+    def stress(self) -> None:
+        """Total stress of every cell at half the step."""
+        s, g, method, (j0, j1, _, _) = self.state, self.grid, self.method, self.box
+        acceleration.total_stress(
+            j0, j1, self.dt, g.face_r, g.az_in, g.az_out, g.vol_r, g.dz, s.span, s.reach, s.mixed_count, s.mixed,
+            method.strength_mode == mixed.SOLID, method.hard, method.threshold, s.u, s.v, s.vof, s.q, s.p, s.bulk, s.solid,
+            s.qr, s.qz, s.ph, s.sig_rr, s.sig_zz, s.sig_tt, s.sig_rz)
+        if self.contact:
+            self.contact.stress(j0, j1, self.dt)
+
+    def accelerate(self) -> None:
+        """Velocities at the end of the step."""
+        s, g, (j0, j1, i0, i1) = self.state, self.grid, self.box
+        s.swap_velocities()
+        limited = s.rows[2:5]
+        acceleration.accelerate(
+            j0, j1 + 1, i0, i1 + 1, self.dt, self.speed_limit, self.light_density, g.face_r,
+            g.hoop, g.az_in, g.az_out, g.vol_r, g.mid_r, g.dz, s.occupied, s.mass, s.weight, s.sig_rr, s.sig_zz, s.sig_tt,
+            s.sig_rz, s.u0, s.v0, s.u, s.v, limited)
+        if limited[2, j0:j1 + 1].any():
+            self.ledger.book("speed_limit", momentum=float(limited[0, j0:j1 + 1].sum()),
+                             energy=float(limited[1, j0:j1 + 1].sum()))
+        if self.contact:
+            self.contact.meet(j0, j1, self.dt, self.ledger)
+        self._transmit()
+        self._hold_still()
+        self._keep_one()
+        self.ghost_vertices()
+
+    def sweep_faces(self) -> None:
+        """Volumes that the faces sweep in the step; they are the change of volume, and later the remap's fluxes."""
+        s, g, (j0, j1, i0, i1) = self.state, self.grid, self.box
+        acceleration.swept_volumes(j0, j1 + 1, i0, i1, self.dt, g.face_r, g.az_in, g.az_out, g.dz, s.around, s.u0, s.v0,
+                                   s.u, s.v, s.fr, s.fz)
+        if self.contact:
+            self.contact.volumes(j0, j1, self.dt)
+
+    def deform(self) -> None:
+        """Work, volume, strain: body by body in pure cells, then the mixed cells; no shear in the slip layer."""
+        s, g, t, method, (j0, j1, _, _) = self.state, self.grid, self.table, self.method, self.box
+        deformation.deform(
+            j0, j1, self.dt, g.face_r, g.hoop, g.az_in, g.az_out, g.vol_r, g.mid_r, g.dz, s.span, s.group, t.strength_model,
+            t.strength_par, t.damage_model, t.damage_par, method.factor, self.loose, s.u0, s.v0, s.u, s.v, s.fr, s.fz,
+            s.sig_rr, s.sig_zz, s.sig_tt, s.sig_rz, s.weight, s.vof, s.pm, s.tm, s.scratch, s.q)
+        mixed.deform_mixed(
+            j0, j1, self.dt, method.relaxation, method.tipton, method.strength_mode, method.hard, method.threshold, g.face_r,
+            g.hoop, g.az_in, g.az_out, g.vol_r, g.mid_r, g.dz, s.mixed_count, s.mixed, s.group, s.cut, s.cell_mass,
+            t.strength_model, t.strength_par, t.damage_model, t.damage_par, method.factor, self.loose, s.u0, s.v0, s.u, s.v,
+            s.fr, s.fz, s.ph, s.qr, s.qz, s.weight, s.solid, s.pm, s.km, s.tm, s.vof, s.q, s.mix, s.motion)
+        if self.contact:
+            self.contact.warm(j0, j1)
+        if method.slip_widths is not None:
+            sliding.cut_shear(j0, j1, method.shear, method.friction, s.occupied[0], s.zone, s.normal, method.hard, s.vof, s.pm,
+                              s.q)
+
+    # ------------------------------------------------------------------------------------------------ remap
+
+    def interface_fluxes(self, dj: int, di: int, second: int) -> None:
+        """Volume of every body through every face of one direction."""
+        s, g, box = self.state, self.grid, self.box
+        j0, j1, i0, i1 = box
+        low_r, high_r, low_z, high_z = self.method.mirrors
+        along_r, along_z = di * fields.BODY_FIELDS, dj * fields.BODY_FIELDS  # the other direction's interfaces need fractions
+        boundaries.ghost_columns(j0, j1, g.nr, low_r, high_r, along_r, s.span, s.vof, s.q)
+        boundaries.ghost_rows(i0 - 2, i1 + 2, g.nz, low_z, high_z, along_z, s.vof, s.q)
+        self.mesh.fill_ghosts(self.dt)
+        if not second:  # cells may have been filled by the Lagrangian step
+            self._list_mixed()
+        face = s.fr if di else s.fz
+        interfaces.donor_volumes(dj, di, *box, second == 0, self.void_only, g.volume, s.near, s.reach, s.fr, s.fz, s.vof, s.pre,
+                                 s.flux_volume)
+        interfaces.interface_volumes(dj, di, j0, j1, g.dr, g.dz, self.method.order, s.mixed_count, s.mixed, face, s.pre, s.vof,
+                                     s.flux_volume, s.mix)
+        if self.contact:
+            self.contact.fluxes(dj, di, j0, j1)
+
+    def remap_bodies(self, dj: int, di: int, second: int) -> None:
+        """Fluxes and update of every body's fields; the cells' masses, and which of them are mixed."""
+        s, g, box = self.state, self.grid, self.box
+        if dj:
+            remap.shared_fluxes(*box, self.carried, s.near, s.pre, s.flux_volume, s.vof, s.q, s.scratch, s.flux)
+        sweep = remap.sweep_r if di else remap.sweep_z
+        sweep(*box, self.carried, s.group, self.edges, s.near, s.around, s.fr if di else s.fz, s.pre, g.volume, bool(second),
+              s.flux_volume, s.scratch, s.flux, s.flux_mass, s.edge_flux, s.vof, s.q, s.cell_mass, s.mixed_count, s.mixed)
+        self._book_outflow(di)
+
+    def _open_faces(self, di: int, kind=None):
+        """(index of the face, outward sign) of the open edges of a direction, or of those of a kind (four booleans as in
+        `Method`), where the active box has reached them."""
+        kind = self.method.opens if kind is None else kind
+        low, high = kind[0:2] if di else kind[2:4]
+        box, edges = (self.box[2:4], self.edges[2:4]) if di else (self.box[0:2], self.edges[0:2])
+        if low and box[0] == edges[0]:
+            yield int(edges[0]), -1.0
+        if high and box[1] == edges[1]:
+            yield int(edges[1]), 1.0
+
+    def _book_outflow(self, di: int) -> None:
+        s, (j0, j1, i0, i1) = self.state, self.box
+        for _, sign in self._open_faces(di):
+            side, along = int(sign > 0), slice(j0, j1) if di else slice(i0, i1)
+            for name, (mass, energy) in self._out_and_in(sign, s.edge_flux[side, ..., along]):
+                self.ledger.book(name, mass=mass, energy=float(energy.sum()))
+
+    @staticmethod
+    def _out_and_in(sign: float, flow: np.ndarray):
+        """(name of the sink, sum over the edge) for what goes out through an edge and for what comes in, if anything does.
+
+        flow : [k, ..., i] towards higher r or z, the first k the mass, which says which of the two it is; sign : of outward
+        """
+        ends = sign * flow[0].min(axis=-1).min(), sign * flow[0].max(axis=-1).max()  # all at once would copy the rows
+        both = min(ends) < 0.0 < max(ends)
+        for name, way, there in (("outflow", 1.0, max(ends) > 0.0), ("inflow", -1.0, min(ends) < 0.0)):
+            if there:
+                part = np.where(way * sign * flow[0] > 0.0, flow, 0.0) if both else flow
+                yield name, sign * part.sum(axis=-1)
+
+    def remap_momentum(self, dj: int, di: int) -> None:
+        """Velocities after the sweep, by the advection choice; what it discards is booked."""
+        s, g, method = self.state, self.grid, self.method
+        flow = s.flux_mass
+        j0, j1, i0, i1 = self.edges
+        if di:  # the sweep along the other direction has left its fluxes beyond the mesh, where nothing flows along this one
+            flow[:, [j0 - 1, j1]] = 0.0
+        else:
+            flow[:, :, [i0 - 1, i1]] = 0.0
+        for face, sign in self._open_faces(di):  # beyond an open edge the flux goes on as it was
+            beyond = face + int(sign)
+            for of_group in flow:
+                if di:
+                    of_group[:, beyond] = of_group[:, face]
+                else:
+                    of_group[beyond] = of_group[face]
+        s.swap_velocities()
+        sums = s.rows[:5]
+        momentum.sweep_momentum(
+            dj, di, *self.box, method.choice, method.ke_bound, self.still, self.edges, g.cm_in, g.cm_out, s.around, s.cell_mass,
+            flow, s.mass, s.velocity0, s.velocity, s.dual, s.edge_dual, s.deficit, sums)
+        j0, j1, _, _ = self.box
+        before, after, p_gained, k_cut, p_wall = sums[:, j0:j1 + 1].sum(axis=1)
+        lost = before - after - self._kinetic_outflow(di)
+        if method.choice == momentum.BOTH:
+            momentum.deposit(j0, j1, g.cm_in, g.cm_out, s.reach, s.group, s.deficit, s.cell_mass, s.vof, s.q, s.rows[5])
+            lost -= s.rows[5, j0:j1].sum()
+        self.ledger.book("advection", momentum=-float(p_gained), energy=float(lost - k_cut))
+        self.ledger.book("ke_bound", energy=float(k_cut))
+        self.ledger.book("walls", momentum=float(p_wall))
+        self.ghost_vertices()
+
+    def _kinetic_outflow(self, di: int) -> float:
+        """Books the momentum that went through open edges and returns the kinetic energy that left with it."""
+        s, (j0, j1, i0, i1) = self.state, self.box
+        total = 0.0
+        for _, sign in self._open_faces(di):
+            flow = s.edge_dual[:, int(sign > 0), :, j0:j1 + 1] if di else s.edge_dual[:, int(sign > 0), :, i0:i1 + 1]
+            for name, part in self._out_and_in(sign, flow.swapaxes(0, 1)):
+                _, _, axial, *kinetic = part.sum(axis=-1)
+                energy = float(sum(kinetic))
+                if energy != 0.0:
+                    self.ledger.book(name, momentum=float(axial), energy=energy)
+                total += energy
+        return total
+
+    def tidy(self, dj: int, di: int, second: int) -> None:
+        """Removes traces, makes full cells full, and finds the bodies anew."""
+        s, g, (j0, j1, _, _) = self.state, self.grid, self.box
+        remap.tidy(j0, j1, self.method.trace, g.cm_in, g.cm_out, g.volume, s.group, s.mixed_count, s.mixed, s.pre, dj, di, s.fr,
+                   s.fz, bool(second), s.u, s.v, s.vof, s.q, s.cell_mass, s.booked)
+        internal, kinetic, axial, _, *mass = s.booked[:, j0:j1].sum(axis=1)
+        self.ledger.book("traces", mass=np.array(mass), momentum=float(axial), energy=float(internal + kinetic))
+        self._vertex_mass()  # by the ranges before: where nothing is left there is no mass either
+        self._spans(anew=False)
+        self._keep_one()

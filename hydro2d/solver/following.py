@@ -1,0 +1,187 @@
+"""How the mesh moves: not at all, or along z with a body (explanation/following-mesh).
+
+A mesh that travels has one axial velocity w, constant within a step. The Lagrangian step knows nothing of it; the faces that
+material crosses in the remap do: relative to the mesh a face along z sweeps F_z - w dt A, with A the axial area of its column.
+After the sweeps the whole mesh has advanced by w dt. What flows in through the edge that goes ahead is what the deck has
+placed there.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from hydro2d.deck.shapes import outline
+from hydro2d.kernels import following
+from hydro2d.mesh import sums
+from hydro2d.mesh.fields import RHO, E
+from hydro2d.mesh.grid import Grid
+from hydro2d.mesh.state import EMPTY
+from hydro2d.mesh.sums import HALF
+from hydro2d.solver import insertion
+
+#: what enters is looked up in a strip of at least this share of a cell, so that it has a height where the mesh rests
+THINNEST = 1e-9
+
+
+class StandingMesh:
+    """A mesh that stays where it is.
+
+    velocity : float, of the mesh along z, m/s;  leading : the edge along z that goes ahead, 0 low, 1 high, None: neither
+    """
+
+    velocity = 0.0
+    leading = None
+
+    def announce(self) -> None:
+        """Tells the ranges of columns which bodies may enter."""
+
+    def follow(self) -> None:
+        """Chooses the velocity of the mesh for the step."""
+
+    def leave(self, box, carried, dt: float) -> None:
+        """Makes the volumes that the faces sweep relative to the mesh."""
+
+    def fill_ghosts(self, dt: float) -> None:
+        """Places in the ghost cells ahead of the mesh what flows in."""
+
+    def move(self, dt: float) -> None:
+        """Moves the mesh to the end of the step."""
+
+
+class UndisturbedSpace:
+    """What a deck has placed anywhere along z, on the columns of a mesh.
+
+    Parameters
+    ----------
+    deck, table : Deck and MaterialTable
+    grid : Grid, whose columns it is for
+    """
+
+    def __init__(self, deck, table, grid: Grid):
+        self.deck, self.table, self.grid = deck, table, grid
+        slots = insertion.slot_of(deck, table)
+        outlines = [outline(body, deck.mesh.r_start) for body in deck.body]
+        slabs = [slab for entry in outlines for slab in entry.slabs]
+        self._levels = np.array(sorted({z for slab in slabs for z in (slab.low, slab.high)}))
+        self._curved = [(slab.low, slab.high) for slab in slabs if not (slab.inner.constant and slab.outer.constant)]
+        self._extents = [(m, *entry.extent("z")) for m, entry in zip(slots, outlines, strict=True)]
+        self._layers: dict[int, dict] = {}
+
+    def beyond(self, z: float, direction: float) -> set[int]:
+        """The bodies m of which something lies beyond z in a direction along the axis."""
+        return {m for m, low, high in self._extents if (high > z if direction > 0 else low < z)}
+
+    def strip(self, low: float, high: float) -> dict[str, np.ndarray]:
+        """``vof``, ``rho`` (kg/m^3) and ``e`` (J/kg) between two heights, shapes (m, nr), as `insertion` gives them.
+
+        Between two heights at which nothing begins, ends or curves they are computed once.
+        """
+        first, last = np.searchsorted(self._levels, [low, high], side="right")
+        if first != last or any(a < high and b > low for a, b in self._curved):
+            return self._insert(low, high)
+        if first not in self._layers:
+            self._layers = {first: self._insert(low, high)}
+        return self._layers[first]
+
+    def _insert(self, low: float, high: float) -> dict[str, np.ndarray]:
+        row = Grid(self.grid.r_edges, [low, high], self.grid.geometry)
+        found = insertion.initial_state(self.deck, row, self.table)
+        return {name: found[name][:, 0] for name in ("vof", "rho", "e")}
+
+
+class FollowingMesh:
+    """A mesh that travels with the core of a body, forward only.
+
+    The core is what of the body is intact and hangs together from the axis outward along its longest run on the axis, so that
+    debris does not drag the mesh along. A body that is not on the axis is followed as a whole.
+
+    Parameters
+    ----------
+    state : State
+    space : UndisturbedSpace
+    m : int, the body
+    direction : +1 or -1, the sense of its motion along z
+    mirrors : (bool, bool), whether the inner and the outer edge along r mirror
+    """
+
+    def __init__(self, state, space: UndisturbedSpace, m: int, direction: float, mirrors: tuple[bool, bool]):
+        self.state, self.grid, self.space, self.m, self.direction = state, state.grid, space, m, direction
+        self.velocity, self.leading = 0.0, int(direction > 0)
+        self._pads = tuple("symmetric" if mirror else "edge" for mirror in mirrors)
+        self._run = np.zeros(2, dtype=np.int64)
+        self._sums = np.zeros(2)
+        self._last: tuple = (None, [])
+
+    def announce(self) -> None:
+        """Gives bodies that may enter the whole of the ghost rows ahead as their range of columns."""
+        s, g = self.state, self.grid
+        coming = self.space.beyond(self._edge, self.direction)
+        for row in self._ghost_rows:
+            s.near[0, :, row], s.occupied[:, row] = EMPTY, EMPTY
+            for m in coming:
+                s.near[0, m, row] = g.g, g.g + g.nr
+                s.occupied[: s.group[m] + 1, row] = g.g, g.g + g.nr
+
+    def follow(self) -> None:
+        """Takes the mean velocity, by mass, of the body's core; of all of the body where it has none, and never backward."""
+        s, g, m = self.state, self.grid, self.m
+        sums.axis_run(g.g, g.nz, m, HALF, g.z, s.vof, s.dmg, self._run)
+        first, last = self._run
+        if first < last:
+            first, last = max(first - 1, g.g), min(last + 1, g.g + g.nz)
+        sums.core_sums(g.g, g.nr, first, last, m, HALF, g.volume, s.vof, s.dmg, s.rho, s.v[s.group[m]], self._sums)
+        if self._sums[0] == 0.0:
+            rows = np.zeros((2, g.shape[0]))
+            sums.body_sums(g.g, g.nz, g.nr, m, g.cm_in, g.cm_out, g.volume, s.vof, s.rho, s.v[s.group[m]], rows)
+            self._sums[:] = rows[:, g.inside[0]].sum(axis=1)
+        mass, momentum = self._sums
+        velocity = momentum / mass if mass > 0.0 else 0.0
+        self.velocity = velocity if velocity * self.direction > 0.0 else 0.0
+
+    def leave(self, box, carried, dt: float) -> None:
+        """F_z - w dt A for every face along z, and for each group of a contact; forgets what has faded.
+
+        box : [j0, j1, i0, i1] of the active cells;  carried : int64[m], fields that each body carries
+        """
+        s, vol_r, (j0, j1, _, _) = self.state, self.grid.vol_r, box
+        advance = self.velocity * dt
+        following.leave(j0, j1 + 1, advance, vol_r, s.around[0], s.fz)
+        if s.groups > 1:
+            following.leave_cut(j0, j1, advance, vol_r, s.cut, s.own_z)
+        following.silence(j0, j1, carried, s.span, s.q)
+
+    def fill_ghosts(self, dt: float) -> None:
+        """What the deck has placed in the strip that the leading edge crosses in the step, at rest and without stress."""
+        s, g, z = self.state, self.grid, self._edge
+        row = self._ghost_rows[0]
+        height = max(abs(self.velocity) * dt, THINNEST * g.dz[row])
+        found = self.space.strip(*((z, z + height) if self.leading else (z - height, z)))
+        if found is not self._last[0]:
+            self._last = found, [self._padded(found[name]) for name in ("vof", "rho", "e")]
+        vof, rho, e = self._last[1]
+        for row in self._ghost_rows:
+            s.vof[:, row], s.q[:, :, row] = vof, 0.0
+            s.q[RHO, :, row], s.q[E, :, row] = rho, e
+
+    def move(self, dt: float) -> None:
+        """Advances the mesh by w dt, and forgets bodies that are inside as a whole."""
+        self.grid.move(self.grid.offset + self.velocity * dt)
+        self.announce()
+
+    @property
+    def _edge(self) -> float:
+        """Position of the leading edge, m."""
+        return float(self.grid.z_edges[-1] if self.leading else self.grid.z_edges[0])
+
+    @property
+    def _ghost_rows(self) -> tuple[int, int]:
+        """The ghost rows ahead of the mesh, the nearest first."""
+        g = self.grid
+        return (g.g + g.nz, g.g + g.nz + 1) if self.leading else (g.g - 1, g.g - 2)
+
+    def _padded(self, values: np.ndarray) -> np.ndarray:
+        """Values (m, nr) with those of the ghost columns."""
+        low, high = self._pads
+        g = self.grid.g
+        values = np.pad(values, ((0, 0), (g, 0)), mode=low)
+        return np.pad(values, ((0, 0), (0, g)), mode=high)

@@ -1,0 +1,223 @@
+"""A simulation: a deck made into a mesh, a state and a cycle, with what one wants to know of it after every step."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from hydro2d.deck import deck as decks
+from hydro2d.materials import library
+from hydro2d.mesh import sums
+from hydro2d.mesh.grid import Grid
+from hydro2d.mesh.state import State
+from hydro2d.solver import insertion, tracers
+from hydro2d.solver.audit import Ledger
+from hydro2d.solver.crater import Crater
+from hydro2d.solver.cycle import Cycle, UnphysicalState
+from hydro2d.solver.following import FollowingMesh, StandingMesh, UndisturbedSpace
+from hydro2d.solver.method import Method
+from hydro2d.solver.penetrator import Penetrator
+
+__all__ = ["Simulation", "UnphysicalState"]
+
+#: cycles between looks at what stop.speed_below, stop.rebound and stop.perforation watch
+WATCH_EVERY = 10
+
+
+class Simulation:
+    """Runs a deck.
+
+    Parameters
+    ----------
+    deck : Deck, as deck.load gives it
+
+    Attributes
+    ----------
+    grid, state, table, ledger : the mesh, the fields, the materials, what is conserved
+    tracers : float64[n, 2], positions (r, z) in m
+    penetrator, crater : what measures the rod and the hole; None for a deck without rod and target
+    """
+
+    def __init__(self, deck):
+        self.deck = deck
+        self.grid = Grid(*decks.edges(deck), deck.mesh.geometry)
+        self.table = library.resolve(deck)
+        slots = decks.slots(deck)
+        method = Method.from_deck(deck, slots, decks.sliding_widths(deck), decks.yield_factor(deck))
+        self.state = State(self.grid, len(slots), method.group)
+        self._insert()
+        self.engine = Cycle(self.state, self.table, method, self._mesh(slots, method))
+        self.engine.prepare()
+        self.tracers = np.array([[t.r, t.z] for t in deck.tracer]).reshape(-1, 2)
+        self._rows = np.zeros((2, self.grid.shape[0]))
+        self.penetrator = Penetrator(self, deck) if deck.penetration else None
+        self.crater = Crater(self, deck) if deck.penetration else None
+        self.watched = slots.index(deck.stop.body) if deck.stop.body else None
+        self._sign = None
+
+    def _mesh(self, slots: list[str], method: Method) -> StandingMesh | FollowingMesh:
+        """How the mesh moves."""
+        name = self.deck.mesh.follow
+        if name is None:
+            return StandingMesh()
+        direction = float(np.sign(decks.body(self.deck, name).velocity[1]))
+        space = UndisturbedSpace(self.deck, self.table, self.grid)
+        return FollowingMesh(self.state, space, slots.index(name), direction, method.mirrors[:2])
+
+    def _insert(self) -> None:
+        """Fills the mesh.
+
+        Vertex velocities of a body group are the mass-weighted means of its own in the cells around; where nothing of it is
+        around, those of the other group.
+        """
+        s, g = self.state, self.grid
+        first = insertion.initial_state(self.deck, g, self.table, s.group)
+        for name in ("vof", "rho", "e"):
+            g.interior(getattr(s, name))[...] = first[name]
+        mass, dual = np.zeros((s.groups, *g.shape)), np.zeros((s.groups, *g.vertex_shape))
+        for b in range(s.groups):
+            own = s.group == b
+            g.interior(mass)[b] = np.sum(first["vof"][own] * first["rho"][own], axis=0) * g.volume[g.inside]
+        for cell, vertex in ((first["u_cell"], s.u), (first["v_cell"], s.v)):
+            momentum = np.zeros_like(mass)
+            g.interior(momentum)[...] = cell * g.interior(mass)
+            self._gather(momentum, vertex)
+        self._gather(mass, dual)
+        for vertex in (s.u, s.v):
+            np.divide(vertex, dual, out=vertex, where=dual > 0)
+            vertex[...] = np.where(dual > 0, vertex, vertex[::-1])
+        for velocity, m_low, m_high, axis in ((s.u, "r_min", "r_max", -1), (s.v, "z_min", "z_max", -2)):
+            view = np.moveaxis(velocity, axis, 0)
+            last = g.g + (g.nr if axis == -1 else g.nz)
+            if getattr(self.deck.boundaries, m_low) in ("axis", "wall"):
+                view[g.g] = 0.0
+            if getattr(self.deck.boundaries, m_high) == "wall":
+                view[last] = 0.0
+
+    def _gather(self, cell: np.ndarray, vertex: np.ndarray) -> None:
+        """Adds the corner shares of a cell quantity to the vertices."""
+        inner, outer = cell * self.grid.cm_in, cell * self.grid.cm_out
+        vertex[..., :-1, :-1] += inner
+        vertex[..., 1:, :-1] += inner
+        vertex[..., :-1, 1:] += outer
+        vertex[..., 1:, 1:] += outer
+
+    # ------------------------------------------------------------------------------------------------ running
+
+    @property
+    def time(self) -> float:
+        return self.engine.time
+
+    @property
+    def cycle(self) -> int:
+        return self.engine.number
+
+    @property
+    def dt(self) -> float:
+        return self.engine.dt
+
+    @property
+    def dt_cause(self) -> str:
+        return self.engine.cause
+
+    @property
+    def ledger(self) -> Ledger:
+        return self.engine.ledger
+
+    def step(self) -> None:
+        """One cycle. Raises UnphysicalState."""
+        self.engine.advance()
+        if len(self.tracers):
+            self._move_tracers()
+        if self.penetrator:
+            self.penetrator.watch()
+            self.crater.record()
+
+    def _move_tracers(self) -> None:
+        """Tracers follow the bilinear velocity of their cell, by the midpoint rule."""
+        g, s = self.grid, self.state
+        tracers.follow(g.g, g.nr, g.nz, self.dt, g.r, g.z, s.group, s.vof, s.u, s.v, self.tracers)
+
+    def velocity_at(self, points: np.ndarray, group: int | None = None) -> np.ndarray:
+        """Velocity (u, v) at points (r, z), shape [n, 2], m/s: of a body group, or of that which the cell moves with."""
+        return tracers.velocity_at(self.grid, self.state, points, group)
+
+    def body_sums(self, m: int) -> tuple[np.ndarray, np.ndarray]:
+        """Mass and axial momentum of body m by row, shape (nz,); per radian (per unit depth in planar geometry)."""
+        g, s = self.grid, self.state
+        sums.body_sums(g.g, g.nz, g.nr, m, g.cm_in, g.cm_out, g.volume, s.vof, s.rho, s.v[s.group[m]], self._rows)
+        mass, momentum = self._rows[:, g.inside[0]]
+        return mass, momentum
+
+    def mean_velocity(self, m: int) -> float:
+        """Axial velocity of the centre of mass of body m, m/s; 0 where there is nothing of it."""
+        mass, momentum = (float(rows.sum()) for rows in self.body_sums(m))
+        return momentum / mass if mass > 0.0 else 0.0
+
+    def stop_reason(self) -> str | None:
+        """Why the run is over, or None."""
+        stop = self.deck.stop
+        if stop.time is not None and self.time >= stop.time:
+            return "end time"
+        if stop.cycles is not None and self.cycle >= stop.cycles:
+            return "number of cycles"
+        if self.cycle % WATCH_EVERY != 0:
+            return None
+        if stop.perforation and self.penetrator.perforates():
+            return f"perforation of {self.deck.penetration.target}"
+        watches_rod = self.penetrator is not None and self.watched == self.penetrator.m
+        if (stop.perforation or (watches_rod and (stop.speed_below is not None or stop.rebound))) and self.penetrator.gone:
+            return f"{self.deck.penetration.rod} left the mesh"
+        if self.watched is not None and (stop.speed_below is not None or stop.rebound):
+            v = self.penetrator.velocity() if watches_rod else self.mean_velocity(self.watched)
+            if self._sign is None:
+                self._sign = 1.0 if v >= 0 else -1.0
+            if stop.rebound and v * self._sign < 0:
+                return f"rebound of {stop.body}"
+            if stop.speed_below is not None and abs(v) < stop.speed_below:
+                return f"speed of {stop.body} below {stop.speed_below:g} m/s"
+        return None
+
+    # ------------------------------------------------------------------------------------------------ what is known
+
+    def diagnostics(self) -> dict:
+        """Depth, rod length, speeds and strain of a penetrator; empty for a deck without one. SI."""
+        return self.penetrator.measure() if self.penetrator else {}
+
+    def conservation(self) -> dict:
+        """Relative changes that no sink explains: mass per body, axial momentum, total energy; and every sink by name."""
+        result = self.ledger.balance(self.state)
+        result["mass"] = dict(zip(self.table.names, (float(x) for x in result["mass"]), strict=True))
+        return result
+
+    # ------------------------------------------------------------------------------------------------ restart
+
+    def restart_arrays(self) -> dict[str, np.ndarray]:
+        """Everything that a restart must hold, by name."""
+        return {**self.state.restartable(), "tracers": self.tracers}
+
+    def load_restart_arrays(self, arrays: dict[str, np.ndarray]) -> None:
+        """Takes the arrays of a restart file; ValueError where a shape differs."""
+        for name, array in self.state.restartable().items():
+            if arrays[name].shape != array.shape:
+                raise ValueError(f"{name} has shape {arrays[name].shape} in the restart file, {array.shape} in the deck")
+            array[...] = arrays[name]
+        self.tracers = np.array(arrays["tracers"])
+
+    def restart_scalars(self) -> dict:
+        """What a restart needs beside the arrays; JSON keeps every bit of it."""
+        e = self.engine
+        return {"time": e.time, "dt": e.dt, "cycle": e.number, "cause": e.cause, "box": [int(x) for x in e.box],
+                "mesh_offset": self.grid.offset, "speed_limit": e.speed_limit, "sign": self._sign, "ledger": e.ledger.saved(),
+                "penetrator": self.penetrator and self.penetrator.saved(), "crater": self.crater and self.crater.saved()}
+
+    def load_restart_scalars(self, scalars: dict) -> None:
+        """Continues from what `restart_scalars` gave; after `load_restart_arrays`."""
+        e = self.engine
+        e.time, e.dt, e.number, e.cause = (scalars[name] for name in ("time", "dt", "cycle", "cause"))
+        e.box, e.speed_limit, self._sign = list(scalars["box"]), scalars["speed_limit"], scalars["sign"]
+        self.grid.move(scalars["mesh_offset"])
+        e.ledger = Ledger.resume(scalars["ledger"])
+        if self.penetrator:
+            self.penetrator.resume(scalars["penetrator"])
+            self.crater.resume(scalars["crater"])
+        e.prepare()

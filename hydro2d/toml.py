@@ -1,0 +1,205 @@
+"""Deck text: includes merged, command-line overrides laid over, and the way back to TOML."""
+
+from __future__ import annotations
+
+import copy
+import json
+import re
+import tomllib
+from pathlib import Path
+from typing import Any
+
+from hydro2d.errors import DeckError, Sources, entry_index
+
+_BARE = re.compile(r"[A-Za-z0-9_-]+")
+
+
+def problems_folder() -> Path:
+    """The folder of decks and materials: beside the package in a checkout, inside it when installed."""
+    here = Path(__file__).resolve().parent
+    for folder in (here.parent / "problems", here / "problems"):
+        if (folder / "materials").is_dir():
+            return folder
+    raise FileNotFoundError("the folder problems/materials is missing from this installation")
+
+
+def parse(text: str, name: str) -> dict:
+    """TOML as a dict; DeckError with file and line where the text is no TOML."""
+    try:
+        return tomllib.loads(text)
+    except tomllib.TOMLDecodeError as problem:
+        message = str(problem)
+        found = re.search(r"\(at line (\d+), column (\d+)\)", message)
+        line = found.group(1) if found else str(text.count("\n") + 1)
+        raise DeckError(f"{name}:{line}: not valid TOML: {message.split(' (at ')[0].lower()}") from None
+
+
+def read(path: Path, sources: Sources, chain: tuple[Path, ...] = ()) -> dict:
+    """A deck file with everything it includes merged below it."""
+    path = Path(path)
+    if path.resolve() in chain:
+        circle = " -> ".join(entry.name for entry in (*chain[chain.index(path.resolve()) :], path))
+        raise DeckError(f"{chain[-1]}: include goes round in a circle: {circle}")
+    try:
+        text = path.read_text(encoding="utf-8")
+    except OSError as problem:
+        raise DeckError(f"{path}: cannot be read: {problem.strerror}") from None
+    except UnicodeDecodeError:
+        raise DeckError(f"{path}: is not UTF-8 text") from None
+    return assemble(text, str(path), path.parent, sources, (*chain, path.resolve()))
+
+
+def assemble(text: str, name: str, folder: Path, sources: Sources, chain: tuple[Path, ...] = ()) -> dict:
+    """Deck text with its includes, looked for beside it and among the shipped decks, merged below it."""
+    data = parse(text, name)
+    sources.add(name, data, text)
+    included = data.get("include", [])
+    included = [included] if isinstance(included, str) else included
+    if not isinstance(included, list) or not all(isinstance(entry, str) for entry in included):
+        raise DeckError(f"{sources.where(('include',), data)}: include is a file name or a list of file names")
+    base: dict = {}
+    for entry in included:
+        target = next((place / entry for place in (folder, problems_folder()) if (place / entry).is_file()), None)
+        if target is None:
+            raise DeckError(f"{sources.where(('include',), data)}: include: there is no file {folder / entry}")
+        base = merge(base, read(target, sources, chain))
+    return merge(base, {key: value for key, value in data.items() if key != "include"})
+
+
+def _is_named(entries) -> bool:
+    return isinstance(entries, list) and bool(entries) and all(isinstance(e, dict) and "name" in e for e in entries)
+
+
+def merge(base: dict, over: dict) -> dict:
+    """``over`` laid on ``base``: tables merge by key, arrays of named tables by name, all else is replaced."""
+    result = copy.deepcopy(base)
+    for key, value in over.items():
+        old = result.get(key)
+        if isinstance(old, dict) and isinstance(value, dict):
+            result[key] = merge(old, value)
+        elif _is_named(old) and _is_named(value):
+            result[key] = _merge_entries(old, value)
+        else:
+            result[key] = copy.deepcopy(value)
+    return result
+
+
+def _merge_entries(old: list[dict], new: list[dict]) -> list[dict]:
+    result = list(old)
+    for entry in new:
+        index = entry_index(result, entry["name"]) if isinstance(entry["name"], str) else None
+        if index is None:
+            result.append(copy.deepcopy(entry))
+        else:
+            result[index] = merge(result[index], entry)
+    return result
+
+
+def key_parts(key: str) -> list[str]:
+    """The parts of a dotted key: body.rod.velocity, mesh.r[0].cells or mesh.r.0.cells, materials."a b".title."""
+    return [part.strip('"') for part in re.findall(r'"[^"]*"|[^.\[\]\s]+', key)]
+
+
+def assignment(text: str) -> tuple[str, Any]:
+    """Key and value of ``key=value``; the value is read as TOML and, where it is none, as a bare string."""
+    key, equals, value_text = text.partition("=")
+    if not equals or not key_parts(key):
+        raise DeckError(f"--set {text}: expected key=value, such as numerics.advection=momentum")
+    try:
+        return key.strip(), tomllib.loads(f"value = {value_text}")["value"]
+    except tomllib.TOMLDecodeError:
+        return key.strip(), value_text.strip()
+
+
+def override(data: dict, text: str, sources: Sources) -> dict:
+    """Lays one ``key=value`` of the command line over the deck; entries of arrays go by name or by number from 0.
+
+    ``body.rod.velocity=1200 m/s`` needs no quotes.
+    """
+    key, value = assignment(text)
+    keys = key_parts(key)
+    result = copy.deepcopy(data)
+    _put(result, keys, value, text)
+    sources.add_override(_override_path(keys, result), text)
+    return result
+
+
+def _put(data: dict, keys: list[str], value, text: str) -> None:
+    place = data
+    for depth, key in enumerate(keys):
+        last = depth == len(keys) - 1
+        if isinstance(place, list):
+            key = _index(place, key, text)
+        elif not isinstance(place, dict):
+            raise DeckError(f"--set {text}: {'.'.join(keys[:depth])} is a value and has no key {key}")
+        elif not last and key not in place:
+            place[key] = {}
+        if last:
+            place[key] = value
+        else:
+            place = place[key]
+
+
+def _index(entries: list, key: str, text: str) -> int:
+    index = entry_index(entries, key)
+    if index is None:
+        names = [str(entry.get("name", n)) for n, entry in enumerate(entries) if isinstance(entry, dict)]
+        raise DeckError(f"--set {text}: there is no entry {key}; there are {', '.join(names) or len(entries)}")
+    return index
+
+
+def _override_path(keys: list[str], data) -> tuple:
+    """The path as Sources keeps it: names for named entries, integers for the others."""
+    path: tuple = ()
+    for key in keys:
+        if isinstance(data, list):
+            index = entry_index(data, key)
+            data = data[index]
+            name = data.get("name") if isinstance(data, dict) else None
+            path += (name if isinstance(name, str) else index,)
+        else:
+            data = data[key]
+            path += (key,)
+    return path
+
+
+def inline(value) -> str:
+    """A value as TOML writes it on one line."""
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, str):
+        return json.dumps(value, ensure_ascii=False)
+    if isinstance(value, (int, float)):
+        return repr(value)
+    if isinstance(value, dict):
+        inside = ", ".join(f"{quoted(key)} = {inline(entry)}" for key, entry in value.items() if entry is not None)
+        return f"{{ {inside} }}"
+    return f"[{', '.join(inline(entry) for entry in value)}]"
+
+
+def quoted(name: str) -> str:
+    """A name as a part of a dotted key."""
+    return name if _BARE.fullmatch(name) else json.dumps(name, ensure_ascii=False)
+
+
+def _is_table_list(value) -> bool:
+    return isinstance(value, (list, tuple)) and bool(value) and all(isinstance(e, dict) and "name" in e for e in value)
+
+
+def dumps(data: dict, prefix: str = "") -> str:
+    """TOML of plain data; None is left out, named entries become arrays of tables, floats keep every bit."""
+    plain, tables = [], []
+    for key, value in data.items():
+        if value is None:
+            continue
+        name = prefix + quoted(key)
+        if isinstance(value, dict):
+            tables.append(f"\n[{name}]\n{dumps(value, name + '.')}")
+        elif _is_table_list(value):
+            tables += [f"\n[[{name}]]\n{dumps(entry, name + '.')}" for entry in value]
+        elif isinstance(value, (list, tuple)) and value and all(isinstance(entry, dict) for entry in value):
+            rows = "".join(f"  {inline(entry)},\n" for entry in value)
+            plain.append(f"{quoted(key)} = [\n{rows}]\n")
+        else:
+            plain.append(f"{quoted(key)} = {inline(value)}\n")
+    return "".join(plain + tables)
