@@ -2,32 +2,15 @@
 
 from math import sqrt
 
-from hydro2d.jit import kernel, point, prange, rowwise
+from hydro2d.jit import kernel, prange, rowwise
 from hydro2d.kernels.spans import block_rows, columns, copy_beside, number_of_blocks, spread, union
 from hydro2d.mesh.fields import SRR, SRZ, SZZ
+from hydro2d.physics.advection import TINY
+from hydro2d.physics.kinematics import divergence
+from hydro2d.physics.stress import stress_scale
 
 #: speeds below this are no signal: set to zero, so that the active region has an edge (explanation/active-region)
 SILENCE = 1e-20
-
-#: keeps a quotient of two zeros finite
-TINY = 1e-300
-
-
-@point
-def divergence(i, ub, ut, vb, vt, face_r, az_in, az_out, vol_r, h):
-    """Rate of volume change per volume of cell i from its four vertices (explanation/lagrangian-step, equation 2)."""
-    radial = 0.5 * h * (face_r[i + 1] * (ub[i + 1] + ut[i + 1]) - face_r[i] * (ub[i] + ut[i]))
-    axial = az_in[i] * (vt[i] - vb[i]) + az_out[i] * (vt[i + 1] - vb[i + 1])
-    return (radial + axial) / (vol_r[i] * h)
-
-
-@point
-def stress_scale(solid_mode, solids):
-    """Factor on sum f_m s_m of a mixed cell: 1, or in mode `solid` one over the share of solids.
-
-    Not more than 2: a thinly filled cell with the stiffness of a full one would outrun the time step.
-    """
-    return 1.0 / max(solids, 0.5) if solid_mode else 1.0
 
 
 @rowwise

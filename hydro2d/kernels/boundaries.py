@@ -4,11 +4,11 @@ Through an open edge material leaves freely; beyond it is void without stress, a
 travels, what the deck has placed there (hydro2d/following). A transmitting edge lets in what is beside it.
 """
 
-from math import sqrt
 
 from hydro2d.jit import apart, kernel, point, prange, serial
 from hydro2d.mesh.fields import SRZ
 from hydro2d.mesh.grid import GHOSTS
+from hydro2d.physics.waves import impedances
 
 
 @apart
@@ -93,18 +93,6 @@ def ghost_vertices_z(i0, i1, nz, mirror_low, mirror_high, u, v):
                 v[b, g - n, i] = -v[b, g + n, i] if mirror_low else v[b, g, i]
                 u[b, g + nz + n, i] = u[b, g + nz - n, i] if mirror_high else u[b, g + nz, i]
                 v[b, g + nz + n, i] = -v[b, g + nz - n, i] if mirror_high else v[b, g + nz, i]
-
-
-@point
-def impedances(j, i, rhobar, cl, bulk):
-    """rho c of longitudinal and of shear waves in cell (j, i), Pa s/m; a cell with void passes on no shear.
-
-    rho c_l^2 = K + 4 G/3 gives the shear modulus, rho c_s^2 = G.
-    """
-    rho = rhobar[j, i]
-    stiffness = rho * cl[j, i] * cl[j, i]
-    shear = max(0.75 * (stiffness - bulk[j, i]), 0.0) if bulk[j, i] > 0.0 else 0.0
-    return sqrt(rho * stiffness), sqrt(rho * shear)
 
 
 @point

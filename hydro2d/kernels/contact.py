@@ -10,14 +10,12 @@ A face has for either end the weight of the hard group, wet[end, j, i]; that of 
 from math import sqrt
 
 from hydro2d.jit import apart, kernel, point, prange
-from hydro2d.kernels.interfaces import line_constant
 from hydro2d.kernels.spans import union
+from hydro2d.physics.contact import GAP, dual_share, known, wetted
+from hydro2d.physics.interfaces import line_constant, slope
 
 #: share of its dual cell below which a group is light at a vertex: it moves as its body inward of there does
 LIGHT = 0.5
-#: share of void in a cell of both groups up to which they touch
-GAP = 0.01
-
 #: square of the ratio of two slopes from which the steeper surface alone draws the line: more than round-off
 FLATTER = 1.0 + 1e-12
 
@@ -73,17 +71,6 @@ def find_shared(j0, j1, edges, around, mass, group, vof, count, shared, hard, so
                         hard[j, i] += vof[m, j, i]
                     else:
                         soft[j, i] += vof[m, j, i]
-
-
-@point
-def slope(j, i, below, above, left, right, dr, dz, f):
-    """Youngs' difference of a fraction over the 3 x 3 cells between the given rows and columns, downwards, per cell."""
-    along_r = ((f[above, left] + f[below, left]) + 2.0 * f[j, left]) - ((f[above, right] + f[below, right]) + 2.0 * f[j, right])
-    lower = (f[below, left] + f[below, right]) + 2.0 * f[below, i]
-    along_z = lower - ((f[above, left] + f[above, right]) + 2.0 * f[above, i])
-    along_r *= dr[i] / (dr[i] + 0.5 * (dr[i - 1] + dr[i + 1]))
-    along_z *= dz[j] / (dz[j] + 0.5 * (dz[j - 1] + dz[j + 1]))
-    return along_r, along_z
 
 
 @kernel
@@ -144,23 +131,6 @@ def cut_lines(j0, j1, edges, dr, dz, count, shared, hard, soft, cut, line):
 
 
 @point
-def wetted(first, last):
-    """Weights of both ends of a face, of which the part with a level above 0 is wetted; levels at the ends, linear between.
-
-    Over the wetted part of length a from one end: (2 a - a^2, a^2), the integrals of the two linear shape functions.
-    """
-    if first >= 0.0 and last >= 0.0:
-        return 1.0, 1.0
-    if first < 0.0 and last < 0.0:
-        return 0.0, 0.0
-    if first >= 0.0:
-        a = first / (first - last)
-        return (2.0 - a) * a, a * a
-    a = last / (last - first)
-    return a * a, (2.0 - a) * a
-
-
-@point
 def trace(j, i, x0, y0, x1, y1, inside, line, hard, soft):
     """(solid, weights of the hard side at both ends) of the edge (x0, y0) to (x1, y1) of the unit square of cell (j, i)."""
     if not inside:
@@ -175,14 +145,6 @@ def trace(j, i, x0, y0, x1, y1, inside, line, hard, soft):
         return 1.0, share, share
     first, last = wetted(constant - (n_r * x0 + n_z * y0), constant - (n_r * x1 + n_z * y1))
     return 1.0, first, last
-
-
-@point
-def known(weight, rest, hard_mass):
-    """A weight, all of which goes to the group that is alone at a vertex."""
-    if hard_mass == 0.0:
-        return 0.0
-    return 1.0 if rest == 0.0 else weight
 
 
 @kernel
@@ -244,18 +206,6 @@ def face_weights(j0, j1, edges, still, cut, line, hard, soft, mass, count, share
                 normal[way, 0, j, i] = n_r / size if size > 0.0 else 0.0
                 normal[way, 1, j, i] = n_z / size if size > 0.0 else 0.0
             touch[j, i] = 1.0 if both <= GAP or (full_hard > 0 and full_soft > 0) else 0.0
-
-
-@point
-def dual_share(g, j, i, edges, volume, cm_in, cm_out, hard, soft):
-    """Share of the dual cell of vertex (j, i), as far as it lies in the mesh, that group g fills."""
-    whole, part = 0.0, 0.0
-    for row in range(max(j - 1, edges[0]), min(j + 1, edges[1])):
-        for column in range(max(i - 1, edges[2]), min(i + 1, edges[3])):
-            corner = volume[row, column] * (cm_out[column] if column < i else cm_in[column])
-            whole += corner
-            part += corner * (hard[row, column] if g == 1 else soft[row, column])
-    return part / whole
 
 
 @point

@@ -2,42 +2,18 @@
 
 from math import sqrt
 
-from hydro2d.jit import apart, kernel, point, prange
-from hydro2d.kernels.acceleration import stress_scale
-from hydro2d.kernels.contact import GAP, HARD_R, HARD_Z, SOFT_R, SOFT_Z
-from hydro2d.kernels.contact_volumes import volume_rate
-from hydro2d.kernels.deformation import hourglass_mode
+from hydro2d.jit import apart, kernel, prange
+from hydro2d.kernels.contact import HARD_R, HARD_Z, SOFT_R, SOFT_Z
 from hydro2d.kernels.spans import mixed_row
-from hydro2d.kernels.thermodynamics import directional_viscosity
 from hydro2d.mesh.fields import RHO, SRR, SRZ, SZZ
+from hydro2d.physics.closure import common_pressure
+from hydro2d.physics.contact import GAP, meeting, volume_rate
+from hydro2d.physics.kinematics import hourglass_mode
+from hydro2d.physics.stress import normal_pressure, stress_scale
+from hydro2d.physics.viscosity import directional_viscosity
 
 #: void given to cells without pressure whose groups part, so that it takes the opening and nothing is stretched
 SEED = 1e-11
-
-
-@point
-def meeting(j, i, edges, hard, soft):
-    """Whether both groups are in cell (j, i), or one fills it and the other a cell beside it."""
-    h, s = hard[j, i] > 0.0, soft[j, i] > 0.0
-    if h and s:
-        return True
-    for row, column in ((j - 1, i), (j + 1, i), (j, i - 1), (j, i + 1)):
-        if edges[0] <= row < edges[1] and edges[2] <= column < edges[3]:
-            if (soft[row, column] if h else hard[row, column]) >= 1.0 - GAP:
-                return True
-    return False
-
-
-@point
-def common_pressure(j, i, vof, q, pm, km):
-    """(pressure at which the bodies of a cell would meet, its volume given; density): means by compressibility f/K."""
-    compliance, pressure, density = 0.0, 0.0, 0.0
-    for m in range(vof.shape[0]):
-        if vof[m, j, i] > 0.0:
-            compliance += vof[m, j, i] / km[m, j, i]
-            pressure += vof[m, j, i] / km[m, j, i] * pm[m, j, i]
-            density += vof[m, j, i] / km[m, j, i] * q[RHO, m, j, i]
-    return pressure / compliance, density / compliance
 
 
 @kernel
@@ -98,12 +74,6 @@ def cut_viscosity(j0, j1, edges, linear, quadratic, courant, dr, dz, vol_r, face
                 row_step[j] = min(row_step[j], min(sound, 0.2 / loss if loss > 0.0 else 1e300))
         if seeded:
             mixed_row(j, around[0, 0], vof, scratch, j, mixed_count, mixed)
-
-
-@point
-def normal_pressure(j, i, n_r, n_z, sig_rr, sig_zz, sig_rz):
-    """-n . sigma . n of cell (j, i)."""
-    return -(n_r * n_r * sig_rr[j, i] + 2.0 * n_r * n_z * sig_rz[j, i] + n_z * n_z * sig_zz[j, i])
 
 
 @kernel

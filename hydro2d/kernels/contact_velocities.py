@@ -4,7 +4,7 @@ from math import sqrt
 
 from hydro2d.jit import apart, point, serial
 from hydro2d.kernels.contact import EXTENDS, HEAVY, REACH, SHARE, STUCK
-from hydro2d.kernels.contact_motion import normal_pressure
+from hydro2d.physics.stress import normal_pressure
 
 #: rounds in which the constraints at shared vertices are met one after another
 PASSES = 6

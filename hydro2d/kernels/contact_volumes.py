@@ -3,42 +3,12 @@
 The faces are swept by both groups, each by its weight (kernels/contact); a body flows with the velocity of its group.
 """
 
-from hydro2d.jit import apart, kernel, point, prange
-from hydro2d.kernels.contact import FIRST, GAP, PARTED
-from hydro2d.kernels.interfaces import FULL, cumulative, strip_share, youngs_normal
+from hydro2d.jit import apart, kernel, prange
+from hydro2d.kernels.contact import FIRST, PARTED
 from hydro2d.kernels.spans import union
 from hydro2d.mesh.fields import E
-
-
-@point
-def blend(weight, hard, soft):
-    """Velocity of a face at one end: the hard group's by its weight, the other's for the rest."""
-    return weight * hard + (1.0 - weight) * soft
-
-
-@point
-def face_flow_r(j, i, g, wet_r, u):
-    """Sum over both ends of the velocity of r-face (j, i): of group g, or of both by weight for g < 0."""
-    if g >= 0:
-        return u[g, j, i] + u[g, j + 1, i]
-    return blend(wet_r[0, j, i], u[1, j, i], u[0, j, i]) + blend(wet_r[1, j, i], u[1, j + 1, i], u[0, j + 1, i])
-
-
-@point
-def face_flow_z(j, i, g, az_in, az_out, wet_z, v):
-    """Volume per time through z-face (j, i), of group g or of both by weight for g < 0."""
-    if g >= 0:
-        return az_in[i] * v[g, j, i] + az_out[i] * v[g, j, i + 1]
-    return az_in[i] * blend(wet_z[0, j, i], v[1, j, i], v[0, j, i]) + az_out[i] * blend(
-        wet_z[1, j, i], v[1, j, i + 1], v[0, j, i + 1])
-
-
-@point
-def volume_rate(j, i, g, face_r, az_in, az_out, h, wet_r, wet_z, u, v):
-    """Rate of change of the volume of cell (j, i) with the velocities of group g, or with both by weight for g < 0."""
-    radial = face_r[i + 1] * face_flow_r(j, i + 1, g, wet_r, u) - face_r[i] * face_flow_r(j, i, g, wet_r, u)
-    axial = face_flow_z(j + 1, i, g, az_in, az_out, wet_z, v) - face_flow_z(j, i, g, az_in, az_out, wet_z, v)
-    return 0.5 * h * radial + axial
+from hydro2d.physics.contact import GAP, face_flow_r, face_flow_z, largest_of, volume_rate
+from hydro2d.physics.interfaces import FULL, cumulative, strip_share, youngs_normal
 
 
 @kernel
@@ -131,16 +101,6 @@ def strip_of(m, j, i, along_z, width, high, order, part, dr, dz):
             break
         below = filled
     return given
-
-
-@point
-def largest_of(g, j, i, group, vof):
-    """The body of group g that fills the most of cell (j, i), -1 if none is there."""
-    found, most = -1, 0.0
-    for m in range(vof.shape[0]):
-        if group[m] == g and vof[m, j, i] > most:
-            found, most = m, vof[m, j, i]
-    return found
 
 
 @kernel

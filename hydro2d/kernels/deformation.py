@@ -1,52 +1,13 @@
 """The rest of the Lagrangian step in pure cells: work, volume, rotation and strain of the deviators, radial return."""
 
-from math import sqrt
 
-from hydro2d.jit import kernel, point, prange
+from hydro2d.jit import kernel, prange
 from hydro2d.kernels.spans import block_rows, columns, number_of_blocks, spread
 from hydro2d.mesh.fields import DMG, EP, RHO, SRR, SRZ, SZZ, E
+from hydro2d.physics.kinematics import hourglass_mode, velocity_gradient
+from hydro2d.physics.stress import turn_and_strain, von_mises
 from strength.dispatch import damage_increment, modulus_row, yield_floor
 from strength.radial_return import plastic_increment
-
-
-@point
-def velocity_gradient(i, ub, ut, vb, vt, face_r, hoop, az_in, az_out, mid_r, h):
-    """Volume times the velocity gradient of cell i: (D_rr, D_tt, D_zz, du_r/dz, du_z/dr) (lagrangian-step, equation 2)."""
-    outer, inner = ub[i + 1] + ut[i + 1], ub[i] + ut[i]
-    tt = h * hoop[i] * (outer + inner)
-    rr = 0.5 * h * (face_r[i + 1] * outer - face_r[i] * inner) - tt
-    zz = az_in[i] * (vt[i] - vb[i]) + az_out[i] * (vt[i + 1] - vb[i + 1])
-    r_by_z = az_in[i] * (ut[i] - ub[i]) + az_out[i] * (ut[i + 1] - ub[i + 1])
-    z_by_r = mid_r[i] * h * ((vb[i + 1] + vt[i + 1]) - (vb[i] + vt[i]))
-    return rr, tt, zz, r_by_z, z_by_r
-
-
-@point
-def hourglass_mode(i, b, t):
-    """u0 - u1 + u2 - u3 of cell i from the vertex rows below and above it."""
-    return (b[i] - b[i + 1]) + (t[i + 1] - t[i])
-
-
-@point
-def turn_and_strain(rr, zz, rz, spin, g2, drr, dzz, dtt, drz):
-    """Deviator rotated exactly by the spin and strained by 2 G times the deviatoric strain increment (strength, equation 1).
-
-    spin = W dt, g2 = 2 G, d.. = D dt. The rotation (1 - a^2)/(1 + a^2), 2 a/(1 + a^2), a = spin/2 keeps the second invariant.
-    """
-    a = 0.5 * spin
-    norm = 1.0 / (1.0 + a * a)
-    c, s = (1.0 - a * a) * norm, 2.0 * a * norm
-    mean = (drr + dzz + dtt) / 3.0
-    new_rr = c * c * rr + 2.0 * c * s * rz + s * s * zz + g2 * (drr - mean)
-    new_zz = s * s * rr - 2.0 * c * s * rz + c * c * zz + g2 * (dzz - mean)
-    new_rz = c * s * (zz - rr) + (c * c - s * s) * rz + g2 * drz
-    return new_rr, new_zz, new_rz
-
-
-@point
-def von_mises(rr, zz, rz):
-    """sqrt(3/2 s:s) of a deviator whose hoop component is -(rr + zz)."""
-    return sqrt(3.0 * ((rr * rr + zz * zz) + (rr * zz + rz * rz)))
 
 
 @kernel

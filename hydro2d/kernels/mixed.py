@@ -1,17 +1,13 @@
 """Cells in which bodies meet each other or void: tearing, closure of pressure and volume, shared strength."""
 
 from eos.dispatch import evaluate, zero_pressure_density
-from hydro2d.jit import kernel, point, prange, rowwise
-from hydro2d.kernels.acceleration import stress_scale
-from hydro2d.kernels.deformation import (
-    hourglass_mode,
-    turn_and_strain,
-    velocity_gradient,
-    von_mises,
-)
+from hydro2d.jit import kernel, prange, rowwise
 from hydro2d.kernels.spans import block_rows, mixed_row, number_of_blocks, spread
 from hydro2d.kernels.thermodynamics import pressures_row, viscosity_row
 from hydro2d.mesh.fields import DMG, EP, RHO, SRR, SRZ, SZZ, E
+from hydro2d.physics.closure import NO_VOID, split_volume
+from hydro2d.physics.kinematics import hourglass_mode, velocity_gradient
+from hydro2d.physics.stress import stress_scale, turn_and_strain, von_mises
 from strength.dispatch import damage_increment, flow_stress, shear_modulus
 from strength.radial_return import plastic_increment
 
@@ -23,7 +19,6 @@ CLOSURES = ("uniform", "tipton")
 #: tensile threshold of a mixed cell by name
 TENSIONS = ("mean", "min")
 
-NO_VOID = 1e-12
 
 #: columns of the scratch `motion`: volume times the velocity gradient at the end of the step (du_r/dz, du_z/dr apart) and at
 #: its middle, and the work of the hourglass filter
@@ -109,15 +104,6 @@ def close_cells(j0, j1, max_opening, smallest_tension, linear, quadratic, couran
                            fracture_pressure, vof, q, pm, p, solid, bulk, opened)
             viscosity_row(j, b, linear, quadratic, courant, advective, mesh_speed, hourglass, dr, dz, vol_r, face_r, az_in,
                           az_out, reach, u, v, rhobar, bulk, cl, qr, qz, weight, row_step, bad, scratch)
-
-
-@point
-def split_volume(void, change, volume):
-    """Volume change of void and of the bodies: void takes all of it, and in compression only as much as there is."""
-    if void <= NO_VOID:
-        return 0.0, change
-    taken = max(change, -void * volume)
-    return taken, change - taken
 
 
 @kernel

@@ -3,11 +3,10 @@
 from math import sqrt
 
 from hydro2d.jit import kernel, plus, point, prange, rowwise
-from hydro2d.kernels.acceleration import TINY
-from hydro2d.kernels.remap import upwind
 from hydro2d.kernels.spans import block_rows, copy_beside, number_of_blocks, spread
 from hydro2d.mesh.fields import E
 from hydro2d.mesh.grid import GHOSTS
+from hydro2d.physics.advection import TINY, upwind
 
 #: advection by name, in the order of the integer that the kernels take
 CHOICES = ("momentum", "ke", "both")

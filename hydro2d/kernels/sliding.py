@@ -3,8 +3,8 @@
 from math import sqrt
 
 from hydro2d.jit import kernel, point, prange, serial
-from hydro2d.kernels.interfaces import line_constant
 from hydro2d.mesh.fields import SRR, SRZ, SZZ
+from hydro2d.physics.interfaces import line_centre
 
 #: zones of a cell
 OUTSIDE, HARD, BOUNDARY_LAYER, SLIP_LAYER = range(4)
@@ -15,17 +15,6 @@ FLUID, SHEAR = range(2)
 
 #: hard fraction from which a cell holds a surface of the hard bodies
 SURFACE = 1e-3
-
-
-@point
-def line_centre(n1, n2, fraction):
-    """Midpoint in the unit square of the line with outward normal (n1, n2) that cuts off `fraction`."""
-    m1, m2 = abs(n1), abs(n2)
-    alpha = line_constant(m1, m2, fraction)
-    x0, y0 = (alpha / m1, 0.0) if alpha < m1 else (1.0, (alpha - m1) / max(m2, 1e-300))
-    x1, y1 = (0.0, alpha / m2) if alpha < m2 else ((alpha - m2) / max(m1, 1e-300), 1.0)
-    x, y = 0.5 * (x0 + x1), 0.5 * (y0 + y1)
-    return (1.0 - x if n1 < 0.0 else x), (1.0 - y if n2 < 0.0 else y)
 
 
 @point

@@ -6,30 +6,12 @@ from eos.dispatch import evaluate, pressure_row, temperature_row, zero_pressure_
 from hydro2d.jit import point, rowwise, serial
 from hydro2d.kernels.spans import columns
 from hydro2d.mesh.fields import DMG, EP, RHO, SRR, SRZ, SZZ, E
+from hydro2d.physics.kinematics import volume_loss
+from hydro2d.physics.viscosity import directional_viscosity, smoothness
+from hydro2d.physics.waves import step_limits
 from strength.dispatch import feels_temperature, modulus_row
 
-#: what set the time step, in the order that `step_limits` gives
-CAUSES = ("sound", "radial velocity", "axial velocity", "volume change")
-
 SOUND_FLOOR = 1.0  # (1 m/s)^2
-
-
-@point
-def smoothness(left, centre, right):
-    """Christensen's limiter psi: 1 where the velocity slope is smooth, 0 at an extremum or beside no slope.
-
-    left, centre, right are the velocity differences over three neighbouring cells (explanation/lagrangian-step).
-    """
-    inverse = 1.0 / centre if centre != 0.0 else 0.0
-    a, b = left * inverse, right * inverse
-    return max(0.0, min(min(1.0, 0.5 * (a + b)), min(2.0 * a, 2.0 * b)))
-
-
-@point
-def directional_viscosity(rho, c, du, psi, linear, quadratic):
-    """q = (1 - psi) rho (c2 du^2 + c1 c |du|) against a compression du < 0; von Neumann-Richtmyer with Landshoff's term."""
-    jump = max(-du, 0.0)
-    return (1.0 - psi) * rho * jump * (quadratic * jump + linear * c)
 
 
 @rowwise
@@ -148,26 +130,6 @@ def row_minimum(a, first, number):
     for x in range(4 * whole, number):
         a0 = min(a[first + x], a0)
     return min(min(a0, a1), min(a2, a3))
-
-
-@point
-def volume_loss(i, ub, ut, vb, vt, face_r, az_in, az_out, vol_r, h):
-    """Rate at which cell i loses its volume, 1/s."""
-    inward = face_r[i + 1] * (ub[i + 1] + ut[i + 1]) - face_r[i] * (ub[i] + ut[i])
-    return -(0.5 * inward * h + az_in[i] * (vt[i] - vb[i]) + az_out[i] * (vt[i + 1] - vb[i + 1])) / (vol_r[i] * h)
-
-
-@point
-def step_limits(i, ub, ut, vb, vt, courant, advective, mesh_speed, dr, h, rho, cl, q, loss):
-    """The four bounds of the time step in cell i, s, in the order of CAUSES (explanation/lagrangian-step).
-
-    What crosses a cell along z does so relative to the mesh, which travels at mesh_speed (explanation/following-mesh).
-    """
-    sound = courant * min(dr[i], h) / sqrt(cl * cl + 2.0 * q / rho)
-    radial = max(max(abs(ub[i]), abs(ub[i + 1])), max(abs(ut[i]), abs(ut[i + 1])))
-    axial = max(max(abs(vb[i] - mesh_speed), abs(vb[i + 1] - mesh_speed)),
-                max(abs(vt[i] - mesh_speed), abs(vt[i + 1] - mesh_speed)))
-    return sound, advective * dr[i] / radial, advective * h / axial, 0.2 / loss if loss > 0.0 else 1e300
 
 
 @rowwise

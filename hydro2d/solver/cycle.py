@@ -21,6 +21,7 @@ from hydro2d.kernels import (
     thermodynamics,
 )
 from hydro2d.mesh import fields
+from hydro2d.physics import waves
 from hydro2d.solver.audit import Ledger
 from hydro2d.solver.contact import Contact
 from hydro2d.solver.following import StandingMesh
@@ -292,7 +293,7 @@ class Cycle:
             s.reach, s.u, s.v, s.rhobar, s.cl, s.qr, s.qz, s.row_numbers[j])
         cause, i = s.row_numbers[j, :2]
         ramp = min(1.0, method.first + (1.0 - method.first) * self.number / max(method.ramp_cycles, 1))
-        dt, self.cause = stable * ramp, (f"{thermodynamics.CAUSES[cause]} at r = {g.rc[i] * 1e3:.3f} mm, "
+        dt, self.cause = stable * ramp, (f"{waves.CAUSES[cause]} at r = {g.rc[i] * 1e3:.3f} mm, "
                                          f"z = {g.zc[j] * 1e3:.3f} mm")
         if ramp < 1.0:
             self.cause += " (ramp)"

@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from hydro2d.deck import deck
-from hydro2d.kernels.interfaces import area_below, line_constant, strip_share
+from hydro2d.physics.interfaces import area_below, line_constant, strip_share
 from hydro2d.solver.simulation import Simulation
 
 UNIT = st.floats(0.0, 1.0)

@@ -5,8 +5,9 @@ import pytest
 
 from hydro2d.deck import deck
 from hydro2d.kernels import mixed
-from hydro2d.kernels.deformation import velocity_gradient, von_mises
 from hydro2d.mesh.grid import Grid
+from hydro2d.physics.kinematics import velocity_gradient
+from hydro2d.physics.stress import von_mises
 from hydro2d.solver.simulation import Simulation
 
 BLOCK = """

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from hydro2d.deck import deck as decks
-from hydro2d.kernels.boundaries import impedances
+from hydro2d.physics.waves import impedances
 from hydro2d.running import check
 from hydro2d.solver.following import FollowingMesh, StandingMesh, UndisturbedSpace
 from hydro2d.solver.simulation import Simulation

@@ -1,0 +1,97 @@
+"""Two groups of bodies that meet: whose a face is, who moves with whom, and the impulses between them."""
+
+from hydro2d.jit import point
+
+#: share of void in a cell of both groups up to which they touch
+GAP = 0.01
+
+
+@point
+def wetted(first, last):
+    """Weights of both ends of a face, of which the part with a level above 0 is wetted; levels at the ends, linear between.
+
+    Over the wetted part of length a from one end: (2 a - a^2, a^2), the integrals of the two linear shape functions.
+    """
+    if first >= 0.0 and last >= 0.0:
+        return 1.0, 1.0
+    if first < 0.0 and last < 0.0:
+        return 0.0, 0.0
+    if first >= 0.0:
+        a = first / (first - last)
+        return (2.0 - a) * a, a * a
+    a = last / (last - first)
+    return a * a, (2.0 - a) * a
+
+
+@point
+def known(weight, rest, hard_mass):
+    """A weight, all of which goes to the group that is alone at a vertex."""
+    if hard_mass == 0.0:
+        return 0.0
+    return 1.0 if rest == 0.0 else weight
+
+
+@point
+def dual_share(g, j, i, edges, volume, cm_in, cm_out, hard, soft):
+    """Share of the dual cell of vertex (j, i), as far as it lies in the mesh, that group g fills."""
+    whole, part = 0.0, 0.0
+    for row in range(max(j - 1, edges[0]), min(j + 1, edges[1])):
+        for column in range(max(i - 1, edges[2]), min(i + 1, edges[3])):
+            corner = volume[row, column] * (cm_out[column] if column < i else cm_in[column])
+            whole += corner
+            part += corner * (hard[row, column] if g == 1 else soft[row, column])
+    return part / whole
+
+
+@point
+def meeting(j, i, edges, hard, soft):
+    """Whether both groups are in cell (j, i), or one fills it and the other a cell beside it."""
+    h, s = hard[j, i] > 0.0, soft[j, i] > 0.0
+    if h and s:
+        return True
+    for row, column in ((j - 1, i), (j + 1, i), (j, i - 1), (j, i + 1)):
+        if edges[0] <= row < edges[1] and edges[2] <= column < edges[3]:
+            if (soft[row, column] if h else hard[row, column]) >= 1.0 - GAP:
+                return True
+    return False
+
+
+@point
+def blend(weight, hard, soft):
+    """Velocity of a face at one end: the hard group's by its weight, the other's for the rest."""
+    return weight * hard + (1.0 - weight) * soft
+
+
+@point
+def face_flow_r(j, i, g, wet_r, u):
+    """Sum over both ends of the velocity of r-face (j, i): of group g, or of both by weight for g < 0."""
+    if g >= 0:
+        return u[g, j, i] + u[g, j + 1, i]
+    return blend(wet_r[0, j, i], u[1, j, i], u[0, j, i]) + blend(wet_r[1, j, i], u[1, j + 1, i], u[0, j + 1, i])
+
+
+@point
+def face_flow_z(j, i, g, az_in, az_out, wet_z, v):
+    """Volume per time through z-face (j, i), of group g or of both by weight for g < 0."""
+    if g >= 0:
+        return az_in[i] * v[g, j, i] + az_out[i] * v[g, j, i + 1]
+    return az_in[i] * blend(wet_z[0, j, i], v[1, j, i], v[0, j, i]) + az_out[i] * blend(
+        wet_z[1, j, i], v[1, j, i + 1], v[0, j, i + 1])
+
+
+@point
+def volume_rate(j, i, g, face_r, az_in, az_out, h, wet_r, wet_z, u, v):
+    """Rate of change of the volume of cell (j, i) with the velocities of group g, or with both by weight for g < 0."""
+    radial = face_r[i + 1] * face_flow_r(j, i + 1, g, wet_r, u) - face_r[i] * face_flow_r(j, i, g, wet_r, u)
+    axial = face_flow_z(j + 1, i, g, az_in, az_out, wet_z, v) - face_flow_z(j, i, g, az_in, az_out, wet_z, v)
+    return 0.5 * h * radial + axial
+
+
+@point
+def largest_of(g, j, i, group, vof):
+    """The body of group g that fills the most of cell (j, i), -1 if none is there."""
+    found, most = -1, 0.0
+    for m in range(vof.shape[0]):
+        if group[m] == g and vof[m, j, i] > most:
+            found, most = m, vof[m, j, i]
+    return found

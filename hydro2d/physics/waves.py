@@ -1,0 +1,33 @@
+"""Waves in a cell: the step that they allow, and what an edge must hold against them."""
+
+from math import sqrt
+
+from hydro2d.jit import point
+
+#: what set the time step, in the order that `step_limits` gives
+CAUSES = ("sound", "radial velocity", "axial velocity", "volume change")
+
+
+@point
+def step_limits(i, ub, ut, vb, vt, courant, advective, mesh_speed, dr, h, rho, cl, q, loss):
+    """The four bounds of the time step in cell i, s, in the order of CAUSES (explanation/lagrangian-step).
+
+    What crosses a cell along z does so relative to the mesh, which travels at mesh_speed (explanation/following-mesh).
+    """
+    sound = courant * min(dr[i], h) / sqrt(cl * cl + 2.0 * q / rho)
+    radial = max(max(abs(ub[i]), abs(ub[i + 1])), max(abs(ut[i]), abs(ut[i + 1])))
+    axial = max(max(abs(vb[i] - mesh_speed), abs(vb[i + 1] - mesh_speed)),
+                max(abs(vt[i] - mesh_speed), abs(vt[i + 1] - mesh_speed)))
+    return sound, advective * dr[i] / radial, advective * h / axial, 0.2 / loss if loss > 0.0 else 1e300
+
+
+@point
+def impedances(j, i, rhobar, cl, bulk):
+    """rho c of longitudinal and of shear waves in cell (j, i), Pa s/m; a cell with void passes on no shear.
+
+    rho c_l^2 = K + 4 G/3 gives the shear modulus, rho c_s^2 = G.
+    """
+    rho = rhobar[j, i]
+    stiffness = rho * cl[j, i] * cl[j, i]
+    shear = max(0.75 * (stiffness - bulk[j, i]), 0.0) if bulk[j, i] > 0.0 else 0.0
+    return sqrt(rho * stiffness), sqrt(rho * shear)
