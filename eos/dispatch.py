@@ -1,33 +1,24 @@
 """Chooses the equation of state by its integer id, and derives from it what all have in common.
 
-A new equation of state is one more entry of ``MODULES`` and one more line in ``evaluate``.
+A new equation of state is a file in this folder and its name in ``MODULES``.
 """
 
 from __future__ import annotations
 
-from eos import ideal_gas, mie_grueneisen, stiffened_gas
-from hydro2d.jit import point
+from eos import mie_grueneisen
+from hydro2d.jit import by_id, modules, point
 
-MODULES = (mie_grueneisen, ideal_gas, stiffened_gas)
+MODULES = modules("eos", "mie_grueneisen", "ideal_gas", "stiffened_gas")
 
 _ITERATIONS = 60
 _TOLERANCE = 1e-13
 _FARTHEST = 16.0
 
 
-@point
-def evaluate(model, rho, e, par):
-    """(p, dp/drho at constant e, dp/de at constant rho, T) of the equation of state ``model``; SI.
-
-    ``par`` is the material's row, float64[ROW]. An unknown ``model`` gives NaN.
-    """
-    if model == mie_grueneisen.ID:
-        return mie_grueneisen.evaluate(rho, e, par)
-    if model == ideal_gas.ID:
-        return ideal_gas.evaluate(rho, e, par)
-    if model == stiffened_gas.ID:
-        return stiffened_gas.evaluate(rho, e, par)
-    return float("nan"), float("nan"), float("nan"), float("nan")
+evaluate = by_id(
+    MODULES, "evaluate", "rho, e, par",
+    "(p, dp/drho at constant e, dp/de at constant rho, T) of an equation of state; SI. par: the material's row, float64[ROW].",
+    'float("nan"), float("nan"), float("nan"), float("nan")')
 
 
 @point

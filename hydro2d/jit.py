@@ -14,15 +14,20 @@ from __future__ import annotations
 
 import functools
 import hashlib
+import importlib.util
 import inspect
 import os
+import sys
 import tempfile
 import time
 from pathlib import Path
+from types import ModuleType
 
 import llvmlite.binding
 import numba
 from numba.parfors import parfor_lowering
+
+from hydro2d.files import replacing
 
 
 def _source_files() -> list[Path]:
@@ -102,6 +107,42 @@ def point(function):
 def apart(function):
     """Compiles a function that is called, not inlined: what runs rarely need not be compiled again at every place."""
     return numba.njit(function, **_COMMON)
+
+
+def modules(package: str, *names: str) -> tuple[ModuleType, ...]:
+    """The modules of a package, in order: a list of models."""
+    return tuple(importlib.import_module(f"{package}.{name}") for name in names)
+
+
+def by_id(models: tuple[ModuleType, ...], function: str, arguments: str, meaning: str, otherwise: str = 'float("nan")'):
+    """A ``@point`` function ``function(model, arguments)`` that calls the function of this name of the model with that ID.
+
+    A chain of comparisons, written to a file in the cache folder: numba caches neither functions that are put together at run
+    time nor those that are handed other functions. Models without the function, and unknown ids, give ``otherwise``.
+    """
+    ids = [model.ID for model in models]
+    for number in ids:
+        if ids.count(number) > 1:
+            raise ValueError(f"ID {number} belongs to {' and '.join(m.__name__ for m in models if m.ID == number)}")
+    models = tuple(model for model in models if hasattr(model, function))
+    lines = [f'"""{meaning}"""', "", "from hydro2d.jit import point"]
+    lines += [f"from {model.__name__} import {function} as _{k}" for k, model in enumerate(models)]
+    lines += ["", "", "@point", f"def {function}(model, {arguments}):", f'    """{meaning}"""']
+    for k, model in enumerate(models):
+        lines += [f"    if model == {model.ID}:", f"        return _{k}({arguments})"]
+    text = "\n".join([*lines, f"    return {otherwise}", ""])
+    name = f"hydro2d_by_id_{function}_{hashlib.sha256(text.encode()).hexdigest()[:8]}"
+    file = Path(CACHE_FOLDER) / f"{name}.py"
+    if not file.exists():
+        file.parent.mkdir(parents=True, exist_ok=True)
+        with replacing(file) as temporary:
+            temporary.write_text(text, encoding="utf-8")
+            os.utime(temporary, (0, 0))  # numba takes a file with another time for another file
+    spec = importlib.util.spec_from_file_location(name, file)
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[name] = module
+    spec.loader.exec_module(module)
+    return getattr(module, function)
 
 
 @numba.njit(forceinline=True, **{**_COMMON, "fastmath": {"reassoc"}})

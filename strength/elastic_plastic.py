@@ -14,6 +14,7 @@ from strength.layout import ROW, SHEAR, YIELD
 NAME = "elastic-plastic"
 ID = 1
 CONSTANT_MODULUS = True
+THERMAL = True
 EQUATION = "Y = min(Y0 + H ep, Ymax) (1 - T*),  T* = (T - Tr)/(Tm - Tr) in [0, 1],  G constant"
 SOURCE = "textbook; the linear softening is that of Johnson & Cook with an exponent of 1"
 VALIDITY = "rate-independent; by default perfectly plastic and independent of temperature"
@@ -40,6 +41,12 @@ def flow_stress(ep, rate, T, p, rho, par):
     """Yield stress at plastic strain ``ep`` and temperature ``T``, Pa: explanation/strength, (10)."""
     softening = 1.0 - thermal.homologous_temperature(T, par[REFERENCE_T], par[INVERSE_RANGE])
     return min(par[YIELD] + par[HARDENING] * ep, par[LARGEST]) * softening
+
+
+@point
+def yield_floor(par):
+    """The initial yield stress, unless it softens."""
+    return par[YIELD] if par[INVERSE_RANGE] == 0.0 and par[HARDENING] >= 0.0 else 0.0
 
 
 def row(values) -> np.ndarray:

@@ -11,6 +11,7 @@ from strength.layout import ROW
 NAME = "hydrodynamic"
 ID = 0
 CONSTANT_MODULUS = True
+THERMAL = False
 EQUATION = "G = 0,  Y = 0"
 SOURCE = "definition"
 VALIDITY = "fluids, and solids under pressures far above their strength"

@@ -14,6 +14,7 @@ from strength.layout import ROW, SHEAR, YIELD
 NAME = "johnson-cook"
 ID = 2
 CONSTANT_MODULUS = True
+THERMAL = True
 EQUATION = """\
 Y = (A + B ep^n) (1 + C ln max(1, rate/rate0)) (1 - T*^m),  T* = (T - Tr)/(Tm - Tr) in [0, 1],  G constant"""
 SOURCE = "Johnson & Cook, 7th Int. Symp. Ballistics, The Hague (1983) 541"

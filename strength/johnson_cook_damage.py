@@ -13,6 +13,7 @@ from strength.layout import DAMAGE_ROW
 
 NAME = "johnson-cook"
 ID = 1
+THERMAL = True
 EQUATION = """\
 dD = dep/ef,  ef = [D1 + D2 exp(D3 p*)] [1 + D4 ln max(1, rate/rate0)] [1 + D5 T*],  not below ef_min
 or with [1 + rate/rate0]^n in the place of the logarithm

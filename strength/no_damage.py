@@ -10,6 +10,7 @@ from strength.layout import DAMAGE_ROW
 
 NAME = "none"
 ID = 0
+THERMAL = False
 EQUATION = "dD = 0"
 SOURCE = "definition"
 VALIDITY = "always"

@@ -15,6 +15,7 @@ from strength.layout import ROW, SHEAR, YIELD
 NAME = "power-law"
 ID = 4
 CONSTANT_MODULUS = True
+THERMAL = False
 EQUATION = "Y = Y0 (E eps/Y0)^n,  eps = ep + Y/E the total strain,  G = E/(2 (1 + nu)) constant"
 SOURCE = "Forrestal, Luk & Brar, Mech. Mater. 10 (1990) 97; Luk & Piekutowski, Int. J. Impact Engng 11 (1991) 323"
 VALIDITY = "aluminium alloys at moderate strain rates; independent of rate, temperature and pressure; n < 1"
@@ -61,6 +62,12 @@ def shear_modulus(p, rho, T, par):
 def flow_stress(ep, rate, T, p, rho, par):
     """Flow stress at plastic strain ``ep``, Pa: explanation/strength, (9)."""
     return par[YIELD] * hardening(par[STIFFNESS] * ep, par[EXPONENT])
+
+
+@point
+def yield_floor(par):
+    """The flow stress only hardens."""
+    return par[YIELD]
 
 
 def row(values) -> np.ndarray:

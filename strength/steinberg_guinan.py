@@ -18,6 +18,7 @@ from strength.layout import ROW, SHEAR, YIELD
 NAME = "steinberg-guinan"
 ID = 3
 CONSTANT_MODULUS = False
+THERMAL = True
 EQUATION = """\
 G = G0 [1 + A p/eta^(1/3) - B (T - T0)],  not below 0,  eta = rho/rho0
 Y = Y0 min((1 + beta (ep + ep0))^n, Ymax/Y0) G/G0
