@@ -118,7 +118,20 @@ def deck_page() -> str:
     plain = {key: part for key, part in schema.schema["properties"].items() if not list(schema.tables(part))}
     top = {"properties": plain, "required": schema.schema["required"]}
     lead = f'{NOTE} Quantities are numbers in SI or strings with a unit, such as `"8.12 mm"`.'
-    return "\n\n".join([f"# Deck keys\n\n{lead}", schema.section("Top level", top), *sections])
+    return "\n\n".join([f"# Deck keys\n\n{lead}", schema.section("Top level", top), *sections, boundary_conditions()])
+
+
+def boundary_conditions() -> str:
+    """The table of boundary conditions."""
+    from hydro2d.mesh.edges import BOUNDARIES, EDGES
+
+    rows = (
+        (f"`{b.name}`", "every edge" if b.edges == EDGES else ", ".join(f"`{edge}`" for edge in b.edges),
+         "images" if b.mirrors else "copies", "given" if b.holds else "free", b.meaning)
+        for b in BOUNDARIES
+    )
+    heads = ("condition", "where", "cells beyond", "normal velocity", "meaning")
+    return "## Boundary conditions\n\n" + table(heads, rows)
 
 
 def fields_page() -> str:

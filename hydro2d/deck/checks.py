@@ -10,6 +10,7 @@ from hydro2d.deck.mesh import SegmentError, axis_edges, body, body_radius
 from hydro2d.deck.sections import Deck, Sliding
 from hydro2d.deck.shapes import outline
 from hydro2d.errors import unknown
+from hydro2d.mesh.edges import BY_NAME, EDGES
 
 #: radii that a mesh should reach ahead of the rod that it follows: farther off a plate does not feel the mesh's edge
 AHEAD = 20
@@ -28,6 +29,7 @@ def inconsistencies(deck: Deck) -> Iterator[tuple[tuple, str]]:
             yield from _bad_join(deck, number)
     yield from _bad_names(deck, names)
     yield from _bad_mesh(deck)
+    yield from _bad_edges(deck)
     if deck.stop.time is None and deck.stop.cycles is None:
         yield ("stop",), "needs a time or a number of cycles"
     if deck.sliding.method == "slip-layer" and not deck.sliding.hard:
@@ -84,6 +86,19 @@ def _bad_names(deck: Deck, names: list[str]) -> Iterator[tuple[tuple, str]]:
                 yield ("mesh", axis, number, "across"), unknown("body", segment.across, names)
 
 
+def _bad_edges(deck: Deck) -> Iterator[tuple[tuple, str]]:
+    for edge in EDGES:
+        key = f"{edge}_velocity"
+        given = getattr(deck.boundaries, key) is not None
+        if getattr(deck.boundaries, edge) == "velocity":
+            if not given:
+                yield ("boundaries", edge), f"an edge with a velocity needs {key}"
+            if deck.sliding.method == "contact":
+                yield ("boundaries", edge), "a contact has no edges with a velocity: the two groups would need one each"
+        elif given:
+            yield ("boundaries", key), f'means nothing without {edge} = "velocity"'
+
+
 def _bad_mesh(deck: Deck) -> Iterator[tuple[tuple, str]]:
     cylindrical = deck.mesh.geometry == "cylindrical"
     if cylindrical and deck.mesh.r_start < 0:
@@ -91,7 +106,7 @@ def _bad_mesh(deck: Deck) -> Iterator[tuple[tuple, str]]:
         return
     if deck.boundaries.r_min == "axis" and not (cylindrical and deck.mesh.r_start == 0):
         yield ("boundaries", "r_min"), "an axis needs a cylindrical mesh that starts at r = 0"
-    if deck.boundaries.r_min in ("wall", "outflow", "transmit") and cylindrical and deck.mesh.r_start == 0:
+    if deck.boundaries.r_min not in ("axis", None) and cylindrical and deck.mesh.r_start == 0:
         yield ("boundaries", "r_min"), "r = 0 of a cylindrical mesh is the axis"
     try:
         r, z = axis_edges(deck, "r"), axis_edges(deck, "z")
@@ -157,8 +172,10 @@ def _bad_follow(deck: Deck, z: np.ndarray) -> Iterator[tuple[tuple, str]]:
         yield path, f'"{name}" has no velocity along z that a mesh could follow'
         return
     for key in ("z_min", "z_max"):
-        if getattr(deck.boundaries, key) == "wall":
-            yield ("boundaries", key), f'a mesh that follows "{name}" has open ends along z; a wall cannot travel with it'
+        kind = getattr(deck.boundaries, key)
+        if BY_NAME[kind].holds:
+            what = "a wall" if kind == "wall" else "an edge with a velocity"
+            yield ("boundaries", key), f'a mesh that follows "{name}" has open ends along z; {what} cannot travel with it'
     ahead, behind = room(deck, z)
     radius = extent(body(deck, name), deck, "r")[1]
     if ahead < (radius if np.isfinite(radius) else 0.0):

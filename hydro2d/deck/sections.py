@@ -16,9 +16,11 @@ from hydro2d.deck.base import (
     PositiveSpeed,
     PositiveTime,
     Section,
+    Speed,
     Time,
 )
 from hydro2d.deck.bodies import AnyBody
+from hydro2d.mesh.edges import words
 
 _SEGMENTS = (
     "{to, cells}, {to, size}, {cells, size}, {to, ratio}, {cells, ratio}, {to, last}; the last three take `first` too, "
@@ -70,15 +72,18 @@ class Mesh(Section):
 
 
 class Boundaries(Section):
-    """What stands at the edges: the axis; a frictionless wall (or plane of symmetry); outflow, an open end that bodies leave as
-    if the mesh went on; or transmit, the cut through an endless plate, which lets waves out and holds what they press on."""
+    """What stands at the edges of the mesh: see the table of boundary conditions."""
 
-    r_min: Literal["axis", "wall", "outflow", "transmit"] | None = Field(
-        None, description="default: axis where a cylindrical mesh starts at r = 0, else wall"
+    r_min: Literal[words("r_min")] | None = Field(
+        None, description="the inner edge; default: axis where a cylindrical mesh starts at r = 0, else wall"
     )
-    r_max: Literal["wall", "outflow", "transmit"] = Field("outflow", description="the outer edge")
-    z_min: Literal["wall", "outflow", "transmit"] = Field("outflow", description="the lower edge")
-    z_max: Literal["wall", "outflow", "transmit"] = Field("outflow", description="the upper edge")
+    r_max: Literal[words("r_max")] = Field("outflow", description="the outer edge")
+    z_min: Literal[words("z_min")] = Field("outflow", description="the lower edge")
+    z_max: Literal[words("z_max")] = Field("outflow", description="the upper edge")
+    r_min_velocity: Speed | None = Field(None, description='radial velocity at r_min = "velocity"')
+    r_max_velocity: Speed | None = Field(None, description='radial velocity at r_max = "velocity"')
+    z_min_velocity: Speed | None = Field(None, description='axial velocity at z_min = "velocity"')
+    z_max_velocity: Speed | None = Field(None, description='axial velocity at z_max = "velocity"')
 
 
 class Numerics(Section):

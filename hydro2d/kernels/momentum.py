@@ -9,7 +9,7 @@ from hydro2d.mesh.grid import GHOSTS
 from hydro2d.physics.advection import TINY, upwind
 
 #: advection by name, in the order of the integer that the kernels take
-CHOICES = ("momentum", "ke", "both")
+ADVECTIONS = ("momentum", "ke", "both")
 MOMENTUM, KE, BOTH = range(3)
 
 
@@ -68,16 +68,16 @@ def dual_range(dj, di, i0, i1, j, around):
 
 
 @rowwise
-def vertex_row(g, dj, di, j, i0, i1, below, above, choice, bound, still, cm_in, cm_out, around, cell_mass, dual, w_old, w,
-               mass, deficit, sums):
-    """Velocities of group g in row j after the sweep, by the advection choice (explanation/remap, equations 7 to 9).
+def vertex_row(g, dj, di, j, i0, i1, below, above, advection, bound, still, held, cm_in, cm_out, around, cell_mass, dual,
+               w_old, w, mass, deficit, sums):
+    """Velocities of group g in row j after the sweep, by the kind of advection (explanation/remap, equations 7 to 9).
 
     momentum   u = P/M
     ke         u = sign(P) sqrt(2 K/M) per component, |u| <= bound |P/M|
     both       u = P/M, and the deficit K - M u^2/2 is left in `deficit` for `deposit` to give to the cells
     P/M is kept within the velocities of the three vertices that it comes from: this removes round-off, and what a vertex at an
-    open edge, which has half a cell's mass, lacks when the whole cell leaves. The normal velocity on the axis and on walls is
-    zero: still holds the columns (2) and the rows (2) of those, -1 for none.
+    open edge, which has half a cell's mass, lacks when the whole cell leaves. The normal velocity on the axis, on walls and on
+    edges with a velocity is given: still has their columns (2) and rows (2), -1 for none, held what it is.
 
     Reads    cell_mass [b, j, i] after the sweep, dual [k, slot, i] in the slots `below` and `above`;
              w_old = (u, v) [c, b, j, i] and mass [b, j, i] before it
@@ -114,33 +114,36 @@ def vertex_row(g, dj, di, j, i0, i1, below, above, choice, bound, still, cm_in, 
             out = w[c, g, j, lo:hi]
             k_before, k_after, k_cut, p_gained, p_wall = 0.0, 0.0, 0.0, 0.0, 0.0
             wall_row = c == 1 and (j == still[2] or j == still[3])
+            given = held[2 * c] if c == 0 or j == still[2] else held[3]  # at the low edge, if this is one
             for x in range(n):
                 a = a_j[x]
                 old = m_j[x]
                 new = new_j[x]
-                held = f_in[x] == 0.0 and f_out[x] == 0.0  # nothing flows: not a bit may change
+                resting = f_in[x] == 0.0 and f_out[x] == 0.0  # nothing flows: not a bit may change
                 wall = wall_row or (c == 0 and (lo + x == still[0] or lo + x == still[1]))
+                fixed = held[1] if c == 0 and lo + x == still[1] else given
                 over = 1.0 / max(new, TINY)
                 momentum = old * a + (p_in[x] - p_out[x])
                 mean = min(max(momentum * over, min(a, min(a_low[x], a_high[x]))), max(a, max(a_low[x], a_high[x])))
-                mean = 0.0 if wall else mean
+                mean = fixed if wall else mean
                 kinetic = max(0.5 * old * a * a + (k_in[x] - k_out[x]), 0.0)
                 speed = min(sqrt(2.0 * kinetic * over), bound * abs(mean))
                 speed = speed if mean > 0.0 else -speed
-                after = speed if choice == KE else mean
-                after = a if held else after
+                after = speed if advection == KE else mean
+                after = fixed if wall else after
+                after = a if resting else after
                 after = after if new > 0.0 else 0.0
                 out[x] = after
                 k_before = plus(k_before, 0.5 * old * a * a)
                 k_after = plus(k_after, 0.5 * new * after * after)
-                if choice == KE:
-                    moves = not held and new > 0.0
+                if advection == KE:
+                    moves = not resting and new > 0.0
                     k_cut = plus(k_cut, max(kinetic - 0.5 * new * (bound * mean) * (bound * mean), 0.0) if moves else 0.0)
                 gained = new * (after - momentum * over) if new > 0.0 else -momentum
-                p_gained = plus(p_gained, 0.0 if held or wall else gained)
-                if choice == BOTH:
-                    left[x] += 0.0 if held else (kinetic - 0.5 * new * mean * mean) * over
-                p_wall = plus(p_wall, momentum if wall and not held else 0.0)
+                p_gained = plus(p_gained, 0.0 if resting or wall else gained)
+                if advection == BOTH:
+                    left[x] += 0.0 if resting else (kinetic - 0.5 * new * mean * mean) * over
+                p_wall = plus(p_wall, momentum - new * fixed if wall and not resting else 0.0)
             sums[0, j] += k_before
             sums[1, j] += k_after
             sums[3, j] += k_cut
@@ -150,8 +153,8 @@ def vertex_row(g, dj, di, j, i0, i1, below, above, choice, bound, still, cm_in, 
 
 
 @kernel
-def sweep_momentum(dj, di, j0, j1, i0, i1, choice, bound, still, edges, cm_in, cm_out, around, cell_mass, flux_mass, mass,
-                   w_old, w, dual, edge_dual, deficit, sums):
+def sweep_momentum(dj, di, j0, j1, i0, i1, advection, bound, still, held, edges, cm_in, cm_out, around, cell_mass, flux_mass,
+                   mass, w_old, w, dual, edge_dual, deficit, sums):
     """Carries the momentum of the vertices j0 to j1 along one direction.
 
     Reads    what dual_row and vertex_row read; edges (j0, j1, i0, i1 of the mesh)
@@ -180,8 +183,8 @@ def sweep_momentum(dj, di, j0, j1, i0, i1, choice, bound, still, edges, cm_in, c
                     below = 2 * b + dj * ((j - 1) % 2)
                     for row in range(5):
                         sums[row, j] = 0.0 if g == 0 else sums[row, j]
-                    vertex_row(g, dj, di, j, i0, i1 + 1, below, slot, choice, bound, still, cm_in, cm_out, around, cell_mass,
-                               dual, w_old, w, mass, deficit, sums)
+                    vertex_row(g, dj, di, j, i0, i1 + 1, below, slot, advection, bound, still, held, cm_in, cm_out, around,
+                               cell_mass, dual, w_old, w, mass, deficit, sums)
 
 
 @kernel

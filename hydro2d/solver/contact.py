@@ -24,7 +24,8 @@ class Contact:
 
     def __init__(self, state, method: Method, edges: np.ndarray, still: np.ndarray):
         self.state, self.grid, self.method, self.edges, self.still = state, state.grid, method, edges, still
-        order, own = method.order, state.group[method.order]
+        order = method.interface_order
+        own = state.group[order]
         self.soft_first, self.hard_first = (
             np.array([*order[own == b], *order[own != b]], dtype=np.int64) for b in range(2))
 
@@ -39,9 +40,10 @@ class Contact:
         contact.link_light(j0, j1, self.edges, g.volume, g.cm_in, g.cm_out, s.shared_count, s.shared, s.contact_normal,
                            s.hard, s.soft, s.mass, s.link)
         contact_motion.cut_viscosity(
-            j0, j1, self.edges, method.linear, method.quadratic, method.courant, g.dr, g.dz, g.vol_r, g.face_r, g.az_in,
-            g.az_out, s.cut, s.line, s.around, s.contact_normal, s.wet_r, s.wet_z, s.hard, s.soft, s.u, s.v, s.cl, s.rhobar,
-            s.vof, s.q, s.pm, s.km, s.p, s.solid, s.bulk, s.qr, s.qz, s.rate, s.rows[1], s.mixed_count, s.mixed, s.deficit[0])
+            j0, j1, self.edges, method.viscosity_linear, method.viscosity_quadratic, method.courant, g.dr, g.dz, g.vol_r,
+            g.face_r, g.az_in, g.az_out, s.cut, s.line, s.around, s.contact_normal, s.wet_r, s.wet_z, s.hard, s.soft, s.u, s.v,
+            s.cl, s.rhobar, s.vof, s.q, s.pm, s.km, s.p, s.solid, s.bulk, s.qr, s.qz, s.rate, s.rows[1], s.mixed_count, s.mixed,
+            s.deficit[0])
 
     def stress(self, j0: int, j1: int, dt: float) -> None:
         """Total stress of the cut cells, and the pressure of the contact."""
@@ -53,7 +55,7 @@ class Contact:
         """Velocities of both groups where they share vertices: forces, light vertices, contact and friction."""
         s, g, method = self.state, self.grid, self.method
         contact_motion.shared_forces(
-            j0, j1, dt, s.group, method.strength_mode == mixed.SOLID, g.face_r, g.hoop, g.az_in, g.az_out, g.mid_r, g.dz,
+            j0, j1, dt, s.group, method.mixed_strength == mixed.SOLID, g.face_r, g.hoop, g.az_in, g.az_out, g.mid_r, g.dz,
             self.still, s.shared_count, s.shared, s.wet_r, s.wet_z, s.ph, s.qr, s.solid, s.vof, s.q, s.weight, s.cell_mass,
             s.mass, s.u0, s.v0, s.u, s.v, s.exchange)
         contact_velocities.settle(

@@ -62,9 +62,8 @@ class Cycle:
         self.time, self.dt, self.number, self.cause = 0.0, 0.0, 0, "start"
         g = grid.g
         self.edges = np.array([g, g + grid.nz, g, g + grid.nr], dtype=np.int64)
-        low_r, high_r, low_z, high_z = method.mirrors
-        self.still = np.array([g if low_r else -1, g + grid.nr if high_r else -1, g if low_z else -1,
-                               g + grid.nz if high_z else -1], dtype=np.int64)
+        at = np.array([g, g + grid.nr, g, g + grid.nz], dtype=np.int64)
+        self.still = np.where(method.boundaries.having("holds"), at, -1)
         self.void_only = self._edges_with_void_beyond()
         self.carried = np.array([self._carried(m) for m in range(state.bodies)])
         self.contact = Contact(state, method, self.edges, self.still) if state.groups > 1 else None
@@ -77,7 +76,7 @@ class Cycle:
     def _edges_with_void_beyond(self) -> np.ndarray:
         """The edges of the mesh (rows j0, j1, columns i0, i1) through which nothing but void comes in, -1 for the others."""
         found = self.edges.copy()
-        found[np.roll(self.method.transmits, 2)] = -1
+        found[np.roll(self.method.boundaries.having("supplies"), 2)] = -1
         if self.mesh.leading is not None:
             found[self.mesh.leading] = -1
         return found
@@ -218,22 +217,22 @@ class Cycle:
 
     def ghost_vertices(self) -> None:
         """Mirrors or copies velocities beyond the edges of the mesh."""
-        s, g, (low_r, high_r, low_z, high_z) = self.state, self.grid, self.method.mirrors
+        s, g, (low_r, high_r, low_z, high_z) = self.state, self.grid, self.method.boundaries.having("mirrors")
         j0, j1, i0, i1 = self.box
         boundaries.ghost_vertices_r(j0, j1 + 1, g.nr, low_r, high_r, s.u, s.v)
         boundaries.ghost_vertices_z(i0 - 2, i1 + 3, g.nz, low_z, high_z, s.u, s.v)
 
     def _hold_still(self) -> None:
-        """Zero normal velocity on the axis and on walls; the impulse on walls is booked."""
+        """The given normal velocity of the axis, walls and edges with a velocity; their impulse and its work are booked."""
         s = self.state
-        r0, r1, z0, z1 = self.still
-        for column in (r0, r1):
-            if column >= 0:
-                s.u[:, :, column] = 0.0
-        for row in (z0, z1):
-            if row >= 0:
-                self.ledger.book("walls", momentum=float(np.sum(s.mass[:, row] * s.v[:, row])))
-                s.v[:, row] = 0.0
+        for edge, (at, velocity) in enumerate(zip(self.still, self.method.boundaries.velocity, strict=True)):
+            if at >= 0:
+                normal, before, mass = (a[..., at] if edge < 2 else a[:, at] for a in (
+                    (s.u, s.u0, s.mass) if edge < 2 else (s.v, s.v0, s.mass)))
+                impulse = mass * (normal - velocity)
+                work = float(np.sum(0.5 * impulse * (before + velocity))) if velocity else 0.0
+                self.ledger.book("walls", momentum=float(np.sum(impulse)) if edge > 1 else 0.0, energy=work)
+                normal[...] = velocity
 
     def _transmit(self) -> None:
         """What an endless plate would hold the transmitting edges with; what it takes is booked."""
@@ -241,7 +240,7 @@ class Cycle:
         for along_r in (True, False):
             j0, j1, i0, i1 = self.box
             first, last = (j0, j1 + 1) if along_r else (i0, i1 + 1)
-            for at, _ in self._open_faces(along_r, self.method.transmits):
+            for at, _ in self._open_faces(along_r, "transmits"):
                 boundaries.transmit(along_r, at, first, last, self.dt, g.face_r, g.az_in, g.az_out, g.dz, s.rhobar, s.cl,
                                     s.bulk, s.mass, s.u0, s.v0, s.u, s.v, taken)
         if taken.any():
@@ -261,11 +260,11 @@ class Cycle:
         """Pressure and sound speed of every body, void where a cell tears, artificial viscosity, the step a cell allows."""
         s, g, t, method, (j0, j1, _, _) = self.state, self.grid, self.table, self.method, self.box
         mixed.close_cells(
-            j0, j1, method.max_opening, method.smallest_tension, method.linear, method.quadratic, method.courant,
-            method.advective, self.mesh.velocity, method.hourglass, g.face_r, g.az_in, g.az_out, g.vol_r, g.dr, g.dz, s.span,
-            s.reach, s.mixed_count, s.mixed, s.group, t.eos_model, t.eos_par, t.strength_model, t.strength_par,
-            t.damage_model, t.fracture_pressure, self.loose, s.u, s.v, s.vof, s.q, s.pm, s.km, s.tm, s.p, s.bulk, s.rhobar,
-            s.solid, s.cl, s.qr, s.qz, s.weight, s.rows[0], s.rows[1], s.row_numbers, s.scratch)
+            j0, j1, method.max_opening, method.smallest_tension, method.viscosity_linear, method.viscosity_quadratic,
+            method.courant, method.advective_courant, self.mesh.velocity, method.hourglass, g.face_r, g.az_in, g.az_out,
+            g.vol_r, g.dr, g.dz, s.span, s.reach, s.mixed_count, s.mixed, s.group, t.eos_model, t.eos_par, t.strength_model,
+            t.strength_par, t.damage_model, t.fracture_pressure, self.loose, s.u, s.v, s.vof, s.q, s.pm, s.km, s.tm, s.p,
+            s.bulk, s.rhobar, s.solid, s.cl, s.qr, s.qz, s.weight, s.rows[0], s.rows[1], s.row_numbers, s.scratch)
         if self.contact:
             self.contact.find(j0, j1)
         thermodynamics.least_step(j0, j1, s.rows[1], s.row_numbers, s.found)
@@ -289,16 +288,16 @@ class Cycle:
         j = int(s.found[0])
         stable = float(s.rows[1, j])
         thermodynamics.step_cause(
-            j, method.courant, method.advective, self.mesh.velocity, g.dr, g.dz, g.vol_r, g.face_r, g.az_in, g.az_out,
+            j, method.courant, method.advective_courant, self.mesh.velocity, g.dr, g.dz, g.vol_r, g.face_r, g.az_in, g.az_out,
             s.reach, s.u, s.v, s.rhobar, s.cl, s.qr, s.qz, s.row_numbers[j])
         cause, i = s.row_numbers[j, :2]
-        ramp = min(1.0, method.first + (1.0 - method.first) * self.number / max(method.ramp_cycles, 1))
+        ramp = min(1.0, method.initial_dt_factor + (1.0 - method.initial_dt_factor) * self.number / max(method.ramp_cycles, 1))
         dt, self.cause = stable * ramp, (f"{waves.CAUSES[cause]} at r = {g.rc[i] * 1e3:.3f} mm, "
                                          f"z = {g.zc[j] * 1e3:.3f} mm")
         if ramp < 1.0:
             self.cause += " (ramp)"
-        if self.dt > 0.0 and dt > method.growth * self.dt:
-            dt, self.cause = method.growth * self.dt, "growth"
+        if self.dt > 0.0 and dt > method.max_growth * self.dt:
+            dt, self.cause = method.max_growth * self.dt, "growth"
         if not method.dt_min < dt < 1e300:
             raise UnphysicalState(f"cycle {self.number}, time {self.time:.6g} s: time step {dt:.3g} s, below dt_min = "
                                   f"{method.dt_min:.3g} s, set by {self.cause}")
@@ -309,7 +308,7 @@ class Cycle:
         s, g, method, (j0, j1, _, _) = self.state, self.grid, self.method, self.box
         acceleration.total_stress(
             j0, j1, self.dt, g.face_r, g.az_in, g.az_out, g.vol_r, g.dz, s.span, s.reach, s.mixed_count, s.mixed,
-            method.strength_mode == mixed.SOLID, method.hard, method.threshold, s.u, s.v, s.vof, s.q, s.p, s.bulk, s.solid,
+            method.mixed_strength == mixed.SOLID, method.hard, method.threshold, s.u, s.v, s.vof, s.q, s.p, s.bulk, s.solid,
             s.qr, s.qz, s.ph, s.sig_rr, s.sig_zz, s.sig_tt, s.sig_rz)
         if self.contact:
             self.contact.stress(j0, j1, self.dt)
@@ -346,13 +345,13 @@ class Cycle:
         s, g, t, method, (j0, j1, _, _) = self.state, self.grid, self.table, self.method, self.box
         deformation.deform(
             j0, j1, self.dt, g.face_r, g.hoop, g.az_in, g.az_out, g.vol_r, g.mid_r, g.dz, s.span, s.group, t.strength_model,
-            t.strength_par, t.damage_model, t.damage_par, method.factor, self.loose, s.u0, s.v0, s.u, s.v, s.fr, s.fz,
+            t.strength_par, t.damage_model, t.damage_par, method.yield_factor, self.loose, s.u0, s.v0, s.u, s.v, s.fr, s.fz,
             s.sig_rr, s.sig_zz, s.sig_tt, s.sig_rz, s.weight, s.vof, s.pm, s.tm, s.scratch, s.q)
         mixed.deform_mixed(
-            j0, j1, self.dt, method.relaxation, method.tipton, method.strength_mode, method.hard, method.threshold, g.face_r,
+            j0, j1, self.dt, method.relaxation, method.tipton, method.mixed_strength, method.hard, method.threshold, g.face_r,
             g.hoop, g.az_in, g.az_out, g.vol_r, g.mid_r, g.dz, s.mixed_count, s.mixed, s.group, s.cut, s.cell_mass,
-            t.strength_model, t.strength_par, t.damage_model, t.damage_par, method.factor, self.loose, s.u0, s.v0, s.u, s.v,
-            s.fr, s.fz, s.ph, s.qr, s.qz, s.weight, s.solid, s.pm, s.km, s.tm, s.vof, s.q, s.mix, s.motion)
+            t.strength_model, t.strength_par, t.damage_model, t.damage_par, method.yield_factor, self.loose, s.u0, s.v0, s.u,
+            s.v, s.fr, s.fz, s.ph, s.qr, s.qz, s.weight, s.solid, s.pm, s.km, s.tm, s.vof, s.q, s.mix, s.motion)
         if self.contact:
             self.contact.warm(j0, j1)
         if method.slip_widths is not None:
@@ -365,7 +364,7 @@ class Cycle:
         """Volume of every body through every face of one direction."""
         s, g, box = self.state, self.grid, self.box
         j0, j1, i0, i1 = box
-        low_r, high_r, low_z, high_z = self.method.mirrors
+        low_r, high_r, low_z, high_z = self.method.boundaries.having("mirrors")
         along_r, along_z = di * fields.BODY_FIELDS, dj * fields.BODY_FIELDS  # the other direction's interfaces need fractions
         boundaries.ghost_columns(j0, j1, g.nr, low_r, high_r, along_r, s.span, s.vof, s.q)
         boundaries.ghost_rows(i0 - 2, i1 + 2, g.nz, low_z, high_z, along_z, s.vof, s.q)
@@ -375,8 +374,8 @@ class Cycle:
         face = s.fr if di else s.fz
         interfaces.donor_volumes(dj, di, *box, second == 0, self.void_only, g.volume, s.near, s.reach, s.fr, s.fz, s.vof, s.pre,
                                  s.flux_volume)
-        interfaces.interface_volumes(dj, di, j0, j1, g.dr, g.dz, self.method.order, s.mixed_count, s.mixed, face, s.pre, s.vof,
-                                     s.flux_volume, s.mix)
+        interfaces.interface_volumes(dj, di, j0, j1, g.dr, g.dz, self.method.interface_order, s.mixed_count, s.mixed, face,
+                                     s.pre, s.vof, s.flux_volume, s.mix)
         if self.contact:
             self.contact.fluxes(dj, di, j0, j1)
 
@@ -390,11 +389,11 @@ class Cycle:
               s.flux_volume, s.scratch, s.flux, s.flux_mass, s.edge_flux, s.vof, s.q, s.cell_mass, s.mixed_count, s.mixed)
         self._book_outflow(di)
 
-    def _open_faces(self, di: int, kind=None):
-        """(index of the face, outward sign) of the open edges of a direction, or of those of a kind (four booleans as in
-        `Method`), where the active box has reached them."""
-        kind = self.method.opens if kind is None else kind
-        low, high = kind[0:2] if di else kind[2:4]
+    def _open_faces(self, di: int, flag: str = "opens"):
+        """(index of the face, outward sign) of the edges of a direction that have a flag of the table of boundary conditions,
+        where the active box has reached them."""
+        having = self.method.boundaries.having(flag)
+        low, high = having[0:2] if di else having[2:4]
         box, edges = (self.box[2:4], self.edges[2:4]) if di else (self.box[0:2], self.edges[0:2])
         if low and box[0] == edges[0]:
             yield int(edges[0]), -1.0
@@ -440,12 +439,12 @@ class Cycle:
         s.swap_velocities()
         sums = s.rows[:5]
         momentum.sweep_momentum(
-            dj, di, *self.box, method.choice, method.ke_bound, self.still, self.edges, g.cm_in, g.cm_out, s.around, s.cell_mass,
-            flow, s.mass, s.velocity0, s.velocity, s.dual, s.edge_dual, s.deficit, sums)
+            dj, di, *self.box, method.advection, method.ke_bound, self.still, method.boundaries.velocity, self.edges, g.cm_in,
+            g.cm_out, s.around, s.cell_mass, flow, s.mass, s.velocity0, s.velocity, s.dual, s.edge_dual, s.deficit, sums)
         j0, j1, _, _ = self.box
         before, after, p_gained, k_cut, p_wall = sums[:, j0:j1 + 1].sum(axis=1)
         lost = before - after - self._kinetic_outflow(di)
-        if method.choice == momentum.BOTH:
+        if method.advection == momentum.BOTH:
             momentum.deposit(j0, j1, g.cm_in, g.cm_out, s.reach, s.group, s.deficit, s.cell_mass, s.vof, s.q, s.rows[5])
             lost -= s.rows[5, j0:j1].sum()
         self.ledger.book("advection", momentum=-float(p_gained), energy=float(lost - k_cut))

@@ -8,30 +8,31 @@ import numpy as np
 
 from hydro2d.deck import deck as decks
 from hydro2d.kernels import mixed, momentum, sliding
+from hydro2d.mesh.edges import BY_NAME, EDGES, Edges
 
 
 @dataclass(frozen=True)
 class Method:
     """What `Cycle` needs to know of a deck; see the deck's `numerics`, `sliding`, `failure` and `boundaries`."""
 
-    choice: int
+    advection: int
     ke_bound: float
     courant: float
-    advective: float
-    growth: float
+    advective_courant: float
+    max_growth: float
     ramp_cycles: int
-    first: float
+    initial_dt_factor: float
     dt_min: float
-    linear: float
-    quadratic: float
+    viscosity_linear: float
+    viscosity_quadratic: float
     hourglass: float
     tipton: bool
     relaxation: float
-    strength_mode: int
+    mixed_strength: int
     trace: float
     mass_floor: float
     active_region: bool
-    order: np.ndarray
+    interface_order: np.ndarray
     smallest_tension: bool
     max_opening: float
     loose: float
@@ -41,12 +42,10 @@ class Method:
     shear: int
     friction: float
     refresh: int
-    factor: np.ndarray
+    yield_factor: np.ndarray
     contact: bool
     group: np.ndarray
-    mirrors: tuple[bool, bool, bool, bool]
-    opens: tuple[bool, bool, bool, bool]
-    transmits: tuple[bool, bool, bool, bool]
+    boundaries: Edges
 
     @classmethod
     def from_deck(cls, deck, slots: list[str], widths: tuple[float, float], factor: float) -> Method:
@@ -56,26 +55,27 @@ class Method:
         layer = slide.method == "slip-layer"
         hard = np.array([layer and name in slide.hard for name in slots])
         group = np.array(decks.body_groups(deck), dtype=np.int64)
-        kinds = (edge.r_min, edge.r_max, edge.z_min, edge.z_max)
+        kinds = tuple(BY_NAME[getattr(edge, key)] for key in EDGES)
+        velocity = np.array([getattr(edge, f"{key}_velocity") or 0.0 for key in EDGES])
         return cls(
-            choice=momentum.CHOICES.index(n.advection),
+            advection=momentum.ADVECTIONS.index(n.advection),
             ke_bound=n.ke_bound,
             courant=n.courant,
-            advective=n.advective_courant,
-            growth=n.max_growth,
+            advective_courant=n.advective_courant,
+            max_growth=n.max_growth,
             ramp_cycles=n.ramp_cycles,
-            first=n.initial_dt_factor,
+            initial_dt_factor=n.initial_dt_factor,
             dt_min=n.dt_min,
-            linear=n.viscosity_linear,
-            quadratic=n.viscosity_quadratic,
+            viscosity_linear=n.viscosity_linear,
+            viscosity_quadratic=n.viscosity_quadratic,
             hourglass=n.hourglass,
             tipton=n.mixed_cell == "tipton",
             relaxation=n.relaxation,
-            strength_mode=mixed.STRENGTH_MODES.index(n.mixed_strength),
+            mixed_strength=mixed.STRENGTH_MODES.index(n.mixed_strength),
             trace=n.trace,
             mass_floor=n.mass_floor,
             active_region=n.active_region,
-            order=np.array([slots.index(name) for name in order], dtype=np.int64),
+            interface_order=np.array([slots.index(name) for name in order], dtype=np.int64),
             smallest_tension=failure.tension == "min",
             max_opening=failure.max_opening,
             loose=failure.loose,
@@ -85,10 +85,8 @@ class Method:
             shear=sliding.SHEARS.index(slide.shear),
             friction=slide.friction,
             refresh=slide.refresh,
-            factor=np.where(hard | (group == 1), factor, 1.0),
+            yield_factor=np.where(hard | (group == 1), factor, 1.0),
             contact=slide.method == "contact",
             group=group,
-            mirrors=tuple(kind in ("wall", "axis") for kind in kinds),
-            opens=tuple(kind in ("outflow", "transmit") for kind in kinds),
-            transmits=tuple(kind == "transmit" for kind in kinds),
+            boundaries=Edges(kinds, velocity),
         )

@@ -7,6 +7,7 @@ import numpy as np
 from hydro2d.deck import deck as decks
 from hydro2d.materials import library
 from hydro2d.mesh import sums
+from hydro2d.mesh.edges import Edges
 from hydro2d.mesh.grid import Grid
 from hydro2d.mesh.state import State
 from hydro2d.solver import insertion, tracers
@@ -44,7 +45,7 @@ class Simulation:
         slots = decks.slots(deck)
         method = Method.from_deck(deck, slots, decks.sliding_widths(deck), decks.yield_factor(deck))
         self.state = State(self.grid, len(slots), method.group)
-        self._insert()
+        self._insert(method.boundaries)
         self.engine = Cycle(self.state, self.table, method, self._mesh(slots, method))
         self.engine.prepare()
         self.tracers = np.array([[t.r, t.z] for t in deck.tracer]).reshape(-1, 2)
@@ -61,9 +62,9 @@ class Simulation:
             return StandingMesh()
         direction = float(np.sign(decks.body(self.deck, name).velocity[1]))
         space = UndisturbedSpace(self.deck, self.table, self.grid)
-        return FollowingMesh(self.state, space, slots.index(name), direction, method.mirrors[:2])
+        return FollowingMesh(self.state, space, slots.index(name), direction, method.boundaries.having("mirrors")[:2])
 
-    def _insert(self) -> None:
+    def _insert(self, edges: Edges) -> None:
         """Fills the mesh.
 
         Vertex velocities of a body group are the mass-weighted means of its own in the cells around; where nothing of it is
@@ -85,13 +86,10 @@ class Simulation:
         for vertex in (s.u, s.v):
             np.divide(vertex, dual, out=vertex, where=dual > 0)
             vertex[...] = np.where(dual > 0, vertex, vertex[::-1])
-        for velocity, m_low, m_high, axis in ((s.u, "r_min", "r_max", -1), (s.v, "z_min", "z_max", -2)):
-            view = np.moveaxis(velocity, axis, 0)
-            last = g.g + (g.nr if axis == -1 else g.nz)
-            if getattr(self.deck.boundaries, m_low) in ("axis", "wall"):
-                view[g.g] = 0.0
-            if getattr(self.deck.boundaries, m_high) == "wall":
-                view[last] = 0.0
+        ends = (g.g, g.g + g.nr, g.g, g.g + g.nz)
+        for edge, (at, holds, velocity) in enumerate(zip(ends, edges.having("holds"), edges.velocity, strict=True)):
+            if holds:
+                (s.u[..., at] if edge < 2 else s.v[:, at])[...] = velocity
 
     def _gather(self, cell: np.ndarray, vertex: np.ndarray) -> None:
         """Adds the corner shares of a cell quantity to the vertices."""

@@ -12,7 +12,7 @@ import hydro2d
 import strength
 from hydro2d.deck import deck
 from hydro2d.materials import library
-from hydro2d.mesh import fields
+from hydro2d.mesh import edges, fields
 from hydro2d.output import derived
 from hydro2d.penetration import catalogue
 from strength import tensile_pressure
@@ -141,6 +141,7 @@ def test_the_reference_has_everything():
     assert [name for name in models if f"### `{name}`" not in pages["models.md"]] == []
     assert [name for name in library.names() if f"## `{name}`" not in pages["materials.md"]] == []
     assert [key for key in deck.schema()["properties"] if key not in pages["deck.md"]] == []
+    assert [entry.name for entry in edges.BOUNDARIES if f"| `{entry.name}` |" not in pages["deck.md"]] == []
     assert [name for name in catalogue.MODELS if f"## `{name}`" not in pages["penetration-models.md"]] == []
     assert "hydro2d run" in pages["commands.md"]
     assert "hydro2d model transition" in pages["commands.md"]

@@ -89,8 +89,8 @@ def test_method():
     assert method.contact
     assert method.group.dtype == np.int64
     assert method.group.tolist() == [0, 0, 1]
-    assert method.factor.tolist() == [1.0, 1.0, 1.25]
-    assert method.order.tolist() == [2, 0, 1]
+    assert method.yield_factor.tolist() == [1.0, 1.0, 1.25]
+    assert method.interface_order.tolist() == [2, 0, 1]
     assert not method.hard.any()
     assert method.slip_widths is None
     assert method.friction == 0.1
@@ -101,7 +101,7 @@ def test_method_of_a_slip_layer():
     method = Method.from_deck(d, deck.slots(d), deck.sliding_widths(d), deck.yield_factor(d))
     assert not method.contact
     assert method.group.tolist() == [0, 0, 0]
-    assert method.factor.tolist() == [1.25, 1.0, 1.0]
+    assert method.yield_factor.tolist() == [1.25, 1.0, 1.0]
     assert method.hard.tolist() == [True, False, False]
 
 
