@@ -3,15 +3,39 @@
 from math import sqrt
 
 from eos.dispatch import evaluate, pressure_row, temperature_row, zero_pressure_density
-from hydro2d.jit import point, rowwise, serial
+from hydro2d.jit import apart, point, rowwise, serial
 from hydro2d.kernels.spans import columns
 from hydro2d.mesh.fields import DMG, EP, RHO, SRR, SRZ, SZZ, E
+from hydro2d.physics.fracture import share_that_stays, tension_limit
 from hydro2d.physics.kinematics import volume_loss
 from hydro2d.physics.viscosity import directional_viscosity, smoothness
 from hydro2d.physics.waves import step_limits
 from strength.dispatch import feels_temperature, modulus_row
 
 SOUND_FLOOR = 1.0  # (1 m/s)^2
+
+
+@apart
+def tear_row(m, j, first, number, model, par, fracture_pressure, max_opening, vol_r, h, vof, q):
+    """Opens void in the cells of row j that body m fills and that tear; returns its volume.
+
+    Void until p(rho*, e) = 0, at most max_opening of the cell in a cycle; the deviator is set to zero (explanation/fracture).
+
+    Updates  vof [m, j, i], q (rho and deviators) [k, m, j, i]
+    """
+    opened = 0.0
+    for x in range(number):
+        i = first + x
+        rho, e = q[RHO, m, j, i], q[E, m, j, i]
+        if vof[m, j, i] == 1.0 and evaluate(model, rho, e, par)[0] < -tension_limit(fracture_pressure, q[DMG, m, j, i]):
+            f = share_that_stays(rho, zero_pressure_density(model, rho, e, par), max_opening)
+            opened += (1.0 - f) * vol_r[i] * h
+            vof[m, j, i] = f
+            q[RHO, m, j, i] = rho / f
+            q[SRR, m, j, i] = 0.0
+            q[SZZ, m, j, i] = 0.0
+            q[SRZ, m, j, i] = 0.0
+    return opened
 
 
 @rowwise
@@ -22,8 +46,7 @@ def pressures_row(j, b, max_opening, vol_r, dz, span, reach, eos_model, eos_par,
     p = sum f_m p_m;  rhobar = sum f_m rho_m;  1/bulk = sum f_m / K_m (explanation/equation-of-state, mixed-cells);
     Below its density loose[m] a body is no solid any more and has no shear modulus.
     cl = max over bodies of sqrt((K + 4 G/3)/rho), for the time step.
-    A pure cell below its fracture pressure is given void until p(rho*, e) = 0, at most max_opening of it in a cycle,
-    and its deviator is set to zero (explanation/fracture).
+    A pure cell below its fracture pressure is given void (`tear_row`).
 
     Reads    q (rho, e, damage) [k, m, j, i], span [m, j, 2], fracture_pressure, loose [m]
     Updates  vof [m, j, i], q (rho and deviators where a cell tears)
@@ -72,19 +95,7 @@ def pressures_row(j, b, max_opening, vol_r, dz, span, reach, eos_model, eos_par,
                 wrong += 0 if good or f_j[i] == 0.0 else 1
             if torn == 0 or attempt == 1:
                 break
-            for x in range(number):
-                i = first + x
-                rho = r_j[i]
-                threshold = fracture_pressure[m] if d_j[i] < 1.0 else 0.0
-                if f_j[i] == 1.0 and evaluate(model, rho, e_j[i], par)[0] < -threshold:
-                    target = max(zero_pressure_density(model, rho, e_j[i], par), rho)
-                    f = max(rho / target, 1.0 - max_opening)
-                    new_void += (1.0 - f) * vol_r[i] * dz[j]
-                    f_j[i] = f
-                    r_j[i] = rho / f
-                    q[SRR, m, j, i] = 0.0
-                    q[SZZ, m, j, i] = 0.0
-                    q[SRZ, m, j, i] = 0.0
+            new_void += tear_row(m, j, first, number, model, par, fracture_pressure[m], max_opening, vol_r, dz[j], vof, q)
         if wrong > 0:
             for x in range(number):
                 i = first + x

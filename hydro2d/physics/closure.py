@@ -25,3 +25,30 @@ def common_pressure(j, i, vof, q, pm, km):
             pressure += vof[m, j, i] / km[m, j, i] * pm[m, j, i]
             density += vof[m, j, i] / km[m, j, i] * q[RHO, m, j, i]
     return pressure / compliance, density / compliance
+
+
+@point
+def softness(f, modulus, tipton):
+    """Share of a body in a change of volume, not yet over their sum: R = f/K, or f where all are strained alike.
+
+    explanation/mixed-cells, equation 2. f is the volume fraction, K the adiabatic bulk modulus, Pa; 0 for a body that is not
+    there, whose modulus may be anything.
+    """
+    if f == 0.0 or not tipton:
+        return f
+    return f / modulus
+
+
+@point
+def relaxation_strain(relaxation, p, target, modulus):
+    """Relative change of a body's volume that takes the share `relaxation` of its pressure towards the target.
+
+    explanation/mixed-cells, equation 3.
+    """
+    return relaxation * (p - target) / modulus
+
+
+@point
+def relaxation_bound(strain):
+    """Factor that keeps a relative change of volume by relaxation within a tenth (explanation/mixed-cells, equation 4)."""
+    return 0.1 / max(abs(strain), 0.1)

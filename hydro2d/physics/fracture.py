@@ -1,0 +1,19 @@
+"""Where material tears, and how much void opens (explanation/fracture)."""
+
+from hydro2d.jit import point
+
+
+@point
+def tension_limit(fracture_pressure, damage):
+    """Tension that material bears, Pa: its fracture pressure, nothing once it has failed."""
+    return fracture_pressure if damage < 1.0 else 0.0
+
+
+@point
+def share_that_stays(rho, relaxed, max_opening):
+    """Share of a torn cell that stays filled, so that the rest is void.
+
+    ``relaxed`` is the density at zero pressure with the same energy, kg/m^3: at rho/relaxed the tension is gone. No more than
+    ``max_opening`` of the cell opens in one cycle (explanation/fracture, equation 2).
+    """
+    return max(rho / max(relaxed, rho), 1.0 - max_opening)
