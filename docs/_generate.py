@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import contextlib
 import io
+import math
 import os
 from collections.abc import Iterable, Iterator
 from pathlib import Path
@@ -134,15 +135,23 @@ def boundary_conditions() -> str:
     return "## Boundary conditions\n\n" + table(heads, rows)
 
 
+def bounds(field) -> str:
+    """The bounds of a field in words."""
+    ends = [f"from {field.least:g}"] if math.isfinite(field.least) else []
+    ends += [f"to {field.most:g}"] if math.isfinite(field.most) else []
+    return " ".join(ends) or "none"
+
+
 def fields_page() -> str:
     """The field table and the quantities of output files."""
     from hydro2d.mesh import fields
     from hydro2d.output import derived
 
     state = table(
-        ("field", "symbol", "centring", "unit", "parity at the axis", "remapped by", "meaning"),
+        ("field", "symbol", "centring", "unit", "sign in a mirror", "remapped by", "bounds", "meaning"),
         (
-            (f"`{f.name}`", f"`{f.symbol}`", f.centring, f.unit, f"{f.parity:+d}", f.remap or "not remapped", f.meaning)
+            (f"`{f.name}`", f"`{f.symbol}`", f.centring, f.unit, f"{f.parity:+d}", f.remap or "not remapped", bounds(f),
+             f.meaning)
             for f in fields.FIELDS
         ),
     )

@@ -6,7 +6,7 @@ travels, what the deck has placed there (hydro2d/following). A transmitting edge
 
 
 from hydro2d.jit import apart, kernel, point, prange, serial
-from hydro2d.mesh.fields import SRZ
+from hydro2d.mesh.fields import ODD
 from hydro2d.mesh.grid import GHOSTS
 from hydro2d.physics.waves import impedances
 
@@ -17,8 +17,10 @@ def fill(m, j, i, from_j, from_i, mirror, fields, vof, q):
     vof[m, j, i] = vof[m, from_j, from_i]
     for k in range(fields):
         q[k, m, j, i] = q[k, m, from_j, from_i]
-    if mirror and fields > SRZ:
-        q[SRZ, m, j, i] = -q[SRZ, m, from_j, from_i]
+    if mirror:
+        for k in ODD:
+            if k < fields:
+                q[k, m, j, i] = -q[k, m, from_j, from_i]
 
 
 @kernel

@@ -12,7 +12,7 @@ from math import sqrt
 from hydro2d.jit import apart, kernel, point, prange
 from hydro2d.kernels.spans import union
 from hydro2d.physics.contact import GAP, dual_share, known, wetted
-from hydro2d.physics.interfaces import line_constant, slope
+from hydro2d.physics.interfaces import line_constant, youngs_gradient
 
 #: share of its dual cell below which a group is light at a vertex: it moves as its body inward of there does
 LIGHT = 0.5
@@ -99,8 +99,12 @@ def cut_lines(j0, j1, edges, dr, dz, count, shared, hard, soft, cut, line):
         below, above = max(j - 1, edges[0]), min(j + 1, edges[1] - 1)
         for i in range(lo, hi):
             left, right = max(i - 1, edges[2]), min(i + 1, edges[3] - 1)
-            hard_r, hard_z = slope(j, i, below, above, left, right, dr, dz, hard)
-            soft_r, soft_z = slope(j, i, below, above, left, right, dr, dz, soft)
+            hard_r, hard_z = youngs_gradient(
+                j, i, hard[below, left], hard[below, i], hard[below, right], hard[j, left], hard[j, right],
+                hard[above, left], hard[above, i], hard[above, right], dr, dz)
+            soft_r, soft_z = youngs_gradient(
+                j, i, soft[below, left], soft[below, i], soft[below, right], soft[j, left], soft[j, right],
+                soft[above, left], soft[above, i], soft[above, right], dr, dz)
             along_r, along_z = hard_r - soft_r, hard_z - soft_z
             steep_h, steep_s = hard_r * hard_r + hard_z * hard_z, soft_r * soft_r + soft_z * soft_z
             size = abs(along_r) + abs(along_z)

@@ -8,11 +8,11 @@ still in the processor's cache (explanation/remap, blocks of rows).
 from hydro2d.jit import kernel, point, prange, rowwise
 from hydro2d.kernels.interfaces import flux_range
 from hydro2d.kernels.spans import block_rows, columns, mixed_row, number_of_blocks, spread
-from hydro2d.mesh.fields import BLOCK, BODY_FIELDS, DMG, EP, RHO, SRR, SRZ, E
-from hydro2d.physics.advection import TINY, by_mass, upwind
+from hydro2d.mesh.fields import BLOCK, BODY_FIELDS, BOUNDED, BY_MASS, DMG, LEAST, MOST, RHO, SRR, SRZ, E
+from hydro2d.physics.advection import TINY, upwind
 
-#: damage from which a cell has failed: the mean of ones is one less round-off, which must heal nothing
-FAILED = 1.0 - 1e-6
+#: from this share of its upper bound on a field is at it: the mean of ones is one less round-off, which must heal nothing
+FULL = 1.0 - 1e-6
 
 
 @rowwise
@@ -59,8 +59,8 @@ def flux_row(dj, di, j, i0, i1, m, carried, slot, b, near, pre, flux_volume, vof
             a_r = q[k, m, j, lo:hi]
             a_rr = q[k, m, j + dj, lo + di:hi + di]
             out = flux[k, m, slot, lo:hi]
-            carrier = flux[RHO, m, slot, lo:hi] if by_mass(k) else flux_volume[m, j, lo:hi]
-            weight = scratch[1 if by_mass(k) else 0, b, lo:hi]
+            carrier = flux[RHO, m, slot, lo:hi] if BY_MASS[k] else flux_volume[m, j, lo:hi]
+            weight = scratch[1 if BY_MASS[k] else 0, b, lo:hi]
             for x in range(n):
                 donor, slope = upwind(swept[x] > 0.0, a_ll[x], a_l[x], a_r[x], a_rr[x])
                 out[x] = carrier[x] * (donor + weight[x] * slope)
@@ -70,7 +70,7 @@ def flux_row(dj, di, j, i0, i1, m, carried, slot, b, near, pre, flux_volume, vof
 def update_row(dj, di, j, i0, i1, m, carried, below, above, b, near, face, pre, flux_volume, flux, scratch, vof, q):
     """Body m in row j after the sweep: volume, mass and what it carries. A cell without flux keeps its bits.
 
-    Plastic strain stays positive, damage between 0 and 1; what has failed stays so, to the last bit, and has no deviator.
+    Fields stay within the bounds of the table; what has failed stays so, to the last bit, and has no deviator.
 
     Reads    face, pre [j, i]; flux_volume [m, j, i]; flux [k, m, slot, i] in the slots `below` and `above`
     Updates  vof [m, j, i] (share of the volume after the sweep), q [k, m, j, i]
@@ -112,14 +112,14 @@ def update_row(dj, di, j, i0, i1, m, carried, below, above, b, near, face, pre, 
             a_j = q[k, m, j, lo:hi]
             a_in = flux[k, m, below, lo:hi]
             a_out = flux[k, m, above, lo + di:hi + di]
-            before = scratch[1 if by_mass(k) else 0, b, lo:hi]
-            inverse = scratch[3 if by_mass(k) else 2, b, lo:hi]
+            before = scratch[1 if BY_MASS[k] else 0, b, lo:hi]
+            inverse = scratch[3 if BY_MASS[k] else 2, b, lo:hi]
             for x in range(n):
                 a_j[x] = (a_j[x] * before[x] + (a_in[x] - a_out[x])) * inverse[x]
-            if k >= EP:
-                least, most = (FAILED, 1.0) if k == DMG else (1e300, 1e300)
+            if BOUNDED[k]:
+                least, most, full = LEAST[k], MOST[k], FULL * MOST[k]
                 for x in range(n):
-                    a_j[x] = most if a_j[x] > least else max(a_j[x], 0.0)
+                    a_j[x] = most if a_j[x] > full else max(a_j[x], least)
             if k == DMG:
                 for component in range(SRR, SRZ + 1):
                     s_j = q[component, m, j, lo:hi]

@@ -4,7 +4,7 @@ from math import sqrt
 
 from hydro2d.jit import kernel, point, prange, serial
 from hydro2d.mesh.fields import SRR, SRZ, SZZ
-from hydro2d.physics.interfaces import line_centre
+from hydro2d.physics.interfaces import line_centre, youngs_difference
 
 #: zones of a cell
 OUTSIDE, HARD, BOUNDARY_LAYER, SLIP_LAYER = range(4)
@@ -100,8 +100,7 @@ def slip_zones(j0, j1, i0, i1, width_bl, width_sl, threshold, rc, zc, dr, dz, ha
             se = hard[j - 1, i + 1]
             nw = hard[j + 1, i - 1]
             ne = hard[j + 1, i + 1]
-            n_r = ((nw + sw) + 2.0 * w) - ((ne + se) + 2.0 * e)
-            n_z = ((sw + se) + 2.0 * s) - ((nw + ne) + 2.0 * n)
+            n_r, n_z = youngs_difference(sw, s, se, w, e, nw, n, ne)  # not weighted where the mesh is graded
             size = abs(n_r) + abs(n_z)
             if size < 1e-14:
                 continue

@@ -1,14 +1,15 @@
-"""THE field table: every field's name, centring, unit, parity, how it is remapped, and whether it is written.
+"""THE field table: every field's name, centring, unit, parity, bounds, how it is remapped, and whether it is written.
 
-The integer constants are the positions of the body fields inside the block ``State.q[k, m, j, i]``; kernels use them.
+The fields of the bodies that the remap carries stand in the block ``State.q[k, m, j, i]`` in the order of the table; their
+integer constants are their positions there. Remap, ghost cells and state follow from the table.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import inf
 
 RHO, E, SRR, SZZ, SRZ, EP, DMG = range(7)
-BODY_FIELDS = 7
 
 #: how many of the body fields a body carries: without strength, with strength, with strength and damage
 CARRIED_FLUID, CARRIED_SOLID, CARRIED_DAMAGE = 2, 6, 7
@@ -24,8 +25,9 @@ SCRATCH = 4
 class Field:
     """One line of the field table.
 
-    ``centring`` is "body" ([m, j, i]), "cell" ([j, i]) or "vertex" ([b, j, i]); ``parity`` the sign under reflection at
-    the axis; ``remap`` what carries it: "volume", "mass" (mass-weighted), "momentum" or "" (derived, never remapped).
+    ``centring`` is "body" ([m, j, i]), "cell" ([j, i]) or "vertex" ([b, j, i]); ``parity`` the sign in a mirror; ``remap``
+    what carries it: "volume", "mass", "momentum" or "" (derived, never remapped); ``least`` and ``most`` are the bounds within
+    which the remap keeps it.
     """
 
     name: str
@@ -36,17 +38,19 @@ class Field:
     remap: str
     written: bool
     meaning: str
+    least: float = -inf
+    most: float = inf
 
 
 FIELDS = (
     Field("volume_fraction", "vof", "body", "1", 1, "volume", True, "share of the cell that the body fills"),
-    Field("density", "rho", "body", "kg/m^3", 1, "mass", True, "density of the body's material in the cell"),
+    Field("density", "rho", "body", "kg/m^3", 1, "volume", True, "density of the body's material in the cell"),
     Field("energy", "e", "body", "J/kg", 1, "mass", True, "specific internal energy"),
     Field("stress_rr", "srr", "body", "Pa", 1, "volume", True, "radial deviatoric stress"),
     Field("stress_zz", "szz", "body", "Pa", 1, "volume", True, "axial deviatoric stress"),
     Field("stress_rz", "srz", "body", "Pa", -1, "volume", True, "shear stress"),
-    Field("plastic_strain", "ep", "body", "1", 1, "mass", True, "equivalent plastic strain"),
-    Field("damage", "dmg", "body", "1", 1, "mass", True, "damage, 1 when failed"),
+    Field("plastic_strain", "ep", "body", "1", 1, "mass", True, "equivalent plastic strain", 0.0),
+    Field("damage", "dmg", "body", "1", 1, "mass", True, "damage, 1 when failed", 0.0, 1.0),
     Field("body_pressure", "pm", "body", "Pa", 1, "", True, "pressure of the body's material"),
     Field("bulk_modulus", "km", "body", "Pa", 1, "", False, "adiabatic bulk modulus rho c^2"),
     Field("temperature", "tm", "body", "K", 1, "", True, "temperature"),
@@ -60,3 +64,14 @@ FIELDS = (
 )
 
 BY_NAME = {field.name: field for field in FIELDS}
+
+#: the rows of State.q
+BODY = tuple(field for field in FIELDS if field.centring == "body" and field.remap and field.name != "volume_fraction")
+BODY_FIELDS = len(BODY)
+
+#: for every row of State.q: whether it is carried per mass (else per volume), and its bounds
+BY_MASS = tuple(field.remap == "mass" for field in BODY)
+LEAST, MOST = tuple(field.least for field in BODY), tuple(field.most for field in BODY)
+BOUNDED = tuple(field.least > -inf or field.most < inf for field in BODY)
+#: the rows of State.q that change their sign in a mirror
+ODD = tuple(k for k, field in enumerate(BODY) if field.parity < 0)

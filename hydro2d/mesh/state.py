@@ -32,7 +32,8 @@ class State:
         nj, ni = grid.shape
         self.vof = np.zeros((bodies, nj, ni))
         self.q = np.zeros((fields.BODY_FIELDS, bodies, nj, ni))
-        self.rho, self.e, self.srr, self.szz, self.srz, self.ep, self.dmg = self.q
+        for field, rows in zip(fields.BODY, self.q, strict=True):
+            setattr(self, field.symbol, rows)
         self._derived = np.zeros((3, bodies, nj, ni))
         self.pm, self.km, self.tm = self._derived
 

@@ -1,7 +1,6 @@
 """What flows through a face with the volume or mass that crosses it."""
 
 from hydro2d.jit import point
-from hydro2d.mesh.fields import EP, E
 
 #: keeps a quotient of two zeros finite
 TINY = 1e-300
@@ -24,9 +23,3 @@ def upwind(up, ll, l, r, rr):
     across = r - l
     behind = l - ll if up else r - rr
     return l if up else r, limited_difference(behind, across if up else -across)
-
-
-@point
-def by_mass(k):
-    """Whether field k is carried per mass (energy, plastic strain, damage) or per volume (deviators)."""
-    return k == E or k >= EP

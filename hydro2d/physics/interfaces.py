@@ -79,32 +79,35 @@ def cumulative(j, i, last, order, vof):
 
 
 @point
-def youngs_normal(j, i, last, order, vof, dr, dz):
-    """Outward normal of the nested interface in the unit square, |n_r| + |n_z| = 1: minus Youngs' gradient over 3 x 3 cells.
+def youngs_difference(sw, s, se, w, e, nw, n, ne):
+    """Youngs' difference of a fraction over 3 x 3 cells of one size, downwards, along r and along z; sums in mirror pairs.
 
-    D. L. Youngs in Numerical Methods for Fluid Dynamics (1982) 273; sums in mirror pairs. (0, 0) without a gradient.
+    D. L. Youngs in Numerical Methods for Fluid Dynamics (1982) 273.
     """
-    sw, s, se = cumulative(j - 1, i - 1, last, order, vof), cumulative(j - 1, i, last, order, vof), cumulative(
-        j - 1, i + 1, last, order, vof)
-    w, e = cumulative(j, i - 1, last, order, vof), cumulative(j, i + 1, last, order, vof)
-    nw, n, ne = cumulative(j + 1, i - 1, last, order, vof), cumulative(j + 1, i, last, order, vof), cumulative(
-        j + 1, i + 1, last, order, vof)
-    along_r = ((nw + sw) + 2.0 * w) - ((ne + se) + 2.0 * e)
-    along_z = ((sw + se) + 2.0 * s) - ((nw + ne) + 2.0 * n)
+    return ((nw + sw) + 2.0 * w) - ((ne + se) + 2.0 * e), ((sw + se) + 2.0 * s) - ((nw + ne) + 2.0 * n)
+
+
+@point
+def youngs_gradient(j, i, sw, s, se, w, e, nw, n, ne, dr, dz):
+    """`youngs_difference` around cell (j, i), per cell, neighbours of other widths weighted."""
+    along_r, along_z = youngs_difference(sw, s, se, w, e, nw, n, ne)
     along_r *= dr[i] / (dr[i] + 0.5 * (dr[i - 1] + dr[i + 1]))
     along_z *= dz[j] / (dz[j] + 0.5 * (dz[j - 1] + dz[j + 1]))
+    return along_r, along_z
+
+
+@point
+def youngs_normal(j, i, last, order, vof, dr, dz):
+    """Outward normal of the nested interface in the unit square, |n_r| + |n_z| = 1: that of `youngs_gradient`.
+
+    (0, 0) without a gradient.
+    """
+    along_r, along_z = youngs_gradient(
+        j, i, cumulative(j - 1, i - 1, last, order, vof), cumulative(j - 1, i, last, order, vof),
+        cumulative(j - 1, i + 1, last, order, vof), cumulative(j, i - 1, last, order, vof),
+        cumulative(j, i + 1, last, order, vof), cumulative(j + 1, i - 1, last, order, vof),
+        cumulative(j + 1, i, last, order, vof), cumulative(j + 1, i + 1, last, order, vof), dr, dz)
     size = abs(along_r) + abs(along_z)
     if size < 1e-14:
         return 0.0, 0.0
     return along_r / size, along_z / size
-
-
-@point
-def slope(j, i, below, above, left, right, dr, dz, f):
-    """Youngs' difference of a fraction over the 3 x 3 cells between the given rows and columns, downwards, per cell."""
-    along_r = ((f[above, left] + f[below, left]) + 2.0 * f[j, left]) - ((f[above, right] + f[below, right]) + 2.0 * f[j, right])
-    lower = (f[below, left] + f[below, right]) + 2.0 * f[below, i]
-    along_z = lower - ((f[above, left] + f[above, right]) + 2.0 * f[above, i])
-    along_r *= dr[i] / (dr[i] + 0.5 * (dr[i - 1] + dr[i + 1]))
-    along_z *= dz[j] / (dz[j] + 0.5 * (dz[j - 1] + dz[j + 1]))
-    return along_r, along_z

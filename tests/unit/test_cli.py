@@ -205,7 +205,7 @@ def test_signals_write_a_restart_file(deck, tmp_path, number, status):
                 super().step()
         sys.modules["hydro2d.solver.simulation"] = types.SimpleNamespace(
             Simulation=Slow, UnphysicalState=fake.UnphysicalState)
-        from hydro2d.cli import main
+        from hydro2d.cli.main import main
         main(sys.argv[1:])
     """
     out = tmp_path / "out"
@@ -230,7 +230,7 @@ def test_kill_leaves_whole_files(deck, tmp_path):
         from tests.unit import fake
         sys.modules["hydro2d.solver.simulation"] = types.SimpleNamespace(
             Simulation=fake.Simulation, UnphysicalState=fake.UnphysicalState)
-        from hydro2d.cli import main
+        from hydro2d.cli.main import main
         main(sys.argv[1:])
     """
     out = tmp_path / "out"
