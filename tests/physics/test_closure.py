@@ -1,0 +1,167 @@
+"""What the bodies of a mixed cell share."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from hydro2d.mesh.fields import BODY_FIELDS, RHO
+from hydro2d.physics import closure
+
+split_volume = closure.split_volume.py_func
+common_pressure = closure.common_pressure.py_func
+softness = closure.softness.py_func
+relaxation_strain = closure.relaxation_strain.py_func
+relaxation_bound = closure.relaxation_bound.py_func
+
+SHARE = st.floats(0.0, 1.0)
+#: share of the cell, pressure, bulk modulus
+BODY = st.tuples(st.floats(0.01, 1.0), st.floats(-1e9, 1e11), st.floats(1e9, 5e11))
+
+
+# ------------------------------------------------------------------------------------------------ void before bodies
+
+
+@settings(deadline=None)
+@given(SHARE, st.floats(-1.0, 1.0), st.floats(1e-9, 1e-3))
+def test_void_and_bodies_together_change_by_what_the_cell_does(void, change, volume):
+    assert sum(split_volume(void, change * volume, volume)) == pytest.approx(change * volume, rel=1e-12, abs=1e-25)
+
+
+@settings(deadline=None)
+@given(SHARE, st.floats(-1.0, 1.0), st.floats(1e-9, 1e-3))
+def test_no_more_void_is_closed_than_there_is(void, change, volume):
+    taken, _ = split_volume(void, change * volume, volume)
+    assert void * volume + taken >= 0.0
+
+
+def test_compression_that_the_void_can_take_leaves_the_bodies_alone():
+    assert split_volume(0.25, -0.5, 4.0) == (-0.5, 0.0)
+
+
+def test_compression_beyond_the_void_squeezes_the_bodies_by_the_rest():
+    assert split_volume(0.25, -1.5, 4.0) == (-1.0, -0.5)
+
+
+def test_expansion_opens_the_void_and_leaves_the_bodies_alone():
+    assert split_volume(0.25, 0.5, 4.0) == (0.5, 0.0)
+
+
+def test_a_little_void_is_void():
+    assert split_volume(1e-11, 0.5, 4.0) == (0.5, 0.0)
+
+
+@pytest.mark.parametrize("void", [0.0, -1e-16, 1e-13])
+@pytest.mark.parametrize("change", [-0.5, 0.5])
+def test_without_void_the_bodies_take_all_of_it(void, change):
+    assert split_volume(void, change, 4.0) == (0.0, change)
+
+
+# --------------------------------------------------------------------------------------------------- common pressure
+
+
+def met(bodies, densities=None):
+    """(pressure, density) of cell (1, 2) with these bodies (share, pressure, modulus), nothing around it."""
+    vof, pm, km = np.full((3, len(bodies), 2, 3), np.nan)
+    q = np.full((BODY_FIELDS, len(bodies), 2, 3), np.nan)
+    vof[:, 1, 2], pm[:, 1, 2], km[:, 1, 2] = np.transpose(bodies)
+    q[RHO, :, 1, 2] = 1.0 if densities is None else densities
+    return common_pressure(1, 2, vof, q, pm, km)
+
+
+@settings(deadline=None)
+@given(st.lists(BODY, min_size=1, max_size=4))
+def test_the_bodies_meet_where_they_fill_the_volume_that_they_filled_before(bodies):
+    """Springs in series: brought to the pressure p, body m grows by f_m (p_m - p)/K_m."""
+    p, _ = met(bodies)
+    growth = sum(f * (pressure - p) / modulus for f, pressure, modulus in bodies)
+    assert growth == pytest.approx(0.0, abs=1e-20 + 1e-12 * sum(f * abs(pressure) / modulus for f, pressure, modulus in bodies))
+
+
+@settings(deadline=None)
+@given(st.lists(BODY, min_size=1, max_size=4))
+def test_they_meet_between_the_lowest_and_the_highest_pressure(bodies):
+    pressures = [pressure for _, pressure, _ in bodies]
+    slack = 1e-12 * max(map(abs, pressures)) + 1e-6
+    assert min(pressures) - slack <= met(bodies)[0] <= max(pressures) + slack
+
+
+def test_one_body_keeps_its_pressure_and_its_density():
+    assert met([(0.4, 3e9, 7e10)], [2700.0]) == pytest.approx((3e9, 2700.0))
+
+
+def test_bodies_of_the_same_stiffness_meet_at_the_mean_by_volume():
+    assert met([(0.25, 8.0, 5.0), (0.75, 4.0, 5.0)])[0] == pytest.approx(5.0)
+
+
+def test_a_soft_body_gives_way_to_a_stiff_one():
+    """A gas beside metal hardly changes the metal's volume: they meet at the pressure of the gas."""
+    assert met([(0.5, 1e5, 1.4e5), (0.5, 0.0, 1.4e11)])[0] == pytest.approx(1e5, rel=1e-5)
+
+
+def test_density_is_weighted_as_pressure_is():
+    """Half of each, one three times as stiff: weights 3/4 and 1/4."""
+    assert met([(0.5, 4.0, 1.0), (0.5, 0.0, 3.0)], [8.0, 4.0]) == pytest.approx((3.0, 7.0))
+
+
+def test_void_changes_neither():
+    """Shares need not add up to one."""
+    full, thin = (met([(share, 4.0, 1.0), (share, 0.0, 3.0)], [8.0, 4.0]) for share in (0.5, 0.1))
+    assert thin == pytest.approx(full)
+
+
+def test_what_an_absent_body_has_does_not_count():
+    present = [(0.5, 4.0, 1.0), (0.5, 0.0, 3.0)]
+    assert met([present[0], (0.0, np.nan, 0.0), present[1]], [8.0, np.nan, 4.0]) == met(present, [8.0, 4.0])
+
+
+# ------------------------------------------------------------------------------------- who takes a change of volume
+
+
+@settings(deadline=None)
+@given(st.lists(BODY, min_size=2, max_size=4), st.floats(-1e-3, -1e-6))
+def test_by_compressibility_all_bodies_rise_by_the_same_pressure(bodies, squeezed):
+    """Body m, of volume f_m, takes its share of the change and answers with K_m times its relative change."""
+    shares = [softness(f, modulus, True) for f, _, modulus in bodies]
+    rises = [-modulus * squeezed * share / sum(shares) / f for share, (f, _, modulus) in zip(shares, bodies, strict=True)]
+    assert rises == pytest.approx([rises[0]] * len(rises), rel=1e-12)
+
+
+@settings(deadline=None)
+@given(st.lists(BODY, min_size=2, max_size=4))
+def test_uniformly_all_bodies_are_strained_alike(bodies):
+    strains = [softness(f, modulus, False) / f for f, _, modulus in bodies]
+    assert strains == pytest.approx([1.0] * len(strains))
+
+
+@pytest.mark.parametrize("tipton", [True, False])
+@pytest.mark.parametrize("modulus", [0.0, np.nan])
+def test_a_body_that_is_not_there_takes_nothing(tipton, modulus):
+    assert softness(0.0, modulus, tipton) == 0.0
+
+
+@settings(deadline=None)
+@given(st.floats(0.0, 1.0), st.floats(-1e9, 1e11), st.floats(-1e9, 1e11), st.floats(1e9, 5e11))
+def test_relaxation_takes_its_share_of_the_way_to_the_target(relaxation, p, target, modulus):
+    """A relative change of volume x changes the pressure by -K x; what is over the target grows."""
+    relaxed = p - modulus * relaxation_strain(relaxation, p, target, modulus)
+    assert relaxed == pytest.approx((1.0 - relaxation) * p + relaxation * target, rel=1e-9, abs=1.0)
+
+
+@settings(deadline=None)
+@given(st.lists(BODY, min_size=2, max_size=4))
+def test_relaxation_towards_the_common_pressure_fills_the_cell_as_before(bodies):
+    target, _ = met(bodies)
+    strains = [relaxation_strain(0.25, p, target, modulus) for _, p, modulus in bodies]
+    growth = sum(f * strain for (f, _, _), strain in zip(bodies, strains, strict=True))
+    assert growth == pytest.approx(0.0, abs=1e-20 + 1e-12 * sum(f * abs(p) / modulus for f, p, modulus in bodies))
+
+
+@pytest.mark.parametrize("strain", [0.0, 1e-9, 0.0999, -0.0999])
+def test_a_small_relaxation_is_not_bounded(strain):
+    assert relaxation_bound(strain) == 1.0
+
+
+@pytest.mark.parametrize("strain", [0.2, 3.0, -0.2, -3.0])
+def test_a_large_relaxation_is_a_tenth(strain):
+    assert abs(strain) * relaxation_bound(strain) == pytest.approx(0.1)

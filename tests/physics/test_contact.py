@@ -1,0 +1,359 @@
+"""Two groups that meet: wetted faces, dual cells, and the rate of volume that both velocities make."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from hydro2d.physics import contact
+from tests.physics.cells import COLUMNS, GEOMETRIES, ROWS, polygon_volume, rate_of_volume, small
+
+wetted = contact.wetted.py_func
+known = contact.known.py_func
+dual_share = contact.dual_share.py_func
+meeting = contact.meeting.py_func
+blend = contact.blend.py_func
+face_flow_r = contact.face_flow_r.py_func
+face_flow_z = contact.face_flow_z.py_func
+volume_rate = contact.volume_rate.py_func
+largest_of = contact.largest_of.py_func
+
+HARD, SOFT, BOTH = 1, 0, -1
+LEVEL = st.integers(-1000, 1000).map(lambda number: number / 1000)
+VELOCITY = st.floats(-1e3, 1e3)
+#: places along a face, halfway through as many pieces of it
+ALONG = (np.arange(20000) + 0.5) / 20000
+
+
+# ------------------------------------------------------------------------------------------------------------ faces
+
+
+@settings(deadline=None)
+@given(LEVEL, LEVEL)
+def test_weights_are_twice_the_integrals_of_the_linear_functions_over_the_wetted_part(first, last):
+    wet = first + (last - first) * ALONG >= 0.0
+    expected = 2.0 * np.mean((1.0 - ALONG) * wet), 2.0 * np.mean(ALONG * wet)
+    assert wetted(first, last) == pytest.approx(expected, abs=2e-4)
+
+
+def test_of_a_face_that_is_wetted_to_its_middle_the_near_end_has_three_quarters_and_the_far_one_a_quarter():
+    assert wetted(0.2, -0.2) == (0.75, 0.25)
+
+
+@settings(deadline=None)
+@given(LEVEL, LEVEL)
+def test_a_face_seen_from_its_other_end_has_the_same_weights(first, last):
+    assert wetted(last, first) == wetted(first, last)[::-1]
+
+
+@settings(deadline=None)
+@given(LEVEL.filter(bool), LEVEL.filter(bool))
+def test_what_the_one_group_does_not_wet_the_other_does(first, last):
+    np.testing.assert_allclose(np.add(wetted(first, last), wetted(-first, -last)), 1.0, rtol=1e-14)
+
+
+@pytest.mark.parametrize(("first", "last", "weight"), [(1.0, 0.5, 1.0), (0.0, 0.3, 1.0), (-1.0, -0.5, 0.0)])
+def test_a_face_on_one_side_of_the_line_is_wetted_all_or_not_at_all(first, last, weight):
+    assert wetted(first, last) == (weight, weight)
+
+
+def test_a_weight_holds_where_both_groups_have_mass():
+    assert known(0.3, 2.0, 5.0) == 0.3
+
+
+def test_a_group_that_is_alone_has_all_of_the_weight():
+    assert known(0.3, 0.0, 5.0) == 1.0
+    assert known(0.3, 2.0, 0.0) == 0.0
+
+
+@settings(deadline=None)
+@given(st.floats(0.0, 1.0), VELOCITY)
+def test_groups_of_one_velocity_have_that_velocity(weight, velocity):
+    assert blend(weight, velocity, velocity) == pytest.approx(velocity, rel=1e-14)
+
+
+def test_a_quarter_of_the_weight_is_a_quarter_of_the_way_to_the_hard_velocity():
+    assert blend(0.25, 100.0, 20.0) == pytest.approx(40.0)
+    assert blend(1.0, 100.0, 20.0) == 100.0
+    assert blend(0.0, 100.0, 20.0) == 20.0
+
+
+# ------------------------------------------------------------------------------------------------------- dual cells
+
+
+def filled(g, hard_cells):
+    """Shares of the hard and the soft group: those cells all hard, the rest soft, nothing known of ghosts."""
+    hard, soft, volume = np.full((3, *g.shape), np.nan)
+    hard[g.inside], soft[g.inside], volume[g.inside] = 0.0, 1.0, g.volume[g.inside]
+    for cell in hard_cells:
+        hard[cell], soft[cell] = 1.0, 0.0
+    return hard, soft, volume
+
+
+def edges_of(g):
+    return np.array([g.g, g.g + g.nz, g.g, g.g + g.nr])
+
+
+def share_of(g, group, j, i, hard_cells):
+    hard, soft, volume = filled(g, hard_cells)
+    return dual_share(group, j, i, edges_of(g), volume, g.cm_in, g.cm_out, hard, soft)
+
+
+@pytest.mark.parametrize("geometry", GEOMETRIES)
+@pytest.mark.parametrize("cell", [(2, 2), (2, 3), (3, 2), (3, 3)])
+def test_a_cell_fills_its_corner_of_a_dual_cell(geometry, cell):
+    """The corner is the integral over the cell of the bilinear function of the vertex."""
+    g = small(geometry)
+
+    def corner(j, i):
+        r, weights = g.r[i] + g.dr[i] * ALONG, (1.0 - ALONG if i == 3 else ALONG)
+        return g.dz[j] * g.dr[i] * np.mean(weights * (r if g.cylindrical else 1.0))
+
+    whole = sum(corner(j, i) for j in (2, 3) for i in (2, 3))
+    assert share_of(g, HARD, 3, 3, [cell]) == pytest.approx(corner(*cell) / whole, rel=1e-7)
+
+
+@pytest.mark.parametrize("vertex", [(2, 2), (2, 4), (3, 3), (3, 5), (4, 5)])
+def test_both_groups_fill_the_dual_cell_together(vertex):
+    g = small("cylindrical")
+    hard_cells = [(2, 2), (3, 3), (2, 4)]
+    assert share_of(g, HARD, *vertex, hard_cells) + share_of(g, SOFT, *vertex, hard_cells) == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize(("vertex", "cell"), [((2, 2), (2, 2)), ((2, 5), (2, 4)), ((4, 2), (3, 2)), ((4, 5), (3, 4))])
+def test_at_a_corner_of_the_mesh_only_its_one_cell_counts(vertex, cell):
+    g = small("cylindrical")
+    assert share_of(g, HARD, *vertex, [cell]) == 1.0
+    assert share_of(g, SOFT, *vertex, [cell]) == 0.0
+
+
+def test_parts_of_cells_count_by_their_share():
+    g = small("planar")
+    hard, soft = np.full((2, *g.shape), np.nan)
+    hard[g.inside], soft[g.inside] = 0.3, 0.2
+    arguments = 3, 3, edges_of(g), g.volume, g.cm_in, g.cm_out, hard, soft
+    assert dual_share(HARD, *arguments) == pytest.approx(0.3)
+    assert dual_share(SOFT, *arguments) == pytest.approx(0.2)
+
+
+# ---------------------------------------------------------------------------------------------------------- meeting
+
+#: 4 by 4 cells, of which the inner 2 by 2 are the mesh
+EDGES = np.array([1, 3, 1, 3])
+
+
+def meet(j, i, hard, soft):
+    """Whether groups meet in a cell, given the cells that hold something of each; beyond the mesh all is full of both."""
+    shares = np.ones((2, 4, 4))
+    shares[:, 1:3, 1:3] = 0.0
+    for share, cells in zip(shares, (hard, soft), strict=True):
+        for cell, value in cells.items():
+            share[cell] = value
+    return meeting(j, i, EDGES, *shares)
+
+
+def test_groups_meet_in_a_cell_of_both():
+    assert meet(1, 1, {(1, 1): 1e-6}, {(1, 1): 0.5})
+
+
+@pytest.mark.parametrize(("cell", "beside"), [((1, 1), (2, 1)), ((1, 1), (1, 2)), ((2, 2), (1, 2)), ((2, 2), (2, 1))])
+def test_a_full_cell_meets_a_full_cell_of_the_other_group_beside_it(cell, beside):
+    assert meet(*cell, {cell: 1.0}, {beside: 1.0})
+    assert meet(*cell, {beside: 1.0}, {cell: 1.0})
+
+
+def test_a_full_cell_meets_none_of_its_own_group():
+    assert not meet(1, 1, {(1, 1): 1.0, (1, 2): 1.0, (2, 1): 1.0}, {})
+    assert not meet(1, 1, {}, {(1, 1): 1.0, (1, 2): 1.0, (2, 1): 1.0})
+
+
+def test_cells_that_share_only_a_vertex_do_not_meet():
+    assert not meet(1, 1, {(1, 1): 1.0}, {(2, 2): 1.0})
+
+
+def test_a_neighbour_may_have_a_gap_of_void_of_one_per_cent():
+    assert meet(1, 1, {(1, 1): 1.0}, {(1, 2): 0.991})
+    assert not meet(1, 1, {(1, 1): 1.0}, {(1, 2): 0.989})
+
+
+@pytest.mark.parametrize("cell", [(1, 1), (1, 2), (2, 1), (2, 2)])
+def test_what_is_beyond_the_mesh_meets_nothing(cell):
+    assert not meet(*cell, {cell: 1.0}, {})
+    assert not meet(*cell, {}, {cell: 1.0})
+
+
+# ------------------------------------------------------------------------------------------------------------ flows
+
+
+def ends(first, last, shape, at, step):
+    """A field [2, j, i] of pairs at two vertices, one `step` behind the other, nothing known elsewhere."""
+    field = np.full((2, *shape), np.nan)
+    field[:, at[0], at[1]] = first
+    field[:, at[0] + step[0], at[1] + step[1]] = last
+    return field
+
+
+def at_face(first, last, shape, at):
+    """Weights [end, j, i] of the one face."""
+    field = np.full((2, *shape), np.nan)
+    field[:, at[0], at[1]] = first, last
+    return field
+
+
+@settings(deadline=None)
+@given(st.lists(VELOCITY, min_size=4, max_size=4), LEVEL, LEVEL)
+def test_through_an_r_face_flows_what_each_group_carries_through_its_part(velocities, first, last):
+    """Twice the mean over the face of the velocity of whoever wets it, both linear along it."""
+    soft_low, hard_low, soft_high, hard_high = velocities
+    u = ends((soft_low, hard_low), (soft_high, hard_high), (4, 3), (2, 1), (1, 0))
+    hard, soft = (low + (high - low) * ALONG for low, high in ((hard_low, hard_high), (soft_low, soft_high)))
+    expected = 2.0 * np.mean(np.where(first + (last - first) * ALONG >= 0.0, hard, soft))
+    assert face_flow_r(2, 1, BOTH, at_face(*wetted(first, last), (4, 3), (2, 1)), u) == pytest.approx(expected, abs=0.5)
+
+
+def test_the_flow_of_one_group_through_an_r_face_is_its_own():
+    u = ends((3.0, 50.0), (5.0, 70.0), (4, 3), (2, 1), (1, 0))
+    unknown = np.full((2, 4, 3), np.nan)
+    assert face_flow_r(2, 1, SOFT, unknown, u) == 8.0
+    assert face_flow_r(2, 1, HARD, unknown, u) == 120.0
+
+
+@pytest.mark.parametrize("group", [SOFT, HARD])
+@pytest.mark.parametrize("i", COLUMNS)
+def test_through_a_z_face_flows_the_velocity_times_the_area_of_the_ring(group, i):
+    """v = 4 + 7 r over r dr from r1 to r2."""
+    g = small("cylindrical")
+    v = np.full((2, *g.vertex_shape), np.nan)
+    v[group] = 4.0 + 7.0 * g.r
+    r1, r2 = g.r[i], g.r[i + 1]
+    expected = 4.0 * (r2**2 - r1**2) / 2.0 + 7.0 * (r2**3 - r1**3) / 3.0
+    assert face_flow_z(3, i, group, g.az_in, g.az_out, np.full_like(v, np.nan), v) == pytest.approx(expected, rel=1e-12)
+
+
+@settings(deadline=None)
+@given(st.lists(VELOCITY, min_size=4, max_size=4), LEVEL, LEVEL)
+def test_through_a_planar_z_face_flows_what_each_group_carries_through_its_part(velocities, first, last):
+    g, i = small("planar"), 3
+    soft_in, hard_in, soft_out, hard_out = velocities
+    v = ends((soft_in, hard_in), (soft_out, hard_out), g.vertex_shape, (3, i), (0, 1))
+    hard, soft = (inner + (outer - inner) * ALONG for inner, outer in ((hard_in, hard_out), (soft_in, soft_out)))
+    expected = g.dr[i] * np.mean(np.where(first + (last - first) * ALONG >= 0.0, hard, soft))
+    weights = at_face(*wetted(first, last), g.vertex_shape, (3, i))
+    assert face_flow_z(3, i, BOTH, g.az_in, g.az_out, weights, v) == pytest.approx(expected, abs=0.1)
+
+
+def test_each_end_of_a_face_has_its_own_weight():
+    """The inner vertex of a z-face is the hard group's alone, the outer one the other's."""
+    g = small("cylindrical")
+    v = ends((np.nan, 6.0), (2.0, np.nan), g.vertex_shape, (3, 3), (0, 1))
+    v = np.where(np.isnan(v), 1e9, v)
+    found = face_flow_z(3, 3, BOTH, g.az_in, g.az_out, at_face(1.0, 0.0, g.vertex_shape, (3, 3)), v)
+    # 6 at r = 0.1 down to 0 at 0.25 and 0 up to 2: the integrals of the linear functions over r dr
+    inner = 6.0 * np.mean((1.0 - ALONG) * (0.1 + 0.15 * ALONG)) * 0.15
+    outer = 2.0 * np.mean(ALONG * (0.1 + 0.15 * ALONG)) * 0.15
+    assert found == pytest.approx(inner + outer, rel=1e-6)
+
+
+# ------------------------------------------------------------------------------------------------ rates of volume
+
+
+def rate(g, j, i, group, wet_r, wet_z, u, v):
+    return volume_rate(j, i, group, g.face_r, g.az_in, g.az_out, g.dz[j], wet_r, wet_z, u, v)
+
+
+def velocities(g, seed):
+    return np.random.default_rng(seed).normal(size=(2, 2, *g.vertex_shape))
+
+
+@pytest.mark.parametrize("geometry", GEOMETRIES)
+@pytest.mark.parametrize("group", [SOFT, HARD])
+def test_with_one_groups_velocities_a_cell_grows_as_its_corners_move(geometry, group):
+    g = small(geometry)
+    u, v = velocities(g, 11)
+    unknown = np.full_like(u, np.nan)
+    for j in ROWS:
+        for i in COLUMNS:
+            expected = rate_of_volume(g, j, i, u[group], v[group])
+            assert rate(g, j, i, group, unknown, unknown, u, v) == pytest.approx(expected, rel=1e-5)
+
+
+@pytest.mark.parametrize("weight", [0.0, 1.0])
+def test_by_the_weights_of_one_group_the_rate_is_that_groups(weight):
+    g = small("cylindrical")
+    u, v = velocities(g, 12)
+    wet = np.full_like(u, weight)
+    for i in COLUMNS:
+        one = rate_of_volume(g, 2, i, u[int(weight)], v[int(weight)])
+        assert rate(g, 2, i, BOTH, wet, wet, u, v) == pytest.approx(one, rel=1e-5)
+
+
+def test_where_both_groups_move_alike_the_weights_do_not_matter():
+    g = small("cylindrical")
+    u, v = velocities(g, 13)
+    u[HARD], v[HARD] = u[SOFT], v[SOFT]
+    wet_r, wet_z = np.random.default_rng(14).uniform(size=(2, *u.shape))
+    for i in COLUMNS:
+        assert rate(g, 3, i, BOTH, wet_r, wet_z, u, v) == pytest.approx(rate(g, 3, i, SOFT, wet_r, wet_z, u, v), abs=1e-15)
+
+
+def weights_of_line(g, j, i, n_r, n_z, place):
+    """Weights on the four faces of cell (j, i) that a line in it leaves, nothing known of others."""
+    def level(row, column):
+        r0, z0 = g.r[i] + place[0] * g.dr[i], g.z[j] + place[1] * g.dz[j]
+        return n_r * (r0 - g.r[column]) + n_z * (z0 - g.z[row])
+
+    wet_r, wet_z = np.full((2, 2, *g.vertex_shape), np.nan)
+    for column in (i, i + 1):
+        wet_r[:, j, column] = wetted(level(j, column), level(j + 1, column))
+    for row in (j, j + 1):
+        wet_z[:, row, i] = wetted(level(row, i), level(row, i + 1))
+    return wet_r, wet_z
+
+
+@pytest.mark.parametrize("angle", [0.0, 0.4, 1.0, 1.9, 2.7, 4.0, 5.5])
+@pytest.mark.parametrize("place", [(0.5, 0.5), (0.1, 0.3), (0.7, 0.9)])
+def test_slip_along_a_straight_line_changes_no_volume(angle, place):
+    g, n_r, n_z = small("planar"), np.cos(angle), np.sin(angle)
+    wet = weights_of_line(g, 2, 3, n_r, n_z, place)
+    u, v = np.zeros((2, 2, *g.vertex_shape))
+    u[HARD], v[HARD] = -800.0 * n_z, 800.0 * n_r
+    assert rate(g, 2, 3, BOTH, *wet, u, v) == pytest.approx(0.0, abs=1e-11)
+
+
+def test_groups_that_close_in_take_the_volume_that_the_line_sweeps():
+    """A line 2 r/dr + z/dz = 1 through the cell, hard below: its length times the speed along its normal."""
+    g = small("planar")
+    wet = weights_of_line(g, 2, 3, 2.0 / g.dr[3], 1.0 / g.dz[2], (0.5, 0.0))
+    u, v = np.zeros((2, 2, *g.vertex_shape))
+    u[HARD], v[HARD] = 3.0, 5.0
+    triangle = g.r[3] + np.array([0.0, 0.5, 0.0]) * g.dr[3], g.z[2] + np.array([0.0, 0.0, 1.0]) * g.dz[2]
+    moved = triangle[0] + np.array([0.0, 3.0, 3.0]), triangle[1] + np.array([0.0, 5.0, 5.0])
+    # from the side of the triangle that is the line to where it would be one second later
+    swept = polygon_volume(*(np.array([a[1], b[1], b[2], a[2]]) for a, b in zip(triangle, moved, strict=True)), False)
+    assert rate(g, 2, 3, BOTH, *wet, u, v) == pytest.approx(-swept)
+
+
+# ----------------------------------------------------------------------------------------------------------- bodies
+
+GROUP = np.array([0, 1, 1, 0, 1])
+
+
+def largest(group, *shares):
+    vof = np.full((len(shares), 2, 2), np.nan)
+    vof[:, 0, 1] = shares
+    return largest_of(group, 0, 1, GROUP, vof)
+
+
+def test_the_largest_body_is_looked_for_in_its_group_alone():
+    assert largest(HARD, 0.4, 0.1, 0.3, 0.2, 0.0) == 2
+    assert largest(SOFT, 0.4, 0.1, 0.3, 0.2, 0.0) == 0
+    assert largest(SOFT, 0.1, 0.5, 0.0, 0.2, 0.1) == 3
+
+
+def test_of_a_group_that_is_not_there_no_body_is_the_largest():
+    assert largest(HARD, 0.4, 0.0, 0.0, 0.6, 0.0) == -1
+    assert largest(SOFT, 0.0, 0.4, 0.0, 0.0, 0.6) == -1
+
+
+def test_of_bodies_as_large_as_each_other_the_first_counts():
+    assert largest(HARD, 0.1, 0.3, 0.3, 0.0, 0.3) == 1

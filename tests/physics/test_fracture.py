@@ -1,0 +1,38 @@
+"""Where material tears, and how much void opens."""
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from hydro2d.physics import fracture
+
+tension_limit = fracture.tension_limit.py_func
+share_that_stays = fracture.share_that_stays.py_func
+
+
+@pytest.mark.parametrize("damage", [0.0, 0.5, 0.999999])
+def test_material_that_has_not_failed_bears_its_fracture_pressure(damage):
+    assert tension_limit(3.5e9, damage) == 3.5e9
+
+
+@pytest.mark.parametrize("damage", [1.0, 1.0000001])
+def test_failed_material_bears_no_tension(damage):
+    assert tension_limit(3.5e9, damage) == 0.0
+
+
+@settings(deadline=None)
+@given(st.floats(1.0, 2e4), st.floats(1.0, 1.25))
+def test_the_mass_of_what_stays_has_the_density_without_tension(rho, stretched):
+    """Up to the opening allowed, here a fifth: a volume of one held the mass rho."""
+    relaxed = stretched * rho
+    assert rho / share_that_stays(rho, relaxed, 0.2) == pytest.approx(relaxed, rel=1e-12)
+
+
+def test_no_more_opens_in_a_cycle_than_is_allowed():
+    assert share_that_stays(500.0, 1000.0, 0.2) == pytest.approx(0.8)
+    assert share_that_stays(500.0, 1000.0, 0.6) == pytest.approx(0.5)
+
+
+@pytest.mark.parametrize("relaxed", [2700.0, 2600.0, 0.0, -1.0])
+def test_where_there_is_no_tension_nothing_opens(relaxed):
+    assert share_that_stays(2700.0, relaxed, 0.2) == 1.0

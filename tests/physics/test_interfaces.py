@@ -1,0 +1,317 @@
+"""Lines in the unit square, and normals from the cells around."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from hydro2d.physics import interfaces
+
+line_constant = interfaces.line_constant.py_func
+area_below = interfaces.area_below.py_func
+strip_share = interfaces.strip_share.py_func
+line_centre = interfaces.line_centre.py_func
+cumulative = interfaces.cumulative.py_func
+youngs_difference = interfaces.youngs_difference.py_func
+youngs_gradient = interfaces.youngs_gradient.py_func
+youngs_normal = interfaces.youngs_normal.py_func
+
+#: components of a normal that are not too small for polygons to be a fair comparison, and those that are small
+COMPONENT = st.floats(0.01, 0.99)
+SIGN = st.sampled_from([-1.0, 1.0])
+UNIT = st.floats(0.0, 1.0)
+
+
+def cut(polygon, n1, n2, level):
+    """(part of a convex polygon with n1 x + n2 y <= level, where its border meets the line)."""
+    kept, crossings = [], []
+    for (x0, y0), (x1, y1) in zip(polygon, polygon[1:] + polygon[:1], strict=True):
+        d0, d1 = n1 * x0 + n2 * y0 - level, n1 * x1 + n2 * y1 - level
+        if d0 <= 0.0:
+            kept.append((x0, y0))
+        if (d0 < 0.0 < d1) or (d1 < 0.0 < d0):
+            t = d0 / (d0 - d1)
+            crossings.append((x0 + t * (x1 - x0), y0 + t * (y1 - y0)))
+            kept.append(crossings[-1])
+    return kept, crossings
+
+
+def area(polygon) -> float:
+    ends = polygon[1:] + polygon[:1]
+    return 0.5 * sum(x0 * y1 - x1 * y0 for (x0, y0), (x1, y1) in zip(polygon, ends, strict=True))
+
+
+def block(left, right):
+    return [(left, 0.0), (right, 0.0), (right, 1.0), (left, 1.0)]
+
+
+def signed_line(nx, up, place):
+    """(nx, ny, level) of a line through the square at a share `place` of its way across."""
+    ny = (1.0 - abs(nx)) * up
+    return nx, ny, min(nx, 0.0) + min(ny, 0.0) + place
+
+
+# ---------------------------------------------------------------------------------------------------- area and line
+
+
+@settings(deadline=None)
+@given(COMPONENT, st.floats(-0.5, 1.5))
+def test_the_area_below_a_line_is_that_of_the_polygon(m1, alpha):
+    assert area_below(m1, 1.0 - m1, alpha) == pytest.approx(area(cut(block(0.0, 1.0), m1, 1.0 - m1, alpha)[0]), abs=1e-12)
+
+
+def test_the_area_of_a_triangle():
+    assert area_below(0.5, 0.5, 0.25) == pytest.approx(0.125)
+    assert area_below(0.25, 0.75, 0.25) == pytest.approx(1.0 / 6.0)
+
+
+def test_the_area_does_not_know_the_length_of_the_normal():
+    assert area_below(4.0, 12.0, 4.0) == pytest.approx(1.0 / 6.0)
+
+
+@pytest.mark.parametrize("tilt", [0.0, 1e-12, 0.9e-7, 1.1e-7])
+def test_below_a_line_that_is_all_but_level_is_its_height_in_the_middle(tilt):
+    middle = (0.3 - 0.5 * tilt) / (1.0 - tilt)
+    for alpha, share in ((-0.1, 0.0), (0.3, middle), (1.2, 1.0)):
+        assert area_below(tilt, 1.0 - tilt, alpha) == pytest.approx(share, abs=1e-8)
+        assert area_below(1.0 - tilt, tilt, alpha) == pytest.approx(share, abs=1e-8)
+
+
+@settings(deadline=None)
+@given(UNIT, st.floats(-0.5, 1.5), st.floats(0.0, 1.0))
+def test_a_line_further_on_leaves_no_less_below(m1, alpha, more):
+    assert area_below(m1, 1.0 - m1, alpha + more) >= area_below(m1, 1.0 - m1, alpha) - 1e-7
+
+
+@settings(deadline=None)
+@given(UNIT, st.floats(1e-9, 1.0 - 1e-9))
+def test_the_area_below_the_line_of_a_fraction_is_the_fraction(m1, fraction):
+    """To 1e-7, below which a line is taken for level."""
+    assert area_below(m1, 1.0 - m1, line_constant(m1, 1.0 - m1, fraction)) == pytest.approx(fraction, abs=1e-7)
+
+
+@settings(deadline=None)
+@given(COMPONENT, st.floats(0.02, 0.98))
+def test_the_line_of_the_area_below_a_line_is_the_line(m1, alpha):
+    assert line_constant(m1, 1.0 - m1, area_below(m1, 1.0 - m1, alpha)) == pytest.approx(alpha, abs=1e-12)
+
+
+@pytest.mark.parametrize(("m1", "fraction", "alpha"), [(0.5, 0.125, 0.25), (0.25, 1.0 / 6.0, 0.25), (0.5, 0.5, 0.5),
+                                                       (0.0, 0.3, 0.3), (1.0, 0.3, 0.3), (0.5, 0.875, 0.75)])
+def test_lines_that_are_known(m1, fraction, alpha):
+    assert line_constant(m1, 1.0 - m1, fraction) == pytest.approx(alpha)
+
+
+@settings(deadline=None)
+@given(UNIT, UNIT)
+def test_the_line_is_the_same_from_either_side(m1, fraction):
+    """Exchanged axes, and material and void exchanged."""
+    alpha = line_constant(m1, 1.0 - m1, fraction)
+    assert line_constant(1.0 - m1, m1, fraction) == alpha
+    assert line_constant(m1, 1.0 - m1, 1.0 - fraction) == pytest.approx(1.0 - alpha, abs=1e-7)
+
+
+@pytest.mark.parametrize("m1", [0.0, 0.2, 0.5, 0.9, 1.0])
+def test_an_empty_and_a_full_square_end_at_their_corners(m1):
+    assert line_constant(m1, 1.0 - m1, 0.0) == 0.0
+    assert line_constant(m1, 1.0 - m1, 1.0) == 1.0
+
+
+# ---------------------------------------------------------------------------------------------------------- strips
+
+
+@settings(deadline=None)
+@given(COMPONENT, SIGN, SIGN, st.floats(0.02, 0.98), st.floats(0.01, 0.99), st.booleans())
+def test_a_strip_holds_the_polygon_that_it_cuts_out(nx, side, up, place, width, high):
+    nx, ny, level = signed_line(nx * side, up, place)
+    fraction = area(cut(block(0.0, 1.0), nx, ny, level)[0])
+    strip = block(1.0 - width, 1.0) if high else block(0.0, width)
+    part = cut(strip, nx, ny, level)[0]
+    assert strip_share(nx, ny, fraction, width, high) == pytest.approx(area(part) if part else 0.0, abs=1e-12)
+
+
+@pytest.mark.parametrize("high", [False, True])
+@pytest.mark.parametrize("error", [0.0, 1e-15])
+def test_a_strip_of_nothing_and_a_strip_of_all(high, error):
+    """Also where round-off makes less of nothing and more of all."""
+    assert strip_share(0.4, -0.6, -error, 0.3, high) == 0.0
+    assert strip_share(0.4, -0.6, 1.0 + error, 0.3, high) == 0.3
+
+
+@pytest.mark.parametrize("high", [False, True])
+def test_without_a_normal_the_material_is_spread_evenly(high):
+    assert strip_share(0.0, 0.0, 0.6, 0.25, high) == pytest.approx(0.15)
+
+
+def test_the_strip_on_the_far_side_of_upright_material_stays_empty():
+    """Material to the left of 0.7: the last quarter has none, the last half a fifth."""
+    assert strip_share(1.0, 0.0, 0.7, 0.25, True) == 0.0
+    assert strip_share(1.0, 0.0, 0.7, 0.5, True) == pytest.approx(0.2)
+    assert strip_share(-1.0, 0.0, 0.7, 0.25, True) == pytest.approx(0.25)
+
+
+# ---------------------------------------------------------------------------------------------------------- centre
+
+
+@settings(deadline=None)
+@given(COMPONENT, SIGN, SIGN, st.floats(0.02, 0.98))
+def test_the_centre_of_a_line_is_halfway_between_its_ends(nx, side, up, place):
+    nx, ny, level = signed_line(nx * side, up, place)
+    part, ends = cut(block(0.0, 1.0), nx, ny, level)
+    if len(ends) == 2:  # a line through a corner of the square meets it in a vertex
+        assert line_centre(nx, ny, area(part)) == pytest.approx(tuple(np.mean(ends, axis=0)), abs=1e-11)
+
+
+@pytest.mark.parametrize(("normal", "centre"), [((1.0, 0.0), (0.3, 0.5)), ((-1.0, 0.0), (0.7, 0.5)),
+                                                ((0.0, 1.0), (0.5, 0.3)), ((0.0, -1.0), (0.5, 0.7))])
+def test_the_centre_of_a_level_line(normal, centre):
+    assert line_centre(*normal, 0.3) == pytest.approx(centre)
+
+
+def test_the_line_of_a_full_square_lies_on_its_side():
+    assert line_centre(1.0, 0.0, 1.0) == (1.0, 0.5)
+    assert line_centre(0.0, -1.0, 1.0) == (0.5, 0.0)
+
+
+def test_the_centre_of_the_line_that_cuts_off_a_corner():
+    assert line_centre(0.5, 0.5, 0.125) == pytest.approx((0.25, 0.25))
+    assert line_centre(-0.5, 0.5, 0.125) == pytest.approx((0.75, 0.25))
+    assert line_centre(-0.5, -0.5, 0.125) == pytest.approx((0.75, 0.75))
+
+
+# ---------------------------------------------------------------------------------------------------------- nesting
+
+ORDER = np.array([2, 0, 1])
+
+
+def test_fractions_add_up_in_the_order_of_the_bodies():
+    vof = np.full((3, 2, 2), np.nan)
+    vof[:, 1, 0] = 0.125, 0.25, 0.5
+    assert [cumulative(1, 0, last, ORDER, vof) for last in range(3)] == [0.5, 0.625, 0.875]
+
+
+def test_round_off_does_not_overfill_a_cell():
+    vof = np.array([[[0.5]], [[0.5000001]], [[0.0]]])
+    assert cumulative(0, 0, 2, ORDER, vof) == 1.0
+
+
+# ---------------------------------------------------------------------------------------------------------- normals
+
+#: sizes and centres of 5 by 5 cells
+DR, DZ = np.array([9.0, 1.0, 2.0, 1.5, 9.0]), np.array([9.0, 0.5, 0.8, 2.0, 9.0])
+RC, ZC = (np.cumsum(sizes) - 0.5 * sizes for sizes in (DR, DZ))
+
+
+def plane(by_r, by_z):
+    """A fraction that is linear in r and z, a half in cell (2, 2), unknown beyond the cells around it."""
+    f = 0.5 + by_z * (ZC - ZC[2])[:, None] + by_r * (RC - RC[2])[None, :]
+    f[[0, -1]] = np.nan
+    f[:, [0, -1]] = np.nan
+    return f
+
+
+def normal_of(*bodies, last=0, order=None, dr=DR, dz=DZ):
+    return youngs_normal(2, 2, last, np.arange(len(bodies)) if order is None else order, np.array(bodies), dr, dz)
+
+
+GRADIENT = st.floats(-0.1, 0.1).filter(lambda value: abs(value) > 1e-3)
+
+
+@settings(deadline=None)
+@given(GRADIENT, GRADIENT)
+def test_the_normal_of_a_linear_fraction_points_against_its_gradient_in_the_unit_cell(by_r, by_z):
+    """Also where the sizes of the cells differ: across cell (2, 2) it falls by 2 by_r and 0.8 by_z."""
+    fall = np.array([-2.0 * by_r, -0.8 * by_z])
+    np.testing.assert_allclose(normal_of(plane(by_r, by_z)), fall / np.abs(fall).sum(), rtol=1e-10)
+
+
+def test_the_normal_points_out_of_the_material():
+    assert normal_of(plane(-0.1, 0.0)) == pytest.approx((1.0, 0.0), abs=1e-12)
+    assert normal_of(plane(0.1, 0.0)) == pytest.approx((-1.0, 0.0), abs=1e-12)
+    assert normal_of(plane(0.0, -0.1)) == pytest.approx((0.0, 1.0), abs=1e-12)
+    assert normal_of(plane(0.0, 0.1)) == pytest.approx((0.0, -1.0), abs=1e-12)
+
+
+@pytest.mark.parametrize("share", [0.0, 0.3, 1.0])
+def test_a_uniform_fraction_has_no_normal(share):
+    assert normal_of(np.full((5, 5), share)) == (0.0, 0.0)
+
+
+def test_round_off_has_no_normal():
+    assert normal_of(0.3 + 1e-16 * np.random.default_rng(10).integers(-1, 2, size=(5, 5))) == (0.0, 0.0)
+
+
+def test_a_cell_at_a_corner_counts_half_as_much_as_one_at_a_side():
+    """One at the corner below left and one at the right: along r 1 - 2, along z 1."""
+    f = np.zeros((5, 5))
+    f[1, 1] = f[2, 3] = 1.0
+    assert normal_of(f, dr=np.ones(5), dz=np.ones(5)) == pytest.approx((-0.5, 0.5))
+
+
+@pytest.mark.parametrize(("row", "column", "normal"), [(1, 1, (0.5, 0.5)), (1, 3, (-0.5, 0.5)), (3, 1, (0.5, -0.5)),
+                                                       (3, 3, (-0.5, -0.5)), (1, 2, (0.0, 1.0)), (3, 2, (0.0, -1.0)),
+                                                       (2, 1, (1.0, 0.0)), (2, 3, (-1.0, 0.0))])
+def test_every_cell_around_pushes_the_normal_away_from_itself(row, column, normal):
+    f = np.zeros((5, 5))
+    f[row, column] = 1.0
+    assert normal_of(f, dr=np.ones(5), dz=np.ones(5)) == pytest.approx(normal)
+
+
+def test_the_normal_is_that_of_the_first_bodies_together():
+    """Two bodies whose own fractions are rough, and whose sum falls along r alone."""
+    rough = 0.2 * np.random.default_rng(5).uniform(size=(5, 5))
+    first, second = rough, plane(-0.1, 0.0) - rough
+    other = np.full((5, 5), np.nan)
+    assert normal_of(first, other, second, last=1, order=np.array([0, 2, 1])) == pytest.approx((1.0, 0.0), abs=1e-12)
+
+
+def test_mirrored_fractions_have_mirrored_normals_to_the_bit():
+    f = np.random.default_rng(6).uniform(size=(5, 5))
+    n_r, n_z = normal_of(f)
+    assert normal_of(f[:, ::-1], dr=DR[::-1]) == (-n_r, n_z)
+    assert normal_of(f[::-1], dz=DZ[::-1]) == (n_r, -n_z)
+
+
+# -------------------------------------------------------------------------------------------------------- gradients
+
+
+def gradient_of(f, dr=DR, dz=DZ):
+    around = [f[row, column] for row in (1, 2, 3) for column in (1, 2, 3) if (row, column) != (2, 2)]
+    return youngs_gradient(2, 2, *around, dr, dz)
+
+
+@settings(deadline=None)
+@given(GRADIENT, GRADIENT)
+def test_youngs_gradient_of_a_linear_fraction_is_four_times_its_fall_across_the_cell(by_r, by_z):
+    """The weights 1, 2, 1 are not divided by their sum."""
+    assert gradient_of(plane(by_r, by_z)) == pytest.approx((-8.0 * by_r, -3.2 * by_z))
+
+
+def test_youngs_gradient_points_where_the_normal_does():
+    f = np.random.default_rng(7).uniform(size=(5, 5))
+    along = np.array(gradient_of(f))
+    np.testing.assert_allclose(along / np.abs(along).sum(), normal_of(f), rtol=1e-12)
+
+
+def test_every_cell_around_has_its_weight_in_youngs_gradient():
+    """1 at a corner, 2 at a side; cells of one size, whose neighbours are two sizes apart."""
+    weights = np.zeros((2, 3, 3))
+    for row, column in np.ndindex(3, 3):
+        f = np.zeros((5, 5))
+        f[row + 1, column + 1] = 1.0
+        weights[:, row, column] = gradient_of(f, np.ones(5), np.ones(5))
+    across = [[0.5, 0.0, -0.5], [1.0, 0.0, -1.0], [0.5, 0.0, -0.5]]
+    np.testing.assert_array_equal(weights, [across, np.transpose(across)])
+
+
+def test_youngs_difference_does_not_know_the_sizes_of_the_cells():
+    f = np.random.default_rng(9).uniform(size=(5, 5))
+    around = [f[row, column] for row in (1, 2, 3) for column in (1, 2, 3) if (row, column) != (2, 2)]
+    assert youngs_difference(*around) == pytest.approx(tuple(2.0 * x for x in gradient_of(f, np.ones(5), np.ones(5))))
+
+
+def test_mirrored_fractions_have_mirrored_gradients_to_the_bit():
+    f = np.random.default_rng(8).uniform(size=(5, 5))
+    along_r, along_z = gradient_of(f)
+    assert gradient_of(f[:, ::-1], dr=DR[::-1]) == (-along_r, along_z)
+    assert gradient_of(f[::-1], dz=DZ[::-1]) == (along_r, -along_z)

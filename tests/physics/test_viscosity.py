@@ -1,0 +1,113 @@
+"""Artificial viscosity and the limiter that switches it off."""
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from hydro2d.physics import viscosity
+
+smoothness = viscosity.smoothness.py_func
+directional_viscosity = viscosity.directional_viscosity.py_func
+
+DIFFERENCE = st.floats(-1e3, 1e3)
+#: nothing so small that its inverse overflows
+SLOPE = st.floats(1e-6, 1e3) | st.floats(-1e3, -1e-6)
+
+
+# -------------------------------------------------------------------------------------------------------- limiter
+
+
+@pytest.mark.parametrize("slopes", [(-3.0, -3.0, -3.0), (1.0, 2.0, 3.0), (3.0, 2.0, 1.0), (5.0, 4.0, 6.0)])
+def test_a_smooth_slope_is_smooth(slopes):
+    """Linear and parabolic velocities, and what is steeper on both sides."""
+    assert smoothness(*slopes) == 1.0
+
+
+@pytest.mark.parametrize("slopes", [(-1.0, 2.0, 2.0), (2.0, 2.0, -1.0), (-1.0, 2.0, -1.0), (1.0, -2.0, 1.0)])
+def test_a_slope_that_turns_is_not_smooth(slopes):
+    assert smoothness(*slopes) == 0.0
+
+
+@pytest.mark.parametrize("slopes", [(0.0, 2.0, 2.0), (2.0, 2.0, 0.0), (0.0, 2.0, 0.0), (2.0, 0.0, 2.0), (-2.0, 0.0, -2.0)])
+def test_beside_no_slope_nothing_is_smooth(slopes):
+    """The foot of a shock and its head: one side is level."""
+    assert smoothness(*slopes) == 0.0
+
+
+def test_between_the_limits_the_mean_of_both_ratios_counts():
+    assert smoothness(6.0, 10.0, 8.0) == pytest.approx(0.7)
+
+
+def test_a_foot_counts_by_twice_its_ratio():
+    """Ratios 0.2 and 0.9: their mean would be 0.55."""
+    assert smoothness(2.0, 10.0, 9.0) == pytest.approx(0.4)
+    assert smoothness(9.0, 10.0, 2.0) == pytest.approx(0.4)
+
+
+@settings(deadline=None)
+@given(DIFFERENCE, SLOPE, DIFFERENCE)
+def test_smoothness_is_between_none_and_all(left, centre, right):
+    assert 0.0 <= smoothness(left, centre, right) <= 1.0
+
+
+@settings(deadline=None)
+@given(DIFFERENCE, SLOPE, DIFFERENCE)
+def test_smoothness_is_the_same_seen_from_either_side(left, centre, right):
+    assert smoothness(left, centre, right) == smoothness(right, centre, left)
+
+
+@settings(deadline=None)
+@given(DIFFERENCE, SLOPE, DIFFERENCE, SLOPE)
+def test_smoothness_does_not_know_the_unit_or_the_sign_of_the_velocity(left, centre, right, scale):
+    psi = smoothness(scale * left, scale * centre, scale * right)
+    assert psi == pytest.approx(smoothness(left, centre, right), abs=1e-12)
+
+
+@settings(deadline=None)
+@given(DIFFERENCE, SLOPE, DIFFERENCE, st.floats(0.0, 1e3))
+def test_more_slope_beside_does_not_make_a_slope_less_smooth(left, centre, right, more):
+    steeper = right + more if centre > 0.0 else right - more
+    assert smoothness(left, centre, steeper) >= smoothness(left, centre, right)
+
+
+# ------------------------------------------------------------------------------------------------------ viscosity
+
+
+@pytest.mark.parametrize("du", [0.0, 1e-9, 300.0])
+def test_expansion_has_no_viscosity(du):
+    assert directional_viscosity(8000.0, 5000.0, du, 0.0, 0.5, 1.3) == 0.0
+
+
+@settings(deadline=None)
+@given(st.floats(1.0, 2e4), st.floats(0.0, 1e4), st.floats(-5e3, 5e3), st.floats(0.0, 1.0))
+def test_viscosity_never_pulls(rho, c, du, psi):
+    assert directional_viscosity(rho, c, du, psi, 0.5, 1.3) >= 0.0
+
+
+def test_the_quadratic_part_can_be_the_pressure_of_a_strong_shock():
+    """A strong shock in a gas runs at (gamma + 1)/2 times the velocity behind it: p = rho u_s u_p."""
+    gamma, rho, u_p = 5.0 / 3.0, 1.2, 3000.0
+    u_s = 0.5 * (gamma + 1.0) * u_p
+    assert directional_viscosity(rho, 340.0, -u_p, 0.0, 0.0, u_s / u_p) == pytest.approx(rho * u_s * u_p)
+
+
+def test_the_linear_part_can_be_the_pressure_of_a_weak_wave():
+    assert directional_viscosity(1000.0, 1500.0, -0.01, 0.0, 1.0, 0.0) == pytest.approx(15e3)
+
+
+def test_four_times_the_jump_is_sixteen_times_the_quadratic_part_and_four_times_the_linear_one():
+    quadratic, linear = (0.0, 1.3), (0.5, 0.0)
+    for parts, factor in ((quadratic, 16.0), (linear, 4.0)):
+        small, large = (directional_viscosity(8000.0, 5000.0, du, 0.0, *parts) for du in (-25.0, -100.0))
+        assert large == pytest.approx(factor * small)
+
+
+def test_both_parts_add_up():
+    both = directional_viscosity(8000.0, 5000.0, -100.0, 0.0, 0.5, 1.3)
+    assert both == pytest.approx(2.0e9 + 1.04e8)
+
+
+def test_smoothness_takes_its_share_of_the_viscosity():
+    full, most, none = (directional_viscosity(8000.0, 5000.0, -100.0, psi, 0.5, 1.3) for psi in (0.0, 0.25, 1.0))
+    assert most == pytest.approx(0.75 * full)
+    assert none == 0.0
