@@ -32,14 +32,19 @@ app.command(sweep)
 app.command(transition)
 
 
+#: modules and their exceptions that are the user's to mend
+USER_ERRORS = (
+    ("errors", "DeckError"), ("files", "LockError"), ("penetration.model", "InputError"),
+    ("output.snapshot", "SnapshotError"), ("output.history", "HistoryError"), ("output.vtk", "VtkError"),
+    ("output.derived", "FieldError"), ("running.run", "RunError"), ("results.reading", "ResultsError"),
+    ("results.figures", "FigureError"), ("study.definition", "StudyError"),
+)
+
+
 def _user_errors() -> tuple[type[Exception], ...]:
-    """What is the user's to mend: told in one message, without a traceback."""
+    """What is told in one message, without a traceback."""
     found: list[type[Exception]] = [UsageError]
-    for module, name in (
-        ("deck_errors", "DeckError"), ("run", "RunError"), ("snapshot", "SnapshotError"), ("history", "HistoryError"),
-        ("vtk", "VtkError"), ("figures", "FigureError"), ("results", "ResultsError"), ("derived", "FieldError"),
-        ("files", "LockError"), ("penetration.model", "InputError"), ("study.definition", "StudyError"),
-    ):  # fmt: skip
+    for module, name in USER_ERRORS:
         loaded = sys.modules.get(f"hydro2d.{module}")
         if loaded is not None:
             found.append(getattr(loaded, name))

@@ -58,7 +58,7 @@ class Nose:
         waterline = math.asin(min(max(self.length - immersed, 0.0) / radius, 1.0))
         scale = 2.0 * (radius / half) ** 2
         top, low = _integrals(tip, k, self.friction), _integrals(waterline, k, self.friction)
-        return scale * (top[0] - low[0]), scale * (top[1] - low[1])
+        return tuple(scale * max(a - b, 0.0) for a, b in zip(top, low, strict=True))  # at the tip less than round-off
 
 
 def _integrals(theta: float, k: float, friction: float) -> tuple[float, float]:

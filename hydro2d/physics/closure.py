@@ -1,4 +1,4 @@
-"""What the bodies of a mixed cell share: volume, pressure, energy."""
+"""What the bodies of a mixed cell share: the change of its volume, and pressure."""
 
 from hydro2d.jit import point
 from hydro2d.mesh.fields import RHO

@@ -1,4 +1,4 @@
-"""Two groups of bodies that meet: whose a face is, who moves with whom, and the impulses between them."""
+"""Two groups of bodies that meet: whose a face is, and what flows through it."""
 
 from hydro2d.jit import point
 
@@ -8,9 +8,10 @@ GAP = 0.01
 
 @point
 def wetted(first, last):
-    """Weights of both ends of a face, of which the part with a level above 0 is wetted; levels at the ends, linear between.
+    """Weights of both ends of a face, of which the part with levels from 0 up is wetted; levels at the ends, linear between.
 
-    Over the wetted part of length a from one end: (2 a - a^2, a^2), the integrals of the two linear shape functions.
+    With the length a wetted from one end (2 a - a^2, a^2): what lies there of either linear shape function, as a share of its
+    whole integral of 1/2.
     """
     if first >= 0.0 and last >= 0.0:
         return 1.0, 1.0
@@ -45,7 +46,7 @@ def dual_share(g, j, i, edges, volume, cm_in, cm_out, hard, soft):
 
 @point
 def meeting(j, i, edges, hard, soft):
-    """Whether both groups are in cell (j, i), or one fills it and the other a cell beside it."""
+    """Whether both groups are in cell (j, i), or one is and the other fills a cell beside it but for GAP."""
     h, s = hard[j, i] > 0.0, soft[j, i] > 0.0
     if h and s:
         return True
@@ -64,7 +65,7 @@ def blend(weight, hard, soft):
 
 @point
 def face_flow_r(j, i, g, wet_r, u):
-    """Sum over both ends of the velocity of r-face (j, i): of group g, or of both by weight for g < 0."""
+    """Sum of the velocities of both ends of r-face (j, i), m/s: of group g, or of both by weight for g < 0."""
     if g >= 0:
         return u[g, j, i] + u[g, j + 1, i]
     return blend(wet_r[0, j, i], u[1, j, i], u[0, j, i]) + blend(wet_r[1, j, i], u[1, j + 1, i], u[0, j + 1, i])
@@ -72,7 +73,7 @@ def face_flow_r(j, i, g, wet_r, u):
 
 @point
 def face_flow_z(j, i, g, az_in, az_out, wet_z, v):
-    """Volume per time through z-face (j, i), of group g or of both by weight for g < 0."""
+    """Volume per time and radian through z-face (j, i), m^3/s: of group g, or of both by weight for g < 0."""
     if g >= 0:
         return az_in[i] * v[g, j, i] + az_out[i] * v[g, j, i + 1]
     return az_in[i] * blend(wet_z[0, j, i], v[1, j, i], v[0, j, i]) + az_out[i] * blend(

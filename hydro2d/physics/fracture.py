@@ -11,9 +11,9 @@ def tension_limit(fracture_pressure, damage):
 
 @point
 def share_that_stays(rho, relaxed, max_opening):
-    """Share of a torn cell that stays filled, so that the rest is void.
+    """Share of its volume that a torn body keeps, so that the rest is void.
 
     ``relaxed`` is the density at zero pressure with the same energy, kg/m^3: at rho/relaxed the tension is gone. No more than
-    ``max_opening`` of the cell opens in one cycle (explanation/fracture, equation 2).
+    ``max_opening`` of the volume opens in one cycle (explanation/fracture, equation 3).
     """
     return max(rho / max(relaxed, rho), 1.0 - max_opening)

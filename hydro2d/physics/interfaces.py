@@ -15,7 +15,7 @@ FULL = 1e-12
 
 @point
 def line_constant(m1, m2, fraction):
-    """alpha such that m1 x + m2 y <= alpha fills `fraction` of the unit square; m1, m2 >= 0 and m1 + m2 = 1.
+    """alpha such that m1 x + m2 y <= alpha fills `fraction`, 0 to 1, of the unit square; m1, m2 >= 0 and m1 + m2 = 1.
 
     Scardovelli & Zaleski, J. Comput. Phys. 164 (2000) 228, in two dimensions.
     """
@@ -80,7 +80,9 @@ def cumulative(j, i, last, order, vof):
 
 @point
 def youngs_difference(sw, s, se, w, e, nw, n, ne):
-    """Youngs' difference of a fraction over 3 x 3 cells of one size, downwards, along r and along z; sums in mirror pairs.
+    """Youngs' difference of a fraction over 3 x 3 cells of one size, downwards, along r and along z: 8 times the fall per cell.
+
+    Sums in mirror pairs.
 
     D. L. Youngs in Numerical Methods for Fluid Dynamics (1982) 273.
     """
@@ -89,7 +91,7 @@ def youngs_difference(sw, s, se, w, e, nw, n, ne):
 
 @point
 def youngs_gradient(j, i, sw, s, se, w, e, nw, n, ne, dr, dz):
-    """`youngs_difference` around cell (j, i), per cell, neighbours of other widths weighted."""
+    """`youngs_difference` around cell (j, i), neighbours of other widths weighted: 4 times the fall across the cell."""
     along_r, along_z = youngs_difference(sw, s, se, w, e, nw, n, ne)
     along_r *= dr[i] / (dr[i] + 0.5 * (dr[i - 1] + dr[i + 1]))
     along_z *= dz[j] / (dz[j] + 0.5 * (dz[j - 1] + dz[j + 1]))

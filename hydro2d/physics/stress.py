@@ -7,9 +7,10 @@ from hydro2d.jit import point
 
 @point
 def turn_and_strain(rr, zz, rz, spin, g2, drr, dzz, dtt, drz):
-    """Deviator rotated exactly by the spin and strained by 2 G times the deviatoric strain increment (strength, equation 1).
+    """Deviator rotated by the spin and strained by 2 G times the deviatoric strain increment (strength, equation 1).
 
-    spin = W dt, g2 = 2 G, d.. = D dt. The rotation (1 - a^2)/(1 + a^2), 2 a/(1 + a^2), a = spin/2 keeps the second invariant.
+    spin = W dt, g2 = 2 G, d.. = D dt. The rotation (1 - a^2)/(1 + a^2), 2 a/(1 + a^2), a = spin/2 keeps the second invariant;
+    its angle 2 atan(a) is the spin to second order.
     """
     a = 0.5 * spin
     norm = 1.0 / (1.0 + a * a)

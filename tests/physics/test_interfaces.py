@@ -13,6 +13,7 @@ strip_share = interfaces.strip_share.py_func
 line_centre = interfaces.line_centre.py_func
 cumulative = interfaces.cumulative.py_func
 youngs_difference = interfaces.youngs_difference.py_func
+youngs_difference = interfaces.youngs_difference.py_func
 youngs_gradient = interfaces.youngs_gradient.py_func
 youngs_normal = interfaces.youngs_normal.py_func
 
@@ -275,9 +276,39 @@ def test_mirrored_fractions_have_mirrored_normals_to_the_bit():
 # -------------------------------------------------------------------------------------------------------- gradients
 
 
+def around(f):
+    """The eight cells around cell (2, 2), from below left on, row by row."""
+    return [f[row, column] for row in (1, 2, 3) for column in (1, 2, 3) if (row, column) != (2, 2)]
+
+
 def gradient_of(f, dr=DR, dz=DZ):
-    around = [f[row, column] for row in (1, 2, 3) for column in (1, 2, 3) if (row, column) != (2, 2)]
-    return youngs_gradient(2, 2, *around, dr, dz)
+    return youngs_gradient(2, 2, *around(f), dr, dz)
+
+
+def test_every_cell_around_has_its_weight_in_youngs_difference():
+    """1 at a corner, 2 at a side; what is on the lower side counts up."""
+    weights = np.zeros((2, 3, 3))
+    for row, column in np.ndindex(3, 3):
+        f = np.zeros((5, 5))
+        f[row + 1, column + 1] = 1.0
+        weights[:, row, column] = youngs_difference(*around(f))
+    across = [[1.0, 0.0, -1.0], [2.0, 0.0, -2.0], [1.0, 0.0, -1.0]]
+    np.testing.assert_array_equal(weights, [across, np.transpose(across)])
+
+
+@settings(deadline=None)
+@given(GRADIENT, GRADIENT)
+def test_youngs_difference_of_a_linear_fraction_is_eight_times_its_fall_from_cell_to_cell(by_column, by_row):
+    f = 0.5 + np.add.outer(by_row * np.arange(5), by_column * np.arange(5))
+    assert youngs_difference(*around(f)) == pytest.approx((-8.0 * by_column, -8.0 * by_row))
+
+
+def test_youngs_difference_of_mirrored_fractions_is_mirrored_to_the_bit():
+    f = np.random.default_rng(13).uniform(size=(5, 5))
+    along_r, along_z = youngs_difference(*around(f))
+    assert youngs_difference(*around(f[:, ::-1])) == (-along_r, along_z)
+    assert youngs_difference(*around(f[::-1])) == (along_r, -along_z)
+    assert youngs_difference(*around(f.T)) == (along_z, along_r)
 
 
 @settings(deadline=None)
@@ -293,21 +324,10 @@ def test_youngs_gradient_points_where_the_normal_does():
     np.testing.assert_allclose(along / np.abs(along).sum(), normal_of(f), rtol=1e-12)
 
 
-def test_every_cell_around_has_its_weight_in_youngs_gradient():
-    """1 at a corner, 2 at a side; cells of one size, whose neighbours are two sizes apart."""
-    weights = np.zeros((2, 3, 3))
-    for row, column in np.ndindex(3, 3):
-        f = np.zeros((5, 5))
-        f[row + 1, column + 1] = 1.0
-        weights[:, row, column] = gradient_of(f, np.ones(5), np.ones(5))
-    across = [[0.5, 0.0, -0.5], [1.0, 0.0, -1.0], [0.5, 0.0, -0.5]]
-    np.testing.assert_array_equal(weights, [across, np.transpose(across)])
-
-
-def test_youngs_difference_does_not_know_the_sizes_of_the_cells():
-    f = np.random.default_rng(9).uniform(size=(5, 5))
-    around = [f[row, column] for row in (1, 2, 3) for column in (1, 2, 3) if (row, column) != (2, 2)]
-    assert youngs_difference(*around) == pytest.approx(tuple(2.0 * x for x in gradient_of(f, np.ones(5), np.ones(5))))
+def test_where_cells_have_one_size_youngs_gradient_is_half_of_the_difference():
+    """Over the width of one cell, where the neighbours are two widths apart."""
+    f, size = np.random.default_rng(14).uniform(size=(5, 5)), np.full(5, 0.3)
+    assert gradient_of(f, size, size) == pytest.approx(tuple(0.5 * along for along in youngs_difference(*around(f))))
 
 
 def test_mirrored_fractions_have_mirrored_gradients_to_the_bit():

@@ -1,5 +1,6 @@
 """The command line: one message and status 2 for what the user has to mend; no traceback."""
 
+import importlib
 import json
 import os
 import signal
@@ -11,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from hydro2d.cli.main import app, call
+from hydro2d.cli.main import USER_ERRORS, app, call
 from hydro2d.output import snapshot, vtk
 from tests.unit import fake
 
@@ -247,3 +248,8 @@ def test_kill_leaves_whole_files(deck, tmp_path):
     snapshot.read_latest(out)
     for _, file in vtk.read_series(out / "series.pvd"):
         vtk.read_grid(out / file)
+
+
+@pytest.mark.parametrize(("module", "name"), USER_ERRORS)
+def test_errors_of_users_are_where_the_command_looks(module, name):
+    assert issubclass(getattr(importlib.import_module(f"hydro2d.{module}"), name), Exception)

@@ -27,7 +27,7 @@ shape = "box"
 z = [0.01, 0.02]
 [stop]
 time = "1 us"
-[library.A]
+[materials.A]
 """
 
 
@@ -173,7 +173,7 @@ def test_strength_takes_what_the_eos_has():
     ("text", "line", "fragment"),
     [
         ('based_on = "W_aloy"', 17, 'based_on: unknown material "W_aloy"; did you mean "W_alloy"?'),
-        ('based_on = "B"\n[library.B]\nbased_on = "A"', 19, "goes round in a circle: A -> B -> A"),
+        ('based_on = "B"\n[materials.B]\nbased_on = "A"', 19, "goes round in a circle: A -> B -> A"),
         ('based_on = "W_alloy"\nvariant = "cv-prined"', 18, 'did you mean "cv-printed"?'),
         ('based_on = "W_alloy"\nvariant = 3', 18, "is the name of a variant or a list of names"),
         ('based_on = ["W_alloy"]', 17, "is the name of a material"),
@@ -188,7 +188,7 @@ def test_strength_takes_what_the_eos_has():
         ('based_on = "W_alloy"\nstrength.model = "steinberg"', 18, 'did you mean "steinberg-guinan"?'),
         ('based_on = "W_alloy"\nstrenth.model = "hydrodynamic"', 18, 'did you mean "strength"?'),
         ('based_on = "W_alloy"\nfracture_pressure = "-3 GPa"', 18, "must be positive (a tension)"),
-        ('[library.A.eos]\nmodel = "ideal-gas"\nreference_density = 1.0', 17, "ideal-gas needs adiabatic_index"),
+        ('[materials.A.eos]\nmodel = "ideal-gas"\nreference_density = 1.0', 17, "ideal-gas needs adiabatic_index"),
     ],
 )
 def test_mistakes_in_materials(text, line, fragment):
@@ -198,7 +198,7 @@ def test_mistakes_in_materials(text, line, fragment):
 
 
 def test_a_library_name_without_based_on_says_so():
-    text = TEXT.replace("[library.A]", "[library.W_alloy]\nstrength.yield_stress = 1e9")
+    text = TEXT.replace("[materials.A]", "[materials.W_alloy]\nstrength.yield_stress = 1e9")
     with pytest.raises(deck.DeckError, match='to change a material of the library, write based_on = "W_alloy"'):
         deck.loads(text)
 
