@@ -11,7 +11,7 @@ COMPILED = [
     (file, function)
     for name, file in sorted(source.modules().items())
     if name != "hydro2d.jit"
-    for function in source.functions(source.tree(file), "kernel", "serial", "point")
+    for function in source.functions(source.tree(file), "kernel", "serial", "rowwise", "apart", "point")
 ]
 
 
@@ -107,11 +107,13 @@ BAD = {
     "print": ("scale = 2.0", "print(n)"),
     "negative index": ("row[i] = scale", "row[-1] = scale"),
     "prange without kernel": ("@kernel", "@serial"),
+    "prange in a row": ("@kernel", "@rowwise"),
+    "prange in what is called": ("@kernel", "@apart"),
 }
 
 
 def only_function(text: str) -> ast.FunctionDef:
-    return next(source.functions(ast.parse(text), "kernel", "serial"))
+    return next(source.functions(ast.parse(text), "kernel", "serial", "rowwise", "apart"))
 
 
 def test_a_good_kernel_passes():
