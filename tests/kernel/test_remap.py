@@ -89,7 +89,7 @@ def remap_only(e, share: float = 0.3):
     e.number += 1
 
 
-@pytest.mark.parametrize("choice", momentum.CHOICES)
+@pytest.mark.parametrize("choice", momentum.ADVECTIONS)
 @pytest.mark.parametrize("geometry", GEOMETRIES)
 @pytest.mark.parametrize("text", [FULL, WITH_VOID], ids=["full", "with void"])
 def test_remap_conserves(choice, geometry, text):
