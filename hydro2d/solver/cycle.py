@@ -226,13 +226,16 @@ class Cycle:
         """The given normal velocity of the axis, walls and edges with a velocity; their impulse and its work are booked."""
         s = self.state
         for edge, (at, velocity) in enumerate(zip(self.still, self.method.boundaries.velocity, strict=True)):
-            if at >= 0:
-                normal, before, mass = (a[..., at] if edge < 2 else a[:, at] for a in (
-                    (s.u, s.u0, s.mass) if edge < 2 else (s.v, s.v0, s.mass)))
+            if at < 0:
+                continue
+            along_r = edge < 2
+            normal = s.u[..., at] if along_r else s.v[:, at]
+            if velocity or not along_r:  # the axis and walls along z take no axial momentum and do no work
+                before, mass = (s.u0[..., at], s.mass[..., at]) if along_r else (s.v0[:, at], s.mass[:, at])
                 impulse = mass * (normal - velocity)
                 work = float(np.sum(0.5 * impulse * (before + velocity))) if velocity else 0.0
-                self.ledger.book("walls", momentum=float(np.sum(impulse)) if edge > 1 else 0.0, energy=work)
-                normal[...] = velocity
+                self.ledger.book("walls", momentum=0.0 if along_r else float(np.sum(impulse)), energy=work)
+            normal[...] = velocity
 
     def _transmit(self) -> None:
         """What an endless plate would hold the transmitting edges with; what it takes is booked."""

@@ -155,6 +155,6 @@ def test_a_forbidden_import_is_found(name, text):
 def test_help_needs_nothing_heavy():
     """``hydro2d --help`` answers at once: the command line imports at use."""
     heavy = set("numba numpy h5py pyvista vtkmodules pint scipy matplotlib pydantic distributed".split())
-    script = f"import sys; from hydro2d import cli; print(sorted({heavy!r} & set(sys.modules)))"
+    script = f"import sys; from hydro2d.cli import main; print(sorted({heavy!r} & set(sys.modules)))"
     done = subprocess.run([sys.executable, "-c", script], cwd=source.ROOT, capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "[]"
