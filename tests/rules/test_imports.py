@@ -107,6 +107,7 @@ def test_the_package_itself_imports_nothing_at_once():
     [
         ("eos", {"numpy"}),
         ("strength", {"numpy"}),
+        ("hydro2d.physics", {"numpy"}),
         ("hydro2d.kernels", {"numpy"}),
         ("hydro2d.penetration", {"numpy", "scipy"}),
     ],
