@@ -9,6 +9,7 @@ import numpy as np
 
 from hydro2d.deck import deck as decks
 from hydro2d.materials import library
+from hydro2d.mesh.edges import EDGES
 from hydro2d.mesh.grid import Grid
 from hydro2d.mesh.state import State
 from hydro2d.output import derived
@@ -44,7 +45,7 @@ class Check:
         found += [f"mesh      {grid.nr} x {grid.nz} = {grid.cells} cells, {grid.geometry}; "
                   + ("the axis is r = 0" if grid.cylindrical and grid.r_edges[0] == 0 else "no axis")]  # fmt: skip
         found += [f"          {_axis(name, edges)}" for name, edges in (("r", grid.r_edges), ("z", grid.z_edges))]
-        found += [f"          boundaries: {', '.join(f'{key} {value}' for key, value in deck.boundaries)}", ""]
+        found += [f"          boundaries: {', '.join(self._edge(key) for key in EDGES)}", ""]
         for m, body in enumerate(self.table.names):
             entry, material = decks.body(deck, body), self.table.materials[m]
             found.append(f"body      {body}: {material.name}, {_mass(self.masses[body], grid)}, v = {_speed(entry)}"
@@ -56,6 +57,11 @@ class Check:
         found += [f"cost      about {self.cycles} cycles, {_duration(self.seconds / threads)} on {threads} threads "
                   f"(a guess), {self.memory / 2**20:.0f} MiB"]  # fmt: skip
         return found + [f"warning   {text}" for text in self.warnings]
+
+    def _edge(self, key: str) -> str:
+        """What stands at an edge, with the velocity that it has been given."""
+        kind, velocity = getattr(self.deck.boundaries, key), getattr(self.deck.boundaries, f"{key}_velocity")
+        return f"{key} {kind}" + (f" {velocity:g} m/s" if velocity is not None else "")
 
     def _follow(self) -> list[str]:
         """How far a travelling mesh reaches, and what will enter it."""

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from hydro2d.deck import deck as decks
+from hydro2d.running import check
 from hydro2d.solver.simulation import Simulation
 from tests.verification.running import ADVECTION, advection, finish
 
@@ -115,6 +116,11 @@ def test_an_edge_that_takes_away_lets_a_bar_out():
     simulation = run(FED.replace("z_min", "z_max"), "stop.time=15e-6")
     assert simulation.body_sums(0)[0].sum() < 1e-9
     audit_closes(simulation)
+
+
+def test_check_says_the_velocity():
+    edges = "boundaries: r_min axis, r_max outflow, z_min velocity 1000 m/s, z_max outflow"
+    assert any(line.strip() == edges for line in check.check(decks.loads(FED)).lines(1))
 
 
 @pytest.mark.parametrize(
