@@ -6,6 +6,7 @@ The deck's words, the kernels' flags and the reference page follow from it.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -62,6 +63,11 @@ class Edges:
     kinds: tuple[Boundary, ...]
     velocity: np.ndarray
 
+    @cached_property
+    def _flags(self) -> dict[str, tuple[bool, ...]]:
+        names = ("mirrors", "holds", "opens", "supplies", "transmits")
+        return {name: tuple(getattr(kind, name) for kind in self.kinds) for name in names}
+
     def having(self, flag: str) -> tuple[bool, ...]:
-        """For each edge whether its boundary condition has a flag of the table."""
-        return tuple(getattr(kind, flag) for kind in self.kinds)
+        """For each edge whether its boundary condition has a flag of the table; asked many times a cycle."""
+        return self._flags[flag]

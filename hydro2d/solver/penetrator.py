@@ -8,6 +8,7 @@ import numpy as np
 
 from hydro2d.deck import deck as decks
 from hydro2d.mesh import sums
+from hydro2d.mesh.edges import BY_NAME
 from hydro2d.mesh.sums import HALF
 
 #: the rod is rigid while it has lost less than this share of its length and its radius has grown by less than that
@@ -65,8 +66,8 @@ class Penetrator:
         self.mass = float(sim.body_sums(self.m)[0].sum()) * self._around
         self.exit: Exit | None = None
         self._offset = grid.offset
-        closed = deck.boundaries.z_min == "wall", deck.boundaries.z_max == "wall"
-        self._open = [end for end, wall in zip(((0, -1.0), (grid.nz, 1.0)), closed, strict=True) if not wall]
+        ends = (deck.boundaries.z_min, (0, -1.0)), (deck.boundaries.z_max, (grid.nz, 1.0))
+        self._open = [end for kind, end in ends if BY_NAME[kind].opens]
 
     def _fraction(self) -> np.ndarray:
         """Volume fraction of the rod in the cells [j, i]."""
