@@ -8,7 +8,7 @@ from hydro2d.kernels.contact import FIRST, PARTED
 from hydro2d.kernels.spans import union
 from hydro2d.mesh.fields import E
 from hydro2d.physics.contact import GAP, face_flow_r, face_flow_z, largest_of, volume_rate
-from hydro2d.physics.interfaces import FULL, cumulative, strip_share, youngs_normal
+from hydro2d.physics.interfaces import FULL, cumulative, share_in_strip, surface
 
 
 @kernel
@@ -66,7 +66,7 @@ def cut_shares(j0, j1, edges, cut, volume, pre, vof, part, size):
     """
     for j in prange(j0 - 2, j1 + 2):
         lo, hi = union(cut, max(j - 2, j0), min(j + 3, j1))
-        for i in range(lo - 2, hi + 2):
+        for i in range(max(lo - 3, 0), min(hi + 3, vof.shape[2])):
             total, largest = 0.0, 0.0
             for m in range(vof.shape[0]):
                 total += vof[m, j, i]
@@ -91,10 +91,10 @@ def strip_of(m, j, i, along_z, width, high, order, part, dr, dz):
         total = total if total < 1.0 - FULL else 1.0
         if f == 0.0:
             continue
-        n_r, n_z = youngs_normal(j, i, k, order, part, dr, dz)
+        n_r, n_z, w, h = surface(j, i, k, order, part, dr, dz)
         if along_z:
-            n_r, n_z = n_z, n_r
-        filled = strip_share(n_r, n_z, total, width, high)
+            n_r, n_z, w, h = n_z, n_r, h, w
+        filled = share_in_strip(n_r, n_z, w, h, total, width, high)
         filled = min(max(filled, max(below, width - (1.0 - total))), min(below + f, width))
         given = filled - below
         if order[k] == m:

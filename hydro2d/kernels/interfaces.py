@@ -8,7 +8,7 @@ stated order bounds their cumulative fraction, void comes last.
 
 from hydro2d.jit import kernel, point, prange, rowwise
 from hydro2d.kernels.spans import columns
-from hydro2d.physics.interfaces import FULL, strip_share, youngs_normal
+from hydro2d.physics.interfaces import FULL, share_in_strip, surface
 
 
 @rowwise
@@ -102,11 +102,11 @@ def interface_volumes_row(j, dj, di, dr, dz, order, mixed_count, mixed, f_face, 
                 left[n] = 0.0
                 right[n] = 0.0
                 continue
-            n_r, n_z = youngs_normal(j, i, n, order, vof, dr, dz)
+            n_r, n_z, w, h = surface(j, i, n, order, vof, dr, dz)
             if dj == 1:
-                n_r, n_z = n_z, n_r
-            low = strip_share(n_r, n_z, total, w_low, False) if w_low > 0.0 else 0.0
-            high = strip_share(n_r, n_z, total, w_high, True) if w_high > 0.0 else 0.0
+                n_r, n_z, w, h = n_z, n_r, h, w
+            low = share_in_strip(n_r, n_z, w, h, total, w_low, False) if w_low > 0.0 else 0.0
+            high = share_in_strip(n_r, n_z, w, h, total, w_high, True) if w_high > 0.0 else 0.0
             low = min(max(low, max(below_low, w_low - (1.0 - total))), min(below_low + f, w_low))
             high = min(max(high, max(below_high, w_high - (1.0 - total))), min(below_high + f, w_high))
             left[n] = low - below_low

@@ -1,4 +1,4 @@
-"""Piecewise-linear interfaces: Youngs' normal, the constant of the line, and the share of a donor strip.
+"""Piecewise-linear interfaces: Youngs' normal, the constant of the line, corners, and the share of a donor strip.
 
 All in the unit square of a cell with axes s = r^2/2 and z, in which areas are volumes of revolution, so that the planar
 formulas are exact (explanation/interfaces). More than two materials are nested: the interface of the first k bodies of the
@@ -11,6 +11,8 @@ from hydro2d.jit import point
 
 #: void below this share of a cell is round-off: its interface has no direction
 FULL = 1e-12
+#: an edge is straight along the mesh if its fraction changes by no more from one cell to the next
+STRAIGHT = 0.1
 
 
 @point
@@ -113,3 +115,95 @@ def youngs_normal(j, i, last, order, vof, dr, dz):
     if size < 1e-14:
         return 0.0, 0.0
     return along_r / size, along_z / size
+
+
+@point
+def line_misfit(n_r, n_z, f, widths, heights):
+    """How badly the line in a cell fits the eight cells around it: the sum of the squares by which it misses their fractions.
+
+    (n_r, n_z) is the outward normal in the unit square of the middle cell, whose fraction the line keeps; f the fractions of
+    3 x 3 cells, row by row upwards; widths and heights those of the columns and rows, over those of the middle ones.
+    """
+    level = line_constant(abs(n_r), abs(n_z), f[4]) + min(n_r, 0.0) + min(n_z, 0.0)
+    total = 0.0
+    for row in range(3):
+        y = -heights[0] if row == 0 else row - 1.0
+        b = n_z * heights[row]
+        for column in range(3):
+            x = -widths[0] if column == 0 else column - 1.0
+            a = n_r * widths[column]
+            off = f[3 * row + column] - area_below(abs(a), abs(b), level - n_r * x - n_z * y - min(a, 0.0) - min(b, 0.0))
+            total += off * off
+    return total
+
+
+@point
+def corner_size(share, beside_r, beside_z):
+    """(width, height) of a rectangle that covers `share` of the unit square, in the proportion of the cells beside it.
+
+    beside_r and beside_z, above 0, are the fractions of the cells in which the rectangle goes on along r and along z: what it
+    would have for its height and its width if nothing but it were there.
+    """
+    width = min(max(sqrt(share * beside_z / beside_r), share), 1.0)
+    return width, share / width
+
+
+@point
+def surface(j, i, last, order, vof, dr, dz):
+    """(n_r, n_z, width, height): what bounds the first bodies of the order, up to and with position `last`, in a mixed cell.
+
+    A line with Youngs' outward normal (n_r, n_z), and width and height are 0. Or the corner of a rectangle along the mesh: where
+    both of its edges go on straight for two cells, and it fits the eight cells around better than the line does. The rectangle
+    lies in the corner of the cell away from the signs of the normal; with width and height below 0 it is empty, lies towards
+    those signs, and the bodies are what surrounds it.
+    """
+    n_r, n_z = youngs_normal(j, i, last, order, vof, dr, dz)
+    here = cumulative(j, i, last, order, vof)
+    if n_r == 0.0 or n_z == 0.0 or here <= FULL or here >= 1.0 - FULL:
+        return n_r, n_z, 0.0, 0.0
+    f = (cumulative(j - 1, i - 1, last, order, vof), cumulative(j - 1, i, last, order, vof),
+         cumulative(j - 1, i + 1, last, order, vof), cumulative(j, i - 1, last, order, vof), here,
+         cumulative(j, i + 1, last, order, vof), cumulative(j + 1, i - 1, last, order, vof),
+         cumulative(j + 1, i, last, order, vof), cumulative(j + 1, i + 1, last, order, vof))
+    total = 0.0
+    for k in range(9):
+        total += f[k]
+    empty = 0.0 if total < 4.5 else 1.0  # a rectangle fills at most four cells of the nine
+    side = -1 if (n_r > 0.0) == (empty == 0.0) else 1
+    up = -1 if (n_z > 0.0) == (empty == 0.0) else 1
+    beside_r, beside_z = abs(empty - f[4 + side]), abs(empty - f[4 + 3 * up])
+    beyond_r = abs(empty - cumulative(j, i + 2 * side, last, order, vof))
+    beyond_z = abs(empty - cumulative(j + 2 * up, i, last, order, vof))
+    if beside_r == 0.0 or beside_z == 0.0 or abs(beyond_r - beside_r) > STRAIGHT or abs(beyond_z - beside_z) > STRAIGHT:
+        return n_r, n_z, 0.0, 0.0
+    width, height = corner_size(abs(empty - here), beside_r, beside_z)
+    misfit = (width - beside_z) ** 2 + (height - beside_r) ** 2 + (1.0 - abs(empty - f[4 + side + 3 * up])) ** 2
+    for k in range(9):
+        if k != 4 and k != 4 + side and k != 4 + 3 * up and k != 4 + side + 3 * up:
+            misfit += (empty - f[k]) ** 2
+    widths, heights = (dr[i - 1] / dr[i], 1.0, dr[i + 1] / dr[i]), (dz[j - 1] / dz[j], 1.0, dz[j + 1] / dz[j])
+    if line_misfit(n_r, n_z, f, widths, heights) <= misfit:
+        return n_r, n_z, 0.0, 0.0
+    return (n_r, n_z, width, height) if empty == 0.0 else (n_r, n_z, -width, -height)
+
+
+@point
+def corner_strip(n_x, width, height, strip, high):
+    """What `surface` says of a corner, in the strip of given width at the low or high x side, as a share of the square."""
+    if width < 0.0:
+        return strip + height * covered(strip, -width, high == (n_x > 0.0))
+    return height * covered(strip, width, high == (n_x < 0.0))
+
+
+@point
+def covered(strip, width, same):
+    """Length that two strips of the unit square have in common, at the same or at opposite sides of it."""
+    return min(strip, width) if same else max(strip + width - 1.0, 0.0)
+
+
+@point
+def share_in_strip(n_x, n_y, width, height, fraction, strip, high):
+    """What lies in the strip of given width at the low or high x side of the unit square: of a line or of a corner."""
+    if width != 0.0:
+        return corner_strip(n_x, width, height, strip, high)
+    return strip_share(n_x, n_y, fraction, strip, high)
