@@ -149,47 +149,67 @@ def corner_size(share, beside_r, beside_z):
 
 
 @point
-def surface(j, i, last, order, vof, dr, dz):
-    """(n_r, n_z, width, height): what bounds the first bodies of the order, up to and with position `last`, in a mixed cell.
+def corner(n_r, n_z, f, beyond, widths, heights):
+    """(width, height) of the corner of a rectangle along the mesh, where it fits the cells around better than a line; or 0, 0.
 
-    A line with Youngs' outward normal (n_r, n_z), and width and height are 0. Or the corner of a rectangle along the mesh: where
-    both of its edges go on straight for two cells, and it fits the eight cells around better than the line does. The rectangle
-    lies in the corner of the cell away from the signs of the normal; with width and height below 0 it is empty, lies towards
-    those signs, and the bodies are what surrounds it.
+    (n_r, n_z) is the line's normal, f, widths and heights are as in `line_misfit`; beyond has the fractions of the cells two
+    away: at lower and higher r, at lower and higher z. Both edges of the corner go on straight up to these cells. The
+    rectangle lies in the corner of the middle cell away from the signs of the normal. With width and height below 0 it is
+    empty, lies towards those signs, and the bodies are what surrounds it.
     """
-    n_r, n_z = youngs_normal(j, i, last, order, vof, dr, dz)
-    here = cumulative(j, i, last, order, vof)
-    if n_r == 0.0 or n_z == 0.0 or here <= FULL or here >= 1.0 - FULL:
-        return n_r, n_z, 0.0, 0.0
-    f = (cumulative(j - 1, i - 1, last, order, vof), cumulative(j - 1, i, last, order, vof),
-         cumulative(j - 1, i + 1, last, order, vof), cumulative(j, i - 1, last, order, vof), here,
-         cumulative(j, i + 1, last, order, vof), cumulative(j + 1, i - 1, last, order, vof),
-         cumulative(j + 1, i, last, order, vof), cumulative(j + 1, i + 1, last, order, vof))
+    if n_r == 0.0 or n_z == 0.0 or f[4] <= FULL or f[4] >= 1.0 - FULL:
+        return 0.0, 0.0
     total = 0.0
     for k in range(9):
         total += f[k]
     empty = 0.0 if total < 4.5 else 1.0  # a rectangle fills at most four cells of the nine
-    side = -1 if (n_r > 0.0) == (empty == 0.0) else 1
-    up = -1 if (n_z > 0.0) == (empty == 0.0) else 1
-    beside_r, beside_z = abs(empty - f[4 + side]), abs(empty - f[4 + 3 * up])
-    beyond_r = abs(empty - cumulative(j, i + 2 * side, last, order, vof))
-    beyond_z = abs(empty - cumulative(j + 2 * up, i, last, order, vof))
-    if beside_r == 0.0 or beside_z == 0.0 or abs(beyond_r - beside_r) > STRAIGHT or abs(beyond_z - beside_z) > STRAIGHT:
-        return n_r, n_z, 0.0, 0.0
-    width, height = corner_size(abs(empty - here), beside_r, beside_z)
-    misfit = (width - beside_z) ** 2 + (height - beside_r) ** 2 + (1.0 - abs(empty - f[4 + side + 3 * up])) ** 2
+    low_r, low_z = (n_r > 0.0) == (empty == 0.0), (n_z > 0.0) == (empty == 0.0)
+    along_r, along_z = 3 if low_r else 5, 1 if low_z else 7
+    between = along_r + along_z - 4
+    beside_r, beside_z = abs(empty - f[along_r]), abs(empty - f[along_z])
+    off_r = abs(empty - beyond[0 if low_r else 1]) - beside_r
+    off_z = abs(empty - beyond[2 if low_z else 3]) - beside_z
+    if beside_r == 0.0 or beside_z == 0.0 or abs(off_r) > STRAIGHT or abs(off_z) > STRAIGHT:
+        return 0.0, 0.0
+    width, height = corner_size(abs(empty - f[4]), beside_r, beside_z)
+    misfit = (width - beside_z) ** 2 + (height - beside_r) ** 2 + (1.0 - abs(empty - f[between])) ** 2
     for k in range(9):
-        if k != 4 and k != 4 + side and k != 4 + 3 * up and k != 4 + side + 3 * up:
+        if k != 4 and k != along_r and k != along_z and k != between:
             misfit += (empty - f[k]) ** 2
-    widths, heights = (dr[i - 1] / dr[i], 1.0, dr[i + 1] / dr[i]), (dz[j - 1] / dz[j], 1.0, dz[j + 1] / dz[j])
     if line_misfit(n_r, n_z, f, widths, heights) <= misfit:
+        return 0.0, 0.0
+    return (width, height) if empty == 0.0 else (-width, -height)
+
+
+@point
+def relative_sizes(n, sizes):
+    """Sizes of column or row n and of its neighbours, over its own."""
+    return sizes[n - 1] / sizes[n], 1.0, sizes[n + 1] / sizes[n]
+
+
+@point
+def surface(j, i, last, order, vof, dr, dz):
+    """(n_r, n_z, width, height): what bounds the first bodies of the order, up to and with position `last`, in a mixed cell.
+
+    A line with Youngs' outward normal (n_r, n_z), and width and height are 0; or a `corner`, in cells that have void.
+    """
+    n_r, n_z = youngs_normal(j, i, last, order, vof, dr, dz)
+    if n_r == 0.0 or n_z == 0.0 or cumulative(j, i, order.shape[0] - 1, order, vof) >= 1.0 - FULL:
         return n_r, n_z, 0.0, 0.0
-    return (n_r, n_z, width, height) if empty == 0.0 else (n_r, n_z, -width, -height)
+    f = (cumulative(j - 1, i - 1, last, order, vof), cumulative(j - 1, i, last, order, vof),
+         cumulative(j - 1, i + 1, last, order, vof), cumulative(j, i - 1, last, order, vof),
+         cumulative(j, i, last, order, vof), cumulative(j, i + 1, last, order, vof),
+         cumulative(j + 1, i - 1, last, order, vof), cumulative(j + 1, i, last, order, vof),
+         cumulative(j + 1, i + 1, last, order, vof))
+    beyond = (cumulative(j, i - 2, last, order, vof), cumulative(j, i + 2, last, order, vof),
+              cumulative(j - 2, i, last, order, vof), cumulative(j + 2, i, last, order, vof))
+    width, height = corner(n_r, n_z, f, beyond, relative_sizes(i, dr), relative_sizes(j, dz))
+    return n_r, n_z, width, height
 
 
 @point
 def corner_strip(n_x, width, height, strip, high):
-    """What `surface` says of a corner, in the strip of given width at the low or high x side, as a share of the square."""
+    """What lies of a `corner` in the strip of given width at the low or high x side, as a share of the square."""
     if width < 0.0:
         return strip + height * covered(strip, -width, high == (n_x > 0.0))
     return height * covered(strip, width, high == (n_x < 0.0))

@@ -13,9 +13,16 @@ strip_share = interfaces.strip_share.py_func
 line_centre = interfaces.line_centre.py_func
 cumulative = interfaces.cumulative.py_func
 youngs_difference = interfaces.youngs_difference.py_func
-youngs_difference = interfaces.youngs_difference.py_func
 youngs_gradient = interfaces.youngs_gradient.py_func
 youngs_normal = interfaces.youngs_normal.py_func
+line_misfit = interfaces.line_misfit.py_func
+corner_size = interfaces.corner_size.py_func
+corner = interfaces.corner.py_func
+relative_sizes = interfaces.relative_sizes.py_func
+surface = interfaces.surface.py_func
+covered = interfaces.covered.py_func
+corner_strip = interfaces.corner_strip.py_func
+share_in_strip = interfaces.share_in_strip.py_func
 
 #: components of a normal that are not too small for polygons to be a fair comparison, and those that are small
 COMPONENT = st.floats(0.01, 0.99)
@@ -335,3 +342,130 @@ def test_mirrored_fractions_have_mirrored_gradients_to_the_bit():
     along_r, along_z = gradient_of(f)
     assert gradient_of(f[:, ::-1], dr=DR[::-1]) == (-along_r, along_z)
     assert gradient_of(f[::-1], dz=DZ[::-1]) == (along_r, -along_z)
+
+
+# --------------------------------------------------------------------------------------------------------- corners
+
+
+def overlap(low, high, edges):
+    """Share of each cell between edges that lies between low and high."""
+    return np.clip(np.minimum(high, edges[1:]) - np.maximum(low, edges[:-1]), 0.0, None) / np.diff(edges)
+
+
+def rectangle(r, z, sizes=(DR, DZ)):
+    """Fractions of 5 x 5 cells that a rectangle from r[0] to r[1] and z[0] to z[1] fills; lengths from the low corner."""
+    return np.outer(overlap(*z, np.append(0.0, np.cumsum(sizes[1]))), overlap(*r, np.append(0.0, np.cumsum(sizes[0]))))
+
+
+def surface_of(f, dr=DR, dz=DZ):
+    return surface(2, 2, 0, np.arange(1), np.array([f]), dr, dz)
+
+
+#: beyond the cells on every side
+FAR = 1e3
+
+
+@settings(deadline=None)
+@given(COMPONENT, COMPONENT, SIGN, SIGN, st.booleans())
+def test_a_corner_along_the_mesh_is_found_as_it_is(width, height, to_r, to_z, filled):
+    """A rectangle that ends in the middle cell, away from (to_r, to_z); and the same without it, where all else is filled."""
+    start_r, start_z = DR[:2].sum(), DZ[:2].sum()
+    r = (-FAR, start_r + width * DR[2]) if to_r > 0.0 else (start_r + (1.0 - width) * DR[2], FAR)
+    z = (-FAR, start_z + height * DZ[2]) if to_z > 0.0 else (start_z + (1.0 - height) * DZ[2], FAR)
+    f = rectangle(r, z) if filled else 1.0 - rectangle(r, z)
+    n_r, n_z, *size = surface_of(f)
+    sign = 1.0 if filled else -1.0
+    assert (np.sign(n_r), np.sign(n_z)) == (sign * to_r, sign * to_z)
+    np.testing.assert_allclose(size, [sign * width, sign * height], rtol=1e-6)
+
+
+@settings(deadline=None)
+@given(COMPONENT, SIGN, SIGN, UNIT)
+def test_a_slanted_line_stays_a_line(n1, to_r, to_z, place):
+    n_r, n_z = to_r * n1, to_z * (1.0 - n1)
+    level = min(n_r, 0.0) + min(n_z, 0.0) + place
+    f = np.array([[area(cut([(x, y), (x + 1.0, y), (x + 1.0, y + 1.0), (x, y + 1.0)], n_r, n_z, level)[0] or [(0.0, 0.0)] * 3)
+                   for x in range(-2, 3)] for y in range(-2, 3)])
+    assert surface_of(f, np.ones(5), np.ones(5))[2:] == (0.0, 0.0)
+
+
+@pytest.mark.parametrize("cells", [5.5, 6.5, 8.5, 12.5])
+def test_a_round_nose_has_no_corners(cells):
+    """A hemisphere in (r, z): corners are chosen where edges are straight along the mesh, not where a surface turns."""
+    fine = (np.arange(20 * 16) + 0.5) / 20
+    inside = fine[None, :] ** 2 + (fine[:, None] - 0.3) ** 2 < cells**2
+    f = np.pad(inside.reshape(16, 20, 16, 20).mean(axis=(1, 3)), ((2, 2), (2, 2)), mode="edge")
+    sizes = np.ones(20)
+    found = [surface(j, i, 0, np.arange(1), f[None], sizes, sizes)[2] for j in range(2, 18) for i in range(2, 18)]
+    assert not any(found)
+
+
+def test_an_edge_that_is_not_straight_has_no_corner():
+    f = rectangle((-FAR, DR[:2].sum() + 0.4 * DR[2]), (-FAR, DZ[:2].sum() + 0.5 * DZ[2]))
+    assert surface_of(f)[2] > 0.0
+    bent = f.copy()
+    bent[0, 2] += 1.1 * interfaces.STRAIGHT
+    assert surface_of(bent)[2:] == (0.0, 0.0)
+
+
+def test_a_corner_is_not_looked_for_in_a_cell_without_void():
+    f = rectangle((-FAR, DR[:2].sum() + 0.4 * DR[2]), (-FAR, DZ[:2].sum() + 0.5 * DZ[2]))
+    for rest, found in ((0.9 * (1.0 - f), True), (1.0 - f, False)):
+        width = surface(2, 2, 0, np.arange(2), np.array([f, rest]), DR, DZ)[2]
+        assert (width != 0.0) == found
+
+
+def test_a_corner_keeps_the_fraction_and_the_proportion_of_the_cells_beside_it():
+    width, height = corner_size(0.3, 0.4, 0.6)
+    assert width * height == pytest.approx(0.3)
+    assert width / height == pytest.approx(0.6 / 0.4)
+    assert corner_size(0.5, 0.01, 1.0) == pytest.approx((1.0, 0.5))  # no wider than the cell
+    assert corner_size(0.5, 1.0, 0.01) == pytest.approx((0.5, 1.0))
+
+
+@settings(deadline=None)
+@given(COMPONENT, COMPONENT, SIGN, SIGN, UNIT, st.booleans(), st.booleans())
+def test_a_strip_has_the_share_of_the_corner_that_lies_in_it(width, height, to_x, to_y, strip, high, filled):
+    x = (0.0, width) if (to_x > 0.0) == filled else (1.0 - width, 1.0)
+    ends = (1.0 - strip, 1.0) if high else (0.0, strip)
+    common = height * max(min(x[1], ends[1]) - max(x[0], ends[0]), 0.0)
+    size = (width, height) if filled else (-width, -height)
+    share = share_in_strip(to_x * 0.5, to_y * 0.5, *size, np.nan, strip, high)
+    assert share == pytest.approx(common if filled else strip - common, abs=1e-14)
+    assert share == corner_strip(to_x * 0.5, *size, strip, high)
+
+
+def test_without_a_corner_a_strip_has_the_share_of_the_line():
+    assert share_in_strip(0.3, -0.7, 0.0, 0.0, 0.4, 0.2, True) == strip_share(0.3, -0.7, 0.4, 0.2, True)
+
+
+def test_strips_of_a_square_cover_each_other():
+    assert covered(0.3, 0.4, True) == 0.3
+    assert covered(0.3, 0.8, False) == pytest.approx(0.1)
+    assert covered(0.3, 0.6, False) == 0.0
+
+
+@settings(deadline=None)
+@given(COMPONENT, SIGN, SIGN, UNIT)
+def test_a_line_misses_its_own_fractions_by_nothing_also_where_sizes_differ(n1, to_r, to_z, place):
+    n_r, n_z = to_r * n1, to_z * (1.0 - n1)
+    level = min(n_r, 0.0) + min(n_z, 0.0) + place
+    widths, heights = (0.5, 1.0, 1.3), (0.8, 1.0, 2.0)
+    x, y = (-0.5, 0.0, 1.0, 2.3), (-0.8, 0.0, 1.0, 3.0)
+    f = [area(cut([(x[k], y[row]), (x[k + 1], y[row]), (x[k + 1], y[row + 1]), (x[k], y[row + 1])], n_r, n_z, level)[0]
+              or [(0.0, 0.0)] * 3) / (widths[k] * heights[row]) for row in range(3) for k in range(3)]
+    assert line_misfit(n_r, n_z, f, widths, heights) < 1e-18
+    f[0] += 0.1
+    f[5] -= 0.2
+    assert line_misfit(n_r, n_z, f, widths, heights) == pytest.approx(0.05)
+
+
+def test_a_cell_without_a_slant_or_of_one_kind_has_no_corner():
+    f = tuple(rectangle((-FAR, 3.0), (-FAR, 3.0), (np.ones(5), np.ones(5)))[1:4, 1:4].ravel())
+    assert corner(0.5, 0.5, f, (1.0, 0.0, 1.0, 0.0), (1.0,) * 3, (1.0,) * 3) == (0.0, 0.0)
+    f = (1.0, 0.5, 0.0, 1.0, 0.25, 0.0, 0.0, 0.0, 0.0)
+    assert corner(1.0, 0.0, f, (1.0, 0.0, 0.5, 0.0), (1.0,) * 3, (1.0,) * 3) == (0.0, 0.0)
+
+
+def test_sizes_are_relative_to_the_middle_one():
+    assert relative_sizes(1, np.array([1.0, 2.0, 3.0])) == (0.5, 1.0, 1.5)

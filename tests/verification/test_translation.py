@@ -91,7 +91,7 @@ def test_block_flies_obliquely(advection, options, trace, strain):
 
 
 def test_rod_keeps_its_shape():
-    """Nose and tail are where they should be; the corner of the tail rounds off and the flank beside it bulges."""
+    """Nose and tail are where they should be."""
     mesh = 'mesh.r=[{to="6 mm",cells=12}]'
     simulation = flown(ROD, mesh)
     tip = simulation.time * 1000.0 - 1.2e-3
