@@ -97,7 +97,8 @@ def run(
     set_
         Replaces a value of the deck, key=value; may be given several times.
     threads
-        Number of threads; default: all cores. The results do not depend on it.
+        Largest number of threads; default: all cores. A run uses fewer while that is faster, as on a small mesh or a busy
+        machine. The results do not depend on it.
     restart
         Continues the run of the directory from its restart file, to the same bits.
     overwrite

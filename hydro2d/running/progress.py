@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import sys
 import time as clock
-from collections.abc import Iterator
+from collections import deque
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from datetime import datetime
 from pathlib import Path
 
 #: seconds between lines, and between refreshes of the table
 LINE_SECONDS, TABLE_SECONDS = 5.0, 0.5
+#: seconds that the pace is measured over
+PACE_SECONDS = 60.0
 
 
 def duration(seconds: float) -> str:
@@ -44,11 +47,24 @@ def worst_mass(conservation: dict) -> float:
 
 
 class Clock:
-    """How much is done, against the end time and the number of cycles of the deck, and how long the rest takes."""
+    """How much is done, against the end time and the number of cycles of the deck, and how long the rest takes.
 
-    def __init__(self, run):
-        self._stop = run.deck.stop
-        self._first, self._started = self.done(run.sim), clock.perf_counter()
+    The pace is that of the last minute: neither the compilation of the kernels nor the small steps after an impact count for
+    longer than that.
+
+    Parameters
+    ----------
+    stop : the deck's section
+    clock : gives seconds
+    """
+
+    def __init__(self, stop, clock: Callable[[], float] = clock.perf_counter):
+        self._stop, self._clock = stop, clock
+        self._marks: deque[tuple[float, float | None]] = deque()
+
+    def begin(self, sim) -> None:
+        """After the first cycle, in which the kernels are compiled or loaded."""
+        self._marks.append((self._clock(), self.done(sim)))
 
     def done(self, sim) -> float | None:
         """Fraction of the run, 0 to 1; None where the deck gives neither an end time nor a number of cycles."""
@@ -57,11 +73,16 @@ class Clock:
         return min(max(shares), 1.0) if shares else None
 
     def left(self, sim) -> float | None:
-        """Seconds to the end at the mean pace; None where it is not known."""
-        done = self.done(sim)
-        if done is None or done <= self._first:
+        """Seconds to the end at the pace of the last minute; None where it is not known."""
+        done, now = self.done(sim), self._clock()
+        if done is None or not self._marks:
             return None
-        return (clock.perf_counter() - self._started) * (1 - done) / (done - self._first)
+        if now - self._marks[-1][0] >= PACE_SECONDS / 60:
+            self._marks.append((now, done))
+        while len(self._marks) > 2 and now - self._marks[1][0] >= PACE_SECONDS:
+            self._marks.popleft()
+        then, before = self._marks[0]
+        return (now - then) * (1 - done) / (done - before) if done > before else None
 
     def words(self, sim) -> str:
         """'12.300 us of 200.000 us (6.2 %)'."""

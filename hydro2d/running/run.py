@@ -35,6 +35,7 @@ from hydro2d.output.history import History
 from hydro2d.output.vtk import FOLDER, SERIES, Series
 from hydro2d.running import provenance
 from hydro2d.running.progress import Clock, reporter
+from hydro2d.running.team import Team
 
 DECK, SUMMARY, HISTORY, LOG, LOCK = "deck.toml", "summary.json", "history.h5", "log.txt", "run.lock"
 PROGRESS = "progress.json"
@@ -189,7 +190,7 @@ class Run:
             rows, dumps, self.wall_before = (saved.run[name] for name in ("rows", "dumps", "wall_s"))
         self.history = History(self.directory / HISTORY, rows)
         self.series = Series(self.directory, deck.output.fields, dumps)
-        self.clock = Clock(self)
+        self.clock, self.team = Clock(deck.stop), Team(threads())
         self.started = self.flushed = self.saved_at = self.published = clock.perf_counter()
         self.good = None
         (self.directory / SUMMARY).unlink(missing_ok=True)
@@ -219,6 +220,8 @@ class Run:
                 reason = self.sim.stop_reason()
         except UnphysicalState as error:
             return self._finish("unphysical", f"unphysical state: {error}")
+        finally:
+            self.team.all()
         if reason is None:
             status, reason = "interrupted", f"interrupted ({interrupt.reason})"
         else:
@@ -227,9 +230,13 @@ class Run:
 
     def _step(self) -> None:
         """One cycle and its wall time; not that of the first, which compiles."""
-        before, first = clock.perf_counter(), self.stepped == 0
-        self.sim.step()
-        self.stepping += 0.0 if first else clock.perf_counter() - before
+        if self.stepped == 0:
+            self.sim.step()
+            self.clock.begin(self.sim)
+        else:
+            before = clock.perf_counter()
+            self.team.run(self.sim.step)
+            self.stepping += clock.perf_counter() - before
         self.stepped += 1
 
     # ------------------------------------------------------------------------------------------------ outputs
@@ -310,6 +317,8 @@ class Run:
         summary = self.summary(status, reason)
         (self.directory / PROGRESS).unlink(missing_ok=True)
         write_json(self.directory / SUMMARY, summary)
+        if text := self.team.told():
+            self.report.line(text)
         self.report.end(self, summary)
         return summary
 

@@ -1,0 +1,47 @@
+"""How long a run still takes."""
+
+from types import SimpleNamespace
+
+import pytest
+
+from hydro2d.running.progress import PACE_SECONDS, Clock
+
+
+class Pace:
+    """A run of `cycles` cycles whose cycles take what it is told; the first compiles for ten minutes."""
+
+    def __init__(self, cycles=10_000):
+        self.now, self.sim = 0.0, SimpleNamespace(time=0.0, cycle=0)
+        self.clock = Clock(SimpleNamespace(time=None, cycles=cycles), lambda: self.now)
+        self.step(600.0)
+        self.clock.begin(self.sim)
+
+    def step(self, seconds):
+        self.now += seconds
+        self.sim.cycle += 1
+        return self.clock.left(self.sim)
+
+
+def test_compilation_does_not_count():
+    pace = Pace()
+    assert pace.step(0.01) == pytest.approx(0.01 * (10_000 - 2))
+
+
+def test_the_pace_is_that_of_the_last_minute():
+    pace = Pace()
+    for _ in range(100):
+        pace.step(1.0)
+    for _ in range(round(2.0 * PACE_SECONDS / 0.1)):
+        left = pace.step(0.1)
+    assert left == pytest.approx(0.1 * (10_000 - pace.sim.cycle), rel=0.01)
+
+
+def test_without_an_end_time_nothing_is_known():
+    clock = Clock(SimpleNamespace(time=None, cycles=None))
+    clock.begin(SimpleNamespace(time=1.0, cycle=5))
+    assert clock.left(SimpleNamespace(time=2.0, cycle=10)) is None
+
+
+def test_before_the_first_cycle_is_over_nothing_is_known():
+    clock = Clock(SimpleNamespace(time=1.0, cycles=None))
+    assert clock.left(SimpleNamespace(time=0.1, cycle=1)) is None
