@@ -6,12 +6,14 @@
 ``@kernel``  loops over the mesh, threaded over rows by one outermost ``prange``
 ``@serial``  loops over a short list, one thread
 
-numba's own cache notices an edit of the file that holds a function, not of the files that this one calls. The cache
-folder therefore carries a hash of every source a kernel can see, so that it is never stale.
+numba's own cache notices an edit of the file that holds a function, not of the files that this one calls. What is compiled
+of a file is therefore kept in a folder with a hash of this file and of all that it imports: it is never stale, and an edit
+compiles anew what can see it and nothing else.
 """
 
 from __future__ import annotations
 
+import ast
 import functools
 import hashlib
 import importlib.util
@@ -20,6 +22,7 @@ import os
 import sys
 import tempfile
 import time
+from collections.abc import Iterable
 from pathlib import Path
 from types import ModuleType
 
@@ -38,22 +41,77 @@ def _source_files() -> list[Path]:
     return [Path(__file__).resolve(), here / "parameters.py", here / "mesh" / "fields.py", here / "mesh" / "grid.py", *modules]
 
 
-def _cache_folder() -> str:
+def _cache_root() -> str:
+    """The folder under which all that is compiled is kept."""
+    root = os.environ.get("HYDRO2D_CACHE_DIR")
+    if root is not None:
+        return root
+    home = Path(os.environ.get("XDG_CACHE_HOME", Path.home() / ".cache"))
+    if not os.access(home if home.exists() else home.parent, os.W_OK):
+        return os.path.join(tempfile.gettempdir(), "hydro2d-cache")
+    return str(home / "hydro2d")
+
+
+def _folder_for(files: Iterable[Path]) -> str:
+    """The folder for what depends on these files: named by a hash of their text."""
     digest = hashlib.sha256(numba.__version__.encode())
-    for file in _source_files():
+    for file in sorted(files):
         digest.update(file.name.encode())
         digest.update(file.read_bytes())
-    root = os.environ.get("HYDRO2D_CACHE_DIR")
-    if root is None:
-        home = Path(os.environ.get("XDG_CACHE_HOME", Path.home() / ".cache"))
-        root = str(home / "hydro2d")
-        if not os.access(home if home.exists() else home.parent, os.W_OK):
-            root = os.path.join(tempfile.gettempdir(), "hydro2d-cache")
-    return os.path.join(root, digest.hexdigest()[:16])
+    return os.path.join(_cache_root(), digest.hexdigest()[:16])
 
 
-CACHE_FOLDER = _cache_folder()
-numba.config.CACHE_DIR = CACHE_FOLDER
+def _imported(file: Path) -> set[str]:
+    """Names of the modules that a file imports, and of what it imports from them, which may be modules."""
+    names = set()
+    for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            names |= {alias.name for alias in node.names}
+        elif isinstance(node, ast.ImportFrom) and node.module:
+            names |= {node.module, *(f"{node.module}.{alias.name}" for alias in node.names)}
+    return names
+
+
+@functools.cache
+def _sources() -> dict[str, Path]:
+    """The source files by the names of their modules."""
+    root = Path(__file__).resolve().parent.parent
+    return {".".join(file.relative_to(root).with_suffix("").parts): file for file in _source_files()}
+
+
+@functools.cache
+def _seen_by(file: Path) -> frozenset[Path]:
+    """A source file, this one, and every other source that it imports, itself or through others.
+
+    Models are chosen by lists of names: who imports a module of `eos` or `strength` sees all of the folder.
+    """
+    sources, found, waiting = _sources(), {Path(__file__).resolve()}, [file]
+    while waiting:
+        each = waiting.pop()
+        if each in found:
+            continue
+        found.add(each)
+        names = _imported(each)
+        folders = {name.split(".")[0] for name in names} & {"eos", "strength"}
+        waiting += [there for name, there in sources.items() if name in names or name.split(".")[0] in folders]
+    return frozenset(found)
+
+
+@functools.cache
+def _folder_of(file: str) -> str:
+    """The folder for what is compiled of a file."""
+    path = Path(file).resolve()
+    return _folder_for(_seen_by(path)) if path in _sources().values() else CACHE_FOLDER
+
+
+def _compile(function, **options):
+    """numba's compilation, with the cache in the folder that belongs to the function's file."""
+    numba.config.CACHE_DIR = _folder_of(function.__code__.co_filename)
+    return numba.njit(function, **{**_COMMON, **options})
+
+
+#: for what depends on all sources
+CACHE_FOLDER = _folder_for(_source_files())
 numba.config.THREADING_LAYER = "omp"
 
 # rows are views into a dozen arrays: the loops are vectorised only if that many checks that they do not overlap are allowed
@@ -96,17 +154,17 @@ _arguments_apart()
 
 def rowwise(function):
     """A piece of kernels: one row of one phase. Its text becomes part of each kernel that calls it."""
-    return numba.njit(function, inline="always", **_COMMON)
+    return _compile(function, inline="always")
 
 
 def point(function):
     """Compiles a scalar function of physics."""
-    return numba.njit(function, forceinline=True, **_COMMON)
+    return _compile(function, forceinline=True)
 
 
 def apart(function):
     """Compiles a function that is called, not inlined: what runs rarely need not be compiled again at every place."""
-    return numba.njit(function, **_COMMON)
+    return _compile(function)
 
 
 def modules(package: str, *names: str) -> tuple[ModuleType, ...]:
@@ -145,7 +203,7 @@ def by_id(models: tuple[ModuleType, ...], function: str, arguments: str, meaning
     return getattr(module, function)
 
 
-@numba.njit(forceinline=True, **{**_COMMON, "fastmath": {"reassoc"}})
+@functools.partial(_compile, forceinline=True, fastmath={"reassoc"})
 def plus(total, term):
     """total + term, the terms of a loop in any order: what lets the compiler sum in lanes. It hides no NaN."""
     return total + term
@@ -173,12 +231,12 @@ def kernel(function):
     Array views inside the ``prange`` must be assigned one by one: through a tuple (``a, b = x[j], y[j]``) numba 0.68
     loses writes to them, silently. A test holds every kernel against its own source, interpreted.
     """
-    return _timed(function, numba.njit(function, parallel=True, **_COMMON))
+    return _timed(function, _compile(function, parallel=True))
 
 
 def serial(function):
     """Compiles loops that one thread runs: short lists, boundaries."""
-    return _timed(function, numba.njit(function, **_COMMON))
+    return _timed(function, _compile(function))
 
 
 prange = numba.prange

@@ -1,8 +1,10 @@
 """How compiled functions choose among models."""
 
+import importlib
 import math
 import os
 import types
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -45,3 +47,47 @@ def test_the_chain_is_a_file_that_does_not_change_between_imports():
 def test_two_models_with_one_id_are_an_error():
     with pytest.raises(ValueError, match="ID 0"):
         jit.by_id((model(0, flow_stress=None), model(0, flow_stress=None)), "flow_stress", "ep", "one of them")
+
+
+ROOT = Path(jit.__file__).resolve().parent.parent
+KERNELS = sorted(ROOT.glob("hydro2d/kernels/[a-z]*.py"))
+
+
+def seen_by(name: str) -> set[str]:
+    return {file.relative_to(ROOT).as_posix() for file in jit._seen_by(ROOT / name)}
+
+
+@pytest.mark.parametrize("file", KERNELS, ids=lambda file: file.stem)
+def test_whatever_a_kernel_can_call_is_among_the_sources_of_its_cache(file):
+    """Every compiled function that its module knows, and what that one's module knows, and so on."""
+    seen, waiting, known = jit._seen_by(file), [importlib.import_module(f"hydro2d.kernels.{file.stem}")], set()
+    while waiting:
+        for value in vars(waiting.pop()).values():
+            compiled = getattr(value, "compiled", value)
+            if not hasattr(compiled, "py_func") or compiled.py_func.__module__ in known:
+                continue
+            known.add(compiled.py_func.__module__)
+            module = importlib.import_module(compiled.py_func.__module__)
+            assert Path(module.__file__).resolve() in seen or Path(module.__file__).parent == Path(jit.CACHE_FOLDER)
+            waiting.append(module)
+    assert known
+
+
+def test_an_edit_compiles_again_what_can_see_it_and_nothing_else():
+    sees_strength = {file.stem for file in KERNELS if "strength/power_law.py" in seen_by(f"hydro2d/kernels/{file.name}")}
+    assert {"deformation", "mixed"} <= sees_strength
+    assert not sees_strength & {"remap", "momentum", "interfaces", "contact", "contact_motion", "contact_velocities",
+                                "contact_volumes", "acceleration", "sliding", "spans", "following", "boundaries"}
+    assert "hydro2d/physics/interfaces.py" in seen_by("hydro2d/kernels/contact_volumes.py")
+    assert "hydro2d/physics/interfaces.py" not in seen_by("hydro2d/kernels/momentum.py")
+
+
+def test_the_folder_changes_with_the_text_of_a_source(tmp_path):
+    first, second = tmp_path / "a.py", tmp_path / "b.py"
+    first.write_text("A = 1\n")
+    second.write_text("B = 1\n")
+    before = jit._folder_for([first, second])
+    assert jit._folder_for([second, first]) == before
+    second.write_text("B = 2\n")
+    assert jit._folder_for([first, second]) != before
+    assert jit._folder_for([first]) != before
