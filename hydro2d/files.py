@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import fcntl
 import json
 import math
 import os
@@ -131,3 +132,18 @@ def _plain(value):
 
 def write_json(path: Path, value) -> None:
     write_text(path, json.dumps(_plain(value), indent=2, allow_nan=False) + "\n")
+
+
+@contextmanager
+def turn(file: Path) -> Iterator[None]:
+    """Waits until no other process is in such a block with this file, which is made if need be, and keeps others waiting.
+
+    The turn ends with the process, however it ends. Meant for short work on one machine.
+    """
+    file.parent.mkdir(parents=True, exist_ok=True)
+    handle = os.open(file, os.O_CREAT | os.O_RDWR)
+    try:
+        fcntl.flock(handle, fcntl.LOCK_EX)
+        yield
+    finally:
+        os.close(handle)

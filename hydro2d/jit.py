@@ -22,15 +22,18 @@ import os
 import sys
 import tempfile
 import time
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
 from pathlib import Path
 from types import ModuleType
 
 import llvmlite.binding
 import numba
+from numba.core import caching
 from numba.parfors import parfor_lowering
 
-from hydro2d.files import replacing
+from hydro2d.files import replacing, turn
 
 
 def _source_files() -> list[Path]:
@@ -152,6 +155,21 @@ def _arguments_apart() -> None:
 _arguments_apart()
 
 
+def _one_writes_at_a_time() -> None:
+    """Lets one process at a time add to a folder of numba's cache: two at once can give one name to two functions."""
+    save = caching.IndexDataCacheFile.save
+
+    @functools.wraps(save)
+    def alone(self, key, data):
+        with turn(Path(self._cache_path) / "saving.lock"):
+            save(self, key, data)
+
+    caching.IndexDataCacheFile.save = alone
+
+
+_one_writes_at_a_time()
+
+
 def rowwise(function):
     """A piece of kernels: one row of one phase. Its text becomes part of each kernel that calls it."""
     return _compile(function, inline="always")
@@ -209,16 +227,60 @@ def plus(total, term):
     return total + term
 
 
-def _timed(function, compiled):
+@dataclass(frozen=True)
+class Call:
+    """A kernel and the types of the arguments that it was called with."""
+
+    name: str
+    compiled: object
+    types: tuple
+
+    def compile(self) -> None:
+        """Compiles the kernel for these types, or takes it from the cache, while no other process does."""
+        with turn(_kernel_lock(self.name)):
+            self.compiled.compile(self.types)
+
+
+#: calls of kernels, while they are written down and not done
+_calls: list[Call] | None = None
+
+
+@contextmanager
+def recorded() -> Iterator[list[Call]]:
+    """Within the block kernels do nothing: their calls are written down."""
+    global _calls
+    _calls = found = []
+    try:
+        yield found
+    finally:
+        _calls = None
+
+
+def _kernel_lock(name: str) -> Path:
+    return Path(CACHE_FOLDER) / f"{name}.lock"
+
+
+def _called(function, compiled):
+    """What the rest of the code calls in a kernel's place: timed, written down, and the first time alone of all processes."""
+    name, known = f"{function.__module__}.{function.__name__}", False
+
     @functools.wraps(function)
     def call(*arguments):
-        if not _profiling:
-            return compiled(*arguments)
+        nonlocal known
+        if _calls is not None:
+            _calls.append(Call(name, compiled, tuple(compiled.typeof_pyval(value) for value in arguments)))
+            return None
         start = time.perf_counter()
-        result = compiled(*arguments)
-        entry = timings.setdefault(function.__name__, [0.0, 0])
-        entry[0] += time.perf_counter() - start
-        entry[1] += 1
+        if known:
+            result = compiled(*arguments)
+        else:
+            known = True
+            with turn(_kernel_lock(name)):
+                result = compiled(*arguments)
+        if _profiling:
+            entry = timings.setdefault(function.__name__, [0.0, 0])
+            entry[0] += time.perf_counter() - start
+            entry[1] += 1
         return result
 
     call.compiled = compiled
@@ -231,12 +293,12 @@ def kernel(function):
     Array views inside the ``prange`` must be assigned one by one: through a tuple (``a, b = x[j], y[j]``) numba 0.68
     loses writes to them, silently. A test holds every kernel against its own source, interpreted.
     """
-    return _timed(function, _compile(function, parallel=True))
+    return _called(function, _compile(function, parallel=True))
 
 
 def serial(function):
     """Compiles loops that one thread runs: short lists, boundaries."""
-    return _timed(function, _compile(function))
+    return _called(function, _compile(function))
 
 
 prange = numba.prange

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-import fcntl
 import hashlib
 import os
+import subprocess
+import sys
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
 from hydro2d import jit
+from hydro2d.files import turn
 
 EVENT = "numba:compile"
 events = jit.numba.core.event
@@ -24,8 +26,9 @@ class Compilation(events.Listener):
     seconds, kernels : float, int; spent so far, and on how many functions that were not inlined in another one
     """
 
-    def __init__(self, say: Callable[[str], None]):
+    def __init__(self, say: Callable[[str], None], begins: Callable[[], None]):
         self.seconds, self.kernels = 0.0, 0
+        self._begins = begins
         self._say, self._told, self._depth, self._start = say, 0.0, 0, 0.0
 
     def on_start(self, event) -> None:
@@ -34,6 +37,7 @@ class Compilation(events.Listener):
             self._start = time.perf_counter()
             if self.kernels == 0:
                 self._say("compiling kernels; this takes about a minute and is kept for later runs")
+                self._begins()
         self._depth += 1
 
     def on_end(self, event) -> None:
@@ -51,16 +55,55 @@ class Compilation(events.Listener):
             self._told = self.seconds
 
 
+class Second:
+    """A second process that compiles the kernels of a deck, from the last one on, while this process begins with the first.
+
+    Each takes from the cache what the other has compiled, and waits where the other is at it.
+
+    deck_text : the resolved deck
+    """
+
+    def __init__(self, deck_text: str):
+        self._text, self._process = deck_text, None
+
+    def start(self) -> None:
+        """Where there is a second core."""
+        cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
+        if cores < 2 or self._process:
+            return
+        command = [sys.executable, "-m", "hydro2d.running.compile_ahead"]
+        self._process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.DEVNULL,
+                                         stderr=subprocess.DEVNULL)
+        self._process.stdin.write(self._text.encode())
+        self._process.stdin.close()
+
+    def stop(self) -> int | None:
+        """Ends it; its exit status if it had failed, else None."""
+        if self._process is None:
+            return None
+        status = self._process.poll()
+        if status is None:
+            self._process.terminate()
+            self._process.wait()
+        return status or None
+
+
 @contextmanager
-def announced(say: Callable[[str], None]) -> Iterator[Compilation]:
-    """Says so while kernels are compiled within the block, and at its end how long it took."""
-    listener = Compilation(say)
+def announced(say: Callable[[str], None], deck_text: str = "") -> Iterator[Compilation]:
+    """Says so while kernels are compiled within the block, and at its end how long it took.
+
+    deck_text : of a resolved deck whose kernels a second process helps to compile
+    """
+    second = Second(deck_text)
+    listener = Compilation(say, second.start if deck_text else lambda: None)
     events.register(EVENT, listener)
     try:
         yield listener
     finally:
         events.unregister(EVENT, listener)
         listener.report()
+        if status := second.stop():
+            say(f"the second process that compiled kernels failed with exit status {status}; nothing is lost but time")
 
 
 def _mark(key: str) -> Path:
@@ -77,19 +120,12 @@ def is_compiled(key: str) -> bool:
 def once(key: str, compile: Callable[[], None]) -> None:
     """Calls `compile` unless some process did for this key; of several that come at once, one does and the others wait.
 
-    numba's cache can be spoilt by processes that compile the same kernels at the same time.
-
     key : names the set of kernels
     """
     mark = _mark(key)
     if mark.exists():
         return
-    mark.parent.mkdir(parents=True, exist_ok=True)
-    handle = os.open(mark.with_name("compiling.lock"), os.O_CREAT | os.O_RDWR)
-    try:
-        fcntl.flock(handle, fcntl.LOCK_EX)  # gone with the process that holds it
+    with turn(mark.with_name("compiling.lock")):
         if not mark.exists():
             compile()
             mark.touch()
-    finally:
-        os.close(handle)

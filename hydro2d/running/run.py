@@ -401,7 +401,7 @@ def run(deck, directory: Path | None = None, *, restart=False, overwrite=False, 
         with (
             reporter(directory / LOG, quiet=quiet) as report,
             signals(interrupt),
-            announced(report.line) as compiled,
+            announced(report.line, deck.to_toml()) as compiled,
         ):
             return Run(deck, directory, restart=restart, report=report).execute(interrupt, compiled)
 

@@ -3,12 +3,18 @@
 import os
 import subprocess
 import sys
+import threading
+import time
 
 import numba
 import pytest
 
 from hydro2d import jit
-from hydro2d.running.compilation import announced, is_compiled, once
+from hydro2d.deck import deck as decks
+from hydro2d.files import turn
+from hydro2d.running.compilation import Second, announced, is_compiled, once
+from hydro2d.running.compile_ahead import calls_of_a_cycle
+from hydro2d.solver.simulation import Simulation
 
 
 def test_what_is_compiled_is_said():
@@ -68,3 +74,65 @@ def test_of_two_processes_one_compiles(tmp_path):
     both = [subprocess.Popen([sys.executable, "-c", code, str(tmp_path / "said")], env=place) for _ in range(2)]
     assert [child.wait(120) for child in both] == [0, 0]
     assert (tmp_path / "said").read_text() == "x"
+
+
+DECKS = ["cth_nose_shape/hemi_5083_1086_quick", "cth_nose_shape/hemi_5083_1086_layer", "sliding/block_level"]
+
+
+@pytest.mark.parametrize("name", DECKS)
+def test_the_second_process_knows_the_kernels_of_a_cycle(name):
+    """It computes nothing, and finds all the same what a simulation calls until its first cycle is over."""
+    deck = decks.load(f"problems/{name}.toml")
+    found = {call.name.split(".")[-1] for call in calls_of_a_cycle(deck)}
+    jit.profiling(True)
+    try:
+        Simulation(deck).step()
+        called = set(jit.timings)
+    finally:
+        jit.profiling(False)
+    assert len(called) > 25
+    assert called <= found
+
+
+def test_a_call_that_was_written_down_is_compiled_for_its_types():
+    deck = decks.load("problems/sliding/block_level.toml")
+    call = next(call for call in calls_of_a_cycle(deck) if call.name.endswith("reached"))
+    call.compile()
+    assert call.types in [tuple(types) for types in call.compiled.signatures]
+
+
+def test_a_second_process_that_fails_is_said_to():
+    """Its deck is none; what goes on here is not disturbed."""
+    said = []
+    with announced(said.append, "no deck at all"):
+        assert numba.njit(lambda x: x + 5)(1.0) == 6.0
+        time.sleep(5.0)
+    assert said[-1].startswith("the second process that compiled kernels failed with exit status 1")
+
+
+def test_a_second_process_is_ended(monkeypatch):
+    second = Second(decks.load("problems/sliding/block_level.toml").to_toml())
+    monkeypatch.setattr(os, "sched_getaffinity", lambda process: {0, 1}, raising=False)
+    assert second.stop() is None  # it was never begun
+    second.start()
+    assert second.stop() is None
+
+
+def test_turns_are_taken(tmp_path):
+    """Four threads count to a hundred together, each with a pause between reading and writing."""
+    count = tmp_path / "count"
+    count.write_text("0")
+
+    def work():
+        for _ in range(25):
+            with turn(tmp_path / "folder" / "lock"):
+                before = int(count.read_text())
+                time.sleep(1e-4)
+                count.write_text(str(before + 1))
+
+    threads = [threading.Thread(target=work) for _ in range(4)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert count.read_text() == "100"

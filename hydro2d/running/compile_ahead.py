@@ -1,0 +1,57 @@
+"""Compiles the kernels of a deck without running it: the second process of `compilation.Second`.
+
+    python -m hydro2d.running.compile_ahead < deck.toml
+"""
+
+from __future__ import annotations
+
+import contextlib
+import functools
+import sys
+
+from hydro2d import jit
+from hydro2d.deck import deck as decks
+
+
+def calls_of_a_cycle(deck) -> list[jit.Call]:
+    """The kernels that a simulation of a deck calls when it is set up and in its first cycle, in order, each but once.
+
+    Nothing is computed: kernels are only written down. What is worked out from numbers that are not there may therefore fail,
+    and every part of the cycle is left where it fails.
+    """
+    from hydro2d.solver.simulation import Simulation
+
+    with jit.recorded() as calls:
+        simulation = Simulation(deck)
+        for part in (simulation, simulation.engine, simulation.engine.mesh, simulation.engine.contact):
+            _go_on_after_failure(part)
+        simulation.engine.dt = 1e-9
+        simulation.step()
+    return list(dict.fromkeys(calls))
+
+
+def _go_on_after_failure(part) -> None:
+    """Makes every method of an object leave quietly where it fails."""
+    for name in dir(type(part)) if part is not None else ():
+        method = getattr(type(part), name)
+        if not name.startswith("__") and callable(method) and not isinstance(method, type):
+            setattr(part, name, _quiet(getattr(part, name)))
+
+
+def _quiet(method):
+    @functools.wraps(method)
+    def call(*arguments, **named):
+        with contextlib.suppress(Exception):
+            return method(*arguments, **named)
+
+    return call
+
+
+def main() -> None:
+    """From the last kernel to the first: the process that runs the deck comes the other way."""
+    for call in reversed(calls_of_a_cycle(decks.loads(sys.stdin.read()))):
+        call.compile()
+
+
+if __name__ == "__main__":
+    main()
