@@ -19,21 +19,28 @@ def leaders(code):
 
 
 @point
-def leader(n, g, j, i, code, r, z):
-    """(group, j, i, weight) of the n-th vertex that vertex (j, i) of group g moves with.
-
-    Those of a cell carry its mean velocity and gradient to the vertex, so that a linear field is met exactly. The weights of
-    all add up to 1.
-    """
+def leader(n, g, j, i, code, weights):
+    """(group, j, i, weight) of the n-th vertex that vertex (j, i) of group g moves with; `weigh` has set the weights."""
     if code >= EXTENDS:
         row, column = j + (code - EXTENDS) // (2 * REACH) - REACH, i + (code - EXTENDS) % (2 * REACH) - REACH
-        x = (r[i] - 0.5 * (r[column] + r[column + 1])) / (r[column + 1] - r[column])
-        y = (z[j] - 0.5 * (z[row] + z[row + 1])) / (z[row + 1] - z[row])
-        up, out = n // 2, n % 2
-        return g, row + up, column + out, 0.25 + 0.5 * ((x if out == 1 else -x) + (y if up == 1 else -y))
+        return g, row + n // 2, column + n % 2, weights[n, g, j, i]
     if code == STUCK:
         return 1 - g, j, i, 1.0
     return g, j + code // 5 - 2, i + code % 5 - 2, 1.0
+
+
+@point
+def weigh(g, j, i, code, r, z, weights):
+    """Weights of the four vertices of the cell whose linear field a light vertex takes.
+
+    They carry the cell's mean velocity and gradient to the vertex, so that a linear field is met exactly, and add up to 1
+    (explanation/sliding, equation 11).
+    """
+    row, column = j + (code - EXTENDS) // (2 * REACH) - REACH, i + (code - EXTENDS) % (2 * REACH) - REACH
+    x = (r[i] - 0.5 * (r[column] + r[column + 1])) / (r[column + 1] - r[column])
+    y = (z[j] - 0.5 * (z[row] + z[row + 1])) / (z[row + 1] - z[row])
+    for n in range(4):
+        weights[n, g, j, i] = 0.25 + 0.5 * ((x if n % 2 == 1 else -x) + (y if n // 2 == 1 else -y))
 
 
 @point
@@ -55,11 +62,11 @@ def give(g, j, i, push_r, push_z, still, mass, u, v, exchange):
 
 
 @apart
-def yielding(g, j, i, code, still, r, z, mass):
+def yielding(g, j, i, code, still, weights, mass):
     """Sum of w^2/m over the vertices that a light one moves with, along r and z (1/kg): its velocity per impulse on them."""
     along_r, along_z = 0.0, 0.0
     for n in range(leaders(code)):
-        by, row, column, weight = leader(n, g, j, i, code, r, z)
+        by, row, column, weight = leader(n, g, j, i, code, weights)
         held_r, held_z = held(row, column, still)
         part = weight * weight / mass[by, row, column]
         along_r += 0.0 if held_r else part
@@ -68,21 +75,21 @@ def yielding(g, j, i, code, still, r, z, mass):
 
 
 @apart
-def hand_over(g, j, i, code, push_r, push_z, still, r, z, mass, u, v, taken, exchange):
+def hand_over(g, j, i, code, push_r, push_z, still, weights, mass, u, v, taken, exchange):
     """Gives the vertices that a light one moves with, by weight, an impulse that it loses; `taken` counts it."""
     taken[0, g, j, i] += push_r
     taken[1, g, j, i] += push_z
     for n in range(leaders(code)):
-        by, row, column, weight = leader(n, g, j, i, code, r, z)
+        by, row, column, weight = leader(n, g, j, i, code, weights)
         give(by, row, column, weight * push_r, weight * push_z, still, mass, u, v, exchange)
 
 
 @apart
-def fall_in(g, j, i, code, still, r, z, mass, u, v, ease, taken, exchange):
+def fall_in(g, j, i, code, still, weights, mass, u, v, ease, taken, exchange):
     """Brings a light vertex to the velocity of those it moves with, by the least impulse that does."""
     want_r, want_z = 0.0, 0.0
     for n in range(leaders(code)):
-        by, row, column, weight = leader(n, g, j, i, code, r, z)
+        by, row, column, weight = leader(n, g, j, i, code, weights)
         held_r, held_z = held(row, column, still)
         want_r += 0.0 if held_r else weight * u[by, row, column]
         want_z += 0.0 if held_z else weight * v[by, row, column]
@@ -90,20 +97,20 @@ def fall_in(g, j, i, code, still, r, z, mass, u, v, ease, taken, exchange):
     held_r, held_z = held(j, i, still)
     push_r = 0.0 if held_r else (u[g, j, i] - want_r) / (1.0 / m + ease[0, g, j, i])
     push_z = 0.0 if held_z else (v[g, j, i] - want_z) / (1.0 / m + ease[1, g, j, i])
-    hand_over(g, j, i, code, push_r, push_z, still, r, z, mass, u, v, taken, exchange)
+    hand_over(g, j, i, code, push_r, push_z, still, weights, mass, u, v, taken, exchange)
     u[g, j, i] -= push_r / m
     v[g, j, i] -= push_z / m
 
 
 @apart
-def push_on(g, j, i, code, push_r, push_z, still, r, z, mass, u, v, ease, taken, exchange):
+def push_on(g, j, i, code, push_r, push_z, still, weights, mass, u, v, ease, taken, exchange):
     """An impulse on a vertex; a light one and those it moves with take it together, so that it goes on moving with them."""
     if code == HEAVY:
         give(g, j, i, push_r, push_z, still, mass, u, v, exchange)
         return
     m = mass[g, j, i]
     pass_r, pass_z = push_r / (1.0 + m * ease[0, g, j, i]), push_z / (1.0 + m * ease[1, g, j, i])
-    hand_over(g, j, i, code, pass_r, pass_z, still, r, z, mass, u, v, taken, exchange)
+    hand_over(g, j, i, code, pass_r, pass_z, still, weights, mass, u, v, taken, exchange)
     give(g, j, i, push_r - pass_r, push_z - pass_z, still, mass, u, v, exchange)
 
 
@@ -118,17 +125,17 @@ def mobility(g, j, i, code, mass, ease):
 
 
 @apart
-def warm_up(g, j, i, code, made, mass, r, z, heat):
+def warm_up(g, j, i, code, made, mass, weights, heat):
     """Gives heat (J) to a vertex, or where it is light to those that it moves with; where it sticks, to both groups."""
     if code == HEAVY:
         heat[g, j, i] += made / mass[g, j, i]
         return
     total = mass[g, j, i] if code == STUCK else 0.0
     for n in range(leaders(code)):
-        by, row, column, _ = leader(n, g, j, i, code, r, z)
+        by, row, column, _ = leader(n, g, j, i, code, weights)
         total += mass[by, row, column]
     for n in range(leaders(code)):
-        by, row, column, _ = leader(n, g, j, i, code, r, z)
+        by, row, column, _ = leader(n, g, j, i, code, weights)
         heat[by, row, column] += made / total
     if code == STUCK:
         heat[g, j, i] += made / total
@@ -156,7 +163,7 @@ def pressed(j, i, n_r, n_z, cut, face_r, hoop, az_in, az_out, dz, line, sig_rr, 
 
 
 @apart
-def touch_and_rub(j, i, dt, friction, still, r, z, face_r, hoop, az_in, az_out, dz, cut, line, normal, link, sig_rr, sig_zz,
+def touch_and_rub(j, i, dt, friction, still, weights, face_r, hoop, az_in, az_out, dz, cut, line, normal, link, sig_rr, sig_zz,
                   sig_rz, mass, u, v, ease, taken, impulse, exchange):
     """Impulses between the two groups at a shared vertex at which they touch.
 
@@ -192,16 +199,16 @@ def touch_and_rub(j, i, dt, friction, still, r, z, face_r, hoop, az_in, az_out, 
     impulse[RUB_R, j, i] += drag * t_r
     impulse[RUB_Z, j, i] += drag * t_z
     give_r, give_z = push * n_r + drag * t_r, push * n_z + drag * t_z
-    push_on(0, j, i, code_s, give_r, give_z, still, r, z, mass, u, v, ease, taken, exchange)
-    push_on(1, j, i, code_h, -give_r, -give_z, still, r, z, mass, u, v, ease, taken, exchange)
+    push_on(0, j, i, code_s, give_r, give_z, still, weights, mass, u, v, ease, taken, exchange)
+    push_on(1, j, i, code_h, -give_r, -give_z, still, weights, mass, u, v, ease, taken, exchange)
 
 
 @apart
-def mismatch(g, j, i, code, still, r, z, u0, v0, u, v):
+def mismatch(g, j, i, code, still, weights, u0, v0, u, v):
     """Velocity of a light vertex less that of those it moves with, the mean over the step."""
     apart_r, apart_z = u0[g, j, i] + u[g, j, i], v0[g, j, i] + v[g, j, i]
     for n in range(leaders(code)):
-        by, row, column, weight = leader(n, g, j, i, code, r, z)
+        by, row, column, weight = leader(n, g, j, i, code, weights)
         held_r, held_z = held(row, column, still)
         apart_r -= 0.0 if held_r else weight * (u0[by, row, column] + u[by, row, column])
         apart_z -= 0.0 if held_z else weight * (v0[by, row, column] + v[by, row, column])
@@ -210,7 +217,7 @@ def mismatch(g, j, i, code, still, r, z, u0, v0, u, v):
 
 @serial
 def settle(j0, j1, dt, friction, still, r, z, face_r, hoop, az_in, az_out, dz, cut, line, count, shared, normal, touch, link,
-           sig_rr, sig_zz, sig_rz, mass, u0, v0, u, v, ease, taken, impulse, heat, exchange):
+           sig_rr, sig_zz, sig_rz, mass, u0, v0, u, v, weights, ease, taken, impulse, heat, exchange):
     """Velocities of both groups at shared vertices, from those that the forces alone would give.
 
     Light vertices move with others of their group, and groups that touch do not close: each such condition is met by
@@ -222,8 +229,8 @@ def settle(j0, j1, dt, friction, still, r, z, face_r, hoop, az_in, az_out, dz, c
     Updates  u, v [b, j, i]; heat [b, j, i], J per kg of the group's mass at a vertex; adds to exchange[4, j]
     Writes   exchange[:4, j]: axial momentum that the rest gains from the hard group, heat of contact, of friction and of light
              vertices
-    Scratch  ease [c, b, j, i], what `yielding` gives for light vertices; taken [c, b, j, i], impulses that they have given
-             away; impulse [6, j, i]
+    Scratch  weights [n, b, j, i], what `weigh` gives for light vertices, and ease [c, b, j, i], what `yielding` does; taken
+             [c, b, j, i], impulses that they have given away; impulse [6, j, i]
     """
     for j in range(j0, j1 + 1):
         for k in range(count[j]):
@@ -233,20 +240,22 @@ def settle(j0, j1, dt, friction, still, r, z, face_r, hoop, az_in, az_out, dz, c
             for g in range(2):
                 taken[0, g, j, i] = 0.0
                 taken[1, g, j, i] = 0.0
+                if link[g, j, i] >= EXTENDS:
+                    weigh(g, j, i, link[g, j, i], r, z, weights)
                 if link[g, j, i] != HEAVY:
-                    ease[0, g, j, i], ease[1, g, j, i] = yielding(g, j, i, link[g, j, i], still, r, z, mass)
+                    ease[0, g, j, i], ease[1, g, j, i] = yielding(g, j, i, link[g, j, i], still, weights, mass)
     for _ in range(PASSES):
         for j in range(j0, j1 + 1):
             for k in range(count[j]):
                 i = shared[j, k]
                 for g in range(2):
                     if link[g, j, i] != HEAVY:
-                        fall_in(g, j, i, link[g, j, i], still, r, z, mass, u, v, ease, taken, exchange)
+                        fall_in(g, j, i, link[g, j, i], still, weights, mass, u, v, ease, taken, exchange)
         for j in range(j0, j1 + 1):
             for k in range(count[j]):
                 i = shared[j, k]
                 if touch[j, i] > 0.0 and link[0, j, i] != STUCK and link[1, j, i] != STUCK:
-                    touch_and_rub(j, i, dt, friction, still, r, z, face_r, hoop, az_in, az_out, dz, cut, line, normal, link,
+                    touch_and_rub(j, i, dt, friction, still, weights, face_r, hoop, az_in, az_out, dz, cut, line, normal, link,
                                   sig_rr, sig_zz, sig_rz, mass, u, v, ease, taken, impulse, exchange)
     for j in range(j0, j1 + 1):
         for row in range(4):
@@ -258,7 +267,7 @@ def settle(j0, j1, dt, friction, still, r, z, face_r, hoop, az_in, az_out, dz, c
             pushed = impulse[PUSH_R, j, i] * w_r + impulse[PUSH_Z, j, i] * w_z
             rubbed = impulse[RUB_R, j, i] * w_r + impulse[RUB_Z, j, i] * w_z
             if pushed != 0.0 or rubbed != 0.0:
-                warm_up(0, j, i, link[0, j, i], pushed + rubbed, mass, r, z, heat)
+                warm_up(0, j, i, link[0, j, i], pushed + rubbed, mass, weights, heat)
             exchange[0, j] += impulse[PUSH_Z, j, i] + impulse[RUB_Z, j, i]
             exchange[1, j] += pushed
             exchange[2, j] += rubbed
@@ -266,9 +275,9 @@ def settle(j0, j1, dt, friction, still, r, z, face_r, hoop, az_in, az_out, dz, c
                 code = link[g, j, i]
                 if code == HEAVY:
                     continue
-                w_r, w_z = mismatch(g, j, i, code, still, r, z, u0, v0, u, v)
+                w_r, w_z = mismatch(g, j, i, code, still, weights, u0, v0, u, v)
                 made = taken[0, g, j, i] * w_r + taken[1, g, j, i] * w_z
-                warm_up(g, j, i, code, made, mass, r, z, heat)
+                warm_up(g, j, i, code, made, mass, weights, heat)
                 exchange[3, j] += made
                 if code == STUCK:
                     exchange[0, j] += taken[1, g, j, i] if g == 1 else -taken[1, g, j, i]

@@ -95,6 +95,7 @@ class State:
         self.contact_normal = np.zeros((3, 2, nj + 1, ni + 1))
         self.touch = np.zeros((nj + 1, ni + 1))
         self.ease, self.taken = np.zeros((2, 2, 2, nj + 1, ni + 1))
+        self.light_weights = np.zeros((4, 2, nj + 1, ni + 1))
         self.impulse = np.zeros((6, nj + 1, ni + 1))
         self.exchange = np.zeros((5, nj + 1))
 

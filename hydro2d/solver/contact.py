@@ -61,7 +61,7 @@ class Contact:
         contact_velocities.settle(
             j0, j1, dt, method.friction, self.still, g.r, g.z, g.face_r, g.hoop, g.az_in, g.az_out, g.dz, s.cut, s.line,
             s.shared_count, s.shared, s.contact_normal, s.touch, s.link, s.sig_rr, s.sig_zz, s.sig_rz, s.mass, s.u0, s.v0, s.u,
-            s.v, s.ease, s.taken, s.impulse, s.heat, s.exchange)
+            s.v, s.light_weights, s.ease, s.taken, s.impulse, s.heat, s.exchange)
         pushed, *heats, walls = s.exchange[:, j0:j1 + 1].sum(axis=1)
         ledger.book("walls", momentum=float(walls))
         ledger.exchange("contact", momentum=float(pushed), energy=float(heats[0]))
