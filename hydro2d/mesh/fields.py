@@ -63,7 +63,6 @@ FIELDS = (
     Field("vertex_mass", "mass", "vertex", "kg", 1, "mass", False, "mass of the dual cell, per radian"),
 )
 
-BY_NAME = {field.name: field for field in FIELDS}
 
 #: the rows of State.q
 BODY = tuple(field for field in FIELDS if field.centring == "body" and field.remap and field.name != "volume_fraction")
