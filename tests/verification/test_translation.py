@@ -100,4 +100,4 @@ def test_rod_keeps_its_shape():
     assert differs[:, 0].sum() < 0.02  # the axis: positions of tip and tail, in cells
     volume = goal.grid.interior(goal.grid.volume)
     surface = 3.3e-3 * 6.7e-3 + 3.3e-3**2 + 0.5 * 3.3e-3**2  # flank, nose and tail, per radian
-    assert np.sum(differs * volume) < 0.5 * 0.5e-3 * surface  # half a cell over the surface; it is 0.34
+    assert np.sum(differs * volume) < 0.15 * 0.5e-3 * surface  # in cells over the surface: it is 0.08, with lines alone 0.34
