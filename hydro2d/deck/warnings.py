@@ -10,13 +10,16 @@ from hydro2d.deck.checks import AHEAD, extent, room
 from hydro2d.deck.mesh import axis_edges, body
 from hydro2d.deck.sections import Deck
 
+#: a body whose density is below this share of the densest one's is a gas
+GAS = 0.01
 #: a rod needs at least this many cells across its radius to behave like one
 CELLS_ACROSS_RADIUS = 5
 
 
 def warnings(deck: Deck) -> list[str]:
     """What is allowed but unwise, one sentence each; `hydro2d check` and the start of a run show it."""
-    return [*_coarse_rods(deck), *_jumps(deck), *_short_mesh(deck), *_yielding_rods(deck), *_no_failure(deck)]
+    return [*_coarse_rods(deck), *_jumps(deck), *_short_mesh(deck), *_yielding_rods(deck), *_no_failure(deck),
+            *_gas_in_contact(deck)]
 
 
 def _coarse_rods(deck: Deck) -> Iterator[str]:
@@ -49,6 +52,14 @@ def _short_mesh(deck: Deck) -> Iterator[str]:
 def _yielding_rods(deck: Deck) -> Iterator[str]:
     if deck.sliding.method == "slip-layer" and deck.sliding.yield_factor == "off":
         yield 'sliding.yield_factor is "off": noise at the interface can yield a rod that should stay rigid'
+
+
+def _gas_in_contact(deck: Deck) -> Iterator[str]:
+    if deck.sliding.method == "contact":
+        densities = {entry.name: deck.materials[entry.material].reference_density for entry in deck.body}
+        for name, density in densities.items():
+            if density < GAS * max(densities.values()):
+                yield f'body "{name}": a gas beside bodies in contact may explode; leave the space empty'
 
 
 def _no_failure(deck: Deck) -> Iterator[str]:

@@ -360,6 +360,12 @@ def test_coarse_rods_are_warned_of():
     assert deck.warnings(jump) == ["mesh.r: neighbouring cells differ by a factor of 2.00; shocks reflect beyond 1.2"]
 
 
+def test_gas_beside_bodies_in_contact_is_warned_of():
+    warned = 'body "air": a gas beside bodies in contact may explode; leave the space empty'
+    assert warned in deck.warnings(deck.load("problems/sliding/rod_in_air.toml"))
+    assert warned not in deck.warnings(deck.load("problems/sliding/rod_in_air.toml", ['sliding.method="none"']))
+
+
 DAMAGED = changed("W_alloy", "alloy") + """\
 [materials.alloy]
 based_on = "W_alloy"
