@@ -64,7 +64,8 @@ def _folder_for(files: Iterable[Path]) -> str:
     return os.path.join(_cache_root(), digest.hexdigest()[:16])
 
 
-def _imported(file: Path) -> set[str]:
+@functools.cache
+def _imported(file: Path) -> frozenset[str]:
     """Names of the modules that a file imports, and of what it imports from them, which may be modules."""
     names = set()
     for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
@@ -72,7 +73,7 @@ def _imported(file: Path) -> set[str]:
             names |= {alias.name for alias in node.names}
         elif isinstance(node, ast.ImportFrom) and node.module:
             names |= {node.module, *(f"{node.module}.{alias.name}" for alias in node.names)}
-    return names
+    return frozenset(names)
 
 
 @functools.cache

@@ -60,11 +60,11 @@ class Second:
 
     Each takes from the cache what the other has compiled, and waits where the other is at it.
 
-    deck_text : the resolved deck
+    deck : the resolved deck
     """
 
-    def __init__(self, deck_text: str):
-        self._text, self._process = deck_text, None
+    def __init__(self, deck):
+        self._deck, self._process = deck, None
 
     def start(self) -> None:
         """Where there is a second core."""
@@ -74,7 +74,7 @@ class Second:
         command = [sys.executable, "-m", "hydro2d.running.compile_ahead"]
         self._process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.DEVNULL,
                                          stderr=subprocess.DEVNULL)
-        self._process.stdin.write(self._text.encode())
+        self._process.stdin.write(self._deck.to_toml().encode())
         self._process.stdin.close()
 
     def stop(self) -> int | None:
@@ -89,13 +89,13 @@ class Second:
 
 
 @contextmanager
-def announced(say: Callable[[str], None], deck_text: str = "") -> Iterator[Compilation]:
+def announced(say: Callable[[str], None], deck=None) -> Iterator[Compilation]:
     """Says so while kernels are compiled within the block, and at its end how long it took.
 
-    deck_text : of a resolved deck whose kernels a second process helps to compile
+    deck : a resolved deck whose kernels a second process helps to compile
     """
-    second = Second(deck_text)
-    listener = Compilation(say, second.start if deck_text else lambda: None)
+    second = Second(deck)
+    listener = Compilation(say, second.start if deck else lambda: None)
     events.register(EVENT, listener)
     try:
         yield listener

@@ -234,9 +234,7 @@ class Run:
             self.sim.step()
             self.clock.begin(self.sim)
         else:
-            before = clock.perf_counter()
-            self.team.run(self.sim.step)
-            self.stepping += clock.perf_counter() - before
+            self.stepping += self.team.run(self.sim.step)
         self.stepped += 1
 
     # ------------------------------------------------------------------------------------------------ outputs
@@ -401,7 +399,7 @@ def run(deck, directory: Path | None = None, *, restart=False, overwrite=False, 
         with (
             reporter(directory / LOG, quiet=quiet) as report,
             signals(interrupt),
-            announced(report.line, deck.to_toml()) as compiled,
+            announced(report.line, deck) as compiled,
         ):
             return Run(deck, directory, restart=restart, report=report).execute(interrupt, compiled)
 

@@ -48,15 +48,16 @@ class Team:
         self._recent: deque[float] = deque(maxlen=LATE)
         self._expected, self._early, self._until = 0.0, 0.0, 0.0
 
-    def run(self, cycle: Callable[[], None]) -> None:
-        """One cycle, on as many threads as the last trial found best, or as this one asks for."""
-        if self._trial and self.most > 1:
+    def run(self, cycle: Callable[[], None]) -> float:
+        """One cycle, on as many threads as the last trial found best, or as this one asks for; its seconds."""
+        if self._trial:
             self._set(next(n for n in self._options if len(self._trial[n]) < TRIAL))
         before = self._clock()
         cycle()
+        seconds = self._clock() - before
         self.cycles[self.threads] = self.cycles.get(self.threads, 0) + 1
-        if self.most > 1:
-            self._observe(self._clock() - before)
+        self._observe(seconds)
+        return seconds
 
     def told(self) -> str:
         """'2 threads in 93 % of the cycles, 1 in 7 %'; empty for a run on one."""

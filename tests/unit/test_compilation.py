@@ -5,6 +5,7 @@ import subprocess
 import sys
 import threading
 import time
+from types import SimpleNamespace
 
 import numba
 import pytest
@@ -104,14 +105,14 @@ def test_a_call_that_was_written_down_is_compiled_for_its_types():
 def test_a_second_process_that_fails_is_said_to():
     """Its deck is none; what goes on here is not disturbed."""
     said = []
-    with announced(said.append, "no deck at all"):
+    with announced(said.append, SimpleNamespace(to_toml=lambda: "no deck at all")):
         assert numba.njit(lambda x: x + 5)(1.0) == 6.0
         time.sleep(5.0)
     assert said[-1].startswith("the second process that compiled kernels failed with exit status 1")
 
 
 def test_a_second_process_is_ended(monkeypatch):
-    second = Second(decks.load("problems/sliding/block_level.toml").to_toml())
+    second = Second(decks.load("problems/sliding/block_level.toml"))
     monkeypatch.setattr(os, "sched_getaffinity", lambda process: {0, 1}, raising=False)
     assert second.stop() is None  # it was never begun
     second.start()
