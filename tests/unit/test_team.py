@@ -1,12 +1,6 @@
 """A run uses the number of threads that is the fastest, and finds out when that changes."""
 
-import numpy as np
-import pytest
-
-from hydro2d import jit
-from hydro2d.deck import deck
 from hydro2d.running.team import TRIAL, Team
-from hydro2d.solver.simulation import Simulation
 
 
 class Machine:
@@ -84,38 +78,3 @@ def test_in_the_end_all_threads_are_free_again():
     machine.run(100)
     machine.team.all()
     assert machine.threads == 2
-
-
-@pytest.mark.skipif(jit.max_threads() < 2, reason="one thread has nothing to change to")
-def test_threads_that_change_between_cycles_change_no_bit():
-    text = """
-[mesh]
-r = [{ to = "6 mm", cells = 24 }]
-z = [{ to = "20 mm", cells = 80 }]
-[[body]]
-name = "rod"
-material = "W_alloy"
-shape = "rod"
-radius = "2 mm"
-length = "8 mm"
-tip = "9 mm"
-velocity = "1000 m/s"
-[[body]]
-name = "plate"
-material = "Al5083"
-shape = "box"
-z = ["9 mm", "18 mm"]
-r = [0.0, "6 mm"]
-[stop]
-time = "1 s"
-"""
-    ends = []
-    for numbers in ((1,), (2,), (1, 2)):
-        simulation = Simulation(deck.loads(text))
-        for cycle in range(30):
-            jit.set_threads(numbers[cycle % len(numbers)])
-            simulation.step()
-        ends.append(simulation.restart_arrays())
-    jit.set_threads(jit.max_threads())
-    for other in ends[1:]:
-        assert all(np.array_equal(array, other[name]) for name, array in ends[0].items())
