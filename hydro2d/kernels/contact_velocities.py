@@ -19,10 +19,16 @@ def leaders(code):
 
 
 @point
+def extended_cell(j, i, code):
+    """(j, i) of the cell whose linear field a light vertex (j, i) takes, by its code from EXTENDS on."""
+    return j + (code - EXTENDS) // (2 * REACH) - REACH, i + (code - EXTENDS) % (2 * REACH) - REACH
+
+
+@point
 def leader(n, g, j, i, code, weights):
     """(group, j, i, weight) of the n-th vertex that vertex (j, i) of group g moves with; `weigh` has set the weights."""
     if code >= EXTENDS:
-        row, column = j + (code - EXTENDS) // (2 * REACH) - REACH, i + (code - EXTENDS) % (2 * REACH) - REACH
+        row, column = extended_cell(j, i, code)
         return g, row + n // 2, column + n % 2, weights[n, g, j, i]
     if code == STUCK:
         return 1 - g, j, i, 1.0
@@ -36,7 +42,7 @@ def weigh(g, j, i, code, r, z, weights):
     They carry the cell's mean velocity and gradient to the vertex, so that a linear field is met exactly, and add up to 1
     (explanation/sliding, equation 11).
     """
-    row, column = j + (code - EXTENDS) // (2 * REACH) - REACH, i + (code - EXTENDS) % (2 * REACH) - REACH
+    row, column = extended_cell(j, i, code)
     x = (r[i] - 0.5 * (r[column] + r[column + 1])) / (r[column + 1] - r[column])
     y = (z[j] - 0.5 * (z[row] + z[row + 1])) / (z[row + 1] - z[row])
     for n in range(4):

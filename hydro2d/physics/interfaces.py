@@ -101,16 +101,22 @@ def youngs_gradient(j, i, sw, s, se, w, e, nw, n, ne, dr, dz):
 
 
 @point
-def youngs_normal(j, i, last, order, vof, dr, dz):
-    """Outward normal of the nested interface in the unit square, |n_r| + |n_z| = 1: that of `youngs_gradient`.
+def fractions_around(j, i, last, order, vof):
+    """`cumulative` in the 3 x 3 cells around cell (j, i), row by row upwards."""
+    return (cumulative(j - 1, i - 1, last, order, vof), cumulative(j - 1, i, last, order, vof),
+            cumulative(j - 1, i + 1, last, order, vof), cumulative(j, i - 1, last, order, vof),
+            cumulative(j, i, last, order, vof), cumulative(j, i + 1, last, order, vof),
+            cumulative(j + 1, i - 1, last, order, vof), cumulative(j + 1, i, last, order, vof),
+            cumulative(j + 1, i + 1, last, order, vof))
 
-    (0, 0) without a gradient.
+
+@point
+def youngs_normal(j, i, f, dr, dz):
+    """Outward normal of the interface in the unit square, |n_r| + |n_z| = 1: that of `youngs_gradient`.
+
+    f are the fractions around cell (j, i); (0, 0) without a gradient.
     """
-    along_r, along_z = youngs_gradient(
-        j, i, cumulative(j - 1, i - 1, last, order, vof), cumulative(j - 1, i, last, order, vof),
-        cumulative(j - 1, i + 1, last, order, vof), cumulative(j, i - 1, last, order, vof),
-        cumulative(j, i + 1, last, order, vof), cumulative(j + 1, i - 1, last, order, vof),
-        cumulative(j + 1, i, last, order, vof), cumulative(j + 1, i + 1, last, order, vof), dr, dz)
+    along_r, along_z = youngs_gradient(j, i, f[0], f[1], f[2], f[3], f[5], f[6], f[7], f[8], dr, dz)
     size = abs(along_r) + abs(along_z)
     if size < 1e-14:
         return 0.0, 0.0
@@ -193,14 +199,10 @@ def surface(j, i, last, order, vof, dr, dz):
 
     A line with Youngs' outward normal (n_r, n_z), and width and height are 0; or a `corner`, in cells that have void.
     """
-    n_r, n_z = youngs_normal(j, i, last, order, vof, dr, dz)
+    f = fractions_around(j, i, last, order, vof)
+    n_r, n_z = youngs_normal(j, i, f, dr, dz)
     if n_r == 0.0 or n_z == 0.0 or cumulative(j, i, order.shape[0] - 1, order, vof) >= 1.0 - FULL:
         return n_r, n_z, 0.0, 0.0
-    f = (cumulative(j - 1, i - 1, last, order, vof), cumulative(j - 1, i, last, order, vof),
-         cumulative(j - 1, i + 1, last, order, vof), cumulative(j, i - 1, last, order, vof),
-         cumulative(j, i, last, order, vof), cumulative(j, i + 1, last, order, vof),
-         cumulative(j + 1, i - 1, last, order, vof), cumulative(j + 1, i, last, order, vof),
-         cumulative(j + 1, i + 1, last, order, vof))
     beyond = (cumulative(j, i - 2, last, order, vof), cumulative(j, i + 2, last, order, vof),
               cumulative(j - 2, i, last, order, vof), cumulative(j + 2, i, last, order, vof))
     width, height = corner(n_r, n_z, f, beyond, relative_sizes(i, dr), relative_sizes(j, dz))

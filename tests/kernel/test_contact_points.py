@@ -10,6 +10,7 @@ from hydro2d.mesh.grid import Grid
 leaders = contact_velocities.leaders.py_func
 leader = contact_velocities.leader.py_func
 weigh = contact_velocities.weigh.py_func
+extended_cell = contact_velocities.extended_cell.py_func
 held = contact_velocities.held.py_func
 give = contact_velocities.give.py_func
 mobility = contact_velocities.mobility.py_func
@@ -35,6 +36,7 @@ def test_a_light_vertex_has_the_linear_field_of_its_cell(dj, di):
     j, i, code = 5, 6, code_of(dj, di)
     weights = np.full((4, 2, 12, 12), np.nan)
     weigh(1, j, i, code, R, Z, weights)
+    assert extended_cell(j, i, code) == (j + dj, i + di)
     found = [leader(n, 1, j, i, code, weights) for n in range(leaders(code))]
     assert {(row - j, column - i) for _, row, column, _ in found} == {(dj + a, di + b) for a in (0, 1) for b in (0, 1)}
     assert sum(weight for *_, weight in found) == pytest.approx(1.0)

@@ -15,6 +15,7 @@ cumulative = interfaces.cumulative.py_func
 youngs_difference = interfaces.youngs_difference.py_func
 youngs_gradient = interfaces.youngs_gradient.py_func
 youngs_normal = interfaces.youngs_normal.py_func
+fractions_around = interfaces.fractions_around.py_func
 line_misfit = interfaces.line_misfit.py_func
 corner_size = interfaces.corner_size.py_func
 corner = interfaces.corner.py_func
@@ -219,7 +220,8 @@ def plane(by_r, by_z):
 
 
 def normal_of(*bodies, last=0, order=None, dr=DR, dz=DZ):
-    return youngs_normal(2, 2, last, np.arange(len(bodies)) if order is None else order, np.array(bodies), dr, dz)
+    order = np.arange(len(bodies)) if order is None else order
+    return youngs_normal(2, 2, fractions_around(2, 2, last, order, np.array(bodies)), dr, dz)
 
 
 GRADIENT = st.floats(-0.1, 0.1).filter(lambda value: abs(value) > 1e-3)
