@@ -146,6 +146,7 @@ def fields_page() -> str:
     """The field table and the quantities of output files."""
     from hydro2d.mesh import fields
     from hydro2d.output import derived
+    from strength.dispatch import STRENGTH_MODULES
 
     state = table(
         ("field", "symbol", "centring", "unit", "sign in a mirror", "remapped by", "bounds", "meaning"),
@@ -155,13 +156,21 @@ def fields_page() -> str:
             for f in fields.FIELDS
         ),
     )
+    internal = table(
+        ("variable", "model", "unit", "sign in a mirror", "remapped by", "bounds", "meaning"),
+        (
+            (f"`{f.name}`", f"`{module.NAME}`", f.unit, f"{f.parity:+d}", f.remap, bounds(f), f.meaning)
+            for module in STRENGTH_MODULES for f in getattr(module, "INTERNAL", ())
+        ),
+    )
     written = table(
         ("key", "name in files", "meaning"),
         ((f"`{q.key}`", q.name("*body*"), q.meaning) for q in derived.TABLE),
     )
     groups = "\n".join(f"* `{word}`: {', '.join(keys)}" for word, keys in derived.GROUPS.items())
     return (
-        f"# Fields\n\n{NOTE}\n\n## Fields of the state\n\n{state}\n\n## Quantities in output files\n\n{written}\n\n"
+        f"# Fields\n\n{NOTE}\n\n## Fields of the state\n\n{state}\n\n"
+        f"## Internal variables of strength models\n\n{internal}\n\n## Quantities in output files\n\n{written}\n\n"
         f"Words for several of them:\n\n{groups}"
     )
 

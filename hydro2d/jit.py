@@ -87,7 +87,7 @@ def _sources() -> dict[str, Path]:
 def _seen_by(file: Path) -> frozenset[Path]:
     """A source file, this one, and every other source that it imports, itself or through others.
 
-    Models are chosen by lists of names: who imports a module of `eos` or `strength` sees all of the folder.
+    Models are chosen by lists of names: who sees the `dispatch` of `eos` or `strength` sees all of the folder.
     """
     sources, found, waiting = _sources(), {Path(__file__).resolve()}, [file]
     while waiting:
@@ -96,7 +96,7 @@ def _seen_by(file: Path) -> frozenset[Path]:
             continue
         found.add(each)
         names = _imported(each)
-        folders = {name.split(".")[0] for name in names} & {"eos", "strength"}
+        folders = {each.parent.name} if each.stem == "dispatch" else set()
         waiting += [there for name, there in sources.items() if name in names or name.split(".")[0] in folders]
     return frozenset(found)
 

@@ -9,13 +9,16 @@ from hydro2d.jit import by_id, modules, point
 from strength.layout import SHEAR
 
 STRENGTH_MODULES = modules(
-    "strength", "hydrodynamic", "elastic_plastic", "johnson_cook", "steinberg_guinan", "power_law")
+    "strength", "hydrodynamic", "elastic_plastic", "johnson_cook", "steinberg_guinan", "power_law",
+    "kinematic_hardening")
 DAMAGE_MODULES = modules("strength", "no_damage", "johnson_cook_damage")
 
 #: ids of the models whose shear modulus is the number in slot SHEAR, whatever the state: no cell need be evaluated
 CONSTANT_MODULUS = tuple(module.ID for module in STRENGTH_MODULES if module.CONSTANT_MODULUS)
 #: ids of the models that ask for the temperature
 THERMAL = tuple(module.ID for module in STRENGTH_MODULES if module.THERMAL)
+#: ids of the models that have internal variables
+WITH_INTERNAL = tuple(module.ID for module in STRENGTH_MODULES if hasattr(module, "INTERNAL"))
 DAMAGE_THERMAL = tuple(module.ID for module in DAMAGE_MODULES if module.THERMAL)
 
 shear_modulus = by_id(
@@ -30,6 +33,24 @@ yield_floor = by_id(
     STRENGTH_MODULES, "yield_floor", "par",
     "A stress that the flow stress never falls below, Pa: 0 for models that soften. Saves evaluating it in elastic cells.",
     "0.0")
+
+turn = by_id(
+    STRENGTH_MODULES, "turn", "spin, internal",
+    "Turns those internal variables of a strength model that are tensors by spin = W dt. internal: float64[n], one cell's.",
+    "None")
+
+back_stress = by_id(
+    STRENGTH_MODULES, "back_stress", "internal",
+    "(rr, zz, rz) of the deviator around which a strength model's yield surface lies, Pa: the origin for most models.",
+    "(0.0, 0.0, 0.0)")
+
+kinematic_modulus = by_id(
+    STRENGTH_MODULES, "kinematic_modulus", "par",
+    "How far the centre of the yield surface moves, as a tensile stress, per plastic strain, Pa: 0 for most models.", "0.0")
+
+harden = by_id(
+    STRENGTH_MODULES, "harden", "dep, rr, zz, rz, par, internal",
+    "Internal variables after the plastic strain dep along the direction (rr, zz, rz), whose von Mises norm is 1.", "None")
 
 damage_increment = by_id(
     DAMAGE_MODULES, "damage_increment", "dep, rate, T, p, seq, par",

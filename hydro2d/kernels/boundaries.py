@@ -6,28 +6,24 @@ travels, what the deck has placed there (hydro2d/following). A transmitting edge
 
 
 from hydro2d.jit import apart, kernel, point, prange, serial
-from hydro2d.mesh.fields import ODD
+from hydro2d.mesh.fields import PARITY
 from hydro2d.mesh.grid import GHOSTS
 from hydro2d.physics.waves import impedances
 
 
 @apart
-def fill(m, j, i, from_j, from_i, mirror, fields, vof, q):
+def fill(m, j, i, from_j, from_i, mirror, fields, rules, vof, q):
     """Makes cell (j, i) of body m a copy or, in a mirror, an image of cell (from_j, from_i)."""
     vof[m, j, i] = vof[m, from_j, from_i]
     for k in range(fields):
-        q[k, m, j, i] = q[k, m, from_j, from_i]
-    if mirror:
-        for k in ODD:
-            if k < fields:
-                q[k, m, j, i] = -q[k, m, from_j, from_i]
+        q[k, m, j, i] = -q[k, m, from_j, from_i] if mirror and rules[m, k, PARITY] < 0.0 else q[k, m, from_j, from_i]
 
 
 @kernel
-def ghost_columns(j0, j1, nr, mirror_low, mirror_high, fields, span, vof, q):
+def ghost_columns(j0, j1, nr, mirror_low, mirror_high, fields, rules, span, vof, q):
     """Ghost cells left and right of rows j0 to j1, of bodies that are near or were: fractions and the first `fields` of q.
 
-    Reads    span [m, j, 2]
+    Reads    rules [m, k, 4]; span [m, j, 2]
     Updates  vof [m, j, i], q [k, m, j, i]
     """
     g = GHOSTS
@@ -43,13 +39,14 @@ def ghost_columns(j0, j1, nr, mirror_low, mirror_high, fields, span, vof, q):
                 for n in range(g):
                     ghost = edge + (n + 1) * out
                     source = edge - n * out if mirror else edge
-                    fill(m, j, ghost, j, source, mirror, fields, vof, q)
+                    fill(m, j, ghost, j, source, mirror, fields, rules, vof, q)
 
 
 @kernel
-def ghost_rows(i0, i1, nz, mirror_low, mirror_high, fields, vof, q):
+def ghost_rows(i0, i1, nz, mirror_low, mirror_high, fields, rules, vof, q):
     """Ghost cells below and above the mesh, columns i0 to i1 (threaded over columns: there are only two rows); likewise.
 
+    Reads    rules [m, k, 4]
     Updates  vof [m, j, i], q [k, m, j, i]
     """
     g = GHOSTS
@@ -62,7 +59,7 @@ def ghost_rows(i0, i1, nz, mirror_low, mirror_high, fields, vof, q):
                 for n in range(g):
                     ghost = edge + (n + 1) * out
                     source = edge - n * out if mirror else edge
-                    fill(m, ghost, i, source, i, mirror, fields, vof, q)
+                    fill(m, ghost, i, source, i, mirror, fields, rules, vof, q)
 
 
 @kernel

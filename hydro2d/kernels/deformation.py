@@ -1,18 +1,81 @@
 """The rest of the Lagrangian step in pure cells: work, volume, rotation and strain of the deviators, radial return."""
 
 
-from hydro2d.jit import kernel, prange
+from hydro2d.jit import kernel, prange, rowwise
 from hydro2d.kernels.spans import block_rows, columns, number_of_blocks, spread
 from hydro2d.mesh.fields import DMG, EP, RHO, SRR, SRZ, SZZ, E
 from hydro2d.physics.kinematics import hourglass_mode, velocity_gradient
+from hydro2d.physics.plasticity import from_centre, keep_internal, returned, take_internal
 from hydro2d.physics.stress import turn_and_strain, von_mises
-from strength.dispatch import damage_increment, modulus_row, yield_floor
+from strength.dispatch import WITH_INTERNAL, damage_increment, kinematic_modulus, modulus_row, turn, yield_floor
 from strength.radial_return import plastic_increment
+
+
+@rowwise
+def yield_row(m, j, b, first, n, dt, scale, model, par, dmodel, dpar, pm, tm, scratch, q):
+    """Return of body m's deviators to its yield surface in row j, where their elastic trial lies outside of it.
+
+    Reads    scratch [0 and 1, b, i], shear modulus and trial stress; pm, tm [m, j, i]
+    Updates  q (deviators, plastic strain, damage) [k, m, j, i]
+    """
+    floor = scale * yield_floor(model, par)  # below it no flow stress need be evaluated
+    p_j = pm[m, j]
+    t_j = tm[m, j]
+    shear_j = scratch[0, b]
+    trial_j = scratch[1, b]
+    rho_j = q[RHO, m, j]
+    ep_j = q[EP, m, j]
+    d_j = q[DMG, m, j]
+    srr_j = q[SRR, m, j]
+    szz_j = q[SZZ, m, j]
+    srz_j = q[SRZ, m, j]
+    for x in range(n):
+        i = first + x
+        size = abs(trial_j[i])
+        if size > floor:
+            dep, yield_stress = plastic_increment(
+                model, size, ep_j[i], dt, t_j[i], p_j[i], rho_j[i], shear_j[i], scale, par)
+            if dep > 0.0:
+                shrink = yield_stress / size
+                srr_j[i] *= shrink
+                szz_j[i] *= shrink
+                srz_j[i] *= shrink
+                ep_j[i] += dep
+                d_j[i] += damage_increment(dmodel, dep, dep / dt, t_j[i], p_j[i], yield_stress, dpar)
+
+
+@rowwise
+def internal_row(m, j, b, first, n, dt, scale, model, par, dmodel, dpar, vof, pm, tm, scratch, q, internal):
+    """The same for a model with internal variables, which turn with the material and harden.
+
+    Reads    vof, pm, tm [m, j, i]; scratch [0 to 2, b, i], shear modulus, trial stress and spin
+    Updates  q (deviators, plastic strain, damage, internal variables) [k, m, j, i]; scratch internal [j, k]
+    """
+    for x in range(n):
+        i = first + x
+        if vof[m, j, i] != 1.0 or scratch[1, b, i] < 0.0:
+            continue
+        take_internal(m, j, i, model, q, internal[j])
+        turn(model, scratch[2, b, i], internal[j])
+        rr, zz, rz = from_centre(q[SRR, m, j, i], q[SZZ, m, j, i], q[SRZ, m, j, i], model, internal[j])
+        trial = von_mises(rr, zz, rz)
+        stiffness = scratch[0, b, i] + kinematic_modulus(model, par) / 3.0
+        dep, yield_stress = plastic_increment(
+            model, trial, q[EP, m, j, i], dt, tm[m, j, i], pm[m, j, i], q[RHO, m, j, i], stiffness, scale, par)
+        if dep > 0.0:
+            rr, zz, rz = returned(rr, zz, rz, trial, dep, yield_stress, model, par, internal[j])
+            q[SRR, m, j, i] = rr
+            q[SZZ, m, j, i] = zz
+            q[SRZ, m, j, i] = rz
+            q[EP, m, j, i] += dep
+            q[DMG, m, j, i] += damage_increment(dmodel, dep, dep / dt, tm[m, j, i], pm[m, j, i], yield_stress, dpar)
+        keep_internal(m, j, i, model, internal[j], q)
 
 
 @kernel
 def deform(j0, j1, dt, face_r, hoop, az_in, az_out, vol_r, mid_r, dz, span, group, strength_model, strength_par, damage_model,
-           damage_par, factor, loose, u0, v0, u, v, fr, fz, sig_rr, sig_zz, sig_tt, sig_rz, weight, vof, pm, tm, scratch, q):
+           damage_par, factor, loose, u0, v0, u, v, fr, fz, sig_rr, sig_zz, sig_tt, sig_rz, weight, vof, pm, tm, scratch, q,
+           internal):
     """Energy, density, deviator, plastic strain and damage of every body in the cells that it fills, over one Lagrangian step.
 
     de = V dt sigma : D(u mid-step) / m, the work of the same corner forces that moved the vertices; rho V is constant;
@@ -21,7 +84,7 @@ def deform(j0, j1, dt, face_r, hoop, az_in, az_out, vol_r, mid_r, dz, span, grou
 
     Reads    group [m]; u0, v0, u, v [b, j, i]; fr, fz, sig_.., weight [j, i]; vof, pm, tm [m, j, i]
     Updates  q [k, m, j, i]
-    Scratch  scratch [s, block, i], shear modulus and trial stress
+    Scratch  scratch [s, block, i], shear modulus, trial stress and spin; internal [j, k]
     """
     blocks = number_of_blocks(j0, j1)
     for place in prange(blocks):
@@ -39,6 +102,7 @@ def deform(j0, j1, dt, face_r, hoop, az_in, az_out, vol_r, mid_r, dz, span, grou
             weight_j = weight[j]
             shear_j = scratch[0, b]
             trial_j = scratch[1, b]  # of loose material negative, where the body does not fill the cell 0
+            spin_j = scratch[2, b]
             for m in range(vof.shape[0]):
                 g = group[m]
                 ub = u[g, j]
@@ -51,16 +115,11 @@ def deform(j0, j1, dt, face_r, hoop, az_in, az_out, vol_r, mid_r, dz, span, grou
                 vt0 = v0[g, j + 1]
                 model = strength_model[m]
                 par = strength_par[m]
-                dmodel = damage_model[m]
-                dpar = damage_par[m]
-                scale = factor[m]
-                floor = scale * yield_floor(model, par)  # below it no flow stress need be evaluated
                 f_j = vof[m, j]
                 p_j = pm[m, j]
                 t_j = tm[m, j]
                 rho_j = q[RHO, m, j]
                 e_j = q[E, m, j]
-                ep_j = q[EP, m, j]
                 d_j = q[DMG, m, j]
                 srr_j = q[SRR, m, j]
                 szz_j = q[SZZ, m, j]
@@ -95,20 +154,12 @@ def deform(j0, j1, dt, face_r, hoop, az_in, az_out, vol_r, mid_r, dz, span, grou
                     size = von_mises(srr, szz, srz)
                     size = -size if rho <= loose[m] else size
                     trial_j[i] = size if pure else 0.0
-                if model > 0:
-                    for x in range(n):
-                        i = first + x
-                        size = abs(trial_j[i])
-                        if size > floor:
-                            dep, yield_stress = plastic_increment(
-                                model, size, ep_j[i], dt, t_j[i], p_j[i], rho_j[i], shear_j[i], scale, par)
-                            if dep > 0.0:
-                                shrink = yield_stress / size
-                                srr_j[i] *= shrink
-                                szz_j[i] *= shrink
-                                srz_j[i] *= shrink
-                                ep_j[i] += dep
-                                d_j[i] += damage_increment(dmodel, dep, dep / dt, t_j[i], p_j[i], yield_stress, dpar)
+                    spin_j[i] = spin
+                if model in WITH_INTERNAL:
+                    internal_row(m, j, b, first, n, dt, factor[m], model, par, damage_model[m], damage_par[m], vof, pm, tm,
+                                 scratch, q, internal)
+                elif model > 0:
+                    yield_row(m, j, b, first, n, dt, factor[m], model, par, damage_model[m], damage_par[m], pm, tm, scratch, q)
                 for x in range(n):
                     i = first + x
                     pure = f_j[i] == 1.0

@@ -8,9 +8,9 @@ from hydro2d.mesh.fields import DMG, EP, RHO, SRR, SRZ, SZZ, E
 from hydro2d.physics.closure import NO_VOID, relaxation_bound, relaxation_strain, softness, split_volume
 from hydro2d.physics.fracture import share_that_stays, tension_limit
 from hydro2d.physics.kinematics import hourglass_mode, velocity_gradient
-from hydro2d.physics.plasticity import carries_no_stress, deviator_power
+from hydro2d.physics.plasticity import carries_no_stress, deviator_power, from_centre, keep_internal, returned, take_internal
 from hydro2d.physics.stress import stress_scale, turn_and_strain, von_mises
-from strength.dispatch import damage_increment, flow_stress, shear_modulus
+from strength.dispatch import damage_increment, flow_stress, kinematic_modulus, shear_modulus, turn
 from strength.radial_return import plastic_increment
 
 #: mixed-cell strength by name, in the order of the integer that the kernels take
@@ -180,11 +180,13 @@ def work_of_deviators(j, i, dt, ruler, total, scale, group, motion, vof, q, mix)
 
 
 @point
-def strain_deviators(j, i, rate, mode, total, group, strength_model, strength_par, factor, loose, pm, tm, motion, vof, q, mix):
+def strain_deviators(j, i, rate, mode, total, group, strength_model, strength_par, factor, loose, pm, tm, motion, vof, q, mix,
+                     internal):
     """Elastic trial of every body; returns the yield stress of the cell by mode (explanation/mixed-cells, equation 7).
 
-    rate is the time step over the volume of the cell.
+    rate is the time step over the volume of the cell. Internal variables that are tensors turn with the material.
 
+    Updates  q (internal variables) [k, m, j, i]; scratch internal [j, k]
     Writes   mix [j, TRIAL_RR to TRIAL_RZ, m], deviators; mix [j, MODULUS, m], mix [j, YIELD, m], 0 without strength, all in Pa
     """
     shared_yield, largest_yield = 0.0, 0.0
@@ -200,6 +202,9 @@ def strain_deviators(j, i, rate, mode, total, group, strength_model, strength_pa
         spin = 0.5 * (motion[j, g, RBZ] - motion[j, g, ZBR]) * rate
         rr, zz, rz = turn_and_strain(q[SRR, m, j, i], q[SZZ, m, j, i], q[SRZ, m, j, i], spin, 2.0 * modulus, strain_r,
                                      strain_z, strain_t, strain_s)
+        take_internal(m, j, i, strength_model[m], q, internal[j])
+        turn(strength_model[m], spin, internal[j])
+        keep_internal(m, j, i, strength_model[m], internal[j], q)
         mix[j, TRIAL_RR, m] = rr
         mix[j, TRIAL_ZZ, m] = zz
         mix[j, TRIAL_RZ, m] = rz
@@ -216,40 +221,42 @@ def strain_deviators(j, i, rate, mode, total, group, strength_model, strength_pa
 
 @point
 def return_deviators(j, i, dt, own, shared_yield, ruler, volume, total, strength_model, strength_par, damage_model, damage_par,
-                     factor, loose, pm, tm, vof, q, mix):
+                     factor, loose, pm, tm, vof, q, mix, internal):
     """Brings the trial deviators back to the yield surface: each body's own, or the one of the cell.
 
     In the hard zone the plastic heat of the ruling body is shared by f_m/Y_m among what is solid, as in layers under one
     stress.
 
     Reads    what strain_deviators wrote
-    Updates  q (deviators, plastic strain, damage) [k, m, j, i]; mix [j, HEAT, m]
+    Updates  q (deviators, plastic strain, damage, internal variables) [k, m, j, i]; mix [j, HEAT, m]; scratch internal [j, k]
     """
     bodies = vof.shape[0]
     for m in range(bodies):
-        if vof[m, j, i] == 0.0 or strength_model[m] == 0:
+        model, par = strength_model[m], strength_par[m]
+        if vof[m, j, i] == 0.0 or model == 0:
             continue
         rr, zz, rz, modulus = mix[j, TRIAL_RR, m], mix[j, TRIAL_ZZ, m], mix[j, TRIAL_RZ, m], mix[j, MODULUS, m]
         rho, p_m, t_m = q[RHO, m, j, i], pm[m, j, i], tm[m, j, i]
-        trial = von_mises(rr, zz, rz)
+        take_internal(m, j, i, model, q, internal[j])
+        x_rr, x_zz, x_rz = from_centre(rr, zz, rz, model, internal[j])
+        trial = von_mises(x_rr, x_zz, x_rz)
+        stiffness = modulus + kinematic_modulus(model, par) / 3.0
         dep, final = 0.0, trial
         if own:
-            dep, final = plastic_increment(strength_model[m], trial, q[EP, m, j, i], dt, t_m, p_m, rho, modulus, factor[m],
-                                           strength_par[m])
+            dep, final = plastic_increment(model, trial, q[EP, m, j, i], dt, t_m, p_m, rho, stiffness, factor[m], par)
         elif trial > shared_yield:
             final = shared_yield
-            dep = (trial - final) / (3.0 * modulus) if modulus > 0.0 else 0.0
-        shrink = 1.0
+            dep = (trial - final) / (3.0 * stiffness) if modulus > 0.0 else 0.0
         if dep > 0.0:
-            shrink = final / trial
+            rr, zz, rz = returned(x_rr, x_zz, x_rz, trial, dep, final, model, par, internal[j])
+            keep_internal(m, j, i, model, internal[j], q)
             q[EP, m, j, i] += dep
             q[DMG, m, j, i] += damage_increment(damage_model[m], dep, dep / dt, t_m, p_m, final, damage_par[m])
         q[DMG, m, j, i] = min(q[DMG, m, j, i], 1.0)
-        if carries_no_stress(q[DMG, m, j, i], rho, loose[m]):
-            shrink = 0.0
-        q[SRR, m, j, i] = shrink * rr
-        q[SZZ, m, j, i] = shrink * zz
-        q[SRZ, m, j, i] = shrink * rz
+        gone = carries_no_stress(q[DMG, m, j, i], rho, loose[m])
+        q[SRR, m, j, i] = 0.0 if gone else rr
+        q[SZZ, m, j, i] = 0.0 if gone else zz
+        q[SRZ, m, j, i] = 0.0 if gone else rz
         if m == ruler and dep > 0.0 and mix[j, YIELD, m] > 0.0:
             share_plastic_heat(j, i, m, dep * final * volume * total, vof, mix)
 
@@ -314,7 +321,8 @@ def fill_cell(j, i, change, volume, total, inverse, mean_p, work_p, work_q, rela
 @kernel
 def deform_mixed(j0, j1, dt, relaxation, tipton, mode, hard, hard_threshold, face_r, hoop, az_in, az_out, vol_r,
                  mid_r, dz, mixed_count, mixed, group, cut, cell_mass, strength_model, strength_par, damage_model,
-                 damage_par, factor, loose, u0, v0, u, v, fr, fz, ph, qr, qz, weight, solid, pm, km, tm, vof, q, mix, motion):
+                 damage_par, factor, loose, u0, v0, u, v, fr, fz, ph, qr, qz, weight, solid, pm, km, tm, vof, q, mix, motion,
+                 internal):
     """The Lagrangian step of the bodies in mixed cells.
 
     Volume: void first, then by compressibility, w_m = R_m/Rbar with R_m = f_m/K_m, then relaxation of the pressures,
@@ -327,7 +335,7 @@ def deform_mixed(j0, j1, dt, relaxation, tipton, mode, hard, hard_threshold, fac
     Reads    velocities, swept volumes, stresses as `deform`; ph, qr, qz, solid [j, i]; cut [j, 2]; cell_mass [b, j, i];
              group, hard, factor, loose [m]
     Updates  vof [m, j, i] (share of the volume after the step), q [k, m, j, i]
-    Scratch  mix [j, 8, m] (rows SOFT to MODULUS), motion [j, b, 10]
+    Scratch  mix [j, 8, m] (rows SOFT to MODULUS), motion [j, b, 10], internal [j, k]
     """
     groups = cell_mass.shape[0]
     blocks = number_of_blocks(j0, j1)
@@ -354,8 +362,9 @@ def deform_mixed(j0, j1, dt, relaxation, tipton, mode, hard, hard_threshold, fac
                 inverse, mean_p = soften(j, i, tipton, vof, pm, km, mix)
                 work_of_deviators(j, i, dt, ruler, total, stress_scale(mode == SOLID, total), group, motion, vof, q, mix)
                 shared_yield = strain_deviators(j, i, dt / volume, mode, total, group, strength_model, strength_par, factor,
-                                                loose, pm, tm, motion, vof, q, mix)
+                                                loose, pm, tm, motion, vof, q, mix, internal)
                 return_deviators(j, i, dt, mode == MATERIAL or ruler >= 0 or meet, shared_yield, ruler, volume, total,
-                                 strength_model, strength_par, damage_model, damage_par, factor, loose, pm, tm, vof, q, mix)
+                                 strength_model, strength_par, damage_model, damage_par, factor, loose, pm, tm, vof, q, mix,
+                                 internal)
                 fill_cell(j, i, change, volume, total, inverse, mean_p, work_p, work_q, relaxation, tipton, meet, group,
                           motion, cell_mass, pm, km, vof, q, mix)

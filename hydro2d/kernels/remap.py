@@ -5,10 +5,12 @@ rows of a buffer, ``flux[k, m, slot, i]``: a cell is updated as soon as nothing 
 still in the processor's cache (explanation/remap, blocks of rows).
 """
 
+from math import inf
+
 from hydro2d.jit import kernel, point, prange, rowwise
 from hydro2d.kernels.interfaces import flux_range
 from hydro2d.kernels.spans import block_rows, columns, mixed_row, number_of_blocks, spread
-from hydro2d.mesh.fields import BLOCK, BODY_FIELDS, BOUNDED, BY_MASS, DMG, LEAST, MOST, RHO, SRR, SRZ, E
+from hydro2d.mesh.fields import BLOCK, DMG, LEAST, MOST, PER_MASS, RHO, SRR, SRZ, E
 from hydro2d.physics.advection import TINY, upwind
 
 #: from this share of its upper bound on a field is at it: the mean of ones is one less round-off, which must heal nothing
@@ -16,7 +18,7 @@ FULL = 1.0 - 1e-6
 
 
 @rowwise
-def flux_row(dj, di, j, i0, i1, m, carried, slot, b, near, pre, flux_volume, vof, q, scratch, flux):
+def flux_row(dj, di, j, i0, i1, m, carried, rules, slot, b, near, pre, flux_volume, vof, q, scratch, flux):
     """Fluxes of what body m carries through the faces of row j.
 
     Second order, monotone, in cells whose neighbours are full of the same body; the donor's own value in and next to mixed
@@ -59,15 +61,16 @@ def flux_row(dj, di, j, i0, i1, m, carried, slot, b, near, pre, flux_volume, vof
             a_r = q[k, m, j, lo:hi]
             a_rr = q[k, m, j + dj, lo + di:hi + di]
             out = flux[k, m, slot, lo:hi]
-            carrier = flux[RHO, m, slot, lo:hi] if BY_MASS[k] else flux_volume[m, j, lo:hi]
-            weight = scratch[1 if BY_MASS[k] else 0, b, lo:hi]
+            by_mass = rules[m, k, PER_MASS] > 0.0
+            carrier = flux[RHO, m, slot, lo:hi] if by_mass else flux_volume[m, j, lo:hi]
+            weight = scratch[1 if by_mass else 0, b, lo:hi]
             for x in range(n):
                 donor, slope = upwind(swept[x] > 0.0, a_ll[x], a_l[x], a_r[x], a_rr[x])
                 out[x] = carrier[x] * (donor + weight[x] * slope)
 
 
 @rowwise
-def update_row(dj, di, j, i0, i1, m, carried, below, above, b, near, face, pre, flux_volume, flux, scratch, vof, q):
+def update_row(dj, di, j, i0, i1, m, carried, rules, below, above, b, near, face, pre, flux_volume, flux, scratch, vof, q):
     """Body m in row j after the sweep: volume, mass and what it carries. A cell without flux keeps its bits.
 
     Fields stay within the bounds of the table; what has failed stays so, to the last bit, and has no deviator.
@@ -112,12 +115,14 @@ def update_row(dj, di, j, i0, i1, m, carried, below, above, b, near, face, pre, 
             a_j = q[k, m, j, lo:hi]
             a_in = flux[k, m, below, lo:hi]
             a_out = flux[k, m, above, lo + di:hi + di]
-            before = scratch[1 if BY_MASS[k] else 0, b, lo:hi]
-            inverse = scratch[3 if BY_MASS[k] else 2, b, lo:hi]
+            by_mass = rules[m, k, PER_MASS] > 0.0
+            before = scratch[1 if by_mass else 0, b, lo:hi]
+            inverse = scratch[3 if by_mass else 2, b, lo:hi]
             for x in range(n):
                 a_j[x] = (a_j[x] * before[x] + (a_in[x] - a_out[x])) * inverse[x]
-            if BOUNDED[k]:
-                least, most, full = LEAST[k], MOST[k], FULL * MOST[k]
+            least, most = rules[m, k, LEAST], rules[m, k, MOST]
+            if least > -inf or most < inf:
+                full = FULL * most
                 for x in range(n):
                     a_j[x] = most if a_j[x] > full else max(a_j[x], least)
             if k == DMG:
@@ -191,21 +196,22 @@ def sum_cell_mass(j0, j1, around, group, volume, vof, q, cell_mass):
 
 
 @rowwise
-def sweep_row(dj, di, j, i0, i1, below, above, b, carried, group, near, around, face, pre, volume, second, flux_volume, flux,
-              scratch, vof, q, cell_mass, mixed_count, mixed):
+def sweep_row(dj, di, j, i0, i1, below, above, b, carried, rules, group, near, around, face, pre, volume, second, flux_volume,
+              flux, scratch, vof, q, cell_mass, mixed_count, mixed):
     """Row j after the sweep: every body, the mass of the cells and the list of those that are mixed."""
     for m in range(near.shape[1]):
-        update_row(dj, di, j, i0, i1, m, carried[m], below, above, b, near, face, pre, flux_volume, flux, scratch, vof, q)
+        update_row(dj, di, j, i0, i1, m, carried[m], rules, below, above, b, near, face, pre, flux_volume, flux, scratch, vof,
+                   q)
     cell_mass_row(dj, di, j, around, group, pre, face, volume, second, vof, q, cell_mass)
     mixed_row(j, around[0, 0], vof, scratch[0], b, mixed_count, mixed)
 
 
 @kernel
-def sweep_r(j0, j1, i0, i1, carried, group, edges, near, around, face, pre, volume, second, flux_volume, scratch, flux,
+def sweep_r(j0, j1, i0, i1, carried, rules, group, edges, near, around, face, pre, volume, second, flux_volume, scratch, flux,
             flux_mass, edge_flux, vof, q, cell_mass, mixed_count, mixed):
     """Carries every body along r: fluxes and update row by row.
 
-    Reads    carried, group [m]; edges (j0, j1, i0, i1 of the mesh), near, around; face, pre, volume [j, i];
+    Reads    carried, group [m]; rules [m, k, 4]; edges (j0, j1, i0, i1 of the mesh), near, around; face, pre, volume [j, i];
              flux_volume [m, j, i]
     Updates  vof [m, j, i], q [k, m, j, i]
     Writes   flux_mass, cell_mass [b, j, i]; edge_flux [side, k, m, j] of mass and energy; mixed_count [j], mixed [j, k]
@@ -218,15 +224,15 @@ def sweep_r(j0, j1, i0, i1, carried, group, edges, near, around, face, pre, volu
         first, last = block_rows(b, blocks, j0, j1)
         for j in range(first, last):
             for m in range(near.shape[1]):
-                flux_row(0, 1, j, i0, i1, m, carried[m], slot, b, near, pre, flux_volume, vof, q, scratch, flux)
+                flux_row(0, 1, j, i0, i1, m, carried[m], rules, slot, b, near, pre, flux_volume, vof, q, scratch, flux)
                 lo, hi = flux_range(0, 1, i0, i1, m, j, near)
                 for side in range(2):
                     i = edges[2 + side]
                     edge_flux[side, RHO, m, j] = flux[RHO, m, slot, i] if lo <= i < hi else 0.0
                     edge_flux[side, E, m, j] = flux[E, m, slot, i] if lo <= i < hi else 0.0
             mass_flux_row(0, 1, j, i0, i1, slot, around, near, group, flux, flux_mass)
-            sweep_row(0, 1, j, i0, i1, slot, slot, b, carried, group, near, around, face, pre, volume, second, flux_volume,
-                      flux, scratch, vof, q, cell_mass, mixed_count, mixed)
+            sweep_row(0, 1, j, i0, i1, slot, slot, b, carried, rules, group, near, around, face, pre, volume, second,
+                      flux_volume, flux, scratch, vof, q, cell_mass, mixed_count, mixed)
 
 
 @point
@@ -244,7 +250,7 @@ def slot_of(f, b, j0, blocks):
 
 
 @kernel
-def shared_fluxes(j0, j1, i0, i1, carried, near, pre, flux_volume, vof, q, scratch, flux):
+def shared_fluxes(j0, j1, i0, i1, carried, rules, near, pre, flux_volume, vof, q, scratch, flux):
     """Fluxes along z through the faces that two blocks of rows share, before either changes.
 
     Reads    as sweep_z;  writes flux [k, m, slot, i];  scratch [s, block, i]
@@ -253,12 +259,12 @@ def shared_fluxes(j0, j1, i0, i1, carried, near, pre, flux_volume, vof, q, scrat
     for b in prange(1, blocks):
         for f in range(j0 + b * BLOCK - 1, j0 + b * BLOCK + 2):
             for m in range(near.shape[1]):
-                flux_row(1, 0, f, i0, i1, m, carried[m], slot_of(f, b, j0, blocks), b, near, pre, flux_volume, vof, q,
+                flux_row(1, 0, f, i0, i1, m, carried[m], rules, slot_of(f, b, j0, blocks), b, near, pre, flux_volume, vof, q,
                          scratch, flux)
 
 
 @kernel
-def sweep_z(j0, j1, i0, i1, carried, group, edges, near, around, face, pre, volume, second, flux_volume, scratch, flux,
+def sweep_z(j0, j1, i0, i1, carried, rules, group, edges, near, around, face, pre, volume, second, flux_volume, scratch, flux,
             flux_mass, edge_flux, vof, q, cell_mass, mixed_count, mixed):
     """Carries every body along z: a row is updated as soon as the fluxes of the faces that need it are known.
 
@@ -274,7 +280,7 @@ def sweep_z(j0, j1, i0, i1, carried, group, edges, near, around, face, pre, volu
                 slot = slot_of(f, b, j0, blocks)
                 if not shared(f, j0, blocks):
                     for m in range(near.shape[1]):
-                        flux_row(1, 0, f, i0, i1, m, carried[m], slot, b, near, pre, flux_volume, vof, q, scratch, flux)
+                        flux_row(1, 0, f, i0, i1, m, carried[m], rules, slot, b, near, pre, flux_volume, vof, q, scratch, flux)
                 if f < last or last == j1:
                     mass_flux_row(1, 0, f, i0, i1, slot, around, near, group, flux, flux_mass)
                 for side in range(2):
@@ -288,7 +294,7 @@ def sweep_z(j0, j1, i0, i1, carried, group, edges, near, around, face, pre, volu
             if j >= first and (f > last or j < last - 1):
                 below = slot_of(j, b, j0, blocks)
                 above = slot_of(j + 1, b, j0, blocks)
-                sweep_row(1, 0, j, i0, i1, below, above, b, carried, group, near, around, face, pre, volume, second,
+                sweep_row(1, 0, j, i0, i1, below, above, b, carried, rules, group, near, around, face, pre, volume, second,
                           flux_volume, flux, scratch, vof, q, cell_mass, mixed_count, mixed)
 
 
@@ -333,7 +339,7 @@ def tidy(j0, j1, trace, cm_in, cm_out, volume, group, mixed_count, mixed, pre, d
                     f = 0.0
                     vof[m, j, i] = 0.0
                 if f == 0.0:
-                    for field in range(BODY_FIELDS):
+                    for field in range(q.shape[0]):
                         q[field, m, j, i] = 0.0
                 total += f
             if total > 1.0 - trace and total != 1.0:

@@ -15,6 +15,7 @@ import numpy as np
 
 from hydro2d import units
 from hydro2d.errors import DeckError, Sources, unknown
+from hydro2d.mesh.fields import Field
 from hydro2d.toml import merge, parse, problems_folder
 
 #: how far a number can be trusted
@@ -290,7 +291,8 @@ class MaterialTable:
     """What kernels need of the materials, one line per slot m (a body, with all bodies that join it).
 
     ``eos_par`` is float64[m, eos.ROW], ``strength_par`` float64[m, strength.ROW], ``damage_par`` float64[m,
-    strength.DAMAGE_ROW]; the model ids are int64[m]; ``fracture_pressure`` is a positive tension, inf where never.
+    strength.DAMAGE_ROW]; the model ids are int64[m]; ``internal`` holds the internal variables of every strength model;
+    ``fracture_pressure`` is a positive tension, inf where never.
     """
 
     names: tuple[str, ...]
@@ -301,6 +303,7 @@ class MaterialTable:
     eos_par: np.ndarray
     strength_model: np.ndarray
     strength_par: np.ndarray
+    internal: tuple[tuple[Field, ...], ...]
     damage_model: np.ndarray
     damage_par: np.ndarray
     fracture_pressure: np.ndarray
@@ -342,6 +345,7 @@ def resolve(deck) -> MaterialTable:
         eos_par=eos_par,
         strength_model=np.array([m.ID for m in strength_modules], dtype=np.int64),
         strength_par=strength_par,
+        internal=tuple(getattr(m, "INTERNAL", ()) for m in strength_modules),
         damage_model=np.array([m.ID for m in damage_modules], dtype=np.int64),
         damage_par=damage_par,
         fracture_pressure=np.array(tensile),

@@ -1,19 +1,23 @@
 """THE field table: every field's name, centring, unit, parity, bounds, how it is remapped, and whether it is written.
 
 The fields of the bodies that the remap carries stand in the block ``State.q[k, m, j, i]`` in the order of the table; their
-integer constants are their positions there. Remap, ghost cells and state follow from the table.
+integer constants are their positions there. From row ``INTERNAL`` on follow the internal variables of the body's strength
+model, which the model declares as fields of its own. Remap, ghost cells and state follow from the table.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import inf
 
+import numpy as np
+
 RHO, E, SRR, SZZ, SRZ, EP, DMG = range(7)
 
-#: how many of the body fields a body carries: without strength, with strength, with strength and damage
+#: how many of the body fields a body carries: without strength, with strength, with strength and damage; with internal
+#: variables, all that stand before them as well
 CARRIED_FLUID, CARRIED_SOLID, CARRIED_DAMAGE = 2, 6, 7
-
 
 #: rows that a thread carries through a phase at a time: few enough to stay in its cache
 BLOCK = 32
@@ -64,13 +68,25 @@ FIELDS = (
 )
 
 
-#: the rows of State.q
+#: the rows of State.q that every body has
 BODY = tuple(field for field in FIELDS if field.centring == "body" and field.remap and field.name != "volume_fraction")
-BODY_FIELDS = len(BODY)
 
-#: for every row of State.q: whether it is carried per mass (else per volume), and its bounds
-BY_MASS = tuple(field.remap == "mass" for field in BODY)
-LEAST, MOST = tuple(field.least for field in BODY), tuple(field.most for field in BODY)
-BOUNDED = tuple(field.least > -inf or field.most < inf for field in BODY)
-#: the rows of State.q that change their sign in a mirror
-ODD = tuple(k for k, field in enumerate(BODY) if field.parity < 0)
+#: the row of State.q in which the internal variables of a body's strength model begin
+INTERNAL = len(BODY)
+
+#: columns of `remap_rules`: 1 for what is carried per mass, 0 per volume; the bounds; the sign in a mirror
+PER_MASS, LEAST, MOST, PARITY = range(4)
+
+
+def remap_rules(internal: Sequence[Sequence[Field]]) -> np.ndarray:
+    """How every row of State.q of every body is remapped and mirrored, float64[m, k, 4] with the columns PER_MASS to PARITY.
+
+    ``internal`` holds the internal variables of every body; a body that has fewer than another has empty rows at the end.
+    """
+    rows = INTERNAL + max((len(own) for own in internal), default=0)
+    rules = np.zeros((len(internal), rows, 4))
+    rules[..., LEAST], rules[..., MOST], rules[..., PARITY] = -inf, inf, 1
+    for m, own in enumerate(internal):
+        for k, field in enumerate((*BODY, *own)):
+            rules[m, k] = field.remap == "mass", field.least, field.most, field.parity
+    return rules

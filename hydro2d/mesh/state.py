@@ -23,16 +23,19 @@ class State:
     bodies : int
     group : int64[m], optional
         Body group of every body, which is the velocity field that it moves with: 0, and 1 for the hard bodies of a contact.
+    internal : sequence of a sequence of Field for every body, optional
+        Internal variables of its strength model; none without.
     """
 
-    def __init__(self, grid: Grid, bodies: int, group=None):
+    def __init__(self, grid: Grid, bodies: int, group=None, internal=None):
         self.grid, self.bodies = grid, bodies
         self.group = np.zeros(bodies, dtype=np.int64) if group is None else np.asarray(group, dtype=np.int64)
         groups = self.groups = int(self.group.max()) + 1
         nj, ni = grid.shape
         self.vof = np.zeros((bodies, nj, ni))
-        self.q = np.zeros((fields.BODY_FIELDS, bodies, nj, ni))
-        for field, rows in zip(fields.BODY, self.q, strict=True):
+        self.rules = fields.remap_rules(internal or [()] * bodies)
+        self.q = np.zeros((self.rules.shape[1], bodies, nj, ni))
+        for field, rows in zip(fields.BODY, self.q, strict=False):
             setattr(self, field.symbol, rows)
         self._derived = np.zeros((3, bodies, nj, ni))
         self.pm, self.km, self.tm = self._derived
@@ -52,7 +55,7 @@ class State:
         self.flux_volume = np.zeros((bodies, nj + 1, ni + 1))
         self.flux_mass = np.zeros((groups, nj + 1, ni + 1))
         blocks = nj // fields.BLOCK + 1
-        self.flux = np.zeros((fields.BODY_FIELDS, bodies, 6 * blocks, ni + 1))
+        self.flux = np.zeros((self.q.shape[0], bodies, 6 * blocks, ni + 1))
         self.scratch = np.zeros((fields.SCRATCH, blocks, ni + 1))
         self.dual = np.zeros((6, 2 * blocks, ni + 1))
         longest = max(nj, ni) + 1
@@ -76,6 +79,7 @@ class State:
         self.zone = np.zeros((nj, ni), dtype=np.int8)
         self.normal = np.zeros((2, nj, ni))
         self.mix = np.zeros((nj, 8, bodies))
+        self.internal = np.zeros((nj, self.q.shape[0] - fields.INTERNAL))
         self.rows = np.zeros((8, nj + 1))
         self.booked = np.zeros((4 + bodies, nj + 1))
         self.row_numbers = np.zeros((nj + 1, 4), dtype=np.int64)

@@ -14,6 +14,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from hydro2d.errors import unknown
+from hydro2d.mesh.fields import INTERNAL, Field
+from strength.dispatch import STRENGTH_MODULES
 
 TINY = 1e-300
 
@@ -42,6 +44,15 @@ class Cells:
         """rho, e, srr, szz, srz, ep or dmg of the state; computed once."""
         values = np.where(self._there, self._sim.grid.interior(getattr(self._sim.state, name)), 0.0)
         setattr(self, name, values)
+        return values
+
+    def internal(self, name: str) -> np.ndarray:
+        """An internal variable of strength models, by the name of its field; zero for bodies whose model has none such."""
+        values = np.zeros_like(self.vof)
+        for m, own in enumerate(self._sim.table.internal):
+            for k, field in enumerate(own):
+                if field.name == name:
+                    values[m] = np.where(self._there[m], self._sim.grid.interior(self._sim.state.q[INTERNAL + k, m]), 0.0)
         return values
 
     @functools.cached_property
@@ -120,7 +131,7 @@ class Cells:
 @dataclass(frozen=True)
 class Quantity:
     """A row of the table. `title` holds {body} where the quantity is one of every body; one of `contact` is written only
-    where there are two body groups."""
+    where there are two body groups, an `internal` one only for bodies whose strength model has the variable."""
 
     key: str
     title: str
@@ -128,6 +139,7 @@ class Quantity:
     meaning: str
     evaluate: Callable[[Cells], np.ndarray]
     contact: bool = False
+    internal: bool = False
 
     @property
     def per_body(self) -> bool:
@@ -138,6 +150,17 @@ class Quantity:
         title = self.title.format(body=body) if self.per_body else self.title
         return f"{title} [{self.unit}]" if self.unit else title
 
+
+def _internal(field: Field) -> Quantity:
+    """The row of an internal variable of a strength model: back_stress_rr is "Back Stress rr of ..."."""
+    words = [word if len(word) < 3 else word.capitalize() for word in field.name.split("_")]
+    return Quantity(field.name, f"{' '.join(words)} of {{body}}", "" if field.unit == "1" else field.unit, field.meaning,
+                    functools.partial(Cells.internal, name=field.name), internal=True)
+
+
+#: the internal variables that strength models declare, each name once
+_INTERNAL = {field.name: _internal(field) for module in STRENGTH_MODULES for field in getattr(module, "INTERNAL", ())
+             if field.written}
 
 TABLE: tuple[Quantity, ...] = (
     Quantity("pressure", "Pressure", "Pa", "sum of volume fraction times pressure; positive in compression",
@@ -178,6 +201,7 @@ TABLE: tuple[Quantity, ...] = (
     Quantity("body_plastic_strain", "Plastic Strain of {body}", "", "equivalent plastic strain of the body",
              lambda c: c.ep),
     Quantity("body_damage", "Damage of {body}", "", "0 intact, 1 failed", lambda c: c.dmg),
+    *_INTERNAL.values(),
 )  # fmt: skip
 
 BY_KEY = {quantity.key: quantity for quantity in TABLE}
@@ -188,7 +212,7 @@ ALWAYS = ("volume_fraction", "material")
 #: words that stand for several quantities
 GROUPS = {
     "all": tuple(BY_KEY),
-    "standard": tuple(key for key in BY_KEY if key not in ("body_pressure", "body_energy", "body_damage")),
+    "standard": tuple(key for key in BY_KEY if key not in ("body_pressure", "body_energy", "body_damage", *_INTERNAL)),
 }
 
 
@@ -213,7 +237,8 @@ def evaluated(sim, keys=("all",)) -> Iterator[tuple[str, np.ndarray]]:
             continue
         values = quantity.evaluate(cells)
         if quantity.per_body:
-            yield from ((quantity.name(body), values[m]) for m, body in enumerate(sim.table.names))
+            yield from ((quantity.name(body), values[m]) for m, body in enumerate(sim.table.names)
+                        if not quantity.internal or quantity.key in {field.name for field in sim.table.internal[m]})
         else:
             yield quantity.name(), values
 

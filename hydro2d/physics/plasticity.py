@@ -1,6 +1,8 @@
-"""What deviators do, and when there are none."""
+"""What deviators do, how they return to the yield surface, and when there are none."""
 
 from hydro2d.jit import point
+from hydro2d.mesh.fields import INTERNAL
+from strength.dispatch import WITH_INTERNAL, back_stress, harden, kinematic_modulus
 
 
 @point
@@ -17,3 +19,41 @@ def deviator_power(rr, zz, rz, d_rr, d_zz, d_tt, d_rz):
 def carries_no_stress(damage, rho, loose):
     """Whether material has failed, or is as thin as `loose` kg/m^3 and less: neither carries shear (explanation/fracture)."""
     return damage >= 1.0 or rho <= loose
+
+
+@point
+def take_internal(m, j, i, model, q, internal):
+    """Copies the internal variables of body m in cell (j, i) into ``internal``, float64[n]."""
+    if model in WITH_INTERNAL:
+        for k in range(q.shape[0] - INTERNAL):
+            internal[k] = q[INTERNAL + k, m, j, i]
+
+
+@point
+def keep_internal(m, j, i, model, internal, q):
+    """The way back of `take_internal`."""
+    if model in WITH_INTERNAL:
+        for k in range(q.shape[0] - INTERNAL):
+            q[INTERNAL + k, m, j, i] = internal[k]
+
+
+@point
+def from_centre(rr, zz, rz, model, internal):
+    """Deviator (rr, zz, rz) measured from the centre of the yield surface, Pa: s - a (explanation/strength, equation 12)."""
+    b_rr, b_zz, b_rz = back_stress(model, internal)
+    return rr - b_rr, zz - b_zz, rz - b_rz
+
+
+@point
+def returned(rr, zz, rz, trial, dep, final, model, par, internal):
+    """Deviator (rr, zz, rz) after the plastic strain ``dep``, of which the yield surface has moved along, Pa.
+
+    The arguments of the same names are the elastic trial measured `from_centre`, of the von Mises norm ``trial``, which falls
+    to ``final``, Pa (explanation/strength, equations 4 and 12).
+
+    Updates  internal [k]
+    """
+    b_rr, b_zz, b_rz = back_stress(model, internal)
+    share = (final + kinematic_modulus(model, par) * dep) / trial
+    harden(model, dep, rr / trial, zz / trial, rz / trial, par, internal)
+    return b_rr + share * rr, b_zz + share * zz, b_rz + share * rz

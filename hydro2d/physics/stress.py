@@ -3,23 +3,18 @@
 from math import sqrt
 
 from hydro2d.jit import point
+from strength.rotation import turned
 
 
 @point
 def turn_and_strain(rr, zz, rz, spin, g2, drr, dzz, dtt, drz):
     """Deviator rotated by the spin and strained by 2 G times the deviatoric strain increment (strength, equation 1).
 
-    spin = W dt, g2 = 2 G, d.. = D dt. The rotation (1 - a^2)/(1 + a^2), 2 a/(1 + a^2), a = spin/2 keeps the second invariant;
-    its angle 2 atan(a) is the spin to second order.
+    spin = W dt, g2 = 2 G, d.. = D dt.
     """
-    a = 0.5 * spin
-    norm = 1.0 / (1.0 + a * a)
-    c, s = (1.0 - a * a) * norm, 2.0 * a * norm
+    rr, zz, rz = turned(rr, zz, rz, spin)
     mean = (drr + dzz + dtt) / 3.0
-    new_rr = c * c * rr + 2.0 * c * s * rz + s * s * zz + g2 * (drr - mean)
-    new_zz = s * s * rr - 2.0 * c * s * rz + c * c * zz + g2 * (dzz - mean)
-    new_rz = c * s * (zz - rr) + (c * c - s * s) * rz + g2 * drz
-    return new_rr, new_zz, new_rz
+    return rr + g2 * (drr - mean), zz + g2 * (dzz - mean), rz + g2 * drz
 
 
 @point

@@ -103,7 +103,7 @@ def check(deck) -> Check:
     return Check(
         deck=deck, grid=grid, table=table, dump=_dump(grid, table, start),
         masses=dict(zip(table.names, mass.tolist(), strict=True)),
-        memory=State(grid, len(table), decks.body_groups(deck)).nbytes(), cycles=cycles,
+        memory=State(grid, len(table), decks.body_groups(deck), table.internal).nbytes(), cycles=cycles,
         seconds=cycles * grid.cells * NANOSECONDS * 1e-9, warnings=empty + decks.warnings(deck),
     )  # fmt: skip
 

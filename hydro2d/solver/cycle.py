@@ -82,6 +82,8 @@ class Cycle:
         return found
 
     def _carried(self, m: int) -> int:
+        if self.table.internal[m]:
+            return fields.INTERNAL + len(self.table.internal[m])
         if self.table.damage_model[m]:
             return fields.CARRIED_DAMAGE
         return fields.CARRIED_SOLID if self.table.strength_model[m] else fields.CARRIED_FLUID
@@ -349,12 +351,13 @@ class Cycle:
         deformation.deform(
             j0, j1, self.dt, g.face_r, g.hoop, g.az_in, g.az_out, g.vol_r, g.mid_r, g.dz, s.span, s.group, t.strength_model,
             t.strength_par, t.damage_model, t.damage_par, method.yield_factor, self.loose, s.u0, s.v0, s.u, s.v, s.fr, s.fz,
-            s.sig_rr, s.sig_zz, s.sig_tt, s.sig_rz, s.weight, s.vof, s.pm, s.tm, s.scratch, s.q)
+            s.sig_rr, s.sig_zz, s.sig_tt, s.sig_rz, s.weight, s.vof, s.pm, s.tm, s.scratch, s.q, s.internal)
         mixed.deform_mixed(
             j0, j1, self.dt, method.relaxation, method.tipton, method.mixed_strength, method.hard, method.threshold, g.face_r,
             g.hoop, g.az_in, g.az_out, g.vol_r, g.mid_r, g.dz, s.mixed_count, s.mixed, s.group, s.cut, s.cell_mass,
             t.strength_model, t.strength_par, t.damage_model, t.damage_par, method.yield_factor, self.loose, s.u0, s.v0, s.u,
-            s.v, s.fr, s.fz, s.ph, s.qr, s.qz, s.weight, s.solid, s.pm, s.km, s.tm, s.vof, s.q, s.mix, s.motion)
+            s.v, s.fr, s.fz, s.ph, s.qr, s.qz, s.weight, s.solid, s.pm, s.km, s.tm, s.vof, s.q, s.mix, s.motion,
+            s.internal)
         if self.contact:
             self.contact.warm(j0, j1)
         if method.slip_widths is not None:
@@ -368,9 +371,9 @@ class Cycle:
         s, g, box = self.state, self.grid, self.box
         j0, j1, i0, i1 = box
         low_r, high_r, low_z, high_z = self.method.boundaries.having("mirrors")
-        along_r, along_z = di * fields.BODY_FIELDS, dj * fields.BODY_FIELDS  # the other direction's interfaces need fractions
-        boundaries.ghost_columns(j0, j1, g.nr, low_r, high_r, along_r, s.span, s.vof, s.q)
-        boundaries.ghost_rows(i0 - 2, i1 + 2, g.nz, low_z, high_z, along_z, s.vof, s.q)
+        along_r, along_z = di * len(s.q), dj * len(s.q)  # the other direction's interfaces need fractions
+        boundaries.ghost_columns(j0, j1, g.nr, low_r, high_r, along_r, s.rules, s.span, s.vof, s.q)
+        boundaries.ghost_rows(i0 - 2, i1 + 2, g.nz, low_z, high_z, along_z, s.rules, s.vof, s.q)
         self.mesh.fill_ghosts(self.dt)
         if not second:  # cells may have been filled by the Lagrangian step
             self._list_mixed()
@@ -386,10 +389,11 @@ class Cycle:
         """Fluxes and update of every body's fields; the cells' masses, and which of them are mixed."""
         s, g, box = self.state, self.grid, self.box
         if dj:
-            remap.shared_fluxes(*box, self.carried, s.near, s.pre, s.flux_volume, s.vof, s.q, s.scratch, s.flux)
+            remap.shared_fluxes(*box, self.carried, s.rules, s.near, s.pre, s.flux_volume, s.vof, s.q, s.scratch, s.flux)
         sweep = remap.sweep_r if di else remap.sweep_z
-        sweep(*box, self.carried, s.group, self.edges, s.near, s.around, s.fr if di else s.fz, s.pre, g.volume, bool(second),
-              s.flux_volume, s.scratch, s.flux, s.flux_mass, s.edge_flux, s.vof, s.q, s.cell_mass, s.mixed_count, s.mixed)
+        sweep(*box, self.carried, s.rules, s.group, self.edges, s.near, s.around, s.fr if di else s.fz, s.pre, g.volume,
+              bool(second), s.flux_volume, s.scratch, s.flux, s.flux_mass, s.edge_flux, s.vof, s.q, s.cell_mass, s.mixed_count,
+              s.mixed)
         self._book_outflow(di)
 
     def _open_faces(self, di: int, flag: str = "opens"):

@@ -44,7 +44,7 @@ class Simulation:
         self.table = library.resolve(deck)
         slots = decks.slots(deck)
         method = Method.from_deck(deck, slots, decks.sliding_widths(deck), decks.yield_factor(deck))
-        self.state = State(self.grid, len(slots), method.group)
+        self.state = State(self.grid, len(slots), method.group, self.table.internal)
         self._insert(method.boundaries)
         self.engine = Cycle(self.state, self.table, method, self._mesh(slots, method))
         self.engine.prepare()

@@ -63,6 +63,7 @@ STRENGTH_CASES = {
         "reference_density": 2700.0,
     },
     "power-law": {"youngs_modulus": 2.5 * G, "poisson_ratio": 0.25, "yield_stress": Y, "hardening_exponent": 0.084},
+    "kinematic-hardening": {"shear_modulus": G, "yield_stress": Y, "hardening_modulus": 1e9, "isotropic_share": 0.4},
 }
 
 #: the same constant yield stress in every model that has one, some of the special terms switched off by their values
@@ -79,6 +80,7 @@ CONSTANT_YIELD = {
         "reference_density": 2700.0,
     },
     "power-law": {"youngs_modulus": 2.5 * G, "poisson_ratio": 0.25, "yield_stress": Y, "hardening_exponent": 0.0},
+    "kinematic-hardening": {"shear_modulus": G, "yield_stress": Y, "isotropic_share": 0.4},
 }
 
 DAMAGE_CASES = {

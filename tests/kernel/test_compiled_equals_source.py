@@ -29,7 +29,7 @@ tip = "0.2 mm"
 velocity = "1200 m/s"
 [[body]]
 name = "plate"
-material = "Al7039"
+material = "PLATE"
 shape = "plate"
 z_front = "0.2 mm"
 thickness = "8 mm"
@@ -39,6 +39,14 @@ z_max = "EDGE"
 SLIDING
 hard = ["rod"]
 friction = 0.1
+[materials.hardening]
+based_on = "Al7039"
+[materials.hardening.strength]
+model = "kinematic-hardening"
+shear_modulus = "27.6 GPa"
+yield_stress = "0.3 GPa"
+hardening_modulus = "2 GPa"
+isotropic_share = 0.5
 [failure]
 damage = "material"
 [numerics]
@@ -88,6 +96,7 @@ def test_kernels_do_what_their_source_says(monkeypatch, advection, sliding):
     follows = "contact" in sliding
     text = DECK.replace("ADVECTION", f'advection = "{advection}"').replace("SLIDING", sliding)
     text = text.replace("MESH", 'follow = "rod"' if follows else "").replace("EDGE", "transmit" if follows else "outflow")
+    text = text.replace("PLATE", "hardening" if advection == "both" else "Al7039")  # one deck with internal variables
     simulation = Simulation(deck.loads(text))
     for _ in range(4):
         simulation.step()

@@ -1,14 +1,24 @@
-"""What deviators do, and when there are none."""
+"""What deviators do, how they return to the yield surface, and when there are none."""
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from hydro2d.mesh.fields import INTERNAL
 from hydro2d.physics import plasticity
+from hydro2d.physics.stress import von_mises
+from strength import STRENGTH_MODELS
 
 deviator_power = plasticity.deviator_power.py_func
 carries_no_stress = plasticity.carries_no_stress.py_func
+take_internal = plasticity.take_internal.py_func
+keep_internal = plasticity.keep_internal.py_func
+from_centre = plasticity.from_centre.py_func
+returned = plasticity.returned.py_func
+
+HARDENS, PLAIN = STRENGTH_MODELS["kinematic-hardening"], STRENGTH_MODELS["elastic-plastic"]
+ROW = HARDENS.row({"shear_modulus": 26e9, "yield_stress": 3e8, "hardening_modulus": 5e9, "isotropic_share": 0.2})
 
 VALUE = st.floats(-1e3, 1e3)
 
@@ -53,3 +63,48 @@ def test_what_has_failed_carries_none(damage):
 
 def test_with_a_bound_of_zero_nothing_is_too_thin():
     assert not carries_no_stress(0.0, 1e-9, 0.0)
+
+
+def test_internal_variables_go_out_and_back():
+    q = np.arange(2.0 * (INTERNAL + 3) * 6).reshape(INTERNAL + 3, 2, 2, 3)
+    before, internal = q.copy(), np.zeros(3)
+    take_internal(1, 0, 2, HARDENS.ID, q, internal)
+    np.testing.assert_array_equal(internal, before[INTERNAL:, 1, 0, 2])
+    internal += 0.5
+    keep_internal(1, 0, 2, HARDENS.ID, internal, q)
+    before[INTERNAL:, 1, 0, 2] += 0.5
+    np.testing.assert_array_equal(q, before)
+
+
+def test_a_model_without_internal_variables_touches_none():
+    q, internal = np.ones((INTERNAL + 3, 1, 1, 1)), np.full(3, 7.0)
+    take_internal(0, 0, 0, PLAIN.ID, q, internal)
+    keep_internal(0, 0, 0, PLAIN.ID, internal, q)
+    assert (q == 1.0).all()
+    assert (internal == 7.0).all()
+
+
+def test_most_yield_surfaces_lie_around_the_origin():
+    internal = np.array([1.0, 2.0, 3.0])
+    assert from_centre(5.0, 7.0, 9.0, PLAIN.ID, internal) == (5.0, 7.0, 9.0)
+    assert from_centre(5.0, 7.0, 9.0, HARDENS.ID, internal) == (4.0, 5.0, 6.0)
+
+
+@settings(deadline=None)
+@given(*[st.floats(-2e9, 2e9)] * 3, st.floats(1e-6, 0.01))
+def test_a_return_ends_on_the_surface_that_has_moved(rr, zz, rz, dep):
+    """The plastic strain is 3/2 dep times the direction; the stress falls by 2 G of it, the centre follows by 2/3 C of it."""
+    internal = np.array([1e8, -2e8, 5e7])
+    trial = von_mises.py_func(rr, zz, rz)
+    if trial < 3.0 * 26e9 * dep + 4e9 * dep + 1e6:
+        return
+    final = trial - (3.0 * 26e9 + 4e9) * dep
+    direction, old = 1.5 * dep * np.array([rr, zz, rz]) / trial, internal.copy()
+    after = returned(rr, zz, rz, trial, dep, final, HARDENS.ID, ROW, internal)
+    np.testing.assert_allclose(internal, old + 2 / 3 * 4e9 * direction, rtol=1e-12, atol=1.0)
+    np.testing.assert_allclose(after, old + np.array([rr, zz, rz]) - 2 * 26e9 * direction, rtol=1e-9, atol=10.0)
+    assert von_mises.py_func(*(np.array(after) - internal)) == pytest.approx(final, rel=1e-9)
+
+
+def test_without_a_centre_a_return_is_a_change_of_size():
+    assert returned(3.0, -4.0, 2.0, 10.0, 0.1, 5.0, PLAIN.ID, ROW, np.zeros(0)) == (1.5, -2.0, 1.0)

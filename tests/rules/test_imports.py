@@ -27,7 +27,7 @@ OURS = ("hydro2d", "eos", "strength")
 #: packages of these modules and nothing else of hydro2d
 NARROW = {
     "eos": ("eos", "hydro2d.parameters", "hydro2d.jit"),
-    "strength": ("strength", "hydro2d.parameters", "hydro2d.jit"),
+    "strength": ("strength", "hydro2d.parameters", "hydro2d.jit", "hydro2d.mesh.fields"),
     "hydro2d.physics": ("hydro2d.physics", "hydro2d.jit", "hydro2d.mesh.fields", "eos", "strength"),
     "hydro2d.kernels": ("hydro2d.kernels", "hydro2d.physics", "hydro2d.jit", "hydro2d.mesh.fields", "hydro2d.mesh.grid", "eos",
                         "strength"),

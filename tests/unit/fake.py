@@ -71,7 +71,7 @@ class Simulation:
         )  # fmt: skip
         rows = [library.load(name) for name in ("W_alloy", "Al5083")]
         self.table = SimpleNamespace(
-            names=(ROD, PLATE),
+            names=(ROD, PLATE), internal=((), ()),
             eos_model=np.array([eos.MODELS[material.eos.name].ID for material in rows]),
             eos_par=np.stack([eos.MODELS[material.eos.name].row(material.eos.values) for material in rows]),
         )

@@ -21,9 +21,25 @@ def test_the_state_has_a_view_of_every_row():
         assert (getattr(state, field.symbol) == k).all()
 
 
-def test_what_has_a_sign_is_not_bounded():
-    for field, bounded in zip(fields.BODY, fields.BOUNDED, strict=True):
-        assert bounded == (field.symbol in ("ep", "dmg"))
+def test_the_rules_are_the_table_and_the_internal_variables_behind_it():
+    own = (fields.Field("spread", "", "body", "1", -1, "mass", True, "a number", -2.0, 3.0),)
+    rules = fields.remap_rules([(), own])
+    assert rules.shape == (2, len(fields.BODY) + 1, 4)
+    np.testing.assert_array_equal(rules[0, :-1], rules[1, :-1])
+    assert rules[1, fields.INTERNAL].tolist() == [1.0, -2.0, 3.0, -1.0]
+    assert rules[0, fields.INTERNAL].tolist() == [0.0, -np.inf, np.inf, 1.0]
+    for field, (by_mass, least, most, parity) in zip(fields.BODY, rules[0, :-1], strict=True):
+        assert (by_mass == 1.0) == (field.symbol in ("e", "ep", "dmg"))
+        assert (least == 0.0) == (field.symbol in ("ep", "dmg"))
+        assert (most == 1.0) == (field.symbol == "dmg")
+        assert (parity == -1.0) == (field.symbol == "srz")
+
+
+def test_only_a_run_that_needs_them_has_rows_for_internal_variables():
+    grid = Grid(np.linspace(0.0, 1.0, 4), np.linspace(0.0, 1.0, 5))
+    assert State(grid, 2).q.shape[0] == fields.INTERNAL
+    own = (fields.Field("spread", "", "body", "1", -1, "mass", True, "a number"),)
+    assert State(grid, 2, None, [(), own]).q.shape[0] == fields.INTERNAL + 1
 
 
 @pytest.mark.parametrize("field", fields.FIELDS, ids=lambda field: field.name)
