@@ -163,6 +163,10 @@ def fields_page() -> str:
             for module in STRENGTH_MODULES for f in getattr(module, "INTERNAL", ())
         ),
     )
+    work = table(
+        ("array", "axes", "meaning"),
+        ((f"`{w.symbol}`", w.axes, w.meaning) for w in (*fields.WORK, *fields.CONTACT_WORK)),
+    )
     written = table(
         ("key", "name in files", "meaning"),
         ((f"`{q.key}`", q.name("*body*"), q.meaning) for q in derived.TABLE),
@@ -170,7 +174,11 @@ def fields_page() -> str:
     groups = "\n".join(f"* `{word}`: {', '.join(keys)}" for word, keys in derived.GROUPS.items())
     return (
         f"# Fields\n\n{NOTE}\n\n## Fields of the state\n\n{state}\n\n"
-        f"## Internal variables of strength models\n\n{internal}\n\n## Quantities in output files\n\n{written}\n\n"
+        f"## Internal variables of strength models\n\n{internal}\n\n"
+        f"## What kernels leave for one another\n\nThe letters of the axes are lengths: m bodies, b body groups, j and i cells "
+        f"with ghosts, J and I vertices, k rows of `State.q`, n internal variables, B blocks of rows, L vertices along the "
+        f"longer direction. From `{fields.CONTACT_WORK[0].symbol}` on, only contact has them.\n\n{work}\n\n"
+        f"## Quantities in output files\n\n{written}\n\n"
         f"Words for several of them:\n\n{groups}"
     )
 

@@ -41,7 +41,8 @@ def _source_files() -> list[Path]:
     here = Path(__file__).resolve().parent
     folders = [here / "physics", here / "kernels", here.parent / "eos", here.parent / "strength"]
     modules = sorted(file for folder in folders for file in folder.glob("**/*.py"))
-    return [Path(__file__).resolve(), here / "parameters.py", here / "mesh" / "fields.py", here / "mesh" / "grid.py", *modules]
+    alone = [here / name for name in ("parameters.py", "mesh/fields.py", "mesh/grid.py", "materials/rows.py")]
+    return [Path(__file__).resolve(), *alone, *modules]
 
 
 def _cache_root() -> str:

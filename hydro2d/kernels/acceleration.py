@@ -5,6 +5,7 @@ from math import sqrt
 from hydro2d.jit import kernel, prange, rowwise
 from hydro2d.kernels.spans import block_rows, columns, copy_beside, number_of_blocks, spread, union
 from hydro2d.mesh.fields import SRR, SRZ, SZZ
+from hydro2d.mesh.grid import AZ_IN, AZ_OUT, CM_IN, CM_OUT, FACE_R, HOOP, MID_R, VOL_R
 from hydro2d.physics.advection import TINY
 from hydro2d.physics.kinematics import divergence
 from hydro2d.physics.stress import stress_scale
@@ -14,8 +15,8 @@ SILENCE = 1e-20
 
 
 @rowwise
-def total_stress_row(j, dt, face_r, az_in, az_out, vol_r, dz, span, reach, mixed_count, mixed, solid_mode, hard,
-                     hard_threshold, u, v, vof, q, p, bulk, solid, qr, qz, ph, sig_rr, sig_zz, sig_tt, sig_rz):
+def total_stress_row(j, dt, metrics, dz, span, reach, mixed_count, mixed, solid_mode, hard, hard_threshold, u, v, vof, q, p,
+                     bulk, solid, qr, qz, ph, sig_rr, sig_zz, sig_tt, sig_rz):
     """sigma = s - (p + q) I with the pressure at half the step, p^(n+1/2) = p - (dt/2) K div u^n.
 
     The cell's deviator is sum f_m s_m, in mode `solid` divided by the share of solids; in the hard zone of a slip layer it is
@@ -69,7 +70,7 @@ def total_stress_row(j, dt, face_r, az_in, az_out, vol_r, dz, span, reach, mixed
     h = dz[j]
     for x in range(n):
         i = lo + x
-        div = divergence(i, ub, ut, vb, vt, face_r, az_in, az_out, vol_r, h)
+        div = divergence(i, ub, ut, vb, vt, metrics, h)
         pressure = p_j[i] - 0.5 * dt * k_j[i] * div
         ph_j[i] = pressure
         tt[i] = -(rr[i] + zz[i]) - pressure - qr_j[i]
@@ -78,20 +79,20 @@ def total_stress_row(j, dt, face_r, az_in, az_out, vol_r, dz, span, reach, mixed
 
 
 @kernel
-def total_stress(j0, j1, dt, face_r, az_in, az_out, vol_r, dz, span, reach, mixed_count, mixed, solid_mode, hard,
-                 hard_threshold, u, v, vof, q, p, bulk, solid, qr, qz, ph, sig_rr, sig_zz, sig_tt, sig_rz):
+def total_stress(j0, j1, dt, metrics, dz, span, reach, mixed_count, mixed, solid_mode, hard, hard_threshold, u, v, vof, q, p,
+                 bulk, solid, qr, qz, ph, sig_rr, sig_zz, sig_tt, sig_rz):
     """total_stress_row for rows j0 to j1."""
     blocks = number_of_blocks(j0, j1)
     for place in prange(blocks):
         b = spread(place, blocks)
         first_row, last_row = block_rows(b, blocks, j0, j1)
         for j in range(first_row, last_row):
-            total_stress_row(j, dt, face_r, az_in, az_out, vol_r, dz, span, reach, mixed_count, mixed, solid_mode, hard,
-                             hard_threshold, u, v, vof, q, p, bulk, solid, qr, qz, ph, sig_rr, sig_zz, sig_tt, sig_rz)
+            total_stress_row(j, dt, metrics, dz, span, reach, mixed_count, mixed, solid_mode, hard, hard_threshold, u, v, vof,
+                             q, p, bulk, solid, qr, qz, ph, sig_rr, sig_zz, sig_tt, sig_rz)
 
 
 @kernel
-def vertex_masses(j0, j1, i0, i1, cm_in, cm_out, around, cell_mass, mass):
+def vertex_masses(j0, j1, i0, i1, metrics, around, cell_mass, mass):
     """Mass of the dual cells: corner shares of the four cells around a vertex, weighted by radius.
 
     Reads    cell_mass [b, j, i]
@@ -106,12 +107,50 @@ def vertex_masses(j0, j1, i0, i1, cm_in, cm_out, around, cell_mass, mass):
             m_j = mass[b, j]
             for x in range(n):
                 i = lo + x
-                m_j[i] = cm_out[i - 1] * (below[i - 1] + above[i - 1]) + cm_in[i] * (below[i] + above[i])
+                m_j[i] = metrics[CM_OUT, i - 1] * (below[i - 1] + above[i - 1]) + metrics[CM_IN, i] * (below[i] + above[i])
 
 
 @rowwise
-def accelerate_row(b, j, i0, i1, dt, speed_limit, light_density, face_r, hoop, az_in, az_out, vol_r, mid_r, dz,
-                   occupied, mass, weight, sig_rr, sig_zz, sig_tt, sig_rz, u0, v0, u, v, limited):
+def limit_speed_row(b, j, lo, n, speed_limit, light, metrics, mass, u0, v0, u, v, limited):
+    """Holds the thinly filled vertices of group b in row j to speed_limit; those that two groups share are the contact's.
+
+    light is a quarter of the density below which a vertex is thinly filled, times the height of both rows of cells beside it.
+
+    Reads    mass, u0, v0 [b, j, i]
+    Updates  u, v [b, j, i]; limited [3, j]: momentum and energy taken, and how often
+    """
+    u_c = u0[b, j]
+    v_c = v0[b, j]
+    m_j = mass[b, j]
+    un = u[b, j]
+    vn = v[b, j]
+    other = mass[mass.shape[0] - 1 - b, j]
+    alone = mass.shape[0] == 1
+    lost_p, lost_e, count = 0.0, 0.0, 0.0
+    for x in range(n):
+        i = lo + x
+        m = m_j[i]
+        square = un[i] * un[i] + vn[i] * vn[i]
+        thin = m < light * (metrics[VOL_R, i - 1] + metrics[VOL_R, i])
+        if square <= speed_limit * speed_limit or not thin:
+            continue
+        if not alone and other[i] > 0.0:
+            continue
+        shrink = speed_limit / sqrt(square)
+        lost_p += m * vn[i] * (1.0 - shrink)
+        # what the impulse takes from the work of the step, which goes by the mean of both velocities
+        lost_e += 0.5 * m * (1.0 - shrink) * (un[i] * (u_c[i] + shrink * un[i]) + vn[i] * (v_c[i] + shrink * vn[i]))
+        count += 1.0
+        un[i] *= shrink
+        vn[i] *= shrink
+    limited[0, j] += lost_p
+    limited[1, j] += lost_e
+    limited[2, j] += count
+
+
+@rowwise
+def accelerate_row(b, j, i0, i1, dt, speed_limit, light_density, metrics, dz, occupied, mass, weight, sig_rr, sig_zz, sig_tt,
+                   sig_rz, u0, v0, u, v, limited):
     """Velocities at the end of the Lagrangian step: u = u0 + dt f/M, f the sum of the corner forces of four cells.
 
     f_r = -[sig_rr (c_r - A/4) + sig_tt A/4 + sig_rz c_z],  f_z = -[sig_zz c_z + sig_rz g] per corner, and the filter of the
@@ -149,20 +188,17 @@ def accelerate_row(b, j, i0, i1, dt, speed_limit, light_density, face_r, hoop, a
     m_j = mass[b, j]
     un = u[b, j]
     vn = v[b, j]
-    other = mass[mass.shape[0] - 1 - b, j]
-    alone = mass.shape[0] == 1
-    lost_p, lost_e, count = 0.0, 0.0, 0.0
     for x in range(n):
         i = lo + x
         k = i - 1
-        half_r = 0.5 * face_r[i]
+        half_r, hoop_k, hoop_i = 0.5 * metrics[FACE_R, i], metrics[HOOP, k], metrics[HOOP, i]
         # (cell left below + cell left above) + (cell right below + cell right above): mirror pairs in z
-        normal_r = (half_r - hoop[k]) * (hb * rr_b[k] + ht * rr_t[k]) - (half_r + hoop[i]) * (hb * rr_b[i] + ht * rr_t[i])
-        hoop_r = hoop[k] * (hb * tt_b[k] + ht * tt_t[k]) + hoop[i] * (hb * tt_b[i] + ht * tt_t[i])
-        shear_r = az_out[k] * (rz_b[k] - rz_t[k]) + az_in[i] * (rz_b[i] - rz_t[i])
+        normal_r = (half_r - hoop_k) * (hb * rr_b[k] + ht * rr_t[k]) - (half_r + hoop_i) * (hb * rr_b[i] + ht * rr_t[i])
+        hoop_r = hoop_k * (hb * tt_b[k] + ht * tt_t[k]) + hoop_i * (hb * tt_b[i] + ht * tt_t[i])
+        shear_r = metrics[AZ_OUT, k] * (rz_b[k] - rz_t[k]) + metrics[AZ_IN, i] * (rz_b[i] - rz_t[i])
         force_r = -(normal_r + hoop_r + shear_r)
-        normal_z = az_out[k] * (zz_b[k] - zz_t[k]) + az_in[i] * (zz_b[i] - zz_t[i])
-        shear_z = mid_r[k] * (hb * rz_b[k] + ht * rz_t[k]) - mid_r[i] * (hb * rz_b[i] + ht * rz_t[i])
+        normal_z = metrics[AZ_OUT, k] * (zz_b[k] - zz_t[k]) + metrics[AZ_IN, i] * (zz_b[i] - zz_t[i])
+        shear_z = metrics[MID_R, k] * (hb * rz_b[k] + ht * rz_t[k]) - metrics[MID_R, i] * (hb * rz_b[i] + ht * rz_t[i])
         force_z = -(normal_z + shear_z)
         # hourglass mode of the four cells, + - + - from the inner bottom vertex
         h_kb = (u_b[k] - u_b[i]) + (u_c[i] - u_c[k])
@@ -181,29 +217,12 @@ def accelerate_row(b, j, i0, i1, dt, speed_limit, light_density, face_r, hoop, a
         axial = keep * v_c[i] + scale * force_z
         un[i] = radial if abs(radial) > SILENCE else 0.0
         vn[i] = axial if abs(axial) > SILENCE else 0.0
-    for x in range(n):
-        i = lo + x
-        m = m_j[i]
-        square = un[i] * un[i] + vn[i] * vn[i]
-        if square <= speed_limit * speed_limit or m >= light_density * 0.25 * (vol_r[i - 1] + vol_r[i]) * (hb + ht):
-            continue
-        if not alone and other[i] > 0.0:
-            continue
-        shrink = speed_limit / sqrt(square)
-        lost_p += m * vn[i] * (1.0 - shrink)
-        # what the impulse takes from the work of the step, which goes by the mean of both velocities
-        lost_e += 0.5 * m * (1.0 - shrink) * (un[i] * (u_c[i] + shrink * un[i]) + vn[i] * (v_c[i] + shrink * vn[i]))
-        count += 1.0
-        un[i] *= shrink
-        vn[i] *= shrink
-    limited[0, j] += lost_p
-    limited[1, j] += lost_e
-    limited[2, j] += count
+    limit_speed_row(b, j, lo, n, speed_limit, light_density * 0.25 * (hb + ht), metrics, mass, u0, v0, u, v, limited)
 
 
 @kernel
-def accelerate(j0, j1, i0, i1, dt, speed_limit, light_density, face_r, hoop, az_in, az_out, vol_r, mid_r, dz,
-               occupied, mass, weight, sig_rr, sig_zz, sig_tt, sig_rz, u0, v0, u, v, limited):
+def accelerate(j0, j1, i0, i1, dt, speed_limit, light_density, metrics, dz, occupied, mass, weight, sig_rr, sig_zz, sig_tt,
+               sig_rz, u0, v0, u, v, limited):
     """accelerate_row for rows j0 to j1."""
     blocks = number_of_blocks(j0, j1)
     for place in prange(blocks):
@@ -212,12 +231,12 @@ def accelerate(j0, j1, i0, i1, dt, speed_limit, light_density, face_r, hoop, az_
             for row in range(3):
                 limited[row, j] = 0.0
             for b in range(mass.shape[0]):
-                accelerate_row(b, j, i0, i1, dt, speed_limit, light_density, face_r, hoop, az_in, az_out, vol_r, mid_r, dz,
-                               occupied, mass, weight, sig_rr, sig_zz, sig_tt, sig_rz, u0, v0, u, v, limited)
+                accelerate_row(b, j, i0, i1, dt, speed_limit, light_density, metrics, dz, occupied, mass, weight, sig_rr,
+                               sig_zz, sig_tt, sig_rz, u0, v0, u, v, limited)
 
 
 @kernel
-def swept_volumes(j0, j1, i0, i1, dt, face_r, az_in, az_out, dz, around, u0, v0, u, v, fr, fz):
+def swept_volumes(j0, j1, i0, i1, dt, metrics, dz, around, u0, v0, u, v, fr, fz):
     """Volumes swept by the faces in the step, from the velocity at mid-step (explanation/remap, equation 1).
 
     F_r = dt r h <u>,  F_z = dt (a v_inner + b v_outer), with the areas of the cell vectors, so that their sum over a cell is
@@ -240,8 +259,8 @@ def swept_volumes(j0, j1, i0, i1, dt, face_r, az_in, az_out, dz, around, u0, v0,
         h = dz[j]
         for x in range(n):
             i = lo + x
-            fr_j[i] = 0.25 * dt * face_r[i] * h * ((ub[i] + ub0[i]) + (ut[i] + ut0[i]))
-            fz_j[i] = 0.5 * dt * (az_in[i] * (vb[i] + vb0[i]) + az_out[i] * (vb[i + 1] + vb0[i + 1]))
+            fr_j[i] = 0.25 * dt * metrics[FACE_R, i] * h * ((ub[i] + ub0[i]) + (ut[i] + ut0[i]))
+            fz_j[i] = 0.5 * dt * (metrics[AZ_IN, i] * (vb[i] + vb0[i]) + metrics[AZ_OUT, i] * (vb[i + 1] + vb0[i + 1]))
         if n > 0:
             i = lo + n
-            fr_j[i] = 0.25 * dt * face_r[i] * h * ((ub[i] + ub0[i]) + (ut[i] + ut0[i]))
+            fr_j[i] = 0.25 * dt * metrics[FACE_R, i] * h * ((ub[i] + ub0[i]) + (ut[i] + ut0[i]))

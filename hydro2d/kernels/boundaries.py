@@ -7,7 +7,7 @@ travels, what the deck has placed there (hydro2d/following). A transmitting edge
 
 from hydro2d.jit import apart, kernel, point, prange, serial
 from hydro2d.mesh.fields import PARITY
-from hydro2d.mesh.grid import GHOSTS
+from hydro2d.mesh.grid import AZ_IN, AZ_OUT, FACE_R, GHOSTS
 from hydro2d.physics.waves import impedances
 
 
@@ -101,7 +101,7 @@ def held(dt, m, normal, shear, normal_velocity, velocity):
 
 
 @serial
-def transmit(along_r, at, first, last, dt, face_r, az_in, az_out, dz, rhobar, cl, bulk, mass, u0, v0, u, v, taken):
+def transmit(along_r, at, first, last, dt, metrics, dz, rhobar, cl, bulk, mass, u0, v0, u, v, taken):
     """Tractions -rho c_l v_n and -rho c_s v_t on the vertices first to last of an edge: what an endless plate would hold with.
 
     J. Lysmer & R. L. Kuhlemeyer, J. Engng Mech. Div. ASCE 95 (1969) 859: exact for plane waves that meet the edge squarely.
@@ -117,7 +117,8 @@ def transmit(along_r, at, first, last, dt, face_r, az_in, az_out, dz, rhobar, cl
         normal, shear = 0.0, 0.0
         for row in range(j - 1, j + 1):
             for column in range(i - 1, i + 1):
-                area = 0.5 * face_r[i] * dz[row] if along_r else (az_out[column] if column < i else az_in[column])
+                axial = metrics[AZ_OUT, column] if column < i else metrics[AZ_IN, column]
+                area = 0.5 * metrics[FACE_R, i] * dz[row] if along_r else axial
                 z_l, z_s = impedances(row, column, rhobar, cl, bulk)
                 normal += area * z_l
                 shear += area * z_s

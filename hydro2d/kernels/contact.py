@@ -213,16 +213,16 @@ def face_weights(j0, j1, edges, still, cut, line, hard, soft, mass, count, share
 
 
 @point
-def weighty_share(g, row, column, edges, volume, cm_in, cm_out, hard, soft, mass):
+def weighty_share(g, row, column, edges, volume, metrics, hard, soft, mass):
     """Share that group g fills of the dual cell of a vertex, 0 where it is light or the vertex is none of the mesh."""
     if row < edges[0] or row > edges[1] or column < edges[2] or column > edges[3] or mass[g, row, column] == 0.0:
         return 0.0
-    share = dual_share(g, row, column, edges, volume, cm_in, cm_out, hard, soft)
+    share = dual_share(g, row, column, edges, volume, metrics, hard, soft)
     return share if share >= LIGHT else 0.0
 
 
 @apart
-def cell_to_extend(g, j, i, inward_r, inward_z, edges, volume, cm_in, cm_out, hard, soft, mass):
+def cell_to_extend(g, j, i, inward_r, inward_z, edges, volume, metrics, hard, soft, mass):
     """Code of the cell of group g whose linear field the light vertex (j, i) takes, 0 where there is none.
 
     None of the cell's own vertices is light. It is the one, among the nearest that there are, with the largest share of the
@@ -244,10 +244,10 @@ def cell_to_extend(g, j, i, inward_r, inward_z, edges, volume, cm_in, cm_out, ha
                 along = part * (inward_r * r + inward_z * z) / (r * r + z * z)
                 if along <= CLOSER * most:
                     continue
-                if (weighty_share(g, row, column, edges, volume, cm_in, cm_out, hard, soft, mass) > 0.0
-                        and weighty_share(g, row + 1, column, edges, volume, cm_in, cm_out, hard, soft, mass) > 0.0
-                        and weighty_share(g, row, column + 1, edges, volume, cm_in, cm_out, hard, soft, mass) > 0.0
-                        and weighty_share(g, row + 1, column + 1, edges, volume, cm_in, cm_out, hard, soft, mass) > 0.0):
+                if (weighty_share(g, row, column, edges, volume, metrics, hard, soft, mass) > 0.0
+                        and weighty_share(g, row + 1, column, edges, volume, metrics, hard, soft, mass) > 0.0
+                        and weighty_share(g, row, column + 1, edges, volume, metrics, hard, soft, mass) > 0.0
+                        and weighty_share(g, row + 1, column + 1, edges, volume, metrics, hard, soft, mass) > 0.0):
                     most = along
                     code = EXTENDS + 2 * REACH * (dj + REACH) + di + REACH
         if code > 0:
@@ -256,7 +256,7 @@ def cell_to_extend(g, j, i, inward_r, inward_z, edges, volume, cm_in, cm_out, ha
 
 
 @kernel
-def link_light(j0, j1, edges, volume, cm_in, cm_out, count, shared, normal, hard, soft, mass, link):
+def link_light(j0, j1, edges, volume, metrics, count, shared, normal, hard, soft, mass, link):
     """How each group moves at a shared vertex: by itself, or, where it is light, as its body does inward of there.
 
     That is the linear field of the velocities of a cell, or, where no cell has four vertices of the group, one vertex: among
@@ -270,11 +270,11 @@ def link_light(j0, j1, edges, volume, cm_in, cm_out, count, shared, normal, hard
             i = shared[j, k]
             for g in range(2):
                 link[g, j, i] = HEAVY
-                if weighty_share(g, j, i, edges, volume, cm_in, cm_out, hard, soft, mass) > 0.0:
+                if weighty_share(g, j, i, edges, volume, metrics, hard, soft, mass) > 0.0:
                     continue
                 inward = 1.0 if g == 0 else -1.0
-                code = cell_to_extend(g, j, i, inward * normal[0, 0, j, i], inward * normal[0, 1, j, i], edges, volume, cm_in,
-                                      cm_out, hard, soft, mass)
+                code = cell_to_extend(g, j, i, inward * normal[0, 0, j, i], inward * normal[0, 1, j, i], edges, volume, metrics,
+                                      hard, soft, mass)
                 if code > 0:
                     link[g, j, i] = code
                     continue
@@ -286,7 +286,7 @@ def link_light(j0, j1, edges, volume, cm_in, cm_out, count, shared, normal, hard
                             row, column = j + dj, i + di
                             if max(abs(dj), abs(di)) < ring:
                                 continue
-                            share = weighty_share(g, row, column, edges, volume, cm_in, cm_out, hard, soft, mass)
+                            share = weighty_share(g, row, column, edges, volume, metrics, hard, soft, mass)
                             along = inward * (normal[0, 0, j, i] * di + normal[0, 1, j, i] * dj) / (di * di + dj * dj)
                             if share * along > most * (1.0 + 1e-9):
                                 most = share * along

@@ -6,6 +6,7 @@ from hydro2d.jit import apart, kernel, prange
 from hydro2d.kernels.contact import HARD_R, HARD_Z, SOFT_R, SOFT_Z
 from hydro2d.kernels.spans import mixed_row
 from hydro2d.mesh.fields import RHO, SRR, SRZ, SZZ
+from hydro2d.mesh.grid import AZ_IN, AZ_OUT, FACE_R, HOOP, MID_R, VOL_R
 from hydro2d.physics.closure import common_pressure
 from hydro2d.physics.contact import GAP, meeting, volume_rate
 from hydro2d.physics.kinematics import hourglass_mode
@@ -17,9 +18,8 @@ SEED = 1e-11
 
 
 @kernel
-def cut_viscosity(j0, j1, edges, linear, quadratic, courant, dr, dz, vol_r, face_r, az_in, az_out, cut, line, around, normal,
-                  wet_r, wet_z, hard, soft, u, v, cl, rhobar, vof, q, pm, km, p, solid, bulk, qr, qz, rate, row_step,
-                  mixed_count, mixed, scratch):
+def cut_viscosity(j0, j1, edges, linear, quadratic, courant, dr, dz, metrics, cut, line, around, normal, wet_r, wet_z, hard,
+                  soft, u, v, cl, rhobar, vof, q, pm, km, p, solid, bulk, qr, qz, rate, row_step, mixed_count, mixed, scratch):
     """Volume rate and viscosity of the cut cells, the step they allow, and room where their groups part.
 
     A cell of both groups has the pressure at which they would meet, the mean of theirs by compressibility, and the density of
@@ -54,8 +54,8 @@ def cut_viscosity(j0, j1, edges, linear, quadratic, courant, dr, dz, vol_r, face
                 bulk[j, i] = 0.0
                 seeded = True
             h = dz[j]
-            volume = vol_r[i] * h
-            loss = -volume_rate(j, i, -1, face_r, az_in, az_out, h, wet_r, wet_z, u, v) / volume
+            volume = metrics[VOL_R, i] * h
+            loss = -volume_rate(j, i, -1, metrics, h, wet_r, wet_z, u, v) / volume
             rate[j, i] = -loss
             qr[j, i] = 0.0
             qz[j, i] = 0.0
@@ -114,8 +114,7 @@ def group_stress(g, j, i, group, solid_mode, solid, vof, q):
 
 
 @apart
-def corner_force(g, j, i, at_j, at_i, group, solid_mode, solid, vof, q, weight, cell_mass, face_r, hoop, az_in, az_out, mid_r,
-                 dz, u0, v0):
+def corner_force(g, j, i, at_j, at_i, group, solid_mode, solid, vof, q, weight, cell_mass, metrics, dz, u0, v0):
     """Force of the deviators of group g in cell (at_j, at_i), and of its hourglass filter, on vertex (j, i) (as accelerate)."""
     if cell_mass[g, at_j, at_i] == 0.0:
         return 0.0, 0.0
@@ -124,12 +123,12 @@ def corner_force(g, j, i, at_j, at_i, group, solid_mode, solid, vof, q, weight, 
     h = dz[at_j]
     left = at_i < i  # the cell lies left of the vertex, and below it
     low = at_j < j
-    area = az_out[at_i] if left else az_in[at_i]
+    area = metrics[AZ_OUT, at_i] if left else metrics[AZ_IN, at_i]
     upward = area if low else -area
-    outward = mid_r[at_i] * h if left else -mid_r[at_i] * h
-    half = 0.5 * face_r[i]
-    normal = h * (half - hoop[at_i]) if left else -h * (half + hoop[at_i])
-    force_r = -(normal * rr + hoop[at_i] * h * tt + upward * rz)
+    outward = metrics[MID_R, at_i] * h if left else -metrics[MID_R, at_i] * h
+    half = 0.5 * metrics[FACE_R, i]
+    normal = h * (half - metrics[HOOP, at_i]) if left else -h * (half + metrics[HOOP, at_i])
+    force_r = -(normal * rr + metrics[HOOP, at_i] * h * tt + upward * rz)
     force_z = -(upward * zz + outward * rz)
     w = weight[at_j, at_i] * cell_mass[g, at_j, at_i] / (cell_mass[0, at_j, at_i] + cell_mass[1, at_j, at_i])
     sign = w if left == low else -w
@@ -139,8 +138,8 @@ def corner_force(g, j, i, at_j, at_i, group, solid_mode, solid, vof, q, weight, 
 
 
 @kernel
-def shared_forces(j0, j1, dt, group, solid_mode, face_r, hoop, az_in, az_out, mid_r, dz, still, count, shared, wet_r, wet_z,
-                  ph, qr, solid, vof, q, weight, cell_mass, mass, u0, v0, u, v, exchange):
+def shared_forces(j0, j1, dt, group, solid_mode, metrics, dz, still, count, shared, wet_r, wet_z, ph, qr, solid, vof, q, weight,
+                  cell_mass, mass, u0, v0, u, v, exchange):
     """Velocities that the forces alone would give both groups at shared vertices.
 
     The pressure of a cell acts on each group by the weights of the cell's faces, the deviators of a group act on it alone
@@ -159,12 +158,12 @@ def shared_forces(j0, j1, dt, group, solid_mode, face_r, hoop, az_in, az_out, mi
                 below, above, left, right = wet_r[1, j - 1, i], wet_r[0, j, i], wet_z[1, j, i - 1], wet_z[0, j, i]
                 if g == 0:
                     below, above, left, right = 1.0 - below, 1.0 - above, 1.0 - left, 1.0 - right
-                force_r = 0.5 * face_r[i] * (below * dz[j - 1] * (ll - lr) + above * dz[j] * (ul - ur))
-                force_z = az_out[i - 1] * left * (ll - ul) + az_in[i] * right * (lr - ur)
+                force_r = 0.5 * metrics[FACE_R, i] * (below * dz[j - 1] * (ll - lr) + above * dz[j] * (ul - ur))
+                force_z = metrics[AZ_OUT, i - 1] * left * (ll - ul) + metrics[AZ_IN, i] * right * (lr - ur)
                 for row in range(j - 1, j + 1):
                     for column in range(i - 1, i + 1):
-                        more_r, more_z = corner_force(g, j, i, row, column, group, solid_mode, solid, vof, q, weight,
-                                                      cell_mass, face_r, hoop, az_in, az_out, mid_r, dz, u0, v0)
+                        more_r, more_z = corner_force(g, j, i, row, column, group, solid_mode, solid, vof, q, weight, cell_mass,
+                                                      metrics, dz, u0, v0)
                         force_r += more_r
                         force_z += more_z
                 u[g, j, i] = u0[g, j, i] + dt * force_r / mass[g, j, i]

@@ -4,6 +4,7 @@ from math import sqrt
 
 from hydro2d.jit import apart, point, serial
 from hydro2d.kernels.contact import EXTENDS, HEAVY, REACH, SHARE, STUCK
+from hydro2d.mesh.grid import AZ_IN, AZ_OUT, FACE_R, HOOP
 from hydro2d.physics.stress import normal_pressure
 
 #: rounds in which the constraints at shared vertices are met one after another
@@ -148,7 +149,7 @@ def warm_up(g, j, i, code, made, mass, weights, heat):
 
 
 @point
-def pressed(j, i, n_r, n_z, cut, face_r, hoop, az_in, az_out, dz, line, sig_rr, sig_zz, sig_rz):
+def pressed(j, i, n_r, n_z, cut, metrics, dz, line, sig_rr, sig_zz, sig_rz):
     """Normal force (N, never negative) on the interface at vertex (j, i): its area there times the mean normal pressure."""
     area_r, area_z, pressure, cells = 0.0, 0.0, 0.0, 0.0
     for row in range(j - 1, j + 1):
@@ -159,9 +160,9 @@ def pressed(j, i, n_r, n_z, cut, face_r, hoop, az_in, az_out, dz, line, sig_rr, 
             if share < 0.0:
                 continue
             left, low = column < i, row < j
-            half = 0.5 * face_r[i] * dz[row]
-            area = az_out[column] if left else az_in[column]
-            area_r += share * ((half - hoop[column] * dz[row]) if left else -(half + hoop[column] * dz[row]))
+            half = 0.5 * metrics[FACE_R, i] * dz[row]
+            area = metrics[AZ_OUT, column] if left else metrics[AZ_IN, column]
+            area_r += share * ((half - metrics[HOOP, column] * dz[row]) if left else -(half + metrics[HOOP, column] * dz[row]))
             area_z += share * (area if low else -area)
             pressure += normal_pressure(row, column, n_r, n_z, sig_rr, sig_zz, sig_rz)
             cells += 1.0
@@ -169,8 +170,8 @@ def pressed(j, i, n_r, n_z, cut, face_r, hoop, az_in, az_out, dz, line, sig_rr, 
 
 
 @apart
-def touch_and_rub(j, i, dt, friction, still, weights, face_r, hoop, az_in, az_out, dz, cut, line, normal, link, sig_rr, sig_zz,
-                  sig_rz, mass, u, v, ease, taken, impulse, exchange):
+def touch_and_rub(j, i, dt, friction, still, weights, metrics, dz, cut, line, normal, link, sig_rr, sig_zz, sig_rz, mass, u, v,
+                  ease, taken, impulse, exchange):
     """Impulses between the two groups at a shared vertex at which they touch.
 
     Where they close by every normal, the impulse along that by which they close least gives them one normal velocity, unless
@@ -194,7 +195,7 @@ def touch_and_rub(j, i, dt, friction, still, weights, face_r, hoop, az_in, az_ou
     push, drag = reduced * max(closing, 0.0) if both else 0.0, 0.0
     impulse[PUSHED, j, i] += push
     if friction > 0.0 and slip > 0.0:
-        force = pressed(j, i, n_r, n_z, cut, face_r, hoop, az_in, az_out, dz, line, sig_rr, sig_zz, sig_rz)
+        force = pressed(j, i, n_r, n_z, cut, metrics, dz, line, sig_rr, sig_zz, sig_rz)
         limit = friction * (impulse[PUSHED, j, i] + force * dt) - impulse[RUBBED, j, i]
         drag = min(reduced * slip, max(limit, 0.0))
         impulse[RUBBED, j, i] += drag
@@ -222,8 +223,8 @@ def mismatch(g, j, i, code, still, weights, u0, v0, u, v):
 
 
 @serial
-def settle(j0, j1, dt, friction, still, r, z, face_r, hoop, az_in, az_out, dz, cut, line, count, shared, normal, touch, link,
-           sig_rr, sig_zz, sig_rz, mass, u0, v0, u, v, weights, ease, taken, impulse, heat, exchange):
+def settle(j0, j1, dt, friction, still, r, z, metrics, dz, cut, line, count, shared, normal, touch, link, sig_rr, sig_zz,
+           sig_rz, mass, u0, v0, u, v, weights, ease, taken, impulse, heat, exchange):
     """Velocities of both groups at shared vertices, from those that the forces alone would give.
 
     Light vertices move with others of their group, and groups that touch do not close: each such condition is met by
@@ -261,8 +262,8 @@ def settle(j0, j1, dt, friction, still, r, z, face_r, hoop, az_in, az_out, dz, c
             for k in range(count[j]):
                 i = shared[j, k]
                 if touch[j, i] > 0.0 and link[0, j, i] != STUCK and link[1, j, i] != STUCK:
-                    touch_and_rub(j, i, dt, friction, still, weights, face_r, hoop, az_in, az_out, dz, cut, line, normal, link,
-                                  sig_rr, sig_zz, sig_rz, mass, u, v, ease, taken, impulse, exchange)
+                    touch_and_rub(j, i, dt, friction, still, weights, metrics, dz, cut, line, normal, link, sig_rr, sig_zz,
+                                  sig_rz, mass, u, v, ease, taken, impulse, exchange)
     for j in range(j0, j1 + 1):
         for row in range(4):
             exchange[row, j] = 0.0

@@ -7,12 +7,13 @@ from hydro2d.jit import apart, kernel, prange
 from hydro2d.kernels.contact import FIRST, PARTED
 from hydro2d.kernels.spans import union
 from hydro2d.mesh.fields import E
+from hydro2d.mesh.grid import FACE_R
 from hydro2d.physics.contact import GAP, face_flow_r, face_flow_z, largest_of, volume_rate
 from hydro2d.physics.interfaces import FULL, cumulative, share_in_strip, surface
 
 
 @kernel
-def cut_volumes(j0, j1, dt, face_r, az_in, az_out, dz, cut, wet_r, wet_z, u0, v0, u, v, fr, fz, own_r, own_z):
+def cut_volumes(j0, j1, dt, metrics, dz, cut, wet_r, wet_z, u0, v0, u, v, fr, fz, own_r, own_z):
     """Volumes swept in the step by the faces of cut cells: by weight, and by each group as if it were alone.
 
     Reads    u0, v0, u, v [b, j, i]
@@ -21,21 +22,21 @@ def cut_volumes(j0, j1, dt, face_r, az_in, az_out, dz, cut, wet_r, wet_z, u0, v0
     for j in prange(j0, j1 + 1):
         if j < j1:
             for i in range(cut[j, 0], cut[j, 1] + 1):
-                scale = 0.25 * dt * face_r[i] * dz[j]
+                scale = 0.25 * dt * metrics[FACE_R, i] * dz[j]
                 fr[j, i] = scale * (face_flow_r(j, i, -1, wet_r, u) + face_flow_r(j, i, -1, wet_r, u0))
                 for g in range(2):
                     own_r[g, j, i] = scale * (face_flow_r(j, i, g, wet_r, u) + face_flow_r(j, i, g, wet_r, u0))
         lo, hi = union(cut, max(j - 1, j0), min(j + 1, j1))
         for i in range(lo, hi):
-            fz[j, i] = 0.5 * dt * (face_flow_z(j, i, -1, az_in, az_out, wet_z, v)
-                                   + face_flow_z(j, i, -1, az_in, az_out, wet_z, v0))
+            fz[j, i] = 0.5 * dt * (face_flow_z(j, i, -1, metrics, wet_z, v)
+                                   + face_flow_z(j, i, -1, metrics, wet_z, v0))
             for g in range(2):
-                own_z[g, j, i] = 0.5 * dt * (face_flow_z(j, i, g, az_in, az_out, wet_z, v)
-                                             + face_flow_z(j, i, g, az_in, az_out, wet_z, v0))
+                own_z[g, j, i] = 0.5 * dt * (face_flow_z(j, i, g, metrics, wet_z, v)
+                                             + face_flow_z(j, i, g, metrics, wet_z, v0))
 
 
 @kernel
-def cut_work(j0, j1, dt, face_r, az_in, az_out, dz, cut, group, wet_r, wet_z, ph, qr, u0, v0, u, v, fr, fz, cell_mass, vof, q):
+def cut_work(j0, j1, dt, metrics, dz, cut, group, wet_r, wet_z, ph, qr, u0, v0, u, v, fr, fz, cell_mass, vof, q):
     """Pressure work in the pure cells among the cut ones: by the volume that they lose, not by their group's own.
 
     `deform` does the work of the group's own rate of volume; this is what is missing.
@@ -48,8 +49,8 @@ def cut_work(j0, j1, dt, face_r, az_in, az_out, dz, cut, group, wet_r, wet_z, ph
             for m in range(vof.shape[0]):
                 if vof[m, j, i] == 1.0:
                     g = group[m]
-                    own = 0.5 * dt * (volume_rate(j, i, g, face_r, az_in, az_out, dz[j], wet_r, wet_z, u, v)
-                                      + volume_rate(j, i, g, face_r, az_in, az_out, dz[j], wet_r, wet_z, u0, v0))
+                    own = 0.5 * dt * (volume_rate(j, i, g, metrics, dz[j], wet_r, wet_z, u, v)
+                                      + volume_rate(j, i, g, metrics, dz[j], wet_r, wet_z, u0, v0))
                     change = (fr[j, i + 1] - fr[j, i]) + (fz[j + 1, i] - fz[j, i])
                     q[E, m, j, i] -= (ph[j, i] + qr[j, i]) * (change - own) / cell_mass[g, j, i]
 

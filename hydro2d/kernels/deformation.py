@@ -3,7 +3,9 @@
 
 from hydro2d.jit import kernel, prange, rowwise
 from hydro2d.kernels.spans import block_rows, columns, number_of_blocks, spread
+from hydro2d.materials.rows import DAMAGE, DAMAGE_AT, FACTOR, LOOSE, STRENGTH, STRENGTH_AT, TENSILE
 from hydro2d.mesh.fields import DMG, EP, RHO, SRR, SRZ, SZZ, E
+from hydro2d.mesh.grid import VOL_R
 from hydro2d.physics.kinematics import hourglass_mode, velocity_gradient
 from hydro2d.physics.plasticity import from_centre, keep_internal, returned, take_internal
 from hydro2d.physics.stress import turn_and_strain, von_mises
@@ -12,12 +14,78 @@ from strength.radial_return import plastic_increment
 
 
 @rowwise
-def yield_row(m, j, b, first, n, dt, scale, model, par, dmodel, dpar, pm, tm, scratch, q):
+def strain_row(m, j, b, g, first, n, dt, metrics, h, loose, u0, v0, u, v, sig_rr, sig_zz, sig_tt, sig_rz, weight, vof, scratch,
+               q):
+    """Energy and elastic trial deviators of body m in the cells of row j that it fills.
+
+    Reads    u0, v0, u, v [b, j, i]; sig_.., weight [j, i]; vof [m, j, i]; scratch [0, b, i], shear modulus
+    Updates  q (energy, deviators) [k, m, j, i]
+    Writes   scratch [1, b, i], von Mises norm of the trial: negative in loose material, 0 where the body fills no cell;
+             scratch [2, b, i], spin
+    """
+    rr_j = sig_rr[j]
+    zz_j = sig_zz[j]
+    tt_j = sig_tt[j]
+    rz_j = sig_rz[j]
+    weight_j = weight[j]
+    shear_j = scratch[0, b]
+    trial_j = scratch[1, b]
+    spin_j = scratch[2, b]
+    ub = u[g, j]
+    ut = u[g, j + 1]
+    vb = v[g, j]
+    vt = v[g, j + 1]
+    ub0 = u0[g, j]
+    ut0 = u0[g, j + 1]
+    vb0 = v0[g, j]
+    vt0 = v0[g, j + 1]
+    f_j = vof[m, j]
+    rho_j = q[RHO, m, j]
+    e_j = q[E, m, j]
+    srr_j = q[SRR, m, j]
+    szz_j = q[SZZ, m, j]
+    srz_j = q[SRZ, m, j]
+    for x in range(n):
+        i = first + x
+        pure = f_j[i] == 1.0
+        volume = metrics[VOL_R, i] * h
+        a_rr, a_tt, a_zz, a_rbz, a_zbr = velocity_gradient(i, ub0, ut0, vb0, vt0, metrics, h)
+        rr, tt, zz, rbz, zbr = velocity_gradient(i, ub, ut, vb, vt, metrics, h)
+        w = weight_j[i]
+        h_u0, h_v0 = hourglass_mode(i, ub0, ut0), hourglass_mode(i, vb0, vt0)
+        h_u, h_v = hourglass_mode(i, ub, ut), hourglass_mode(i, vb, vt)
+        work = 0.5 * dt * (
+            (rr_j[i] * (a_rr + rr) + tt_j[i] * (a_tt + tt))
+            + (zz_j[i] * (a_zz + zz) + rz_j[i] * ((a_rbz + rbz) + (a_zbr + zbr)))
+            + w * (h_u0 * (h_u0 + h_u) + h_v0 * (h_v0 + h_v)))
+        rho = rho_j[i]
+        gain = work / (rho * volume)
+        e_j[i] += gain if pure else 0.0
+        rate = 1.0 / volume
+        drr, dzz, dtt, drz = rr * rate, zz * rate, tt * rate, 0.5 * (rbz + zbr) * rate
+        spin = 0.5 * (rbz - zbr) * rate * dt
+        srr, szz, srz = turn_and_strain(
+            srr_j[i], szz_j[i], srz_j[i], spin, 2.0 * shear_j[i], drr * dt, dzz * dt, dtt * dt, drz * dt)
+        srr_j[i] = srr if pure else srr_j[i]
+        szz_j[i] = szz if pure else szz_j[i]
+        srz_j[i] = srz if pure else srz_j[i]
+        size = von_mises(srr, szz, srz)
+        size = -size if rho <= loose else size
+        trial_j[i] = size if pure else 0.0
+        spin_j[i] = spin
+
+
+@rowwise
+def yield_row(m, j, b, first, n, dt, models, materials, pm, tm, scratch, q):
     """Return of body m's deviators to its yield surface in row j, where their elastic trial lies outside of it.
 
     Reads    scratch [0 and 1, b, i], shear modulus and trial stress; pm, tm [m, j, i]
     Updates  q (deviators, plastic strain, damage) [k, m, j, i]
     """
+    model = models[m, STRENGTH]
+    par = materials[m, STRENGTH_AT:DAMAGE_AT]
+    damage_par = materials[m, DAMAGE_AT:TENSILE]
+    scale = materials[m, FACTOR]
     floor = scale * yield_floor(model, par)  # below it no flow stress need be evaluated
     p_j = pm[m, j]
     t_j = tm[m, j]
@@ -41,16 +109,19 @@ def yield_row(m, j, b, first, n, dt, scale, model, par, dmodel, dpar, pm, tm, sc
                 szz_j[i] *= shrink
                 srz_j[i] *= shrink
                 ep_j[i] += dep
-                d_j[i] += damage_increment(dmodel, dep, dep / dt, t_j[i], p_j[i], yield_stress, dpar)
+                d_j[i] += damage_increment(models[m, DAMAGE], dep, dep / dt, t_j[i], p_j[i], yield_stress, damage_par)
 
 
 @rowwise
-def internal_row(m, j, b, first, n, dt, scale, model, par, dmodel, dpar, vof, pm, tm, scratch, q, internal):
+def internal_row(m, j, b, first, n, dt, models, materials, vof, pm, tm, scratch, q, internal):
     """The same for a model with internal variables, which turn with the material and harden.
 
     Reads    vof, pm, tm [m, j, i]; scratch [0 to 2, b, i], shear modulus, trial stress and spin
     Updates  q (deviators, plastic strain, damage, internal variables) [k, m, j, i]; scratch internal [j, k]
     """
+    model = models[m, STRENGTH]
+    par = materials[m, STRENGTH_AT:DAMAGE_AT]
+    damage_par = materials[m, DAMAGE_AT:TENSILE]
     for x in range(n):
         i = first + x
         if vof[m, j, i] != 1.0 or scratch[1, b, i] < 0.0:
@@ -61,26 +132,57 @@ def internal_row(m, j, b, first, n, dt, scale, model, par, dmodel, dpar, vof, pm
         trial = von_mises(rr, zz, rz)
         stiffness = scratch[0, b, i] + kinematic_modulus(model, par) / 3.0
         dep, yield_stress = plastic_increment(
-            model, trial, q[EP, m, j, i], dt, tm[m, j, i], pm[m, j, i], q[RHO, m, j, i], stiffness, scale, par)
+            model, trial, q[EP, m, j, i], dt, tm[m, j, i], pm[m, j, i], q[RHO, m, j, i], stiffness,
+            materials[m, FACTOR], par)
         if dep > 0.0:
             rr, zz, rz = returned(rr, zz, rz, trial, dep, yield_stress, model, par, internal[j])
             q[SRR, m, j, i] = rr
             q[SZZ, m, j, i] = zz
             q[SRZ, m, j, i] = rz
             q[EP, m, j, i] += dep
-            q[DMG, m, j, i] += damage_increment(dmodel, dep, dep / dt, tm[m, j, i], pm[m, j, i], yield_stress, dpar)
+            increment = damage_increment(models[m, DAMAGE], dep, dep / dt, tm[m, j, i], pm[m, j, i], yield_stress, damage_par)
+            q[DMG, m, j, i] += increment
         keep_internal(m, j, i, model, internal[j], q)
 
 
+@rowwise
+def expand_row(m, j, b, first, n, metrics, h, fr, fz, vof, scratch, q):
+    """Density of body m in the cells of row j that it fills, whose mass stays; no deviator where it has failed or is loose.
+
+    Reads    fr, fz [j, i]; vof [m, j, i]; scratch [1, b, i], negative in loose material
+    Updates  q (density, deviators, damage) [k, m, j, i]
+    """
+    fr_j = fr[j]
+    fz_b = fz[j]
+    fz_t = fz[j + 1]
+    trial_j = scratch[1, b]
+    f_j = vof[m, j]
+    rho_j = q[RHO, m, j]
+    d_j = q[DMG, m, j]
+    srr_j = q[SRR, m, j]
+    szz_j = q[SZZ, m, j]
+    srz_j = q[SRZ, m, j]
+    for x in range(n):
+        i = first + x
+        pure = f_j[i] == 1.0
+        volume = metrics[VOL_R, i] * h
+        change = (fr_j[i + 1] - fr_j[i]) + (fz_t[i] - fz_b[i])
+        rho_j[i] = rho_j[i] * (volume / (volume + change)) if pure else rho_j[i]
+        d_j[i] = min(d_j[i], 1.0) if pure else d_j[i]
+        gone = pure and (d_j[i] >= 1.0 or trial_j[i] < 0.0)
+        srr_j[i] = 0.0 if gone else srr_j[i]
+        szz_j[i] = 0.0 if gone else szz_j[i]
+        srz_j[i] = 0.0 if gone else srz_j[i]
+
+
 @kernel
-def deform(j0, j1, dt, face_r, hoop, az_in, az_out, vol_r, mid_r, dz, span, group, strength_model, strength_par, damage_model,
-           damage_par, factor, loose, u0, v0, u, v, fr, fz, sig_rr, sig_zz, sig_tt, sig_rz, weight, vof, pm, tm, scratch, q,
-           internal):
+def deform(j0, j1, dt, metrics, dz, span, group, models, materials, u0, v0, u, v, fr, fz, sig_rr, sig_zz, sig_tt, sig_rz,
+           weight, vof, pm, tm, scratch, q, internal):
     """Energy, density, deviator, plastic strain and damage of every body in the cells that it fills, over one Lagrangian step.
 
     de = V dt sigma : D(u mid-step) / m, the work of the same corner forces that moved the vertices; rho V is constant;
     the deviators are strained with the velocities at the end of the step (explanation/lagrangian-step, equations 5 and
-    7). Failed or loose (rho <= loose[m]) material carries no deviator.
+    7). Failed or loose material carries no deviator.
 
     Reads    group [m]; u0, v0, u, v [b, j, i]; fr, fz, sig_.., weight [j, i]; vof, pm, tm [m, j, i]
     Updates  q [k, m, j, i]
@@ -91,83 +193,16 @@ def deform(j0, j1, dt, face_r, hoop, az_in, az_out, vol_r, mid_r, dz, span, grou
         b = spread(place, blocks)
         first_row, last_row = block_rows(b, blocks, j0, j1)
         for j in range(first_row, last_row):
-            fr_j = fr[j]
-            fz_b = fz[j]
-            fz_t = fz[j + 1]
-            rr_j = sig_rr[j]
-            zz_j = sig_zz[j]
-            tt_j = sig_tt[j]
-            rz_j = sig_rz[j]
             h = dz[j]
-            weight_j = weight[j]
-            shear_j = scratch[0, b]
-            trial_j = scratch[1, b]  # of loose material negative, where the body does not fill the cell 0
-            spin_j = scratch[2, b]
             for m in range(vof.shape[0]):
-                g = group[m]
-                ub = u[g, j]
-                ut = u[g, j + 1]
-                vb = v[g, j]
-                vt = v[g, j + 1]
-                ub0 = u0[g, j]
-                ut0 = u0[g, j + 1]
-                vb0 = v0[g, j]
-                vt0 = v0[g, j + 1]
-                model = strength_model[m]
-                par = strength_par[m]
-                f_j = vof[m, j]
-                p_j = pm[m, j]
-                t_j = tm[m, j]
-                rho_j = q[RHO, m, j]
-                e_j = q[E, m, j]
-                d_j = q[DMG, m, j]
-                srr_j = q[SRR, m, j]
-                szz_j = q[SZZ, m, j]
-                srz_j = q[SRZ, m, j]
+                model = models[m, STRENGTH]
+                par = materials[m, STRENGTH_AT:DAMAGE_AT]
                 first, n = columns(span[m, j, 0], span[m, j, 1])
-                modulus_row(model, par, first, n, p_j, rho_j, t_j, shear_j)
-                for x in range(n):
-                    i = first + x
-                    pure = f_j[i] == 1.0
-                    volume = vol_r[i] * h
-                    a_rr, a_tt, a_zz, a_rbz, a_zbr = velocity_gradient(
-                        i, ub0, ut0, vb0, vt0, face_r, hoop, az_in, az_out, mid_r, h)
-                    rr, tt, zz, rbz, zbr = velocity_gradient(i, ub, ut, vb, vt, face_r, hoop, az_in, az_out, mid_r, h)
-                    w = weight_j[i]
-                    h_u0, h_v0 = hourglass_mode(i, ub0, ut0), hourglass_mode(i, vb0, vt0)
-                    h_u, h_v = hourglass_mode(i, ub, ut), hourglass_mode(i, vb, vt)
-                    work = 0.5 * dt * (
-                        (rr_j[i] * (a_rr + rr) + tt_j[i] * (a_tt + tt))
-                        + (zz_j[i] * (a_zz + zz) + rz_j[i] * ((a_rbz + rbz) + (a_zbr + zbr)))
-                        + w * (h_u0 * (h_u0 + h_u) + h_v0 * (h_v0 + h_v)))
-                    rho = rho_j[i]
-                    gain = work / (rho * volume)
-                    e_j[i] += gain if pure else 0.0
-                    rate = 1.0 / volume
-                    drr, dzz, dtt, drz = rr * rate, zz * rate, tt * rate, 0.5 * (rbz + zbr) * rate
-                    spin = 0.5 * (rbz - zbr) * rate * dt
-                    srr, szz, srz = turn_and_strain(srr_j[i], szz_j[i], srz_j[i], spin, 2.0 * shear_j[i], drr * dt, dzz * dt,
-                                                    dtt * dt, drz * dt)
-                    srr_j[i] = srr if pure else srr_j[i]
-                    szz_j[i] = szz if pure else szz_j[i]
-                    srz_j[i] = srz if pure else srz_j[i]
-                    size = von_mises(srr, szz, srz)
-                    size = -size if rho <= loose[m] else size
-                    trial_j[i] = size if pure else 0.0
-                    spin_j[i] = spin
+                modulus_row(model, par, first, n, pm[m, j], q[RHO, m, j], tm[m, j], scratch[0, b])
+                strain_row(m, j, b, group[m], first, n, dt, metrics, h, materials[m, LOOSE], u0, v0, u, v, sig_rr, sig_zz,
+                           sig_tt, sig_rz, weight, vof, scratch, q)
                 if model in WITH_INTERNAL:
-                    internal_row(m, j, b, first, n, dt, factor[m], model, par, damage_model[m], damage_par[m], vof, pm, tm,
-                                 scratch, q, internal)
+                    internal_row(m, j, b, first, n, dt, models, materials, vof, pm, tm, scratch, q, internal)
                 elif model > 0:
-                    yield_row(m, j, b, first, n, dt, factor[m], model, par, damage_model[m], damage_par[m], pm, tm, scratch, q)
-                for x in range(n):
-                    i = first + x
-                    pure = f_j[i] == 1.0
-                    volume = vol_r[i] * h
-                    change = (fr_j[i + 1] - fr_j[i]) + (fz_t[i] - fz_b[i])
-                    rho_j[i] = rho_j[i] * (volume / (volume + change)) if pure else rho_j[i]
-                    d_j[i] = min(d_j[i], 1.0) if pure else d_j[i]
-                    gone = pure and (d_j[i] >= 1.0 or trial_j[i] < 0.0)
-                    srr_j[i] = 0.0 if gone else srr_j[i]
-                    szz_j[i] = 0.0 if gone else szz_j[i]
-                    srz_j[i] = 0.0 if gone else srz_j[i]
+                    yield_row(m, j, b, first, n, dt, models, materials, pm, tm, scratch, q)
+                expand_row(m, j, b, first, n, metrics, h, fr, fz, vof, scratch, q)

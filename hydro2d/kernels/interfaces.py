@@ -80,7 +80,7 @@ def interface_volumes_row(j, dj, di, dr, dz, order, mixed_count, mixed, f_face, 
 
     Reads    mixed [j, k], order [k], f_face, pre [j, i], vof [m, j, i]
     Updates  flux_volume [m, j, i] at the faces through which mixed cells lose volume
-    Scratch  strips [j, 8, m]
+    Scratch  strips [j, 2, m]
     """
     bodies = order.shape[0]
     left = strips[j, 0]

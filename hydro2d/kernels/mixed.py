@@ -4,7 +4,9 @@ from eos.dispatch import evaluate, zero_pressure_density
 from hydro2d.jit import kernel, point, prange, rowwise
 from hydro2d.kernels.spans import block_rows, mixed_row, number_of_blocks, spread
 from hydro2d.kernels.thermodynamics import pressures_row, viscosity_row
+from hydro2d.materials.rows import DAMAGE, DAMAGE_AT, EOS, EOS_AT, FACTOR, LOOSE, STRENGTH, STRENGTH_AT, TENSILE
 from hydro2d.mesh.fields import DMG, EP, RHO, SRR, SRZ, SZZ, E
+from hydro2d.mesh.grid import VOL_R
 from hydro2d.physics.closure import NO_VOID, relaxation_bound, relaxation_strain, softness, split_volume
 from hydro2d.physics.fracture import share_that_stays, tension_limit
 from hydro2d.physics.kinematics import hourglass_mode, velocity_gradient
@@ -31,14 +33,14 @@ RR, TT, ZZ, RBZ, ZBR, MEAN_RR, MEAN_TT, MEAN_ZZ, MEAN_RZ, HOURGLASS = range(10)
 
 
 @rowwise
-def tear_mixed_row(j, smallest, max_opening, vol_r, dz, mixed_count, mixed, group, eos_model, eos_par, fracture_pressure, vof,
-                   q, pm, p, solid, bulk, opened):
+def tear_mixed_row(j, smallest, max_opening, metrics, dz, mixed_count, mixed, group, models, materials, vof, q, pm, p, solid,
+                   bulk, opened):
     """Opens void in mixed cells whose pressure falls below their fracture pressure, and frees them of stress.
 
     The threshold is the mean of the bodies' by volume fraction, or the smallest (explanation/fracture). Two groups hold
     together by nothing: they part at zero pressure, and each keeps its stress.
 
-    Reads    mixed [j, k], group, fracture_pressure [m]
+    Reads    mixed [j, k], group [m]
     Updates  vof, pm [m, j, i]; q (rho, deviators); p, solid, bulk [j, i]; opened [j]
     """
     bodies = vof.shape[0]
@@ -50,7 +52,7 @@ def tear_mixed_row(j, smallest, max_opening, vol_r, dz, mixed_count, mixed, grou
             f = vof[m, j, i]
             if f > 0.0:
                 low, high = min(low, group[m]), max(high, group[m])
-                limit = tension_limit(fracture_pressure[m], q[DMG, m, j, i])
+                limit = tension_limit(materials[m, TENSILE], q[DMG, m, j, i])
                 mean += f * limit
                 least = min(least, limit)
         threshold = least * solid[j, i] if smallest else mean
@@ -66,12 +68,13 @@ def tear_mixed_row(j, smallest, max_opening, vol_r, dz, mixed_count, mixed, grou
             if pm[m, j, i] < 0.0:
                 rho = q[RHO, m, j, i]
                 e = q[E, m, j, i]
-                share = share_that_stays(rho, zero_pressure_density(eos_model[m], rho, e, eos_par[m]), max_opening)
-                opened[j] += f * (1.0 - share) * vol_r[i] * dz[j]
+                model, par = models[m, EOS], materials[m, EOS_AT:STRENGTH_AT]
+                share = share_that_stays(rho, zero_pressure_density(model, rho, e, par), max_opening)
+                opened[j] += f * (1.0 - share) * metrics[VOL_R, i] * dz[j]
                 f *= share
                 vof[m, j, i] = f
                 q[RHO, m, j, i] = rho / share
-                pm[m, j, i] = evaluate(eos_model[m], rho / share, e, eos_par[m])[0]
+                pm[m, j, i] = evaluate(model, rho / share, e, par)[0]
             if not parts:
                 q[SRR, m, j, i] = 0.0
                 q[SZZ, m, j, i] = 0.0
@@ -85,10 +88,9 @@ def tear_mixed_row(j, smallest, max_opening, vol_r, dz, mixed_count, mixed, grou
 
 
 @kernel
-def close_cells(j0, j1, max_opening, smallest_tension, linear, quadratic, courant, advective, mesh_speed, hourglass, face_r,
-                az_in, az_out, vol_r, dr, dz, span, reach, mixed_count, mixed, group, eos_model, eos_par, strength_model,
-                strength_par, damage_model, fracture_pressure, loose, u, v, vof, q, pm, km, tm, p, bulk, rhobar, solid, cl, qr,
-                qz, weight, opened, row_step, bad, scratch):
+def close_cells(j0, j1, max_opening, smallest_tension, linear, quadratic, courant, advective, mesh_speed, hourglass, metrics,
+                dr, dz, span, reach, mixed_count, mixed, group, models, materials, u, v, vof, q, pm, km, tm, p, bulk, rhobar,
+                solid, cl, qr, qz, weight, opened, row_step, bad, scratch):
     """Equation of state, void where a cell tears, artificial viscosity and the time step that every cell allows.
 
     Reads, updates and writes what pressures_row, tear_mixed_row and viscosity_row do, and the list of mixed cells
@@ -99,27 +101,26 @@ def close_cells(j0, j1, max_opening, smallest_tension, linear, quadratic, couran
         b = spread(place, blocks)
         first_row, last_row = block_rows(b, blocks, j0, j1)
         for j in range(first_row, last_row):
-            pressures_row(j, b, max_opening, vol_r, dz, span, reach, eos_model, eos_par, strength_model, strength_par,
-                          damage_model, fracture_pressure, loose, vof, q, pm, km, tm, p, bulk, rhobar, solid, cl, scratch,
-                          opened, bad)
+            pressures_row(j, b, max_opening, metrics, dz, span, reach, models, materials, vof, q, pm, km, tm, p, bulk, rhobar,
+                          solid, cl, scratch, opened, bad)
             if opened[j] > 0.0:
                 mixed_row(j, reach, vof, scratch[0], b, mixed_count, mixed)
-            tear_mixed_row(j, smallest_tension, max_opening, vol_r, dz, mixed_count, mixed, group, eos_model, eos_par,
-                           fracture_pressure, vof, q, pm, p, solid, bulk, opened)
-            viscosity_row(j, b, linear, quadratic, courant, advective, mesh_speed, hourglass, dr, dz, vol_r, face_r, az_in,
-                          az_out, reach, u, v, rhobar, bulk, cl, qr, qz, weight, row_step, bad, scratch)
+            tear_mixed_row(j, smallest_tension, max_opening, metrics, dz, mixed_count, mixed, group, models, materials, vof, q,
+                           pm, p, solid, bulk, opened)
+            viscosity_row(j, b, linear, quadratic, courant, advective, mesh_speed, hourglass, dr, dz, metrics, reach, u, v,
+                          rhobar, bulk, cl, qr, qz, weight, row_step, bad, scratch)
 
 
 @point
-def cell_motion(j, i, g, dt, h, face_r, hoop, az_in, az_out, mid_r, weight, u0, v0, u, v, motion):
+def cell_motion(j, i, g, dt, h, metrics, weight, u0, v0, u, v, motion):
     """Volume times the velocity gradients of group g in cell (j, i), and the work of its hourglass filter.
 
     Writes   motion [j, g, RR to HOURGLASS]
     """
     a_rr, a_tt, a_zz, a_rbz, a_zbr = velocity_gradient(
-        i, u0[g, j], u0[g, j + 1], v0[g, j], v0[g, j + 1], face_r, hoop, az_in, az_out, mid_r, h)
+        i, u0[g, j], u0[g, j + 1], v0[g, j], v0[g, j + 1], metrics, h)
     rr, tt, zz, rbz, zbr = velocity_gradient(
-        i, u[g, j], u[g, j + 1], v[g, j], v[g, j + 1], face_r, hoop, az_in, az_out, mid_r, h)
+        i, u[g, j], u[g, j + 1], v[g, j], v[g, j + 1], metrics, h)
     h_u0, h_v0 = hourglass_mode(i, u0[g, j], u0[g, j + 1]), hourglass_mode(i, v0[g, j], v0[g, j + 1])
     h_u, h_v = hourglass_mode(i, u[g, j], u[g, j + 1]), hourglass_mode(i, v[g, j], v[g, j + 1])
     motion[j, g, RR] = rr
@@ -180,8 +181,7 @@ def work_of_deviators(j, i, dt, ruler, total, scale, group, motion, vof, q, mix)
 
 
 @point
-def strain_deviators(j, i, rate, mode, total, group, strength_model, strength_par, factor, loose, pm, tm, motion, vof, q, mix,
-                     internal):
+def strain_deviators(j, i, rate, mode, total, group, models, materials, pm, tm, motion, vof, q, mix, internal):
     """Elastic trial of every body; returns the yield stress of the cell by mode (explanation/mixed-cells, equation 7).
 
     rate is the time step over the volume of the cell. Internal variables that are tensors turn with the material.
@@ -193,25 +193,25 @@ def strain_deviators(j, i, rate, mode, total, group, strength_model, strength_pa
     for m in range(vof.shape[0]):
         f = vof[m, j, i]
         mix[j, YIELD, m] = 0.0
-        if f == 0.0 or strength_model[m] == 0:
+        if f == 0.0 or models[m, STRENGTH] == 0:
             continue
-        g, par, rho = group[m], strength_par[m], q[RHO, m, j, i]
-        modulus = shear_modulus(strength_model[m], pm[m, j, i], rho, tm[m, j, i], par)
+        g, model, par, rho = group[m], models[m, STRENGTH], materials[m, STRENGTH_AT:DAMAGE_AT], q[RHO, m, j, i]
+        modulus = shear_modulus(model, pm[m, j, i], rho, tm[m, j, i], par)
         strain_r, strain_z, strain_t = motion[j, g, RR] * rate, motion[j, g, ZZ] * rate, motion[j, g, TT] * rate
         strain_s = 0.5 * (motion[j, g, RBZ] + motion[j, g, ZBR]) * rate
         spin = 0.5 * (motion[j, g, RBZ] - motion[j, g, ZBR]) * rate
         rr, zz, rz = turn_and_strain(q[SRR, m, j, i], q[SZZ, m, j, i], q[SRZ, m, j, i], spin, 2.0 * modulus, strain_r,
                                      strain_z, strain_t, strain_s)
-        take_internal(m, j, i, strength_model[m], q, internal[j])
-        turn(strength_model[m], spin, internal[j])
-        keep_internal(m, j, i, strength_model[m], internal[j], q)
+        take_internal(m, j, i, model, q, internal[j])
+        turn(model, spin, internal[j])
+        keep_internal(m, j, i, model, internal[j], q)
         mix[j, TRIAL_RR, m] = rr
         mix[j, TRIAL_ZZ, m] = zz
         mix[j, TRIAL_RZ, m] = rz
         mix[j, MODULUS, m] = modulus
-        if not carries_no_stress(q[DMG, m, j, i], rho, loose[m]):
-            mix[j, YIELD, m] = factor[m] * flow_stress(strength_model[m], q[EP, m, j, i], 0.0, tm[m, j, i], pm[m, j, i], rho,
-                                                       par)
+        if not carries_no_stress(q[DMG, m, j, i], rho, materials[m, LOOSE]):
+            flow = flow_stress(model, q[EP, m, j, i], 0.0, tm[m, j, i], pm[m, j, i], rho, par)
+            mix[j, YIELD, m] = materials[m, FACTOR] * flow
         shared_yield += f * mix[j, YIELD, m]
         largest_yield = max(largest_yield, mix[j, YIELD, m])
     if mode == ZERO:
@@ -220,8 +220,7 @@ def strain_deviators(j, i, rate, mode, total, group, strength_model, strength_pa
 
 
 @point
-def return_deviators(j, i, dt, own, shared_yield, ruler, volume, total, strength_model, strength_par, damage_model, damage_par,
-                     factor, loose, pm, tm, vof, q, mix, internal):
+def return_deviators(j, i, dt, own, shared_yield, ruler, volume, total, models, materials, pm, tm, vof, q, mix, internal):
     """Brings the trial deviators back to the yield surface: each body's own, or the one of the cell.
 
     In the hard zone the plastic heat of the ruling body is shared by f_m/Y_m among what is solid, as in layers under one
@@ -232,7 +231,7 @@ def return_deviators(j, i, dt, own, shared_yield, ruler, volume, total, strength
     """
     bodies = vof.shape[0]
     for m in range(bodies):
-        model, par = strength_model[m], strength_par[m]
+        model, par = models[m, STRENGTH], materials[m, STRENGTH_AT:DAMAGE_AT]
         if vof[m, j, i] == 0.0 or model == 0:
             continue
         rr, zz, rz, modulus = mix[j, TRIAL_RR, m], mix[j, TRIAL_ZZ, m], mix[j, TRIAL_RZ, m], mix[j, MODULUS, m]
@@ -243,7 +242,8 @@ def return_deviators(j, i, dt, own, shared_yield, ruler, volume, total, strength
         stiffness = modulus + kinematic_modulus(model, par) / 3.0
         dep, final = 0.0, trial
         if own:
-            dep, final = plastic_increment(model, trial, q[EP, m, j, i], dt, t_m, p_m, rho, stiffness, factor[m], par)
+            dep, final = plastic_increment(model, trial, q[EP, m, j, i], dt, t_m, p_m, rho, stiffness, materials[m, FACTOR],
+                                           par)
         elif trial > shared_yield:
             final = shared_yield
             dep = (trial - final) / (3.0 * stiffness) if modulus > 0.0 else 0.0
@@ -251,9 +251,10 @@ def return_deviators(j, i, dt, own, shared_yield, ruler, volume, total, strength
             rr, zz, rz = returned(x_rr, x_zz, x_rz, trial, dep, final, model, par, internal[j])
             keep_internal(m, j, i, model, internal[j], q)
             q[EP, m, j, i] += dep
-            q[DMG, m, j, i] += damage_increment(damage_model[m], dep, dep / dt, t_m, p_m, final, damage_par[m])
+            damage_par = materials[m, DAMAGE_AT:TENSILE]
+            q[DMG, m, j, i] += damage_increment(models[m, DAMAGE], dep, dep / dt, t_m, p_m, final, damage_par)
         q[DMG, m, j, i] = min(q[DMG, m, j, i], 1.0)
-        gone = carries_no_stress(q[DMG, m, j, i], rho, loose[m])
+        gone = carries_no_stress(q[DMG, m, j, i], rho, materials[m, LOOSE])
         q[SRR, m, j, i] = 0.0 if gone else rr
         q[SZZ, m, j, i] = 0.0 if gone else zz
         q[SRZ, m, j, i] = 0.0 if gone else rz
@@ -319,9 +320,8 @@ def fill_cell(j, i, change, volume, total, inverse, mean_p, work_p, work_q, rela
 
 
 @kernel
-def deform_mixed(j0, j1, dt, relaxation, tipton, mode, hard, hard_threshold, face_r, hoop, az_in, az_out, vol_r,
-                 mid_r, dz, mixed_count, mixed, group, cut, cell_mass, strength_model, strength_par, damage_model,
-                 damage_par, factor, loose, u0, v0, u, v, fr, fz, ph, qr, qz, weight, solid, pm, km, tm, vof, q, mix, motion,
+def deform_mixed(j0, j1, dt, relaxation, tipton, mode, hard, hard_threshold, metrics, dz, mixed_count, mixed, group, cut,
+                 cell_mass, models, materials, u0, v0, u, v, fr, fz, ph, qr, qz, weight, solid, pm, km, tm, vof, q, mix, motion,
                  internal):
     """The Lagrangian step of the bodies in mixed cells.
 
@@ -333,9 +333,9 @@ def deform_mixed(j0, j1, dt, relaxation, tipton, mode, hard, hard_threshold, fac
     viscosity do the work of the one change of volume, and each body has its own strength where two groups meet.
 
     Reads    velocities, swept volumes, stresses as `deform`; ph, qr, qz, solid [j, i]; cut [j, 2]; cell_mass [b, j, i];
-             group, hard, factor, loose [m]
+             group, hard [m]
     Updates  vof [m, j, i] (share of the volume after the step), q [k, m, j, i]
-    Scratch  mix [j, 8, m] (rows SOFT to MODULUS), motion [j, b, 10], internal [j, k]
+    Scratch  mix [j, 7, m] (rows SOFT to MODULUS), motion [j, b, 10], internal [j, k]
     """
     groups = cell_mass.shape[0]
     blocks = number_of_blocks(j0, j1)
@@ -344,13 +344,13 @@ def deform_mixed(j0, j1, dt, relaxation, tipton, mode, hard, hard_threshold, fac
         for j in range(first_row, last_row):
             for k in range(mixed_count[j]):
                 i = mixed[j, k]
-                volume = vol_r[i] * dz[j]
+                volume = metrics[VOL_R, i] * dz[j]
                 change = (fr[j, i + 1] - fr[j, i]) + (fz[j + 1, i] - fz[j, i])
                 work_q, work_p, held = 0.0, 0.0, 0
                 for g in range(groups):
                     if cell_mass[g, j, i] > 0.0:
                         held += 1
-                        cell_motion(j, i, g, dt, dz[j], face_r, hoop, az_in, az_out, mid_r, weight, u0, v0, u, v, motion)
+                        cell_motion(j, i, g, dt, dz[j], metrics, weight, u0, v0, u, v, motion)
                         across = motion[j, g, MEAN_RR] + motion[j, g, MEAN_TT]
                         work_q = -dt * (qr[j, i] * across + qz[j, i] * motion[j, g, MEAN_ZZ])
                         work_p = -ph[j, i] * dt * (across + motion[j, g, MEAN_ZZ])
@@ -361,10 +361,9 @@ def deform_mixed(j0, j1, dt, relaxation, tipton, mode, hard, hard_threshold, fac
                 ruler = ruling_body(j, i, hard, hard_threshold, vof)
                 inverse, mean_p = soften(j, i, tipton, vof, pm, km, mix)
                 work_of_deviators(j, i, dt, ruler, total, stress_scale(mode == SOLID, total), group, motion, vof, q, mix)
-                shared_yield = strain_deviators(j, i, dt / volume, mode, total, group, strength_model, strength_par, factor,
-                                                loose, pm, tm, motion, vof, q, mix, internal)
-                return_deviators(j, i, dt, mode == MATERIAL or ruler >= 0 or meet, shared_yield, ruler, volume, total,
-                                 strength_model, strength_par, damage_model, damage_par, factor, loose, pm, tm, vof, q, mix,
-                                 internal)
+                shared_yield = strain_deviators(j, i, dt / volume, mode, total, group, models, materials, pm, tm, motion, vof,
+                                                q, mix, internal)
+                return_deviators(j, i, dt, mode == MATERIAL or ruler >= 0 or meet, shared_yield, ruler, volume, total, models,
+                                 materials, pm, tm, vof, q, mix, internal)
                 fill_cell(j, i, change, volume, total, inverse, mean_p, work_p, work_q, relaxation, tipton, meet, group,
                           motion, cell_mass, pm, km, vof, q, mix)

@@ -5,7 +5,7 @@ from math import sqrt
 from hydro2d.jit import kernel, plus, point, prange, rowwise
 from hydro2d.kernels.spans import block_rows, copy_beside, number_of_blocks, spread
 from hydro2d.mesh.fields import E
-from hydro2d.mesh.grid import GHOSTS
+from hydro2d.mesh.grid import CM_IN, CM_OUT, GHOSTS
 from hydro2d.physics.advection import TINY, upwind
 
 #: advection by name, in the order of the integer that the kernels take
@@ -14,7 +14,7 @@ MOMENTUM, KE, BOTH = range(3)
 
 
 @rowwise
-def dual_row(g, dj, di, j, i0, i1, slot, cm_in, cm_out, around, flux_mass, mass, w, dual):
+def dual_row(g, dj, di, j, i0, i1, slot, metrics, around, flux_mass, mass, w, dual):
     """Mass, momentum and kinetic energy of group g that flow between the vertices of row j and those at higher r or z.
 
     r-sweep: Phi = cm_out (F_left) + cm_in (F_right) of the column between, summed over the two rows beside the vertex;
@@ -30,8 +30,8 @@ def dual_row(g, dj, di, j, i0, i1, slot, cm_in, cm_out, around, flux_mass, mass,
         flow = dual[0, slot, lo:hi]
         half = dual[5, slot, lo:hi]
         here = flux_mass[g, j, lo - 1:hi + 1]
-        inner = cm_in[lo:hi]
-        outer = cm_out[lo - dj:hi]
+        inner = metrics[CM_IN, lo:hi]
+        outer = metrics[CM_OUT, lo - dj:hi]
         if di == 1:
             below = flux_mass[g, j - 1, lo:hi + 1]
             for x in range(n):
@@ -68,8 +68,8 @@ def dual_range(dj, di, i0, i1, j, around):
 
 
 @rowwise
-def vertex_row(g, dj, di, j, i0, i1, below, above, advection, bound, still, held, cm_in, cm_out, around, cell_mass, dual,
-               w_old, w, mass, deficit, sums):
+def vertex_row(g, dj, di, j, i0, i1, below, above, advection, bound, still, held, metrics, around, cell_mass, dual, w_old, w,
+               mass, deficit, sums):
     """Velocities of group g in row j after the sweep, by the kind of advection (explanation/remap, equations 7 to 9).
 
     momentum   u = P/M
@@ -93,8 +93,8 @@ def vertex_row(g, dj, di, j, i0, i1, below, above, advection, bound, still, held
     if n > 0:
         low = cell_mass[g, j - 1, lo - 1:hi]
         high = cell_mass[g, j, lo - 1:hi]
-        inner = cm_in[lo:hi]
-        outer = cm_out[lo - 1:hi]
+        inner = metrics[CM_IN, lo:hi]
+        outer = metrics[CM_OUT, lo - 1:hi]
         m_j = mass[g, j, lo:hi]
         left = deficit[g, j, lo:hi]
         f_in = dual[0, below, lo - di:hi - di]
@@ -153,8 +153,8 @@ def vertex_row(g, dj, di, j, i0, i1, below, above, advection, bound, still, held
 
 
 @kernel
-def sweep_momentum(dj, di, j0, j1, i0, i1, advection, bound, still, held, edges, cm_in, cm_out, around, cell_mass, flux_mass,
-                   mass, w_old, w, dual, edge_dual, deficit, sums):
+def sweep_momentum(dj, di, j0, j1, i0, i1, advection, bound, still, held, edges, metrics, around, cell_mass, flux_mass, mass,
+                   w_old, w, dual, edge_dual, deficit, sums):
     """Carries the momentum of the vertices j0 to j1 along one direction.
 
     Reads    what dual_row and vertex_row read; edges (j0, j1, i0, i1 of the mesh)
@@ -169,7 +169,7 @@ def sweep_momentum(dj, di, j0, j1, i0, i1, advection, bound, still, held, edges,
         for g in range(mass.shape[0]):
             for j in range(first - dj, last):
                 slot = 2 * b + dj * (j % 2)
-                dual_row(g, dj, di, j, i0, i1, slot, cm_in, cm_out, around, flux_mass, mass, w_old, dual)
+                dual_row(g, dj, di, j, i0, i1, slot, metrics, around, flux_mass, mass, w_old, dual)
                 lo, hi = dual_range(dj, di, i0, i1, j, around[g])
                 for side in range(2):
                     at = edges[2 * di + side] + side - 1  # the edge from a ghost vertex to the mesh, or from the mesh to one
@@ -183,12 +183,12 @@ def sweep_momentum(dj, di, j0, j1, i0, i1, advection, bound, still, held, edges,
                     below = 2 * b + dj * ((j - 1) % 2)
                     for row in range(5):
                         sums[row, j] = 0.0 if g == 0 else sums[row, j]
-                    vertex_row(g, dj, di, j, i0, i1 + 1, below, slot, advection, bound, still, held, cm_in, cm_out, around,
-                               cell_mass, dual, w_old, w, mass, deficit, sums)
+                    vertex_row(g, dj, di, j, i0, i1 + 1, below, slot, advection, bound, still, held, metrics, around, cell_mass,
+                               dual, w_old, w, mass, deficit, sums)
 
 
 @kernel
-def deposit(j0, j1, cm_in, cm_out, ranges, group, deficit, cell_mass, vof, q, sums):
+def deposit(j0, j1, metrics, ranges, group, deficit, cell_mass, vof, q, sums):
     """Gives energy found at vertices (what `both` misses, the heat of a contact) to the cells around, by the group's mass.
 
     Reads    ranges [j, 2], columns; deficit [b, j, i] per vertex mass, cell_mass [b, j, i], vof [m, j, i], group [m]
@@ -201,7 +201,7 @@ def deposit(j0, j1, cm_in, cm_out, ranges, group, deficit, cell_mass, vof, q, su
             low = deficit[g, j]
             high = deficit[g, j + 1]
             for i in range(ranges[j, 0], ranges[j, 1]):
-                gain = cm_in[i] * (low[i] + high[i]) + cm_out[i] * (low[i + 1] + high[i + 1])
+                gain = metrics[CM_IN, i] * (low[i] + high[i]) + metrics[CM_OUT, i] * (low[i + 1] + high[i + 1])
                 given += gain * cell_mass[g, j, i]
                 for m in range(bodies):
                     if group[m] == g and vof[m, j, i] > 0.0:

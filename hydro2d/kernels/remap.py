@@ -11,6 +11,7 @@ from hydro2d.jit import kernel, point, prange, rowwise
 from hydro2d.kernels.interfaces import flux_range
 from hydro2d.kernels.spans import block_rows, columns, mixed_row, number_of_blocks, spread
 from hydro2d.mesh.fields import BLOCK, DMG, LEAST, MOST, PER_MASS, RHO, SRR, SRZ, E
+from hydro2d.mesh.grid import CM_IN, CM_OUT
 from hydro2d.physics.advection import TINY, upwind
 
 #: from this share of its upper bound on a field is at it: the mean of ones is one less round-off, which must heal nothing
@@ -299,8 +300,8 @@ def sweep_z(j0, j1, i0, i1, carried, rules, group, edges, near, around, face, pr
 
 
 @kernel
-def tidy(j0, j1, trace, cm_in, cm_out, volume, group, mixed_count, mixed, pre, dj, di, fr, fz, second, u, v, vof, q,
-         cell_mass, booked):
+def tidy(j0, j1, trace, metrics, volume, group, mixed_count, mixed, pre, dj, di, fr, fz, second, u, v, vof, q, cell_mass,
+         booked):
     """Removes traces of bodies and of void, makes fractions that should be 1 exactly 1, and books what was removed.
 
     A body below the trace fraction is removed with its mass, internal energy, momentum and kinetic energy; void below it is
@@ -327,7 +328,7 @@ def tidy(j0, j1, trace, cm_in, cm_out, volume, group, mixed_count, mixed, pre, d
                 rho = q[RHO, m, j, i]
                 if f > 0.0 and (f < trace or not rho > 0.0):
                     mass = f * rho * post
-                    inner, outer = cm_in[i] * mass, cm_out[i] * mass
+                    inner, outer = metrics[CM_IN, i] * mass, metrics[CM_OUT, i] * mass
                     g = group[m]
                     v_in, v_out = v[g, j, i] + v[g, j + 1, i], v[g, j, i + 1] + v[g, j + 1, i + 1]
                     k_in = (v[g, j, i] ** 2 + v[g, j + 1, i] ** 2) + (u[g, j, i] ** 2 + u[g, j + 1, i] ** 2)

@@ -5,7 +5,9 @@ from math import sqrt
 from eos.dispatch import evaluate, pressure_row, temperature_row, zero_pressure_density
 from hydro2d.jit import apart, point, rowwise, serial
 from hydro2d.kernels.spans import columns
+from hydro2d.materials.rows import DAMAGE, DAMAGE_AT, EOS, EOS_AT, LOOSE, STRENGTH, STRENGTH_AT, TENSILE
 from hydro2d.mesh.fields import DMG, EP, RHO, SRR, SRZ, SZZ, E
+from hydro2d.mesh.grid import VOL_R
 from hydro2d.physics.fracture import share_that_stays, tension_limit
 from hydro2d.physics.kinematics import volume_loss
 from hydro2d.physics.viscosity import directional_viscosity, smoothness
@@ -16,7 +18,7 @@ SOUND_FLOOR = 1.0  # (1 m/s)^2
 
 
 @apart
-def tear_row(m, j, first, number, model, par, fracture_pressure, max_opening, vol_r, h, vof, q):
+def tear_row(m, j, first, number, model, par, fracture_pressure, max_opening, metrics, h, vof, q):
     """Opens void in the cells of row j that body m fills and that tear; returns its volume.
 
     Void until p(rho*, e) = 0, at most max_opening of the cell in a cycle; the deviator is set to zero (explanation/fracture).
@@ -29,7 +31,7 @@ def tear_row(m, j, first, number, model, par, fracture_pressure, max_opening, vo
         rho, e = q[RHO, m, j, i], q[E, m, j, i]
         if vof[m, j, i] == 1.0 and evaluate(model, rho, e, par)[0] < -tension_limit(fracture_pressure, q[DMG, m, j, i]):
             f = share_that_stays(rho, zero_pressure_density(model, rho, e, par), max_opening)
-            opened += (1.0 - f) * vol_r[i] * h
+            opened += (1.0 - f) * metrics[VOL_R, i] * h
             vof[m, j, i] = f
             q[RHO, m, j, i] = rho / f
             q[SRR, m, j, i] = 0.0
@@ -38,17 +40,66 @@ def tear_row(m, j, first, number, model, par, fracture_pressure, max_opening, vo
     return opened
 
 
+@apart
+def report_row(m, j, first, number, vof, q, pm, bad):
+    """Counts the cells of row j in which body m is not finite.
+
+    Updates  bad [j, :3]: their number, the column and body of the first
+    """
+    for x in range(number):
+        i = first + x
+        good = q[RHO, m, j, i] > 0.0 and abs(pm[m, j, i]) < 1e300 and abs(q[EP, m, j, i]) < 1e300
+        if vof[m, j, i] > 0.0 and not good:
+            bad[j, 1] = i if bad[j, 0] == 0 else bad[j, 1]
+            bad[j, 2] = m if bad[j, 0] == 0 else bad[j, 2]
+            bad[j, 0] += 1
+
+
 @rowwise
-def pressures_row(j, b, max_opening, vol_r, dz, span, reach, eos_model, eos_par, strength_model, strength_par, damage_model,
-                  fracture_pressure, loose, vof, q, pm, km, tm, p, bulk, rhobar, solid, cl, scratch, opened, bad):
+def add_row(m, j, b, first, number, loose, vof, q, pm, km, p, bulk, rhobar, solid, cl, scratch):
+    """Adds what body m gives to the cells of row j: pressure, compressibility, density, fraction; and its wave speed squared.
+
+    Reads    vof, pm [m, j, i]; q (rho) [k, m, j, i]; scratch [0, b, i], shear modulus, of no avail in loose material
+    Updates  km [m, j, i], which holds the square of the sound speed and then the bulk modulus; p, bulk (1/K), rhobar, solid,
+             cl (squared) [j, i]
+    """
+    f_j = vof[m, j]
+    r_j = q[RHO, m, j]
+    pm_j = pm[m, j]
+    km_j = km[m, j]
+    p_j = p[j]
+    bulk_j = bulk[j]
+    rhobar_j = rhobar[j]
+    solid_j = solid[j]
+    cl_j = cl[j]
+    shear_j = scratch[0, b]
+    for x in range(number):
+        i = first + x
+        f = f_j[i]
+        there = f > 0.0
+        rho = r_j[i] if there else 1.0
+        c2 = km_j[i]
+        modulus = shear_j[i] if rho > loose else 0.0
+        stiffness = rho * c2
+        km_j[i] = stiffness
+        p_j[i] += f * pm_j[i]
+        bulk_j[i] += f / stiffness if there else 0.0
+        rhobar_j[i] += f * rho
+        solid_j[i] += f
+        cl_j[i] = max(cl_j[i], c2 + 4.0 / 3.0 * modulus / rho if there else 0.0)
+
+
+@rowwise
+def pressures_row(j, b, max_opening, metrics, dz, span, reach, models, materials, vof, q, pm, km, tm, p, bulk, rhobar, solid,
+                  cl, scratch, opened, bad):
     """Equation of state of every body, void opened in pure cells that tear, and the sums over a cell.
 
     p = sum f_m p_m;  rhobar = sum f_m rho_m;  1/bulk = sum f_m / K_m (explanation/equation-of-state, mixed-cells);
-    Below its density loose[m] a body is no solid any more and has no shear modulus.
+    A loose body is no solid any more and has no shear modulus.
     cl = max over bodies of sqrt((K + 4 G/3)/rho), for the time step.
     A pure cell below its fracture pressure is given void (`tear_row`).
 
-    Reads    q (rho, e, damage) [k, m, j, i], span [m, j, 2], fracture_pressure, loose [m]
+    Reads    q (rho, e, damage) [k, m, j, i], span [m, j, 2]
     Updates  vof [m, j, i], q (rho and deviators where a cell tears)
     Writes   pm, km, tm [m, j, i] (tm of bodies that feel temperature); p, bulk, rhobar, solid, cl [j, i]; opened [j]
              volume of new void; bad [j, :3] count of cells that are not finite, the column and body of the first
@@ -72,8 +123,10 @@ def pressures_row(j, b, max_opening, vol_r, dz, span, reach, eos_model, eos_par,
     new_void = 0.0
     bad[j, 0] = 0
     for m in range(bodies):
-        model = eos_model[m]
-        par = eos_par[m]
+        model = models[m, EOS]
+        par = materials[m, EOS_AT:STRENGTH_AT]
+        tensile = materials[m, TENSILE]
+        loose = materials[m, LOOSE]
         f_j = vof[m, j]
         r_j = q[RHO, m, j]
         e_j = q[E, m, j]
@@ -89,38 +142,19 @@ def pressures_row(j, b, max_opening, vol_r, dz, span, reach, eos_model, eos_par,
             wrong = 0
             for x in range(number):
                 i = first + x
-                tears = f_j[i] == 1.0 and (pm_j[i] < -fracture_pressure[m] or d_j[i] >= 1.0)
+                tears = f_j[i] == 1.0 and (pm_j[i] < -tensile or d_j[i] >= 1.0)
                 good = r_j[i] > 0.0 and abs(pm_j[i]) < 1e300 and abs(ep_j[i]) < 1e300
                 torn += 1 if tears else 0
                 wrong += 0 if good or f_j[i] == 0.0 else 1
             if torn == 0 or attempt == 1:
                 break
-            new_void += tear_row(m, j, first, number, model, par, fracture_pressure[m], max_opening, vol_r, dz[j], vof, q)
+            new_void += tear_row(m, j, first, number, model, par, tensile, max_opening, metrics, dz[j], vof, q)
         if wrong > 0:
-            for x in range(number):
-                i = first + x
-                good = r_j[i] > 0.0 and abs(pm_j[i]) < 1e300 and abs(ep_j[i]) < 1e300
-                if f_j[i] > 0.0 and not good:
-                    bad[j, 1] = i if bad[j, 0] == 0 else bad[j, 1]
-                    bad[j, 2] = m if bad[j, 0] == 0 else bad[j, 2]
-                    bad[j, 0] += 1
-        if feels_temperature(strength_model[m], damage_model[m]):
+            report_row(m, j, first, number, vof, q, pm, bad)
+        if feels_temperature(models[m, STRENGTH], models[m, DAMAGE]):
             temperature_row(model, par, first, number, f_j, r_j, e_j, tm_j)
-        modulus_row(strength_model[m], strength_par[m], first, number, pm_j, r_j, tm_j, shear_j)
-        for x in range(number):
-            i = first + x
-            f = f_j[i]
-            there = f > 0.0
-            rho = r_j[i] if there else 1.0
-            c2 = km_j[i]
-            modulus = shear_j[i] if rho > loose[m] else 0.0
-            stiffness = rho * c2
-            km_j[i] = stiffness
-            p_j[i] += f * pm_j[i]
-            bulk_j[i] += f / stiffness if there else 0.0
-            rhobar_j[i] += f * rho
-            solid_j[i] += f
-            cl_j[i] = max(cl_j[i], c2 + 4.0 / 3.0 * modulus / rho if there else 0.0)
+        modulus_row(models[m, STRENGTH], materials[m, STRENGTH_AT:DAMAGE_AT], first, number, pm_j, r_j, tm_j, shear_j)
+        add_row(m, j, b, first, number, loose, vof, q, pm, km, p, bulk, rhobar, solid, cl, scratch)
     for x in range(n):
         i = lo + x
         full = solid_j[i] > 1.0 - 1e-12
@@ -144,8 +178,8 @@ def row_minimum(a, first, number):
 
 
 @rowwise
-def viscosity_row(j, b, linear, quadratic, courant, advective, mesh_speed, hourglass, dr, dz, vol_r, face_r, az_in, az_out,
-                  reach, u, v, rhobar, bulk, cl, qr, qz, weight, row_step, bad, scratch):
+def viscosity_row(j, b, linear, quadratic, courant, advective, mesh_speed, hourglass, dr, dz, metrics, reach, u, v, rhobar,
+                  bulk, cl, qr, qz, weight, row_step, bad, scratch):
     """Artificial viscosity direction by direction, and the time step that every cell allows.
 
     q_r answers only to the radial difference du, q_z only to the axial one (a shock along z must not see dr), and neither to
@@ -186,14 +220,14 @@ def viscosity_row(j, b, linear, quadratic, courant, advective, mesh_speed, hourg
         dv_t = 0.5 * ((vtt[i] - vt[i]) + (vtt[i + 1] - vt[i + 1]))
         c = bulk_j[i] / rho
         c = sqrt(c) if c > 0.0 else cl_j[i]
-        loss = volume_loss(i, ub, ut, vb, vt, face_r, az_in, az_out, vol_r, h)
+        loss = volume_loss(i, ub, ut, vb, vt, metrics, h)
         du_q = max(du, -max(loss, 0.0) * dr[i])
         dv_q = max(dv, -max(loss, 0.0) * h)
         q_r = directional_viscosity(rho, c, du_q, smoothness(du_l, du, du_r), linear, quadratic)
         q_z = directional_viscosity(rho, c, dv_q, smoothness(dv_b, dv, dv_t), linear, quadratic)
         sound, radial, axial, volume = step_limits(
             i, ub, ut, vb, vt, courant, advective, mesh_speed, dr, h, rho, cl_j[i], max(q_r, q_z), loss)
-        weight_j[i] = 0.25 * hourglass * rho_j[i] * cl_j[i] * vol_r[i] * h / max(dr[i], h)
+        weight_j[i] = 0.25 * hourglass * rho_j[i] * cl_j[i] * metrics[VOL_R, i] * h / max(dr[i], h)
         qr_j[i] = 0.0 if void else q_r
         qz_j[i] = 0.0 if void else q_z
         step_j[i] = 1e300 if void else min(min(sound, radial), min(axial, volume))
@@ -217,7 +251,7 @@ def least_step(j0, j1, row_step, bad, found):
 
 
 @serial
-def step_cause(j, courant, advective, mesh_speed, dr, dz, vol_r, face_r, az_in, az_out, reach, u, v, rhobar, cl, qr, qz, cause):
+def step_cause(j, courant, advective, mesh_speed, dr, dz, metrics, reach, u, v, rhobar, cl, qr, qz, cause):
     """Which cell of row j allows the least step, and which of the bounds it is.
 
     Reads    what viscosity_row read and wrote
@@ -226,7 +260,7 @@ def step_cause(j, courant, advective, mesh_speed, dr, dz, vol_r, face_r, az_in, 
     best = 1e300
     for i in range(reach[j, 0], reach[j, 1]):
         if rhobar[j, i] > 0.0:
-            loss = volume_loss(i, u[0, j], u[0, j + 1], v[0, j], v[0, j + 1], face_r, az_in, az_out, vol_r, dz[j])
+            loss = volume_loss(i, u[0, j], u[0, j + 1], v[0, j], v[0, j + 1], metrics, dz[j])
             limits = step_limits(i, u[0, j], u[0, j + 1], v[0, j], v[0, j + 1], courant, advective, mesh_speed, dr, dz[j],
                                  rhobar[j, i], cl[j, i], max(qr[j, i], qz[j, i]), loss)
             for k in range(4):

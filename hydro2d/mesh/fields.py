@@ -21,8 +21,6 @@ CARRIED_FLUID, CARRIED_SOLID, CARRIED_DAMAGE = 2, 6, 7
 
 #: rows that a thread carries through a phase at a time: few enough to stay in its cache
 BLOCK = 32
-#: rows of scratch of a block
-SCRATCH = 4
 
 
 @dataclass(frozen=True)
@@ -59,11 +57,26 @@ FIELDS = (
     Field("bulk_modulus", "km", "body", "Pa", 1, "", False, "adiabatic bulk modulus rho c^2"),
     Field("temperature", "tm", "body", "K", 1, "", True, "temperature"),
     Field("pressure", "p", "cell", "Pa", 1, "", True, "pressure of the cell, void counts nothing"),
+    Field("half_step_pressure", "ph", "cell", "Pa", 1, "", False, "pressure at half the step"),
+    Field("cell_bulk_modulus", "bulk", "cell", "Pa", 1, "", False, "bulk modulus of the cell, 0 where it has void"),
+    Field("cell_density", "rhobar", "cell", "kg/m^3", 1, "", False, "mass of all bodies per volume of the cell"),
+    Field("filled_fraction", "solid", "cell", "1", 1, "", False, "share of the cell that is not void"),
+    Field("longitudinal_sound_speed", "cl", "cell", "m/s", 1, "", False, "largest of the bodies' longitudinal sound speeds"),
     Field("viscosity_r", "qr", "cell", "Pa", 1, "", False, "artificial viscosity against radial compression"),
     Field("viscosity_z", "qz", "cell", "Pa", 1, "", False, "artificial viscosity against axial compression"),
+    Field("total_stress_rr", "sig_rr", "cell", "Pa", 1, "", False, "radial stress at half the step, viscosity included"),
+    Field("total_stress_zz", "sig_zz", "cell", "Pa", 1, "", False, "axial stress at half the step, viscosity included"),
+    Field("total_stress_tt", "sig_tt", "cell", "Pa", 1, "", False, "hoop stress at half the step, viscosity included"),
+    Field("total_stress_rz", "sig_rz", "cell", "Pa", -1, "", False, "shear stress at half the step"),
+    Field("volume_before_sweep", "pre", "cell", "m^3", 1, "", False, "volume of the cell before a sweep of the remap"),
+    Field("hourglass_weight", "weight", "cell", "kg/s", 1, "", False, "stiffness of the hourglass filter"),
+    Field("hard_fraction", "hard", "cell", "1", 1, "", False, "share of the cell that hard bodies fill"),
+    Field("hard_distance", "distance", "cell", "m", 1, "", False, "distance from the hard bodies of a slip layer"),
     Field("contact_pressure", "contact_pressure", "cell", "Pa", 1, "", True, "normal pressure at the interface of a contact"),
     Field("radial_velocity", "u", "vertex", "m/s", -1, "momentum", True, "radial velocity"),
     Field("axial_velocity", "v", "vertex", "m/s", 1, "momentum", True, "axial velocity"),
+    Field("radial_velocity_before", "u0", "vertex", "m/s", -1, "", False, "radial velocity at the beginning of the step"),
+    Field("axial_velocity_before", "v0", "vertex", "m/s", 1, "", False, "axial velocity at the beginning of the step"),
     Field("vertex_mass", "mass", "vertex", "kg", 1, "mass", False, "mass of the dual cell, per radian"),
 )
 
@@ -90,3 +103,81 @@ def remap_rules(internal: Sequence[Sequence[Field]]) -> np.ndarray:
         for k, field in enumerate((*BODY, *own)):
             rules[m, k] = field.remap == "mass", field.least, field.most, field.parity
     return rules
+
+
+@dataclass(frozen=True)
+class Work:
+    """An array in which the kernels of a cycle leave something for one another.
+
+    ``axes`` are letters for the lengths of its axes: m bodies, b body groups, j and i cells with ghosts, J and I vertices, k
+    rows of State.q, n internal variables, B blocks of rows, L vertices along the longer direction; 6B is six for every block.
+    """
+
+    symbol: str
+    axes: str
+    meaning: str
+    kind: type = float
+
+
+WORK = (
+    Work("cell_mass", "b j i", "mass of a group in a cell"),
+    Work("fr", "J I", "volume that a face along r sweeps; face i is left of cell i"),
+    Work("fz", "J I", "volume that a face along z sweeps; face j is below cell j"),
+    Work("flux_volume", "m J I", "volume of a body that goes through a face"),
+    Work("flux_mass", "b J I", "mass of a group that goes through a face"),
+    Work("flux", "k m 6B I", "what a body carries through the faces of a few rows"),
+    Work("dual", "6 2B I", "what a group's momentum carries through the dual faces of a few rows"),
+    Work("edge_flux", "2 2 m L", "mass and energy of a body through either edge of a sweep"),
+    Work("edge_dual", "b 2 5 L", "mass, momentum and kinetic energy of a group through either edge of a sweep"),
+    Work("deficit", "b J I", "kinetic energy that `both` takes from a vertex"),
+    Work("scratch", "4 B I", "rows that a phase needs for itself"),
+    Work("near", "3 m j 2", "columns of a body, of the cells that a sweep along z can change, and of the faces", int),
+    Work("around", "b 4 j 2", "columns of a group within 0, 1, 2 and 3 rows", int),
+    Work("occupied", "b j 2", "columns that hold anything of a group", int),
+    Work("mixed_count", "j", "number of cells in a row that are not full of one body", int),
+    Work("mixed", "j i", "their columns", int),
+    Work("mix", "j 7 m", "what a mixed cell knows of each body while it deforms"),
+    Work("motion", "j b 10", "velocity gradient of a group in a mixed cell"),
+    Work("internal", "j n", "internal variables of a body in a cell while it deforms"),
+    Work("strips", "j 2 m", "volume of each body in the strips that two faces of a mixed cell sweep"),
+    Work("cut", "j 2", "columns of the cells that two groups share, and their neighbours", int),
+    Work("zone", "j i", "zone of a slip layer: 0 none, 1 interior, 2 layer", np.int8),
+    Work("normal", "2 j i", "normal of the hard body that a slip layer lies on"),
+    Work("opened", "j", "volume of void that opens in a row"),
+    Work("bad", "j 4", "cells that are not finite: number, column and body of the first; velocities", int),
+    Work("row_step", "j", "time step that a row allows"),
+    Work("least_row", "3", "row of the least time step; rows with cells or velocities that are not finite, -1 for none", int),
+    Work("cause", "2", "what sets the time step, and in which column", int),
+    Work("limited", "3 J", "axial momentum and energy that the speed limit takes in a row, number of vertices"),
+    Work("momentum_sums", "5 J", "in a row: kinetic energy before and after, momentum gained, energy cut, wall's momentum"),
+    Work("deposited", "J", "energy that a row of cells is given from its vertices"),
+    Work("booked", "4+m J", "what the tidying of a row removes: energies, momentum, void, mass of every body"),
+    Work("row_moving", "J 2", "columns of the moving vertices of a row", int),
+    Work("moving", "4", "rows and columns of all moving vertices", int),
+)
+
+#: what the contact of two groups needs beside
+CONTACT_WORK = (
+    Work("shared_count", "J", "number of vertices in a row that both groups share", int),
+    Work("shared", "J I", "their columns", int),
+    Work("warmed", "J 2", "columns of the vertices that gave heat", int),
+    Work("link", "2 J I", "with what a light vertex of a group moves", np.int8),
+    Work("soft", "j i", "share of the cell that the other bodies fill"),
+    Work("rate", "j i", "rate of volume of a cut cell"),
+    Work("size", "j i", "volume of a cut cell that is not void"),
+    Work("kinds", "j I", "how many bodies a cell holds, while mixed cells are listed anew"),
+    Work("part", "m j i", "share of a body in the volume of its group in a cut cell"),
+    Work("line", "9 j i", "lines of both groups in a cut cell"),
+    Work("wet_r", "2 J I", "share of a face along r that each group wets"),
+    Work("wet_z", "2 J I", "share of a face along z that each group wets"),
+    Work("own_r", "2 J I", "volume that a face along r sweeps with each group's velocity"),
+    Work("own_z", "2 J I", "volume that a face along z sweeps with each group's velocity"),
+    Work("heat", "2 J I", "heat of the impulses at a vertex, for each group"),
+    Work("contact_normal", "3 2 J I", "normal at a shared vertex"),
+    Work("touch", "J I", "whether the groups touch at a shared vertex, and how far they are apart"),
+    Work("ease", "2 2 J I", "how readily each group at a vertex takes an impulse"),
+    Work("taken", "2 2 J I", "impulse that light vertices hand to those that they move with"),
+    Work("light_weights", "4 2 J I", "weights of the vertices that a light vertex moves with"),
+    Work("impulse", "6 J I", "impulses of contact and friction at a vertex"),
+    Work("exchange", "5 J", "what the groups exchange in a row: momentum, three heats, wall's momentum"),
+)

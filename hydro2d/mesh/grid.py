@@ -1,4 +1,4 @@
-"""The graded r-z mesh: edges, volumes, and the column vectors that every kernel uses instead of the word "cylindrical".
+"""The graded r-z mesh: edges, volumes, and the metrics of its columns, which kernels use instead of the word "cylindrical".
 
 Per radian in cylindrical geometry, per unit depth in planar geometry. With r1, r2 the inner and outer radius of a
 column, dr = r2 - r1 and h the height of a row (explanation/lagrangian-step, equations 1 to 3):
@@ -11,6 +11,8 @@ column, dr = r2 - r1 and h the height of a row (explanation/lagrangian-step, equ
     mid_r    half the mean radius of the column                      (r1 + r2)/4       planar: 1/2
     cm_in    share of the cell's mass at each inner vertex           az_in / (2 vol_r)
     cm_out   share of the cell's mass at each outer vertex           az_out / (2 vol_r)
+
+They are the rows of one block that kernels read, ``Grid.metrics[k, i]``, with the constants below, and attributes of the grid.
 """
 
 from __future__ import annotations
@@ -18,6 +20,9 @@ from __future__ import annotations
 import numpy as np
 
 GHOSTS = 2
+
+#: rows of `Grid.metrics`
+FACE_R, HOOP, VOL_R, AZ_IN, AZ_OUT, MID_R, CM_IN, CM_OUT = range(8)
 
 
 def _with_ghosts(edges: np.ndarray) -> np.ndarray:
@@ -46,6 +51,11 @@ class Grid:
         Edges with ghosts; index g is the first interior edge.
     volume : float64, shape (nz + 2 g, nr + 2 g)
         Cell volumes per radian (planar: per unit depth), positive in ghosts as well.
+    metrics : float64, shape (8, nr + 2 g + 1)
+        What every kernel needs of a column or its inner face, in the rows FACE_R to CM_OUT; beyond the last column only
+        FACE_R has a value, the others are zero.
+    face_r, hoop, vol_r, az_in, az_out, mid_r, cm_in, cm_out : float64
+        The rows by name, those of columns without the last entry.
     offset : float
         How far the mesh has travelled along z since the start, m; see `move`.
     """
@@ -92,6 +102,8 @@ class Grid:
         self.mid_r = self.vol_r / (2 * dr)
         self.cm_in = self.az_in / (2 * self.vol_r)
         self.cm_out = self.az_out / (2 * self.vol_r)
+        rows = self.face_r, self.hoop, self.vol_r, self.az_in, self.az_out, self.mid_r, self.cm_in, self.cm_out
+        self.metrics = np.stack([np.pad(row, (0, len(self.face_r) - len(row))) for row in rows])
 
     def move(self, offset: float) -> None:
         """Places the whole mesh at `offset` from where it was at the start: edges and centres along z, in place."""

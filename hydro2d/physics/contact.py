@@ -1,6 +1,7 @@
 """Two groups of bodies that meet: whose a face is, and what flows through it."""
 
 from hydro2d.jit import point
+from hydro2d.mesh.grid import AZ_IN, AZ_OUT, CM_IN, CM_OUT, FACE_R
 
 #: share of void in a cell of both groups up to which they touch
 GAP = 0.01
@@ -33,12 +34,12 @@ def known(weight, rest, hard_mass):
 
 
 @point
-def dual_share(g, j, i, edges, volume, cm_in, cm_out, hard, soft):
+def dual_share(g, j, i, edges, volume, metrics, hard, soft):
     """Share of the dual cell of vertex (j, i), as far as it lies in the mesh, that group g fills."""
     whole, part = 0.0, 0.0
     for row in range(max(j - 1, edges[0]), min(j + 1, edges[1])):
         for column in range(max(i - 1, edges[2]), min(i + 1, edges[3])):
-            corner = volume[row, column] * (cm_out[column] if column < i else cm_in[column])
+            corner = volume[row, column] * (metrics[CM_OUT, column] if column < i else metrics[CM_IN, column])
             whole += corner
             part += corner * (hard[row, column] if g == 1 else soft[row, column])
     return part / whole
@@ -72,19 +73,19 @@ def face_flow_r(j, i, g, wet_r, u):
 
 
 @point
-def face_flow_z(j, i, g, az_in, az_out, wet_z, v):
+def face_flow_z(j, i, g, metrics, wet_z, v):
     """Volume per time and radian through z-face (j, i), m^3/s: of group g, or of both by weight for g < 0."""
     if g >= 0:
-        return az_in[i] * v[g, j, i] + az_out[i] * v[g, j, i + 1]
-    return az_in[i] * blend(wet_z[0, j, i], v[1, j, i], v[0, j, i]) + az_out[i] * blend(
+        return metrics[AZ_IN, i] * v[g, j, i] + metrics[AZ_OUT, i] * v[g, j, i + 1]
+    return metrics[AZ_IN, i] * blend(wet_z[0, j, i], v[1, j, i], v[0, j, i]) + metrics[AZ_OUT, i] * blend(
         wet_z[1, j, i], v[1, j, i + 1], v[0, j, i + 1])
 
 
 @point
-def volume_rate(j, i, g, face_r, az_in, az_out, h, wet_r, wet_z, u, v):
+def volume_rate(j, i, g, metrics, h, wet_r, wet_z, u, v):
     """Rate of change of the volume of cell (j, i) with the velocities of group g, or with both by weight for g < 0."""
-    radial = face_r[i + 1] * face_flow_r(j, i + 1, g, wet_r, u) - face_r[i] * face_flow_r(j, i, g, wet_r, u)
-    axial = face_flow_z(j + 1, i, g, az_in, az_out, wet_z, v) - face_flow_z(j, i, g, az_in, az_out, wet_z, v)
+    radial = metrics[FACE_R, i + 1] * face_flow_r(j, i + 1, g, wet_r, u) - metrics[FACE_R, i] * face_flow_r(j, i, g, wet_r, u)
+    axial = face_flow_z(j + 1, i, g, metrics, wet_z, v) - face_flow_z(j, i, g, metrics, wet_z, v)
     return 0.5 * h * radial + axial
 
 

@@ -1,17 +1,18 @@
 """The motion of a cell from that of its vertices."""
 
 from hydro2d.jit import point
+from hydro2d.mesh.grid import AZ_IN, AZ_OUT, FACE_R, HOOP, MID_R, VOL_R
 
 
 @point
-def velocity_gradient(i, ub, ut, vb, vt, face_r, hoop, az_in, az_out, mid_r, h):
+def velocity_gradient(i, ub, ut, vb, vt, metrics, h):
     """Volume times the velocity gradient of cell i: (D_rr, D_tt, D_zz, du_r/dz, du_z/dr) (lagrangian-step, equation 2)."""
     outer, inner = ub[i + 1] + ut[i + 1], ub[i] + ut[i]
-    tt = h * hoop[i] * (outer + inner)
-    rr = 0.5 * h * (face_r[i + 1] * outer - face_r[i] * inner) - tt
-    zz = az_in[i] * (vt[i] - vb[i]) + az_out[i] * (vt[i + 1] - vb[i + 1])
-    r_by_z = az_in[i] * (ut[i] - ub[i]) + az_out[i] * (ut[i + 1] - ub[i + 1])
-    z_by_r = mid_r[i] * h * ((vb[i + 1] + vt[i + 1]) - (vb[i] + vt[i]))
+    tt = h * metrics[HOOP, i] * (outer + inner)
+    rr = 0.5 * h * (metrics[FACE_R, i + 1] * outer - metrics[FACE_R, i] * inner) - tt
+    zz = metrics[AZ_IN, i] * (vt[i] - vb[i]) + metrics[AZ_OUT, i] * (vt[i + 1] - vb[i + 1])
+    r_by_z = metrics[AZ_IN, i] * (ut[i] - ub[i]) + metrics[AZ_OUT, i] * (ut[i + 1] - ub[i + 1])
+    z_by_r = metrics[MID_R, i] * h * ((vb[i + 1] + vt[i + 1]) - (vb[i] + vt[i]))
     return rr, tt, zz, r_by_z, z_by_r
 
 
@@ -22,15 +23,16 @@ def hourglass_mode(i, b, t):
 
 
 @point
-def divergence(i, ub, ut, vb, vt, face_r, az_in, az_out, vol_r, h):
+def divergence(i, ub, ut, vb, vt, metrics, h):
     """Rate of volume change per volume of cell i from its four vertices (explanation/lagrangian-step, equation 2)."""
-    radial = 0.5 * h * (face_r[i + 1] * (ub[i + 1] + ut[i + 1]) - face_r[i] * (ub[i] + ut[i]))
-    axial = az_in[i] * (vt[i] - vb[i]) + az_out[i] * (vt[i + 1] - vb[i + 1])
-    return (radial + axial) / (vol_r[i] * h)
+    radial = 0.5 * h * (metrics[FACE_R, i + 1] * (ub[i + 1] + ut[i + 1]) - metrics[FACE_R, i] * (ub[i] + ut[i]))
+    axial = metrics[AZ_IN, i] * (vt[i] - vb[i]) + metrics[AZ_OUT, i] * (vt[i + 1] - vb[i + 1])
+    return (radial + axial) / (metrics[VOL_R, i] * h)
 
 
 @point
-def volume_loss(i, ub, ut, vb, vt, face_r, az_in, az_out, vol_r, h):
+def volume_loss(i, ub, ut, vb, vt, metrics, h):
     """Rate at which cell i loses its volume, 1/s."""
-    inward = face_r[i + 1] * (ub[i + 1] + ut[i + 1]) - face_r[i] * (ub[i] + ut[i])
-    return -(0.5 * inward * h + az_in[i] * (vt[i] - vb[i]) + az_out[i] * (vt[i + 1] - vb[i + 1])) / (vol_r[i] * h)
+    inward = metrics[FACE_R, i + 1] * (ub[i + 1] + ut[i + 1]) - metrics[FACE_R, i] * (ub[i] + ut[i])
+    inside, outside = metrics[AZ_IN, i] * (vt[i] - vb[i]), metrics[AZ_OUT, i] * (vt[i + 1] - vb[i + 1])
+    return -(0.5 * inward * h + inside + outside) / (metrics[VOL_R, i] * h)

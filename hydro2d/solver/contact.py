@@ -37,13 +37,12 @@ class Contact:
         contact.cut_lines(j0, j1, self.edges, g.dr, g.dz, s.shared_count, s.shared, s.hard, s.soft, s.cut, s.line)
         contact.face_weights(j0, j1, self.edges, self.still, s.cut, s.line, s.hard, s.soft, s.mass, s.shared_count, s.shared,
                              s.wet_r, s.wet_z, s.contact_normal, s.touch)
-        contact.link_light(j0, j1, self.edges, g.volume, g.cm_in, g.cm_out, s.shared_count, s.shared, s.contact_normal,
-                           s.hard, s.soft, s.mass, s.link)
+        contact.link_light(j0, j1, self.edges, g.volume, g.metrics, s.shared_count, s.shared, s.contact_normal, s.hard, s.soft,
+                           s.mass, s.link)
         contact_motion.cut_viscosity(
-            j0, j1, self.edges, method.viscosity_linear, method.viscosity_quadratic, method.courant, g.dr, g.dz, g.vol_r,
-            g.face_r, g.az_in, g.az_out, s.cut, s.line, s.around, s.contact_normal, s.wet_r, s.wet_z, s.hard, s.soft, s.u, s.v,
-            s.cl, s.rhobar, s.vof, s.q, s.pm, s.km, s.p, s.solid, s.bulk, s.qr, s.qz, s.rate, s.rows[1], s.mixed_count, s.mixed,
-            s.deficit[0])
+            j0, j1, self.edges, method.viscosity_linear, method.viscosity_quadratic, method.courant, g.dr, g.dz, g.metrics,
+            s.cut, s.line, s.around, s.contact_normal, s.wet_r, s.wet_z, s.hard, s.soft, s.u, s.v, s.cl, s.rhobar, s.vof, s.q,
+            s.pm, s.km, s.p, s.solid, s.bulk, s.qr, s.qz, s.rate, s.row_step, s.mixed_count, s.mixed, s.kinds)
 
     def stress(self, j0: int, j1: int, dt: float) -> None:
         """Total stress of the cut cells, and the pressure of the contact."""
@@ -55,13 +54,12 @@ class Contact:
         """Velocities of both groups where they share vertices: forces, light vertices, contact and friction."""
         s, g, method = self.state, self.grid, self.method
         contact_motion.shared_forces(
-            j0, j1, dt, s.group, method.mixed_strength == mixed.SOLID, g.face_r, g.hoop, g.az_in, g.az_out, g.mid_r, g.dz,
-            self.still, s.shared_count, s.shared, s.wet_r, s.wet_z, s.ph, s.qr, s.solid, s.vof, s.q, s.weight, s.cell_mass,
-            s.mass, s.u0, s.v0, s.u, s.v, s.exchange)
+            j0, j1, dt, s.group, method.mixed_strength == mixed.SOLID, g.metrics, g.dz, self.still, s.shared_count, s.shared,
+            s.wet_r, s.wet_z, s.ph, s.qr, s.solid, s.vof, s.q, s.weight, s.cell_mass, s.mass, s.u0, s.v0, s.u, s.v, s.exchange)
         contact_velocities.settle(
-            j0, j1, dt, method.friction, self.still, g.r, g.z, g.face_r, g.hoop, g.az_in, g.az_out, g.dz, s.cut, s.line,
-            s.shared_count, s.shared, s.contact_normal, s.touch, s.link, s.sig_rr, s.sig_zz, s.sig_rz, s.mass, s.u0, s.v0, s.u,
-            s.v, s.light_weights, s.ease, s.taken, s.impulse, s.heat, s.exchange)
+            j0, j1, dt, method.friction, self.still, g.r, g.z, g.metrics, g.dz, s.cut, s.line, s.shared_count, s.shared,
+            s.contact_normal, s.touch, s.link, s.sig_rr, s.sig_zz, s.sig_rz, s.mass, s.u0, s.v0, s.u, s.v, s.light_weights,
+            s.ease, s.taken, s.impulse, s.heat, s.exchange)
         pushed, *heats, walls = s.exchange[:, j0:j1 + 1].sum(axis=1)
         ledger.book("walls", momentum=float(walls))
         ledger.exchange("contact", momentum=float(pushed), energy=float(heats[0]))
@@ -76,15 +74,15 @@ class Contact:
     def volumes(self, j0: int, j1: int, dt: float) -> None:
         """Volumes that the faces of cut cells sweep, and each group's own; the work that they do in pure cells."""
         s, g = self.state, self.grid
-        contact_volumes.cut_volumes(j0, j1, dt, g.face_r, g.az_in, g.az_out, g.dz, s.cut, s.wet_r, s.wet_z, s.u0, s.v0, s.u,
-                                    s.v, s.fr, s.fz, s.own_r, s.own_z)
-        contact_volumes.cut_work(j0, j1, dt, g.face_r, g.az_in, g.az_out, g.dz, s.cut, s.group, s.wet_r, s.wet_z, s.ph, s.qr,
-                                 s.u0, s.v0, s.u, s.v, s.fr, s.fz, s.cell_mass, s.vof, s.q)
+        contact_volumes.cut_volumes(j0, j1, dt, g.metrics, g.dz, s.cut, s.wet_r, s.wet_z, s.u0, s.v0, s.u, s.v, s.fr, s.fz,
+                                    s.own_r, s.own_z)
+        contact_volumes.cut_work(j0, j1, dt, g.metrics, g.dz, s.cut, s.group, s.wet_r, s.wet_z, s.ph, s.qr, s.u0, s.v0, s.u,
+                                 s.v, s.fr, s.fz, s.cell_mass, s.vof, s.q)
 
     def warm(self, j0: int, j1: int) -> None:
         """Gives the heat of the impulses to the bodies around their vertices."""
         s, g = self.state, self.grid
-        momentum.deposit(j0, j1, g.cm_in, g.cm_out, s.warmed, s.group, s.heat, s.cell_mass, s.vof, s.q, s.rows[5])
+        momentum.deposit(j0, j1, g.metrics, s.warmed, s.group, s.heat, s.cell_mass, s.vof, s.q, s.deposited)
 
     def fluxes(self, dj: int, di: int, j0: int, j1: int) -> None:
         """Volume of every body through the faces of cut cells, in one direction."""

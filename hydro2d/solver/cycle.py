@@ -20,6 +20,7 @@ from hydro2d.kernels import (
     spans,
     thermodynamics,
 )
+from hydro2d.materials import rows
 from hydro2d.mesh import fields
 from hydro2d.physics import waves
 from hydro2d.solver.audit import Ledger
@@ -70,7 +71,7 @@ class Cycle:
         self.box = list(self.edges)
         self.ledger = None
         self.speed_limit = 0.0
-        self.loose = method.loose * table.rho0
+        self.models, self.materials = rows.packed(table, method.loose * table.rho0, method.yield_factor)
         self.light_density = method.mass_floor * float(np.max(table.rho0))
 
     def _edges_with_void_beyond(self) -> np.ndarray:
@@ -188,8 +189,8 @@ class Cycle:
             return
         s, (j0, j1, i0, i1) = self.state, self.box
         spans.moving_columns(j0, j1 + 1, i0, i1 + 1, s.u, s.v, s.row_moving)
-        spans.moving_box(j0, j1 + 1, s.row_moving, s.found)
-        first, last, low, high = s.found
+        spans.moving_box(j0, j1 + 1, s.row_moving, s.moving)
+        first, last, low, high = s.moving
         if first == last:
             return
         grown = self._clipped([first - 1, last, low - 1, high], MARGIN)
@@ -211,7 +212,7 @@ class Cycle:
 
     def _vertex_mass(self) -> None:
         s, g, (j0, j1, i0, i1) = self.state, self.grid, self.box
-        acceleration.vertex_masses(j0, j1 + 1, i0, i1 + 1, g.cm_in, g.cm_out, s.around, s.cell_mass, s.mass)
+        acceleration.vertex_masses(j0, j1 + 1, i0, i1 + 1, g.metrics, s.around, s.cell_mass, s.mass)
 
     def _keep_one(self) -> None:
         if self.contact:
@@ -246,8 +247,8 @@ class Cycle:
             j0, j1, i0, i1 = self.box
             first, last = (j0, j1 + 1) if along_r else (i0, i1 + 1)
             for at, _ in self._open_faces(along_r, "transmits"):
-                boundaries.transmit(along_r, at, first, last, self.dt, g.face_r, g.az_in, g.az_out, g.dz, s.rhobar, s.cl,
-                                    s.bulk, s.mass, s.u0, s.v0, s.u, s.v, taken)
+                boundaries.transmit(along_r, at, first, last, self.dt, g.metrics, g.dz, s.rhobar, s.cl, s.bulk, s.mass, s.u0,
+                                    s.v0, s.u, s.v, taken)
         if taken.any():
             self.ledger.book("transmitted", momentum=float(taken[0]), energy=float(taken[1]))
 
@@ -263,39 +264,38 @@ class Cycle:
 
     def close_cells(self) -> None:
         """Pressure and sound speed of every body, void where a cell tears, artificial viscosity, the step a cell allows."""
-        s, g, t, method, (j0, j1, _, _) = self.state, self.grid, self.table, self.method, self.box
+        s, g, method, (j0, j1, _, _) = self.state, self.grid, self.method, self.box
         mixed.close_cells(
             j0, j1, method.max_opening, method.smallest_tension, method.viscosity_linear, method.viscosity_quadratic,
-            method.courant, method.advective_courant, self.mesh.velocity, method.hourglass, g.face_r, g.az_in, g.az_out,
-            g.vol_r, g.dr, g.dz, s.span, s.reach, s.mixed_count, s.mixed, s.group, t.eos_model, t.eos_par, t.strength_model,
-            t.strength_par, t.damage_model, t.fracture_pressure, self.loose, s.u, s.v, s.vof, s.q, s.pm, s.km, s.tm, s.p,
-            s.bulk, s.rhobar, s.solid, s.cl, s.qr, s.qz, s.weight, s.rows[0], s.rows[1], s.row_numbers, s.scratch)
+            method.courant, method.advective_courant, self.mesh.velocity, method.hourglass, g.metrics, g.dr, g.dz, s.span,
+            s.reach, s.mixed_count, s.mixed, s.group, self.models, self.materials, s.u, s.v, s.vof, s.q, s.pm, s.km, s.tm, s.p,
+            s.bulk, s.rhobar, s.solid, s.cl, s.qr, s.qz, s.weight, s.opened, s.row_step, s.bad, s.scratch)
         if self.contact:
             self.contact.find(j0, j1)
-        thermodynamics.least_step(j0, j1, s.rows[1], s.row_numbers, s.found)
-        if s.found[1] >= 0:
-            self._report_bad(s.found[1])
-        if s.found[2] >= 0:
+        thermodynamics.least_step(j0, j1, s.row_step, s.bad, s.least_row)
+        if s.least_row[1] >= 0:
+            self._report_bad(s.least_row[1])
+        if s.least_row[2] >= 0:
             raise UnphysicalState(f"cycle {self.number}, time {self.time:.6g} s: velocities that are not finite near "
-                                  f"z = {g.zc[s.found[2]]:.6g} m")
+                                  f"z = {g.zc[s.least_row[2]]:.6g} m")
 
     def _report_bad(self, j: int) -> None:
         s, g = self.state, self.grid
-        i, m = int(s.row_numbers[j, 1]), int(s.row_numbers[j, 2])
+        i, m = int(s.bad[j, 1]), int(s.bad[j, 2])
         raise UnphysicalState(
             f"cycle {self.number}, time {self.time:.6g} s, cell (r, z) = ({g.rc[i]:.6g}, {g.zc[j]:.6g}) m, body "
             f'"{self.table.names[m]}": volume fraction {s.vof[m, j, i]:.6g}, density {s.rho[m, j, i]:.6g} kg/m^3, energy '
-            f"{s.e[m, j, i]:.6g} J/kg, pressure {s.pm[m, j, i]:.6g} Pa ({int(s.row_numbers[j, 0])} such cells in its row)")
+            f"{s.e[m, j, i]:.6g} J/kg, pressure {s.pm[m, j, i]:.6g} Pa ({int(s.bad[j, 0])} such cells in its row)")
 
     def choose_step(self) -> None:
         """The time step, with the cell and the term that set it."""
         s, g, method = self.state, self.grid, self.method
-        j = int(s.found[0])
-        stable = float(s.rows[1, j])
+        j = int(s.least_row[0])
+        stable = float(s.row_step[j])
         thermodynamics.step_cause(
-            j, method.courant, method.advective_courant, self.mesh.velocity, g.dr, g.dz, g.vol_r, g.face_r, g.az_in, g.az_out,
-            s.reach, s.u, s.v, s.rhobar, s.cl, s.qr, s.qz, s.row_numbers[j])
-        cause, i = s.row_numbers[j, :2]
+            j, method.courant, method.advective_courant, self.mesh.velocity, g.dr, g.dz, g.metrics, s.reach, s.u, s.v, s.rhobar,
+            s.cl, s.qr, s.qz, s.cause)
+        cause, i = s.cause
         ramp = min(1.0, method.initial_dt_factor + (1.0 - method.initial_dt_factor) * self.number / max(method.ramp_cycles, 1))
         dt, self.cause = stable * ramp, (f"{waves.CAUSES[cause]} at r = {g.rc[i] * 1e3:.3f} mm, "
                                          f"z = {g.zc[j] * 1e3:.3f} mm")
@@ -312,9 +312,9 @@ class Cycle:
         """Total stress of every cell at half the step."""
         s, g, method, (j0, j1, _, _) = self.state, self.grid, self.method, self.box
         acceleration.total_stress(
-            j0, j1, self.dt, g.face_r, g.az_in, g.az_out, g.vol_r, g.dz, s.span, s.reach, s.mixed_count, s.mixed,
-            method.mixed_strength == mixed.SOLID, method.hard, method.threshold, s.u, s.v, s.vof, s.q, s.p, s.bulk, s.solid,
-            s.qr, s.qz, s.ph, s.sig_rr, s.sig_zz, s.sig_tt, s.sig_rz)
+            j0, j1, self.dt, g.metrics, g.dz, s.span, s.reach, s.mixed_count, s.mixed, method.mixed_strength == mixed.SOLID,
+            method.hard, method.threshold, s.u, s.v, s.vof, s.q, s.p, s.bulk, s.solid, s.qr, s.qz, s.ph, s.sig_rr, s.sig_zz,
+            s.sig_tt, s.sig_rz)
         if self.contact:
             self.contact.stress(j0, j1, self.dt)
 
@@ -322,11 +322,10 @@ class Cycle:
         """Velocities at the end of the step."""
         s, g, (j0, j1, i0, i1) = self.state, self.grid, self.box
         s.swap_velocities()
-        limited = s.rows[2:5]
+        limited = s.limited
         acceleration.accelerate(
-            j0, j1 + 1, i0, i1 + 1, self.dt, self.speed_limit, self.light_density, g.face_r,
-            g.hoop, g.az_in, g.az_out, g.vol_r, g.mid_r, g.dz, s.occupied, s.mass, s.weight, s.sig_rr, s.sig_zz, s.sig_tt,
-            s.sig_rz, s.u0, s.v0, s.u, s.v, limited)
+            j0, j1 + 1, i0, i1 + 1, self.dt, self.speed_limit, self.light_density, g.metrics, g.dz, s.occupied, s.mass,
+            s.weight, s.sig_rr, s.sig_zz, s.sig_tt, s.sig_rz, s.u0, s.v0, s.u, s.v, limited)
         if limited[2, j0:j1 + 1].any():
             self.ledger.book("speed_limit", momentum=float(limited[0, j0:j1 + 1].sum()),
                              energy=float(limited[1, j0:j1 + 1].sum()))
@@ -340,24 +339,20 @@ class Cycle:
     def sweep_faces(self) -> None:
         """Volumes that the faces sweep in the step; they are the change of volume, and later the remap's fluxes."""
         s, g, (j0, j1, i0, i1) = self.state, self.grid, self.box
-        acceleration.swept_volumes(j0, j1 + 1, i0, i1, self.dt, g.face_r, g.az_in, g.az_out, g.dz, s.around, s.u0, s.v0,
-                                   s.u, s.v, s.fr, s.fz)
+        acceleration.swept_volumes(j0, j1 + 1, i0, i1, self.dt, g.metrics, g.dz, s.around, s.u0, s.v0, s.u, s.v, s.fr, s.fz)
         if self.contact:
             self.contact.volumes(j0, j1, self.dt)
 
     def deform(self) -> None:
         """Work, volume, strain: body by body in pure cells, then the mixed cells; no shear in the slip layer."""
-        s, g, t, method, (j0, j1, _, _) = self.state, self.grid, self.table, self.method, self.box
+        s, g, method, (j0, j1, _, _) = self.state, self.grid, self.method, self.box
         deformation.deform(
-            j0, j1, self.dt, g.face_r, g.hoop, g.az_in, g.az_out, g.vol_r, g.mid_r, g.dz, s.span, s.group, t.strength_model,
-            t.strength_par, t.damage_model, t.damage_par, method.yield_factor, self.loose, s.u0, s.v0, s.u, s.v, s.fr, s.fz,
+            j0, j1, self.dt, g.metrics, g.dz, s.span, s.group, self.models, self.materials, s.u0, s.v0, s.u, s.v, s.fr, s.fz,
             s.sig_rr, s.sig_zz, s.sig_tt, s.sig_rz, s.weight, s.vof, s.pm, s.tm, s.scratch, s.q, s.internal)
         mixed.deform_mixed(
-            j0, j1, self.dt, method.relaxation, method.tipton, method.mixed_strength, method.hard, method.threshold, g.face_r,
-            g.hoop, g.az_in, g.az_out, g.vol_r, g.mid_r, g.dz, s.mixed_count, s.mixed, s.group, s.cut, s.cell_mass,
-            t.strength_model, t.strength_par, t.damage_model, t.damage_par, method.yield_factor, self.loose, s.u0, s.v0, s.u,
-            s.v, s.fr, s.fz, s.ph, s.qr, s.qz, s.weight, s.solid, s.pm, s.km, s.tm, s.vof, s.q, s.mix, s.motion,
-            s.internal)
+            j0, j1, self.dt, method.relaxation, method.tipton, method.mixed_strength, method.hard, method.threshold, g.metrics,
+            g.dz, s.mixed_count, s.mixed, s.group, s.cut, s.cell_mass, self.models, self.materials, s.u0, s.v0, s.u, s.v, s.fr,
+            s.fz, s.ph, s.qr, s.qz, s.weight, s.solid, s.pm, s.km, s.tm, s.vof, s.q, s.mix, s.motion, s.internal)
         if self.contact:
             self.contact.warm(j0, j1)
         if method.slip_widths is not None:
@@ -381,7 +376,7 @@ class Cycle:
         interfaces.donor_volumes(dj, di, *box, second == 0, self.void_only, g.volume, s.near, s.reach, s.fr, s.fz, s.vof, s.pre,
                                  s.flux_volume)
         interfaces.interface_volumes(dj, di, j0, j1, g.dr, g.dz, self.method.interface_order, s.mixed_count, s.mixed, face,
-                                     s.pre, s.vof, s.flux_volume, s.mix)
+                                     s.pre, s.vof, s.flux_volume, s.strips)
         if self.contact:
             self.contact.fluxes(dj, di, j0, j1)
 
@@ -444,16 +439,16 @@ class Cycle:
                 else:
                     of_group[beyond] = of_group[face]
         s.swap_velocities()
-        sums = s.rows[:5]
+        sums = s.momentum_sums
         momentum.sweep_momentum(
-            dj, di, *self.box, method.advection, method.ke_bound, self.still, method.boundaries.velocity, self.edges, g.cm_in,
-            g.cm_out, s.around, s.cell_mass, flow, s.mass, s.velocity0, s.velocity, s.dual, s.edge_dual, s.deficit, sums)
+            dj, di, *self.box, method.advection, method.ke_bound, self.still, method.boundaries.velocity, self.edges, g.metrics,
+            s.around, s.cell_mass, flow, s.mass, s.velocity0, s.velocity, s.dual, s.edge_dual, s.deficit, sums)
         j0, j1, _, _ = self.box
         before, after, p_gained, k_cut, p_wall = sums[:, j0:j1 + 1].sum(axis=1)
         lost = before - after - self._kinetic_outflow(di)
         if method.advection == momentum.BOTH:
-            momentum.deposit(j0, j1, g.cm_in, g.cm_out, s.reach, s.group, s.deficit, s.cell_mass, s.vof, s.q, s.rows[5])
-            lost -= s.rows[5, j0:j1].sum()
+            momentum.deposit(j0, j1, g.metrics, s.reach, s.group, s.deficit, s.cell_mass, s.vof, s.q, s.deposited)
+            lost -= s.deposited[j0:j1].sum()
         self.ledger.book("advection", momentum=-float(p_gained), energy=float(lost - k_cut))
         self.ledger.book("ke_bound", energy=float(k_cut))
         self.ledger.book("walls", momentum=float(p_wall))
@@ -476,8 +471,8 @@ class Cycle:
     def tidy(self, dj: int, di: int, second: int) -> None:
         """Removes traces, makes full cells full, and finds the bodies anew."""
         s, g, (j0, j1, _, _) = self.state, self.grid, self.box
-        remap.tidy(j0, j1, self.method.trace, g.cm_in, g.cm_out, g.volume, s.group, s.mixed_count, s.mixed, s.pre, dj, di, s.fr,
-                   s.fz, bool(second), s.u, s.v, s.vof, s.q, s.cell_mass, s.booked)
+        remap.tidy(j0, j1, self.method.trace, g.metrics, g.volume, s.group, s.mixed_count, s.mixed, s.pre, dj, di, s.fr, s.fz,
+                   bool(second), s.u, s.v, s.vof, s.q, s.cell_mass, s.booked)
         internal, kinetic, axial, _, *mass = s.booked[:, j0:j1].sum(axis=1)
         self.ledger.book("traces", mass=np.array(mass), momentum=float(axial), energy=float(internal + kinetic))
         self._vertex_mass()  # by the ranges before: where nothing is left there is no mass either

@@ -43,7 +43,6 @@ class Method:
     friction: float
     refresh: int
     yield_factor: np.ndarray
-    contact: bool
     group: np.ndarray
     boundaries: Edges
 
@@ -86,7 +85,6 @@ class Method:
             friction=slide.friction,
             refresh=slide.refresh,
             yield_factor=np.where(hard | (group == 1), factor, 1.0),
-            contact=slide.method == "contact",
             group=group,
             boundaries=Edges(kinds, velocity),
         )

@@ -99,11 +99,11 @@ def test_pressure_on_a_flat_surface_is_force_over_its_area():
     line[contact.SHARE, :j] = 1.0  # the hard body lies below
     zz = np.full(shape, -3e9)
     nothing = np.zeros(shape)
-    force = pressed(j, i, 0.0, 1.0, cut, g.face_r, g.hoop, g.az_in, g.az_out, g.dz, line, nothing, zz, nothing)
+    force = pressed(j, i, 0.0, 1.0, cut, g.metrics, g.dz, line, nothing, zz, nothing)
     area = g.az_out[i - 1] + g.az_in[i]
     assert area == pytest.approx(g.face_r[i] * 1e-3, rel=0.02)
     assert force == pytest.approx(3e9 * area)
-    assert pressed(j, i, 0.0, 1.0, cut, g.face_r, g.hoop, g.az_in, g.az_out, g.dz, line, nothing, -zz, nothing) == 0.0
+    assert pressed(j, i, 0.0, 1.0, cut, g.metrics, g.dz, line, nothing, -zz, nothing) == 0.0
 
 
 def test_the_line_of_a_cell_wets_its_edges():
@@ -135,7 +135,7 @@ def test_a_vertex_is_weighty_from_half_of_its_dual_cell_on():
     hard, soft, mass = np.zeros(g.shape), np.zeros(g.shape), np.ones((2, *g.vertex_shape))
 
     def share(j, i):
-        return weighty_share(1, j, i, edges, g.volume, g.cm_in, g.cm_out, hard, soft, mass)
+        return weighty_share(1, j, i, edges, g.volume, g.metrics, hard, soft, mass)
 
     hard[3, 3:5] = 1.0
     assert share(4, 4) == pytest.approx(0.5)

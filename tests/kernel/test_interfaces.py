@@ -1,18 +1,12 @@
-"""Interfaces: the line in the unit square, strips of it, and circles in prescribed flows."""
+"""Interfaces: circles, bodies and spheres in prescribed flows."""
 
 from functools import partial
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
 from hydro2d.deck import deck
-from hydro2d.physics.interfaces import area_below, line_constant, strip_share
 from hydro2d.solver.simulation import Simulation
-
-UNIT = st.floats(0.0, 1.0)
-WIDTH = st.floats(1e-9, 1.0 - 1e-9)  # a strip without width is never asked for
 
 #: E_geo = sum |f - f0| h^2 of Youngs' method with directionally split sweeps, a prototype's: flow, cells -> error
 YOUNGS = {
@@ -47,56 +41,6 @@ active_region = false
 [stop]
 time = 1.0
 """
-
-
-def cancellation(m1, m2):
-    """Accuracy of an area: differences of squares over the smaller component; below 1e-7 the line is level."""
-    return 2e-15 + min(1e-7, 1e-15 / max(min(abs(m1), abs(m2)), 1e-300))
-
-
-@settings(deadline=None)
-@given(UNIT, UNIT)
-def test_line_constant_gives_the_area_back(m1, fraction):
-    alpha = line_constant(m1, 1.0 - m1, fraction)
-    assert -1e-15 <= alpha <= 1.0 + 1e-15
-    assert area_below(m1, 1.0 - m1, alpha) == pytest.approx(fraction, abs=cancellation(m1, 1.0 - m1))
-
-
-@pytest.mark.parametrize("m1", [0.0, 1e-12, 0.1, 0.37, 0.5, 0.8, 1.0])
-@pytest.mark.parametrize("fraction", [1e-6, 0.1, 0.33, 0.5, 0.9])
-def test_area_agrees_with_sampling(m1, fraction):
-    alpha = line_constant(m1, 1.0 - m1, fraction)
-    x, y = np.meshgrid((np.arange(1000) + 0.5) / 1000, (np.arange(1000) + 0.5) / 1000)
-    assert np.mean(m1 * x + (1.0 - m1) * y <= alpha) == pytest.approx(fraction, abs=1.1e-3)
-
-
-@settings(deadline=None)
-@given(st.floats(-1.0, 1.0), st.booleans(), UNIT, WIDTH)
-def test_strips_add_up_to_the_cell(nx, up, fraction, width):
-    ny = (1.0 - abs(nx)) * (1.0 if up else -1.0)
-    low = strip_share(nx, ny, fraction, width, False)
-    high = strip_share(nx, ny, fraction, 1.0 - width, True)
-    small = cancellation(nx, ny)
-    assert low + high == pytest.approx(fraction, abs=2.0 * small)
-    assert -small <= low <= width + small
-    assert -small <= high <= 1.0 - width + small
-
-
-@settings(deadline=None)
-@given(st.floats(-1.0, 1.0), UNIT, WIDTH)
-def test_mirrored_strips_are_the_same_bits(nx, fraction, width):
-    ny = 1.0 - abs(nx)
-    high = strip_share(nx, ny, fraction, width, True)
-    if nx != 0.0:
-        assert strip_share(-nx, ny, fraction, width, False) == high
-    assert strip_share(nx, -ny, fraction, width, True) == high
-
-
-def test_a_strip_of_a_level_interface():
-    assert strip_share(1.0, 0.0, 0.7, 0.25, True) == 0.0
-    assert strip_share(1.0, 0.0, 0.7, 0.25, False) == pytest.approx(0.25, abs=1e-15)
-    assert strip_share(-1.0, 0.0, 0.7, 0.4, False) == pytest.approx(0.1, abs=1e-15)
-    assert strip_share(0.0, 1.0, 0.7, 0.25, True) == pytest.approx(0.175, abs=1e-15)
 
 
 def vortex(x, y, t, period):

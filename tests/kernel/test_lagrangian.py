@@ -1,4 +1,4 @@
-"""The Lagrangian step: cell vectors, masses of vertices, energy, rotation and strain of stress."""
+"""The Lagrangian step: masses of vertices, energy, rotation and strain of stress."""
 
 import numpy as np
 import pytest
@@ -6,7 +6,6 @@ import pytest
 from hydro2d.deck import deck
 from hydro2d.kernels import mixed
 from hydro2d.mesh.grid import Grid
-from hydro2d.physics.kinematics import velocity_gradient
 from hydro2d.physics.stress import von_mises
 from hydro2d.solver.simulation import Simulation
 
@@ -54,51 +53,6 @@ def lagrangian(e, dt: float) -> None:
     e.accelerate()
     e.sweep_faces()
     e.deform()
-
-
-# ---------------------------------------------------------------------------------------------------- cell vectors
-
-
-def quadrature(grid, j, i, u, v):
-    """Integrals of the gradient of the bilinear velocity over a cell, per radian: D_rr, D_tt, D_zz, du/dz, dv/dr."""
-    points, weights = np.polynomial.legendre.leggauss(4)
-    r1, dr, dz = grid.r[i], grid.dr[i], grid.dz[j]
-    total = np.zeros(5)
-    for x, wx in zip(0.5 + 0.5 * points, 0.5 * weights, strict=True):
-        for y, wy in zip(0.5 + 0.5 * points, 0.5 * weights, strict=True):
-            r = r1 + x * dr
-            a, b = ((w[j:j + 2, i:i + 2]) for w in (u, v))
-            at = a[0, 0] * (1 - x) * (1 - y) + a[0, 1] * x * (1 - y) + a[1, 0] * (1 - x) * y + a[1, 1] * x * y
-            by_r = [((w[0, 1] - w[0, 0]) * (1 - y) + (w[1, 1] - w[1, 0]) * y) / dr for w in (a, b)]
-            by_z = [((w[1, 0] - w[0, 0]) * (1 - x) + (w[1, 1] - w[0, 1]) * x) / dz for w in (a, b)]
-            weight = wx * wy * dr * dz * (r if grid.cylindrical else 1.0)
-            total += weight * np.array([by_r[0], at / r if grid.cylindrical else 0.0, by_z[1], by_z[0], by_r[1]])
-    return total
-
-
-@pytest.mark.parametrize("geometry", GEOMETRIES)
-def test_cell_vectors_are_the_integrals_of_the_bilinear_velocity(geometry):
-    g = Grid([0.0, 0.1, 0.25, 0.3], [0.0, 0.2, 0.5], geometry)
-    random = np.random.default_rng(1)
-    u, v = random.normal(size=(2, *g.vertex_shape))
-    if geometry == "cylindrical":
-        u[:, g.g] = 0.0
-    for j in range(g.g, g.g + g.nz):
-        for i in range(g.g, g.g + g.nr):
-            columns = g.face_r, g.hoop, g.az_in, g.az_out, g.mid_r
-            mine = velocity_gradient(i, u[j], u[j + 1], v[j], v[j + 1], *columns, g.dz[j])
-            np.testing.assert_allclose(mine, quadrature(g, j, i, u, v), rtol=1e-12, atol=1e-15)
-
-
-@pytest.mark.parametrize("geometry", GEOMETRIES)
-def test_linear_velocity_has_a_uniform_gradient(geometry):
-    g = Grid([0.0, 0.1, 0.25, 0.3], [0.0, 0.2, 0.5], geometry)
-    r, z = np.meshgrid(g.r, g.z)
-    u, v = 3.0 * r, 0.7 * z + 0.2 * r
-    for i in range(g.g, g.g + g.nr):
-        mine = velocity_gradient(i, u[2], u[3], v[2], v[3], g.face_r, g.hoop, g.az_in, g.az_out, g.mid_r, g.dz[2])
-        expected = np.array([3.0, 3.0 if g.cylindrical else 0.0, 0.7, 0.0, 0.2]) * g.volume[2, i]
-        np.testing.assert_allclose(mine, expected, rtol=1e-12, atol=1e-16)
 
 
 @pytest.mark.parametrize("geometry", GEOMETRIES)

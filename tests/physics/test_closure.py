@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from hydro2d.mesh.fields import BODY_FIELDS, RHO
+from hydro2d.mesh.fields import INTERNAL, RHO
 from hydro2d.physics import closure
 
 split_volume = closure.split_volume.py_func
@@ -63,7 +63,7 @@ def test_without_void_the_bodies_take_all_of_it(void, change):
 def met(bodies, densities=None):
     """(pressure, density) of cell (1, 2) with these bodies (share, pressure, modulus), nothing around it."""
     vof, pm, km = np.full((3, len(bodies), 2, 3), np.nan)
-    q = np.full((BODY_FIELDS, len(bodies), 2, 3), np.nan)
+    q = np.full((INTERNAL, len(bodies), 2, 3), np.nan)
     vof[:, 1, 2], pm[:, 1, 2], km[:, 1, 2] = np.transpose(bodies)
     q[RHO, :, 1, 2] = 1.0 if densities is None else densities
     return common_pressure(1, 2, vof, q, pm, km)

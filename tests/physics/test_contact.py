@@ -96,7 +96,7 @@ def edges_of(g):
 
 def share_of(g, group, j, i, hard_cells):
     hard, soft, volume = filled(g, hard_cells)
-    return dual_share(group, j, i, edges_of(g), volume, g.cm_in, g.cm_out, hard, soft)
+    return dual_share(group, j, i, edges_of(g), volume, g.metrics, hard, soft)
 
 
 @pytest.mark.parametrize("geometry", GEOMETRIES)
@@ -131,7 +131,7 @@ def test_parts_of_cells_count_by_their_share():
     g = small("planar")
     hard, soft = np.full((2, *g.shape), np.nan)
     hard[g.inside], soft[g.inside] = 0.3, 0.2
-    arguments = 3, 3, edges_of(g), g.volume, g.cm_in, g.cm_out, hard, soft
+    arguments = 3, 3, edges_of(g), g.volume, g.metrics, hard, soft
     assert dual_share(HARD, *arguments) == pytest.approx(0.3)
     assert dual_share(SOFT, *arguments) == pytest.approx(0.2)
 
@@ -227,7 +227,7 @@ def test_through_a_z_face_flows_the_velocity_times_the_area_of_the_ring(group, i
     v[group] = 4.0 + 7.0 * g.r
     r1, r2 = g.r[i], g.r[i + 1]
     expected = 4.0 * (r2**2 - r1**2) / 2.0 + 7.0 * (r2**3 - r1**3) / 3.0
-    assert face_flow_z(3, i, group, g.az_in, g.az_out, np.full_like(v, np.nan), v) == pytest.approx(expected, rel=1e-12)
+    assert face_flow_z(3, i, group, g.metrics, np.full_like(v, np.nan), v) == pytest.approx(expected, rel=1e-12)
 
 
 @settings(deadline=None)
@@ -239,7 +239,7 @@ def test_through_a_planar_z_face_flows_what_each_group_carries_through_its_part(
     hard, soft = (inner + (outer - inner) * ALONG for inner, outer in ((hard_in, hard_out), (soft_in, soft_out)))
     expected = g.dr[i] * np.mean(np.where(first + (last - first) * ALONG >= 0.0, hard, soft))
     weights = at_face(*wetted(first, last), g.vertex_shape, (3, i))
-    assert face_flow_z(3, i, BOTH, g.az_in, g.az_out, weights, v) == pytest.approx(expected, abs=0.1)
+    assert face_flow_z(3, i, BOTH, g.metrics, weights, v) == pytest.approx(expected, abs=0.1)
 
 
 def test_each_end_of_a_face_has_its_own_weight():
@@ -247,7 +247,7 @@ def test_each_end_of_a_face_has_its_own_weight():
     g = small("cylindrical")
     v = ends((np.nan, 6.0), (2.0, np.nan), g.vertex_shape, (3, 3), (0, 1))
     v = np.where(np.isnan(v), 1e9, v)
-    found = face_flow_z(3, 3, BOTH, g.az_in, g.az_out, at_face(1.0, 0.0, g.vertex_shape, (3, 3)), v)
+    found = face_flow_z(3, 3, BOTH, g.metrics, at_face(1.0, 0.0, g.vertex_shape, (3, 3)), v)
     # 6 at r = 0.1 down to 0 at 0.25 and 0 up to 2: the integrals of the linear functions over r dr
     inner = 6.0 * np.mean((1.0 - ALONG) * (0.1 + 0.15 * ALONG)) * 0.15
     outer = 2.0 * np.mean(ALONG * (0.1 + 0.15 * ALONG)) * 0.15
@@ -258,7 +258,7 @@ def test_each_end_of_a_face_has_its_own_weight():
 
 
 def rate(g, j, i, group, wet_r, wet_z, u, v):
-    return volume_rate(j, i, group, g.face_r, g.az_in, g.az_out, g.dz[j], wet_r, wet_z, u, v)
+    return volume_rate(j, i, group, g.metrics, g.dz[j], wet_r, wet_z, u, v)
 
 
 def velocities(g, seed):

@@ -29,6 +29,7 @@ share_in_strip = interfaces.share_in_strip.py_func
 COMPONENT = st.floats(0.01, 0.99)
 SIGN = st.sampled_from([-1.0, 1.0])
 UNIT = st.floats(0.0, 1.0)
+WIDTH = st.floats(1e-9, 1.0 - 1e-9)  # a strip without width is never asked for
 
 
 def cut(polygon, n1, n2, level):
@@ -137,6 +138,40 @@ def test_a_strip_holds_the_polygon_that_it_cuts_out(nx, side, up, place, width, 
     strip = block(1.0 - width, 1.0) if high else block(0.0, width)
     part = cut(strip, nx, ny, level)[0]
     assert strip_share(nx, ny, fraction, width, high) == pytest.approx(area(part) if part else 0.0, abs=1e-12)
+
+
+def cancellation(m1, m2):
+    """Accuracy of an area: differences of squares over the smaller component; below 1e-7 the line is level."""
+    return 2e-15 + min(1e-7, 1e-15 / max(min(abs(m1), abs(m2)), 1e-300))
+
+
+@settings(deadline=None)
+@given(st.floats(-1.0, 1.0), st.booleans(), UNIT, WIDTH)
+def test_strips_add_up_to_the_cell(nx, up, fraction, width):
+    ny = (1.0 - abs(nx)) * (1.0 if up else -1.0)
+    low = strip_share(nx, ny, fraction, width, False)
+    high = strip_share(nx, ny, fraction, 1.0 - width, True)
+    small = cancellation(nx, ny)
+    assert low + high == pytest.approx(fraction, abs=2.0 * small)
+    assert -small <= low <= width + small
+    assert -small <= high <= 1.0 - width + small
+
+
+@settings(deadline=None)
+@given(st.floats(-1.0, 1.0), UNIT, WIDTH)
+def test_mirrored_strips_are_the_same_bits(nx, fraction, width):
+    ny = 1.0 - abs(nx)
+    high = strip_share(nx, ny, fraction, width, True)
+    if nx != 0.0:
+        assert strip_share(-nx, ny, fraction, width, False) == high
+    assert strip_share(nx, -ny, fraction, width, True) == high
+
+
+def test_a_strip_of_a_level_interface():
+    assert strip_share(1.0, 0.0, 0.7, 0.25, True) == 0.0
+    assert strip_share(1.0, 0.0, 0.7, 0.25, False) == pytest.approx(0.25, abs=1e-15)
+    assert strip_share(-1.0, 0.0, 0.7, 0.4, False) == pytest.approx(0.1, abs=1e-15)
+    assert strip_share(0.0, 1.0, 0.7, 0.25, True) == pytest.approx(0.175, abs=1e-15)
 
 
 @pytest.mark.parametrize("high", [False, True])

@@ -28,9 +28,9 @@ OURS = ("hydro2d", "eos", "strength")
 NARROW = {
     "eos": ("eos", "hydro2d.parameters", "hydro2d.jit"),
     "strength": ("strength", "hydro2d.parameters", "hydro2d.jit", "hydro2d.mesh.fields"),
-    "hydro2d.physics": ("hydro2d.physics", "hydro2d.jit", "hydro2d.mesh.fields", "eos", "strength"),
-    "hydro2d.kernels": ("hydro2d.kernels", "hydro2d.physics", "hydro2d.jit", "hydro2d.mesh.fields", "hydro2d.mesh.grid", "eos",
-                        "strength"),
+    "hydro2d.physics": ("hydro2d.physics", "hydro2d.jit", "hydro2d.mesh.fields", "hydro2d.mesh.grid", "eos", "strength"),
+    "hydro2d.kernels": ("hydro2d.kernels", "hydro2d.physics", "hydro2d.jit", "hydro2d.mesh.fields", "hydro2d.mesh.grid",
+                        "hydro2d.materials.rows", "eos", "strength"),
     "hydro2d.penetration": ("hydro2d.penetration", "hydro2d.units"),
 }
 

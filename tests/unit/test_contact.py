@@ -86,7 +86,6 @@ def centre(simulation, cell):
 def test_method():
     d = deck.loads(TEXT, ['sliding.hard=["backing"]'])
     method = Method.from_deck(d, deck.slots(d), deck.sliding_widths(d), deck.yield_factor(d))
-    assert method.contact
     assert method.group.dtype == np.int64
     assert method.group.tolist() == [0, 0, 1]
     assert method.yield_factor.tolist() == [1.0, 1.0, 1.25]
@@ -99,7 +98,6 @@ def test_method():
 def test_method_of_a_slip_layer():
     d = deck.loads(TEXT, ["sliding.method=slip-layer", "sliding.shear=shear"])
     method = Method.from_deck(d, deck.slots(d), deck.sliding_widths(d), deck.yield_factor(d))
-    assert not method.contact
     assert method.group.tolist() == [0, 0, 0]
     assert method.yield_factor.tolist() == [1.25, 1.0, 1.0]
     assert method.hard.tolist() == [True, False, False]

@@ -42,6 +42,26 @@ def test_only_a_run_that_needs_them_has_rows_for_internal_variables():
     assert State(grid, 2, None, [(), own]).q.shape[0] == fields.INTERNAL + 1
 
 
+@pytest.mark.parametrize("groups", [1, 2])
+def test_every_array_of_the_state_is_in_a_table(groups):
+    state = State(Grid(np.linspace(0.0, 1.0, 4), np.linspace(0.0, 1.0, 5)), 2, [0, groups - 1])
+    tables = [*fields.FIELDS, *fields.WORK, *(fields.CONTACT_WORK if groups == 2 else ())]
+    symbols = [entry.symbol for entry in tables]
+    assert len(set(symbols)) == len(symbols)
+    arrays = {name for name, value in vars(state).items() if isinstance(value, np.ndarray)}
+    assert arrays - set(symbols) == {"group", "rules", "q", "velocity", "velocity0", "span", "reach"}
+    assert set(symbols) <= arrays
+
+
+def test_axes_of_work_are_lengths():
+    state = State(Grid(np.linspace(0.0, 1.0, 4), np.linspace(0.0, 1.0, 71)), 2, [0, 1])
+    assert state.flux.shape == (7, 2, 18, 8)
+    assert state.booked.shape == (6, 75)
+    assert state.edge_dual.shape == (2, 2, 5, 75)
+    assert state.near.shape == (3, 2, 74, 2)
+    assert (state.near.dtype, state.link.dtype, state.fr.dtype) == (np.int64, np.int8, np.float64)
+
+
 @pytest.mark.parametrize("field", fields.FIELDS, ids=lambda field: field.name)
 def test_rows_make_sense(field):
     assert field.centring in ("body", "cell", "vertex")

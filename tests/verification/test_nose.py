@@ -40,9 +40,9 @@ def settled(simulation, disturb: float = 0.0):
     before = s.velocity.copy()
     j0, j1, _, _ = engine.box
     contact_velocities.settle(
-        j0, j1, 1e-9, 0.0, engine.still, g.r, g.z, g.face_r, g.hoop, g.az_in, g.az_out, g.dz, s.cut, s.line, s.shared_count,
-        s.shared, s.contact_normal, np.zeros_like(s.touch), s.link, s.sig_rr, s.sig_zz, s.sig_rz, s.mass, s.u0, s.v0, s.u,
-        s.v, s.light_weights, s.ease, s.taken, s.impulse, s.heat, s.exchange)
+        j0, j1, 1e-9, 0.0, engine.still, g.r, g.z, g.metrics, g.dz, s.cut, s.line, s.shared_count, s.shared, s.contact_normal,
+        np.zeros_like(s.touch), s.link, s.sig_rr, s.sig_zz, s.sig_rz, s.mass, s.u0, s.v0, s.u, s.v, s.light_weights, s.ease,
+        s.taken, s.impulse, s.heat, s.exchange)
     shared = [(j, i) for j in range(j0, j1 + 1) for i in s.shared[j, : s.shared_count[j]]]
     return before, s.velocity.copy(), shared
 
