@@ -34,6 +34,17 @@ def _fraction(value: float) -> float:
     return value
 
 
+def within(low: float, high: float, reason: str, unit: str = "1"):
+    """The type of a number between two bounds, with the reason for them in the message."""
+
+    def check(value: float) -> float:
+        if not low <= value <= high:
+            raise ValueError(f"must lie between {low:g} and {high:g}, is {value:g}: {reason}")
+        return value
+
+    return quantity(unit, check)
+
+
 def quantity(unit: str, check=None):
     """The type of a number in ``unit``, given in SI or as a string with a unit, held in SI."""
     schema: dict[str, Any] = {"type": "number", "x-unit": unit}

@@ -18,6 +18,7 @@ from hydro2d.deck.base import (
     Section,
     Speed,
     Time,
+    within,
 )
 from hydro2d.deck.bodies import AnyBody
 from hydro2d.mesh.edges import words
@@ -90,23 +91,39 @@ class Numerics(Section):
     """How the equations are solved."""
 
     advection: Literal["ke", "momentum", "both"] = Field("ke", description="what the remap of velocities conserves")
-    ke_bound: PositiveNumber = Field(1.05, description="bound of |u| over |momentum/mass| in the ke remap")
-    courant: PositiveNumber = Field(0.5, le=1, description="time step over that of the fastest wave")
+    ke_bound: within(1.0, 1e12, "below 1 a vertex could not keep the velocity of its own momentum") = Field(
+        1.05, description="bound of |u| over |momentum/mass| in the ke remap"
+    )
+    courant: within(1e-3, 0.8, "beyond 0.8 the step is not stable where cells are mixed or viscous") = Field(
+        0.5, description="time step over that of the fastest wave"
+    )
     advective_courant: PositiveNumber = Field(0.4, le=0.5, description="largest share of a cell crossed in one step")
-    max_growth: PositiveNumber = Field(1.1, ge=1, description="largest ratio of successive time steps")
+    max_growth: within(1.0, 2.0, "a step that grows faster overtakes what sets it") = Field(
+        1.1, description="largest ratio of successive time steps"
+    )
     ramp_cycles: int = Field(100, ge=0, description="cycles over which the time step rises from its initial factor")
     initial_dt_factor: Fraction = Field(0.1, gt=0, description="first time step over the stable one")
     dt_min: Time = Field(1e-14, description="a time step below this ends the run as unphysical")
-    viscosity_linear: NotNegative = Field(0.5, description="linear coefficient of the artificial viscosity")
-    viscosity_quadratic: NotNegative = Field(1.3, description="quadratic coefficient of the artificial viscosity")
+    viscosity_linear: within(0.0, 2.0, "a viscosity beyond it is not stable at this time step") = Field(
+        0.5, description="linear coefficient of the artificial viscosity"
+    )
+    viscosity_quadratic: within(0.0, 4.0, "a viscosity beyond it is not stable at this time step") = Field(
+        1.3, description="quadratic coefficient of the artificial viscosity"
+    )
     hourglass: NotNegative = Field(0.05, le=1, description="coefficient of the hourglass filter")
     mixed_cell: Literal["tipton", "uniform"] = Field("tipton", description="how materials share a volume change")
-    relaxation: PositiveNumber = Field(0.25, description="gamma of the pressure relaxation in mixed cells")
+    relaxation: within(1e-6, 1.0, "at 1 the pressures meet within a step, beyond it they overshoot") = Field(
+        0.25, description="gamma of the pressure relaxation in mixed cells"
+    )
     mixed_strength: Literal["volume", "solid", "zero", "max", "material"] = Field(
         "volume", description="strength of a mixed cell: shared by volume, by solids, none, the largest, each its own"
     )
     trace: Fraction = Field(1e-8, lt=0.01, description="volume fractions below this are removed and booked")
     mass_floor: Fraction = Field(1e-6, description="share of a vertex's full mass below which its velocity is limited")
+    clip_limit: Fraction = Field(
+        0.02, description="share of the energy that a clip (removed traces, the bound of ke, the speed limit) may take before "
+        "the run ends as unphysical; a summary is trustworthy up to 0.02, whatever stands here"
+    )
     active_region: bool = Field(True, description="skip cells that no signal has reached")
     interface_order: tuple[str, ...] = Field(
         (), description="nesting of bodies in mixed cells; default: the hard bodies of a contact, then deck order"

@@ -183,6 +183,8 @@ class Results:
         summary, dumps = self.summary, self.dumps
         facts = {"shot": self.deck.get("title", "")}
         facts["run"] = f"{summary['stop_reason']} at {summary['time_s'] * 1e6:.2f} µs" if summary else "has not ended"
+        if summary and not summary.get("trustworthy", True):
+            facts["not trustworthy"] = "; ".join(summary["faults"])
         if summary.get("penetration_depth_m") is not None:
             facts["depth"] = _millimetres(summary["penetration_depth_m"])
             facts["rod"] = f"{_millimetres(summary['rod_length_m'])} long, {summary['regime']}"

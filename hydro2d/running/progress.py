@@ -226,6 +226,7 @@ def result(summary: dict) -> list[str]:
     conserved = summary["conservation"]
     lines = [
         f"{summary['status']}: {summary['stop_reason']}",
+        *(f"NOT TRUSTWORTHY: {fault}" for fault in summary["faults"] if fault not in summary["stop_reason"]),
         f"{summary['cycles']} cycles to {moment(summary['time_s'])} in {duration(summary['wall_s'])}"
         + (f", {summary['ns_per_cell_cycle']:.1f} ns per cell and cycle" if summary["ns_per_cell_cycle"] else ""),
     ]

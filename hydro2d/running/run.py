@@ -42,7 +42,7 @@ PROGRESS = "progress.json"
 OWN_FILES = (DECK, SUMMARY, HISTORY, LOG, PROGRESS, snapshot.NAME, snapshot.PREVIOUS, *SERIES.values())
 
 #: cycles between copies of the state kept in memory as the last good one
-GOOD_EVERY = 500
+GOOD_EVERY = 100
 #: seconds between writes of the history
 FLUSH_SECONDS = 10.0
 #: seconds between writes of progress.json
@@ -209,7 +209,7 @@ class Run:
         from hydro2d.solver.simulation import UnphysicalState
 
         self.report.begin(self)
-        status, reason = "running", self.sim.stop_reason()
+        reason = self.sim.stop_reason()
         self._outputs()
         try:
             while reason is None and not interrupt.reason:
@@ -218,15 +218,14 @@ class Run:
                     compiled.report()
                 self._outputs()
                 reason = self.sim.stop_reason()
+            self.sim.refuse_nonsense()
         except UnphysicalState as error:
             return self._finish("unphysical", f"unphysical state: {error}")
         finally:
             self.team.all()
         if reason is None:
-            status, reason = "interrupted", f"interrupted ({interrupt.reason})"
-        else:
-            status = "done"
-        return self._finish(status, reason)
+            return self._finish("interrupted", f"interrupted ({interrupt.reason})")
+        return self._finish("done", reason)
 
     def _step(self) -> None:
         """One cycle and its wall time; not that of the first, which compiles."""
@@ -323,6 +322,9 @@ class Run:
     def summary(self, status: str, reason: str) -> dict:
         """What summary.json holds."""
         sim, cycles = self.sim, self.stepped - 1
+        faults = sim.faults()
+        if status == "unphysical" and not faults:
+            faults = [reason]
         return {
             "deck": self.deck.name,
             "title": self.deck.title,
@@ -330,6 +332,8 @@ class Run:
             "version": __version__,
             "status": status,
             "stop_reason": reason,
+            "trustworthy": not faults,
+            "faults": faults,
             "time_s": sim.time,
             "cycles": sim.cycle,
             "wall_s": self.wall,

@@ -20,6 +20,9 @@ SINKS = {
     "speed_limit": "vertices with little mass, held to the speed limit",
 }
 
+#: the sinks that are clips: what a limit of the method took from material that is still there
+CLIPS = {name: SINKS[name] for name in ("traces", "ke_bound", "speed_limit")}
+
 #: what a contact passes on within the balance: axial momentum from the hard bodies to the rest, and the heat that it makes
 EXCHANGES = {
     "contact": "the impulse along the normal, and along the tangent, where hard bodies and the rest share a vertex",
@@ -47,12 +50,16 @@ class Exchange:
 
 @dataclass
 class Totals:
-    """Sums over the mesh: mass per body [m], axial momentum, internal and kinetic energy; per radian."""
+    """Sums over the mesh: mass and internal energy per body [m], axial momentum, kinetic energy; per radian."""
 
     mass: np.ndarray
     momentum: float
-    internal: float
+    internal_of: np.ndarray
     kinetic: float
+
+    @property
+    def internal(self) -> float:
+        return float(self.internal_of.sum())
 
     @property
     def energy(self) -> float:
@@ -68,7 +75,7 @@ def totals(state) -> Totals:
         body_totals(*size, m, grid.volume, state.vof, state.rho, state.e, bodies[m])
     vertex_totals(*size, state.mass, state.u, state.v, vertices)
     momentum, kinetic = vertices.tolist()
-    return Totals(mass=bodies[:, 0].copy(), momentum=momentum, internal=float(bodies[:, 1].sum()), kinetic=kinetic)
+    return Totals(mass=bodies[:, 0].copy(), momentum=momentum, internal_of=bodies[:, 1].copy(), kinetic=kinetic)
 
 
 @dataclass
@@ -105,20 +112,31 @@ class Ledger:
         entry.momentum += momentum
         entry.energy += energy
 
-    def balance(self, state) -> dict:
-        """Relative changes that no sink explains, and the sinks; SI, full circumference in cylindrical geometry."""
-        now, around = totals(state), 2 * np.pi if state.grid.cylindrical else 1.0
+    def _unexplained(self, now: Totals) -> tuple[np.ndarray, float, float]:
+        """Relative changes of the mass of every body, of momentum and of energy that no sink explains."""
         lost = {kind: sum(getattr(sink, kind) for sink in self.sinks.values()) for kind in ("mass", "momentum", "energy")}
         scale = {
             "momentum": max((2.0 * self.start.mass.sum() * abs(self.start.energy)) ** 0.5, 1e-300),
             "energy": max(abs(self.start.energy), self.start.kinetic, 1e-300),
         }
         whole = np.maximum(self.start.mass - self.sinks["inflow"].mass, 1e-300)
-        mass = (now.mass + lost["mass"] - self.start.mass) / whole
+        return ((now.mass + lost["mass"] - self.start.mass) / whole,
+                (now.momentum + lost["momentum"] - self.start.momentum) / scale["momentum"],
+                (now.energy + lost["energy"] - self.start.energy) / scale["energy"])
+
+    def unexplained(self, now: Totals) -> dict[str, float]:
+        """The same, of mass the largest, by what they are."""
+        mass, momentum, energy = self._unexplained(now)
+        return {"mass": float(mass[np.argmax(np.abs(mass))]), "axial momentum": momentum, "energy": energy}
+
+    def balance(self, state) -> dict:
+        """Relative changes that no sink explains, and the sinks; SI, full circumference in cylindrical geometry."""
+        now, around = totals(state), 2 * np.pi if state.grid.cylindrical else 1.0
+        mass, momentum, energy = self._unexplained(now)
         return {
             "mass": mass,
-            "axial_momentum": (now.momentum + lost["momentum"] - self.start.momentum) / scale["momentum"],
-            "total_energy": (now.energy + lost["energy"] - self.start.energy) / scale["energy"],
+            "axial_momentum": momentum,
+            "total_energy": energy,
             "internal_energy_J": now.internal * around,
             "kinetic_energy_J": now.kinetic * around,
             "start_energy_J": self.start.energy * around,
@@ -139,7 +157,7 @@ class Ledger:
     def saved(self) -> dict:
         """What a restart file keeps."""
         return {
-            "start": {**vars(self.start), "mass": self.start.mass.tolist()},
+            "start": {**vars(self.start), "mass": self.start.mass.tolist(), "internal_of": self.start.internal_of.tolist()},
             "sinks": {name: {**vars(sink), "mass": sink.mass.tolist()} for name, sink in self.sinks.items()},
             "exchanges": {name: vars(entry) for name, entry in self.exchanges.items()},
         }
@@ -147,7 +165,8 @@ class Ledger:
     @classmethod
     def resume(cls, saved: dict) -> Ledger:
         """The ledger that `saved` described."""
-        start = Totals(**{**saved["start"], "mass": np.array(saved["start"]["mass"])})
+        arrays = {name: np.array(saved["start"][name]) for name in ("mass", "internal_of")}
+        start = Totals(**{**saved["start"], **arrays})
         sinks = {name: Sink(**{**entry, "mass": np.array(entry["mass"])}) for name, entry in saved["sinks"].items()}
         exchanges = {name: Exchange(**entry) for name, entry in saved["exchanges"].items()}
         return cls(start, sinks, exchanges)

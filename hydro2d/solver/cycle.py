@@ -304,8 +304,9 @@ class Cycle:
         if self.dt > 0.0 and dt > method.max_growth * self.dt:
             dt, self.cause = method.max_growth * self.dt, "growth"
         if not method.dt_min < dt < 1e300:
+            m = int(np.argmax(s.vof[:, j, i]))
             raise UnphysicalState(f"cycle {self.number}, time {self.time:.6g} s: time step {dt:.3g} s, below dt_min = "
-                                  f"{method.dt_min:.3g} s, set by {self.cause}")
+                                  f'{method.dt_min:.3g} s, set by {self.cause}, in body "{self.table.names[m]}"')
         self.dt = dt
 
     def stress(self) -> None:

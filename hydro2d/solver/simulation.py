@@ -17,10 +17,11 @@ from hydro2d.solver.cycle import Cycle, UnphysicalState
 from hydro2d.solver.following import FollowingMesh, StandingMesh, UndisturbedSpace
 from hydro2d.solver.method import Method
 from hydro2d.solver.penetrator import Penetrator
+from hydro2d.solver.sanity import TRUSTED, faults
 
 __all__ = ["Simulation", "UnphysicalState"]
 
-#: cycles between looks at what stop.speed_below, stop.rebound and stop.perforation watch
+#: cycles between looks at what stop.speed_below, stop.rebound and stop.perforation watch, and at whether the state makes sense
 WATCH_EVERY = 10
 
 
@@ -124,6 +125,8 @@ class Simulation:
     def step(self) -> None:
         """One cycle. Raises UnphysicalState."""
         self.engine.advance()
+        if self.cycle % WATCH_EVERY == 0:
+            self.refuse_nonsense()
         if len(self.tracers):
             self._move_tracers()
         if self.penetrator:
@@ -186,6 +189,15 @@ class Simulation:
         result = self.ledger.balance(self.state)
         result["mass"] = dict(zip(self.table.names, (float(x) for x in result["mass"]), strict=True))
         return result
+
+    def faults(self, share: float = TRUSTED) -> list[str]:
+        """Why the state is not to be trusted, see `sanity.faults`; empty where there is no reason."""
+        return faults(self.state, self.ledger, self.table.names, share)
+
+    def refuse_nonsense(self) -> None:
+        """Raises UnphysicalState with the first fault of the state, if it has any."""
+        if found := self.faults(self.deck.numerics.clip_limit):
+            raise UnphysicalState(f"cycle {self.cycle}, time {self.time:.6g} s: {found[0]}")
 
     # ------------------------------------------------------------------------------------------------ restart
 

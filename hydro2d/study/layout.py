@@ -285,7 +285,11 @@ def _read_state(place: Path, deck_sha256: str | None) -> dict:
         return {"status": WAITING, "message": "its directory holds a run of another deck"}
     if summary:
         status = str(summary.get("status", INTERRUPTED))
-        return {"status": status, "message": "" if status == DONE else str(summary.get("stop_reason", "")), "summary": summary}
+        why = str(summary.get("stop_reason", ""))
+        if status == DONE:
+            faults = "; ".join(str(fault) for fault in summary.get("faults", ()))
+            why = "" if summary.get("trustworthy", True) else f"not trustworthy: {faults}"
+        return {"status": status, "message": why, "summary": summary}
     if any((place / name).is_file() for name in (snapshot.NAME, snapshot.PREVIOUS)):
         return {"status": INTERRUPTED, "message": "its process ended; the restart file is there"}
     if text:

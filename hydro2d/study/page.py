@@ -74,7 +74,7 @@ def _cells(row: Row, columns: Sequence[Column], number: int) -> Html:
     """One row of a table; the name of the case leads to where it comes from."""
     name = element("th", element("a", row["case"], href=f"#case-{number}"), scope="row")
     cells = [_cell(row, column) for column in columns]
-    return element("tr", name, cells, class_=None if row["status"] == "done" else "unfinished")
+    return element("tr", name, cells, class_=None if row["status"] == "done" and not row["message"] else "unfinished")
 
 
 def _cell(row: Row, column: Column) -> Html:

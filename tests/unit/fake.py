@@ -108,6 +108,12 @@ class Simulation:
             "rod_max_radius_m": RADIUS, "regime": "rigid" if self.time < STOP / 2 else "deforming",
         }  # fmt: skip
 
+    def faults(self, share: float = 0.02) -> list[str]:
+        return []
+
+    def refuse_nonsense(self) -> None:
+        pass
+
     def conservation(self) -> dict:
         sinks = {"outflow": {"mass_kg": 0.0, "momentum_N_s": 0.0, "energy_J": 1e-3 * self.time}}
         mass = {ROD: 1e-16, PLATE: -2e-16}

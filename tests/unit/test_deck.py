@@ -123,7 +123,7 @@ def test_a_deck_does_not_change():
         ('size = "0.5 mm"', "cells = 2000000000", 8, ["less than or equal to 1000000"]),
         (", cells_across = 8", "", 5, ["across and cells_across go together"]),
         ('across = "rod"', 'across = "plate"', 5, ['"plate" is not a body with a radius']),
-        ("[stop]", "[numerics]\ncourant = 1.5\n[stop]", 29, ["courant: should be less than or equal to 1, is 1.5"]),
+        ("[stop]", "[numerics]\ncourant = 1.5\n[stop]", 29, ["courant: must lie between 0.001 and 0.8, is 1.5: "]),
         ("[stop]", "[numerics]\ncourant = nan\n[stop]", 29, ["nan is not finite"]),
         ("[stop]", '[numerics]\ninterface_order = ["rod"]\n[stop]', 29, ["must name every body once: rod, plate"]),
         ("[stop]", '[failure]\ndamage = "yes"\n[stop]', 29, ['unknown value "yes"', "material, none"]),
