@@ -13,6 +13,21 @@ class UsageError(Exception):
     """Arguments that do not go together; the message is for the user."""
 
 
+#: no machine gains by more threads, and thousands of them end in a crash
+MOST = 1024
+
+
+def _count(_type, tokens) -> int:
+    """A whole number of threads or workers."""
+    text = tokens[0].value
+    if not text.isdecimal() or not 1 <= int(text) <= MOST:
+        raise UsageError(f"{tokens[0].keyword} {text}: a whole number from 1 to {MOST} is needed")
+    return int(text)
+
+
+Count = Annotated[int, Parameter(converter=_count)]
+
+
 def quantity(text: str, unit: str, option: str) -> float:
     """A number in SI or with a unit."""
     from hydro2d import units

@@ -11,19 +11,21 @@ import cyclopts
 from cyclopts import App, Parameter
 
 from hydro2d import __version__
-from hydro2d.cli.base import Overrides, UsageError, quantity
+from hydro2d.cli.base import Count, Overrides, UsageError, quantity
 from hydro2d.cli.model import model
 from hydro2d.cli.report import report
 from hydro2d.cli.study import sweep, transition
+from hydro2d.running.interrupt import STATUS, Interrupt, lose_output, signals
 
-WRONG_INPUT = 2
+WRONG_INPUT, REFUSED = 2, 4
 
 app = App(
     name="hydro2d",
     version=__version__,
     help="A two-dimensional axisymmetric Eulerian hydrocode for rod-into-plate impact.",
     help_format="plaintext",
-    help_epilogue="Exit status: 0 done, 2 deck or arguments wrong, 3 unphysical state or failed cases, 130/143 interrupted.",
+    help_epilogue="Exit status: 0 done, 2 deck or arguments wrong, 3 unphysical state or failed cases, 4 the machine "
+    "refuses (disk, memory, rights), 129/130/141/143 ended by SIGHUP, SIGINT, a closed pipe, SIGTERM.",
 )
 
 app.command(model)
@@ -55,8 +57,6 @@ def _set_threads(threads: int | None) -> None:
     """Fixes the number of threads, best before numba is imported, which reads the largest number once."""
     if threads is None:
         return
-    if threads < 1:
-        raise UsageError(f"--threads {threads}: at least 1 is needed")
     if "numba" not in sys.modules:
         os.environ["NUMBA_NUM_THREADS"] = str(threads)
         return
@@ -79,7 +79,7 @@ def run(
     *,
     out: Path | None = None,
     set_: Overrides = None,
-    threads: int | None = None,
+    threads: Count | None = None,
     restart: bool = False,
     overwrite: bool = False,
     quiet: bool = False,
@@ -109,15 +109,18 @@ def run(
     if restart and overwrite:
         raise UsageError("--restart continues a run and --overwrite removes it: give one of them")
     _set_threads(threads)
-    from hydro2d.running import run as runs
+    interrupt = Interrupt()
+    with signals(interrupt):  # from here on, through all that is imported
+        from hydro2d.running import run as runs
 
-    resolved = _load(deck, set_)
-    return runs.exit_status(runs.run(resolved, out, restart=restart, overwrite=overwrite, quiet=quiet))
+        resolved = _load(deck, set_)
+        found = runs.run(resolved, out, restart=restart, overwrite=overwrite, quiet=quiet, interrupt=interrupt)
+    return runs.exit_status(found)
 
 
 @app.command
 def check(
-    deck: Path, *, set_: Overrides = None, threads: int | None = None, picture: Path | None = None,
+    deck: Path, *, set_: Overrides = None, threads: Count | None = None, picture: Path | None = None,
 ) -> int:
     """Validates a deck and shows what it amounts to: mesh, masses, cells across the rod, cost and memory.
 
@@ -262,7 +265,7 @@ def export(
 
 
 @app.command
-def bench(*, json: Path | None = None, shot: bool = False, threads: int | None = None) -> int:
+def bench(*, json: Path | None = None, shot: bool = False, threads: Count | None = None) -> int:
     """Time per cell and cycle, phase by phase, beside a triad measured in the same run.
 
     Example: hydro2d bench --json bench.json
@@ -302,17 +305,30 @@ def main(arguments: list[str] | None = None) -> None:
 
 
 def call(arguments: list[str]) -> int:
-    """Runs the command line and returns its status."""
+    """Runs the command line and returns its status; what goes wrong for the user to mend is one message."""
+    for stream in (sys.stdout, sys.stderr):
+        if hasattr(stream, "reconfigure"):
+            stream.reconfigure(errors="replace")  # a terminal without UTF-8 gets question marks, not a traceback
     try:
         status = app(arguments, exit_on_error=False, print_error=False, result_action="return_value")
+        sys.stdout.flush()
+        return status if isinstance(status, int) else 0
     except cyclopts.CycloptsError as error:
-        print(f"hydro2d: {error}", file=sys.stderr)
-        return WRONG_INPUT
+        return _told(error, WRONG_INPUT)
     except KeyboardInterrupt:
-        return 130
+        return STATUS["SIGINT"]
     except BrokenPipeError:
-        return 0
+        lose_output()
+        return STATUS["SIGPIPE"]
     except _user_errors() as error:
-        print(f"hydro2d: {error}", file=sys.stderr)
-        return WRONG_INPUT
-    return status if isinstance(status, int) else 0
+        return _told(error, WRONG_INPUT)
+    except MemoryError as error:
+        return _told(f"not enough memory{f': {error}' if str(error) else ''}", REFUSED)
+    except OSError as error:
+        where = f": {error.filename}" if error.filename is not None else ""
+        return _told(f"{error.strerror or error}{where}", REFUSED)
+
+
+def _told(error: object, status: int) -> int:
+    print(f"hydro2d: {error}", file=sys.stderr)
+    return status

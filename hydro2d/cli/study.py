@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
-from hydro2d.cli.base import Overrides, UsageError
+from hydro2d.cli.base import Count, Overrides, UsageError
 
 
 def sweep(
@@ -13,8 +13,8 @@ def sweep(
     *,
     out: Path | None = None,
     set_: Overrides = None,
-    workers: int | None = None,
-    threads: int = 1,
+    workers: Count | None = None,
+    threads: Count = 1,
     scheduler: str | None = None,
     slurm: Path | None = None,
     resume: bool = False,
@@ -78,8 +78,8 @@ def transition(
     *,
     out: Path | None = None,
     set_: Overrides = None,
-    workers: int | None = None,
-    threads: int = 1,
+    workers: Count | None = None,
+    threads: Count = 1,
     scheduler: str | None = None,
     slurm: Path | None = None,
     resume: bool = False,
@@ -142,7 +142,7 @@ def transition(
     )
 
 
-def _workers(most: int, workers: int | None, threads: int, scheduler: str | None, slurm: Path | None):
+def _workers(most: int, workers: Count | None, threads: int, scheduler: str | None, slurm: Path | None):
     """Gives a dask client of the workers that the arguments ask for, at most so many on this machine."""
     from hydro2d.study import cluster
 
@@ -158,7 +158,7 @@ def default_workers(threads: int) -> int:
     return max((os.cpu_count() or 1) // threads, 1)
 
 
-def _fits(workers: int | None, threads: int, scheduler: str | None, slurm: Path | None) -> None:
+def _fits(workers: Count | None, threads: int, scheduler: str | None, slurm: Path | None) -> None:
     for name, value in (("--workers", workers), ("--threads", threads)):
         if value is not None and value < 1:
             raise UsageError(f"{name} {value}: at least 1 is needed")

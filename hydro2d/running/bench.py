@@ -25,6 +25,7 @@ from hydro2d.deck import deck as decks
 from hydro2d.kernels.triad import triad
 from hydro2d.running import progress, provenance, run
 from hydro2d.running.compilation import announced
+from hydro2d.running.interrupt import Interrupt
 from hydro2d.solver.simulation import Simulation
 
 DECK = "problems/cth_nose_shape/hemi_5083_1086.toml"
@@ -227,7 +228,7 @@ def measure_shot(bandwidth: Bandwidth, overrides: tuple[str, ...] = ()) -> dict:
     before = bandwidth()
     with tempfile.TemporaryDirectory() as folder, progress.reporter(Path(folder) / run.LOG, quiet=True) as report:
         shot = _Shot(decks.load(DECK, overrides), Path(folder), report)
-        summary = shot.execute(run.Interrupt())
+        summary = shot.execute(Interrupt())
         seconds = time.perf_counter() - shot.began
     phases = {name: spent for name, spent in _kernel_seconds().items() if name not in OF_OUTPUTS} | shot.beside
     case = _case(WHOLE_SHOT, summary["cells"], summary["cycles"] - 1, seconds, phases, 0.5 * (before + bandwidth()))

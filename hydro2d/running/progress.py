@@ -10,6 +10,8 @@ from contextlib import contextmanager
 from datetime import datetime
 from pathlib import Path
 
+from hydro2d.running.interrupt import lose_output
+
 #: seconds between lines, and between refreshes of the table
 LINE_SECONDS, TABLE_SECONDS = 5.0, 0.5
 #: seconds that the pace is measured over
@@ -120,8 +122,8 @@ def values(run, left: Clock) -> dict[str, str]:
 class Report:
     """Writes the log and, unless quiet, plain lines."""
 
-    def __init__(self, log, quiet: bool):
-        self._log, self._quiet = log, quiet
+    def __init__(self, log, quiet: bool, gone: Callable[[], None] = lambda: None):
+        self._log, self._quiet, self._gone = log, quiet, gone
         self._last = 0.0
 
     def line(self, text: str) -> None:
@@ -129,7 +131,12 @@ class Report:
         self._log.write(f"{datetime.now().isoformat(timespec='seconds')}  {text}\n")
         self._log.flush()
         if not self._quiet:
-            self.show(text)
+            try:
+                self.show(text)
+            except BrokenPipeError:
+                lose_output()
+                self._quiet = True
+                self._gone()
 
     def show(self, text: str) -> None:
         print(text, flush=True)
@@ -176,10 +183,10 @@ class Report:
 class Live(Report):
     """The same on a terminal: a bar and a table that are redrawn in place."""
 
-    def __init__(self, log, quiet: bool):
+    def __init__(self, log, quiet: bool, gone: Callable[[], None] = lambda: None):
         from rich.live import Live as RichLive
 
-        super().__init__(log, quiet)
+        super().__init__(log, quiet, gone)
         self._live = RichLive(refresh_per_second=4, transient=True)
         self._drawn = 0.0
 
@@ -262,11 +269,11 @@ def _rod(summary: dict) -> list[str]:
 
 
 @contextmanager
-def reporter(log: Path, quiet: bool) -> Iterator[Report]:
-    """The report that suits the output; appends to the log."""
+def reporter(log: Path, quiet: bool, gone: Callable[[], None] = lambda: None) -> Iterator[Report]:
+    """The report that suits the output; appends to the log. ``gone`` is called if nobody reads the output any more."""
     with open(log, "a", encoding="utf-8") as file:
         kind = Live if not quiet and sys.stdout.isatty() else Report
-        report = kind(file, quiet)
+        report = kind(file, quiet, gone)
         try:
             yield report
         except Exception as error:

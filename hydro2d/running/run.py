@@ -17,12 +17,9 @@ from __future__ import annotations
 import hashlib
 import math
 import os
-import signal
-import threading
 import time as clock
 import tomllib
-from contextlib import contextmanager
-from dataclasses import dataclass
+from contextlib import suppress
 from pathlib import Path
 
 import numpy as np
@@ -33,7 +30,9 @@ from hydro2d.files import locked, write_json, write_text
 from hydro2d.output import derived, snapshot
 from hydro2d.output.history import History
 from hydro2d.output.vtk import FOLDER, SERIES, Series
+from hydro2d.running import interrupt as interrupts
 from hydro2d.running import provenance
+from hydro2d.running.interrupt import Interrupt, signals
 from hydro2d.running.progress import Clock, reporter
 from hydro2d.running.team import Team
 
@@ -122,38 +121,6 @@ def check_same_deck(now: str, before: str) -> None:
         )
 
 
-@dataclass
-class Interrupt:
-    """Set by a signal, or by a program that runs a case and wants it to stop: the run ends after the cycle."""
-
-    reason: str = ""
-
-    def __call__(self, reason: str) -> None:
-        self.reason = reason
-
-
-@contextmanager
-def signals(interrupt: Interrupt):
-    """SIGINT and SIGTERM set the interrupt; a second one does what it did before. Only the main thread gets signals."""
-    if threading.current_thread() is not threading.main_thread():
-        yield
-        return
-    before = {}
-
-    def handle(number, _frame):
-        interrupt(signal.Signals(number).name)
-        for each, handler in before.items():
-            signal.signal(each, handler)
-
-    for number in (signal.SIGINT, signal.SIGTERM):
-        before[number] = signal.signal(number, handle)
-    try:
-        yield
-    finally:
-        for number, handler in before.items():
-            signal.signal(number, handler)
-
-
 class Run:
     """One run in one directory.
 
@@ -221,6 +188,12 @@ class Run:
             self.sim.refuse_nonsense()
         except UnphysicalState as error:
             return self._finish("unphysical", f"unphysical state: {error}")
+        except OSError:  # in an output: the state is whole
+            self._save_if_possible(self._snapshot())
+            raise
+        except MemoryError:
+            self._save_if_possible(self.good)
+            raise
         finally:
             self.team.all()
         if reason is None:
@@ -296,6 +269,12 @@ class Run:
         self.history.write()
         snapshot.write(self.directory / snapshot.NAME, state)
         self.flushed = self.saved_at = clock.perf_counter()
+
+    def _save_if_possible(self, state: snapshot.Snapshot | None) -> None:
+        """Writes a restart file on the way out of an error; if that fails too, the one before stays."""
+        with suppress(OSError, MemoryError):
+            if state is not None:
+                self._save(state)
 
     def _finish(self, status: str, reason: str) -> dict:
         """The last outputs. A restart file never counts the extra row and dump that are written after the end."""
@@ -401,7 +380,7 @@ def run(deck, directory: Path | None = None, *, restart=False, overwrite=False, 
         if not restart:
             clear(directory)
         with (
-            reporter(directory / LOG, quiet=quiet) as report,
+            reporter(directory / LOG, quiet=quiet, gone=lambda: interrupt("SIGPIPE")) as report,
             signals(interrupt),
             announced(report.line, deck) as compiled,
         ):
@@ -409,7 +388,7 @@ def run(deck, directory: Path | None = None, *, restart=False, overwrite=False, 
 
 
 def exit_status(summary: dict) -> int:
-    """0 done, 3 unphysical, 130 or 143 after SIGINT or SIGTERM, as shells do."""
+    """0 done, 3 unphysical, after a signal 128 and its number, as shells do."""
     if summary["status"] == "interrupted":
-        return 130 if "SIGINT" in summary["stop_reason"] else 143
+        return interrupts.status(summary["stop_reason"])
     return UNPHYSICAL if summary["status"] == "unphysical" else DONE

@@ -19,6 +19,7 @@ from hydro2d.output.derived import FieldError
 from hydro2d.output.history import HistoryError
 from hydro2d.output.vtk import VtkError
 from hydro2d.running import compilation, run
+from hydro2d.running.interrupt import Interrupt
 from hydro2d.study.layout import DONE, FAILED, FAILED_STATUS, UNPHYSICAL, read_json
 
 #: what is told in one line, without a traceback
@@ -51,7 +52,7 @@ class Outcome:
 
 
 def run_case(directory: str | Path, deck_text: str, *, threads: int = 1, overwrite: bool = False,
-             interrupt: run.Interrupt | None = None) -> Outcome:  # fmt: skip
+             interrupt: Interrupt | None = None) -> Outcome:  # fmt: skip
     """Runs a resolved deck in a directory, or continues it from its restart file, or finds it done.
 
     directory : its parent must exist, so that a machine that does not see the study's disk says so
@@ -83,7 +84,7 @@ def _finished(directory: Path, deck_text: str) -> dict | None:
     return summary if same and summary["status"] in (DONE, UNPHYSICAL) else None
 
 
-def _run(directory: Path, deck_text: str, threads: int, overwrite: bool, interrupt: run.Interrupt | None) -> dict:
+def _run(directory: Path, deck_text: str, threads: int, overwrite: bool, interrupt: Interrupt | None) -> dict:
     if not directory.parent.is_dir():
         raise run.RunError(f"{directory.parent} is not there on {socket.gethostname()}: workers need the study's file system")
     _wait_for_silence(directory, interrupt)
@@ -95,7 +96,7 @@ def _run(directory: Path, deck_text: str, threads: int, overwrite: bool, interru
     return run.run(deck, directory, restart=restart, overwrite=not restart, quiet=True, interrupt=interrupt)
 
 
-def _wait_for_silence(directory: Path, interrupt: run.Interrupt | None) -> None:
+def _wait_for_silence(directory: Path, interrupt: Interrupt | None) -> None:
     """Takes a lock away from a process on another machine that no longer shows progress: its worker is gone.
 
     Waits for that; a process that goes on showing progress keeps its lock, and the run tells so.

@@ -18,8 +18,9 @@ from pathlib import Path
 from hydro2d.deck import deck as decks
 from hydro2d.files import locked, write_json
 from hydro2d.running import compilation
+from hydro2d.running.interrupt import Interrupt, signals, status
 from hydro2d.running.progress import duration
-from hydro2d.running.run import Interrupt, clear, signals
+from hydro2d.running.run import clear
 from hydro2d.study import layout, monitor
 from hydro2d.study.case import Outcome, kernels
 from hydro2d.study.cases import Plan
@@ -270,7 +271,7 @@ def _end(board: monitor.Board, interrupt: Interrupt, seconds: float, spent: floa
     board.line(f"{monitor.counts(cases)}, in {duration(seconds)}; the cases took {spent:.1f} s in their workers")
     if interrupt.reason:
         board.line(f"interrupted ({interrupt.reason}); --resume continues")
-        return 130 if interrupt.reason == "SIGINT" else 143
+        return status(interrupt.reason)
     if any(case.status in (WAITING, INTERRUPTED) for case in cases):
         board.line("--resume continues")
     return ALL_DONE if all(case.status == DONE for case in cases) else SOME_FAILED

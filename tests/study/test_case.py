@@ -12,7 +12,7 @@ import pytest
 from hydro2d.deck import deck as decks
 from hydro2d.output import history, snapshot
 from hydro2d.running import compilation
-from hydro2d.running.run import Interrupt
+from hydro2d.running.interrupt import Interrupt
 from hydro2d.study.case import kernels, run_case
 from tests.unit.test_cli import DECK
 

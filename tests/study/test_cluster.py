@@ -126,8 +126,8 @@ def test_a_wrong_slurm_file(tmp_path, old, new, said):
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
-        (["--workers", "0"], "at least 1"),
-        (["--threads", "0"], "at least 1"),
+        (["--workers", "0"], "a whole number from 1 to 1024"),
+        (["--threads", "0"], "a whole number from 1 to 1024"),
         (["--scheduler", "a", "--slurm", "b"], "one of them"),
         (["--scheduler", "a", "--workers", "2"], "one of them"),
         (["--slurm", "none.toml"], "cannot be read"),

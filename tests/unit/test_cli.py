@@ -110,7 +110,9 @@ def test_unphysical_is_status_3(simulation, deck, tmp_path, capsys):
         (["run"], "requires an argument"),
         (["run", "none.toml"], "no such file"),
         (["run", "{deck}", "--thread", "2"], "--threads"),
-        (["run", "{deck}", "--threads", "0"], "at least 1"),
+        (["run", "{deck}", "--threads", "0"], "a whole number from 1 to 1024"),
+        (["run", "{deck}", "--threads", "2.5"], "a whole number from 1 to 1024"),
+        (["run", "{deck}", "--threads", "100000"], "a whole number from 1 to 1024"),
         (["run", "{deck}", "--set", "numerics.corant=0.5"], 'did you mean "courant"'),
         (["run", "{deck}", "--set", "stop.time=5 mm"], "time"),
         (["run", "{deck}", "--set", 'output.fields=["presure"]'], 'did you mean "pressure"'),
@@ -195,7 +197,7 @@ def test_help_is_light():
     subprocess.run([sys.executable, "-c", textwrap.dedent(code)], check=True, capture_output=True)
 
 
-@pytest.mark.parametrize(("number", "status"), [(signal.SIGTERM, 143), (signal.SIGINT, 130)])
+@pytest.mark.parametrize(("number", "status"), [(signal.SIGTERM, 143), (signal.SIGINT, 130), (signal.SIGHUP, 129)])
 def test_signals_write_a_restart_file(deck, tmp_path, number, status):
     code = """
         import sys, time, types

@@ -1,0 +1,64 @@
+"""What makes a run stop after its cycle: signals, a reader that has gone, a program that wants it to."""
+
+from __future__ import annotations
+
+import os
+import signal
+import sys
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+
+#: exit status of what a signal has ended, as shells have it
+STATUS = {number.name: 128 + number for number in (signal.SIGHUP, signal.SIGINT, signal.SIGPIPE, signal.SIGTERM)}
+#: the signals that end a run after its cycle
+CAUGHT = (signal.SIGHUP, signal.SIGINT, signal.SIGTERM)
+
+
+@dataclass
+class Interrupt:
+    """Set by a signal, or by a program that runs a case and wants it to stop: the run ends after the cycle."""
+
+    reason: str = ""
+
+    def __call__(self, reason: str) -> None:
+        self.reason = self.reason or reason
+
+
+def status(reason: str) -> int:
+    """The exit status for the reason of an interrupt; that of SIGTERM where it was a program's."""
+    return next((number for name, number in STATUS.items() if name in reason), STATUS["SIGTERM"])
+
+
+@contextmanager
+def signals(interrupt: Interrupt) -> Iterator[None]:
+    """SIGINT, SIGTERM and SIGHUP set the interrupt; a second one does what it did before. Only the main thread gets signals.
+
+    A signal that was ignored before, such as SIGHUP under nohup, stays so.
+    """
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    before = {}
+
+    def handle(number, _frame):
+        interrupt(signal.Signals(number).name)
+        for each, handler in before.items():
+            signal.signal(each, handler)
+
+    for number in CAUGHT:
+        if signal.getsignal(number) is not signal.SIG_IGN:
+            before[number] = signal.signal(number, handle)
+    try:
+        yield
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
+
+
+def lose_output() -> None:
+    """Sends what is still printed to nowhere: the reader of the standard output has gone."""
+    nowhere = os.open(os.devnull, os.O_WRONLY)
+    os.dup2(nowhere, sys.stdout.fileno())
+    os.close(nowhere)

@@ -1,0 +1,149 @@
+"""However a command ends, it ends in one line, with a documented status, and with its state saved where there is any."""
+
+import errno
+import json
+import os
+import signal
+import subprocess
+import sys
+import textwrap
+import time
+from pathlib import Path
+
+import pytest
+
+from hydro2d.cli.main import call
+from hydro2d.output import snapshot, vtk
+from hydro2d.running import run as runs
+from tests.unit.test_cli import DECK
+
+ROOT = Path(__file__).parents[2]
+SLOW = textwrap.dedent("""
+    import sys, time, types
+    from tests.unit import fake
+    class Slow(fake.Simulation):
+        def step(self):
+            time.sleep(0.01)
+            super().step()
+    sys.modules["hydro2d.solver.simulation"] = types.SimpleNamespace(Simulation=Slow, UnphysicalState=fake.UnphysicalState)
+    from hydro2d.running import progress
+    progress.LINE_SECONDS = 0.02
+    from hydro2d.cli.main import main
+    main(sys.argv[1:])
+""")
+
+
+@pytest.fixture
+def deck(tmp_path):
+    file = tmp_path / "shot.toml"
+    file.write_text(DECK)
+    return str(file)
+
+
+def child(deck, out, **options):
+    return subprocess.Popen([sys.executable, "-c", SLOW, "run", deck, "--out", str(out)], cwd=ROOT, **options)
+
+
+def test_a_reader_that_goes_away_interrupts_the_run(deck, tmp_path):
+    """As with `| head -3`."""
+    out = tmp_path / "out"
+    process = child(deck, out, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    for _ in range(3):
+        process.stdout.readline()
+    process.stdout.close()
+    assert process.wait(60) == 141
+    assert process.stderr.read() == b""
+    summary = json.loads((out / "summary.json").read_text())
+    assert (summary["status"], summary["stop_reason"]) == ("interrupted", "interrupted (SIGPIPE)")
+    assert snapshot.read(out / "restart.h5").scalars["cycle"] == summary["cycles"]
+
+
+def test_hang_up_is_not_heard_under_nohup(deck, tmp_path):
+    out = tmp_path / "out"
+    process = child(deck, out, stdout=subprocess.DEVNULL, preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN))
+    wait_for(out / "vtk" / "dump_000001.vtr")
+    process.send_signal(signal.SIGHUP)
+    time.sleep(0.3)
+    assert process.poll() is None
+    process.terminate()
+    assert process.wait(60) == 143
+
+
+def wait_for(file: Path) -> None:
+    until = time.monotonic() + 60
+    while not file.exists() and time.monotonic() < until:
+        time.sleep(0.02)
+
+
+@pytest.mark.parametrize("seconds", [0.2, 0.4, 0.7, 1.1])
+def test_no_interrupt_is_swallowed_while_a_run_starts(deck, tmp_path, seconds):
+    process = child(deck, tmp_path / "out", stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    time.sleep(seconds)
+    process.send_signal(signal.SIGINT)
+    assert process.wait(30) in (130, -signal.SIGINT)  # the latter before anything of hydro2d runs
+
+
+@pytest.mark.parametrize("where", ["write_grid", "write_lines"])
+def test_a_full_disk_is_one_line_and_the_state_is_saved(simulation, deck, tmp_path, monkeypatch, capsys, where):
+    calls = []
+
+    def full(path, *_):
+        calls.append(path)
+        if len(calls) == 3:
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), str(path))
+
+    monkeypatch.setattr(vtk, where, full)
+    out = tmp_path / "out"
+    assert call(["run", deck, "--out", str(out), "--quiet"]) == 4
+    assert capsys.readouterr().err == f"hydro2d: No space left on device: {calls[2]}\n"
+    assert snapshot.read(out / "restart.h5").scalars["cycle"] > 0
+    assert not list(out.glob("**/.*"))
+    assert not (out / runs.SUMMARY).exists()
+
+
+def test_a_disk_that_stays_full_leaves_the_restart_file_before(simulation, deck, tmp_path, monkeypatch, capsys):
+    out = tmp_path / "out"
+    simulation.fail_at = 150
+    assert call(["run", deck, "--out", str(out), "--quiet"]) == 3
+    before = snapshot.read(out / "restart.h5").scalars["cycle"]
+    monkeypatch.setattr(snapshot, "write", refuse)
+    assert call(["run", deck, "--out", str(out), "--restart", "--quiet"]) == 4
+    assert "No space left" in capsys.readouterr().err
+    assert snapshot.read(out / "restart.h5").scalars["cycle"] == before == 100
+
+
+def refuse(*_):
+    raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+
+def test_too_little_memory_is_one_line(simulation, deck, tmp_path, monkeypatch, capsys):
+    def step(self):
+        raise MemoryError("Unable to allocate 8 EiB")
+
+    monkeypatch.setattr(simulation, "step", step)
+    assert call(["run", deck, "--out", str(tmp_path / "out"), "--quiet"]) == 4
+    assert capsys.readouterr().err == "hydro2d: not enough memory: Unable to allocate 8 EiB\n"
+
+
+@pytest.mark.parametrize("out", ["/proc/none", "{deck}/out"])
+def test_paths_that_cannot_be_are_one_line(simulation, deck, capsys, out):
+    assert call(["run", deck, "--out", out.format(deck=deck), "--quiet"]) == 4
+    error = capsys.readouterr().err
+    assert error.startswith("hydro2d: ")
+    assert error.count("\n") == 1
+
+
+def test_a_terminal_without_unicode(deck):
+    """The title of a deck may hold anything; where the terminal cannot show it, question marks stand."""
+    environment = {**os.environ, "PYTHONIOENCODING": "ascii", "PYTHONUTF8": "0", "LC_ALL": "C"}
+    command = [sys.executable, "-m", "hydro2d", "check", deck, "--set", 'title="Größe Ω"']
+    done = subprocess.run(command, cwd=ROOT, env=environment, capture_output=True)
+    assert done.returncode == 0, done.stderr
+    assert b"Gr??" in done.stdout or b"Gr?" in done.stdout
+
+
+def test_a_listing_cut_short_says_nothing(tmp_path):
+    command = f"{sys.executable} -m hydro2d info | head -1; exit ${{PIPESTATUS[0]}}"
+    done = subprocess.run(["bash", "-c", command], cwd=ROOT, capture_output=True)
+    assert done.returncode in (0, 141)  # 0 where all of it fitted into the pipe
+    assert done.stderr == b""
