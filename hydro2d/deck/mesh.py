@@ -58,6 +58,8 @@ def _segment(deck: Deck, segment: Segment, start: float, previous: float | None)
         return _graded(segment, start, length, size, previous)
     cells = segment.cells
     if cells is None:
+        if length / size > _LIMIT:
+            raise ValueError(f"would need {length / size:.3g} cells")
         cells = round(length / size)
         if cells < 1 or abs(cells * size - length) > _FIT * size:
             fits = [start + max(1, cells + k) * size for k in (0, 1 if cells * size < length else -1)]

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from hydro2d.mesh import fields
@@ -9,6 +11,32 @@ from hydro2d.mesh.grid import Grid
 
 #: a range (low, high) that holds nothing, so that min and max of ranges need no special case
 EMPTY = (1 << 30, 0)
+
+
+def _lengths(nj: int, ni: int, bodies: int, groups: int, rows: int) -> dict[str, int]:
+    """What the letters of `fields.Work.axes` stand for."""
+    return {"m": bodies, "b": groups, "j": nj, "i": ni, "J": nj + 1, "I": ni + 1, "k": rows, "n": rows - fields.INTERNAL,
+            "B": nj // fields.BLOCK + 1, "L": max(nj, ni) + 1}
+
+
+def _shape(axes: str, lengths: dict[str, int]) -> list[int]:
+    """The shape of an array with axes as in `fields.Work`."""
+    def length(part: str) -> int:
+        number = part.rstrip("mbjiJIknBL")
+        return int(number or 1) * lengths.get(part[len(number):], 1)
+
+    return [sum(length(part) for part in axis.split("+")) for axis in axes.split()]
+
+
+def bytes_needed(nj: int, ni: int, bodies: int, groups: int, internal: int = 0) -> int:
+    """Memory of a State on nj by ni cells, ghosts included, bytes, without taking it; internal : most variables of a body."""
+    lengths = _lengths(nj, ni, bodies, groups, fields.INTERNAL + internal)
+    arrays = [("m j i", float), ("k m j i", float), ("2 b J I", float), ("2 b J I", float)]
+    axes = {"body": "m j i", "cell": "j i", "vertex": "b J I"}
+    apart = {"vof", "u", "v", "u0", "v0", *(field.symbol for field in fields.BODY)}
+    arrays += [(axes[field.centring], float) for field in fields.FIELDS if field.symbol not in apart]
+    arrays += [(work.axes, work.kind) for work in (*fields.WORK, *(fields.CONTACT_WORK if groups > 1 else ()))]
+    return sum(math.prod(_shape(axes, lengths)) * np.dtype(kind).itemsize for axes, kind in arrays)
 
 
 class State:
@@ -33,10 +61,8 @@ class State:
         self.grid, self.bodies = grid, bodies
         self.group = np.zeros(bodies, dtype=np.int64) if group is None else np.asarray(group, dtype=np.int64)
         groups = self.groups = int(self.group.max()) + 1
-        nj, ni = grid.shape
         self.rules = fields.remap_rules(internal or [()] * bodies)
-        self.lengths = {"m": bodies, "b": groups, "j": nj, "i": ni, "J": nj + 1, "I": ni + 1, "k": self.rules.shape[1],
-                        "n": self.rules.shape[1] - fields.INTERNAL, "B": nj // fields.BLOCK + 1, "L": max(nj, ni) + 1}
+        self.lengths = _lengths(*grid.shape, bodies, groups, self.rules.shape[1])
         self.vof, self.q = self._zeros("m j i"), self._zeros("k m j i")
         self.velocity, self.velocity0 = self._zeros("2 b J I"), self._zeros("2 b J I")
         self.u, self.v = self.velocity
@@ -55,11 +81,7 @@ class State:
 
     def _zeros(self, axes: str, kind: type = float) -> np.ndarray:
         """An array of zeros with axes as in `fields.Work`."""
-        return np.zeros([sum(self._length(part) for part in axis.split("+")) for axis in axes.split()], dtype=kind)
-
-    def _length(self, axis: str) -> int:
-        number = axis.rstrip("mbjiJIknBL")
-        return int(number or 1) * self.lengths.get(axis[len(number):], 1)
+        return np.zeros(_shape(axes, self.lengths), dtype=kind)
 
     def empty_spans(self) -> None:
         """No body is in any row."""
@@ -75,7 +97,3 @@ class State:
     def restartable(self) -> dict[str, np.ndarray]:
         """The arrays from which every other one follows."""
         return {"vof": self.vof, "q": self.q, "u": self.u, "v": self.v, "zone": self.zone, "normal": self.normal}
-
-    def nbytes(self) -> int:
-        """Memory of all arrays, bytes."""
-        return sum(array.nbytes for array in vars(self).values() if isinstance(array, np.ndarray) and array.base is None)

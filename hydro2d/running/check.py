@@ -11,10 +11,9 @@ from hydro2d.deck import deck as decks
 from hydro2d.materials import library
 from hydro2d.mesh.edges import EDGES
 from hydro2d.mesh.grid import Grid
-from hydro2d.mesh.state import State
 from hydro2d.output import derived
 from hydro2d.output.vtk import Dump
-from hydro2d.solver import insertion
+from hydro2d.solver import insertion, memory
 
 #: nanoseconds per cell and cycle on one thread, as a first guess; `hydro2d bench` measures the machine
 NANOSECONDS = 250.0
@@ -91,7 +90,8 @@ class Check:
 
 
 def check(deck) -> Check:
-    """Lays a deck out. Raises DeckError for what only shows then."""
+    """Lays a deck out. Raises DeckError for what only shows then, and for a mesh that the machine has not the memory for."""
+    memory.refuse_too_large(deck)
     grid = Grid(*decks.edges(deck), deck.mesh.geometry)
     table = library.resolve(deck)
     start = insertion.initial_state(deck, grid, table)
@@ -103,7 +103,7 @@ def check(deck) -> Check:
     return Check(
         deck=deck, grid=grid, table=table, dump=_dump(grid, table, start),
         masses=dict(zip(table.names, mass.tolist(), strict=True)),
-        memory=State(grid, len(table), decks.body_groups(deck), table.internal).nbytes(), cycles=cycles,
+        memory=memory.needed(deck), cycles=cycles,
         seconds=cycles * grid.cells * NANOSECONDS * 1e-9, warnings=empty + decks.warnings(deck),
     )  # fmt: skip
 

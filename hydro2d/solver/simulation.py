@@ -15,6 +15,7 @@ from hydro2d.solver.audit import Ledger
 from hydro2d.solver.crater import Crater
 from hydro2d.solver.cycle import Cycle, UnphysicalState
 from hydro2d.solver.following import FollowingMesh, StandingMesh, UndisturbedSpace
+from hydro2d.solver.memory import refuse_too_large
 from hydro2d.solver.method import Method
 from hydro2d.solver.penetrator import Penetrator
 from hydro2d.solver.sanity import TRUSTED, faults
@@ -30,7 +31,7 @@ class Simulation:
 
     Parameters
     ----------
-    deck : Deck, as deck.load gives it
+    deck : Deck, as deck.load gives it; DeckError where the machine has not the memory for its mesh
 
     Attributes
     ----------
@@ -40,6 +41,7 @@ class Simulation:
     """
 
     def __init__(self, deck):
+        refuse_too_large(deck)
         self.deck = deck
         self.grid = Grid(*decks.edges(deck), deck.mesh.geometry)
         self.table = library.resolve(deck)

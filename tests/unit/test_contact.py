@@ -108,7 +108,9 @@ def test_check_prints_the_contact_and_counts_its_memory():
     assert "sliding   contact; hard: rod; friction 0.1, yield factor 1.25" in found.lines(1)
     without = check.check(deck.loads(TEXT, ["sliding.method=none", "sliding.friction=0"]))
     assert "sliding   none" in without.lines(1)
-    assert found.memory == Simulation(deck.loads(TEXT)).state.nbytes()
+    state = Simulation(deck.loads(TEXT)).state
+    arrays = [array for name, array in vars(state).items() if isinstance(array, np.ndarray) and name not in ("group", "rules")]
+    assert found.memory == sum(array.nbytes for array in arrays if array.base is None)
     vertices = (16 + 4 + 1) * (8 + 4 + 1)
     assert found.memory > without.memory + 5 * 8 * vertices  # a second velocity at both ends of the step, and its mass
 
