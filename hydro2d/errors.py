@@ -201,12 +201,13 @@ class Sources:
 
     def add_override(self, path: tuple, text: str) -> None:
         """Registers an override of the command line; the path has names where arrays hold named entries."""
+        self._set.pop(path, None)  # the last word stands last
         self._set[path] = text
 
     def where(self, path: tuple, merged: dict) -> str:
         """'deck.toml:12' for the key, or for the nearest table around it that was written down; '' if none was."""
         named = _named(path, merged)
-        for key, text in self._set.items():
+        for key, text in reversed(self._set.items()):
             if named[: len(key)] == key:
                 return f"--set {text}"
         for length in range(len(named), 0, -1):

@@ -41,7 +41,7 @@ def read(path: Path, sources: Sources, chain: tuple[Path, ...] = ()) -> dict:
         circle = " -> ".join(entry.name for entry in (*chain[chain.index(path.resolve()) :], path))
         raise DeckError(f"{chain[-1]}: include goes round in a circle: {circle}")
     try:
-        text = path.read_text(encoding="utf-8")
+        text = path.read_text(encoding="utf-8-sig")
     except OSError as problem:
         raise DeckError(f"{path}: cannot be read: {problem.strerror}") from None
     except UnicodeDecodeError:
@@ -119,13 +119,13 @@ def override(data: dict, text: str, sources: Sources) -> dict:
     key, value = assignment(text)
     keys = key_parts(key)
     result = copy.deepcopy(data)
-    _put(result, keys, value, text)
-    sources.add_override(_override_path(keys, result), text)
+    sources.add_override(_override_path(_put(result, keys, value, text), result), text)
     return result
 
 
-def _put(data: dict, keys: list[str], value, text: str) -> None:
-    place = data
+def _put(data: dict, keys: list[str], value, text: str) -> list:
+    """Sets a value; returns its path with the indices of entries in the place of their names."""
+    place, path = data, []
     for depth, key in enumerate(keys):
         last = depth == len(keys) - 1
         if isinstance(place, list):
@@ -134,10 +134,12 @@ def _put(data: dict, keys: list[str], value, text: str) -> None:
             raise DeckError(f"--set {text}: {'.'.join(keys[:depth])} is a value and has no key {key}")
         elif not last and key not in place:
             place[key] = {}
+        path.append(key)
         if last:
             place[key] = value
         else:
             place = place[key]
+    return path
 
 
 def _index(entries: list, key: str, text: str) -> int:
@@ -148,18 +150,13 @@ def _index(entries: list, key: str, text: str) -> int:
     return index
 
 
-def _override_path(keys: list[str], data) -> tuple:
+def _override_path(keys: list, data) -> tuple:
     """The path as Sources keeps it: names for named entries, integers for the others."""
     path: tuple = ()
     for key in keys:
-        if isinstance(data, list):
-            index = entry_index(data, key)
-            data = data[index]
-            name = data.get("name") if isinstance(data, dict) else None
-            path += (name if isinstance(name, str) else index,)
-        else:
-            data = data[key]
-            path += (key,)
+        data = data[key]
+        name = data.get("name") if isinstance(key, int) and isinstance(data, dict) else None
+        path += (name if isinstance(name, str) else key,)
     return path
 
 

@@ -2,12 +2,29 @@
 
 from __future__ import annotations
 
+import math
 from functools import partial
 from typing import Annotated, Any
 
 from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, WithJsonSchema
 
 from hydro2d import units
+
+
+def _name(value: str) -> str:
+    """A name that can stand in tables, in names of files and in datasets."""
+    if not value.strip():
+        raise ValueError("is empty")
+    bad = sorted({character for character in value if character in "/\\" or not character.isprintable()})
+    if bad:
+        raise ValueError(f"{value!r} has {', '.join(map(repr, bad))}, which the names of fields and files cannot")
+    if value in (".", ".."):
+        raise ValueError(f"{value!r} is a folder, not a name")
+    return value
+
+
+#: the name of a body, a tracer or a run
+Name = Annotated[str, AfterValidator(_name)]
 
 
 class Section(BaseModel):
@@ -45,12 +62,36 @@ def within(low: float, high: float, reason: str, unit: str = "1"):
     return quantity(unit, check)
 
 
+#: the largest number in a unit that means anything here, and why nothing larger does
+LARGEST = {
+    "m": (1e6, "no mesh of an impact is longer than 1000 km"),
+    "s": (1e6, "no impact lasts longer than days"),
+    "m/s": (1e6, "matter that meets at more than 1000 km/s is a plasma, which no model here describes"),
+    "kg/m^3": (1e6, "no matter on earth is denser"),
+    "Pa": (1e15, "no equation of state here reaches further"),
+    "J/kg": (1e13, "no equation of state here reaches further"),
+    "K": (1e8, "no equation of state here reaches further"),
+}
+
+
+def in_reach(value: float, unit: str) -> float:
+    """The value; ValueError where it is beyond what means anything in this unit."""
+    most, reason = LARGEST.get(unit, (math.inf, ""))
+    if abs(value) > most:
+        raise ValueError(f"is {value:g} {unit}, beyond {most:g}: {reason}")
+    return value
+
+
+def _to_si(value, unit: str) -> float:
+    return in_reach(units.to_si(value, unit), unit)
+
+
 def quantity(unit: str, check=None):
     """The type of a number in ``unit``, given in SI or as a string with a unit, held in SI."""
     schema: dict[str, Any] = {"type": "number", "x-unit": unit}
     if unit != "1":
         schema = {"anyOf": [{"type": "number"}, {"type": "string"}], "x-unit": unit}
-    before = BeforeValidator(partial(units.to_si, unit=unit))
+    before = BeforeValidator(partial(_to_si, unit=unit))
     if check is None:
         return Annotated[float, before, WithJsonSchema(schema)]
     return Annotated[float, before, AfterValidator(check), WithJsonSchema(schema)]
@@ -76,7 +117,7 @@ NotNegative = quantity("1", _not_negative)
 def _pair(value, unit: str) -> tuple[float, float]:
     if not isinstance(value, (list, tuple)) or len(value) != 2:
         raise ValueError(f"expected two numbers or strings in {unit}, [first, second]")
-    return units.to_si(value[0], unit), units.to_si(value[1], unit)
+    return _to_si(value[0], unit), _to_si(value[1], unit)
 
 
 def _interval(value) -> tuple[float, float]:
@@ -89,7 +130,7 @@ def _interval(value) -> tuple[float, float]:
 def _velocity(value) -> tuple[float, float]:
     if isinstance(value, (list, tuple)):
         return _pair(value, "m/s")
-    return 0.0, units.to_si(value, "m/s")
+    return 0.0, _to_si(value, "m/s")
 
 
 _ITEM_SCHEMA = {"anyOf": [{"type": "number"}, {"type": "string"}]}

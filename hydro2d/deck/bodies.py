@@ -12,6 +12,7 @@ from hydro2d.deck.base import (
     Angle,
     Interval,
     Length,
+    Name,
     Number,
     Point,
     PositiveDensity,
@@ -39,7 +40,7 @@ class Flow(Section):
 class Body(Section):
     """What all bodies have. Where bodies overlap, the one that stands first in the deck has the place."""
 
-    name: str = Field(min_length=1, description="how the body is called in fields, tables and other sections")
+    name: Name = Field(description="how the body is called in fields, tables and other sections")
     material: str = Field(description="a material of the library or of [materials]")
     join: str | None = Field(None, description="an earlier body of the same material to be one with")
     velocity: Velocity = Field((0.0, 0.0), description="axial velocity, or [radial, axial]")

@@ -27,6 +27,10 @@ def inconsistencies(deck: Deck) -> Iterator[tuple[tuple, str]]:
             yield ("body", number, "name"), f'the name "{entry.name}" is taken by an earlier body'
         if entry.join is not None:
             yield from _bad_join(deck, number)
+    tracers = [entry.name for entry in deck.tracer]
+    for number, name in enumerate(tracers):
+        if name in tracers[:number]:
+            yield ("tracer", number, "name"), f'the name "{name}" is taken by an earlier tracer'
     yield from _bad_names(deck, names)
     yield from _bad_mesh(deck)
     yield from _bad_edges(deck)

@@ -77,7 +77,10 @@ def load(path: str | Path, overrides: Sequence[str] = ()) -> Deck:
     """
     file = find(path)
     sources = Sources()
-    return _resolve(toml.read(file, sources), file.stem, overrides, sources)
+    data = toml.read(file, sources)
+    if "mesh" not in data and ("axis" in data or "transition" in data):
+        raise DeckError(f"{file}: is a study, which `hydro2d sweep` or `hydro2d transition` runs, not a deck")
+    return _resolve(data, file.stem, overrides, sources)
 
 
 def loads(text: str, overrides: Sequence[str] = (), name: str = "deck", folder: str | Path = ".") -> Deck:

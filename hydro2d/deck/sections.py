@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from typing import Annotated, Any, Literal
 
-from pydantic import BeforeValidator, Field, WithJsonSchema, model_validator
+from pydantic import AfterValidator, BeforeValidator, Field, WithJsonSchema, model_validator
 
 from hydro2d import units
 from hydro2d.deck.base import (
     Fraction,
     Length,
+    Name,
     NotNegative,
     PositiveLength,
     PositiveNumber,
@@ -37,7 +38,9 @@ class Segment(Section):
     size: PositiveLength | None = Field(None, description="size of every cell; must divide the segment")
     first: PositiveLength | None = Field(None, description="size of the first cell; default: previous size x ratio")
     last: PositiveLength | None = Field(None, description="size of the last cell")
-    ratio: PositiveNumber | None = Field(None, description="each cell's size over that of the one before")
+    ratio: within(1e-3, 1e3, "cells beside each other that differ so much cannot hand a wave on") | None = Field(
+        None, description="each cell's size over that of the one before"
+    )
     across: str | None = Field(None, description="a body with a radius, to measure cells with")
     cells_across: PositiveNumber | None = Field(None, description="cells across the radius of that body")
 
@@ -210,10 +213,16 @@ class Stop(Section):
     perforation: bool = Field(False, description="stop when the rod's nose is the rod's radius beyond the rear of the target")
 
 
+def _directory(value: str) -> str:
+    if not value.strip() or "\0" in value:
+        raise ValueError(f"{value!r} is no path; leave it out for runs/<name of the deck>")
+    return value
+
+
 class Output(Section):
     """What is written, and how often."""
 
-    directory: str | None = Field(None, description="default: runs/<name of the deck>")
+    directory: Annotated[str, AfterValidator(_directory)] | None = Field(None, description="default: runs/<name of the deck>")
     history_interval: PositiveTime | None = Field(None, description="default: a thousandth of the end time")
     vtk_interval: PositiveTime | None = Field(None, description="default: a fiftieth of the end time")
     restart_interval: PositiveTime = Field(300.0, description="wall-clock time between restart files")
@@ -223,7 +232,7 @@ class Output(Section):
 class Tracer(Section):
     """A point that moves with the material."""
 
-    name: str = Field(min_length=1, description="name of the tracer in the history")
+    name: Name = Field(description="name of the tracer in the history")
     r: Length = Field(description="radial position at time zero")
     z: Length = Field(description="axial position at time zero")
 
@@ -253,7 +262,7 @@ class Penetration(Section):
 class Deck(Section):
     """A resolved input deck, in SI units. Sections are attributes: deck.numerics.courant, deck.body[0].name."""
 
-    name: str = Field("deck", min_length=1, description="name of the run; default: that of the file")
+    name: Name = Field("deck", description="name of the run; default: that of the file")
     title: str = Field("", description="a line for logs and pictures")
     mesh: Mesh
     boundaries: Boundaries = Boundaries()

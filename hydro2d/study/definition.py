@@ -120,7 +120,7 @@ def read(path: Path, overrides: list[str]) -> tuple[Definition, str, dict, Sourc
     Raises StudyError, one line for each mistake.
     """
     try:
-        text = Path(path).read_text(encoding="utf-8")
+        text = Path(path).read_text(encoding="utf-8-sig")
     except OSError as problem:
         raise StudyError(f"{path}: cannot be read: {problem.strerror}") from None
     except UnicodeDecodeError:
@@ -130,6 +130,8 @@ def read(path: Path, overrides: list[str]) -> tuple[Definition, str, dict, Sourc
         data = toml.parse(text, str(path))
     except DeckError as error:
         raise StudyError(str(error)) from None
+    if not is_study(data) and "mesh" in data:
+        raise StudyError(f"{path}: is a deck, which `hydro2d run` runs; a study names a deck and what is varied")
     sources.add(str(path), data, text)
     if overrides:
         data = {**data, "set": {**_settings(data), **dict(_assigned(entry) for entry in overrides)}}
