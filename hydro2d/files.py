@@ -7,10 +7,11 @@ import json
 import math
 import os
 import socket
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import NamedTuple
+from typing import NamedTuple, TextIO
 
 
 def sync(path: Path) -> None:
@@ -76,45 +77,71 @@ class Holder(NamedTuple):
 
 
 def holder(path: Path) -> Holder | None:
-    """Who holds a lock; None where it is gone or its process on this machine is."""
+    """Who holds a lock; None where it is gone, or was left behind by a process of this machine."""
     try:
-        host, number = path.read_text(encoding="utf-8").split()
-        found = Holder(host, int(number))
-        if found.is_here:
-            os.kill(found.process, 0)
-    except (FileNotFoundError, NotADirectoryError, ProcessLookupError, ValueError):
+        with open(path, encoding="utf-8") as file:
+            found = _said(file.read())
+            left = found is not None and found.is_here and _taken(file)
+    except (FileNotFoundError, NotADirectoryError):
         return None
-    except PermissionError:
-        pass  # alive, and somebody else's
-    return found
+    return None if left else found
+
+
+def _taken(file: TextIO) -> bool:
+    """Takes the lock of an open file, as long as that is open, if no process of this machine has it."""
+    try:
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        return False
+    return True
 
 
 @contextmanager
 def locked(path: Path) -> Iterator[None]:
-    """Holds a lock file with host and process id; that of a process that died on this host is taken over.
+    """Holds a lock file, which says who does.
+
+    On one machine the lock is the system's (flock): it ends with the process, however that ends, and no number of a process
+    that comes again can feign it. Between machines what the file says counts, which is removed at the end.
 
     Raises LockError while another process holds it.
     """
-    path = Path(path)
-    own = path.with_name(f".{path.name}.{os.getpid()}")
-    try:
-        own.write_text(f"{socket.gethostname()} {os.getpid()}\n", encoding="utf-8")
-        while True:
+    path, tries = Path(path), 5
+    while True:
+        with open(path, "a+", encoding="utf-8") as file:
+            free = _taken(file)
+            if free and not _is_at(file, path):
+                continue  # the holder before has removed it meanwhile
+            if not free and tries:  # it may be one that only looks whether it is held
+                tries -= 1
+                time.sleep(0.02)
+                continue
+            file.seek(0)
+            by = _said(file.read())
+            if not free or (by is not None and not by.is_here):
+                who = by or "another process"
+                raise LockError(f"{path.parent} is in use by {who}; if that is gone for good, remove {path}")
+            file.truncate(0)
+            file.write(f"{socket.gethostname()} {os.getpid()}\n")
+            file.flush()
             try:
-                os.link(own, path)  # the lock appears with its content, or not at all
-                break
-            except FileExistsError:
-                process = holder(path)
-                if process is not None:
-                    hint = f"if that is gone for good, remove {path}"
-                    raise LockError(f"{path.parent} is in use by {process}; {hint}") from None
+                yield
+            finally:
                 path.unlink(missing_ok=True)
-    finally:
-        own.unlink(missing_ok=True)
+            return
+
+
+def _said(text: str) -> Holder | None:
+    """Who a lock file says that holds it; None where it says nothing."""
+    words = text.split()
+    return Holder(words[0], int(words[1])) if len(words) == 2 and words[1].isdecimal() else None
+
+
+def _is_at(file: TextIO, path: Path) -> bool:
+    """Whether an open file is still the one of this name."""
     try:
-        yield
-    finally:
-        path.unlink(missing_ok=True)
+        return os.path.samestat(os.fstat(file.fileno()), os.stat(path))
+    except FileNotFoundError:
+        return False
 
 
 def _plain(value):

@@ -92,8 +92,8 @@ def check_free(directory: Path, *, restart: bool, overwrite: bool) -> None:
         raise RunError(f"{directory} is a file, not a directory")
     if restart and not directory.is_dir():
         raise RunError(f"{directory}: there is no run to continue")
-    if overwrite and (directory / DECK).exists() and not (directory / LOG).exists():
-        raise RunError(f"{directory / DECK} is no run's, for there is no {LOG}; --overwrite would replace it")
+    if overwrite and {name for name in (*OWN_FILES, LOCK) if (directory / name).exists()} == {DECK}:
+        raise RunError(f"{directory / DECK} is no run's, for nothing else of a run is there; --overwrite would replace it")
     if not (restart or overwrite) and any((directory / name).exists() for name in OWN_FILES):
         raise RunError(f"{directory} already holds a run; --restart continues it, --overwrite removes it")
 

@@ -29,6 +29,8 @@ FULL = "No space left on device"
 CYCLES = 11
 #: seconds without a sign of life after which a process on another machine has lost its lock; progress.json comes every 3
 SILENCE = 120.0
+#: seconds that a worker may take to end after its sweep was killed
+ENDING = 60.0
 
 
 @dataclass(frozen=True)
@@ -97,15 +99,19 @@ def _run(directory: Path, deck_text: str, threads: int, overwrite: bool, interru
 
 
 def _wait_for_silence(directory: Path, interrupt: Interrupt | None) -> None:
-    """Takes a lock away from a process on another machine that no longer shows progress: its worker is gone.
+    """Waits for a worker of this machine that is still ending, as after a sweep that was killed, for so long as that may take.
 
-    Waits for that; a process that goes on showing progress keeps its lock, and the run tells so.
+    Takes a lock away from a process on another machine that no longer shows progress: its worker is gone. A process that goes
+    on showing progress keeps its lock, and the run tells so.
     """
-    lock, until = directory / run.LOCK, time.monotonic() + 2 * SILENCE
-    while time.monotonic() < until and not (interrupt and interrupt.reason):
+    lock, began = directory / run.LOCK, time.monotonic()
+    while not (interrupt and interrupt.reason):
         by = holder(lock)
-        if by is None or by.is_here:
+        if by is None or time.monotonic() - began > (ENDING if by.is_here else 2 * SILENCE):
             return
+        if by.is_here:
+            time.sleep(0.2)
+            continue
         signs = [file.stat().st_mtime for file in (lock, directory / run.PROGRESS) if file.exists()]
         if time.time() - max(signs, default=0.0) > SILENCE:
             lock.unlink(missing_ok=True)

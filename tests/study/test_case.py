@@ -5,7 +5,9 @@ import os
 import shutil
 import subprocess
 import sys
+import threading
 import time
+from contextlib import ExitStack, contextmanager, nullcontext
 
 import pytest
 
@@ -14,6 +16,7 @@ from hydro2d.output import history, snapshot
 from hydro2d.running import compilation
 from hydro2d.running.interrupt import Interrupt
 from hydro2d.study.case import kernels, run_case
+from tests.locks import held
 from tests.unit.test_cli import DECK
 
 
@@ -102,6 +105,22 @@ def test_a_fault_is_a_result_with_its_trace(simulation, text, place):
     assert "test_case.py" in outcome.trace
 
 
+def test_a_worker_that_is_still_ending_is_waited_for(text, place):
+    """As right after a sweep that was killed: its worker writes a restart file yet."""
+    place.mkdir()
+    with ExitStack() as stack:
+        stack.enter_context(held(place / "run.lock"))
+        threading.Timer(1.0, stack.pop_all().close).start()
+        assert run_case(place, text).status == "done"
+
+
+@contextmanager
+def _in_use(place):
+    place.mkdir()
+    with held(place / "run.lock"):
+        yield
+
+
 def _locked(place, text, age):
     """A lock with a last sign of life so many seconds ago."""
     place.mkdir()
@@ -119,16 +138,17 @@ def test_the_lock_of_another_machine_that_fell_silent_is_taken_over(text, place)
     [
         (lambda place: place.touch(), "is a file, not a directory"),
         (lambda place: shutil.rmtree(place.parent), "workers need the study's file system"),
-        (lambda place: _locked(place, f"{os.uname().nodename} {os.getppid()}", 1e9), f"in use by process {os.getppid()}"),
+        (_in_use, f"in use by process {os.getppid()}"),
         (lambda place: _locked(place, "elsewhere 1", -1e9), "in use by process 1 on elsewhere"),
     ],
 )
 def test_what_the_user_can_mend_is_one_line(text, tmp_path, monkeypatch, spoil, said):
     monkeypatch.setattr("hydro2d.study.case.SILENCE", 0.1)
+    monkeypatch.setattr("hydro2d.study.case.ENDING", 0.1)
     place = tmp_path / "cases" / "case"
     place.parent.mkdir()
-    spoil(place)
-    outcome = run_case(place, text)
+    with spoil(place) or nullcontext():
+        outcome = run_case(place, text)
     assert outcome.status == "failed"
     assert said in outcome.message
     assert "\n" not in outcome.message

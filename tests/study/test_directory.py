@@ -1,8 +1,6 @@
 """A study directory is read back as it was written, in any state of completion."""
 
 import io
-import os
-import socket
 from pathlib import Path
 
 import pytest
@@ -13,6 +11,7 @@ from hydro2d.cli.main import call
 from hydro2d.files import write_json
 from hydro2d.study import cases, layout, monitor, sweep
 from hydro2d.study.definition import StudyError
+from tests.locks import held
 from tests.study import tubes
 
 
@@ -67,11 +66,10 @@ def test_every_status(plan, written):
     place = pretend(written, plan, "ke_0.1", "done")
     assert state(written, "ke_0.1").status == "done"
     assert state(written, "ke_0.1").deck["numerics"]["advection"] == "ke"
-    (place / "run.lock").write_text(f"{socket.gethostname()} {os.getppid()}")
     write_json(place / "progress.json", {"fraction": 0.25, "left_s": 60.0, "host": "here", "process": 7})
-    assert state(written, "ke_0.1").status == "running"
-    assert monitor.row(state(written, "ke_0.1"))[3:] == ("25 %", "1 min 00 s", "here:7")
-    (place / "run.lock").unlink()
+    with held(place / "run.lock"):
+        assert state(written, "ke_0.1").status == "running"
+        assert monitor.row(state(written, "ke_0.1"))[3:] == ("25 %", "1 min 00 s", "here:7")
     pretend(written, plan, "ke_0.1", "unphysical")
     assert state(written, "ke_0.1").message == "a reason"
     pretend(written, plan, "ke_0.1", "interrupted")
@@ -148,9 +146,8 @@ def test_the_board_tells_of_running_cases(plan, written, capsys, monkeypatch):
     monkeypatch.setattr(monitor, "LINE_SECONDS", 0.0)
     place = pretend(written, plan, "ke_0.2", None)
     pretend(written, plan, "ke_0.1", "done")
-    (place / "run.lock").write_text(f"{socket.gethostname()} {os.getppid()}")
     write_json(place / "progress.json", {"fraction": 0.5, "left_s": 30.0, "wall_s": 30.0, "host": "here", "process": 7})
-    with monitor.board(study.load(written), quiet=False) as board:
+    with held(place / "run.lock"), monitor.board(study.load(written), quiet=False) as board:
         board.workers = lambda: 1
         board.line("two\nlines")
         board.update()

@@ -9,6 +9,7 @@ import pytest
 
 from hydro2d.study import layout
 from hydro2d.study.layout import StudyError
+from tests.locks import held
 from tests.study import fake
 
 AXES = {"velocity": fake.velocities(1086, 1200), "advection": {"ke": ("numerics.advection=ke",)}}
@@ -41,9 +42,8 @@ def test_every_state_of_a_case(study):
     assert statuses(study)[case.name][0] == "waiting"
     (case / "restart.h5").touch()
     assert statuses(study)[case.name][0] == "interrupted"
-    (case / "run.lock").write_text(f"{socket.gethostname()} {os.getpid()}")
-    assert statuses(study)[case.name] == ("running", f"process {os.getpid()} on {socket.gethostname()}")
-    (case / "run.lock").unlink()
+    with held(case / "run.lock", os.getpid()):
+        assert statuses(study)[case.name] == ("running", f"process {os.getpid()} on {socket.gethostname()}")
     (case / "failed.json").write_text('{"reason": "the disk is full", "kind": "OSError"}')
     assert statuses(study)[case.name] == ("failed", "the disk is full")
     shutil.rmtree(case)

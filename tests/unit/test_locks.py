@@ -1,0 +1,105 @@
+"""Locks: one holder at a time, whatever happens to the others."""
+
+import multiprocessing
+import os
+import signal
+import socket
+import time
+
+import pytest
+
+from hydro2d.files import LockError, holder, locked
+from tests.locks import held
+
+
+def test_a_lock_says_who_holds_it_and_goes(tmp_path):
+    lock = tmp_path / "a.lock"
+    with locked(lock):
+        assert holder(lock) == (socket.gethostname(), os.getpid())
+        with pytest.raises(LockError, match=f"in use by process {os.getpid()} on "), locked(lock):
+            pass
+        assert holder(lock) is not None
+    assert not lock.exists()
+    assert holder(lock) is None
+
+
+def test_what_a_dead_process_left_is_taken_over_even_if_its_number_lives(tmp_path):
+    lock = tmp_path / "a.lock"
+    lock.write_text(f"{socket.gethostname()} 1")
+    assert holder(lock) is None
+    with locked(lock):
+        assert holder(lock).process == os.getpid()
+
+
+@pytest.mark.parametrize("text", ["", "nonsense", "a b c", "host x"])
+def test_a_lock_that_says_nothing_is_nobodys(tmp_path, text):
+    lock = tmp_path / "a.lock"
+    lock.write_text(text)
+    assert holder(lock) is None
+    with locked(lock):
+        assert holder(lock) is not None
+
+
+def test_the_lock_of_another_machine_counts_by_what_it_says(tmp_path):
+    lock = tmp_path / "a.lock"
+    lock.write_text("elsewhere 7")
+    assert holder(lock) == ("elsewhere", 7)
+    with pytest.raises(LockError, match=r"in use by process 7 on elsewhere; if that is gone for good, remove "), locked(lock):
+        pass
+    assert lock.read_text() == "elsewhere 7"
+
+
+def test_one_who_looks_does_not_keep_others_out(tmp_path):
+    lock = tmp_path / "a.lock"
+    with held(lock):
+        assert holder(lock).process == os.getppid()
+    with locked(lock):
+        pass
+
+
+def _race(lock, inside, most, rounds):
+    for _ in range(rounds):
+        try:
+            with locked(lock):
+                with inside.get_lock():
+                    inside.value += 1
+                    most.value = max(most.value, inside.value)
+                time.sleep(0.0005)
+                with inside.get_lock():
+                    inside.value -= 1
+        except LockError:
+            time.sleep(0.0005)
+
+
+def test_no_race_has_two_winners(tmp_path):
+    """Three processes take and leave one lock as fast as they can."""
+    spawn = multiprocessing.get_context("spawn")
+    lock, inside, most = tmp_path / "a.lock", spawn.Value("i", 0), spawn.Value("i", 0)
+    racers = [spawn.Process(target=_race, args=(lock, inside, most, 200)) for _ in range(3)]
+    for racer in racers:
+        racer.start()
+    for racer in racers:
+        racer.join(60)
+    assert most.value == 1
+    assert inside.value == 0
+
+
+def _hold(lock, ready):
+    with locked(lock):
+        ready.set()
+        time.sleep(60)
+
+
+def test_a_killed_holder_holds_nothing(tmp_path):
+    spawn = multiprocessing.get_context("spawn")
+    lock, ready = tmp_path / "a.lock", spawn.Event()
+    process = spawn.Process(target=_hold, args=(lock, ready))
+    process.start()
+    assert ready.wait(30)
+    assert holder(lock).process == process.pid
+    os.kill(process.pid, signal.SIGKILL)
+    process.join(30)
+    assert lock.exists()
+    assert holder(lock) is None
+    with locked(lock):
+        pass
