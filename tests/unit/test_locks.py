@@ -8,6 +8,7 @@ import time
 
 import pytest
 
+from hydro2d import files
 from hydro2d.files import LockError, holder, locked
 from tests.locks import held
 
@@ -55,6 +56,23 @@ def test_one_who_looks_does_not_keep_others_out(tmp_path):
         assert holder(lock).process == os.getppid()
     with locked(lock):
         pass
+
+
+def test_a_lock_that_goes_while_one_waits_is_taken_anew(tmp_path, monkeypatch):
+    """The holder before removes the file after it was opened here: a lock on what has no name any more keeps nobody out."""
+    lock, taken, calls = tmp_path / "a.lock", files._taken, []
+
+    def late(file):
+        calls.append(file)
+        if len(calls) == 1:
+            lock.unlink()
+        return taken(file)
+
+    monkeypatch.setattr(files, "_taken", late)
+    with locked(lock):
+        assert lock.exists()
+        with pytest.raises(LockError), locked(lock):
+            pass
 
 
 def _race(lock, inside, most, rounds):
