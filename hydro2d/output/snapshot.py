@@ -9,6 +9,8 @@ from __future__ import annotations
 import hashlib
 import json
 import os
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -16,7 +18,7 @@ import numpy as np
 
 from hydro2d.files import hdf5, replacing, sync
 
-FORMAT = "hydro2d restart 2"
+FORMAT = "hydro2d restart 3"
 NAME, PREVIOUS = "restart.h5", "restart.previous.h5"
 
 
@@ -88,8 +90,9 @@ def read(path: Path) -> Snapshot:
         raise SnapshotError(f"{path}: there is no such restart file")
     try:
         with h5py.File(path, "r") as file:
-            if file.attrs.get("format") != FORMAT:
-                raise SnapshotError(f'{path}: not a restart file of this program ("{FORMAT}" expected)')
+            if (found := file.attrs.get("format")) != FORMAT:
+                raise SnapshotError(f'{path}: a restart file of another version ("{found}"; this one reads "{FORMAT}")'
+                                    if str(found).startswith(FORMAT[:-1]) else f"{path}: not a restart file of hydro2d")
             if not file.attrs.get("complete", False):
                 raise SnapshotError(f"{path}: the restart file was never completed")
             arrays = {name: dataset[...] for name, dataset in file["arrays"].items()}
@@ -101,6 +104,16 @@ def read(path: Path) -> Snapshot:
         raise SnapshotError(f"{path}: the checksum does not fit, the file is damaged")
     values = {name: text if name == "deck" else json.loads(text) for name, text in texts.items()}
     return Snapshot(arrays=arrays, **values)
+
+
+@contextmanager
+def fitting(directory: Path) -> Iterator[None]:
+    """While what a restart file holds is put into a run: what is missing there or does not fit is a SnapshotError."""
+    try:
+        yield
+    except (KeyError, TypeError, ValueError) as error:
+        what = f"{error} is missing" if isinstance(error, KeyError) else str(error)
+        raise SnapshotError(f"{directory}: the restart file does not fit: {what}") from None
 
 
 def read_latest(directory: Path) -> tuple[Snapshot, list[str]]:

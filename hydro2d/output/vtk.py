@@ -9,6 +9,7 @@ from __future__ import annotations
 import errno
 import os
 from collections.abc import Iterable
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from xml.etree import ElementTree
@@ -169,19 +170,36 @@ class Series:
     directory : the run directory
     fields : keys of derived.TABLE, or words of derived.GROUPS, to write
     dumps : number of dumps of the existing series to keep (a restart); later ones are removed
+
+    Attributes
+    ----------
+    repaired : what was wrong with the existing series, whose times were then read from the dumps; else empty
     """
 
     def __init__(self, directory: Path, fields=("standard",), dumps: int = 0):
         self.directory, self.fields = Path(directory), fields
         self._times: list[float] = []
+        self.repaired = ""
         if dumps:
-            self._times = [time for time, _ in read_series(self.directory / SERIES["dump"])][:dumps]
+            self._times = self._read(dumps)
         for kind in SERIES:
             for file in (self.directory / FOLDER).glob(f"{kind}_*.vt?"):
                 if int(file.stem.split("_")[1]) >= len(self._times):
                     file.unlink()
         if self._times:
             self._write_series()
+
+    def _read(self, dumps: int) -> list[float]:
+        """Times of the first dumps: by the series, or where that is damaged by the dumps themselves, up to one that is."""
+        try:
+            return [time for time, _ in read_series(self.directory / SERIES["dump"])][:dumps]
+        except VtkError as error:
+            self.repaired = f"{error}; its times are read from the dumps"
+        times: list[float] = []
+        with suppress(VtkError):
+            for number in range(dumps):
+                times.append(read_grid(self._path("dump", number)).time)
+        return times
 
     def __len__(self) -> int:
         return len(self._times)

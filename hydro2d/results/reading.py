@@ -122,8 +122,9 @@ class Results:
 
         saved, _ = snapshot.read_latest(self.directory)
         sim = Simulation(decks.loads(saved.deck))
-        sim.load_restart_arrays(saved.arrays)
-        sim.load_restart_scalars(saved.scalars)
+        with snapshot.fitting(self.directory):
+            sim.load_restart_arrays(saved.arrays)
+            sim.load_restart_scalars(saved.scalars)
         return sim
 
     def grid(self, time: float | None = None):

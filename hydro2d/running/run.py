@@ -28,7 +28,7 @@ from hydro2d import __version__
 from hydro2d.deck.warnings import warnings
 from hydro2d.files import locked, write_json, write_text
 from hydro2d.output import derived, snapshot
-from hydro2d.output.history import History
+from hydro2d.output.history import History, HistoryError
 from hydro2d.output.vtk import FOLDER, SERIES, Series
 from hydro2d.running import interrupt as interrupts
 from hydro2d.running import provenance
@@ -152,18 +152,33 @@ class Run:
             for problem in problems:
                 report.line(f"warning: {problem}; continuing from the one before")
             check_same_deck(self.deck_text, saved.deck)
-            self.sim.load_restart_arrays(saved.arrays)
-            self.sim.load_restart_scalars(saved.scalars)
-            for name, due in self.due.items():
-                due.resume(saved.run["due"][name], self.sim.time)
-            rows, dumps, self.wall_before = (saved.run[name] for name in ("rows", "dumps", "wall_s"))
-        self.history = History(self.directory / HISTORY, rows)
+            with snapshot.fitting(self.directory):
+                self.sim.load_restart_arrays(saved.arrays)
+                self.sim.load_restart_scalars(saved.scalars)
+                for name, due in self.due.items():
+                    due.resume(saved.run["due"][name], self.sim.time)
+                rows, dumps, self.wall_before = (saved.run[name] for name in ("rows", "dumps", "wall_s"))
+        self.history = self._history(rows)
         self.series = Series(self.directory, deck.output.fields, dumps)
+        if self.series.repaired:
+            report.line(f"warning: {self.series.repaired}")
         self.clock, self.team = Clock(deck.stop), Team(threads())
         self.started = self.flushed = self.saved_at = self.published = clock.perf_counter()
         self.good = None
         (self.directory / SUMMARY).unlink(missing_ok=True)
         write_text(self.directory / DECK, self.deck_text)
+
+    def _history(self, rows: int) -> History:
+        """The history to go on with; a damaged one is put aside, and begun anew."""
+        path = self.directory / HISTORY
+        try:
+            return History(path, rows)
+        except HistoryError as error:
+            aside = path.with_name(f"damaged-{HISTORY}")
+            if path.exists():
+                path.replace(aside)
+            self.report.line(f"warning: {error}; the history begins anew, what there was is {aside.name}")
+            return History(path)
 
     @property
     def wall(self) -> float:
@@ -379,6 +394,8 @@ def run(deck, directory: Path | None = None, *, restart=False, overwrite=False, 
     check_free(directory, restart=restart, overwrite=overwrite)
     directory.mkdir(parents=True, exist_ok=True)
     with locked(directory / LOCK):
+        for left in (*directory.glob(".*.tmp"), *(directory / FOLDER).glob(".*.tmp")):  # of a process that was killed
+            left.unlink(missing_ok=True)
         if not restart:
             clear(directory)
         with (

@@ -208,12 +208,14 @@ class Simulation:
         return {**self.state.restartable(), "tracers": self.tracers}
 
     def load_restart_arrays(self, arrays: dict[str, np.ndarray]) -> None:
-        """Takes the arrays of a restart file; ValueError where a shape differs."""
-        for name, array in self.state.restartable().items():
-            if arrays[name].shape != array.shape:
-                raise ValueError(f"{name} has shape {arrays[name].shape} in the restart file, {array.shape} in the deck")
+        """Takes the arrays of a restart file; ValueError where one is missing or differs in shape or type."""
+        for name, array in self.restart_arrays().items():
+            found = arrays.get(name)
+            kinds = ["nothing" if each is None else f"{each.dtype}{list(each.shape)}" for each in (found, array)]
+            if kinds[0] != kinds[1]:
+                raise ValueError(f"{name} is {kinds[0]} in the restart file and {kinds[1]} in the deck")
+        for name, array in self.restart_arrays().items():
             array[...] = arrays[name]
-        self.tracers = np.array(arrays["tracers"])
 
     def restart_scalars(self) -> dict:
         """What a restart needs beside the arrays; JSON keeps every bit of it."""

@@ -255,5 +255,5 @@ def test_a_restart_file_holds_both_groups(contact, tmp_path):
     again.load_restart_scalars(saved.scalars)
     for name, array in contact.restart_arrays().items():
         assert again.restart_arrays()[name].tobytes() == array.tobytes()
-    with pytest.raises(ValueError, match="u has shape"):
+    with pytest.raises(ValueError, match="u is "):
         one_velocity().load_restart_arrays(saved.arrays)
