@@ -14,16 +14,19 @@ compiles anew what can see it and nothing else.
 from __future__ import annotations
 
 import ast
+import atexit
 import functools
 import hashlib
 import importlib.util
 import inspect
 import os
+import shutil
+import stat
 import sys
 import tempfile
 import time
 from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 from types import ModuleType
@@ -45,15 +48,34 @@ def _source_files() -> list[Path]:
     return [Path(__file__).resolve(), *alone, *modules]
 
 
+@functools.cache
 def _cache_root() -> str:
-    """The folder under which all that is compiled is kept."""
+    """The folder under which all that is compiled is kept: HYDRO2D_CACHE_DIR, in the user's cache, or a `_private` one.
+
+    What is in it is executed, so it must be nobody else's to write to.
+    """
     root = os.environ.get("HYDRO2D_CACHE_DIR")
     if root is not None:
         return root
     home = Path(os.environ.get("XDG_CACHE_HOME", Path.home() / ".cache"))
     if not os.access(home if home.exists() else home.parent, os.W_OK):
-        return os.path.join(tempfile.gettempdir(), "hydro2d-cache")
+        return _private(os.path.join(tempfile.gettempdir(), f"hydro2d-{os.getuid()}"))
     return str(home / "hydro2d")
+
+
+def _private(folder: str) -> str:
+    """The folder, made if need be, if it is the user's own alone; else a new one for this process and those that it starts."""
+    with suppress(FileExistsError):
+        os.mkdir(folder, 0o700)
+    found = os.lstat(folder)
+    if stat.S_ISDIR(found.st_mode) and found.st_uid == os.getuid() and not found.st_mode & 0o077:
+        return folder
+    fresh = tempfile.mkdtemp(prefix="hydro2d-")
+    atexit.register(shutil.rmtree, fresh, ignore_errors=True)
+    os.environ["HYDRO2D_CACHE_DIR"] = fresh
+    print(f"hydro2d: {folder} is not a private folder of this user, so what is compiled is not kept; HYDRO2D_CACHE_DIR can name "
+          "one", file=sys.stderr)
+    return fresh
 
 
 def _folder_for(files: Iterable[Path]) -> str:

@@ -15,6 +15,8 @@ from hydro2d.deck.base import Section
 from hydro2d.errors import DeckError, Sources
 from hydro2d.study.definition import StudyError, explained
 
+#: where a sweep on this machine listens
+HERE = "127.0.0.1"
 #: seconds to wait for the scheduler of --scheduler
 ANSWER = 15
 
@@ -72,13 +74,19 @@ def environment(threads: int) -> dict[str, str]:
 
 @contextmanager
 def local(workers: int, threads: int) -> Iterator:
-    """A client of spawned worker processes on this machine."""
+    """A client of spawned worker processes on this machine, which nobody else can reach.
+
+    All listen on the loopback alone, and talk by TLS with a certificate made for this sweep: whoever could connect could run
+    code in the workers.
+    """
     import distributed
+    from distributed.security import Security
 
     with (
         distributed.LocalCluster(
-            n_workers=workers, threads_per_worker=1, processes=True, memory_limit=0, dashboard_address=None,
-            scheduler_kwargs={"dashboard_address": ":0"},  # another sweep may have the usual port
+            n_workers=workers, threads_per_worker=1, processes=True, memory_limit=0, host=HERE, protocol="tls://",
+            security=Security.temporary(), dashboard_address=None, worker_dashboard_address=None,
+            scheduler_kwargs={"dashboard_address": f"{HERE}:0"},  # another sweep may have the usual port
             env=environment(threads),
         ) as cluster,
         distributed.Client(cluster) as client,

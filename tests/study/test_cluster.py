@@ -4,6 +4,7 @@ import sys
 from types import SimpleNamespace
 
 import distributed
+import psutil
 import pytest
 
 from hydro2d import study
@@ -136,3 +137,20 @@ def test_a_wrong_slurm_file(tmp_path, old, new, said):
 def test_arguments(tmp_path, capsys, arguments, said):
     assert call(["sweep", str(tubes.write(tmp_path)), "--out", str(tmp_path / "out"), *arguments]) == 2
     assert said in capsys.readouterr().err
+
+
+def test_a_sweep_on_this_machine_listens_to_nobody_else():
+    """Neither the scheduler nor a worker nor a page of theirs can be reached from elsewhere, nor without the certificate."""
+    with cluster.local(1, 1) as client:
+        workers = psutil.Process().children(recursive=True)
+        places = {
+            (process.pid, found.laddr.ip)
+            for process in (psutil.Process(), *workers)
+            for found in process.net_connections("tcp") if found.status == psutil.CONN_LISTEN
+        }
+        assert {ip for _, ip in places} == {"127.0.0.1"}
+        assert len({pid for pid, _ in places}) >= 2
+        address = client.scheduler.address
+        assert address.startswith("tls://127.0.0.1:")
+        with pytest.raises(OSError, match="Timed out|TLS|ssl|closed|Security"):
+            distributed.Client(address.replace("tls", "tcp"), timeout=2)

@@ -3,6 +3,8 @@
 import importlib
 import math
 import os
+import stat
+import tempfile
 import types
 from pathlib import Path
 
@@ -91,3 +93,28 @@ def test_the_folder_changes_with_the_text_of_a_source(tmp_path):
     second.write_text("B = 2\n")
     assert jit._folder_for([first, second]) != before
     assert jit._folder_for([first]) != before
+
+
+def test_the_cache_in_the_temporary_folder_is_the_users_alone(tmp_path, monkeypatch, capsys):
+    """What is kept there is executed: a folder that somebody has prepared is not used."""
+    monkeypatch.setenv("HYDRO2D_CACHE_DIR", os.environ.get("HYDRO2D_CACHE_DIR", ""))  # as it was, afterwards
+    own = str(tmp_path / "own")
+    assert jit._private(own) == jit._private(own) == own
+    assert stat.S_IMODE(os.stat(own).st_mode) == 0o700
+    assert capsys.readouterr().err == ""
+    open_to_all, link = tmp_path / "open", tmp_path / "link"
+    open_to_all.mkdir(mode=0o777)
+    open_to_all.chmod(0o777)
+    link.symlink_to(own)
+    for folder in (open_to_all, link):
+        used = jit._private(str(folder))
+        assert used == os.environ["HYDRO2D_CACHE_DIR"] not in (str(folder), own)
+        assert stat.S_IMODE(os.stat(used).st_mode) == 0o700
+        assert f"{folder} is not a private folder of this user" in capsys.readouterr().err
+
+
+def test_a_home_that_cannot_be_written_to_has_a_private_cache(tmp_path, monkeypatch):
+    monkeypatch.delenv("HYDRO2D_CACHE_DIR", raising=False)
+    monkeypatch.setenv("XDG_CACHE_HOME", "/proc/none/cache")
+    monkeypatch.setattr(tempfile, "gettempdir", lambda: str(tmp_path))
+    assert jit._cache_root.__wrapped__() == str(tmp_path / f"hydro2d-{os.getuid()}")
