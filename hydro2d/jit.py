@@ -64,7 +64,7 @@ def _cache_root() -> str:
 
 
 def _private(folder: str) -> str:
-    """The folder, made if need be, if it is the user's own alone; else a new one for this process and those that it starts."""
+    """The folder, made if need be, if it is the user's own alone; else a new one for this process and what it starts."""
     with suppress(FileExistsError):
         os.mkdir(folder, 0o700)
     found = os.lstat(folder)
@@ -73,8 +73,8 @@ def _private(folder: str) -> str:
     fresh = tempfile.mkdtemp(prefix="hydro2d-")
     atexit.register(shutil.rmtree, fresh, ignore_errors=True)
     os.environ["HYDRO2D_CACHE_DIR"] = fresh
-    print(f"hydro2d: {folder} is not a private folder of this user, so what is compiled is not kept; HYDRO2D_CACHE_DIR can name "
-          "one", file=sys.stderr)
+    print(f"hydro2d: {folder} is not a private folder of this user: what is compiled is not kept (HYDRO2D_CACHE_DIR names one)",
+          file=sys.stderr)
     return fresh
 
 
