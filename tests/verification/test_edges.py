@@ -159,3 +159,34 @@ def test_what_goes_through_transmitting_edges_is_booked():
     assert found["sinks"]["transmitted"]["energy_J"] > 0.8 * start
     assert abs(found["total_energy"]) < 1e-12
     assert abs(found["axial_momentum"]) < 1e-12
+
+
+DEBRIS = """
+[mesh]
+r = [{ to = "10 mm", cells = 12 }]
+z_start = "-10 mm"
+z = [{ to = "10 mm", cells = 24 }]
+[[body]]
+name = "ball"
+material = "Al6061_T6"
+shape = "sphere"
+centre = 0.0
+radius = "5 mm"
+energy = ENERGY
+[stop]
+time = "20 us"
+"""
+
+
+@pytest.mark.parametrize("choice", ADVECTION)
+@pytest.mark.parametrize("energy", ["5e6", "2e7"])
+def test_hot_debris_that_leaves_takes_nothing_unnamed_along(choice, energy):
+    """A ball of aluminium with several times the energy of evaporation bursts and flies out through three open edges."""
+    simulation, worst = Simulation(decks.loads(DEBRIS.replace("ENERGY", energy), [advection(choice)])), 0.0
+    while simulation.time < 20e-6:
+        simulation.step()
+        books = simulation.conservation()
+        worst = max(worst, abs(books["total_energy"]), abs(books["axial_momentum"]), abs(books["mass"]["ball"]))
+    assert worst < 1e-12
+    assert simulation.ledger.sinks["outflow"].mass.sum() > 0.1 * simulation.ledger.start.mass.sum()  # there is something to book
+    assert simulation.faults() == []
