@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 
 from hydro2d.deck.sections import Deck, Segment
 
-_FIT = 1e-6
+#: share of a cell by which a segment may miss a whole number of cells; beyond the second it is told
+_FIT, _TOLD = 1e-4, 1e-6
 _LIMIT = 1_000_000
 
 
@@ -46,6 +49,21 @@ def axis_edges(deck: Deck, axis: str) -> np.ndarray:
         previous = float(new[-1] - (new[-2] if len(new) > 1 else edges[-1]))
         edges += new.tolist()
     return np.array(edges)
+
+
+def misfits(deck: Deck) -> Iterator[str]:
+    """Segments whose cells were made to fit, as they miss a whole number by more than round-off; a sentence for each."""
+    for axis in ("r", "z"):
+        start, previous = (deck.mesh.r_start if axis == "r" else deck.mesh.z_start), None
+        for number, segment in enumerate(getattr(deck.mesh, axis)):
+            new = _segment(deck, segment, start, previous)
+            size = _size(deck, segment)
+            if segment.to is not None and size is not None and None is segment.cells is segment.ratio is segment.last:
+                miss = abs(len(new) - (segment.to - start) / size)
+                if miss > _TOLD:
+                    yield f"mesh.{axis}[{number}]: ends {miss:.1g} of a cell from a whole number, so the cells were made to fit"
+            previous = float(new[-1] - (new[-2] if len(new) > 1 else start))
+            start = float(new[-1])
 
 
 def _segment(deck: Deck, segment: Segment, start: float, previous: float | None) -> np.ndarray:

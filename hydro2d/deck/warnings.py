@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from hydro2d.deck.checks import AHEAD, extent, room
-from hydro2d.deck.mesh import axis_edges, body
+from hydro2d.deck.mesh import axis_edges, body, misfits
 from hydro2d.deck.sections import Deck
 
 #: a body whose density is below this share of the densest one's is a gas
@@ -18,7 +18,7 @@ CELLS_ACROSS_RADIUS = 5
 
 def warnings(deck: Deck) -> list[str]:
     """What is allowed but unwise, one sentence each; `hydro2d check` and the start of a run show it."""
-    return [*_coarse_rods(deck), *_jumps(deck), *_short_mesh(deck), *_yielding_rods(deck), *_no_failure(deck),
+    return [*misfits(deck), *_coarse_rods(deck), *_jumps(deck), *_short_mesh(deck), *_yielding_rods(deck), *_no_failure(deck),
             *_gas_in_contact(deck)]
 
 

@@ -3,6 +3,7 @@
 import contextlib
 import tomllib
 
+import numpy as np
 import pytest
 
 from hydro2d.cli.main import call
@@ -125,3 +126,16 @@ def test_a_deck_of_the_user_is_not_overwritten(tmp_path, capsys):
     assert (tmp_path / "deck.toml").read_text() == TEXT
     run.run(deck.loads(TEXT, ["stop.cycles=1"]), tmp_path / "out", quiet=True)
     assert run.run(deck.loads(TEXT, ["stop.cycles=1"]), tmp_path / "out", overwrite=True, quiet=True)["cycles"] == 1
+
+
+def test_an_end_that_misses_whole_cells_by_a_trifle_is_met_and_told():
+    """As 13.291833 mm where 13.2918335 mm was meant."""
+    meant = deck.loads(TEXT, ['mesh.z=[{to="20 mm", size="0.5 mm"}]'])
+    assert [text for text in deck.warnings(meant) if text.startswith("mesh")] == []
+    snapped = deck.loads(TEXT, ['mesh.z=[{to="20.00004 mm", size="0.5 mm"}]'])
+    assert deck.warnings(snapped)[0] == "mesh.z[0]: ends 8e-05 of a cell from a whole number, so the cells were made to fit"
+    edges = deck.edges(snapped)[1]
+    assert (len(edges), edges[-1]) == (41, 20.00004e-3)
+    assert np.ptp(np.diff(edges)) < 1e-15
+    with pytest.raises(DeckError, match="do not divide"):
+        deck.loads(TEXT, ['mesh.z=[{to="20.0001 mm", size="0.5 mm"}]'])

@@ -188,5 +188,5 @@ def test_hot_debris_that_leaves_takes_nothing_unnamed_along(choice, energy):
         books = simulation.conservation()
         worst = max(worst, abs(books["total_energy"]), abs(books["axial_momentum"]), abs(books["mass"]["ball"]))
     assert worst < 1e-12
-    assert simulation.ledger.sinks["outflow"].mass.sum() > 0.1 * simulation.ledger.start.mass.sum()  # there is something to book
+    assert simulation.ledger.sinks["outflow"].mass.sum() > 0.1 * simulation.ledger.start.mass.sum()  # there is much to book
     assert simulation.faults() == []
