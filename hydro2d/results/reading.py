@@ -12,6 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from hydro2d.output import history, snapshot, vtk
+from hydro2d.results.summaries import plausible
 from hydro2d.running.run import DECK, HISTORY, SUMMARY
 
 #: the file of a study directory that lists its cases
@@ -44,9 +45,12 @@ class Results:
             raise ResultsError(f"{self.directory / DECK} cannot be read: {error}") from None
         file = self.directory / SUMMARY
         try:
-            self.summary = json.loads(file.read_text(encoding="utf-8")) if file.exists() else {}
+            found = json.loads(file.read_text(encoding="utf-8")) if file.exists() else {}
         except (OSError, ValueError) as error:
             raise ResultsError(f"{file} cannot be read: {error}") from None
+        if not isinstance(found, dict):
+            raise ResultsError(f"{file} cannot be read: it holds no table")
+        self.summary, _ = plausible(found)
 
     @property
     def label(self) -> str:
@@ -183,12 +187,15 @@ class Results:
         """What a person wants to know of a run first, in words."""
         summary, dumps = self.summary, self.dumps
         facts = {"shot": self.deck.get("title", "")}
-        facts["run"] = f"{summary['stop_reason']} at {summary['time_s'] * 1e6:.2f} µs" if summary else "has not ended"
-        if summary and not summary.get("trustworthy", True):
-            facts["not trustworthy"] = "; ".join(summary["faults"])
+        facts["run"] = "has not ended"
+        if summary:
+            time = summary.get("time_s")
+            facts["run"] = (summary.get("stop_reason") or "ended") + ("" if time is None else f" at {time * 1e6:.2f} µs")
+            if summary.get("trustworthy") is False:
+                facts["not trustworthy"] = "; ".join(summary.get("faults") or ())
         if summary.get("penetration_depth_m") is not None:
             facts["depth"] = _millimetres(summary["penetration_depth_m"])
-            facts["rod"] = f"{_millimetres(summary['rod_length_m'])} long, {summary['regime']}"
+            facts["rod"] = f"{_millimetres(summary.get('rod_length_m'))} long, {summary.get('regime')}"
         if self.measured_depth is not None:
             facts["experiment's depth"] = _millimetres(self.measured_depth)
         facts["dumps"] = f"{len(dumps)}, the last at {dumps[-1][0] * 1e6:.2f} µs" if dumps else "none"

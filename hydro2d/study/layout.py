@@ -24,6 +24,7 @@ from hydro2d.errors import nearest
 from hydro2d.files import holder, write_json, write_text
 from hydro2d.output import snapshot
 from hydro2d.results.reading import STUDY
+from hydro2d.results.summaries import plausible
 from hydro2d.running import run
 from hydro2d.study import velocities
 from hydro2d.study.definition import StudyError
@@ -275,7 +276,8 @@ def _state(place: Path, deck_sha256: str | None) -> dict:
 def _read_state(place: Path, deck_sha256: str | None) -> dict:
     if place.is_file():
         return {"status": FAILED_STATUS, "message": f"{place} is a file, not a directory"}
-    summary, failed, text = read_json(place / run.SUMMARY), read_json(place / FAILED), _text(place / run.DECK)
+    failed, text = read_json(place / FAILED), _text(place / run.DECK)
+    summary, odd = plausible(read_json(place / run.SUMMARY))
     process = holder(place / run.LOCK)
     if process is not None:
         return {"status": RUNNING, "message": str(process), "progress": read_json(place / run.PROGRESS)}
@@ -287,8 +289,10 @@ def _read_state(place: Path, deck_sha256: str | None) -> dict:
         status = str(summary.get("status", INTERRUPTED))
         why = str(summary.get("stop_reason", ""))
         if status == DONE:
-            faults = "; ".join(str(fault) for fault in summary.get("faults", ()))
-            why = "" if summary.get("trustworthy", True) else f"not trustworthy: {faults}"
+            faults = "; ".join(summary.get("faults") or ())
+            why = f"not trustworthy: {faults}" if summary.get("trustworthy") is False else ""
+        if odd:
+            why = "; ".join([*([why] if why else []), f"{run.SUMMARY} has something of the wrong kind in {', '.join(odd)}"])
         return {"status": status, "message": why, "summary": summary}
     if any((place / name).is_file() for name in (snapshot.NAME, snapshot.PREVIOUS)):
         return {"status": INTERRUPTED, "message": "its process ended; the restart file is there"}

@@ -43,7 +43,7 @@ def left(cases: list[Case], workers: int, further: int = 0) -> float | None:
     """Seconds until all cases and so many further ones are done, at the mean time of those that are; None: not known yet."""
     running = [case.progress for case in cases if case.status == RUNNING]
     rest = [now["left_s"] for now in running if now.get("left_s") is not None]
-    whole = [case.summary["wall_s"] for case in cases if case.status == DONE]
+    whole = [case.summary["wall_s"] for case in cases if case.status == DONE and case.summary.get("wall_s") is not None]
     whole = whole or [now["wall_s"] + now["left_s"] for now in running if now.get("left_s") is not None]
     if not whole or not workers:
         return None

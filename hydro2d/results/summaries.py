@@ -1,0 +1,46 @@
+"""summary.json as others may have left it: only what is of the right kind is used, and the rest is told."""
+
+from __future__ import annotations
+
+import math
+
+#: keys that hold words, lists of words, tables, and yes or no
+WORDS = ("deck", "title", "deck_sha256", "version", "status", "stop_reason", "regime", "qualifier", "source")
+TABLES = ("conservation", "experiment", "provenance", "packages", "crater", "mass", "sinks", "exchanges")
+YES_OR_NO = ("trustworthy", "git_dirty")
+#: keys that hold numbers, and what the names of others end in that do
+NUMBERS = ("cycles", "cells", "ns_per_cell_cycle", "axial_momentum", "total_energy", "rod_max_plastic_strain")
+UNITS = ("_m", "_m_s", "_s", "_kg", "_J", "_N_s", "_m2", "_m3", "_K")
+#: tables that hold numbers alone, or tables alone, whatever their keys are
+OF_NUMBERS, OF_TABLES = ("mass",), ("sinks", "exchanges")
+
+
+def plausible(summary: dict) -> tuple[dict, list[str]]:
+    """The summary without what is of the wrong kind, and the dotted keys of that. A number that is not finite is none."""
+    odd: list[str] = []
+    return _checked(summary, (), odd), odd
+
+
+def _checked(table: dict, path: tuple[str, ...], odd: list[str]) -> dict:
+    kept = {}
+    for key, value in table.items():
+        place = (*path, str(key))
+        nothing = value is None and path[-1:] not in [(name,) for name in OF_TABLES]
+        if nothing or _fits(str(key), value, path[-1] if path else ""):
+            kept[key] = _checked(value, place, odd) if isinstance(value, dict) else value
+        else:
+            odd.append(".".join(place))
+    return kept
+
+
+def _fits(key: str, value, table: str) -> bool:
+    """Whether a value is of the kind that its key, or the table that it is in, asks for."""
+    if key in TABLES or table in OF_TABLES:
+        return isinstance(value, dict)
+    if table in OF_NUMBERS or key in NUMBERS or key.endswith(UNITS):
+        return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
+    if key in WORDS:
+        return isinstance(value, str)
+    if key == "faults":
+        return isinstance(value, list) and all(isinstance(each, str) for each in value)
+    return key not in YES_OR_NO or isinstance(value, bool)

@@ -1,0 +1,76 @@
+"""A report survives whatever stands in a summary, and says what it could not use."""
+
+import copy
+import csv
+import io
+import json
+
+import pytest
+
+from hydro2d.results import reading
+from hydro2d.results.summaries import plausible
+from hydro2d.study import layout, table
+from hydro2d.study.contents import collect
+from hydro2d.study.page import page
+from tests.study import fake
+
+WRONG = ["text", 7, -1.5, True, [], [1, "x"], {}, {"a": {"b": []}}, None, float("nan"), float("inf")]
+
+
+@pytest.fixture(scope="module")
+def place(tmp_path_factory):
+    return fake.write_run(tmp_path_factory.mktemp("study") / "shot")
+
+
+def paths(value, path=()):
+    """Every key of a summary, tables and what is in them."""
+    for key, inner in value.items():
+        yield (*path, key)
+        if isinstance(inner, dict):
+            yield from paths(inner, (*path, key))
+
+
+SUMMARY = json.loads(json.dumps(fake._summary(0.31, 0.02))) | {
+    "trustworthy": True, "faults": [], "experiment": {"penetration_m": 0.4, "qualifier": "measured", "source": "x"},
+    "crater": {"depth_m": 0.3, "volume_m3": 1e-5}, "title": "a", "deck": "shot"}  # fmt: skip
+
+
+@pytest.mark.parametrize("path", list(paths(SUMMARY)), ids=".".join)
+def test_a_report_of_any_summary(place, path):
+    text = (place / "summary.json").read_text()
+    try:
+        for wrong in WRONG:
+            summary = copy.deepcopy(SUMMARY)
+            inner = summary
+            for key in path[:-1]:
+                inner = inner[key]
+            inner[path[-1]] = wrong
+            (place / "summary.json").write_text(json.dumps(summary))
+            contents = collect(layout.gather([place]))
+            assert "<html" in page(contents, [])
+            assert table.to_csv(contents.rows).count("\n") == 2
+            assert reading.load(place)._repr_html_()
+    finally:
+        (place / "summary.json").write_text(text)
+
+
+def test_what_is_of_the_wrong_kind_is_left_out_and_told(place):
+    text = (place / "summary.json").read_text()
+    fake.edit_json(place / "summary.json", rod_length_m="long", cycles=[3], wall_s=None)
+    (case,) = layout.gather([place]).cases
+    (place / "summary.json").write_text(text)
+    assert case.message == "summary.json has something of the wrong kind in cycles, rod_length_m"
+    assert "rod_length_m" not in case.summary
+    assert case.summary["penetration_depth_m"] == 0.31
+
+
+def test_a_sound_summary_stays_as_it_is():
+    assert plausible(SUMMARY) == (SUMMARY, [])
+
+
+def test_no_word_becomes_a_formula():
+    """A spreadsheet runs what begins with one of these."""
+    words = ["=cmd|' /C calc'!A0", "+1", "-1+1", "@SUM(A1)", "\t=1", "plain", None, -3.5]
+    text = table.to_csv([{"case": word} for word in words])
+    found = [row["case"] for row in csv.DictReader(io.StringIO(text))]
+    assert found == ["'=cmd|' /C calc'!A0", "'+1", "'-1+1", "'@SUM(A1)", "'\t=1", "plain", "", "-3.5"]
