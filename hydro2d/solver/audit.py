@@ -112,27 +112,24 @@ class Ledger:
         entry.momentum += momentum
         entry.energy += energy
 
-    def _unexplained(self, now: Totals) -> tuple[np.ndarray, float, float]:
-        """Relative changes of the mass of every body, of momentum and of energy that no sink explains."""
+    def _unexplained(self, now: Totals, energy: float) -> tuple[np.ndarray, float, float]:
+        """Relative changes of the mass of every body, of momentum and of energy that no sink explains; energy : their scale."""
         lost = {kind: sum(getattr(sink, kind) for sink in self.sinks.values()) for kind in ("mass", "momentum", "energy")}
-        scale = {
-            "momentum": max((2.0 * self.start.mass.sum() * abs(self.start.energy)) ** 0.5, 1e-300),
-            "energy": max(abs(self.start.energy), self.start.kinetic, 1e-300),
-        }
+        momentum = max((2.0 * self.start.mass.sum() * energy) ** 0.5, 1e-300)
         whole = np.maximum(self.start.mass - self.sinks["inflow"].mass, 1e-300)
         return ((now.mass + lost["mass"] - self.start.mass) / whole,
-                (now.momentum + lost["momentum"] - self.start.momentum) / scale["momentum"],
-                (now.energy + lost["energy"] - self.start.energy) / scale["energy"])
+                (now.momentum + lost["momentum"] - self.start.momentum) / momentum,
+                (now.energy + lost["energy"] - self.start.energy) / max(energy, self.start.kinetic, 1e-300))
 
-    def unexplained(self, now: Totals) -> dict[str, float]:
+    def unexplained(self, now: Totals, energy: float) -> dict[str, float]:
         """The same, of mass the largest, by what they are."""
-        mass, momentum, energy = self._unexplained(now)
+        mass, momentum, energy = self._unexplained(now, energy)
         return {"mass": float(mass[np.argmax(np.abs(mass))]), "axial momentum": momentum, "energy": energy}
 
     def balance(self, state) -> dict:
         """Relative changes that no sink explains, and the sinks; SI, full circumference in cylindrical geometry."""
         now, around = totals(state), 2 * np.pi if state.grid.cylindrical else 1.0
-        mass, momentum, energy = self._unexplained(now)
+        mass, momentum, energy = self._unexplained(now, abs(self.start.energy))
         return {
             "mass": mass,
             "axial_momentum": momentum,

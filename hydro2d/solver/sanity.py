@@ -32,8 +32,7 @@ def faults(state, ledger: Ledger, names, share: float = TRUSTED) -> list[str]:
     if not energy > 0.0:
         return []
     found = []
-    open_books = ledger.unexplained(now)
-    for kind, error in open_books.items():
+    for kind, error in ledger.unexplained(now, energy).items():
         if not abs(error) <= CLOSES:
             found.append(f"the {kind} does not add up: {error:.2g} of it is explained by nothing that is booked")
     for m, internal in enumerate(now.internal_of):

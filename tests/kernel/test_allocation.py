@@ -101,6 +101,7 @@ def test_numpy(options):
 def test_kernels(monkeypatch, options):
     """numba keeps a record for every array that it is given; kernels allocate nothing beyond these."""
     simulation = started(24, 72, **options)
+    monkeypatch.setattr(simulation, "refuse_nonsense", lambda: None)  # its sums are no kernels of a cycle
     given = 0
 
     def counted(function):

@@ -214,7 +214,8 @@ def test_signals_write_a_restart_file(deck, tmp_path, number, status):
     out = tmp_path / "out"
     root = Path(__file__).parents[2]
     child = subprocess.Popen([sys.executable, "-c", textwrap.dedent(code), "run", deck, "--out", str(out)], cwd=root,
-                             stdout=subprocess.DEVNULL)  # fmt: skip
+                             stdout=subprocess.DEVNULL,
+                             preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_DFL))  # fmt: skip
     until = time.monotonic() + 60
     while not (out / "vtk" / "dump_000001.vtr").exists() and time.monotonic() < until:
         time.sleep(0.05)
