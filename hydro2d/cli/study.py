@@ -54,7 +54,7 @@ def sweep(
     quiet
         Prints nothing but errors; sweep.log is written.
     """
-    _fits(workers, threads, scheduler, slurm)
+    _fits(workers, scheduler, slurm)
     if status:
         return _status(study, out)
     from hydro2d.study import cases
@@ -124,7 +124,7 @@ def transition(
     quiet
         Prints nothing but errors; sweep.log and transition.json are written.
     """
-    _fits(workers, threads, scheduler, slurm)
+    _fits(workers, scheduler, slurm)
     if status:
         return _status(study, out)
     from hydro2d.study import cases
@@ -142,7 +142,7 @@ def transition(
     )
 
 
-def _workers(most: int, workers: Count | None, threads: int, scheduler: str | None, slurm: Path | None):
+def _workers(most: int, workers: int | None, threads: int, scheduler: str | None, slurm: Path | None):
     """Gives a dask client of the workers that the arguments ask for, at most so many on this machine."""
     from hydro2d.study import cluster
 
@@ -158,10 +158,7 @@ def default_workers(threads: int) -> int:
     return max((os.cpu_count() or 1) // threads, 1)
 
 
-def _fits(workers: Count | None, threads: int, scheduler: str | None, slurm: Path | None) -> None:
-    for name, value in (("--workers", workers), ("--threads", threads)):
-        if value is not None and value < 1:
-            raise UsageError(f"{name} {value}: at least 1 is needed")
+def _fits(workers: int | None, scheduler: str | None, slurm: Path | None) -> None:
     if scheduler is not None and slurm is not None:
         raise UsageError("--scheduler joins workers and --slurm starts them: give one of them")
     if scheduler is not None and workers is not None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 
 import numpy as np
 
@@ -28,15 +29,19 @@ def _shape(axes: str, lengths: dict[str, int]) -> list[int]:
     return [sum(length(part) for part in axis.split("+")) for axis in axes.split()]
 
 
+def _arrays(groups: int) -> Iterator[tuple[str, str, type]]:
+    """Symbol, axes and kind of every array that has memory of its own; the other fields are views of q and the velocities."""
+    yield from (("q", "k m j i", float), ("velocity", "2 b J I", float), ("velocity0", "2 b J I", float))
+    views = {"u", "v", "u0", "v0", *(field.symbol for field in fields.BODY)}
+    axes = {"body": "m j i", "cell": "j i", "vertex": "b J I"}
+    yield from ((field.symbol, axes[field.centring], float) for field in fields.FIELDS if field.symbol not in views)
+    yield from ((work.symbol, work.axes, work.kind) for work in (*fields.WORK, *(fields.CONTACT_WORK if groups > 1 else ())))
+
+
 def bytes_needed(nj: int, ni: int, bodies: int, groups: int, internal: int = 0) -> int:
     """Memory of a State on nj by ni cells, ghosts included, bytes, without taking it; internal : most variables of a body."""
     lengths = _lengths(nj, ni, bodies, groups, fields.INTERNAL + internal)
-    arrays = [("m j i", float), ("k m j i", float), ("2 b J I", float), ("2 b J I", float)]
-    axes = {"body": "m j i", "cell": "j i", "vertex": "b J I"}
-    apart = {"vof", "u", "v", "u0", "v0", *(field.symbol for field in fields.BODY)}
-    arrays += [(axes[field.centring], float) for field in fields.FIELDS if field.symbol not in apart]
-    arrays += [(work.axes, work.kind) for work in (*fields.WORK, *(fields.CONTACT_WORK if groups > 1 else ()))]
-    return sum(math.prod(_shape(axes, lengths)) * np.dtype(kind).itemsize for axes, kind in arrays)
+    return sum(math.prod(_shape(axes, lengths)) * np.dtype(kind).itemsize for _, axes, kind in _arrays(groups))
 
 
 class State:
@@ -62,26 +67,16 @@ class State:
         self.group = np.zeros(bodies, dtype=np.int64) if group is None else np.asarray(group, dtype=np.int64)
         groups = self.groups = int(self.group.max()) + 1
         self.rules = fields.remap_rules(internal or [()] * bodies)
-        self.lengths = _lengths(*grid.shape, bodies, groups, self.rules.shape[1])
-        self.vof, self.q = self._zeros("m j i"), self._zeros("k m j i")
-        self.velocity, self.velocity0 = self._zeros("2 b J I"), self._zeros("2 b J I")
+        lengths = _lengths(*grid.shape, bodies, groups, self.rules.shape[1])
+        for symbol, axes, kind in _arrays(groups):
+            setattr(self, symbol, np.zeros(_shape(axes, lengths), dtype=kind))
         self.u, self.v = self.velocity
         self.u0, self.v0 = self.velocity0
         for field, row in zip(fields.BODY, self.q, strict=False):
             setattr(self, field.symbol, row)
-        for centring, axes in (("body", "m j i"), ("cell", "j i"), ("vertex", "b J I")):
-            for field in fields.FIELDS:
-                if field.centring == centring and not hasattr(self, field.symbol):
-                    setattr(self, field.symbol, self._zeros(axes))
-        for work in (*fields.WORK, *(fields.CONTACT_WORK if groups > 1 else ())):
-            setattr(self, work.symbol, self._zeros(work.axes, work.kind))
         self.pre[...] = grid.volume  # ghosts keep it: a face beside them divides by it
         self.span, self.reach = self.near[0], self.around[0, 0]
         self.empty_spans()
-
-    def _zeros(self, axes: str, kind: type = float) -> np.ndarray:
-        """An array of zeros with axes as in `fields.Work`."""
-        return np.zeros(_shape(axes, self.lengths), dtype=kind)
 
     def empty_spans(self) -> None:
         """No body is in any row."""

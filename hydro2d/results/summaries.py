@@ -25,8 +25,8 @@ def _checked(table: dict, path: tuple[str, ...], odd: list[str]) -> dict:
     kept = {}
     for key, value in table.items():
         place = (*path, str(key))
-        nothing = value is None and path[-1:] not in [(name,) for name in OF_TABLES]
-        if nothing or _fits(str(key), value, path[-1] if path else ""):
+        within = path[-1] if path else ""
+        if (value is None and within not in OF_TABLES) or _fits(str(key), value, within):
             kept[key] = _checked(value, place, odd) if isinstance(value, dict) else value
         else:
             odd.append(".".join(place))

@@ -21,6 +21,7 @@ class Interrupt:
     """Set by a signal, or by a program that runs a case and wants it to stop: the run ends after the cycle."""
 
     reason: str = ""
+    hears_signals: bool = False
 
     def __call__(self, reason: str) -> None:
         self.reason = self.reason or reason
@@ -35,9 +36,10 @@ def status(reason: str) -> int:
 def signals(interrupt: Interrupt) -> Iterator[None]:
     """SIGINT, SIGTERM and SIGHUP set the interrupt; a second one does what it did before. Only the main thread gets signals.
 
-    A signal that was ignored before, such as SIGHUP under nohup, stays so.
+    A signal that was ignored before, such as SIGHUP under nohup, stays so; within such a block for the same interrupt nothing
+    changes.
     """
-    if threading.current_thread() is not threading.main_thread():
+    if interrupt.hears_signals or threading.current_thread() is not threading.main_thread():
         yield
         return
     before = {}
@@ -50,9 +52,11 @@ def signals(interrupt: Interrupt) -> Iterator[None]:
     for number in CAUGHT:
         if signal.getsignal(number) is not signal.SIG_IGN:
             before[number] = signal.signal(number, handle)
+    interrupt.hears_signals = True
     try:
         yield
     finally:
+        interrupt.hears_signals = False
         for number, handler in before.items():
             signal.signal(number, handler)
 

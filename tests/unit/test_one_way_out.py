@@ -83,6 +83,21 @@ def test_no_interrupt_is_swallowed_while_a_run_starts(deck, tmp_path, seconds):
     assert process.wait(30) in (130, -signal.SIGINT)  # the latter before anything of hydro2d runs
 
 
+def test_a_second_interrupt_does_not_wait_for_the_cycle(deck, tmp_path):
+    """The first asks the run to end after its cycle, which here never does; the second ends it."""
+    endless = SLOW.replace("time.sleep(0.01)", "print('stepping', flush=True); time.sleep(60)")
+    command = [sys.executable, "-c", endless, "run", deck, "--out", str(tmp_path / "out")]
+    process = subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+    for line in process.stdout:
+        if line == "stepping\n":
+            break
+    process.send_signal(signal.SIGINT)
+    time.sleep(0.5)
+    assert process.poll() is None
+    process.send_signal(signal.SIGINT)
+    assert process.wait(10) == 130
+
+
 @pytest.mark.parametrize("where", ["write_grid", "write_lines"])
 def test_a_full_disk_is_one_line_and_the_state_is_saved(simulation, deck, tmp_path, monkeypatch, capsys, where):
     calls = []
