@@ -8,6 +8,7 @@ from __future__ import annotations
 import functools
 import math
 import re
+from collections.abc import Mapping
 
 #: what a person calls a quantity measured in this SI unit
 KINDS = {
@@ -39,7 +40,30 @@ COMMON = {
     "kg": ("kg", 1.0), "g": ("kg", 1e-3), "J": ("J", 1.0), "1/s": ("1/s", 1.0),
 }  # fmt: skip
 
+#: the smallest (other than 0) and the largest number in a unit that mean anything in an impact, and why none beyond does
+REACH = {
+    "m": (1e-15, 1e6, "no mesh of an impact is longer than 1000 km, and nothing in it smaller than a nucleus"),
+    "s": (1e-21, 1e6, "no impact lasts longer than days, nor is any step so short"),
+    "kg": (1e-18, 1e15, "no projectile is so light or so heavy"),
+    "m/s": (1e-12, 1e6, "matter that meets at more than 1000 km/s is a plasma, which no model here describes"),
+    "kg/m^3": (1e-9, 1e6, "no matter on earth is denser, and nothing thinner is a continuum"),
+    "Pa": (1e-12, 1e15, "no equation of state here reaches further"),
+    "J/kg": (1e-12, 1e13, "no equation of state here reaches further"),
+    "K": (1e-9, 1e8, "no equation of state here reaches further"),
+    "rad": (1e-15, 1e3, "that is more than a hundred turns"),
+    "rad/s": (1e-12, 1e9, "no body spins so fast"),
+}
+
 _NUMBER = re.compile(r"\s*([+-]?(?:\d[\d_]*\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*$")
+
+
+def in_reach(value: float, unit: str, reach: Mapping[str, tuple[float, float, str]] = REACH) -> float:
+    """The value; ValueError where it is beyond what means anything in this unit, by ``reach``."""
+    least, most, reason = reach.get(unit, (0.0, math.inf, ""))
+    if not math.isnan(value) and value != 0.0 and not least <= abs(value) <= most:
+        bound = f"beyond {most:g}" if abs(value) > most else f"nearer to 0 than {least:g}"
+        raise ValueError(f"is {value:g} {unit}, {bound}: {reason}")
+    return value
 
 
 def kind(unit: str) -> str:

@@ -61,7 +61,7 @@ class Case:
 
     def transition(self) -> float | None:
         """Impact velocity above which the rod is no longer rigid, m/s; None where it always is."""
-        return self.model.transition(**self.model.collect(self.values))
+        return self.model.limit(self.values)
 
 
 def named(name: str) -> Model:

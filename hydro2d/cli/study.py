@@ -59,7 +59,7 @@ def sweep(
         return _status(study, out)
     from hydro2d.study import cases
 
-    plan = cases.plan(study, set_, search=False)
+    plan = cases.plan(study, set_, search=False, quiet=quiet)
     if check:
         from hydro2d.study import estimate
 
@@ -129,7 +129,7 @@ def transition(
         return _status(study, out)
     from hydro2d.study import cases
 
-    plan = cases.plan(study, set_, search=True)
+    plan = cases.plan(study, set_, search=True, quiet=quiet)
     if check:
         from hydro2d.study import estimate
 

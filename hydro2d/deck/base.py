@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from functools import partial
 from typing import Annotated, Any
 
@@ -62,28 +61,8 @@ def within(low: float, high: float, reason: str, unit: str = "1"):
     return quantity(unit, check)
 
 
-#: the largest number in a unit that means anything here, and why nothing larger does
-LARGEST = {
-    "m": (1e6, "no mesh of an impact is longer than 1000 km"),
-    "s": (1e6, "no impact lasts longer than days"),
-    "m/s": (1e6, "matter that meets at more than 1000 km/s is a plasma, which no model here describes"),
-    "kg/m^3": (1e6, "no matter on earth is denser"),
-    "Pa": (1e15, "no equation of state here reaches further"),
-    "J/kg": (1e13, "no equation of state here reaches further"),
-    "K": (1e8, "no equation of state here reaches further"),
-}
-
-
-def in_reach(value: float, unit: str) -> float:
-    """The value; ValueError where it is beyond what means anything in this unit."""
-    most, reason = LARGEST.get(unit, (math.inf, ""))
-    if abs(value) > most:
-        raise ValueError(f"is {value:g} {unit}, beyond {most:g}: {reason}")
-    return value
-
-
 def _to_si(value, unit: str) -> float:
-    return in_reach(units.to_si(value, unit), unit)
+    return units.in_reach(units.to_si(value, unit), unit)
 
 
 def quantity(unit: str, check=None):

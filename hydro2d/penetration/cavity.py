@@ -22,6 +22,8 @@ from hydro2d.penetration.model import NON_NEGATIVE, Example, Input, InputError, 
 DEEP = 32.0
 #: fronts that a curve is computed at, in units of the bulk sound speed: slow ones in a geometric series, then even steps
 SLOW, FAST = (1e-3, 0.04, 6), (0.08, 1.0, 40)
+#: the weakest solid, as yield stress over Young's modulus, and the slowest cavity, m/s, that the numbers can resolve
+WEAKEST, SLOWEST = 1e-6, 1.0
 #: points of the least-squares fits, evenly spread over the velocities
 POINTS = 400
 
@@ -44,6 +46,9 @@ class Solid:
             raise InputError(f"target.hardening_exponent = {self.hardening_exponent:g}: must be from 0 up to, but without, 1")
         if not self.strength < self.shear_modulus:
             raise InputError(f"target.strength = {self.strength:g}: must be below the shear modulus, {self.shear_modulus:g} Pa")
+        if self.strength < WEAKEST * self.youngs_modulus:
+            raise InputError(f"target.strength = {self.strength:g}: below a millionth of Young's modulus, "
+                             f"{self.youngs_modulus:g} Pa, the plastic flow around a cavity cannot be integrated")
 
     @property
     def shear_modulus(self) -> float:
@@ -176,6 +181,8 @@ def coefficients(solid: Solid, velocity: float) -> Coefficients:
     from scipy.interpolate import CubicSpline
 
     positive(velocity=velocity)
+    if velocity < SLOWEST:
+        raise InputError(f"cavity.velocity = {velocity:g}: at least {SLOWEST:g} m/s, or the fit is to nothing but rounding")
     slowest, (_, walls, stresses) = quasi_static(solid), _curve(solid)
     if velocity > walls[-1]:
         raise InputError(f"cavity.velocity = {velocity:g}: the similarity solution reaches {walls[-1]:.0f} m/s")

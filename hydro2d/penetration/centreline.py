@@ -7,6 +7,7 @@ interface. Anderson, Int. J. Impact Engng 108 (2017) 3, equations (54) to (57); 
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -23,6 +24,8 @@ LAST_LENGTH = 1e-6
 TOLERANCE = 1e-7
 #: longest penetration, in times that the rod needs to travel its length: far beyond any
 LONGEST = 1e4
+#: the most evaluations of the rates in one phase; a rod of 10 000 diameters needs 22 000
+MOST_EVALUATIONS = 100_000
 
 
 class Checked:
@@ -224,13 +227,21 @@ class Centreline:
         """One phase, to the first of its events, as ``solve_ivp`` gives it."""
         from scipy.integrate import solve_ivp
 
+        count = itertools.count()
+
+        def counted(time: float, state: np.ndarray) -> list[float]:
+            if next(count) == MOST_EVALUATIONS:
+                raise InputError(f"the Walker-Anderson equations are not at an end after {MOST_EVALUATIONS} evaluations: "
+                                 "a rod so slender, or resisted by so little, is beyond them")
+            return rates(time, state)
+
         for event in events:
             event.terminal, event.direction = True, -1.0
         scale = np.full(state.size, self.rod.length)
         scale[:2] = self.velocity
         longest = LONGEST * self.rod.length / self.velocity
         found = solve_ivp(
-            rates, (time, time + longest), state, "DOP853", events=events, rtol=TOLERANCE, atol=TOLERANCE * scale)
+            counted, (time, time + longest), state, "DOP853", events=events, rtol=TOLERANCE, atol=TOLERANCE * scale)
         if found.status != 1:
             raise InputError(f"the Walker-Anderson equations do not come to an end for these values ({found.message})")
         return found

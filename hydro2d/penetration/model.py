@@ -7,6 +7,11 @@ import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from types import MappingProxyType
+from typing import TypeVar
+
+import numpy as np
+
+from hydro2d import units
 
 
 class InputError(ValueError):
@@ -24,6 +29,12 @@ REQUIRED = Required()
 ANY, POSITIVE, NON_NEGATIVE, FRACTION = "any", "positive", "non-negative", "fraction"
 
 Value = float | str | None
+T = TypeVar("T")
+
+#: what an input may be, by its unit: that of decks, and of pure numbers
+REACH = {**units.REACH, "1": (1e-18, 1e18, "no pure number of an impact is so small or so large")}
+#: why a model that takes each of its inputs gives no number
+BEYOND = "these inputs, each possible, are together beyond what the model can compute"
 
 
 @dataclass(frozen=True)
@@ -70,7 +81,7 @@ class Input:
         except (TypeError, ValueError):
             raise InputError(f"{self.name} = {value!r}: not a number") from None
         complain(self.name, number, self.sign)
-        return number
+        return _within(self.name, number, self.unit)
 
 
 @dataclass(frozen=True)
@@ -135,7 +146,33 @@ class Model:
     def __call__(self, velocity: float, values: Mapping[str, Value]) -> dict[str, float | str]:
         """The outputs at one impact velocity; InputError for what the model cannot take."""
         complain("velocity", velocity, NON_NEGATIVE)
-        return dict(self.evaluate(velocity, **self.collect(values)))
+        _within("velocity", velocity, "m/s")
+        given = self.collect(values)
+        found = self._computed(lambda: dict(self.evaluate(velocity, **given)))
+        lost = [name for name, value in found.items() if isinstance(value, float) and math.isnan(value)]
+        if lost:
+            raise InputError(f"{self.name}: {lost[0]} is not a number: {BEYOND}")
+        return found
+
+    def limit(self, values: Mapping[str, Value]) -> float | None:
+        """``transition`` of these inputs by name; InputError for what the model cannot take."""
+        given = self.collect(values)
+        return self._computed(lambda: self.transition(**given))
+
+    def _computed(self, evaluation: Callable[[], T]) -> T:
+        """What the equations give. What they cannot give is told: numbers that overflow end as an InputError, or as nan."""
+        try:
+            with np.errstate(all="ignore"):
+                return evaluation()
+        except ArithmeticError as error:
+            raise InputError(f"{self.name}: {error}: {BEYOND}") from None
+
+
+def _within(name: str, number: float, unit: str) -> float:
+    try:
+        return units.in_reach(number, unit, REACH)
+    except ValueError as error:
+        raise InputError(f"{name} {error}") from None
 
 
 def complain(name: str, number: float, sign: str = POSITIVE) -> None:

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from types import MappingProxyType
 
 import numpy as np
@@ -28,7 +28,9 @@ STRIDE = 0.04
 #: the flank's static pressure is whole at this share of the impact velocity, and stable at this share of its own stiffness
 TOUCH, STIFFNESS = 0.005, 1.0
 #: a rod slower than this share of the impact velocity has stopped, and the number of steps that a shot may take
-REST, MOST_STEPS = 1e-6, 200_000
+REST, MOST_STEPS = 1e-6, 100_000
+#: how long a shot will still take is looked at once, when the rod has travelled so many of its lengths
+FORECAST = 2.0
 
 
 @dataclass(frozen=True)
@@ -141,9 +143,15 @@ def drift(body: Body, motion: Motion, time: float) -> Motion:
 
 def _fly(body, target, friction, touch, dt, motion):
     """Steps until the rod stops or leaves: (regime, duration, deepest point, last motion, history)."""
-    outline, rest = body.outline, REST * math.sqrt(motion.velocity @ motion.velocity)
+    outline, speed = body.outline, math.sqrt(motion.velocity @ motion.velocity)
+    rest, forecast = REST * speed, int(FORECAST * np.ptp(body.outline[2]) / (speed * dt))
     deepest, history, regime = 0.0, [_row(body, motion, 0.0)], ""
+    if forecast > MOST_STEPS:
+        raise InputError(f"time_step = {dt:g}: the rod, {np.ptp(outline[2]):g} m long, would not have moved by its own length "
+                         f"after {MOST_STEPS // FORECAST:g} steps: it is too slender, or its flank too stiff, for this model")
     for count in range(MOST_STEPS):
+        if count == forecast:
+            _refuse_a_long_way(body, target, friction, touch, motion, dt)
         pushed = kick(body, motion, *push(body, target, friction, touch, motion), dt if count else 0.5 * dt)
         if _stopped(motion.velocity, pushed.velocity, rest):
             regime, pushed, time = "embedded", *_halt(motion, pushed, count * dt, dt)
@@ -157,6 +165,27 @@ def _fly(body, target, friction, touch, dt, motion):
         if regime:
             return regime, time, deepest, motion, np.array(history)
     raise InputError(f"time_step = {dt:g}: the rod has neither stopped nor left after {MOST_STEPS} steps")
+
+
+def _refuse_a_long_way(body: Body, target: Target, friction: float, touch: float, motion: Motion, dt: float) -> None:
+    """InputError where the rod, slowed by a + b v^2 as it is now, would take more than ``MOST_STEPS`` to stop or to leave.
+
+    It stops after M/sqrt(a b) arctan(v sqrt(b/a)); a and b follow from the force at this velocity and at half of it.
+    """
+    speed = math.sqrt(motion.velocity @ motion.velocity)
+    slower = replace(motion, velocity=0.5 * motion.velocity)
+    whole, half = (np.linalg.norm(push(body, target, friction, touch, at)[0]) for at in (motion, slower))
+    inertial = max(whole - half, 0.0) / 0.75
+    static = max(whole - inertial, 1e-12 * whole)
+    if inertial > 1e-6 * whole:
+        ratio = math.sqrt(inertial / static)
+        to_rest = body.mass * speed / (static * ratio) * math.atan(ratio)
+    else:
+        to_rest = body.mass * speed / static if static > 0.0 else math.inf
+    to_leave = (target.back - motion.position[2]) / speed
+    if min(to_rest, to_leave) > MOST_STEPS * dt:
+        raise InputError(f"the target hardly resists: the rod would be under way for {min(to_rest, to_leave):.3g} s, "
+                         f"which is more than {MOST_STEPS} of this model's steps; a plate needs target.thickness")
 
 
 def _stopped(before: np.ndarray, after: np.ndarray, rest: float) -> bool:

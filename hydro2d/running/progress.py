@@ -5,12 +5,15 @@ from __future__ import annotations
 import sys
 import time as clock
 from collections import deque
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from datetime import datetime
 from pathlib import Path
+from typing import TypeVar
 
 from hydro2d.running.interrupt import lose_output
+
+T = TypeVar("T")
 
 #: seconds between lines, and between refreshes of the table
 LINE_SECONDS, TABLE_SECONDS = 5.0, 0.5
@@ -46,6 +49,19 @@ def number(value, scale: float, form: str, unit: str) -> str:
 def worst_mass(conservation: dict) -> float:
     """The largest relative change of mass of a body, with its sign."""
     return max(conservation["mass"].values(), key=abs, default=0.0)
+
+
+def counted(items: Sequence[T], what: str, quiet: bool = False) -> Iterator[T]:
+    """The items; where they take long, a line on stderr every few seconds tells how many are through.
+
+    "decks read: 512 of 3000"; nothing where ``quiet``.
+    """
+    last = clock.monotonic()
+    for number, item in enumerate(items):
+        if not quiet and clock.monotonic() - last >= LINE_SECONDS:
+            last = clock.monotonic()
+            print(f"{what}: {number} of {len(items)}", file=sys.stderr, flush=True)
+        yield item
 
 
 class Clock:

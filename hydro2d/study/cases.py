@@ -15,6 +15,7 @@ from typing import Any
 from hydro2d import toml
 from hydro2d.deck import deck as decks
 from hydro2d.errors import DeckError, Sources, unknown
+from hydro2d.running.progress import counted
 from hydro2d.running.run import deck_hash
 from hydro2d.study import ranges, velocities
 from hydro2d.study.definition import DECK, Axis, Definition, StudyError, read
@@ -61,15 +62,16 @@ class Plan:
     search: velocities.Velocities | None = None
 
 
-def plan(path: Path, overrides: list[str] | None = None, *, search: bool | None = None) -> Plan:
+def plan(path: Path, overrides: list[str] | None = None, *, search: bool | None = None, quiet: bool = False) -> Plan:
     """Reads a study file and resolves all decks.
 
     search : whether it must be one for a search; None: it may be either
+    quiet : says nothing while it reads the decks of many cases
 
     Raises StudyError for what is wrong with the study itself.
     """
     path = Path(path)
-    return _Planner(path, *read(path, overrides or [])).plan(search)
+    return _Planner(path, *read(path, overrides or [])).plan(search, quiet)
 
 
 def _share(one: tuple[str, ...], other: tuple[str, ...]) -> bool:
@@ -89,7 +91,7 @@ class _Planner:
         self.path, self.definition, self.text, self.data, self.sources = path, definition, text, data, sources
         self.wrong: list[str] = []
 
-    def plan(self, search: bool | None) -> Plan:
+    def plan(self, search: bool | None, quiet: bool) -> Plan:
         self._of_the_kind(search)
         axes = [self._choices(n, axis) for n, axis in enumerate(self.definition.axis)]
         self._distinct_axes()
@@ -108,7 +110,8 @@ class _Planner:
         if found is not None:
             combinations = self._at_velocities(combinations, found)
             described.append({"name": velocities.AXIS, "key": found.key, "values": list(found.labels)})
-        cases = self._named([self._resolved(*self._case(each), files) for each in combinations], combinations)
+        resolved = [self._resolved(*self._case(each), files) for each in counted(combinations, "decks read", quiet)]
+        cases = self._named(resolved, combinations)
         if found is not None:
             self._check_impacts(cases, found)
         return Plan(
@@ -321,10 +324,10 @@ def short(label: str) -> str:
 
 def distinct(names: list[str]) -> list[str]:
     """The names with -2, -3 and so on behind those that were there before."""
-    found: list[str] = []
+    found: dict[str, None] = {}
     for name in names:
         number, given = 2, name
         while given in found:
             given, number = f"{name}-{number}", number + 1
-        found.append(given)
-    return found
+        found[given] = None
+    return list(found)

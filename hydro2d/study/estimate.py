@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from hydro2d.deck import deck as decks
 from hydro2d.errors import DeckError
 from hydro2d.running import check
-from hydro2d.running.progress import duration
+from hydro2d.running.progress import counted, duration
 from hydro2d.study.cases import Plan, Planned
 from hydro2d.study.monitor import lines
 
@@ -37,7 +37,7 @@ def show_search(plan: Plan, workers: int) -> int:
 
 def _table(plan: Plan, cases: Sequence[Planned]) -> list[tuple[tuple[str, ...], float, str]]:
     """Prints the title and the table of cases; returns what `_row` says of each."""
-    found = [_row(case) for case in cases]
+    found = [_row(case) for case in counted(cases, "cases estimated")]
     print(f"{plan.name}: {plan.title}\n" if plan.title else f"{plan.name}\n")
     for line in lines([cells for cells, _, _ in found], HEADS):
         print(line)

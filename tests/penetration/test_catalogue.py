@@ -1,10 +1,13 @@
 """What every analytic model keeps to, whoever wrote it."""
 
+import contextlib
 import functools
 import inspect
+import itertools
 import math
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import pytest
@@ -141,13 +144,14 @@ def test_an_impossible_velocity_is_refused(model, velocity):
         model(velocity, values_of(model))
 
 
-def outcome(model: Model, velocity: float) -> str:
+def outcome(model: Model, velocity: float, values: dict | None = None) -> str:
     """"numbers", or the message of the InputError; anything else that is raised goes on."""
     try:
-        found = model(velocity, values_of(model))
+        found = model(velocity, values or values_of(model))
     except InputError as error:
         return str(error)
-    assert [entry.name for entry in model.outputs if entry.unit != "" and not math.isfinite(found[entry.name])] == []
+    numbers = [found[entry.name] for entry in model.outputs if entry.unit != ""]
+    assert not any(map(math.isnan if values else lambda number: not math.isfinite(number), numbers))
     return "numbers"
 
 
@@ -163,3 +167,52 @@ def test_velocity_zero_gives_numbers_or_one_message(model):
 @pytest.mark.parametrize("velocity", [1.0, 30.0, 2000.0])
 def test_small_and_large_velocities_give_numbers_or_one_message(model, velocity):
     assert "\n" not in outcome(model, velocity)
+
+
+#: numbers from nothing to everything; the short list is that of every run of the tests
+SOME, ALL = (1e-30, 1e-6, 1e6, 1e30), (1e-300, 1e-30, 1e-18, 1e-12, 1e-6, 1e-3, 1.0, 1e3, 1e6, 1e12, 1e18, 1e30, 1e300)
+#: the longest that a model may take over one shot, s; a shot takes milliseconds, a rigid body in soft soil ten seconds
+PATIENCE = 60.0
+
+
+def survives(model: Model, numbers: tuple[float, ...]) -> int:
+    """Every input at every number, and the velocity: numbers or one message, in time. Returns how many were tried."""
+    names = [None, *(entry.name for entry in model.inputs if not entry.choices)]
+    for name, number in itertools.product(names, numbers):
+        values = values_of(model) if name is None else {**values_of(model), name: number}
+        began = time.perf_counter()
+        assert "\n" not in outcome(model, number if name is None else model.example.velocity, values)
+        if model.transition is not None:
+            with contextlib.suppress(InputError):
+                model.limit(values)
+        assert time.perf_counter() - began < PATIENCE, (name, number)
+    return len(names) * len(numbers)
+
+
+@by_name(MODELS)
+def test_absurd_numbers_give_numbers_or_one_message(model):
+    assert survives(model, SOME) >= 8
+
+
+@pytest.mark.slow
+def test_two_thousand_absurd_numbers(capsys):
+    count = sum(survives(model, ALL) for model in MODELS)
+    with capsys.disabled():
+        print(f"\n{count} absurd numbers, 0 failures")
+    assert count > 2000
+
+
+@pytest.mark.parametrize(("changes", "message"), [
+    ({"target.density": 1.2, "target.strength": 1.0}, "hardly resists"),
+    ({"rod.diameter": 1e-6}, "too slender"), ({"target.density": 1e30}, "no matter on earth")])
+def test_a_rigid_body_says_what_it_cannot_follow(changes, message):
+    model = catalogue.MODELS["rigid-body"]
+    with pytest.raises(InputError, match=message):
+        model(model.example.velocity, {**values_of(model), **changes})
+
+
+def test_a_rod_without_end_is_refused_at_once():
+    model = catalogue.MODELS["walker-anderson"]
+    for length, message in ((1e30, "1000 km"), (1e5, "not at an end after")):
+        with pytest.raises(InputError, match=message):
+            model(model.example.velocity, {**values_of(model), "rod.length": length})

@@ -4,6 +4,7 @@ from types import SimpleNamespace
 
 import pytest
 
+from hydro2d.running import progress
 from hydro2d.running.progress import PACE_SECONDS, Clock
 
 
@@ -45,3 +46,12 @@ def test_without_an_end_time_nothing_is_known():
 def test_before_the_first_cycle_is_over_nothing_is_known():
     clock = Clock(SimpleNamespace(time=1.0, cycles=None))
     assert clock.left(SimpleNamespace(time=0.1, cycle=1)) is None
+
+
+@pytest.mark.parametrize(("quiet", "seconds", "said"), [
+    (False, 2.0, "decks read: 2 of 6\ndecks read: 5 of 6\n"), (True, 2.0, ""), (False, 0.1, "")])
+def test_what_takes_long_is_counted_on_stderr(monkeypatch, capsys, quiet, seconds, said):
+    now = (seconds * n for n in range(1000))
+    monkeypatch.setattr(progress.clock, "monotonic", lambda: next(now))
+    assert list(progress.counted(range(6), "decks read", quiet)) == list(range(6))
+    assert capsys.readouterr().err == said
