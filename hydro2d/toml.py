@@ -6,6 +6,7 @@ import copy
 import json
 import re
 import tomllib
+from datetime import date, time
 from pathlib import Path
 from typing import Any
 
@@ -21,6 +22,11 @@ def problems_folder() -> Path:
         if (folder / "materials").is_dir():
             return folder
     raise FileNotFoundError("the folder problems/materials is missing from this installation")
+
+
+def is_study(data: dict) -> bool:
+    """Whether parsed TOML has what a study has and a deck has not: axes, or a transition to search."""
+    return "axis" in data or "transition" in data
 
 
 def parse(text: str, name: str) -> dict:
@@ -165,9 +171,11 @@ def inline(value) -> str:
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, str):
-        return json.dumps(value, ensure_ascii=False)
+        return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
     if isinstance(value, (int, float)):
         return repr(value)
+    if isinstance(value, (date, time)):
+        return value.isoformat()
     if isinstance(value, dict):
         inside = ", ".join(f"{quoted(key)} = {inline(entry)}" for key, entry in value.items() if entry is not None)
         return f"{{ {inside} }}"

@@ -78,7 +78,7 @@ def load(path: str | Path, overrides: Sequence[str] = ()) -> Deck:
     file = find(path)
     sources = Sources()
     data = toml.read(file, sources)
-    if "mesh" not in data and ("axis" in data or "transition" in data):
+    if toml.is_study(data) and "mesh" not in data:
         raise DeckError(f"{file}: is a study, which `hydro2d sweep` or `hydro2d transition` runs, not a deck")
     return _resolve(data, file.stem, overrides, sources)
 
@@ -102,7 +102,7 @@ def _resolve(data: dict, name: str, overrides: Sequence[str], sources: Sources) 
     try:
         deck = Deck.model_validate(data)
     except ValidationError as error:
-        problems = [str(complaint(*_explained(entry, data))) for entry in error.errors()]
+        problems = [str(complaint(*_explained(entry, data))) for entry in _causes(error.errors())]
         raise DeckError("\n".join(dict.fromkeys(problems))) from None
     problems += [str(complaint(path, message)) for path, message in inconsistencies(deck)]
     if problems:
@@ -113,6 +113,13 @@ def _resolve(data: dict, name: str, overrides: Sequence[str], sources: Sources) 
     if problems:
         raise DeckError("\n".join(problems))
     return deck
+
+
+def _causes(found: list[dict]) -> list[dict]:
+    """Pydantic's errors without "too few entries" of a list whose entries are what is wrong."""
+    places = [entry["loc"] for entry in found]
+    return [entry for entry in found if entry["type"] != "too_short"
+            or not any(place[: len(entry["loc"])] == entry["loc"] and place != entry["loc"] for place in places)]
 
 
 def _explained(entry: dict, data: dict) -> tuple[tuple, str]:

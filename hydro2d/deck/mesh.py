@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
 import numpy as np
@@ -11,6 +12,10 @@ from hydro2d.deck.sections import Deck, Segment
 #: share of a cell by which a segment may miss a whole number of cells; beyond the second it is told
 _FIT, _TOLD = 1e-4, 1e-6
 _LIMIT = 1_000_000
+#: the smallest cell, as a share of its distance from the origin, whose edges are still apart by many roundings
+_SMALLEST = 1e-9
+#: logarithm of the last cell of a graded segment over its first, at most
+_GROWTH = 50.0
 
 
 class SegmentError(ValueError):
@@ -84,7 +89,7 @@ def _segment(deck: Deck, segment: Segment, start: float, previous: float | None)
             near = " or ".join(f"{value:.9g}" for value in dict.fromkeys(fits))
             raise ValueError(f"cells of {size:.9g} m do not divide {length:.9g} m; to = {near} m would fit")
     end = segment.to if length is not None else start + cells * size
-    return _checked(np.linspace(start, end, cells + 1)[1:])
+    return _checked(start, np.linspace(start, end, cells + 1)[1:])
 
 
 def _size(deck: Deck, segment: Segment) -> float | None:
@@ -102,8 +107,10 @@ def _graded(segment: Segment, start: float, length: float | None, first: float |
             raise ValueError("the first segment of an axis needs the size of its first cell: first")
         first = previous * (segment.ratio or 1.0)
     if segment.cells is not None:
+        if segment.cells * abs(math.log(segment.ratio)) > _GROWTH:
+            raise ValueError(f"{segment.cells} cells with a ratio of {segment.ratio:g} end at nothing, or beyond all bounds")
         sizes = first * segment.ratio ** np.arange(segment.cells)
-        return _checked(start + np.cumsum(sizes))
+        return _checked(start, start + np.cumsum(sizes))
     if first > length:
         raise ValueError(f"is {length:g} m long, less than its first cell of {first:g} m")
     if segment.last is not None:
@@ -120,7 +127,7 @@ def _graded(segment: Segment, start: float, length: float | None, first: float |
     sizes = first * ratio ** np.arange(cells)
     edges = start + np.cumsum(sizes)
     edges[-1] = segment.to
-    return _checked(edges)
+    return _checked(start, edges)
 
 
 def _count(first: float, ratio: float, length: float) -> int:
@@ -143,7 +150,8 @@ def _fitted_ratio(first: float, cells: int, length: float) -> float:
         return 1.0
 
     def filled(ratio: float) -> float:
-        return first * float(np.sum(ratio ** np.arange(cells)))
+        with np.errstate(over="ignore"):  # infinite is too long as well
+            return first * float(np.sum(ratio ** np.arange(cells)))
 
     low, high = 1e-3, 2.0
     while filled(high) < length:
@@ -157,7 +165,10 @@ def _fitted_ratio(first: float, cells: int, length: float) -> float:
     return 0.5 * (low + high)
 
 
-def _checked(edges: np.ndarray) -> np.ndarray:
+def _checked(start: float, edges: np.ndarray) -> np.ndarray:
     if len(edges) > _LIMIT:
         raise ValueError(f"has {len(edges)} cells")
+    smallest, farthest = float(np.min(np.diff(edges, prepend=start))), float(np.max(np.abs(edges)))
+    if not smallest > _SMALLEST * farthest:
+        raise ValueError(f"its smallest cell, {smallest:.3g} m, is lost in the rounding of its place at {farthest:.3g} m")
     return edges

@@ -42,7 +42,8 @@ class Segment(Section):
         None, description="each cell's size over that of the one before"
     )
     across: str | None = Field(None, description="a body with a radius, to measure cells with")
-    cells_across: PositiveNumber | None = Field(None, description="cells across the radius of that body")
+    cells_across: within(0.01, 1e6, "fewer resolve nothing, and no machine holds more") | None = Field(
+        None, description="cells across the radius of that body")
 
     @model_validator(mode="after")
     def _shape(self):
@@ -104,7 +105,8 @@ class Numerics(Section):
     max_growth: within(1.0, 2.0, "a step that grows faster overtakes what sets it") = Field(
         1.1, description="largest ratio of successive time steps"
     )
-    ramp_cycles: int = Field(100, ge=0, description="cycles over which the time step rises from its initial factor")
+    ramp_cycles: int = Field(
+        100, ge=0, le=1_000_000, description="cycles over which the time step rises from its initial factor")
     initial_dt_factor: Fraction = Field(0.1, gt=0, description="first time step over the stable one")
     dt_min: Time = Field(1e-14, description="a time step below this ends the run as unphysical")
     viscosity_linear: within(0.0, 2.0, "a viscosity beyond it is not stable at this time step") = Field(
@@ -184,7 +186,7 @@ class Sliding(Section):
     friction: NotNegative = Field(
         0.0, description='Coulomb coefficient at the interface of a contact, or in the slip layer with shear = "shear"'
     )
-    refresh: int = Field(5, ge=1, description="cycles between updates of the distance field")
+    refresh: int = Field(5, ge=1, le=1_000_000, description="cycles between updates of the distance field")
 
 
 class Failure(Section):
@@ -206,7 +208,7 @@ class Stop(Section):
     """
 
     time: PositiveTime | None = Field(None, description="end time")
-    cycles: int | None = Field(None, gt=0, description="number of cycles")
+    cycles: int | None = Field(None, gt=0, le=10**12, description="number of cycles")
     body: str | None = Field(None, description="the body watched; default: the rod")
     speed_below: PositiveSpeed | None = Field(None, description="axial speed of that body's centre of mass, of a rod's core")
     rebound: bool = Field(False, description="stop when that body turns round")

@@ -7,6 +7,7 @@ x = r, y = z. Float32, appended raw, LZ4. Beside the fields, the outlines of the
 from __future__ import annotations
 
 import errno
+import math
 import os
 from collections.abc import Iterable
 from contextlib import suppress
@@ -286,7 +287,14 @@ def _read(reader, path: Path):
     if not Path(path).is_file() or not reader.CanReadFile(str(path)):
         raise VtkError(f"{path} is not a VTK file of a run")
     reader.SetFileName(str(path))
-    reader.Update()
+    shown = reader.GetGlobalWarningDisplay()
+    reader.GlobalWarningDisplayOff()  # what VTK has to say of a damaged file is said here, in one line
+    try:
+        reader.Update()
+    finally:
+        reader.SetGlobalWarningDisplay(shown)
+    if reader.GetErrorCode():
+        raise VtkError(f"{path} is damaged: VTK cannot read the whole of it")
     return reader.GetOutput()
 
 
@@ -296,13 +304,18 @@ def read_grid(path: Path) -> Dump:
     from vtkmodules.vtkIOXML import vtkXMLRectilinearGridReader
 
     grid = _read(vtkXMLRectilinearGridReader(), path)
-    r, z = vtk_to_numpy(grid.GetXCoordinates()), vtk_to_numpy(grid.GetYCoordinates())
-    data, fields = grid.GetCellData(), {}
-    for number in range(data.GetNumberOfArrays()):
-        values = vtk_to_numpy(data.GetArray(number))
-        fields[data.GetArrayName(number)] = values.reshape(len(z) - 1, len(r) - 1, *values.shape[1:]).copy()
-    time = grid.GetFieldData().GetArray("TimeValue").GetValue(0)
-    return Dump(r.copy(), z.copy(), fields, time)
+    data, fields, time = grid.GetCellData(), {}, grid.GetFieldData().GetArray("TimeValue")
+    arrays = [data.GetArray(number) for number in range(data.GetNumberOfArrays())]
+    axes = [axis for axis in (grid.GetXCoordinates(), grid.GetYCoordinates()) if axis is not None]
+    cells = math.prod(axis.GetNumberOfTuples() - 1 for axis in axes)
+    whole = len(axes) == 2 and cells > 0 and all(each is not None and each.GetNumberOfTuples() == cells for each in arrays)
+    if not whole or time is None or time.GetNumberOfTuples() < 1:
+        raise VtkError(f"{path} is damaged: its time, its mesh or the values of its cells are not whole")
+    r, z = map(vtk_to_numpy, axes)
+    for each in arrays:
+        values = vtk_to_numpy(each)
+        fields[each.GetName()] = values.reshape(len(z) - 1, len(r) - 1, *values.shape[1:]).copy()
+    return Dump(r.copy(), z.copy(), fields, time.GetValue(0))
 
 
 def read_lines(path: Path) -> list[tuple[int, np.ndarray]]:

@@ -164,7 +164,9 @@ class Model:
         try:
             with np.errstate(all="ignore"):
                 return evaluation()
-        except ArithmeticError as error:
+        except InputError:
+            raise
+        except (ArithmeticError, ValueError) as error:
             raise InputError(f"{self.name}: {error}: {BEYOND}") from None
 
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from hydro2d.deck import deck as decks
+from hydro2d.errors import DeckError
 from hydro2d.materials import library
 from hydro2d.mesh.edges import EDGES
 from hydro2d.mesh.grid import Grid
@@ -17,6 +18,8 @@ from hydro2d.solver import insertion, memory
 
 #: nanoseconds per cell and cycle on one thread, as a first guess; `hydro2d bench` measures the machine
 NANOSECONDS = 250.0
+#: a run of more cycles is a mistake
+MOST_CYCLES = 1e10
 
 
 @dataclass(frozen=True)
@@ -136,8 +139,14 @@ def _cycles(deck, grid, table, start) -> int:
     speed = float(np.max(np.hypot(start["u_cell"], start["v_cell"] - mesh_speed)))
     numerics = deck.numerics
     dt = smallest / max(fastest / numerics.courant, speed / numerics.advective_courant, 1e-30)
-    by_time = math.ceil(deck.stop.time / dt) if deck.stop.time else deck.stop.cycles
-    return min(by_time, deck.stop.cycles or by_time)
+    if dt < numerics.dt_min:
+        raise DeckError(f"the first time step would be {dt:.3g} s, below numerics.dt_min = {numerics.dt_min:g} s: "
+                        f"the smallest cell is {smallest:.3g} m wide")
+    by_time = deck.stop.time / dt if deck.stop.time else math.inf
+    cycles = min(by_time, deck.stop.cycles or math.inf)
+    if cycles > MOST_CYCLES:
+        raise DeckError(f"the run would take {cycles:.3g} cycles, at a time step of {dt:.3g} s: it would not end in a lifetime")
+    return math.ceil(cycles)
 
 
 def _axis(name: str, edges: np.ndarray) -> str:

@@ -204,7 +204,7 @@ class Run:
                 reason = self.sim.stop_reason()
             self.sim.refuse_nonsense()
         except UnphysicalState as error:
-            return self._finish("unphysical", f"unphysical state: {error}")
+            return self._finish("unphysical", str(error))
         except OSError:  # in an output: the state is whole
             self._save_if_possible(self._snapshot())
             raise

@@ -60,7 +60,7 @@ class Axis(Section):
     """One thing that is varied: the values of a key, or variants that set several keys."""
 
     name: str = Field(min_length=1, description="what tables and exclusions call it")
-    key: str | None = Field(None, description="deck key, as in --set")
+    key: str | None = Field(None, min_length=1, description="deck key, as in --set")
     values: Annotated[tuple[Any, ...], AfterValidator(_filled)] | None = Field(None, description="values of the key")
     range: Range | None = Field(None, description="values of the key, by from, to and step or count")
     variants: Annotated[dict[str, Annotated[Keys, AfterValidator(_filled)]], AfterValidator(_filled)] | None = Field(
@@ -109,11 +109,6 @@ _TABLES: dict[tuple, type[Section]] = {
 }  # fmt: skip
 
 
-def is_study(data: dict) -> bool:
-    """Whether parsed TOML is a study and not a deck."""
-    return "axis" in data or "transition" in data
-
-
 def read(path: Path, overrides: list[str]) -> tuple[Definition, str, dict, Sources]:
     """A study file with the overrides of the command line laid over [set]: validated, as text, as tables; where keys stand.
 
@@ -130,7 +125,7 @@ def read(path: Path, overrides: list[str]) -> tuple[Definition, str, dict, Sourc
         data = toml.parse(text, str(path))
     except DeckError as error:
         raise StudyError(str(error)) from None
-    if not is_study(data) and "mesh" in data:
+    if not toml.is_study(data) and "mesh" in data:
         raise StudyError(f"{path}: is a deck, which `hydro2d run` runs; a study names a deck and what is varied")
     sources.add(str(path), data, text)
     if overrides:

@@ -1,0 +1,183 @@
+"""Commands that are stopped at any moment, have no room to write or nobody to read them: one line, a documented status, a state
+from which a run goes on to the same bits."""
+
+import hashlib
+import json
+import os
+import random
+import resource
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from hydro2d.output import snapshot
+from tests.trials.test_run_directories import FEW, finished  # noqa: F401
+from tests.trials.test_texts import STUDY
+from tests.unit.test_cli import DECK
+
+ROOT = Path(__file__).parents[2]
+#: what a signal ends a command with: hydro2d's status, or the signal itself before anything of hydro2d has begun
+STATUS = {signal.SIGHUP: 129, signal.SIGINT: 130, signal.SIGTERM: 143, signal.SIGKILL: -9}
+STOPPING = (signal.SIGHUP, signal.SIGINT, signal.SIGTERM)
+CYCLES = ["--set", "stop.cycles=400", "--set", "output.restart_interval=0.05", "--set", "output.vtk_interval='1 us'"]
+
+
+def begun(arguments, **options):
+    """A command as a process of its own; what it says on stderr can be read."""
+    command = [sys.executable, "-m", "hydro2d", *arguments]
+    return subprocess.Popen(command, cwd=ROOT, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, **options)
+
+
+def ended(process, expected, limit=120):
+    """Its status, which must be one of those expected, with not more than a line or two on stderr."""
+    said = process.communicate(timeout=limit)[1]
+    assert process.returncode in expected, (process.returncode, said)
+    assert process.returncode == -signal.SIGINT or "Traceback" not in said, said
+    return process.returncode
+
+
+def state(directory):
+    """A hash of all arrays of the restart file."""
+    arrays = snapshot.read(directory / snapshot.NAME).arrays
+    return hashlib.sha256(b"".join(name.encode() + arrays[name].tobytes() for name in sorted(arrays))).hexdigest()
+
+
+def leftovers(directory):
+    """Files that were only half written, and are not one of those that stand."""
+    return [file for file in directory.rglob(".*") if file.is_file() and file.suffix == ".tmp"]
+
+
+@pytest.fixture(scope="module")
+def shot(tmp_path_factory):
+    """A deck, the state that it ends with, and the seconds that this took."""
+    folder = tmp_path_factory.mktemp("shot")
+    (folder / "shot.toml").write_text(DECK)
+    arguments = ["run", str(folder / "shot.toml"), *CYCLES, "--quiet", "--threads", "1"]
+    ended(begun([*arguments, "--out", str(folder / "warm")]), (0,))  # compiles
+    start = time.monotonic()
+    ended(begun([*arguments, "--out", str(folder / "whole")]), (0,))
+    return arguments, state(folder / "whole"), time.monotonic() - start
+
+
+def stopped_runs(seeds, shot, folder):
+    """Stops a run up to three times, then lets it end; returns how often it was stopped."""
+    arguments, whole, seconds = shot
+    count = 0
+    for seed in seeds:
+        chance, out = random.Random(seed), folder / f"run{seed}"
+        for _ in range(chance.choice((1, 1, 2, 3))):
+            how = chance.choice((*STOPPING, signal.SIGKILL))
+            further = ["--restart"] if (out / snapshot.NAME).exists() else ["--overwrite"]
+            process = begun([*arguments, "--out", str(out), *further])
+            time.sleep(seconds * chance.uniform(0.0, 1.1))
+            process.send_signal(how)
+            status = ended(process, (0, STATUS[how], -how))
+            count += status != 0
+            assert how == signal.SIGKILL or status == -how or not leftovers(out)
+            if status == STATUS[how] and how != signal.SIGKILL and out.exists() and (out / "summary.json").exists():
+                assert json.loads((out / "summary.json").read_text())["status"] == "interrupted"
+        further = ["--restart"] if (out / snapshot.NAME).exists() else ["--overwrite"]
+        ended(begun([*arguments, "--out", str(out), *further]), (0,))
+        assert state(out) == whole, f"seed {seed}: other bits"
+        assert not leftovers(out)
+        shutil.rmtree(out)
+    return count
+
+
+def test_stopped_runs_go_on_to_the_same_bits(shot, tmp_path):
+    assert stopped_runs(range(4), shot, tmp_path) > 0
+
+
+@pytest.mark.slow
+def test_a_hundred_stopped_runs(shot, tmp_path, capsys):
+    count = stopped_runs(range(100), shot, tmp_path)
+    with capsys.disabled():
+        print(f"\n100 runs stopped {count} times, 0 with other bits")
+    assert count > 50
+
+
+def others(finished, folder):  # noqa: F811
+    """Commands beside `run`, each into a folder of its own."""
+    (folder / "shot.toml").write_text(DECK)
+    (folder / "study.toml").write_text(STUDY)
+    run = str(finished / "run")
+    return {
+        "plot": ["plot", run, "--output", str(folder / "picture.png")],
+        "export": ["export", run, "--output", str(folder / "export")],
+        "report": ["report", run, "--out", str(folder / "report")],
+        "check": ["check", str(folder / "shot.toml")],
+        "info": ["info"],
+        "model": ["model", "tate", "--velocity", "500m/s:2km/s:50", "--csv", f"{folder}/t.csv", "--figure", f"{folder}/t.pdf"],
+        "sweep": ["sweep", str(folder / "study.toml"), *FEW, "--out", str(folder / "study"), "--workers", "1", "--overwrite"],
+    }  # fmt: skip
+
+
+def stopped_commands(seeds, finished, folder):  # noqa: F811
+    """Stops a command at a moment of its first seconds; returns how many were stopped."""
+    count, known = 0, others(finished, folder)
+    for seed in seeds:
+        chance = random.Random(seed)
+        name, how = chance.choice(list(known)), chance.choice(STOPPING)
+        process = begun(known[name])
+        time.sleep(chance.uniform(0.0, 8.0 if name == "sweep" else 2.0))
+        process.send_signal(how)
+        count += ended(process, (0, STATUS[how], -how)) != 0
+        assert process.returncode == -how or not leftovers(folder), name
+    return count
+
+
+def test_stopped_commands(finished, tmp_path):  # noqa: F811
+    assert stopped_commands(range(8), finished, tmp_path) > 0
+
+
+@pytest.mark.slow
+def test_two_hundred_stopped_commands(finished, tmp_path, capsys):  # noqa: F811
+    count = stopped_commands(range(200), finished, tmp_path)
+    with capsys.disabled():
+        print(f"\n200 commands, {count} of them stopped, 0 failures")
+    assert count > 50
+
+
+def limited(most):
+    """Lets no file of the process grow beyond so many bytes, which is what a full disk does to it."""
+    return lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (most, most))
+
+
+def without_room(seeds, shot, finished, folder):  # noqa: F811
+    """Commands that write, with hardly any room; returns how many said so."""
+    count, known = 0, others(finished, folder)
+    known["run"] = [*shot[0], "--out", str(folder / "run"), "--overwrite"]
+    for seed in seeds:
+        chance = random.Random(seed)
+        name, most = chance.choice(list(known)), chance.choice((0, 10, 1000, 10_000, 50_000, 200_000))
+        process = begun(known[name], preexec_fn=limited(most), env={**os.environ, "PYTHONDONTWRITEBYTECODE": "1"})
+        count += ended(process, (0, 3, 4) if name == "sweep" else (0, 4)) != 0
+        assert not leftovers(folder), name
+    return count
+
+
+def test_without_room(shot, finished, tmp_path):  # noqa: F811
+    assert without_room(range(8), shot, finished, tmp_path) > 0
+
+
+@pytest.mark.slow
+def test_two_hundred_without_room(shot, finished, tmp_path, capsys):  # noqa: F811
+    count = without_room(range(200), shot, finished, tmp_path)
+    with capsys.disabled():
+        print(f"\n200 commands without room, {count} said so, 0 failures")
+    assert count > 50
+
+
+@pytest.mark.parametrize("name", ["plot", "export", "report", "check", "info", "model", "sweep"])
+def test_a_reader_that_is_gone(finished, tmp_path, name):  # noqa: F811
+    arguments = others(finished, tmp_path)[name]
+    command = [sys.executable, "-m", "hydro2d", *arguments]
+    process = subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    process.stdout.close()
+    assert process.wait(120) in (0, 141)
+    assert b"Traceback" not in process.stderr.read()

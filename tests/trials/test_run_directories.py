@@ -1,0 +1,81 @@
+"""Spoiled run and study directories: every command that reads them says in words what it cannot use."""
+
+import random
+import shutil
+
+import pytest
+
+from tests.trials import spoil
+from tests.trials.test_texts import STUDY
+from tests.unit.test_cli import DECK
+
+FEW = ["--set", "stop.cycles=30", "--set", "output.vtk_interval='0.3 us'", "--set", "output.history_interval='0.1 us'"]
+FURTHER = ["--set", "stop.cycles=40"]
+
+
+@pytest.fixture(scope="module")
+def finished(tmp_path_factory):
+    """A run and a study of two such runs, done."""
+    folder = tmp_path_factory.mktemp("finished")
+    (folder / "shot.toml").write_text(DECK)
+    assert spoil.judge(["run", str(folder / "shot.toml"), *FEW, "--quiet", "--out", str(folder / "run")])[0] == 0
+    (folder / "study.toml").write_text(STUDY)
+    from hydro2d.study import cases, layout
+
+    plan = cases.plan(folder / "study.toml")
+    layout.make(folder / "study")
+    layout.write(plan, folder / "study")
+    for case in plan.cases[:2]:
+        shutil.copytree(folder / "run", folder / "study" / layout.CASES / case.name)
+    return folder
+
+
+def commands(run, study, folder, chance):
+    """A command that reads what is spoiled, and the statuses that it may end with."""
+    picture = str(folder / "picture.png")
+    return chance.choice((
+        (["plot", run, "--output", picture], (0, 2, 4)),
+        (["plot", run, "--output", picture, "--kind", "history", "--quantity", "penetration_depth_m"], (0, 2, 4)),
+        (["export", run, "--output", str(folder / "export")], (0, 2, 4)),
+        (["report", run, "--out", str(folder / "report")], (0, 2, 4)),
+        (["report", study, "--out", str(folder / "report")], (0, 2, 4)),
+        (["sweep", study, "--status"], (0, 2, 4)),
+        (["model", "transition", "--rod", "W_alloy", "--target", "Al5083", "--runs", run], (0, 2, 4)),
+        (["run", str(folder / "shot.toml"), *FEW, *FURTHER, "--restart", "--quiet", "--out", run], (0, 2, 3, 4)),
+    ))  # fmt: skip
+
+
+def spoiled_directories(seeds, finished, folder):
+    """Spoils one or two files of a copy, and runs a command on it; returns how many said that they could not use it."""
+    told = 0
+    for seed in seeds:
+        chance, place = random.Random(seed), folder / "place"
+        shutil.rmtree(place, ignore_errors=True)
+        shutil.copytree(finished, place)
+        files = sorted(file for file in (place / "run").rglob("*") if file.is_file())
+        files += sorted(file for file in (place / "study").rglob("*") if file.suffix in (".json", ".toml", ".csv"))
+        for file in {chance.choice(files), *chance.choices(files, k=chance.choice((0, 1)))}:
+            spoil.file(file, chance, files)
+        arguments, allowed = commands(str(place / "run"), str(place / "study"), place, chance)
+        told += spoil.judge(arguments, allowed)[0] != 0
+    return told
+
+
+def test_what_is_not_spoiled_is_read(finished, tmp_path):
+    for n in range(8):
+        place = tmp_path / str(n)
+        shutil.copytree(finished, place)
+        arguments, _ = commands(str(place / "run"), str(place / "study"), place, random.Random(n))
+        assert spoil.judge(arguments)[0] == 0
+
+
+def test_spoiled_directories(finished, tmp_path):
+    assert spoiled_directories(range(40), finished, tmp_path) > 3
+
+
+@pytest.mark.slow
+def test_a_thousand_spoiled_directories(finished, tmp_path, capsys):
+    told = spoiled_directories(range(1000), finished, tmp_path)
+    with capsys.disabled():
+        print(f"\n1000 spoiled directories, {told} refused in words, 0 failures")
+    assert told > 100
