@@ -10,7 +10,7 @@ from strength.layout import SHEAR
 
 STRENGTH_MODULES = modules(
     "strength", "hydrodynamic", "elastic_plastic", "johnson_cook", "steinberg_guinan", "power_law",
-    "kinematic_hardening")
+    "kinematic_hardening", "zerilli_armstrong")
 DAMAGE_MODULES = modules("strength", "no_damage", "johnson_cook_damage")
 
 #: ids of the models whose shear modulus is the number in slot SHEAR, whatever the state: no cell need be evaluated

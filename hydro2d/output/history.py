@@ -126,15 +126,18 @@ def _opened(path: Path):
     try:
         with h5py.File(path, "r") as file:
             yield file
-    except OSError as error:
-        raise HistoryError(f"{path} is not a history file: {error}") from None
+    except (OSError, KeyError, ValueError, RuntimeError, AttributeError, TypeError) as error:
+        raise HistoryError(f"{path} is damaged, or not a history file: {error}") from None
 
 
 def read(path: Path) -> dict[str, np.ndarray]:
     """All columns by name, `time` first, shapes (rows,). Raises HistoryError."""
     with _opened(path) as file:
         names = sorted(file.keys() - {CRATER}, key=lambda name: (name != "time", name))
-        return {name: file[name][...] for name in names}
+        columns = {name: file[name][...] for name in names}
+        if any(column.shape != columns["time"].shape or column.dtype.kind not in "fi" for column in columns.values()):
+            raise HistoryError(f"{path} is damaged: its columns are not of one length")
+        return columns
 
 
 def read_crater(path: Path) -> tuple[np.ndarray, np.ndarray] | None:

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from hydro2d.physics import interfaces
@@ -485,6 +485,7 @@ def test_strips_of_a_square_cover_each_other():
 @settings(deadline=None)
 @given(COMPONENT, SIGN, SIGN, UNIT)
 def test_a_line_misses_its_own_fractions_by_nothing_also_where_sizes_differ(n1, to_r, to_z, place):
+    assume(1e-6 < place < 1.0 - 1e-6)  # a corner of 1e-9 has the share 1e-18, which rounding loses: no line can follow from it
     n_r, n_z = to_r * n1, to_z * (1.0 - n1)
     level = min(n_r, 0.0) + min(n_z, 0.0) + place
     widths, heights = (0.5, 1.0, 1.3), (0.8, 1.0, 2.0)

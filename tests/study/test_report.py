@@ -128,7 +128,7 @@ def test_a_study_that_has_not_begun(study):
 @pytest.mark.parametrize(
     ("file", "said"),
     [
-        ("history.h5", "is not a history file"), ("deck.toml", "deck.toml cannot be read"),
+        ("history.h5", "is damaged, or not a history file"), ("deck.toml", "deck.toml cannot be read"),
         ("interfaces.pvd", "is not a series of VTK files"), ("vtk/interfaces_000001.vtp", "is not a VTK file of a run"),
     ],
 )  # fmt: skip

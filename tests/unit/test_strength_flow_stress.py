@@ -7,7 +7,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
-from strength import elastic_plastic, johnson_cook, power_law, steinberg_guinan
+from strength import elastic_plastic, johnson_cook, power_law, steinberg_guinan, zerilli_armstrong
+from strength.layout import YIELD
 
 AL7039 = johnson_cook.row(
     {
@@ -228,3 +229,29 @@ def test_compression_hardens_and_stretching_softens():
     row = steinberg_guinan.row(TUNGSTEN)
     rest, pressed, pulled = (steinberg_guinan.shear_modulus(p, 18167.0, 300.0, row) for p in (0.0, 1e10, -3e9))
     assert pulled < rest < pressed
+
+
+#: Armco iron of Zerilli and Armstrong (1987), constants recalled
+IRON = zerilli_armstrong.row(
+    {
+        "shear_modulus": 80e9, "athermal_stress": 65e6, "thermal_stress": 1033e6, "thermal_softening": 6.98e-3,
+        "rate_hardening": 4.15e-4, "hardening": 266e6, "hardening_exponent": 0.289, "melt_temperature": 1809.0,
+    }
+)  # fmt: skip
+
+
+@pytest.mark.parametrize(("ep", "rate", "T", "MPa"), [
+    (0.0, 1e3, 300.0, 65 + 1033 * math.exp(-2.094 + 0.1245 * math.log(1e3))),
+    (0.5, 1e3, 300.0, 65 + 1033 * math.exp(-2.094 + 0.1245 * math.log(1e3)) + 266 * 0.5**0.289),
+    (0.0, 0.0, 300.0, 65 + 1033 * math.exp(-2.094 + 0.1245 * math.log(1e-3))), (0.0, 1e9, 300.0, 65 + 1033),
+    (0.3, 1e3, 1809.0, 0.0)])
+def test_zerilli_armstrong_by_hand(ep, rate, T, MPa):
+    assert zerilli_armstrong.flow_stress(ep, rate, T, 0.0, 0.0, IRON) == pytest.approx(1e6 * MPa, rel=1e-12)
+
+
+def test_zerilli_armstrong_numbers():
+    """What the constants were made for: iron at 300 K yields at 0.37 GPa at 1e3/s, and a tenfold rate adds some 0.1 GPa."""
+    slow, fast = (zerilli_armstrong.flow_stress(0.0, rate, 300.0, 0.0, 0.0, IRON) for rate in (1e3, 1e4))
+    assert slow == pytest.approx(0.366e9, rel=3e-3)
+    assert fast - slow == pytest.approx(0.1e9, rel=0.05)
+    assert IRON[YIELD] == zerilli_armstrong.flow_stress(0.0, 0.0, 298.0, 0.0, 0.0, IRON)

@@ -1,0 +1,67 @@
+"""Zerilli-Armstrong flow stress of body-centred cubic metals: thermally activated, hardening beside it."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from hydro2d.jit import point
+from hydro2d.parameters import POSITIVE, REQUIRED, Parameter, collect
+from strength.layout import ROW, SHEAR, YIELD
+
+NAME = "zerilli-armstrong"
+ID = 6
+CONSTANT_MODULUS = True
+THERMAL = True
+EQUATION = """\
+Y = C0 + C1 exp(-C3 T + C4 T ln rate) + C5 ep^n,  rate not below rate_min, the exponent not above 0
+Y = 0 from Tm on,  G constant"""
+SOURCE = "Zerilli & Armstrong, J. Appl. Phys. 61 (1987) 1816, eq. for body-centred cubic metals"
+VALIDITY = "body-centred cubic metals (iron, tantalum, tungsten); hardening does not depend on temperature"
+PARAMETERS = (
+    Parameter("shear_modulus", "Pa", REQUIRED, "shear modulus", "G"),
+    Parameter("athermal_stress", "Pa", 0.0, "stress without thermal part, of solutes and grain boundaries", "C0"),
+    Parameter("thermal_stress", "Pa", REQUIRED, "thermal stress at absolute zero", "C1"),
+    Parameter("thermal_softening", "1/K", REQUIRED, "decrease of its logarithm per temperature", "C3"),
+    Parameter("rate_hardening", "1/K", 0.0, "increase of its logarithm per temperature and e-fold of strain rate", "C4"),
+    Parameter("hardening", "Pa", 0.0, "strain hardening", "C5"),
+    Parameter("hardening_exponent", "", 1.0, "exponent of the plastic strain", "n", POSITIVE),
+    Parameter("lowest_rate", "1/s", 1e-3, "strain rate below which the rate does not matter", "rate_min", POSITIVE),
+    Parameter("yield_temperature", "K", 298.0, "temperature at which the yield stress is quoted", "T0", POSITIVE),
+    Parameter("melt_temperature", "K", math.inf, "temperature without strength", "Tm", POSITIVE),
+)
+
+#: slots of the row; the common ones are SHEAR and YIELD
+ATHERMAL, THERMAL_STRESS, SOFTENING, RATE, HARDENING, EXPONENT, LOWEST_RATE, MELT = range(2, 10)
+
+
+@point
+def shear_modulus(p, rho, T, par):
+    """Shear modulus, Pa."""
+    return par[SHEAR]
+
+
+@point
+def flow_stress(ep, rate, T, p, rho, par):
+    """Flow stress at plastic strain ``ep``, its ``rate`` (1/s) and temperature ``T``, Pa: explanation/strength, (13)."""
+    if T >= par[MELT]:
+        return 0.0
+    softening = par[SOFTENING] - par[RATE] * math.log(max(rate, par[LOWEST_RATE]))
+    Y = par[ATHERMAL] + par[THERMAL_STRESS] * math.exp(min(-softening * T, 0.0))
+    if ep > 0.0 and par[HARDENING] > 0.0:
+        Y += par[HARDENING] * ep ** par[EXPONENT]
+    return Y
+
+
+def row(values) -> np.ndarray:
+    """Packs the parameters, by name; float64[ROW]. Raises ValueError for a missing, unknown or impossible value."""
+    given = collect(NAME, PARAMETERS, values)
+    par = np.zeros(ROW)
+    par[SHEAR], par[ATHERMAL], par[THERMAL_STRESS] = given["shear_modulus"], given["athermal_stress"], given["thermal_stress"]
+    par[SOFTENING], par[RATE] = given["thermal_softening"], given["rate_hardening"]
+    par[HARDENING], par[EXPONENT] = given["hardening"], given["hardening_exponent"]
+    par[LOWEST_RATE], par[MELT] = given["lowest_rate"], given["melt_temperature"]
+    softening = par[SOFTENING] - par[RATE] * math.log(par[LOWEST_RATE])
+    par[YIELD] = par[ATHERMAL] + par[THERMAL_STRESS] * math.exp(min(-softening * given["yield_temperature"], 0.0))
+    return par
