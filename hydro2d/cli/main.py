@@ -12,6 +12,7 @@ from cyclopts import App, Parameter
 
 from hydro2d import __version__
 from hydro2d.cli.base import Count, Overrides, UsageError, quantity
+from hydro2d.cli.curve import curve
 from hydro2d.cli.model import model
 from hydro2d.cli.report import report
 from hydro2d.cli.study import sweep, transition
@@ -28,6 +29,7 @@ app = App(
     "refuses (disk, memory, rights), 129/130/141/143 ended by SIGHUP, SIGINT, a closed pipe, SIGTERM.",
 )
 
+app.command(curve)
 app.command(model)
 app.command(report)
 app.command(sweep)

@@ -1,0 +1,87 @@
+"""Flow stress against plastic strain as tables and figures."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from hydro2d.files import replacing
+from hydro2d.materials import curves
+from hydro2d.materials.library import Material
+
+
+@dataclass(frozen=True)
+class Curve:
+    """A material at one rate (1/s): its flow stress (Pa) and temperature (K) at plastic strains."""
+
+    material: Material
+    rate: float
+    isothermal: bool
+    strains: tuple[float, ...]
+    stress: np.ndarray
+    temperature: np.ndarray
+
+    @classmethod
+    def of(cls, material: Material, rate: float, strains: Sequence[float], isothermal: bool = False) -> Curve:
+        """Raises DeckError for a material without strength, or without what its heating needs."""
+        stress, temperature = curves.flow_stress(material, rate, strains, isothermal=isothermal)
+        return cls(material, rate, isothermal, tuple(strains), stress, temperature)
+
+    def at(self, strains: Sequence[float]) -> Curve:
+        """The same at other strains."""
+        return Curve.of(self.material, self.rate, strains, self.isothermal)
+
+    @property
+    def name(self) -> str:
+        return f"{self.material.name} ({self.material.strength.name})"
+
+
+def lines(found: Sequence[Curve]) -> list[str]:
+    """A table: strains down, materials and rates across; MPa."""
+    rows = [("material", "rate [1/s]", *(f"{strain:g}" for strain in found[0].strains))]
+    rows += [(each.name, f"{each.rate:g}", *(f"{stress / 1e6:.0f}" for stress in each.stress)) for each in found]
+    widths = [max(len(row[n]) for row in rows) for n in range(len(rows[0]))]
+    how = "at a constant temperature" if found[0].isothermal else "heated by its plastic work"
+    heading = f"flow stress [MPa] at zero pressure against plastic strain, {how}"
+    table = ("  ".join(cell.ljust(w) if n == 0 else cell.rjust(w) for n, (cell, w) in enumerate(zip(row, widths, strict=True)))
+             for row in rows)
+    return [heading, "", *table]
+
+
+def write_csv(found: Sequence[Curve], path: Path) -> None:
+    """One row for each material, rate and strain, with every digit."""
+    with replacing(path) as temporary, open(temporary, "w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(["material", "model", "rate [1/s]", "plastic strain", "flow stress [Pa]", "temperature [K]"])
+        for each in found:
+            for strain, stress, T in zip(each.strains, each.stress, each.temperature, strict=True):
+                row = [each.material.name, each.material.strength.name, each.rate, strain, float(stress), float(T)]
+                writer.writerow(row)
+
+
+def draw(found: Sequence[Curve]):
+    """A matplotlib Figure: a colour for each material, a dash for each rate."""
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    from hydro2d.analytic.model_figures import COLOURS
+
+    figure = Figure(figsize=(6.4, 4.2), layout="constrained")
+    FigureCanvasAgg(figure)
+    axes = figure.subplots()
+    names = list(dict.fromkeys(each.name for each in found))
+    rates = sorted({each.rate for each in found})
+    for each in found:
+        colour = COLOURS[names.index(each.name) % len(COLOURS)]
+        dash = ("-", "--", ":", "-.")[rates.index(each.rate) % 4]
+        axes.plot(each.strains, each.stress / 1e6, dash, color=colour, label=f"{each.name}, {each.rate:g} /s")
+    axes.set_xlabel("plastic strain")
+    axes.set_ylabel("flow stress [MPa]")
+    axes.set_ylim(bottom=0.0)
+    axes.grid(alpha=0.3)
+    axes.legend(fontsize=7)
+    return figure

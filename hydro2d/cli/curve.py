@@ -1,0 +1,65 @@
+"""The command `hydro2d curve`: flow stress against plastic strain."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+from cyclopts import Parameter
+
+from hydro2d.cli.base import UsageError, quantity
+
+#: strains of the table where none are given, and the rates
+STRAINS, RATES = (0.0, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 1.5), ("1e3 /s", "1e4 /s", "1e5 /s")
+
+
+def curve(
+    materials: list[str],
+    *,
+    rate: Annotated[list[str] | None, Parameter(negative="")] = None,
+    strain: Annotated[list[float] | None, Parameter(negative="")] = None,
+    isothermal: bool = False,
+    csv: Path | None = None,
+    figure: Path | None = None,
+) -> int:
+    """Flow stress of materials against plastic strain, at constant strain rates, heated by their own plastic work.
+
+    Example: hydro2d curve W_alloy W_sintered --rate 1e4 --figure flow_stress.png
+
+    Parameters
+    ----------
+    materials
+        Materials of the library: NAME or NAME:VARIANT.
+    rate
+        Plastic strain rate, 1/s; may be given several times; default: 1e3, 1e4 and 1e5.
+    strain
+        Plastic strain of a row of the table; may be given several times.
+    isothermal
+        Keeps the temperature at which the material starts.
+    csv
+        Writes the table, with the temperatures, into this file.
+    figure
+        Draws the curves up to the largest strain into this file (.png, .pdf, .svg).
+    """
+    from hydro2d.analytic import model_materials
+
+    rates = [quantity(text, "1/s", "--rate") for text in rate or RATES]
+    strains = sorted(strain or STRAINS)
+    if min(rates) < 0.0 or strains[0] < 0.0:
+        raise UsageError("rates and strains are not negative")
+    from hydro2d.analytic import flow_curves
+
+    found = [flow_curves.Curve.of(material, each, strains, isothermal) for material in map(model_materials.load, materials)
+             for each in rates]
+    for line in flow_curves.lines(found):
+        print(line)
+    if csv is not None:
+        flow_curves.write_csv(found, csv)
+    if figure is not None:
+        from hydro2d.results import figures
+
+        fine = [strains[-1] * n / 100 for n in range(101)] if strains[-1] > 0.0 else strains
+        figures.save(flow_curves.draw([each.at(fine) for each in found]), figure)
+    for path in filter(None, (csv, figure)):
+        print(f"wrote {path}")
+    return 0

@@ -1,0 +1,49 @@
+"""Flow stress of a material against plastic strain at a constant rate, isothermal or heated by its own plastic work."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from hydro2d.errors import DeckError
+from hydro2d.materials.library import Material
+
+#: temperature of a material whose equation of state has none to begin with, K; longest step in plastic strain
+ROOM, STEP = 298.0, 1e-3
+
+
+def flow_stress(
+    material: Material, rate: float, strains: Sequence[float], *, isothermal: bool = False
+) -> tuple[np.ndarray, np.ndarray]:
+    """Flow stress (Pa) and temperature (K) at plastic strains, both float64[n], at zero pressure and the density at rest.
+
+    rate : plastic strain rate, 1/s
+    strains : plastic strains, which do not fall
+    isothermal : keeps the temperature; otherwise all plastic work heats, rho c dT = Y d(ep), as in the solver
+
+    Raises DeckError for a material without strength, and for one without a specific heat unless isothermal.
+    """
+    from strength import STRENGTH_MODELS
+
+    if not material.has_strength:
+        raise DeckError(f"{material.name} has no strength")
+    heat = material.eos.numbers.get("specific_heat")
+    if not (isothermal or heat):
+        raise DeckError(f"{material.name} has no specific heat; its flow stress is known at one temperature alone")
+    model = STRENGTH_MODELS[material.strength.name]
+    row, rho = model.row(material.strength.values), material.reference_density
+    start = material.eos.numbers.get("reference_temperature")
+    warming = 0.0 if isothermal else 1.0 / (rho * heat.value)
+    T, ep, stresses, temperatures = start.value if start else ROOM, 0.0, [], []
+    for strain in strains:
+        steps = max(int(np.ceil((strain - ep) / STEP)), 1)
+        step = (strain - ep) / steps
+        for _ in range(steps):  # midpoint rule
+            half = T + 0.5 * step * warming * model.flow_stress(ep, rate, T, 0.0, rho, row)
+            T += step * warming * model.flow_stress(ep + 0.5 * step, rate, half, 0.0, rho, row)
+            ep += step
+        ep = strain
+        stresses.append(model.flow_stress(strain, rate, T, 0.0, rho, row))
+        temperatures.append(T)
+    return np.array(stresses, dtype=float), np.array(temperatures, dtype=float)
