@@ -22,10 +22,10 @@ import numpy as np
 
 from hydro2d import jit
 from hydro2d.deck import deck as decks
+from hydro2d.interrupt import Interrupt
 from hydro2d.kernels.triad import triad
 from hydro2d.running import progress, provenance, run
 from hydro2d.running.compilation import announced
-from hydro2d.running.interrupt import Interrupt
 from hydro2d.solver.simulation import Simulation
 
 DECK = "problems/cth_nose_shape/hemi_5083_1086.toml"

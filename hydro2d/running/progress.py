@@ -11,7 +11,7 @@ from datetime import datetime
 from pathlib import Path
 from typing import TypeVar
 
-from hydro2d.running.interrupt import lose_output
+from hydro2d.interrupt import lose_output
 
 T = TypeVar("T")
 

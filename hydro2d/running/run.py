@@ -25,14 +25,14 @@ from pathlib import Path
 import numpy as np
 
 from hydro2d import __version__
+from hydro2d import interrupt as interrupts
 from hydro2d.deck.warnings import warnings
 from hydro2d.files import locked, write_json, write_text
+from hydro2d.interrupt import Interrupt, signals
 from hydro2d.output import derived, snapshot
 from hydro2d.output.history import History, HistoryError
 from hydro2d.output.vtk import FOLDER, SERIES, Series
-from hydro2d.running import interrupt as interrupts
 from hydro2d.running import provenance
-from hydro2d.running.interrupt import Interrupt, signals
 from hydro2d.running.progress import Clock, reporter
 from hydro2d.running.team import Team
 

@@ -14,12 +14,12 @@ from hydro2d import jit
 from hydro2d.deck import deck as decks
 from hydro2d.errors import DeckError
 from hydro2d.files import LockError, holder
+from hydro2d.interrupt import Interrupt
 from hydro2d.output import snapshot
 from hydro2d.output.derived import FieldError
 from hydro2d.output.history import HistoryError
 from hydro2d.output.vtk import VtkError
 from hydro2d.running import compilation, run
-from hydro2d.running.interrupt import Interrupt
 from hydro2d.study.layout import DONE, FAILED, FAILED_STATUS, UNPHYSICAL, read_json
 
 #: what is told in one line, without a traceback

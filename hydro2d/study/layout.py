@@ -116,21 +116,15 @@ class Study:
 
 
 def make(directory: Path) -> None:
-    """Makes the folders of a study where they are missing. Raises StudyError."""
-    try:
-        (Path(directory) / CASES).mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise StudyError(f"{directory}: the study cannot be written: {error.strerror or error}") from None
+    """Makes the folders of a study where they are missing. Raises OSError."""
+    (Path(directory) / CASES).mkdir(parents=True, exist_ok=True)
 
 
 def write(plan, directory: Path) -> None:
-    """Writes a study into its directory, which `make` has made. Raises StudyError."""
+    """Writes a study into its directory, which `make` has made. Raises OSError."""
     directory = Path(directory)
-    try:
-        write_text(directory / TEXT, plan.text)
-        write_json(directory / STUDY, _data(plan))
-    except OSError as error:
-        raise StudyError(f"{directory}: the study cannot be written: {error.strerror or error}") from None
+    write_text(directory / TEXT, plan.text)
+    write_json(directory / STUDY, _data(plan))
 
 
 def of_plan(plan, directory: Path) -> Study:

@@ -13,7 +13,7 @@ from hydro2d.files import write_json
 from hydro2d.penetration.model import InputError
 from hydro2d.solver import penetrator
 from hydro2d.study import bisection, experiments, record, velocities
-from hydro2d.study.layout import Interval, Study, StudyError
+from hydro2d.study.layout import Interval, Study
 from hydro2d.study.record import Record
 
 FILE = "transition.json"
@@ -256,17 +256,14 @@ def _compared(known: Sequence[Run], bracket: Bracket) -> tuple[Comparison | None
 
 
 def write(study: Study, found: Sequence[Transitions]) -> None:
-    """Writes transition.json. Raises StudyError."""
+    """Writes transition.json. Raises OSError."""
     interval = study.search
     data = {
         "title": study.title, "version": __version__, "key": interval.key, "from_m_s": interval.speeds[0],
         "to_m_s": interval.speeds[-1], "tolerance_m_s": interval.tolerance, "criteria": CRITERIA,
         "complete": all(all(each.settled.values()) for each in found), "combinations": [each.data() for each in found],
     }  # fmt: skip
-    try:
-        write_json(study.directory / FILE, data)
-    except OSError as error:
-        raise StudyError(f"{study.directory / FILE} cannot be written: {error.strerror or error}") from None
+    write_json(study.directory / FILE, data)
 
 
 def lines(found: Sequence[Transitions]) -> list[str]:

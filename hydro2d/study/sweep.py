@@ -17,8 +17,8 @@ from pathlib import Path
 
 from hydro2d.deck import deck as decks
 from hydro2d.files import locked, write_json
+from hydro2d.interrupt import Interrupt, signals, status
 from hydro2d.running import compilation
-from hydro2d.running.interrupt import Interrupt, signals, status
 from hydro2d.running.progress import duration
 from hydro2d.running.run import clear
 from hydro2d.study import layout, monitor
@@ -182,8 +182,8 @@ class _Sweep:
         plan = self.choice.enlarged(names)
         try:
             layout.write(plan, self.board.study.directory)
-        except StudyError as error:
-            self.board.line(str(error))
+        except OSError as error:
+            self.board.line(f"{self.board.study.directory}: the study cannot be written: {error.strerror or error}")
         self.board.follow(layout.of_plan(plan, self.board.study.directory))
 
     def _give(self, case: layout.Case) -> None:

@@ -12,7 +12,7 @@ import time
 import distributed
 
 from hydro2d import __version__
-from hydro2d.running.interrupt import Interrupt
+from hydro2d.interrupt import Interrupt
 from hydro2d.study.case import Outcome, run_case
 from hydro2d.study.layout import FAILED_STATUS, WAITING
 

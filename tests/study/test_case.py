@@ -12,9 +12,9 @@ from contextlib import ExitStack, contextmanager, nullcontext
 import pytest
 
 from hydro2d.deck import deck as decks
+from hydro2d.interrupt import Interrupt
 from hydro2d.output import history, snapshot
 from hydro2d.running import compilation
-from hydro2d.running.interrupt import Interrupt
 from hydro2d.study.case import kernels, run_case
 from tests.locks import held
 from tests.unit.test_cli import DECK

@@ -20,7 +20,8 @@ def test_plastic_work_heats(name):
     """Against an integration of rho c dT = Y d(ep) by scipy."""
     material = model_materials.load(name)
     model = STRENGTH_MODELS[material.strength.name]
-    row, rho, heat = model.row(material.strength.values), material.reference_density, material.eos.numbers["specific_heat"].value
+    row, rho = model.row(material.strength.values), material.reference_density
+    heat = material.eos.numbers["specific_heat"].value
     stress, T = curves.flow_stress(material, 1e4, STRAINS)
 
     def warming(ep, at):

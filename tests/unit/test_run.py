@@ -9,9 +9,9 @@ import pytest
 
 from hydro2d.deck.sections import Sliding
 from hydro2d.files import LockError
+from hydro2d.interrupt import Interrupt
 from hydro2d.output import history, snapshot, vtk
 from hydro2d.output.derived import FieldError
-from hydro2d.running.interrupt import Interrupt
 from hydro2d.running.run import Due, RunError, exit_status, run
 from tests.locks import held
 from tests.unit import fake

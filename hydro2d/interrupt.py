@@ -14,6 +14,8 @@ from dataclasses import dataclass
 STATUS = {number.name: 128 + number for number in (signal.SIGHUP, signal.SIGINT, signal.SIGPIPE, signal.SIGTERM)}
 #: the signals that end a run after its cycle
 CAUGHT = (signal.SIGHUP, signal.SIGINT, signal.SIGTERM)
+#: seconds after which a signal that came in the middle of an import is looked at again
+AGAIN = 0.01
 
 
 @dataclass
@@ -59,6 +61,37 @@ def signals(interrupt: Interrupt) -> Iterator[None]:
         interrupt.hears_signals = False
         for number, handler in before.items():
             signal.signal(number, handler)
+
+
+class Ended(KeyboardInterrupt):
+    """A command is to end by a signal; ``name`` is the signal's."""
+
+    def __init__(self, name: str):
+        super().__init__(name)
+        self.name = name
+
+
+def raise_between_imports() -> None:
+    """From now on SIGINT, SIGTERM and SIGHUP raise ``Ended``, but not while a module is being imported: then a moment later.
+
+    An exception in the middle of an import is lost, becomes another one or, in libraries in C, ends in a crash. A signal that
+    is ignored, such as SIGHUP under nohup, stays so. For the main thread of a command.
+    """
+    came: list[str] = []
+
+    def handle(number, frame):
+        if number != signal.SIGALRM:
+            came.append(signal.Signals(number).name)
+        while frame is not None and not frame.f_code.co_filename.startswith("<frozen importlib"):
+            frame = frame.f_back
+        if frame is None:
+            raise Ended(came[0])
+        signal.setitimer(signal.ITIMER_REAL, AGAIN)
+
+    signal.signal(signal.SIGALRM, handle)
+    for number in CAUGHT:
+        if signal.getsignal(number) is not signal.SIG_IGN:
+            signal.signal(number, handle)
 
 
 def lose_output() -> None:
