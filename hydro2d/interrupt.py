@@ -63,29 +63,29 @@ def signals(interrupt: Interrupt) -> Iterator[None]:
             signal.signal(number, handler)
 
 
-class Ended(KeyboardInterrupt):
-    """A command is to end by a signal; ``name`` is the signal's."""
+#: names of the signals that came to `raise_between_imports`
+_came: list[str] = []
 
-    def __init__(self, name: str):
-        super().__init__(name)
-        self.name = name
+
+def ended_by() -> str:
+    """The name of the signal by which a command ends: other code may have replaced the exception that it raised."""
+    return _came[0] if _came else "SIGINT"
 
 
 def raise_between_imports() -> None:
-    """From now on SIGINT, SIGTERM and SIGHUP raise ``Ended``, but not while a module is being imported: then a moment later.
+    """From now on SIGINT, SIGTERM and SIGHUP raise KeyboardInterrupt, but not while a module is being imported: then a moment later.
 
     An exception in the middle of an import is lost, becomes another one or, in libraries in C, ends in a crash. A signal that
     is ignored, such as SIGHUP under nohup, stays so. For the main thread of a command.
     """
-    came: list[str] = []
 
     def handle(number, frame):
         if number != signal.SIGALRM:
-            came.append(signal.Signals(number).name)
+            _came.append(signal.Signals(number).name)
         while frame is not None and not frame.f_code.co_filename.startswith("<frozen importlib"):
             frame = frame.f_back
         if frame is None:
-            raise Ended(came[0])
+            raise KeyboardInterrupt
         signal.setitimer(signal.ITIMER_REAL, AGAIN)
 
     signal.signal(signal.SIGALRM, handle)

@@ -16,7 +16,7 @@ from hydro2d.cli.curve import curve
 from hydro2d.cli.model import model
 from hydro2d.cli.report import report
 from hydro2d.cli.study import sweep, transition
-from hydro2d.interrupt import STATUS, Interrupt, lose_output, raise_between_imports, signals
+from hydro2d.interrupt import STATUS, Interrupt, ended_by, lose_output, raise_between_imports, signals
 
 WRONG_INPUT, REFUSED = 2, 4
 
@@ -318,8 +318,8 @@ def call(arguments: list[str]) -> int:
         return status if isinstance(status, int) else 0
     except cyclopts.CycloptsError as error:
         return _told(error, WRONG_INPUT)
-    except KeyboardInterrupt as error:
-        return STATUS[getattr(error, "name", "SIGINT")]
+    except KeyboardInterrupt:
+        return STATUS[ended_by()]
     except BrokenPipeError:
         lose_output()
         return STATUS["SIGPIPE"]
