@@ -73,7 +73,7 @@ def ended_by() -> str:
 
 
 def raise_between_imports() -> None:
-    """From now on SIGINT, SIGTERM and SIGHUP raise KeyboardInterrupt, but not while a module is being imported: then a moment later.
+    """From now on SIGINT, SIGTERM and SIGHUP raise KeyboardInterrupt; while a module is being imported, a moment later.
 
     An exception in the middle of an import is lost, becomes another one or, in libraries in C, ends in a crash. A signal that
     is ignored, such as SIGHUP under nohup, stays so. For the main thread of a command.

@@ -83,6 +83,27 @@ def test_no_interrupt_is_swallowed_while_a_run_starts(deck, tmp_path, seconds):
     assert process.wait(30) in (130, -signal.SIGINT)  # the latter before anything of hydro2d runs
 
 
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+def test_a_signal_waits_for_the_end_of_an_import(tmp_path, number):
+    """A module that is half imported is a crash with VTK, and another exception with pydantic."""
+    slow = "import time\nprint('begun', flush=True)\ntime.sleep(1)\nprint('whole', flush=True)\n"
+    (tmp_path / "slow_module.py").write_text(slow)
+    script = """
+from hydro2d import interrupt
+interrupt.raise_between_imports()
+try:
+    import slow_module, time
+    time.sleep(60)
+except KeyboardInterrupt:
+    print(interrupt.ended_by())
+"""
+    environment = {**os.environ, "PYTHONPATH": f"{tmp_path}{os.pathsep}{ROOT}"}
+    process = subprocess.Popen([sys.executable, "-c", script], env=environment, stdout=subprocess.PIPE, text=True)
+    assert process.stdout.readline() == "begun\n"
+    process.send_signal(number)
+    assert process.communicate(timeout=30)[0] == f"whole\n{number.name}\n"
+
+
 def test_a_second_interrupt_does_not_wait_for_the_cycle(deck, tmp_path):
     """The first asks the run to end after its cycle, which here never does; the second ends it."""
     endless = SLOW.replace("time.sleep(0.01)", "print('stepping', flush=True); time.sleep(60)")
