@@ -6,6 +6,7 @@ import os
 import signal
 import sys
 import threading
+import weakref
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -72,17 +73,24 @@ def ended_by() -> str:
     return _came[0] if _came else "SIGINT"
 
 
+def _fragile(code) -> bool:
+    """Whether an exception that is raised below this code is not seen by who called it."""
+    return (code.co_filename.startswith("<frozen importlib") or code.co_filename == weakref.__file__
+            or code.co_name == "__del__")
+
+
 def raise_between_imports() -> None:
     """From now on SIGINT, SIGTERM and SIGHUP raise KeyboardInterrupt; while a module is being imported, a moment later.
 
-    An exception in the middle of an import is lost, becomes another one or, in libraries in C, ends in a crash. A signal that
-    is ignored, such as SIGHUP under nohup, stays so. For the main thread of a command.
+    An exception in the middle of an import is lost, becomes another one or, in libraries in C, ends in a crash; in what Python
+    calls when an object goes it is lost. A signal that is ignored, such as SIGHUP under nohup, stays so. For the main thread
+    of a command.
     """
 
     def handle(number, frame):
         if number != signal.SIGALRM:
             _came.append(signal.Signals(number).name)
-        while frame is not None and not frame.f_code.co_filename.startswith("<frozen importlib"):
+        while frame is not None and not _fragile(frame.f_code):
             frame = frame.f_back
         if frame is None:
             raise KeyboardInterrupt

@@ -25,6 +25,7 @@ app = App(
     version=__version__,
     help="A two-dimensional axisymmetric Eulerian hydrocode for rod-into-plate impact.",
     help_format="plaintext",
+    suppress_keyboard_interrupt=False,  # `call` knows by which signal a command ends
     help_epilogue="Exit status: 0 done, 2 deck or arguments wrong, 3 unphysical state or failed cases, 4 the machine "
     "refuses (disk, memory, rights), 129/130/141/143 ended by SIGHUP, SIGINT, a closed pipe, SIGTERM.",
 )

@@ -104,6 +104,40 @@ except KeyboardInterrupt:
     assert process.communicate(timeout=30)[0] == f"whole\n{number.name}\n"
 
 
+def test_a_signal_is_not_lost_in_what_python_calls_when_an_object_goes():
+    script = """
+import time
+from hydro2d import interrupt
+interrupt.raise_between_imports()
+class Slow:
+    def __del__(self):
+        print('going', flush=True)
+        time.sleep(1)
+try:
+    Slow()
+    time.sleep(60)
+except KeyboardInterrupt:
+    print(interrupt.ended_by())
+"""
+    command = [sys.executable, "-c", script]
+    process = subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    assert process.stdout.readline() == "going\n"
+    process.send_signal(signal.SIGTERM)
+    assert process.communicate(timeout=30) == ("SIGTERM\n", "")
+
+
+def test_the_status_of_a_command_is_that_of_its_signal(deck):
+    """The library behind the command line has a status of its own for KeyboardInterrupt."""
+    script = "from hydro2d.cli import main; import time; main._load = lambda *_: time.sleep(60); print(flush=True); main.main()"
+    command = [sys.executable, "-c", script, "check", deck]
+    process = subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    process.stdout.readline()
+    time.sleep(1.0)
+    process.send_signal(signal.SIGHUP)
+    assert process.communicate(timeout=30) == ("", "")
+    assert process.returncode == 129
+
+
 def test_a_second_interrupt_does_not_wait_for_the_cycle(deck, tmp_path):
     """The first asks the run to end after its cycle, which here never does; the second ends it."""
     endless = SLOW.replace("time.sleep(0.01)", "print('stepping', flush=True); time.sleep(60)")
