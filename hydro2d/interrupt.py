@@ -6,7 +6,6 @@ import os
 import signal
 import sys
 import threading
-import weakref
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -73,29 +72,32 @@ def ended_by() -> str:
     return _came[0] if _came else "SIGINT"
 
 
-def _fragile(code) -> bool:
-    """Whether an exception that is raised below this code is not seen by who called it."""
-    return (code.co_filename.startswith("<frozen importlib") or code.co_filename == weakref.__file__
-            or code.co_name == "__del__")
-
-
 def raise_between_imports() -> None:
     """From now on SIGINT, SIGTERM and SIGHUP raise KeyboardInterrupt; while a module is being imported, a moment later.
 
-    An exception in the middle of an import is lost, becomes another one or, in libraries in C, ends in a crash; in what Python
-    calls when an object goes it is lost. A signal that is ignored, such as SIGHUP under nohup, stays so. For the main thread
-    of a command.
+    An exception in the middle of an import becomes another one or, in libraries in C, ends in a crash. Where Python has nobody
+    to raise it to, as when an object goes or in what C calls, it is raised again a moment later. A signal that is ignored,
+    such as SIGHUP under nohup, stays so. For the main thread of a command.
     """
 
     def handle(number, frame):
         if number != signal.SIGALRM:
             _came.append(signal.Signals(number).name)
-        while frame is not None and not _fragile(frame.f_code):
+        while frame is not None and not frame.f_code.co_filename.startswith("<frozen importlib"):
             frame = frame.f_back
         if frame is None:
             raise KeyboardInterrupt
         signal.setitimer(signal.ITIMER_REAL, AGAIN)
 
+    told = sys.unraisablehook
+
+    def lost(unraisable):
+        if unraisable.exc_type is KeyboardInterrupt and _came:
+            signal.setitimer(signal.ITIMER_REAL, AGAIN)
+        else:
+            told(unraisable)
+
+    sys.unraisablehook = lost
     signal.signal(signal.SIGALRM, handle)
     for number in CAUGHT:
         if signal.getsignal(number) is not signal.SIG_IGN:

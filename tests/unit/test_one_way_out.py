@@ -104,17 +104,20 @@ except KeyboardInterrupt:
     assert process.communicate(timeout=30)[0] == f"whole\n{number.name}\n"
 
 
-def test_a_signal_is_not_lost_in_what_python_calls_when_an_object_goes():
-    script = """
+@pytest.mark.parametrize("lost", [
+    "class Slow:\n    def __del__(self): wait()\nSlow()",
+    "import weakref\nclass Slow: pass\nslow = Slow()\nref = weakref.ref(slow, lambda _: wait())\ndel slow",
+    "import ctypes\nctypes.CFUNCTYPE(None)(wait)()"])
+def test_a_signal_is_not_lost_where_python_has_nobody_to_raise_it_to(lost):
+    script = f"""
 import time
 from hydro2d import interrupt
 interrupt.raise_between_imports()
-class Slow:
-    def __del__(self):
-        print('going', flush=True)
-        time.sleep(1)
+def wait():
+    print('going', flush=True)
+    time.sleep(1)
 try:
-    Slow()
+    exec({lost!r})
     time.sleep(60)
 except KeyboardInterrupt:
     print(interrupt.ended_by())
