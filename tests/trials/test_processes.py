@@ -36,6 +36,8 @@ def begun(arguments, **options):
 def ended(process, expected, limit=120):
     """Its status, which must be one of those expected, with not more than a line or two on stderr."""
     said = process.communicate(timeout=limit)[1]
+    if "init_import_site" in said:  # Python itself was not up yet
+        return process.returncode
     assert process.returncode in expected, (process.returncode, said)
     assert process.returncode == -signal.SIGINT or "Traceback" not in said, said
     return process.returncode
