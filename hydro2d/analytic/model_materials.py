@@ -5,13 +5,11 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from hydro2d.materials import library
+from hydro2d.materials import curves, library
 from hydro2d.penetration.model import InputError, Value
 
 #: state at which a flow stress is taken: plastic strain rate in 1/s, and the plastic strain that stands for "ultimate"
 RATE, ULTIMATE_STRAIN = 1.0, 1.0
-#: where an equation of state names no reference temperature, K
-ROOM = 298.0
 
 
 @dataclass(frozen=True)
@@ -52,21 +50,11 @@ def _equation_of_state(material: library.Material) -> dict[str, Given]:
     }
 
 
-def _at_rest(material: library.Material):
-    """The strength model, its row, and the state at rest: pressure, density and temperature."""
-    from strength import STRENGTH_MODELS
-
-    model = STRENGTH_MODELS[material.strength.name]
-    temperature = material.eos.numbers.get("reference_temperature")
-    T = temperature.value if temperature else ROOM
-    return model, model.row(material.strength.values), (0.0, material.reference_density, T)
-
-
 def _elastic(material: library.Material) -> dict[str, Given]:
     """Shear modulus, Young's modulus and Poisson's ratio: the strength model's own, or with K = rho0 c0^2."""
     if not material.has_strength:
         return {}
-    model, row, state = _at_rest(material)
+    model, row, state = curves.at_rest(material)
     G = float(model.shear_modulus(*state, row))
     found = {"shear_modulus": Given(G, f"{material.name}: shear modulus of {material.strength.name} at rest")}
     own = material.strength.numbers
@@ -85,7 +73,7 @@ def _strength(material: library.Material, strain: float) -> dict[str, Given]:
     name = material.strength.name
     if not material.has_strength:
         return {"strength": Given(0.0, f"{material.name}: {name}, no strength")}
-    model, row, (p, rho, T) = _at_rest(material)
+    model, row, (p, rho, T) = curves.at_rest(material)
 
     def flow_stress(at: float) -> Given:
         source = f"{material.name}: {name} at plastic strain {at:g}, {RATE:g}/s, {T:g} K"

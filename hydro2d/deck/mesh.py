@@ -44,14 +44,8 @@ def body_radius(deck: Deck, name: str) -> float | None:
 
 def axis_edges(deck: Deck, axis: str) -> np.ndarray:
     """Edges along "r" or "z", float64[n + 1]; SegmentError where a segment cannot be laid."""
-    start = deck.mesh.r_start if axis == "r" else deck.mesh.z_start
-    edges, previous = [start], None
-    for number, segment in enumerate(getattr(deck.mesh, axis)):
-        try:
-            new = _segment(deck, segment, edges[-1], previous)
-        except ValueError as problem:
-            raise SegmentError(("mesh", axis, number), str(problem)) from None
-        previous = float(new[-1] - (new[-2] if len(new) > 1 else edges[-1]))
+    edges = [deck.mesh.r_start if axis == "r" else deck.mesh.z_start]
+    for *_, new in _laid(deck, axis):
         edges += new.tolist()
     return np.array(edges)
 
@@ -59,16 +53,25 @@ def axis_edges(deck: Deck, axis: str) -> np.ndarray:
 def misfits(deck: Deck) -> Iterator[str]:
     """Segments whose cells were made to fit, as they miss a whole number by more than round-off; a sentence for each."""
     for axis in ("r", "z"):
-        start, previous = (deck.mesh.r_start if axis == "r" else deck.mesh.z_start), None
-        for number, segment in enumerate(getattr(deck.mesh, axis)):
-            new = _segment(deck, segment, start, previous)
+        for number, segment, start, new in _laid(deck, axis):
             size = _size(deck, segment)
             if segment.to is not None and size is not None and None is segment.cells is segment.ratio is segment.last:
                 miss = abs(len(new) - (segment.to - start) / size)
                 if miss > _TOLD:
                     yield f"mesh.{axis}[{number}]: ends {miss:.1g} of a cell from a whole number, so the cells were made to fit"
-            previous = float(new[-1] - (new[-2] if len(new) > 1 else start))
-            start = float(new[-1])
+
+
+def _laid(deck: Deck, axis: str) -> Iterator[tuple[int, Segment, float, np.ndarray]]:
+    """The segments of an axis, each with its number, its start and its edges without the first. Raises SegmentError."""
+    start, previous = (deck.mesh.r_start if axis == "r" else deck.mesh.z_start), None
+    for number, segment in enumerate(getattr(deck.mesh, axis)):
+        try:
+            new = _segment(deck, segment, start, previous)
+        except ValueError as problem:
+            raise SegmentError(("mesh", axis, number), str(problem)) from None
+        yield number, segment, start, new
+        previous = float(new[-1] - (new[-2] if len(new) > 1 else start))
+        start = float(new[-1])
 
 
 def _segment(deck: Deck, segment: Segment, start: float, previous: float | None) -> np.ndarray:

@@ -13,6 +13,16 @@ from hydro2d.materials.library import Material
 ROOM, STEP = 298.0, 1e-3
 
 
+def at_rest(material: Material):
+    """The strength model, its row, and the state at rest: pressure (Pa), density (kg/m^3) and temperature (K)."""
+    from strength import STRENGTH_MODELS
+
+    model = STRENGTH_MODELS[material.strength.name]
+    temperature = material.eos.numbers.get("reference_temperature")
+    T = temperature.value if temperature else ROOM
+    return model, model.row(material.strength.values), (0.0, material.reference_density, T)
+
+
 def flow_stress(
     material: Material, rate: float, strains: Sequence[float], *, isothermal: bool = False
 ) -> tuple[np.ndarray, np.ndarray]:
@@ -24,26 +34,22 @@ def flow_stress(
 
     Raises DeckError for a material without strength, and for one without a specific heat unless isothermal.
     """
-    from strength import STRENGTH_MODELS
-
     if not material.has_strength:
         raise DeckError(f"{material.name} has no strength")
     heat = material.eos.numbers.get("specific_heat")
     if not (isothermal or heat):
         raise DeckError(f"{material.name} has no specific heat; its flow stress is known at one temperature alone")
-    model = STRENGTH_MODELS[material.strength.name]
-    row, rho = model.row(material.strength.values), material.reference_density
-    start = material.eos.numbers.get("reference_temperature")
+    model, row, (p, rho, T) = at_rest(material)
     warming = 0.0 if isothermal else 1.0 / (rho * heat.value)
-    T, ep, stresses, temperatures = start.value if start else ROOM, 0.0, [], []
+    ep, stresses, temperatures = 0.0, [], []
     for strain in strains:
         steps = max(int(np.ceil((strain - ep) / STEP)), 1)
         step = (strain - ep) / steps
         for _ in range(steps):  # midpoint rule
-            half = T + 0.5 * step * warming * model.flow_stress(ep, rate, T, 0.0, rho, row)
-            T += step * warming * model.flow_stress(ep + 0.5 * step, rate, half, 0.0, rho, row)
+            half = T + 0.5 * step * warming * model.flow_stress(ep, rate, T, p, rho, row)
+            T += step * warming * model.flow_stress(ep + 0.5 * step, rate, half, p, rho, row)
             ep += step
         ep = strain
-        stresses.append(model.flow_stress(strain, rate, T, 0.0, rho, row))
+        stresses.append(model.flow_stress(strain, rate, T, p, rho, row))
         temperatures.append(T)
     return np.array(stresses, dtype=float), np.array(temperatures, dtype=float)

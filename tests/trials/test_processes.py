@@ -16,7 +16,7 @@ from pathlib import Path
 import pytest
 
 from hydro2d.output import snapshot
-from tests.trials.test_run_directories import FEW, finished  # noqa: F401
+from tests.trials.conftest import FEW
 from tests.trials.test_texts import STUDY
 from tests.unit.test_cli import DECK
 
@@ -96,14 +96,13 @@ def test_stopped_runs_go_on_to_the_same_bits(shot, tmp_path):
 
 
 @pytest.mark.slow
-def test_a_hundred_stopped_runs(shot, tmp_path, capsys):
+def test_a_hundred_stopped_runs(shot, tmp_path, tell):
     count = stopped_runs(range(100), shot, tmp_path)
-    with capsys.disabled():
-        print(f"\n100 runs stopped {count} times, 0 with other bits")
+    tell(f"100 runs stopped {count} times, 0 with other bits")
     assert count > 50
 
 
-def others(finished, folder):  # noqa: F811
+def others(finished, folder):
     """Commands beside `run`, each into a folder of its own."""
     (folder / "shot.toml").write_text(DECK)
     (folder / "study.toml").write_text(STUDY)
@@ -119,7 +118,7 @@ def others(finished, folder):  # noqa: F811
     }  # fmt: skip
 
 
-def stopped_commands(seeds, finished, folder):  # noqa: F811
+def stopped_commands(seeds, finished, folder):
     """Stops a command at a moment of its first seconds; returns how many were stopped."""
     count, known = 0, others(finished, folder)
     for seed in seeds:
@@ -133,15 +132,14 @@ def stopped_commands(seeds, finished, folder):  # noqa: F811
     return count
 
 
-def test_stopped_commands(finished, tmp_path):  # noqa: F811
+def test_stopped_commands(finished, tmp_path):
     assert stopped_commands(range(8), finished, tmp_path) > 0
 
 
 @pytest.mark.slow
-def test_two_hundred_stopped_commands(finished, tmp_path, capsys):  # noqa: F811
+def test_two_hundred_stopped_commands(finished, tmp_path, tell):
     count = stopped_commands(range(200), finished, tmp_path)
-    with capsys.disabled():
-        print(f"\n200 commands, {count} of them stopped, 0 failures")
+    tell(f"200 commands, {count} of them stopped, 0 failures")
     assert count > 50
 
 
@@ -150,7 +148,7 @@ def limited(most):
     return lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (most, most))
 
 
-def without_room(seeds, shot, finished, folder):  # noqa: F811
+def without_room(seeds, shot, finished, folder):
     """Commands that write, with hardly any room; returns how many said so."""
     count, known = 0, others(finished, folder)
     known["run"] = [*shot[0], "--out", str(folder / "run"), "--overwrite"]
@@ -163,20 +161,19 @@ def without_room(seeds, shot, finished, folder):  # noqa: F811
     return count
 
 
-def test_without_room(shot, finished, tmp_path):  # noqa: F811
+def test_without_room(shot, finished, tmp_path):
     assert without_room(range(8), shot, finished, tmp_path) > 0
 
 
 @pytest.mark.slow
-def test_two_hundred_without_room(shot, finished, tmp_path, capsys):  # noqa: F811
+def test_two_hundred_without_room(shot, finished, tmp_path, tell):
     count = without_room(range(200), shot, finished, tmp_path)
-    with capsys.disabled():
-        print(f"\n200 commands without room, {count} said so, 0 failures")
+    tell(f"200 commands without room, {count} said so, 0 failures")
     assert count > 50
 
 
 @pytest.mark.parametrize("name", ["plot", "export", "report", "check", "info", "model", "sweep"])
-def test_a_reader_that_is_gone(finished, tmp_path, name):  # noqa: F811
+def test_a_reader_that_is_gone(finished, tmp_path, name):
     arguments = others(finished, tmp_path)[name]
     command = [sys.executable, "-m", "hydro2d", *arguments]
     process = subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.PIPE)

@@ -6,28 +6,9 @@ import shutil
 import pytest
 
 from tests.trials import spoil
-from tests.trials.test_texts import STUDY
-from tests.unit.test_cli import DECK
+from tests.trials.conftest import FEW
 
-FEW = ["--set", "stop.cycles=30", "--set", "output.vtk_interval='0.3 us'", "--set", "output.history_interval='0.1 us'"]
 FURTHER = ["--set", "stop.cycles=40"]
-
-
-@pytest.fixture(scope="module")
-def finished(tmp_path_factory):
-    """A run and a study of two such runs, done."""
-    folder = tmp_path_factory.mktemp("finished")
-    (folder / "shot.toml").write_text(DECK)
-    assert spoil.judge(["run", str(folder / "shot.toml"), *FEW, "--quiet", "--out", str(folder / "run")])[0] == 0
-    (folder / "study.toml").write_text(STUDY)
-    from hydro2d.study import cases, layout
-
-    plan = cases.plan(folder / "study.toml")
-    layout.make(folder / "study")
-    layout.write(plan, folder / "study")
-    for case in plan.cases[:2]:
-        shutil.copytree(folder / "run", folder / "study" / layout.CASES / case.name)
-    return folder
 
 
 def commands(run, study, folder, chance):
@@ -74,8 +55,7 @@ def test_spoiled_directories(finished, tmp_path):
 
 
 @pytest.mark.slow
-def test_a_thousand_spoiled_directories(finished, tmp_path, capsys):
+def test_a_thousand_spoiled_directories(finished, tmp_path, tell):
     told = spoiled_directories(range(1000), finished, tmp_path)
-    with capsys.disabled():
-        print(f"\n1000 spoiled directories, {told} refused in words, 0 failures")
+    tell(f"1000 spoiled directories, {told} refused in words, 0 failures")
     assert told > 100

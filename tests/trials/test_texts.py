@@ -101,10 +101,9 @@ def test_spoiled_decks(tmp_path):
 
 
 @pytest.mark.slow
-def test_five_thousand_spoiled_decks(tmp_path, capsys):
+def test_five_thousand_spoiled_decks(tmp_path, tell):
     refused = spoiled_decks(range(5000), tmp_path)
-    with capsys.disabled():
-        print(f"\n5000 spoiled decks, {refused} refused in words, 0 failures")
+    tell(f"5000 spoiled decks, {refused} refused in words, 0 failures")
     assert refused > 2500
 
 
@@ -138,10 +137,9 @@ def test_absurd_settings(tmp_path):
 
 
 @pytest.mark.slow
-def test_five_thousand_absurd_settings(tmp_path, capsys):
+def test_five_thousand_absurd_settings(tmp_path, tell):
     refused = settings(range(5000), tmp_path)
-    with capsys.disabled():
-        print(f"\n5000 absurd settings, {refused} refused in words, 0 failures")
+    tell(f"5000 absurd settings, {refused} refused in words, 0 failures")
     assert refused > 2500
 
 
@@ -171,10 +169,9 @@ def test_spoiled_studies(tmp_path):
 
 
 @pytest.mark.slow
-def test_two_thousand_spoiled_studies(tmp_path, capsys):
+def test_two_thousand_spoiled_studies(tmp_path, tell):
     refused = spoiled_studies(range(2000), tmp_path)
-    with capsys.disabled():
-        print(f"\n2000 spoiled studies, {refused} refused in words, 0 failures")
+    tell(f"2000 spoiled studies, {refused} refused in words, 0 failures")
     assert refused > 1000
 
 
@@ -197,8 +194,7 @@ def test_what_is_taken_runs(tmp_path):
 
 
 @pytest.mark.slow
-def test_what_is_taken_of_two_thousand_runs(tmp_path, capsys):
+def test_what_is_taken_of_two_thousand_runs(tmp_path, tell):
     ran = runs(range(2000), tmp_path)
-    with capsys.disabled():
-        print(f"\n{ran} spoiled decks that were taken ran for three cycles, 0 failures")
+    tell(f"{ran} spoiled decks that were taken ran for three cycles, 0 failures")
     assert ran > 300

@@ -1,0 +1,39 @@
+"""What several suites of trials need."""
+
+import shutil
+
+import pytest
+
+from tests.trials import spoil
+from tests.trials.test_texts import STUDY
+from tests.unit.test_cli import DECK
+
+FEW = ["--set", "stop.cycles=30", "--set", "output.vtk_interval='0.3 us'", "--set", "output.history_interval='0.1 us'"]
+
+
+@pytest.fixture
+def tell(capsys):
+    """Prints a line past pytest's capture: the count of a long suite."""
+
+    def tell(line):
+        with capsys.disabled():
+            print(f"\n{line}")
+
+    return tell
+
+
+@pytest.fixture(scope="module")
+def finished(tmp_path_factory):
+    """A run and a study of two such runs, done."""
+    folder = tmp_path_factory.mktemp("finished")
+    (folder / "shot.toml").write_text(DECK)
+    assert spoil.judge(["run", str(folder / "shot.toml"), *FEW, "--quiet", "--out", str(folder / "run")])[0] == 0
+    (folder / "study.toml").write_text(STUDY)
+    from hydro2d.study import cases, layout
+
+    plan = cases.plan(folder / "study.toml")
+    layout.make(folder / "study")
+    layout.write(plan, folder / "study")
+    for case in plan.cases[:2]:
+        shutil.copytree(folder / "run", folder / "study" / layout.CASES / case.name)
+    return folder
