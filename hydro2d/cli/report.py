@@ -11,7 +11,7 @@ from cyclopts import Parameter
 def report(directories: Annotated[list[Path], Parameter(negative="")], *, out: Path | None = None) -> int:
     """Reports a study or runs: one HTML page, a table as CSV and the figures as PNG.
 
-    Example: hydro2d report runs/figure_2a --out figure_2a_report
+    Example: hydro2d report runs/rigid_rod_laws --out rigid_rod_laws_report
 
     Parameters
     ----------

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, Any, Literal
 
-from pydantic import AfterValidator, BeforeValidator, Field, WithJsonSchema, model_validator
+from pydantic import AfterValidator, BeforeValidator, Field, WithJsonSchema, field_validator, model_validator
 
 from hydro2d import units
 from hydro2d.deck.base import (
@@ -72,8 +72,14 @@ class Mesh(Section):
     z: tuple[Segment, ...] = Field(min_length=1, description="segments from z_start upward")
     follow: str | None = Field(
         None, description="a body that the whole mesh travels with along z; what the deck has placed ahead enters in its turn; "
-        "default: the mesh stands still"
+        "default and none: the mesh stands still"
     )
+
+    @field_validator("follow")
+    @classmethod
+    def _nobody(cls, follow: str | None) -> str | None:
+        """``none`` undoes what an included deck says."""
+        return None if follow == "none" else follow
 
 
 class Boundaries(Section):

@@ -28,7 +28,7 @@ from hydro2d.running import progress, provenance, run
 from hydro2d.running.compilation import announced
 from hydro2d.solver.simulation import Simulation
 
-DECK = "problems/cth_nose_shape/hemi_5083_1086.toml"
+DECK = "problems/cth_nose_shape/hemi_5083_1086_layer.toml"
 TRIAD_SHAPE, TRIAD_REPEATS = (2000, 4000), 7
 BYTES_PER_UPDATE = 24
 #: a case takes a multiple of so many cycles: the slip zones are found every few, and the order of the sweeps alternates
@@ -40,7 +40,7 @@ WHOLE_SHOT = "whole shot"
 OF_OUTPUTS = ("pressures_and_temperatures", "body_sums", "body_totals", "vertex_totals", "velocities")
 
 SHOT = """
-include = "cth_nose_shape/hemi_5083_1086.toml"
+include = "cth_nose_shape/hemi_5083_1086_layer.toml"
 [numerics]
 active_region = false
 """

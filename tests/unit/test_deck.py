@@ -339,7 +339,7 @@ def test_sliding_widths_and_yield_factor():
 
 
 def test_the_study_has_the_printed_mesh_and_factor():
-    d = deck.load("problems/cth_nose_shape/hemi_5083_1086.toml")
+    d = deck.load("problems/cth_nose_shape/hemi_5083_1086_layer.toml")
     r, z = deck.edges(d)
     assert (len(r) - 1, len(z) - 1) == (85, 1545)
     assert r[40] == 0.016891
