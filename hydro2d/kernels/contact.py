@@ -222,14 +222,14 @@ def weighty_share(g, row, column, edges, volume, metrics, hard, soft, mass):
 
 
 @apart
-def cell_to_extend(g, j, i, inward_r, inward_z, edges, volume, metrics, hard, soft, mass):
-    """Code of the cell of group g whose linear field the light vertex (j, i) takes, 0 where there is none.
+def cell_to_extend(g, j, i, rings, inward_r, inward_z, edges, volume, metrics, hard, soft, mass):
+    """Code of the cell of group g, in so many rings around, whose linear field the light vertex (j, i) takes, else 0.
 
     None of the cell's own vertices is light. It is the one, among the nearest that there are, with the largest share of the
     group times the cosine between its direction and the normal inwards over the distance.
     """
     most, code = 0.0, 0
-    for ring in range(1, REACH + 1):
+    for ring in range(1, rings + 1):
         for dj in range(-ring, ring):
             for di in range(-ring, ring):
                 if -ring < dj < ring - 1 and -ring < di < ring - 1:
@@ -255,14 +255,27 @@ def cell_to_extend(g, j, i, inward_r, inward_z, edges, volume, metrics, hard, so
     return code
 
 
+@point
+def in_debris(g, j, i, edges, group, vof, dmg):
+    """Whether material of the group other than g that has failed fills a cell around vertex (j, i) by half or more."""
+    found = False
+    for m in range(group.shape[0]):
+        if group[m] != g:
+            for row in range(max(j - 1, edges[0]), min(j + 1, edges[1])):
+                for column in range(max(i - 1, edges[2]), min(i + 1, edges[3])):
+                    found = found or (vof[m, row, column] >= 0.5 and dmg[m, row, column] >= 1.0)
+    return found
+
+
 @kernel
-def link_light(j0, j1, edges, volume, metrics, count, shared, normal, hard, soft, mass, link):
+def link_light(j0, j1, edges, volume, metrics, count, shared, normal, hard, soft, mass, group, vof, dmg, link):
     """How each group moves at a shared vertex: by itself, or, where it is light, as its body does inward of there.
 
     That is the linear field of the velocities of a cell, or, where no cell has four vertices of the group, one vertex: among
-    its neighbours, or else among those two away, by the same measure. Where there is none the group sticks to the other.
+    its neighbours, or else among those two away, by the same measure. Where there is none the group sticks to the other; so
+    does a crumb within failed material of the other group, to which its body comes no nearer than two vertices.
 
-    Reads    normal [3, 2, j, i], hard, soft [j, i], mass [b, j, i]
+    Reads    normal [3, 2, j, i], hard, soft [j, i], mass [b, j, i]; vof, dmg [m, j, i]
     Writes   link [b, j, i]: HEAVY, EXTENDS + 6 (dj + 3) + (di + 3), 5 (dj + 2) + (di + 2), or STUCK
     """
     for j in prange(j0, j1 + 1):
@@ -273,14 +286,15 @@ def link_light(j0, j1, edges, volume, metrics, count, shared, normal, hard, soft
                 if weighty_share(g, j, i, edges, volume, metrics, hard, soft, mass) > 0.0:
                     continue
                 inward = 1.0 if g == 0 else -1.0
-                code = cell_to_extend(g, j, i, inward * normal[0, 0, j, i], inward * normal[0, 1, j, i], edges, volume, metrics,
-                                      hard, soft, mass)
+                far = 1 if in_debris(g, j, i, edges, group, vof, dmg) else 2
+                code = cell_to_extend(g, j, i, 1 + far, inward * normal[0, 0, j, i], inward * normal[0, 1, j, i], edges, volume,
+                                      metrics, hard, soft, mass)
                 if code > 0:
                     link[g, j, i] = code
                     continue
                 link[g, j, i] = STUCK
                 most = 0.0
-                for ring in range(1, 3):
+                for ring in range(1, far + 1):
                     for dj in range(-ring, ring + 1):
                         for di in range(-ring, ring + 1):
                             row, column = j + dj, i + di

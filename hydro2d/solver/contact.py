@@ -38,7 +38,7 @@ class Contact:
         contact.face_weights(j0, j1, self.edges, self.still, s.cut, s.line, s.hard, s.soft, s.mass, s.shared_count, s.shared,
                              s.wet_r, s.wet_z, s.contact_normal, s.touch)
         contact.link_light(j0, j1, self.edges, g.volume, g.metrics, s.shared_count, s.shared, s.contact_normal, s.hard, s.soft,
-                           s.mass, s.link)
+                           s.mass, s.group, s.vof, s.dmg, s.link)
         contact_motion.cut_viscosity(
             j0, j1, self.edges, method.viscosity_linear, method.viscosity_quadratic, method.courant, g.dr, g.dz, g.metrics,
             s.cut, s.line, s.around, s.contact_normal, s.wet_r, s.wet_z, s.hard, s.soft, s.u, s.v, s.cl, s.rhobar, s.vof, s.q,

@@ -146,3 +146,38 @@ def test_a_vertex_is_weighty_from_half_of_its_dual_cell_on():
     assert share(1, 4) == 0.0  # beyond the mesh
     mass[1, 4, 4] = 0.0
     assert share(4, 4) == 0.0
+
+
+def links(damage: float) -> np.ndarray:
+    """link [b, j, i] of a mesh whose cells hold the hard body to the left and the soft one from column 7 on, with a crumb of the
+    soft one in the hard cell (6, 4); the hard body has this damage."""
+    grid = Grid(np.arange(11.0), np.arange(11.0), "planar")
+    inside = (0, *grid.inside)
+    vof = np.zeros((2, *grid.shape))
+    vof[inside] = (np.arange(grid.shape[1]) < 7 + grid.g)[grid.inside[1]]
+    vof[0, 6 + grid.g, 4 + grid.g] = 0.999
+    vof[1][grid.inside] = 1.0 - vof[inside]
+    mass = np.zeros((2, *grid.vertex_shape))
+    for group, body in ((0, 1), (1, 0)):
+        for dj, di in ((0, 0), (0, 1), (1, 0), (1, 1)):
+            mass[group, dj:dj + grid.shape[0], di:di + grid.shape[1]] += 0.25 * vof[body]
+    edges = np.array([grid.g, grid.g + grid.nz, grid.g, grid.g + grid.nr])
+    both = (mass > 0.0).all(axis=0)
+    both[:, [grid.g, grid.g + grid.nr]] = False
+    shared, count = np.zeros(both.shape, dtype=np.int64), both.sum(axis=1)
+    for j in range(both.shape[0]):
+        shared[j, : count[j]] = np.nonzero(both[j])[0]
+    normal = np.zeros((3, 2, *both.shape))
+    normal[:, 0] = 1.0
+    link = np.full((2, *both.shape), HEAVY)
+    contact.link_light(grid.g, grid.g + grid.nz, edges, grid.volume, grid.metrics, count, shared, normal, vof[0], vof[1], mass,
+                       np.array([1, 0]), vof, np.stack([np.full(grid.shape, damage), np.zeros(grid.shape)]), link)
+    return link[:, grid.g:, grid.g:]
+
+
+def test_a_crumb_sticks_in_debris_alone():
+    sound, failed = links(0.9), links(1.0)
+    assert extended_cell(6, 5, sound[0, 6, 5])[1] == 7
+    assert (failed[0, 6:8, 4:6] == STUCK).all()
+    assert (failed[0, :, 7] == sound[0, :, 7]).all()
+    assert (failed[1] == sound[1]).all()
