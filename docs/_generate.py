@@ -293,11 +293,36 @@ def _help(*command: str) -> str:
     return "\n".join(line.rstrip() for line in text.getvalue().splitlines())
 
 
+def results_page() -> str:
+    """Columns of the history and keys of the summary."""
+    from hydro2d.output.history import unit
+    from hydro2d.running import columns
+    from hydro2d.solver import audit
+
+    def rows(names: dict[str, str]):
+        return ((f"`{name}`", "" if unit(name) == "1" else unit(name), meaning) for name, meaning in names.items())
+
+    return "\n\n".join([
+        "# Results", NOTE,
+        "In a name, `BODY` stands for the name of a body, `STATION` for `tracer_NAME` or `gauge_NAME`, `SINK` and `EXCHANGE` "
+        "for one of the [names below](#sinks-and-exchanges). All numbers are in SI units, of the whole circumference, and in "
+        "planar geometry per metre of depth. A number that is not known is NaN in the history and `null` in the summary: that "
+        "of a rod in a deck without rod and target, of a station outside of the mesh.",
+        "## Columns of `history.h5`", table(("column", "unit", "meaning"), rows(columns.HISTORY)),
+        "## Keys of `summary.json`", "A dot leads into a table.",
+        table(("key", "unit", "meaning"), rows(columns.SUMMARY)),
+        "## Sinks and exchanges",
+        table(("sink", "what it is"), ((f"`{name}`", meaning) for name, meaning in audit.SINKS.items())),
+        table(("exchange", "what it is"), ((f"`{name}`", meaning) for name, meaning in audit.EXCHANGES.items())),
+    ])  # fmt: skip
+
+
 def pages() -> dict[str, str]:
     """Every generated page by file name."""
     return {
         "deck.md": deck_page(),
         "fields.md": fields_page(),
+        "results.md": results_page(),
         "models.md": models_page(),
         "materials.md": materials_page(),
         "penetration-models.md": penetration_page(),

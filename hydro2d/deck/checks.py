@@ -27,10 +27,13 @@ def inconsistencies(deck: Deck) -> Iterator[tuple[tuple, str]]:
             yield ("body", number, "name"), f'the name "{entry.name}" is taken by an earlier body'
         if entry.join is not None:
             yield from _bad_join(deck, number)
-    tracers = [entry.name for entry in deck.tracer]
-    for number, name in enumerate(tracers):
-        if name in tracers[:number]:
-            yield ("tracer", number, "name"), f'the name "{name}" is taken by an earlier tracer'
+    for kind, names_of in (("tracer", [[entry.name] for entry in deck.tracer]),
+                           ("gauge", [[name for name, _ in entry.places()] for entry in deck.gauge])):
+        taken: set[str] = set()
+        for number, own in enumerate(names_of):
+            if twice := taken.intersection(own):
+                yield (kind, number, "name"), f'the name "{min(twice)}" is taken by an earlier {kind}'
+            taken.update(own)
     yield from _bad_names(deck, names)
     yield from _bad_mesh(deck)
     yield from _bad_edges(deck)
@@ -144,6 +147,11 @@ def _bad_mesh(deck: Deck) -> Iterator[tuple[tuple, str]]:
     for number, tracer in enumerate(deck.tracer):
         if not (r[0] <= tracer.r <= r[-1] and z[0] <= tracer.z <= z[-1]):
             yield ("tracer", number), f'"{tracer.name}" at r = {tracer.r:g} m, z = {tracer.z:g} m lies outside the mesh'
+    for number, gauge in enumerate(deck.gauge):
+        for name, (at_r, at_z) in gauge.places():
+            if not r[0] <= at_r <= r[-1] or (deck.mesh.follow is None and not z[0] <= at_z <= z[-1]):
+                yield ("gauge", number), f'"{name}" at r = {at_r:g} m, z = {at_z:g} m lies outside the mesh'
+                break
 
 
 def travel(deck: Deck) -> float:

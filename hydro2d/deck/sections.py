@@ -245,6 +245,32 @@ class Tracer(Section):
     z: Length = Field(description="axial position at time zero")
 
 
+class Gauge(Section):
+    """A point that stands still, or a line of them, from (r, z) to (r_end, z_end)."""
+
+    name: Name = Field(description="name of the gauge in the history; the points of a line are NAME_1, NAME_2 and so on")
+    r: Length = Field(description="radial position")
+    z: Length = Field(description="axial position")
+    r_end: Length | None = Field(None, description="radial position of the last point of a line; default: that of the first")
+    z_end: Length | None = Field(None, description="axial position of the last point of a line; default: that of the first")
+    points: int = Field(1, ge=1, le=10_000, description="number of points of the line, the ends included")
+
+    @model_validator(mode="after")
+    def _line(self) -> Gauge:
+        if (self.points > 1) != (self.r_end is not None or self.z_end is not None):
+            raise ValueError("a line of gauges has an end, r_end or z_end, and more than one of `points`")
+        return self
+
+    def places(self) -> list[tuple[str, tuple[float, float]]]:
+        """Name and position (r, z) in m of each point."""
+        if self.points == 1:
+            return [(self.name, (self.r, self.z))]
+        last = (self.r if self.r_end is None else self.r_end, self.z if self.z_end is None else self.z_end)
+        shares = [n / (self.points - 1) for n in range(self.points)]
+        return [(f"{self.name}_{n}", (self.r + share * (last[0] - self.r), self.z + share * (last[1] - self.z)))
+                for n, share in enumerate(shares, 1)]
+
+
 class Experiment(Section):
     """What was measured, to be shown beside the run; the run does not use it.
 
@@ -282,6 +308,7 @@ class Deck(Section):
     stop: Stop
     output: Output = Output()
     tracer: tuple[Tracer, ...] = ()
+    gauge: tuple[Gauge, ...] = ()
     experiment: Experiment | None = None
     penetration: Penetration | None = None
 

@@ -104,6 +104,31 @@ def body_totals(g, nz, nr, m, volume, vof, rho, e, sums):
 
 
 @serial
+def body_motion(g, nz, nr, m, cm_in, cm_out, volume, vof, dmg, rho, u, v, sums):
+    """Momentum, kinetic energy and failed mass of body m; a cell moves as its vertices do, weighted by corner masses.
+
+    Reads    volume [j, i];  vof, dmg, rho [m, j, i];  u, v [j-1/2, i-1/2] of the body's group
+    Writes   sums [4]: mass, axial momentum, kinetic energy, mass that has failed
+    """
+    for part in range(4):
+        sums[part] = 0.0
+    for j in range(g, g + nz):
+        for i in range(g, g + nr):
+            mass = vof[m, j, i] * rho[m, j, i] * volume[j, i]
+            if mass <= 0.0:
+                continue
+            momentum, kinetic = 0.0, 0.0
+            for row in range(j, j + 2):
+                momentum += cm_in[i] * v[row, i] + cm_out[i] * v[row, i + 1]
+                kinetic += (cm_in[i] * (u[row, i] * u[row, i] + v[row, i] * v[row, i])
+                            + cm_out[i] * (u[row, i + 1] * u[row, i + 1] + v[row, i + 1] * v[row, i + 1]))
+            sums[0] += mass
+            sums[1] += mass * momentum
+            sums[2] += 0.5 * mass * kinetic
+            sums[3] += mass if dmg[m, j, i] >= 1.0 else 0.0
+
+
+@serial
 def vertex_totals(g, nz, nr, mass, u, v, sums):
     """Axial momentum and kinetic energy of all vertices, added to sums[0] and sums[1].
 

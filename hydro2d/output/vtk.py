@@ -217,8 +217,8 @@ class Series:
         path = self._path("dump", number)
         write_grid(path, sim.grid.r_edges, sim.grid.z_edges, derived.evaluated(sim, self.fields), time)
         write_lines(self._path("interfaces", number), _body_lines(sim), time)
-        if len(sim.tracers):
-            write_points(self._path("tracers", number), np.asarray(sim.tracers), time)
+        if len(sim.stations.tracers):
+            write_points(self._path("tracers", number), sim.stations.tracers, time)
         self._times.append(time)
         self._write_series()
         return path

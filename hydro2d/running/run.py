@@ -35,6 +35,7 @@ from hydro2d.output.vtk import FOLDER, SERIES, Series
 from hydro2d.running import provenance
 from hydro2d.running.progress import Clock, reporter
 from hydro2d.running.team import Team
+from hydro2d.solver.tracers import PEAKS
 
 DECK, SUMMARY, HISTORY, LOG, LOCK = "deck.toml", "summary.json", "history.h5", "log.txt", "run.lock"
 PROGRESS = "progress.json"
@@ -338,6 +339,8 @@ class Run:
             **dict.fromkeys(ROD_RESULTS),
             **sim.diagnostics(),
             "crater": sim.crater.measure() if sim.crater else None,
+            "bodies": sim.of_bodies(),
+            "stations": sim.stations.measure(),
             "experiment": experiment(self.deck),
             "conservation": sim.conservation(),
             "provenance": self.provenance,
@@ -367,8 +370,10 @@ def row(sim) -> dict:
     values |= {f"mass_change_{body}": change for body, change in conserved["mass"].items()}
     values |= {f"{name}_change": conserved[name] for name in ("axial_momentum", "total_energy")}
     values |= {name: conserved[name] for name in ("internal_energy_J", "kinetic_energy_J")}
-    for tracer, (r, z) in zip(sim.deck.tracer, sim.tracers, strict=True):
-        values |= {f"tracer_{tracer.name}_r_m": float(r), f"tracer_{tracer.name}_z_m": float(z)}
+    for name, found in sim.of_bodies().items():
+        values |= {f"body_{name}_{key}": value for key, value in found.items()}
+    for name, found in sim.stations.measure().items():
+        values |= {f"{name}_{key}": value for key, value in found.items() if key not in PEAKS}
     for sink, amounts in conserved["sinks"].items():
         values |= {f"sink_{sink}_{name}": amount for name, amount in amounts.items()}
     return values

@@ -16,6 +16,15 @@ FULL = 0.999
 PIECE = 0.05
 
 
+#: what `measure` gives, and its meaning
+QUANTITIES = {
+    "entrance_diameter_m": "in the first row of cells below the original surface",
+    "mean_diameter_m": "of the cylinder with the volume and depth of the hole; null where there is none",
+    "volume_m3": "of the hole, the whole circumference; in planar geometry of the meshed half, per metre",
+    "depth_m": "from the original surface to the bottom on the axis; the target's thickness where that is shot through",
+}
+
+
 class Rows(NamedTuple):
     """Rows of cells along the rod's flight, arrays of shape (n,).
 

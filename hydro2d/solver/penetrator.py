@@ -21,6 +21,29 @@ LEFT_MASS = 0.01
 LEFT = "left the mesh"
 
 
+#: what `measure` gives, and its meaning
+QUANTITIES = {
+    "penetration_depth_m": "from the target's original surface to the deepest rod material on or near the axis",
+    "rod_length_m": "of the longest run of intact rod on the axis",
+    "rod_initial_length_m": "the same at the start",
+    "rod_mass_kg": "mass of the rod in the mesh",
+    "rod_core_mass_kg": "mass of what is intact and hangs together from the axis outward",
+    "rod_failed_mass_kg": "mass of the rod that has failed by damage",
+    "target_failed_mass_kg": "mass of the target that has failed by damage",
+    "rod_max_radius_m": "largest radius of a solid section with the area of the rod in a row of cells",
+    "rod_initial_radius_m": "radius of the rod in the deck",
+    "rod_max_plastic_strain": "largest plastic strain of the cells that the rod fills by half",
+    "rod_mean_velocity_m_s": "mean axial velocity of all of the rod",
+    "rod_core_velocity_m_s": "the same of its core",
+    "rod_nose_velocity_m_s": "axial velocity of the rod on the axis at its nose",
+    "rod_tail_velocity_m_s": "the same at its tail",
+    "rod_kinetic_energy_J": "mass of the rod times half of the square of its mean velocity",
+    "rod_residual_velocity_m_s": "axial velocity of the core of a rod that has perforated the target or left the mesh",
+    "rod_residual_mass_kg": "mass of that core",
+    "regime": "rigid, deforming, eroding or left the mesh",
+}
+
+
 class Exit(NamedTuple):
     """A rod as its core reached an open edge of the mesh: core's velocity in m/s and mass in kg, depth in m, and the mass of
     the rod that had flowed out of the mesh before, kg."""

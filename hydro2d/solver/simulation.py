@@ -10,7 +10,7 @@ from hydro2d.mesh import sums
 from hydro2d.mesh.edges import Edges
 from hydro2d.mesh.grid import Grid
 from hydro2d.mesh.state import State
-from hydro2d.solver import insertion, tracers
+from hydro2d.solver import bodies, insertion, tracers
 from hydro2d.solver.audit import Ledger
 from hydro2d.solver.crater import Crater
 from hydro2d.solver.cycle import Cycle, UnphysicalState
@@ -19,6 +19,7 @@ from hydro2d.solver.memory import refuse_too_large
 from hydro2d.solver.method import Method
 from hydro2d.solver.penetrator import Penetrator
 from hydro2d.solver.sanity import TRUSTED, faults
+from hydro2d.solver.stations import Stations
 
 __all__ = ["Simulation", "UnphysicalState"]
 
@@ -36,7 +37,7 @@ class Simulation:
     Attributes
     ----------
     grid, state, table, ledger : the mesh, the fields, the materials, what is conserved
-    tracers : float64[n, 2], positions (r, z) in m
+    stations : the tracers and gauges
     penetrator, crater : what measures the rod and the hole; None for a deck without rod and target
     """
 
@@ -51,7 +52,7 @@ class Simulation:
         self._insert(method.boundaries)
         self.engine = Cycle(self.state, self.table, method, self._mesh(slots, method))
         self.engine.prepare()
-        self.tracers = np.array([[t.r, t.z] for t in deck.tracer]).reshape(-1, 2)
+        self.stations = Stations(self, deck)
         self._rows = np.zeros((2, self.grid.shape[0]))
         self.penetrator = Penetrator(self, deck) if deck.penetration else None
         self.crater = Crater(self, deck) if deck.penetration else None
@@ -129,16 +130,10 @@ class Simulation:
         self.engine.advance()
         if self.cycle % WATCH_EVERY == 0:
             self.refuse_nonsense()
-        if len(self.tracers):
-            self._move_tracers()
+        self.stations.record()
         if self.penetrator:
             self.penetrator.watch()
             self.crater.record()
-
-    def _move_tracers(self) -> None:
-        """Tracers follow the bilinear velocity of their cell, by the midpoint rule."""
-        g, s = self.grid, self.state
-        tracers.follow(g.g, g.nr, g.nz, self.dt, g.r, g.z, s.group, s.vof, s.u, s.v, self.tracers)
 
     def velocity_at(self, points: np.ndarray, group: int | None = None) -> np.ndarray:
         """Velocity (u, v) at points (r, z), shape [n, 2], m/s: of a body group, or of that which the cell moves with."""
@@ -186,6 +181,10 @@ class Simulation:
         """Depth, rod length, speeds and strain of a penetrator; empty for a deck without one. SI."""
         return self.penetrator.measure() if self.penetrator else {}
 
+    def of_bodies(self) -> dict[str, dict[str, float | None]]:
+        """Mass, motion and extent of every body, see `bodies.measure`."""
+        return bodies.measure(self)
+
     def conservation(self) -> dict:
         """Relative changes that no sink explains: mass per body, axial momentum, total energy; and every sink by name."""
         result = self.ledger.balance(self.state)
@@ -205,7 +204,7 @@ class Simulation:
 
     def restart_arrays(self) -> dict[str, np.ndarray]:
         """Everything that a restart must hold, by name."""
-        return {**self.state.restartable(), "tracers": self.tracers}
+        return {**self.state.restartable(), "stations": self.stations.places, "peaks": self.stations.peaks}
 
     def load_restart_arrays(self, arrays: dict[str, np.ndarray]) -> None:
         """Takes the arrays of a restart file; ValueError where one is missing or differs in shape or type."""

@@ -1,10 +1,44 @@
-"""Velocities at points, and points that move with the material."""
+"""What is at points, and points that move with the material."""
 
 from __future__ import annotations
 
+from math import inf, nan, sqrt
+
 import numpy as np
 
+from eos.dispatch import evaluate
 from hydro2d.jit import point, serial
+from hydro2d.mesh.fields import DMG, EP, RHO, SRR, SRZ, SZZ, E
+from hydro2d.physics.stress import von_mises
+
+#: what is known of a point, in the order of the columns of `sample`, and its meaning
+QUANTITIES = {
+    "velocity_r_m_s": "radial velocity",
+    "velocity_z_m_s": "axial velocity",
+    "density_kg_m3": "mass of all bodies per volume of the cell",
+    "pressure_Pa": "sum of volume fraction times pressure, positive in compression",
+    "stress_rr_Pa": "total radial stress, tension positive",
+    "stress_zz_Pa": "total axial stress, tension positive",
+    "stress_tt_Pa": "total hoop stress, tension positive",
+    "stress_rz_Pa": "shear stress",
+    "von_mises_Pa": "sqrt(3/2 s:s) of the stress deviator",
+    "temperature_K": "temperature, mean by mass over the bodies",
+    "plastic_strain": "equivalent plastic strain, mean by mass",
+    "damage": "0 intact, 1 failed; mean by mass",
+}
+U, V, DENSITY, PRESSURE, S_RR, S_ZZ, S_TT, S_RZ, MISES, TEMPERATURE, STRAIN, FAILED = range(len(QUANTITIES))
+#: what a point has had since the start, looked at in every cycle
+PEAKS = {
+    "peak_pressure_Pa": "largest pressure since the start",
+    "peak_pressure_time_s": "when that was",
+    "least_pressure_Pa": "smallest pressure since the start, negative in tension",
+    "peak_speed_m_s": "largest speed since the start",
+    "peak_von_mises_Pa": "largest von Mises stress since the start",
+    "peak_temperature_K": "largest temperature since the start",
+    "peak_plastic_strain": "largest plastic strain since the start",
+}
+#: what they are before the first look
+NO_PEAKS = (-inf, nan, inf, -inf, -inf, -inf, -inf)
 
 
 @point
@@ -72,6 +106,74 @@ def follow(g, nr, nz, dt, r, z, group, vof, u, v, points):
         b = group_of(group, vof, j, i)
         points[n, 0] += dt * between(u[b], j, i, x, y)
         points[n, 1] += dt * between(v[b], j, i, x, y)
+
+
+@serial
+def sample(g, nr, nz, r, z, group, eos_model, eos_par, vof, q, u, v, points, found):
+    """What is in the cell of each point: mixtures over the bodies, as fields of these names have them.
+
+    Pressure and stress are sums of volume fraction times value, void bearing none; temperature, strain and damage are means by
+    mass; stresses are total, tension positive. The velocity is that at the point. Beyond the mesh all is NaN.
+
+    Reads    r, z edges;  group, eos_model [m], eos_par [m, k];  vof [m, j, i], q [k, m, j, i];  u, v [b, j-1/2, i-1/2];
+             points [n, 2]
+    Writes   found [n, QUANTITIES]
+    """
+    for n in range(points.shape[0]):
+        at_r, at_z = points[n, 0], points[n, 1]
+        if not (r[g] <= at_r <= r[g + nr] and z[g] <= at_z <= z[g + nz]):
+            found[n] = nan
+            continue
+        i, x = place(r, g, nr, at_r)
+        j, y = place(z, g, nz, at_z)
+        b = group_of(group, vof, j, i)
+        found[n] = 0.0
+        found[n, U] = between(u[b], j, i, x, y)
+        found[n, V] = between(v[b], j, i, x, y)
+        for m in range(vof.shape[0]):
+            f = vof[m, j, i]
+            if f <= 0.0:
+                continue
+            pressure, _, _, temperature = evaluate(eos_model[m], q[RHO, m, j, i], q[E, m, j, i], eos_par[m])
+            if q[DMG, m, j, i] >= 1.0:
+                pressure = max(pressure, 0.0)
+            mass = f * q[RHO, m, j, i]
+            found[n, DENSITY] += mass
+            found[n, PRESSURE] += f * pressure
+            found[n, S_RR] += f * q[SRR, m, j, i]
+            found[n, S_ZZ] += f * q[SZZ, m, j, i]
+            found[n, S_RZ] += f * q[SRZ, m, j, i]
+            found[n, TEMPERATURE] += mass * temperature
+            found[n, STRAIN] += mass * q[EP, m, j, i]
+            found[n, FAILED] += mass * q[DMG, m, j, i]
+        mass = max(found[n, DENSITY], 1e-300)
+        found[n, TEMPERATURE] /= mass
+        found[n, STRAIN] /= mass
+        found[n, FAILED] /= mass
+        found[n, MISES] = von_mises(found[n, S_RR], found[n, S_ZZ], found[n, S_RZ])
+        found[n, S_TT] = -(found[n, S_RR] + found[n, S_ZZ]) - found[n, PRESSURE]
+        found[n, S_RR] -= found[n, PRESSURE]
+        found[n, S_ZZ] -= found[n, PRESSURE]
+
+
+@serial
+def keep_peaks(time, found, peaks):
+    """Takes what points have now into the largest values that they have had; what is NaN does not count.
+
+    Reads    found [n, QUANTITIES]
+    Updates  peaks [n, PEAKS]
+    """
+    for n in range(found.shape[0]):
+        if not found[n, DENSITY] >= 0.0:
+            continue
+        if found[n, PRESSURE] > peaks[n, 0]:
+            peaks[n, 0] = found[n, PRESSURE]
+            peaks[n, 1] = time
+        peaks[n, 2] = min(peaks[n, 2], found[n, PRESSURE])
+        peaks[n, 3] = max(peaks[n, 3], sqrt(found[n, U] ** 2 + found[n, V] ** 2))
+        peaks[n, 4] = max(peaks[n, 4], found[n, MISES])
+        peaks[n, 5] = max(peaks[n, 5], found[n, TEMPERATURE])
+        peaks[n, 6] = max(peaks[n, 6], found[n, STRAIN])
 
 
 def velocity_at(grid, state, points: np.ndarray, group: int | None = None) -> np.ndarray:

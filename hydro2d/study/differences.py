@@ -8,7 +8,7 @@ from dataclasses import dataclass
 #: keys that every run has for itself
 OWN = ("name", "output.directory")
 #: sections whose tables have names
-NAMED = ("body", "materials", "tracer")
+NAMED = ("body", "materials", "tracer", "gauge")
 
 
 def flatten(value, prefix: str = "") -> dict[str, object]:

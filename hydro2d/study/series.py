@@ -14,7 +14,7 @@ COLOURS = ("#0072b2", "#d55e00", "#009e73", "#a14d7f", "#3a3a3a", "#b8860b")
 MARKERS = ("o", "s", "^", "D", "v", "P", "<", "X", ">", "h")
 DASHES = ("-", (0, (5, 1.5)), (0, (1.5, 1)), (0, (6, 1.5, 1.5, 1.5)))
 #: sections of a deck that make no other physics or numerics
-ASIDE = ("title", "output", "experiment", "tracer", "stop", "penetration")
+ASIDE = ("title", "output", "experiment", "tracer", "gauge", "stop", "penetration")
 #: the most keys that make a name for a series of runs
 MOST_KEYS = 3
 

@@ -30,7 +30,6 @@ class FakeDeck:
         )  # fmt: skip
         self.stop = SimpleNamespace(time=STOP, cycles=None)
         self.experiment = SimpleNamespace(penetration=0.0121, qualifier="measured", source="a laboratory")
-        self.tracer = (SimpleNamespace(name="nose"), SimpleNamespace(name="deep"))
         self.courant = 0.5
         r, z = Segment(to=12e-3, cells=12), Segment(to=30e-3, cells=55)
         self.mesh, self.body, self.materials = Mesh(r=(r,), z_start=-25e-3, z=(z,)), (), {}
@@ -76,7 +75,9 @@ class Simulation:
             eos_par=np.stack([eos.MODELS[material.eos.name].row(material.eos.values) for material in rows]),
         )
         self.time, self.cycle, self.dt, self.dt_cause = 0.0, 0, 1e-7, "rod at r = 0.5 mm, z = 0.5 mm: sound"
-        self.tracers = np.array([[0.0, 0.0], [1e-3, 5e-3]])
+        places = np.array([[0.0, 0.0], [1e-3, 5e-3]])
+        found = {f"tracer_{name}": {"r_m": r, "z_m": z} for name, (r, z) in zip(("nose", "deep"), places.tolist(), strict=True)}
+        self.stations = SimpleNamespace(tracers=places, measure=lambda: found)
         self._place()
 
     def _place(self) -> None:
@@ -107,6 +108,9 @@ class Simulation:
             "rod_nose_velocity_m_s": SPEED, "rod_mean_velocity_m_s": SPEED, "rod_kinetic_energy_J": 3e4,
             "rod_max_radius_m": RADIUS, "regime": "rigid" if self.time < STOP / 2 else "deforming",
         }  # fmt: skip
+
+    def of_bodies(self) -> dict:
+        return {ROD: {"mass_kg": 0.06, "velocity_m_s": SPEED}}
 
     def faults(self, share: float = 0.02) -> list[str]:
         return []

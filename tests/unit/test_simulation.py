@@ -81,11 +81,11 @@ def test_velocity_at_points(moving):
 
 
 def test_tracers_take_the_midpoint_rule(moving):
-    start = moving.tracers.copy()
+    start = moving.stations.tracers.copy()
     half = start + 0.5 * moving.dt * moving.velocity_at(start)
     expected = start + moving.dt * moving.velocity_at(half)
-    moving._move_tracers()
-    np.testing.assert_array_equal(moving.tracers, expected)
+    moving.stations.record()
+    np.testing.assert_array_equal(moving.stations.tracers, expected)
 
 
 def test_a_run_stops_at_the_same_cycle_after_a_restart():

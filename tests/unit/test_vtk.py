@@ -107,7 +107,7 @@ def test_outlines_and_tracers(moved, tmp_path):
     assert set(lines.cell_data["Material"]) == {1, 2}
     assert lines.points[:, 0].min() == 0.0  # they reach the axis
     tracers = pyvista.read(tmp_path / "vtk" / "tracers_000000.vtp")
-    np.testing.assert_allclose(tracers.points[:, :2], moved.tracers)
+    np.testing.assert_allclose(tracers.points[:, :2], moved.stations.tracers)
 
 
 def test_not_a_vtk_file(tmp_path):

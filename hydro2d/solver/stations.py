@@ -1,0 +1,59 @@
+"""Points at which a run records what is there: tracers, which move with the material, and gauges, which stand still."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from hydro2d.solver import tracers
+
+
+class Stations:
+    """The tracers and gauges of a deck.
+
+    Parameters
+    ----------
+    sim : Simulation
+    deck : its deck
+
+    Attributes
+    ----------
+    names : of the columns and keys: "tracer_tip", "gauge_wall", and "gauge_line_1" on for the points of a line
+    places : float64[n, 2], r and z in m, tracers first
+    tracers : the places of the tracers, a view
+    peaks : float64[n, len(PEAKS)], what each has had since the start
+    """
+
+    def __init__(self, sim, deck):
+        self._sim = sim
+        followed = [(f"tracer_{entry.name}", (entry.r, entry.z)) for entry in deck.tracer]
+        fixed = [(f"gauge_{name}", place) for entry in deck.gauge for name, place in entry.places()]
+        self.names = [name for name, _ in (*followed, *fixed)]
+        self.places = np.array([place for _, place in (*followed, *fixed)], dtype=float).reshape(-1, 2)
+        self.tracers = self.places[: len(followed)]
+        self.peaks = np.tile(np.array(tracers.NO_PEAKS), (len(self.names), 1))
+        self._found = np.zeros((len(self.names), len(tracers.QUANTITIES)))
+
+    def _look(self) -> None:
+        g, s, t = self._sim.grid, self._sim.state, self._sim.table
+        tracers.sample(g.g, g.nr, g.nz, g.r, g.z, s.group, t.eos_model, t.eos_par, s.vof, s.q, s.u, s.v, self.places,
+                       self._found)
+        tracers.keep_peaks(self._sim.time, self._found, self.peaks)
+
+    def record(self) -> None:
+        """After a cycle: tracers follow the velocity of their cell, bilinear, by the midpoint rule; peaks are kept."""
+        if not self.names:
+            return
+        if len(self.tracers):
+            g, s = self._sim.grid, self._sim.state
+            tracers.follow(g.g, g.nr, g.nz, self._sim.dt, g.r, g.z, s.group, s.vof, s.u, s.v, self.tracers)
+        self._look()
+
+    def measure(self) -> dict[str, dict[str, float | None]]:
+        """By station, what is there now and what it has had since the start, SI; None while it is outside of the mesh."""
+        if not self.names:
+            return {}
+        self._look()
+        keys = ("r_m", "z_m", *tracers.QUANTITIES, *tracers.PEAKS)
+        rows = np.concatenate([self.places, self._found, self.peaks], axis=1)
+        known = np.where(np.isfinite(rows), rows, None).tolist()
+        return {name: dict(zip(keys, row, strict=True)) for name, row in zip(self.names, known, strict=True)}
