@@ -322,7 +322,7 @@ def tidy(j0, j1, trace, metrics, volume, group, mixed_count, mixed, pre, dj, di,
             post = volume[j, i]
             if not second:
                 post = pre[j, i] - (dj * (fz[j + 1, i] - fz[j, i]) + di * (fr[j, i + 1] - fr[j, i]))
-            total = 0.0
+            total, present = 0.0, 0
             for m in range(bodies):
                 f = vof[m, j, i]
                 rho = q[RHO, m, j, i]
@@ -343,13 +343,14 @@ def tidy(j0, j1, trace, metrics, volume, group, mixed_count, mixed, pre, dj, di,
                     for field in range(q.shape[0]):
                         q[field, m, j, i] = 0.0
                 total += f
+                present += 1 if f > 0.0 else 0
             if total > 1.0 - trace and total != 1.0:
                 booked[3, j] += max(1.0 - total, 0.0) * post
                 scale = 1.0 / total
                 for m in range(bodies):
                     if vof[m, j, i] > 0.0:
                         f = vof[m, j, i] * scale
-                        f = 1.0 if f > 1.0 - trace else f
+                        f = 1.0 if present == 1 else f  # beside a second body, however little of it, it is not full
                         q[RHO, m, j, i] *= vof[m, j, i] / f
                         vof[m, j, i] = f
             for g in range(cell_mass.shape[0]):

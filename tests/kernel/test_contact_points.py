@@ -149,8 +149,8 @@ def test_a_vertex_is_weighty_from_half_of_its_dual_cell_on():
 
 
 def links(damage: float) -> np.ndarray:
-    """link [b, j, i] of a mesh with the hard body, of this damage, to the left and the soft one from column 7 on, and with a crumb
-    of the soft one in the hard cell (6, 4)."""
+    """link [b, j, i] of a mesh with the hard body, of this damage, to the left and the soft one from column 7 on, and with a
+    crumb of the soft one in the hard cell (6, 4)."""
     grid = Grid(np.arange(11.0), np.arange(11.0), "planar")
     inside = (0, *grid.inside)
     vof = np.zeros((2, *grid.shape))

@@ -211,3 +211,19 @@ def test_passive_velocity_by_kinetic_energy(profile, gained):
     first, after, _ = carried("ke", profile, 0.5, 400)
     assert np.sum(after**2) == pytest.approx(np.sum(first**2), rel=1e-12)
     assert np.sum(after) / np.sum(first) == pytest.approx(gained, abs=5e-3)
+
+
+def test_a_cell_with_a_trace_of_another_body_is_not_full():
+    """Scaling a cell that is a little too full takes the trace below its limit: were the rest then called full, the cell would
+    count as pure and as mixed, and be deformed twice."""
+    e = engine(WITH_VOID)
+    s = e.state
+    j, i = np.argwhere(s.vof[0] == 1.0)[0]
+    limit = e.method.trace
+    s.vof[:, j, i], s.rho[1, j, i] = (1.0005, 1.0003 * limit), 2770.0
+    mass = s.vof[:, j, i] * s.rho[:, j, i]
+    e._list_mixed()
+    e.tidy(0, 1, 1)
+    assert s.vof[1, j, i] == pytest.approx(limit, rel=1e-3)
+    assert 1.0 - 2.0 * limit < s.vof[0, j, i] < 1.0
+    assert s.vof[:, j, i] * s.rho[:, j, i] == pytest.approx(mass, rel=1e-12)
