@@ -144,8 +144,7 @@ def bounds(field) -> str:
 
 def fields_page() -> str:
     """The field table and the quantities of output files."""
-    from hydro2d.mesh import fields
-    from hydro2d.output import derived
+    from hydro2d.mesh import fields, quantities
     from strength.dispatch import STRENGTH_MODULES
 
     state = table(
@@ -169,9 +168,9 @@ def fields_page() -> str:
     )
     written = table(
         ("key", "name in files", "meaning"),
-        ((f"`{q.key}`", q.name("*body*"), q.meaning) for q in derived.TABLE),
+        ((f"`{q.key}`", q.name("*body*"), q.meaning) for q in quantities.TABLE),
     )
-    groups = "\n".join(f"* `{word}`: {', '.join(keys)}" for word, keys in derived.GROUPS.items())
+    groups = "\n".join(f"* `{word}`: {', '.join(keys)}" for word, keys in quantities.GROUPS.items())
     return (
         f"# Fields\n\n{NOTE}\n\n## Fields of the state\n\n{state}\n\n"
         f"## Internal variables of strength models\n\n{internal}\n\n"

@@ -22,11 +22,18 @@ def nearest(name: str, allowed: Iterable[str]) -> str | None:
     return lower[found[0]] if found else None
 
 
+#: names that a message lists at most
+MOST_NAMES = 40
+
+
 def unknown(what: str, name: str, allowed: Iterable[str]) -> str:
-    """'unknown material "W_aloy"; nearest is "W_alloy"; allowed are ...'."""
+    """'unknown material "W_aloy"; did you mean "W_alloy"? (allowed: ...)'; of long lists the names that are nearest."""
     names = sorted(str(entry) for entry in allowed)
     close = nearest(name, names)
     hint = f'; did you mean "{close}"?' if close else ""
+    if len(names) > MOST_NAMES:
+        near = sorted(names, key=lambda each: -difflib.SequenceMatcher(None, name.lower(), each.lower()).ratio())[:MOST_NAMES]
+        return f'unknown {what} "{name}"{hint} (allowed are {len(names)}, such as {", ".join(sorted(near))})'
     return f'unknown {what} "{name}"{hint} (allowed: {", ".join(names) or "none"})'
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from hydro2d.errors import DeckError, unknown
-from hydro2d.output import derived
+from hydro2d.mesh import quantities
 
 
 def deck_keys() -> dict[str, dict]:
@@ -64,7 +64,7 @@ def _key_page(name: str, entry: dict, others: list[str]) -> str:
     return "\n".join(lines)
 
 
-def _field_page(quantity: derived.Quantity) -> str:
+def _field_page(quantity: quantities.Quantity) -> str:
     return f'{quantity.key} (field): {quantity.meaning}\n  in files as "{quantity.name("NAME")}"'
 
 
@@ -93,14 +93,14 @@ def page(name: str) -> str:
             found.append(str(describe(name)))
     if name in catalogue.MODELS:
         found.append(model_text.page(catalogue.MODELS[name]))
-    if name in derived.BY_KEY:
-        found.append(_field_page(derived.BY_KEY[name]))
+    if name in quantities.BY_KEY:
+        found.append(_field_page(quantities.BY_KEY[name]))
     keys = deck_keys()
     groups = {name: []} if name in keys else _same_last(keys, name)
     found += [_key_page(key, keys[key], others) for key, others in groups.items()]
     if not found:
         known = {*library.names(), *eos.MODELS, *strength.STRENGTH_MODELS, *strength.DAMAGE_MODELS,
-                 *catalogue.MODELS, *derived.BY_KEY, *keys, *(key.rsplit(".", 1)[-1] for key in keys)}  # fmt: skip
+                 *catalogue.MODELS, *quantities.BY_KEY, *keys, *(key.rsplit(".", 1)[-1] for key in keys)}  # fmt: skip
         raise DeckError(unknown("name", name, known).split(" (allowed")[0] + "; `hydro2d info` lists what there is")
     return "\n\n".join(text.rstrip() for text in found)
 
@@ -129,7 +129,7 @@ def overview() -> str:
         ("materials", [(name, library.load(name).title) for name in library.names()]),
         ("models", models),
         ("penetration models", [(model.name, model.title) for model in catalogue.MODELS.values()]),
-        ("fields", [(entry.key, entry.meaning) for entry in derived.TABLE]),
+        ("fields", [(entry.key, entry.meaning) for entry in quantities.TABLE]),
         ("sections of a deck", [(key, keys[key].get("description", "")) for key in keys if "." not in key]),
     )
     lines = []

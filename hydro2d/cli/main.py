@@ -41,7 +41,7 @@ app.command(transition)
 USER_ERRORS = (
     ("errors", "DeckError"), ("files", "LockError"), ("penetration.model", "InputError"),
     ("output.snapshot", "SnapshotError"), ("output.history", "HistoryError"), ("output.vtk", "VtkError"),
-    ("output.derived", "FieldError"), ("running.run", "RunError"), ("results.reading", "ResultsError"),
+    ("mesh.quantities", "FieldError"), ("running.run", "RunError"), ("results.reading", "ResultsError"),
     ("results.figures", "FigureError"), ("study.definition", "StudyError"),
 )
 
@@ -328,9 +328,19 @@ def call(arguments: list[str]) -> int:
         return _told(error, WRONG_INPUT)
     except MemoryError as error:
         return _told(f"not enough memory{f': {error}' if str(error) else ''}", REFUSED)
+    except (NotADirectoryError, FileExistsError) as error:
+        return _told(_no_directory(error), WRONG_INPUT)
     except OSError as error:
         where = f": {error.filename}" if error.filename is not None else ""
         return _told(f"{error.strerror or error}{where}", REFUSED)
+
+
+def _no_directory(error: OSError) -> str:
+    """What of a path is a file where a directory is needed."""
+    path = Path(os.fsdecode(error.filename or ""))
+    file = next((each for each in (path, *path.parents) if each.is_file()), None)
+    within = f", so that there can be no {path}" if file != path else ""
+    return f"{file} is a file, not a directory{within}" if file else f"{error.strerror}: {path}"
 
 
 def _told(error: object, status: int) -> int:

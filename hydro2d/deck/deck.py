@@ -8,7 +8,7 @@ answer what follows from a deck; ``warnings`` lists what is allowed but unwise.
 from __future__ import annotations
 
 import copy
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -103,8 +103,9 @@ def _resolve(data: dict, name: str, overrides: Sequence[str], sources: Sources) 
         deck = Deck.model_validate(data)
     except ValidationError as error:
         problems = [str(complaint(*_explained(entry, data))) for entry in _causes(error.errors())]
+        problems += [str(complaint(path, message)) for path, message in _unknown_materials(data)]
         raise DeckError("\n".join(dict.fromkeys(problems))) from None
-    problems += [str(complaint(path, message)) for path, message in inconsistencies(deck)]
+    problems += [str(complaint(path, message)) for path, message in (*inconsistencies(deck), *_unknown_materials(data))]
     if problems:
         raise DeckError("\n".join(problems))
     deck = deck.model_copy(update={"materials": _materials(deck, complaint)})
@@ -212,13 +213,20 @@ def _materials(deck: Deck, complaint) -> dict[str, library.Material]:
         return complaint(("materials", *path), message)
 
     chosen = {name: library.from_deck(name, deck.materials, fail) for name in deck.materials}
-    for number, entry in enumerate(deck.body):
+    for entry in deck.body:
         if entry.material not in chosen:
-            known = {*deck.materials, *library.names()}
-            if entry.material not in known:
-                raise complaint(("body", number, "material"), unknown("material", entry.material, known))
             chosen[entry.material] = library.load(entry.material)
     return chosen
+
+
+def _unknown_materials(data: dict) -> Iterator[tuple[tuple, str]]:
+    """Bodies of a deck as it was read, however wrong it is otherwise, whose material nobody knows."""
+    bodies, own = data.get("body"), data.get("materials")
+    known = {*(own if isinstance(own, dict) else ()), *library.names()}
+    for number, entry in enumerate(bodies if isinstance(bodies, list) else ()):
+        material = entry.get("material") if isinstance(entry, dict) else None
+        if isinstance(material, str) and material not in known:
+            yield ("body", number, "material"), unknown("material", material, known)
 
 
 def _with_defaults(deck: Deck) -> Deck:
@@ -228,8 +236,10 @@ def _with_defaults(deck: Deck) -> Deck:
     if deck.boundaries.r_min is None:
         axis = deck.mesh.geometry == "cylindrical" and deck.mesh.r_start == 0
         data["boundaries"]["r_min"] = "axis" if axis else "wall"
-    rods = [entry for entry in deck.body if entry.shape == "rod" and entry.join is None]
-    targets = [entry for entry in deck.body if entry.shape in ("plate", "box") and entry.join is None]
+    alone = [entry for entry in deck.body if entry.join is None]
+    rods = [entry for entry in alone if entry.shape == "rod"] or [
+        entry for entry in alone if entry.shape == "sphere" and entry.velocity[1] != 0.0]
+    targets = [entry for entry in alone if entry.shape in ("plate", "box")]
     if deck.penetration is None and rods and targets:
         data["penetration"] = {"rod": rods[0].name, "target": targets[0].name}
     if data["penetration"] and data["penetration"].get("surface") is None:
@@ -268,7 +278,8 @@ def _face(deck: Deck, rod: str, target: str) -> float:
     """The face of the target that looks at the rod."""
     low, high = extent(body(deck, target), deck, "z")
     moving = body(deck, rod)
-    return high if moving.shape == "rod" and moving.direction < 0 else low
+    down = moving.direction < 0 if moving.shape == "rod" else moving.velocity[1] < 0.0
+    return high if down else low
 
 
 def slots(deck: Deck) -> list[str]:

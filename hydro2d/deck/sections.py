@@ -227,6 +227,19 @@ def _directory(value: str) -> str:
     return value
 
 
+def _fields(keys: tuple[str, ...]) -> tuple[str, ...]:
+    """Names of quantities, and of groups of them; the table is big, and imported where it is needed."""
+    if set(keys) <= {"standard", "all"}:
+        return keys
+    from hydro2d.mesh import quantities
+
+    try:
+        quantities.expand(keys)
+    except quantities.FieldError as error:
+        raise ValueError(str(error)) from None
+    return keys
+
+
 class Output(Section):
     """What is written, and how often."""
 
@@ -234,7 +247,9 @@ class Output(Section):
     history_interval: PositiveTime | None = Field(None, description="default: a thousandth of the end time")
     vtk_interval: PositiveTime | None = Field(None, description="default: a fiftieth of the end time")
     restart_interval: PositiveTime = Field(300.0, description="wall-clock time between restart files")
-    fields: tuple[str, ...] = Field(("standard",), description="fields of the VTK files, by name")
+    fields: Annotated[tuple[str, ...], AfterValidator(_fields)] = Field(
+        ("standard",), description="fields of the VTK files, by name"
+    )
 
 
 class Tracer(Section):

@@ -9,17 +9,20 @@ import numpy as np
 from hydro2d.deck.checks import AHEAD, extent, room
 from hydro2d.deck.mesh import axis_edges, body, misfits
 from hydro2d.deck.sections import Deck
+from hydro2d.mesh.edges import BY_NAME
 
 #: a body whose density is below this share of the densest one's is a gas
 GAS = 0.01
 #: a rod needs at least this many cells across its radius to behave like one
 CELLS_ACROSS_RADIUS = 5
+#: and any body as many across
+CELLS_ACROSS = 4
 
 
 def warnings(deck: Deck) -> list[str]:
     """What is allowed but unwise, one sentence each; `hydro2d check` and the start of a run show it."""
-    return [*misfits(deck), *_coarse_rods(deck), *_jumps(deck), *_short_mesh(deck), *_yielding_rods(deck), *_no_failure(deck),
-            *_gas_in_contact(deck)]
+    return [*misfits(deck), *_coarse_rods(deck), *_coarse_bodies(deck), *_leaving(deck), *_jumps(deck), *_short_mesh(deck),
+            *_yielding_rods(deck), *_no_failure(deck), *_gas_in_contact(deck)]
 
 
 def _coarse_rods(deck: Deck) -> Iterator[str]:
@@ -34,11 +37,43 @@ def _coarse_rods(deck: Deck) -> Iterator[str]:
                 )
 
 
+def _coarse_bodies(deck: Deck) -> Iterator[str]:
+    """Bodies with fewer cells across than waves in them need; of plates and of what the mesh cuts, what lies in the mesh."""
+    for entry in deck.body:
+        if entry.join is not None:
+            continue
+        for axis in ("r", "z"):
+            if entry.shape == "rod" and axis == "r":
+                continue
+            edges, (low, high) = axis_edges(deck, axis), extent(entry, deck, axis)
+            low, high = np.clip((low, high), edges[0], edges[-1])
+            cells = float(np.diff(np.interp((low, high), edges, np.arange(len(edges))))[0])
+            if 0.0 < cells < CELLS_ACROSS - 1e-9 and not (low == edges[0] and high == edges[-1]):
+                yield f'body "{entry.name}": {cells:.1f} cells across it along {axis}; waves in it need {CELLS_ACROSS}'
+
+
+def _leaving(deck: Deck) -> Iterator[str]:
+    """Bodies that fly out of the mesh before the end, with nothing in their way."""
+    edges = axis_edges(deck, "z")
+    for entry in deck.body:
+        speed = entry.velocity[1]
+        if speed == 0.0 or deck.mesh.follow is not None or deck.stop.time is None or entry.join is not None:
+            continue
+        low, high = extent(entry, deck, "z")
+        front, edge = (high, edges[-1]) if speed > 0.0 else (low, edges[0])
+        others = [extent(other, deck, "z") for other in deck.body if other is not entry]
+        ahead = any(end[1] > front if speed > 0.0 else end[0] < front for end in others)
+        kept = BY_NAME[deck.boundaries.z_max if speed > 0.0 else deck.boundaries.z_min]
+        flight = (edge - front) / speed
+        if not ahead and kept.opens and 0.0 <= flight < deck.stop.time:
+            yield f'body "{entry.name}": reaches the edge of the mesh after {flight * 1e6:.3g} us and leaves it before the end'
+
+
 def _jumps(deck: Deck) -> Iterator[str]:
     for axis in ("r", "z"):
         sizes = np.diff(axis_edges(deck, axis))
         jump = float(np.max(np.maximum(sizes[1:] / sizes[:-1], sizes[:-1] / sizes[1:]), initial=1.0))
-        if jump > 1.25:
+        if jump > 1.2 + 1e-9:
             yield f"mesh.{axis}: neighbouring cells differ by a factor of {jump:.2f}; shocks reflect beyond 1.2"
 
 

@@ -1,27 +1,20 @@
-"""THE table of quantities that are written and drawn: name in files, unit, meaning, and how it follows from the state.
+"""How the quantities that are written and drawn (`mesh/quantities.py`) follow from the state.
 
-Names are for ever the same. All are cell values without ghosts, in SI units. A quantity of the mixture has shape
-(nz, nr) or, for a vector (r, z, 0), (nz, nr, 3); a quantity per body has shape (m, nz, nr) and is written once for
-every body. Where there is no material the value is zero.
+A quantity of the mixture has shape (nz, nr) or, for a vector (r, z, 0), (nz, nr, 3); a quantity per body has shape (m, nz, nr)
+and is written once for every body. Where there is no material the value is zero.
 """
 
 from __future__ import annotations
 
 import functools
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 
 import numpy as np
 
-from hydro2d.errors import unknown
-from hydro2d.mesh.fields import INTERNAL, Field
-from strength.dispatch import STRENGTH_MODULES
+from hydro2d.mesh.fields import INTERNAL
+from hydro2d.mesh.quantities import BY_KEY, expand
 
 TINY = 1e-300
-
-
-class FieldError(Exception):
-    """A field that there is not; the message is for the user."""
 
 
 def _sum_of_products(weights: np.ndarray, values: np.ndarray) -> np.ndarray:
@@ -128,102 +121,33 @@ class Cells:
         return number
 
 
-@dataclass(frozen=True)
-class Quantity:
-    """A row of the table. `title` holds {body} where the quantity is one of every body; one of `contact` is written only
-    where there are two body groups, an `internal` one only for bodies whose strength model has the variable."""
-
-    key: str
-    title: str
-    unit: str
-    meaning: str
-    evaluate: Callable[[Cells], np.ndarray]
-    contact: bool = False
-    internal: bool = False
-
-    @property
-    def per_body(self) -> bool:
-        return "{body}" in self.title
-
-    def name(self, body: str | None = None) -> str:
-        """Name in files, with the unit: "Pressure [Pa]"; a number without unit has none."""
-        title = self.title.format(body=body) if self.per_body else self.title
-        return f"{title} [{self.unit}]" if self.unit else title
-
-
-def _internal(field: Field) -> Quantity:
-    """The row of an internal variable of a strength model: back_stress_rr is "Back Stress rr of ..."."""
-    words = [word if len(word) < 3 else word.capitalize() for word in field.name.split("_")]
-    return Quantity(field.name, f"{' '.join(words)} of {{body}}", "" if field.unit == "1" else field.unit, field.meaning,
-                    functools.partial(Cells.internal, name=field.name), internal=True)
-
-
-#: the internal variables that strength models declare, each name once
-_INTERNAL = {field.name: _internal(field) for module in STRENGTH_MODULES for field in getattr(module, "INTERNAL", ())
-             if field.written}
-
-TABLE: tuple[Quantity, ...] = (
-    Quantity("pressure", "Pressure", "Pa", "sum of volume fraction times pressure; positive in compression",
-             lambda c: c.by_volume(c.p)),
-    Quantity("density", "Density", "kg/m3", "mass of all bodies per volume of the cell", lambda c: c.by_volume(c.rho)),
-    Quantity("velocity", "Velocity", "m/s", "mean of the four vertices, as the vector (r, z, 0); mean by mass of both "
-             "velocities of a contact", Cells.velocity),
-    Quantity("energy", "Specific Internal Energy", "J/kg", "mean by mass over the bodies", lambda c: c.by_mass(c.e)),
-    Quantity("temperature", "Temperature", "K", "mean by mass over the bodies", lambda c: c.by_mass(c.t)),
-    Quantity("von_mises", "Von Mises Stress", "Pa", "sqrt(3/2 s:s) of the stress deviator of the cell",
-             Cells.von_mises),
-    Quantity("stress_rr", "Deviatoric Stress rr", "Pa", "sum of volume fraction times deviator, radial",
-             lambda c: c.by_volume(c.srr)),
-    Quantity("stress_zz", "Deviatoric Stress zz", "Pa", "the same, axial", lambda c: c.by_volume(c.szz)),
-    Quantity("stress_rz", "Deviatoric Stress rz", "Pa", "the same, shear", lambda c: c.by_volume(c.srz)),
-    Quantity("stress_tt", "Deviatoric Stress tt", "Pa", "the same, hoop: minus the sum of rr and zz",
-             lambda c: -c.by_volume(c.srr + c.szz)),
-    Quantity("plastic_strain", "Plastic Strain", "", "equivalent plastic strain, mean by mass over the bodies",
-             lambda c: c.by_mass(c.ep)),
-    Quantity("damage", "Damage", "", "0 intact, 1 failed; mean by mass over the bodies", lambda c: c.by_mass(c.dmg)),
-    Quantity("material", "Material", "", "number of the body, from 1, that fills most of the cell; 0: void",
-             Cells.material),
-    Quantity("velocity_hard", "Velocity of Hard Bodies", "m/s", "that of the hard bodies in a contact, as the vector (r, z, 0)",
-             lambda c: c.group_velocity(1), contact=True),
-    Quantity("velocity_rest", "Velocity of the Rest", "m/s", "that of the other bodies in a contact, as the vector (r, z, 0)",
-             lambda c: c.group_velocity(0), contact=True),
-    Quantity("hard_share", "Share of Hard Bodies", "", "share of the cell that the hard bodies of a contact fill",
-             lambda c: c.group_share(1), contact=True),
-    Quantity("contact_pressure", "Contact Pressure", "Pa", "normal pressure at the interface of a contact, in its cells",
-             Cells.contact_pressure, contact=True),
-    Quantity("volume_fraction", "Volume Fraction for {body}", "", "share of the cell that the body fills",
-             lambda c: c.vof),
-    Quantity("body_density", "Density of {body}", "kg/m3", "mass per volume of the body itself", lambda c: c.rho),
-    Quantity("body_pressure", "Pressure of {body}", "Pa", "pressure in the body", lambda c: c.p),
-    Quantity("body_energy", "Specific Internal Energy of {body}", "J/kg", "specific internal energy of the body",
-             lambda c: c.e),
-    Quantity("body_temperature", "Temperature of {body}", "K", "temperature of the body", lambda c: c.t),
-    Quantity("body_plastic_strain", "Plastic Strain of {body}", "", "equivalent plastic strain of the body",
-             lambda c: c.ep),
-    Quantity("body_damage", "Damage of {body}", "", "0 intact, 1 failed", lambda c: c.dmg),
-    *_INTERNAL.values(),
-)  # fmt: skip
-
-BY_KEY = {quantity.key: quantity for quantity in TABLE}
-
-#: always written: without them a file shows no bodies
-ALWAYS = ("volume_fraction", "material")
-
-#: words that stand for several quantities
-GROUPS = {
-    "all": tuple(BY_KEY),
-    "standard": tuple(key for key in BY_KEY if key not in ("body_pressure", "body_energy", "body_damage", *_INTERNAL)),
+#: by key of a quantity, its values; internal variables of strength models are not here
+EVALUATE: dict[str, Callable[[Cells], np.ndarray]] = {
+    "pressure": lambda c: c.by_volume(c.p),
+    "density": lambda c: c.by_volume(c.rho),
+    "velocity": Cells.velocity,
+    "energy": lambda c: c.by_mass(c.e),
+    "temperature": lambda c: c.by_mass(c.t),
+    "von_mises": Cells.von_mises,
+    "stress_rr": lambda c: c.by_volume(c.srr),
+    "stress_zz": lambda c: c.by_volume(c.szz),
+    "stress_rz": lambda c: c.by_volume(c.srz),
+    "stress_tt": lambda c: -c.by_volume(c.srr + c.szz),
+    "plastic_strain": lambda c: c.by_mass(c.ep),
+    "damage": lambda c: c.by_mass(c.dmg),
+    "material": Cells.material,
+    "velocity_hard": lambda c: c.group_velocity(1),
+    "velocity_rest": lambda c: c.group_velocity(0),
+    "hard_share": lambda c: c.group_share(1),
+    "contact_pressure": Cells.contact_pressure,
+    "volume_fraction": lambda c: c.vof,
+    "body_density": lambda c: c.rho,
+    "body_pressure": lambda c: c.p,
+    "body_energy": lambda c: c.e,
+    "body_temperature": lambda c: c.t,
+    "body_plastic_strain": lambda c: c.ep,
+    "body_damage": lambda c: c.dmg,
 }
-
-
-def expand(keys) -> tuple[str, ...]:
-    """Keys of TABLE for keys and words of GROUPS, with ALWAYS, each once. Raises FieldError for an unknown one."""
-    expanded: list[str] = []
-    for key in keys:
-        if key not in GROUPS and key not in BY_KEY:
-            raise FieldError(unknown("field", key, (*GROUPS, *BY_KEY)))
-        expanded += GROUPS[key] if key in GROUPS else [key]
-    return tuple(dict.fromkeys((*expanded, *ALWAYS)))
 
 
 def evaluated(sim, keys=("all",)) -> Iterator[tuple[str, np.ndarray]]:
@@ -235,7 +159,7 @@ def evaluated(sim, keys=("all",)) -> Iterator[tuple[str, np.ndarray]]:
     for quantity in (BY_KEY[key] for key in expand(keys)):
         if quantity.contact and sim.state.groups == 1:
             continue
-        values = quantity.evaluate(cells)
+        values = cells.internal(quantity.key) if quantity.internal else EVALUATE[quantity.key](cells)
         if quantity.per_body:
             yield from ((quantity.name(body), values[m]) for m, body in enumerate(sim.table.names)
                         if not quantity.internal or quantity.key in {field.name for field in sim.table.internal[m]})

@@ -19,6 +19,7 @@ import numpy as np
 
 from hydro2d.errors import unknown
 from hydro2d.files import replacing, write_text
+from hydro2d.mesh import quantities
 from hydro2d.output import derived
 from hydro2d.output.outlines import outlines
 
@@ -169,7 +170,7 @@ class Series:
     Parameters
     ----------
     directory : the run directory
-    fields : keys of derived.TABLE, or words of derived.GROUPS, to write
+    fields : keys of quantities.TABLE, or words of quantities.GROUPS, to write
     dumps : number of dumps of the existing series to keep (a restart); later ones are removed
 
     Attributes
@@ -256,7 +257,7 @@ class Dump:
     @property
     def bodies(self) -> list[str]:
         """Names of the bodies, in order."""
-        prefix = derived.BY_KEY["volume_fraction"].title.format(body="")
+        prefix = quantities.BY_KEY["volume_fraction"].title.format(body="")
         return [name.removeprefix(prefix) for name in self.fields if name.startswith(prefix)]
 
     @property
@@ -273,7 +274,7 @@ class Dump:
         """Lines round a body, each an array (n, 2) of r, z in m; see `outlines.outlines`. Raises VtkError."""
         if body not in self.bodies:
             raise VtkError(unknown("body", body, self.bodies))
-        share = derived.BY_KEY["volume_fraction"].name(body)
+        share = quantities.BY_KEY["volume_fraction"].name(body)
         return outlines(self.r_edges, self.z_edges, self.fields[share])
 
     @classmethod

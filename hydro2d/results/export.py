@@ -5,15 +5,16 @@ from __future__ import annotations
 import shutil
 from pathlib import Path
 
-from hydro2d.output import derived, history, vtk
+from hydro2d.mesh import quantities
+from hydro2d.output import history, vtk
 from hydro2d.results.reading import Results, ResultsError
 from hydro2d.running.run import HISTORY
 
 
 def names(dump: vtk.Dump, keys) -> list[str]:
-    """Names in a dump of the quantities `keys` (and words of derived.GROUPS), with those always written."""
+    """Names in a dump of the quantities `keys` (and words of quantities.GROUPS), with those always written."""
     wanted = []
-    for quantity in (derived.BY_KEY[key] for key in derived.expand(keys)):
+    for quantity in (quantities.BY_KEY[key] for key in quantities.expand(keys)):
         found = [quantity.name(body) for body in dump.bodies] if quantity.per_body else [quantity.name()]
         wanted += [name for name in found if name in dump.fields]
     return wanted
@@ -22,11 +23,11 @@ def names(dump: vtk.Dump, keys) -> list[str]:
 def export(run: Results, out: Path, keys=("all",)) -> list[Path]:
     """Writes `out`/series.pvd with the dumps of a run, and `out`/history.csv. Returns the files to open.
 
-    keys : quantities of derived.TABLE to take. A run without dumps gives the state of its restart file.
+    keys : quantities of quantities.TABLE to take. A run without dumps gives the state of its restart file.
 
     Raises ResultsError, FieldError, SnapshotError.
     """
-    derived.expand(keys)
+    quantities.expand(keys)
     out = Path(out)
     if out.resolve() == run.directory.resolve():
         raise ResultsError(f"{out} is the run itself; export to another directory")

@@ -18,7 +18,8 @@ import numpy as np
 
 from hydro2d.errors import unknown
 from hydro2d.files import replacing
-from hydro2d.output import derived, history
+from hydro2d.mesh import quantities
+from hydro2d.output import history
 from hydro2d.output.outlines import outlines
 from hydro2d.output.vtk import Dump
 
@@ -54,14 +55,14 @@ def reader_unit(unit: str) -> tuple[str, float]:
 
 
 def chosen(dump: Dump, field: str) -> Shown:
-    """The field that a word names: a key of derived.TABLE, with ":r" or ":z" for a component and ":body" for a body.
+    """The field that a word names: a key of quantities.TABLE, with ":r" or ":z" for a component and ":body" for a body.
 
     Raises FigureError.
     """
     key, _, part = field.partition(":")
-    if key not in derived.BY_KEY:
-        raise FigureError(unknown("field", key, derived.BY_KEY))
-    quantity = derived.BY_KEY[key]
+    if key not in quantities.BY_KEY:
+        raise FigureError(unknown("field", key, quantities.BY_KEY))
+    quantity = quantities.BY_KEY[key]
     if quantity.per_body and part not in dump.bodies:
         raise FigureError(f'field "{key}" is one of every body: write {key}:NAME; {unknown("body", part, dump.bodies)}')
     if not quantity.per_body and part and (key not in VECTORS or part not in COMPONENTS):

@@ -10,9 +10,9 @@ import numpy as np
 from hydro2d.deck import deck as decks
 from hydro2d.errors import DeckError
 from hydro2d.materials import library
+from hydro2d.mesh import quantities
 from hydro2d.mesh.edges import EDGES
 from hydro2d.mesh.grid import Grid
-from hydro2d.output import derived
 from hydro2d.output.vtk import Dump
 from hydro2d.solver import insertion, memory
 
@@ -57,7 +57,7 @@ class Check:
         found += ["", f"sliding   {_sliding(deck)}"]
         found += [f"stop      {_stop(deck.stop)}"]
         found += [f"cost      about {self.cycles} cycles, {_duration(self.seconds / threads)} on {threads} threads "
-                  f"(a guess), {self.memory / 2**20:.0f} MiB"]  # fmt: skip
+                  f"(a guess), {self.memory / 2**20:.0f} MiB of memory, {_disk(self)}"]  # fmt: skip
         return found + [f"warning   {text}" for text in self.warnings]
 
     def _edge(self, key: str) -> str:
@@ -114,7 +114,7 @@ def check(deck) -> Check:
 def _dump(grid, table, start) -> Dump:
     vof = start["vof"]
     shares = np.concatenate([1 - vof.sum(axis=0, keepdims=True), vof])
-    fields = {derived.BY_KEY["volume_fraction"].name(body): vof[m] for m, body in enumerate(table.names)}
+    fields = {quantities.BY_KEY["volume_fraction"].name(body): vof[m] for m, body in enumerate(table.names)}
     fields |= {
         "Material": np.argmax(shares, axis=0),
         "Density [kg/m3]": np.sum(vof * start["rho"], axis=0),
@@ -147,6 +147,18 @@ def _cycles(deck, grid, table, start) -> int:
     if cycles > MOST_CYCLES:
         raise DeckError(f"the run would take {cycles:.3g} cycles, at a time step of {dt:.3g} s: it would not end in a lifetime")
     return math.ceil(cycles)
+
+
+def _disk(found: Check) -> str:
+    """Dumps and what they and the restart files take at most, before compression."""
+    deck, bodies = found.deck, len(found.table)
+    keys = [quantities.BY_KEY[key] for key in quantities.expand(deck.output.fields)]
+    contact = deck.sliding.method == "contact"
+    values = sum((bodies if each.per_body else 1) * (3 if each.unit == "m/s" else 1) for each in keys
+                 if not each.internal and (contact or not each.contact))
+    dumps = math.ceil(deck.stop.time / deck.output.vtk_interval) + 1 if deck.stop.time and deck.output.vtk_interval else 2
+    size = (4 * values * dumps * found.grid.cells + 2 * found.memory) / 2**20
+    return f"at most {size:.0f} MiB on the disk with {dumps} dumps"
 
 
 def _axis(name: str, edges: np.ndarray) -> str:

@@ -29,7 +29,7 @@ from hydro2d import interrupt as interrupts
 from hydro2d.deck.warnings import warnings
 from hydro2d.files import locked, write_json, write_text
 from hydro2d.interrupt import Interrupt, signals
-from hydro2d.output import derived, snapshot
+from hydro2d.output import snapshot
 from hydro2d.output.history import History, HistoryError
 from hydro2d.output.vtk import FOLDER, SERIES, Series
 from hydro2d.running import provenance
@@ -389,13 +389,12 @@ def run(deck, directory: Path | None = None, *, restart=False, overwrite=False, 
     quiet : nothing is printed (log.txt is written)
     interrupt : call it from anywhere to stop after the cycle with a restart file
 
-    Raises RunError, SnapshotError, FieldError, LockError (another process runs there).
+    Raises RunError, SnapshotError, LockError (another process runs there).
     """
     from hydro2d.running.compilation import announced
 
     directory = Path(directory or deck.output.directory)
     interrupt = interrupt or Interrupt()
-    derived.expand(deck.output.fields)  # an unknown field is told before anything is touched
     check_free(directory, restart=restart, overwrite=overwrite)
     directory.mkdir(parents=True, exist_ok=True)
     with locked(directory / LOCK):

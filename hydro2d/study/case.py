@@ -15,8 +15,8 @@ from hydro2d.deck import deck as decks
 from hydro2d.errors import DeckError
 from hydro2d.files import LockError, holder
 from hydro2d.interrupt import Interrupt
+from hydro2d.mesh.quantities import FieldError
 from hydro2d.output import snapshot
-from hydro2d.output.derived import FieldError
 from hydro2d.output.history import HistoryError
 from hydro2d.output.vtk import VtkError
 from hydro2d.running import compilation, run

@@ -16,7 +16,8 @@ from pathlib import Path
 
 import numpy as np
 
-from hydro2d.output import derived, vtk
+from hydro2d.mesh import quantities
+from hydro2d.output import vtk
 from hydro2d.results import reading
 
 #: a cell belongs to the bar from this share on
@@ -80,7 +81,7 @@ def measure(directory: Path | str, name: str | None = None) -> dict:
     if name not in bodies:
         raise reading.ResultsError(f'{directory} has no body "{name}"; its bodies are {", ".join(bodies)}')
     velocity = bodies[name]["velocity"][1]
-    fields = [derived.BY_KEY[key].name(name) for key in ("volume_fraction", "body_plastic_strain")]
+    fields = [quantities.BY_KEY[key].name(name) for key in ("volume_fraction", "body_plastic_strain")]
     bars = []
     for _, file in run.dumps:
         dump = vtk.read_grid(file)

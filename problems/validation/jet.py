@@ -23,7 +23,8 @@ import eos
 from eos.dispatch import evaluate
 from hydro2d.deck import deck as decks
 from hydro2d.errors import DeckError
-from hydro2d.output import derived, vtk
+from hydro2d.mesh import quantities
+from hydro2d.output import vtk
 from hydro2d.results import reading
 
 #: a cell is of one material from this share on
@@ -111,7 +112,7 @@ def point(edges: np.ndarray, jet: np.ndarray, target: np.ndarray, pressures: tup
 
 def read(run: reading.Results, jet: str, target: str, reach: float) -> list[Point]:
     """The interface in every dump that has one. Raises ResultsError, VtkError."""
-    share, pressure = derived.BY_KEY["volume_fraction"], derived.BY_KEY["body_pressure"]
+    share, pressure = quantities.BY_KEY["volume_fraction"], quantities.BY_KEY["body_pressure"]
     names = [quantity.name(body) for quantity in (share, pressure) for body in (jet, target)]
     points = []
     for _, file in run.dumps:

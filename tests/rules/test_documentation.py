@@ -12,8 +12,7 @@ import hydro2d
 import strength
 from hydro2d.deck import deck
 from hydro2d.materials import library
-from hydro2d.mesh import edges, fields
-from hydro2d.output import derived
+from hydro2d.mesh import edges, fields, quantities
 from hydro2d.penetration import catalogue
 from strength import tensile_pressure
 from tests.rules import source
@@ -136,7 +135,7 @@ def generated() -> dict[str, str]:
 def test_the_reference_has_everything():
     pages = generated()
     assert [field.name for field in fields.FIELDS if f"`{field.name}`" not in pages["fields.md"]] == []
-    assert [entry.key for entry in derived.TABLE if f"`{entry.key}`" not in pages["fields.md"]] == []
+    assert [entry.key for entry in quantities.TABLE if f"`{entry.key}`" not in pages["fields.md"]] == []
     models = [*eos.MODELS, *strength.STRENGTH_MODELS, *strength.DAMAGE_MODELS, tensile_pressure.NAME]
     assert [name for name in models if f"### `{name}`" not in pages["models.md"]] == []
     assert [name for name in library.names() if f"## `{name}`" not in pages["materials.md"]] == []

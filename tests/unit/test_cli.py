@@ -253,6 +253,15 @@ def test_kill_leaves_whole_files(deck, tmp_path):
         vtk.read_grid(out / file)
 
 
+@pytest.mark.parametrize("command", [["run", "DECK", "--out"], ["export", "RUN", "--output"], ["report", "RUN", "--out"]])
+def test_a_directory_below_a_file_is_one_line(deck, finished, tmp_path, capsys, command):
+    file = tmp_path / "file"
+    file.write_text("")
+    words = [{"DECK": deck, "RUN": str(finished)}.get(word, word) for word in command]
+    assert call([*words, str(file / "below")]) == 2
+    assert f"{file} is a file, not a directory" in capsys.readouterr().err
+
+
 @pytest.mark.parametrize(("module", "name"), USER_ERRORS)
 def test_errors_of_users_are_where_the_command_looks(module, name):
     assert issubclass(getattr(importlib.import_module(f"hydro2d.{module}"), name), Exception)

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from hydro2d.deck import deck
+from hydro2d.mesh import quantities
 from hydro2d.output import derived, snapshot
 from hydro2d.output.vtk import Dump
 from hydro2d.results import figures
@@ -225,7 +226,7 @@ def test_fields_of_a_contact(contact):
 
 
 def test_fields_of_a_contact_are_written_only_there(contact):
-    titles = {quantity.name() for quantity in derived.TABLE if quantity.contact}
+    titles = {quantity.name() for quantity in quantities.TABLE if quantity.contact}
     assert len(titles) == 4
     single = one_velocity()
     for keys in (["standard"], ["all"]):

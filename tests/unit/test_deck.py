@@ -360,6 +360,45 @@ def test_coarse_rods_are_warned_of():
     assert deck.warnings(jump) == ["mesh.r: neighbouring cells differ by a factor of 2.00; shocks reflect beyond 1.2"]
 
 
+SHEET = changed('thickness = "30 mm"', 'thickness = "1 mm"')
+FLIGHT = changed('[[body]]\nname = "plate"\nmaterial = "Al5083"\nshape = "plate"\nz_front = 0.0\nthickness = "30 mm"\n')
+
+
+@pytest.mark.parametrize(
+    ("text", "overrides", "warned"),
+    [
+        (SHEET, [], 'body "plate": 2.0 cells across it along z; waves in it need 4'),
+        (SHEET.replace('"1 mm"', '"2 mm"'), [], None),
+        (FLIGHT, ['stop.time="40 us"'], 'body "rod": reaches the edge of the mesh after 36.8 us and leaves it before the end'),
+        (FLIGHT, ['stop.time="30 us"'], None),
+        (FLIGHT, ['stop.time="40 us"', "boundaries.z_max=wall"], None),
+        (TEXT, ['stop.time="40 us"'], None),
+    ],
+)
+def test_thin_bodies_and_bodies_that_leave_are_warned_of(text, overrides, warned):
+    assert deck.warnings(deck.loads(text, overrides)) == ([warned] if warned else [])
+
+
+@pytest.mark.parametrize(("speed", "surface"), [(800.0, 0.0), (-800.0, 0.03), (0.0, None)])
+def test_a_sphere_that_flies_is_a_penetrator(speed, surface):
+    sphere = f'shape = "sphere"\ncentre = [0.0, "-10 mm"]\nradius = "4 mm"\nvelocity = {speed}\n'
+    i, j = TEXT.index('shape = "rod"'), TEXT.index('[[body]]\nname = "plate"')
+    d = deck.loads((TEXT[:i] + sphere + TEXT[j:]).replace('yield_factor = "radius"\n', ""))
+    assert (d.penetration and (d.penetration.rod, d.penetration.target)) == (("rod", "plate") if speed else None)
+    assert deck.surface(d) == surface
+
+
+def test_all_that_is_wrong_is_told_at_once():
+    """Values, names, materials and fields, each with its line."""
+    wrong = changed('"W_alloy"', '"W_aloy"').replace('"4 mm"', '"4 kg"') + '[output]\nfields = ["strain_rate"]\n'
+    told = message(wrong).splitlines()
+    assert len(told) == 3
+    assert [line.split(": ")[0] for line in told] == ["deck.toml:14", "deck.toml:31", "deck.toml:11"]
+    assert "radius" in told[0]
+    assert 'unknown field "strain_rate"' in told[1]
+    assert 'did you mean "W_alloy"' in told[2]
+
+
 def test_gas_beside_bodies_in_contact_is_warned_of():
     warned = 'body "air": a gas beside bodies in contact may explode; leave the space empty'
     assert warned in deck.warnings(deck.load("problems/sliding/rod_in_air.toml"))

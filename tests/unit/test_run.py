@@ -11,7 +11,6 @@ from hydro2d.deck.sections import Sliding
 from hydro2d.files import LockError
 from hydro2d.interrupt import Interrupt
 from hydro2d.output import history, snapshot, vtk
-from hydro2d.output.derived import FieldError
 from hydro2d.running.run import Due, RunError, exit_status, run
 from tests.locks import held
 from tests.unit import fake
@@ -141,12 +140,6 @@ def test_due_continues_where_the_interval_has_changed():
     assert before(2.5)
     after.resume(before.saved(), 2.5)
     assert [time for time in (2.6, 3.0, 3.2, 3.6) if after(time)] == [3.0, 3.6]
-
-
-def test_unknown_field(simulation, tmp_path):
-    with pytest.raises(FieldError, match='did you mean "pressure"'):
-        run(fake.FakeDeck(fields=("presure",)), tmp_path / "x", quiet=True)
-    assert not (tmp_path / "x").exists()
 
 
 def test_restart_without_a_file_is_one_clear_error(simulation, tmp_path):

@@ -1,0 +1,104 @@
+"""THE table of quantities that are written and drawn: name in files, unit, meaning. `output/derived.py` computes them.
+
+Names are for ever the same. All are cell values without ghosts, in SI units.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from hydro2d.errors import unknown
+from hydro2d.mesh.fields import Field
+from strength.dispatch import STRENGTH_MODULES
+
+
+class FieldError(Exception):
+    """A field that there is not; the message is for the user."""
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """A row of the table. `title` holds {body} where the quantity is one of every body; one of `contact` is written only
+    where there are two body groups, an `internal` one only for bodies whose strength model has the variable."""
+
+    key: str
+    title: str
+    unit: str
+    meaning: str
+    contact: bool = False
+    internal: bool = False
+
+    @property
+    def per_body(self) -> bool:
+        return "{body}" in self.title
+
+    def name(self, body: str | None = None) -> str:
+        """Name in files, with the unit: "Pressure [Pa]"; a number without unit has none."""
+        title = self.title.format(body=body) if self.per_body else self.title
+        return f"{title} [{self.unit}]" if self.unit else title
+
+
+def _internal(field: Field) -> Quantity:
+    """The row of an internal variable of a strength model: back_stress_rr is "Back Stress rr of ..."."""
+    words = [word if len(word) < 3 else word.capitalize() for word in field.name.split("_")]
+    return Quantity(field.name, f"{' '.join(words)} of {{body}}", "" if field.unit == "1" else field.unit, field.meaning,
+                    internal=True)
+
+
+#: the internal variables that strength models declare, each name once
+INTERNAL = {field.name: _internal(field) for module in STRENGTH_MODULES for field in getattr(module, "INTERNAL", ())
+            if field.written}
+
+TABLE: tuple[Quantity, ...] = (
+    Quantity("pressure", "Pressure", "Pa", "sum of volume fraction times pressure; positive in compression"),
+    Quantity("density", "Density", "kg/m3", "mass of all bodies per volume of the cell"),
+    Quantity("velocity", "Velocity", "m/s",
+             "mean of the four vertices, as the vector (r, z, 0); mean by mass of both velocities of a contact"),
+    Quantity("energy", "Specific Internal Energy", "J/kg", "mean by mass over the bodies"),
+    Quantity("temperature", "Temperature", "K", "mean by mass over the bodies"),
+    Quantity("von_mises", "Von Mises Stress", "Pa", "sqrt(3/2 s:s) of the stress deviator of the cell"),
+    Quantity("stress_rr", "Deviatoric Stress rr", "Pa", "sum of volume fraction times deviator, radial"),
+    Quantity("stress_zz", "Deviatoric Stress zz", "Pa", "the same, axial"),
+    Quantity("stress_rz", "Deviatoric Stress rz", "Pa", "the same, shear"),
+    Quantity("stress_tt", "Deviatoric Stress tt", "Pa", "the same, hoop: minus the sum of rr and zz"),
+    Quantity("plastic_strain", "Plastic Strain", "", "equivalent plastic strain, mean by mass over the bodies"),
+    Quantity("damage", "Damage", "", "0 intact, 1 failed; mean by mass over the bodies"),
+    Quantity("material", "Material", "", "number of the body, from 1, that fills most of the cell; 0: void"),
+    Quantity("velocity_hard", "Velocity of Hard Bodies", "m/s",
+             "that of the hard bodies in a contact, as the vector (r, z, 0)", contact=True),
+    Quantity("velocity_rest", "Velocity of the Rest", "m/s",
+             "that of the other bodies in a contact, as the vector (r, z, 0)", contact=True),
+    Quantity("hard_share", "Share of Hard Bodies", "",
+             "share of the cell that the hard bodies of a contact fill", contact=True),
+    Quantity("contact_pressure", "Contact Pressure", "Pa",
+             "normal pressure at the interface of a contact, in its cells", contact=True),
+    Quantity("volume_fraction", "Volume Fraction for {body}", "", "share of the cell that the body fills"),
+    Quantity("body_density", "Density of {body}", "kg/m3", "mass per volume of the body itself"),
+    Quantity("body_pressure", "Pressure of {body}", "Pa", "pressure in the body"),
+    Quantity("body_energy", "Specific Internal Energy of {body}", "J/kg", "specific internal energy of the body"),
+    Quantity("body_temperature", "Temperature of {body}", "K", "temperature of the body"),
+    Quantity("body_plastic_strain", "Plastic Strain of {body}", "", "equivalent plastic strain of the body"),
+    Quantity("body_damage", "Damage of {body}", "", "0 intact, 1 failed"),
+    *INTERNAL.values(),
+)  # fmt: skip
+
+BY_KEY = {quantity.key: quantity for quantity in TABLE}
+
+#: always written: without them a file shows no bodies
+ALWAYS = ("volume_fraction", "material")
+
+#: words that stand for several quantities
+GROUPS = {
+    "all": tuple(BY_KEY),
+    "standard": tuple(key for key in BY_KEY if key not in ("body_pressure", "body_energy", "body_damage", *INTERNAL)),
+}
+
+
+def expand(keys) -> tuple[str, ...]:
+    """Keys of TABLE for keys and words of GROUPS, with ALWAYS, each once. Raises FieldError for an unknown one."""
+    expanded: list[str] = []
+    for key in keys:
+        if key not in GROUPS and key not in BY_KEY:
+            raise FieldError(unknown("field", key, (*GROUPS, *BY_KEY)))
+        expanded += GROUPS[key] if key in GROUPS else [key]
+    return tuple(dict.fromkeys((*expanded, *ALWAYS)))
