@@ -74,6 +74,8 @@ class Schema:
         part = self.resolved(part)
         if part.get("type") == "array":
             part = self.resolved(part.get("items", {}))
+        if isinstance(part.get("additionalProperties"), dict):
+            part = self.resolved(part["additionalProperties"])
         for choice in part.get("oneOf", [part]):
             choice = self.resolved(choice)
             if "properties" in choice:
@@ -108,7 +110,7 @@ def deck_page() -> str:
     sections, nested = [], {}
     for key, part in schema.schema["properties"].items():
         for section in schema.tables(part):
-            name = f"[[{key}]]" if schema.is_list(part) else f"[{key}]"
+            name = f"[[{key}]]" if schema.is_list(part) else f"[{key}.NAME]" if key == "materials" else f"[{key}]"
             shape = section["properties"].get("shape", {}).get("const")
             sections.append(schema.section(f"`{name}`" + (f' with `shape = "{shape}"`' if shape else ""), section))
             for inner_key, inner_part in section["properties"].items():

@@ -20,6 +20,8 @@ def deck_keys() -> dict[str, dict]:
         parts = [*entry.get("anyOf", []), *entry.get("oneOf", [])]
         if isinstance(entry.get("items"), dict):
             parts.append(entry["items"])
+        if isinstance(entry.get("additionalProperties"), dict):
+            parts.append(entry["additionalProperties"])
         return [table for part in parts for table in target(part)]
 
     def walk(prefix: str, table: dict) -> None:
@@ -31,7 +33,8 @@ def deck_keys() -> dict[str, dict]:
                 shape = each.get("properties", {}).get("shape", {}).get("const")
                 if shape is not None:
                     found[f"{name}.{shape}"] = each
-                walk(f"{name}.{shape}." if shape else f"{name}.", each)
+                named = isinstance(entry.get("additionalProperties"), dict)
+                walk(f"{name}.{shape}." if shape else f"{name}.NAME." if named else f"{name}.", each)
 
     walk("", schema)
     return found

@@ -335,6 +335,8 @@ def schema() -> dict:
     """The JSON schema of a deck, for editors."""
     result = Deck.model_json_schema()
     result["title"] = "hydro2d input deck"
+    result["$defs"] |= library.schema()
+    result["properties"]["materials"]["additionalProperties"] = {"$ref": "#/$defs/Material"}
     result["properties"]["include"] = {
         "anyOf": [{"type": "string"}, {"type": "array", "items": {"type": "string"}}],
         "description": "decks that this one is laid over, relative to this file",

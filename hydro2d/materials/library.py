@@ -160,6 +160,62 @@ def from_deck(name: str, tables: Mapping[str, dict], fail: Fail) -> Material:
     return _build(name, _based(name, tables, fail, ()), lambda path, text: fail((name, *path), text))
 
 
+def schema() -> dict[str, dict]:
+    """JSON schemas of a material of a deck and of the tables in it, by title: Material, Eos, Strength and Damage."""
+    import eos
+    import strength
+
+    quantity = {"anyOf": [{"type": "number"}, {"type": "string"}, {"type": "object"}]}
+    kinds = {"eos": (eos.MODELS, "equation of state"), "strength": (strength.STRENGTH_MODELS, "strength model"),
+             "damage": (strength.DAMAGE_MODELS, "damage model")}  # fmt: skip
+    text, definitions = {"type": "string"}, {}
+    for part, (models, what) in kinds.items():
+        known: dict[str, list[tuple[str, str, str]]] = {}
+        for name, module in models.items():
+            for parameter in module.PARAMETERS:
+                known.setdefault(parameter.name, []).append((name, parameter.unit or "1", parameter.description))
+        numbers = {key: {**quantity, "x-unit": entries[0][1], "description": _meanings(entries)}
+                   for key, entries in known.items()}
+        definitions[part.capitalize()] = {
+            "type": "object", "title": part.capitalize(), "additionalProperties": False,
+            "description": f"The {what} of a material; `hydro2d info MODEL` has its equation.",
+            "properties": {
+                "model": {"enum": list(models), "description": f"the {what}"},
+                "source": {**text, "description": "where the numbers come from"},
+                "confidence": {"enum": list(CONFIDENCE), "description": "how far they can be trusted"},
+                **numbers,
+            },
+        }  # fmt: skip
+    definitions["Material"] = {
+        "type": "object", "title": "Material", "additionalProperties": False,
+        "description": "A material: complete with its equation of state, or `based_on` another, from which it differs.",
+        "properties": {
+            "based_on": {**text, "description": "a material of the library or of the deck; what is not given here is its"},
+            "variant": {"anyOf": [text, {"type": "array", "items": text}],
+                        "description": "variants of it that are laid over it"},
+            "eos": {"$ref": "#/$defs/Eos", "description": "equation of state"},
+            "strength": {"$ref": "#/$defs/Strength", "description": "strength model; without one a material bears no shear"},
+            "damage": {"$ref": "#/$defs/Damage", "description": 'damage model; used with failure.damage = "material"'},
+            "fracture_pressure": {**quantity, "x-unit": "Pa", "description": "tension at which the material opens, positive; "
+                                  'used with failure.tensile = "material"'},
+            "title": {**text, "description": "a line for `hydro2d info`"},
+            "note": {**text, "description": "what else is to be known"},
+            "source": {**text, "description": "where the numbers come from"},
+            "confidence": {"enum": list(CONFIDENCE), "description": "how far they can be trusted"},
+            "variants": {"type": "object", "description": "tables by name that `variant` can lay over the material"},
+        },
+    }  # fmt: skip
+    return definitions
+
+
+def _meanings(entries: list[tuple[str, str, str]]) -> str:
+    """What a parameter is, by model where models differ."""
+    meanings: dict[str, list[str]] = {}
+    for model, _, meaning in entries:
+        meanings.setdefault(meaning, []).append(model)
+    return "; ".join(f"{meaning} ({', '.join(models)})" for meaning, models in meanings.items())
+
+
 def _based(name: str, tables: Mapping[str, dict], fail: Fail, chain: tuple[str, ...]) -> dict:
     """The raw table of a deck's material laid over what it is based on."""
     if not isinstance(tables[name], dict):

@@ -4,6 +4,8 @@ import json
 import subprocess
 import sys
 import textwrap
+import tomllib
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -490,6 +492,22 @@ def test_schema_is_json_and_knows_every_section():
     assert {"include", "numerics", "sliding", "tracer"} <= set(schema["properties"])
     assert schema["$defs"]["Numerics"]["properties"]["advection"]["enum"] == ["ke", "momentum", "both"]
     assert schema["$defs"]["Sliding"]["properties"]["method"]["enum"] == ["none", "slip-layer", "contact"]
+
+
+def test_the_schema_knows_all_that_materials_have():
+    """Every key of the library and of the materials of shipped decks."""
+    definitions = deck.schema()["$defs"]
+    assert deck.schema()["properties"]["materials"]["additionalProperties"] == {"$ref": "#/$defs/Material"}
+    tables = [table for file in sorted(Path("problems").rglob("*.toml"))
+              for data in [tomllib.loads(file.read_text(encoding="utf-8"))]
+              for table in (data.values() if file.parent.name == "materials" else data.get("materials", {}).values())]
+    assert len(tables) > 20
+    tables += [variant for table in tables for variant in table.get("variants", {}).values()]
+    for table in tables:
+        assert set(table) <= {*definitions["Material"]["properties"]}
+        for part in ("eos", "strength", "damage"):
+            if isinstance(table.get(part), dict):
+                assert set(table[part]) - {"note"} <= {*definitions[part.capitalize()]["properties"]}
 
 
 def test_every_key_has_a_description():
