@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import math
 import os
 import sys
 from pathlib import Path
 from typing import Annotated, Literal
 
 import cyclopts
-from cyclopts import App, Parameter
+from cyclopts import App, Parameter, validators
 
 from hydro2d import __version__
 from hydro2d.cli.base import Count, Overrides, UsageError, quantity
@@ -237,6 +238,66 @@ def plot(
         figures.save(figures.sections(opened, field, mirror=mirror, times=times, window=_window(window)), output)
     print(f"wrote {output}")
     return 0
+
+
+@app.command
+def movie(
+    runs: list[Path],
+    *,
+    output: Annotated[Path, Parameter(name=["--output", "-o"])],
+    field: str = "pressure",
+    mirror: str | None = None,
+    window: Annotated[str | None, Parameter(allow_leading_hyphen=True)] = None,
+    follow: str | None = None,
+    colours: Annotated[str | None, Parameter(allow_leading_hyphen=True)] = None,
+    rate: Annotated[float, Parameter(validator=validators.Number(gt=0, lte=120))] = 10.0,
+    beside: bool = False,
+) -> int:
+    """Makes a film of the dumps of runs, with one range of colours.
+
+    Example: hydro2d movie runs/a runs/b -o both.mp4 --field von_mises --mirror material --follow rod --window "-8 cm,2 cm,2 cm"
+
+    Parameters
+    ----------
+    runs
+        Run directories; several stand below one another.
+    output
+        The film: .gif, or .mp4 where there is ffmpeg.
+    field
+        Field of the upper half: a key of `hydro2d info`, velocity:z for a component, body_temperature:rod for a body.
+    mirror
+        Field of the lower half; default: the same.
+    window
+        Part of the mesh, z0,z1,r1, such as "-2 cm,8 cm,2 cm".
+    follow
+        A body that the window travels with; z0 and z1 then count from its leading end.
+    colours
+        Range of colours of the field, low,high, in the unit of the colour bar; default: from all frames.
+    rate
+        Frames per second.
+    beside
+        Several runs stand beside one another.
+    """
+    from hydro2d.results import movies
+    from hydro2d.results.reading import load
+
+    opened = [load(path) for path in runs]
+    frames = movies.film(opened, output, field, mirror=mirror, window=_window(window), follow=follow, limits=_range(colours),
+                         rate=rate, beside=beside)  # fmt: skip
+    print(f"wrote {output}, {frames} frames")
+    return 0
+
+
+def _range(text: str | None) -> tuple[float, float] | None:
+    if text is None:
+        return None
+    try:
+        low, high = (float(part) for part in text.split(","))
+    except ValueError:
+        raise UsageError(f'--colours "{text}": two numbers are expected, low,high, such as "0,2.5"') from None
+    if not (math.isfinite(low) and math.isfinite(high) and low < high):
+        raise UsageError(f'--colours "{text}": low < high is needed')
+    return low, high
 
 
 @app.command

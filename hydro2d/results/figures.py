@@ -32,6 +32,8 @@ BODY_COLOURS = ("#5b6770", "#c9a66b", "#7aa6c2", "#a3b18a", "#b57ba6", "#d08c60"
 HISTORIES = ("penetration_depth_m", "rod_tail_velocity_m_s", "rod_length_m", "rod_max_plastic_strain")
 COMPONENTS = {"r": 0, "z": 1}
 VECTORS = ("velocity", "velocity_hard", "velocity_rest")
+#: endings of films, which are no pictures
+FILMS = ("gif", "mp4", "avi", "mov", "webm")
 #: seconds before a rendering process is given up
 RENDER_SECONDS = 180
 
@@ -87,7 +89,7 @@ def _filled(dump: Dump) -> np.ndarray:
     return sum(dump.fields[f"Volume Fraction for {body}"] for body in dump.bodies)
 
 
-def _limits(shown: list[Shown]) -> tuple[float, float]:
+def limits_of(shown: list[Shown]) -> tuple[float, float]:
     """One range of colours for several panels: symmetric where negative values matter."""
     values = np.concatenate([each.values[np.isfinite(each.values)] for each in shown])
     if not values.size:
@@ -149,10 +151,10 @@ def section(axes, dump: Dump, field: str = "pressure", mirror: str | None = None
 
     Returns [(word, mappable)] for `colour_bars`. Raises FigureError.
     """
-    limits, drawn, seen = limits or {}, [], _cropped(dump, window)
+    limits, drawn, seen = limits or {}, [], cropped(dump, window)
     for word, sign in ((field, 1), (mirror or field, -1)):
         if word != "material" and word not in limits:
-            limits = {**limits, word: _limits([chosen(seen, word)])}
+            limits = {**limits, word: limits_of([chosen(seen, word)])}
         drawn.append((word, _draw_half(axes, dump, word, sign, limits.get(word))))
     _draw_outlines(axes, dump)
     if "material" in (field, mirror):
@@ -214,18 +216,27 @@ def new_figure(width: float, height: float, rows: int, columns: int):
 
 
 def draw_sections(panels: list[list[tuple[Dump, str, float | None]]], field: str, mirror: str | None = None,
-                  window: tuple[float, float, float] | None = None):  # fmt: skip
+                  window=None, limits: dict[str, tuple[float, float]] | None = None, figure=None):  # fmt: skip
     """Sections with one colour scale. `panels` holds rows of (dump, title, depth line).
 
-    window = (z0, z1, r1) in m; without it each panel shows the whole mesh, where it was at the time.
+    window : (z0, z1, r1) in m, or a function of a dump that gives it; without it each panel shows the whole mesh, where it was
+        at the time
+    limits : ranges of colours by field, in the reader's unit; from what is shown where absent
+    figure : one of this function's, to be drawn anew; a new one where absent
     """
+    seen = window if callable(window) else lambda _: window
     dumps = [dump for row in panels for dump, _, _ in row]
     words = dict.fromkeys(word for word in (field, mirror or field) if word != "material")
-    limits = {word: _limits([chosen(_cropped(dump, window), word) for dump in dumps]) for word in words}
+    if limits is None:
+        limits = {word: limits_of([chosen(cropped(dump, seen(dump)), word) for dump in dumps]) for word in words}
     rows, columns = len(panels), max(len(row) for row in panels)
     panel_width = min(11.0, max(4.0, 16.0 / columns))
-    panel_height = _panel_height(panel_width, window or _whole(dumps[0]))
-    figure, axes = new_figure(panel_width * columns + 1.2, panel_height * rows + 0.4, rows, columns)
+    panel_height = _panel_height(panel_width, seen(dumps[0]) or _whole(dumps[0]))
+    if figure is None:
+        figure, axes = new_figure(panel_width * columns + 1.2, panel_height * rows + 0.4, rows, columns)
+    else:
+        figure.clear()
+        axes = figure.subplots(rows, columns, squeeze=False)
     drawn = []
     for j, row in enumerate(panels):
         for i in range(columns):
@@ -233,14 +244,14 @@ def draw_sections(panels: list[list[tuple[Dump, str, float | None]]], field: str
                 axes[j, i].set_visible(False)
                 continue
             dump, title, line = row[i]
-            drawn = section(axes[j, i], dump, field, mirror, limits, title=title, depth_line=line, window=window)
+            drawn = section(axes[j, i], dump, field, mirror, limits, title=title, depth_line=line, window=seen(dump))
     for place in axes[:-1].flat:
         place.set_xlabel("")
     colour_bars(axes, dumps[0], drawn)
     return figure
 
 
-def _cropped(dump: Dump, window) -> Dump:
+def cropped(dump: Dump, window) -> Dump:
     """The part of a dump that a window shows, for its range of colours."""
     if window is None:
         return dump
@@ -321,6 +332,8 @@ def save(figure, path: Path) -> None:
     path = Path(path)
     allowed = figure.canvas.get_supported_filetypes()
     ending = path.suffix.lower().lstrip(".")
+    if ending in FILMS:
+        raise FigureError(f"{path} is a film: `hydro2d movie RUN -o {path.name}` makes it")
     if ending not in allowed:
         raise FigureError(f'{path}: unknown picture format "{path.suffix}" (allowed: {", ".join(sorted(allowed))})')
     if not path.parent.is_dir():
@@ -363,7 +376,7 @@ def _render(dump: str, path: str, field: str, window, size) -> None:
 
     from hydro2d.output.vtk import read_grid
 
-    state = _cropped(read_grid(Path(dump)), window)
+    state = cropped(read_grid(Path(dump)), window)
     shown = chosen(state, field)
     plotter = pyvista.Plotter(off_screen=True, window_size=list(size))
     count = len(state.bodies)
@@ -379,7 +392,7 @@ def _render(dump: str, path: str, field: str, window, size) -> None:
             points = np.column_stack([line[:, 0], np.zeros(len(line)), line[:, 1]]) * 1e3
             for angle in (0.0, 270.0):
                 plotter.add_mesh(pyvista.lines_from_points(points).rotate_z(angle), color="black", line_width=2)
-    low, high = _limits([shown])
+    low, high = limits_of([shown])
     for angle in (0.0, 270.0):
         plotter.add_mesh(_cut_face(pyvista, state, shown, angle), scalars=shown.label, cmap=shown.colours,
                          clim=(low, high), lighting=False, scalar_bar_args={"title": shown.label})  # fmt: skip

@@ -1,0 +1,145 @@
+"""Films of runs: the sections of figures.py, dump by dump, with one range of colours."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+
+from hydro2d.errors import unknown
+from hydro2d.files import replacing
+from hydro2d.output.vtk import Dump
+from hydro2d.results import figures
+from hydro2d.results.figures import FigureError
+
+#: endings of films, and what writes each
+FORMATS = {".gif": "pillow", ".mp4": "ffmpeg"}
+DPI = 110
+
+Window = tuple[float, float, float] | None
+
+
+def film(runs: list, path: Path, field: str = "pressure", *, mirror: str | None = None, window: Window = None,
+         follow: str | None = None, limits: tuple[float, float] | None = None, rate: float = 10.0,
+         beside: bool = False) -> int:  # fmt: skip
+    """Writes a film of runs (results.Results): a frame for every dump of the run that has most, of all others the nearest.
+
+    Parameters
+    ----------
+    path : its ending, .gif or .mp4, decides the format
+    field, mirror : of the upper and of the lower half, see figures.chosen
+    window : (z0, z1, r1) in m that is shown; the whole mesh where absent
+    follow : a body; z0 and z1 then count from its leading end along z, so that the window travels with it
+    limits : range of colours of `field` in the reader's unit; from all frames where absent
+    rate : frames per second
+    beside : runs stand beside one another, not below
+
+    Returns the number of frames. Raises FigureError.
+    """
+    path = Path(path)
+    _refuse(path, runs, window, follow)
+    times = max(([time for time, _ in run.dumps] for run in runs), key=len)
+    if not times:
+        raise FigureError(f"{runs[0].directory} has no dumps to make a film of")
+    if not path.parent.is_dir():
+        raise FigureError(f"{path.parent}: there is no such directory")
+    shown = _Window(runs, window, follow)
+    ranges = _ranges(runs, times, [field, mirror or field], shown)
+    if limits is not None:
+        ranges[field] = limits
+    figure, writer = None, None
+    with replacing(path) as temporary:
+        target = temporary.with_name(temporary.name + path.suffix)
+        try:
+            for time in times:
+                panels = [(run.dump(time), run.label, run.measured_position) for run in runs]
+                shown.now = [shown.of(run, dump) for run, (dump, _, _) in zip(runs, panels, strict=True)]
+                rows = [panels] if beside else [[panel] for panel in panels]
+                windows = {id(panel[0]): place for panel, place in zip(panels, shown.now, strict=True)}
+                figure = figures.draw_sections(rows, field, mirror, lambda dump, at=windows: at[id(dump)], ranges, figure)
+                if writer is None:
+                    writer = _writer(path, rate)
+                    writer.setup(figure, str(target), DPI)
+                writer.grab_frame()
+            writer.finish()
+            target.replace(temporary)
+        finally:
+            target.unlink(missing_ok=True)
+    return len(times)
+
+
+def _refuse(path: Path, runs: list, window: Window, follow: str | None) -> None:
+    if path.suffix.lower() not in FORMATS:
+        raise FigureError(f'{path}: unknown film format "{path.suffix}" (allowed: {", ".join(FORMATS)})')
+    if follow is not None and window is None:
+        raise FigureError(f"a film that follows {follow} needs a window, with z0 and z1 counted from its leading end")
+    for run in runs if follow is not None else ():
+        names = [body["name"] for body in run.deck.get("body", ())]
+        if follow not in names:
+            raise FigureError(f"{run.directory}: {unknown('body', follow, names)}")
+
+
+def _writer(path: Path, rate: float):
+    """matplotlib's writer of a format. Raises FigureError where ffmpeg is missing."""
+    from matplotlib import animation, rcParams
+
+    if FORMATS[path.suffix.lower()] == "pillow":
+        return animation.PillowWriter(fps=rate)
+    if not animation.FFMpegWriter.isAvailable():
+        try:
+            from imageio_ffmpeg import get_ffmpeg_exe
+
+            rcParams["animation.ffmpeg_path"] = get_ffmpeg_exe()
+        except (ImportError, RuntimeError):
+            raise FigureError(f"{path}: ffmpeg is not there; `pip install imageio-ffmpeg` brings one, and a .gif needs "
+                              "none") from None
+    return animation.FFMpegWriter(fps=rate, extra_args=["-pix_fmt", "yuv420p", "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2"])
+
+
+class _Window:
+    """What is shown of each run, also where it travels."""
+
+    def __init__(self, runs: list, window: Window, follow: str | None):
+        self.window, self.follow, self.now = window, follow, []
+        self.down = {id(run): self._flies_down(run) for run in runs} if follow is not None else {}
+
+    def _flies_down(self, run) -> bool:
+        velocity = next(body.get("velocity", 0.0) for body in run.deck["body"] if body["name"] == self.follow)
+        return (velocity[1] if isinstance(velocity, list) else velocity) < 0.0
+
+    def of(self, run, dump: Dump) -> Window:
+        """The window of a run at the moment of a dump; where nothing of the body is left, where it was."""
+        if self.follow is None:
+            return self.window
+        fraction = dump.fields[f"Volume Fraction for {self.follow}"]
+        rows = np.nonzero((fraction >= 0.5).any(axis=1))[0]
+        if len(rows) == 0:
+            return self.now[0] if self.now else None
+        end = dump.z_edges[rows[0]] if self.down[id(run)] else dump.z_edges[rows[-1] + 1]
+        z0, z1, r1 = self.window
+        return (end - z1, end - z0, r1) if self.down[id(run)] else (end + z0, end + z1, r1)
+
+
+def _ranges(runs: list, times: list[float], words: list[str], shown: _Window) -> dict[str, tuple[float, float]]:
+    """One range of colours for each field, from all frames."""
+    ranges: dict[str, tuple[float, float]] = {}
+    for word, dump in _seen(runs, times, words, shown):
+        low, high = figures.limits_of([figures.chosen(dump, word)])
+        before = ranges.get(word, (low, high))
+        ranges[word] = (min(low, before[0]), max(high, before[1]))
+    for word, (low, high) in ranges.items():
+        if low < 0.0 < high:
+            largest = max(-low, high)
+            ranges[word] = (-largest, largest)
+    return ranges
+
+
+def _seen(runs: list, times: list[float], words: list[str], shown: _Window) -> Iterator[tuple[str, Dump]]:
+    for run in runs:
+        for time in times:
+            dump = run.dump(time)
+            part = figures.cropped(dump, shown.of(run, dump))
+            for word in dict.fromkeys(words):
+                if word != "material":
+                    yield word, part
