@@ -318,12 +318,46 @@ def results_page() -> str:
     ])  # fmt: skip
 
 
+#: decks of problems/shapes in the order of the gallery
+SHAPES = ("flat", "hemispherical", "ogive", "cone", "sphere", "polygon")
+
+
+def shapes_page() -> str:
+    """A gallery of projectiles: the body as its deck has it, and its picture."""
+    from hydro2d.toml import problems_folder
+
+    parts = ["# Shapes", NOTE,
+             "The decks are in `problems/shapes`; each picture is what `hydro2d check DECK --picture FILE.png` draws. Any of "
+             "these bodies can be a projectile or a target, and bodies can be joined. [Deck keys](deck.md) has all their keys."]
+    for name in SHAPES:
+        text = (problems_folder() / "shapes" / f"{name}.toml").read_text(encoding="utf-8")
+        title = text.split('title = "', 1)[1].split('"', 1)[0]
+        body = "[[body]]" + text.split("[[body]]", 2)[1]
+        parts += [f"## {title}", f"![{title}](shapes/{name}.png)", f"```toml\n{body.strip()}\n```"]
+    return "\n\n".join(parts)
+
+
+def draw_shapes(folder: Path) -> None:
+    """The pictures of the gallery, by the command that a reader has."""
+    from hydro2d.cli.main import call
+    from hydro2d.toml import problems_folder
+
+    folder.mkdir(parents=True, exist_ok=True)
+    for name in SHAPES:
+        file, deck = folder / f"{name}.png", problems_folder() / "shapes" / f"{name}.toml"
+        if not file.is_file() or file.stat().st_mtime < deck.stat().st_mtime:
+            with contextlib.redirect_stdout(io.StringIO()):
+                if call(["check", str(deck), "--picture", str(file)]) != 0:
+                    raise RuntimeError(f"the picture of problems/shapes/{name}.toml could not be drawn")
+
+
 def pages() -> dict[str, str]:
     """Every generated page by file name."""
     return {
         "deck.md": deck_page(),
         "fields.md": fields_page(),
         "results.md": results_page(),
+        "shapes.md": shapes_page(),
         "models.md": models_page(),
         "materials.md": materials_page(),
         "penetration-models.md": penetration_page(),
@@ -335,6 +369,7 @@ def write(folder: Path) -> None:
     """Writes the pages and the figures that changed."""
     folder.mkdir(parents=True, exist_ok=True)
     draw_models(folder / "models")
+    draw_shapes(folder / "shapes")
     for name, text in pages().items():
         file = folder / name
         if not file.is_file() or file.read_text(encoding="utf-8") != text + "\n":
