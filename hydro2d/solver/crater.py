@@ -19,9 +19,12 @@ PIECE = 0.05
 #: what `measure` gives, and its meaning
 QUANTITIES = {
     "entrance_diameter_m": "in the first row of cells below the original surface",
+    "exit_diameter_m": "in the last row of cells before the rear face; null while the target is not shot through",
     "mean_diameter_m": "of the cylinder with the volume and depth of the hole; null where there is none",
     "volume_m3": "of the hole, the whole circumference; in planar geometry of the meshed half, per metre",
     "depth_m": "from the original surface to the bottom on the axis; the target's thickness where that is shot through",
+    "ejected_mass_kg": "mass of the target beyond its rear face that no longer hangs together with it: plug and debris",
+    "ejected_velocity_m_s": "mean axial velocity of that mass; null where there is none",
 }
 
 
@@ -180,6 +183,8 @@ class Crater:
         near, far, radius, depth = self._hole()
         below = near + far > 0.0
         near, far, radius = near[below], far[below], radius[below]
+        inside = near + far < 2.0 * self.rear
+        through = bool(inside.any()) and depth >= self.rear
         near[:1] = np.minimum(near[:1], 0.0)  # a row that the original face cuts has no wall where less than half is left
         height = np.maximum(np.minimum(far, self.rear) - np.maximum(near, 0.0), 0.0)
         cylindrical = self.sim.grid.cylindrical
@@ -189,7 +194,22 @@ class Crater:
             mean = 2.0 * (float(np.sqrt(volume / (np.pi * depth))) if cylindrical else volume / depth)
         return {
             "entrance_diameter_m": 2.0 * float(radius[0]) if len(radius) else 0.0,
+            "exit_diameter_m": 2.0 * float(radius[inside][-1]) if through else None,
             "mean_diameter_m": mean,
             "volume_m3": volume,
             "depth_m": depth,
+            **self._ejected(),
         }
+
+    def _ejected(self) -> dict[str, float | None]:
+        """Mass and mean axial velocity of what of the target has left it through its rear."""
+        grid, s = self.sim.grid, self.sim.state
+        wall, _ = self._walls()
+        beyond = self._depth(grid.zc[grid.inside[0]]) > self.rear
+        mass = np.where(~wall & beyond[:, None], grid.interior(s.vof)[self.m] * grid.interior(s.rho)[self.m], 0.0)
+        mass *= grid.volume[grid.inside]
+        v = grid.interior_vertices(s.v)[s.group[self.m]]
+        mean = 0.25 * ((v[:-1, :-1] + v[1:, 1:]) + (v[:-1, 1:] + v[1:, :-1]))
+        total = float(mass.sum())
+        return {"ejected_mass_kg": total * (2.0 * np.pi if grid.cylindrical else 1.0),
+                "ejected_velocity_m_s": float((mass * mean).sum()) / total if total > 0.0 else None}

@@ -17,6 +17,8 @@ RIGID_LENGTH, RIGID_RADIUS = 0.02, 0.10
 ERODED_MASS = 0.10
 #: it has left the mesh once more than this share of its mass has flowed out since its core reached an open edge
 LEFT_MASS = 0.01
+#: cycles between looks at whether it is through the target, at what ends a run, and at whether the state makes sense
+WATCH_EVERY = 10
 #: the regime of such a rod
 LEFT = "left the mesh"
 
@@ -40,6 +42,8 @@ QUANTITIES = {
     "rod_kinetic_energy_J": "mass of the rod times half of the square of its mean velocity",
     "rod_residual_velocity_m_s": "axial velocity of the core of a rod that has perforated the target or left the mesh",
     "rod_residual_mass_kg": "mass of that core",
+    "rod_residual_length_m": "length of a rod that has perforated the target",
+    "exit_time_s": "when the nose was the radius of the rod beyond the rear of the target; null before",
     "regime": "rigid, deforming, eroding or left the mesh",
 }
 
@@ -88,6 +92,7 @@ class Penetrator:
         self.thickness = high - low
         self.mass = float(sim.body_sums(self.m)[0].sum()) * self._around
         self.exit: Exit | None = None
+        self.through_at: float | None = None
         self._offset = grid.offset
         ends = (deck.boundaries.z_min, (0, -1.0)), (deck.boundaries.z_max, (grid.nz, 1.0))
         self._open = [end for kind, end in ends if BY_NAME[kind].opens]
@@ -192,7 +197,9 @@ class Penetrator:
     # ------------------------------------------------------------------------------------------------ leaving the mesh
 
     def watch(self) -> None:
-        """After a cycle: remembers the rod as it is when its core reaches an open edge."""
+        """After a cycle: remembers the rod as it is when its core reaches an open edge, and when it was through the target."""
+        if self.through_at is None and self.sim.cycle % WATCH_EVERY == 0 and self.perforates():
+            self.through_at = self.sim.time
         grid, dt = self.sim.grid, self.sim.dt
         drift = (grid.offset - self._offset) / dt if dt > 0.0 else 0.0
         self._offset = grid.offset
@@ -231,12 +238,12 @@ class Penetrator:
 
     def saved(self) -> dict:
         """What a restart file keeps of it."""
-        return {"exit": self.exit and self.exit._asdict(), "offset": self._offset}
+        return {"exit": self.exit and self.exit._asdict(), "offset": self._offset, "through_at": self.through_at}
 
     def resume(self, saved: dict) -> None:
         """Continues from what was saved."""
         self.exit = Exit(**saved["exit"]) if saved["exit"] else None
-        self._offset = saved["offset"]
+        self._offset, self.through_at = saved["offset"], saved["through_at"]
 
     # ------------------------------------------------------------------------------------------------ what is known
 
@@ -303,5 +310,7 @@ class Penetrator:
             "rod_kinetic_energy_J": 0.5 * mass * mean * mean,
             "rod_residual_velocity_m_s": residual_velocity,
             "rod_residual_mass_kg": residual_mass,
+            "rod_residual_length_m": length if residual_mass is not None and not self.left else None,
+            "exit_time_s": self.through_at,
             "regime": self.regime(length, radius, core),
         }

@@ -17,14 +17,11 @@ from hydro2d.solver.cycle import Cycle, UnphysicalState
 from hydro2d.solver.following import FollowingMesh, StandingMesh, UndisturbedSpace
 from hydro2d.solver.memory import refuse_too_large
 from hydro2d.solver.method import Method
-from hydro2d.solver.penetrator import Penetrator
+from hydro2d.solver.penetrator import WATCH_EVERY, Penetrator
 from hydro2d.solver.sanity import TRUSTED, faults
 from hydro2d.solver.stations import Stations
 
 __all__ = ["Simulation", "UnphysicalState"]
-
-#: cycles between looks at what stop.speed_below, stop.rebound and stop.perforation watch, and at whether the state makes sense
-WATCH_EVERY = 10
 
 
 class Simulation:

@@ -72,7 +72,8 @@ def depths(sim, z):
 
 def test_before_impact():
     sim = simulation()
-    assert sim.crater.measure() == {"entrance_diameter_m": 0.0, "mean_diameter_m": None, "volume_m3": 0.0, "depth_m": 0.0}
+    assert sim.crater.measure() == {"entrance_diameter_m": 0.0, "exit_diameter_m": None, "mean_diameter_m": None,
+                                    "volume_m3": 0.0, "depth_m": 0.0, "ejected_mass_kg": 0.0, "ejected_velocity_m_s": None}
     assert [len(values) for values in sim.crater.profile()] == [0, 0]
 
 
@@ -92,6 +93,27 @@ def test_a_cylinder(options, bottom, radius):
     assert np.all(np.diff(depths(sim, z)) > 0)
     np.testing.assert_allclose(found[:20], radius, rtol=1e-9)
     assert len(found) == np.ceil(round(bottom / 0.5e-3, 6))
+
+
+@pytest.mark.parametrize("options", [(), BACK], ids=["to +z", "to -z"])
+def test_a_hole_right_through(options):
+    """A hole that widens to the rear, a plug of 3 mm in radius beyond it that flies on, and a crumb that flies back."""
+    sim = simulation(*options)
+    sign = sim.penetrator.direction
+    fraction = carve(sim, (4e-3, 24e-3), (2.5e-3, 0.0))
+    assert sim.crater.measure()["ejected_mass_kg"] == 0.0
+    depth = sign * sim.grid.zc[sim.grid.inside[0]]
+    plug = (depth > 25e-3) & (depth < 27e-3)
+    fraction[1][plug, :6] = 1.0
+    s, own = sim.state, sim.grid.interior(sim.state.rho)[1]
+    own[plug, :6] = 2660.0
+    s.v[...] = sign * 300.0
+    found = sim.crater.measure()
+    assert found["depth_m"] == 24e-3
+    assert found["entrance_diameter_m"] == pytest.approx(5e-3, rel=0.02)
+    assert found["exit_diameter_m"] == pytest.approx(8e-3, rel=0.02)
+    assert found["ejected_mass_kg"] == pytest.approx(np.pi * 3e-3**2 * 2e-3 * 2660.0, rel=1e-9)
+    assert found["ejected_velocity_m_s"] == pytest.approx(sign * 300.0, rel=1e-9)
 
 
 def test_a_cone():

@@ -157,7 +157,18 @@ def test_a_rod_that_has_perforated_flies_on():
     found = sim.diagnostics()
     assert found["rod_residual_velocity_m_s"] == found["rod_core_velocity_m_s"] > 500.0
     assert found["rod_residual_mass_kg"] == found["rod_core_mass_kg"]
+    assert found["rod_residual_length_m"] == found["rod_length_m"]
     assert found["regime"] != LEFT
+    assert found["exit_time_s"] is None or found["exit_time_s"] == sim.time
+    while sim.cycle % WATCH_EVERY:
+        sim.step()
+    when = sim.diagnostics()["exit_time_s"]
+    assert sim.time - WATCH_EVERY * sim.dt * 1.5 < when <= sim.time
+    saved = json.loads(json.dumps(sim.penetrator.saved()))
+    sim.penetrator.resume(saved)
+    for _ in range(WATCH_EVERY):
+        sim.step()
+    assert sim.diagnostics()["exit_time_s"] == when
 
 
 @pytest.mark.parametrize(
