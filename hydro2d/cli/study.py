@@ -173,7 +173,7 @@ def _status(study: Path, out: Path | None) -> int:
     if found.search is not None:
         from hydro2d.study import regimes
 
-        told += ["", *regimes.lines(regimes.of_study(found))]
+        told += ["", *regimes.lines(found, regimes.of_study(found))]
     for line in told:
         print(line)
     return 0

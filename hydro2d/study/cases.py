@@ -203,7 +203,8 @@ class _Planner:
                 if _share(parts, tuple(toml.key_parts(own))):
                     self._say(("axis", number), f'axis "{axis.name}" sets {own}, and the search varies {key}')
         self._raise()
-        return velocities.Velocities(key, tuple(labels), self.definition.transition.tolerance)
+        given = self.definition.transition
+        return velocities.Velocities(key, tuple(labels), given.tolerance, given.of)
 
     def _at_velocities(self, combinations: list[tuple], found: velocities.Velocities) -> list[tuple]:
         """Every combination at every velocity."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, Field, ValidationError, model_validator
 
@@ -80,10 +80,15 @@ class Axis(Section):
 class Transition(Section):
     """The impact velocities between which `hydro2d transition` searches, for every combination of the axes."""
 
-    from_: Speed = Field(alias="from", description="slowest: the rod should be rigid")
-    to: Speed = Field(description="fastest: the rod should erode; negative, as `from`, for a body that flies to -z")
+    from_: Speed = Field(alias="from", description="slowest: the rod should be rigid, or stopped")
+    to: Speed = Field(
+        description="fastest: the rod should erode, or perforate; negative, as `from`, for a body that flies to -z"
+    )
     tolerance: PositiveSpeed = Field(25.0, description="widest bracket; velocities lie this far apart, counted from `from`")
     key: str | None = Field(None, description="deck key that is varied; default: the velocity of the deck's penetrating rod")
+    of: Literal["regime", "perforation"] = Field(
+        "regime", description="what changes: the regime of the rod, or whether it goes through the target, the ballistic limit"
+    )
 
     @model_validator(mode="after")
     def _growing(self):

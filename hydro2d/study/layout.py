@@ -87,11 +87,12 @@ class Case:
 
 @dataclass(frozen=True)
 class Interval:
-    """Where a search for a transition may look: velocities of a key of the deck, m/s, and its widest bracket, m/s."""
+    """Where a search for a transition may look: velocities of a key of the deck, m/s, its widest bracket, m/s, what changes."""
 
     key: str
     speeds: tuple[float, ...]
     tolerance: float
+    of: str = "regime"
 
 
 @dataclass(frozen=True)
@@ -137,6 +138,7 @@ def _data(plan) -> dict:
     found = plan.search
     search = found and {
         "key": found.key, "speeds_m_s": [velocities.speed(label) for label in found.labels], "tolerance_m_s": found.tolerance,
+        "of": found.of,
     }  # fmt: skip
     return {
         "title": plan.title,
@@ -189,7 +191,7 @@ def _study(directory: Path, data: dict) -> Study:
     entries = tuple(data["cases"])
     cases = tuple(_case(directory, entry) for entry in entries)
     found = data.get("search")
-    search = found and Interval(found["key"], tuple(found["speeds_m_s"]), found["tolerance_m_s"])
+    search = found and Interval(found["key"], tuple(found["speeds_m_s"]), found["tolerance_m_s"], found.get("of", "regime"))
     return Study(directory, data.get("title") or data["name"], data["name"], axes, cases, entries, search)
 
 

@@ -91,7 +91,7 @@ def _transitions(contents: Contents) -> Html:
     names = list(dict.fromkeys(bracket.name for each in found for bracket in each.brackets))
     rows = [_of_combination(each, names) for each in found]
     notes = [element("li", f"{each.title}: {note}") for each in found for note in each.notes]
-    criteria = [(element("dt", name), element("dd", text)) for name, text in regimes.CRITERIA.items()]
+    criteria = [(element("dt", name), element("dd", text)) for name, text in regimes.criteria(contents.study).items()]
     caption = "Impact velocities between which the regime changes, beside what is known and what analytic models predict"
     legend = f"Known and models: where a rod is no longer rigid. {regimes.FILE} has all of it, with the models' inputs."
     return Html(

@@ -86,6 +86,8 @@ class Record:
     @property
     def perforated(self) -> bool:
         """Whether the rod went through the target at any time, even if it has left the mesh since."""
+        if self.case.summary.get("exit_time_s") is not None:
+            return True
         thickness = self.setup.thickness if self.setup else None
         return thickness is not None and max(self.deepest, self.value("penetration_depth_m") or 0.0) >= thickness
 

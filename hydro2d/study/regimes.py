@@ -10,6 +10,7 @@ from hydro2d.analytic import model_transition, models
 from hydro2d.analytic.model_text import columns
 from hydro2d.analytic.model_transition import Bracket, Comparison, Prediction, extent
 from hydro2d.files import write_json
+from hydro2d.output.history import GROWING
 from hydro2d.penetration.model import InputError
 from hydro2d.solver import penetrator
 from hydro2d.study import bisection, experiments, record, velocities
@@ -17,8 +18,21 @@ from hydro2d.study.layout import Interval, Study
 from hydro2d.study.record import Record
 
 FILE = "transition.json"
-#: names of the transitions by the regime that they lead to
-NAMES = {"deforming": "rigid to deforming", "eroding": "to eroding"}
+
+
+@dataclass(frozen=True)
+class Scheme:
+    """What a search distinguishes: regimes as they grow with the velocity, and names of transitions by the one they lead to."""
+
+    order: tuple[str, ...]
+    names: Mapping[str, str]
+
+
+STOPPED, PERFORATED = "stopped", "perforated"
+SCHEMES = {
+    "regime": Scheme(GROWING, {"deforming": "rigid to deforming", "eroding": "to eroding"}),
+    "perforation": Scheme((STOPPED, PERFORATED), {PERFORATED: "ballistic limit"}),
+}
 FALL, LIMIT = "depth falls", "hydrodynamic limit"
 #: how runs end that would have gone on, and the share of the impact velocity from which on a rod still moves
 CUT, MOVING = ("end time", "number of cycles"), 0.01
@@ -29,6 +43,15 @@ CRITERIA = {
     FALL: "between the deepest run and the next faster one, however far apart: no runs are made for it",
     LIMIT: f"as for experiments: {model_transition.RULE}; likewise from the same runs",
 }  # fmt: skip
+OF_PERFORATION = {
+    PERFORATED: "the nose has come as far beyond the rear of the target as the rod's radius",
+    "ballistic limit": "between the fastest run that is stopped and the slowest that goes through",
+}
+
+
+def criteria(study: Study) -> dict[str, str]:
+    """What the words of a search mean."""
+    return OF_PERFORATION if study.search and study.search.of == "perforation" else CRITERIA
 
 
 @dataclass(frozen=True)
@@ -55,6 +78,7 @@ class Run:
             "case": case.name, "velocity_m_s": self.velocity, "status": case.status, "regime": self.regime,
             "reason": self.reason, "depth_m": self.record.depth, "perforated": self.record.perforated,
             **{name: summary.get(name) for name in names},
+            "residual_velocity_m_s": summary.get("rod_residual_velocity_m_s"),
             "rod_first_mass_kg": self.record.first.get("rod_mass_kg"), "stop_reason": summary.get("stop_reason"),
         }  # fmt: skip
 
@@ -66,8 +90,14 @@ class Run:
             f"{self.velocity:g} m/s", self.regime or self.record.case.status, depth,
             _share(value("rod_length_m"), value("rod_initial_length_m")),
             _share(value("rod_max_radius_m"), value("rod_initial_radius_m")),
-            _share(value("rod_core_mass_kg"), first), self.reason or str(value("stop_reason") or ""),
+            _share(value("rod_core_mass_kg"), first), self.reason or self._end(),
         )  # fmt: skip
+
+    def _end(self) -> str:
+        """How the run ended, and how fast what went through the target flew on."""
+        value = self.record.case.summary.get
+        left = value("rod_residual_velocity_m_s")
+        return str(value("stop_reason") or "") + ("" if left is None else f", {left:.0f} m/s left")
 
 
 HEADS = ("velocity", "regime", "depth", "length", "radius", "core mass", "end")
@@ -81,8 +111,8 @@ def _at_least(run: Run) -> str:
     return "at least " if run.record.at_least else ""
 
 
-def judge(found: Record) -> Run:
-    """The regime of a case at its end.
+def judge(found: Record, of: str = "regime") -> Run:
+    """The regime of a case at its end, or whether it went through the target.
 
     None for one that is not done, and where the rod left the mesh: it was not followed to its end. Runs of versions that did
     not know this regime are told by the mass that a perforating rod has lost.
@@ -92,6 +122,8 @@ def judge(found: Record) -> Run:
     if not found.done:
         reason = case.message.splitlines()[0] if case.message else ""
         return Run(found, velocity, None, f"{case.status}: {reason}" if reason else case.status)
+    if of == "perforation" and (found.perforated or not found.left):
+        return Run(found, velocity, PERFORATED if found.perforated else STOPPED)
     first, mass = found.first.get("rod_mass_kg"), found.value("rod_mass_kg")
     if found.perforated and (found.left or (first and mass < (1.0 - penetrator.ERODED_MASS) * first)):
         why = "the rod went through the target and left the mesh; stop.perforation = true ends a run before that"
@@ -162,9 +194,11 @@ def label(values: Mapping[str, str]) -> str:
     return ", ".join(f"{name} = {value}" for name, value in values.items() if name != velocities.AXIS)
 
 
-def so_far(found: Mapping[float, str]) -> list[str]:
+def so_far(found: Mapping[float, str], of: str = "regime") -> list[str]:
     """The transitions of regimes by velocity in m/s, in words."""
-    return [f"{name} {extent(Bracket(name, *bisection.bracket(found, regime), ''))}" for regime, name in NAMES.items()]
+    scheme = SCHEMES[of]
+    return [f"{name} {extent(Bracket(name, *bisection.bracket(found, regime, scheme.order), ''))}"
+            for regime, name in scheme.names.items()]
 
 
 def of_study(study: Study, records: Sequence[Record] | None = None) -> list[Transitions]:
@@ -176,22 +210,24 @@ def of_study(study: Study, records: Sequence[Record] | None = None) -> list[Tran
 
 
 def _transitions(study: Study, title: str, members: Sequence[Record]) -> Transitions:
-    runs = sorted(map(judge, members), key=lambda run: run.velocity)
+    of = study.search.of
+    scheme = SCHEMES[of]
+    runs = sorted((judge(each, of) for each in members), key=lambda run: run.velocity)
     known = [run for run in runs if run.regime is not None]
     found = {run.velocity: run.regime for run in known}
     brackets, settled, notes = [], {}, []
-    for regime, name in NAMES.items():
-        bracket = Bracket(name, *bisection.bracket(found, regime), "")
+    for regime, name in scheme.names.items():
+        bracket = Bracket(name, *bisection.bracket(found, regime, scheme.order), "")
         brackets.append(replace(bracket, source=_ends(bracket, found)))
         settled[name], why = _settled(bracket, study.search, runs)
         notes += [f"{name}: {why}"] if why else []
-    brackets += [*_fall(known), *_limit(known)]
-    for slow, fast in bisection.disordered(found):
+    brackets += [*_fall(known), *_limit(known)] if of == "regime" else []
+    for slow, fast in bisection.disordered(found, scheme.order):
         notes.append(f"out of order: {found[slow]} at {slow:g} m/s, {found[fast]} at {fast:g} m/s; the slowest change is given")
     cut = [f"{run.velocity:g} m/s" for run in known if run.cut]
     if cut:
         notes.append(f"not at rest when they ended, regime and depth are those of that moment: {', '.join(cut)}")
-    comparison, problem = _compared(known, brackets[0])
+    comparison, problem = _compared(known, brackets[0]) if of == "regime" else (None, "")
     notes += [problem] if problem else []
     values = {name: value for name, value in members[0].case.values.items() if name != velocities.AXIS}
     return Transitions(title, values, brackets, settled, runs, notes, comparison)
@@ -260,13 +296,14 @@ def write(study: Study, found: Sequence[Transitions]) -> None:
     interval = study.search
     data = {
         "title": study.title, "version": __version__, "key": interval.key, "from_m_s": interval.speeds[0],
-        "to_m_s": interval.speeds[-1], "tolerance_m_s": interval.tolerance, "criteria": CRITERIA,
+        "to_m_s": interval.speeds[-1], "tolerance_m_s": interval.tolerance, "of": interval.of,
+        "criteria": criteria(study),
         "complete": all(all(each.settled.values()) for each in found), "combinations": [each.data() for each in found],
     }  # fmt: skip
     write_json(study.directory / FILE, data)
 
 
-def lines(found: Sequence[Transitions]) -> list[str]:
+def lines(study: Study, found: Sequence[Transitions]) -> list[str]:
     """The transitions of a study in words, and the criteria."""
     told = [line for each in found for line in (*each.lines(), "")]
-    return [*told, "criteria", *columns(CRITERIA.items())]
+    return [*told, "criteria", *columns(criteria(study).items())]

@@ -86,7 +86,8 @@ class Bisection(Choice):
 
     def _search(self, group: Sequence[Planned], cases: dict[str, Case], busy: Collection[str]) -> Search:
         """What is known of a combination."""
-        search = Search(len(group), begun={n for n, case in enumerate(group) if case.name in self.begun})
+        begun = {n for n, case in enumerate(group) if case.name in self.begun}
+        search = Search(len(group), begun=begun, order=regimes.SCHEMES[self.plan.search.of].order)
         for position, planned in enumerate(group):
             case = cases.get(planned.name)
             if case is None or planned.name in busy:
@@ -107,7 +108,7 @@ class Bisection(Choice):
         return self.records[case.name]
 
     def _regime(self, case: Case) -> str | None:
-        return regimes.judge(self.record(case)).regime if case.status == DONE else None
+        return regimes.judge(self.record(case), self.plan.search.of).regime if case.status == DONE else None
 
     def further(self, cases: Sequence[Case], busy: Collection[str]) -> int:
         by_name = {case.name: case for case in cases}
@@ -120,7 +121,7 @@ class Bisection(Choice):
         found = {velocities.speed(case.values[velocities.AXIS]): regime for case in cases
                  if case.name in names and (regime := self._regime(case))}  # fmt: skip
         label = regimes.label(group[0].values)
-        return "  " + (f"{label}: " if label else "") + "; ".join(regimes.so_far(found))
+        return "  " + (f"{label}: " if label else "") + "; ".join(regimes.so_far(found, self.plan.search.of))
 
 
 def find(plan: Plan, directory: Path, connect: AbstractContextManager, *, threads: int = 1, resume: bool = False,
@@ -134,6 +135,6 @@ def find(plan: Plan, directory: Path, connect: AbstractContextManager, *, thread
     study = layout.read(directory)
     found = regimes.of_study(study, [choice.record(case) for case in study.cases])
     if not quiet:
-        print("\n".join(("", *regimes.lines(found))))
+        print("\n".join(("", *regimes.lines(study, found))))
     regimes.write(study, found)
     return status

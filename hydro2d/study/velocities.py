@@ -25,11 +25,13 @@ class Velocities:
     """Where a search may look.
 
     key : of the deck;  labels : velocities as decks take them, the slowest first;  tolerance : widest bracket, m/s
+    of : what changes, "regime" or "perforation"
     """
 
     key: str
     labels: tuple[str, ...]
     tolerance: float
+    of: str = "regime"
 
 
 def labels(given: Transition) -> tuple[str, ...]:

@@ -427,3 +427,48 @@ def test_a_real_search_is_interrupted_and_goes_on(tmp_path):
     after = {case.name: case.directory.joinpath("summary.json").stat().st_mtime_ns for case in study.load(out).cases}
     assert len(before) >= 2
     assert {name: after[name] for name in before} == before
+
+
+# ------------------------------------------------------------------------------------------------ ballistic limit
+
+
+LIMIT = ALONE.replace("[transition]", '[transition]\nof = "perforation"')
+
+
+def plate(velocity, deck):
+    """A target that is shot through from 1185 m/s on, with the velocity left that Recht and Ipson's model has."""
+    if velocity < 1185.0:
+        return {"regime": "rigid", "depth": 0.3}
+    left = (velocity**2 - 1185.0**2) ** 0.5
+    return {"regime": "eroding", "depth": 0.54, "exit_time_s": 4e-4, "rod_residual_velocity_m_s": left,
+            "rod_residual_mass_kg": 0.05, "stop_reason": "perforation of plate"}  # fmt: skip
+
+
+def test_a_ballistic_limit_is_searched(tmp_path, capsys):
+    client = made_up.Client(plate)
+    status, found = search(tmp_path, client, LIMIT)
+    assert (status, found["complete"], found["of"]) == (0, True, "perforation")
+    assert brackets(found) == [{"ballistic limit": (1150, 1200)}]
+    assert len(client.submitted) <= 6
+    runs = {run["velocity_m_s"]: run for run in found["combinations"][0]["runs"]}
+    assert (runs[1150]["regime"], runs[1200]["regime"]) == ("stopped", "perforated")
+    assert runs[1500]["residual_velocity_m_s"] == pytest.approx(919.6, abs=0.1)
+    shown = capsys.readouterr().out
+    assert "ballistic limit  1150 to 1200 m/s  stopped at 1150 m/s, perforated at 1200 m/s" in shown
+    assert "perforation of plate, 920 m/s left" in shown
+    assert "between the fastest run that is stopped and the slowest that goes through" in shown
+    assert "rigid" not in shown
+
+
+def test_a_rod_that_left_sideways_has_no_say_in_a_ballistic_limit(tmp_path):
+    gone = {"depth": 0.1, "regime": "left the mesh", "rod_mass_kg": 0.0}
+    client = made_up.Client(lambda velocity, deck: gone if velocity == 900.0 else plate(velocity, deck))
+    _, found = search(tmp_path, client, LIMIT)
+    runs = {run["velocity_m_s"]: run["regime"] for run in found["combinations"][0]["runs"]}
+    assert runs[900] is None
+    assert brackets(found) == [{"ballistic limit": (1150, 1200)}]
+
+
+def test_what_a_search_is_of_must_be_known(tmp_path, capsys):
+    assert call(["transition", str(write(tmp_path, LIMIT.replace('"perforation"', '"perforatoin"'))), "--check"]) == 2
+    assert "search.toml:5: transition.of: should be 'regime' or 'perforation', is 'perforatoin'" in capsys.readouterr().err
