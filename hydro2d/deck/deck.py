@@ -106,9 +106,11 @@ def _resolve(data: dict, name: str, overrides: Sequence[str], sources: Sources) 
         problems += [str(complaint(path, message)) for path, message in _unknown_materials(data)]
         raise DeckError("\n".join(dict.fromkeys(problems))) from None
     problems += [str(complaint(path, message)) for path, message in (*inconsistencies(deck), *_unknown_materials(data))]
+    own, wrong = _own_materials(deck, complaint)
+    problems += wrong
     if problems:
         raise DeckError("\n".join(problems))
-    deck = deck.model_copy(update={"materials": _materials(deck, complaint)})
+    deck = deck.model_copy(update={"materials": _materials(deck, own)})
     deck = _with_defaults(deck)
     problems = [str(complaint(path, message)) for path, message in unsupported(deck)]
     if problems:
@@ -206,13 +208,24 @@ def _first_section(annotation: Any) -> Any:
     return found[0] if len(found) == 1 else None
 
 
-def _materials(deck: Deck, complaint) -> dict[str, library.Material]:
-    """The materials that bodies use, resolved, and those that the deck defines, checked."""
+def _own_materials(deck: Deck, complaint) -> tuple[dict[str, library.Material], list[str]]:
+    """The materials that the deck defines, and what is wrong with them."""
 
     def fail(path: tuple, message: str) -> DeckError:
         return complaint(("materials", *path), message)
 
-    chosen = {name: library.from_deck(name, deck.materials, fail) for name in deck.materials}
+    own, problems = {}, []
+    for name in deck.materials:
+        try:
+            own[name] = library.from_deck(name, deck.materials, fail)
+        except DeckError as error:
+            problems.append(str(error))
+    return own, list(dict.fromkeys(problems))
+
+
+def _materials(deck: Deck, own: dict[str, library.Material]) -> dict[str, library.Material]:
+    """The materials that bodies use, and those that the deck defines."""
+    chosen = dict(own)
     for entry in deck.body:
         if entry.material not in chosen:
             chosen[entry.material] = library.load(entry.material)
