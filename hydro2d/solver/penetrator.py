@@ -198,7 +198,7 @@ class Penetrator:
 
     def watch(self) -> None:
         """After a cycle: remembers the rod as it is when its core reaches an open edge, and when it was through the target."""
-        if self.through_at is None and self.sim.cycle % WATCH_EVERY == 0 and self.perforates():
+        if self.through_at is None and self.sim.cycle % WATCH_EVERY == 0 and self._near_exit() and self.perforates():
             self.through_at = self.sim.time
         grid, dt = self.sim.grid, self.sim.dt
         drift = (grid.offset - self._offset) / dt if dt > 0.0 else 0.0
@@ -252,6 +252,13 @@ class Penetrator:
         g, s = self.sim.grid, self.sim.state
         failed = g.interior(s.dmg)[m] >= 1.0
         return float(np.sum((g.interior(s.vof)[m] * g.interior(s.rho)[m] * g.volume[g.inside])[failed]) * self._around)
+
+    def _near_exit(self) -> bool:
+        """Whether the rod fills half of a cell in the row before the one that its nose has to reach: quick to tell."""
+        g, s = self.sim.grid, self.sim.state
+        j = int(np.searchsorted(g.z_edges, self.surface + self.direction * (self.thickness + self.radius))) - 1
+        j -= int(self.direction)
+        return 0 <= j < g.nz and any(s.vof[self.m, g.g + j, g.g + i] >= HALF for i in range(self.columns))
 
     def perforates(self) -> bool:
         """Whether the nose is the rod's radius beyond the rear of the target."""
