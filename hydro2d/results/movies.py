@@ -54,9 +54,8 @@ def film(runs: list, path: Path, field: str = "pressure", *, mirror: str | None 
         try:
             for time in times:
                 panels = [(run.dump(time), run.label, run.measured_position) for run in runs]
-                shown.now = [shown.of(run, dump) for run, (dump, _, _) in zip(runs, panels, strict=True)]
                 rows = [panels] if beside else [[panel] for panel in panels]
-                windows = {id(panel[0]): place for panel, place in zip(panels, shown.now, strict=True)}
+                windows = {id(dump): shown.of(run, dump) for run, (dump, _, _) in zip(runs, panels, strict=True)}
                 figure = figures.draw_sections(rows, field, mirror, lambda dump, at=windows: at[id(dump)], ranges, figure)
                 if writer is None:
                     writer = _writer(path, rate)
@@ -101,7 +100,8 @@ class _Window:
     """What is shown of each run, also where it travels."""
 
     def __init__(self, runs: list, window: Window, follow: str | None):
-        self.window, self.follow, self.now = window, follow, []
+        self.window, self.follow = window, follow
+        self.last: dict[int, Window] = {}
         self.down = {id(run): self._flies_down(run) for run in runs} if follow is not None else {}
 
     def _flies_down(self, run) -> bool:
@@ -115,10 +115,11 @@ class _Window:
         fraction = dump.fields[f"Volume Fraction for {self.follow}"]
         rows = np.nonzero((fraction >= 0.5).any(axis=1))[0]
         if len(rows) == 0:
-            return self.now[0] if self.now else None
+            return self.last.get(id(run))
         end = dump.z_edges[rows[0]] if self.down[id(run)] else dump.z_edges[rows[-1] + 1]
         z0, z1, r1 = self.window
-        return (end - z1, end - z0, r1) if self.down[id(run)] else (end + z0, end + z1, r1)
+        self.last[id(run)] = (end - z1, end - z0, r1) if self.down[id(run)] else (end + z0, end + z1, r1)
+        return self.last[id(run)]
 
 
 def _ranges(runs: list, times: list[float], words: list[str], shown: _Window) -> dict[str, tuple[float, float]]:
