@@ -43,6 +43,8 @@ def shot(deck: decks.Deck) -> Shot:
     rod, target = (decks.body(deck, getattr(deck.penetration, key)) for key in ("rod", "target"))
     if rod.shape != "rod":
         raise DeckError(f'{deck.name}: the penetrator "{rod.name}" is a {rod.shape}; the models take a rod')
+    if len(deck.penetration.targets) > 1:
+        raise DeckError(f"{deck.name}: the rod goes through {', '.join(deck.penetration.targets)}; the models take one target")
     numbers = {**_rod(rod, deck.materials[rod.material]), **_target(target)}
     values = {name: Given(value, f"deck {deck.name}") for name, value in numbers.items()}
     return Shot(deck.name, deck.materials[rod.material], deck.materials[target.material], impact_velocity(deck),

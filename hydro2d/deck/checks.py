@@ -41,6 +41,7 @@ def inconsistencies(deck: Deck) -> Iterator[tuple[tuple, str]]:
         yield ("stop",), "needs a time or a number of cycles"
     if deck.sliding.method == "slip-layer" and not deck.sliding.hard:
         yield ("sliding", "hard"), "a slip layer needs the names of the hard bodies"
+    yield from _bad_targets(deck)
     if deck.sliding.method == "contact":
         yield from _bad_contact(deck)
     elif deck.sliding.friction > 0 and deck.sliding.shear != "shear":
@@ -84,6 +85,7 @@ def _bad_names(deck: Deck, names: list[str]) -> Iterator[tuple[tuple, str]]:
     singles = [(("stop", "body"), deck.stop.body)]
     if deck.penetration:
         singles += [(("penetration", key), getattr(deck.penetration, key)) for key in ("rod", "target")]
+        singles += [(("penetration", "targets", number), name) for number, name in enumerate(deck.penetration.targets)]
     for path, name in singles:
         if name is not None and name not in slot_names:
             yield path, unknown("body", name, slot_names)
@@ -91,6 +93,20 @@ def _bad_names(deck: Deck, names: list[str]) -> Iterator[tuple[tuple, str]]:
         for number, segment in enumerate(getattr(deck.mesh, axis)):
             if segment.across is not None and segment.across not in names:
                 yield ("mesh", axis, number, "across"), unknown("body", segment.across, names)
+
+
+def _bad_targets(deck: Deck) -> Iterator[tuple[tuple, str]]:
+    """Targets that cannot be penetrated one after the other."""
+    shot, known = deck.penetration, {entry.name for entry in deck.body}
+    if shot is None or not known.issuperset({shot.rod, *shot.targets}):
+        return
+    for number, name in enumerate(shot.targets):
+        if name == shot.rod:
+            yield ("penetration", "targets", number), f'"{name}" is the rod'
+        elif number > 0:
+            before, sign = shot.targets[number - 1], heading(body(deck, shot.rod))
+            if sign * (faces(deck, shot.rod, name)[0] - faces(deck, shot.rod, before)[0]) < 0.0:
+                yield ("penetration", "targets", number), f'the rod meets "{name}" before "{before}"; name them in that order'
 
 
 def _bad_edges(deck: Deck) -> Iterator[tuple[tuple, str]]:
@@ -204,6 +220,16 @@ def _outside(name: str, axis: str, low: float, high: float, mesh: np.ndarray, ho
 def extent(entry, deck: Deck, axis: str) -> tuple[float, float]:
     """Smallest and largest coordinate of a body along an axis."""
     return outline(entry, deck.mesh.r_start).extent(axis)
+
+
+def heading(rod) -> int:
+    """1 for a penetrator that flies towards +z, -1 for one that flies towards -z."""
+    return rod.direction if rod.shape == "rod" else (-1 if rod.velocity[1] < 0.0 else 1)
+
+
+def faces(deck: Deck, rod: str, target: str) -> tuple[float, float]:
+    """Axial positions of a target's front and rear face, as the rod meets them, m."""
+    return extent(body(deck, target), deck, "z")[:: heading(body(deck, rod))]
 
 
 def unsupported(deck: Deck) -> Iterator[tuple[tuple, str]]:

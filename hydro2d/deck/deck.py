@@ -18,7 +18,7 @@ from pydantic import ValidationError
 from hydro2d import toml, units
 from hydro2d.deck.base import Section
 from hydro2d.deck.bodies import SHAPES
-from hydro2d.deck.checks import extent, inconsistencies, room, travel, unsupported
+from hydro2d.deck.checks import extent, faces, heading, inconsistencies, room, travel, unsupported
 from hydro2d.deck.mesh import axis_edges, body, body_radius
 from hydro2d.deck.sections import Deck
 from hydro2d.deck.warnings import warnings
@@ -252,11 +252,14 @@ def _with_defaults(deck: Deck) -> Deck:
     alone = [entry for entry in deck.body if entry.join is None]
     rods = [entry for entry in alone if entry.shape == "rod"] or [
         entry for entry in alone if entry.shape == "sphere" and entry.velocity[1] != 0.0]
-    targets = [entry for entry in alone if entry.shape in ("plate", "box")]
-    if deck.penetration is None and rods and targets:
-        data["penetration"] = {"rod": rods[0].name, "target": targets[0].name}
-    if data["penetration"] and data["penetration"].get("surface") is None:
-        data["penetration"]["surface"] = _face(deck, data["penetration"]["rod"], data["penetration"]["target"])
+    plates = [entry for entry in alone if entry.shape in ("plate", "box")]
+    if deck.penetration is None and rods and plates:
+        data["penetration"] = {"rod": rods[0].name, "targets": _in_the_way(deck, rods[0], plates)}
+    if shot := data["penetration"]:
+        shot["targets"] = shot["targets"] or [shot["target"]]
+        shot["target"] = shot["targets"][0]
+        if shot.get("surface") is None:
+            shot["surface"] = faces(deck, shot["rod"], shot["target"])[0]
     watched = deck.stop.speed_below is not None or deck.stop.rebound
     if watched and deck.stop.body is None and data["penetration"]:
         data["stop"]["body"] = data["penetration"]["rod"]
@@ -287,12 +290,13 @@ def _is_the_shot(deck: Deck) -> bool:
     return shot.target is None or target.material == shot.target
 
 
-def _face(deck: Deck, rod: str, target: str) -> float:
-    """The face of the target that looks at the rod."""
-    low, high = extent(body(deck, target), deck, "z")
-    moving = body(deck, rod)
-    down = moving.direction < 0 if moving.shape == "rod" else moving.velocity[1] < 0.0
-    return high if down else low
+def _in_the_way(deck: Deck, rod, plates: list) -> list[str]:
+    """Names of the plates and boxes that a rod's axis goes through ahead of it, in its order; the first of them if none does."""
+    here, sign = sum(extent(rod, deck, "z")), heading(rod)
+    across = [entry for entry in plates if extent(entry, deck, "r")[0] <= deck.mesh.r_start]
+    ahead = [entry for entry in across if sign * (sum(extent(entry, deck, "z")) - here) > 0.0]
+    ahead.sort(key=lambda entry: sign * sum(extent(entry, deck, "z")))
+    return [entry.name for entry in ahead or plates[:1]]
 
 
 def slots(deck: Deck) -> list[str]:

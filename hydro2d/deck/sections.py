@@ -218,7 +218,7 @@ class Stop(Section):
     body: str | None = Field(None, description="the body watched; default: the rod")
     speed_below: PositiveSpeed | None = Field(None, description="axial speed of that body's centre of mass, of a rod's core")
     rebound: bool = Field(False, description="stop when that body turns round")
-    perforation: bool = Field(False, description="stop when the rod's nose is the rod's radius beyond the rear of the target")
+    perforation: bool = Field(False, description="stop when the rod's nose is the rod's radius beyond the rear of the last target")
 
 
 def _directory(value: str) -> str:
@@ -304,8 +304,21 @@ class Penetration(Section):
     """What the penetration depth is measured between."""
 
     rod: str = Field(description="the body that penetrates")
-    target: str = Field(description="the body that is penetrated")
-    surface: Length | None = Field(None, description="where the target's face was; default: its face in the deck")
+    target: str | None = Field(None, description="the body that is penetrated; the first of them where there are several")
+    targets: tuple[str, ...] = Field(
+        (), description="the bodies that are penetrated, in the order in which the rod meets them; default: target alone"
+    )
+    surface: Length | None = Field(None, description="where the first target's face was; default: its face in the deck")
+
+    @model_validator(mode="after")
+    def _has_a_target(self):
+        if self.target is None and not self.targets:
+            raise ValueError("target or targets is missing: the bodies that are penetrated")
+        if self.target is not None and self.targets and self.target != self.targets[0]:
+            raise ValueError(f'target is "{self.target}" and the first of targets "{self.targets[0]}"; one of the keys is enough')
+        if len(set(self.targets)) < len(self.targets):
+            raise ValueError("targets names a body twice")
+        return self
 
 
 class Deck(Section):

@@ -1,7 +1,7 @@
-"""history.h5: one 1-D dataset per quantity against time, and at the end of a run the hole in the target.
+"""history.h5: one 1-D dataset per quantity against time, and at the end of a run the holes in the targets.
 
-Every dataset carries `units` and has `time` as its dimension scale, so that xarray opens the file as it stands. The hole
-is the group `crater`: its radius over its axial positions. The file is rewritten whole, beside its place, and renamed:
+Every dataset carries `units` and has `time` as its dimension scale, so that xarray opens the file as it stands. The hole in the
+first target is the group `crater`: its radius over its axial positions. Those in further targets are `crater_NAME`. The file is rewritten whole, beside its place, and renamed:
 a run that is killed leaves the last complete one.
 """
 
@@ -18,7 +18,7 @@ from hydro2d.files import hdf5, replacing
 GROWING = ("rigid", "deforming", "eroding")
 REGIMES = (*GROWING, "left the mesh")
 
-#: the group of the hole in the target, and its datasets
+#: the group of the hole in the first target, with which the names of the others begin, and its datasets
 CRATER, CRATER_COLUMNS = "crater", ("z_m", "radius_m")
 
 #: unit by ending of the name, the longest first
@@ -63,14 +63,15 @@ class History:
 
     Attributes
     ----------
-    crater : axial positions and radii of the hole in the target, m, to be written as well; None before the end of a run
+    craters : axial positions and radii of the hole in each target, m, by its name, to be written as well; empty before the end
+        of a run
     """
 
     def __init__(self, path: Path, rows: int = 0):
         self.path = Path(path)
         self._columns: dict[str, list[float]] = {}
         self._rows = 0
-        self.crater: tuple[np.ndarray, np.ndarray] | None = None
+        self.craters: dict[str, tuple[np.ndarray, np.ndarray]] = {}
         if rows:
             for name, values in read(self.path).items():
                 self._columns[name] = list(values[:rows])
@@ -101,9 +102,10 @@ class History:
             for name, values in self._columns.items():
                 if name != "time":
                     _dataset(file, name, values).dims[0].attach_scale(time)
-            if self.crater is not None:
-                group = file.create_group(CRATER)
-                z, radius = (_dataset(group, *column) for column in zip(CRATER_COLUMNS, self.crater, strict=True))
+            for number, (name, crater) in enumerate(self.craters.items()):
+                group = file.create_group(f"{CRATER}_{name}" if number else CRATER)
+                group.attrs.update(target=name, number=number)
+                z, radius = (_dataset(group, *column) for column in zip(CRATER_COLUMNS, crater, strict=True))
                 z.make_scale(CRATER_COLUMNS[0])
                 radius.dims[0].attach_scale(z)
 
@@ -133,17 +135,29 @@ def _opened(path: Path):
 def read(path: Path) -> dict[str, np.ndarray]:
     """All columns by name, `time` first, shapes (rows,). Raises HistoryError."""
     with _opened(path) as file:
-        names = sorted(file.keys() - {CRATER}, key=lambda name: (name != "time", name))
+        names = sorted(file.keys() - set(_craters(file)), key=lambda name: (name != "time", name))
         columns = {name: file[name][...] for name in names}
         if any(column.shape != columns["time"].shape or column.dtype.kind not in "fi" for column in columns.values()):
             raise HistoryError(f"{path} is damaged: its columns are not of one length")
         return columns
 
 
-def read_crater(path: Path) -> tuple[np.ndarray, np.ndarray] | None:
-    """Axial positions and radii of the hole in the target, m, shapes (n,); None where there are none. Raises HistoryError."""
+def _craters(file) -> list[str]:
+    """Names of the groups of holes, in the order of the targets."""
+    import h5py
+
+    groups = [name for name, entry in file.items() if isinstance(entry, h5py.Group)]
+    return sorted(groups, key=lambda name: file[name].attrs.get("number", 0))
+
+
+def read_craters(path: Path) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+    """Axial positions and radii of the hole in each target, m, shapes (n,), by its name; empty where there are none.
+
+    Raises HistoryError.
+    """
     with _opened(path) as file:
-        return tuple(file[CRATER][name][...] for name in CRATER_COLUMNS) if CRATER in file else None
+        groups = [file[name] for name in _craters(file)]
+        return {group.attrs.get("target", "target"): tuple(group[name][...] for name in CRATER_COLUMNS) for group in groups}
 
 
 def write_csv(columns: dict[str, np.ndarray], path: Path) -> None:

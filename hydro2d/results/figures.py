@@ -299,19 +299,21 @@ def histories(runs: list, quantities=HISTORIES):
 
 
 def craters(runs: list):
-    """The holes in the targets of runs, mirrored at the axis: radius over the depth below the original surface, in mm.
+    """The holes in all targets of runs, mirrored at the axis: radius over the depth below the first one's surface, in mm.
 
     Holes are long and thin: radii have a scale of their own. The experiment's depth is a line. Raises
     FigureError where no run has a hole.
     """
     figure, ((axes,),) = new_figure(9.0, 4.0, 1, 1)
     for run in runs:
-        z, radius = run.crater
-        if not len(z):
-            continue
-        depth = run.direction * (z - run.surface) * 1e3
-        upper, lower = np.column_stack([depth, radius * 1e3]), np.column_stack([depth, -radius * 1e3])[::-1]
-        axes.plot(*np.concatenate([upper, lower]).T, linewidth=1.2, label=run.label)
+        style = {"label": run.label}
+        for z, radius in run.craters.values():
+            if not len(z):
+                continue
+            depth = run.direction * (z - run.surface) * 1e3
+            upper, lower = np.column_stack([depth, radius * 1e3]), np.column_stack([depth, -radius * 1e3])[::-1]
+            (line,) = axes.plot(*np.concatenate([upper, lower]).T, linewidth=1.2, **style)
+            style = {"color": line.get_color()}
     if not axes.lines:
         raise FigureError("there is no hole to draw")
     for depth in dict.fromkeys(run.measured_depth for run in runs):

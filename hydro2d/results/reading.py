@@ -64,12 +64,17 @@ class Results:
 
     @property
     def crater(self) -> tuple[np.ndarray, np.ndarray]:
-        """Axial positions and radii of the hole in the target at the end, m, shapes (n,), from the entrance to the bottom.
+        """Axial positions and radii of the hole in the first target at the end, m, shapes (n,), from the entrance to the bottom.
 
         Raises HistoryError, and ResultsError where the run has not ended or has no rod and target.
         """
-        found = history.read_crater(self.directory / HISTORY)
-        if found is None:
+        return next(iter(self.craters.values()))
+
+    @property
+    def craters(self) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+        """The same of every target, by its name, in the order in which the rod meets them; raises the same."""
+        found = history.read_craters(self.directory / HISTORY)
+        if not found:
             raise ResultsError(f"{self.directory} has no crater: the run has not ended, or has no rod and target")
         return found
 

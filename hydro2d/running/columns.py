@@ -1,6 +1,6 @@
 """THE list of what a run writes as numbers: the columns of history.h5 and the keys of summary.json, with their meanings.
 
-In a name BODY, STATION and SINK stand for the name of each; a station is `tracer_NAME` or `gauge_NAME`.
+In a name BODY, TARGET, STATION and SINK stand for the name of each; a station is `tracer_NAME` or `gauge_NAME`.
 """
 
 from __future__ import annotations
@@ -42,7 +42,9 @@ SUMMARY: dict[str, str] = {
     "ns_per_cell_cycle": "nanoseconds per cell and cycle",
     "cells": "number of cells",
     **penetrator.QUANTITIES,
-    **{f"crater.{key}": f"hole in the target: {meaning}" for key, meaning in crater.QUANTITIES.items()},
+    **{f"crater.{key}": f"hole in the first target: {meaning}" for key, meaning in crater.QUANTITIES.items()},
+    **{f"targets.TARGET.{key}": f"of each target: {meaning}" for key, meaning in penetrator.PASSAGE.items()},
+    **{f"targets.TARGET.crater.{key}": f"of each target: {meaning}" for key, meaning in crater.QUANTITIES.items()},
     **{f"bodies.BODY.{key}": f"of each body: {meaning}" for key, meaning in bodies.QUANTITIES.items()},
     **{f"stations.STATION.{key}": f"of each tracer and gauge: {meaning}"
        for key, meaning in {**PLACES, **tracers.QUANTITIES, **tracers.PEAKS}.items()},

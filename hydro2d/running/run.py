@@ -296,7 +296,7 @@ class Run:
 
     def _finish(self, status: str, reason: str) -> dict:
         """The last outputs. A restart file never counts the extra row and dump that are written after the end."""
-        self.history.crater = self.sim.crater.profile() if self.sim.crater else None
+        self.history.craters = self.sim.holes()
         if status == "unphysical":
             if self.good is not None:
                 self._save(self.good)
@@ -339,6 +339,7 @@ class Run:
             **dict.fromkeys(ROD_RESULTS),
             **sim.diagnostics(),
             "crater": sim.crater.measure() if sim.crater else None,
+            "targets": sim.of_targets(),
             "bodies": sim.of_bodies(),
             "stations": sim.stations.measure(),
             "experiment": experiment(self.deck),

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from hydro2d.deck import deck as decks
+from hydro2d.solver.targets import Target
 
 #: the target fills a cell, for the wall of the hole, from this share on
 HALF = 0.5
@@ -53,16 +53,15 @@ class Crater:
 
     Parameters
     ----------
-    sim : Simulation with a penetrator
-    deck : its deck
+    sim : Simulation
+    target : the body that the hole is in
+    direction : of the rod's flight along z, 1 or -1
     """
 
-    def __init__(self, sim, deck):
-        self.sim, self.m = sim, sim.penetrator.target
-        self.direction, self.surface = sim.penetrator.direction, sim.penetrator.surface
-        target = decks.slots(deck)[self.m]
-        extents = [decks.extent(body, deck, "z") for body in deck.body if target in (body.name, body.join)]
-        self.low, self.high = min(low for low, _ in extents), max(high for _, high in extents)
+    def __init__(self, sim, target: Target, direction: float):
+        self.sim, self.m = sim, target.m
+        self.direction, self.surface = direction, target.surface
+        self.low, self.high = target.low, target.high
         self.rear = float(self._depth(self.high if self.direction > 0 else self.low))
         self._left: list[tuple[float, float]] = []
         self._next = self._trailing_edge()

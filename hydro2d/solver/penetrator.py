@@ -10,6 +10,7 @@ from hydro2d.deck import deck as decks
 from hydro2d.mesh import sums
 from hydro2d.mesh.edges import BY_NAME
 from hydro2d.mesh.sums import HALF
+from hydro2d.solver.targets import Target
 
 #: the rod is rigid while it has lost less than this share of its length and its radius has grown by less than that
 RIGID_LENGTH, RIGID_RADIUS = 0.02, 0.10
@@ -43,8 +44,16 @@ QUANTITIES = {
     "rod_residual_velocity_m_s": "axial velocity of the core of a rod that has perforated the target or left the mesh",
     "rod_residual_mass_kg": "mass of that core",
     "rod_residual_length_m": "length of a rod that has perforated the target",
-    "exit_time_s": "when the nose was the radius of the rod beyond the rear of the target; null before",
+    "exit_time_s": "when the nose was the radius of the rod beyond the rear of the last target; null before",
     "regime": "rigid, deforming, eroding or left the mesh",
+}
+
+#: what `passages` gives of each target, and its meaning; null while the rod is not through it
+PASSAGE = {
+    "exit_time_s": "when the nose was the radius of the rod beyond the rear of this target",
+    "exit_velocity_m_s": "axial velocity of the rod's core then",
+    "exit_mass_kg": "mass of that core",
+    "exit_length_m": "of the longest run of intact rod on the axis then",
 }
 
 
@@ -58,8 +67,24 @@ class Exit(NamedTuple):
     outflow: float
 
 
+class Passage(NamedTuple):
+    """A rod as it was found to be through a target: the time in s, its core's velocity in m/s and mass in kg, its length in m."""
+
+    time: float
+    velocity: float
+    mass: float
+    length: float
+
+
 class Penetrator:
     """Measures a rod in a simulation.
+
+    Parameters
+    ----------
+    sim : Simulation
+    deck : its deck, which names the rod
+    targets : what the rod is to go through, in the order in which it meets them; the depth is that below the first one's face
+    direction : of its flight along z, 1 or -1
 
     Lengths are taken along the axis, from runs of cells that the rod fills by half or more, so that fragments behind the
     tail do not count: the depth from the deepest run in the columns within half a radius of the axis, failed or not, the rod's
@@ -74,25 +99,22 @@ class Penetrator:
     through any edge changes nothing as long as the core is inside.
     """
 
-    def __init__(self, sim, deck):
+    def __init__(self, sim, deck, targets: list[Target], direction: float):
         self.sim = sim
         body = decks.body(deck, deck.penetration.rod)
         slots = decks.slots(deck)
         self.m = slots.index(body.join or body.name)
-        self.surface = decks.surface(deck)
+        self.targets, self.surface = targets, targets[0].surface
         self.radius = getattr(body, "rod_radius", None) or self._largest_radius(slice(None))
         self._around = 2 * np.pi if sim.grid.cylindrical else 1.0
-        self.direction = 1.0 if sim.mean_velocity(self.m) >= 0 else -1.0
+        self.direction = direction
         grid = sim.grid
         self.columns = max(1, int(np.searchsorted(grid.r_edges[1:], 0.5 * self.radius)))
         self.length = self._length()[0]
-        target = decks.body(deck, deck.penetration.target)
-        self.target = slots.index(target.join or target.name)
-        low, high = decks.extent(target, deck, "z")
-        self.thickness = high - low
+        self._rears = [self.direction * (target.rear - self.surface) for target in targets]
         self.mass = float(sim.body_sums(self.m)[0].sum()) * self._around
         self.exit: Exit | None = None
-        self.through_at: float | None = None
+        self.passed: list[Passage] = []
         self._offset = grid.offset
         ends = (deck.boundaries.z_min, (0, -1.0)), (deck.boundaries.z_max, (grid.nz, 1.0))
         self._open = [end for kind, end in ends if BY_NAME[kind].opens]
@@ -197,9 +219,12 @@ class Penetrator:
     # ------------------------------------------------------------------------------------------------ leaving the mesh
 
     def watch(self) -> None:
-        """After a cycle: remembers the rod as it is when its core reaches an open edge, and when it was through the target."""
-        if self.through_at is None and self.sim.cycle % WATCH_EVERY == 0 and self._near_exit() and self.perforates():
-            self.through_at = self.sim.time
+        """After a cycle: remembers the rod as it is when its core reaches an open edge, and as it is through each target."""
+        while len(self.passed) < len(self.targets) and self.sim.cycle % WATCH_EVERY == 0 and self._near_exit():
+            if not self._through(self.depth(), len(self.passed)):
+                break
+            mass, momentum = self._whole_core()
+            self.passed.append(Passage(self.sim.time, momentum / mass if mass > 0.0 else 0.0, mass, self._length()[0]))
         grid, dt = self.sim.grid, self.sim.dt
         drift = (grid.offset - self._offset) / dt if dt > 0.0 else 0.0
         self._offset = grid.offset
@@ -238,12 +263,12 @@ class Penetrator:
 
     def saved(self) -> dict:
         """What a restart file keeps of it."""
-        return {"exit": self.exit and self.exit._asdict(), "offset": self._offset, "through_at": self.through_at}
+        return {"exit": self.exit and self.exit._asdict(), "offset": self._offset, "passed": self.passed}
 
     def resume(self, saved: dict) -> None:
         """Continues from what was saved."""
         self.exit = Exit(**saved["exit"]) if saved["exit"] else None
-        self._offset, self.through_at = saved["offset"], saved["through_at"]
+        self._offset, self.passed = saved["offset"], [Passage(*one) for one in saved["passed"]]
 
     # ------------------------------------------------------------------------------------------------ what is known
 
@@ -254,22 +279,29 @@ class Penetrator:
         return float(np.sum((g.interior(s.vof)[m] * g.interior(s.rho)[m] * g.volume[g.inside])[failed]) * self._around)
 
     def _near_exit(self) -> bool:
-        """Whether the rod fills half of a cell in the row before the one that its nose has to reach: quick to tell."""
+        """Whether the rod fills half of a cell in the row before the one that its nose has to reach to be through the next
+        target: quick to tell."""
         g, s = self.sim.grid, self.sim.state
-        j = int(np.searchsorted(g.z_edges, self.surface + self.direction * (self.thickness + self.radius))) - 1
+        rear = self._rears[len(self.passed)]
+        j = int(np.searchsorted(g.z_edges, self.surface + self.direction * (rear + self.radius))) - 1
         j -= int(self.direction)
         return 0 <= j < g.nz and any(s.vof[self.m, g.g + j, g.g + i] >= HALF for i in range(self.columns))
 
     def perforates(self) -> bool:
-        """Whether the nose is the rod's radius beyond the rear of the target."""
+        """Whether the nose is the rod's radius beyond the rear of the last target."""
         return self._through(self.depth())
 
-    def _through(self, depth: float) -> bool:
-        return depth >= self.thickness + self.radius
+    def _through(self, depth: float, number: int = -1) -> bool:
+        return depth >= self._rears[number] + self.radius
+
+    def passages(self) -> list[dict[str, float | None]]:
+        """The rod as it was through each target, in their order; None for those it is not through."""
+        missing = [(None,) * len(PASSAGE)] * (len(self.targets) - len(self.passed))
+        return [dict(zip(PASSAGE, one, strict=True)) for one in (*self.passed, *missing)]
 
     def _residual(self, depth: float, core: float, momentum: float) -> tuple[float | None, float | None]:
         """Velocity in m/s and mass in kg of what flies on, from the depth and the core's mass and momentum: of a rod that has
-        left the mesh, those at its edge; of one that has perforated the target, those of now; else None."""
+        left the mesh, those at its edge; of one that has perforated the last target, those of now; else None."""
         if self.left:
             return self.exit.velocity, self.exit.mass
         if core > 0.0 and self._through(depth):
@@ -306,7 +338,7 @@ class Penetrator:
             "rod_mass_kg": mass,
             "rod_core_mass_kg": core,
             "rod_failed_mass_kg": self._failed_mass(self.m),
-            "target_failed_mass_kg": self._failed_mass(self.target),
+            "target_failed_mass_kg": self._failed_mass(self.targets[0].m),
             "rod_max_radius_m": radius,
             "rod_initial_radius_m": self.radius,
             "rod_max_plastic_strain": self._largest_strain(np.nonzero(mass_of_rows)[0]),
@@ -318,6 +350,6 @@ class Penetrator:
             "rod_residual_velocity_m_s": residual_velocity,
             "rod_residual_mass_kg": residual_mass,
             "rod_residual_length_m": length if residual_mass is not None and not self.left else None,
-            "exit_time_s": self.through_at,
+            "exit_time_s": self.passages()[-1]["exit_time_s"],
             "regime": self.regime(length, radius, core),
         }

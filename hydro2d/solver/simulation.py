@@ -20,6 +20,7 @@ from hydro2d.solver.method import Method
 from hydro2d.solver.penetrator import WATCH_EVERY, Penetrator
 from hydro2d.solver.sanity import TRUSTED, faults
 from hydro2d.solver.stations import Stations
+from hydro2d.solver.targets import targets
 
 __all__ = ["Simulation", "UnphysicalState"]
 
@@ -35,7 +36,8 @@ class Simulation:
     ----------
     grid, state, table, ledger : the mesh, the fields, the materials, what is conserved
     stations : the tracers and gauges
-    penetrator, crater : what measures the rod and the hole; None for a deck without rod and target
+    penetrator : what measures the rod; None for a deck without rod and target
+    craters : what measures the hole in each target, in the order in which the rod meets them; empty without rod and target
     """
 
     def __init__(self, deck):
@@ -51,10 +53,18 @@ class Simulation:
         self.engine.prepare()
         self.stations = Stations(self, deck)
         self._rows = np.zeros((2, self.grid.shape[0]))
-        self.penetrator = Penetrator(self, deck) if deck.penetration else None
-        self.crater = Crater(self, deck) if deck.penetration else None
+        self.penetrator, self.craters = self._penetration()
         self.watched = slots.index(deck.stop.body) if deck.stop.body else None
         self._sign = None
+
+    def _penetration(self) -> tuple[Penetrator | None, list[Crater]]:
+        """What measures the rod and the holes in its targets."""
+        if self.deck.penetration is None:
+            return None, []
+        rod = self.deck.penetration.rod
+        direction = 1.0 if self.mean_velocity(decks.slots(self.deck).index(rod)) >= 0.0 else -1.0
+        found = targets(self.deck, direction)
+        return Penetrator(self, self.deck, found, direction), [Crater(self, target, direction) for target in found]
 
     def _mesh(self, slots: list[str], method: Method) -> StandingMesh | FollowingMesh:
         """How the mesh moves."""
@@ -130,7 +140,8 @@ class Simulation:
         self.stations.record()
         if self.penetrator:
             self.penetrator.watch()
-            self.crater.record()
+            for crater in self.craters:
+                crater.record()
 
     def velocity_at(self, points: np.ndarray, group: int | None = None) -> np.ndarray:
         """Velocity (u, v) at points (r, z), shape [n, 2], m/s: of a body group, or of that which the cell moves with."""
@@ -158,7 +169,7 @@ class Simulation:
         if self.cycle % WATCH_EVERY != 0:
             return None
         if stop.perforation and self.penetrator.perforates():
-            return f"perforation of {self.deck.penetration.target}"
+            return f"perforation of {self.deck.penetration.targets[-1]}"
         watches_rod = self.penetrator is not None and self.watched == self.penetrator.m
         if (stop.perforation or (watches_rod and (stop.speed_below is not None or stop.rebound))) and self.penetrator.gone:
             return f"{self.deck.penetration.rod} left the mesh"
@@ -173,6 +184,23 @@ class Simulation:
         return None
 
     # ------------------------------------------------------------------------------------------------ what is known
+
+    @property
+    def crater(self) -> Crater | None:
+        """What measures the hole in the first target."""
+        return self.craters[0] if self.craters else None
+
+    def of_targets(self) -> dict[str, dict]:
+        """The rod as it went through each target, see `penetrator.PASSAGE`, and the hole in it, by the target's name."""
+        if not self.penetrator:
+            return {}
+        return {target.name: {**passage, "crater": crater.measure()} for target, passage, crater in
+                zip(self.penetrator.targets, self.penetrator.passages(), self.craters, strict=True)}
+
+    def holes(self) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+        """Axial positions and radii of the hole in each target, m, shapes (n,), by the target's name."""
+        names = self.deck.penetration.targets if self.deck.penetration else ()
+        return {name: crater.profile() for name, crater in zip(names, self.craters, strict=True)}
 
     def diagnostics(self) -> dict:
         """Depth, rod length, speeds and strain of a penetrator; empty for a deck without one. SI."""
@@ -218,7 +246,7 @@ class Simulation:
         e = self.engine
         return {"time": e.time, "dt": e.dt, "cycle": e.number, "cause": e.cause, "box": [int(x) for x in e.box],
                 "mesh_offset": self.grid.offset, "speed_limit": e.speed_limit, "sign": self._sign, "ledger": e.ledger.saved(),
-                "penetrator": self.penetrator and self.penetrator.saved(), "crater": self.crater and self.crater.saved()}
+                "penetrator": self.penetrator and self.penetrator.saved(), "craters": [crater.saved() for crater in self.craters]}
 
     def load_restart_scalars(self, scalars: dict) -> None:
         """Continues from what `restart_scalars` gave; after `load_restart_arrays`."""
@@ -229,5 +257,6 @@ class Simulation:
         e.ledger = Ledger.resume(scalars["ledger"])
         if self.penetrator:
             self.penetrator.resume(scalars["penetrator"])
-            self.crater.resume(scalars["crater"])
+            for crater, saved in zip(self.craters, scalars["craters"], strict=True):
+                crater.resume(saved)
         e.prepare()

@@ -101,6 +101,12 @@ class Simulation:
         self.state.e *= 1 + self.dt * 1e4 / 3
         self._place()
 
+    def of_targets(self):
+        return {}
+
+    def holes(self):
+        return {}
+
     def diagnostics(self) -> dict:
         return {
             "penetration_depth_m": SPEED * self.time, "rod_length_m": LENGTH, "rod_mass_kg": 0.06,

@@ -52,7 +52,7 @@ history_interval = "1 ns"
 vtk_interval = "1 us"
 """
 NAMES = {
-    "BODY": "rod|plate", "STATION": "tracer_tip|gauge_line_[123]", "SINK": "|".join(audit.SINKS),
+    "BODY": "rod|plate", "TARGET": "plate", "STATION": "tracer_tip|gauge_line_[123]", "SINK": "|".join(audit.SINKS),
     "EXCHANGE": "|".join(audit.EXCHANGES),
 }  # fmt: skip
 
