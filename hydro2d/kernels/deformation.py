@@ -6,6 +6,7 @@ from hydro2d.kernels.spans import block_rows, columns, number_of_blocks, spread
 from hydro2d.materials.rows import DAMAGE, DAMAGE_AT, FACTOR, LOOSE, STRENGTH, STRENGTH_AT, TENSILE
 from hydro2d.mesh.fields import DMG, EP, RHO, SRR, SRZ, SZZ, E
 from hydro2d.mesh.grid import VOL_R
+from hydro2d.physics.fracture import damaged
 from hydro2d.physics.kinematics import hourglass_mode, velocity_gradient
 from hydro2d.physics.plasticity import from_centre, keep_internal, returned, take_internal
 from hydro2d.physics.stress import turn_and_strain, von_mises
@@ -109,7 +110,8 @@ def yield_row(m, j, b, first, n, dt, models, materials, pm, tm, scratch, q):
                 szz_j[i] *= shrink
                 srz_j[i] *= shrink
                 ep_j[i] += dep
-                d_j[i] += damage_increment(models[m, DAMAGE], dep, dep / dt, t_j[i], p_j[i], yield_stress, damage_par)
+                increment = damage_increment(models[m, DAMAGE], dep, dep / dt, t_j[i], p_j[i], yield_stress, damage_par)
+                d_j[i] = damaged(d_j[i], increment)
 
 
 @rowwise
@@ -141,7 +143,7 @@ def internal_row(m, j, b, first, n, dt, models, materials, vof, pm, tm, scratch,
             q[SRZ, m, j, i] = rz
             q[EP, m, j, i] += dep
             increment = damage_increment(models[m, DAMAGE], dep, dep / dt, tm[m, j, i], pm[m, j, i], yield_stress, damage_par)
-            q[DMG, m, j, i] += increment
+            q[DMG, m, j, i] = damaged(q[DMG, m, j, i], increment)
         keep_internal(m, j, i, model, internal[j], q)
 
 
@@ -150,7 +152,7 @@ def expand_row(m, j, b, first, n, metrics, h, fr, fz, vof, scratch, q):
     """Density of body m in the cells of row j that it fills, whose mass stays; no deviator where it has failed or is loose.
 
     Reads    fr, fz [j, i]; vof [m, j, i]; scratch [1, b, i], negative in loose material
-    Updates  q (density, deviators, damage) [k, m, j, i]
+    Updates  q (density, deviators) [k, m, j, i]
     """
     fr_j = fr[j]
     fz_b = fz[j]
@@ -168,7 +170,6 @@ def expand_row(m, j, b, first, n, metrics, h, fr, fz, vof, scratch, q):
         volume = metrics[VOL_R, i] * h
         change = (fr_j[i + 1] - fr_j[i]) + (fz_t[i] - fz_b[i])
         rho_j[i] = rho_j[i] * (volume / (volume + change)) if pure else rho_j[i]
-        d_j[i] = min(d_j[i], 1.0) if pure else d_j[i]
         gone = pure and (d_j[i] >= 1.0 or trial_j[i] < 0.0)
         srr_j[i] = 0.0 if gone else srr_j[i]
         szz_j[i] = 0.0 if gone else szz_j[i]

@@ -8,7 +8,7 @@ from hydro2d.materials.rows import DAMAGE, DAMAGE_AT, EOS, EOS_AT, FACTOR, LOOSE
 from hydro2d.mesh.fields import DMG, EP, RHO, SRR, SRZ, SZZ, E
 from hydro2d.mesh.grid import VOL_R
 from hydro2d.physics.closure import NO_VOID, relaxation_bound, relaxation_strain, softness, split_volume
-from hydro2d.physics.fracture import share_that_stays, tension_limit
+from hydro2d.physics.fracture import damaged, share_that_stays, tension_limit
 from hydro2d.physics.kinematics import hourglass_mode, velocity_gradient
 from hydro2d.physics.plasticity import carries_no_stress, deviator_power, from_centre, keep_internal, returned, take_internal
 from hydro2d.physics.stress import stress_scale, turn_and_strain, von_mises
@@ -252,8 +252,8 @@ def return_deviators(j, i, dt, own, shared_yield, ruler, volume, total, models, 
             keep_internal(m, j, i, model, internal[j], q)
             q[EP, m, j, i] += dep
             damage_par = materials[m, DAMAGE_AT:TENSILE]
-            q[DMG, m, j, i] += damage_increment(models[m, DAMAGE], dep, dep / dt, t_m, p_m, final, damage_par)
-        q[DMG, m, j, i] = min(q[DMG, m, j, i], 1.0)
+            increment = damage_increment(models[m, DAMAGE], dep, dep / dt, t_m, p_m, final, damage_par)
+            q[DMG, m, j, i] = damaged(q[DMG, m, j, i], increment)
         gone = carries_no_stress(q[DMG, m, j, i], rho, materials[m, LOOSE])
         q[SRR, m, j, i] = 0.0 if gone else rr
         q[SZZ, m, j, i] = 0.0 if gone else zz

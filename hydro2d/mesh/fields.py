@@ -19,6 +19,10 @@ RHO, E, SRR, SZZ, SRZ, EP, DMG = range(7)
 #: variables, all that stand before them as well
 CARRIED_FLUID, CARRIED_SOLID, CARRIED_DAMAGE = 2, 6, 7
 
+#: what is stored as the damage of failed material: as far beyond 1 as sound material is below it, so that a cell in which the
+#: remap has mixed both counts as failed, which is from 1 on, where about half of its mass has
+FAILED = 2.0
+
 #: rows that a thread carries through a phase at a time: few enough to stay in its cache
 BLOCK = 32
 
@@ -52,7 +56,7 @@ FIELDS = (
     Field("stress_zz", "szz", "body", "Pa", 1, "volume", True, "axial deviatoric stress"),
     Field("stress_rz", "srz", "body", "Pa", -1, "volume", True, "shear stress"),
     Field("plastic_strain", "ep", "body", "1", 1, "mass", True, "equivalent plastic strain", 0.0),
-    Field("damage", "dmg", "body", "1", 1, "mass", True, "damage, 1 when failed", 0.0, 1.0),
+    Field("damage", "dmg", "body", "1", 1, "mass", True, "damage, from 1 on failed", 0.0, FAILED),
     Field("body_pressure", "pm", "body", "Pa", 1, "", True, "pressure of the body's material"),
     Field("bulk_modulus", "km", "body", "Pa", 1, "", False, "adiabatic bulk modulus rho c^2"),
     Field("temperature", "tm", "body", "K", 1, "", True, "temperature"),

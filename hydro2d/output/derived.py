@@ -134,7 +134,7 @@ EVALUATE: dict[str, Callable[[Cells], np.ndarray]] = {
     "stress_rz": lambda c: c.by_volume(c.srz),
     "stress_tt": lambda c: -c.by_volume(c.srr + c.szz),
     "plastic_strain": lambda c: c.by_mass(c.ep),
-    "damage": lambda c: c.by_mass(c.dmg),
+    "damage": lambda c: c.by_mass(np.minimum(c.dmg, 1.0)),
     "material": Cells.material,
     "velocity_hard": lambda c: c.group_velocity(1),
     "velocity_rest": lambda c: c.group_velocity(0),
@@ -146,7 +146,7 @@ EVALUATE: dict[str, Callable[[Cells], np.ndarray]] = {
     "body_energy": lambda c: c.e,
     "body_temperature": lambda c: c.t,
     "body_plastic_strain": lambda c: c.ep,
-    "body_damage": lambda c: c.dmg,
+    "body_damage": lambda c: np.minimum(c.dmg, 1.0),
 }
 
 

@@ -1,6 +1,14 @@
 """Where material tears, and how much void opens (explanation/fracture)."""
 
 from hydro2d.jit import point
+from hydro2d.mesh.fields import FAILED
+
+@point
+def damaged(before, increment):
+    """Damage after an increment of plastic strain: `FAILED` once it reaches 1 (explanation/fracture, equation 6)."""
+    if before >= 1.0:
+        return before
+    return before + increment if before + increment < 1.0 else FAILED
 
 
 @point

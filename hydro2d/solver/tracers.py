@@ -145,7 +145,7 @@ def sample(g, nr, nz, r, z, group, eos_model, eos_par, vof, q, u, v, points, fou
             found[n, S_RZ] += f * q[SRZ, m, j, i]
             found[n, TEMPERATURE] += mass * temperature
             found[n, STRAIN] += mass * q[EP, m, j, i]
-            found[n, FAILED] += mass * q[DMG, m, j, i]
+            found[n, FAILED] += mass * min(q[DMG, m, j, i], 1.0)
         mass = max(found[n, DENSITY], 1e-300)
         found[n, TEMPERATURE] /= mass
         found[n, STRAIN] /= mass

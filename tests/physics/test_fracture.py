@@ -36,3 +36,13 @@ def test_no_more_opens_in_a_cycle_than_is_allowed():
 @pytest.mark.parametrize("relaxed", [2700.0, 2600.0, 0.0, -1.0])
 def test_where_there_is_no_tension_nothing_opens(relaxed):
     assert share_that_stays(2700.0, relaxed, 0.2) == 1.0
+
+
+@pytest.mark.parametrize(
+    ("before", "increment", "after"),
+    [(0.0, 0.3, 0.3), (0.5, 0.4999, 0.9999), (0.5, 0.5, FAILED), (0.0, 7.0, FAILED), (FAILED, 0.1, FAILED), (1.2, 0.1, 1.2)],
+)
+def test_damage_jumps_once_it_reaches_one(before, increment, after):
+    """As far beyond 1 as sound material is below it; what the remap has mixed stays as it is."""
+    assert damaged(before, increment) == pytest.approx(after, abs=1e-15)
+    assert FAILED == 2.0

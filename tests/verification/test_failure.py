@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from hydro2d.deck import deck
-from hydro2d.mesh.fields import SRR, SRZ
+from hydro2d.mesh.fields import FAILED, SRR, SRZ
 from hydro2d.solver.simulation import Simulation
 from tests.verification.running import finish
 from tests.verification.test_translation import ROD
@@ -78,7 +78,7 @@ CONTACT = SLIP_LAYER.replace("slip-layer", "contact")
 
 
 def fail_everything(simulation: Simulation) -> None:
-    simulation.state.dmg[:] = np.where(simulation.state.vof > 0.0, 1.0, 0.0)
+    simulation.state.dmg[:] = np.where(simulation.state.vof > 0.0, FAILED, 0.0)
 
 
 def failed(simulation: Simulation) -> np.ndarray:
@@ -95,7 +95,20 @@ def test_what_has_failed_stays_failed_while_it_moves(advection):
     while simulation.stop_reason() is None:
         simulation.step()
     present = simulation.state.vof > 0.0
-    assert np.all(simulation.state.dmg[present] == 1.0)
+    assert np.all(simulation.state.dmg[present] == FAILED)
+
+
+@pytest.mark.parametrize("cells", [4, 8])
+def test_a_thin_failed_layer_does_not_heal_as_it_moves(cells):
+    """Rows of a rod that have failed, across 24 cells: what mixes with sound material by halves counts as failed."""
+    simulation = Simulation(deck.loads(FLIGHT, ["stop.time=12 us"]))
+    grid, s = simulation.grid, simulation.state
+    middle = int(np.median(np.nonzero(grid.interior(s.vof)[0].sum(axis=1))[0]))
+    grid.interior(s.dmg)[0, middle - cells // 2 : middle + cells // 2] = FAILED
+    before = simulation.of_bodies()["rod"]["failed_mass_kg"]
+    while simulation.stop_reason() is None:
+        simulation.step()
+    assert 0.75 * before < simulation.of_bodies()["rod"]["failed_mass_kg"] < 1.1 * before
 
 
 @pytest.mark.parametrize(("broken", "speed"), [(True, 20.0), (False, 0.0)], ids=["failed", "intact"])
