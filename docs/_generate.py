@@ -305,7 +305,8 @@ def results_page() -> str:
 
     return "\n\n".join([
         "# Results", NOTE,
-        "In a name, `BODY` stands for the name of a body, `TARGET` for that of a target, `STATION` for `tracer_NAME` or `gauge_NAME`, `SINK` and `EXCHANGE` "
+        "In a name, `BODY` stands for the name of a body, `TARGET` for that of a target, "
+        "`STATION` for `tracer_NAME` or `gauge_NAME`, `SINK` and `EXCHANGE` "
         "for one of the [names below](#sinks-and-exchanges). All numbers are in SI units, of the whole circumference, and in "
         "planar geometry per metre of depth. A number that is not known is NaN in the history and `null` in the summary: that "
         "of a rod in a deck without rod and target, of a station outside of the mesh.",

@@ -291,7 +291,7 @@ def _is_the_shot(deck: Deck) -> bool:
 
 
 def _in_the_way(deck: Deck, rod, plates: list) -> list[str]:
-    """Names of the plates and boxes that a rod's axis goes through ahead of it, in its order; the first of them if none does."""
+    """Names of the plates and boxes that a rod's axis goes through ahead of it, in its order; the first one if none does."""
     here, sign = sum(extent(rod, deck, "z")), heading(rod)
     across = [entry for entry in plates if extent(entry, deck, "r")[0] <= deck.mesh.r_start]
     ahead = [entry for entry in across if sign * (sum(extent(entry, deck, "z")) - here) > 0.0]

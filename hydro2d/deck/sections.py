@@ -218,7 +218,9 @@ class Stop(Section):
     body: str | None = Field(None, description="the body watched; default: the rod")
     speed_below: PositiveSpeed | None = Field(None, description="axial speed of that body's centre of mass, of a rod's core")
     rebound: bool = Field(False, description="stop when that body turns round")
-    perforation: bool = Field(False, description="stop when the rod's nose is the rod's radius beyond the rear of the last target")
+    perforation: bool = Field(
+        False, description="stop when the rod's nose is the rod's radius beyond the rear of the last target"
+    )
 
 
 def _directory(value: str) -> str:
@@ -315,7 +317,7 @@ class Penetration(Section):
         if self.target is None and not self.targets:
             raise ValueError("target or targets is missing: the bodies that are penetrated")
         if self.target is not None and self.targets and self.target != self.targets[0]:
-            raise ValueError(f'target is "{self.target}" and the first of targets "{self.targets[0]}"; one of the keys is enough')
+            raise ValueError(f'target is "{self.target}" and the first of targets "{self.targets[0]}"; give one of the keys')
         if len(set(self.targets)) < len(self.targets):
             raise ValueError("targets names a body twice")
         return self

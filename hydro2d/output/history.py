@@ -1,8 +1,8 @@
 """history.h5: one 1-D dataset per quantity against time, and at the end of a run the holes in the targets.
 
 Every dataset carries `units` and has `time` as its dimension scale, so that xarray opens the file as it stands. The hole in the
-first target is the group `crater`: its radius over its axial positions. Those in further targets are `crater_NAME`. The file is rewritten whole, beside its place, and renamed:
-a run that is killed leaves the last complete one.
+first target is the group `crater`: its radius over its axial positions. Those in further targets are `crater_NAME`. The file is
+rewritten whole, beside its place, and renamed: a run that is killed leaves the last complete one.
 """
 
 from __future__ import annotations

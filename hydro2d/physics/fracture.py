@@ -3,6 +3,7 @@
 from hydro2d.jit import point
 from hydro2d.mesh.fields import FAILED
 
+
 @point
 def damaged(before, increment):
     """Damage after an increment of plastic strain: `FAILED` once it reaches 1 (explanation/fracture, equation 6)."""

@@ -64,7 +64,7 @@ class Results:
 
     @property
     def crater(self) -> tuple[np.ndarray, np.ndarray]:
-        """Axial positions and radii of the hole in the first target at the end, m, shapes (n,), from the entrance to the bottom.
+        """Axial positions and radii of the hole in the first target at the end, m, shapes (n,), from entrance to bottom.
 
         Raises HistoryError, and ResultsError where the run has not ended or has no rod and target.
         """

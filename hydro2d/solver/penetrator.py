@@ -68,7 +68,7 @@ class Exit(NamedTuple):
 
 
 class Passage(NamedTuple):
-    """A rod as it was found to be through a target: the time in s, its core's velocity in m/s and mass in kg, its length in m."""
+    """A rod when it was found to be through a target: time in s, velocity in m/s and mass in kg of its core, length in m."""
 
     time: float
     velocity: float

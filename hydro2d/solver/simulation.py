@@ -246,7 +246,8 @@ class Simulation:
         e = self.engine
         return {"time": e.time, "dt": e.dt, "cycle": e.number, "cause": e.cause, "box": [int(x) for x in e.box],
                 "mesh_offset": self.grid.offset, "speed_limit": e.speed_limit, "sign": self._sign, "ledger": e.ledger.saved(),
-                "penetrator": self.penetrator and self.penetrator.saved(), "craters": [crater.saved() for crater in self.craters]}
+                "penetrator": self.penetrator and self.penetrator.saved(),
+                "craters": [crater.saved() for crater in self.craters]}
 
     def load_restart_scalars(self, scalars: dict) -> None:
         """Continues from what `restart_scalars` gave; after `load_restart_arrays`."""

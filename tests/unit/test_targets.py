@@ -136,7 +136,8 @@ def test_the_hole_in_each_target(shot):
 def test_the_picture_has_both(shot):
     (axes,) = figures.craters([shot]).axes
     holes = [line for line in axes.lines if len(line.get_xdata()) > 2]
-    assert len(holes) == 2 and holes[0].get_color() == holes[1].get_color()
+    assert len(holes) == 2
+    assert holes[0].get_color() == holes[1].get_color()
     assert [text.get_text() for text in axes.get_legend().get_texts()] == [shot.label]
 
 
