@@ -136,7 +136,7 @@ def _explained(entry: dict, data: dict) -> tuple[tuple, str]:
     if kind == "value_error":
         return path, str(context["error"])
     if kind == "literal_error":
-        allowed = context["expected"].replace("'", '"').replace(" or ", ", ")
+        allowed = context["expected"].replace("'", '"').replace(" or ", ", ").replace("False, True", "false, true")
         return path, unknown("value", str(entry["input"]), [word.strip('" ') for word in allowed.split(",")])
     if kind == "union_tag_not_found":
         return (*path, "shape"), f"is missing (allowed: {', '.join(SHAPES)})"

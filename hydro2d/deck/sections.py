@@ -218,8 +218,8 @@ class Stop(Section):
     body: str | None = Field(None, description="the body watched; default: the rod")
     speed_below: PositiveSpeed | None = Field(None, description="axial speed of that body's centre of mass, of a rod's core")
     rebound: bool = Field(False, description="stop when that body turns round")
-    perforation: bool = Field(
-        False, description="stop when the rod's nose is the rod's radius beyond the rear of the last target"
+    perforation: Literal[False, True, "tail"] = Field(
+        False, description="stop when the rod's nose is the rod's radius beyond the last target's rear, or its tail beyond that"
     )
 
 

@@ -80,8 +80,16 @@ def _jumps(deck: Deck) -> Iterator[str]:
 def _short_mesh(deck: Deck) -> Iterator[str]:
     if deck.mesh.follow is not None:
         ahead = room(deck, axis_edges(deck, "z"))[0] / extent(body(deck, deck.mesh.follow), deck, "r")[1]
-        if ahead < AHEAD:
+        if ahead < AHEAD and not _within_the_mesh(deck):
             yield f'mesh.follow: the mesh ends {ahead:.3g} radii ahead of "{deck.mesh.follow}"; its edge is felt below {AHEAD}'
+
+
+def _within_the_mesh(deck: Deck) -> bool:
+    """Whether all targets end before the mesh does, so that its edge cuts none of them."""
+    edges = axis_edges(deck, "z")
+    named = deck.penetration.targets if deck.penetration else ()
+    extents = [extent(body(deck, name), deck, "z") for name in named]
+    return bool(extents) and all(edges[0] < low and high < edges[-1] for low, high in extents)
 
 
 def _yielding_rods(deck: Deck) -> Iterator[str]:

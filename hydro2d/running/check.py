@@ -189,7 +189,7 @@ def _stop(stop) -> str:
     parts += [f"{stop.cycles} cycles"] if stop.cycles else []
     parts += [f"speed of {stop.body} below {stop.speed_below:g} m/s"] if stop.speed_below else []
     parts += [f"rebound of {stop.body}"] if stop.rebound else []
-    parts += ["perforation"] if stop.perforation else []
+    parts += [{True: "perforation", "tail": "tail of the rod through"}[stop.perforation]] if stop.perforation else []
     return ", or ".join(parts)
 
 

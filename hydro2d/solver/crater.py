@@ -18,8 +18,8 @@ PIECE = 0.05
 
 #: what `measure` gives, and its meaning
 QUANTITIES = {
-    "entrance_diameter_m": "in the first row of cells below the original surface",
-    "exit_diameter_m": "in the last row of cells before the rear face; null while the target is not shot through",
+    "entrance_diameter_m": "in the first row below the original surface from which the wall is steeper than 45 degrees",
+    "exit_diameter_m": "in the last such row, also beyond the original rear face; null while the hole is not open at its end",
     "mean_diameter_m": "of the cylinder with the volume and depth of the hole; null where there is none",
     "volume_m3": "of the hole, the whole circumference; in planar geometry of the meshed half, per metre",
     "depth_m": "from the original surface to the bottom on the axis; the target's thickness where that is shot through",
@@ -150,8 +150,9 @@ class Crater:
 
     # ------------------------------------------------------------------------------------------------ what is known
 
-    def _hole(self) -> tuple[np.ndarray, np.ndarray, np.ndarray, float]:
-        """Near and far ends of the hole's rows as depths and their radii, all (n,), and the depth of the bottom; m."""
+    def _hole(self) -> tuple[np.ndarray, np.ndarray, np.ndarray, float, bool]:
+        """Near and far ends of the hole's rows as depths and their radii, all (n,), and the depth of the bottom; m. Last,
+        whether the hole is open at its end."""
         rows = self._rows()
         bottom, depth = self._bottom(rows)
         live = np.nonzero(np.isfinite(rows.radius[: bottom + 1]))[0]
@@ -163,27 +164,33 @@ class Crater:
         far = np.concatenate([between, [edge] * min(len(left), 1), rows.far[live]])
         radius = np.concatenate([left[:, 1], rows.radius[live]])
         count = int(np.max(np.nonzero(radius)[0], initial=-1)) + 1
-        return near[:count], far[:count], radius[:count], depth
+        return near[:count], far[:count], radius[:count], depth, bottom == len(rows.radius)
+
+    @staticmethod
+    def _ends(middles: np.ndarray, radius: np.ndarray) -> tuple[int, int]:
+        """First and last row of a hole that lie in a wall steeper than 45 degrees; twice the middles and the radii, m."""
+        steep = np.nonzero(2.0 * np.abs(np.diff(radius)) <= np.diff(middles))[0]
+        return (int(steep[0]), int(steep[-1]) + 1) if len(steep) else (0, len(radius) - 1)
 
     def profile(self) -> tuple[np.ndarray, np.ndarray]:
         """Axial positions and radii of the hole in m, shapes (n,), along the rod's flight from the entrance to the bottom.
 
         Rows of a lip before the target's original face and of a bulge behind its rear are in it; it is empty before impact.
         """
-        near, far, radius, _ = self._hole()
+        near, far, radius, _, _ = self._hole()
         return self.surface + self.direction * 0.5 * (near + far), radius
 
     def measure(self) -> dict:
         """What summary.json says of the hole; SI, whole circumference, within the target's original faces.
 
-        The entrance is the first row below the original surface; the mean diameter is that of the cylinder (in planar
+        A target that has bent has no hole where the rod first touched it, so that the entrance is where the wall becomes
+        steeper than 45 degrees, and the exit where it was so last. The mean diameter is that of the cylinder (in planar
         geometry: the slot) with the hole's volume and depth, None where there is no hole.
         """
-        near, far, radius, depth = self._hole()
+        near, far, radius, depth, through = self._hole()
         below = near + far > 0.0
         near, far, radius = near[below], far[below], radius[below]
-        inside = near + far < 2.0 * self.rear
-        through = bool(inside.any()) and depth >= self.rear
+        mouth, end = self._ends(near + far, radius)
         near[:1] = np.minimum(near[:1], 0.0)  # a row that the original face cuts has no wall where less than half is left
         height = np.maximum(np.minimum(far, self.rear) - np.maximum(near, 0.0), 0.0)
         cylindrical = self.sim.grid.cylindrical
@@ -192,8 +199,8 @@ class Crater:
         if depth > 0.0:
             mean = 2.0 * (float(np.sqrt(volume / (np.pi * depth))) if cylindrical else volume / depth)
         return {
-            "entrance_diameter_m": 2.0 * float(radius[0]) if len(radius) else 0.0,
-            "exit_diameter_m": 2.0 * float(radius[inside][-1]) if through else None,
+            "entrance_diameter_m": 2.0 * float(radius[mouth]) if len(radius) else 0.0,
+            "exit_diameter_m": 2.0 * float(radius[end]) if len(radius) and through else None,
             "mean_diameter_m": mean,
             "volume_m3": volume,
             "depth_m": depth,

@@ -291,6 +291,12 @@ class Penetrator:
         """Whether the nose is the rod's radius beyond the rear of the last target."""
         return self._through(self.depth())
 
+    def cleared(self) -> bool:
+        """Whether the tail is beyond the original rear of the last target; false where no intact rod is on the axis."""
+        length, low, high = self._length()
+        tail = self.direction * ((low if self.direction > 0 else high) - self.surface)
+        return length > 0.0 and tail >= self._rears[-1]
+
     def _through(self, depth: float, number: int = -1) -> bool:
         return depth >= self._rears[number] + self.radius
 

@@ -168,7 +168,7 @@ class Simulation:
             return "number of cycles"
         if self.cycle % WATCH_EVERY != 0:
             return None
-        if stop.perforation and self.penetrator.perforates():
+        if stop.perforation and self.penetrator.perforates() and (stop.perforation != "tail" or self.penetrator.cleared()):
             return f"perforation of {self.deck.penetration.targets[-1]}"
         watches_rod = self.penetrator is not None and self.watched == self.penetrator.m
         if (stop.perforation or (watches_rod and (stop.speed_below is not None or stop.rebound))) and self.penetrator.gone:

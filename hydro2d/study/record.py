@@ -85,9 +85,13 @@ class Record:
 
     @property
     def perforated(self) -> bool:
-        """Whether the rod went through the target at any time, even if it has left the mesh since."""
-        if self.case.summary.get("exit_time_s") is not None:
-            return True
+        """Whether the rod went through the target at any time, even if it has left the mesh since.
+
+        Not where it came to rest, or turned round, with its nose beyond the rear: in a bulge, or stuck in its hole.
+        """
+        if "exit_time_s" in self.case.summary:
+            rested = (self.case.summary.get("stop_reason") or "").startswith(("speed of", "rebound of"))
+            return self.case.summary["exit_time_s"] is not None and not rested
         thickness = self.setup.thickness if self.setup else None
         return thickness is not None and max(self.deepest, self.value("penetration_depth_m") or 0.0) >= thickness
 

@@ -116,6 +116,22 @@ def test_a_hole_right_through(options):
     assert found["ejected_velocity_m_s"] == pytest.approx(sign * 300.0, rel=1e-9)
 
 
+def test_a_plate_that_has_bent():
+    """Its face leans by more than 45 degrees from 11 mm in; the hole begins where the wall is upright."""
+    sim = simulation()
+    carve(sim, (3e-3, 24e-3), (RADIUS, 4e-3), (11e-3, 0.0))
+    found = sim.crater.measure()
+    assert found["entrance_diameter_m"] == pytest.approx(2 * RADIUS, rel=0.05)
+    assert found["exit_diameter_m"] == pytest.approx(6e-3, rel=0.02)
+
+
+def test_a_bulge_closes_the_hole():
+    sim = simulation()
+    fraction = carve(sim, *cylinder(24e-3))
+    fraction[1][(sim.grid.zc[sim.grid.inside[0]] > 24e-3) & (sim.grid.zc[sim.grid.inside[0]] < 26e-3)] = 1.0
+    assert sim.crater.measure()["exit_diameter_m"] is None
+
+
 def test_a_cone():
     """Each row has the area of its part of the cone; of the tip only the last millimetre, thinner than a cell, is lost."""
     sim = simulation()

@@ -125,8 +125,9 @@ def test_the_rod_behind_each_target(shot):
 def test_the_hole_in_each_target(shot):
     front, rear = (shot.summary["targets"][name]["crater"] for name in ("front", "rear"))
     assert shot.summary["crater"] == front
-    assert 9.5e-3 < front["exit_diameter_m"] < 15e-3
-    assert rear["entrance_diameter_m"] > 9.5e-3
+    assert 10e-3 < front["exit_diameter_m"] < 16e-3
+    assert 10e-3 < rear["entrance_diameter_m"] < 20e-3
+    assert rear["exit_diameter_m"] is None  # the bulge still caps the hole
     assert list(shot.craters) == ["front", "rear"]
     assert [0.0 <= z[0] and z[-1] < 11e-3 or z[0] > 9e-3 for z, _ in shot.craters.values()] == [True, True]
     assert shot.crater[0] is not None
@@ -179,3 +180,17 @@ def test_the_models_take_one_target(tmp_path, capsys):
                     .replace('z_start = "-13 mm"', 'z_start = "-25 mm"'))  # fmt: skip
     assert call(["model", "forrestal", "--deck", str(deck)]) == 2
     assert "the models take one target" in capsys.readouterr().err
+
+
+def test_a_run_to_the_end_of_the_tail():
+    """The ball goes on until all of it is beyond the rear, and its velocity falls on the way."""
+    early, late = (Simulation(decks.loads(TEXT, [option, 'penetration.rod="ball"', 'penetration.target="front"']))
+                   for option in ("stop.perforation=true", 'stop.perforation="tail"'))  # fmt: skip
+    for sim in (early, late):
+        while (reason := sim.stop_reason()) is None:
+            sim.step()
+        assert reason == "perforation of front"
+    assert late.time > early.time + 1e-6
+    tail = late.penetrator._length()[1]
+    assert 3e-3 <= tail < 5e-3
+    assert late.diagnostics()["rod_residual_velocity_m_s"] < early.diagnostics()["rod_residual_velocity_m_s"]

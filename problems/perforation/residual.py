@@ -1,0 +1,125 @@
+"""Residual against striking velocity of the Weldox 460 E shots, beside the experiments: a table in Markdown, and a figure.
+
+    python -m problems.perforation.residual STUDY [STUDY ...] [--figure PATH]
+
+Cases that are not done are left out. The ballistic limits are those of Lambert and Jonas' formula, fitted to the shots and to
+the runs alike.
+"""
+
+from __future__ import annotations
+
+import argparse
+import csv
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from hydro2d.errors import InputError
+from hydro2d.penetration import lambert_jonas
+from hydro2d.results import figures
+from hydro2d.study import layout
+from hydro2d.study.layout import StudyError
+
+COLOURS = {"blunt": "#1f4e79", "hemispherical": "#b5651d"}
+
+
+@dataclass(frozen=True)
+class Run:
+    """A case: nose, striking and residual velocity (m/s; 0 where the rod was held), plug (kg, m/s), exit diameter (m)."""
+
+    nose: str
+    striking: float
+    residual: float
+    plug: float | None = None
+    plug_velocity: float | None = None
+    hole: float | None = None
+
+
+def experiments() -> dict[tuple[str, float], float]:
+    """Residual by nose and striking velocity, m/s, of weldox_460e.csv."""
+    with open(Path(__file__).with_name("weldox_460e.csv"), encoding="utf-8") as file:
+        return {(row["nose"], float(row["striking_m_s"])): float(row["residual_m_s"]) for row in csv.DictReader(file)}
+
+
+def runs(directories: list[Path]) -> list[Run]:
+    """The cases that are done, by nose and velocity. Raises StudyError."""
+    found = []
+    for directory in directories:
+        for case in layout.read(directory).cases:
+            if case.status == layout.DONE and "nose" in case.values:
+                told, striking = case.summary, float(case.values["velocity"].split()[0])
+                through = told["stop_reason"].startswith("perforation")
+                crater = told["crater"]
+                found.append(Run(case.values["nose"], striking, told["rod_residual_velocity_m_s"] if through else 0.0,
+                                 *((crater["ejected_mass_kg"], crater["ejected_velocity_m_s"], crater["exit_diameter_m"])
+                                   if through else ())))  # fmt: skip
+    return sorted(found, key=lambda run: (run.nose, -run.striking))
+
+
+def limit(pairs: list[tuple[float, float]]) -> str:
+    """Ballistic limit by a fit to (striking, residual) velocities in m/s, with a and p; why not where there is none."""
+    try:
+        fit = lambert_jonas.fit(*zip(*pairs, strict=True))
+    except InputError as error:
+        return str(error)
+    return f"{fit.limit_velocity:.1f} m/s (a = {fit.a:.2f}, p = {fit.p:.2f})"
+
+
+def _number(value: float | None, factor: float, digits: int) -> str:
+    return "" if value is None else f"{factor * value:.{digits}f}"
+
+
+def table(found: list[Run]) -> list[str]:
+    """Lines of Markdown."""
+    measured = experiments()
+    lines = ["| nose | striking, m/s | residual: experiment | hydro2d | difference | plug and debris | hole at the rear |",
+             "|---" * 7 + "|"]  # fmt: skip
+    for run in found:
+        there = measured.get((run.nose, run.striking))
+        difference = "" if there is None else f"{run.residual - there:+.0f} m/s"
+        plug = "" if not run.plug else f"{1e3 * run.plug:.0f} g at {run.plug_velocity:.0f} m/s"
+        lines.append(f"| {run.nose} | {run.striking:g} | {_number(there, 1.0, 1)} | {run.residual:.1f} | {difference} | {plug} | "
+                     f"{_number(run.hole, 1e3, 1)}{'' if run.hole is None else ' mm'} |")  # fmt: skip
+    for nose in dict.fromkeys(run.nose for run in found):
+        shots = [(striking, left) for (name, striking), left in measured.items() if name == nose]
+        lines += ["", f"Ballistic limit, {nose}: {limit(shots)} by the shots, "
+                      f"{limit([(run.striking, run.residual) for run in found if run.nose == nose])} by the runs"]  # fmt: skip
+    return lines
+
+
+def draw(found: list[Run]):
+    """A matplotlib Figure: runs filled, experiments open."""
+    figure, ((axes,),) = figures.new_figure(6.0, 4.4, 1, 1)
+    measured = experiments()
+    for nose, colour in COLOURS.items():
+        mine = np.array([(run.striking, run.residual) for run in found if run.nose == nose]).reshape(-1, 2)
+        shots = np.array([(striking, left) for (name, striking), left in measured.items() if name == nose])
+        axes.plot(*shots.T, "o", markerfacecolor="none", color=colour, label=f"{nose}, experiment")
+        axes.plot(*mine.T, ".-", color=colour, label=f"{nose}, hydro2d")
+    axes.set_xlabel("striking velocity [m/s]")
+    axes.set_ylabel("residual velocity [m/s]")
+    axes.legend()
+    return figure
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Prints the table and draws the figure; 2 where a directory is not a study."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("studies", nargs="+", type=Path)
+    parser.add_argument("--figure", type=Path)
+    given = parser.parse_args(arguments)
+    try:
+        found = runs(given.studies)
+    except StudyError as error:
+        print(error, file=sys.stderr)
+        return 2
+    print("\n".join(table(found)))
+    if given.figure:
+        figures.save(draw(found), given.figure)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
