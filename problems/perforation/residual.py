@@ -16,8 +16,8 @@ from pathlib import Path
 
 import numpy as np
 
-from hydro2d.errors import InputError
 from hydro2d.penetration import lambert_jonas
+from hydro2d.penetration.model import InputError
 from hydro2d.results import figures
 from hydro2d.study import layout
 from hydro2d.study.layout import StudyError
@@ -67,10 +67,6 @@ def limit(pairs: list[tuple[float, float]]) -> str:
     return f"{fit.limit_velocity:.1f} m/s (a = {fit.a:.2f}, p = {fit.p:.2f})"
 
 
-def _number(value: float | None, factor: float, digits: int) -> str:
-    return "" if value is None else f"{factor * value:.{digits}f}"
-
-
 def table(found: list[Run]) -> list[str]:
     """Lines of Markdown."""
     measured = experiments()
@@ -80,8 +76,9 @@ def table(found: list[Run]) -> list[str]:
         there = measured.get((run.nose, run.striking))
         difference = "" if there is None else f"{run.residual - there:+.0f} m/s"
         plug = "" if not run.plug else f"{1e3 * run.plug:.0f} g at {run.plug_velocity:.0f} m/s"
-        lines.append(f"| {run.nose} | {run.striking:g} | {_number(there, 1.0, 1)} | {run.residual:.1f} | {difference} | {plug} | "
-                     f"{_number(run.hole, 1e3, 1)}{'' if run.hole is None else ' mm'} |")  # fmt: skip
+        hole = "" if run.hole is None else f"{1e3 * run.hole:.1f} mm"
+        shot = "" if there is None else f"{there:.1f}"
+        lines.append(f"| {run.nose} | {run.striking:g} | {shot} | {run.residual:.1f} | {difference} | {plug} | {hole} |")
     for nose in dict.fromkeys(run.nose for run in found):
         shots = [(striking, left) for (name, striking), left in measured.items() if name == nose]
         lines += ["", f"Ballistic limit, {nose}: {limit(shots)} by the shots, "

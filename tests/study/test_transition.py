@@ -460,6 +460,15 @@ def test_a_ballistic_limit_is_searched(tmp_path, capsys):
     assert "rigid" not in shown
 
 
+def test_a_rod_that_stops_in_a_bulge_has_not_perforated(tmp_path):
+    """Its nose was beyond the rear, and it turned round."""
+    stuck = {"regime": "rigid", "depth": 0.6, "exit_time_s": 4e-4, "rod_residual_velocity_m_s": 2.0,
+             "stop_reason": "rebound of rod"}  # fmt: skip
+    client = made_up.Client(lambda velocity, deck: stuck if velocity < 1185.0 else plate(velocity, deck))
+    _, found = search(tmp_path, client, LIMIT)
+    assert brackets(found) == [{"ballistic limit": (1150, 1200)}]
+
+
 def test_a_rod_that_left_sideways_has_no_say_in_a_ballistic_limit(tmp_path):
     gone = {"depth": 0.1, "regime": "left the mesh", "rod_mass_kg": 0.0}
     client = made_up.Client(lambda velocity, deck: gone if velocity == 900.0 else plate(velocity, deck))
