@@ -108,7 +108,8 @@ def _gas_in_contact(deck: Deck) -> Iterator[str]:
 def _no_failure(deck: Deck) -> Iterator[str]:
     """Bodies with strength that cannot fail in a way that the deck or their material speaks of.
 
-    A deck that says itself that failure.damage is "none" means it; a resolved deck says so of every deck.
+    A deck that says itself that failure.damage is "none" means it, and so does a material whose damage model is "none" in as many
+    words; a resolved deck says so of every deck.
     """
     failure = deck.failure
     forgotten = failure.damage == "none" and "damage" not in failure.model_fields_set
@@ -126,7 +127,7 @@ def _no_failure(deck: Deck) -> Iterator[str]:
                 f'body "{entry.name}": {material.name} has no fracture_pressure, so that with failure.tensile = '
                 '"material" it never fractures in tension'
             )
-        if material.damage.name == "none" and failure.damage == "material":
+        if material.damage.name == "none" and failure.damage == "material" and not material.says_damage:
             yield (
                 f'body "{entry.name}": {material.name} has no damage model, so that with failure.damage = "material" '
                 "it is never damaged"

@@ -72,6 +72,8 @@ class Material:
     damage: Model
     fracture_pressure: Number | None
     variants: Mapping[str, str] = field(default_factory=dict)
+    #: whether it says itself what its damage is, even that it has none
+    says_damage: bool = field(default=False, compare=False)
 
     @property
     def reference_density(self) -> float:
@@ -284,7 +286,7 @@ def _build(name: str, raw: dict, fail: Fail) -> Material:
             raise fail(("fracture_pressure",), f"must be positive (a tension), is {fracture.value:g}")
     variants = {key: str(entry.get("title", "")) for key, entry in raw.get("variants", {}).items()}
     title, note = str(raw.get("title", "")), str(raw.get("note", ""))
-    return Material(name, title, note, eos, strength, damage, fracture, variants)
+    return Material(name, title, note, eos, strength, damage, fracture, variants, raw.get("damage") is not None)
 
 
 def _model(raw, part: str, models: Mapping[str, ModuleType], default: str | None, eos: Mapping, fail: Fail) -> Model:
