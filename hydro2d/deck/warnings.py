@@ -108,8 +108,8 @@ def _gas_in_contact(deck: Deck) -> Iterator[str]:
 def _no_failure(deck: Deck) -> Iterator[str]:
     """Bodies with strength that cannot fail in a way that the deck or their material speaks of.
 
-    A deck that says itself that failure.damage is "none" means it, and so does a material whose damage model is "none" in as many
-    words; a resolved deck says so of every deck.
+    A deck that says itself that failure.damage is "none" means it, and so does a material that says itself that its damage
+    model is "none"; a resolved deck says so of every deck.
     """
     failure = deck.failure
     forgotten = failure.damage == "none" and "damage" not in failure.model_fields_set

@@ -424,8 +424,8 @@ BARE = changed("W_alloy", "Al7075_T6")
         (DAMAGED.replace("Al5083", "alloy") + '[failure]\ndamage = "material"', None),
         (DAMAGED + '[failure]\ndamage = "material"',
          'body "plate": Al5083 has no damage model, so that with failure.damage = "material" it is never damaged'),
-        (DAMAGED.replace("[materials.alloy]", '[materials.plate_alloy]\nbased_on = "Al5083"\ndamage.model = "none"\n[materials.alloy]')
-         .replace('material = "Al5083"', 'material = "plate_alloy"') + '[failure]\ndamage = "material"', None),
+        (DAMAGED.replace('material = "Al5083"', 'material = "plate_alloy"') + '[materials.plate_alloy]\nbased_on = "Al5083"\n'
+         'damage.model = "none"\n[failure]\ndamage = "material"', None),
         (BARE, 'body "rod": Al7075_T6 has no fracture_pressure, so that with failure.tensile = "material" it never '
                "fractures in tension"),
         (BARE + '[failure]\ntensile = "none"', None),
