@@ -1,10 +1,10 @@
 """Depth against velocity of the shots' rods, from studies of laws, meshes or plates: a table in Markdown, and a figure.
 
-    python -m problems.cth_nose_shape.rigid_rod STUDY [STUDY ...] [--figure PATH]
+    python -m problems.cth_nose_shape.rigid_rod STUDY [STUDY ...] [--figure PATH] [--list]
 
 A row is a shot, a column what else the studies vary. Beside the runs stand the experiments and, in the figure, two analytic
 models: `forrestal`, a rod that stays rigid, and `tate`, one that erodes, on the runs' own decks. Cases that are not done are
-left out.
+left out. `--list` prints another table: every case of the studies, done or not, with what became of it.
 """
 
 from __future__ import annotations
@@ -103,6 +103,24 @@ def table(found: dict[str, dict[Shot, layout.Case]]) -> list[str]:
     return lines
 
 
+def listing(directories: list[Path]) -> list[str]:
+    """Lines of Markdown: a line for each case of the studies. Raises StudyError."""
+    lines = ["| study | case | depth | loss of length | regime | end | minutes |", "|---" * 7 + "|"]
+    for directory in directories:
+        study = layout.read(directory)
+        for case in study.cases:
+            told = case.summary
+            words = [study.name, ", ".join(case.values.values())]
+            if told.get("penetration_depth_m") is None:
+                lines.append("| " + " | ".join([*words, "", "", "", case.status, ""]) + " |")
+                continue
+            loss = 100.0 * (1.0 - told["rod_length_m"] / told["rod_initial_length_m"])
+            words += [f"{1e2 * told['penetration_depth_m']:.1f} cm", f"{loss:.1f} %", told["regime"]]
+            end = told["stop_reason"] if case.status == layout.DONE else f"{case.status}: {told['stop_reason']}"
+            lines.append("| " + " | ".join([*words, end, f"{told['wall_s'] / 60:.1f}"]) + " |")
+    return lines
+
+
 def draw(found: dict[str, dict[Shot, layout.Case]]):
     """A matplotlib Figure: a panel for each alloy, hemispherical noses filled, ogival ones open."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -151,8 +169,12 @@ def main(arguments: list[str] | None = None) -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("studies", nargs="+", type=Path)
     parser.add_argument("--figure", type=Path)
+    parser.add_argument("--list", action="store_true", dest="every", help="every case instead")
     given = parser.parse_args(arguments)
     try:
+        if given.every:
+            print("\n".join(listing(given.studies)))
+            return 0
         found = runs(given.studies)
         if not found:
             print("no case of these studies is a shot that is done", file=sys.stderr)
