@@ -79,13 +79,6 @@ class Passage(NamedTuple):
 class Penetrator:
     """Measures a rod in a simulation.
 
-    Parameters
-    ----------
-    sim : Simulation
-    deck : its deck, which names the rod
-    targets : what the rod is to go through, in the order in which it meets them; the depth is that below the first one's face
-    direction : of its flight along z, 1 or -1
-
     Lengths are taken along the axis, from runs of cells that the rod fills by half or more, so that fragments behind the
     tail do not count: the depth from the deepest run in the columns within half a radius of the axis, failed or not, the rod's
     length from the longest run on the axis that has not failed. Its core is what has not failed and hangs together from the
@@ -96,7 +89,15 @@ class Penetrator:
     A rod can leave the mesh through an open edge in z. Its core has reached the edge when it fills half of the edge's cell on
     the axis and moves outwards there, as the mesh sees it. When more than 1 % of the rod's mass has flowed out since, the
     regime is "left the mesh" for good, and the depth stays what it was when the core reached the edge. Debris that leaves
-    through any edge changes nothing as long as the core is inside.
+    through any edge changes nothing as long as the core is inside. The edge behind the rod of a mesh that follows it does not
+    count: what flows out there is debris, even where it fills the hole up to the axis and so hangs together with the core.
+
+    Parameters
+    ----------
+    sim : Simulation
+    deck : its deck, which names the rod
+    targets : what the rod is to go through, in the order in which it meets them; the depth is that below the first one's face
+    direction : of its flight along z, 1 or -1
     """
 
     def __init__(self, sim, deck, targets: list[Target], direction: float):
@@ -117,7 +118,8 @@ class Penetrator:
         self.passed: list[Passage] = []
         self._offset = grid.offset
         ends = (deck.boundaries.z_min, (0, -1.0)), (deck.boundaries.z_max, (grid.nz, 1.0))
-        self._open = [end for kind, end in ends if BY_NAME[kind].opens]
+        behind = -self.direction if deck.mesh.follow == body.name else 0.0
+        self._open = [end for kind, end in ends if BY_NAME[kind].opens and end[1] != behind]
 
     def _fraction(self) -> np.ndarray:
         """Volume fraction of the rod in the cells [j, i]."""

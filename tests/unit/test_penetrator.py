@@ -216,6 +216,14 @@ def test_a_mesh_that_travels_faster_than_the_rod_leaves_it_behind(simulation):
         assert (simulation.penetrator.exit is not None) is reached
 
 
+def test_the_edge_behind_the_rod_of_a_mesh_that_follows_it_is_no_way_out():
+    """Debris that fills the hole behind an eroding rod hangs together with what is left of it; ahead, the edge counts."""
+    following = ("mesh.follow=rod", "boundaries.z_max=transmit")
+    assert [vertex for vertex, _ in shot().penetrator._open] == [0, 100]
+    assert [vertex for vertex, _ in shot(*following).penetrator._open] == [100]
+    assert [vertex for vertex, _ in shot(*following, "mesh.follow=none").penetrator._open] == [0, 100]
+
+
 def test_a_wall_is_no_way_out():
     sim = shot("boundaries.z_max=wall", "body.plate.thickness=24e-3")
     fraction, _ = cells(sim)
