@@ -8,6 +8,8 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
+from hydro2d.errors import unknown
+from hydro2d.mesh import quantities
 from hydro2d.output.vtk import VtkError
 from hydro2d.results import figures, movies, reading
 from hydro2d.results.figures import FigureError
@@ -69,6 +71,13 @@ def draw(contents: Contents, folder: Path) -> Iterator[Picture]:
 def _shape_in_words(each: Record) -> str:
     length, first = each.value("rod_length_m"), each.value("rod_initial_length_m")
     return f"{each.case.name}, {length / first * 100:.0f} % of its length" if length and first else each.case.name
+
+
+def check_field(field: str) -> None:
+    """Refuses a field that nobody knows, before anything is drawn. Raises FigureError."""
+    key = field.partition(":")[0]
+    if key not in quantities.BY_KEY:
+        raise FigureError(f"--movie: {unknown('field', key, quantities.BY_KEY)}")
 
 
 def films(contents: Contents, field: str, folder: Path, say: Callable[[str], None]) -> Iterator[Picture]:

@@ -26,8 +26,12 @@ def report(directories: Sequence[Path], out: Path | None = None, say: Callable[[
     folder = Path(out or Path(directories[0]) / "report")
     if folder.exists() and not folder.is_dir():
         raise layout.StudyError(f"{folder} is a file; --out names a folder")
+    if movie:
+        pictures.check_field(movie)
     contents = collect(study)
     choice = responses.choose(study, contents.records, x, y, by)
+    missing = [name for name in y if all(responses.raw(each, name) is None for each in contents.records)]
+    contents.notes += [f"no run has {name}: it is not drawn" for name in missing]
     contents.rows = table.with_responses(contents.rows, contents.records, choice)
     for note in contents.notes:
         say(f"warning: {note}")

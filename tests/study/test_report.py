@@ -6,6 +6,7 @@ import shutil
 import pytest
 
 from hydro2d.cli.main import call
+from hydro2d.results import movies
 from hydro2d.study import layout
 from hydro2d.study.contents import collect
 from hydro2d.study.report import report
@@ -209,6 +210,63 @@ def test_a_wrong_deck_is_said_and_what_the_summary_has_is_drawn(tmp_path):
     assert page.faults == []
 
 
+def test_spheres_and_runs_without_a_projectile_have_a_page(tmp_path):
+    for velocity, left in ((600, 500.0), (900, 820.0), (1200, 1130.0)):
+        text = fake.resolved("problems/shapes/sphere.toml", f"body.sphere.velocity={velocity} m/s", "body.plate.thickness=4 mm")
+        fake.write_run(tmp_path / "spheres" / f"{velocity}", velocity, 0.003, text=text, exit_time_s=1e-5,
+                       rod_residual_velocity_m_s=left)  # fmt: skip
+    page, lines = page_of(tmp_path / "spheres")
+    assert page.faults == []
+    assert [name.split("-")[0] for name in charts(page)] == ["penetration_depth_m", "rod_residual_velocity_m_s", "histories"]
+    assert "600 600 ≥ 0.4 0.980 1.02 500 deforming done" in page.text
+    assert "Lambert-Jonas, fitted to these runs" in page.text
+    assert lines[0].startswith("wrote")
+    assert [row["projectile"] for row in table(tmp_path / "spheres" / "report").values()] == ["sphere"] * 3
+    fake.write_run(tmp_path / "sod" / "a", text=fake.resolved("problems/verification/sod_z.toml"),
+                   bodies={"gas": {"velocity_m_s": 12.0, "z_max_m": 0.4}})  # fmt: skip
+    page, _ = page_of(tmp_path / "sod")
+    assert page.faults == []
+    assert "Bodies gas velocity [m/s]" in page.text
+    assert "Depth [cm]" not in page.text
+
+
+def test_responses_are_chosen(study):
+    page, lines = page_of(study, x="advection", y=["rod_mass_kg", "crater.volume_m3"], by=["velocity"])
+    assert charts(page)[0].startswith("rod_mass_kg")
+    assert "Rod mass against advection" in page.text
+    assert "Rod mass [g]" in page.text  # a column of the table
+    assert "crater.volume_m3" in table(study / "report")["1086m-s_ke"]
+    assert [name for name in charts(page) if "volume" in name] == []
+    assert lines[0] == "warning: no run has crater.volume_m3: it is not drawn"
+
+
+def test_a_run_that_was_cut_has_no_error(study):
+    fake.edit_json(study / "cases" / "1086m-s_ke" / "summary.json", stop_reason="end time", rod_core_velocity_m_s=300.0)
+    page, _ = page_of(study)
+    row = table(study / "report")["1086m-s_ke"]
+    assert (row["status"], row["unfinished"], row["depth_error_m"], row["depth_m"]) == ("done", "cut at 300 m/s", "", "0.35")
+    assert "done unfinished cut at 300 m/s" in page.text
+
+
+@pytest.mark.parametrize("ending", ["gif", "mp4"])
+def test_films_are_in_the_page(finished, tmp_path, monkeypatch, ending):
+    if ending == "gif":
+        monkeypatch.setattr("hydro2d.results.movies.has_ffmpeg", lambda: False)
+    elif not movies.has_ffmpeg():
+        pytest.skip("no ffmpeg is installed")
+    shutil.copytree(finished, tmp_path / "runs" / "a")
+    fake.write_run(tmp_path / "runs" / "b")
+    page, lines = page_of(tmp_path / "runs", movie="pressure")
+    assert page.faults == []
+    assert "warning: b has no film: no dump was written" in lines
+    film = tmp_path / "runs" / "report" / f"film_001.{ending}"
+    assert film.stat().st_size < 1e6
+    sources = [each["src"][:14] for each in page.all("video" if ending == "mp4" else "img")]
+    assert ("data:video/mp4" if ending == "mp4" else "data:image/gif") in sources
+    page_of(tmp_path / "runs")
+    assert not film.exists()
+
+
 def test_pictures_of_an_earlier_report_are_removed(study, tmp_path):
     out = tmp_path / "out"
     out.mkdir()
@@ -240,6 +298,10 @@ def test_the_command(study, tmp_path, capsys):
     assert call(["report"]) == 2
     assert call(["report", str(study), "--out", str(study / "study.json")]) == 2
     assert "is a file" in capsys.readouterr().err
+    for option, what in (("--y", "response"), ("--x", "axis"), ("--by", "axis"), ("--movie", "field")):
+        assert call(["report", str(study), "--out", str(tmp_path / "none"), option, "nothing"]) == 2
+        assert capsys.readouterr().err.startswith(f"hydro2d: {option}: unknown {what}")
+    assert not (tmp_path / "none").exists()
 
 
 def test_reading_leaves_a_study_as_it_is(study):
