@@ -25,6 +25,8 @@ PANEL, BELOW, LINE, LETTERS = 300, 74, 19, 40
 MOST_ENTRIES = 24
 #: runs beyond which histories are told apart by series only
 MOST_LINES = 12
+#: words on an x axis beyond which they stand upright
+MOST_ACROSS = 4
 SIZE = 9
 #: markers of measurements: qualifier -> marker and word
 MEASURED = {"measured": ("diamond-tall", "experiment"), "estimated": ("diamond-tall-open", "experiment, estimated"),
@@ -48,8 +50,11 @@ def _figure(rows: int = 1):
     return figure
 
 
-def _finished(figure, rows: int = 1):
-    """Room for the legend, one entry a line below the panels, so that no entry is cut off on a narrow screen."""
+def _finished(figure, rows: int = 1, labels: int = 0):
+    """Room for the legend, one entry a line below the panels, so that no entry is cut off on a narrow screen.
+
+    labels : pixels that the labels of the x axis take beyond one line
+    """
     shown = []
     for trace in figure.data:
         if trace.name and trace.showlegend is not False:
@@ -59,9 +64,9 @@ def _finished(figure, rows: int = 1):
             trace.name = "<br>".join(textwrap.wrap(trace.name, LETTERS))
             shown.append(trace)
     lines = sum(trace.name.count("<br>") + 1 for trace in shown)
-    panel, below = rows * PANEL * (0.72 if rows > 1 else 1.0), LINE * lines + BELOW
-    legend = {"x": 0.0, "y": -(BELOW - 12) / panel, "xanchor": "left", "yanchor": "top", "maxheight": 4000, "tracegroupgap": 0,
-              "itemsizing": "constant", "groupclick": "togglegroup", "font": {"size": 12}}  # fmt: skip
+    panel, below = rows * PANEL * (0.72 if rows > 1 else 1.0), LINE * lines + BELOW + labels
+    legend = {"x": 0.0, "y": -(BELOW + labels - 12) / panel, "xanchor": "left", "yanchor": "top", "maxheight": 4000,
+              "tracegroupgap": 0, "itemsizing": "constant", "groupclick": "togglegroup", "font": {"size": 12}}  # fmt: skip
     figure.update_layout(height=int(panel + below + 34), legend=legend, showlegend=bool(shown),
                          margin={"l": 62, "r": 14, "t": 34, "b": below})  # fmt: skip
     return figure
@@ -111,13 +116,23 @@ def response(setup: Setup | None, series: Sequence[Series], x: Variable, y: Resp
         _experiments(figure, series, x, y, measured, shots)
         if setup and setup.thickness and x.order is None:
             _rear(figure, setup, y)
-    axis = {"title": {"text": x.title}} | ({"type": "category", "categoryorder": "array", "categoryarray": x.order}
-                                           if x.order is not None else {})  # fmt: skip
-    figure.update_xaxes(**axis)
+    labels = _words_below(figure, x.order) if x.order is not None else 0
+    figure.update_xaxes(title={"text": x.title})
     figure.update_yaxes(title={"text": y.title})
     if y.name in (DEPTH, RESIDUAL):
         figure.update_yaxes(range=[0.0, 1.1 * _highest(figure)])
-    return _finished(figure)
+    return _finished(figure, labels=labels)
+
+
+def _words_below(figure, order: Sequence[str]) -> int:
+    """Words on the x axis in their order, wrapped, upright where they are many; pixels that they take beyond one line."""
+    upright = len(order) > MOST_ACROSS
+    wrapped = [textwrap.wrap(word, LETTERS // (2 if upright else len(order) + 1)) or [""] for word in order]
+    figure.update_xaxes(type="category", categoryorder="array", categoryarray=order, tickmode="array", tickvals=order,
+                        ticktext=["<br>".join(lines) for lines in wrapped], tickangle=-90 if upright else 0,
+                        range=[-0.5, len(order) - 0.5])  # fmt: skip
+    longest = max(len(line) for lines in wrapped for line in lines)
+    return 8 * longest if upright else LINE * (max(map(len, wrapped)) - 1)
 
 
 def _models(figure, lines: Sequence[tuple[str, str, np.ndarray, np.ndarray]], y: Response) -> None:

@@ -20,6 +20,8 @@ from hydro2d.study.responses import Choice
 from hydro2d.study.table import columns_of_books, columns_of_results, to_csv
 
 PAGE, TABLE = "report.html", "cases.csv"
+#: where lines of names may break: behind underscores and dots, but for those of numbers
+BREAKS = re.compile(r"(?<=_)(?=[^\s._])|(?<=\.)(?=[^\s._\d])")
 
 
 def page(contents: Contents, choice: Choice, charts: Sequence[Chart], pictures: Sequence[Picture],
@@ -44,18 +46,17 @@ def page(contents: Contents, choice: Choice, charts: Sequence[Chart], pictures: 
 
 
 def breakable(text: str):
-    """Text whose lines may break behind dots, underscores and slashes too."""
+    """Text whose lines may break behind dots and underscores too, not in numbers."""
     from markupsafe import Markup, escape
 
-    return Markup("<wbr>").join(escape(part) for part in re.split(r"(?<=[._/])(?=[^\s._/])", str(text)))
+    return Markup("<wbr>").join(escape(part) for part in BREAKS.split(str(text)))
 
 
 def whole_words(text: str):
     """A key or a name whose lines break behind dots and underscores alone: of class `key`."""
     from markupsafe import Markup
 
-    parts = re.split(r"(?<=[._])(?=[^._])", str(text))
-    return Markup("<wbr>").join(Markup("<span>{}</span>").format(part) for part in parts)
+    return Markup("<wbr>").join(Markup("<span>{}</span>").format(part) for part in BREAKS.split(str(text)))
 
 
 def download(text: str, kind: str) -> str:

@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from hydro2d.study.experiments import Measurement
-from hydro2d.study.layout import Study
+from hydro2d.study.layout import Axis, Study
 from hydro2d.study.record import Record
 from hydro2d.study.responses import DEPTH, RESIDUAL, Choice, is_velocity, raw, response
 
@@ -25,13 +25,18 @@ def rows(study: Study, records: Sequence[Record], measurements: dict[str, Measur
 
 def _row(study: Study, record: Record, measurement: Measurement | None) -> Row:
     case, setup = record.case, record.setup
-    row: Row = {"case": case.name}
-    row |= {axis.name: case.values.get(axis.name) for axis in study.axes}
-    row |= {"status": case.status, "message": case.message, "unfinished": record.unfinished, "velocity_m_s": record.velocity}
-    if setup:
-        row |= {"projectile": setup.shape, "rod": setup.rod, "target": setup.target, "nose": setup.nose}
-        row |= {"target_thickness_m": setup.thickness}
-    return row | _results(record) | _compared(record, measurement) | _books(case.summary) | _cost(record)
+    row: Row = {"status": case.status, "message": case.message, "unfinished": record.unfinished,
+                "velocity_m_s": record.velocity}  # fmt: skip
+    what = (setup.shape, setup.rod, setup.target, setup.nose, setup.thickness) if setup else (None,) * 5
+    row |= zip(("projectile", "rod", "target", "nose", "target_thickness_m"), what, strict=True)
+    row |= _results(record) | _compared(record, measurement) | _books(case.summary) | _cost(record)
+    axes = {_name_of(axis, row): case.values.get(axis.name) for axis in study.axes}
+    return {"case": case.name, **axes, **row}
+
+
+def _name_of(axis: Axis, row: Row) -> str:
+    """The column of an axis in a row without it, whose name is not that of a result."""
+    return f"{axis.name} (axis)" if axis.name in ("case", *row) else axis.name
 
 
 def _results(record: Record) -> Row:
@@ -189,10 +194,15 @@ def columns_of_results(study: Study, table: Sequence[Row], choice: Choice) -> li
         Column("Regime", "regime", _word("regime"), number=False),
     ]
     return [
-        *(Column(axis.name, axis.name, _word(axis.name), number=False) for axis in study.axes),
+        *(_of_axis(axis, table[0]) for axis in study.axes),
         *(column for column in optional if column.name in known),
         Column("Status", "status", _word("status"), number=False),
     ]
+
+
+def _of_axis(axis: Axis, row: Row) -> Column:
+    name = f"{axis.name} (axis)" if f"{axis.name} (axis)" in row else axis.name
+    return Column(axis.name, name, _word(name), number=False)
 
 
 def _of_response(name: str) -> Column:

@@ -308,3 +308,13 @@ def test_reading_leaves_a_study_as_it_is(study):
     before = {path: path.read_bytes() for path in study.rglob("*") if path.is_file()}
     collect(layout.load(study))
     assert {path: path.read_bytes() for path in study.rglob("*") if path.is_file()} == before
+
+
+def test_an_axis_may_be_called_as_a_result(tmp_path):
+    """The axis `cells` counts cells across a rod; the column of the summary is that of the mesh."""
+    axes = {"cells": {number: (f"numerics.courant=0.{number}",) for number in ("4", "5")}, "target": {"x": (), "y": ()}}
+    study = fake.write_study(tmp_path / "study", axes)
+    page, _ = page_of(study)
+    row = table(study / "report")["5_y"]
+    assert (row["cells (axis)"], row["cells"], row["target (axis)"], row["target"]) == ("5", "60984", "y", "Al5083")
+    assert "5_y 5 y 1086" in page.text
