@@ -116,7 +116,8 @@ def response(setup: Setup | None, series: Sequence[Series], x: Variable, y: Resp
         _experiments(figure, series, x, y, measured, shots)
         if setup and setup.thickness and x.order is None:
             _rear(figure, setup, y)
-    labels = _words_below(figure, x.order) if x.order is not None else 0
+    there = {x.value(record) for each in series for record in each.records if y.value(record) is not None}
+    labels = _words_below(figure, [word for word in x.order if word in there]) if x.order is not None else 0
     figure.update_xaxes(title={"text": x.title})
     figure.update_yaxes(title={"text": y.title})
     if y.name in (DEPTH, RESIDUAL):
