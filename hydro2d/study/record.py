@@ -109,9 +109,16 @@ class Record:
         return self.case.status == DONE
 
     @property
+    def bodies(self) -> list[str]:
+        """Names of the bodies of the deck."""
+        found = self.deck.get("body")
+        entries = [entry for entry in found if isinstance(entry, dict)] if isinstance(found, list) else []
+        return [str(entry["name"]) for entry in entries if "name" in entry]
+
+    @property
     def body(self) -> str | None:
         """Name of the first body of the deck."""
-        return next((entry["name"] for entry in self.deck.get("body", ())), None)
+        return next(iter(self.bodies), None)
 
     @property
     def unfinished(self) -> str:
@@ -151,8 +158,9 @@ class Record:
 
     @property
     def depth(self) -> float | None:
-        """Penetration depth, m; the target's thickness where that was perforated."""
-        return self.setup.thickness if self.perforated else self.value("penetration_depth_m")
+        """Penetration depth, m; the target's thickness where that was perforated and is known."""
+        thickness = self.setup.thickness if self.setup and self.perforated else None
+        return self.value("penetration_depth_m") if thickness is None else thickness
 
     def value(self, name: str):
         """A result of the summary; of a run without one, the last of its history. None where there is neither."""

@@ -138,10 +138,9 @@ def _numbers_of(record: Record) -> dict[str, float]:
 
 def _as_in_summary(name: str, record: Record) -> str:
     """The name in summary.json of a column of the history."""
-    for entry in record.deck.get("body", ()):
-        start = f"body_{entry['name']}_"
-        if name.startswith(start):
-            return f"bodies.{entry['name']}.{name.removeprefix(start)}"
+    for body in record.bodies:
+        if name.startswith(f"body_{body}_"):
+            return f"bodies.{body}.{name.removeprefix(f'body_{body}_')}"
     return name
 
 
