@@ -22,7 +22,7 @@ Window = tuple[float, float, float] | None
 
 def film(runs: list, path: Path, field: str = "pressure", *, mirror: str | None = None, window: Window = None,
          follow: str | None = None, limits: tuple[float, float] | None = None, rate: float = 10.0,
-         beside: bool = False) -> int:  # fmt: skip
+         beside: bool = False, dpi: float = DPI) -> int:  # fmt: skip
     """Writes a film of runs (results.Results): a frame for every dump of the run that has most, of all others the nearest.
 
     Parameters
@@ -34,6 +34,7 @@ def film(runs: list, path: Path, field: str = "pressure", *, mirror: str | None 
     limits : range of colours of `field` in the reader's unit; from all frames where absent
     rate : frames per second
     beside : runs stand beside one another, not below
+    dpi : dots per inch of the frames
 
     Returns the number of frames. Raises FigureError.
     """
@@ -59,7 +60,7 @@ def film(runs: list, path: Path, field: str = "pressure", *, mirror: str | None 
                 figure = figures.draw_sections(rows, field, mirror, lambda dump, at=windows: at[id(dump)], ranges, figure)
                 if writer is None:
                     writer = _writer(path, rate)
-                    writer.setup(figure, str(target), DPI)
+                    writer.setup(figure, str(target), dpi)
                 writer.grab_frame()
             writer.finish()
             target.replace(temporary)
@@ -79,20 +80,29 @@ def _refuse(path: Path, runs: list, window: Window, follow: str | None) -> None:
             raise FigureError(f"{run.directory}: {unknown('body', follow, names)}")
 
 
+def has_ffmpeg() -> bool:
+    """Whether films can be MP4: ffmpeg is installed, or imageio-ffmpeg brings one."""
+    from matplotlib import animation, rcParams
+
+    if animation.FFMpegWriter.isAvailable():
+        return True
+    try:
+        from imageio_ffmpeg import get_ffmpeg_exe
+
+        rcParams["animation.ffmpeg_path"] = get_ffmpeg_exe()
+    except (ImportError, RuntimeError):
+        return False
+    return True
+
+
 def _writer(path: Path, rate: float):
     """matplotlib's writer of a format. Raises FigureError where ffmpeg is missing."""
-    from matplotlib import animation, rcParams
+    from matplotlib import animation
 
     if FORMATS[path.suffix.lower()] == "pillow":
         return animation.PillowWriter(fps=rate)
-    if not animation.FFMpegWriter.isAvailable():
-        try:
-            from imageio_ffmpeg import get_ffmpeg_exe
-
-            rcParams["animation.ffmpeg_path"] = get_ffmpeg_exe()
-        except (ImportError, RuntimeError):
-            raise FigureError(f"{path}: ffmpeg is not there; `pip install imageio-ffmpeg` brings one, and a .gif needs "
-                              "none") from None
+    if not has_ffmpeg():
+        raise FigureError(f"{path}: ffmpeg is not there; `pip install imageio-ffmpeg` brings one, and a .gif needs none")
     return animation.FFMpegWriter(fps=rate, extra_args=["-pix_fmt", "yuv420p", "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2"])
 
 

@@ -12,7 +12,11 @@ from hydro2d.study.record import Record, Setup
 
 @dataclass
 class Contents:
-    """A study's cases, read; ``groups`` and ``measurements`` by setup, ``belonging`` is each case's measurement by its name."""
+    """A study's cases, read.
+
+    groups, measurements : by setup;  belonging : each case's measurement by its name;  rows : of the table, in SI
+    notes : what could not be used
+    """
 
     study: Study
     records: list[Record]

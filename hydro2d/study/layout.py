@@ -253,7 +253,7 @@ def _case(directory: Path, entry: dict) -> Case:
     place = directory / entry["directory"]
     sha256 = entry.get("deck_sha256")
     common = {
-        "name": entry["name"], "directory": place, "base": entry.get("deck", ""),
+        "name": str(entry["name"]), "directory": place, "base": entry.get("deck", ""),
         "values": {name: str(value) for name, value in entry["values"].items()},
         "overrides": tuple(entry.get("overrides", ())), "deck_sha256": sha256,
     }  # fmt: skip

@@ -1,96 +1,52 @@
-"""The figures of a report as files, each with a caption and with words for those who cannot see it."""
+"""The pictures and films of a report as files: rods at the end of their runs, and a film of each run that has dumps."""
 
 from __future__ import annotations
 
 import base64
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from hydro2d.results import figures
-from hydro2d.study import drawing, experiments, record, rods, series, theory
+from hydro2d.errors import unknown
+from hydro2d.mesh import quantities
+from hydro2d.output.vtk import VtkError
+from hydro2d.results import figures, movies, reading
+from hydro2d.results.figures import FigureError
+from hydro2d.study import rods
 from hydro2d.study.contents import Contents
-from hydro2d.study.record import Record, Setup
+from hydro2d.study.record import Record
 
-#: names of pictures, for those that an earlier report has left
-NAMES = re.compile(r"(depth|histories|rods)_[\w-]+\.png")
+#: names of pictures and films, for those that an earlier report, or an earlier version, has left
+NAMES = re.compile(r"(rods|film|depth|histories)_[\w-]+\.(png|gif|mp4)")
 #: pages of rods beyond which the rest is left out, and said to be
 MOST_PAGES = 8
-#: share by which the models' lines reach beyond the velocities of runs and experiments
-BEYOND = 0.05
+#: dots per inch of films, which makes them about 500 points wide
+FILM_DPI = 60
+KINDS = {".png": "image/png", ".gif": "image/gif", ".mp4": "video/mp4"}
 
 
 @dataclass(frozen=True)
 class Picture:
-    """A figure of the report: its file, its heading, what it shows, and the same for those who cannot see it."""
+    """A picture or a film: its file, its heading, what it shows, and the same for those who cannot see it."""
 
     file: Path
     heading: str
     caption: str
     alt: str
-    notes: tuple[str, ...] = ()
 
     @property
     def data(self) -> str:
         """The file as an address that needs no network."""
-        return "data:image/png;base64," + base64.b64encode(self.file.read_bytes()).decode()
+        return f"data:{KINDS[self.file.suffix]};base64," + base64.b64encode(self.file.read_bytes()).decode()
+
+    @property
+    def plays(self) -> bool:
+        """Whether it is a film that needs a player."""
+        return self.file.suffix == ".mp4"
 
 
 def draw(contents: Contents, folder: Path) -> Iterator[Picture]:
-    """Draws every figure into a file."""
-    names: list[str] = []
-    for setup, members in contents.groups.items():
-        name = re.sub(r"[^\w-]+", "-", f"{setup.rod}_{setup.target}_{setup.nose}")
-        names.append(name)
-        name += f"_{names.count(name)}" if names.count(name) > 1 else ""
-        yield _depths(contents, setup, members, folder / f"depth_{name}.png")
-        if any(each.history for each in members):
-            yield _histories(contents, setup, members, folder / f"histories_{name}.png")
-    yield from _rods(contents, folder)
-
-
-def _depth(record: Record) -> str:
-    """The depth of a run in words."""
-    return "perforated" if record.perforated else f"{'at least ' * record.left}{record.depth * 100:.1f} cm"
-
-
-def _depths(contents: Contents, setup: Setup, members: Sequence[Record], file: Path) -> Picture:
-    done = [each for each in members if each.done and each.depth is not None]
-    shots = contents.measurements[setup]
-    speeds = [each.velocity for each in members] + [shot.velocity for shot in shots]
-    beyond = BEYOND * ((max(speeds) - min(speeds)) or max(speeds))
-    curves = theory.curves(members[0].shot, max(min(speeds) - beyond, 1.0), max(speeds) + beyond)
-    figures.save(drawing.depths(setup, series.grouped(done, contents.study.axes), shots, curves), file)
-    depths = [f"{each.case.name} {_depth(each)}" for each in done[:12]]
-    measured = [f"{shot.velocity:.0f} m/s {'at least ' if shot.qualifier == experiments.AT_LEAST else ''}"
-                f"{shot.depth * 100:.1f} cm" for shot in shots]  # fmt: skip
-    alt = (
-        f"Depth against impact velocity, {setup.words}. Runs: {'; '.join(depths) or 'none done'}"
-        f"{f' and {len(done) - 12} more' if len(done) > 12 else ''}. Experiments: {'; '.join(measured) or 'none known'}."
-    )
-    models = ", ".join(curve.title for curve in curves if curve.drawable)
-    caption = (
-        f"Depth against impact velocity: {setup.words}. Hollow: runs that are done ({len(done)} of {len(members)}); filled: "
-        f"experiments; thick line: the target's rear; grey lines: {models or 'no model could be evaluated'}"
-        + (f", with the deck of {members[0].case.name}." if models else ".")
-    )
-    notes = [f"{curve.title}: {curve.note}." for curve in curves if curve.note]
-    return Picture(file, f"Depth: {setup.rod} into {setup.target}, {setup.nose} nose", caption, alt, tuple(notes))
-
-
-def _histories(contents: Contents, setup: Setup, members: Sequence[Record], file: Path) -> Picture:
-    drawn = [each for each in members if each.history]
-    figures.save(drawing.histories(series.grouped(drawn, contents.study.axes)), file)
-    ends = [each.history["time"][-1] * 1e6 for each in drawn]
-    what = f"depth, tail velocity and rod length against time, {len(drawn)} runs of {setup.words}"
-    alt = f"Three panels: {what}. The runs end between {min(ends):.0f} and {max(ends):.0f} µs."
-    told = "one line style a run" if len(drawn) <= drawing.MOST_LINES else "one line style a series of runs"
-    caption = f"{what[0].upper()}{what[1:]}; {told}, at most {record.POINTS} points of each history."
-    return Picture(file, f"Histories: {setup.rod} into {setup.target}, {setup.nose} nose", caption, alt)
-
-
-def _rods(contents: Contents, folder: Path) -> Iterator[Picture]:
     """Pages of rods; all of them share one scale."""
     with_rod = [each for each in contents.records if each.rod]
     shown = rods.pages(with_rod)[:MOST_PAGES]
@@ -99,18 +55,50 @@ def _rods(contents: Contents, folder: Path) -> Iterator[Picture]:
     where = "at their depths below the target's original surface" if at_depth else "tip beside tip"
     measured = at_depth and any(each.case.name in contents.belonging for each in scale)
     left_out = f" {len(with_rod) - len(scale)} further runs are not drawn." if len(with_rod) > len(scale) else ""
+    word = "Rods" if all(each.setup.shape == "rod" for each in scale) else "Projectiles"
     for number, part in enumerate(shown, 1):
         file = folder / f"rods_{number:02d}.png"
         figures.save(rods.draw(part, contents.belonging, scale), file)
         caption = (
-            f"Rods at the end of their runs, {where}, at one scale; dotted: the rod before impact, its tip at the same place"
+            f"{word} at the end of their runs, {where}, at one scale; dotted: before impact, the tip at the same place"
             + ("; dashed: the experiment's depth." if measured else ".")
             + (f" Page {number} of {len(shown)}.{left_out}" if len(shown) > 1 else "")
         )
-        alt = "Final rod shapes: " + "; ".join(map(_shape_in_words, part)) + "."
-        yield Picture(file, f"Rods {number} of {len(shown)}" if len(shown) > 1 else "Rods", caption, alt)
+        alt = "Final shapes: " + "; ".join(map(_shape_in_words, part)) + "."
+        yield Picture(file, f"{word} {number} of {len(shown)}" if len(shown) > 1 else word, caption, alt)
 
 
 def _shape_in_words(each: Record) -> str:
     length, first = each.value("rod_length_m"), each.value("rod_initial_length_m")
     return f"{each.case.name}, {length / first * 100:.0f} % of its length" if length and first else each.case.name
+
+
+def check_field(field: str) -> None:
+    """Refuses a field that nobody knows, before anything is drawn. Raises FigureError."""
+    key = field.partition(":")[0]
+    if key not in quantities.BY_KEY:
+        raise FigureError(f"--movie: {unknown('field', key, quantities.BY_KEY)}")
+
+
+def films(contents: Contents, field: str, folder: Path, say: Callable[[str], None]) -> Iterator[Picture]:
+    """A film of a field for every run with dumps, small: MP4 where ffmpeg is there, else GIF.
+
+    Runs without dumps are told to `say`, as are those whose dumps cannot be read. Raises FigureError where no film can be made.
+    """
+    ending, made, problem = ".mp4" if movies.has_ffmpeg() else ".gif", 0, None
+    for number, each in enumerate(contents.records, 1):
+        try:
+            run = reading.load(each.case.directory)
+            if not run.dumps:
+                raise FigureError("no dump was written")
+            file = folder / f"film_{number:03d}{ending}"
+            frames = movies.film([run], file, field, dpi=FILM_DPI)
+        except (reading.ResultsError, FigureError, VtkError) as error:
+            problem = error
+            say(f"warning: {each.case.name} has no film: {error}")
+            continue
+        made += 1
+        caption = f"{field} of {each.case.name}, {frames} dumps."
+        yield Picture(file, f"Film: {each.case.name}", caption, f"Film of {field} in section, {frames} frames.")
+    if not made:
+        raise FigureError(f"--movie {field}: no film could be made: {problem or 'there are no runs'}")

@@ -15,16 +15,19 @@ from hydro2d.deck import deck as decks
 from hydro2d.errors import DeckError
 from hydro2d.output import history, vtk
 from hydro2d.running.run import DECK, HISTORY
-from hydro2d.solver import penetrator
+from hydro2d.solver import penetrator, targets
 from hydro2d.study.layout import DONE, Case
 
-#: columns of the history that are drawn, and the most points of a line
+#: columns of the history that are drawn: of a projectile, of the first body of other decks; the most points of a line
 DRAWN = ("penetration_depth_m", "rod_tail_velocity_m_s", "rod_length_m")
+DRAWN_OF_BODY = ("velocity_m_s", "kinetic_energy_J", "z_max_m")
 POINTS = 300
+#: how runs end that would have gone on, and the share of the impact velocity from which on a projectile still moves
+CUT, MOVING = ("end time", "number of cycles"), 0.01
 
 
 class Setup(NamedTuple):
-    """What an experiment and an analytic model are about: materials, nose and the geometry in m."""
+    """What an experiment and an analytic model are about: materials, nose (a rod's) or shape, and the geometry in m."""
 
     rod: str
     target: str
@@ -32,11 +35,34 @@ class Setup(NamedTuple):
     diameter: float
     length: float
     thickness: float | None
+    shape: str = "rod"
+
+    @property
+    def size(self) -> str:
+        """Length and diameter of the projectile."""
+        across = f"{self.diameter * 1000:.4g} mm"
+        return f"{self.length * 100:.4g} cm x {across}" if self.shape == "rod" else across
+
+    @property
+    def plate(self) -> str:
+        """The target in words."""
+        return f"{self.thickness * 100:.4g} cm of {self.target}" if self.thickness else self.target
+
+    @property
+    def kind(self) -> str:
+        """What the projectile is, without its material."""
+        return f"{self.nose} rod" if self.shape == "rod" else self.shape
 
     @property
     def words(self) -> str:
-        plate = f"{self.thickness * 100:.4g} cm of {self.target}" if self.thickness else self.target
-        return f"{self.nose} {self.rod} rod ({self.length * 100:.4g} cm x {self.diameter * 1000:.4g} mm) into {plate}"
+        """Projectile and target."""
+        what = f"{self.nose} {self.rod} rod" if self.shape == "rod" else f"{self.rod} {self.shape}"
+        return f"{what} ({self.size}) into {self.plate}"
+
+    @property
+    def short(self) -> str:
+        """For a heading."""
+        return f"{self.rod} into {self.target}, {f'{self.nose} nose' if self.shape == 'rod' else self.shape}"
 
 
 class Place(NamedTuple):
@@ -54,12 +80,22 @@ class Place(NamedTuple):
 
 @dataclass
 class Record:
-    """One case, read; ``problems`` says what could not be. Outlines are radius and depth below the surface, (n, 2) in m."""
+    """One case, read; ``problems`` says what could not be. Outlines are radius and depth below the surface, (n, 2) in m.
+
+    deck : the resolved deck, SI;  setup, velocity : of a projectile and a target, impact velocity in m/s; None: there are none
+    target_density : of a single target at the start, kg/m^3
+    shot : what the analytic models take; None where they take no such deck, and ``without_models`` says why
+    history : thinned columns, SI;  first, last : first and last row of all columns;  deepest : largest depth, m
+    start, rod : outlines of the projectile at the start and at the end
+    """
 
     case: Case
     deck: dict = field(default_factory=dict)
+    velocity: float | None = None
     shot: model_deck.Shot | None = None
+    without_models: str = ""
     setup: Setup | None = None
+    target_density: float | None = None
     history: dict[str, np.ndarray] = field(default_factory=dict)
     first: dict[str, float] = field(default_factory=dict)
     last: dict[str, float] = field(default_factory=dict)
@@ -69,13 +105,32 @@ class Record:
     problems: list[str] = field(default_factory=list)
 
     @property
-    def velocity(self) -> float | None:
-        """Impact velocity, m/s."""
-        return self.shot.velocity if self.shot else None
-
-    @property
     def done(self) -> bool:
         return self.case.status == DONE
+
+    @property
+    def bodies(self) -> list[str]:
+        """Names of the bodies of the deck."""
+        found = self.deck.get("body")
+        entries = [entry for entry in found if isinstance(entry, dict)] if isinstance(found, list) else []
+        return [str(entry["name"]) for entry in entries if "name" in entry]
+
+    @property
+    def body(self) -> str | None:
+        """Name of the first body of the deck."""
+        return next(iter(self.bodies), None)
+
+    @property
+    def unfinished(self) -> str:
+        """Why the results are not those of the end: the run has not ended, or was cut while the projectile flew; else empty."""
+        if not self.done:
+            return self.case.status
+        summary = self.case.summary
+        if not summary:
+            return "no summary"
+        speed = abs(summary.get("rod_core_velocity_m_s") or 0.0)
+        flies = self.velocity is not None and not self.at_least and speed > MOVING * self.velocity
+        return f"cut at {speed:.3g} m/s" if flies and summary.get("stop_reason") in CUT else ""
 
     @cached_property
     def experiment(self) -> dict:
@@ -107,8 +162,9 @@ class Record:
 
     @property
     def depth(self) -> float | None:
-        """Penetration depth, m; the target's thickness where that was perforated."""
-        return self.setup.thickness if self.perforated else self.value("penetration_depth_m")
+        """Penetration depth, m; the target's thickness where that was perforated and is known."""
+        thickness = self.setup.thickness if self.setup and self.perforated else None
+        return self.value("penetration_depth_m") if thickness is None else thickness
 
     def value(self, name: str):
         """A result of the summary; of a run without one, the last of its history. None where there is neither."""
@@ -129,25 +185,53 @@ def read(case: Case) -> Record:
 
 
 def _read_deck(record: Record) -> Place | None:
-    """Fills in deck, shot and setup. Returns where the rod is found, None where there is no rod."""
+    """Fills in deck, velocity, shot and setup. Returns where the projectile is found, None where there is none."""
     file = record.case.directory / DECK
     try:
         text = file.read_text(encoding="utf-8")
         record.deck = tomllib.loads(text)
         deck = decks.loads(text, name=record.case.name.replace("/", "_"))
-        if deck.penetration is None:
-            return None
-        record.shot, rod = model_deck.shot(deck), decks.body(deck, deck.penetration.rod)
     except (OSError, ValueError) as error:
         record.problems.append(f"{file} cannot be read: {error}")
         return None
     except DeckError as error:
-        record.problems.append(f"the deck is not one of a rod and a target: {str(error).splitlines()[0]}")
+        record.problems.append(f"{file.name} is not a deck of this version: {str(error).splitlines()[0]}")
         return None
-    thickness = record.shot.values.get("target.thickness")
-    record.setup = Setup(record.shot.rod.name, record.shot.target.name, record.shot.nose, 2.0 * rod.rod_radius, rod.length,
-                         thickness.value if thickness else None)  # fmt: skip
-    return Place(decks.slots(deck).index(rod.join or rod.name) + 1, decks.surface(deck), rod.direction)
+    if deck.penetration is None:
+        return None
+    try:
+        record.shot = model_deck.shot(deck)
+    except DeckError as error:
+        record.without_models = str(error).removeprefix(f"{deck.name}: ")
+    body = decks.body(deck, deck.penetration.rod)
+    direction = int(decks.heading(body))
+    record.velocity = model_deck.impact_velocity(deck)
+    record.setup = _setup(deck, body, record.shot, direction)
+    if len(deck.penetration.targets) == 1:
+        target = decks.body(deck, deck.penetration.target)
+        record.target_density = target.density or deck.materials[target.material].reference_density
+    return Place(decks.slots(deck).index(body.join or body.name) + 1, decks.surface(deck), direction)
+
+
+def _setup(deck: decks.Deck, body, shot: model_deck.Shot | None, direction: int) -> Setup:
+    """The setup of a projectile and its targets; the thickness is that of all targets and of the gaps between them."""
+    through = targets.targets(deck, direction)
+    bodies = [decks.body(deck, target.name) for target in through]
+    names = dict.fromkeys(deck.materials[each.material].name for each in bodies)
+    (low, high), (_, radius) = (decks.extent(body, deck, axis) for axis in ("z", "r"))
+    rod = body.shape == "rod"
+    thickness = shot.values.get("target.thickness") if shot else None
+    return Setup(
+        rod=deck.materials[body.material].name, target=" + ".join(names), nose=shot.nose if shot else getattr(body, "nose", ""),
+        diameter=2.0 * (body.rod_radius if rod else radius), length=body.length if rod else high - low,
+        thickness=thickness.value if thickness else _thickness(through, bodies), shape=body.shape,
+    )  # fmt: skip
+
+
+def _thickness(through: list[targets.Target], bodies: list) -> float | None:
+    """From the face of the first target to the rear of the last, m; None where that has none."""
+    solid = bodies[-1].shape in ("plate", "box")
+    return float(f"{abs(through[-1].rear - through[0].surface):.12g}") if solid else None
 
 
 def _read_history(record: Record) -> None:
@@ -167,7 +251,9 @@ def _read_history(record: Record) -> None:
         record.problems.append(f"{file} has no rows" if rows == 0 else f"{file}: its columns differ in length")
         return
     chosen = np.unique(np.linspace(0, rows - 1, min(rows, POINTS)).astype(int))
-    record.history = {name: columns[name][chosen] for name in ("time", *DRAWN) if name in columns}
+    drawn = DRAWN if record.setup else tuple(f"body_{record.body}_{name}" for name in DRAWN_OF_BODY)
+    if any(name in columns for name in drawn):
+        record.history = {name: columns[name][chosen] for name in ("time", *drawn) if name in columns}
     record.deepest = float(np.nanmax(columns.get("penetration_depth_m", 0.0), initial=0.0))
     for row, found in ((0, record.first), (-1, record.last)):
         found.update((name, float(column[row])) for name, column in columns.items() if np.isfinite(column[row]))
@@ -191,4 +277,3 @@ def _read_rod(record: Record, place: Place) -> None:
             record.start, record.rod = (place.outlines(file) for file in (files[0], files[-1]))
     except vtk.VtkError as error:
         record.problems.append(str(error))
-

@@ -34,8 +34,6 @@ SCHEMES = {
     "perforation": Scheme((STOPPED, PERFORATED), {PERFORATED: "ballistic limit"}),
 }
 FALL, LIMIT = "depth falls", "hydrodynamic limit"
-#: how runs end that would have gone on, and the share of the impact velocity from which on a rod still moves
-CUT, MOVING = ("end time", "number of cycles"), 0.01
 CRITERIA = {
     "rigid": f"less than {100 * penetrator.RIGID_LENGTH:g} % of the length lost, no section beyond "
              f"{1 + penetrator.RIGID_RADIUS:g} of the radius",
@@ -66,9 +64,7 @@ class Run:
     @property
     def cut(self) -> bool:
         """Whether the run ended while the rod's core still moved."""
-        summary = self.record.case.summary
-        speed = abs(summary.get("rod_core_velocity_m_s") or 0.0)
-        return summary.get("stop_reason") in CUT and speed > MOVING * self.velocity
+        return self.record.done and bool(self.record.unfinished)
 
     def data(self) -> dict:
         """For programs, SI."""
@@ -197,8 +193,10 @@ def label(values: Mapping[str, str]) -> str:
 def so_far(found: Mapping[float, str], of: str = "regime") -> list[str]:
     """The transitions of regimes by velocity in m/s, in words."""
     scheme = SCHEMES[of]
-    return [f"{name} {extent(Bracket(name, *bisection.bracket(found, regime, scheme.order), ''))}"
-            for regime, name in scheme.names.items()]
+    return [
+        f"{name} {extent(Bracket(name, *bisection.bracket(found, regime, scheme.order), ''))}"
+        for regime, name in scheme.names.items()
+    ]
 
 
 def of_study(study: Study, records: Sequence[Record] | None = None) -> list[Transitions]:
@@ -266,7 +264,7 @@ def _fall(known: Sequence[Run]) -> list[Bracket]:
 
 def _limit(known: Sequence[Run]) -> list[Bracket]:
     """Where the depth is no longer above the hydrodynamic limit."""
-    deep = [run for run in known if run.record.depth is not None and run.record.setup]
+    deep = [run for run in known if run.record.depth is not None and run.record.shot]
     if not deep:
         return []
     shot, setup = deep[0].record.shot, deep[0].record.setup
@@ -277,9 +275,10 @@ def _limit(known: Sequence[Run]) -> list[Bracket]:
 
 def _compared(known: Sequence[Run], bracket: Bracket) -> tuple[Comparison | None, str]:
     """What models, experiments and the CTH study say of the first run's rod and target, or why they say nothing."""
-    first = next((run.record for run in known if run.record.setup), None)
+    first = next((run.record for run in known if run.record.shot), None)
     if first is None:
-        return None, f"nothing to compare with: {'the decks are none of a rod on the axis' if known else 'no run is done'}"
+        why = next((run.record.without_models for run in known if run.record.without_models), "there is no rod and target")
+        return None, f"nothing to compare with: {why if known else 'no run is done'}"
     shot = first.shot
     try:
         found = model_transition.compare(models.Request(rod=shot.rod, target=shot.target, geometry=shot.values), shot.nose)

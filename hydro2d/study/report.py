@@ -1,4 +1,4 @@
-"""`hydro2d report`: runs and studies as one page, a table and pictures."""
+"""`hydro2d report`: runs and studies as one page, a table, pictures and films."""
 
 from __future__ import annotations
 
@@ -6,36 +6,44 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from hydro2d.files import write_text
-from hydro2d.study import layout, pictures, table
+from hydro2d.study import layout, panels, pictures, responses, table
 from hydro2d.study.contents import collect
-from hydro2d.study.page import page
-
-PAGE, TABLE = "report.html", "cases.csv"
+from hydro2d.study.page import PAGE, TABLE, page
 
 
-def report(directories: Sequence[Path], out: Path | None = None, say: Callable[[str], None] = print) -> Path:
+def report(directories: Sequence[Path], out: Path | None = None, say: Callable[[str], None] = print, *, x: str | None = None,
+           y: Sequence[str] = (), by: Sequence[str] = (), movie: str | None = None) -> Path:  # fmt: skip
     """Writes the report of a study directory, or of run directories and folders of them.
 
     out : the folder it is written into; default: `report` in the first directory
     say : takes one line for everything that could not be read, and for what was written
+    x, y, by : what the figures draw against what, see responses.choose
+    movie : a field, of which a film is made for every run with dumps
 
-    Returns the page's path. Raises StudyError, OSError.
+    Returns the page's path. Raises StudyError, FigureError, OSError.
     """
     study = layout.load(directories[0]) if len(directories) == 1 else layout.gather(directories)
     folder = Path(out or Path(directories[0]) / "report")
     if folder.exists() and not folder.is_dir():
         raise layout.StudyError(f"{folder} is a file; --out names a folder")
+    if movie:
+        pictures.check_field(movie)
     contents = collect(study)
+    choice = responses.choose(study, contents.records, x, y, by)
+    missing = [name for name in y if all(responses.raw(each, name) is None for each in contents.records)]
+    contents.notes += [f"no run has {name}: it is not drawn" for name in missing]
+    contents.rows = table.with_responses(contents.rows, contents.records, choice)
     for note in contents.notes:
         say(f"warning: {note}")
     folder.mkdir(parents=True, exist_ok=True)
     drawn = list(pictures.draw(contents, folder))
-    files = {picture.file for picture in drawn}
-    for old in folder.glob("*.png"):
+    films = list(pictures.films(contents, movie, folder, say)) if movie else []
+    files = {picture.file for picture in (*drawn, *films)}
+    for old in folder.iterdir():
         if pictures.NAMES.fullmatch(old.name) and old not in files:
             old.unlink()
     write_text(folder / TABLE, table.to_csv(contents.rows))
-    write_text(folder / PAGE, page(contents, drawn))
-    for path in (folder / PAGE, folder / TABLE, *(picture.file for picture in drawn)):
+    write_text(folder / PAGE, page(contents, choice, list(panels.draw(contents, choice)), drawn, films))
+    for path in (folder / PAGE, folder / TABLE, *sorted(files)):
         say(f"wrote {path}")
     return folder / PAGE

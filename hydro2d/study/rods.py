@@ -8,10 +8,13 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from hydro2d.results.figures import new_figure
-from hydro2d.study.drawing import FONT, WIDTH
 from hydro2d.study.experiments import Measurement
 from hydro2d.study.record import Record
 
+#: width in inches, narrow enough for a phone, and size of letters in points
+WIDTH, FONT = 5.0, 10.0
+#: heights in inches: of a label above a rod, and of a row at least
+LABEL, LOWEST = 1.1, 2.2
 COLUMNS, ROWS = 6, 3
 PER_PAGE = COLUMNS * ROWS
 #: rods are drawn at their depths where these span less than this many lengths of a rod, else tip beside tip
@@ -57,10 +60,11 @@ def draw(records: Sequence[Record], measurements: Mapping[str, Measurement], sca
     columns = min(COLUMNS, len(records))
     rows = -(-len(records) // columns)
     at_depth = at_their_depths(scale, measurements)
-    figure, places = new_figure(WIDTH, rows * min(5.0, 9.5 / rows), rows, columns)
     low, high = span(scale, measurements) if at_depth else (min(np.subtract(*extent(record)) for record in scale), 0.0)
     margin = 0.03 * (high - low)
     radius = max(1.1 * max(_radius(record) for record in scale), SLOT * (high - low))
+    needed = WIDTH / columns * (high - low) / (2.0 * radius) + LABEL
+    figure, places = new_figure(WIDTH, rows * max(min(5.0, 9.5 / rows, needed), LOWEST), rows, columns)
     for axes, record in zip(places.flat, records, strict=False):
         _rod(axes, record, 0.0 if at_depth else extent(record)[1])
         if at_depth and record.case.name in measurements:
@@ -93,7 +97,7 @@ def _radius(record: Record) -> float:
 
 
 def _label(record: Record) -> str:
-    """The axes' values or the name, the depth, and the status where the run has not ended."""
+    """The axes' values or the name, the depth, and whether the run is unfinished."""
     words = list(record.case.values.values()) or [record.case.name]
     lines = [line for word in words for line in textwrap.wrap(word.replace("_", " "), LETTERS)]
     if len(lines) > LINES:
@@ -102,7 +106,7 @@ def _label(record: Record) -> str:
         lines.append("perforated")
     elif record.depth is not None:
         lines.append(f"{'≥ ' * record.left}{record.depth * 100:.1f} cm")
-    return "\n".join(lines + ([] if record.done else [f"({record.case.status})"]))
+    return "\n".join(lines + (["(unfinished)"] if record.unfinished else []))
 
 
 def _rod(axes, record: Record, shift: float) -> None:

@@ -8,11 +8,12 @@ from dataclasses import dataclass
 from hydro2d.study.differences import compare
 from hydro2d.study.layout import Axis
 from hydro2d.study.record import Record
+from hydro2d.study.responses import Choice, Variable, is_velocity
 
-#: colours that colour-blind readers tell apart (Okabe and Ito), the darker ones; markers and dashes for print
-COLOURS = ("#0072b2", "#d55e00", "#009e73", "#a14d7f", "#3a3a3a", "#b8860b")
-MARKERS = ("o", "s", "^", "D", "v", "P", "<", "X", ">", "h")
-DASHES = ("-", (0, (5, 1.5)), (0, (1.5, 1)), (0, (6, 1.5, 1.5, 1.5)))
+#: colours that colour-blind readers tell apart (after Okabe and Ito) on light and on dark; markers and dashes for print
+COLOURS = ("#0072b2", "#d55e00", "#009e73", "#b0538a", "#7d7d7d", "#b8860b")
+MARKERS = ("circle", "square", "triangle-up", "diamond", "triangle-down", "cross", "pentagon", "x", "star", "hexagram")
+DASHES = ("solid", "dash", "dot", "dashdot")
 #: sections of a deck that make no other physics or numerics
 ASIDE = ("title", "output", "experiment", "tracer", "gauge", "stop", "penetration")
 #: the most keys that make a name for a series of runs
@@ -25,12 +26,12 @@ class Style:
 
     colour: str
     marker: str
-    dash: str | tuple
+    dash: str
 
 
 @dataclass(frozen=True)
 class Series:
-    """Runs that differ in the impact velocity alone."""
+    """Runs that differ in what is on the x axis alone, unless others were asked for."""
 
     label: str
     style: Style
@@ -42,10 +43,12 @@ def style(number: int) -> Style:
     return Style(COLOURS[number % len(COLOURS)], MARKERS[number % len(MARKERS)], DASHES[number % len(DASHES)])
 
 
-def grouped(records: Sequence[Record], axes: Sequence[Axis]) -> list[Series]:
-    """The series of runs of one setup, in the order of the study."""
-    if axes:
-        kept = [axis for axis in axes if _tells_apart(axis, records)]
+def grouped(records: Sequence[Record], axes: Sequence[Axis], choice: Choice) -> list[Series]:
+    """The series of runs of one panel, in the order of the study."""
+    if choice.by is not None:
+        labels = [", ".join(_said(variable, record) for variable in choice.by) for record in records]
+    elif axes:
+        kept = [axis for axis in axes if _tells_apart(axis, records, choice.x)]
         labels = [", ".join(axis.said(record.case.values.get(axis.name, "")) for axis in kept) for record in records]
     else:
         labels = _labels_from_decks(records)
@@ -55,18 +58,21 @@ def grouped(records: Sequence[Record], axes: Sequence[Axis]) -> list[Series]:
     return [Series(label or "hydro2d", style(n), tuple(each)) for n, (label, each) in enumerate(found.items())]
 
 
-def is_velocity(axis: Axis) -> bool:
-    """Whether an axis is the velocity of a body."""
-    return axis.key is not None and axis.key.startswith("body.") and axis.key.endswith(".velocity")
+def _said(variable: Variable, record: Record) -> str:
+    """A variable's value of a run, in words that can stand alone."""
+    value = variable.value(record)
+    if value is None:
+        return f"no {variable.name}"
+    return value if isinstance(value, str) else f"{variable.title.split(' [')[0].removesuffix(' (SI)')} {value:g}"
 
 
-def _tells_apart(axis: Axis, records: Sequence[Record]) -> bool:
-    """Whether an axis says more than the velocity: not that itself, not constant, no variant for each velocity."""
-    pairs = {(record.velocity, record.case.values.get(axis.name)) for record in records}
-    velocities, labels = ({pair[side] for pair in pairs} for side in (0, 1))
-    if is_velocity(axis) or len(labels) == 1:
+def _tells_apart(axis: Axis, records: Sequence[Record], x: Variable) -> bool:
+    """Whether an axis says more than what is on the x axis: not that itself, not constant, no variant for each value."""
+    if axis.name == x.name or (x.impact and is_velocity(axis)):
         return False
-    return not (axis.key is None and len(pairs) == len(velocities) == len(labels))
+    pairs = {(x.value(record), record.case.values.get(axis.name)) for record in records}
+    values, labels = ({pair[side] for pair in pairs} for side in (0, 1))
+    return len(labels) > 1 and not (axis.key is None and len(pairs) == len(values) == len(labels))
 
 
 def _labels_from_decks(records: Sequence[Record]) -> list[str]:

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import csv
-import io
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from hydro2d.study.experiments import Measurement
-from hydro2d.study.layout import Study
+from hydro2d.study.layout import Axis, Study
 from hydro2d.study.record import Record
-from hydro2d.study.series import is_velocity
+from hydro2d.study.responses import DEPTH, RESIDUAL, Choice, is_velocity, raw, response
 
 #: sinks that are named in the page, and the share of the start energy from which on
 NAMED_SINKS, SMALLEST_SHARE = 3, 1e-6
@@ -27,12 +25,18 @@ def rows(study: Study, records: Sequence[Record], measurements: dict[str, Measur
 
 def _row(study: Study, record: Record, measurement: Measurement | None) -> Row:
     case, setup = record.case, record.setup
-    row: Row = {"case": case.name}
-    row |= {axis.name: case.values.get(axis.name) for axis in study.axes}
-    row |= {"status": case.status, "message": case.message, "velocity_m_s": record.velocity}
-    if setup:
-        row |= {"rod": setup.rod, "target": setup.target, "nose": setup.nose, "target_thickness_m": setup.thickness}
-    return row | _results(record) | _compared(record, measurement) | _books(case.summary) | _cost(record)
+    row: Row = {"status": case.status, "message": case.message, "unfinished": record.unfinished,
+                "velocity_m_s": record.velocity}  # fmt: skip
+    what = (setup.shape, setup.rod, setup.target, setup.nose, setup.thickness) if setup else (None,) * 5
+    row |= zip(("projectile", "rod", "target", "nose", "target_thickness_m"), what, strict=True)
+    row |= _results(record) | _compared(record, measurement) | _books(case.summary) | _cost(record)
+    axes = {_name_of(axis, row): case.values.get(axis.name) for axis in study.axes}
+    return {"case": case.name, **axes, **row}
+
+
+def _name_of(axis: Axis, row: Row) -> str:
+    """The column of an axis in a row without it, whose name is not that of a result."""
+    return f"{axis.name} (axis)" if axis.name in ("case", *row) else axis.name
 
 
 def _results(record: Record) -> Row:
@@ -50,6 +54,7 @@ def _results(record: Record) -> Row:
         "rod_radius_ratio": _ratio(radius, first["radius"]),
         "rod_tail_velocity_m_s": record.value("rod_tail_velocity_m_s"),
         "rod_mass_kg": record.value("rod_mass_kg"),
+        RESIDUAL: raw(record, RESIDUAL),
         "regime": record.value("regime"),
     }
 
@@ -59,12 +64,12 @@ def _ratio(value, reference) -> float | None:
 
 
 def _compared(record: Record, measurement: Measurement | None) -> Row:
-    """The experiment and the error; no error for a run that has not ended."""
+    """The experiment and the error; no error for a run that is unfinished."""
     names = ("experiment_depth_m", "experiment_is", "experiment_source", "depth_error_m", "depth_error_percent",
              "depth_error_is")  # fmt: skip
     if measurement is None:
         return dict.fromkeys(names)
-    told = record.done and record.depth is not None
+    told = not record.unfinished and record.depth is not None
     error, kind = measurement.error(record.depth, record.at_least) or (None, "none") if told else (None, None)
     per_cent = None if error is None else 100.0 * error / measurement.depth
     values = (measurement.depth, measurement.qualifier, measurement.source, error, per_cent, kind)
@@ -93,13 +98,18 @@ def _cost(record: Record) -> Row:
     return row | {"version": summary.get("version"), "directory": str(record.case.directory)}
 
 
+def with_responses(table: Sequence[Row], records: Sequence[Record], choice: Choice) -> list[Row]:
+    """The rows with the responses that are drawn, in SI, where they are not among the columns."""
+    added = [y.name for y in choice.y if y.name not in (DEPTH, *table[0])]
+    return [row | {name: raw(record, name) for name in added} for row, record in zip(table, records, strict=True)]
+
+
 def to_csv(table: Sequence[Row]) -> str:
     """The rows as CSV; numbers with all their digits."""
-    text = io.StringIO()
-    writer = csv.DictWriter(text, list(table[0]), lineterminator="\n")
-    writer.writeheader()
-    writer.writerows({name: _cell(value) for name, value in row.items()} for row in table)
-    return text.getvalue()
+    from pandas import DataFrame
+
+    safe = [{name: _cell(value) for name, value in row.items()} for row in table]
+    return DataFrame(safe, dtype=object).to_csv(index=False, lineterminator="\n")
 
 
 def _cell(value):
@@ -155,21 +165,49 @@ def _sinks(row: Row) -> str:
     return named or ("" if row["energy_change"] is None else "none")
 
 
-def columns_of_results(study: Study) -> list[Column]:
-    """Axes, the impact velocity where none of them is that, depth, experiment, rod, status."""
-    speed = Column("Speed [m/s]", "velocity_m_s", _number("velocity_m_s", "{:.0f}"))
-    return [
-        *(Column(axis.name, axis.name, _word(axis.name), number=False) for axis in study.axes),
-        *([] if any(map(is_velocity, study.axes)) else [speed]),
+def columns_of_results(study: Study, table: Sequence[Row], choice: Choice) -> list[Column]:
+    """Axes, the impact velocity where none of them is that, depth, experiment, projectile, what is drawn, status.
+
+    Columns that no case has a value for are left out.
+    """
+    depths = [
         Column("Depth [cm]", "depth_m", _qualified("depth_m", "depth_is", "{:.1f}", 100.0)),
         Column("Experiment [cm]", "experiment_depth_m", _qualified("experiment_depth_m", "experiment_is", "{:.1f}", 100.0)),
         Column("Error [cm]", "depth_error_m", _qualified("depth_error_m", "depth_error_is", "{:+.1f}", 100.0)),
         Column("Error [%]", "depth_error_percent", _qualified("depth_error_percent", "depth_error_is", "{:+.0f}")),
+    ]
+    rod = [
         Column("Length final / initial", "rod_length_ratio", _number("rod_length_ratio", "{:.3f}")),
         Column("Largest radius / initial", "rod_radius_ratio", _number("rod_radius_ratio", "{:.2f}")),
+        Column("Residual velocity [m/s]", RESIDUAL, _number(RESIDUAL, "{:.0f}")),
+    ]
+    shown = {DEPTH, *(column.name for column in rod)}
+    drawn = [_of_response(y.name) for y in choice.y if y.name not in shown]
+    speed = Column("Speed [m/s]", "velocity_m_s", _number("velocity_m_s", "{:.0f}"))
+    known = {name for row in table for name, value in row.items() if value not in (None, "")}
+    through = any(row.get(RESIDUAL) for row in table)
+    optional = [
+        *([] if any(map(is_velocity, study.axes)) else [speed]),
+        *(depths[: 4 if "experiment_depth_m" in known else 1] if "target" in known else []),
+        *(column for column in rod if column.name != RESIDUAL or through),
+        *drawn,
         Column("Regime", "regime", _word("regime"), number=False),
+    ]
+    return [
+        *(_of_axis(axis, table[0]) for axis in study.axes),
+        *(column for column in optional if column.name in known),
         Column("Status", "status", _word("status"), number=False),
     ]
+
+
+def _of_axis(axis: Axis, row: Row) -> Column:
+    name = f"{axis.name} (axis)" if f"{axis.name} (axis)" in row else axis.name
+    return Column(axis.name, name, _word(name), number=False)
+
+
+def _of_response(name: str) -> Column:
+    found = response(name)
+    return Column(found.title[0].upper() + found.title[1:], name, _number(name, "{:.4g}", found.factor))
 
 
 def columns_of_books() -> list[Column]:

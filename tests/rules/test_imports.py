@@ -130,6 +130,9 @@ def users(library: str) -> set[str]:
         ("vtk", ("hydro2d.output.vtk", "hydro2d.results.figures")),
         ("pint", ("hydro2d.units",)),
         ("scipy", ("hydro2d.penetration", "hydro2d.solver.crater")),
+        ("plotly", ("hydro2d.study.charts", "hydro2d.study.page")),
+        ("jinja2", ("hydro2d.study.page",)),
+        ("pandas", ("hydro2d.study.table",)),
         ("hydro2d.kernels", ("hydro2d.kernels", "hydro2d.solver.method", "hydro2d.solver.contact", "hydro2d.solver.following",
                              "hydro2d.solver.cycle", "hydro2d.running.bench")),
     ],
@@ -156,7 +159,8 @@ def test_a_forbidden_import_is_found(name, text):
 
 def test_help_needs_nothing_heavy():
     """``hydro2d --help`` answers at once: the command line imports at use."""
-    heavy = set("numba numpy h5py pyvista vtkmodules pint scipy matplotlib pydantic distributed".split())
+    heavy = set("numba numpy h5py pyvista vtkmodules pint scipy matplotlib pydantic distributed plotly jinja2 "
+                "pandas".split())
     script = f"import sys; from hydro2d.cli import main; print(sorted({heavy!r} & set(sys.modules)))"
     done = subprocess.run([sys.executable, "-c", script], cwd=source.ROOT, capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "[]"

@@ -16,6 +16,8 @@ SECONDS = 120
 #: --no-sandbox: containers often forbid the sandbox, and the page is our own; no name resolves, so nothing can be fetched
 OPTIONS = ("--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--hide-scrollbars", "--no-first-run",
            "--host-resolver-rules=MAP * ~NOTFOUND")  # fmt: skip
+#: what the reader prefers
+SCHEMES = {"dark": "--blink-settings=preferredColorScheme=0", "light": "--blink-settings=preferredColorScheme=1"}
 #: collects what goes wrong, from before anything else in the page
 WATCH = """<script>
 const faults = [];
@@ -26,9 +28,9 @@ for (const name of ["error", "warn"]) console[name] = (...words) => faults.push(
 #: the page in a frame of a width, because windows have a least width, and what its function returns once all is loaded
 FRAME = """<!DOCTYPE html><title>asks</title>
 <iframe style="width: {width}px; height: 900px; border: 0" srcdoc="{page}"></iframe>
-<script>addEventListener("load", () => {{
+<script>addEventListener("load", async () => {{
   const answer = document.createElement("pre");
-  try {{ answer.textContent = JSON.stringify(frames[0].question()); }}
+  try {{ answer.textContent = JSON.stringify(await frames[0].question()); }}
   catch (error) {{ answer.textContent = JSON.stringify({{error: String(error)}}); }}
   answer.id = "the-answer";
   document.body.append(answer);
@@ -54,13 +56,15 @@ class Browser:
             return str(error)
         return "" if "<p>here</p>" in done.stdout else f"exit status {done.returncode}: {done.stderr.strip()[-300:]}"
 
-    def ask(self, page: Path, script: str, width: int):
-        """What the body of a function returns in the page, in a window of this width."""
+    def ask(self, page: Path, script: str, width: int, scheme: str = "light"):
+        """What the body of an async function returns in the page, in a window of this width, in the light or dark scheme."""
         text = page.read_text(encoding="utf-8").replace("<head>", f"<head>{WATCH}", 1)
         asked = self.folder / "asked.html"
-        text = text.replace("</body>", f"<script>function question() {{ {script} }}</script></body>")
+        before, end, after = text.rpartition("</body>")  # the page's own; a library may speak of others
+        text = f"{before}<script>async function question() {{ {script} }}</script>{end}{after}"
         asked.write_text(FRAME.format(width=width, page=html.escape(text)), encoding="utf-8")
-        done = self._run("--window-size=1400,1000", "--dump-dom", asked.as_uri())
+        window = ("--window-size=1500,1000", "--virtual-time-budget=10000", SCHEMES[scheme])
+        done = self._run(*window, "--dump-dom", asked.as_uri())
         found = re.search(r'<pre id="the-answer">(.*?)</pre>', done.stdout, re.S)
         assert found, f"the page gave no answer: {done.stderr[-500:]}"
         return json.loads(html.unescape(found[1]))

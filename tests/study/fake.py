@@ -19,9 +19,14 @@ LENGTH, RADIUS, MASS, TIME = 0.09779, 0.0033784, 0.063, 6e-4
 
 
 @functools.cache
+def resolved(file: str, *overrides: str) -> str:
+    """A resolved deck with overrides."""
+    return deck.load(file, list(overrides)).to_toml()
+
+
 def deck_text(*overrides: str) -> str:
     """The resolved deck of a shot with overrides."""
-    return deck.load(BASE, list(overrides)).to_toml()
+    return resolved(BASE, *overrides)
 
 
 def write_run(directory: Path, velocity: float = 1086.0, depth: float = 0.31, shortened: float = 0.02, rows: int = 200,

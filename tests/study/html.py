@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from html.parser import HTMLParser
 
-VOID = {"meta", "img", "br"}
+VOID = {"meta", "img", "br", "wbr"}
 
 
 class Page(HTMLParser):
-    """Elements, their attributes and the text of a page; ``faults`` lists what is not well-formed or leads outside."""
+    """Elements, their attributes and the text of a page; ``faults`` lists what is not well-formed or leads outside.
+
+    Words that may break in two lines are one in the text.
+    """
 
     def __init__(self, text: str):
         super().__init__()
@@ -16,6 +19,7 @@ class Page(HTMLParser):
         self.elements: list[tuple[str, dict]] = []
         self.faults: list[str] = []
         self.words: list[str] = []
+        self.joined = False
         self.feed(text)
         self.close()
         self.faults += [f"<{name}> is not closed" for name in self.open]
@@ -31,7 +35,7 @@ class Page(HTMLParser):
     def _addresses(self, name, attributes, ids):
         for key in ("src", "href"):
             value = attributes.get(key)
-            if value is None or value.startswith("data:image/png;base64,"):
+            if value is None or (value.startswith("data:") and (key == "src" or attributes.get("download"))):
                 continue
             if not value.startswith("#"):
                 yield f"<{name}> leads to {value[:60]}"
@@ -42,6 +46,7 @@ class Page(HTMLParser):
         keys = [key for key, _ in attrs]
         if len(keys) != len(set(keys)):
             self.faults.append(f"<{tag}> has an attribute twice")
+        self.joined = self.joined or tag == "wbr"
         self.elements.append((tag, dict(attrs)))
         if tag not in VOID:
             self.open.append(tag)
@@ -52,6 +57,9 @@ class Page(HTMLParser):
 
     def handle_data(self, data):
         if not {"style", "script"} & set(self.open):
+            if self.joined and self.words:
+                data = self.words.pop() + data
+            self.joined = False
             self.words.append(data)
 
     @property

@@ -9,20 +9,102 @@ from tests.study import fake
 
 AXES = {
     "velocity": fake.velocities(1086, 1200, 1296),
-    "a rather long name of an axis": {"ke": ("numerics.advection=ke",), "momentum": ("numerics.advection=momentum",)},
+    "a rather long name of an axis": {
+        "ke": ("numerics.advection=ke",),
+        "momentum-conserving": ("numerics.advection=momentum",),
+    },
 }
-PHONE, DESK = 360, 1200
+PHONE, DESK = 360, 1440
+SCHEMES = ("light", "dark")
 
-STATE = """
+#: what the questions use: contrast of two colours, the background behind an element, words that stand in two lines
+TOOLS = r"""
+  const all = (selector) => [...document.querySelectorAll(selector)];
+  const numbers = (colour) => colour.match(/[\d.]+/g).map(Number);
+  const luminance = (colour) => {
+    const [r, g, b] = numbers(colour).map((part) => part / 255)
+      .map((part) => (part <= 0.04045 ? part / 12.92 : ((part + 0.055) / 1.055) ** 2.4));
+    return 0.2126 * r + 0.7152 * g + 0.0722 * b;
+  };
+  const contrast = (one, two) => {
+    const [low, high] = [luminance(one), luminance(two)].sort((a, b) => a - b);
+    return (high + 0.05) / (low + 0.05);
+  };
+  const behind = (element) => {
+    for (let each = element; each; each = each.parentElement) {
+      const colour = getComputedStyle(each).backgroundColor, parts = numbers(colour);
+      if (parts.length === 3 || parts[3] > 0) return colour;
+    }
+    return "rgb(255, 255, 255)";
+  };
+  const faint = (elements, colour) => elements
+    .filter((each) => contrast(colour(getComputedStyle(each)), behind(each)) < 4.5).map((each) => each.outerHTML.slice(0, 150));
+  const torn = (element) => {
+    const walker = document.createTreeWalker(element, NodeFilter.SHOW_TEXT), found = [], range = document.createRange();
+    while (walker.nextNode())
+      for (const match of walker.currentNode.textContent.matchAll(/[^\s]+/g)) {
+        range.setStart(walker.currentNode, match.index);
+        range.setEnd(walker.currentNode, match.index + match[0].length);
+        if (new Set([...range.getClientRects()].map((box) => Math.round(box.top))).size > 1) found.push(match[0]);
+      }
+    return found;
+  };
+  const right = (each) => each.getBoundingClientRect().right;
+  const outside = (plot) => [...plot.querySelectorAll(".legendtext, .g-xtitle, .g-ytitle")].filter((each) => {
+    const box = each.getBoundingClientRect(), around = plot.getBoundingClientRect();
+    return box.left < around.left - 1 || box.right > around.right + 1 || box.bottom > around.bottom + 1;
+  }).map((each) => each.textContent);
+"""
+STATE = (
+    TOOLS
+    + r"""
+  all("details").forEach((each) => { each.open = true; });
+  const text = all("p, h1, h2, h3, a, th, td, caption, figcaption, li, dt, dd, summary, .message, .tag")
+    .filter((each) => each.textContent.trim());
+  const drawn = all(".plotly-graph-div :is(.xtick, .ytick, .legend, .g-xtitle, .g-ytitle) text");
+  const marks = all(".plotly-graph-div .points path").filter((each) => /fill: rgb\(1, 2, 3\)/.test(each.getAttribute("style")));
   return {
     inner: innerWidth,
     scroll: document.scrollingElement.scrollWidth,
+    dark: matchMedia("(prefers-color-scheme: dark)").matches,
+    paper: luminance(behind(document.body)),
     pictures: [...document.images].map((image) => image.naturalWidth),
-    widest: Math.max(...[...document.images].map((image) => image.getBoundingClientRect().right)),
-    requests: performance.getEntriesByType("resource").map((entry) => entry.name).filter((name) => !name.startsWith("data:")),
-    boxes: [...document.querySelectorAll(".scroll")].map((box) => getComputedStyle(box).overflowX),
+    widest: Math.max(...all("img, .main-svg").map((each) => each.getBoundingClientRect().right)),
+    plots: all(".plotly-graph-div").map((each) => each.querySelectorAll(".scatterlayer .trace").length),
+    points: all(".scatterlayer .points path").length,
+    faint: [...faint(text, (style) => style.color), ...faint([...drawn, ...marks], (style) => style.fill)],
+    read: [text, drawn, marks].map((found) => found.length),
+    cut: all(".plotly-graph-div").flatMap(outside),
+    torn: all(".key, thead th").flatMap(torn),
+    spilt: all("th .key span, th.key span").filter((each) => right(each) > right(each.closest("th")) + 1)
+      .map((each) => each.textContent),
+    keys: all("th.key").map((each) => each.textContent),
+    requests: performance.getEntriesByType("resource").map((entry) => entry.name).filter((name) => !/^(data|blob):/.test(name)),
+    boxes: all(".scroll").map((box) => getComputedStyle(box).overflowX),
     faults,
   };
+"""
+)
+ASKED = r"""
+  const plot = document.querySelector(".plotly-graph-div");
+  const number = plot.data.findIndex((trace) => trace.name === "ke");
+  Plotly.Fx.hover(plot, [{ curveNumber: number, pointNumber: 0 }]);
+  const shown = [...plot.querySelectorAll(".hovertext text")].map((each) => each.textContent).join(" ");
+  const ticks = () => [...plot.querySelectorAll(".xtick text")].map((each) => Number(each.textContent));
+  const before = ticks();
+  plot.querySelector(".modebar-btn[data-title='Zoom in']").click();
+  await new Promise((done) => setTimeout(done, 500));
+  const picture = await Plotly.toImage(plot, { format: "svg" });
+  return {
+    shown, before, after: ticks(), faults, picture: decodeURIComponent(picture),
+    buttons: [...plot.querySelectorAll(".modebar-btn")].map((each) => each.dataset.title),
+  };
+"""
+LINKS = r"""
+  return [...document.querySelectorAll("a[download]")].map((each) => {
+    const [head, body] = each.href.split(",");
+    return { name: each.download, kind: head, start: atob(body).slice(0, 3000) };
+  });
 """
 SORT = """
   const table = document.querySelector("table.sortable");
@@ -44,47 +126,84 @@ SORT = """
 def page(tmp_path_factory):
     """A study with a case that waits and one that failed with a long reason."""
     study = fake.write_study(tmp_path_factory.mktemp("browsed") / "study", AXES)
-    (study / "cases" / "1086m-s_momentum" / "failed.json").write_text('{"reason": "%s"}' % ("a_very_long_reason/" * 12))
+    (study / "cases" / "1086m-s_momentum-conserving" / "failed.json").write_text(
+        '{"reason": "%s"}' % ("a_very_long_reason/" * 12)
+    )
     for file in ("summary.json", "deck.toml", "history.h5"):
-        (study / "cases" / "1296m-s_momentum" / file).unlink()
+        (study / "cases" / "1296m-s_momentum-conserving" / file).unlink()
     return report([study], say=lambda line: None)
 
 
+@pytest.mark.parametrize("scheme", SCHEMES)
 @pytest.mark.parametrize("width", [PHONE, DESK])
-def test_the_page_loads_whole_and_alone(browser, page, width):
-    found = browser.ask(page, STATE, width)
+def test_the_page_is_whole_alone_and_legible(browser, page, width, scheme):
+    found = browser.ask(page, STATE, width, scheme)
     assert found["faults"] == []
     assert found["inner"] == width
     assert found["scroll"] <= width
     assert found["widest"] <= width
-    assert len(found["pictures"]) == 3
+    assert len(found["pictures"]) == 1
     assert min(found["pictures"]) > 0
+    assert (found["dark"], found["paper"] < 0.05) == (scheme == "dark", scheme == "dark")
+    assert len(found["plots"]) == 2
+    assert min(found["plots"]) > 4
+    assert found["points"] == 4 + 1 + 3  # ended, unfinished, experiments
+    assert min(found["read"]) >= 3
+    assert found["faint"] == []
+    assert found["cut"] == []
+    assert found["torn"] == found["spilt"] == []
+    assert "body.rod.velocity" in found["keys"]
     assert found["requests"] == []
     assert set(found["boxes"]) == {"auto"}
 
 
+def test_values_zoom_and_pictures_are_offered(browser, page):
+    found = browser.ask(page, ASKED, DESK)
+    assert found["faults"] == []
+    assert "1086m-s_ke" in found["shown"]
+    assert "depth [cm]: 35" in found["shown"]
+    assert max(found["after"]) - min(found["after"]) < max(found["before"]) - min(found["before"])
+    assert "Download plot as a PNG" in found["buttons"]
+    assert not [title for title in found["buttons"] if "loud" in title or "hare" in title]
+    assert "impact velocity [m/s]" in found["picture"]
+
+
+def test_table_decks_and_pictures_can_be_saved(browser, page):
+    found = {entry["name"]: entry for entry in browser.ask(page, LINKS, PHONE)}
+    assert found["cases.csv"]["start"].startswith("case,velocity,")
+    assert found["cases.csv"]["kind"] == "data:text/csv;charset=utf-8;base64"
+    assert "[[body]]" in found["1086m-s_ke.toml"]["start"]
+    assert found["rods_01.png"]["start"].startswith("\x89PNG")
+    assert len(found) == 2 + 5  # a case has no deck
+
+
 def test_faults_are_seen(browser, page, tmp_path):
-    """A picture that is none, an error of a script, a request and a box that is too wide are found."""
+    """A picture that is none, an error of a script, a request, a box that is too wide, a torn key and faint text are found."""
     spoilt = tmp_path / "spoilt.html"
     text = page.read_text(encoding="utf-8")
     wrong = ('<img alt="x" src="data:image/png;base64,AAAA"><img alt="y" src="https://example.invalid/x.png">'
              '<div style="width: 900px">wide</div><script>nothing.there();</script>')  # fmt: skip
+    wrong += '<p style="color: #222">faint</p><p class="key" style="width: 3em; word-break: break-all">body.anotherlongword</p>'
     spoilt.write_text(text.replace("</main>", f"{wrong}</main>"), encoding="utf-8")
-    found = browser.ask(spoilt, STATE, PHONE)
+    found = browser.ask(spoilt, STATE, PHONE, "dark")
     said = " ".join(found["faults"])
     assert "nothing is not defined" in said
     assert "fetched https://example.invalid/x.png" in said
     assert 'alt="x"' in said
     assert found["pictures"].count(0) == 2
+    assert found["torn"] == ["body.anotherlongword"]
+    assert ["faint" in each for each in found["faint"]] == [True]
     assert found["scroll"] > PHONE
 
 
 def test_tables_are_sorted(browser, page):
     found = browser.ask(page, SORT, DESK)
     assert found["faults"] == []
-    by_depth = [name for name in found["before"] if name != "1296m-s_momentum"]  # depths fall in the order of the study
-    assert found["up"] == [*reversed(by_depth), "1296m-s_momentum"]
-    assert found["down"] == [*by_depth, "1296m-s_momentum"]
+    by_depth = [
+        name for name in found["before"] if name != "1296m-s_momentum-conserving"
+    ]  # depths fall in the order of the study
+    assert found["up"] == [*reversed(by_depth), "1296m-s_momentum-conserving"]
+    assert found["down"] == [*by_depth, "1296m-s_momentum-conserving"]
     assert found["byName"] == sorted(found["before"])
     assert (found["upward"], found["downward"], found["left"]) == ("ascending", "descending", None)
 
@@ -92,10 +211,10 @@ def test_tables_are_sorted(browser, page):
 def test_a_link_opens_a_folded_case(browser, page):
     script = """
       location.hash = document.querySelector("tbody th a").getAttribute("href");
-      dispatchEvent(new HashChangeEvent("hashchange"));
-      return [...document.querySelectorAll("details")].filter((each) => each.open).map((each) => each.id);
+      await new Promise((done) => setTimeout(done, 500));
+      return [...document.querySelectorAll("details[open]")].map((each) => each.textContent.trim().slice(0, 10));
     """
-    assert browser.ask(page, script, PHONE) == ["case-0"]
+    assert browser.ask(page, script, PHONE) == ["1086m-s_ke"]
 
 
 def sheets(file):
@@ -107,9 +226,17 @@ def sheets(file):
 def test_it_prints(browser, page):
     printed = sheets(browser.pdf(page))
     text = "".join(printed)
-    for word in ("1086m-s_ke", "1200m-s_momentum", "1296m-s_momentum", "Regime", "Status", "a_very_long_reason"):
+    for word in (
+        "1086m-s_ke",
+        "1200m-s_momentum-conserving",
+        "1296m-s_momentum-conserving",
+        "Regime",
+        "Status",
+        "a_very_long_reason",
+    ):
         assert word in printed[0]
     assert "advection0.81%" in text
+    assert text.count("impactvelocity[m/s]") == 1  # of the figure
     assert "c0ffee" in text  # folded on the screen, open on paper
     assert "decksshare" not in text  # what all decks share is left out
     assert len(printed) < 15

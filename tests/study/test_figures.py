@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from hydro2d.study import drawing, layout, rods, series, theory
+from hydro2d.study import charts, layout, panels, responses, rods, series, theory
 from hydro2d.study.contents import collect
 from tests.study import fake
 
@@ -18,24 +18,35 @@ def contents(tmp_path_factory):
 
 
 @pytest.fixture(scope="module")
-def setup(contents):
-    return next(iter(contents.groups))
+def panel(contents):
+    return panels.panels(contents, choose(contents))[0]
 
 
-@pytest.fixture(scope="module")
-def groups(contents, setup):
-    return series.grouped(contents.groups[setup], contents.study.axes)
+def choose(contents, **options):
+    return responses.choose(contents.study, contents.records, **options)
+
+
+def grouped(contents, axes, **options):
+    return series.grouped(contents.records, axes, choose(contents, **options))
+
+
+def drawn(contents, panel, y="penetration_depth_m", curves=(), **options):
+    """The traces of a figure by their names."""
+    choice = choose(contents, y=(y,), **options)
+    figure = charts.response(panel.setup, panel.series, choice.x, choice.y[0], contents.belonging, panel.shots, curves, ())
+    return {(trace.name or trace.meta): trace for trace in figure.data}
 
 
 def lines(axes):
     return {line.get_label(): line for line in axes.lines}
 
 
-def test_series_are_what_the_velocity_does_not_tell_apart(groups, contents, setup):
-    assert [(each.label, [record.velocity for record in each.records]) for each in groups] == [
+def test_series_are_what_the_velocity_does_not_tell_apart(panel, contents):
+    assert [(each.label, [record.velocity for record in each.records]) for each in panel.series] == [
         ("ke", [1086, 1200, 1296]), ("momentum", [1086, 1200, 1296])]  # fmt: skip
-    by_decks = series.grouped(contents.groups[setup], ())
-    assert [each.label for each in by_decks] == ["advection ke", "advection momentum"]
+    assert [each.label for each in grouped(contents, ())] == ["advection ke", "advection momentum"]
+    by = grouped(contents, contents.study.axes, by=("velocity",))
+    assert [(each.label, len(each.records)) for each in by] == [(f"impact velocity {v}", 2) for v in (1086, 1200, 1296)]
 
 
 def test_a_variant_for_each_velocity_makes_no_series(tmp_path):
@@ -44,7 +55,7 @@ def test_a_variant_for_each_velocity_makes_no_series(tmp_path):
     for case, speed in (("shot4345_0.5", 1200), ("shot4345_0.4", 1200)):
         (study / "cases" / case / "deck.toml").write_text(fake.deck_text(f"body.rod.velocity={speed} m/s"))
     found = collect(layout.load(study))
-    groups = series.grouped(found.records, found.study.axes)
+    groups = grouped(found, found.study.axes)
     assert [each.label for each in groups] == ["courant 0.5", "courant 0.4"]
 
 
@@ -57,18 +68,70 @@ def test_styles_differ_in_colour_and_in_marker():
         assert one.dash != two.dash
 
 
-def test_runs_are_hollow_experiments_filled_and_the_rear_is_marked(contents, setup, groups):
+def luminance(colour):
+    parts = [int(colour[n : n + 2], 16) / 255 for n in (1, 3, 5)]
+    linear = [part / 12.92 if part <= 0.04045 else ((part + 0.055) / 1.055) ** 2.4 for part in parts]
+    return sum(share * part for share, part in zip((0.2126, 0.7152, 0.0722), linear, strict=True))
+
+
+def test_colours_are_seen_on_light_and_on_dark():
+    for colour in series.COLOURS:
+        for paper in ("#ffffff", "#14181c"):
+            low, high = sorted((luminance(colour), luminance(paper)))
+            assert (high + 0.05) / (low + 0.05) > 3.0, (colour, paper)
+
+
+def test_runs_experiments_rear_and_models_are_drawn(contents, panel):
     curves = theory.curves(contents.records[0].shot, 1000.0, 1300.0)
-    figure = drawing.depths(setup, groups, contents.measurements[setup], curves)
-    found = lines(figure.axes[0])
-    np.testing.assert_allclose(found["ke"].get_xydata(), [[1086, 35.0], [1200, 34.8], [1296, 34.6]])
-    assert found["ke"].get_markerfacecolor() == "white"
-    np.testing.assert_allclose(found["experiment"].get_xydata(), [[1086, 44.8], [1200, 20.0], [1296, 21.6]])
-    assert found["experiment"].get_markerfacecolor() == "black"
-    assert found["rear of the target"].get_ydata()[0] == pytest.approx(53.34)
+    found = drawn(contents, panel, curves=curves)
+    assert list(found["ke"].x) == [1086, 1200, 1296]
+    assert list(found["ke"].y) == pytest.approx([35.0, 34.8, 34.6])
+    assert found["ke"].mode == "lines+markers"
+    assert "1086m-s_ke" in found["ke"].text[0]
+    assert "depth [cm]: 35" in found["ke"].text[0]
+    assert list(zip(found["experiment"].x, found["experiment"].y, strict=True)) == [
+        (1086, pytest.approx(44.8)), (1200, 20.0), (1296, pytest.approx(21.6))]  # fmt: skip
+    assert found["rear of the target"].y[0] == pytest.approx(53.34)
     for title in ("Forrestal's rigid rod", "Tate-Alekseevskii", "Walker-Anderson", "Hydrodynamic theory"):
         assert title in found
-    assert {text.get_text() for text in figure.legends[0].get_texts()} == set(found)
+
+
+def test_unfinished_runs_are_open_and_bounds_stand_in_a_triangle(tmp_path):
+    runs = tmp_path / "runs"
+    fake.write_run(runs / "a", 1086.0, 0.30)
+    fake.write_run(runs / "b", 1200.0, 0.31, stop_reason="end time", rod_core_velocity_m_s=80.0)
+    fake.write_run(runs / "c", 1296.0, 0.54)
+    found = collect(layout.load(runs))
+    assert [each.unfinished for each in found.records] == ["", "cut at 80 m/s", ""]
+    traces = drawn(found, panels.panels(found, choose(found))[0])
+    assert list(traces["hydro2d"].x) == [1086, 1296]
+    assert (list(traces["unfinished"].x), traces["unfinished"].marker.symbol) == ([1200], "circle-open")
+    assert "unfinished: cut at 80 m/s" in traces["unfinished"].text[0]
+    assert "open: unfinished, as far as it went" in traces
+    assert list(next(trace for trace in traces.values() if trace.meta == "bound").x) == [1296]
+    assert [row["depth_error_m"] is None for row in found.rows] == [False, True, False]
+
+
+def test_words_stand_below_in_the_order_of_the_study(contents, panel):
+    found = drawn(contents, panel, x="advection", by=("velocity",))
+    choice = choose(contents, x="advection")
+    assert choice.x.order == ("ke", "momentum")
+    assert [each.label for each in panels.panels(contents, choice)[0].series] == ["velocity 1086 m/s", "velocity 1200 m/s",
+                                                                                 "velocity 1296 m/s"]  # fmt: skip
+    assert list(found["ke"].x) == ["ke"] * 3
+    assert set(found["experiment"].x) == {"ke", "momentum"}
+    assert "rear of the target" not in found
+
+
+def test_legends_are_short_enough_for_a_phone():
+    name = "a rather long name of a series, which goes on and on, and on"
+    figure = charts._figure()
+    for _ in range(30):
+        figure.add_scatter(x=[1], y=[1], name=name)
+    charts._finished(figure)
+    assert [trace.showlegend for trace in figure.data].count(False) == 30 - charts.MOST_ENTRIES
+    assert max(len(line) for line in figure.data[0].name.split("<br>")) <= charts.LETTERS
+    assert figure.layout.height > charts.PANEL + 2 * charts.MOST_ENTRIES * charts.LINE
 
 
 def test_models_are_those_of_the_command(contents):
@@ -85,15 +148,17 @@ def test_models_are_those_of_the_command(contents):
     assert all(curve.drawable or curve.note for curve in curves.values())
 
 
-def test_histories_are_thinned(contents, groups):
-    figure = drawing.histories(groups)
-    assert len(figure.axes) == 3
-    assert [len(axes.lines) for axes in figure.axes] == [6, 6, 6]
-    line = figure.axes[0].lines[0]
-    assert len(line.get_xdata()) <= 300
-    assert line.get_xdata()[-1] == pytest.approx(600.0)
-    assert line.get_ydata()[-1] == pytest.approx(35.0)
-    assert len({(line.get_color(), str(line.get_linestyle())) for line in figure.axes[0].lines}) == 6
+def test_histories_are_thinned(panel):
+    figure = charts.histories(panel.series)
+    titles = [axis.title.text for axis in figure.select_yaxes()]
+    assert titles == ["depth<br>[cm]", "tail velocity<br>[m/s]", "rod length<br>[cm]"]
+    assert len(figure.data) == 18
+    line = figure.data[0]
+    assert len(line.x) <= 300
+    assert line.x[-1] == pytest.approx(600.0)
+    assert line.y[-1] == pytest.approx(35.0)
+    assert len({(line.line.color, line.line.dash) for line in figure.data}) == 6
+    assert sum(line.showlegend for line in figure.data) == 6
 
 
 def patches(axes):

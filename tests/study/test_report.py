@@ -6,6 +6,7 @@ import shutil
 import pytest
 
 from hydro2d.cli.main import call
+from hydro2d.results import movies
 from hydro2d.study import layout
 from hydro2d.study.contents import collect
 from hydro2d.study.report import report
@@ -40,6 +41,11 @@ def page_of(directory, **options):
     return Page(file.read_text(encoding="utf-8")), said
 
 
+def charts(page):
+    """The ids of the figures that a pointer can ask."""
+    return [attributes["id"] for attributes in page.all("div") if attributes.get("class") == "plotly-graph-div"]
+
+
 def table(folder):
     with open(folder / "cases.csv", newline="", encoding="utf-8") as file:
         return {row["case"]: row for row in csv.DictReader(file)}
@@ -53,7 +59,9 @@ def test_one_well_formed_file(made):
     assert {"name": "viewport", "content": "width=device-width, initial-scale=1"} in page.all("meta")
     assert "Depth <against> velocity hydro2d 0.1.0" in page.text
     assert "6 cases: 6 done." in page.text
-    assert len(page.all("img")) == len(list((made[0] / "report").glob("*.png"))) == 3
+    assert len(page.all("img")) == len(list((made[0] / "report").glob("*.png"))) == 1
+    assert charts(page) == ["penetration_depth_m-W_alloy-into-Al5083-hemispherical-nose",
+                            "histories-W_alloy-into-Al5083-hemispherical-nose"]  # fmt: skip
     assert len(page.all("table")) == len(page.all("caption")) == 4
 
 
@@ -108,12 +116,14 @@ def test_cases_that_are_not_done_are_shown(study):
     page, _ = page_of(study)
     assert page.faults == []
     assert "6 cases: 1 unphysical, 3 done, 1 waiting, 1 interrupted." in page.text
-    assert "unphysical density -1 kg/m3" in page.text
+    assert "unphysical unfinished density -1 kg/m3" in page.text
     rows = table(study / "report")
     assert (rows["1086m-s_ke"]["depth_m"], rows["1086m-s_ke"]["depth_error_m"]) == ("0.35", "")
     assert rows["1200m-s_ke"]["depth_m"] == ""
     assert float(rows["1290m-s_ke"]["depth_m"]) == pytest.approx(0.346)  # of the history
-    assert "Hollow: runs that are done (3 of 5)" in page.text
+    assert "3 of 5 runs have ended; open marks: 2 unfinished" in page.text
+    assert [rows[name]["unfinished"] for name in ("1086m-s_ke", "1290m-s_ke", "1290m-s_momentum")] == [
+        "unphysical", "interrupted", ""]  # fmt: skip
 
 
 def test_a_study_that_has_not_begun(study):
@@ -140,7 +150,7 @@ def test_what_cannot_be_read_is_said_and_the_rest_is_made(study, file, said):
     assert any(line.startswith("warning: 1086m-s_ke: ") and said in line for line in lines)
     assert "Not everything could be used" in page.text
     assert said in page.text
-    assert len(page.all("img")) == 3
+    assert (len(page.all("img")), len(charts(page))) == (1, 2)
     assert len(table(study / "report")) == 6
 
 
@@ -190,12 +200,71 @@ def test_an_experiment_at_an_unknown_velocity_is_compared_with_nothing(tmp_path)
     assert float(rows["v1200"]["depth_error_m"]) == pytest.approx(0.4 - 0.448)
 
 
-def test_a_deck_without_rod_and_target(tmp_path):
+def test_a_wrong_deck_is_said_and_what_the_summary_has_is_drawn(tmp_path):
     run = fake.write_run(tmp_path / "runs" / "sod")
     (run / "deck.toml").write_text('name = "x"\n[mesh]\nwrong = 1\n')
-    page, _ = page_of(tmp_path / "runs")
-    assert "There is no figure" in page.text
+    page, lines = page_of(tmp_path / "runs")
+    assert "deck.toml is not a deck of this version" in lines[0]
+    assert charts(page) == ["penetration_depth_m-runs"]
+    assert "Depth against case: runs." in page.text
     assert page.faults == []
+
+
+def test_spheres_and_runs_without_a_projectile_have_a_page(tmp_path):
+    for velocity, left in ((600, 500.0), (900, 820.0), (1200, 1130.0)):
+        text = fake.resolved("problems/shapes/sphere.toml", f"body.sphere.velocity={velocity} m/s", "body.plate.thickness=4 mm")
+        fake.write_run(tmp_path / "spheres" / f"{velocity}", velocity, 0.003, text=text, exit_time_s=1e-5,
+                       rod_residual_velocity_m_s=left)  # fmt: skip
+    page, lines = page_of(tmp_path / "spheres")
+    assert page.faults == []
+    assert [name.split("-")[0] for name in charts(page)] == ["penetration_depth_m", "rod_residual_velocity_m_s", "histories"]
+    assert "600 600 ≥ 0.4 0.980 1.02 500 deforming done" in page.text
+    assert "Lambert-Jonas, fitted to these runs" in page.text
+    assert lines[0].startswith("wrote")
+    assert [row["projectile"] for row in table(tmp_path / "spheres" / "report").values()] == ["sphere"] * 3
+    fake.write_run(tmp_path / "sod" / "a", text=fake.resolved("problems/verification/sod_z.toml"),
+                   bodies={"gas": {"velocity_m_s": 12.0, "z_max_m": 0.4}})  # fmt: skip
+    page, _ = page_of(tmp_path / "sod")
+    assert page.faults == []
+    assert "Bodies gas velocity [m/s]" in page.text
+    assert "Depth [cm]" not in page.text
+
+
+def test_responses_are_chosen(study):
+    page, lines = page_of(study, x="advection", y=["rod_mass_kg", "crater.volume_m3"], by=["velocity"])
+    assert charts(page)[0].startswith("rod_mass_kg")
+    assert "Rod mass against advection" in page.text
+    assert "Rod mass [g]" in page.text  # a column of the table
+    assert "crater.volume_m3" in table(study / "report")["1086m-s_ke"]
+    assert [name for name in charts(page) if "volume" in name] == []
+    assert lines[0] == "warning: no run has crater.volume_m3: it is not drawn"
+
+
+def test_a_run_that_was_cut_has_no_error(study):
+    fake.edit_json(study / "cases" / "1086m-s_ke" / "summary.json", stop_reason="end time", rod_core_velocity_m_s=300.0)
+    page, _ = page_of(study)
+    row = table(study / "report")["1086m-s_ke"]
+    assert (row["status"], row["unfinished"], row["depth_error_m"], row["depth_m"]) == ("done", "cut at 300 m/s", "", "0.35")
+    assert "done unfinished cut at 300 m/s" in page.text
+
+
+@pytest.mark.parametrize("ending", ["gif", "mp4"])
+def test_films_are_in_the_page(finished, tmp_path, monkeypatch, ending):
+    if ending == "gif":
+        monkeypatch.setattr("hydro2d.results.movies.has_ffmpeg", lambda: False)
+    elif not movies.has_ffmpeg():
+        pytest.skip("no ffmpeg is installed")
+    shutil.copytree(finished, tmp_path / "runs" / "a")
+    fake.write_run(tmp_path / "runs" / "b")
+    page, lines = page_of(tmp_path / "runs", movie="pressure")
+    assert page.faults == []
+    assert "warning: b has no film: no dump was written" in lines
+    film = tmp_path / "runs" / "report" / f"film_001.{ending}"
+    assert film.stat().st_size < 1e6
+    sources = [each["src"][:14] for each in page.all("video" if ending == "mp4" else "img")]
+    assert ("data:video/mp4" if ending == "mp4" else "data:image/gif") in sources
+    page_of(tmp_path / "runs")
+    assert not film.exists()
 
 
 def test_pictures_of_an_earlier_report_are_removed(study, tmp_path):
@@ -229,9 +298,23 @@ def test_the_command(study, tmp_path, capsys):
     assert call(["report"]) == 2
     assert call(["report", str(study), "--out", str(study / "study.json")]) == 2
     assert "is a file" in capsys.readouterr().err
+    for option, what in (("--y", "response"), ("--x", "axis"), ("--by", "axis"), ("--movie", "field")):
+        assert call(["report", str(study), "--out", str(tmp_path / "none"), option, "nothing"]) == 2
+        assert capsys.readouterr().err.startswith(f"hydro2d: {option}: unknown {what}")
+    assert not (tmp_path / "none").exists()
 
 
 def test_reading_leaves_a_study_as_it_is(study):
     before = {path: path.read_bytes() for path in study.rglob("*") if path.is_file()}
     collect(layout.load(study))
     assert {path: path.read_bytes() for path in study.rglob("*") if path.is_file()} == before
+
+
+def test_an_axis_may_be_called_as_a_result(tmp_path):
+    """The axis `cells` counts cells across a rod; the column of the summary is that of the mesh."""
+    axes = {"cells": {number: (f"numerics.courant=0.{number}",) for number in ("4", "5")}, "target": {"x": (), "y": ()}}
+    study = fake.write_study(tmp_path / "study", axes)
+    page, _ = page_of(study)
+    row = table(study / "report")["5_y"]
+    assert (row["cells (axis)"], row["cells"], row["target (axis)"], row["target"]) == ("5", "60984", "y", "Al5083")
+    assert "5_y 5 y 1086" in page.text

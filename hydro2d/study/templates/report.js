@@ -28,11 +28,3 @@ for (const table of document.querySelectorAll("table.sortable")) {
     head.append(button);
   });
 }
-// A link to a folded case opens it, and so does printing.
-function open() {
-  const target = location.hash && document.getElementById(location.hash.slice(1));
-  if (target instanceof HTMLDetailsElement) target.open = true;
-}
-addEventListener("hashchange", open);
-addEventListener("beforeprint", () => document.querySelectorAll("details:not(.common)").forEach((each) => { each.open = true; }));
-open();

@@ -1,0 +1,241 @@
+"""The drawn figures of a report, by Plotly: responses against what was varied, and histories.
+
+Text, grid and experiments have stand-in colours, which the page's style replaces by those of the light or the dark scheme;
+saved pictures keep the stand-ins, which are those of paper.
+"""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Sequence
+
+import numpy as np
+
+from hydro2d.study import residual, theory
+from hydro2d.study.experiments import AT_LEAST, Measurement
+from hydro2d.study.record import Record, Setup
+from hydro2d.study.responses import DEPTH, RESIDUAL, Response, Variable, readers, title
+from hydro2d.study.series import Series, style
+
+#: stand-ins for text and experiments, for models and axes, for the grid and for the paper
+INK, MUTED, GRID, PAPER = "rgb(1, 2, 3)", "rgb(90, 91, 92)", "rgb(221, 222, 223)", "rgb(254, 254, 254)"
+#: heights in pixels: of a panel, of what is below it, of a line of the legend; letters in such a line
+PANEL, BELOW, LINE, LETTERS = 300, 74, 19, 40
+#: entries of a legend beyond which the rest is left to the values that a pointer shows
+MOST_ENTRIES = 24
+#: runs beyond which histories are told apart by series only
+MOST_LINES = 12
+#: words on an x axis beyond which they stand upright
+MOST_ACROSS = 4
+SIZE = 9
+#: markers of measurements: qualifier -> marker and word
+MEASURED = {"measured": ("diamond-tall", "experiment"), "estimated": ("diamond-tall-open", "experiment, estimated"),
+            AT_LEAST: ("star-triangle-up", "experiment, at least (plate perforated)")}  # fmt: skip
+THEORY_DASHES = ("solid", "dash", "dashdot", "dot", "8px,2px,2px,2px,2px,2px")
+
+
+def _figure(rows: int = 1):
+    """An empty figure with stand-in colours."""
+    from plotly.subplots import make_subplots
+
+    figure = make_subplots(rows=rows, cols=1, shared_xaxes=True, vertical_spacing=0.06)
+    figure.update_layout(
+        template="none", font={"color": INK, "size": 13, "family": "system-ui, sans-serif"}, paper_bgcolor=PAPER,
+        plot_bgcolor=PAPER, hovermode="closest", hoverlabel={"bgcolor": PAPER, "bordercolor": MUTED, "font": {"color": INK}},
+        modebar={"color": MUTED, "activecolor": "#0072b2", "bgcolor": "rgba(0,0,0,0)"},
+    )  # fmt: skip
+    lines = {"gridcolor": GRID, "linecolor": MUTED, "tickcolor": MUTED, "zeroline": False, "showline": True, "ticks": "outside"}
+    figure.update_xaxes(**lines, title_standoff=6)
+    figure.update_yaxes(**lines, automargin=True, title_standoff=8)
+    return figure
+
+
+def _finished(figure, rows: int = 1, labels: int = 0):
+    """Room for the legend, one entry a line below the panels, so that no entry is cut off on a narrow screen.
+
+    labels : pixels that the labels of the x axis take beyond one line
+    """
+    shown = []
+    for trace in figure.data:
+        if trace.name and trace.showlegend is not False:
+            if len(shown) >= MOST_ENTRIES:
+                trace.showlegend = False
+                continue
+            trace.name = "<br>".join(textwrap.wrap(trace.name, LETTERS))
+            shown.append(trace)
+    lines = sum(trace.name.count("<br>") + 1 for trace in shown)
+    panel, below = rows * PANEL * (0.72 if rows > 1 else 1.0), LINE * lines + BELOW + labels
+    legend = {"x": 0.0, "y": -(BELOW + labels - 12) / panel, "xanchor": "left", "yanchor": "top", "maxheight": 4000,
+              "tracegroupgap": 0, "itemsizing": "constant", "groupclick": "togglegroup", "font": {"size": 12}}  # fmt: skip
+    figure.update_layout(height=int(panel + below + 34), legend=legend, showlegend=bool(shown),
+                         margin={"l": 62, "r": 14, "t": 34, "b": below})  # fmt: skip
+    return figure
+
+
+def _hover(record: Record, x: Variable, y: Response) -> str:
+    """What a pointer shows of a run."""
+    there, value = x.value(record), y.value(record)
+    told = [f"<b>{record.case.name}</b>", f"{x.title}: {there if isinstance(there, str) else f'{there:.5g}'}",
+            f"{y.title}: {'≥ ' * (y.name == DEPTH and record.at_least)}{value:.5g}"]  # fmt: skip
+    if record.value("regime"):
+        told.append(str(record.value("regime")))
+    if record.unfinished:
+        told.append(f"unfinished: {record.unfinished}")
+    return "<br>".join(told)
+
+
+def _points(figure, records: Sequence[Record], x: Variable, y: Response, how, name: str = "", **options) -> None:
+    """A trace of runs, in the order of x."""
+    known = [record for record in records if x.value(record) is not None and y.value(record) is not None]
+    if x.order is None:
+        known.sort(key=x.value)
+    if known:
+        figure.add_scatter(
+            x=[x.value(record) for record in known], y=[y.value(record) for record in known], name=name, marker=how,
+            text=[_hover(record, x, y) for record in known], hovertemplate="%{text}<extra></extra>",
+            showlegend=bool(name), **options,
+        )  # fmt: skip
+
+
+def response(setup: Setup | None, series: Sequence[Series], x: Variable, y: Response, measured: dict[str, Measurement],
+             shots: Sequence[Measurement], curves: Sequence[theory.Curve],
+             left: Sequence[residual.Curve]):  # fmt: skip
+    """A response against what was varied: runs that have ended filled, unfinished ones open, bounds in a triangle.
+
+    setup : of a panel of one projectile and target, whose rear a line shows in a panel of depths
+    measured : experiments by case, drawn where x is not the velocity;  shots : all experiments of the setup, where it is
+    curves, left : analytic models, of the depth and of the residual velocity
+    """
+    figure = _figure()
+    if y.name == DEPTH:
+        _models(figure, [(curve.title, "", curve.velocity, curve.depth * y.factor) for curve in curves if curve.drawable], y)
+    _models(figure, [(curve.title, curve.colour, curve.velocity, curve.residual * y.factor) for curve in left], y)
+    _runs(figure, series, x, y)
+    if y.name == DEPTH:
+        _bounds(figure, series, x, y)
+        _experiments(figure, series, x, y, measured, shots)
+        if setup and setup.thickness and x.order is None:
+            _rear(figure, setup, y)
+    there = {x.value(record) for each in series for record in each.records if y.value(record) is not None}
+    labels = _words_below(figure, [word for word in x.order if word in there]) if x.order is not None else 0
+    figure.update_xaxes(title={"text": x.title})
+    figure.update_yaxes(title={"text": y.title})
+    if y.name in (DEPTH, RESIDUAL):
+        figure.update_yaxes(range=[0.0, 1.1 * _highest(figure)])
+    return _finished(figure, labels=labels)
+
+
+def _words_below(figure, order: Sequence[str]) -> int:
+    """Words on the x axis in their order, wrapped, upright where they are many; pixels that they take beyond one line."""
+    upright = len(order) > MOST_ACROSS
+    wrapped = [textwrap.wrap(word, LETTERS // (2 if upright else len(order) + 1)) or [""] for word in order]
+    figure.update_xaxes(type="category", categoryorder="array", categoryarray=order, tickmode="array", tickvals=order,
+                        ticktext=["<br>".join(lines) for lines in wrapped], tickangle=-90 if upright else 0,
+                        range=[-0.5, len(order) - 0.5])  # fmt: skip
+    longest = max(len(line) for lines in wrapped for line in lines)
+    return 8 * longest if upright else LINE * (max(map(len, wrapped)) - 1)
+
+
+def _models(figure, lines: Sequence[tuple[str, str, np.ndarray, np.ndarray]], y: Response) -> None:
+    """Lines by name, colour (grey where none is given), impact velocity and value."""
+    for number, (name, colour, velocity, value) in enumerate(lines):
+        values = [None if np.isnan(one) else float(f"{one:.5g}") for one in value]
+        shape = {"color": colour or MUTED, "width": 1.5, "dash": THEORY_DASHES[number % len(THEORY_DASHES)]}
+        figure.add_scatter(x=velocity.tolist(), y=values, mode="lines", name=name, line=shape, meta="model",
+                           hovertemplate=f"{name}<br>%{{x:.0f}} m/s: %{{y:.4g}} {y.unit}<extra></extra>")  # fmt: skip
+
+
+def _runs(figure, series: Sequence[Series], x: Variable, y: Response) -> None:
+    """Ended runs with a thin line through them where x tells all of them apart; unfinished runs open, without a line."""
+    unfinished = False
+    for each in series:
+        ended = [record for record in each.records if not record.unfinished]
+        rest = [record for record in each.records if record.unfinished and y.value(record) is not None]
+        places = [x.value(record) for record in ended]
+        mode = "lines+markers" if x.order is None and len(set(places)) == len(places) else "markers"
+        colour, marker = each.style.colour, each.style.marker
+        how = {"symbol": marker, "size": SIZE, "color": colour}
+        _points(figure, ended, x, y, how, each.label, mode=mode, legendgroup=each.label,
+                line={"color": colour, "width": 1.0, "dash": each.style.dash})  # fmt: skip
+        unfinished = unfinished or bool(rest)
+        _points(figure, rest, x, y, how | {"symbol": f"{marker}-open", "line": {"width": 1.8, "color": colour}},
+                "" if ended else each.label, mode="markers", legendgroup=each.label, meta="unfinished")  # fmt: skip
+    if unfinished:
+        figure.add_scatter(x=[None], y=[None], mode="markers", name="open: unfinished, as far as it went",
+                           marker={"symbol": "circle-open", "size": SIZE, "color": INK})  # fmt: skip
+
+
+def _bounds(figure, series: Sequence[Series], x: Variable, y: Response) -> None:
+    through = [record for each in series for record in each.records if record.at_least]
+    how = {"symbol": "triangle-up-open", "size": 2.2 * SIZE, "color": INK, "line": {"width": 1.5, "color": INK}}
+    _points(figure, through, x, y, how, "in a triangle: at least, perforated or left the mesh", mode="markers", meta="bound")
+
+
+def _experiments(figure, series: Sequence[Series], x: Variable, y: Response, measured: dict[str, Measurement],
+                 shots: Sequence[Measurement]) -> None:  # fmt: skip
+    """Measured depths, at their velocities or at those of the runs that they belong to."""
+    if x.impact:
+        places = [(entry.velocity, entry) for entry in shots]
+    else:
+        records = [record for each in series for record in each.records]
+        places = [(x.value(each), measured[each.case.name]) for each in records if each.case.name in measured]
+        places = list(dict.fromkeys(entry for entry in places if entry[0] is not None))
+    for qualifier, (marker, word) in MEASURED.items():
+        found = [(place, entry) for place, entry in places if entry.qualifier == qualifier]
+        if found:
+            told = [f"<b>{word}</b><br>{entry.source}<br>{entry.velocity:.0f} m/s: {entry.depth * y.factor:.4g} {y.unit}"
+                    for _, entry in found]  # fmt: skip
+            depths = [entry.depth * y.factor for _, entry in found]
+            figure.add_scatter(x=[place for place, _ in found], y=depths, mode="markers", name=word, text=told,
+                               hovertemplate="%{text}<extra></extra>", meta="experiment",
+                               marker={"symbol": marker, "size": SIZE + 4, "color": INK})  # fmt: skip
+
+
+def _rear(figure, setup: Setup, y: Response) -> None:
+    """The rear of the target, across the whole panel."""
+    ends = [place for trace in figure.data for place in trace.x if isinstance(place, (int, float))]
+    figure.add_scatter(x=[min(ends, default=0.0), max(ends, default=1.0)], y=[setup.thickness * y.factor] * 2, mode="lines",
+                       name="rear of the target", line={"color": INK, "width": 2.5}, hoverinfo="skip")  # fmt: skip
+
+
+def _highest(figure) -> float:
+    """The largest value of runs and experiments, which models may exceed."""
+    shown = [value for trace in figure.data if trace.meta != "model" for value in trace.y if value is not None]
+    return max(shown, default=0.0) or 1.0
+
+
+def histories(series: Sequence[Series]):
+    """Columns of the history against time, one panel each: few runs have a line style each, many that of their series."""
+    drawn = [(each, record) for each in series for record in each.records if record.history]
+    names = list(dict.fromkeys(name for _, record in drawn for name in record.history if name != "time"))
+    few, told = len(drawn) <= MOST_LINES, set()
+    figure = _figure(len(names))
+    for number, (each, record) in enumerate(drawn):
+        how = style(number) if few else each.style
+        label = record.case.name + (f" (unfinished: {record.unfinished})" if record.unfinished else "") if few else each.label
+        for row, name in enumerate(names, 1):
+            if name not in record.history:
+                continue
+            times, values = record.history["time"] * 1e6, record.history[name] * readers(name)[1]
+            figure.add_scatter(
+                x=times.astype(np.float32), y=values.astype(np.float32), mode="lines",
+                line={"color": how.colour, "width": 1.4, "dash": how.dash}, name=label, legendgroup=label,
+                showlegend=label not in told, row=row, col=1,
+                hovertemplate=f"<b>{record.case.name}</b><br>%{{x:.5g}} µs: %{{y:.5g}} {readers(name)[0]}<extra></extra>",
+            )  # fmt: skip
+            told.add(label)
+    for row, name in enumerate(names, 1):
+        figure.update_yaxes(title={"text": f"{title(name)}<br>[{readers(name)[0] or '1'}]"}, row=row, col=1)
+    figure.update_xaxes(title={"text": "t [µs]"}, row=len(names), col=1)
+    return _finished(figure, len(names))
+
+
+def html(figure, name: str) -> str:
+    """A figure as markup of its own id, for a page that has the library once."""
+    config = {
+        "responsive": True, "displaylogo": False, "plotlyServerURL": "",
+        "toImageButtonOptions": {"filename": name, "scale": 2},
+        "modeBarButtonsToRemove": ["select2d", "lasso2d", "autoScale2d", "sendChartToCloud"],
+    }  # fmt: skip
+    return figure.to_html(full_html=False, include_plotlyjs=False, div_id=name, default_width="100%",
+                          default_height=f"{figure.layout.height}px", config=config)  # fmt: skip

@@ -1,0 +1,191 @@
+"""The drawn figures of a report with their headings, captions, notes, and words for those who cannot see them."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from hydro2d.study import charts, experiments, record, residual, series, theory
+from hydro2d.study.contents import Contents
+from hydro2d.study.experiments import Measurement
+from hydro2d.study.record import Record, Setup
+from hydro2d.study.responses import DEPTH, RESIDUAL, Choice, Response
+
+#: share by which the models' lines reach beyond the velocities of runs and experiments
+BEYOND = 0.05
+#: runs that the words for those who cannot see a figure list at most
+MOST_WORDS = 12
+
+
+@dataclass(frozen=True)
+class Chart:
+    """A figure of Plotly: its id in the page, its markup, its heading, what it shows, the same in words, notes."""
+
+    name: str
+    markup: str
+    heading: str
+    caption: str
+    alt: str
+    notes: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Panel:
+    """Runs in one figure.
+
+    members : they;  series : the same, told apart;  heading, words : what they are of, in short and in full
+    setup : the projectile and target of the first, where all share geometry, else None;  shots : experiments of all setups
+    """
+
+    members: list[Record]
+    series: list[series.Series]
+    heading: str
+    words: str
+    setup: Setup | None
+    shots: list[Measurement]
+
+
+def draw(contents: Contents, choice: Choice) -> Iterator[Chart]:
+    """Every figure: of each panel its responses, then its histories."""
+    names: list[str] = []
+    through = any(each.perforated for each in contents.records)
+    for panel in panels(contents, choice):
+        base = re.sub(r"[^\w-]+", "-", panel.heading).strip("-")
+        names.append(base)
+        base += f"-{names.count(base)}" if names.count(base) > 1 else ""
+        for y in choice.y:
+            stopped = y.name == RESIDUAL and through and not any(each.perforated for each in panel.members)
+            if not stopped and any(_drawn(each, choice, y) for each in panel.members):
+                yield _response(contents, choice, y, panel, _id(y.name, base))
+        if any(each.history for each in panel.members):
+            yield _histories(contents, choice, panel, _id("histories", base))
+
+
+def _id(what: str, base: str) -> str:
+    return re.sub(r"[^\w-]+", "-", f"{what}-{base}")
+
+
+def _drawn(each: Record, choice: Choice, y: Response) -> bool:
+    return y.value(each) is not None and choice.x.value(each) is not None
+
+
+def panels(contents: Contents, choice: Choice) -> list[Panel]:
+    """The runs of each figure: of one projectile and target, or of several where their series tell these apart.
+
+    All runs are in one figure where there is no projectile, or where x varies projectile or target.
+    """
+    groups, axes = contents.groups, contents.study.axes
+    apart = choice.x.impact or any(len({choice.x.value(each) for each in members}) > 1 for members in groups.values())
+    if not groups or not apart:
+        title = contents.study.title
+        common = next(iter(groups)) if len(groups) == 1 else None
+        shots = contents.measurements[common] if common else []
+        members = contents.records
+        return [Panel(members, series.grouped(members, axes, choice), common.short if common else title,
+                      common.words if common else title, common, shots)]  # fmt: skip
+    alike: dict[tuple, list[Setup]] = {}
+    for setup in groups:
+        alike.setdefault((setup.target, setup.nose, setup.shape), []).append(setup)
+    found = []
+    for setups in alike.values():
+        together = _panel(contents, choice, setups)
+        apart = [_panel(contents, choice, [setup]) for setup in setups]
+        found += [together] if _tells_setups_apart(together, setups) else apart
+    return found
+
+
+def _tells_setups_apart(panel: Panel, setups: Sequence[Setup]) -> bool:
+    """Whether several setups can share a figure: each series is of one, and experiments are of the geometry of all."""
+    single = all(len({each.setup for each in one.records}) == 1 for one in panel.series)
+    return single and (not panel.shots or len({setup[3:] for setup in setups}) == 1)
+
+
+def _panel(contents: Contents, choice: Choice, setups: Sequence[Setup]) -> Panel:
+    members = [each for each in contents.records if each.setup in setups]
+    grouped = series.grouped(members, contents.study.axes, choice)
+    shots = list(dict.fromkeys(shot for setup in setups for shot in contents.measurements[setup]))
+    first = setups[0]
+    rods, sizes = len({setup.rod for setup in setups}), len({setup[3:] for setup in setups})
+    words, heading = first.words, first.short
+    if len(setups) > 1:
+        of = f"{rods} materials" if rods > 1 else first.rod
+        words = (f"{first.kind}s of {of} ({first.size}) into {first.plate}" if sizes == 1 else
+                 f"{first.kind}s of {of} into {first.target}, {sizes} geometries")  # fmt: skip
+        heading = f"{first.kind}s of {of} into {first.target}"
+    return Panel(members, grouped, heading, words, first if sizes == 1 else None, shots)
+
+
+def _response(contents: Contents, choice: Choice, y: Response, panel: Panel, name: str) -> Chart:
+    x, members = choice.x, panel.members
+    curves, left, notes = _models(x.impact, y, panel)
+    figure = charts.response(panel.setup, panel.series, x, y, contents.belonging, panel.shots, curves, left)
+    about, against = y.title.split(" [")[0], x.title.split(" [")[0]
+    shown = [each for each in members if _drawn(each, choice, y)]
+    ended = [each for each in shown if not each.unfinished]
+    head = about[0].upper() + about[1:]
+    caption = f"{head} against {against}: {panel.words}. {len(ended)} of {len(members)} runs have ended"
+    caption += f"; open marks: {len(shown) - len(ended)} unfinished." if len(shown) > len(ended) else "."
+    if any(curve.drawable for curve in curves):
+        drawn = ", ".join(curve.title for curve in curves if curve.drawable)
+        caption += f" Grey lines: {drawn}, with the deck of {_modelled(panel).case.name}."
+    elif left:
+        caption += f" Lines without marks: {'; '.join(curve.title for curve in left)}."
+    said = [f"{each.case.name} {_value(each, y)}" for each in shown[:MOST_WORDS]]
+    more = f" and {len(shown) - MOST_WORDS} more" if len(shown) > MOST_WORDS else ""
+    alt = f"{about} against {against}, {panel.words}. Runs: {'; '.join(said)}{more}."
+    if y.name == DEPTH:
+        measured = [f"{shot.velocity:.0f} m/s {'at least ' * (shot.qualifier == experiments.AT_LEAST)}{shot.depth * 100:.1f} cm"
+                    for shot in panel.shots]  # fmt: skip
+        alt += f" Experiments: {'; '.join(measured) or 'none known'}."
+    return Chart(name, charts.html(figure, name), f"{head}: {panel.heading}", caption, alt, tuple(notes))
+
+
+def _value(each: Record, y: Response) -> str:
+    """A response of a run in words."""
+    if y.name == DEPTH and each.perforated:
+        return "perforated"
+    bound = "at least " * (y.name == DEPTH and each.left)
+    return f"{bound}{y.value(each):.4g} {y.unit}".rstrip() + (" (unfinished)" if each.unfinished else "")
+
+
+def _modelled(panel: Panel) -> Record | None:
+    """The run whose deck the models of the depth take."""
+    return next((each for each in panel.members if each.shot), None)
+
+
+def _models(velocities: bool, y: Response, panel: Panel):
+    """Depths and residual velocities by analytic models, where x is the impact velocity, and notes on them."""
+    if not velocities or y.name not in (DEPTH, RESIDUAL):
+        return [], [], []
+    speeds = [each.velocity for each in panel.members if each.velocity is not None] + [shot.velocity for shot in panel.shots]
+    beyond = BEYOND * ((max(speeds) - min(speeds)) or max(speeds))
+    low, high = max(min(speeds) - beyond, 1.0), max(speeds) + beyond
+    if y.name == DEPTH:
+        first = _modelled(panel)
+        if first is None:
+            return [], [], [f"Analytic models of the depth are not drawn: {panel.members[0].without_models}."]
+        if panel.setup is None:
+            return [], [], ["Analytic models of the depth are not drawn: the runs are of several geometries."]
+        curves = theory.curves(first.shot, low, high)
+        return curves, [], [f"{curve.title}: {curve.note}." for curve in curves if curve.note]
+    left, notes = [], []
+    for each in panel.series:
+        found, said = residual.curves(each.records, low, high)
+        several = f"{each.label}: " if len(panel.series) > 1 else ""
+        colour = each.style.colour if several else ""
+        left += [residual.Curve(several + curve.title, curve.velocity, curve.residual, colour) for curve in found]
+        notes += [f"{several}{note}." for note in said]
+    return [], left, notes
+
+
+def _histories(contents: Contents, choice: Choice, panel: Panel, name: str) -> Chart:
+    drawn = [each for each in panel.members if each.history]
+    figure = charts.histories(series.grouped(drawn, contents.study.axes, choice))
+    ends = [each.history["time"][-1] * 1e6 for each in drawn]
+    told = "one line style a run" if len(drawn) <= charts.MOST_LINES else "one line style a series of runs"
+    columns = ", ".join(axis.title.text.split("<br>")[0] for axis in figure.select_yaxes())
+    runs = f"{len(drawn)} runs, {panel.words}"
+    caption = f"Histories of {columns}: {runs}; {told}, at most {record.POINTS} points of each history."
+    alt = f"{columns} against time, {runs}. The runs end between {min(ends):.0f} and {max(ends):.0f} µs."
+    return Chart(name, charts.html(figure, name), f"Histories: {panel.heading}", caption, alt)

@@ -1,0 +1,243 @@
+"""What a report draws against what: responses of the runs, and what was varied, by name and in the reader's units."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from hydro2d.errors import unknown
+from hydro2d.output.history import unit
+from hydro2d.results.summaries import NUMBERS, UNITS
+from hydro2d.running.columns import SUMMARY
+from hydro2d.study.definition import StudyError
+from hydro2d.study.differences import flatten, text
+from hydro2d.study.layout import Axis, Study
+from hydro2d.study.record import Record
+from hydro2d.units import COMMON
+
+DEPTH, RESIDUAL, IMPACT = "penetration_depth_m", "rod_residual_velocity_m_s", "velocity"
+#: responses of decks without a projectile, of their first body
+OF_BODY = ("velocity_m_s", "z_max_m")
+#: the name of each case, where nothing else is varied
+CASE = "case"
+#: what readers use: unit and number of them in one of the SI unit that a name ends in
+READER = {
+    "m": ("cm", 1e2), "m2": ("cm²", 1e4), "m3": ("cm³", 1e6), "s": ("µs", 1e6), "kg": ("g", 1e3), "J": ("kJ", 1e-3),
+    "Pa": ("GPa", 1e-9), "J/kg": ("MJ/kg", 1e-6), "kg/m3": ("g/cm³", 1e-3), "N s": ("N s", 1.0),
+}  # fmt: skip
+TITLES = {
+    DEPTH: "depth", RESIDUAL: "residual velocity", "rod_tail_velocity_m_s": "tail velocity", "rod_length_m": "rod length",
+    "rod_length_ratio": "final / initial length", "rod_radius_ratio": "largest / initial radius",
+}  # fmt: skip
+_QUANTITY = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*([^\d\s].*?)?\s*$")
+_ENDING = re.compile(r"_(kg_m3|J_kg|m_s|N_s|kg|Pa|K|J|s|m2|m3|m)$")
+
+
+@dataclass(frozen=True)
+class Response:
+    """A number of each run: its name, its title with the unit, and that unit's number in one of SI."""
+
+    name: str
+    title: str
+    unit: str
+    factor: float
+
+    def value(self, record: Record) -> float | None:
+        """Of a run, in the reader's unit; None where it has none."""
+        found = raw(record, self.name)
+        return None if found is None else found * self.factor
+
+
+@dataclass(frozen=True)
+class Variable:
+    """What is varied. ``values`` by case, numbers or words; ``order`` of the words, None for numbers.
+
+    impact : it is the impact velocity, in m/s
+    """
+
+    name: str
+    title: str
+    values: Mapping[str, float | str]
+    order: tuple[str, ...] | None = None
+    impact: bool = False
+
+    def value(self, record: Record) -> float | str | None:
+        """Of a run; None where it has none."""
+        return self.values.get(record.case.name)
+
+
+@dataclass(frozen=True)
+class Choice:
+    """What is drawn: responses ``y`` against ``x``, a series for each combination of ``by``; None: whatever else is varied."""
+
+    x: Variable
+    y: tuple[Response, ...]
+    by: tuple[Variable, ...] | None = None
+
+
+def choose(study: Study, records: Sequence[Record], x: str | None = None, y: Sequence[str] = (),
+           by: Sequence[str] = ()) -> Choice:  # fmt: skip
+    """Finds what names stand for, and what is sensible where none is given. StudyError for a name that nothing has."""
+    names = y or _usual_responses(records)
+    known = numbers(records)
+    for name in y:
+        if name not in known and name not in _listed():
+            raise StudyError(f"--y: {unknown('response', name, known or _listed())}")
+    chosen = variable(study, records, x, "--x") if x else usual_variable(study, records)
+    split = tuple(variable(study, records, name, "--by") for name in by) if by else None
+    return Choice(chosen, tuple(response(name) for name in dict.fromkeys(names)), split)
+
+
+def response(name: str) -> Response:
+    """A response by its name in summary.json or in cases.csv."""
+    word, factor = readers(name)
+    return Response(name, title(name) + (f" [{word}]" if word else ""), word, factor)
+
+
+def readers(name: str) -> tuple[str, float]:
+    """Unit that readers use for a quantity, empty for a plain number, and the number of them in one of SI."""
+    si = name[-2:] if name.endswith(("_m2", "_m3")) and not name.endswith("kg_m3") else unit(name)
+    return READER.get(si, ("" if si == "1" else si, 1.0))
+
+
+def title(name: str) -> str:
+    """A quantity in words, without its unit."""
+    return TITLES.get(name) or _ENDING.sub("", name).replace("_", " ").replace(".", " ")
+
+
+def raw(record: Record, name: str) -> float | None:
+    """A number of a run in SI. Some depths are bounds (`Record.at_least`); what was stopped has a residual velocity of 0."""
+    if name == DEPTH:
+        return record.depth
+    if name == RESIDUAL and record.depth is not None and not record.unfinished and not record.at_least:
+        return 0.0
+    found = _numbers_of(record).get(name)
+    return found if found is not None and math.isfinite(found) else None
+
+
+def numbers(records: Sequence[Record]) -> list[str]:
+    """Names of all numbers that some run has."""
+    return sorted({name for record in records for name in _numbers_of(record)})
+
+
+def _numbers_of(record: Record) -> dict[str, float]:
+    """Every number of a run's summary by dotted name; of a run without one, of the last row of its history; ratios."""
+    found = {}
+    for name, value in record.last.items():
+        found[_as_in_summary(name, record)] = value
+    found.update(flatten({key: value for key, value in record.case.summary.items() if key != "provenance"}))
+    found = {name: value for name, value in found.items() if _is_number(value)}
+    for what, of in (("length", "rod_length_m"), ("radius", "rod_max_radius_m")):
+        first = found.get(f"rod_initial_{what}_m")
+        if first and of in found:
+            found[f"rod_{what}_ratio"] = found[of] / first
+    return found
+
+
+def _as_in_summary(name: str, record: Record) -> str:
+    """The name in summary.json of a column of the history."""
+    for body in record.bodies:
+        if name.startswith(f"body_{body}_"):
+            return f"bodies.{body}.{name.removeprefix(f'body_{body}_')}"
+    return name
+
+
+def _is_number(value) -> bool:
+    return isinstance(value, (int, float)) and not isinstance(value, bool)
+
+
+def _listed() -> list[str]:
+    """Numbers that every summary of a projectile has, for studies without one."""
+    whole = [name for name in SUMMARY if not any(part.isupper() for part in re.split(r"[._]", name) if len(part) > 2)]
+    return [name for name in whole if name.endswith(UNITS) or name in NUMBERS]
+
+
+def _usual_responses(records: Sequence[Record]) -> list[str]:
+    """Depth of projectiles, the velocity that is left where some perforate; else what becomes of the first body."""
+    if any(record.setup for record in records):
+        return [DEPTH, *([RESIDUAL] if any(record.perforated for record in records) else [])]
+    body = next((record.body for record in records if record.body), None)
+    return [f"bodies.{body}.{name}" for name in OF_BODY] if body else [DEPTH]
+
+
+def is_velocity(axis: Axis) -> bool:
+    """Whether an axis is the velocity of a body."""
+    return axis.key is not None and axis.key.startswith("body.") and axis.key.endswith(".velocity")
+
+
+def usual_variable(study: Study, records: Sequence[Record]) -> Variable:
+    """The impact velocity where it varies, the first axis of numbers, the first axis; without axes velocity or case."""
+    speeds = {record.velocity for record in records} - {None}
+    axes = [of_axis(axis, study) for axis in study.axes if len(axis.values) > 1]
+    if len(speeds) > 1 or (speeds and not axes):
+        return impact(records)
+    numeric = [axis for axis in axes if axis.order is None]
+    return (numeric or axes or [_cases(records)])[0]
+
+
+def variable(study: Study, records: Sequence[Record], name: str, option: str) -> Variable:
+    """An axis, the impact velocity, a key of the decks or a number of the runs, by its name. StudyError."""
+    axes = {axis.name: axis for axis in study.axes}
+    with_velocity = any(record.velocity is not None for record in records)
+    axis = axes.get(name)
+    if with_velocity and (is_velocity(axis) if axis else name == IMPACT):
+        return impact(records)
+    if axis is not None:
+        return of_axis(axis, study)
+    flat = {record.case.name: flatten(record.deck) for record in records if record.deck}
+    keys = {key for deck in flat.values() for key in deck}
+    if name in keys:
+        return _of_key(name, {case: deck[name] for case, deck in flat.items() if deck.get(name) is not None})
+    known = numbers(records)
+    if name in known:
+        found = response(name)
+        values = {each.case.name: found.value(each) for each in records}
+        return Variable(name, found.title, {case: value for case, value in values.items() if value is not None})
+    allowed = [*axes, *([IMPACT] if with_velocity else []), *known, *keys]
+    raise StudyError(f"{option}: {unknown('axis, key of the decks or number of the runs', name, dict.fromkeys(allowed))}")
+
+
+def impact(records: Sequence[Record]) -> Variable:
+    """The impact velocity."""
+    values = {record.case.name: record.velocity for record in records if record.velocity is not None}
+    return Variable(IMPACT, "impact velocity [m/s]", values, impact=True)
+
+
+def _cases(records: Sequence[Record]) -> Variable:
+    names = tuple(record.case.name for record in records)
+    return Variable(CASE, CASE, dict(zip(names, names, strict=True)), names)
+
+
+def of_axis(axis: Axis, study: Study) -> Variable:
+    """An axis of a study: numbers where all of its labels are numbers of one quantity, else words."""
+    labels = {case.name: case.values[axis.name] for case in study.cases if axis.name in case.values}
+    parsed = _in_one_unit(axis.values)
+    if parsed is None:
+        return Variable(axis.name, axis.name, labels, axis.values)
+    word, found = parsed
+    values = {case: found[label] for case, label in labels.items() if label in found}
+    return Variable(axis.name, axis.name + (f" [{word}]" if word else ""), values)
+
+
+def _in_one_unit(labels: Sequence[str]) -> tuple[str, dict[str, float]] | None:
+    """Unit and numbers of labels such as "2 mm": in their own unit where they share it, else in SI; None for words."""
+    found = {label: _QUANTITY.match(label) for label in labels}
+    if not all(found.values()):
+        return None
+    words = {match[2] or "" for match in found.values()}
+    if len(words) == 1 and (words <= {""} or words <= set(COMMON)):
+        return words.pop(), {label: float(match[1]) for label, match in found.items()}
+    si = {COMMON[word][0] if word in COMMON else None for word in words}
+    if len(si) > 1 or None in si:
+        return None
+    return si.pop(), {label: float(f"{float(match[1]) * COMMON[match[2]][1]:.12g}") for label, match in found.items()}
+
+
+def _of_key(key: str, found: Mapping[str, object]) -> Variable:
+    """A key of the decks: numbers in SI, else words in the order in which they come."""
+    if all(_is_number(value) for value in found.values()):
+        return Variable(key, f"{key} (SI)", {case: float(value) for case, value in found.items()})
+    words = {case: text(value) for case, value in found.items()}
+    return Variable(key, key, words, tuple(dict.fromkeys(words.values())))

@@ -1,0 +1,191 @@
+"""What a report draws is found by name, and sensible where no name is given."""
+
+import shutil
+
+import pytest
+
+from hydro2d.study import layout, panels, residual, responses, series
+from hydro2d.study.contents import collect
+from hydro2d.study.definition import StudyError
+from tests.study import fake
+
+SPHERE = "problems/shapes/sphere.toml"
+VELOCITIES = fake.velocities(1086, 1200)
+LAWS = {name: (f"numerics.courant={number}",) for name, number in (("soft", 0.4), ("hard", 0.5))}
+
+
+def study(folder, axes):
+    return collect(layout.load(fake.write_study(folder / "study", axes)))
+
+
+def chosen(contents, **options):
+    return responses.choose(contents.study, contents.records, **options)
+
+
+def label(axis):
+    """An axis of a study as a variable."""
+    cases = tuple(layout.Case(value, None, {axis.name: value}) for value in axis.values)
+    return responses.of_axis(axis, layout.Study(None, "", "", (axis,), cases))
+
+
+@pytest.mark.parametrize(
+    ("values", "title", "numbers"),
+    [
+        (("0.4 mm", "0.8 mm"), "size [mm]", [0.4, 0.8]),
+        (("800 um", "0.4 mm"), "size [m]", [8e-4, 4e-4]),
+        (("4", "12"), "size", [4.0, 12.0]),
+        (("-1e3 m/s", "2e3 m/s"), "size [m/s]", [-1000.0, 2000.0]),
+        (("4", "none"), "size", None),
+        (("4 mm", "4"), "size", None),
+        (("4 mm", "4 us"), "size", None),
+        (("5083-1086", "7039-1038"), "size", None),
+    ],
+)
+def test_labels_are_numbers_where_all_of_them_are_of_one_quantity(values, title, numbers):
+    found = label(layout.Axis("size", None, values))
+    assert found.title == title
+    assert found.order == (values if numbers is None else None)
+    assert list(found.values.values()) == (list(values) if numbers is None else pytest.approx(numbers))
+
+
+@pytest.mark.parametrize(
+    ("axes", "x", "labels"),
+    [
+        ({"velocity": VELOCITIES, "law": LAWS}, "velocity", ["soft", "hard"]),
+        (
+            {"law": LAWS, "courant": {"0.3": ("numerics.courant=0.3",), "0.6": ("numerics.courant=0.6",)}},
+            "courant",
+            ["soft", "hard"],
+        ),
+        ({"law": LAWS}, "law", ["hydro2d"]),
+    ],
+)
+def test_usually_x_is_the_velocity_then_numbers_then_words(tmp_path, axes, x, labels):
+    contents = study(tmp_path, axes)
+    choice = chosen(contents)
+    assert choice.x.name == x
+    assert [y.name for y in choice.y] == ["penetration_depth_m"]
+    assert [each.label for each in panels.panels(contents, choice)[0].series] == labels
+
+
+def test_names_choose(tmp_path):
+    contents = study(tmp_path, {"velocity": VELOCITIES, "law": LAWS})
+    choice = chosen(contents, x="numerics.courant", y=["rod_length_m", "rod_length_ratio", "conservation.mass.rod"], by=["law"])
+    assert sorted(set(choice.x.values.values())) == [0.4, 0.5]
+    assert [y.title for y in choice.y] == ["rod length [cm]", "final / initial length", "conservation mass rod"]
+    first = contents.records[0]
+    assert choice.y[0].value(first) == pytest.approx(fake.LENGTH * 0.99 * 100)
+    assert choice.y[1].value(first) == pytest.approx(0.99)
+    assert chosen(contents, x="cycles").x.values["1086m-s_soft"] == 1000
+    assert [each.label for each in series.grouped(contents.records, contents.study.axes, choice)] == ["soft", "hard"]
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        ({"y": ["penetration_dept_m"]}, '--y: unknown response "penetration_dept_m"; did you mean "penetration_depth_m"?'),
+        ({"y": ["regime"]}, "--y: unknown response"),
+        ({"x": "velocty"}, '--x: unknown axis, key of the decks or number of the runs "velocty"; did you mean "velocity"?'),
+        ({"by": ["lav"]}, '--by: unknown axis, key of the decks or number of the runs "lav"; did you mean "law"?'),
+    ],
+)
+def test_a_wrong_name_is_said_with_the_nearest(tmp_path, options, said):
+    contents = study(tmp_path, {"velocity": VELOCITIES, "law": LAWS})
+    with pytest.raises(StudyError) as caught:
+        chosen(contents, **options)
+    assert said in str(caught.value)
+
+
+def test_an_unfinished_run_has_the_last_of_its_history(tmp_path):
+    run = fake.write_run(tmp_path / "runs" / "a", 1086.0, 0.3)
+    (run / "summary.json").unlink()
+    (run / "restart.h5").touch()
+    found = collect(layout.load(tmp_path / "runs")).records[0]
+    assert found.unfinished == "interrupted"
+    assert responses.raw(found, "rod_tail_velocity_m_s") == pytest.approx(0.0)
+    assert responses.raw(found, "rod_residual_velocity_m_s") is None
+    assert responses._as_in_summary("body_rod_velocity_m_s", found) == "bodies.rod.velocity_m_s"
+
+
+def perforations(folder, shots, **summary):
+    """Runs of the sphere at velocities in m/s with residual velocities in m/s, None for one that is stopped."""
+    for velocity, left in shots:
+        text = fake.resolved(SPHERE, f"body.sphere.velocity={velocity} m/s", "body.plate.thickness=4 mm")
+        through = {"rod_residual_velocity_m_s": left, "exit_time_s": 1e-5} if left else {}
+        fake.write_run(folder / f"{velocity:g}", velocity, 0.003, text=text, **through, **summary)
+    return collect(layout.load(folder))
+
+
+def lambert_jonas(velocity, a=0.9, p=2.5, limit=500.0):
+    return a * (velocity**p - limit**p) ** (1 / p)
+
+
+def test_spheres_get_all_but_the_models_of_rods(tmp_path):
+    contents = perforations(tmp_path / "runs", [(400, None), *((v, lambert_jonas(v)) for v in (600, 800, 1000, 1200))])
+    record = contents.records[-1]
+    assert record.setup.words == "steel_4340_rod sphere (16 mm) into 0.4 cm of Al5083"
+    assert "the models take a rod" in record.without_models
+    assert record.problems == []
+    choice = chosen(contents)
+    assert [y.name for y in choice.y] == ["penetration_depth_m", "rod_residual_velocity_m_s"]
+    charts = list(panels.draw(contents, choice))
+    assert [each.heading.split(":")[0] for each in charts] == ["Depth", "Residual velocity", "Histories"]
+    assert "the models take a rod" in charts[0].notes[0]
+
+
+def test_models_of_the_residual_velocity_are_fitted_to_the_study(tmp_path):
+    contents = perforations(tmp_path / "runs", [(480, None), *((v, lambert_jonas(v)) for v in (520, 600, 800, 1000, 1200))])
+    curves, notes = residual.curves(sorted(contents.records, key=lambda each: each.velocity), 400.0, 1200.0)
+    assert [curve.title for curve in curves] == ["Lambert-Jonas", "Recht-Ipson, plug", "Recht-Ipson, no plug"]
+    assert curves[0].residual[-1] == pytest.approx(lambert_jonas(1200), rel=1e-3)
+    assert curves[2].residual[-1] == pytest.approx((1200**2 - 500**2) ** 0.5)
+    assert "a = 0.900, p = 2.5, ballistic limit 500 m/s" in notes[0]
+    assert "limit of 500 m/s, midway between 480 m/s, stopped, and 520 m/s, through" in notes[1]
+    plug = 2660 * 3.14159265 / 4 * 0.016**2 * 0.004 / fake.MASS
+    assert f"has {plug:.2g} of its mass" in notes[1]
+    assert curves[1].residual[-1] == pytest.approx(curves[2].residual[-1] / (1 + plug), rel=0.02)
+
+
+@pytest.mark.parametrize(
+    ("shots", "titles", "said"),
+    [
+        ([(600, 300.0)], [], "a fit of 3 constants needs perforations at 3 velocities at least"),
+        ([(500, None), (600, 300.0)], ["Recht-Ipson, plug", "Recht-Ipson, no plug"], "Lambert-Jonas is not drawn"),
+        ([(600, 300.0), (800, 600.0)], ["Lambert-Jonas", "Recht-Ipson, plug", "Recht-Ipson, no plug"], "p = 2 taken"),
+        ([(500, None)], [], "Recht-Ipson is not drawn: it needs a ballistic limit"),
+    ],
+)
+def test_a_model_is_drawn_where_it_can_be_had(tmp_path, shots, titles, said):
+    curves, notes = residual.curves(perforations(tmp_path / "runs", shots).records, 400.0, 900.0)
+    assert [curve.title for curve in curves] == titles
+    assert said in " ".join(notes)
+
+
+def test_setups_share_a_figure_where_their_series_tell_them_apart(tmp_path):
+    axes = {"velocity": fake.velocities(900, 1000), "length": {"60 mm": ("body.rod.length=60 mm",),
+                                                               "80 mm": ("body.rod.length=80 mm",)}}  # fmt: skip
+    contents = study(tmp_path, axes)
+    found = panels.panels(contents, chosen(contents))
+    assert [[each.label for each in panel.series] for panel in found] == [["length 60 mm", "length 80 mm"]]
+    assert found[0].setup is None
+    assert "several geometries" in list(panels.draw(contents, chosen(contents)))[0].notes[0]
+    shutil.rmtree(tmp_path / "study")
+    shots = {"short": ("body.rod.velocity=900 m/s", "body.rod.length=60 mm"), "long": ("body.rod.velocity=1000 m/s",)}
+    for name, overrides in shots.items():
+        fake.write_run(tmp_path / "runs" / name, 950.0, text=fake.deck_text(*overrides))
+    contents = collect(layout.load(tmp_path / "runs"))
+    found = panels.panels(contents, chosen(contents, by=["numerics.courant"]))
+    assert [len(panel.members) for panel in found] == [1, 1]
+
+
+def test_runs_without_a_projectile_are_drawn_by_their_first_body(tmp_path):
+    bodies = {"bodies": {"gas": {"velocity_m_s": 12.0, "z_max_m": 0.4}}}
+    for number in (1, 2):
+        text = fake.resolved("problems/verification/sod_z.toml", f"numerics.courant=0.{number}")
+        fake.write_run(tmp_path / "runs" / str(number), text=text, stop_reason="end time", **bodies)
+    contents = collect(layout.load(tmp_path / "runs"))
+    assert [each.unfinished for each in contents.records] == ["", ""]
+    choice = chosen(contents)
+    assert (choice.x.name, [y.name for y in choice.y]) == ("case", ["bodies.gas.velocity_m_s", "bodies.gas.z_max_m"])
+    assert [each.heading for each in panels.draw(contents, choice)] == ["Bodies gas velocity: runs", "Bodies gas z max: runs"]
+    assert chosen(contents, x="numerics.courant", y=["time_s"]).x.values == {"1": 0.1, "2": 0.2}
