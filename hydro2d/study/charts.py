@@ -237,5 +237,4 @@ def html(figure, name: str) -> str:
         "toImageButtonOptions": {"filename": name, "scale": 2},
         "modeBarButtonsToRemove": ["select2d", "lasso2d", "autoScale2d", "sendChartToCloud"],
     }  # fmt: skip
-    return figure.to_html(full_html=False, include_plotlyjs=False, div_id=name, default_width="100%",
-                          default_height=f"{figure.layout.height}px", config=config)  # fmt: skip
+    return figure.to_html(full_html=False, include_plotlyjs=False, div_id=name, config=config)

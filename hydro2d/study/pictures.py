@@ -21,8 +21,8 @@ from hydro2d.study.record import Record
 NAMES = re.compile(r"(rods|film|depth|histories)_[\w-]+\.(png|gif|mp4)")
 #: pages of rods beyond which the rest is left out, and said to be
 MOST_PAGES = 8
-#: dots per inch of films, which makes them about 500 points wide
-FILM_DPI = 60
+#: dots per inch of films, less than those of `hydro2d movie` have
+FILM_DPI = 80
 KINDS = {".png": "image/png", ".gif": "image/gif", ".mp4": "video/mp4"}
 
 

@@ -16,6 +16,7 @@ from hydro2d.errors import DeckError
 from hydro2d.output import history, vtk
 from hydro2d.running.run import DECK, HISTORY
 from hydro2d.solver import penetrator, targets
+from hydro2d.study.differences import flatten
 from hydro2d.study.layout import DONE, Case
 
 #: columns of the history that are drawn: of a projectile, of the first body of other decks; the most points of a line
@@ -125,12 +126,38 @@ class Record:
         """Why the results are not those of the end: the run has not ended, or was cut while the projectile flew; else empty."""
         if not self.done:
             return self.case.status
-        summary = self.case.summary
-        if not summary:
+        if not self.case.summary:
             return "no summary"
-        speed = abs(summary.get("rod_core_velocity_m_s") or 0.0)
-        flies = self.velocity is not None and not self.at_least and speed > MOVING * self.velocity
-        return f"cut at {speed:.3g} m/s" if flies and summary.get("stop_reason") in CUT else ""
+        return f"cut at {self._speed:.3g} m/s" if self.cut and not self.at_least else ""
+
+    @property
+    def cut(self) -> bool:
+        """Whether the run ended by its time or its cycles while the projectile's core still moved."""
+        ended = self.done and self.case.summary.get("stop_reason") in CUT
+        return ended and self.velocity is not None and self._speed > MOVING * self.velocity
+
+    @property
+    def _speed(self) -> float:
+        return abs(self.case.summary.get("rod_core_velocity_m_s") or 0.0)
+
+    @cached_property
+    def numbers(self) -> dict[str, float]:
+        """Every number of the summary, SI, by dotted name; of a run without one, of the last row of its history; ratios."""
+        found = {self._as_in_summary(name): value for name, value in self.last.items()}
+        found |= flatten({key: value for key, value in self.case.summary.items() if key != "provenance"})
+        found = {name: value for name, value in found.items() if is_number(value)}
+        for what, of in (("length", "rod_length_m"), ("radius", "rod_max_radius_m")):
+            first = found.get(f"rod_initial_{what}_m")
+            if first and of in found:
+                found[f"rod_{what}_ratio"] = found[of] / first
+        return found
+
+    def _as_in_summary(self, name: str) -> str:
+        """The name in summary.json of a column of the history."""
+        for body in self.bodies:
+            if name.startswith(f"body_{body}_"):
+                return f"bodies.{body}.{name.removeprefix(f'body_{body}_')}"
+        return name
 
     @cached_property
     def experiment(self) -> dict:
@@ -170,6 +197,11 @@ class Record:
         """A result of the summary; of a run without one, the last of its history. None where there is neither."""
         found = self.case.summary.get(name)
         return found if found is not None else self.last.get(name)
+
+
+def is_number(value) -> bool:
+    """Whether a value of a deck or a summary is a number, which yes and no are not."""
+    return isinstance(value, (int, float)) and not isinstance(value, bool)
 
 
 def read(case: Case) -> Record:

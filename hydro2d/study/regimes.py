@@ -61,11 +61,6 @@ class Run:
     regime: str | None
     reason: str = ""
 
-    @property
-    def cut(self) -> bool:
-        """Whether the run ended while the rod's core still moved."""
-        return self.record.done and bool(self.record.unfinished)
-
     def data(self) -> dict:
         """For programs, SI."""
         case, summary = self.record.case, self.record.case.summary
@@ -222,7 +217,7 @@ def _transitions(study: Study, title: str, members: Sequence[Record]) -> Transit
     brackets += [*_fall(known), *_limit(known)] if of == "regime" else []
     for slow, fast in bisection.disordered(found, scheme.order):
         notes.append(f"out of order: {found[slow]} at {slow:g} m/s, {found[fast]} at {fast:g} m/s; the slowest change is given")
-    cut = [f"{run.velocity:g} m/s" for run in known if run.cut]
+    cut = [f"{run.velocity:g} m/s" for run in known if run.record.cut]
     if cut:
         notes.append(f"not at rest when they ended, regime and depth are those of that moment: {', '.join(cut)}")
     comparison, problem = _compared(known, brackets[0]) if of == "regime" else (None, "")

@@ -14,7 +14,7 @@ from hydro2d.running.columns import SUMMARY
 from hydro2d.study.definition import StudyError
 from hydro2d.study.differences import flatten, text
 from hydro2d.study.layout import Axis, Study
-from hydro2d.study.record import Record
+from hydro2d.study.record import Record, is_number
 from hydro2d.units import COMMON
 
 DEPTH, RESIDUAL, IMPACT = "penetration_depth_m", "rod_residual_velocity_m_s", "velocity"
@@ -113,39 +113,13 @@ def raw(record: Record, name: str) -> float | None:
         return record.depth
     if name == RESIDUAL and record.depth is not None and not record.unfinished and not record.at_least:
         return 0.0
-    found = _numbers_of(record).get(name)
+    found = record.numbers.get(name)
     return found if found is not None and math.isfinite(found) else None
 
 
 def numbers(records: Sequence[Record]) -> list[str]:
     """Names of all numbers that some run has."""
-    return sorted({name for record in records for name in _numbers_of(record)})
-
-
-def _numbers_of(record: Record) -> dict[str, float]:
-    """Every number of a run's summary by dotted name; of a run without one, of the last row of its history; ratios."""
-    found = {}
-    for name, value in record.last.items():
-        found[_as_in_summary(name, record)] = value
-    found.update(flatten({key: value for key, value in record.case.summary.items() if key != "provenance"}))
-    found = {name: value for name, value in found.items() if _is_number(value)}
-    for what, of in (("length", "rod_length_m"), ("radius", "rod_max_radius_m")):
-        first = found.get(f"rod_initial_{what}_m")
-        if first and of in found:
-            found[f"rod_{what}_ratio"] = found[of] / first
-    return found
-
-
-def _as_in_summary(name: str, record: Record) -> str:
-    """The name in summary.json of a column of the history."""
-    for body in record.bodies:
-        if name.startswith(f"body_{body}_"):
-            return f"bodies.{body}.{name.removeprefix(f'body_{body}_')}"
-    return name
-
-
-def _is_number(value) -> bool:
-    return isinstance(value, (int, float)) and not isinstance(value, bool)
+    return sorted({name for record in records for name in record.numbers})
 
 
 def _listed() -> list[str]:
@@ -237,7 +211,7 @@ def _in_one_unit(labels: Sequence[str]) -> tuple[str, dict[str, float]] | None:
 
 def _of_key(key: str, found: Mapping[str, object]) -> Variable:
     """A key of the decks: numbers in SI, else words in the order in which they come."""
-    if all(_is_number(value) for value in found.values()):
+    if all(is_number(value) for value in found.values()):
         return Variable(key, f"{key} (SI)", {case: float(value) for case, value in found.items()})
     words = {case: text(value) for case, value in found.items()}
     return Variable(key, key, words, tuple(dict.fromkeys(words.values())))

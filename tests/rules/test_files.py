@@ -71,6 +71,13 @@ def test_the_wheel_carries_every_deck():
     assert data - carried == set()
 
 
+def test_the_wheel_carries_the_templates_of_reports():
+    study = source.ROOT / "hydro2d" / "study"
+    patterns = project()["tool"]["setuptools"]["package-data"]["hydro2d.study"]
+    carried = {file for pattern in patterns for file in study.glob(pattern)}
+    assert {file for file in source.tracked_files() if study in file.parents and file.suffix != ".py"} == carried
+
+
 def test_versions_agree():
     from hydro2d import __version__
 

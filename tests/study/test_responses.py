@@ -104,7 +104,7 @@ def test_an_unfinished_run_has_the_last_of_its_history(tmp_path):
     assert found.unfinished == "interrupted"
     assert responses.raw(found, "rod_tail_velocity_m_s") == pytest.approx(0.0)
     assert responses.raw(found, "rod_residual_velocity_m_s") is None
-    assert responses._as_in_summary("body_rod_velocity_m_s", found) == "bodies.rod.velocity_m_s"
+    assert found._as_in_summary("body_rod_velocity_m_s") == "bodies.rod.velocity_m_s"
 
 
 def perforations(folder, shots, **summary):

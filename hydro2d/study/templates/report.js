@@ -28,3 +28,5 @@ for (const table of document.querySelectorAll("table.sortable")) {
     head.append(button);
   });
 }
+// A picture is in the page once: the link that saves it takes it from there.
+for (const link of document.querySelectorAll("figcaption a[download]")) link.href = link.closest("figure").querySelector("img, video").src;
