@@ -214,7 +214,7 @@ def test_spheres_and_runs_without_a_projectile_have_a_page(tmp_path):
     for velocity, left in ((600, 500.0), (900, 820.0), (1200, 1130.0)):
         text = fake.resolved("problems/shapes/sphere.toml", f"body.sphere.velocity={velocity} m/s", "body.plate.thickness=4 mm")
         fake.write_run(tmp_path / "spheres" / f"{velocity}", velocity, 0.003, text=text, exit_time_s=1e-5,
-                       rod_residual_velocity_m_s=left)  # fmt: skip
+                       rod_residual_velocity_m_s=left, stop_reason="perforation of plate")  # fmt: skip
     page, lines = page_of(tmp_path / "spheres")
     assert page.faults == []
     assert [name.split("-")[0] for name in charts(page)] == ["penetration_depth_m", "rod_residual_velocity_m_s", "histories"]

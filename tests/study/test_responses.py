@@ -111,8 +111,8 @@ def perforations(folder, shots, **summary):
     """Runs of the sphere at velocities in m/s with residual velocities in m/s, None for one that is stopped."""
     for velocity, left in shots:
         text = fake.resolved(SPHERE, f"body.sphere.velocity={velocity} m/s", "body.plate.thickness=4 mm")
-        through = {"rod_residual_velocity_m_s": left, "exit_time_s": 1e-5} if left else {}
-        fake.write_run(folder / f"{velocity:g}", velocity, 0.003, text=text, **through, **summary)
+        through = {"rod_residual_velocity_m_s": left, "exit_time_s": 1e-5, "stop_reason": "perforation of plate"}
+        fake.write_run(folder / f"{velocity:g}", velocity, 0.003, text=text, **(through if left else {}), **summary)
     return collect(layout.load(folder))
 
 

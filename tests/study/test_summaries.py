@@ -9,12 +9,14 @@ import pytest
 
 from hydro2d.results import reading
 from hydro2d.results.summaries import plausible
-from hydro2d.study import layout, table
+from hydro2d.study import layout, panels, responses, table
 from hydro2d.study.contents import collect
 from hydro2d.study.page import page
 from tests.study import fake
 
 WRONG = ["text", 7, -1.5, True, [], [1, "x"], {}, {"a": {"b": []}}, None, float("nan"), float("inf")]
+#: those with which the figures are drawn as well
+DRAWN = ("text", -1.5)
 
 
 @pytest.fixture(scope="module")
@@ -47,8 +49,11 @@ def test_a_report_of_any_summary(place, path):
                 inner = inner[key]
             inner[path[-1]] = wrong
             (place / "summary.json").write_text(json.dumps(summary))
-            contents = collect(layout.gather([place]))
-            assert "<html" in page(contents, [])
+            study = layout.gather([place])
+            contents = collect(study)
+            choice = responses.choose(study, contents.records)
+            drawn = list(panels.draw(contents, choice)) if wrong in DRAWN else []  # a fifth of a second each
+            assert "<html" in page(contents, choice, drawn, [])
             assert table.to_csv(contents.rows).count("\n") == 2
             assert reading.load(place)._repr_html_()
     finally:

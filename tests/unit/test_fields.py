@@ -31,7 +31,7 @@ def test_the_rules_are_the_table_and_the_internal_variables_behind_it():
     for field, (by_mass, least, most, parity) in zip(fields.BODY, rules[0, :-1], strict=True):
         assert (by_mass == 1.0) == (field.symbol in ("e", "ep", "dmg"))
         assert (least == 0.0) == (field.symbol in ("ep", "dmg"))
-        assert (most == 1.0) == (field.symbol == "dmg")
+        assert (most == fields.FAILED) == (field.symbol == "dmg")
         assert (parity == -1.0) == (field.symbol == "srz")
 
 
