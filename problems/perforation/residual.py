@@ -50,7 +50,8 @@ def runs(directories: list[Path]) -> list[Run]:
         for case in layout.read(directory).cases:
             if case.status == layout.DONE and "nose" in case.values:
                 told, striking = case.summary, float(case.values["velocity"].split()[0])
-                through = told["stop_reason"].startswith("perforation")
+                rested = told["stop_reason"].startswith(("speed of", "rebound of"))
+                through = told["exit_time_s"] is not None and not rested
                 crater = told["crater"]
                 found.append(Run(case.values["nose"], striking, told["rod_residual_velocity_m_s"] if through else 0.0,
                                  *((crater["ejected_mass_kg"], crater["ejected_velocity_m_s"], crater["exit_diameter_m"])
