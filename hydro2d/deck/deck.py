@@ -136,8 +136,9 @@ def _explained(entry: dict, data: dict) -> tuple[tuple, str]:
     if kind == "value_error":
         return path, str(context["error"])
     if kind == "literal_error":
-        allowed = context["expected"].replace("'", '"').replace(" or ", ", ").replace("False, True", "false, true")
-        return path, unknown("value", str(entry["input"]), [word.strip('" ') for word in allowed.split(",")])
+        words = [word.strip("' ") for word in context["expected"].replace(" or ", ", ").split(",")]
+        allowed = [{"False": "false", "True": "true"}.get(word, word) for word in words]
+        return path, unknown("value", str(entry["input"]), allowed)
     if kind == "union_tag_not_found":
         return (*path, "shape"), f"is missing (allowed: {', '.join(SHAPES)})"
     if kind == "union_tag_invalid":

@@ -140,6 +140,11 @@ class Grid:
         """View of a cell array without its ghosts, shape (..., nz, nr)."""
         return array[(..., *self.inside)]
 
+    def vertex_mean(self, array: np.ndarray) -> np.ndarray:
+        """Mean of the four vertices of each cell of a vertex array, without ghosts, shape (..., nz, nr)."""
+        w = self.interior_vertices(array)
+        return 0.25 * ((w[..., :-1, :-1] + w[..., 1:, 1:]) + (w[..., :-1, 1:] + w[..., 1:, :-1]))
+
     def interior_vertices(self, array: np.ndarray) -> np.ndarray:
         """View of a vertex array without its ghosts, shape (..., nz + 1, nr + 1)."""
         return array[(..., *self.inside_vertices)]

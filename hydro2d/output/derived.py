@@ -103,8 +103,7 @@ class Cells:
 
     def _vertex_mean(self, b: int) -> np.ndarray:
         """Mean velocity of the four vertices in the field of body group b, shape (nz, nr, 3)."""
-        w = self._sim.grid.interior_vertices(np.stack([self._sim.state.u[b], self._sim.state.v[b]]))
-        u, v = 0.25 * ((w[:, :-1, :-1] + w[:, 1:, 1:]) + (w[:, :-1, 1:] + w[:, 1:, :-1]))
+        u, v = self._sim.grid.vertex_mean(np.stack([self._sim.state.u[b], self._sim.state.v[b]]))
         return np.stack([u, v, np.zeros_like(u)], axis=-1)
 
     def contact_pressure(self) -> np.ndarray:

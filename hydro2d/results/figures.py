@@ -94,11 +94,14 @@ def limits_of(shown: list[Shown]) -> tuple[float, float]:
     values = np.concatenate([each.values[np.isfinite(each.values)] for each in shown])
     if not values.size:
         return 0.0, 1.0
-    low, high = float(values.min()), float(values.max())
-    if any(each.colours == "RdBu_r" for each in shown):
-        largest = max(abs(low), abs(high))
-        return -largest, largest
+    low, high = balanced(float(values.min()), float(values.max()))
     return (low, high) if high > low else (low, low + 1.0)
+
+
+def balanced(low: float, high: float) -> tuple[float, float]:
+    """A range of colours, symmetric about zero where it has negative values."""
+    largest = max(-low, high)
+    return (-largest, largest) if low < 0.0 else (low, high)
 
 
 def _body_colours(count: int):

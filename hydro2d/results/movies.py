@@ -139,11 +139,7 @@ def _ranges(runs: list, times: list[float], words: list[str], shown: _Window) ->
         low, high = figures.limits_of([figures.chosen(dump, word)])
         before = ranges.get(word, (low, high))
         ranges[word] = (min(low, before[0]), max(high, before[1]))
-    for word, (low, high) in ranges.items():
-        if low < 0.0 < high:
-            largest = max(-low, high)
-            ranges[word] = (-largest, largest)
-    return ranges
+    return {word: figures.balanced(*found) for word, found in ranges.items()}
 
 
 def _seen(runs: list, times: list[float], words: list[str], shown: _Window) -> Iterator[tuple[str, Dump]]:

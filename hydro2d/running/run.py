@@ -318,7 +318,7 @@ class Run:
 
     def summary(self, status: str, reason: str) -> dict:
         """What summary.json holds."""
-        sim, cycles = self.sim, self.stepped - 1
+        sim, cycles, targets = self.sim, self.stepped - 1, self.sim.of_targets()
         faults = sim.faults()
         if status == "unphysical" and not faults:
             faults = [reason]
@@ -338,8 +338,8 @@ class Run:
             "cells": sim.grid.cells,
             **dict.fromkeys(ROD_RESULTS),
             **sim.diagnostics(),
-            "crater": sim.crater.measure() if sim.crater else None,
-            "targets": sim.of_targets(),
+            "crater": next((found["crater"] for found in targets.values()), None),
+            "targets": targets,
             "bodies": sim.of_bodies(),
             "stations": sim.stations.measure(),
             "experiment": experiment(self.deck),

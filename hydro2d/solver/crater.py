@@ -107,10 +107,10 @@ class Crater:
         area = float(np.sum((1.0 - share) * grid.vol_r[grid.inside[1]][:end]))
         return float(np.sqrt(2.0 * area)) if grid.cylindrical else area, float(share[0])
 
-    def _rows(self) -> Rows:
-        """The rows of the mesh."""
+    def _rows(self, walls: tuple[np.ndarray, np.ndarray]) -> Rows:
+        """The rows of the mesh, with what `_walls` gives."""
         edges = self._depth(self.sim.grid.z_edges)
-        found = np.array([self._row(*row) for row in zip(*self._walls(), strict=True)])
+        found = np.array([self._row(*row) for row in zip(*walls, strict=True)])
         if self.direction < 0:
             edges, found = edges[::-1], found[::-1]
         return Rows(edges[:-1], edges[1:], found[:, 0], found[:, 1])
@@ -150,10 +150,10 @@ class Crater:
 
     # ------------------------------------------------------------------------------------------------ what is known
 
-    def _hole(self) -> tuple[np.ndarray, np.ndarray, np.ndarray, float, bool]:
+    def _hole(self, walls: tuple[np.ndarray, np.ndarray]) -> tuple[np.ndarray, np.ndarray, np.ndarray, float, bool]:
         """Near and far ends of the hole's rows as depths and their radii, all (n,), and the depth of the bottom; m. Last,
         whether the hole is open at its end."""
-        rows = self._rows()
+        rows = self._rows(walls)
         bottom, depth = self._bottom(rows)
         live = np.nonzero(np.isfinite(rows.radius[: bottom + 1]))[0]
         edge = rows.near[0]
@@ -177,7 +177,7 @@ class Crater:
 
         Rows of a lip before the target's original face and of a bulge behind its rear are in it; it is empty before impact.
         """
-        near, far, radius, _, _ = self._hole()
+        near, far, radius, _, _ = self._hole(self._walls())
         return self.surface + self.direction * 0.5 * (near + far), radius
 
     def measure(self) -> dict:
@@ -187,7 +187,8 @@ class Crater:
         steeper than 45 degrees, and the exit where it was so last. The mean diameter is that of the cylinder (in planar
         geometry: the slot) with the hole's volume and depth, None where there is no hole.
         """
-        near, far, radius, depth, through = self._hole()
+        walls = self._walls()
+        near, far, radius, depth, through = self._hole(walls)
         below = near + far > 0.0
         near, far, radius = near[below], far[below], radius[below]
         mouth, end = self._ends(near + far, radius)
@@ -204,18 +205,16 @@ class Crater:
             "mean_diameter_m": mean,
             "volume_m3": volume,
             "depth_m": depth,
-            **self._ejected(),
+            **self._ejected(walls[0]),
         }
 
-    def _ejected(self) -> dict[str, float | None]:
-        """Mass and mean axial velocity of what of the target has left it through its rear."""
+    def _ejected(self, wall: np.ndarray) -> dict[str, float | None]:
+        """Mass and mean axial velocity of what of the target has left it through its rear; ``wall`` are its pieces."""
         grid, s = self.sim.grid, self.sim.state
-        wall, _ = self._walls()
         beyond = self._depth(grid.zc[grid.inside[0]]) > self.rear
         mass = np.where(~wall & beyond[:, None], grid.interior(s.vof)[self.m] * grid.interior(s.rho)[self.m], 0.0)
         mass *= grid.volume[grid.inside]
-        v = grid.interior_vertices(s.v)[s.group[self.m]]
-        mean = 0.25 * ((v[:-1, :-1] + v[1:, 1:]) + (v[:-1, 1:] + v[1:, :-1]))
+        mean = grid.vertex_mean(s.v[s.group[self.m]])
         total = float(mass.sum())
         return {"ejected_mass_kg": total * (2.0 * np.pi if grid.cylindrical else 1.0),
                 "ejected_velocity_m_s": float((mass * mean).sum()) / total if total > 0.0 else None}

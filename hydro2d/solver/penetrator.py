@@ -210,13 +210,14 @@ class Penetrator:
     def velocity(self) -> float:
         """Mean axial velocity of the core, m/s, so that what flies back from an eroding rod does not count; of all that is left
         of the rod where nothing is left of its core."""
-        mass, momentum = self._whole_core()
-        return momentum / mass if mass > 0.0 else self.sim.mean_velocity(self.m)
+        velocity, mass = self._whole_core()
+        return velocity if mass > 0.0 else self.sim.mean_velocity(self.m)
 
     def _whole_core(self) -> tuple[float, float]:
-        """Mass in kg and axial momentum in N s of the core."""
+        """Mean axial velocity in m/s and mass in kg of the core; zeros where nothing is left of it."""
         _, low, high = self._length()
-        return self._core(self._rows(low, high))
+        mass, momentum = self._core(self._rows(low, high))
+        return (momentum / mass, mass) if mass > 0.0 else (0.0, mass)
 
     # ------------------------------------------------------------------------------------------------ leaving the mesh
 
@@ -225,8 +226,7 @@ class Penetrator:
         while len(self.passed) < len(self.targets) and self.sim.cycle % WATCH_EVERY == 0 and self._near_exit():
             if not self._through(self.depth(), len(self.passed)):
                 break
-            mass, momentum = self._whole_core()
-            self.passed.append(Passage(self.sim.time, momentum / mass if mass > 0.0 else 0.0, mass, self._length()[0]))
+            self.passed.append(Passage(self.sim.time, *self._whole_core(), self._length()[0]))
         grid, dt = self.sim.grid, self.sim.dt
         drift = (grid.offset - self._offset) / dt if dt > 0.0 else 0.0
         self._offset = grid.offset
@@ -235,8 +235,7 @@ class Penetrator:
         if not any(self._reaches(vertex, sign, drift) for vertex, sign in self._open):
             self.exit = None
         elif self.exit is None:
-            mass, momentum = self._whole_core()
-            self.exit = Exit(momentum / mass if mass > 0.0 else 0.0, mass, self.depth(), self._outflow())
+            self.exit = Exit(*self._whole_core(), self.depth(), self._outflow())
 
     def _reaches(self, vertex: int, sign: float, drift: float) -> bool:
         """Whether the core fills half of the edge's cell on the axis and moves out of a mesh that drifts, m/s, along z."""

@@ -185,11 +185,6 @@ class Simulation:
 
     # ------------------------------------------------------------------------------------------------ what is known
 
-    @property
-    def crater(self) -> Crater | None:
-        """What measures the hole in the first target."""
-        return self.craters[0] if self.craters else None
-
     def of_targets(self) -> dict[str, dict]:
         """The rod as it went through each target, see `penetrator.PASSAGE`, and the hole in it, by the target's name."""
         if not self.penetrator:

@@ -21,6 +21,7 @@ from hydro2d.penetration.model import InputError
 from hydro2d.results import figures
 from hydro2d.study import layout
 from hydro2d.study.layout import StudyError
+from hydro2d.study.record import Record
 
 COLOURS = {"blunt": "#1f4e79", "hemispherical": "#b5651d"}
 
@@ -50,8 +51,7 @@ def runs(directories: list[Path]) -> list[Run]:
         for case in layout.read(directory).cases:
             if case.status == layout.DONE and "nose" in case.values:
                 told, striking = case.summary, float(case.values["velocity"].split()[0])
-                rested = told["stop_reason"].startswith(("speed of", "rebound of"))
-                through = told["exit_time_s"] is not None and not rested
+                through = Record(case).perforated
                 crater = told["crater"]
                 found.append(Run(case.values["nose"], striking, told["rod_residual_velocity_m_s"] if through else 0.0,
                                  *((crater["ejected_mass_kg"], crater["ejected_velocity_m_s"], crater["exit_diameter_m"])

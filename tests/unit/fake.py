@@ -57,7 +57,6 @@ class Simulation:
     """Linear motion; every step multiplies the energy, so that a lost bit shows."""
 
     fail_at: int | None = None
-    crater = None
 
     def __init__(self, deck):
         self.deck = deck

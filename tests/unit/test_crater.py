@@ -72,9 +72,9 @@ def depths(sim, z):
 
 def test_before_impact():
     sim = simulation()
-    assert sim.crater.measure() == {"entrance_diameter_m": 0.0, "exit_diameter_m": None, "mean_diameter_m": None,
+    assert sim.craters[0].measure() == {"entrance_diameter_m": 0.0, "exit_diameter_m": None, "mean_diameter_m": None,
                                     "volume_m3": 0.0, "depth_m": 0.0, "ejected_mass_kg": 0.0, "ejected_velocity_m_s": None}
-    assert [len(values) for values in sim.crater.profile()] == [0, 0]
+    assert [len(values) for values in sim.craters[0].profile()] == [0, 0]
 
 
 @pytest.mark.parametrize("options", [(), BACK], ids=["to +z", "to -z"])
@@ -84,12 +84,12 @@ def test_a_cylinder(options, bottom, radius):
     """Radius, volume and depth are exact wherever walls and bottom cut their cells."""
     sim = simulation(*options)
     carve(sim, *cylinder(bottom, radius))
-    found = sim.crater.measure()
+    found = sim.craters[0].measure()
     assert found["entrance_diameter_m"] == pytest.approx(2 * radius, rel=1e-9)
     assert found["mean_diameter_m"] == pytest.approx(2 * radius, rel=1e-9)
     assert found["volume_m3"] == pytest.approx(np.pi * radius**2 * bottom, rel=1e-9)
     assert found["depth_m"] == pytest.approx(bottom, rel=1e-9)
-    z, found = sim.crater.profile()
+    z, found = sim.craters[0].profile()
     assert np.all(np.diff(depths(sim, z)) > 0)
     np.testing.assert_allclose(found[:20], radius, rtol=1e-9)
     assert len(found) == np.ceil(round(bottom / 0.5e-3, 6))
@@ -101,14 +101,14 @@ def test_a_hole_right_through(options):
     sim = simulation(*options)
     sign = sim.penetrator.direction
     fraction = carve(sim, (4e-3, 24e-3), (2.5e-3, 0.0))
-    assert sim.crater.measure()["ejected_mass_kg"] == 0.0
+    assert sim.craters[0].measure()["ejected_mass_kg"] == 0.0
     depth = sign * sim.grid.zc[sim.grid.inside[0]]
     plug = (depth > 25e-3) & (depth < 27e-3)
     fraction[1][plug, :6] = 1.0
     s, own = sim.state, sim.grid.interior(sim.state.rho)[1]
     own[plug, :6] = 2660.0
     s.v[...] = sign * 300.0
-    found = sim.crater.measure()
+    found = sim.craters[0].measure()
     assert found["depth_m"] == 24e-3
     assert found["entrance_diameter_m"] == pytest.approx(5e-3, rel=0.02)
     assert found["exit_diameter_m"] == pytest.approx(8e-3, rel=0.02)
@@ -120,7 +120,7 @@ def test_a_plate_that_has_bent():
     """Its face leans by more than 45 degrees from 11 mm in; the hole begins where the wall is upright."""
     sim = simulation()
     carve(sim, (3e-3, 24e-3), (RADIUS, 4e-3), (11e-3, 0.0))
-    found = sim.crater.measure()
+    found = sim.craters[0].measure()
     assert found["entrance_diameter_m"] == pytest.approx(2 * RADIUS, rel=0.05)
     assert found["exit_diameter_m"] == pytest.approx(6e-3, rel=0.02)
 
@@ -129,16 +129,16 @@ def test_a_bulge_closes_the_hole():
     sim = simulation()
     fraction = carve(sim, *cylinder(24e-3))
     fraction[1][(sim.grid.zc[sim.grid.inside[0]] > 24e-3) & (sim.grid.zc[sim.grid.inside[0]] < 26e-3)] = 1.0
-    assert sim.crater.measure()["exit_diameter_m"] is None
+    assert sim.craters[0].measure()["exit_diameter_m"] is None
 
 
 def test_a_cone():
     """Each row has the area of its part of the cone; of the tip only the last millimetre, thinner than a cell, is lost."""
     sim = simulation()
     carve(sim, (0.0, 15.2e-3), (5.1e-3, 0.0))
-    z, radius = sim.crater.profile()
+    z, radius = sim.craters[0].profile()
     np.testing.assert_allclose(radius[:24], (5.1e-3 * (1 - z / 15.2e-3))[:24], atol=0.02e-3)
-    found = sim.crater.measure()
+    found = sim.craters[0].measure()
     assert found["volume_m3"] == pytest.approx(np.pi / 3 * 5.1e-3**2 * 15.2e-3, rel=1e-3)
     assert found["depth_m"] == pytest.approx(15.2e-3, abs=1.2e-3)
     assert found["mean_diameter_m"] == pytest.approx(2 * 5.1e-3 / np.sqrt(3), rel=0.04)
@@ -148,22 +148,22 @@ def test_planar():
     """The radius is the width of the slot's half, the volume that of the half per metre."""
     sim = simulation(*PLANAR)
     carve(sim, *cylinder(7.2e-3))
-    found = sim.crater.measure()
+    found = sim.craters[0].measure()
     assert found["entrance_diameter_m"] == found["mean_diameter_m"] == pytest.approx(2 * RADIUS, rel=1e-9)
     assert found["volume_m3"] == pytest.approx(RADIUS * 7.2e-3, rel=1e-9)
-    np.testing.assert_allclose(sim.crater.profile()[1][:14], RADIUS, rtol=1e-9)
+    np.testing.assert_allclose(sim.craters[0].profile()[1][:14], RADIUS, rtol=1e-9)
 
 
 def test_debris_and_the_rod_are_part_of_the_hole():
     sim = simulation()
     fraction = carve(sim, *cylinder(10.2e-3))
-    expected = sim.crater.measure()
+    expected = sim.craters[0].measure()
     fraction[1, 24:30, 0:2] = 1.0  # a lump of the target on the axis
     fraction[1, 32, 2] = 0.4
     fraction[0, 25:40, 3] = 1.0
-    assert sim.crater.measure() == expected
+    assert sim.craters[0].measure() == expected
     fraction[1, 0:3, 20:] = 1.0  # and one before the face
-    assert sim.crater.measure() == expected
+    assert sim.craters[0].measure() == expected
 
 
 def test_smooth_in_time():
@@ -172,27 +172,27 @@ def test_smooth_in_time():
     for bottom in bottoms:
         sim = simulation()
         carve(sim, *cylinder(bottom))
-        volumes.append(sim.crater.measure()["volume_m3"])
+        volumes.append(sim.craters[0].measure()["volume_m3"])
     np.testing.assert_allclose(np.diff(volumes), np.pi * RADIUS**2 * np.diff(bottoms), rtol=1e-6)
 
 
 def test_a_lip_is_in_the_profile_only():
     sim = simulation()
     carve(sim, *cylinder(10e-3), lip=2e-3)
-    z, radius = sim.crater.profile()
+    z, radius = sim.craters[0].profile()
     assert z[0] == pytest.approx(-1.75e-3)
     assert radius[:4] == pytest.approx(RADIUS + np.array([1.75e-3, 1.25e-3, 0.75e-3, 0.25e-3]), abs=0.02e-3)
-    found = sim.crater.measure()
+    found = sim.craters[0].measure()
     assert found["mean_diameter_m"] == found["entrance_diameter_m"] == pytest.approx(2 * RADIUS, rel=1e-9)
 
 
 def test_a_target_that_is_shot_through():
     sim = simulation()
     carve(sim, (RADIUS, 24e-3), (RADIUS, 0.0))
-    found = sim.crater.measure()
+    found = sim.craters[0].measure()
     assert found["depth_m"] == pytest.approx(24e-3)
     assert found["volume_m3"] == pytest.approx(np.pi * RADIUS**2 * 24e-3, rel=1e-9)
-    assert sim.crater.profile()[0][[0, -1]] == pytest.approx([0.25e-3, 23.75e-3])
+    assert sim.craters[0].profile()[0][[0, -1]] == pytest.approx([0.25e-3, 23.75e-3])
 
 
 def travel(sim, end, offset=0.0, step=0.17e-3):
@@ -202,7 +202,7 @@ def travel(sim, end, offset=0.0, step=0.17e-3):
         sim.grid.move(sim.penetrator.direction * offset)
         bottom = 2e-3 + offset
         carve(sim, (0.0, bottom), (radius_at(bottom), bottom), (radius_at(0.0), 0.0))
-        sim.crater.record()
+        sim.craters[0].record()
     return offset
 
 
@@ -215,14 +215,14 @@ def test_rows_that_leave_the_mesh_are_kept(options):
     """The mesh follows the hole until its trailing edge is 9 mm below the surface: the profile is that of the whole hole."""
     sim = simulation(*options)
     travel(sim, 19e-3)
-    z, radius = sim.crater.profile()
+    z, radius = sim.craters[0].profile()
     depth = depths(sim, z)
     assert np.all(np.diff(depth) > 0.1e-3)
     assert np.all(np.diff(depth) < 0.9e-3)
     assert depth[0] < 0.5e-3
     assert depth[-1] == pytest.approx(20.75e-3)
     np.testing.assert_allclose(radius, radius_at(depth), atol=0.02e-3)
-    found = sim.crater.measure()
+    found = sim.craters[0].measure()
     bottom = radius_at(21e-3)
     whole = np.pi / 3 * 21e-3 * (4e-3**2 + 4e-3 * bottom + bottom**2)
     assert found["volume_m3"] == pytest.approx(whole, rel=2e-3)
@@ -234,8 +234,8 @@ def test_a_mesh_at_rest_records_nothing():
     sim = simulation()
     carve(sim, *cylinder(10e-3))
     for _ in range(3):
-        sim.crater.record()
-    assert sim.crater.saved()["left"] == []
+        sim.craters[0].record()
+    assert sim.craters[0].saved()["left"] == []
 
 
 def test_restart():
@@ -247,12 +247,12 @@ def test_restart():
     second.load_restart_arrays({name: array.copy() for name, array in first.restart_arrays().items()})
     second.load_restart_scalars(scalars)
     second.grid.move(offset)
-    assert second.crater.saved() == first.crater.saved()
+    assert second.craters[0].saved() == first.craters[0].saved()
     travel(first, 19e-3, offset)
     travel(second, 19e-3, offset)
-    assert second.crater.saved() == first.crater.saved()
-    assert len(first.crater.saved()["left"]) == pytest.approx(len(whole.crater.saved()["left"]), abs=1)
-    for one, other in zip(first.crater.profile(), second.crater.profile(), strict=True):
+    assert second.craters[0].saved() == first.craters[0].saved()
+    assert len(first.craters[0].saved()["left"]) == pytest.approx(len(whole.craters[0].saved()["left"]), abs=1)
+    for one, other in zip(first.craters[0].profile(), second.craters[0].profile(), strict=True):
         np.testing.assert_array_equal(one, other)
 
 
