@@ -75,7 +75,7 @@ def table(found: list[Run]) -> list[str]:
              "|---" * 7 + "|"]  # fmt: skip
     for run in found:
         there = measured.get((run.nose, run.striking))
-        difference = "" if there is None else f"{run.residual - there:+.0f} m/s"
+        difference = "" if there is None else f"{round(run.residual - there):+d} m/s"
         plug = "" if not run.plug else f"{1e3 * run.plug:.0f} g at {run.plug_velocity:.0f} m/s"
         hole = "" if run.hole is None else f"{1e3 * run.hole:.1f} mm"
         shot = "" if there is None else f"{there:.1f}"
