@@ -1,15 +1,68 @@
-"""hydro2d: a small, CTH-like, two-dimensional axisymmetric Eulerian hydrocode for rod-into-plate impact."""
+"""hydro2d: a small, CTH-like, two-dimensional axisymmetric Eulerian hydrocode for rod-into-plate impact.
+
+    import hydro2d
+
+    deck = hydro2d.Deck.from_file("problems/cth_nose_shape/quick.toml", {"body.rod.velocity": "1100 m/s"})
+    shot = hydro2d.run(deck, "runs/first")
+    shot.summary["penetration_depth_m"]
+"""
+
+from __future__ import annotations
+
+import importlib
+from typing import TYPE_CHECKING
 
 __version__ = "0.1.0"
 
+if TYPE_CHECKING:
+    from hydro2d.api import open_run, open_study, run, sweep
+    from hydro2d.deck.sections import Deck
+    from hydro2d.errors import DeckError
+    from hydro2d.results.reading import Results, ResultsError
+    from hydro2d.running.run import RunError
+    from hydro2d.solver.callbacks import every
+    from hydro2d.solver.simulation import Simulation, UnphysicalState
+    from hydro2d.study.definition import StudyError
 
-def load(directory):
-    """The results of a run: summary, history, dumps, sections. See `hydro2d.results.reading.Results`.
+#: where the public names are: imported when they are asked for, so that `import hydro2d` costs nothing
+_PLACES = {
+    "Deck": "hydro2d.deck.sections",
+    "Simulation": "hydro2d.solver.simulation",
+    "every": "hydro2d.solver.callbacks",
+    "run": "hydro2d.api",
+    "open_run": "hydro2d.api",
+    "Results": "hydro2d.results.reading",
+    "sweep": "hydro2d.api",
+    "open_study": "hydro2d.api",
+    "DeckError": "hydro2d.errors",
+    "RunError": "hydro2d.running.run",
+    "UnphysicalState": "hydro2d.solver.simulation",
+    "ResultsError": "hydro2d.results.reading",
+    "StudyError": "hydro2d.study.definition",
+}
 
-    directory : path of a run directory; `hydro2d.study.load` reads a study
+__all__ = [
+    "Deck",
+    "DeckError",
+    "Results",
+    "ResultsError",
+    "RunError",
+    "Simulation",
+    "StudyError",
+    "UnphysicalState",
+    "every",
+    "open_run",
+    "open_study",
+    "run",
+    "sweep",
+]
 
-    Raises hydro2d.results.reading.ResultsError.
-    """
-    from hydro2d.results import reading
 
-    return reading.load(directory)
+def __getattr__(name: str) -> object:
+    if name not in _PLACES:
+        raise AttributeError(f"module 'hydro2d' has no attribute {name!r}")
+    return getattr(importlib.import_module(_PLACES[name]), name)
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})

@@ -206,17 +206,17 @@ class Sources:
         """Registers a file before those that it includes; its lines are looked for when one is asked for."""
         self._files.append((name, data, text))
 
-    def add_override(self, path: tuple, text: str) -> None:
-        """Registers an override of the command line; the path has names where arrays hold named entries."""
+    def add_override(self, path: tuple, said: str) -> None:
+        """Registers an override by what messages call it; the path has names where arrays hold named entries."""
         self._set.pop(path, None)  # the last word stands last
-        self._set[path] = text
+        self._set[path] = said
 
     def where(self, path: tuple, merged: dict) -> str:
         """'deck.toml:12' for the key, or for the nearest table around it that was written down; '' if none was."""
         named = _named(path, merged)
-        for key, text in reversed(self._set.items()):
+        for key, said in reversed(self._set.items()):
             if named[: len(key)] == key:
-                return f"--set {text}"
+                return said
         for length in range(len(named), 0, -1):
             for name, data, text in self._files:
                 line = _line_of(named[:length], data, key_lines(text))

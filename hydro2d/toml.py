@@ -59,6 +59,11 @@ def assemble(text: str, name: str, folder: Path, sources: Sources, chain: tuple[
     """Deck text with its includes, looked for beside it and among the shipped decks, merged below it."""
     data = parse(text, name)
     sources.add(name, data, text)
+    return with_included(data, folder, sources, chain)
+
+
+def with_included(data: dict, folder: Path, sources: Sources, chain: tuple[Path, ...] = ()) -> dict:
+    """The tables of a deck with the decks that it includes, looked for in a folder and among the shipped ones, below them."""
     included = data.get("include", [])
     included = [included] if isinstance(included, str) else included
     if not isinstance(included, list) or not all(isinstance(entry, str) for entry in included):
@@ -117,27 +122,28 @@ def assignment(text: str) -> tuple[str, Any]:
         return key.strip(), value_text.strip()
 
 
-def override(data: dict, text: str, sources: Sources) -> dict:
-    """Lays one ``key=value`` of the command line over the deck; entries of arrays go by name or by number from 0.
+def override(data: dict, key: str, value, said: str, sources: Sources) -> dict:
+    """Lays a value over the deck; entries of arrays go by name or by number from 0, as in ``body.rod.velocity``.
 
-    ``body.rod.velocity=1200 m/s`` needs no quotes.
+    said : what messages call the override, such as "--set body.rod.velocity=1200 m/s"
     """
-    key, value = assignment(text)
     keys = key_parts(key)
+    if not keys:
+        raise DeckError(f"{said}: the key is empty")
     result = copy.deepcopy(data)
-    sources.add_override(_override_path(_put(result, keys, value, text), result), text)
+    sources.add_override(_override_path(_put(result, keys, value, said), result), said)
     return result
 
 
-def _put(data: dict, keys: list[str], value, text: str) -> list:
+def _put(data: dict, keys: list[str], value, said: str) -> list:
     """Sets a value; returns its path with the indices of entries in the place of their names."""
     place, path = data, []
     for depth, key in enumerate(keys):
         last = depth == len(keys) - 1
         if isinstance(place, list):
-            key = _index(place, key, text)
+            key = _index(place, key, said)
         elif not isinstance(place, dict):
-            raise DeckError(f"--set {text}: {'.'.join(keys[:depth])} is a value and has no key {key}")
+            raise DeckError(f"{said}: {'.'.join(keys[:depth])} is a value and has no key {key}")
         elif not last and key not in place:
             place[key] = {}
         path.append(key)
@@ -148,11 +154,11 @@ def _put(data: dict, keys: list[str], value, text: str) -> list:
     return path
 
 
-def _index(entries: list, key: str, text: str) -> int:
+def _index(entries: list, key: str, said: str) -> int:
     index = entry_index(entries, key)
     if index is None:
         names = [str(entry.get("name", n)) for n, entry in enumerate(entries) if isinstance(entry, dict)]
-        raise DeckError(f"--set {text}: there is no entry {key}; there are {', '.join(names) or len(entries)}")
+        raise DeckError(f"{said}: there is no entry {key}; there are {', '.join(names) or len(entries)}")
     return index
 
 

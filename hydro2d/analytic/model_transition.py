@@ -136,7 +136,7 @@ def of_runs(directories: Sequence[Path], nose: str) -> tuple[Bracket, list[tuple
     """
     rigid, others, lines = [], [], []
     for directory in directories:
-        run = reading.load(directory)
+        run = reading.Results(directory)
         if "regime" not in run.summary:
             raise reading.ResultsError(f"{directory}: the run has not ended, it has no regime")
         shot, regime = model_deck.read(run.directory / reading.DECK), run.summary["regime"]

@@ -223,9 +223,9 @@ def plot(
         Column of the history; may be given several times.
     """
     from hydro2d.results import figures
-    from hydro2d.results.reading import load
+    from hydro2d.results.reading import Results
 
-    opened, times = [load(path) for path in runs], _times(time)
+    opened, times = [Results(path) for path in runs], _times(time)
     if kind == "cutaway":
         if len(opened) != 1 or len(times) != 1 or output.suffix != ".png":
             raise UsageError("--kind cutaway draws one run at one time into a .png")
@@ -279,9 +279,9 @@ def movie(
         Several runs stand beside one another.
     """
     from hydro2d.results import movies
-    from hydro2d.results.reading import load
+    from hydro2d.results.reading import Results
 
-    opened = [load(path) for path in runs]
+    opened = [Results(path) for path in runs]
     frames = movies.film(opened, output, field, mirror=mirror, window=_window(window), follow=follow, limits=_range(colours),
                          rate=rate, beside=beside)  # fmt: skip
     print(f"wrote {output}, {frames} frames")
@@ -321,9 +321,9 @@ def export(
         Fields to take, keys of `hydro2d info`; default: all that were dumped.
     """
     from hydro2d.results.export import export as write
-    from hydro2d.results.reading import load
+    from hydro2d.results.reading import Results
 
-    for path in write(load(run), output or run / "export", fields or ("all",)):
+    for path in write(Results(run), output or run / "export", fields or ("all",)):
         print(f"wrote {path}")
     return 0
 

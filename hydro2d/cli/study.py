@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 
 from hydro2d.cli.base import Count, Overrides, UsageError
@@ -57,13 +56,13 @@ def sweep(
     _fits(workers, scheduler, slurm)
     if status:
         return _status(study, out)
-    from hydro2d.study import cases
+    from hydro2d.study import cases, cluster
 
     plan = cases.plan(study, set_, search=False, quiet=quiet)
     if check:
         from hydro2d.study import estimate
 
-        return estimate.show(plan, workers or default_workers(threads))
+        return estimate.show(plan, workers or cluster.default_workers(threads))
     from hydro2d.study import sweep as sweeps
     from hydro2d.study.choice import Choice
 
@@ -127,13 +126,13 @@ def transition(
     _fits(workers, scheduler, slurm)
     if status:
         return _status(study, out)
-    from hydro2d.study import cases
+    from hydro2d.study import cases, cluster
 
     plan = cases.plan(study, set_, search=True, quiet=quiet)
     if check:
         from hydro2d.study import estimate
 
-        return estimate.show_search(plan, workers or default_workers(threads))
+        return estimate.show_search(plan, workers or cluster.default_workers(threads))
     from hydro2d.study import transition as transitions
 
     connect = _workers(len(plan.cases), workers, threads, scheduler, slurm)
@@ -150,12 +149,7 @@ def _workers(most: int, workers: int | None, threads: int, scheduler: str | None
         return cluster.joined(scheduler)
     if slurm is not None:
         return cluster.slurm(slurm, workers or 1, threads)
-    return cluster.local(min(workers or default_workers(threads), most), threads)
-
-
-def default_workers(threads: int) -> int:
-    """As many as the cores of this machine carry."""
-    return max((os.cpu_count() or 1) // threads, 1)
+    return cluster.local(min(workers or cluster.default_workers(threads), most), threads)
 
 
 def _fits(workers: int | None, scheduler: str | None, slurm: Path | None) -> None:

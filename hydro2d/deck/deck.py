@@ -8,7 +8,7 @@ answer what follows from a deck; ``warnings`` lists what is allowed but unwise.
 from __future__ import annotations
 
 import copy
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -20,7 +20,7 @@ from hydro2d.deck.base import Section
 from hydro2d.deck.bodies import SHAPES
 from hydro2d.deck.checks import extent, faces, heading, inconsistencies, room, travel, unsupported
 from hydro2d.deck.mesh import axis_edges, body, body_radius
-from hydro2d.deck.sections import Deck
+from hydro2d.deck.sections import RESOLVING, Deck
 from hydro2d.deck.warnings import warnings
 from hydro2d.errors import DeckError, Sources, entry_index, spelled, unknown
 from hydro2d.materials import library
@@ -36,6 +36,8 @@ __all__ = [
     "key_problem",
     "load",
     "loads",
+    "of_tables",
+    "plain",
     "room",
     "schema",
     "sliding_widths",
@@ -60,15 +62,19 @@ def find(path: str | Path) -> Path:
     raise DeckError(f"{path}: there is no such file; {unknown('deck', path.name, decks)}")
 
 
-def load(path: str | Path, overrides: Sequence[str] = ()) -> Deck:
+#: what is laid over a deck: "key=value" of a command line, or values by their dotted keys
+Overrides = Sequence[str] | Mapping[str, Any]
+
+
+def load(path: str | Path, overrides: Overrides = ()) -> Deck:
     """Reads a deck file.
 
     Parameters
     ----------
     path : str or Path
         A file, or the path of a shipped deck below ``problems``.
-    overrides : list of str
-        ``key=value`` with dotted keys, laid over the deck in order: ``body.rod.velocity=1200 m/s``.
+    overrides : list of str, or dict
+        ``key=value`` with dotted keys, laid over the deck in order: ``body.rod.velocity=1200 m/s``; or values by such keys.
 
     Raises
     ------
@@ -83,24 +89,54 @@ def load(path: str | Path, overrides: Sequence[str] = ()) -> Deck:
     return _resolve(data, file.stem, overrides, sources)
 
 
-def loads(text: str, overrides: Sequence[str] = (), name: str = "deck", folder: str | Path = ".") -> Deck:
+def loads(text: str, overrides: Overrides = (), name: str = "deck", folder: str | Path = ".") -> Deck:
     """Reads a deck from a string; includes are looked for in ``folder``. Raises DeckError as ``load`` does."""
     sources = Sources()
     data = toml.assemble(text, f"{name}.toml", Path(folder), sources)
     return _resolve(data, name, overrides, sources)
 
 
-def _resolve(data: dict, name: str, overrides: Sequence[str], sources: Sources) -> Deck:
-    for text in overrides:
-        data = toml.override(data, text, sources)
-    data = {"name": name, **data}
+def of_tables(tables: Mapping[str, Any], overrides: Overrides = (), name: str = "deck", folder: str | Path = ".") -> Deck:
+    """Makes a deck of nested dicts and lists, as a TOML file would give them. Raises DeckError as ``load`` does."""
+    sources = Sources()
+    sources.add(name, {}, "")
+    data = toml.with_included(plain(tables), Path(folder), sources)
+    return _resolve(data, name, overrides, sources)
+
+
+def plain(value):
+    """A copy of what a program gives for a part of a deck, as TOML would give it: numpy's numbers become Python's."""
+    if isinstance(value, Mapping):
+        return {str(key): plain(entry) for key, entry in value.items()}
+    if isinstance(value, (np.ndarray, np.generic)):
+        return value.tolist()
+    if isinstance(value, (list, tuple)):
+        return [plain(entry) for entry in value]
+    return str(value) if isinstance(value, Path) else value
+
+
+def _laid_over(data: dict, overrides: Overrides, sources: Sources) -> dict:
+    if isinstance(overrides, str):
+        raise DeckError(f'overrides are a list of "key=value" or a dict of values by key, not the text "{overrides}"')
+    if isinstance(overrides, Mapping):
+        given = {key: plain(value) for key, value in overrides.items()}
+        entries = [(key, value, f"override {key} = {value!r}") for key, value in given.items()]
+    else:
+        entries = [(*toml.assignment(text), f"--set {text}") for text in overrides]
+    for entry in entries:
+        data = toml.override(data, *entry, sources)
+    return data
+
+
+def _resolve(data: dict, name: str, overrides: Overrides, sources: Sources) -> Deck:
+    data = {"name": name, **_laid_over(data, overrides, sources)}
     problems: list[str] = []
 
     def complaint(path: tuple, message: str) -> DeckError:
         return DeckError(f"{sources.where(path, data)}: {spelled(path)}: {message}")
 
     try:
-        deck = Deck.model_validate(data)
+        deck = Deck.model_validate(data, context=RESOLVING)
     except ValidationError as error:
         problems = [str(complaint(*_explained(entry, data))) for entry in _causes(error.errors())]
         problems += [str(complaint(path, message)) for path, message in _unknown_materials(data)]

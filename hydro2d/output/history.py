@@ -9,10 +9,15 @@ from __future__ import annotations
 
 from contextlib import contextmanager
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from hydro2d.files import hdf5, replacing
+
+if TYPE_CHECKING:
+    import pandas
+    import xarray
 
 #: regimes of a rod in the order of the impact velocity, and all of them by the number that stands in the file
 GROWING = ("rigid", "deforming", "eroding")
@@ -53,8 +58,38 @@ def _encode(value) -> float:
     return np.nan if value is None else float(value)
 
 
-class History:
-    """Rows of named numbers, written as columns.
+class Columns:
+    """Rows of named numbers, kept as columns."""
+
+    def __init__(self) -> None:
+        self._columns: dict[str, list[float]] = {}
+        self._rows = 0
+
+    def __len__(self) -> int:
+        return self._rows
+
+    @property
+    def last_time(self) -> float | None:
+        """Time of the last row."""
+        return self._columns["time"][-1] if self._rows else None
+
+    def append(self, row: dict[str, float | str | None]) -> None:
+        """Adds a row; it must hold `time`. A quantity that other rows lack is NaN there."""
+        for name in row:
+            if name not in self._columns:
+                self._columns[name] = [np.nan] * self._rows
+        for name, column in self._columns.items():
+            column.append(_encode(row[name]) if name in row else np.nan)
+        self._rows += 1
+
+    def arrays(self) -> dict[str, np.ndarray]:
+        """All columns by name, `time` first, as `read` gives those of a file."""
+        names = sorted(self._columns, key=lambda name: (name != "time", name))
+        return {name: _numbers(name, self._columns[name]) for name in names}
+
+
+class History(Columns):
+    """Columns that are written to history.h5.
 
     Parameters
     ----------
@@ -68,31 +103,13 @@ class History:
     """
 
     def __init__(self, path: Path, rows: int = 0):
+        super().__init__()
         self.path = Path(path)
-        self._columns: dict[str, list[float]] = {}
-        self._rows = 0
         self.craters: dict[str, tuple[np.ndarray, np.ndarray]] = {}
         if rows:
             for name, values in read(self.path).items():
                 self._columns[name] = list(values[:rows])
             self._rows = min(rows, len(self._columns["time"]))
-
-    def __len__(self) -> int:
-        return self._rows
-
-    @property
-    def last_time(self) -> float | None:
-        """Time of the last row."""
-        return self._columns["time"][-1] if self._rows else None
-
-    def append(self, row: dict[str, float | str]) -> None:
-        """Adds a row; it must hold `time`. A quantity that other rows lack is NaN there."""
-        for name in row:
-            if name not in self._columns:
-                self._columns[name] = [np.nan] * self._rows
-        for name, column in self._columns.items():
-            column.append(_encode(row[name]) if name in row else np.nan)
-        self._rows += 1
 
     def write(self) -> None:
         """Writes all rows."""
@@ -110,12 +127,38 @@ class History:
                 radius.dims[0].attach_scale(z)
 
 
-def _dataset(file, name: str, values: list[float]):
+def _numbers(name: str, values) -> np.ndarray:
+    """A column as it stands in the file."""
     kind = {"cycle": np.int64, "regime": np.int8}.get(name, np.float64)
     numbers = np.asarray(values, dtype=float)
     if kind is not np.float64:
         numbers = np.nan_to_num(numbers, nan=-1)  # integers have no other word for "not known"
-    dataset = file.create_dataset(name, data=numbers.astype(kind))
+    return numbers.astype(kind)
+
+
+def frame(columns: dict[str, np.ndarray]) -> pandas.DataFrame:
+    """Columns as a pandas.DataFrame with the time in s as index, the regime in words; `attrs["units"]` has every unit."""
+    import pandas
+
+    shown: dict = dict(columns)
+    if "regime" in shown:
+        shown["regime"] = pandas.Categorical.from_codes(shown["regime"], REGIMES)
+    table = pandas.DataFrame(shown).set_index("time")
+    table.attrs["units"] = {name: unit(name) for name in columns}
+    return table
+
+
+def dataset(columns: dict[str, np.ndarray]) -> xarray.Dataset:
+    """Columns as an xarray.Dataset over the time in s, every variable with its unit."""
+    import xarray
+
+    variables = {name: ("time", column, attributes(name)) for name, column in columns.items()}
+    return xarray.Dataset({name: entry for name, entry in variables.items() if name != "time"},
+                          coords={"time": variables["time"]})  # fmt: skip
+
+
+def _dataset(file, name: str, values):
+    dataset = file.create_dataset(name, data=_numbers(name, values))
     dataset.attrs.update(attributes(name))
     return dataset
 

@@ -34,13 +34,18 @@ class VtkError(Exception):
     """A VTK file that cannot be read."""
 
 
-def _write(dataset, path: Path, time: float, writer) -> None:
+def _stamp(dataset, time: float) -> None:
+    """Gives a dataset its time in s."""
     from vtkmodules.vtkCommonCore import vtkDoubleArray
 
     stamp = vtkDoubleArray()
     stamp.SetName("TimeValue")
     stamp.InsertNextValue(time)
     dataset.GetFieldData().AddArray(stamp)
+
+
+def _write(dataset, path: Path, time: float, writer) -> None:
+    _stamp(dataset, time)
     writer.SetInputData(dataset)
     writer.SetDataModeToAppended()
     writer.EncodeAppendedDataOff()
@@ -89,8 +94,14 @@ def write_grid(path: Path, r_edges, z_edges, fields: Iterable[tuple[str, np.ndar
 
     The first vector is marked as the one that filters turn and mirror with the geometry.
     """
-    from vtkmodules.vtkCommonDataModel import vtkRectilinearGrid
     from vtkmodules.vtkIOXML import vtkXMLRectilinearGridWriter
+
+    _write(_grid(r_edges, z_edges, fields), path, time, vtkXMLRectilinearGridWriter())
+
+
+def _grid(r_edges, z_edges, fields: Iterable[tuple[str, np.ndarray]]):
+    """Cell data on a vtkRectilinearGrid."""
+    from vtkmodules.vtkCommonDataModel import vtkRectilinearGrid
 
     grid = vtkRectilinearGrid()
     grid.SetDimensions(len(r_edges), len(z_edges), 1)
@@ -102,7 +113,7 @@ def write_grid(path: Path, r_edges, z_edges, fields: Iterable[tuple[str, np.ndar
         data.AddArray(_array(values.reshape(cells, *values.shape[2:]), name))
         if values.ndim == 3 and data.GetVectors() is None:
             data.SetActiveVectors(name)
-    _write(grid, path, time, vtkXMLRectilinearGridWriter())
+    return grid
 
 
 def write_lines(path: Path, lines: list[tuple[int, np.ndarray]], time: float) -> None:
@@ -337,6 +348,15 @@ def read_lines(path: Path) -> list[tuple[int, np.ndarray]]:
         (int(bodies.GetTuple1(line)), points[order[first:last]])
         for line, (first, last) in enumerate(zip(ends[:-1], ends[1:], strict=True))
     ]
+
+
+def pyvista_of(r_edges, z_edges, fields: Iterable[tuple[str, np.ndarray]], time: float):
+    """What `write_grid` would write, as a pyvista.RectilinearGrid."""
+    import pyvista
+
+    grid = _grid(r_edges, z_edges, fields)
+    _stamp(grid, time)
+    return pyvista.wrap(grid)
 
 
 def pyvista_grid(path: Path):

@@ -1,19 +1,26 @@
-"""A finished or interrupted run, read back: summary, history, fields. `hydro2d.load(directory)` gives one."""
+"""A finished or interrupted run, read back: summary, history, fields. `hydro2d.open_run(directory)` gives one."""
 
 from __future__ import annotations
 
 import functools
 import html
-import importlib
 import json
 import tomllib
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from hydro2d.output import history, snapshot, vtk
 from hydro2d.results.summaries import plausible
 from hydro2d.running.run import DECK, HISTORY, SUMMARY
+
+if TYPE_CHECKING:
+    import pandas
+    import pyvista
+    import xarray
+
+    from hydro2d.solver.simulation import Simulation
 
 #: the file of a study directory that lists its cases
 STUDY = "study.json"
@@ -78,28 +85,28 @@ class Results:
             raise ResultsError(f"{self.directory} has no crater: the run has not ended, or has no rod and target")
         return found
 
-    def to_pandas(self):
+    def to_pandas(self) -> pandas.DataFrame:
         """The history as a pandas.DataFrame with the time in s as index, the regime in words.
 
-        `attrs["units"]` of the frame has the unit of every column by name. Raises HistoryError, and ImportError without pandas.
+        `attrs["units"]` of the frame has the unit of every column by name. Raises HistoryError.
         """
-        pandas = _optional("pandas")
-        columns = dict(self.history)
-        if "regime" in columns:
-            columns["regime"] = pandas.Categorical.from_codes(columns["regime"], history.REGIMES)
-        frame = pandas.DataFrame(columns).set_index("time")
-        frame.attrs["units"] = {name: history.unit(name) for name in columns}
-        return frame
+        return history.frame(self.history)
 
-    def to_xarray(self):
-        """The history as an xarray.Dataset over the time in s, every variable with its unit.
+    def to_xarray(self) -> xarray.Dataset:
+        """The history as an xarray.Dataset over the time in s, every variable with its unit. Raises HistoryError."""
+        return history.dataset(self.history)
 
-        Raises HistoryError, and ImportError without xarray.
+    @property
+    def fields(self) -> xarray.Dataset:
+        """The fields of all dumps as one dataset over time, z and r, read from the files when values are asked for.
+
+        See `output/datasets.py`. Raises ResultsError where no dump was written, VtkError where one is damaged.
         """
-        xarray = _optional("xarray")
-        variables = {name: ("time", column, history.attributes(name)) for name, column in self.history.items()}
-        return xarray.Dataset({name: entry for name, entry in variables.items() if name != "time"},
-                              coords={"time": variables["time"]})  # fmt: skip
+        from hydro2d.output import datasets
+
+        if not self.dumps:
+            raise ResultsError(f"{self.directory} has no fields: no dump was written yet")
+        return datasets.of_dumps(self.dumps)
 
     @property
     def dumps(self) -> list[tuple[float, Path]]:
@@ -117,14 +124,14 @@ class Results:
         return dumps[-1][1] if time is None else min(dumps, key=lambda entry: abs(entry[0] - time))[1]
 
     def dump(self, time: float | None = None) -> vtk.Dump:
-        """The fields at the dump nearest to a time in s, or at the last."""
+        """The fields at the dump nearest to a time in s, or at the last, as arrays by the name that they have in the file."""
         return vtk.read_grid(self.dump_file(time))
 
     def state(self) -> vtk.Dump:
         """The fields in full precision at the restart file, whatever was dumped. Raises SnapshotError."""
         return vtk.Dump.of(self.simulation())
 
-    def simulation(self):
+    def simulation(self) -> Simulation:
         """The simulation as the restart file holds it. Raises SnapshotError."""
         from hydro2d.deck import deck as decks
         from hydro2d.solver.simulation import Simulation
@@ -136,8 +143,8 @@ class Results:
             sim.load_restart_scalars(saved.scalars)
         return sim
 
-    def grid(self, time: float | None = None):
-        """The same as a pyvista.RectilinearGrid, x = r, y = z."""
+    def grid(self, time: float | None = None) -> pyvista.RectilinearGrid:
+        """The dump nearest to a time in s, or the last, as a pyvista.RectilinearGrid with x = r, y = z."""
         return vtk.pyvista_grid(self.dump_file(time))
 
     def section(self, field: str = "pressure", mirror: str | None = None, time: float | None = None, *, axes=None,
@@ -218,25 +225,10 @@ def _millimetres(length: float | None) -> str:
     return "none" if length is None else f"{length * 1e3:.1f} mm"
 
 
-def _optional(package: str):
-    """A package that hydro2d does not bring along. Raises ImportError with one line that says what to do."""
-    try:
-        return importlib.import_module(package)
-    except ModuleNotFoundError as error:
-        if error.name != package:
-            raise
-        raise ImportError(f"this needs {package}, which is not installed: pip install {package}", name=package) from None
-
-
 def _no_run(directory: Path) -> str:
     """Why a directory without a deck is not a run, and what reads it if it is a study or holds runs."""
     said = f"{directory} is not a run directory: it has no {DECK}"
     if (directory / STUDY).is_file():
-        return f"{said}; it is a study, which hydro2d.study.load reads"
+        return f"{said}; it is a study, which hydro2d.open_study reads"
     inside = sorted(file.parent.name for file in directory.glob(f"*/{DECK}"))
     return f"{said}; it holds runs: {', '.join(inside[:5])}{', ...' if len(inside) > 5 else ''}" if inside else said
-
-
-def load(directory: Path | str) -> Results:
-    """Opens a run directory. Raises ResultsError."""
-    return Results(directory)

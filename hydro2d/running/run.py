@@ -15,10 +15,10 @@ interrupted anywhere continues to the same bits as one that was not.
 from __future__ import annotations
 
 import hashlib
-import math
 import os
 import time as clock
 import tomllib
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from pathlib import Path
 
@@ -35,7 +35,8 @@ from hydro2d.output.vtk import FOLDER, SERIES, Series
 from hydro2d.running import provenance
 from hydro2d.running.progress import Clock, reporter
 from hydro2d.running.team import Team
-from hydro2d.solver.tracers import PEAKS
+from hydro2d.solver.callbacks import Due
+from hydro2d.solver.record import row
 
 DECK, SUMMARY, HISTORY, LOG, LOCK = "deck.toml", "summary.json", "history.h5", "log.txt", "run.lock"
 PROGRESS = "progress.json"
@@ -60,31 +61,6 @@ ROD_RESULTS = (
 
 class RunError(Exception):
     """A run that cannot begin: the directory is taken, or a restart does not fit; the message is for the user."""
-
-
-class Due:
-    """Output times k interval, k = 0, 1, ...: due at the first cycle at or after each; several at once count as one."""
-
-    def __init__(self, interval: float):
-        self.interval, self.count = interval, 0
-
-    def saved(self) -> list:
-        """What a restart file keeps of it."""
-        return [self.interval, self.count]
-
-    def resume(self, saved: list, time: float) -> None:
-        """Continues from what was saved at `time`; where the interval has changed since, from the next of the new."""
-        interval, count = saved
-        self.count = count if interval == self.interval else math.floor(time / self.interval) + 1
-
-    def __call__(self, time: float) -> bool:
-        """Whether an output is due at `time`; if so, the next one is moved beyond it."""
-        if time < self.count * self.interval:
-            return False
-        self.count = max(math.floor(time / self.interval), self.count) + 1
-        if (self.count - 1) * self.interval > time:  # the division was rounded up
-            self.count -= 1
-        return True
 
 
 def check_free(directory: Path, *, restart: bool, overwrite: bool) -> None:
@@ -133,9 +109,10 @@ class Run:
     directory : where everything is written
     restart : continue from restart.h5 of the directory
     report : see progress.reporter
+    columns : further columns of the history, see Simulation.columns
     """
 
-    def __init__(self, deck, directory: Path, *, restart: bool, report):
+    def __init__(self, deck, directory: Path, *, restart: bool, report, columns: Mapping[str, Callable] | None = None):
         from hydro2d.jit import threads
         from hydro2d.solver.simulation import Simulation
 
@@ -144,6 +121,7 @@ class Run:
         self.warnings = warnings(deck)
         self.provenance = provenance.collect(threads())
         self.sim = Simulation(deck)
+        self.sim.columns.update(columns or {})
         self.wall_before = 0.0
         self.stepping, self.stepped = 0.0, 0
         self.due = {"history": Due(deck.output.history_interval), "vtk": Due(deck.output.vtk_interval)}
@@ -364,24 +342,8 @@ def experiment(deck) -> dict | None:
     }
 
 
-def row(sim) -> dict:
-    """One row of the history."""
-    conserved = sim.conservation()
-    values = {"time": sim.time, "cycle": sim.cycle, "dt": sim.dt, **sim.diagnostics()}
-    values |= {f"mass_change_{body}": change for body, change in conserved["mass"].items()}
-    values |= {f"{name}_change": conserved[name] for name in ("axial_momentum", "total_energy")}
-    values |= {name: conserved[name] for name in ("internal_energy_J", "kinetic_energy_J")}
-    for name, found in sim.of_bodies().items():
-        values |= {f"body_{name}_{key}": value for key, value in found.items()}
-    for name, found in sim.stations.measure().items():
-        values |= {f"{name}_{key}": value for key, value in found.items() if key not in PEAKS}
-    for sink, amounts in conserved["sinks"].items():
-        values |= {f"sink_{sink}_{name}": amount for name, amount in amounts.items()}
-    return values
-
-
 def run(deck, directory: Path | None = None, *, restart=False, overwrite=False, quiet=False,
-        interrupt: Interrupt | None = None) -> dict:  # fmt: skip
+        interrupt: Interrupt | None = None, columns: Mapping[str, Callable] | None = None) -> dict:  # fmt: skip
     """Runs a deck in a directory and returns its summary.
 
     deck : as deck.load gives it
@@ -389,6 +351,7 @@ def run(deck, directory: Path | None = None, *, restart=False, overwrite=False, 
     restart, overwrite : continue a run that is there, or remove it
     quiet : nothing is printed (log.txt is written)
     interrupt : call it from anywhere to stop after the cycle with a restart file
+    columns : further columns of the history, functions of the simulation by name
 
     Raises RunError, SnapshotError, LockError (another process runs there).
     """
@@ -408,7 +371,8 @@ def run(deck, directory: Path | None = None, *, restart=False, overwrite=False, 
             signals(interrupt),
             announced(report.line, deck) as compiled,
         ):
-            return Run(deck, directory, restart=restart, report=report).execute(interrupt, compiled)
+            found = Run(deck, directory, restart=restart, report=report, columns=columns)
+            return found.execute(interrupt, compiled)
 
 
 def exit_status(summary: dict) -> int:

@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable
+from typing import TYPE_CHECKING
+
 import numpy as np
 
+from hydro2d import units
 from hydro2d.deck import deck as decks
+from hydro2d.errors import unknown
 from hydro2d.materials import library
-from hydro2d.mesh import sums
+from hydro2d.mesh import fields, quantities, sums
 from hydro2d.mesh.edges import Edges
 from hydro2d.mesh.grid import Grid
 from hydro2d.mesh.state import State
@@ -18,29 +23,39 @@ from hydro2d.solver.following import FollowingMesh, StandingMesh, UndisturbedSpa
 from hydro2d.solver.memory import refuse_too_large
 from hydro2d.solver.method import Method
 from hydro2d.solver.penetrator import WATCH_EVERY, Penetrator
+from hydro2d.solver.record import Recorder
 from hydro2d.solver.sanity import TRUSTED, faults
 from hydro2d.solver.stations import Stations
 from hydro2d.solver.targets import targets
+
+if TYPE_CHECKING:
+    import pandas
+    import pyvista
+    import xarray
 
 __all__ = ["Simulation", "UnphysicalState"]
 
 
 class Simulation:
-    """Runs a deck.
+    """A deck in memory, to be stepped and looked at. It writes no files: `hydro2d.run` does.
 
     Parameters
     ----------
-    deck : Deck, as deck.load gives it; DeckError where the machine has not the memory for its mesh
+    deck : Deck
 
     Attributes
     ----------
+    columns : dict of functions of the simulation, by name
+        Further columns of the history, each a number. The ending of a name tells its unit: ``_m``, ``_m_s``, ``_Pa``, ``_K``.
     grid, state, table, ledger : the mesh, the fields, the materials, what is conserved
     stations : the tracers and gauges
     penetrator : what measures the rod; None for a deck without rod and target
     craters : what measures the hole in each target, in the order in which the rod meets them; empty without rod and target
+
+    Raises DeckError where the machine has not the memory for the mesh.
     """
 
-    def __init__(self, deck):
+    def __init__(self, deck: decks.Deck):
         refuse_too_large(deck)
         self.deck = deck
         self.grid = Grid(*decks.edges(deck), deck.mesh.geometry)
@@ -55,7 +70,9 @@ class Simulation:
         self._rows = np.zeros((2, self.grid.shape[0]))
         self.penetrator, self.craters = self._penetration()
         self.watched = slots.index(deck.stop.body) if deck.stop.body else None
-        self._sign = None
+        self._sign: float | None = None
+        self.columns: dict[str, Callable[[Simulation], float]] = {}
+        self._recorder = Recorder(deck.output.history_interval)
 
     def _penetration(self) -> tuple[Penetrator | None, list[Crater]]:
         """What measures the rod and the holes in its targets."""
@@ -114,23 +131,69 @@ class Simulation:
 
     @property
     def time(self) -> float:
+        """Time since the start, s."""
         return self.engine.time
 
     @property
     def cycle(self) -> int:
+        """Number of cycles that were done."""
         return self.engine.number
 
     @property
     def dt(self) -> float:
+        """The last time step, s."""
         return self.engine.dt
 
     @property
     def dt_cause(self) -> str:
+        """Where and why no longer time step was possible, in words."""
         return self.engine.cause
 
     @property
     def ledger(self) -> Ledger:
+        """What is conserved, and what has left the mesh or was taken by the method."""
         return self.engine.ledger
+
+    def run(self, until: float | str | Callable[[Simulation], bool] | None = None,
+            callbacks: Iterable[Callable[[Simulation], object]] = ()) -> str:  # fmt: skip
+        """Steps on until something ends it, and returns what that was. Call it again to go on.
+
+        Parameters
+        ----------
+        until : float, str or function of the simulation
+            A time in s or text such as ``"50 us"``, which the last cycle reaches or passes; or a function that is true at the
+            end. None: the [stop] of the deck, which otherwise plays no part.
+        callbacks : functions of the simulation
+            Each is called after every cycle; `hydro2d.every` makes one that is called now and then.
+
+        Adds a row to `history` at every ``output.history_interval`` of the deck, and at the end. Raises UnphysicalState.
+        """
+        ended, callbacks = self._end(until), tuple(callbacks)
+        self._recorder(self)
+        while (reason := ended()) is None:
+            self.step()
+            for each in callbacks:
+                each(self)
+            self._recorder(self)
+        self.refuse_nonsense()
+        self._recorder.last(self)
+        return reason
+
+    def _end(self, until: float | str | Callable[[Simulation], bool] | None) -> Callable[[], str | None]:
+        """What tells why `run` is over, or None."""
+        if until is None:
+            return self.stop_reason
+        if callable(until):
+            return lambda: "as asked" if until(self) else None
+        time = units.to_si(until, "s")
+        return lambda: "end time" if self.time >= time else None
+
+    @property
+    def history(self) -> pandas.DataFrame:
+        """The rows that `run` has recorded, over the time in s; ``attrs["units"]`` has the unit of every column."""
+        from hydro2d.output import history
+
+        return history.frame(self._recorder.columns.arrays())
 
     def step(self) -> None:
         """One cycle. Raises UnphysicalState."""
@@ -219,6 +282,55 @@ class Simulation:
         """Raises UnphysicalState with the first fault of the state, if it has any."""
         if found := self.faults(self.deck.numerics.clip_limit):
             raise UnphysicalState(f"cycle {self.cycle}, time {self.time:.6g} s: {found[0]}")
+
+    # ------------------------------------------------------------------------------------------------ fields
+
+    def array(self, name: str) -> np.ndarray:
+        """A field of the solver as a view without ghost cells: what is written into it, the next cycle starts from.
+
+        name : name or symbol in the table of fields, such as "density" or "rho"
+
+        Shape (bodies, nz, nr) for fields of the bodies, (nz, nr) for those of cells, (groups, nz + 1, nr + 1) for those of
+        vertices, with one group unless there is contact. Where a body is not, its fields have no meaning. Raises FieldError.
+        """
+        field = next((each for each in fields.FIELDS if name in (each.name, each.symbol)), None)
+        if field is None:
+            raise quantities.FieldError(unknown("field", name, (each.name for each in fields.FIELDS)))
+        values = getattr(self.state, field.symbol)
+        return self.grid.interior_vertices(values) if field.centring == "vertex" else self.grid.interior(values)
+
+    def field(self, key: str, body: str | None = None) -> np.ndarray:
+        """A quantity as it is written and drawn, computed now: shape (nz, nr), or (nz, nr, 3) for a vector (r, z, 0).
+
+        key : of the table of quantities, such as "pressure", "velocity", "body_density"
+        body : name of the body, for a quantity that every body has
+
+        Raises FieldError.
+        """
+        from hydro2d.output import derived
+
+        quantity = quantities.BY_KEY.get(key)
+        if quantity is None:
+            raise quantities.FieldError(unknown("field", key, quantities.BY_KEY))
+        if quantity.per_body and body not in self.table.names:
+            raise quantities.FieldError(f"{key} is one of every body; " + unknown("body", str(body), self.table.names))
+        found = derived.evaluate(self, (key,)).get(quantity.name(body))
+        if found is None:
+            raise quantities.FieldError(f"{key}: the simulation has none" + (f" for {body}" if body else ""))
+        return found
+
+    @property
+    def fields(self) -> xarray.Dataset:
+        """All quantities as they are now, over z and r, in SI units; computed anew at every call."""
+        from hydro2d.output import datasets, vtk
+
+        return datasets.of_state(vtk.Dump.of(self))
+
+    def to_pyvista(self) -> pyvista.RectilinearGrid:
+        """All quantities as they are now, as cell data of a pyvista.RectilinearGrid with x = r, y = z."""
+        from hydro2d.output import derived, vtk
+
+        return vtk.pyvista_of(self.grid.r_edges, self.grid.z_edges, derived.evaluated(self), self.time)
 
     # ------------------------------------------------------------------------------------------------ restart
 

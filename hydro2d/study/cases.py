@@ -18,7 +18,7 @@ from hydro2d.errors import DeckError, Sources, unknown
 from hydro2d.running.progress import counted
 from hydro2d.running.run import deck_hash
 from hydro2d.study import ranges, velocities
-from hydro2d.study.definition import DECK, Axis, Definition, StudyError, read
+from hydro2d.study.definition import DECK, Axis, Definition, Overrides, StudyError, of_tables, read
 
 #: longest part of a case's name that one axis gives
 LONGEST = 40
@@ -62,7 +62,7 @@ class Plan:
     search: velocities.Velocities | None = None
 
 
-def plan(path: Path, overrides: list[str] | None = None, *, search: bool | None = None, quiet: bool = False) -> Plan:
+def plan(path: Path, overrides: Overrides | None = None, *, search: bool | None = None, quiet: bool = False) -> Plan:
     """Reads a study file and resolves all decks.
 
     search : whether it must be one for a search; None: it may be either
@@ -72,6 +72,11 @@ def plan(path: Path, overrides: list[str] | None = None, *, search: bool | None 
     """
     path = Path(path)
     return _Planner(path, *read(path, overrides or [])).plan(search, quiet)
+
+
+def plan_of(tables: dict, name: str, overrides: Overrides = ()) -> Plan:
+    """A sweep of nested dicts and lists, as a study file would give them, with all decks resolved. Raises StudyError."""
+    return _Planner(Path(name), *of_tables(tables, name, overrides)).plan(False, True)
 
 
 def _share(one: tuple[str, ...], other: tuple[str, ...]) -> bool:

@@ -64,6 +64,11 @@ def read_slurm(path: Path) -> Slurm:
         raise StudyError(explained(error, data, sources, {(): Slurm})) from None
 
 
+def default_workers(threads: int) -> int:
+    """As many as the cores of this machine carry."""
+    return max((os.cpu_count() or 1) // threads, 1)
+
+
 def environment(threads: int) -> dict[str, str]:
     """Variables of a worker process."""
     found = {"NUMBA_NUM_THREADS": str(threads), "OMP_NUM_THREADS": str(threads)}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -10,6 +11,9 @@ from pydantic import AfterValidator, Field, ValidationError, model_validator
 from hydro2d import toml
 from hydro2d.deck.base import PositiveSpeed, Section, Speed
 from hydro2d.errors import DeckError, Sources, spelled, unknown
+
+#: what is laid over the decks of a study: "key=value" of a command line, or values by their dotted keys
+Overrides = Sequence[str] | Mapping[str, Any]
 
 #: the key of a variant that names another base deck
 DECK = "deck"
@@ -114,7 +118,7 @@ _TABLES: dict[tuple, type[Section]] = {
 }  # fmt: skip
 
 
-def read(path: Path, overrides: list[str]) -> tuple[Definition, str, dict, Sources]:
+def read(path: Path, overrides: Overrides) -> tuple[Definition, str, dict, Sources]:
     """A study file with the overrides of the command line laid over [set]: validated, as text, as tables; where keys stand.
 
     Raises StudyError, one line for each mistake.
@@ -134,9 +138,23 @@ def read(path: Path, overrides: list[str]) -> tuple[Definition, str, dict, Sourc
         raise StudyError(f"{path}: is a deck, which `hydro2d run` runs; a study names a deck and what is varied")
     sources.add(str(path), data, text)
     if overrides:
-        data = {**data, "set": {**_settings(data), **dict(_assigned(entry) for entry in overrides)}}
-        text = f"# with {len(overrides)} --set of the command line laid over\n\n{toml.dumps(data)}"
+        data = _with(data, overrides)
+        text = f"# with {len(overrides)} override{'s'[: len(overrides) > 1]} laid over\n\n{toml.dumps(data)}"
     return _validated(data, sources), text, data, sources
+
+
+def of_tables(data: dict, name: str, overrides: Overrides) -> tuple[Definition, str, dict, Sources]:
+    """The same of nested dicts and lists, as a study file would give them; name : what messages call the study."""
+    sources = Sources()
+    sources.add(name, {}, "")
+    data = _with(data, overrides) if overrides else data
+    return _validated(data, sources), toml.dumps(data), data, sources
+
+
+def _with(data: dict, overrides: Overrides) -> dict:
+    """The study with overrides laid over [set]."""
+    given = dict(overrides) if isinstance(overrides, Mapping) else dict(_assigned(entry) for entry in overrides)
+    return {**data, "set": {**_settings(data), **given}}
 
 
 def _settings(data: dict) -> dict:

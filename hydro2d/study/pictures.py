@@ -88,7 +88,7 @@ def films(contents: Contents, field: str, folder: Path, say: Callable[[str], Non
     ending, made, problem = ".mp4" if movies.has_ffmpeg() else ".gif", 0, None
     for number, each in enumerate(contents.records, 1):
         try:
-            run = reading.load(each.case.directory)
+            run = reading.Results(each.case.directory)
             if not run.dumps:
                 raise FigureError("no dump was written")
             file = folder / f"film_{number:03d}{ending}"

@@ -53,7 +53,7 @@ def windows(time: np.ndarray, speed: np.ndarray, depth: np.ndarray, width: float
 def measure(directory: Path | str, width: float = 10e-6) -> dict:
     """Force (Pa, over the rod's section) by window and what theory and experiment have beside it; SI. Raises ResultsError,
     HistoryError, DeckError."""
-    run = reading.load(directory)
+    run = reading.Results(directory)
     if "rod_mean_velocity_m_s" not in run.history:
         raise reading.ResultsError(f"{directory} has no rod: its deck has no [penetration]")
     shot = model_deck.read(run.directory / reading.DECK)

@@ -75,7 +75,7 @@ def reference(speed: float, length: float) -> tuple[Bar, ...]:
 
 def measure(directory: Path | str, name: str | None = None) -> dict:
     """The bar in every dump, and at the times of the reference what both have; SI. Raises ResultsError, VtkError."""
-    run = reading.load(directory)
+    run = reading.Results(directory)
     bodies = {body["name"]: body for body in run.deck["body"]}
     name = name or next(iter(bodies))
     if name not in bodies:

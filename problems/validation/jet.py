@@ -141,7 +141,7 @@ def measure(directory: Path | str, first: float = 3.0, last: float = 10.0) -> di
 
     Raises ResultsError, VtkError, DeckError.
     """
-    run = reading.load(directory)
+    run = reading.Results(directory)
     deck = decks.load(run.directory / reading.DECK)
     if deck.penetration is None or run.direction < 0:
         raise reading.ResultsError(f"{directory} has no jet that flies towards +z: its deck has no [penetration] of that kind")

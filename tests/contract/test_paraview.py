@@ -50,7 +50,7 @@ SERIES = {"series.pvd": vtkXMLRectilinearGridReader, "interfaces.pvd": LINES, "t
 def shot(tmp_path_factory):
     directory = tmp_path_factory.mktemp("runs") / "shot"
     run(decks.load(QUICK, SHOT), directory, quiet=True)
-    return hydro2d.load(directory)
+    return hydro2d.open_run(directory)
 
 
 def collection(shot, name):

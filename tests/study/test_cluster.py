@@ -7,7 +7,7 @@ import distributed
 import psutil
 import pytest
 
-from hydro2d import study
+import hydro2d
 from hydro2d.cli.main import call
 from hydro2d.study import cluster
 from hydro2d.study.definition import StudyError
@@ -38,7 +38,7 @@ def others():
 def test_joins_a_running_cluster_and_leaves_it_running(tmp_path, others, capsys):
     file, address = tubes.write(tmp_path), others(1)
     assert call(["sweep", str(file), "--scheduler", address, "--out", str(tmp_path / "a")]) == 0
-    assert {case.status for case in study.load(tmp_path / "a").cases} == {"done"}
+    assert {case.status for case in hydro2d.open_study(tmp_path / "a").cases} == {"done"}
     assert call(["sweep", str(file), "--scheduler", address, "--out", str(tmp_path / "b"), "--quiet"]) == 0
     assert "4 of 4 done" in capsys.readouterr().out
     files = sorted((tmp_path / "a").glob("cases/*/summary.json"))
@@ -73,7 +73,7 @@ def test_slurm(tmp_path, monkeypatch):
     (tmp_path / "job.toml").write_text(JOB)
     arguments = ["--slurm", str(tmp_path / "job.toml"), "--threads", "2", "--workers", "1", "--quiet"]
     assert call(["sweep", str(tubes.write(tmp_path)), "--out", str(tmp_path / "out"), *arguments]) == 0
-    assert {case.status for case in study.load(tmp_path / "out").cases} == {"done"}
+    assert {case.status for case in hydro2d.open_study(tmp_path / "out").cases} == {"done"}
     prologue = Fake.given.pop("job_script_prologue")
     assert Fake.given == {"cores": 4, "processes": 4, "job_cpu": 8, "memory": "16 GB", "queue": "long"}
     assert "export NUMBA_NUM_THREADS=2" in prologue

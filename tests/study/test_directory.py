@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 import rich.console
 
-from hydro2d import study
+import hydro2d
 from hydro2d.cli.main import call
 from hydro2d.files import write_json
 from hydro2d.study import cases, layout, monitor, sweep
@@ -28,7 +28,7 @@ def written(plan, tmp_path):
 
 
 def state(directory, name):
-    return next(case for case in study.load(directory).cases if case.name == name)
+    return next(case for case in hydro2d.open_study(directory).cases if case.name == name)
 
 
 def pretend(directory, plan, name, status, **extra):
@@ -44,7 +44,7 @@ def pretend(directory, plan, name, status, **extra):
 
 
 def test_round_trip(plan, written):
-    found = study.load(written)
+    found = hydro2d.open_study(written)
     assert (found.title, found.name, found.directory) == ("Shock tubes", "tubes", written)
     assert [(axis.name, axis.key, axis.values) for axis in found.axes] == [
         ("advection", "numerics.advection", ("ke", "momentum")),
@@ -147,7 +147,7 @@ def test_the_board_tells_of_running_cases(plan, written, capsys, monkeypatch):
     place = pretend(written, plan, "ke_0.2", None)
     pretend(written, plan, "ke_0.1", "done")
     write_json(place / "progress.json", {"fraction": 0.5, "left_s": 30.0, "wall_s": 30.0, "host": "here", "process": 7})
-    with held(place / "run.lock"), monitor.board(study.load(written), quiet=False) as board:
+    with held(place / "run.lock"), monitor.board(hydro2d.open_study(written), quiet=False) as board:
         board.workers = lambda: 1
         board.line("two\nlines")
         board.update()
@@ -161,7 +161,7 @@ def test_the_board_tells_of_running_cases(plan, written, capsys, monkeypatch):
 
 def test_the_live_table_fits_the_terminal(plan, written):
     pretend(written, plan, "ke_0.1", "done")
-    board = monitor.Live(study.load(written), io.StringIO(), False)
+    board = monitor.Live(hydro2d.open_study(written), io.StringIO(), False)
     board.close()
     console = rich.console.Console(file=io.StringIO(), width=100, height=monitor.FRAME + 2)
     board._live.console = console

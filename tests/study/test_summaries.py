@@ -55,7 +55,7 @@ def test_a_report_of_any_summary(place, path):
             drawn = list(panels.draw(contents, choice)) if wrong in DRAWN else []  # a fifth of a second each
             assert "<html" in page(contents, choice, drawn, [])
             assert table.to_csv(contents.rows).count("\n") == 2
-            assert reading.load(place)._repr_html_()
+            assert reading.Results(place)._repr_html_()
     finally:
         (place / "summary.json").write_text(text)
 

@@ -12,7 +12,7 @@ import time
 
 import pytest
 
-from hydro2d import study
+import hydro2d
 from hydro2d.deck import deck as decks
 from hydro2d.running.run import run
 from hydro2d.study import cases
@@ -30,7 +30,7 @@ def undisturbed(tmp_path_factory):
 
 
 def statuses(directory):
-    return {case.name: case.status for case in study.load(directory).cases}
+    return {case.name: case.status for case in hydro2d.open_study(directory).cases}
 
 
 def holders(directory):
@@ -62,7 +62,7 @@ def test_all_cases_are_done_and_stay(tmp_path):
     assert "4 of 4 done" in said
     assert "Traceback" not in said
     assert set(statuses(out).values()) == {"done"}
-    for case in study.load(out).cases:
+    for case in hydro2d.open_study(out).cases:
         assert case.deck["numerics"]["advection"] == case.values["advection"]
         assert case.summary["deck_sha256"] == case.deck_sha256
     assert "ke_0.1: done" in (out / "sweep.log").read_text()
@@ -144,7 +144,7 @@ def test_what_fails_does_not_sink_the_rest(tmp_path):
             patch.setenv(name, value)
         status, said = tubes.sweep(file, "--workers", 2, "--out", out)
     assert status == 3, said
-    found = {case.name: case for case in study.load(out).cases}
+    found = {case.name: case for case in hydro2d.open_study(out).cases}
     expected = {
         "ke_0.1": "failed", "ke_0.2": "failed", "ke_0.3": "done", "ke_2mm": "invalid",
         "momentum_0.1": "failed", "momentum_0.2": "failed", "momentum_0.3": "unphysical", "momentum_2mm": "invalid",

@@ -7,7 +7,7 @@ import time
 
 import pytest
 
-from hydro2d import study
+import hydro2d
 from hydro2d.cli.main import call
 from hydro2d.study import cases, regimes, transition
 from hydro2d.study.case import Outcome
@@ -155,10 +155,10 @@ def test_every_combination_has_its_brackets(finished):
     assert (momentum["rigid to deforming"], momentum["to eroding"]) == ((1150, 1200), (1400, 1450))
     assert found["complete"]
     assert len(client.submitted) == len(set(client.submitted)) <= 2 * 10
-    assert [case.name for case in study.load(folder / "out").cases] == [
+    assert [case.name for case in hydro2d.open_study(folder / "out").cases] == [
         case.name for case in cases.plan(folder / "search.toml").cases if case.name in client.submitted
     ]
-    assert {case.status for case in study.load(folder / "out").cases} == {"done"}
+    assert {case.status for case in hydro2d.open_study(folder / "out").cases} == {"done"}
 
 
 def test_a_free_worker_gets_its_next_case_before_the_last_one_is_told(finished):
@@ -196,7 +196,7 @@ def test_a_second_call_runs_nothing_and_says_the_same(again):
     assert (again / "out" / "transition.json").read_text().replace(str(again), "") == before
     assert search(again, client, overwrite=True)[0] == 0
     assert len(client.submitted) == len(set(client.submitted)) > 8
-    assert set(client.submitted) == {case.name for case in study.load(again / "out").cases}
+    assert set(client.submitted) == {case.name for case in hydro2d.open_study(again / "out").cases}
 
 
 def test_a_smaller_tolerance_uses_the_runs_that_are_there(again):
@@ -411,7 +411,7 @@ def test_a_real_search_is_interrupted_and_goes_on(tmp_path):
     assert process.returncode == 130, said
     assert not json.loads((out / "transition.json").read_text())["complete"]
     before = {case.name: case.directory.joinpath("summary.json").stat().st_mtime_ns
-              for case in study.load(out).cases if case.status == "done"}  # fmt: skip
+              for case in hydro2d.open_study(out).cases if case.status == "done"}  # fmt: skip
     process = tubes.start(file, "--workers", 1, "--out", out, "--resume", command="transition")
     said, _ = process.communicate(timeout=300)
     assert process.returncode == 0, said
@@ -423,8 +423,8 @@ def test_a_real_search_is_interrupted_and_goes_on(tmp_path):
     low, high = ends["to eroding"]
     assert (high - low, 1100 <= low < 1900) == (200, True)
     assert found["complete"]
-    assert len(study.load(out).cases) <= 8
-    after = {case.name: case.directory.joinpath("summary.json").stat().st_mtime_ns for case in study.load(out).cases}
+    assert len(hydro2d.open_study(out).cases) <= 8
+    after = {case.name: case.directory.joinpath("summary.json").stat().st_mtime_ns for case in hydro2d.open_study(out).cases}
     assert len(before) >= 2
     assert {name: after[name] for name in before} == before
 

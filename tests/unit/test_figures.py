@@ -7,7 +7,7 @@ from hydro2d.output.outlines import outlines
 from hydro2d.output.vtk import Dump
 from hydro2d.results import figures
 from hydro2d.results.figures import FigureError
-from hydro2d.results.reading import load
+from hydro2d.results.reading import Results
 from tests.unit import fake
 
 
@@ -83,7 +83,7 @@ def test_a_field_that_was_not_written(dump):
 
 
 def test_runs_side_by_side(finished, tmp_path):
-    runs = [load(finished), load(finished)]
+    runs = [Results(finished), Results(finished)]
     figure = figures.sections(runs, "density", mirror="material", times=[5e-6, None])
     assert len([axes for axes in figure.axes if axes.get_title()]) == 4
     figures.save(figure, tmp_path / "x.png")
@@ -91,13 +91,13 @@ def test_runs_side_by_side(finished, tmp_path):
 
 
 def test_histories(finished, tmp_path):
-    figure = figures.histories([load(finished)], ["penetration_depth_m", "rod_length_m", "dt"])
+    figure = figures.histories([Results(finished)], ["penetration_depth_m", "rod_length_m", "dt"])
     depth = figure.axes[0].lines
     assert depth[0].get_ydata()[-1] == pytest.approx(20, rel=0.02)
     assert depth[1].get_ydata()[0] == pytest.approx(12.1)
     assert figure.axes[0].get_ylabel() == "penetration depth [mm]"
     with pytest.raises(FigureError, match='did you mean "rod_length_m"'):
-        figures.histories([load(finished)], ["rod_lenght_m"])
+        figures.histories([Results(finished)], ["rod_lenght_m"])
 
 
 def test_formats(dump, tmp_path):
@@ -114,7 +114,7 @@ def test_cutaway_or_a_clear_error(finished, tmp_path):
     """Where there is no way to render, that is said; nothing is left behind."""
     said = ""
     try:
-        figures.cutaway(load(finished).dump_file(), tmp_path / "cut.png")
+        figures.cutaway(Results(finished).dump_file(), tmp_path / "cut.png")
     except FigureError as error:
         said = str(error)
     assert "could not be rendered" in said or (tmp_path / "cut.png").read_bytes()[:4] == b"\x89PNG"
@@ -123,7 +123,7 @@ def test_cutaway_or_a_clear_error(finished, tmp_path):
 
 def test_cutaway_tells_a_wrong_field(finished, tmp_path):
     with pytest.raises(FigureError, match="did you mean"):
-        figures.cutaway(load(finished).dump_file(), tmp_path / "cut.png", "presure")
+        figures.cutaway(Results(finished).dump_file(), tmp_path / "cut.png", "presure")
 
 
 def test_outline_of_a_disc():

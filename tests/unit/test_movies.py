@@ -8,7 +8,7 @@ from PIL import Image
 
 from hydro2d.cli.main import call
 from hydro2d.results import figures, movies
-from hydro2d.results.reading import load
+from hydro2d.results.reading import Results
 
 
 def frames(path) -> list[np.ndarray]:
@@ -36,7 +36,7 @@ def limits(monkeypatch):
 def test_a_frame_for_every_dump(finished, tmp_path, limits, capsys):
     film = tmp_path / "film.gif"
     assert call(["movie", str(finished), "-o", str(film), "--field", "plastic_strain", "--mirror", "material"]) == 0
-    count = len(load(finished).dumps)
+    count = len(Results(finished).dumps)
     assert f"{count} frames" in capsys.readouterr().out
     found = frames(film)
     assert len(found) == count > 3
@@ -48,7 +48,7 @@ def test_a_frame_for_every_dump(finished, tmp_path, limits, capsys):
 
 
 def test_the_window_travels_with_the_body(finished, tmp_path, limits):
-    run = load(finished)
+    run = Results(finished)
     assert movies.film([run], tmp_path / "film.gif", "density", window=(-0.01, 0.005, 0.01), follow="rod") == len(run.dumps)
     ends = np.array([windows[0][1] - 0.005 for _, windows, _ in limits])
     times = np.array([time for time, _ in run.dumps])
@@ -56,7 +56,7 @@ def test_the_window_travels_with_the_body(finished, tmp_path, limits):
 
 
 def test_several_runs_and_a_given_range(finished, tmp_path, limits):
-    runs = [load(finished), load(finished)]
+    runs = [Results(finished), Results(finished)]
     movies.film(runs, tmp_path / "a.gif", "density", limits=(0.0, 20.0), beside=True)
     assert limits[0][0]["density"] == (0.0, 20.0)
     assert limits[0][2] == [2]
@@ -65,7 +65,7 @@ def test_several_runs_and_a_given_range(finished, tmp_path, limits):
 
 
 def test_mp4(finished, tmp_path):
-    movies.film([load(finished)], tmp_path / "film.mp4", "material")
+    movies.film([Results(finished)], tmp_path / "film.mp4", "material")
     assert (tmp_path / "film.mp4").read_bytes()[4:8] == b"ftyp"
 
 

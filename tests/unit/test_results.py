@@ -18,7 +18,7 @@ from tests.unit import fake
 
 @pytest.fixture
 def shot(finished):
-    return hydro2d.load(finished)
+    return hydro2d.open_run(finished)
 
 
 def own_axes(columns=1):
@@ -88,7 +88,7 @@ def test_a_regime_that_was_not_known_is_missing(tmp_path, shot):
     columns = history.History(shot.directory / "history.h5", rows=2)
     columns.append({"time": 1.0})
     columns.write()
-    assert hydro2d.load(shot.directory).to_pandas()["regime"].isna().tolist() == [False, False, True]
+    assert hydro2d.open_run(shot.directory).to_pandas()["regime"].isna().tolist() == [False, False, True]
 
 
 def test_xarray_has_units(shot):
@@ -134,7 +134,7 @@ def test_titles_are_escaped(shot):
 def test_a_run_that_has_not_ended_says_so(shot):
     (shot.directory / "summary.json").unlink()
     (shot.directory / "series.pvd").unlink()
-    text = repr(hydro2d.load(shot.directory))
+    text = repr(hydro2d.open_run(shot.directory))
     assert "run: has not ended" in text
     assert "dumps: none" in text
     assert "depth: " not in text.replace("experiment's depth", "")
@@ -149,12 +149,12 @@ def test_a_study_is_told_what_reads_it(simulation, tmp_path):
     for name in ("a", "b"):
         start(fake.FakeDeck(), tmp_path / "folder" / name, quiet=True)
     with pytest.raises(ResultsError, match="it has no deck.toml; it holds runs: a, b$"):
-        hydro2d.load(tmp_path / "folder")
+        hydro2d.open_run(tmp_path / "folder")
     (tmp_path / "folder" / layout.STUDY).write_text("{}")
-    with pytest.raises(ResultsError, match="it is a study, which hydro2d.study.load reads"):
-        hydro2d.load(tmp_path / "folder")
+    with pytest.raises(ResultsError, match="it is a study, which hydro2d.open_study reads"):
+        hydro2d.open_run(tmp_path / "folder")
     with pytest.raises(ResultsError, match="it has no deck.toml$"):
-        hydro2d.load(tmp_path / "nothing")
+        hydro2d.open_run(tmp_path / "nothing")
 
 
 def test_a_dump_has_middles_and_outlines(shot):

@@ -11,7 +11,7 @@ from hydro2d.deck import deck as decks
 from hydro2d.errors import DeckError
 from hydro2d.output import history
 from hydro2d.results import figures
-from hydro2d.results.reading import load
+from hydro2d.results.reading import Results
 from hydro2d.running.run import run
 from hydro2d.solver.penetrator import PASSAGE
 from hydro2d.solver.simulation import Simulation
@@ -106,7 +106,7 @@ def test_targets_that_cannot_be(keys, said):
 def shot(tmp_path_factory):
     directory = tmp_path_factory.mktemp("targets") / "run"
     run(decks.loads(TEXT), directory, quiet=True)
-    return load(directory)
+    return Results(directory)
 
 
 def test_the_rod_behind_each_target(shot):
@@ -169,7 +169,7 @@ def test_a_restart_keeps_what_was_passed():
 
 def test_a_mirrored_shot_does_the_same(tmp_path, shot):
     run(decks.loads(TEXT, [*BACK, "output.history_interval=1e-6"]), tmp_path / "run", quiet=True)
-    found = load(tmp_path / "run").summary["targets"]
+    found = Results(tmp_path / "run").summary["targets"]
     for name, one in shot.summary["targets"].items():
         assert found[name]["exit_velocity_m_s"] == pytest.approx(-one["exit_velocity_m_s"], rel=1e-3)
 

@@ -1,0 +1,144 @@
+"""What programs and notebooks use of hydro2d: `hydro2d.run`, `open_run`, `open_study`, `sweep`.
+
+`Deck` and `Simulation`, which stand beside them in `hydro2d.__all__`, are those of the program itself.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from hydro2d import toml
+from hydro2d.deck import deck as decks
+from hydro2d.deck.sections import Deck
+from hydro2d.files import write_text
+from hydro2d.results.reading import Results
+from hydro2d.running import run as runs
+from hydro2d.solver.simulation import Simulation, UnphysicalState
+from hydro2d.study import cases, cluster, layout
+from hydro2d.study import sweep as sweeps
+from hydro2d.study.choice import Choice
+from hydro2d.study.definition import StudyError
+
+if TYPE_CHECKING:
+    import pandas
+
+__all__ = ["open_run", "open_study", "run", "sweep"]
+
+#: the base deck of a study of a Deck, in its directory
+BASE = "base.toml"
+
+
+def run(deck: Deck | str | Path, directory: str | Path | None = None, *, restart: bool = False, overwrite: bool = False,
+        quiet: bool = False, columns: Mapping[str, Callable[[Simulation], float]] | None = None) -> Results:  # fmt: skip
+    """Runs a deck to its end in a directory, as the command `hydro2d run` does, and opens the results.
+
+    Parameters
+    ----------
+    deck : Deck, or path of a deck file
+    directory : where everything is written; default: what the deck says, else ``runs/NAME``
+    restart, overwrite : continue the run that is there, or replace it
+    quiet : nothing is printed; log.txt is written
+    columns : dict of functions of the simulation, by name
+        Further columns of the history, each a number; see `Simulation.columns`.
+
+    Raises
+    ------
+    DeckError, RunError, LockError
+        The deck is wrong, the directory is taken, or another process runs there.
+    UnphysicalState
+        The state could no longer be trusted; the directory has the last good one.
+    KeyboardInterrupt
+        It was interrupted; ``restart=True`` continues.
+    """
+    deck = deck if isinstance(deck, Deck) else Deck.from_file(deck)
+    directory = Path(directory or str(deck.output.directory))
+    summary = runs.run(deck, directory, restart=restart, overwrite=overwrite, quiet=quiet, columns=columns)
+    if summary["status"] == "interrupted":
+        raise KeyboardInterrupt(f"{directory}: {summary['stop_reason']}")
+    if summary["status"] == "unphysical":
+        raise UnphysicalState(f"{directory}: {summary['stop_reason']}")
+    return Results(directory)
+
+
+def open_run(directory: str | Path) -> Results:
+    """Opens a run directory, of a run that has ended or is still under way.
+
+    The result has the deck, the summary, the history, the hole, the fields of all dumps and the figures; see `Results`.
+    Raises ResultsError where the directory holds no run.
+    """
+    return Results(directory)
+
+
+def open_study(directory: str | Path) -> layout.Study:
+    """Opens a study directory, or a run or a folder of runs as a study, in any state of completion.
+
+    ``cases`` of the result has each case with its values, its status, its summary and its directory; ``table()`` gives a
+    pandas.DataFrame. Raises StudyError.
+    """
+    return layout.load(Path(directory))
+
+
+def sweep(study: str | Path | Deck, axes: Mapping[str, Sequence[Any]] | None = None, *, directory: str | Path | None = None,
+          overrides: Mapping[str, Any] | Sequence[str] = (), workers: int | None = None, threads: int = 1, resume: bool = False,
+          overwrite: bool = False, quiet: bool = True) -> pandas.DataFrame:  # fmt: skip
+    """Runs all cases of a study in worker processes and returns their table.
+
+    Parameters
+    ----------
+    study : path of a study file; or a deck or its path, with `axes`
+    axes : dict of lists by dotted deck key
+        What is varied: ``{"body.rod.velocity": ["1000 m/s", "1200 m/s"]}``. The cases are all combinations.
+    directory : where the study is kept; default: what its file says, else ``runs/NAME``
+    overrides : values of the deck for all cases, as in `Deck.from_file`
+    workers : number of processes; default: cores of this machine / threads
+    threads : number of threads of a worker, on which no result depends
+    resume : continue the study in the directory: what has ended is not run again
+    overwrite : begin the study anew
+    quiet : prints nothing; sweep.log is written
+
+    Returns
+    -------
+    pandas.DataFrame
+        A row for each case, by its name: the axes, ``status``, depths, lengths and what else `hydro2d report` lists, in SI
+        units. A case that failed has its reason in ``message``.
+
+    Raises StudyError, DeckError, LockError; KeyboardInterrupt where it was interrupted, which ``resume=True`` continues.
+
+    Workers are spawned: a script that calls this has to do so below ``if __name__ == "__main__":``.
+    """
+    plan = _plan(study, axes, overrides, directory)
+    place = Path(directory or plan.out)
+    connect = cluster.local(min(workers or cluster.default_workers(threads), len(plan.cases)), threads)
+    status = sweeps.sweep(Choice(plan), place, connect, threads=threads, resume=resume, overwrite=overwrite, quiet=quiet)
+    if status not in (sweeps.ALL_DONE, sweeps.SOME_FAILED):
+        raise KeyboardInterrupt(f"{place}: the sweep was interrupted")
+    return open_study(place).table()
+
+
+def _plan(study: str | Path | Deck, axes: Mapping[str, Sequence[Any]] | None, overrides: decks.Overrides,
+          directory: str | Path | None) -> cases.Plan:  # fmt: skip
+    """The cases of a study file, or of a deck and axes. Raises StudyError."""
+    if axes is None:
+        if isinstance(study, Deck):
+            raise StudyError("a deck alone is not a study: `axes` says what is varied")
+        return cases.plan(Path(study), overrides, search=False, quiet=True)
+    if isinstance(study, Deck):
+        if directory is None:
+            raise StudyError("a study of a Deck needs a directory")
+        place = Path(directory) / BASE
+        place.parent.mkdir(parents=True, exist_ok=True)
+        write_text(place, study.to_toml())
+        study = place
+    file = decks.find(study)
+    tables = {"deck": str(file.resolve()), "axis": [{"name": _name(key, axes), "key": key, "values": list(values)}
+                                                    for key, values in axes.items()]}  # fmt: skip
+    return cases.plan_of(decks.plain(tables), file.stem, overrides)
+
+
+def _name(key: str, axes: Mapping[str, object]) -> str:
+    """What an axis is called: the last part of its key, or all of it where two keys end alike."""
+    last = [toml.key_parts(each)[-1] for each in axes]
+    own = toml.key_parts(key)[-1]
+    return own if last.count(own) == 1 else key

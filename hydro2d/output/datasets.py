@@ -1,0 +1,126 @@
+"""Fields as xarray datasets, by the keys of the table of quantities: of one state, or of all dumps of a run.
+
+Dimensions are z and r, with `body` in front for what every body has and `component` behind for vectors, and `time` in front of
+all for the dumps of a run, which are read when their values are asked for. Coordinates are the centres of the cells in m. A
+mesh that travels keeps the z of the first dump, and `mesh_position` says how far it has come: z + mesh_position is where a cell
+is.
+"""
+
+from __future__ import annotations
+
+import functools
+import os
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from hydro2d.mesh.quantities import TABLE, Quantity
+from hydro2d.output.vtk import Dump, read_grid
+
+if TYPE_CHECKING:
+    import xarray
+
+#: components of the vectors; the third, which files have for ParaView, is zero
+COMPONENTS = ("r", "z")
+#: dumps that are kept in memory as long as others do not take their places
+KEPT = 4
+
+
+def _names(quantity: Quantity, dump: Dump) -> list[str]:
+    """Names in files of a quantity: one, or one for every body."""
+    return [quantity.name(body) for body in dump.bodies] if quantity.per_body else [quantity.name()]
+
+
+def _values(quantity: Quantity, dump: Dump) -> np.ndarray:
+    """The values of a quantity, shape ([body,] nz, nr[, component]); NaN where a body, or the dump, has none."""
+    shape = len(dump.z_edges) - 1, len(dump.r_edges) - 1
+    found = [dump.fields.get(name) for name in _names(quantity, dump)]
+    like = next((each for each in found if each is not None), np.empty(shape, np.float32))
+    found = [np.full(like.shape, np.nan, np.float32) if each is None else each for each in found]
+    values = np.stack(found) if quantity.per_body else found[0]
+    return values[..., : len(COMPONENTS)] if values.ndim == len(shape) + 1 and not quantity.per_body else values
+
+
+def _dimensions(quantity: Quantity, values: np.ndarray) -> tuple[str, ...]:
+    if quantity.per_body:
+        return "body", "z", "r"
+    return ("z", "r", "component")[: values.ndim]
+
+
+def _attributes(quantity: Quantity) -> dict[str, str]:
+    return {"units": quantity.unit or "1", "long_name": quantity.title.replace(" of {body}", "").replace(" for {body}", ""),
+            "description": quantity.meaning}
+
+
+def _coordinates(dump: Dump) -> dict:
+    return {
+        "z": ("z", dump.z_centres, {"units": "m", "long_name": "axial position"}),
+        "r": ("r", dump.r_centres, {"units": "m", "long_name": "radius"}),
+        "body": list(dump.bodies),
+        "component": list(COMPONENTS),
+    }
+
+
+def _quantities(*dumps: Dump) -> list[Quantity]:
+    """The quantities that one of the dumps holds."""
+    return [quantity for quantity in TABLE
+            if any(name in dump.fields for dump in dumps for name in _names(quantity, dump))]
+
+
+def of_state(dump: Dump) -> xarray.Dataset:
+    """A state as a dataset over z and r; the time in s is a coordinate without dimension."""
+    import xarray
+
+    variables = {}
+    for quantity in _quantities(dump):
+        values = _values(quantity, dump)
+        variables[quantity.key] = (_dimensions(quantity, values), values, _attributes(quantity))
+    time = ((), dump.time, {"units": "s"})
+    return xarray.Dataset(variables, coords={**_coordinates(dump), "time": time})
+
+
+@functools.lru_cache(maxsize=KEPT)
+def _kept(path: Path, changed: int) -> Dump:
+    return read_grid(path)
+
+
+def _read(path: Path) -> Dump:
+    """A dump, from memory where it was read lately and the file is the same."""
+    return _kept(path, os.stat(path).st_mtime_ns)
+
+
+def _values_of(path: Path, quantity: Quantity) -> np.ndarray:
+    return _values(quantity, _read(path))
+
+
+def _travel(path: Path, start: float) -> np.ndarray:
+    return np.array(_read(path).z_edges[0] - start)
+
+
+def of_dumps(dumps: Sequence[tuple[float, Path]]) -> xarray.Dataset:
+    """All dumps of a run as one dataset over time, z and r, whose values are read from the files when they are needed.
+
+    dumps : times in s and files, at least one
+
+    Raises VtkError, also later where a file is damaged.
+    """
+    import dask
+    import dask.array
+    import xarray
+
+    first, last = _read(dumps[0][1]), _read(dumps[-1][1])
+    variables = {}
+    for quantity in _quantities(first, last):
+        like = _values(quantity, last)
+        parts = [dask.array.from_delayed(dask.delayed(_values_of)(path, quantity), like.shape, like.dtype) for _, path in dumps]
+        variables[quantity.key] = (("time", *_dimensions(quantity, like)), dask.array.stack(parts), _attributes(quantity))
+    start = first.z_edges[0]
+    travelled = [dask.array.from_delayed(dask.delayed(_travel)(path, start), (), float) for _, path in dumps]
+    coordinates = {
+        **_coordinates(first),
+        "time": ("time", [time for time, _ in dumps], {"units": "s"}),
+        "mesh_position": ("time", dask.array.stack(travelled), {"units": "m", "long_name": "how far the mesh has travelled"}),
+    }
+    return xarray.Dataset(variables, coords=coordinates)

@@ -1,0 +1,72 @@
+"""What is due after a cycle: outputs at their intervals, and functions that a program hands to a simulation."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from hydro2d import units
+
+if TYPE_CHECKING:
+    from hydro2d.solver.simulation import Simulation
+
+
+class Due:
+    """Output times k interval, k = 0, 1, ...: due at the first cycle at or after each; several at once count as one."""
+
+    def __init__(self, interval: float):
+        self.interval, self.count = interval, 0
+
+    def saved(self) -> list:
+        """What a restart file keeps of it."""
+        return [self.interval, self.count]
+
+    def resume(self, saved: list, time: float) -> None:
+        """Continues from what was saved at `time`; where the interval has changed since, from the next of the new."""
+        interval, count = saved
+        self.count = count if interval == self.interval else math.floor(time / self.interval) + 1
+
+    def __call__(self, time: float) -> bool:
+        """Whether an output is due at `time`; if so, the next one is moved beyond it."""
+        if time < self.count * self.interval:
+            return False
+        self.count = max(math.floor(time / self.interval), self.count) + 1
+        if (self.count - 1) * self.interval > time:  # the division was rounded up
+            self.count -= 1
+        return True
+
+
+def every(interval: int | float | str, call: Callable[[Simulation], object]) -> Callable[[Simulation], None]:
+    """A callback for `Simulation.run` that calls a function now and then and not after every cycle.
+
+    Parameters
+    ----------
+    interval : int, float or str
+        A whole number counts cycles. A number with a decimal point is a time in s, and text a time with its unit, such as
+        ``"1 us"``: the function is called at the first cycle at or after each multiple of it.
+    call : function of the simulation
+        What it returns is ignored.
+
+    Raises ValueError for an interval that is not positive.
+    """
+    if isinstance(interval, int) and not isinstance(interval, bool):
+        period: float = interval
+    else:
+        period = units.to_si(interval, "s")
+    if not period > 0:
+        raise ValueError(f"the interval of a callback must be positive, is {interval!r}")
+    due: list[Due] = []
+
+    def after(sim: Simulation) -> None:
+        if isinstance(interval, int):
+            if sim.cycle % interval == 0:
+                call(sim)
+            return
+        if not due:  # the first call: nothing of the time before counts
+            due.append(Due(period))
+            due[0].count = math.floor((sim.time - sim.dt) / period) + 1
+        if due[0](sim.time):
+            call(sim)
+
+    return after
