@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from functools import partial
 from typing import Annotated, Any
 
+from annotated_types import GroupedMetadata
 from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, WithJsonSchema
 
 from hydro2d import units
@@ -50,47 +53,53 @@ def _fraction(value: float) -> float:
     return value
 
 
-def within(low: float, high: float, reason: str, unit: str = "1"):
-    """The type of a number between two bounds, with the reason for them in the message."""
+def _to_si(value, unit: str) -> float:
+    return units.in_reach(units.to_si(value, unit), unit)
+
+
+@dataclass(frozen=True)
+class Quantity(GroupedMetadata):
+    """What makes a float a number in ``unit``, given in SI or as a string with a unit, held in SI: Annotated[float, ...]."""
+
+    unit: str
+    check: Callable[[float], float] | None = None
+
+    def __iter__(self) -> Iterator[object]:
+        schema: dict[str, Any] = {"type": "number", "x-unit": self.unit}
+        if self.unit != "1":
+            schema = {"anyOf": [{"type": "number"}, {"type": "string"}], "x-unit": self.unit}
+        yield BeforeValidator(partial(_to_si, unit=self.unit))
+        if self.check is not None:
+            yield AfterValidator(self.check)
+        yield WithJsonSchema(schema)
+
+
+def within(low: float, high: float, reason: str, unit: str = "1") -> Quantity:
+    """A number between two bounds, with the reason for them in the message: Annotated[float, within(...)]."""
 
     def check(value: float) -> float:
         if not low <= value <= high:
             raise ValueError(f"must lie between {low:g} and {high:g}, is {value:g}: {reason}")
         return value
 
-    return quantity(unit, check)
+    return Quantity(unit, check)
 
 
-def _to_si(value, unit: str) -> float:
-    return units.in_reach(units.to_si(value, unit), unit)
-
-
-def quantity(unit: str, check=None):
-    """The type of a number in ``unit``, given in SI or as a string with a unit, held in SI."""
-    schema: dict[str, Any] = {"type": "number", "x-unit": unit}
-    if unit != "1":
-        schema = {"anyOf": [{"type": "number"}, {"type": "string"}], "x-unit": unit}
-    before = BeforeValidator(partial(_to_si, unit=unit))
-    if check is None:
-        return Annotated[float, before, WithJsonSchema(schema)]
-    return Annotated[float, before, AfterValidator(check), WithJsonSchema(schema)]
-
-
-Length = quantity("m")
-PositiveLength = quantity("m", _positive)
-Time = quantity("s", _not_negative)
-PositiveTime = quantity("s", _positive)
-Speed = quantity("m/s")
-PositiveSpeed = quantity("m/s", _positive)
-PositiveDensity = quantity("kg/m^3", _positive)
-Pressure = quantity("Pa")
-Temperature = quantity("K", _not_negative)
-SpecificEnergy = quantity("J/kg")
-Angle = quantity("rad", _positive)
-Number = quantity("1")
-PositiveNumber = quantity("1", _positive)
-Fraction = quantity("1", _fraction)
-NotNegative = quantity("1", _not_negative)
+Length = Annotated[float, Quantity("m")]
+PositiveLength = Annotated[float, Quantity("m", _positive)]
+Time = Annotated[float, Quantity("s", _not_negative)]
+PositiveTime = Annotated[float, Quantity("s", _positive)]
+Speed = Annotated[float, Quantity("m/s")]
+PositiveSpeed = Annotated[float, Quantity("m/s", _positive)]
+PositiveDensity = Annotated[float, Quantity("kg/m^3", _positive)]
+Pressure = Annotated[float, Quantity("Pa")]
+Temperature = Annotated[float, Quantity("K", _not_negative)]
+SpecificEnergy = Annotated[float, Quantity("J/kg")]
+Angle = Annotated[float, Quantity("rad", _positive)]
+Number = Annotated[float, Quantity("1")]
+PositiveNumber = Annotated[float, Quantity("1", _positive)]
+Fraction = Annotated[float, Quantity("1", _fraction)]
+NotNegative = Annotated[float, Quantity("1", _not_negative)]
 
 
 def _pair(value, unit: str) -> tuple[float, float]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from pydantic import AfterValidator, BeforeValidator, Field, ValidationInfo, WithJsonSchema, field_validator, model_validator
 
@@ -33,6 +33,9 @@ _SEGMENTS = (
 )
 
 
+_UNEVEN = "cells beside each other that differ so much cannot hand a wave on"
+
+
 class Segment(Section):
     """A run of cells along one axis; segments follow one another. A ratio is adjusted so that `to` is met."""
 
@@ -41,11 +44,11 @@ class Segment(Section):
     size: PositiveLength | None = Field(None, description="size of every cell; must divide the segment")
     first: PositiveLength | None = Field(None, description="size of the first cell; default: previous size x ratio")
     last: PositiveLength | None = Field(None, description="size of the last cell")
-    ratio: within(1e-3, 1e3, "cells beside each other that differ so much cannot hand a wave on") | None = Field(
+    ratio: Annotated[float, within(1e-3, 1e3, _UNEVEN)] | None = Field(
         None, description="each cell's size over that of the one before"
     )
     across: str | None = Field(None, description="a body with a radius, to measure cells with")
-    cells_across: within(0.01, 1e6, "fewer resolve nothing, and no machine holds more") | None = Field(
+    cells_across: Annotated[float, within(0.01, 1e6, "fewer resolve nothing, and no machine holds more")] | None = Field(
         None, description="cells across the radius of that body")
 
     @model_validator(mode="after")
@@ -85,15 +88,24 @@ class Mesh(Section):
         return None if follow == "none" else follow
 
 
+if TYPE_CHECKING:
+    Inner = str
+    Outer = str
+    Lower = str
+    Upper = str
+else:
+    Inner, Outer, Lower, Upper = (Literal[words(edge)] for edge in ("r_min", "r_max", "z_min", "z_max"))
+
+
 class Boundaries(Section):
     """What stands at the edges of the mesh: see the table of boundary conditions."""
 
-    r_min: Literal[words("r_min")] | None = Field(
+    r_min: Inner | None = Field(
         None, description="the inner edge; default: axis where a cylindrical mesh starts at r = 0, else wall"
     )
-    r_max: Literal[words("r_max")] = Field("outflow", description="the outer edge")
-    z_min: Literal[words("z_min")] = Field("outflow", description="the lower edge")
-    z_max: Literal[words("z_max")] = Field("outflow", description="the upper edge")
+    r_max: Outer = Field("outflow", description="the outer edge")
+    z_min: Lower = Field("outflow", description="the lower edge")
+    z_max: Upper = Field("outflow", description="the upper edge")
     r_min_velocity: Speed | None = Field(None, description='radial velocity at r_min = "velocity"')
     r_max_velocity: Speed | None = Field(None, description='radial velocity at r_max = "velocity"')
     z_min_velocity: Speed | None = Field(None, description='axial velocity at z_min = "velocity"')
@@ -104,29 +116,29 @@ class Numerics(Section):
     """How the equations are solved."""
 
     advection: Literal["ke", "momentum", "both"] = Field("ke", description="what the remap of velocities conserves")
-    ke_bound: within(1.0, 1e12, "below 1 a vertex could not keep the velocity of its own momentum") = Field(
+    ke_bound: Annotated[float, within(1.0, 1e12, "below 1 a vertex could not keep the velocity of its own momentum")] = Field(
         1.05, description="bound of |u| over |momentum/mass| in the ke remap"
     )
-    courant: within(1e-3, 0.8, "beyond 0.8 the step is not stable where cells are mixed or viscous") = Field(
+    courant: Annotated[float, within(1e-3, 0.8, "beyond 0.8 the step is not stable where cells are mixed or viscous")] = Field(
         0.5, description="time step over that of the fastest wave"
     )
     advective_courant: PositiveNumber = Field(0.4, le=0.5, description="largest share of a cell crossed in one step")
-    max_growth: within(1.0, 2.0, "a step that grows faster overtakes what sets it") = Field(
+    max_growth: Annotated[float, within(1.0, 2.0, "a step that grows faster overtakes what sets it")] = Field(
         1.1, description="largest ratio of successive time steps"
     )
     ramp_cycles: int = Field(
         100, ge=0, le=1_000_000, description="cycles over which the time step rises from its initial factor")
     initial_dt_factor: Fraction = Field(0.1, gt=0, description="first time step over the stable one")
     dt_min: Time = Field(1e-14, description="a time step below this ends the run as unphysical")
-    viscosity_linear: within(0.0, 2.0, "a viscosity beyond it is not stable at this time step") = Field(
+    viscosity_linear: Annotated[float, within(0.0, 2.0, "a viscosity beyond it is not stable at this time step")] = Field(
         0.5, description="linear coefficient of the artificial viscosity"
     )
-    viscosity_quadratic: within(0.0, 4.0, "a viscosity beyond it is not stable at this time step") = Field(
+    viscosity_quadratic: Annotated[float, within(0.0, 4.0, "a viscosity beyond it is not stable at this time step")] = Field(
         1.3, description="quadratic coefficient of the artificial viscosity"
     )
     hourglass: NotNegative = Field(0.05, le=1, description="coefficient of the hourglass filter")
     mixed_cell: Literal["tipton", "uniform"] = Field("tipton", description="how materials share a volume change")
-    relaxation: within(1e-6, 1.0, "at 1 the pressures meet within a step, beyond it they overshoot") = Field(
+    relaxation: Annotated[float, within(1e-6, 1.0, "at 1 the pressures meet within a step, beyond it they overshoot")] = Field(
         0.25, description="gamma of the pressure relaxation in mixed cells"
     )
     mixed_strength: Literal["volume", "solid", "zero", "max", "material"] = Field(

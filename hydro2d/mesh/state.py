@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -61,6 +62,9 @@ class State:
     internal : sequence of a sequence of Field for every body, optional
         Internal variables of its strength model; none without.
     """
+
+    if TYPE_CHECKING:
+        def __getattr__(self, symbol: str) -> np.ndarray: ...
 
     def __init__(self, grid: Grid, bodies: int, group=None, internal=None):
         self.grid, self.bodies = grid, bodies

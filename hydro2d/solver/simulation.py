@@ -224,20 +224,22 @@ class Simulation:
 
     def stop_reason(self) -> str | None:
         """Why the run is over, or None."""
-        stop = self.deck.stop
+        stop, penetrator, shot = self.deck.stop, self.penetrator, self.deck.penetration
         if stop.time is not None and self.time >= stop.time:
             return "end time"
         if stop.cycles is not None and self.cycle >= stop.cycles:
             return "number of cycles"
         if self.cycle % WATCH_EVERY != 0:
             return None
-        if stop.perforation and self.penetrator.perforates() and (stop.perforation != "tail" or self.penetrator.cleared()):
-            return f"perforation of {self.deck.penetration.targets[-1]}"
-        watches_rod = self.penetrator is not None and self.watched == self.penetrator.m
-        if (stop.perforation or (watches_rod and (stop.speed_below is not None or stop.rebound))) and self.penetrator.gone:
-            return f"{self.deck.penetration.rod} left the mesh"
-        if self.watched is not None and (stop.speed_below is not None or stop.rebound):
-            v = self.penetrator.velocity() if watches_rod else self.mean_velocity(self.watched)
+        slows = stop.speed_below is not None or stop.rebound
+        watches_rod = penetrator is not None and self.watched == penetrator.m
+        if penetrator is not None and shot is not None:
+            if stop.perforation and penetrator.perforates() and (stop.perforation != "tail" or penetrator.cleared()):
+                return f"perforation of {shot.targets[-1]}"
+            if (stop.perforation or (watches_rod and slows)) and penetrator.gone:
+                return f"{shot.rod} left the mesh"
+        if self.watched is not None and slows:
+            v = penetrator.velocity() if penetrator is not None and watches_rod else self.mean_velocity(self.watched)
             if self._sign is None:
                 self._sign = 1.0 if v >= 0 else -1.0
             if stop.rebound and v * self._sign < 0:

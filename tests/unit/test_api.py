@@ -97,9 +97,9 @@ def test_a_wrong_override_is_named(changes, told):
 
 
 def test_a_mistake_in_a_dict_names_its_key():
-    with pytest.raises(hydro2d.DeckError, match=r'^shot: body\[0\].nose'):
-        tables = tomllib.loads(TEXT)
-        tables["body"][0]["nose"] = "spherical"
+    tables = tomllib.loads(TEXT)
+    tables["body"][0]["nose"] = "spherical"
+    with pytest.raises(hydro2d.DeckError, match=r"^shot: body\[0\].nose"):
         hydro2d.Deck.from_dict(tables, name="shot")
 
 

@@ -1,0 +1,35 @@
+"""A program that uses all of the public interface, for the type checker: what it gets has the types that it says."""
+
+from __future__ import annotations
+
+import numpy as np
+import pandas
+import pyvista
+import xarray
+
+import hydro2d
+
+
+def calibrated(path: str) -> float:
+    """Uses every public name; it is checked and never run."""
+    deck: hydro2d.Deck = hydro2d.Deck.from_file(path, {"body.rod.velocity": "1200 m/s"})
+    other: hydro2d.Deck = hydro2d.Deck.from_dict({"title": "a bar"}, ["stop.time=1 us"])
+    text: str = hydro2d.Deck.from_toml(other.to_toml()).title
+
+    sim = hydro2d.Simulation(deck)
+    sim.columns["peak_Pa"] = lambda each: float(each.field("pressure").max())
+    reason: str = sim.run(until="50 us", callbacks=[hydro2d.every(10, print), lambda each: each.time])
+    rows: pandas.DataFrame = sim.history
+    density: np.ndarray = sim.array("density")
+    now: xarray.Dataset = sim.fields
+    grid: pyvista.RectilinearGrid = sim.to_pyvista()
+    print(text, reason, rows, density, now, grid)
+
+    shot: hydro2d.Results = hydro2d.run(deck, "runs/shot", columns={"time_again_s": lambda each: each.time})
+    same: hydro2d.Results = hydro2d.open_run("runs/shot")
+    everything: xarray.Dataset = same.fields
+    table: pandas.DataFrame = hydro2d.sweep(deck, {"body.rod.velocity": [900.0, 1000.0]}, directory="runs/study")
+    cases = hydro2d.open_study("runs/study").cases
+    print(everything, table, [case.status for case in cases])
+    depth: float = shot.summary["penetration_depth_m"]
+    return depth
