@@ -41,7 +41,7 @@ def weigh(g, j, i, code, r, z, weights):
     """Weights of the four vertices of the cell whose linear field a light vertex takes.
 
     They carry the cell's mean velocity and gradient to the vertex, so that a linear field is met exactly, and add up to 1
-    (explanation/sliding, equation 11).
+    (explanation/sliding, equation 5).
     """
     row, column = extended_cell(j, i, code)
     x = (r[i] - 0.5 * (r[column] + r[column + 1])) / (r[column + 1] - r[column])
