@@ -61,9 +61,9 @@ class Segment(Section):
             if ("first" if graded else "size") in given:
                 raise ValueError("across gives the size of the cells, which is given beside it once more")
             given.add("first" if graded else "size")
-        allowed = ("to cells", "to size", "cells size", "to ratio", "cells ratio", "to last")
-        graded = ("to first ratio", "cells first ratio", "to first last")
-        if given not in [set(entry.split()) for entry in allowed + graded]:
+        even = ("to cells", "to size", "cells size", "to ratio", "cells ratio", "to last")
+        with_first = ("to first ratio", "cells first ratio", "to first last")
+        if given not in [set(entry.split()) for entry in even + with_first]:
             raise ValueError(f"{', '.join(sorted(given)) or 'nothing'} does not define a segment; it takes {_SEGMENTS}")
         return self
 

@@ -36,11 +36,12 @@ def _names(quantity: Quantity, dump: Dump) -> list[str]:
 def _values(quantity: Quantity, dump: Dump) -> np.ndarray:
     """The values of a quantity, shape ([body,] nz, nr[, component]); NaN where a body, or the dump, has none."""
     shape = len(dump.z_edges) - 1, len(dump.r_edges) - 1
-    found = [dump.fields.get(name) for name in _names(quantity, dump)]
-    like = next((each for each in found if each is not None), np.empty(shape, np.float32))
-    found = [np.full(like.shape, np.nan, np.float32) if each is None else each for each in found]
-    values = np.stack(found) if quantity.per_body else found[0]
-    return values[..., : len(COMPONENTS)] if values.ndim == len(shape) + 1 and not quantity.per_body else values
+    names = _names(quantity, dump)
+    like = next((dump.fields[name] for name in names if name in dump.fields), np.empty(shape, np.float32))
+    found = [dump.fields[name] if name in dump.fields else np.full(like.shape, np.nan, np.float32) for name in names]
+    if quantity.per_body:
+        return np.stack(found)
+    return found[0][..., : len(COMPONENTS)] if like.ndim > len(shape) else found[0]
 
 
 def _dimensions(quantity: Quantity, values: np.ndarray) -> tuple[str, ...]:

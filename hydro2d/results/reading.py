@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     import pandas
     import pyvista
     import xarray
+    from matplotlib.axes import Axes
 
     from hydro2d.solver.simulation import Simulation
 
@@ -147,9 +148,9 @@ class Results:
         """The dump nearest to a time in s, or the last, as a pyvista.RectilinearGrid with x = r, y = z."""
         return vtk.pyvista_grid(self.dump_file(time))
 
-    def section(self, field: str = "pressure", mirror: str | None = None, time: float | None = None, *, axes=None,
-                limits: dict[str, tuple[float, float]] | None = None, window: tuple[float, float, float] | None = None,
-                colour_bar: bool = True):  # fmt: skip
+    def section(self, field: str = "pressure", mirror: str | None = None, time: float | None = None, *,
+                axes: Axes | None = None, limits: dict[str, tuple[float, float]] | None = None,
+                window: tuple[float, float, float] | None = None, colour_bar: bool = True) -> Axes:  # fmt: skip
         """Draws the section at the dump nearest to a time in s, or at the last, into matplotlib axes and returns them.
 
         field, mirror : what the upper and the lower half show, such as "pressure", "velocity:z", "body_temperature:plate"

@@ -69,7 +69,7 @@ class Cycle:
         self.carried = np.array([self._carried(m) for m in range(state.bodies)])
         self.contact = Contact(state, method, self.edges, self.still) if state.groups > 1 else None
         self.box = list(self.edges)
-        self.ledger = None
+        self.ledger: Ledger | None = None
         self.speed_limit = 0.0
         self.models, self.materials = rows.packed(table, method.loose * table.rho0, method.yield_factor)
         self.light_density = method.mass_floor * float(np.max(table.rho0))

@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from hydro2d.output.history import Columns
 from hydro2d.solver.callbacks import Due
 from hydro2d.solver.tracers import PEAKS
 
+if TYPE_CHECKING:
+    from hydro2d.solver.simulation import Simulation
 
-def row(sim) -> dict[str, float | str | None]:
+
+def row(sim: Simulation) -> dict[str, float | str | None]:
     """One row of the history: what a simulation measures, by name; see `running/columns.py` for all names.
 
     Raises ValueError where a column of the user has the name of another.
@@ -39,12 +44,12 @@ class Recorder:
     def __init__(self, interval: float):
         self.columns, self._due = Columns(), Due(interval)
 
-    def __call__(self, sim) -> None:
+    def __call__(self, sim: Simulation) -> None:
         """Adds a row where one is due."""
         if self._due(sim.time):
             self.columns.append(row(sim))
 
-    def last(self, sim) -> None:
+    def last(self, sim: Simulation) -> None:
         """Adds the row of the end where it is not there yet."""
         if self.columns.last_time != sim.time:
             self.columns.append(row(sim))

@@ -72,6 +72,7 @@ class Simulation:
         self.watched = slots.index(deck.stop.body) if deck.stop.body else None
         self._sign: float | None = None
         self.columns: dict[str, Callable[[Simulation], float]] = {}
+        assert deck.output.history_interval is not None, "a resolved deck has one"
         self._recorder = Recorder(deck.output.history_interval)
 
     def _penetration(self) -> tuple[Penetrator | None, list[Crater]]:
@@ -90,7 +91,8 @@ class Simulation:
             return StandingMesh()
         direction = float(np.sign(decks.body(self.deck, name).velocity[1]))
         space = UndisturbedSpace(self.deck, self.table, self.grid)
-        return FollowingMesh(self.state, space, slots.index(name), direction, method.boundaries.having("mirrors")[:2])
+        inner, outer, *_ = method.boundaries.having("mirrors")
+        return FollowingMesh(self.state, space, slots.index(name), direction, (inner, outer))
 
     def _insert(self, edges: Edges) -> None:
         """Fills the mesh.
@@ -152,6 +154,7 @@ class Simulation:
     @property
     def ledger(self) -> Ledger:
         """What is conserved, and what has left the mesh or was taken by the method."""
+        assert self.engine.ledger is not None, "it is opened when the cycle is prepared"
         return self.engine.ledger
 
     def run(self, until: float | str | Callable[[Simulation], bool] | None = None,
@@ -354,8 +357,8 @@ class Simulation:
         """What a restart needs beside the arrays; JSON keeps every bit of it."""
         e = self.engine
         return {"time": e.time, "dt": e.dt, "cycle": e.number, "cause": e.cause, "box": [int(x) for x in e.box],
-                "mesh_offset": self.grid.offset, "speed_limit": e.speed_limit, "sign": self._sign, "ledger": e.ledger.saved(),
-                "penetrator": self.penetrator and self.penetrator.saved(),
+                "mesh_offset": self.grid.offset, "speed_limit": e.speed_limit, "sign": self._sign,
+                "ledger": self.ledger.saved(), "penetrator": self.penetrator and self.penetrator.saved(),
                 "craters": [crater.saved() for crater in self.craters]}
 
     def load_restart_scalars(self, scalars: dict) -> None:
