@@ -10,6 +10,8 @@ from datetime import date, time
 from pathlib import Path
 from typing import Any
 
+import tomli_w
+
 from hydro2d.errors import DeckError, Sources, entry_index
 
 _BARE = re.compile(r"[A-Za-z0-9_-]+")
@@ -193,24 +195,12 @@ def quoted(name: str) -> str:
     return name if _BARE.fullmatch(name) else json.dumps(name, ensure_ascii=False)
 
 
-def _is_table_list(value) -> bool:
-    return isinstance(value, (list, tuple)) and bool(value) and all(isinstance(e, dict) and "name" in e for e in value)
+def dumps(data: dict) -> str:
+    """TOML of plain data; None, which TOML has no word for, is left out. Floats keep every bit."""
+    return tomli_w.dumps(_without_none(data))
 
 
-def dumps(data: dict, prefix: str = "") -> str:
-    """TOML of plain data; None is left out, named entries become arrays of tables, floats keep every bit."""
-    plain, tables = [], []
-    for key, value in data.items():
-        if value is None:
-            continue
-        name = prefix + quoted(key)
-        if isinstance(value, dict):
-            tables.append(f"\n[{name}]\n{dumps(value, name + '.')}")
-        elif _is_table_list(value):
-            tables += [f"\n[[{name}]]\n{dumps(entry, name + '.')}" for entry in value]
-        elif isinstance(value, (list, tuple)) and value and all(isinstance(entry, dict) for entry in value):
-            rows = "".join(f"  {inline(entry)},\n" for entry in value)
-            plain.append(f"{quoted(key)} = [\n{rows}]\n")
-        else:
-            plain.append(f"{quoted(key)} = {inline(value)}\n")
-    return "".join(plain + tables)
+def _without_none(value):
+    if isinstance(value, dict):
+        return {key: _without_none(entry) for key, entry in value.items() if entry is not None}
+    return [_without_none(entry) for entry in value] if isinstance(value, (list, tuple)) else value

@@ -14,6 +14,8 @@ _FIT, _TOLD = 1e-4, 1e-6
 _LIMIT = 1_000_000
 #: the smallest cell, as a share of its distance from the origin, whose edges are still apart by many roundings
 _SMALLEST = 1e-9
+#: the smallest ratio that is tried, and a length that no mesh has, m
+_STEEPEST, _LARGEST = 1e-3, 1e300
 #: logarithm of the last cell of a graded segment over its first, at most
 _GROWTH = 50.0
 
@@ -148,23 +150,25 @@ def _count(first: float, ratio: float, length: float) -> int:
 
 
 def _fitted_ratio(first: float, cells: int, length: float) -> float:
-    """The ratio with which ``cells`` cells from ``first`` on fill ``length``, by bisection."""
+    """The ratio with which ``cells`` cells from ``first`` on fill ``length``: where they begin to, to the last bit."""
     if cells == 1:
         return 1.0
+    from scipy.optimize import brentq
 
-    def filled(ratio: float) -> float:
+    def missing(ratio: float) -> float:
         with np.errstate(over="ignore"):  # infinite is too long as well
-            return first * float(np.sum(ratio ** np.arange(cells)))
+            return min(first * float(np.sum(ratio ** np.arange(cells))), _LARGEST) - length
 
-    low, high = 1e-3, 2.0
-    while filled(high) < length:
+    high = 2.0
+    while missing(high) < 0:
         high *= 2
-    for _ in range(200):
-        middle = 0.5 * (low + high)
-        if filled(middle) < length:
-            low = middle
-        else:
-            high = middle
+    if missing(_STEEPEST) >= 0:
+        return _STEEPEST
+    low = brentq(missing, _STEEPEST, high, xtol=1e-18, rtol=4 * np.finfo(float).eps)
+    while missing(low) >= 0:
+        low = math.nextafter(low, 0.0)
+    while missing(high := math.nextafter(low, math.inf)) < 0:
+        low = high
     return 0.5 * (low + high)
 
 

@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     import pandas
     import pyvista
     import xarray
+    from numpy.typing import ArrayLike
 
 __all__ = ["Simulation", "UnphysicalState"]
 
@@ -209,8 +210,11 @@ class Simulation:
             for crater in self.craters:
                 crater.record()
 
-    def velocity_at(self, points: np.ndarray, group: int | None = None) -> np.ndarray:
-        """Velocity (u, v) at points (r, z), shape [n, 2], m/s: of a body group, or of that which the cell moves with."""
+    def velocity_at(self, points: ArrayLike, group: int | None = None) -> np.ndarray:
+        """Velocity (u, v) at points (r, z), shape [n, 2], m/s: of a body group, or of that which the cell moves with.
+
+        Raises ValueError for points of another shape.
+        """
         return tracers.velocity_at(self.grid, self.state, points, group)
 
     def body_sums(self, m: int) -> tuple[np.ndarray, np.ndarray]:

@@ -176,11 +176,14 @@ def keep_peaks(time, found, peaks):
         peaks[n, 6] = max(peaks[n, 6], found[n, STRAIN])
 
 
-def velocity_at(grid, state, points: np.ndarray, group: int | None = None) -> np.ndarray:
-    """Velocity (u, v) at points (r, z), shape [n, 2], bilinear in the cell; m/s.
+def velocity_at(grid, state, points, group: int | None = None) -> np.ndarray:
+    """Velocity (u, v) at points (r, z), array_like of shape [n, 2], bilinear in the cell; m/s.
 
     group : body group whose velocity it is; without it that which the cell moves with
     """
+    points = np.ascontiguousarray(points, dtype=float)
+    if points.ndim != 2 or points.shape[1] != 2:
+        raise ValueError(f"points have the shape [n, 2], rows of r and z; these have {list(points.shape)}")
     result = np.empty_like(points)
     own = -1 if group is None else int(group)
     velocities(grid.g, grid.nr, grid.nz, own, grid.r, grid.z, state.group, state.vof, state.u, state.v, points, result)

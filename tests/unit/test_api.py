@@ -174,6 +174,13 @@ def test_arrays_are_views(deck):
         sim.array("presure")
 
 
+def test_velocities_at_points_take_lists(deck):
+    sim = hydro2d.Simulation(deck)
+    assert sim.velocity_at([[0.5e-3, -3e-3], [0.5e-3, 4e-3]]).tolist() == [[0.0, 60.0], [0.0, 0.0]]
+    with pytest.raises(ValueError, match=r"shape \[n, 2\]"):
+        sim.velocity_at([0.5e-3, -3e-3])
+
+
 def test_fields_are_computed_from_the_state(deck):
     sim = hydro2d.Simulation(deck)
     sim.run(until="1 us")
