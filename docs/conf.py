@@ -20,15 +20,20 @@ author = "The hydro2d developers"
 copyright = f"2026, {author}"
 version = release = __version__
 
-extensions = ["myst_nb"]
+extensions = ["myst_nb", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "sphinx-mathjax-offline"]
 myst_enable_extensions = ["dollarmath"]
 myst_heading_anchors = 3
 nb_execution_mode = "off"  # the outputs that are stored
 
-exclude_patterns = ["_build", "_static", "**/runs", "**/.ipynb_checkpoints"]
+autodoc_member_order = "bysource"
+default_role = "code"  # docstrings have code between single backticks
+smartquotes = False  # an option is --name, and a word of a deck "name", in prose too
+
+exclude_patterns = ["_build", "_static", "jupyter_execute", "**/runs", "**/.ipynb_checkpoints"]
 html_theme = "furo"
 html_title = f"hydro2d {release}"
 html_static_path = ["_static"]
+html_css_files = ["tables.css"]
 
 
 def equations_as_written(app, doctree):

@@ -1,0 +1,30 @@
+"""The page of the Python interface: what `hydro2d.__all__` names, from its docstrings, by autodoc."""
+
+from __future__ import annotations
+
+import inspect
+
+from _pages.markdown import NOTE
+
+
+def page() -> str:
+    """A directive of autodoc for each public name, in the order of ``__all__``."""
+    import hydro2d
+
+    lead = (
+        f"{NOTE} These names are what programs can rely on: `import hydro2d` gives all of them. Arrays have their shapes, "
+        "quantities their units; everything is in SI."
+    )
+    names = getattr(hydro2d, "__all__", ("load",))
+    return "\n\n".join(["# Python interface", lead, *(directive(f"hydro2d.{name}", getattr(hydro2d, name)) for name in names)])
+
+
+def directive(path: str, thing) -> str:
+    """A heading and the directive that documents a function, a class with its members, a module, or a value."""
+    if inspect.isclass(thing):
+        kind, options = "autoclass", ["   :members:"]
+    elif inspect.ismodule(thing):
+        kind, options = "automodule", ["   :members:"]
+    else:
+        kind, options = ("autofunction" if callable(thing) else "autodata"), []
+    return "\n".join([f"## `{path}`", "", "```{eval-rst}", f".. {kind}:: {path}", *options, "```"])
