@@ -33,7 +33,7 @@ exclude_patterns = ["_build", "_static", "jupyter_execute", "**/runs", "**/.ipyn
 html_theme = "furo"
 html_title = f"hydro2d {release}"
 html_static_path = ["_static"]
-html_css_files = ["tables.css"]
+html_css_files = ["pages.css"]
 
 
 def equations_as_written(app, doctree):
@@ -49,6 +49,13 @@ def equations_as_written(app, doctree):
             node += nodes.Text(equation)
 
 
+def style_of_the_reference(app, page, template, context, doctree):
+    """Gives the pages with wide tables their style."""
+    if page.startswith("reference/"):
+        app.add_css_file("reference.css")
+
+
 def setup(app):
     """Hooks of this project."""
+    app.connect("html-page-context", style_of_the_reference)
     app.connect("doctree-read", equations_as_written)

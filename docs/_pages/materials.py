@@ -20,21 +20,16 @@ def page() -> str:
     )
     materials = [library.load(name) for name in library.names()]
     index = table(
-        ("material", "what it is", "density, kg/m^3", "strength", "damage", "fracture pressure, Pa", "variants"),
+        ("material", "density, kg/m^3", "strength", "damage", "fracture pressure, Pa", "variants", "what it is"),
         (
-            (f"[`{m.name}`](#{anchor(m.name)})", prose(m.title), f"{m.reference_density:g}", _link(m, "strength"),
-             _link(m, "damage"), f"{m.fracture_pressure.value:g}" if m.fracture_pressure else "", len(m.variants) or "")
+            (f"[`{m.name}`](#{m.name.lower()})", f"{m.reference_density:g}", _link(m, "strength"), _link(m, "damage"),
+             f"{m.fracture_pressure.value:g}" if m.fracture_pressure else "", len(m.variants) or "", prose(m.title))
             for m in materials
         ),
     )
     confidence = table(("confidence", "meaning"), ((f"`{word}`", text) for word, text in library.CONFIDENCE.items()))
     words = f"The column *confidence* says how far a number can be trusted:\n\n{confidence}"
     return "\n\n".join(["# Materials", lead, index, words, *map(_material, materials)])
-
-
-def anchor(name: str) -> str:
-    """The anchor of a heading, as MyST makes it."""
-    return name.lower().replace("`", "")
 
 
 def _link(material, part: str) -> str:
