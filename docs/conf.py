@@ -10,6 +10,7 @@ sys.path.insert(0, str(HERE))
 sys.path.insert(0, str(HERE.parent))
 
 import _generate  # noqa: E402
+from _pages import docstrings  # noqa: E402
 
 from hydro2d import __version__  # noqa: E402
 
@@ -20,7 +21,7 @@ author = "The hydro2d developers"
 copyright = f"2026, {author}"
 version = release = __version__
 
-extensions = ["myst_nb", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "sphinx-mathjax-offline"]
+extensions = ["myst_nb", "sphinx.ext.autodoc", "sphinx-mathjax-offline"]
 myst_enable_extensions = ["dollarmath"]
 myst_heading_anchors = 3
 nb_execution_mode = "off"  # the outputs that are stored
@@ -57,5 +58,6 @@ def style_of_the_reference(app, page, template, context, doctree):
 
 def setup(app):
     """Hooks of this project."""
+    app.connect("autodoc-process-docstring", docstrings.processed)
     app.connect("html-page-context", style_of_the_reference)
     app.connect("doctree-read", equations_as_written)

@@ -21,10 +21,11 @@ def page() -> str:
 
 def directive(path: str, thing) -> str:
     """A heading and the directive that documents a function, a class with its members, a module, or a value."""
-    if inspect.isclass(thing):
-        kind, options = "autoclass", ["   :members:"]
-    elif inspect.ismodule(thing):
-        kind, options = "automodule", ["   :members:"]
-    else:
-        kind, options = ("autofunction" if callable(thing) else "autodata"), []
-    return "\n".join([f"## `{path}`", "", "```{eval-rst}", f".. {kind}:: {path}", *options, "```"])
+    text, options, kind = "", [], "autofunction" if callable(thing) else "autodata"
+    if inspect.isclass(thing) or inspect.ismodule(thing):
+        kind, options = "autoclass" if inspect.isclass(thing) else "automodule", ["   :members:"]
+    signature = path
+    if hasattr(thing, "model_fields"):  # a table of the deck: its keys have a page of their own
+        text, signature = "[Deck keys](deck.md) has what it holds.\n\n", f"{path}(**keys)"
+        options.append("   :exclude-members: model_config")
+    return "\n".join([f"## `{path}`", "", f"{text}```{{eval-rst}}", f".. {kind}:: {signature}", *options, "```"])

@@ -133,13 +133,18 @@ def test_every_choice_of_method_is_explained(page, section, key):
 
 
 @functools.cache
-def generated() -> dict[str, str]:
+def generator():
+    """The module that writes the reference."""
     sys.path.insert(0, str(DOCS))
     try:
-        import _generate
+        return importlib.import_module("_generate")
     finally:
         sys.path.remove(str(DOCS))
-    return _generate.pages()
+
+
+@functools.cache
+def generated() -> dict[str, str]:
+    return generator().pages()
 
 
 def test_the_reference_has_everything():
@@ -153,6 +158,21 @@ def test_the_reference_has_everything():
     assert [entry.name for entry in edges.BOUNDARIES if f"| `{entry.name}` |" not in pages["deck.md"]] == []
     assert [name for name in catalogue.MODELS if f"## `{name}`" not in pages["penetration-models.md"]] == []
     assert [name for name in getattr(hydro2d, "__all__", ()) if f"hydro2d.{name}\n" not in pages["api.md"]] == []
+
+
+def test_docstrings_have_their_arguments_as_definitions():
+    generator()
+    docstrings = importlib.import_module("_pages.docstrings")
+    lines = [
+        "Runs.", "", "deck, out : where", "    it is", "**keys : more", "", "Raises Error.", "", "Attributes", "----------",
+        "rows : int", "    how many", "left : what is left",
+    ]  # fmt: skip
+    assert docstrings.converted(lines) == [
+        "Runs.", "", "deck, out", "    where", "    it is", r"\*\*keys", "    more", "", "Raises Error.", "",
+        ".. rubric:: Attributes", "", "rows : int", "    how many", "left", "    what is left", "",
+    ]  # fmt: skip
+    prose = ["The name: that of the file.", "It is short."]
+    assert docstrings.converted(prose) == [*prose, ""]
 
 
 def test_the_page_of_commands_has_every_command_and_argument():
@@ -312,7 +332,8 @@ def test_every_key_of_a_deck_says_what_it_is():
 
 @pytest.mark.parametrize("file", WRITTEN, ids=name_of)
 def test_links_lead_somewhere(file):
-    made = {f"generated/{name}" for name in [*generated(), *(f"models/{name}.png" for name in catalogue.MODELS)]}
+    figures = [f"models/{name}.png" for name in catalogue.MODELS] + [f"shapes/{name}.png" for name in generator().SHAPES]
+    made = {f"generated/{name}" for name in [*generated(), *figures]}
     lost = []
     for target in re.findall(r"\]\(([^)#]+)(?:#[^)]*)?\)", file.read_text(encoding="utf-8")):
         if "://" in target:
