@@ -8,133 +8,13 @@ from __future__ import annotations
 import contextlib
 import io
 import math
-import os
-from collections.abc import Iterable, Iterator
 from pathlib import Path
 
-NOTE = "Generated from the code."
+from _pages import api, commands, deck, materials
+from _pages.markdown import NOTE, code, prose, table
+
 #: velocities of a penetration model's figure
 POINTS = 81
-
-
-def table(heads: Iterable[str], rows: Iterable[Iterable[str]]) -> str:
-    """A Markdown table."""
-    heads = list(heads)
-    cells = [[str(cell).replace("|", "\\|").replace("\n", " ") for cell in row] for row in rows]
-    lines = ["| " + " | ".join(row) + " |" for row in (heads, *cells)]
-    return "\n".join([lines[0], "|" + "---|" * len(heads), *lines[1:]])
-
-
-def code(text: str) -> str:
-    """Text in a fixed-width block."""
-    return f"```text\n{text.strip()}\n```"
-
-
-class Schema:
-    """Walks the JSON schema of a deck."""
-
-    def __init__(self, schema: dict):
-        self.schema = schema
-
-    def resolved(self, part: dict) -> dict:
-        """The definition that a reference points to, or the part itself."""
-        if "$ref" in part:
-            return self.schema["$defs"][part["$ref"].rsplit("/", 1)[-1]]
-        if len(part.get("allOf", ())) == 1:
-            return self.resolved(part["allOf"][0])
-        choices = [choice for choice in part.get("anyOf", ()) if choice.get("type") != "null"]
-        if len(choices) == 1 and "anyOf" in part:
-            return {**self.resolved(choices[0]), **{k: v for k, v in part.items() if k != "anyOf"}}
-        return part
-
-    def shown(self, part: dict) -> str:
-        """What a value may be."""
-        part = self.resolved(part)
-        if "const" in part:
-            return f'`"{part["const"]}"`'
-        if "enum" in part:
-            return ", ".join(f'`"{value}"`' for value in part["enum"])
-        unit = part.get("x-unit")
-        if part.get("type") == "array" and not unit:
-            return f"list of {self.shown(part.get('items', {}))}"
-        if unit:
-            size = " [ , ]" if part.get("type") == "array" else ""
-            return ("number" if unit == "1" else f"quantity in {unit}") + size
-        choices = [self.shown(choice) for choice in part.get("anyOf", part.get("oneOf", ()))]
-        return " or ".join(dict.fromkeys(choices)) or {"integer": "whole number", "object": "table"}.get(
-            part.get("type", ""), part.get("type", "any")
-        )
-
-    def is_list(self, part: dict) -> bool:
-        """Whether the value is an array, written as [[key]] where it holds tables."""
-        return self.resolved(part).get("type") == "array"
-
-    def tables(self, part: dict) -> Iterator[dict]:
-        """The tables that a value, or an entry of a list, may be; none for plain values."""
-        part = self.resolved(part)
-        if part.get("type") == "array":
-            part = self.resolved(part.get("items", {}))
-        if isinstance(part.get("additionalProperties"), dict):
-            part = self.resolved(part["additionalProperties"])
-        for choice in part.get("oneOf", [part]):
-            choice = self.resolved(choice)
-            if "properties" in choice:
-                yield choice
-
-    def section(self, heading: str, section: dict) -> str:
-        """A heading, what the table is for, and its keys."""
-        rows = table(("key", "value", "default", "meaning"), self.rows(section))
-        return "\n\n".join(part for part in (f"## {heading}", section.get("description", ""), rows) if part)
-
-    def rows(self, section: dict) -> Iterator[tuple[str, str, str, str]]:
-        """Key, value, default and meaning of every key of a table."""
-        required = section.get("required", ())
-        for key, part in section.get("properties", {}).items():
-            default = "required" if key in required else _default(part.get("default"))
-            yield f"`{key}`", self.shown(part), default, part.get("description", "")
-
-
-def _default(value) -> str:
-    if value is None:
-        return ""
-    if isinstance(value, bool):
-        return f"`{str(value).lower()}`"
-    return f'`"{value}"`' if isinstance(value, str) else f"`{value}`".replace("'", '"')
-
-
-def deck_page() -> str:
-    """Every key of a deck."""
-    from hydro2d.deck import deck
-
-    schema = Schema(deck.schema())
-    sections, nested = [], {}
-    for key, part in schema.schema["properties"].items():
-        for section in schema.tables(part):
-            name = f"[[{key}]]" if schema.is_list(part) else f"[{key}.NAME]" if key == "materials" else f"[{key}]"
-            shape = section["properties"].get("shape", {}).get("const")
-            sections.append(schema.section(f"`{name}`" + (f' with `shape = "{shape}"`' if shape else ""), section))
-            for inner_key, inner_part in section["properties"].items():
-                for inner in schema.tables(inner_part):
-                    nested.setdefault(inner["title"], (inner, {}))[1][f"`{key}.{inner_key}`"] = None
-    for title, (section, places) in nested.items():
-        sections.append(schema.section(f"{title}: a table of {' and '.join(places)}", section))
-    plain = {key: part for key, part in schema.schema["properties"].items() if not list(schema.tables(part))}
-    top = {"properties": plain, "required": schema.schema["required"]}
-    lead = f'{NOTE} Quantities are numbers in SI or strings with a unit, such as `"8.12 mm"`.'
-    return "\n\n".join([f"# Deck keys\n\n{lead}", schema.section("Top level", top), *sections, boundary_conditions()])
-
-
-def boundary_conditions() -> str:
-    """The table of boundary conditions."""
-    from hydro2d.mesh.edges import BOUNDARIES, EDGES
-
-    rows = (
-        (f"`{b.name}`", "every edge" if b.edges == EDGES else ", ".join(f"`{edge}`" for edge in b.edges),
-         "images" if b.mirrors else "copies", "given" if b.holds else "free", b.meaning)
-        for b in BOUNDARIES
-    )
-    heads = ("condition", "where", "cells beyond", "normal velocity", "meaning")
-    return "## Boundary conditions\n\n" + table(heads, rows)
 
 
 def bounds(field) -> str:
@@ -190,8 +70,8 @@ def _model(description) -> str:
         rows = ((f"`{name}`", *rest) for name, *rest in description.table())
         parameters = table(("parameter", "symbol", "unit", "default", "meaning"), rows)
     return (
-        f"### `{description.name}`\n\n{code(description.equation)}\n\nValidity: {description.validity}.\n\n"
-        f"Source: {description.source}.\n\n{parameters}"
+        f"### `{description.name}`\n\n{code(description.equation)}\n\nValidity: {prose(description.validity)}.\n\n"
+        f"Source: {prose(description.source)}.\n\n{parameters}"
     )
 
 
@@ -255,45 +135,6 @@ def draw_models(folder: Path) -> None:
             figures.save(model_figures.draw(case, case.rows(velocities)), file)
 
 
-def materials_page() -> str:
-    """Every material of the library, number by number."""
-    from hydro2d.materials import library
-
-    parts = [f"# Materials\n\n{NOTE} `hydro2d info NAME` prints the same."]
-    for name in library.names():
-        parts.append(f"## `{name}`\n\n{code(library.describe(name))}")
-    return "\n\n".join(parts)
-
-
-def commands_page() -> str:
-    """The help text of every command."""
-    from hydro2d.cli import main
-
-    parts = [f"# Commands\n\n{NOTE}", code(_help())]
-    for name in main.app:
-        if not name.startswith("-"):
-            parts.append(f"## `hydro2d {name}`\n\n{code(_help(name))}")
-    parts.append(f"## `hydro2d model transition`\n\n{code(_help('model', 'transition'))}")
-    return "\n\n".join(parts)
-
-
-def _help(*command: str) -> str:
-    from hydro2d.cli import main
-
-    text = io.StringIO()
-    columns = os.environ.get("COLUMNS")
-    os.environ["COLUMNS"] = "110"
-    try:
-        with contextlib.redirect_stdout(text):
-            main.call([*command, "--help"])
-    finally:
-        if columns is None:
-            del os.environ["COLUMNS"]
-        else:
-            os.environ["COLUMNS"] = columns
-    return "\n".join(line.rstrip() for line in text.getvalue().splitlines())
-
-
 def results_page() -> str:
     """Columns of the history and keys of the summary."""
     from hydro2d.output.history import unit
@@ -355,14 +196,15 @@ def draw_shapes(folder: Path) -> None:
 def pages() -> dict[str, str]:
     """Every generated page by file name."""
     return {
-        "deck.md": deck_page(),
+        "api.md": api.page(),
+        "deck.md": deck.page(),
         "fields.md": fields_page(),
         "results.md": results_page(),
         "shapes.md": shapes_page(),
         "models.md": models_page(),
-        "materials.md": materials_page(),
+        "materials.md": materials.page(),
         "penetration-models.md": penetration_page(),
-        "commands.md": commands_page(),
+        "commands.md": commands.page(),
     }
 
 

@@ -31,24 +31,31 @@ class Flow(Section):
     """A velocity that points away from a centre: speed (radius/distance)^exponent, for implosions and shells."""
 
     pattern: Literal["spherical", "cylindrical"] = Field(description="away from a point or from a line")
-    speed: Speed = Field(description="speed at `radius`, outward positive")
-    centre: Length = Field(0.0, description="axial position of the point that a spherical flow leaves")
-    radius: PositiveLength = Field(1.0, description="distance at which `speed` holds")
-    exponent: Number = Field(0.0, description="decay with distance; 2 (spherical), 1 (cylindrical) keep the volume")
+    speed: Speed = Field(description="speed at `radius`, outward positive", examples=["-200 m/s"])
+    centre: Length = Field(0.0, description="axial position of the point that a spherical flow leaves", examples=["1 cm"])
+    radius: PositiveLength = Field(1.0, description="distance at which `speed` holds", examples=["5 mm"])
+    exponent: Number = Field(
+        0.0, description="decay with distance; 2 (spherical), 1 (cylindrical) keep the volume", examples=[2.0]
+    )
 
 
 class Body(Section):
     """What all bodies have. Where bodies overlap, the one that stands first in the deck has the place."""
 
-    name: Name = Field(description="how the body is called in fields, tables and other sections")
-    material: str = Field(description="a material of the library or of [materials]")
-    join: str | None = Field(None, description="an earlier body of the same material to be one with")
-    velocity: Velocity = Field((0.0, 0.0), description="axial velocity, or [radial, axial]")
-    flow: Flow | None = Field(None, description="velocity away from a centre, added to `velocity`")
-    density: PositiveDensity | None = Field(None, description="initial density; default: the material's")
-    energy: SpecificEnergy | None = Field(None, description="initial specific internal energy")
-    pressure: Pressure | None = Field(None, description="initial pressure, instead of `energy`")
-    temperature: Temperature | None = Field(None, description="initial temperature, instead of `energy`")
+    name: Name = Field(description="how the body is called in fields, tables and other sections", examples=["rod"])
+    material: str = Field(description="a material of the library or of [materials]", examples=["W_alloy"])
+    join: str | None = Field(None, description="an earlier body of the same material to be one with", examples=["shank"])
+    velocity: Velocity = Field((0.0, 0.0), description="axial velocity, or [radial, axial]", examples=["1086 m/s"])
+    flow: Flow | None = Field(
+        None, description="velocity away from a centre, added to `velocity`",
+        examples=[{"pattern": "spherical", "speed": "-200 m/s"}],
+    )
+    density: PositiveDensity | None = Field(
+        None, description="initial density; default: the material's", examples=["17.6 g/cm^3"]
+    )
+    energy: SpecificEnergy | None = Field(None, description="initial specific internal energy", examples=["10 kJ/kg"])
+    pressure: Pressure | None = Field(None, description="initial pressure, instead of `energy`", examples=["1 GPa"])
+    temperature: Temperature | None = Field(None, description="initial temperature, instead of `energy`", examples=["300 K"])
 
     @model_validator(mode="after")
     def _one_thermal_state(self):
@@ -70,14 +77,20 @@ class Rod(Body):
 
     shape: Literal["rod"] = Field(description="a rod on the axis")
     nose: Literal["flat", "hemispherical", "ogive", "conical"] = Field("flat", description="profile of the nose")
-    radius: PositiveLength | None = Field(None, description="radius of the shank")
-    diameter: PositiveLength | None = Field(None, description="diameter of the shank, instead of `radius`")
-    length: PositiveLength = Field(description="total length, nose included")
-    tip: Length = Field(description="axial position of the tip of the nose")
+    radius: PositiveLength | None = Field(None, description="radius of the shank", examples=["3.378 mm"])
+    diameter: PositiveLength | None = Field(
+        None, description="diameter of the shank, instead of `radius`", examples=["6.756 mm"]
+    )
+    length: PositiveLength = Field(description="total length, nose included", examples=["97.8 mm"])
+    tip: Length = Field(description="axial position of the tip of the nose", examples=["0 mm"])
     direction: Literal[1, -1] = Field(1, description="+1: the nose points to +z")
-    crh: PositiveNumber | None = Field(None, description="ogive: radius of the arc in diameters (tangent ogive)")
-    half_angle: Angle | None = Field(None, description="cone: half the angle at the tip, a number in rad")
-    nose_length: PositiveLength | None = Field(None, description="ogive, cone: instead of `crh` or `half_angle`")
+    crh: PositiveNumber | None = Field(
+        None, description="ogive: radius of the arc in diameters (tangent ogive)", examples=[3.0]
+    )
+    half_angle: Angle | None = Field(None, description="cone: half the angle at the tip, a number in rad", examples=["30 deg"])
+    nose_length: PositiveLength | None = Field(
+        None, description="ogive, cone: instead of `crh` or `half_angle`", examples=["10 mm"]
+    )
 
     @model_validator(mode="before")
     @classmethod
@@ -139,17 +152,19 @@ class Plate(Body):
     """A plate across the axis, from `z_front` on towards +z."""
 
     shape: Literal["plate"] = Field(description="a plate across the axis")
-    z_front: Length = Field(description="axial position of the face with the smaller z")
-    thickness: PositiveLength = Field(description="extent along z")
-    radius: PositiveLength | None = Field(None, description="outer radius; default: to the edge of the mesh")
+    z_front: Length = Field(description="axial position of the face with the smaller z", examples=["0 mm"])
+    thickness: PositiveLength = Field(description="extent along z", examples=["12 mm"])
+    radius: PositiveLength | None = Field(
+        None, description="outer radius; default: to the edge of the mesh", examples=["25 cm"]
+    )
 
 
 class Box(Body):
     """A rectangle in the (r, z) plane: a cylinder, a tube or a washer."""
 
     shape: Literal["box"] = Field(description="a rectangle in the (r, z) plane")
-    r: Interval | None = Field(None, description="[inner, outer] radius; default: the whole mesh")
-    z: Interval = Field(description="[low, high] axial position")
+    r: Interval | None = Field(None, description="[inner, outer] radius; default: the whole mesh", examples=[["5 mm", "8 mm"]])
+    z: Interval = Field(description="[low, high] axial position", examples=[["0 mm", "20 mm"]])
 
 
 def _centre(value) -> tuple[float, float]:
@@ -168,9 +183,9 @@ class Sphere(Body):
         tuple[float, float],
         BeforeValidator(_centre),
         WithJsonSchema({"anyOf": [{"type": "number"}, {"type": "string"}, {"type": "array"}], "x-unit": "m"}),
-    ] = Field(description="axial position of the centre, or [r, z]; with r > 0 in r-z the body is a ring")
-    radius: PositiveLength = Field(description="outer radius")
-    inner_radius: PositiveLength | None = Field(None, description="of a shell")
+    ] = Field(description="axial position of the centre, or [r, z]; with r > 0 in r-z the body is a ring", examples=["-5 mm"])
+    radius: PositiveLength = Field(description="outer radius", examples=["5 mm"])
+    inner_radius: PositiveLength | None = Field(None, description="of a shell", examples=["4 mm"])
 
     @model_validator(mode="after")
     def _shell(self):
@@ -189,7 +204,9 @@ class Polygon(Body):
     """A polygon in the (r, z) plane; its edges must not cross. It closes by itself."""
 
     shape: Literal["polygon"] = Field(description="a polygon in the (r, z) plane")
-    points: Annotated[tuple[Point, ...], BeforeValidator(_points)] = Field(description="corners [r, z], in order")
+    points: Annotated[tuple[Point, ...], BeforeValidator(_points)] = Field(
+        description="corners [r, z], in order", examples=[[["0 mm", "0 mm"], ["4 mm", "-8 mm"], ["0 mm", "-8 mm"]]]
+    )
 
     @model_validator(mode="after")
     def _simple(self):

@@ -394,5 +394,6 @@ def schema() -> dict:
     result["properties"]["include"] = {
         "anyOf": [{"type": "string"}, {"type": "array", "items": {"type": "string"}}],
         "description": "decks that this one is laid over, relative to this file",
+        "examples": ["hemi_5083_1086.toml"],
     }
     return result

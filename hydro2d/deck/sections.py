@@ -39,17 +39,19 @@ _UNEVEN = "cells beside each other that differ so much cannot hand a wave on"
 class Segment(Section):
     """A run of cells along one axis; segments follow one another. A ratio is adjusted so that `to` is met."""
 
-    to: Length | None = Field(None, description="position of the far edge")
-    cells: int | None = Field(None, gt=0, le=1_000_000, description="number of cells")
-    size: PositiveLength | None = Field(None, description="size of every cell; must divide the segment")
-    first: PositiveLength | None = Field(None, description="size of the first cell; default: previous size x ratio")
-    last: PositiveLength | None = Field(None, description="size of the last cell")
-    ratio: Annotated[float, within(1e-3, 1e3, _UNEVEN)] | None = Field(
-        None, description="each cell's size over that of the one before"
+    to: Length | None = Field(None, description="position of the far edge", examples=["2 cm"])
+    cells: int | None = Field(None, gt=0, le=1_000_000, description="number of cells", examples=[40])
+    size: PositiveLength | None = Field(None, description="size of every cell; must divide the segment", examples=["0.5 mm"])
+    first: PositiveLength | None = Field(
+        None, description="size of the first cell; default: previous size x ratio", examples=["0.5 mm"]
     )
-    across: str | None = Field(None, description="a body with a radius, to measure cells with")
+    last: PositiveLength | None = Field(None, description="size of the last cell", examples=["5 mm"])
+    ratio: Annotated[float, within(1e-3, 1e3, _UNEVEN)] | None = Field(
+        None, description="each cell's size over that of the one before", examples=[1.05]
+    )
+    across: str | None = Field(None, description="a body with a radius, to measure cells with", examples=["rod"])
     cells_across: Annotated[float, within(0.01, 1e6, "fewer resolve nothing, and no machine holds more")] | None = Field(
-        None, description="cells across the radius of that body")
+        None, description="cells across the radius of that body", examples=[8.5])
 
     @model_validator(mode="after")
     def _shape(self):
@@ -72,13 +74,19 @@ class Mesh(Section):
     """The mesh. r = 0 is the axis of symmetry in cylindrical geometry; z is the axis a rod flies along."""
 
     geometry: Literal["cylindrical", "planar"] = Field("cylindrical", description="r-z with an axis, or plane strain")
-    r_start: Length = Field(0.0, description="inner edge of the mesh")
-    z_start: Length = Field(0.0, description="lower edge of the mesh")
-    r: tuple[Segment, ...] = Field(min_length=1, description="segments from r_start outward")
-    z: tuple[Segment, ...] = Field(min_length=1, description="segments from z_start upward")
+    r_start: Length = Field(0.0, description="inner edge of the mesh", examples=["0 mm"])
+    z_start: Length = Field(0.0, description="lower edge of the mesh", examples=["-10 cm"])
+    r: tuple[Segment, ...] = Field(
+        min_length=1, description="segments from r_start outward",
+        examples=[[{"to": "6 mm", "size": "0.5 mm"}, {"to": "8 cm", "ratio": 1.1}]],
+    )
+    z: tuple[Segment, ...] = Field(
+        min_length=1, description="segments from z_start upward", examples=[[{"to": "10 cm", "cells": 400}]]
+    )
     follow: str | None = Field(
         None, description="a body that the whole mesh travels with along z; what the deck has placed ahead enters in its turn; "
-        "default and none: the mesh stands still"
+        "default and none: the mesh stands still",
+        examples=["rod"],
     )
 
     @field_validator("follow")
@@ -106,10 +114,10 @@ class Boundaries(Section):
     r_max: Outer = Field("outflow", description="the outer edge")
     z_min: Lower = Field("outflow", description="the lower edge")
     z_max: Upper = Field("outflow", description="the upper edge")
-    r_min_velocity: Speed | None = Field(None, description='radial velocity at r_min = "velocity"')
-    r_max_velocity: Speed | None = Field(None, description='radial velocity at r_max = "velocity"')
-    z_min_velocity: Speed | None = Field(None, description='axial velocity at z_min = "velocity"')
-    z_max_velocity: Speed | None = Field(None, description='axial velocity at z_max = "velocity"')
+    r_min_velocity: Speed | None = Field(None, description='radial velocity at r_min = "velocity"', examples=["0 m/s"])
+    r_max_velocity: Speed | None = Field(None, description='radial velocity at r_max = "velocity"', examples=["-10 m/s"])
+    z_min_velocity: Speed | None = Field(None, description='axial velocity at z_min = "velocity"', examples=["100 m/s"])
+    z_max_velocity: Speed | None = Field(None, description='axial velocity at z_max = "velocity"', examples=["-100 m/s"])
 
 
 class Numerics(Section):
@@ -117,42 +125,48 @@ class Numerics(Section):
 
     advection: Literal["ke", "momentum", "both"] = Field("ke", description="what the remap of velocities conserves")
     ke_bound: Annotated[float, within(1.0, 1e12, "below 1 a vertex could not keep the velocity of its own momentum")] = Field(
-        1.05, description="bound of |u| over |momentum/mass| in the ke remap"
+        1.05, description="bound of |u| over |momentum/mass| in the ke remap", examples=[1.1]
     )
     courant: Annotated[float, within(1e-3, 0.8, "beyond 0.8 the step is not stable where cells are mixed or viscous")] = Field(
-        0.5, description="time step over that of the fastest wave"
+        0.5, description="time step over that of the fastest wave", examples=[0.4]
     )
-    advective_courant: PositiveNumber = Field(0.4, le=0.5, description="largest share of a cell crossed in one step")
+    advective_courant: PositiveNumber = Field(
+        0.4, le=0.5, description="largest share of a cell crossed in one step", examples=[0.3]
+    )
     max_growth: Annotated[float, within(1.0, 2.0, "a step that grows faster overtakes what sets it")] = Field(
-        1.1, description="largest ratio of successive time steps"
+        1.1, description="largest ratio of successive time steps", examples=[1.05]
     )
     ramp_cycles: int = Field(
-        100, ge=0, le=1_000_000, description="cycles over which the time step rises from its initial factor")
-    initial_dt_factor: Fraction = Field(0.1, gt=0, description="first time step over the stable one")
-    dt_min: Time = Field(1e-14, description="a time step below this ends the run as unphysical")
+        100, ge=0, le=1_000_000, description="cycles over which the time step rises from its initial factor", examples=[200])
+    initial_dt_factor: Fraction = Field(0.1, gt=0, description="first time step over the stable one", examples=[0.05])
+    dt_min: Time = Field(1e-14, description="a time step below this ends the run as unphysical", examples=["1e-13 s"])
     viscosity_linear: Annotated[float, within(0.0, 2.0, "a viscosity beyond it is not stable at this time step")] = Field(
-        0.5, description="linear coefficient of the artificial viscosity"
+        0.5, description="linear coefficient of the artificial viscosity", examples=[0.2]
     )
     viscosity_quadratic: Annotated[float, within(0.0, 4.0, "a viscosity beyond it is not stable at this time step")] = Field(
-        1.3, description="quadratic coefficient of the artificial viscosity"
+        1.3, description="quadratic coefficient of the artificial viscosity", examples=[2.0]
     )
-    hourglass: NotNegative = Field(0.05, le=1, description="coefficient of the hourglass filter")
+    hourglass: NotNegative = Field(0.05, le=1, description="coefficient of the hourglass filter", examples=[0.1])
     mixed_cell: Literal["tipton", "uniform"] = Field("tipton", description="how materials share a volume change")
     relaxation: Annotated[float, within(1e-6, 1.0, "at 1 the pressures meet within a step, beyond it they overshoot")] = Field(
-        0.25, description="gamma of the pressure relaxation in mixed cells"
+        0.25, description="gamma of the pressure relaxation in mixed cells", examples=[0.5]
     )
     mixed_strength: Literal["volume", "solid", "zero", "max", "material"] = Field(
         "volume", description="strength of a mixed cell: shared by volume, by solids, none, the largest, each its own"
     )
-    trace: Fraction = Field(1e-8, lt=0.01, description="volume fractions below this are removed and booked")
-    mass_floor: Fraction = Field(1e-6, description="share of a vertex's full mass below which its velocity is limited")
+    trace: Fraction = Field(1e-8, lt=0.01, description="volume fractions below this are removed and booked", examples=[1e-09])
+    mass_floor: Fraction = Field(
+        1e-6, description="share of a vertex's full mass below which its velocity is limited", examples=[1e-05]
+    )
     clip_limit: Fraction = Field(
         0.02, description="share of the energy that a clip (removed traces, the bound of ke, the speed limit) may take before "
-        "the run ends as unphysical; a summary is trustworthy up to 0.02, whatever stands here"
+        "the run ends as unphysical; a summary is trustworthy up to 0.02, whatever stands here",
+        examples=[0.05],
     )
     active_region: bool = Field(True, description="skip cells that no signal has reached")
     interface_order: tuple[str, ...] = Field(
-        (), description="nesting of bodies in mixed cells; default: the hard bodies of a contact, then deck order"
+        (), description="nesting of bodies in mixed cells; default: the hard bodies of a contact, then deck order",
+        examples=[["rod", "plate"]],
     )
 
 
@@ -191,23 +205,28 @@ class Sliding(Section):
         "shear; contact: the hard bodies have velocities of their own",
     )
     hard: tuple[str, ...] = Field(
-        (), description="bodies that keep their own strength in mixed cells, or that a contact gives velocities of their own"
+        (), description="bodies that keep their own strength in mixed cells, or that a contact gives velocities of their own",
+        examples=[["rod"]],
     )
-    boundary_layer: Width = Field(2.0, description="soft material that moves with the hard body: cells, or a length")
-    slip_layer: Width = Field(2.0, description="soft material beyond it whose shear is cut: cells, or a length")
-    threshold: Fraction = Field(0.3, description="share of hard material from which a cell counts as hard")
+    boundary_layer: Width = Field(
+        2.0, description="soft material that moves with the hard body: cells, or a length", examples=["0.8 mm"]
+    )
+    slip_layer: Width = Field(2.0, description="soft material beyond it whose shear is cut: cells, or a length", examples=[3.0])
+    threshold: Fraction = Field(0.3, description="share of hard material from which a cell counts as hard", examples=[0.5])
     yield_factor: Factor = Field(
         "off",
         description='on the hard yield: ((R + w)/R)^2 ("radius"), with the density in cgs for R ("printed"), a number; '
         'a contact takes "off" or a number',
+        examples=["radius"],
     )
     shear: Literal["fluid", "shear"] = Field(
         "fluid", description="slip layer without deviator, or without shear along n"
     )
     friction: NotNegative = Field(
-        0.0, description='Coulomb coefficient at the interface of a contact, or in the slip layer with shear = "shear"'
+        0.0, description='Coulomb coefficient at the interface of a contact, or in the slip layer with shear = "shear"',
+        examples=[0.05],
     )
-    refresh: int = Field(5, ge=1, le=1_000_000, description="cycles between updates of the distance field")
+    refresh: int = Field(5, ge=1, le=1_000_000, description="cycles between updates of the distance field", examples=[10])
 
 
 class Failure(Section):
@@ -216,9 +235,12 @@ class Failure(Section):
     tensile: Literal["material", "none"] = Field("material", description="fracture pressure of each material, or never")
     damage: Literal["material", "none"] = Field("none", description="damage model of each material, or never")
     tension: Literal["mean", "min"] = Field("mean", description="fracture pressure of a mixed cell, by share or least")
-    max_opening: Fraction = Field(0.2, gt=0, description="largest share of a cell that becomes void in one cycle")
+    max_opening: Fraction = Field(
+        0.2, gt=0, description="largest share of a cell that becomes void in one cycle", examples=[0.1]
+    )
     loose: Fraction = Field(
-        0.94, lt=1, description="share of the reference density below which a material carries no shear; 0: never"
+        0.94, lt=1, description="share of the reference density below which a material carries no shear; 0: never",
+        examples=[0.9],
     )
 
 
@@ -228,10 +250,12 @@ class Stop(Section):
     Where the rod's speed, its rebound or perforation is watched, the run also ends when the rod has left the mesh.
     """
 
-    time: PositiveTime | None = Field(None, description="end time")
-    cycles: int | None = Field(None, gt=0, le=10**12, description="number of cycles")
-    body: str | None = Field(None, description="the body watched; default: the rod")
-    speed_below: PositiveSpeed | None = Field(None, description="axial speed of that body's centre of mass, of a rod's core")
+    time: PositiveTime | None = Field(None, description="end time", examples=["400 us"])
+    cycles: int | None = Field(None, gt=0, le=10**12, description="number of cycles", examples=[1000])
+    body: str | None = Field(None, description="the body watched; default: the rod", examples=["rod"])
+    speed_below: PositiveSpeed | None = Field(
+        None, description="axial speed of that body's centre of mass, of a rod's core", examples=["5 m/s"]
+    )
     rebound: bool = Field(False, description="stop when that body turns round")
     perforation: Literal[False, True, "tail"] = Field(
         False, description="stop when the rod's nose is the rod's radius beyond the last target's rear, or its tail beyond that"
@@ -260,32 +284,42 @@ def _fields(keys: tuple[str, ...]) -> tuple[str, ...]:
 class Output(Section):
     """What is written, and how often."""
 
-    directory: Annotated[str, AfterValidator(_directory)] | None = Field(None, description="default: runs/<name of the deck>")
-    history_interval: PositiveTime | None = Field(None, description="default: a thousandth of the end time")
-    vtk_interval: PositiveTime | None = Field(None, description="default: a fiftieth of the end time")
-    restart_interval: PositiveTime = Field(300.0, description="wall-clock time between restart files")
+    directory: Annotated[str, AfterValidator(_directory)] | None = Field(
+        None, description="default: runs/<name of the deck>", examples=["runs/shot_4344"]
+    )
+    history_interval: PositiveTime | None = Field(
+        None, description="default: a thousandth of the end time", examples=["0.5 us"]
+    )
+    vtk_interval: PositiveTime | None = Field(None, description="default: a fiftieth of the end time", examples=["10 us"])
+    restart_interval: PositiveTime = Field(300.0, description="wall-clock time between restart files", examples=["10 min"])
     fields: Annotated[tuple[str, ...], AfterValidator(_fields)] = Field(
-        ("standard",), description="fields of the VTK files, by name"
+        ("standard",), description="fields of the VTK files, by name", examples=[["pressure", "von_mises", "velocity"]]
     )
 
 
 class Tracer(Section):
     """A point that moves with the material."""
 
-    name: Name = Field(description="name of the tracer in the history")
-    r: Length = Field(description="radial position at time zero")
-    z: Length = Field(description="axial position at time zero")
+    name: Name = Field(description="name of the tracer in the history", examples=["tail"])
+    r: Length = Field(description="radial position at time zero", examples=["0 mm"])
+    z: Length = Field(description="axial position at time zero", examples=["-97 mm"])
 
 
 class Gauge(Section):
     """A point that stands still, or a line of them, from (r, z) to (r_end, z_end)."""
 
-    name: Name = Field(description="name of the gauge in the history; the points of a line are NAME_1, NAME_2 and so on")
-    r: Length = Field(description="radial position")
-    z: Length = Field(description="axial position")
-    r_end: Length | None = Field(None, description="radial position of the last point of a line; default: that of the first")
-    z_end: Length | None = Field(None, description="axial position of the last point of a line; default: that of the first")
-    points: int = Field(1, ge=1, le=10_000, description="number of points of the line, the ends included")
+    name: Name = Field(
+        description="name of the gauge in the history; the points of a line are NAME_1, NAME_2 and so on", examples=["inside"]
+    )
+    r: Length = Field(description="radial position", examples=["0 mm"])
+    z: Length = Field(description="axial position", examples=["2 cm"])
+    r_end: Length | None = Field(
+        None, description="radial position of the last point of a line; default: that of the first", examples=["0 mm"]
+    )
+    z_end: Length | None = Field(
+        None, description="axial position of the last point of a line; default: that of the first", examples=["10 cm"]
+    )
+    points: int = Field(1, ge=1, le=10_000, description="number of points of the line, the ends included", examples=[9])
 
     @model_validator(mode="after")
     def _line(self) -> Gauge:
@@ -310,22 +344,33 @@ class Experiment(Section):
     the shot's, the resolved deck has no experiment.
     """
 
-    velocity: PositiveSpeed | None = Field(None, description="impact velocity of the shot; default: whatever the rod has")
-    target: str | None = Field(None, description="material that was shot at; default: whatever the target is made of")
-    penetration: PositiveLength | None = Field(None, description="depth below the original surface")
+    velocity: PositiveSpeed | None = Field(
+        None, description="impact velocity of the shot; default: whatever the rod has", examples=["1086 m/s"]
+    )
+    target: str | None = Field(
+        None, description="material that was shot at; default: whatever the target is made of", examples=["Al5083"]
+    )
+    penetration: PositiveLength | None = Field(None, description="depth below the original surface", examples=["44.8 cm"])
     qualifier: Literal["measured", "estimated", "at least"] = Field("measured", description="what the depth is")
-    source: str = Field(min_length=1, description="where the number comes from")
+    source: str = Field(
+        min_length=1, description="where the number comes from", examples=["Scheffler, CTH nose-shape study, Table 2"]
+    )
 
 
 class Penetration(Section):
     """What the penetration depth is measured between."""
 
-    rod: str = Field(description="the body that penetrates")
-    target: str | None = Field(None, description="the body that is penetrated; the first of them where there are several")
-    targets: tuple[str, ...] = Field(
-        (), description="the bodies that are penetrated, in the order in which the rod meets them; default: target alone"
+    rod: str = Field(description="the body that penetrates", examples=["rod"])
+    target: str | None = Field(
+        None, description="the body that is penetrated; the first of them where there are several", examples=["plate"]
     )
-    surface: Length | None = Field(None, description="where the first target's face was; default: its face in the deck")
+    targets: tuple[str, ...] = Field(
+        (), description="the bodies that are penetrated, in the order in which the rod meets them; default: target alone",
+        examples=[["front", "rear"]],
+    )
+    surface: Length | None = Field(
+        None, description="where the first target's face was; default: its face in the deck", examples=["0 mm"]
+    )
 
     @model_validator(mode="after")
     def _has_a_target(self):
@@ -349,8 +394,10 @@ class Deck(Section):
     ``deck.body[0].velocity``.
     """
 
-    name: Name = Field("deck", description="name of the run; default: that of the file")
-    title: str = Field("", description="a line for logs and pictures")
+    name: Name = Field("deck", description="name of the run; default: that of the file", examples=["shot_4344"])
+    title: str = Field(
+        "", description="a line for logs and pictures", examples=["Shot 4344: hemispherical nose, 5083 aluminium, 1086 m/s"]
+    )
     mesh: Mesh
     boundaries: Boundaries = Boundaries()
     body: tuple[AnyBody, ...] = Field(min_length=1, description="bodies; the first has the place where they overlap")

@@ -3,14 +3,22 @@
 import ast
 import functools
 import importlib.util
+import json
 import re
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+from typing import Annotated
 
 import pytest
+from pydantic import TypeAdapter
 
 import eos
 import hydro2d
 import strength
-from hydro2d.deck import deck
+from hydro2d import units
+from hydro2d.deck import bodies, deck, sections
 from hydro2d.materials import library
 from hydro2d.mesh import edges, fields, quantities
 from hydro2d.penetration import catalogue
@@ -125,11 +133,18 @@ def test_every_choice_of_method_is_explained(page, section, key):
 
 
 @functools.cache
+def generator():
+    """The module that writes the reference."""
+    sys.path.insert(0, str(DOCS))
+    try:
+        return importlib.import_module("_generate")
+    finally:
+        sys.path.remove(str(DOCS))
+
+
+@functools.cache
 def generated() -> dict[str, str]:
-    spec = importlib.util.spec_from_file_location("_generate", DOCS / "_generate.py")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module.pages()
+    return generator().pages()
 
 
 def test_the_reference_has_everything():
@@ -142,8 +157,168 @@ def test_the_reference_has_everything():
     assert [key for key in deck.schema()["properties"] if key not in pages["deck.md"]] == []
     assert [entry.name for entry in edges.BOUNDARIES if f"| `{entry.name}` |" not in pages["deck.md"]] == []
     assert [name for name in catalogue.MODELS if f"## `{name}`" not in pages["penetration-models.md"]] == []
-    assert "hydro2d run" in pages["commands.md"]
-    assert "hydro2d model transition" in pages["commands.md"]
+    assert [name for name in getattr(hydro2d, "__all__", ()) if f"hydro2d.{name}\n" not in pages["api.md"]] == []
+
+
+def test_docstrings_have_their_arguments_as_definitions():
+    generator()
+    docstrings = importlib.import_module("_pages.docstrings")
+    lines = [
+        "Runs.", "", "deck, out : where", "    it is", "**keys : more", "", "Raises Error.", "", "Attributes", "----------",
+        "rows : int", "    how many", "left : what is left",
+    ]  # fmt: skip
+    assert docstrings.converted(lines) == [
+        "Runs.", "", "deck, out", "    where", "    it is", r"\*\*keys", "    more", "", "Raises Error.", "",
+        ".. rubric:: Attributes", "", "rows : int", "    how many", "left", "    what is left", "",
+    ]  # fmt: skip
+    prose = ["The name: that of the file.", "It is short."]
+    assert docstrings.converted(prose) == [*prose, ""]
+
+
+def test_the_page_of_commands_has_every_command_and_argument():
+    from hydro2d.cli import main
+
+    page = generated()["commands.md"]
+    names = [name for name in main.app if not name.startswith("-")]
+    assert [name for name in [*names, "model transition"] if f"## `hydro2d {name}`\n" not in page] == []
+    for name in names:
+        text = page.split(f"## `hydro2d {name}`\n")[1].split("\n## ")[0]
+        arguments = main.app[name].assemble_argument_collection(parse_docstring=True)
+        shown = [entry.names[0].lstrip("-").upper() if entry.index is not None else entry.names[0] for entry in arguments]
+        assert [word for word in shown if f"| `{word}" not in text] == []
+    assert "| `--set` | text, several |" in page
+    assert "| `--kind` | `section`, `history`, `cutaway`, `crater` | `section` |" in page
+
+
+def test_the_page_of_materials_has_every_source_in_full():
+    page = generated()["materials.md"].replace("\\", "")
+    lost = []
+    for name in library.names():
+        for material in (library.load(name, variant) for variant in (None, *library.load(name).variants)):
+            parts = (material.eos, material.strength, material.damage)
+            numbers = [number for part in parts for number in part.numbers.values()]
+            lost += [f"{name}: {text}" for number in numbers for text in (number.source, number.note) if text not in page]
+    assert lost == []
+
+
+def sections_of_the_page() -> dict[str, dict[str, str]]:
+    """Examples of the page of deck keys: heading -> key -> line of a deck."""
+    found = {}
+    for part in generated()["deck.md"].split("\n## ")[1:]:
+        heading, *rows = part.splitlines()
+        cells = [re.split(r"(?<!\\) \| ", row) for row in rows if row.startswith("| `")]
+        if not heading.startswith("Boundary"):
+            found[heading] = {row[0].strip("| `"): row[4].strip("`").replace("\\|", "|") for row in cells}
+    return found
+
+
+#: sections of the page of deck keys and the classes that check them
+SECTIONS = {
+    "Top level": sections.Deck, "`[mesh]`": sections.Mesh, "`[boundaries]`": sections.Boundaries,
+    "`[numerics]`": sections.Numerics, "`[sliding]`": sections.Sliding, "`[failure]`": sections.Failure,
+    "`[stop]`": sections.Stop, "`[output]`": sections.Output, "`[[tracer]]`": sections.Tracer, "`[[gauge]]`": sections.Gauge,
+    "`[experiment]`": sections.Experiment, "`[penetration]`": sections.Penetration,
+    "Segment: a table of `mesh.r` and `mesh.z`": sections.Segment, "Flow: a table of `body.flow`": bodies.Flow,
+    **{f'`[[body]]` with `shape = "{shape}"`': kind for shape, kind in bodies.SHAPES.items()},
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("heading", SECTIONS)
+def test_the_example_of_every_key_is_valid(heading):
+    """Each line is parsed and held against the type and the bounds of its key, as they stand in the code."""
+    lines, kind = sections_of_the_page()[heading], SECTIONS[heading]
+    tables = {"mesh", "boundaries", "body", "materials", "numerics", "sliding", "failure", "stop", "output", "tracer", "gauge",
+              "experiment", "penetration"} if kind is sections.Deck else set()  # fmt: skip
+    assert set(lines) - {"include"} == set(kind.model_fields) - tables
+    for key, line in lines.items():
+        value = tomllib.loads(line)[key]
+        if key != "include":
+            field = kind.model_fields[key]
+            TypeAdapter(Annotated[field.annotation, field]).validate_python(value)
+
+
+def test_an_example_that_is_not_valid_is_found():
+    field = sections.Numerics.model_fields["courant"]
+    with pytest.raises(ValueError, match=r"beyond 0\.8"):
+        TypeAdapter(Annotated[field.annotation, field]).validate_python(0.9)
+
+
+def test_examples_of_materials_are_valid():
+    """Numbers are held against the parameters of the models, the keys of a material against the library."""
+    page = sections_of_the_page()
+    kinds = {"Eos": eos.MODELS, "Strength": strength.STRENGTH_MODELS, "Damage": strength.DAMAGE_MODELS}
+    for name, models in kinds.items():
+        lines = page[f"{name}: a table of `materials.{name.lower()}`"]
+        for key, line in lines.items():
+            value = tomllib.loads(line)[key]
+            for parameter in (entry for model in models.values() for entry in model.PARAMETERS if entry.name == key):
+                parameter.check(units.to_si(value, parameter.unit or "1"))
+    for key, line in page["`[materials.NAME]`"].items():
+        table = {"based_on": "W_alloy", **tomllib.loads(line)}
+        assert library.from_deck("mine", {"mine": table}, lambda path, text: ValueError(f"{path}: {text}")), key
+
+
+def test_every_key_has_an_example():
+    empty = [f"{heading} {key}" for heading, lines in sections_of_the_page().items() for key, line in lines.items() if not line]
+    assert empty == []
+    assert sum(map(len, sections_of_the_page().values())) > 150
+
+
+def test_declared_examples_are_those_of_the_schema():
+    schema = deck.schema()
+    parts = [part for section in schema["$defs"].values() for part in section.get("properties", {}).values()]
+    declared = [part["examples"] for part in parts if "examples" in part]
+    assert len(declared) > 50
+    assert all(isinstance(entry, list) and entry for entry in declared)
+
+
+NEEDED = ("sphinx", "myst_nb", "furo", "sphinx-mathjax-offline")
+
+
+@pytest.fixture(scope="module")
+def built(tmp_path_factory) -> Path:
+    """The pages as a browser gets them, built with every warning an error."""
+    lost = [name for name in NEEDED if importlib.util.find_spec(name) is None]
+    if lost:
+        pytest.skip(f"the extra [docs] is not installed: no {', '.join(lost)}")
+    folder = tmp_path_factory.mktemp("pages") / "html"
+    command = [sys.executable, "-m", "sphinx", "-q", "-W", "--keep-going", str(DOCS), str(folder)]
+    done = subprocess.run(command, capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout + done.stderr
+    return folder
+
+
+#: what a browser fetches by itself; links that a reader follows are not among it
+FETCHED = re.compile(
+    r"<(?:script|img|iframe|source|video|audio|embed)\b[^>]*\ssrc=[\"']?(?:https?:)?//"
+    r"|<link\b(?![^>]*rel=[\"'](?:canonical|license|author))[^>]*\shref=[\"']?(?:https?:)?//"
+    r"|url\([\"']?(?:https?:)?//|@import\s+[\"'](?:https?:)?//"
+)
+
+
+def test_what_is_fetched_is_told_from_links():
+    assert FETCHED.search('<script defer src="https://cdn.jsdelivr.net/npm/mathjax@4/tex-mml-chtml.js">')
+    assert FETCHED.search('<link rel="stylesheet" href="//fonts.example.org/a.css" />')
+    assert FETCHED.search("@font-face { src: url(https://fonts.example.org/a.woff2) }")
+    assert not FETCHED.search('<a href="https://www.sphinx-doc.org/">Sphinx</a> <script src="_static/doctools.js">')
+
+
+@pytest.mark.slow
+def test_pages_fetch_nothing_from_another_host(built):
+    files = [*built.rglob("*.html"), *built.rglob("*.css")]
+    assert [str(file) for file in files if FETCHED.search(file.read_text(encoding="utf-8"))] == []
+    page = (built / "explanation" / "remap.html").read_text(encoding="utf-8")
+    script = re.search(r'src="([^"]*mathjax[^"]*)"', page)[1]
+    assert (built / "explanation" / script).resolve().is_file()
+
+
+@pytest.mark.slow
+def test_search_knows_the_reference(built):
+    text = (built / "searchindex.js").read_text(encoding="utf-8")
+    index = json.loads(text[text.index("{") : text.rindex("}") + 1])
+    pages = {f"reference/generated/{name.removesuffix('.md')}" for name in generated()}
+    assert pages - set(index["docnames"]) == set()
+    assert {"courant", "weldox"} - set(index["terms"]) == set()
 
 
 def test_every_key_of_a_deck_says_what_it_is():
@@ -157,7 +332,8 @@ def test_every_key_of_a_deck_says_what_it_is():
 
 @pytest.mark.parametrize("file", WRITTEN, ids=name_of)
 def test_links_lead_somewhere(file):
-    made = {f"generated/{name}" for name in [*generated(), *(f"models/{name}.png" for name in catalogue.MODELS)]}
+    figures = [f"models/{name}.png" for name in catalogue.MODELS] + [f"shapes/{name}.png" for name in generator().SHAPES]
+    made = {f"generated/{name}" for name in [*generated(), *figures]}
     lost = []
     for target in re.findall(r"\]\(([^)#]+)(?:#[^)]*)?\)", file.read_text(encoding="utf-8")):
         if "://" in target:

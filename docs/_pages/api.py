@@ -1,0 +1,31 @@
+"""The page of the Python interface: what `hydro2d.__all__` names, from its docstrings, by autodoc."""
+
+from __future__ import annotations
+
+import inspect
+
+from _pages.markdown import NOTE
+
+
+def page() -> str:
+    """A directive of autodoc for each public name, in the order of ``__all__``."""
+    import hydro2d
+
+    lead = (
+        f"{NOTE} These names are what programs can rely on: `import hydro2d` gives all of them. Arrays have their shapes, "
+        "quantities their units; everything is in SI."
+    )
+    names = getattr(hydro2d, "__all__", ("load",))
+    return "\n\n".join(["# Python interface", lead, *(directive(f"hydro2d.{name}", getattr(hydro2d, name)) for name in names)])
+
+
+def directive(path: str, thing) -> str:
+    """A heading and the directive that documents a function, a class with its members, a module, or a value."""
+    text, options, kind = "", [], "autofunction" if callable(thing) else "autodata"
+    if inspect.isclass(thing) or inspect.ismodule(thing):
+        kind, options = "autoclass" if inspect.isclass(thing) else "automodule", ["   :members:"]
+    signature = path
+    if hasattr(thing, "model_fields"):  # a table of the deck: its keys have a page of their own
+        text, signature = "[Deck keys](deck.md) has what it holds.\n\n", f"{path}(**keys)"
+        options.append("   :exclude-members: model_config")
+    return "\n".join([f"## `{path}`", "", f"{text}```{{eval-rst}}", f".. {kind}:: {signature}", *options, "```"])
