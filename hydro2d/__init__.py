@@ -2,8 +2,8 @@
 
     import hydro2d
 
-    deck = hydro2d.Deck.from_file("problems/cth_nose_shape/quick.toml", {"body.rod.velocity": "1100 m/s"})
-    shot = hydro2d.run(deck, "runs/first")
+    deck = hydro2d.Deck.from_file("problems/perforation/sphere.toml", {"body.ball.velocity": "1200 m/s"})
+    shot = hydro2d.run(deck, "runs/ball")
     shot.summary["penetration_depth_m"]
 """
 
@@ -15,8 +15,8 @@ from typing import TYPE_CHECKING
 __version__ = "0.1.0"
 
 if TYPE_CHECKING:
-    from hydro2d.api import open_run, open_study, run, sweep
-    from hydro2d.deck.sections import Deck
+    from hydro2d.api import Study, open_run, open_study, run, sweep
+    from hydro2d.deck.deck import Deck
     from hydro2d.errors import DeckError
     from hydro2d.results.reading import Results, ResultsError
     from hydro2d.running.run import RunError
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 #: where the public names are: imported when they are asked for, so that `import hydro2d` costs nothing
 _PLACES = {
-    "Deck": "hydro2d.deck.sections",
+    "Deck": "hydro2d.deck.deck",
     "Simulation": "hydro2d.solver.simulation",
     "every": "hydro2d.solver.callbacks",
     "run": "hydro2d.api",
@@ -34,6 +34,7 @@ _PLACES = {
     "Results": "hydro2d.results.reading",
     "sweep": "hydro2d.api",
     "open_study": "hydro2d.api",
+    "Study": "hydro2d.api",
     "DeckError": "hydro2d.errors",
     "RunError": "hydro2d.running.run",
     "UnphysicalState": "hydro2d.solver.simulation",
@@ -48,6 +49,7 @@ __all__ = [
     "ResultsError",
     "RunError",
     "Simulation",
+    "Study",
     "StudyError",
     "UnphysicalState",
     "every",

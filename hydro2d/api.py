@@ -11,12 +11,12 @@ from typing import TYPE_CHECKING, Any
 
 from hydro2d import toml
 from hydro2d.deck import deck as decks
-from hydro2d.deck.sections import Deck
+from hydro2d.deck.deck import Deck
 from hydro2d.files import write_text
 from hydro2d.results.reading import Results
 from hydro2d.running import run as runs
 from hydro2d.solver.simulation import Simulation, UnphysicalState
-from hydro2d.study import cases, cluster, layout
+from hydro2d.study import cases, cluster, contents, layout
 from hydro2d.study import sweep as sweeps
 from hydro2d.study.choice import Choice
 from hydro2d.study.definition import StudyError
@@ -24,7 +24,7 @@ from hydro2d.study.definition import StudyError
 if TYPE_CHECKING:
     import pandas
 
-__all__ = ["open_run", "open_study", "run", "sweep"]
+__all__ = ["Study", "open_run", "open_study", "run", "sweep"]
 
 #: the base deck of a study of a Deck, in its directory
 BASE = "base.toml"
@@ -71,13 +71,26 @@ def open_run(directory: str | Path) -> Results:
     return Results(directory)
 
 
-def open_study(directory: str | Path) -> layout.Study:
-    """Opens a study directory, or a run or a folder of runs as a study, in any state of completion.
+class Study(layout.Study):
+    """A study directory, or runs that were put together, as `open_study` reads it.
 
-    ``cases`` of the result has each case with its values, its status, its summary and its directory; ``table()`` gives a
-    pandas.DataFrame. Raises StudyError.
+    Attributes
+    ----------
+    title, name : of the study
+    axes : what it varies, in the order of its file; empty for a folder of runs
+    cases : each with its name, its values on the axes, its status, its directory, and its summary once it has ended
     """
-    return layout.load(Path(directory))
+
+    def table(self) -> pandas.DataFrame:
+        """A row for each case, by its name: axes, status, results, experiment, conservation, cost; SI units."""
+        import pandas
+
+        return pandas.DataFrame(contents.collect(self).rows).set_index("case")
+
+
+def open_study(directory: str | Path) -> Study:
+    """Opens a study directory, or a run or a folder of runs as a study, in any state of completion. Raises StudyError."""
+    return Study(**vars(layout.load(Path(directory))))
 
 
 def sweep(study: str | Path | Deck, axes: Mapping[str, Sequence[Any]] | None = None, *, directory: str | Path | None = None,

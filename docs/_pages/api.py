@@ -15,8 +15,8 @@ def page() -> str:
         f"{NOTE} These names are what programs can rely on: `import hydro2d` gives all of them. Arrays have their shapes, "
         "quantities their units; everything is in SI."
     )
-    names = getattr(hydro2d, "__all__", ("load",))
-    return "\n\n".join(["# Python interface", lead, *(directive(f"hydro2d.{name}", getattr(hydro2d, name)) for name in names)])
+    directives = (directive(f"hydro2d.{name}", getattr(hydro2d, name)) for name in hydro2d.__all__)
+    return "\n\n".join(["# Python interface", lead, *directives])
 
 
 def directive(path: str, thing) -> str:
@@ -24,8 +24,8 @@ def directive(path: str, thing) -> str:
     text, options, kind = "", [], "autofunction" if callable(thing) else "autodata"
     if inspect.isclass(thing) or inspect.ismodule(thing):
         kind, options = "autoclass" if inspect.isclass(thing) else "automodule", ["   :members:"]
-    signature = path
+    signature = ""
     if hasattr(thing, "model_fields"):  # a table of the deck: its keys have a page of their own
-        text, signature = "[Deck keys](deck.md) has what it holds.\n\n", f"{path}(**keys)"
-        options.append("   :exclude-members: model_config")
-    return "\n".join([f"## `{path}`", "", f"{text}```{{eval-rst}}", f".. {kind}:: {signature}", *options, "```"])
+        text, signature = "[Deck keys](deck.md) has what it holds.\n\n", "()"
+        options = ["   :members: from_file, from_toml, from_dict, to_toml"]
+    return "\n".join([f"## `{path}`", "", f"{text}```{{eval-rst}}", f".. {kind}:: {path}{signature}", *options, "```"])

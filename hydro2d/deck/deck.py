@@ -13,14 +13,14 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from pydantic import ValidationError
+from pydantic import ValidationError, ValidationInfo, model_validator
 
 from hydro2d import toml, units
+from hydro2d.deck import sections
 from hydro2d.deck.base import Section
 from hydro2d.deck.bodies import SHAPES
 from hydro2d.deck.checks import extent, faces, heading, inconsistencies, room, travel, unsupported
 from hydro2d.deck.mesh import axis_edges, body, body_radius
-from hydro2d.deck.sections import RESOLVING, Deck
 from hydro2d.deck.warnings import warnings
 from hydro2d.errors import DeckError, Sources, entry_index, spelled, unknown
 from hydro2d.materials import library
@@ -48,6 +48,72 @@ __all__ = [
     "yield_factor",
 ]
 
+#: what is laid over a deck: "key=value" of a command line, or values by their dotted keys
+Overrides = Sequence[str] | Mapping[str, Any]
+
+#: the context in which a Deck is validated by those who then resolve its defaults
+_RESOLVING = {"resolving": True}
+
+
+class Deck(sections.Deck):
+    """An input deck: validated, with every default written out, all numbers in SI units. It never changes.
+
+    Made by `from_file`, `from_toml` or `from_dict`. Sections are attributes: ``deck.numerics.courant``,
+    ``deck.body[0].velocity``.
+    """
+
+    @model_validator(mode="before")
+    @classmethod
+    def _is_resolved(cls, data: Any, info: ValidationInfo) -> Any:
+        """Refuses a Deck whose defaults nobody would resolve and whose consistency nobody would check."""
+        if info.context is not _RESOLVING:
+            raise DeckError("a Deck is made by Deck.from_file, Deck.from_toml or Deck.from_dict, not by its class")
+        return data
+
+    @classmethod
+    def from_file(cls, path: str | Path, overrides: Overrides = ()) -> Deck:
+        """Reads a deck file.
+
+        Parameters
+        ----------
+        path : str or Path
+            A TOML file, or the path of a deck that hydro2d ships, such as ``problems/perforation/sphere.toml``.
+        overrides : dict or list of str
+            Values by dotted key, laid over the deck: ``{"body.rod.velocity": "1200 m/s", "stop.time": 50e-6}``. A list holds
+            ``"key=value"`` as the option ``--set`` of the command line. Numbers are in SI units, text may name its unit.
+
+        Raises
+        ------
+        DeckError
+            The file or its contents are wrong. The message has a line for each mistake: file, line, key, what is allowed.
+        """
+        return load(path, overrides)
+
+    @classmethod
+    def from_toml(cls, text: str, overrides: Overrides = (), *, name: str = "deck",
+                  folder: str | Path = ".") -> Deck:  # fmt: skip
+        """Reads a deck from TOML text.
+
+        name : of the run, which names its directory
+        folder : where the files that the text includes are looked for
+        overrides : as in `from_file`
+
+        Raises DeckError.
+        """
+        return loads(text, overrides, name, folder)
+
+    @classmethod
+    def from_dict(cls, tables: Mapping[str, Any], overrides: Overrides = (), *, name: str = "deck",
+                  folder: str | Path = ".") -> Deck:  # fmt: skip
+        """Makes a deck of nested dicts and lists, which hold what a TOML file would.
+
+        name, folder, overrides : as in `from_toml`
+
+        Raises DeckError.
+        """
+        return of_tables(tables, overrides, name, folder)
+
+
 def find(path: str | Path) -> Path:
     """The deck file: as given, or among the decks that hydro2d ships; DeckError where there is none."""
     path = Path(path)
@@ -60,10 +126,6 @@ def find(path: str | Path) -> Path:
     folder = path.parent if path.parent.is_dir() else shipped
     decks = [str(file.relative_to(folder)) for file in folder.glob("*.toml" if folder != shipped else "*/*.toml")]
     raise DeckError(f"{path}: there is no such file; {unknown('deck', path.name, decks)}")
-
-
-#: what is laid over a deck: "key=value" of a command line, or values by their dotted keys
-Overrides = Sequence[str] | Mapping[str, Any]
 
 
 def load(path: str | Path, overrides: Overrides = ()) -> Deck:
@@ -136,7 +198,7 @@ def _resolve(data: dict, name: str, overrides: Overrides, sources: Sources) -> D
         return DeckError(f"{sources.where(path, data)}: {spelled(path)}: {message}")
 
     try:
-        deck = Deck.model_validate(data, context=RESOLVING)
+        deck = Deck.model_validate(data, context=_RESOLVING)
     except ValidationError as error:
         problems = [str(complaint(*_explained(entry, data))) for entry in _causes(error.errors())]
         problems += [str(complaint(path, message)) for path, message in _unknown_materials(data)]

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
-from pydantic import AfterValidator, BeforeValidator, Field, ValidationInfo, WithJsonSchema, field_validator, model_validator
+from pydantic import AfterValidator, BeforeValidator, Field, WithJsonSchema, field_validator, model_validator
 
 from hydro2d import units
 from hydro2d.deck.base import (
@@ -24,7 +22,6 @@ from hydro2d.deck.base import (
     within,
 )
 from hydro2d.deck.bodies import AnyBody
-from hydro2d.errors import DeckError
 from hydro2d.mesh.edges import words
 
 _SEGMENTS = (
@@ -383,16 +380,8 @@ class Penetration(Section):
         return self
 
 
-#: the context in which a Deck is validated by those who then resolve its defaults
-RESOLVING = {"resolving": True}
-
-
 class Deck(Section):
-    """An input deck: validated, with every default written out, all numbers in SI units. It never changes.
-
-    Made by `from_file`, `from_toml` or `from_dict`. Sections are attributes: ``deck.numerics.courant``,
-    ``deck.body[0].velocity``.
-    """
+    """The tables of an input deck, in SI units. Sections are attributes: deck.numerics.courant, deck.body[0].name."""
 
     name: Name = Field("deck", description="name of the run; default: that of the file", examples=["shot_4344"])
     title: str = Field(
@@ -411,63 +400,6 @@ class Deck(Section):
     gauge: tuple[Gauge, ...] = ()
     experiment: Experiment | None = None
     penetration: Penetration | None = None
-
-    @model_validator(mode="before")
-    @classmethod
-    def _is_resolved(cls, data, info: ValidationInfo):
-        """Refuses a Deck whose defaults nobody would resolve and whose consistency nobody would check."""
-        if info.context is not RESOLVING:
-            raise DeckError("a Deck is made by Deck.from_file, Deck.from_toml or Deck.from_dict, not by its class")
-        return data
-
-    @classmethod
-    def from_file(cls, path: str | Path, overrides: Mapping[str, Any] | Sequence[str] = ()) -> Deck:
-        """Reads a deck file.
-
-        Parameters
-        ----------
-        path : str or Path
-            A TOML file, or the path of a deck that hydro2d ships, such as ``problems/quick/rod.toml``.
-        overrides : dict or list of str
-            Values by dotted key, laid over the deck: ``{"body.rod.velocity": "1200 m/s", "stop.time": 50e-6}``. A list holds
-            ``"key=value"`` as the option ``--set`` of the command line. Numbers are in SI units, text may name its unit.
-
-        Raises
-        ------
-        DeckError
-            The file or its contents are wrong. The message has a line for each mistake: file, line, key, what is allowed.
-        """
-        from hydro2d.deck import deck
-
-        return deck.load(path, overrides)
-
-    @classmethod
-    def from_toml(cls, text: str, overrides: Mapping[str, Any] | Sequence[str] = (), *, name: str = "deck",
-                  folder: str | Path = ".") -> Deck:  # fmt: skip
-        """Reads a deck from TOML text.
-
-        name : of the run, which names its directory
-        folder : where the files that the text includes are looked for
-        overrides : as in `from_file`
-
-        Raises DeckError.
-        """
-        from hydro2d.deck import deck
-
-        return deck.loads(text, overrides, name, folder)
-
-    @classmethod
-    def from_dict(cls, tables: Mapping[str, Any], overrides: Mapping[str, Any] | Sequence[str] = (), *, name: str = "deck",
-                  folder: str | Path = ".") -> Deck:  # fmt: skip
-        """Makes a deck of nested dicts and lists, which hold what a TOML file would.
-
-        name, folder, overrides : as in `from_toml`
-
-        Raises DeckError.
-        """
-        from hydro2d.deck import deck
-
-        return deck.of_tables(tables, overrides, name, folder)
 
     def to_toml(self) -> str:
         """The deck with every default written out and its materials in full; loading it gives the same deck."""

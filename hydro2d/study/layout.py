@@ -18,7 +18,6 @@ import tomllib
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from hydro2d import __version__
 from hydro2d.errors import nearest
@@ -29,9 +28,6 @@ from hydro2d.results.summaries import plausible
 from hydro2d.running import run
 from hydro2d.study import velocities
 from hydro2d.study.definition import StudyError
-
-if TYPE_CHECKING:
-    import pandas
 
 TEXT, CASES, LOG, LOCK = "study.toml", "cases", "sweep.log", "study.lock"
 FAILED = "failed.json"
@@ -118,14 +114,6 @@ class Study:
     def case(self, number: int) -> Case:
         """One case of a study directory, read again."""
         return _case(self.directory, self.entries[number])
-
-    def table(self) -> pandas.DataFrame:
-        """A row for each case, by its name: axes, status, results, experiment, conservation, cost; SI units."""
-        import pandas
-
-        from hydro2d.study.contents import collect
-
-        return pandas.DataFrame(collect(self).rows).set_index("case")
 
 
 def make(directory: Path) -> None:

@@ -46,7 +46,7 @@ def faults(notebook):
 
 
 def test_there_is_a_notebook():
-    assert [file.stem for file in NOTEBOOKS] == ["look-at-a-run"]
+    assert [file.stem for file in NOTEBOOKS] == ["calibrate-a-bar", "look-at-a-run"]
 
 
 @pytest.mark.parametrize("file", NOTEBOOKS, ids=lambda file: file.stem)

@@ -41,12 +41,20 @@ def tree(file: Path) -> ast.Module:
     return ast.parse(file.read_text(encoding="utf-8"), str(file))
 
 
+def _executed(syntax: ast.AST) -> Iterator[ast.AST]:
+    """All nodes without those that only a checker of types sees: `if TYPE_CHECKING:`."""
+    yield syntax
+    for node in ast.iter_child_nodes(syntax):
+        if not (isinstance(node, ast.If) and ast.unparse(node.test) == "TYPE_CHECKING"):
+            yield from _executed(node)
+
+
 def imports(syntax: ast.AST, known: frozenset[str]) -> Iterator[tuple[str, int]]:
     """Modules that a module imports anywhere, also inside functions, with the line of each; no import is relative.
 
     ``from package import thing`` counts as package.thing where that is a module of ``known``.
     """
-    for node in ast.walk(syntax):
+    for node in _executed(syntax):
         if isinstance(node, ast.Import):
             for alias in node.names:
                 yield alias.name, node.lineno

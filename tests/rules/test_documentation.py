@@ -157,7 +157,7 @@ def test_the_reference_has_everything():
     assert [key for key in deck.schema()["properties"] if key not in pages["deck.md"]] == []
     assert [entry.name for entry in edges.BOUNDARIES if f"| `{entry.name}` |" not in pages["deck.md"]] == []
     assert [name for name in catalogue.MODELS if f"## `{name}`" not in pages["penetration-models.md"]] == []
-    assert [name for name in getattr(hydro2d, "__all__", ()) if f"hydro2d.{name}\n" not in pages["api.md"]] == []
+    assert [name for name in getattr(hydro2d, "__all__", ()) if f"## `hydro2d.{name}`" not in pages["api.md"]] == []
 
 
 def test_docstrings_have_their_arguments_as_definitions():
@@ -234,13 +234,13 @@ def test_the_example_of_every_key_is_valid(heading):
         value = tomllib.loads(line)[key]
         if key != "include":
             field = kind.model_fields[key]
-            TypeAdapter(Annotated[field.annotation, field]).validate_python(value)
+            TypeAdapter(Annotated[(field.annotation, field, *field.metadata)]).validate_python(value)
 
 
 def test_an_example_that_is_not_valid_is_found():
     field = sections.Numerics.model_fields["courant"]
     with pytest.raises(ValueError, match=r"beyond 0\.8"):
-        TypeAdapter(Annotated[field.annotation, field]).validate_python(0.9)
+        TypeAdapter(Annotated[(field.annotation, field, *field.metadata)]).validate_python(0.9)
 
 
 def test_examples_of_materials_are_valid():

@@ -1,6 +1,5 @@
 """A run read back: history as tables, sections in the caller's axes, what it says of itself, what is not a run."""
 
-import sys
 
 import numpy as np
 import pytest
@@ -9,7 +8,7 @@ from matplotlib.figure import Figure
 
 import hydro2d
 from hydro2d.output import history, vtk
-from hydro2d.results import figures, reading
+from hydro2d.results import figures
 from hydro2d.results.reading import ResultsError
 from hydro2d.running.run import run as start
 from hydro2d.study import layout
@@ -97,22 +96,6 @@ def test_xarray_has_units(shot):
     assert data["rod_length_m"].dims == ("time",)
     assert (data["rod_length_m"].attrs["units"], data["time"].attrs["units"]) == ("m", "s")
     assert data["regime"].attrs["flag_meanings"] == "rigid deforming eroding left_the_mesh"
-
-
-@pytest.mark.parametrize(("method", "package"), [("to_pandas", "pandas"), ("to_xarray", "xarray")])
-def test_a_missing_package_is_one_clear_message(shot, monkeypatch, method, package):
-    monkeypatch.setitem(sys.modules, package, None)
-    with pytest.raises(ImportError, match=f"^this needs {package}, which is not installed: pip install {package}$"):
-        getattr(shot, method)()
-
-
-def test_a_package_that_is_broken_says_so_itself(shot, monkeypatch):
-    def broken(name):
-        raise ModuleNotFoundError("No module named 'dateutil'", name="dateutil")
-
-    monkeypatch.setattr(reading.importlib, "import_module", broken)
-    with pytest.raises(ModuleNotFoundError, match="dateutil"):
-        shot.to_pandas()
 
 
 def test_a_run_says_what_it_is(shot):
