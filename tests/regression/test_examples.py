@@ -242,9 +242,8 @@ def test_names_of_commands_exist(page):
 def test_toml_of_the_text_is_valid(page, folder):
     """Beside the decks of the nose shapes; what is not whole is laid over a deck or a search."""
     folder(page)
-    file = Path("problems/cth_nose_shape/example.toml")
     for line, _, text in of_kind(page, "toml"):
-        data = tomllib.loads(text)
+        data, file = tomllib.loads(text), Path(f"problems/cth_nose_shape/line_{line}.toml")
         if "transition" in data and "deck" not in data:
             text = toml.dumps(toml.merge(tomllib.loads(Path(SEARCH).read_text(encoding="utf-8")), data))
         elif not {"deck", "include", "mesh", "cores"} & set(data):
