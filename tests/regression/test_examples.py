@@ -98,7 +98,7 @@ def examples(text: str) -> list[tuple[int, str, str]]:
 
     def taken(match: re.Match, kind: str, block: str) -> str:
         """Keeps an example and returns blank lines for it."""
-        line = text.count("\n", 0, match.start()) + 1
+        line = text.count("\n", 0, match.start(match.lastindex or 0)) + 1
         if kind == "sh":
             found.extend((line + number, "sh", command) for number, command in commands(block))
         elif kind:
@@ -226,7 +226,7 @@ def test_examples_run(page, folder, capsys):
     names = {"__name__": page}
     for line, kind, text in of_kind(page, "sh", "python"):
         if kind == "python":
-            exec(compile("\n" * line + text, page, "exec"), names)
+            exec(compile("\n" * (line - 1) + text, page, "exec"), names)
         elif not text.startswith(tuple(NOT_RUN)):
             assert run(text) == 0, f"{page}:{line}: {text}\n{capsys.readouterr().err}"
 
