@@ -1,4 +1,4 @@
-"""The pages and the code agree: cited equations, models, the generated reference, links, decks in the text."""
+"""The pages and the code agree: cited equations, models, the generated reference, links."""
 
 import ast
 import functools
@@ -342,40 +342,3 @@ def test_links_lead_somewhere(file):
         if not path.exists() and not any(str(path).endswith(name) for name in made):
             lost.append(target)
     assert lost == []
-
-
-@pytest.mark.parametrize("file", WRITTEN, ids=name_of)
-def test_commands_in_the_text_exist(file):
-    from hydro2d.cli import main
-
-    text = file.read_text(encoding="utf-8")
-    used = set(re.findall(r"(?:`|^|/|&& )hydro2d ([a-z]+)\b", text, re.M))
-    assert used - set(main.app) == set()
-
-
-PYTHON_IN_TEXT = [
-    pytest.param(text, id=f"{file.stem}-{number}")
-    for file in WRITTEN
-    for number, text in enumerate(re.findall(r"```python\n(.*?)```", file.read_text(encoding="utf-8"), re.S))
-]
-
-
-@pytest.mark.parametrize("text", PYTHON_IN_TEXT)
-def test_python_in_the_text_is_there(text):
-    """Code of the pages parses, and what it takes from the package exists."""
-    attributes = [node for node in ast.walk(ast.parse(text)) if isinstance(node, ast.Attribute)]
-    used = {node.attr for node in attributes if getattr(node.value, "id", None) == "hydro2d"}
-    assert [name for name in used if not hasattr(hydro2d, name)] == []
-
-
-DECKS_IN_TEXT = [
-    pytest.param(text, id=f"{file.stem}-{number}")
-    for file in WRITTEN
-    for number, text in enumerate(re.findall(r"```toml\n(.*?)```", file.read_text(encoding="utf-8"), re.S))
-    if "[mesh]" in text
-]
-
-
-@pytest.mark.parametrize("text", DECKS_IN_TEXT)
-def test_decks_in_the_text_load(text):
-    assert deck.loads(text).body
