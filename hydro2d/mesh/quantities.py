@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 from hydro2d.errors import unknown
 from hydro2d.mesh.fields import Field
-from strength.dispatch import STRENGTH_MODULES
+from strength.registry import STRENGTH_MODULES
 
 
 class FieldError(Exception):

@@ -35,7 +35,6 @@ from hydro2d.output.vtk import FOLDER, SERIES, Series
 from hydro2d.running import provenance
 from hydro2d.running.progress import Clock, reporter
 from hydro2d.running.team import Team
-from hydro2d.solver.tracers import PEAKS
 
 DECK, SUMMARY, HISTORY, LOG, LOCK = "deck.toml", "summary.json", "history.h5", "log.txt", "run.lock"
 PROGRESS = "progress.json"
@@ -366,6 +365,8 @@ def experiment(deck) -> dict | None:
 
 def row(sim) -> dict:
     """One row of the history."""
+    from hydro2d.solver.tracers import PEAKS
+
     conserved = sim.conservation()
     values = {"time": sim.time, "cycle": sim.cycle, "dt": sim.dt, **sim.diagnostics()}
     values |= {f"mass_change_{body}": change for body, change in conserved["mass"].items()}
