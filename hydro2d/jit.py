@@ -263,7 +263,7 @@ def module_of(stem: str, text: str, folder: str | None = None) -> ModuleType:
 
     folder : where the file is kept; default: that of the texts of models from outside
     """
-    name = f"{stem}_{hashlib.sha256(text.encode()).hexdigest()[:8]}"
+    name = f"{stem}_{hashlib.sha256(text.encode()).hexdigest()[:16]}"
     file = Path(folder or os.path.join(_cache_root(), "models")) / f"{name}.py"
     if not file.exists():
         file.parent.mkdir(parents=True, exist_ok=True)
@@ -281,12 +281,15 @@ def module_of(stem: str, text: str, folder: str | None = None) -> ModuleType:
     return module
 
 
-def returns(function, arguments: str) -> str:
-    """Compiles a ``@point`` function of a model, and says what it returns: "float64", "none", "UniTuple(float64, 4)"."""
+def returns(function, arguments: str) -> tuple[str, ...]:
+    """Compiles a ``@point`` function of a model; the types of the values that it returns, such as ("float64",)."""
     arrays = ("par", "internal")
     types = tuple(numba.float64[::1] if name in arrays else numba.float64 for name in arguments.split(", "))
     function.compile(types)
-    return str(function.overloads[types].signature.return_type).replace(" x ", ", ")
+    found = function.overloads[types].signature.return_type
+    if isinstance(found, numba.types.BaseTuple):
+        return tuple(map(str, found))
+    return () if found == numba.types.none else (str(found),)
 
 
 @functools.partial(_compile, forceinline=True, fastmath={"reassoc"})

@@ -4,14 +4,18 @@ from __future__ import annotations
 
 import copy
 import json
+import os
 import re
 import tomllib
+from collections.abc import Iterator
 from datetime import date, time
 from pathlib import Path
 from typing import Any
 
 from hydro2d.errors import DeckError, Sources, entry_index
 
+#: the parts of a material that a model describes
+PARTS = ("eos", "strength", "damage")
 _BARE = re.compile(r"[A-Za-z0-9_-]+")
 
 
@@ -69,7 +73,29 @@ def assemble(text: str, name: str, folder: Path, sources: Sources, chain: tuple[
         if target is None:
             raise DeckError(f"{sources.where(('include',), data)}: include: there is no file {folder / entry}")
         base = merge(base, read(target, sources, chain))
-    return merge(base, {key: value for key, value in data.items() if key != "include"})
+    return merge(base, {key: value for key, value in placed(data, folder).items() if key != "include"})
+
+
+def model_tables(data: dict) -> Iterator[tuple[tuple, dict]]:
+    """The tables of models, with their paths, in the materials of a deck that may be wrong in any way."""
+    waiting = [(("materials", name), table) for name, table in _table(data.get("materials")).items()]
+    while waiting:
+        path, table = waiting.pop(0)
+        yield from (((*path, part), _table(table)[part]) for part in PARTS if isinstance(_table(table).get(part), dict))
+        waiting += [((*path, "variants", name), entry) for name, entry in _table(_table(table).get("variants")).items()]
+
+
+def _table(value) -> dict:
+    return value if isinstance(value, dict) else {}
+
+
+def placed(data: dict, folder: Path) -> dict:
+    """A deck whose files of models are in a folder, unless they have a folder of their own or their text is there too."""
+    data = copy.deepcopy(data)
+    for _, table in model_tables(data):
+        if isinstance(table.get("file"), str) and "code" not in table:
+            table["file"] = os.path.abspath(folder / table["file"])
+    return data
 
 
 def _is_named(entries) -> bool:
@@ -182,6 +208,12 @@ def inline(value) -> str:
     return f"[{', '.join(inline(entry) for entry in value)}]"
 
 
+def _lines(value) -> str | None:
+    """A text of several lines as it stands; None where it is no such text, or TOML cannot have it so."""
+    several = isinstance(value, str) and "\n" in value and "'''" not in value and not value.endswith("'")
+    return f"'''\n{value}'''" if several and all(each.isprintable() or each in "\n\t" for each in value) else None
+
+
 def quoted(name: str) -> str:
     """A name as a part of a dotted key."""
     return name if _BARE.fullmatch(name) else json.dumps(name, ensure_ascii=False)
@@ -206,5 +238,5 @@ def dumps(data: dict, prefix: str = "") -> str:
             rows = "".join(f"  {inline(entry)},\n" for entry in value)
             plain.append(f"{quoted(key)} = [\n{rows}]\n")
         else:
-            plain.append(f"{quoted(key)} = {inline(value)}\n")
+            plain.append(f"{quoted(key)} = {_lines(value) or inline(value)}\n")
     return "".join(plain + tables)

@@ -23,7 +23,7 @@ from hydro2d.deck.mesh import axis_edges, body, body_radius
 from hydro2d.deck.sections import Deck
 from hydro2d.deck.warnings import warnings
 from hydro2d.errors import DeckError, Sources, entry_index, spelled, unknown
-from hydro2d.materials import library
+from hydro2d.materials import from_files, library
 
 __all__ = [
     "Deck",
@@ -80,17 +80,17 @@ def load(path: str | Path, overrides: Sequence[str] = ()) -> Deck:
     data = toml.read(file, sources)
     if toml.is_study(data) and "mesh" not in data:
         raise DeckError(f"{file}: is a study, which `hydro2d sweep` or `hydro2d transition` runs, not a deck")
-    return _resolve(data, file.stem, overrides, sources)
+    return _resolve(data, file.stem, overrides, sources, file.parent)
 
 
 def loads(text: str, overrides: Sequence[str] = (), name: str = "deck", folder: str | Path = ".") -> Deck:
-    """Reads a deck from a string; includes are looked for in ``folder``. Raises DeckError as ``load`` does."""
+    """Reads a deck from a string; includes and models are looked for in ``folder``. Raises DeckError as ``load`` does."""
     sources = Sources()
     data = toml.assemble(text, f"{name}.toml", Path(folder), sources)
-    return _resolve(data, name, overrides, sources)
+    return _resolve(data, name, overrides, sources, Path(folder))
 
 
-def _resolve(data: dict, name: str, overrides: Sequence[str], sources: Sources) -> Deck:
+def _resolve(data: dict, name: str, overrides: Sequence[str], sources: Sources, folder: Path) -> Deck:
     for text in overrides:
         data = toml.override(data, text, sources)
     data = {"name": name, **data}
@@ -99,6 +99,7 @@ def _resolve(data: dict, name: str, overrides: Sequence[str], sources: Sources) 
     def complaint(path: tuple, message: str) -> DeckError:
         return DeckError(f"{sources.where(path, data)}: {spelled(path)}: {message}")
 
+    data = from_files.read(toml.placed(data, folder), complaint)
     try:
         deck = Deck.model_validate(data)
     except ValidationError as error:
@@ -351,9 +352,11 @@ def surface(deck: Deck) -> float | None:
 
 def schema() -> dict:
     """The JSON schema of a deck, for editors."""
+    from hydro2d.materials import schema as materials
+
     result = Deck.model_json_schema()
     result["title"] = "hydro2d input deck"
-    result["$defs"] |= library.schema()
+    result["$defs"] |= materials.definitions()
     result["properties"]["materials"]["additionalProperties"] = {"$ref": "#/$defs/Material"}
     result["properties"]["include"] = {
         "anyOf": [{"type": "string"}, {"type": "array", "items": {"type": "string"}}],

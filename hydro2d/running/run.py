@@ -35,6 +35,7 @@ from hydro2d.output.vtk import FOLDER, SERIES, Series
 from hydro2d.running import provenance
 from hydro2d.running.progress import Clock, reporter
 from hydro2d.running.team import Team
+from hydro2d.toml import model_tables
 
 DECK, SUMMARY, HISTORY, LOG, LOCK = "deck.toml", "summary.json", "history.h5", "log.txt", "run.lock"
 PROGRESS = "progress.json"
@@ -117,8 +118,11 @@ def check_same_deck(now: str, before: str) -> None:
         key for key in now.keys() | before.keys() if key not in FREE_SECTIONS and now.get(key) != before.get(key)
     )
     if changed:
+        codes = ({table["file"]: table["code"] for _, table in model_tables(data) if "code" in table} for data in (now, before))
+        new, old = codes
+        models = [f"the text of {file}" for file in sorted(new.keys() & old.keys()) if new[file] != old[file]]
         raise RunError(
-            f"the deck is not the one that the run was begun with: {', '.join(changed)} differ "
+            f"the deck is not the one that the run was begun with: {', '.join([*changed, *models])} differ "
             f"(a restart may change only {', '.join(FREE_SECTIONS)})"
         )
 
@@ -141,7 +145,7 @@ class Run:
         self.deck, self.directory, self.report = deck, Path(directory), report
         self.deck_text = deck.to_toml()
         self.warnings = warnings(deck)
-        self.provenance = provenance.collect(threads())
+        self.provenance = provenance.collect(threads()) | {"models": models_from_outside(deck)}
         self.sim = Simulation(deck)
         self.wall_before = 0.0
         self.stepping, self.stepped = 0.0, 0
@@ -350,6 +354,11 @@ class Run:
 def deck_hash(text: str) -> str:
     """SHA-256 of a resolved deck: the same for the same case."""
     return hashlib.sha256(text.encode()).hexdigest()
+
+
+def models_from_outside(deck) -> list[dict]:
+    """The models of a deck that are not hydro2d's: kind, name, file and SHA-256."""
+    return [model.about() for material in deck.materials.values() for model in material.from_outside()]
 
 
 def experiment(deck) -> dict | None:
