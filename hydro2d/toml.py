@@ -90,10 +90,10 @@ def _table(value) -> dict:
 
 
 def placed(data: dict, folder: Path) -> dict:
-    """A deck whose files of models are in a folder, unless they have a folder of their own or their text is there too."""
+    """A deck whose files of models are in a folder, unless they have a folder of their own."""
     data = copy.deepcopy(data)
     for _, table in model_tables(data):
-        if isinstance(table.get("file"), str) and "code" not in table:
+        if isinstance(table.get("file"), str):
             table["file"] = os.path.abspath(folder / table["file"])
     return data
 

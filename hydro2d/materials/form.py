@@ -15,7 +15,7 @@ from hydro2d.parameters import Parameter
 #: what each model says in words
 WORDS = ("NAME", "EQUATION", "SOURCE", "VALIDITY")
 #: keys of a model's table in a deck that cannot be parameters
-KEYS = ("model", "file", "code", "source", "confidence", "note")
+KEYS = ("model", "file", "code", "code_from", "source", "confidence", "note")
 #: modules of hydro2d that models use, beside those of their own package
 GROUND = ("hydro2d.jit", "hydro2d.parameters")
 
@@ -35,8 +35,8 @@ def _imported(tree: ast.AST) -> Iterator[tuple[str, int]]:
         if isinstance(node, ast.Import):
             yield from ((alias.name, node.lineno) for alias in node.names)
         elif isinstance(node, ast.ImportFrom):
-            module = "." * node.level + (node.module or "")
-            yield from ((f"{module}.{alias.name}", node.lineno) for alias in node.names)
+            module = "." * node.level + (f"{node.module}." if node.module else "")
+            yield from ((f"{module}{alias.name}", node.lineno) for alias in node.names)
 
 
 def wrong_import(text: str, package: str) -> tuple[int, str] | None:

@@ -33,8 +33,8 @@ CONFIDENCE = {
 
 _KEYS = (*PARTS, "fracture_pressure", "title", "note", "source", "confidence", "variants", "variant", "based_on")
 _ABOUT = ("source", "confidence", "note")
-#: keys of a part that choose the model
-_CHOICE = ("model", "file", "code")
+#: keys of a part that choose the model; `file` has become the other two of a model from outside
+_CHOICE = ("model", "code", "code_from")
 
 if TYPE_CHECKING:
     from hydro2d.materials.outside import Outside
@@ -81,8 +81,8 @@ class Model:
 
     def as_deck(self) -> dict:
         """The model as a table of a deck, every number in SI."""
-        file, code = ({"file": self.file}, {"code": self.code}) if self.code else ({}, {})
-        return {"model": self.name, **file, **self.values, **code}
+        code = {"code_from": self.file, "code": self.code} if self.code else {}
+        return {"model": self.name, **self.values, **code}
 
 
 @dataclass(frozen=True)
@@ -223,7 +223,7 @@ def _overlaid(base: dict, over: dict) -> dict:
     for part in PARTS:
         old, new = base.get(part), over.get(part)
         tables = isinstance(old, dict) and isinstance(new, dict)
-        if tables and any(new.get(key, old.get(key)) != old.get(key) for key in _CHOICE):
+        if tables and any(new.get(key, old.get(key)) != old.get(key) for key in ("model", "code")):
             del base[part]
     return merge(base, {key: value for key, value in over.items() if key not in ("based_on", "variant")})
 
@@ -269,7 +269,7 @@ def _chosen(raw, part: str, fail: Fail) -> tuple[ModuleType, str, str]:
     name = raw["model"]
     try:
         if "code" in raw:
-            found = outside.from_text(str(raw["code"]), str(raw.get("file", name)), part)
+            found = outside.from_text(str(raw["code"]), str(raw.get("code_from", name)), part)
         elif name in models:
             return models[name], "", ""
         else:

@@ -27,7 +27,8 @@ def _part(kind: Kind) -> dict:
     keys = {
         "model": {"enum": [*kind.models, *in_packages(kind.part)], "description": f"the {kind.title}"},
         "file": {**_TEXT, "description": "a Python file with a model, relative to the deck, in the place of `model`"},
-        "code": {**_TEXT, "description": "the text of that file, which resolved decks have"},
+        "code": {**_TEXT, "description": "the text of that file, which resolved decks have in its place"},
+        "code_from": {**_TEXT, "description": "the name of that file"},
         **_ABOUT,
         **{key: {**_QUANTITY, "x-unit": entries[0][1], "description": _meanings(entries)} for key, entries in known.items()},
     }

@@ -114,13 +114,13 @@ FREE_SECTIONS = ("name", "title", "stop", "output", "experiment")
 def check_same_deck(now: str, before: str) -> None:
     """Raises RunError if two resolved decks differ in anything that the state depends on."""
     now, before = (tomllib.loads(text) for text in (now, before))
+    new, old = ({table["model"]: table["code"] for _, table in model_tables(data) if table.pop("code_from", "")}
+                for data in (now, before))
     changed = sorted(
         key for key in now.keys() | before.keys() if key not in FREE_SECTIONS and now.get(key) != before.get(key)
     )
     if changed:
-        codes = ({table["file"]: table["code"] for _, table in model_tables(data) if "code" in table} for data in (now, before))
-        new, old = codes
-        models = [f"the text of {file}" for file in sorted(new.keys() & old.keys()) if new[file] != old[file]]
+        models = [f"the code of the model {name}" for name in sorted(new.keys() & old.keys()) if new[name] != old[name]]
         raise RunError(
             f"the deck is not the one that the run was begun with: {', '.join([*changed, *models])} differ "
             f"(a restart may change only {', '.join(FREE_SECTIONS)})"

@@ -1,0 +1,516 @@
+"""Models from outside: what their files must be, how decks name them, when they come too late."""
+
+import hashlib
+import json
+import os
+import subprocess
+import sys
+import textwrap
+import tomllib
+from pathlib import Path
+
+import pytest
+
+import hydro2d
+from hydro2d.cli.main import call
+from hydro2d.deck import deck
+from hydro2d.errors import DeckError
+from hydro2d.materials import outside
+from hydro2d.running import run
+
+VOCE = '''\
+"""Voce hardening."""
+
+import math
+
+import numpy as np
+
+from hydro2d.jit import point
+from hydro2d.parameters import REQUIRED, Parameter, collect
+from strength.layout import ROW, SHEAR, YIELD
+
+NAME = "voce"
+CONSTANT_MODULUS = True
+THERMAL = False
+EQUATION = "Y = Y0 + Q (1 - exp(-10 ep))"
+SOURCE = "Voce, J. Inst. Metals 74 (1948) 537"
+VALIDITY = "metals at one rate and temperature"
+PARAMETERS = (
+    Parameter("shear_modulus", "Pa", REQUIRED, "shear modulus", "G"),
+    Parameter("yield_stress", "Pa", REQUIRED, "initial yield stress", "Y0"),
+    Parameter("saturation", "Pa", 0.0, "what hardening adds at most", "Q"),
+)
+EXAMPLE = {"shear_modulus": 26e9, "yield_stress": 240e6, "saturation": 150e6}
+
+
+@point
+def shear_modulus(p, rho, T, par):
+    """Shear modulus, Pa."""
+    return par[SHEAR]
+
+
+@point
+def flow_stress(ep, rate, T, p, rho, par):
+    """Flow stress, Pa."""
+    return par[YIELD] + par[2] * (1.0 - math.exp(-10.0 * ep))
+
+
+def row(values):
+    given = collect(NAME, PARAMETERS, values)
+    par = np.zeros(ROW)
+    par[:3] = given["shear_modulus"], given["yield_stress"], given["saturation"]
+    return par
+'''
+#: a gas and a damage model, as short as can be
+GAS = '''\
+"""An ideal gas with gamma = 2."""
+
+import numpy as np
+
+from eos.layout import ROW
+from hydro2d.jit import point
+from hydro2d.parameters import REQUIRED, Parameter, collect
+
+NAME = "gamma-two"
+EQUATION = "p = rho e"
+SOURCE = "a test"
+VALIDITY = "everywhere"
+PARAMETERS = (Parameter("reference_density", "kg/m^3", REQUIRED, "density at rest", "rho0"),)
+EXAMPLE = {"reference_density": 1.2}
+DENSITIES, ENERGIES = (0.01, 0.1, 1.0, 10.0), (1e5, 1e6, 1e7)
+
+
+@point
+def evaluate(rho, e, par):
+    """(p, dp/drho, dp/de, T), SI."""
+    return rho * e, e, rho, e / 700.0
+
+
+def row(values):
+    par = np.zeros(ROW)
+    par[0] = collect(NAME, PARAMETERS, values)["reference_density"]
+    return par
+'''
+STRAIN = '''\
+"""Damage that grows with the plastic strain."""
+
+import numpy as np
+
+from hydro2d.jit import point
+from hydro2d.parameters import POSITIVE, REQUIRED, Parameter, collect
+from strength.layout import DAMAGE_ROW
+
+NAME = "strain"
+THERMAL = False
+EQUATION = "dD = dep/ef"
+SOURCE = "a test"
+VALIDITY = "everywhere"
+PARAMETERS = (Parameter("fracture_strain", "", REQUIRED, "strain at fracture", "ef", POSITIVE),)
+EXAMPLE = {"fracture_strain": 0.3}
+
+
+@point
+def damage_increment(dep, rate, T, p, seq, par):
+    """Increment of damage."""
+    return dep / par[0]
+
+
+def row(values):
+    par = np.zeros(DAMAGE_ROW)
+    par[0] = collect(NAME, PARAMETERS, values)["fracture_strain"]
+    return par
+'''
+DECK = """\
+[mesh]
+r = [{ to = "6 mm", cells = 6 }]
+z_start = "-6 mm"
+z = [{ to = "6 mm", cells = 12 }]
+
+[[body]]
+name = "ball"
+shape = "sphere"
+material = "Al5083"
+radius = "4 mm"
+centre = 0
+velocity = "800 m/s"
+
+[materials.Al5083]
+based_on = "Al5083"
+
+[materials.Al5083.strength]
+file = "my_model.py"
+shear_modulus = "26 GPa"
+yield_stress = "240 MPa"
+
+[stop]
+time = "1 us"
+"""
+
+
+@pytest.fixture
+def folder(tmp_path):
+    """A deck and its model."""
+    (tmp_path / "my_model.py").write_text(VOCE)
+    (tmp_path / "shot.toml").write_text(DECK)
+    return tmp_path
+
+
+def python(text: str, folder: Path, *path: Path) -> str:
+    """What a process of its own prints, in a folder, with further folders of packages."""
+    root = Path(hydro2d.__file__).resolve().parent.parent
+    variables = {**os.environ, "PYTHONPATH": os.pathsep.join(map(str, (root, *path)))}
+    command = [sys.executable, "-c", textwrap.dedent(text)]
+    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False, env=variables)
+    return done.stdout + done.stderr
+
+
+# ------------------------------------------------------------------------------------------------ files
+
+
+@pytest.mark.parametrize(("text", "part"), [(VOCE, "strength"), (GAS, "eos"), (STRAIN, "damage")])
+def test_a_file_says_what_it_is_a_model_of(tmp_path, text, part):
+    (tmp_path / "model.py").write_text(text)
+    found = outside.read(tmp_path / "model.py")
+    assert (found.kind.part, found.file, found.text) == (part, "model.py", text)
+    assert found.module.ID >= outside.FIRST_ID
+    assert found.about()["sha256"] == hashlib.sha256(text.encode()).hexdigest()
+
+
+def test_the_id_follows_from_the_text_alone(tmp_path):
+    """Processes that meet models in another order, or under other names of files, compile the same."""
+    (tmp_path / "a.py").write_text(VOCE)
+    (tmp_path / "b.py").write_text(VOCE)
+    assert outside.read(tmp_path / "a.py").module is outside.read(tmp_path / "b.py").module
+    ids = "from hydro2d.materials import outside; print([outside.read(name).module.ID for name in ('{}', '{}')])"
+    (tmp_path / "c.py").write_text(GAS)
+    first, second = (json.loads(python(ids.format(*names), tmp_path)) for names in (("a.py", "c.py"), ("c.py", "b.py")))
+    assert first == second[::-1] == [outside.read(tmp_path / name).module.ID for name in ("a.py", "c.py")]
+
+
+WRONG = [
+    (VOCE, "import math", "import maths", ":3: imports maths; a model may import numpy, Python's own modules"),
+    (VOCE, "import math", "import numba", ":3: imports numba"),
+    (VOCE, "import math", "from . import other", ":3: imports .other"),
+    (VOCE, "import math", "from eos import layout", ":3: imports eos.layout"),
+    (VOCE, "import math", "from strength import dispatch", "but not those that choose"),
+    (VOCE, "import math", "import math, json.nothing", ":3: cannot be imported: ModuleNotFoundError: No module named"),
+    (VOCE, "CONSTANT_MODULUS = True", "CONSTANT_MODULUS = Tru", ":12: cannot be imported: NameError: name 'Tru'"),
+    (VOCE, "CONSTANT_MODULUS = True", "CONSTANT_MODULUS =", ":12: is not Python: invalid syntax"),
+    (VOCE, "CONSTANT_MODULUS = True\n", "", "needs CONSTANT_MODULUS, True or False"),
+    (VOCE, 'NAME = "voce"', "", "needs NAME, a text"),
+    (VOCE, '"voce"', '"johnson-cook"', "the NAME 'johnson-cook' is taken by a strength model of hydro2d"),
+    (VOCE, '"voce"', '"my model"', "the NAME 'my model' has blanks"),
+    (VOCE, 'SOURCE = "Voce', 'SOURCE = "" #', "needs SOURCE, a text"),
+    (VOCE, "PARAMETERS = (", "PARAMETERS = (1.0,", "needs PARAMETERS, a tuple of hydro2d.parameters.Parameter"),
+    (VOCE, '"saturation", "Pa", 0.0', '"shear_modulus", "Pa", 0.0', "has the parameter shear_modulus twice"),
+    (VOCE, '"saturation", "Pa", 0.0', '"code", "Pa", 0.0', "has a parameter 'code', which cannot be a key"),
+    (VOCE, "def row(", "def rows(", "needs a function row(values)"),
+    (VOCE, "def shear_modulus(", "def modulus(", "needs a function shear_modulus(p, rho, T, par)"),
+    (VOCE, "(ep, rate, T, p, rho, par)", "(ep, rate, p, T, rho, par)", "flow_stress takes (ep, rate, p, T, rho, par), not ("),
+    (VOCE, "@point\ndef flow", "def flow", "flow_stress is not compiled: put @point before it"),
+    (VOCE, '    """Flow stress, Pa."""\n', "", "flow_stress has no docstring"),
+    (VOCE, "math.exp(", "math.expo(", "flow_stress does not compile: module 'math' has no attribute 'expo'"),
+    (VOCE, "math.exp(", "nothing(", "flow_stress does not compile: NameError: name 'nothing' is not defined"),
+    (VOCE, "return par[SHEAR]", "return par", "shear_modulus returns array(float64, 1d, C), not one number"),
+    (VOCE, "return par[SHEAR]", "return 1", "shear_modulus returns Literal[int](1), not one number (write 1.0, not 1"),
+    (VOCE, "    return par[SHEAR]", "    if p > 0.0:\n        return par[SHEAR]", "returns OptionalType(float64)"),
+    (GAS, "return rho * e, e, rho, e / 700.0", "return rho * e, e, rho", "not 4 numbers"),
+    (GAS, '"reference_density", "kg', '"density", "kg', "needs the parameter reference_density"),
+    (STRAIN, "THERMAL = False", "THERMAL = 0", "needs THERMAL, True or False"),
+]
+
+
+@pytest.mark.parametrize(("text", "old", "new", "said"), WRONG)
+def test_a_mistake_in_the_file_is_one_line_with_its_reason(tmp_path, capsys, text, old, new, said):
+    assert old in text
+    file = tmp_path / "model.py"
+    file.write_text(text.replace(old, new))
+    part = {"voce": "strength", "gamma-two": "eos", "strain": "damage"}[text.split('NAME = "')[1].split('"')[0]]
+    with pytest.raises(outside.ModelError) as error:
+        outside.read(file, part)
+    assert str(error.value).startswith(str(file))
+    assert said in str(error.value)
+    assert "\n" not in str(error.value)
+    assert call(["check-model", str(file), "--as", part]) == 2
+    told = capsys.readouterr().err
+    assert told == f"hydro2d: {error.value}\n"
+
+
+def test_files_that_are_no_models(tmp_path):
+    (tmp_path / "bytes.py").write_bytes(b"\xff\xfe\x00")
+    (tmp_path / "empty.py").write_text("")
+    for name, said in (("none.py", "cannot be read: No such file"), ("bytes.py", "is not UTF-8"), ("empty.py", "has none of")):
+        with pytest.raises(outside.ModelError, match=said):
+            outside.read(tmp_path / name)
+
+
+# ------------------------------------------------------------------------------------------------ decks
+
+
+def test_a_deck_names_a_file_beside_it_and_carries_its_text(folder, monkeypatch):
+    monkeypatch.chdir("/")
+    loaded = deck.load(folder / "shot.toml")
+    model = loaded.materials["Al5083"].strength
+    assert (model.name, model.file, model.code) == ("voce", "my_model.py", VOCE)
+    assert model.values == {"shear_modulus": 26e9, "yield_stress": 240e6, "saturation": 0.0}
+    text = loaded.to_toml()
+    (folder / "my_model.py").unlink()
+    assert tomllib.loads(text)["materials"]["Al5083"]["strength"]["code"] == VOCE
+    assert "\nNAME = \"voce\"\n" in text  # as it stands, not on one line
+    again = deck.loads(text)
+    assert again.to_toml() == text
+    assert again.materials["Al5083"].strength.module("strength") is model.module("strength")
+    assert run.models_from_outside(again) == [outside.from_text(VOCE, "my_model.py", "strength").about()]
+
+
+def test_the_file_of_an_included_deck_is_beside_that(folder):
+    (folder / "below").mkdir()
+    (folder / "below" / "shot.toml").write_text('include = "../shot.toml"\nstop.time = "2 us"\n')
+    assert deck.load(folder / "below" / "shot.toml").materials["Al5083"].strength.name == "voce"
+
+
+def test_a_file_of_the_command_line_is_beside_the_deck_and_replaces_the_text(folder):
+    (folder / "other.py").write_text(VOCE.replace('"voce"', '"other"'))
+    chosen = ["materials.Al5083.strength.file=other.py"]
+    assert deck.load(folder / "shot.toml", chosen).materials["Al5083"].strength.name == "other"
+    resolved = deck.load(folder / "shot.toml").to_toml()
+    found = deck.loads(resolved, chosen, folder=folder).materials["Al5083"].strength
+    assert (found.name, found.file) == ("other", "other.py")
+
+
+def test_a_model_replaces_the_whole_part_and_numbers_are_laid_over_it(folder):
+    further = """
+[materials]
+soft = { based_on = "Al5083", strength = { yield_stress = "100 MPa" } }
+plain = { based_on = "Al5083", strength = { model = "elastic-plastic", shear_modulus = 1e9, yield_stress = 1e6 } }
+"""
+    found = deck.loads(DECK + further, folder=folder).materials
+    assert (found["soft"].strength.name, found["soft"].strength.values["yield_stress"]) == ("voce", 1e8)
+    assert (found["plain"].strength.name, found["plain"].strength.code) == ("elastic-plastic", "")
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ('"my_model.py"', '"no_model.py"', "shot.toml:18: materials.Al5083.strength.file: "),
+        ('"my_model.py"', "3", "is the name of a Python file"),
+        ('file = "my_model.py"', 'file = "my_model.py"\nmodel = "vocal"', 'strength.model: is "vocal", and the model of'),
+        ('file = "my_model.py"', 'model = "voce"', 'unknown strength model "voce"'),
+        ('file = "my_model.py"', 'file = "my_model.py"\nhardening = 3', 'unknown parameter of voce "hardening"'),
+        ('yield_stress = "240 MPa"', "", "voce needs yield_stress (initial yield stress, Pa)"),
+        ('yield_stress = "240 MPa"', 'yield_stress = "240 mm"', "materials.Al5083.strength.yield_stress"),
+    ],
+)
+def test_a_mistake_in_the_deck_says_where(folder, old, new, said):
+    assert old in DECK
+    (folder / "shot.toml").write_text(DECK.replace(old, new))
+    with pytest.raises(DeckError) as error:
+        deck.load(folder / "shot.toml")
+    assert said in str(error.value)
+
+
+def test_a_restart_with_another_text_is_refused(folder):
+    before = deck.load(folder / "shot.toml").to_toml()
+    (folder / "my_model.py").write_text(VOCE.replace("-10.0 * ep", "-11.0 * ep"))
+    with pytest.raises(run.RunError, match="materials, the code of the model voce differ"):
+        run.check_same_deck(deck.load(folder / "shot.toml").to_toml(), before)
+    run.check_same_deck(before.replace("my_model.py", "renamed.py"), before)
+
+
+def test_its_flow_stress_can_be_drawn(folder):
+    from hydro2d.materials import curves
+
+    found = deck.load(folder / "shot.toml", ["materials.Al5083.strength.saturation=1e8"]).materials["Al5083"]
+    stresses, _ = curves.flow_stress(found, 1.0, [0.0, 0.1], isothermal=True)
+    assert stresses == pytest.approx([240e6, 240e6 + 1e8 * (1 - 0.36787944)], rel=1e-7)
+
+
+def test_the_schema_takes_files():
+    strength = deck.schema()["$defs"]["Strength"]
+    assert {"file", "code", "code_from"} <= set(strength["properties"])
+    assert strength["if"]["not"] == {"required": ["file"]}
+    assert {"yield_stress", "file"} <= set(strength["then"]["propertyNames"]["enum"])
+
+
+FIELD = 'INTERNAL = (Field("softness", "", "body", "1", 1, "mass", True, "how soft it is", 0.0, 1.0),)'
+INTERNAL = VOCE.replace("from hydro2d.parameters", "from hydro2d.mesh.fields import Field\nfrom hydro2d.parameters")
+INTERNAL = INTERNAL.replace("EXAMPLE", f"{FIELD}\nEXAMPLE", 1)
+
+
+def test_an_internal_variable_is_a_field_that_can_be_written(folder):
+    (folder / "my_model.py").write_text(INTERNAL)
+    chosen = deck.load(folder / "shot.toml", ['output.fields=["softness"]'])
+    assert chosen.output.fields == ("softness",)
+    from hydro2d.mesh import quantities
+
+    assert quantities.BY_KEY["softness"] in quantities.TABLE
+    assert "softness" not in quantities.expand(["standard"])
+
+
+# ------------------------------------------------------------------------------------------------ kernels
+
+LATE = """
+    import strength.dispatch, eos.dispatch
+    import hydro2d
+    from hydro2d.deck import deck
+    from hydro2d.materials import library, outside
+    loaded = deck.load("shot.toml")
+    for late in (lambda: library.resolve(loaded), lambda: hydro2d.register("my_model.py")):
+        try:
+            late()
+        except outside.ModelError as error:
+            print(error)
+"""
+
+
+def test_a_model_that_comes_after_the_kernels_is_told_when_it_is_used(folder):
+    told = python(LATE, folder).splitlines()
+    assert len(told) == 2
+    kernels = "the kernels of this process were loaded without the strength model voce of my_model.py"
+    assert told[0].startswith(f"material Al5083: {kernels}")
+    assert "hydro2d.register" in told[1]
+    assert "start a new process" in told[1]
+
+
+CHOSEN = """
+    import sys
+    from hydro2d import jit
+    from hydro2d.deck import deck
+    def folders():
+        names = "deformation", "mixed", "remap", "acceleration"
+        return [jit._folder_of(f"{jit.__file__[:-6]}kernels/{name}.py") for name in names]
+    before = folders()
+    loaded = deck.load("shot.toml")
+    print(*(a == b for a, b in zip(before, folders(), strict=True)))
+    from hydro2d.materials import library
+    table = library.resolve(loaded)
+    from strength import dispatch
+    print(dispatch.STRENGTH_MODULES[-1].NAME, table.strength_model[0] == dispatch.STRENGTH_MODULES[-1].ID)
+    print(dispatch.flow_stress(int(table.strength_model[0]), 0.0, 0.0, 300.0, 0.0, 2700.0, table.strength_par[0]))
+    print("eos.dispatch" in sys.modules, len(jit._added["eos"]))
+"""
+
+
+def test_only_what_sees_the_model_is_compiled_anew(folder):
+    """The cache of kernels that do not choose among strength models is the one of runs without models from outside."""
+    assert python(CHOSEN, folder).split() == ["False", "False", "True", "True", "voce", "True", "240000000.0", "False", "0"]
+
+
+LOADED = """
+    import sys
+    ours = "deck.deck running.run running.check running.compile_ahead study.worker study.sweep results.reading cli.info"
+    for name in ours.split():
+        __import__(f"hydro2d.{name}")
+    print({"eos.dispatch", "strength.dispatch"} & set(sys.modules))
+"""
+
+
+def test_what_comes_before_a_deck_does_not_load_the_kernels(tmp_path):
+    assert python(LOADED, tmp_path) == "set()\n"
+
+
+def test_workers_take_over_the_models_of_a_study(folder):
+    """A worker loads the kernels with its first case, and has the models of all others by then."""
+    (folder / "b.py").write_text(VOCE.replace('"voce"', '"b"'))
+    models = json.dumps([(VOCE, "my_model.py", "strength"), ((folder / "b.py").read_text(), "b.py", "strength")])
+    text = f"""
+        import json
+        from hydro2d.study.worker import Checkpoint
+        Checkpoint(False, json.loads({models!r})).setup(None)
+        import strength.dispatch
+        from hydro2d.deck import deck
+        from hydro2d.materials import library
+        for name in ("my_model", "b"):
+            library.resolve(deck.load("shot.toml", [f"materials.Al5083.strength.file={{name}}.py"]))
+        print("fine", len(strength.dispatch.STRENGTH_MODULES))
+    """
+    assert python(text, folder).split()[0] == "fine"
+    deck.load(folder / "shot.toml", ["materials.Al5083.strength.file=b.py"])
+    assert ((folder / "b.py").read_text(), "b.py", "strength") in outside.offered()
+
+
+# ------------------------------------------------------------------------------------------------ packages
+
+
+@pytest.fixture
+def package(tmp_path):
+    """A distribution with a model, which a folder of the path holds."""
+    site = tmp_path / "site"
+    (site / "my_models").mkdir(parents=True)
+    (site / "my_models" / "__init__.py").write_text("")
+    (site / "my_models" / "voce.py").write_text(VOCE)
+    about = site / "my_models-1.2.dist-info"
+    about.mkdir()
+    (about / "METADATA").write_text("Metadata-Version: 2.1\nName: my-models\nVersion: 1.2\n")
+    (about / "entry_points.txt").write_text("[hydro2d.strength]\nvoce = my_models.voce\nlost = my_models.lost\n")
+    return site
+
+
+def test_a_package_gives_models_by_name(folder, package):
+    (folder / "shot.toml").write_text(DECK.replace('file = "my_model.py"', 'model = "voce"'))
+    (folder / "wrong.toml").write_text(DECK.replace('file = "my_model.py"', 'model = "lost"'))
+    (folder / "typo.toml").write_text(DECK.replace('file = "my_model.py"', 'model = "voze"'))
+    text = """
+        from hydro2d.cli.main import call
+        from hydro2d.deck import deck
+        from hydro2d.running import run
+        from hydro2d.errors import DeckError
+        print(run.models_from_outside(deck.load("shot.toml"))[0]["file"])
+        for name in ("wrong", "typo"):
+            try:
+                deck.load(f"{name}.toml")
+            except DeckError as error:
+                print(error)
+        call(["info"])
+        call(["info", "voce"])
+        print("voce" in deck.schema()["$defs"]["Strength"]["properties"]["model"]["enum"])
+        print("status", call(["check-model", "voce"]))
+    """
+    told = python(text, folder, package)
+    assert told.startswith("my_models.voce (my-models 1.2)\n")
+    assert "my_models.lost (my-models 1.2): the entry point lost names a module that cannot be found" in told
+    assert 'unknown strength model "voze"; did you mean "voce"?' in told
+    assert "  voce                 strength model of the package my-models" in told
+    assert "voce (strength model)\n\nY = Y0 + Q (1 - exp(-10 ep))" in told
+    assert "\nTrue\n" in told
+    assert told.endswith("voce: all checks passed\nstatus 0\n")
+
+
+# ------------------------------------------------------------------------------------------------ the contract
+
+
+CHECK = "from hydro2d.cli.main import call; print(call(['check-model', 'model.py']))"
+
+
+@pytest.mark.parametrize("text", [VOCE, GAS, STRAIN])
+def test_check_model_passes_a_good_one(tmp_path, text):
+    (tmp_path / "model.py").write_text(text)
+    told = python(CHECK, tmp_path)
+    assert told.endswith("all checks passed\n0\n")
+    assert "FAILED" not in told
+
+
+@pytest.mark.parametrize(
+    ("text", "old", "new", "said"),
+    [
+        (VOCE, "1.0 - math.exp(", "math.exp(", "the flow stress falls from plastic strain 0 to 1e-12"),
+        (VOCE, "return par[SHEAR]", "return par[SHEAR] + p", "not slot SHEAR of the row"),
+        (VOCE, "collect(NAME, PARAMETERS, values)", "{**dict(saturation=0.0), **values}", "unknown parameter 'colour'"),
+        (GAS, "e / 700.0", "300.0", "dT/drho is 0"),
+        (STRAIN, "dep / par[0]", "(dep + 1e-9) / par[0]", "without plastic strain"),
+    ],
+)
+def test_check_model_finds_what_is_wrong(tmp_path, text, old, new, said):
+    assert old in text
+    (tmp_path / "model.py").write_text(text.replace(old, new))
+    told = python(CHECK, tmp_path)
+    assert "  FAILED " in told
+    assert said in told
+    assert told.endswith("failed\n2\n")
+
+
+def test_check_model_needs_an_example(tmp_path):
+    (tmp_path / "model.py").write_text(VOCE.replace("EXAMPLE", "EXAMPLES"))
+    told = python(CHECK, tmp_path)
+    assert "needs EXAMPLE, parameters in SI to try it with" in told
+    assert "\n2\n" in told
