@@ -11,12 +11,17 @@ from pathlib import Path
 
 import pytest
 
+import eos.dispatch
 import hydro2d
+import strength.dispatch
 from hydro2d.cli.main import call
 from hydro2d.deck import deck
 from hydro2d.errors import DeckError
 from hydro2d.materials import outside
 from hydro2d.running import run
+
+#: loaded before any model of these tests is: the kernels of the other tests in this process have hydro2d's models alone
+KERNELS = eos.dispatch, strength.dispatch
 
 VOCE = '''\
 """Voce hardening."""
@@ -337,14 +342,20 @@ INTERNAL = VOCE.replace("from hydro2d.parameters", "from hydro2d.mesh.fields imp
 INTERNAL = INTERNAL.replace("EXAMPLE", f"{FIELD}\nEXAMPLE", 1)
 
 
+WRITTEN = """
+    from hydro2d.deck import deck
+    from hydro2d.mesh import quantities
+    print(deck.load("shot.toml", ['output.fields=["softness"]']).output.fields)
+    print(quantities.BY_KEY["softness"] in quantities.TABLE)
+    print(*("softness" in quantities.expand([word]) for word in ("all", "standard")))
+"""
+
+
 def test_an_internal_variable_is_a_field_that_can_be_written(folder):
     (folder / "my_model.py").write_text(INTERNAL)
-    chosen = deck.load(folder / "shot.toml", ['output.fields=["softness"]'])
-    assert chosen.output.fields == ("softness",)
-    from hydro2d.mesh import quantities
-
-    assert quantities.BY_KEY["softness"] in quantities.TABLE
-    assert "softness" not in quantities.expand(["standard"])
+    assert python(WRITTEN, folder) == "('softness',)\nTrue\nTrue False\n"
+    (folder / "my_model.py").write_text(INTERNAL.replace('"softness"', '"damage"'))
+    assert "the internal variable damage has the name of a field" in python(WRITTEN, folder)
 
 
 # ------------------------------------------------------------------------------------------------ kernels
