@@ -525,3 +525,70 @@ def test_check_model_needs_an_example(tmp_path):
     told = python(CHECK, tmp_path)
     assert "needs EXAMPLE, parameters in SI to try it with" in told
     assert "\n2\n" in told
+
+
+# ------------------------------------------------------------------------------------------------ a run
+
+#: hydro2d's own models as files, and what a run with them leaves
+AS_FILES = """
+    import hashlib, sys
+    from pathlib import Path
+    from hydro2d.deck import deck
+    root = Path(deck.__file__).parents[2]
+    chosen = ["stop.cycles=300", "failure.damage=material"]
+    if sys.argv[1:] == ["files"]:
+        models = {"eos": "eos/mie_grueneisen", "strength": "strength/johnson_cook", "damage": "strength/johnson_cook_damage"}
+        for part, name in models.items():
+            text = (root / f"{name}.py").read_text()
+            Path(f"{part}.py").write_text(text.replace('NAME = "', 'NAME = "own-'))
+            chosen += [f"materials.{metal}.{part}.file={part}.py" for metal in ("ball", "plate")]
+    loaded = deck.load("shot.toml", chosen)
+    assert all(len(each.from_outside()) == 3 * len(sys.argv[1:]) for each in loaded.materials.values())
+    from hydro2d.solver.simulation import Simulation
+    simulation = Simulation(loaded)
+    while simulation.stop_reason() is None:
+        simulation.step()
+    arrays = simulation.state.vof, simulation.state.q, simulation.state.u, simulation.state.v
+    print(simulation.cycle, float(simulation.state.q[6].max()) > 0.1, hashlib.sha256(b"".join(map(bytes, arrays))).hexdigest())
+"""
+METAL = """\
+based_on = "steel_4340"
+variant = []
+[materials.NAME.eos]
+model = "mie-grueneisen"
+reference_density = 7830
+sound_speed = 4578
+hugoniot_slope = 1.33
+grueneisen = 1.67
+specific_heat = 477
+[materials.NAME.strength]
+model = "johnson-cook"
+shear_modulus = 77e9
+yield_stress = 792e6
+hardening = 510e6
+hardening_exponent = 0.26
+rate_coefficient = 0.014
+thermal_exponent = 1.03
+melt_temperature = 1793
+[materials.NAME.damage]
+model = "johnson-cook"
+D1 = 0.05
+D2 = 3.44
+D3 = -2.12
+D4 = 0.002
+D5 = 0.61
+melt_temperature = 1793
+"""
+
+
+@pytest.mark.slow
+def test_models_of_hydro2d_as_files_give_the_same_bits(tmp_path):
+    own = "".join(f"[materials.{name}]\n{METAL.replace('NAME', name)}" for name in ("ball", "plate"))
+    plate = '[[body]]\nname = "plate"\nshape = "plate"\nmaterial = "plate"\nz_front = "4 mm"\nthickness = "2 mm"\n\n'
+    text = DECK.replace('"Al5083"\nradius', '"ball"\nradius').replace("[materials.Al5083]", f"{plate}[materials.Al5083]")
+    start, end = text.index("[materials.Al5083]"), text.index("[stop]")
+    (tmp_path / "shot.toml").write_text(text[:start] + own + text[end:].replace("1 us", "1 ms"))
+    programs = (f"import sys\nsys.argv[1:] = {given}\n{textwrap.dedent(AS_FILES)}" for given in ([], ["files"]))
+    first, second = (python(program, tmp_path) for program in programs)
+    assert first == second
+    assert first.startswith("300 True ")
