@@ -288,7 +288,7 @@ def yield_floor(case: Case) -> str | None:
 
 
 def constant_yield(case: Case) -> str | None:
-    """with a constant yield stress it is elastic-plastic to the last bit: flow stress, modulus, return to the yield surface"""
+    """with a constant yield stress it is elastic-plastic to the last bit, the return to the yield surface included"""
     if case.constant is None:
         return "the model has no CONSTANT_YIELD"
     from strength import STRENGTH_MODELS, dispatch, radial_return

@@ -278,6 +278,8 @@ def test_a_file_of_the_command_line_is_beside_the_deck_and_replaces_the_text(fol
     (folder / "other.py").write_text(VOCE.replace('"voce"', '"other"'))
     chosen = ["materials.Al5083.strength.file=other.py"]
     assert deck.load(folder / "shot.toml", chosen).materials["Al5083"].strength.name == "other"
+    plain = DECK.replace('file = "my_model.py"', 'model = "elastic-plastic"')
+    assert deck.loads(plain, chosen, folder=folder).materials["Al5083"].strength.name == "other"
     resolved = deck.load(folder / "shot.toml").to_toml()
     found = deck.loads(resolved, chosen, folder=folder).materials["Al5083"].strength
     assert (found.name, found.file) == ("other", "other.py")
@@ -540,8 +542,8 @@ AS_FILES = """
         models = {"eos": "eos/mie_grueneisen", "strength": "strength/johnson_cook", "damage": "strength/johnson_cook_damage"}
         for part, name in models.items():
             text = (root / f"{name}.py").read_text()
-            Path(f"{part}.py").write_text(text.replace('NAME = "', 'NAME = "own-'))
-            chosen += [f"materials.{metal}.{part}.file={part}.py" for metal in ("ball", "plate")]
+            Path(f"own_{part}.py").write_text(text.replace('NAME = "', 'NAME = "own-'))
+            chosen += [f"materials.{metal}.{part}.file=own_{part}.py" for metal in ("ball", "plate")]
     loaded = deck.load("shot.toml", chosen)
     assert all(len(each.from_outside()) == 3 * len(sys.argv[1:]) for each in loaded.materials.values())
     from hydro2d.solver.simulation import Simulation
