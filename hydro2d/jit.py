@@ -7,8 +7,8 @@
 ``@serial``  loops over a short list, one thread
 
 numba's own cache notices an edit of the file that holds a function, not of the files that this one calls. What is compiled
-of a file is therefore kept in a folder with a hash of this file and of all that it imports: it is never stale, and an edit
-compiles anew what can see it and nothing else.
+of a file is therefore kept in a folder with a hash of this file, of all that it imports, and of the models from outside that it
+can see: it is never stale, and an edit compiles anew what can see it and nothing else.
 """
 
 from __future__ import annotations
@@ -140,7 +140,7 @@ def _folder_of(file: str) -> str:
 def add_model(package: str, name: str) -> bool:
     """Adds a model from outside to what the `dispatch` of a package sees; False where that is loaded without it already.
 
-    name : of the model's module, with a hash of its text in it
+    name : of the model's module, as `module_of` makes it: it has a hash of the text
     """
     global CACHE_FOLDER
     if name in _added[package]:

@@ -189,6 +189,7 @@ def test_the_id_follows_from_the_text_alone(tmp_path):
     ids = "from hydro2d.materials import outside; print([outside.read(name).module.ID for name in ('{}', '{}')])"
     (tmp_path / "c.py").write_text(GAS)
     first, second = (json.loads(python(ids.format(*names), tmp_path)) for names in (("a.py", "c.py"), ("c.py", "b.py")))
+    assert first[0] != first[1]
     assert first == second[::-1] == [outside.read(tmp_path / name).module.ID for name in ("a.py", "c.py")]
 
 
@@ -455,13 +456,14 @@ def package(tmp_path):
     about = site / "my_models-1.2.dist-info"
     about.mkdir()
     (about / "METADATA").write_text("Metadata-Version: 2.1\nName: my-models\nVersion: 1.2\n")
-    (about / "entry_points.txt").write_text("[hydro2d.strength]\nvoce = my_models.voce\nlost = my_models.lost\n")
+    (about / "entry_points.txt").write_text("[hydro2d.strength]\nvoce = my_models.voce\nlost = my_models.lost\nvote = my_models.voce\n")
     return site
 
 
 def test_a_package_gives_models_by_name(folder, package):
     (folder / "shot.toml").write_text(DECK.replace('file = "my_model.py"', 'model = "voce"'))
     (folder / "wrong.toml").write_text(DECK.replace('file = "my_model.py"', 'model = "lost"'))
+    (folder / "other.toml").write_text(DECK.replace('file = "my_model.py"', 'model = "vote"'))
     (folder / "typo.toml").write_text(DECK.replace('file = "my_model.py"', 'model = "voze"'))
     text = """
         from hydro2d.cli.main import call
@@ -469,7 +471,7 @@ def test_a_package_gives_models_by_name(folder, package):
         from hydro2d.running import run
         from hydro2d.errors import DeckError
         print(run.models_from_outside(deck.load("shot.toml"))[0]["file"])
-        for name in ("wrong", "typo"):
+        for name in ("wrong", "other", "typo"):
             try:
                 deck.load(f"{name}.toml")
             except DeckError as error:
@@ -482,6 +484,7 @@ def test_a_package_gives_models_by_name(folder, package):
     told = python(text, folder, package)
     assert told.startswith("my_models.voce (my-models 1.2)\n")
     assert "my_models.lost (my-models 1.2): the entry point lost names a module that cannot be found" in told
+    assert "the entry point is called vote and the model voce; the names must be the same" in told
     assert 'unknown strength model "voze"; did you mean "voce"?' in told
     assert "  voce                 strength model of the package my-models" in told
     assert "voce (strength model)\n\nY = Y0 + Q (1 - exp(-10 ep))" in told
