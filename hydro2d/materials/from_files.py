@@ -11,7 +11,8 @@ from hydro2d.toml import model_tables
 def read(data: dict, complaint: Callable[[tuple, str], DeckError]) -> dict:
     """The deck, in which every ``file`` of a model has become its ``model``, the name, ``code``, the text, and ``code_from``.
 
-    A model of hydro2d is replaced by the file that is laid over it. ``data`` is changed. ``complaint(path, message)`` makes the error for a key of the deck; it is raised here.
+    A model of hydro2d is replaced by the file that is laid over it. ``data`` is changed. ``complaint(path, message)`` makes the
+    error for a key of the deck; it is raised here.
     """
     for path, table in model_tables(data):
         if "file" not in table:

@@ -456,14 +456,15 @@ def package(tmp_path):
     about = site / "my_models-1.2.dist-info"
     about.mkdir()
     (about / "METADATA").write_text("Metadata-Version: 2.1\nName: my-models\nVersion: 1.2\n")
-    (about / "entry_points.txt").write_text("[hydro2d.strength]\nvoce = my_models.voce\nlost = my_models.lost\nvote = my_models.voce\n")
+    (about / "entry_points.txt").write_text("[hydro2d.strength]\n" + "".join(
+        f"{name} = my_models.{module}\n" for name, module in (("voce", "voce"), ("lost", "lost"), ("another", "voce"))))
     return site
 
 
 def test_a_package_gives_models_by_name(folder, package):
     (folder / "shot.toml").write_text(DECK.replace('file = "my_model.py"', 'model = "voce"'))
     (folder / "wrong.toml").write_text(DECK.replace('file = "my_model.py"', 'model = "lost"'))
-    (folder / "other.toml").write_text(DECK.replace('file = "my_model.py"', 'model = "vote"'))
+    (folder / "other.toml").write_text(DECK.replace('file = "my_model.py"', 'model = "another"'))
     (folder / "typo.toml").write_text(DECK.replace('file = "my_model.py"', 'model = "voze"'))
     text = """
         from hydro2d.cli.main import call
@@ -484,7 +485,7 @@ def test_a_package_gives_models_by_name(folder, package):
     told = python(text, folder, package)
     assert told.startswith("my_models.voce (my-models 1.2)\n")
     assert "my_models.lost (my-models 1.2): the entry point lost names a module that cannot be found" in told
-    assert "the entry point is called vote and the model voce; the names must be the same" in told
+    assert "the entry point is called another and the model voce; the names must be the same" in told
     assert 'unknown strength model "voze"; did you mean "voce"?' in told
     assert "  voce                 strength model of the package my-models" in told
     assert "voce (strength model)\n\nY = Y0 + Q (1 - exp(-10 ep))" in told
