@@ -27,7 +27,7 @@ def bounds(field) -> str:
 def fields_page() -> str:
     """The field table and the quantities of output files."""
     from hydro2d.mesh import fields, quantities
-    from strength.dispatch import STRENGTH_MODULES
+    from strength.registry import STRENGTH_MODULES
 
     state = table(
         ("field", "symbol", "centring", "unit", "sign in a mirror", "remapped by", "bounds", "meaning"),

@@ -6,11 +6,9 @@ numbers; slot ``RHO0`` is the density at rest and slot ``E0`` the specific inter
 
 from __future__ import annotations
 
-from eos.dispatch import MODULES
 from eos.layout import E0, RHO0, ROW
+from eos.registry import MODELS
 from hydro2d.parameters import REQUIRED, Description, Parameter, by_name, described
-
-MODELS = {module.NAME: module for module in MODULES}
 
 __all__ = ["E0", "MODELS", "REQUIRED", "RHO0", "ROW", "Description", "Parameter", "describe"]
 

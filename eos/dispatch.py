@@ -1,14 +1,14 @@
 """Chooses the equation of state by its integer id, and derives from it what all have in common.
 
-A new equation of state is a file in this folder and its name in ``MODULES``.
+The models are those of ``registry`` when this module is imported, which is when the kernels are.
 """
 
 from __future__ import annotations
 
-from eos import mie_grueneisen
-from hydro2d.jit import by_id, modules, point
+from eos import mie_grueneisen, registry
+from hydro2d.jit import by_id, point
 
-MODULES = modules("eos", "mie_grueneisen", "ideal_gas", "stiffened_gas")
+MODULES = registry.chosen()
 
 _ITERATIONS = 60
 _TOLERANCE = 1e-13
@@ -16,7 +16,7 @@ _FARTHEST = 16.0
 
 
 evaluate = by_id(
-    MODULES, "evaluate", "rho, e, par",
+    MODULES, "evaluate", registry.FUNCTIONS["evaluate"][0],
     "(p, dp/drho at constant e, dp/de at constant rho, T) of an equation of state; SI. par: the material's row, float64[ROW].",
     'float("nan"), float("nan"), float("nan"), float("nan")')
 

@@ -17,11 +17,12 @@ __version__ = "0.1.0"
 if TYPE_CHECKING:
     from hydro2d.api import Study, open_run, open_study, run, sweep
     from hydro2d.deck.deck import Deck
-    from hydro2d.errors import DeckError
+    from hydro2d.errors import DeckError, UnphysicalState
+    from hydro2d.materials.outside import register
     from hydro2d.results.reading import Results, ResultsError
     from hydro2d.running.run import RunError
     from hydro2d.solver.callbacks import every
-    from hydro2d.solver.simulation import Simulation, UnphysicalState
+    from hydro2d.solver.simulation import Simulation
     from hydro2d.study.definition import StudyError
 
 #: where the public names are: imported when they are asked for, so that `import hydro2d` costs nothing
@@ -35,9 +36,10 @@ _PLACES = {
     "sweep": "hydro2d.api",
     "open_study": "hydro2d.api",
     "Study": "hydro2d.api",
+    "register": "hydro2d.materials.outside",
     "DeckError": "hydro2d.errors",
     "RunError": "hydro2d.running.run",
-    "UnphysicalState": "hydro2d.solver.simulation",
+    "UnphysicalState": "hydro2d.errors",
     "ResultsError": "hydro2d.results.reading",
     "StudyError": "hydro2d.study.definition",
 }
@@ -55,6 +57,7 @@ __all__ = [
     "every",
     "open_run",
     "open_study",
+    "register",
     "run",
     "sweep",
 ]

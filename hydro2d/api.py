@@ -12,10 +12,10 @@ from typing import TYPE_CHECKING, Any
 from hydro2d import toml
 from hydro2d.deck import deck as decks
 from hydro2d.deck.deck import Deck
+from hydro2d.errors import UnphysicalState
 from hydro2d.files import write_text
 from hydro2d.results.reading import Results
 from hydro2d.running import run as runs
-from hydro2d.solver.simulation import Simulation, UnphysicalState
 from hydro2d.study import cases, cluster, contents, layout
 from hydro2d.study import sweep as sweeps
 from hydro2d.study.choice import Choice
@@ -23,6 +23,8 @@ from hydro2d.study.definition import StudyError
 
 if TYPE_CHECKING:
     import pandas
+
+    from hydro2d.solver.simulation import Simulation
 
 __all__ = ["Study", "open_run", "open_study", "run", "sweep"]
 

@@ -14,6 +14,10 @@ class DeckError(Exception):
     """A deck, a material or a command line is wrong; the message is meant for its author."""
 
 
+class UnphysicalState(Exception):
+    """The state has become one that no material can be in; the message says where, which body and the values."""
+
+
 def nearest(name: str, allowed: Iterable[str]) -> str | None:
     """The allowed name that looks most like ``name``, or None."""
     names = [str(entry) for entry in allowed]

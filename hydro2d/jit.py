@@ -7,8 +7,8 @@
 ``@serial``  loops over a short list, one thread
 
 numba's own cache notices an edit of the file that holds a function, not of the files that this one calls. What is compiled
-of a file is therefore kept in a folder with a hash of this file and of all that it imports: it is never stale, and an edit
-compiles anew what can see it and nothing else.
+of a file is therefore kept in a folder with a hash of this file, of all that it imports, and of the models from outside that it
+can see: it is never stale, and an edit compiles anew what can see it and nothing else.
 """
 
 from __future__ import annotations
@@ -78,12 +78,14 @@ def _private(folder: str) -> str:
     return fresh
 
 
-def _folder_for(files: Iterable[Path]) -> str:
-    """The folder for what depends on these files: named by a hash of their text."""
+def _folder_for(files: Iterable[Path], models: Iterable[str] = ()) -> str:
+    """The folder for what depends on these files and models from outside: named by a hash of their text."""
     digest = hashlib.sha256(numba.__version__.encode())
     for file in sorted(files):
         digest.update(file.name.encode())
         digest.update(file.read_bytes())
+    for model in sorted(models):
+        digest.update(model.encode())
     return os.path.join(_cache_root(), digest.hexdigest()[:16])
 
 
@@ -128,7 +130,27 @@ def _seen_by(file: Path) -> frozenset[Path]:
 def _folder_of(file: str) -> str:
     """The folder for what is compiled of a file."""
     path = Path(file).resolve()
-    return _folder_for(_seen_by(path)) if path in _sources().values() else CACHE_FOLDER
+    if path not in _sources().values():
+        return CACHE_FOLDER
+    seen = _seen_by(path)
+    return _folder_for(seen, [model for package, models in _added.items() if _sources()[f"{package}.dispatch"] in seen
+                              for model in models])
+
+
+def add_model(package: str, name: str) -> bool:
+    """Adds a model from outside to what the `dispatch` of a package sees; False where that is loaded without it already.
+
+    name : of the model's module, as `module_of` makes it: it has a hash of the text
+    """
+    global CACHE_FOLDER
+    if name in _added[package]:
+        return True
+    if f"{package}.dispatch" in sys.modules:
+        return False
+    _added[package].add(name)
+    _folder_of.cache_clear()
+    CACHE_FOLDER = _folder_for(_source_files(), [model for models in _added.values() for model in models])
+    return True
 
 
 def _compile(function, **options):
@@ -137,6 +159,8 @@ def _compile(function, **options):
     return numba.njit(function, **{**_COMMON, **options})
 
 
+#: names of the models from outside, by the package whose `dispatch` chooses among them
+_added: dict[str, set[str]] = {"eos": set(), "strength": set()}
 #: for what depends on all sources
 CACHE_FOLDER = _folder_for(_source_files())
 numba.config.THREADING_LAYER = "omp"
@@ -231,8 +255,16 @@ def by_id(models: tuple[ModuleType, ...], function: str, arguments: str, meaning
     for k, model in enumerate(models):
         lines += [f"    if model == {model.ID}:", f"        return _{k}({arguments})"]
     text = "\n".join([*lines, f"    return {otherwise}", ""])
-    name = f"hydro2d_by_id_{function}_{hashlib.sha256(text.encode()).hexdigest()[:8]}"
-    file = Path(CACHE_FOLDER) / f"{name}.py"
+    return getattr(module_of(f"hydro2d_by_id_{function}", text, CACHE_FOLDER), function)
+
+
+def module_of(stem: str, text: str, folder: str | None = None) -> ModuleType:
+    """The module of a Python text, whose name is the stem and a hash of the text: it is written to a file, then imported.
+
+    folder : where the file is kept; default: that of the texts of models from outside
+    """
+    name = f"{stem}_{hashlib.sha256(text.encode()).hexdigest()[:16]}"
+    file = Path(folder or os.path.join(_cache_root(), "models")) / f"{name}.py"
     if not file.exists():
         file.parent.mkdir(parents=True, exist_ok=True)
         with replacing(file) as temporary:
@@ -241,8 +273,23 @@ def by_id(models: tuple[ModuleType, ...], function: str, arguments: str, meaning
     spec = importlib.util.spec_from_file_location(name, file)
     module = importlib.util.module_from_spec(spec)
     sys.modules[name] = module
-    spec.loader.exec_module(module)
-    return getattr(module, function)
+    try:
+        spec.loader.exec_module(module)
+    except BaseException:
+        del sys.modules[name]
+        raise
+    return module
+
+
+def returns(function, arguments: str) -> tuple[str, ...]:
+    """Compiles a ``@point`` function of a model; the types of the values that it returns, such as ("float64",)."""
+    arrays = ("par", "internal")
+    types = tuple(numba.float64[::1] if name in arrays else numba.float64 for name in arguments.split(", "))
+    function.compile(types)
+    found = function.overloads[types].signature.return_type
+    if isinstance(found, numba.types.BaseTuple):
+        return tuple(map(str, found))
+    return () if found == numba.types.none else (str(found),)
 
 
 @functools.partial(_compile, forceinline=True, fastmath={"reassoc"})

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import copy
 import json
+import os
 import re
 import tomllib
+from collections.abc import Iterator
 from datetime import date, time
 from pathlib import Path
 from typing import Any
@@ -14,6 +16,8 @@ import tomli_w
 
 from hydro2d.errors import DeckError, Sources, entry_index
 
+#: the parts of a material that a model describes
+PARTS = ("eos", "strength", "damage")
 _BARE = re.compile(r"[A-Za-z0-9_-]+")
 
 
@@ -76,7 +80,29 @@ def with_included(data: dict, folder: Path, sources: Sources, chain: tuple[Path,
         if target is None:
             raise DeckError(f"{sources.where(('include',), data)}: include: there is no file {folder / entry}")
         base = merge(base, read(target, sources, chain))
-    return merge(base, {key: value for key, value in data.items() if key != "include"})
+    return merge(base, {key: value for key, value in placed(data, folder).items() if key != "include"})
+
+
+def model_tables(data: dict) -> Iterator[tuple[tuple, dict]]:
+    """The tables of models, with their paths, in the materials of a deck that may be wrong in any way."""
+    waiting = [(("materials", name), table) for name, table in _table(data.get("materials")).items()]
+    while waiting:
+        path, table = waiting.pop(0)
+        yield from (((*path, part), _table(table)[part]) for part in PARTS if isinstance(_table(table).get(part), dict))
+        waiting += [((*path, "variants", name), entry) for name, entry in _table(_table(table).get("variants")).items()]
+
+
+def _table(value) -> dict:
+    return value if isinstance(value, dict) else {}
+
+
+def placed(data: dict, folder: Path) -> dict:
+    """A deck whose files of models are in a folder, unless they have a folder of their own."""
+    data = copy.deepcopy(data)
+    for _, table in model_tables(data):
+        if isinstance(table.get("file"), str):
+            table["file"] = os.path.abspath(folder / table["file"])
+    return data
 
 
 def _is_named(entries) -> bool:
@@ -197,7 +223,7 @@ def quoted(name: str) -> str:
 
 def dumps(data: dict) -> str:
     """TOML of plain data; None, which TOML has no word for, is left out. Floats keep every bit."""
-    return tomli_w.dumps(_without_none(data))
+    return tomli_w.dumps(_without_none(data), multiline_strings=True)
 
 
 def _without_none(value):

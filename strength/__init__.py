@@ -9,11 +9,8 @@ from __future__ import annotations
 
 from hydro2d.parameters import REQUIRED, Description, Parameter, by_name, described
 from strength import tensile_pressure
-from strength.dispatch import DAMAGE_MODULES, STRENGTH_MODULES
 from strength.layout import DAMAGE_ROW, ROW, SHEAR, YIELD
-
-STRENGTH_MODELS = {module.NAME: module for module in STRENGTH_MODULES}
-DAMAGE_MODELS = {module.NAME: module for module in DAMAGE_MODULES}
+from strength.registry import DAMAGE_MODELS, STRENGTH_MODELS
 
 __all__ = [
     "DAMAGE_MODELS",

@@ -1,17 +1,16 @@
 """Chooses strength and damage models by their integer ids.
 
-A new model is a file in this folder and its name in ``STRENGTH_MODULES`` or ``DAMAGE_MODULES``.
+The models are those of ``registry`` when this module is imported, which is when the kernels are.
 """
 
 from __future__ import annotations
 
-from hydro2d.jit import by_id, modules, point
+from hydro2d.jit import by_id, point
+from strength import registry
 from strength.layout import SHEAR
 
-STRENGTH_MODULES = modules(
-    "strength", "hydrodynamic", "elastic_plastic", "johnson_cook", "steinberg_guinan", "power_law",
-    "kinematic_hardening", "zerilli_armstrong")
-DAMAGE_MODULES = modules("strength", "no_damage", "johnson_cook_damage")
+STRENGTH_MODULES = registry.chosen()
+DAMAGE_MODULES = registry.chosen_damage()
 
 #: ids of the models whose shear modulus is the number in slot SHEAR, whatever the state: no cell need be evaluated
 CONSTANT_MODULUS = tuple(module.ID for module in STRENGTH_MODULES if module.CONSTANT_MODULUS)
@@ -22,38 +21,38 @@ WITH_INTERNAL = tuple(module.ID for module in STRENGTH_MODULES if hasattr(module
 DAMAGE_THERMAL = tuple(module.ID for module in DAMAGE_MODULES if module.THERMAL)
 
 shear_modulus = by_id(
-    STRENGTH_MODULES, "shear_modulus", "p, rho, T, par",
+    STRENGTH_MODULES, "shear_modulus", registry.STRENGTH_FUNCTIONS["shear_modulus"][0],
     "Shear modulus of a strength model at pressure, density and temperature, Pa. par: the material's row, float64[ROW].")
 
 flow_stress = by_id(
-    STRENGTH_MODULES, "flow_stress", "ep, rate, T, p, rho, par",
+    STRENGTH_MODULES, "flow_stress", registry.STRENGTH_FUNCTIONS["flow_stress"][0],
     "Flow stress of a strength model, Pa: ep plastic strain, rate (1/s), T (K), p (compression positive, Pa), rho (kg/m^3).")
 
 yield_floor = by_id(
-    STRENGTH_MODULES, "yield_floor", "par",
+    STRENGTH_MODULES, "yield_floor", registry.STRENGTH_FUNCTIONS["yield_floor"][0],
     "A stress that the flow stress never falls below, Pa: 0 for models that soften. Saves evaluating it in elastic cells.",
     "0.0")
 
 turn = by_id(
-    STRENGTH_MODULES, "turn", "spin, internal",
+    STRENGTH_MODULES, "turn", registry.STRENGTH_FUNCTIONS["turn"][0],
     "Turns those internal variables of a strength model that are tensors by spin = W dt. internal: float64[n], one cell's.",
     "None")
 
 back_stress = by_id(
-    STRENGTH_MODULES, "back_stress", "internal",
+    STRENGTH_MODULES, "back_stress", registry.STRENGTH_FUNCTIONS["back_stress"][0],
     "(rr, zz, rz) of the deviator around which a strength model's yield surface lies, Pa: the origin for most models.",
     "(0.0, 0.0, 0.0)")
 
 kinematic_modulus = by_id(
-    STRENGTH_MODULES, "kinematic_modulus", "par",
+    STRENGTH_MODULES, "kinematic_modulus", registry.STRENGTH_FUNCTIONS["kinematic_modulus"][0],
     "How far the centre of the yield surface moves, as a tensile stress, per plastic strain, Pa: 0 for most models.", "0.0")
 
 harden = by_id(
-    STRENGTH_MODULES, "harden", "dep, rr, zz, rz, par, internal",
+    STRENGTH_MODULES, "harden", registry.STRENGTH_FUNCTIONS["harden"][0],
     "Internal variables after the plastic strain dep along the direction (rr, zz, rz), whose von Mises norm is 1.", "None")
 
 damage_increment = by_id(
-    DAMAGE_MODULES, "damage_increment", "dep, rate, T, p, seq, par",
+    DAMAGE_MODULES, "damage_increment", registry.DAMAGE_FUNCTIONS["damage_increment"][0],
     "Increment of damage of a damage model: see ``johnson_cook_damage.damage_increment``.")
 
 

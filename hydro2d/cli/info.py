@@ -81,10 +81,12 @@ def page(name: str) -> str:
     import eos
     import strength
     from hydro2d.analytic import model_text
-    from hydro2d.materials import library
+    from hydro2d.materials import library, outside
+    from hydro2d.parameters import described
     from hydro2d.penetration import catalogue
 
-    found = []
+    packaged = [each for part in outside.KINDS if (each := outside.from_package(part, name))]
+    found = [str(described(each.module, each.kind.title)) for each in packaged]
     if name in library.names():
         found.append(library.describe(name))
     for models, describe in (
@@ -102,7 +104,8 @@ def page(name: str) -> str:
     groups = {name: []} if name in keys else _same_last(keys, name)
     found += [_key_page(key, keys[key], others) for key, others in groups.items()]
     if not found:
-        known = {*library.names(), *eos.MODELS, *strength.STRENGTH_MODELS, *strength.DAMAGE_MODELS,
+        others = {other for part in outside.KINDS for other in outside.in_packages(part)}
+        known = {*others, *library.names(), *eos.MODELS, *strength.STRENGTH_MODELS, *strength.DAMAGE_MODELS,
                  *catalogue.MODELS, *quantities.BY_KEY, *keys, *(key.rsplit(".", 1)[-1] for key in keys)}  # fmt: skip
         raise DeckError(unknown("name", name, known).split(" (allowed")[0] + "; `hydro2d info` lists what there is")
     return "\n\n".join(text.rstrip() for text in found)
@@ -121,12 +124,14 @@ def overview() -> str:
     """All names, by kind."""
     import eos
     import strength
-    from hydro2d.materials import library
+    from hydro2d.materials import library, outside
     from hydro2d.penetration import catalogue
 
     models = [(name, eos.describe(name).kind) for name in eos.MODELS]
     models += [(name, strength.describe(name).kind) for name in strength.STRENGTH_MODELS]
     models += [(name, strength.describe_damage(name).kind) for name in strength.DAMAGE_MODELS]
+    models += [(name, f"{kind.title} of the package {entry.dist.name}")
+               for part, kind in outside.KINDS.items() for name, entry in outside.in_packages(part).items()]
     keys = deck_keys()
     parts = (
         ("materials", [(name, library.load(name).title) for name in library.names()]),

@@ -13,6 +13,7 @@ from cyclopts import App, Parameter, validators
 
 from hydro2d import __version__
 from hydro2d.cli.base import Count, Overrides, UsageError, quantity
+from hydro2d.cli.check_model import check_model
 from hydro2d.cli.curve import curve
 from hydro2d.cli.model import model
 from hydro2d.cli.report import report
@@ -31,6 +32,7 @@ app = App(
     "refuses (disk, memory, rights), 129/130/141/143 ended by SIGHUP, SIGINT, a closed pipe, SIGTERM.",
 )
 
+app.command(check_model)
 app.command(curve)
 app.command(model)
 app.command(report)

@@ -23,7 +23,7 @@ from hydro2d.deck.checks import extent, faces, heading, inconsistencies, room, t
 from hydro2d.deck.mesh import axis_edges, body, body_radius
 from hydro2d.deck.warnings import warnings
 from hydro2d.errors import DeckError, Sources, entry_index, spelled, unknown
-from hydro2d.materials import library
+from hydro2d.materials import from_files, library
 
 __all__ = [
     "Deck",
@@ -95,7 +95,7 @@ class Deck(sections.Deck):
         """Reads a deck from TOML text.
 
         name : of the run, which names its directory
-        folder : where the files that the text includes are looked for
+        folder : where the files that the text names are looked for: decks that it includes, models of your own
         overrides : as in `from_file`
 
         Raises DeckError.
@@ -148,14 +148,14 @@ def load(path: str | Path, overrides: Overrides = ()) -> Deck:
     data = toml.read(file, sources)
     if toml.is_study(data) and "mesh" not in data:
         raise DeckError(f"{file}: is a study, which `hydro2d sweep` or `hydro2d transition` runs, not a deck")
-    return _resolve(data, file.stem, overrides, sources)
+    return _resolve(data, file.stem, overrides, sources, file.parent)
 
 
 def loads(text: str, overrides: Overrides = (), name: str = "deck", folder: str | Path = ".") -> Deck:
-    """Reads a deck from a string; includes are looked for in ``folder``. Raises DeckError as ``load`` does."""
+    """Reads a deck from a string; includes and models are looked for in ``folder``. Raises DeckError as ``load`` does."""
     sources = Sources()
     data = toml.assemble(text, f"{name}.toml", Path(folder), sources)
-    return _resolve(data, name, overrides, sources)
+    return _resolve(data, name, overrides, sources, Path(folder))
 
 
 def of_tables(tables: Mapping[str, Any], overrides: Overrides = (), name: str = "deck", folder: str | Path = ".") -> Deck:
@@ -163,7 +163,7 @@ def of_tables(tables: Mapping[str, Any], overrides: Overrides = (), name: str = 
     sources = Sources()
     sources.add(name, {}, "")
     data = toml.with_included(plain(tables), Path(folder), sources)
-    return _resolve(data, name, overrides, sources)
+    return _resolve(data, name, overrides, sources, Path(folder))
 
 
 def plain(value):
@@ -190,13 +190,14 @@ def _laid_over(data: dict, overrides: Overrides, sources: Sources) -> dict:
     return data
 
 
-def _resolve(data: dict, name: str, overrides: Overrides, sources: Sources) -> Deck:
+def _resolve(data: dict, name: str, overrides: Overrides, sources: Sources, folder: Path) -> Deck:
     data = {"name": name, **_laid_over(data, overrides, sources)}
     problems: list[str] = []
 
     def complaint(path: tuple, message: str) -> DeckError:
         return DeckError(f"{sources.where(path, data)}: {spelled(path)}: {message}")
 
+    data = from_files.read(toml.placed(data, folder), complaint)
     try:
         deck = Deck.model_validate(data, context=_RESOLVING)
     except ValidationError as error:
@@ -449,9 +450,11 @@ def surface(deck: Deck) -> float | None:
 
 def schema() -> dict:
     """The JSON schema of a deck, for editors."""
+    from hydro2d.materials import schema as materials
+
     result = Deck.model_json_schema()
     result["title"] = "hydro2d input deck"
-    result["$defs"] |= library.schema()
+    result["$defs"] |= materials.definitions()
     result["properties"]["materials"]["additionalProperties"] = {"$ref": "#/$defs/Material"}
     result["properties"]["include"] = {
         "anyOf": [{"type": "string"}, {"type": "array", "items": {"type": "string"}}],

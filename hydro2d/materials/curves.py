@@ -15,9 +15,7 @@ ROOM, STEP = 298.0, 1e-3
 
 def at_rest(material: Material):
     """The strength model, its row, and the state at rest: pressure (Pa), density (kg/m^3) and temperature (K)."""
-    from strength import STRENGTH_MODELS
-
-    model = STRENGTH_MODELS[material.strength.name]
+    model = material.strength.module("strength")
     temperature = material.eos.numbers.get("reference_temperature")
     T = temperature.value if temperature else ROOM
     return model, model.row(material.strength.values), (0.0, material.reference_density, T)

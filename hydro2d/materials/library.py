@@ -10,13 +10,14 @@ import functools
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from types import ModuleType
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from hydro2d import units
 from hydro2d.errors import DeckError, Sources, unknown
 from hydro2d.mesh.fields import Field
-from hydro2d.toml import merge, parse, problems_folder
+from hydro2d.toml import PARTS, merge, parse, problems_folder
 
 #: how far a number can be trusted
 CONFIDENCE = {
@@ -30,9 +31,13 @@ CONFIDENCE = {
     "default": "the default of the model",
 }
 
-_PARTS = ("eos", "strength", "damage")
-_KEYS = (*_PARTS, "fracture_pressure", "title", "note", "source", "confidence", "variants", "variant", "based_on")
+_KEYS = (*PARTS, "fracture_pressure", "title", "note", "source", "confidence", "variants", "variant", "based_on")
 _ABOUT = ("source", "confidence", "note")
+#: keys of a part that choose the model; `file` has become the other two of a model from outside
+_CHOICE = ("model", "code", "code_from")
+
+if TYPE_CHECKING:
+    from hydro2d.materials.outside import Outside
 
 Fail = Callable[[tuple, str], Exception]
 
@@ -50,14 +55,34 @@ class Number:
 
 @dataclass(frozen=True)
 class Model:
-    """A model by name, with a number for every parameter."""
+    """A model by name, with a number for every parameter; one from outside has a file's name and text."""
 
     name: str
     numbers: Mapping[str, Number] = field(default_factory=dict)
+    file: str = ""
+    code: str = ""
 
     @property
     def values(self) -> dict[str, float]:
         return {name: number.value for name, number in self.numbers.items()}
+
+    def outside(self, part: str) -> Outside | None:
+        """The model from outside that it is as a part of a material; None for one of hydro2d."""
+        from hydro2d.materials import outside
+
+        return outside.from_text(self.code, self.file, part) if self.code else None
+
+    def module(self, part: str) -> ModuleType:
+        """Its functions and constants."""
+        from hydro2d.materials import outside
+
+        found = self.outside(part)
+        return found.module if found else outside.KINDS[part].models[self.name]
+
+    def as_deck(self) -> dict:
+        """The model as a table of a deck, every number in SI."""
+        code = {"code_from": self.file, "code": self.code} if self.code else {}
+        return {"model": self.name, **self.values, **code}
 
 
 @dataclass(frozen=True)
@@ -89,10 +114,13 @@ class Material:
         data: dict = {"title": self.title} if self.title else {}
         if self.fracture_pressure is not None:
             data["fracture_pressure"] = self.fracture_pressure.value
-        for part in _PARTS:
-            model = getattr(self, part)
-            data[part] = {"model": model.name, **model.values}
+        for part in PARTS:
+            data[part] = getattr(self, part).as_deck()
         return data
+
+    def from_outside(self) -> list[Outside]:
+        """Its models from outside."""
+        return [found for part in PARTS if (found := getattr(self, part).outside(part))]
 
 
 @functools.cache
@@ -115,11 +143,11 @@ def _sourced(table: dict, confidence: str, about: dict | None = None) -> dict:
     """The table with its source and confidence written to every number, so that it can be laid over another."""
     about = {"source": "", "confidence": confidence, **(about or {}), **_about(table), "note": ""}
     result = {key: value for key, value in table.items() if key not in ("source", "confidence")}
-    for part in _PARTS:
+    for part in PARTS:
         if isinstance(table.get(part), dict):
             own = {**about, **_about(table[part])}
             rest = {key: value for key, value in table[part].items() if key not in _ABOUT}
-            result[part] = {key: value if key == "model" else _with(value, own) for key, value in rest.items()}
+            result[part] = {key: value if key in _CHOICE else _with(value, own) for key, value in rest.items()}
     if "fracture_pressure" in table:
         result["fracture_pressure"] = _with(table["fracture_pressure"], about)
     if "variants" in table:
@@ -162,62 +190,6 @@ def from_deck(name: str, tables: Mapping[str, dict], fail: Fail) -> Material:
     return _build(name, _based(name, tables, fail, ()), lambda path, text: fail((name, *path), text))
 
 
-def schema() -> dict[str, dict]:
-    """JSON schemas of a material of a deck and of the tables in it, by title: Material, Eos, Strength and Damage."""
-    import eos
-    import strength
-
-    quantity = {"anyOf": [{"type": "number"}, {"type": "string"}, {"type": "object"}]}
-    kinds = {"eos": (eos.MODELS, "equation of state"), "strength": (strength.STRENGTH_MODELS, "strength model"),
-             "damage": (strength.DAMAGE_MODELS, "damage model")}  # fmt: skip
-    text, definitions = {"type": "string"}, {}
-    for part, (models, what) in kinds.items():
-        known: dict[str, list[tuple[str, str, str]]] = {}
-        for name, module in models.items():
-            for parameter in module.PARAMETERS:
-                known.setdefault(parameter.name, []).append((name, parameter.unit or "1", parameter.description))
-        numbers = {key: {**quantity, "x-unit": entries[0][1], "description": _meanings(entries)}
-                   for key, entries in known.items()}
-        definitions[part.capitalize()] = {
-            "type": "object", "title": part.capitalize(), "additionalProperties": False,
-            "description": f"The {what} of a material; `hydro2d info MODEL` has its equation.",
-            "properties": {
-                "model": {"enum": list(models), "description": f"the {what}"},
-                "source": {**text, "description": "where the numbers come from"},
-                "confidence": {"enum": list(CONFIDENCE), "description": "how far they can be trusted"},
-                **numbers,
-            },
-        }  # fmt: skip
-    definitions["Material"] = {
-        "type": "object", "title": "Material", "additionalProperties": False,
-        "description": "A material: complete with its equation of state, or `based_on` another, from which it differs.",
-        "properties": {
-            "based_on": {**text, "description": "a material of the library or of the deck; what is not given here is its"},
-            "variant": {"anyOf": [text, {"type": "array", "items": text}],
-                        "description": "variants of it that are laid over it"},
-            "eos": {"$ref": "#/$defs/Eos", "description": "equation of state"},
-            "strength": {"$ref": "#/$defs/Strength", "description": "strength model; without one a material bears no shear"},
-            "damage": {"$ref": "#/$defs/Damage", "description": 'damage model; used with failure.damage = "material"'},
-            "fracture_pressure": {**quantity, "x-unit": "Pa", "description": "tension at which the material opens, positive; "
-                                  'used with failure.tensile = "material"'},
-            "title": {**text, "description": "a line for `hydro2d info`"},
-            "note": {**text, "description": "what else is to be known"},
-            "source": {**text, "description": "where the numbers come from"},
-            "confidence": {"enum": list(CONFIDENCE), "description": "how far they can be trusted"},
-            "variants": {"type": "object", "description": "tables by name that `variant` can lay over the material"},
-        },
-    }  # fmt: skip
-    return definitions
-
-
-def _meanings(entries: list[tuple[str, str, str]]) -> str:
-    """What a parameter is, by model where models differ."""
-    meanings: dict[str, list[str]] = {}
-    for model, _, meaning in entries:
-        meanings.setdefault(meaning, []).append(model)
-    return "; ".join(f"{meaning} ({', '.join(models)})" for meaning, models in meanings.items())
-
-
 def _based(name: str, tables: Mapping[str, dict], fail: Fail, chain: tuple[str, ...]) -> dict:
     """The raw table of a deck's material laid over what it is based on."""
     if not isinstance(tables[name], dict):
@@ -248,9 +220,10 @@ def _based(name: str, tables: Mapping[str, dict], fail: Fail, chain: tuple[str, 
 def _overlaid(base: dict, over: dict) -> dict:
     """``over`` on ``base``; a part that names another model replaces the whole part."""
     base = dict(base)
-    for part in _PARTS:
+    for part in PARTS:
         old, new = base.get(part), over.get(part)
-        if isinstance(old, dict) and isinstance(new, dict) and new.get("model", old.get("model")) != old.get("model"):
+        tables = isinstance(old, dict) and isinstance(new, dict)
+        if tables and any(new.get(key, old.get(key)) != old.get(key) for key in ("model", "code")):
             del base[part]
     return merge(base, {key: value for key, value in over.items() if key not in ("based_on", "variant")})
 
@@ -269,16 +242,13 @@ def _varied(raw: dict, variant, fail: Fail, own: dict | None = None) -> dict:
 
 
 def _build(name: str, raw: dict, fail: Fail) -> Material:
-    from eos import MODELS
-    from strength import DAMAGE_MODELS, STRENGTH_MODELS
-
     for key in raw:
         if key not in _KEYS:
             raise fail((key,), unknown("key", key, _KEYS))
-    eos = _model(raw.get("eos"), "eos", MODELS, None, {}, fail)
+    eos = _model(raw.get("eos"), "eos", None, {}, fail)
     own = eos.numbers
-    strength = _model(raw.get("strength"), "strength", STRENGTH_MODELS, "hydrodynamic", own, fail)
-    damage = _model(raw.get("damage"), "damage", DAMAGE_MODELS, "none", own, fail)
+    strength = _model(raw.get("strength"), "strength", "hydrodynamic", own, fail)
+    damage = _model(raw.get("damage"), "damage", "none", own, fail)
     fracture = None
     if "fracture_pressure" in raw:
         fracture = _number(raw["fracture_pressure"], "Pa", ("fracture_pressure",), fail)
@@ -289,21 +259,43 @@ def _build(name: str, raw: dict, fail: Fail) -> Material:
     return Material(name, title, note, eos, strength, damage, fracture, variants, raw.get("damage") is not None)
 
 
-def _model(raw, part: str, models: Mapping[str, ModuleType], default: str | None, eos: Mapping, fail: Fail) -> Model:
+def _chosen(raw, part: str, fail: Fail) -> tuple[ModuleType, str, str]:
+    """The module that a part's table chooses, and the name and text of its file where it is from outside."""
+    from hydro2d.materials import outside
+
+    models = outside.KINDS[part].models
+    if not isinstance(raw, dict) or not isinstance(raw.get("model"), str):
+        raise fail((part,), f"needs a model (allowed: {', '.join(models)}) or a file")
+    name = raw["model"]
+    try:
+        if "code" in raw:
+            found = outside.from_text(str(raw["code"]), str(raw.get("code_from", name)), part)
+        elif name in models:
+            return models[name], "", ""
+        else:
+            found = outside.from_package(part, name)
+    except outside.ModelError as error:
+        raise fail((part,), str(error)) from None
+    if found is None:
+        raise fail((part, "model"), unknown(f"{part} model", name, [*models, *outside.in_packages(part)]))
+    if found.name != name:
+        raise fail((part, "model"), f'is "{name}", and the model of {found.file} is "{found.name}"')
+    found.offer()
+    return found.module, found.file, found.text
+
+
+def _model(raw, part: str, default: str | None, eos: Mapping, fail: Fail) -> Model:
     """A model with all its parameters: given, taken from the equation of state, or the model's default."""
     if raw is None:
         if default is None:
             raise fail((), f"has no {part}")
         raw = {"model": default}
-    if not isinstance(raw, dict) or not isinstance(raw.get("model"), str):
-        raise fail((part,), f"needs a model (allowed: {', '.join(models)})")
-    if raw["model"] not in models:
-        raise fail((part, "model"), unknown(f"{part} model", raw["model"], models))
-    parameters = {parameter.name: parameter for parameter in models[raw["model"]].PARAMETERS}
+    module, file, code = _chosen(raw, part, fail)
+    parameters = {parameter.name: parameter for parameter in module.PARAMETERS}
     numbers = {}
     for key in raw:
-        if key not in (*parameters, "model"):
-            raise fail((part, key), _unknown_parameter(raw["model"], key, parameters))
+        if key not in (*parameters, *_CHOICE):
+            raise fail((part, key), _unknown_parameter(module.NAME, key, parameters))
     for key, parameter in parameters.items():
         if key in raw:
             number = _number(raw[key], parameter.unit or "1", (part, key), fail)
@@ -314,11 +306,11 @@ def _model(raw, part: str, models: Mapping[str, ModuleType], default: str | None
         elif parameter.from_eos and key in eos:
             number = eos[key]
         elif parameter.required:
-            raise fail((part,), f"{raw['model']} needs {key} ({parameter.description}, {parameter.unit or '1'})")
+            raise fail((part,), f"{module.NAME} needs {key} ({parameter.description}, {parameter.unit or '1'})")
         else:
-            number = Number(float(parameter.default), parameter.unit or "1", f"{raw['model']} model", "default")
+            number = Number(float(parameter.default), parameter.unit or "1", f"{module.NAME} model", "default")
         numbers[key] = number
-    return Model(raw["model"], numbers)
+    return Model(module.NAME, numbers, file, code)
 
 
 def _unknown_parameter(model: str, key: str, parameters: Mapping) -> str:
@@ -378,16 +370,21 @@ def _row(module: ModuleType, model: Model, material: Material) -> np.ndarray:
 
 
 def resolve(deck) -> MaterialTable:
-    """Model ids and parameter rows of the deck's slots; DeckError for values that a model refuses."""
+    """Model ids and parameter rows of the deck's slots.
+
+    Raises DeckError for values that a model refuses, and for a model from outside that the kernels were loaded without.
+    """
     import eos
-    from strength import DAMAGE_MODELS, STRENGTH_MODELS
 
     slots = [body for body in deck.body if body.join is None]
     chosen = [deck.materials[body.material] for body in slots]
-    eos_modules = [eos.MODELS[material.eos.name] for material in chosen]
-    strength_modules = [STRENGTH_MODELS[material.strength.name] for material in chosen]
+    for material in chosen:
+        for model in material.from_outside():
+            model.require(f"material {material.name}: ")
+    eos_modules = [material.eos.module("eos") for material in chosen]
+    strength_modules = [material.strength.module("strength") for material in chosen]
     damages = [material.damage if deck.failure.damage == "material" else Model("none") for material in chosen]
-    damage_modules = [DAMAGE_MODELS[damage.name] for damage in damages]
+    damage_modules = [damage.module("damage") for damage in damages]
     eos_par = np.stack([_row(m, c.eos, c) for m, c in zip(eos_modules, chosen, strict=True)])
     strength_par = np.stack([_row(m, c.strength, c) for m, c in zip(strength_modules, chosen, strict=True)])
     damage_par = np.stack([_row(m, d, c) for m, d, c in zip(damage_modules, damages, chosen, strict=True)])
@@ -415,7 +412,7 @@ def describe(name: str, variant: str | None = None) -> str:
     material = load(name, variant)
     lines = [f"{material.name}: {material.title}"] + ([material.note] if material.note else [])
     parts: list[tuple[str, Mapping[str, Number]]] = [
-        (f"{part}: {getattr(material, part).name}", getattr(material, part).numbers) for part in _PARTS
+        (f"{part}: {getattr(material, part).name}", getattr(material, part).numbers) for part in PARTS
     ]
     if material.fracture_pressure is not None:
         parts.append(("failure", {"fracture_pressure": material.fracture_pressure}))

@@ -5,11 +5,12 @@ Names are for ever the same. All are cell values without ghosts, in SI units.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 from hydro2d.errors import unknown
 from hydro2d.mesh.fields import Field
-from strength.dispatch import STRENGTH_MODULES
+from strength.registry import STRENGTH_MODULES
 
 
 class FieldError(Exception):
@@ -92,6 +93,16 @@ GROUPS = {
     "all": tuple(BY_KEY),
     "standard": tuple(key for key in BY_KEY if key not in ("body_pressure", "body_energy", "body_damage", *INTERNAL)),
 }
+
+
+def declare(fields: Iterable[Field]) -> None:
+    """Adds internal variables of a model from outside to the table; a name that is there keeps its row."""
+    global TABLE
+    for field in fields:
+        if field.written and field.name not in BY_KEY:
+            INTERNAL[field.name] = BY_KEY[field.name] = _internal(field)
+    TABLE = tuple(BY_KEY.values())
+    GROUPS["all"] = tuple(BY_KEY)
 
 
 def expand(keys) -> tuple[str, ...]:

@@ -135,10 +135,12 @@ class Results:
     def simulation(self) -> Simulation:
         """The simulation as the restart file holds it. Raises SnapshotError."""
         from hydro2d.deck import deck as decks
-        from hydro2d.solver.simulation import Simulation
 
         saved, _ = snapshot.read_latest(self.directory)
-        sim = Simulation(decks.loads(saved.deck))
+        deck = decks.loads(saved.deck)  # before the kernels are loaded: it may have models from outside
+        from hydro2d.solver.simulation import Simulation
+
+        sim = Simulation(deck)
         with snapshot.fitting(self.directory):
             sim.load_restart_arrays(saved.arrays)
             sim.load_restart_scalars(saved.scalars)

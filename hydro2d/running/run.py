@@ -27,6 +27,7 @@ import numpy as np
 from hydro2d import __version__
 from hydro2d import interrupt as interrupts
 from hydro2d.deck.warnings import warnings
+from hydro2d.errors import UnphysicalState
 from hydro2d.files import locked, write_json, write_text
 from hydro2d.interrupt import Interrupt, signals
 from hydro2d.output import snapshot
@@ -37,6 +38,7 @@ from hydro2d.running.progress import Clock, reporter
 from hydro2d.running.team import Team
 from hydro2d.solver.callbacks import Due
 from hydro2d.solver.record import row
+from hydro2d.toml import model_tables
 
 DECK, SUMMARY, HISTORY, LOG, LOCK = "deck.toml", "summary.json", "history.h5", "log.txt", "run.lock"
 PROGRESS = "progress.json"
@@ -90,12 +92,15 @@ FREE_SECTIONS = ("name", "title", "stop", "output", "experiment")
 def check_same_deck(now: str, before: str) -> None:
     """Raises RunError if two resolved decks differ in anything that the state depends on."""
     now, before = (tomllib.loads(text) for text in (now, before))
+    new, old = ({table["model"]: table["code"] for _, table in model_tables(data) if table.pop("code_from", "")}
+                for data in (now, before))
     changed = sorted(
         key for key in now.keys() | before.keys() if key not in FREE_SECTIONS and now.get(key) != before.get(key)
     )
     if changed:
+        models = [f"the code of the model {name}" for name in sorted(new.keys() & old.keys()) if new[name] != old[name]]
         raise RunError(
-            f"the deck is not the one that the run was begun with: {', '.join(changed)} differ "
+            f"the deck is not the one that the run was begun with: {', '.join([*changed, *models])} differ "
             f"(a restart may change only {', '.join(FREE_SECTIONS)})"
         )
 
@@ -119,7 +124,7 @@ class Run:
         self.deck, self.directory, self.report = deck, Path(directory), report
         self.deck_text = deck.to_toml()
         self.warnings = warnings(deck)
-        self.provenance = provenance.collect(threads())
+        self.provenance = provenance.collect(threads()) | {"models": models_from_outside(deck)}
         self.sim = Simulation(deck)
         self.sim.columns.update(columns or {})
         self.wall_before = 0.0
@@ -169,8 +174,6 @@ class Run:
 
         compiled : what tells after the first cycle how long the kernels were compiled, see compilation.announced
         """
-        from hydro2d.solver.simulation import UnphysicalState
-
         self.report.begin(self)
         reason = self.sim.stop_reason()
         self._outputs()
@@ -329,6 +332,11 @@ class Run:
 def deck_hash(text: str) -> str:
     """SHA-256 of a resolved deck: the same for the same case."""
     return hashlib.sha256(text.encode()).hexdigest()
+
+
+def models_from_outside(deck) -> list[dict]:
+    """The models of a deck that are not hydro2d's: kind, name, file and SHA-256."""
+    return [model.about() for material in deck.materials.values() for model in material.from_outside()]
 
 
 def experiment(deck) -> dict | None:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from hydro2d.errors import UnphysicalState
 from hydro2d.kernels import (
     acceleration,
     boundaries,
@@ -32,10 +33,6 @@ from hydro2d.solver.method import Method
 MARGIN = 6
 #: vertices may be this much faster than the fastest body was at the start, or than the slowest wave
 SPEED_LIMIT_FACTOR = 5.0
-
-
-class UnphysicalState(Exception):
-    """The state has become one that no material can be in; the message says where, which body and the values."""
 
 
 class Cycle:

@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING
 
 from hydro2d.output.history import Columns
 from hydro2d.solver.callbacks import Due
-from hydro2d.solver.tracers import PEAKS
 
 if TYPE_CHECKING:
     from hydro2d.solver.simulation import Simulation
@@ -17,6 +16,8 @@ def row(sim: Simulation) -> dict[str, float | str | None]:
 
     Raises ValueError where a column of the user has the name of another.
     """
+    from hydro2d.solver.tracers import PEAKS  # it loads kernels, after which no model can join them
+
     conserved = sim.conservation()
     values = {"time": sim.time, "cycle": sim.cycle, "dt": sim.dt, **sim.diagnostics()}
     values |= {f"mass_change_{body}": change for body, change in conserved["mass"].items()}

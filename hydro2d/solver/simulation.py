@@ -9,7 +9,7 @@ import numpy as np
 
 from hydro2d import units
 from hydro2d.deck import deck as decks
-from hydro2d.errors import unknown
+from hydro2d.errors import UnphysicalState, unknown
 from hydro2d.materials import library
 from hydro2d.mesh import fields, quantities, sums
 from hydro2d.mesh.edges import Edges
@@ -18,7 +18,7 @@ from hydro2d.mesh.state import State
 from hydro2d.solver import bodies, insertion, tracers
 from hydro2d.solver.audit import Ledger
 from hydro2d.solver.crater import Crater
-from hydro2d.solver.cycle import Cycle, UnphysicalState
+from hydro2d.solver.cycle import Cycle
 from hydro2d.solver.following import FollowingMesh, StandingMesh, UndisturbedSpace
 from hydro2d.solver.memory import refuse_too_large
 from hydro2d.solver.method import Method
@@ -33,8 +33,6 @@ if TYPE_CHECKING:
     import pyvista
     import xarray
     from numpy.typing import ArrayLike
-
-__all__ = ["Simulation", "UnphysicalState"]
 
 
 class Simulation:

@@ -101,9 +101,10 @@ def local(workers: int, threads: int) -> Iterator:
 
 def _with_checkpoints(client, *, silent: bool):
     """The client, whose workers write restart files before they go."""
+    from hydro2d.materials import outside
     from hydro2d.study import worker
 
-    client.register_plugin(worker.Checkpoint(silent))
+    client.register_plugin(worker.Checkpoint(silent, outside.offered()))
     return client
 
 

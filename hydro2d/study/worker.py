@@ -8,11 +8,13 @@ import os
 import signal
 import threading
 import time
+from collections.abc import Iterable
 
 import distributed
 
 from hydro2d import __version__
 from hydro2d.interrupt import Interrupt
+from hydro2d.materials import outside
 from hydro2d.study.case import Outcome, run_case
 from hydro2d.study.layout import FAILED_STATUS, WAITING
 
@@ -82,11 +84,14 @@ class Checkpoint(distributed.WorkerPlugin):
 
     name = "hydro2d-checkpoint"
 
-    def __init__(self, silent: bool):
+    def __init__(self, silent: bool, models: Iterable[tuple[str, str, str]] = ()):
+        self.models = list(models)  # of the whole study: kernels are loaded with the first case
         self.silent = silent  # what dask says of lost connections as everything ends belongs on no screen
 
     def setup(self, worker) -> None:
         """Called by dask as the worker starts."""
+        if self.models:
+            outside.take_over(self.models)
         if self.silent:
             logging.getLogger("distributed").setLevel(logging.CRITICAL)
         if threading.current_thread() is threading.main_thread():

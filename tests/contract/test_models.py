@@ -1,7 +1,5 @@
 """What every registered equation of state, strength model and damage model must keep."""
 
-import itertools
-import math
 import types
 
 import numpy as np
@@ -9,8 +7,9 @@ import pytest
 
 import eos
 import strength
-from eos import dispatch as eos_dispatch
-from strength import dispatch, radial_return, tensile_pressure
+from hydro2d.materials import contract
+from hydro2d.materials.outside import KINDS
+from strength import dispatch, tensile_pressure
 
 SOLID = {
     "reference_density": 2770.0,
@@ -93,58 +92,111 @@ DAMAGE_CASES = {
     "johnson-cook": {"D1": 0.14, "D2": 0.14, "D3": -1.5, "D4": 0.018, "D5": 0.5, "melt_temperature": 877.0},
 }
 
-MODELS = (
-    [(eos.MODELS[name], EOS_CASES[name][0], eos.ROW) for name in eos.MODELS]
-    + [(strength.STRENGTH_MODELS[name], STRENGTH_CASES[name], strength.ROW) for name in strength.STRENGTH_MODELS]
-    + [(strength.DAMAGE_MODELS[name], DAMAGE_CASES[name], strength.DAMAGE_ROW) for name in strength.DAMAGE_MODELS]
-)
+def cases_of(part):
+    """Every registered model of a part of a material, with its case."""
+    if part == "eos":
+        return [contract.Case(KINDS[part], eos.MODELS[name], values, tuple(ratios), energies)
+                for name, (values, ratios, energies) in EOS_CASES.items()]
+    if part == "damage":
+        return [contract.Case(KINDS[part], strength.DAMAGE_MODELS[name], values) for name, values in DAMAGE_CASES.items()]
+    return [contract.Case(KINDS[part], strength.STRENGTH_MODELS[name], values, constant=CONSTANT_YIELD.get(name))
+            for name, values in STRENGTH_CASES.items()]
 
 
-def label(value):
-    return getattr(value, "__name__", None) or ""
+CASES = [pytest.param(case, check, id=f"{part}-{case.module.NAME}-{check.__name__}")
+         for part, checks in contract.CHECKS.items() for case in cases_of(part) for check in checks]
 
 
-@pytest.fixture(params=list(eos.MODELS))
-def gas(request):
-    """(module, row, densities, energies) of an equation of state."""
-    values, ratios, energies = EOS_CASES[request.param]
-    module = eos.MODELS[request.param]
-    return module, module.row(values), values["reference_density"] * ratios, energies
+@pytest.mark.parametrize(("case", "check"), CASES)
+def test_contract(case, check):
+    check(case)
 
 
-@pytest.fixture(params=list(strength.STRENGTH_MODELS))
-def solid(request):
-    """(module, row, parameters) of a strength model."""
-    module = strength.STRENGTH_MODELS[request.param]
-    return module, module.row(STRENGTH_CASES[request.param]), STRENGTH_CASES[request.param]
+@pytest.mark.parametrize("part", list(KINDS))
+def test_every_model_has_its_case(part):
+    assert {case.module.NAME for case in cases_of(part)} == set(KINDS[part].models)
 
 
-# what a model says of itself
-
-
-@pytest.mark.parametrize("models", [eos.MODELS, strength.STRENGTH_MODELS, strength.DAMAGE_MODELS])
-def test_ids_differ(models):
+@pytest.mark.parametrize("part", list(KINDS))
+def test_ids_differ(part):
+    models = KINDS[part].models
     assert len({module.ID for module in models.values()}) == len(models)
 
 
-@pytest.mark.parametrize(("module", "values", "length"), MODELS, ids=label)
-def test_row(module, values, length):
-    row = module.row(values)
-    assert row.shape == (length,)
-    assert row.dtype == np.float64
-    assert not np.isnan(row).any()
+def test_the_yield_stress_of_the_row_is_the_parameter():
+    for name, values in STRENGTH_CASES.items():
+        if name != "zerilli-armstrong":  # whose yield stress is a sum
+            assert strength.STRENGTH_MODELS[name].row(values)[strength.YIELD] == values.get("yield_stress", 0.0)
 
 
-@pytest.mark.parametrize(("module", "values", "length"), MODELS, ids=label)
-def test_wrong_parameters_are_refused(module, values, length):
-    with pytest.raises(ValueError, match="unknown parameter 'colour'"):
-        module.row({**values, "colour": 1.0})
-    for parameter in module.PARAMETERS:
-        with pytest.raises(ValueError, match=parameter.name):
-            module.row({**values, parameter.name: math.nan})
-        if parameter.required:
-            with pytest.raises(ValueError, match=f"{parameter.name}' is missing"):
-                module.row({name: value for name, value in values.items() if name != parameter.name})
+def test_constant_yield_has_the_same_numbers_in_every_model():
+    assert set(CONSTANT_YIELD) == set(strength.STRENGTH_MODELS) - {"hydrodynamic"}
+    for name, values in CONSTANT_YIELD.items():
+        row = strength.STRENGTH_MODELS[name].row(values)
+        assert (row[strength.SHEAR], row[strength.YIELD]) == (G, Y)
+
+
+# the checks can fail
+
+
+def spoilt(part, name, **functions):
+    """A case of a model some of whose functions or constants are others."""
+    case = next(case for case in cases_of(part) if case.module.NAME == name)
+    module = types.SimpleNamespace(**{**vars(case.module), **functions})
+    return contract.Case(case.kind, module, case.values, case.densities, case.energies, case.constant)
+
+
+def gas(rho=0.0, e=0.0, p=0.0, slope=1.0, T=1.0):
+    """An ideal gas with something added to its pressure or its energy, and factors on its slopes and temperature."""
+    own = eos.MODELS["ideal-gas"].evaluate
+
+    def evaluate(density, energy, par):
+        found = own(density + rho, energy + e, par)
+        return found[0] + p, found[1] * slope, found[2], found[3] * T ** (density / 1.2)
+
+    return spoilt("eos", "ideal-gas", evaluate=evaluate)
+
+
+def metal(**functions):
+    return spoilt("strength", "johnson-cook", **functions)
+
+
+FLOW = strength.STRENGTH_MODELS["johnson-cook"].flow_stress
+
+
+@pytest.mark.parametrize(
+    ("check", "case", "words"),
+    [
+        (contract.row, metal(row=lambda values: np.zeros(3)), r"row gives float64 \(3,\), not float64 \(16,\)"),
+        (contract.row, metal(row=lambda values: np.full(strength.ROW, np.nan)), "NaN in slot 0"),
+        (contract.wrong_parameters, metal(row=lambda values: np.zeros(strength.ROW)), "unknown parameter 'colour'"),
+        (contract.eos_is_chosen, gas(p=1.0), "by its ID"),
+        (contract.derivatives, gas(slope=1.001), "dp/drho is"),
+        (contract.sound_speed, gas(slope=-9.0), r"c\^2 is -"),
+        (contract.rest, gas(p=1.0), "p is 1 Pa"),
+        (contract.finite, gas(p=np.nan), "evaluate"),
+        (contract.pressure_rises, gas(slope=1.1), "p rises by"),
+        (contract.temperature, gas(T=1.1), "dT/drho is"),
+        (contract.strength_is_chosen, metal(ID=1), "by its ID"),
+        (contract.moduli, metal(shear_modulus=lambda p, rho, T, par: 2 * G), "the modulus is 5.2e[+]10"),
+        (contract.virgin, metal(flow_stress=lambda *state: FLOW(*state) + 1.0), "slot YIELD"),
+        (contract.monotone, metal(flow_stress=lambda ep, *state: 1e9 - ep), "falls from plastic strain"),
+        (contract.monotone, metal(flow_stress=lambda ep, rate, *state: 1e9 - rate), "falls from strain rate"),
+        (contract.monotone, metal(flow_stress=lambda ep, rate, T, *state: T), "rises from temperature"),
+        (contract.melt, metal(flow_stress=lambda *state: 1.0), "is 1 Pa at 877 K"),
+        (contract.yield_floor, metal(yield_floor=lambda par: 1e9), "the floor 1e[+]09"),
+        (contract.constant_yield, metal(ID=99), "of elastic-plastic"),
+        (contract.damage, spoilt("damage", "johnson-cook", damage_increment=lambda *state: 0.1), "without plastic strain"),
+        (contract.damage, spoilt("damage", "johnson-cook", damage_increment=lambda dep, *state: -dep), "with a plastic strain"),
+        (contract.damage, spoilt("damage", "johnson-cook", damage_increment=lambda dep, *state: 3.0 * dep), "by its ID"),
+    ],
+)  # fmt: skip
+def test_a_model_that_does_not_keep_it_is_found(check, case, words):
+    with pytest.raises(contract.Broken, match=words):
+        check(case)
+
+
+# what a model says of itself
 
 
 @pytest.mark.parametrize(
@@ -169,115 +221,7 @@ def test_every_model_describes_itself(describe, models):
             describe(name + "x")
 
 
-# equations of state
-
-
-def test_dispatch_chooses_the_equation_of_state(gas):
-    module, row, densities, energies = gas
-    for rho, e in itertools.product(densities, energies):
-        assert eos_dispatch.evaluate(module.ID, rho, e, row) == module.evaluate(rho, e, row)
-    assert np.isnan(eos_dispatch.evaluate(99, 1.0, 1.0, row)).all()
-
-
-def test_derivatives_against_differences(gas):
-    module, row, densities, energies = gas
-    for rho, e in itertools.product(densities, energies):
-        p, dpdrho, dpde, T = module.evaluate(rho, e, row)
-        d = 1e-5 * rho
-        below, above = (p - module.evaluate(rho - d, e, row)[0]) / d, (module.evaluate(rho + d, e, row)[0] - p) / d
-        if abs(rho - row[eos.RHO0]) <= d:  # a branch ends there: the slope is that of one side
-            assert min(abs(dpdrho / below - 1.0), abs(dpdrho / above - 1.0)) < 2e-4
-        else:
-            assert dpdrho == pytest.approx(0.5 * (below + above), rel=1e-7)
-        d = 0.01 * max(e, 1.0)
-        slope = (module.evaluate(rho, e + d, row)[0] - module.evaluate(rho, e - d, row)[0]) / (2 * d)
-        assert dpde == pytest.approx(slope, rel=1e-7)
-
-
-def test_sound_speed_is_real(gas):
-    module, row, densities, energies = gas
-    for rho, e in itertools.product(densities, energies):
-        p, dpdrho, dpde, T = module.evaluate(rho, e, row)
-        assert dpdrho + p * dpde / rho**2 > 0.0
-
-
-def test_rest_has_no_pressure(gas):
-    module, row, densities, energies = gas
-    assert module.evaluate(row[eos.RHO0], 0.0, row)[0] == 0.0
-
-
-def test_every_density_gives_finite_numbers(gas):
-    module, row, densities, energies = gas
-    for rho in (1e-300, 1e-100, 1e-12, 1.0, 1e3, 1e5, 1e9):
-        for e in (-1e6, 0.0, 1e8):
-            assert np.isfinite(module.evaluate(rho, e, row)).all()
-            assert module.evaluate(rho, e, row)[3] >= 0.0
-
-
-def test_pressure_rises_with_density_and_has_no_jump(gas):
-    """Also beyond the stated range, where the form of the curve may change."""
-    module, row, densities, energies = gas
-    rho = row[eos.RHO0] * np.linspace(0.3, 8.0, 20001)
-    p = np.array([module.evaluate(x, 1e5, row)[0] for x in rho])
-    slope = np.array([module.evaluate(x, 1e5, row)[1] for x in rho])
-    rise = np.diff(p)
-    assert (rise > 0.0).all()
-    expected = 0.5 * (slope[1:] + slope[:-1]) * np.diff(rho)
-    np.testing.assert_allclose(rise, expected, rtol=5e-3)
-
-
-def test_temperature_belongs_to_the_pressure(gas):
-    """T ds = de - p drho/rho^2 is a total differential: d(1/T)/drho|e = -d(p/(rho^2 T))/de|rho."""
-    module, row, densities, energies = gas
-    checked = 0
-    for rho, e in itertools.product(densities, energies):
-        p, dpdrho, dpde, T = module.evaluate(rho, e, row)
-        if T < 50.0:
-            continue
-        checked += 1
-        d = 1e-3 * rho
-        dTdrho = (module.evaluate(rho + d, e, row)[3] - module.evaluate(rho - d, e, row)[3]) / (2 * d)
-        d = 1e-3 * max(e, 1.0)
-        dTde = (module.evaluate(rho, e + d, row)[3] - module.evaluate(rho, e - d, row)[3]) / (2 * d)
-        expected = T * dpde / rho**2 - p * dTde / rho**2
-        scale = abs(T * dpde / rho**2) + abs(p * dTde / rho**2)
-        assert abs(dTdrho - expected) < 2e-3 * scale
-    assert checked > 5
-
-
-# strength
-
-
-def test_dispatch_chooses_the_strength_model(solid):
-    module, row, values = solid
-    for ep, rate, T, p, rho in itertools.product((0.0, 0.3), (0.0, 1e4), (300.0, 600.0), (-1e9, 5e9), (2600.0, 3000.0)):
-        assert dispatch.flow_stress(module.ID, ep, rate, T, p, rho, row) == module.flow_stress(ep, rate, T, p, rho, row)
-        assert dispatch.shear_modulus(module.ID, p, rho, T, row) == module.shear_modulus(p, rho, T, row)
-    assert math.isnan(dispatch.flow_stress(99, 0.0, 0.0, 300.0, 0.0, 2700.0, row))
-    assert math.isnan(dispatch.shear_modulus(99, 0.0, 2700.0, 300.0, row))
-
-
-def states():
-    """Rows of pressure, density and temperature: all combinations of some, with tension, expansion and melt among them."""
-    pressures, densities = (-2e9, 0.0, 1e5, 3.3e10), (1900.0, 2700.0, 4001.7)
-    return np.array(list(itertools.product(pressures, densities, (0.0, 298.0, 777.7, 3000.0)))).T
-
-
-def filled(fill, model, row):
-    """The moduli of ``states`` as ``fill`` gives them, between two entries that it has to leave alone."""
-    p, rho, T = (np.concatenate([[math.nan], values, [math.nan]]) for values in states())
-    shear = np.full(p.size, -1.0)
-    fill(model, row, 1, p.size - 2, p, rho, T, shear)
-    assert shear[0] == shear[-1] == -1.0
-    return shear[1:-1]
-
-
-def test_a_row_of_moduli_is_the_modulus_of_every_cell(solid):
-    module, row, values = solid
-    expected = np.array([module.shear_modulus(p, rho, T, row) for p, rho, T in states().T])
-    np.testing.assert_array_equal(filled(dispatch.modulus_row, module.ID, row), expected)
-    if module.CONSTANT_MODULUS:
-        assert set(expected) == {row[strength.SHEAR]}
+# moduli by rows
 
 
 def test_a_model_that_says_nothing_of_its_modulus_has_it_evaluated_in_every_cell():
@@ -289,7 +233,10 @@ def test_a_model_that_says_nothing_of_its_modulus_has_it_evaluated_in_every_cell
     text = dispatch.modulus_row.py_func.__code__
     fill = types.FunctionType(text, {**vars(dispatch), "shear_modulus": modulus})
     row = np.full(strength.ROW, G)
-    np.testing.assert_array_equal(filled(fill, 99, row), modulus(99, *states(), row))
+    p, rho, T = contract.states()
+    shear = np.empty(p.size)
+    fill(99, row, 0, p.size, p, rho, T, shear)
+    np.testing.assert_array_equal(shear, modulus(99, p, rho, T, row))
 
 
 def test_no_cell_without_material_has_a_modulus_evaluated():
@@ -297,77 +244,3 @@ def test_no_cell_without_material_has_a_modulus_evaluated():
     shear = np.ones(1)
     dispatch.modulus_row(module.ID, module.row(STRENGTH_CASES[module.NAME]), 0, 1, *np.zeros((3, 1)), shear)
     assert shear[0] == 0.0
-
-
-def test_virgin_material_at_rest(solid):
-    module, row, values = solid
-    rest = (300.0 if "modulus_temperature" in {entry.name for entry in module.PARAMETERS} else 298.0), 0.0, 2700.0
-    assert module.flow_stress(0.0, 0.0, *rest, row) == row[strength.YIELD]
-    if module.NAME != "zerilli-armstrong":  # whose yield stress is a sum
-        assert row[strength.YIELD] == values.get("yield_stress", 0.0)
-    assert module.shear_modulus(0.0, 2700.0, rest[0], row) == row[strength.SHEAR]
-
-
-def test_strain_and_rate_harden_and_heat_softens(solid):
-    module, row, values = solid
-    strains = [0.0, 1e-12, 1e-6, *np.linspace(0.001, 5.0, 60), 1e3]
-    flow = [module.flow_stress(ep, 1e3, 400.0, 1e9, 2750.0, row) for ep in strains]
-    assert (np.diff(flow) >= 0.0).all()
-    flow = [module.flow_stress(0.1, rate, 400.0, 1e9, 2750.0, row) for rate in [0.0, *np.geomspace(1e-9, 1e9, 60)]]
-    assert (np.diff(flow) >= 0.0).all()
-    temperatures = np.linspace(0.0, 3000.0, 200)
-    flow = [module.flow_stress(0.1, 1e3, T, 1e9, 2750.0, row) for T in temperatures]
-    assert (np.diff(flow) <= 0.0).all()
-    assert min(flow) >= 0.0
-    modulus = [module.shear_modulus(1e9, 2750.0, T, row) for T in temperatures]
-    assert (np.diff(modulus) <= 0.0).all()
-    assert min(modulus) >= 0.0
-
-
-def test_no_strength_above_melt(solid):
-    module, row, values = solid
-    if "melt_temperature" in values:
-        assert module.flow_stress(0.5, 1e6, values["melt_temperature"], 0.0, 2700.0, row) == 0.0
-        assert module.flow_stress(0.5, 1e6, 5e4, 5e9, 3000.0, row) == 0.0
-
-
-def test_every_strength_model_has_its_cases():
-    assert set(STRENGTH_CASES) == set(strength.STRENGTH_MODELS)
-    assert set(CONSTANT_YIELD) == set(strength.STRENGTH_MODELS) - {"hydrodynamic"}
-
-
-def test_constant_yield_gives_the_same_bits():
-    """With their special terms off, all models are one: flow stress, modulus and return to the yield surface."""
-    rows = {name: strength.STRENGTH_MODELS[name].row(values) for name, values in CONSTANT_YIELD.items()}
-    states = itertools.product((0.0, 1e-7, 0.3, 7.0), (298.0, 777.7, 3000.0), (-2e9, 0.0, 3.3e10), (2200.0, 4001.7))
-    for ep, T, p, rho in states:
-        for seq in (0.5 * Y, Y, 1.000001 * Y, 1.37 * Y, 311.0 * Y):
-            answers = set()
-            for name, row in rows.items():
-                model = strength.STRENGTH_MODELS[name].ID
-                modulus = dispatch.shear_modulus(model, p, rho, T, row)
-                flow = dispatch.flow_stress(model, ep, 4e5, T, p, rho, row)
-                answers.add(
-                    (modulus, flow)
-                    + radial_return.plastic_increment(model, seq, ep, 1e-8, T, p, rho, modulus, 1.0, row)
-                )
-            assert len(answers) == 1
-            modulus, flow, dep, stress = answers.pop()
-            assert (modulus, flow) == (G, Y)
-            assert dep == pytest.approx(max(seq - Y, 0.0) / (3.0 * G), rel=1e-12)
-            assert stress == Y
-
-
-# damage
-
-
-@pytest.mark.parametrize("name", list(strength.DAMAGE_MODELS))
-def test_damage(name):
-    module = strength.DAMAGE_MODELS[name]
-    row = module.row(DAMAGE_CASES[name])
-    for rate, T, p, seq in itertools.product((0.0, 1e5), (298.0, 2000.0), (-1e9, 0.0, 1e10), (0.0, 1.0, 3e8)):
-        assert module.damage_increment(0.0, rate, T, p, seq, row) == 0.0
-        increment = module.damage_increment(0.01, rate, T, p, seq, row)
-        assert increment == dispatch.damage_increment(module.ID, 0.01, rate, T, p, seq, row)
-        assert 0.0 <= increment < math.inf
-    assert math.isnan(dispatch.damage_increment(99, 0.01, 0.0, 298.0, 0.0, 1.0, row))

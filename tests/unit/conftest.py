@@ -12,7 +12,7 @@ from tests.unit import fake
 def simulation(monkeypatch):
     """The fake simulation in the place of the real one; the class is the test's own."""
     own = type("Simulation", (fake.Simulation,), {})
-    module = SimpleNamespace(Simulation=own, UnphysicalState=fake.UnphysicalState)
+    module = SimpleNamespace(Simulation=own)
     monkeypatch.setitem(sys.modules, "hydro2d.solver.simulation", module)
     return own
 

@@ -8,15 +8,12 @@ import numpy as np
 
 import eos
 from hydro2d.deck.sections import Failure, Mesh, Segment, Sliding
+from hydro2d.errors import UnphysicalState
 from hydro2d.materials import library
 from hydro2d.mesh.grid import Grid
 
 ROD, PLATE = "rod", "plate"
 RADIUS, LENGTH, SPEED, STOP = 4e-3, 20e-3, 1000.0, 20e-6
-
-
-class UnphysicalState(Exception):
-    pass
 
 
 class FakeDeck:

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from hydro2d.deck import deck as decks
+from hydro2d.errors import UnphysicalState
 from hydro2d.kernels import contact_velocities
 from hydro2d.kernels.contact import EXTENDS, HEAVY
 from hydro2d.mesh.fields import EP
 from hydro2d.solver.audit import Ledger
-from hydro2d.solver.cycle import UnphysicalState
 from hydro2d.solver.simulation import Simulation
 from tests.verification.running import finish
 

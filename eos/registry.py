@@ -1,0 +1,25 @@
+"""The equations of state: those of this folder, and those from outside that are added before the kernels are loaded.
+
+A new equation of state is a file in this folder and its name in ``MODULES``.
+"""
+
+from __future__ import annotations
+
+from types import ModuleType
+
+from hydro2d.jit import modules
+
+MODULES = modules("eos", "mie_grueneisen", "ideal_gas", "stiffened_gas")
+MODELS = {module.NAME: module for module in MODULES}
+
+#: what a model computes: the arguments of its functions and the number of values that they return
+FUNCTIONS = {"evaluate": ("rho, e, par", 4)}
+REQUIRED = ("evaluate",)
+
+#: models from outside, as ``hydro2d/materials/outside.py`` adds them
+ADDED: list[ModuleType] = []
+
+
+def chosen() -> tuple[ModuleType, ...]:
+    """The models that kernels choose among, in an order that does not depend on the order in which they were added."""
+    return (*MODULES, *sorted(ADDED, key=lambda module: module.ID))

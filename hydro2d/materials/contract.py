@@ -1,0 +1,351 @@
+"""What every equation of state, strength model and damage model keeps, be it hydro2d's or from outside.
+
+``CHECKS`` has the checks of each part of a material. Each is a function of a Case; its first line of documentation says what
+is asked. It raises Broken where a model does not keep it, and returns why where it does not apply. The tests of hydro2d and
+``hydro2d check-model`` run the same.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from types import ModuleType
+
+import numpy as np
+
+from hydro2d.materials.outside import KINDS, Kind
+
+#: an ID that no model has
+NOBODY = 99
+
+
+class Broken(Exception):
+    """What a model does not keep, with the state and the numbers."""
+
+
+@dataclass(frozen=True)
+class Case:
+    """A model with numbers to try it on.
+
+    values : its parameters in SI, with every term on
+    densities : of the stated range of an equation of state, over the density at rest;  energies : likewise, J/kg
+    constant : parameters with which the flow stress is constant, or None
+    """
+
+    kind: Kind
+    module: ModuleType
+    values: Mapping[str, float]
+    densities: tuple[float, ...] = tuple(np.linspace(0.95, 1.5, 12))
+    energies: tuple[float, ...] = (0.0, 1e5, 3e6)
+    constant: Mapping[str, float] | None = None
+
+    @property
+    def row(self) -> np.ndarray:
+        return self.module.row(self.values)
+
+    def states(self) -> Iterator[tuple[float, float]]:
+        """Densities (kg/m^3) and energies (J/kg) of the stated range."""
+        rest = self.row[0]
+        return itertools.product((rest * ratio for ratio in self.densities), self.energies)
+
+    def given(self, *names: str) -> float | None:
+        """The first of these parameters that the model has, as it is given or by default."""
+        defaults = {parameter.name: parameter.default for parameter in self.module.PARAMETERS}
+        return next((self.values.get(name, defaults[name]) for name in names if name in defaults), None)
+
+
+def require(kept: bool, message: str) -> None:
+    """Raises Broken where something is not kept."""
+    if not kept:
+        raise Broken(message)
+
+
+# ------------------------------------------------------------------------------------------------ what it says of itself
+
+
+def row(case: Case) -> None:
+    """row(values) gives as many numbers as kernels read, none of them NaN"""
+    found = case.row
+    kept = isinstance(found, np.ndarray) and found.shape == (case.kind.length,) and found.dtype == np.float64
+    require(kept, f"row gives {getattr(found, 'dtype', type(found).__name__)} {getattr(found, 'shape', '')}, not float64 "
+                  f"({case.kind.length},)")  # fmt: skip
+    require(not np.isnan(found).any(), f"row has NaN in slot {np.isnan(found).argmax()}")
+
+
+def wrong_parameters(case: Case) -> None:
+    """row refuses parameters that are unknown, missing or no numbers, and says which"""
+    refused(case, {**case.values, "colour": 1.0}, "unknown parameter 'colour'")
+    for parameter in case.module.PARAMETERS:
+        refused(case, {**case.values, parameter.name: math.nan}, parameter.name)
+        if parameter.required:
+            rest = {name: value for name, value in case.values.items() if name != parameter.name}
+            refused(case, rest, f"{parameter.name}' is missing")
+
+
+def refused(case: Case, values: Mapping[str, float], words: str) -> None:
+    """Raises Broken unless `row` raises a ValueError with these words in it."""
+    try:
+        case.module.row(values)
+    except ValueError as error:
+        require(words in str(error), f"row says {error}, without {words}: use hydro2d.parameters.collect")
+    else:
+        raise Broken(f"row takes a parameter that is wrong ({words})")
+
+
+# ------------------------------------------------------------------------------------------------ equations of state
+
+
+def eos_is_chosen(case: Case) -> None:
+    """compiled with the other equations of state, it gives the same numbers"""
+    from eos import dispatch
+
+    par = case.row
+    for rho, e in case.states():
+        through, alone = dispatch.evaluate(case.module.ID, rho, e, par), case.module.evaluate(rho, e, par)
+        require(through == alone, f"evaluate({rho:g}, {e:g}) is {alone}, and {through} by its ID")
+    require(np.isnan(dispatch.evaluate(NOBODY, 1.0, 1.0, par)).all(), "an ID of no model gives numbers")
+
+
+def derivatives(case: Case) -> None:
+    """dp/drho and dp/de are those of p"""
+    par = case.row
+    for rho, e in case.states():
+        p, dpdrho, dpde, _ = case.module.evaluate(rho, e, par)
+        d = 1e-5 * rho
+        below = (p - case.module.evaluate(rho - d, e, par)[0]) / d
+        above = (case.module.evaluate(rho + d, e, par)[0] - p) / d
+        at = f"at rho = {rho:g} kg/m^3, e = {e:g} J/kg"
+        if abs(rho - par[0]) <= d:  # a branch ends there: the slope is that of one side
+            kept = near(dpdrho, below, 2e-4) or near(dpdrho, above, 2e-4)
+        else:
+            kept = near(dpdrho, 0.5 * (below + above), 1e-7)
+        require(kept, f"{at} dp/drho is {dpdrho:g}, and p rises by {0.5 * (below + above):g}")
+        d = 0.01 * max(e, 1.0)
+        slope = (case.module.evaluate(rho, e + d, par)[0] - case.module.evaluate(rho, e - d, par)[0]) / (2 * d)
+        require(near(dpde, slope, 1e-7), f"{at} dp/de is {dpde:g}, and p rises by {slope:g}")
+
+
+def near(value: float, expected: float, share: float) -> bool:
+    """Whether two numbers are equal but for a share of the second, or 1e-12."""
+    return abs(value - expected) <= max(share * abs(expected), 1e-12)
+
+
+def sound_speed(case: Case) -> None:
+    """the sound speed is real in the stated range"""
+    par = case.row
+    for rho, e in case.states():
+        p, dpdrho, dpde, _ = case.module.evaluate(rho, e, par)
+        square = dpdrho + p * dpde / rho**2
+        require(square > 0.0, f"at rho = {rho:g} kg/m^3, e = {e:g} J/kg c^2 is {square:g}")
+
+
+def rest(case: Case) -> None:
+    """at the density at rest and no energy the pressure is exactly zero"""
+    par = case.row
+    p = case.module.evaluate(par[0], 0.0, par)[0]
+    require(p == 0.0, f"p is {p:g} Pa at rho = {par[0]:g} kg/m^3, e = 0")
+
+
+def finite(case: Case) -> None:
+    """every density above zero gives finite numbers, and no temperature below zero"""
+    par = case.row
+    for rho, e in itertools.product((1e-300, 1e-100, 1e-12, 1.0, 1e3, 1e5, 1e9), (-1e6, 0.0, 1e8)):
+        found = case.module.evaluate(rho, e, par)
+        kept = np.isfinite(found).all() and found[3] >= 0.0
+        require(kept, f"evaluate({rho:g}, {e:g}) is {tuple(map(float, found))}")
+
+
+def pressure_rises(case: Case) -> None:
+    """p rises with the density and has no jump, beyond the stated range as well"""
+    par = case.row
+    rho = par[0] * np.linspace(0.3, 8.0, 20001)
+    found = np.array([case.module.evaluate(x, 1e5, par)[:2] for x in rho])
+    rise, expected = np.diff(found[:, 0]), 0.5 * (found[1:, 1] + found[:-1, 1]) * np.diff(rho)
+    wrong = ~(rise > 0.0) | (abs(rise - expected) > 5e-3 * abs(expected))
+    k = int(wrong.argmax())
+    require(not wrong.any(), f"from rho = {rho[k]:g} to {rho[k + 1]:g} kg/m^3 p rises by {rise[k]:g} Pa, and dp/drho says "
+                             f"{expected[k]:g}")  # fmt: skip
+
+
+def temperature(case: Case) -> None:
+    """the temperature belongs to the pressure, T ds = de - p drho/rho^2: d(1/T)/drho|e = -d(p/(rho^2 T))/de|rho"""
+    par, checked = case.row, 0
+    for rho, e in case.states():
+        p, _, dpde, T = case.module.evaluate(rho, e, par)
+        if T < 50.0:
+            continue
+        checked += 1
+        d = 1e-3 * rho
+        by_rho = (case.module.evaluate(rho + d, e, par)[3] - case.module.evaluate(rho - d, e, par)[3]) / (2 * d)
+        d = 1e-3 * max(e, 1.0)
+        by_e = (case.module.evaluate(rho, e + d, par)[3] - case.module.evaluate(rho, e - d, par)[3]) / (2 * d)
+        terms = T * dpde / rho**2, p * by_e / rho**2
+        require(abs(by_rho - (terms[0] - terms[1])) < 2e-3 * (abs(terms[0]) + abs(terms[1])),
+                f"at rho = {rho:g} kg/m^3, e = {e:g} J/kg dT/drho is {by_rho:g}, not {terms[0] - terms[1]:g}")
+    require(checked > 5, f"only {checked} states of the stated range have a temperature above 50 K")
+
+
+# ------------------------------------------------------------------------------------------------ strength
+
+
+def strength_is_chosen(case: Case) -> None:
+    """compiled with the other strength models, it gives the same numbers"""
+    from strength import dispatch
+
+    module, par = case.module, case.row
+    for ep, rate, T, p, rho in itertools.product((0.0, 0.3), (0.0, 1e4), (300.0, 600.0), (-1e9, 5e9), (2600.0, 3000.0)):
+        for name, state in (("flow_stress", (ep, rate, T, p, rho)), ("shear_modulus", (p, rho, T))):
+            through, alone = getattr(dispatch, name)(module.ID, *state, par), getattr(module, name)(*state, par)
+            require(through == alone, f"{name}{state} is {alone}, and {through} by its ID")
+    kept = math.isnan(dispatch.flow_stress(NOBODY, 0.0, 0.0, 300.0, 0.0, 2700.0, par))
+    require(kept and math.isnan(dispatch.shear_modulus(NOBODY, 0.0, 2700.0, 300.0, par)), "an ID of no model gives numbers")
+
+
+def states() -> np.ndarray:
+    """Rows of pressure, density and temperature: all combinations of some, with tension, expansion and melt among them."""
+    pressures, densities = (-2e9, 0.0, 1e5, 3.3e10), (1900.0, 2700.0, 4001.7)
+    return np.array(list(itertools.product(pressures, densities, (0.0, 298.0, 777.7, 3000.0)))).T
+
+
+def moduli(case: Case) -> None:
+    """a row of shear moduli is the modulus of every cell, and constant where the model says CONSTANT_MODULUS"""
+    from strength import dispatch
+    from strength.layout import SHEAR
+
+    par = case.row
+    p, rho, T = (np.concatenate([[math.nan], values, [math.nan]]) for values in states())
+    shear = np.full(p.size, -1.0)
+    dispatch.modulus_row(case.module.ID, par, 1, p.size - 2, p, rho, T, shear)
+    require(shear[0] == shear[-1] == -1.0, "cells beside the row were written to")
+    for found, state in zip(shear[1:-1], states().T, strict=True):
+        expected = case.module.shear_modulus(*state, par)
+        at = "p = {:g} Pa, rho = {:g} kg/m^3, T = {:g} K".format(*state)
+        require(not case.module.CONSTANT_MODULUS or expected == par[SHEAR],
+                f"at {at} the modulus is {expected:g} Pa, not slot SHEAR of the row, {par[SHEAR]:g}")
+        require(found == expected, f"at {at} the modulus is {expected:g} Pa, and {found:g} in a row")
+
+
+def virgin(case: Case) -> None:
+    """slots SHEAR and YIELD of the row are modulus and flow stress of the virgin material at rest"""
+    from strength.layout import SHEAR, YIELD
+
+    par, T, rho = case.row, at_rest(case), case.given("reference_density") or 2700.0
+    flow, modulus = case.module.flow_stress(0.0, 0.0, T, 0.0, rho, par), case.module.shear_modulus(0.0, rho, T, par)
+    require(flow == par[YIELD], f"the flow stress is {flow:g} Pa, slot YIELD of the row {par[YIELD]:g}")
+    require(modulus == par[SHEAR], f"the shear modulus is {modulus:g} Pa, slot SHEAR of the row {par[SHEAR]:g}")
+
+
+def at_rest(case: Case) -> float:
+    """The temperature at which a model has its own yield stress, K."""
+    found = case.given("modulus_temperature", "reference_temperature")
+    return found if isinstance(found, float) else 298.0
+
+
+def monotone(case: Case) -> None:
+    """strain and rate harden, heat softens, and neither stress nor modulus is negative"""
+    module, par, T = case.module, case.row, np.linspace(0.0, 3000.0, 200)
+    strains, rates = [0.0, 1e-12, 1e-6, *np.linspace(0.001, 5.0, 60), 1e3], [0.0, *np.geomspace(1e-9, 1e9, 60)]
+    flow = np.array([module.flow_stress(ep, 1e3, 400.0, 1e9, 2750.0, par) for ep in strains])
+    in_order(np.diff(flow), strains, "plastic strain", "flow stress falls")
+    flow = np.array([module.flow_stress(0.1, rate, 400.0, 1e9, 2750.0, par) for rate in rates])
+    in_order(np.diff(flow), rates, "strain rate", "flow stress falls")
+    flow = np.array([module.flow_stress(0.1, 1e3, each, 1e9, 2750.0, par) for each in T])
+    modulus = np.array([module.shear_modulus(1e9, 2750.0, each, par) for each in T])
+    in_order(-np.diff(flow), T, "temperature", "flow stress rises")
+    in_order(-np.diff(modulus), T, "temperature", "shear modulus rises")
+    least = min(flow), min(modulus)
+    require(min(least) >= 0.0, "flow stress and shear modulus fall to {:g} and {:g} Pa".format(*least))
+
+
+def in_order(rises: np.ndarray, at, what: str, message: str) -> None:
+    """Raises Broken where one of the rises is negative, or NaN."""
+    wrong = ~(rises >= 0.0)
+    k = int(wrong.argmax())
+    require(not wrong.any(), f"the {message} from {what} {at[k]:g} to {at[k + 1]:g}")
+
+
+def melt(case: Case) -> str | None:
+    """there is no strength from the melting temperature on"""
+    if "melt_temperature" not in case.values:
+        return "EXAMPLE has no melt_temperature"
+    for ep, T, p, rho in ((0.5, case.values["melt_temperature"], 0.0, 2700.0), (0.5, 5e4, 5e9, 3000.0)):
+        found = case.module.flow_stress(ep, 1e6, T, p, rho, case.row)
+        require(found == 0.0, f"the flow stress is {found:g} Pa at {T:g} K")
+    return None
+
+
+def yield_floor(case: Case) -> str | None:
+    """the flow stress never falls below yield_floor"""
+    if not hasattr(case.module, "yield_floor"):
+        return "the model has no yield_floor"
+    par, least = case.row, case.module.yield_floor(case.row)
+    for ep, rate, (p, rho, T) in itertools.product((0.0, 0.01, 1.0), (0.0, 1e5), states().T):
+        found = case.module.flow_stress(ep, rate, T, p, rho, par)
+        require(found >= least, f"the flow stress is {found:g} Pa at ep = {ep:g}, T = {T:g} K, the floor {least:g}")
+    return None
+
+
+def constant_yield(case: Case) -> str | None:
+    """with a constant yield stress it is elastic-plastic to the last bit, the return to the yield surface included"""
+    if case.constant is None:
+        return "the model has no CONSTANT_YIELD"
+    from strength import STRENGTH_MODELS, dispatch, radial_return
+    from strength.layout import SHEAR, YIELD
+
+    own, plain = case.module.row(case.constant), STRENGTH_MODELS["elastic-plastic"]
+    G, Y = own[SHEAR], own[YIELD]
+    rows = (case.module.ID, own), (plain.ID, plain.row({"shear_modulus": G, "yield_stress": Y, "max_yield_stress": Y}))
+    grid = itertools.product((0.0, 1e-7, 0.3, 7.0), (298.0, 777.7, 3000.0), (-2e9, 0.0, 3.3e10), (2200.0, 4001.7))
+    for ep, T, p, rho in grid:
+        for seq in (0.5 * Y, Y, 1.000001 * Y, 1.37 * Y, 311.0 * Y):
+            answers = []
+            for model, par in rows:
+                modulus = dispatch.shear_modulus(model, p, rho, T, par)
+                flow = dispatch.flow_stress(model, ep, 4e5, T, p, rho, par)
+                back = radial_return.plastic_increment(model, seq, ep, 1e-8, T, p, rho, modulus, 1.0, par)
+                answers.append((modulus, flow, *back))
+            modulus, flow, dep, stress = answers[0]
+            exact = (modulus, flow, stress) == (G, Y, Y) and near(dep, max(seq - Y, 0.0) / (3.0 * G), 1e-12)
+            require(answers[0] == answers[1] and exact,
+                    f"modulus, flow stress, plastic strain and stress are {answers[0]}, of elastic-plastic {answers[1]}")
+    return None
+
+
+# ------------------------------------------------------------------------------------------------ damage
+
+
+def damage(case: Case) -> None:
+    """damage grows with plastic strain alone, and by a finite amount; compiled with the other models, it is the same"""
+    from strength import dispatch
+
+    module, par = case.module, case.row
+    for rate, T, p, seq in itertools.product((0.0, 1e5), (298.0, 2000.0), (-1e9, 0.0, 1e10), (0.0, 1.0, 3e8)):
+        at = f"at rate {rate:g} 1/s, T = {T:g} K, p = {p:g} Pa, von Mises stress {seq:g} Pa"
+        none, some = (module.damage_increment(dep, rate, T, p, seq, par) for dep in (0.0, 0.01))
+        require(none == 0.0, f"{at} damage grows by {none:g} without plastic strain")
+        require(0.0 <= some < math.inf, f"{at} damage grows by {some:g} with a plastic strain of 0.01")
+        through = dispatch.damage_increment(module.ID, 0.01, rate, T, p, seq, par)
+        require(some == through, f"{at} the increment is {some:g}, and {through:g} by its ID")
+    require(math.isnan(dispatch.damage_increment(NOBODY, 0.01, 0.0, 298.0, 0.0, 1.0, par)), "an ID of no model gives numbers")
+
+
+_ALL = (row, wrong_parameters)
+CHECKS: dict[str, tuple[Callable[[Case], str | None], ...]] = {
+    "eos": (*_ALL, eos_is_chosen, derivatives, sound_speed, rest, finite, pressure_rises, temperature),
+    "strength": (*_ALL, strength_is_chosen, moduli, virgin, monotone, melt, yield_floor, constant_yield),
+    "damage": (*_ALL, damage),
+}
+
+
+def case_of(part: str, module: ModuleType) -> Case:
+    """The case that a model gives itself: EXAMPLE, and if it has them DENSITIES, ENERGIES and CONSTANT_YIELD.
+
+    Raises Broken for one without EXAMPLE.
+    """
+    example = getattr(module, "EXAMPLE", None)
+    require(isinstance(example, Mapping), "needs EXAMPLE, parameters in SI to try it with: a number for each, every term on")
+    given = {"densities": "DENSITIES", "energies": "ENERGIES", "constant": "CONSTANT_YIELD"}
+    own = {name: getattr(module, word) for name, word in given.items() if hasattr(module, word)}
+    return Case(KINDS[part], module, example, **own)

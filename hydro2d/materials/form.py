@@ -1,0 +1,120 @@
+"""The form of a model's file: what it may import, and the constants and functions that it must have."""
+
+from __future__ import annotations
+
+import ast
+import inspect
+import sys
+from collections.abc import Iterator, Mapping
+from types import ModuleType
+
+from hydro2d.mesh import quantities
+from hydro2d.mesh.fields import Field
+from hydro2d.parameters import Parameter
+
+#: what each model says in words
+WORDS = ("NAME", "EQUATION", "SOURCE", "VALIDITY")
+#: keys of a model's table in a deck that cannot be parameters
+KEYS = ("model", "file", "code", "code_from", "source", "confidence", "note")
+#: modules of hydro2d that models use, beside those of their own package
+GROUND = ("hydro2d.jit", "hydro2d.parameters")
+
+
+def part(text: str, required: Mapping[str, tuple[str, ...]]) -> str | None:
+    """Which of some parts of a material a text is a model of, by the functions that each requires; None for none."""
+    try:
+        names = {node.name for node in ast.parse(text).body if isinstance(node, ast.FunctionDef)}
+    except SyntaxError:
+        return next(iter(required))  # whose import says what is wrong
+    return next((name for name, functions in required.items() if names & set(functions)), None)
+
+
+def _imported(tree: ast.AST) -> Iterator[tuple[str, int]]:
+    """Names of modules that a file imports, with lines; ``from a import b`` gives a.b, which may be a module."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Import):
+            yield from ((alias.name, node.lineno) for alias in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            module = "." * node.level + (f"{node.module}." if node.module else "")
+            yield from ((f"{module}{alias.name}", node.lineno) for alias in node.names)
+
+
+def wrong_import(text: str, package: str) -> tuple[int, str] | None:
+    """Line of the first import that a model of ``package`` must not have, and why; None where all may stand.
+
+    What is compiled is kept by the text of the file alone, and the file travels alone.
+    """
+    ground = (*GROUND, "hydro2d.mesh.fields") if package == "strength" else GROUND
+    for name, line in _imported(ast.parse(text)):
+        top = name.split(".")[0]
+        ours = any(f"{name}.".startswith(f"{place}.") for place in (*ground, package))
+        late = name.split(".")[:2] in ([package, "dispatch"], [package, "radial_return"])
+        if late or not (ours or top == "numpy" or top in sys.stdlib_module_names):
+            allowed = f"numpy, Python's own modules, {', '.join(ground)} and modules of {package}"
+            return line, f"imports {name}; a model may import {allowed}" + (", but not those that choose" if late else "")
+    return None
+
+
+def fault(module: ModuleType, kind) -> str | None:
+    """What the file of a model lacks or has wrong, in words; None where it is in order. ``kind`` is an outside.Kind."""
+    return next((found for check in (_constants, _parameters, _functions, _variables) for found in check(module, kind)), None)
+
+
+def _constants(module: ModuleType, kind) -> Iterator[str]:
+    for name in WORDS:
+        if not isinstance(getattr(module, name, None), str) or not getattr(module, name).strip():
+            yield f"needs {name}, a text"
+    if module.NAME in kind.models:
+        yield f"the NAME {module.NAME!r} is taken by a {kind.title} of hydro2d; give the model another one"
+    if not module.NAME.isprintable() or set(module.NAME) & set("/\\\"' "):
+        yield f"the NAME {module.NAME!r} has blanks, slashes or quotation marks"
+    for name in kind.flags:
+        if not isinstance(getattr(module, name, None), bool):
+            yield f"needs {name}, True or False"
+
+
+def _parameters(module: ModuleType, kind) -> Iterator[str]:
+    given = getattr(module, "PARAMETERS", None)
+    if not isinstance(given, tuple) or not all(isinstance(entry, Parameter) for entry in given):
+        yield "needs PARAMETERS, a tuple of hydro2d.parameters.Parameter"
+        return
+    names = [entry.name for entry in given]
+    for name in names:
+        if names.count(name) > 1:
+            yield f"has the parameter {name} twice"
+        if name in KEYS or not name.isidentifier():
+            yield f"has a parameter {name!r}, which cannot be a key of a deck's model"
+    if kind.part == "eos" and "reference_density" not in names:
+        yield "needs the parameter reference_density, kg/m^3"
+    if not callable(getattr(module, "row", None)):
+        yield "needs a function row(values), which packs the parameters"
+
+
+def _functions(module: ModuleType, kind) -> Iterator[str]:
+    for name in kind.required:
+        if not hasattr(module, name):
+            yield f"needs a function {name}({kind.functions[name][0]})"
+    for name, (arguments, _) in kind.functions.items():
+        function = getattr(module, name, None)
+        if function is None:
+            continue
+        if not hasattr(function, "py_func"):
+            yield f"{name} is not compiled: put @point before it"
+            return
+        found = inspect.signature(function.py_func).parameters.values()
+        if ", ".join(str(parameter) for parameter in found) != arguments:
+            yield f"{name} takes ({', '.join(str(parameter) for parameter in found)}), not ({arguments})"
+        if not function.py_func.__doc__:
+            yield f"{name} has no docstring; it says what the function returns, in which unit"
+
+
+def _variables(module: ModuleType, kind) -> Iterator[str]:
+    given = getattr(module, "INTERNAL", ())
+    if not isinstance(given, tuple) or not all(isinstance(entry, Field) for entry in given):
+        yield "INTERNAL is a tuple of hydro2d.mesh.fields.Field"
+    elif given and kind.part != "strength":
+        yield f"has internal variables, which a {kind.title} cannot"
+    for entry in given:
+        known = quantities.BY_KEY.get(entry.name)
+        if known is not None and not known.internal:
+            yield f"the internal variable {entry.name} has the name of a field"

@@ -1,0 +1,241 @@
+"""Models from outside: an equation of state, strength or damage model in a user's own file or installed package.
+
+A model is one Python file with what a file in ``eos`` or ``strength`` has, except an ID. Its text travels with the resolved
+deck, so that restarts and workers have it wherever they are. It is imported from a copy whose name has a hash of the text, and
+compiled with the models of hydro2d, provided that it is known before the kernels are loaded.
+"""
+
+from __future__ import annotations
+
+import functools
+import hashlib
+import re
+import traceback
+from collections.abc import Iterable
+from dataclasses import dataclass
+from importlib import metadata, util
+from pathlib import Path
+from types import ModuleType
+
+import eos.registry
+import strength.registry
+from eos.layout import ROW as EOS_ROW
+from hydro2d import jit
+from hydro2d.errors import DeckError
+from hydro2d.materials import form
+from hydro2d.mesh import quantities
+from strength.layout import DAMAGE_ROW
+from strength.layout import ROW as STRENGTH_ROW
+
+#: IDs of models from outside begin here
+FIRST_ID = 1000
+
+
+class ModelError(DeckError):
+    """A model from outside is wrong, or comes too late; the message is meant for its author."""
+
+
+@dataclass(frozen=True)
+class Kind:
+    """What can come from outside: a part of a material.
+
+    models, added : those of hydro2d by name, and those from outside that kernels know;  functions : see eos/registry.py
+    """
+
+    part: str
+    title: str
+    package: str
+    models: dict[str, ModuleType]
+    added: list[ModuleType]
+    functions: dict[str, tuple[str, int]]
+    required: tuple[str, ...]
+    flags: tuple[str, ...]
+    length: int
+
+
+_STRENGTH = strength.registry
+KINDS = {
+    kind.part: kind
+    for kind in (
+        Kind("eos", "equation of state", "eos", eos.registry.MODELS, eos.registry.ADDED, eos.registry.FUNCTIONS,
+             eos.registry.REQUIRED, (), EOS_ROW),
+        Kind("strength", "strength model", "strength", _STRENGTH.STRENGTH_MODELS, _STRENGTH.STRENGTH_ADDED,
+             _STRENGTH.STRENGTH_FUNCTIONS, _STRENGTH.STRENGTH_REQUIRED, ("CONSTANT_MODULUS", "THERMAL"), STRENGTH_ROW),
+        Kind("damage", "damage model", "strength", _STRENGTH.DAMAGE_MODELS, _STRENGTH.DAMAGE_ADDED,
+             _STRENGTH.DAMAGE_FUNCTIONS, _STRENGTH.DAMAGE_REQUIRED, ("THERMAL",), DAMAGE_ROW),
+    )
+}
+
+
+@dataclass(frozen=True)
+class Outside:
+    """A model from outside that is in order.
+
+    file : what messages and summaries call it;  text : the whole file
+    """
+
+    kind: Kind
+    file: str
+    text: str
+    module: ModuleType
+
+    @property
+    def name(self) -> str:
+        return self.module.NAME
+
+    def offer(self) -> bool:
+        """Adds it to what kernels choose among; False where they are loaded without it."""
+        _offered.setdefault((self.text, self.kind.part), self.file)
+        if self.module in self.kind.added:
+            return True
+        if not jit.add_model(self.kind.package, self.module.__name__):
+            return False
+        self.kind.added.append(self.module)
+        return True
+
+    def require(self, what: str = "") -> Outside:
+        """Itself; ModelError, which begins with `what`, where the kernels of this process are loaded without it."""
+        if not self.offer():
+            raise ModelError(
+                f"{what}the kernels of this process were loaded without the {self.kind.title} {self.name} of {self.file}; "
+                "load the deck, or call hydro2d.register, before kernels are loaded, or start a new process")
+        return self
+
+    def about(self) -> dict:
+        """What a summary says of it."""
+        digest = hashlib.sha256(self.text.encode()).hexdigest()
+        return {"kind": self.kind.part, "name": self.name, "file": self.file, "sha256": digest}
+
+
+#: files of the models that this process has met, by text and part
+_offered: dict[tuple[str, str], str] = {}
+
+
+def offered() -> list[tuple[str, str, str]]:
+    """Text, file and part of these models, for ``take_over`` in another process."""
+    return [(text, file, part) for (text, part), file in _offered.items()]
+
+
+def take_over(models: Iterable[tuple[str, str, str]]) -> None:
+    """Offers the kernels of this process what another process has ``offered``; what comes too late is told when it is used."""
+    for text, file, part in models:
+        from_text(text, file, part).offer()
+
+
+def register(*models: str | Path) -> None:
+    """Makes models of your own known: paths of files, or names of models that installed packages offer.
+
+    A deck that is loaded makes its own models known. Call this only where kernels are loaded before the deck is, for example
+    because another simulation ran first.
+
+    Raises ModelError for a model that is wrong, or that comes after the kernels are loaded.
+    """
+    for model in models:
+        found = [] if Path(model).is_file() else [each for part in KINDS if (each := from_package(part, str(model)))]
+        for each in found or [read(model)]:
+            each.require()
+
+
+def read(path: str | Path, part: str | None = None) -> Outside:
+    """The model of a file; `part` is one of KINDS, None for what the functions of the file say. Raises ModelError."""
+    path = Path(path)
+    try:
+        text = path.read_text(encoding="utf-8-sig")
+    except OSError as problem:
+        raise ModelError(f"{path}: cannot be read: {problem.strerror}") from None
+    except UnicodeDecodeError:
+        raise ModelError(f"{path}: is not UTF-8 text") from None
+    part = part or form.part(text, {kind.part: kind.required for kind in KINDS.values()})
+    if part is None:
+        needed = "; ".join(f"{kind.title}: {' and '.join(kind.required)}" for kind in KINDS.values())
+        raise ModelError(f"{path}: has none of the functions by which a model is known ({needed})")
+    return from_text(text, path.name, part, str(path))
+
+
+def from_text(text: str, file: str, part: str, place: str | None = None) -> Outside:
+    """The model of a text; `file` is its name, and `place` what messages call it. Raises ModelError."""
+    try:
+        return Outside(KINDS[part], file, text, _checked(text, part))
+    except ModelError as error:
+        raise ModelError(f"{place or file}{error}") from None
+
+
+def in_packages(part: str) -> dict[str, metadata.EntryPoint]:
+    """Entry points of installed packages by the names of their models."""
+    return {entry.name: entry for entry in metadata.entry_points(group=f"hydro2d.{part}")}
+
+
+def from_package(part: str, name: str) -> Outside | None:
+    """The model that an installed package gives under a name; None where none does. Raises ModelError."""
+    entry = in_packages(part).get(name)
+    if entry is None:
+        return None
+    package = f"{entry.dist.name} {entry.dist.version}" if entry.dist else "a package"
+    place = f"{entry.module} ({package})"
+    try:
+        spec = util.find_spec(entry.module)
+    except ImportError:
+        spec = None
+    if spec is None or not spec.origin or not Path(spec.origin).is_file():
+        raise ModelError(f"{place}: the entry point {name} names a module that cannot be found")
+    found = from_text(Path(spec.origin).read_text(encoding="utf-8"), place, part)
+    if found.name != name:
+        raise ModelError(f"{place}: the entry point is called {name} and the model {found.name}; the names must be the same")
+    return found
+
+
+# ------------------------------------------------------------------------------------------------ is it in order
+
+
+@functools.cache
+def _checked(text: str, part: str) -> ModuleType:
+    """The module of a text, with its ID. Raises ModelError, which lacks the name of the file in front."""
+    kind = KINDS[part]
+    module = _module(text, kind)
+    fault = form.fault(module, kind)
+    if fault is None:
+        fault = next((found for name in kind.functions if (found := _compiled(module, name, kind))), None)
+    if fault is not None:
+        raise ModelError(f": {fault}")
+    digest = hashlib.sha256(f"{part} {text}".encode()).hexdigest()
+    module.ID = FIRST_ID + int(digest[:12], 16)
+    quantities.declare(getattr(module, "INTERNAL", ()))
+    return module
+
+
+def _module(text: str, kind: Kind) -> ModuleType:
+    stem = f"hydro2d_{kind.part}_model"
+    try:
+        if wrong := form.wrong_import(text, kind.package):
+            raise ModelError(f":{wrong[0]}: {wrong[1]}")
+        return jit.module_of(stem, text)
+    except SyntaxError as error:
+        raise ModelError(f":{error.lineno or 1}: is not Python: {error.msg}") from None
+    except ModelError:
+        raise
+    except Exception as error:
+        frames = traceback.extract_tb(error.__traceback__)
+        lines = [frame.lineno for frame in frames if Path(frame.filename).name.startswith(stem)]
+        raise ModelError(f":{(lines or [1])[-1]}: cannot be imported: {type(error).__name__}: {_line(error)}") from None
+
+
+def _compiled(module: ModuleType, name: str, kind: Kind) -> str | None:
+    """Why a function of a model cannot be compiled, or what it returns that it should not; None where all is well."""
+    arguments, count = kind.functions[name]
+    if not hasattr(module, name):
+        return None
+    try:
+        found = jit.returns(getattr(module, name), arguments)
+    except Exception as error:
+        line = re.search(rf'{module.__name__}\.py", line (\d+)', str(error))
+        return f"{name} does not compile{f', line {line[1]}' if line else ''}: {_line(error)}"
+    if found != ("float64",) * count:
+        numbers = {0: "nothing", 1: "one number"}.get(count, f"{count} numbers")
+        return f"{name} returns {', '.join(found) or 'nothing'}, not {numbers} (write 1.0, not 1, and return on every path)"
+    return None
+
+
+def _line(error: Exception) -> str:
+    """What an exception says, on one line and without numba's frame around it."""
+    lines = [line.strip() for line in str(error).splitlines() if line.strip() and not line.startswith("Failed in nopython")]
+    return lines[0] if lines else type(error).__name__
