@@ -26,9 +26,11 @@ def _part(kind: Kind) -> dict:
             known.setdefault(parameter.name, []).append((name, parameter.unit or "1", parameter.description))
     keys = {
         "model": {"enum": [*kind.models, *in_packages(kind.part)], "description": f"the {kind.title}"},
-        "file": {**_TEXT, "description": "a Python file with a model, relative to the deck, in the place of `model`"},
-        "code": {**_TEXT, "description": "the text of that file, which resolved decks have in its place"},
-        "code_from": {**_TEXT, "description": "the name of that file"},
+        "file": {**_TEXT, "description": "a Python file with a model of your own, relative to the deck, instead of `model`",
+                 "examples": ["my_model.py"]},
+        "code": {**_TEXT, "description": "the text of that file, which resolved decks hold instead of its name",
+                 "examples": ["NAME = 'my-model'"]},
+        "code_from": {**_TEXT, "description": "the name of that file", "examples": ["my_model.py"]},
         **_ABOUT,
         **{key: {**_QUANTITY, "x-unit": entries[0][1], "description": _meanings(entries)} for key, entries in known.items()},
     }
