@@ -12,7 +12,7 @@ from hydro2d.deck.shapes import polygon
 from hydro2d.output import history
 from hydro2d.results import figures
 from hydro2d.results.figures import FigureError
-from hydro2d.results.reading import ResultsError, load
+from hydro2d.results.reading import Results, ResultsError
 from hydro2d.running.run import run
 from hydro2d.solver.insertion import fractions
 from hydro2d.solver.simulation import Simulation
@@ -262,7 +262,7 @@ def shot(tmp_path_factory):
     directory = tmp_path_factory.mktemp("shots") / "shot"
     text = TEXT + '[experiment]\npenetration = "2 mm"\nsource = "made up"\n'
     run(deck.loads(text, ['stop.time="3 us"']), directory, quiet=True)
-    return load(directory)
+    return Results(directory)
 
 
 def test_a_shot(shot):
@@ -303,9 +303,9 @@ def test_a_figure_of_it(shot, tmp_path):
 def test_no_hole(tmp_path):
     run(deck.loads(TEXT, ["stop.cycles=1", 'body.rod.tip="-2 mm"']), tmp_path / "early", quiet=True)
     with pytest.raises(FigureError, match="no hole"):
-        figures.craters([load(tmp_path / "early")])
+        figures.craters([Results(tmp_path / "early")])
     plate = TEXT[TEXT.rindex("[[body]]") :]
     without = deck.loads(TEXT[: TEXT.index("[[body]]")] + plate.replace("24 mm", "20 mm"), ["stop.cycles=1"])
     assert run(without, tmp_path / "without", quiet=True)["crater"] is None
     with pytest.raises(ResultsError, match="no crater"):
-        _ = load(tmp_path / "without").crater
+        _ = Results(tmp_path / "without").crater
