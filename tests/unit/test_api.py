@@ -42,6 +42,15 @@ def test_importing_hydro2d_is_cheap_and_the_names_are_there():
     assert found.stdout.splitlines() == ["[]", "[]"]
 
 
+@pytest.mark.parametrize("first", ["", "import eos; "])
+def test_another_package_called_eos_is_told(tmp_path, first):
+    (tmp_path / "eos.py").write_text("ROTATION = 1\n")
+    found = subprocess.run([sys.executable, "-c", f"{first}import hydro2d"], cwd=tmp_path, capture_output=True, text=True,
+                           env={**os.environ, "PYTHONPATH": os.pathsep.join([str(tmp_path), str(tubes.ROOT)])})  # fmt: skip
+    assert found.returncode == 1
+    assert f"hydro2d has a package eos of its own, and Python finds another one at {tmp_path / 'eos.py'}" in found.stderr
+
+
 def test_an_unknown_name_is_refused():
     with pytest.raises(AttributeError, match="no attribute 'simulate'"):
         hydro2d.simulate  # noqa: B018
