@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from hydro2d.solver.simulation import Simulation
     from hydro2d.study.definition import StudyError
 
-#: where the public names are: imported when they are asked for, so that `import hydro2d` costs nothing
+#: modules of the public names, which are imported on first use, so that `import hydro2d` costs nothing
 _PLACES = {
     "Deck": "hydro2d.deck.deck",
     "Simulation": "hydro2d.solver.simulation",
