@@ -85,17 +85,18 @@ WRONG = [
     ('tolerance = "50 m/s"', 'tolerence = "50 m/s"', 'search.toml:7: transition.tolerence: unknown key "tolerence"; did you'),
     ('from = "900 m/s"', "", "search.toml:4: transition.from: is missing"),
     ('"900 m/s"', '"900 mm"', 'search.toml:5: transition.from: "900 mm" is a length; expected a velocity'),
-    ('"900 m/s"', '"1600 m/s"', "search.toml:4: transition: from = 1600 m/s, to = 1500 m/s: to must be the faster"),
+    ('"900 m/s"', '"1600 m/s"', "search.toml:4: transition: from = 1600 m/s, to = 1500 m/s: to must be faster"),
     ('"900 m/s"', '"-900 m/s"', "in the same direction"),
     ('"50 m/s"', '"0 m/s"', "search.toml:7: transition.tolerance: must be positive"),
     ('"50 m/s"', '"1 mm/s"', "search.toml:4: transition: has 600001 values; at most 10000"),
     ('"50 m/s"', '"50 m/s"\nkey = "body.rd.velocity"', 'toml:8: no deck has the key body.rd.velocity: body: unknown entry'),
     ('"50 m/s"', '"50 m/s"\nkey = "body.plate.thickness"', 'body[1].thickness: "900 m/s" is a velocity; expected a length'),
     ('"50 m/s"', '"50 m/s"\nkey = "body.rod.velocity"\n[set]\n"body.plate.velocity" = "-9 m/s"',
-     "search.toml:8: transition.key: with body.rod.velocity = 900 m/s the rod meets the target at 909 m/s"),
+     "search.toml:8: transition.key: with body.rod.velocity = 900 m/s the rod hits the target at 909 m/s"),
     ('"numerics.advection"\nvalues = ["ke", "momentum"]', '"body.rod.velocity"\nvalues = [900, 1000]',
      'search.toml:8: axis "advection" sets body.rod.velocity, and the search varies body.rod.velocity'),
-    ('name = "advection"', 'name = "velocity"', 'search.toml:8: axis[0].name: "velocity" is the axis that [transition] makes'),
+    ('name = "advection"', 'name = "velocity"',
+     'search.toml:8: axis[0].name: "velocity" is the name of the axis that [transition] adds'),
     ('["ke", "momentum"]', '["ke"]\n[[exclude]]\nvelocity = "900 m/s"', 'exclude[0]: unknown axis "velocity"'),
     ('"problems/', '"problem/', "no such file"),
     (BASE, "problems/verification/sod_z.toml", "search.toml:4: transition: sod_z.toml has no rod and target"),
@@ -114,7 +115,8 @@ def test_a_wrong_file_is_one_message_and_status_2(tmp_path, capsys, old, new, sa
 def test_each_command_says_what_the_others_file_is_for(tmp_path, capsys):
     file = write(tmp_path)
     assert call(["sweep", str(file), "--check"]) == 2
-    assert f"search.toml:4: transition: is a search in velocity: `hydro2d transition {file}` runs it" in capsys.readouterr().err
+    said = f"search.toml:4: transition: the study is a search in velocity; run it with `hydro2d transition {file}`"
+    assert said in capsys.readouterr().err
     assert call(["transition", str(tubes.write(tmp_path)), "--check"]) == 2
     assert "tubes.toml: transition: is missing: a table with the velocities to search" in capsys.readouterr().err
 

@@ -114,7 +114,7 @@ def test_decks_and_studies_are_told_apart(tmp_path, capsys):
     (tmp_path / "shot.toml").write_text(TEXT)
     (tmp_path / "study.toml").write_text(STUDY)
     assert call(["sweep", str(tmp_path / "shot.toml")]) == 2
-    assert "is a deck, which `hydro2d run` runs" in capsys.readouterr().err
+    assert "is a deck; run it with `hydro2d run`" in capsys.readouterr().err
     assert call(["run", str(tmp_path / "study.toml")]) == 2
     assert "is a study, not a deck; run it with `hydro2d sweep`" in capsys.readouterr().err
 
