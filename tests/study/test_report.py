@@ -238,7 +238,7 @@ def test_responses_are_chosen(study):
     assert "Rod mass [g]" in page.text  # a column of the table
     assert "crater.volume_m3" in table(study / "report")["1086m-s_ke"]
     assert [name for name in charts(page) if "volume" in name] == []
-    assert lines[0] == "warning: no run has crater.volume_m3: it is not drawn"
+    assert lines[0] == "warning: no run has crater.volume_m3, so it is not drawn"
 
 
 def test_a_run_that_was_cut_has_no_error(study):

@@ -340,7 +340,7 @@ def test_a_rod_that_left_a_short_mesh_has_no_regime_either(tmp_path):
 def test_a_run_that_was_cut_short_is_told(tmp_path, capsys):
     cut = {"stop_reason": "end time", "rod_core_velocity_m_s": 300.0}
     search(tmp_path, made_up.Client(lambda velocity, deck: usual(velocity, deck) | cut), ALONE)
-    assert "not at rest when they ended, regime and depth are those of that moment: 900 m/s, " in capsys.readouterr().out
+    assert "runs that did not end at rest, whose regime and depth are those at their end: 900 m/s, " in capsys.readouterr().out
 
 
 def test_another_rod_than_the_experiments_is_told(tmp_path, capsys):
@@ -458,7 +458,7 @@ def test_a_ballistic_limit_is_searched(tmp_path, capsys):
     shown = capsys.readouterr().out
     assert "ballistic limit  1150 to 1200 m/s  stopped at 1150 m/s, perforated at 1200 m/s" in shown
     assert "perforation of plate, 920 m/s left" in shown
-    assert "between the fastest run that is stopped and the slowest that goes through" in shown
+    assert "between the fastest run that is stopped and the slowest that perforates" in shown
     assert "rigid" not in shown
 
 
