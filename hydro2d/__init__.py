@@ -14,7 +14,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-__version__ = "0.1.0"
+__version__ = "0.2.0"
 
 if TYPE_CHECKING:
     from hydro2d.api import Study, open_run, open_study, run, sweep
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from hydro2d.solver.simulation import Simulation
     from hydro2d.study.definition import StudyError
 
-#: where the public names are: imported when they are asked for, so that `import hydro2d` costs nothing
+#: modules of the public names, which are imported on first use, so that `import hydro2d` costs nothing
 _PLACES = {
     "Deck": "hydro2d.deck.deck",
     "Simulation": "hydro2d.solver.simulation",

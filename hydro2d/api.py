@@ -1,6 +1,6 @@
-"""What programs and notebooks use of hydro2d: `hydro2d.run`, `open_run`, `open_study`, `sweep`.
+"""The interface for programs and notebooks: `hydro2d.run`, `open_run`, `open_study`, `sweep`.
 
-`Deck` and `Simulation`, which stand beside them in `hydro2d.__all__`, are those of the program itself.
+`Deck` and `Simulation`, which are also in `hydro2d.__all__`, are the classes that the program itself uses.
 """
 
 from __future__ import annotations
@@ -39,20 +39,20 @@ def run(deck: Deck | str | Path, directory: str | Path | None = None, *, restart
     Parameters
     ----------
     deck : Deck, or path of a deck file
-    directory : where everything is written; default: what the deck says, else ``runs/NAME``
-    restart, overwrite : continue the run that is there, or replace it
-    quiet : nothing is printed; log.txt is written
+    directory : where everything is written; default: ``output.directory`` of the deck, else ``runs/NAME``
+    restart, overwrite : continue the existing run, or replace it
+    quiet : prints nothing; log.txt is still written
     columns : dict of functions of the simulation, by name
         Further columns of the history, each a number; see `Simulation.columns`.
 
     Raises
     ------
     DeckError, RunError, LockError
-        The deck is wrong, the directory is taken, or another process runs there.
+        The deck is wrong, the directory already holds a run, or another process uses it.
     UnphysicalState
-        The state could no longer be trusted; the directory has the last good one.
+        The state became unphysical; the directory has the last good one.
     KeyboardInterrupt
-        It was interrupted; ``restart=True`` continues.
+        The run was interrupted; ``restart=True`` continues it.
     """
     deck = deck if isinstance(deck, Deck) else Deck.from_file(deck)
     directory = Path(directory or str(deck.output.directory))
@@ -65,33 +65,33 @@ def run(deck: Deck | str | Path, directory: str | Path | None = None, *, restart
 
 
 def open_run(directory: str | Path) -> Results:
-    """Opens a run directory, of a run that has ended or is still under way.
+    """Opens the directory of a run that has ended or is still running.
 
-    The result has the deck, the summary, the history, the hole, the fields of all dumps and the figures; see `Results`.
-    Raises ResultsError where the directory holds no run.
+    The result gives the deck, the summary, the history, the hole, the fields of all dumps and the figures; see `Results`.
+    Raises ResultsError if the directory holds no run.
     """
     return Results(directory)
 
 
 class Study(layout.Study):
-    """A study directory, or runs that were put together, as `open_study` reads it.
+    """A study directory, or several runs treated as a study, as `open_study` reads them.
 
     Attributes
     ----------
-    title, name : of the study
-    axes : what it varies, in the order of its file; empty for a folder of runs
-    cases : each with its name, its values on the axes, its status, its directory, and its summary once it has ended
+    title, name : title and name of the study
+    axes : what the study varies, in the order of its file; empty for a folder of runs
+    cases : the cases, each with name, values on the axes, status, directory, and the summary once it has ended
     """
 
     def table(self) -> pandas.DataFrame:
-        """A row for each case, by its name: axes, status, results, experiment, conservation, cost; SI units."""
+        """One row for each case, indexed by its name: axes, status, results, experiment, conservation, cost; SI units."""
         import pandas
 
         return pandas.DataFrame(contents.collect(self).rows).set_index("case")
 
 
 def open_study(directory: str | Path) -> Study:
-    """Opens a study directory, or a run or a folder of runs as a study, in any state of completion. Raises StudyError."""
+    """Opens a study directory in any state of completion, or a run or a folder of runs as a study. Raises StudyError."""
     return Study(**vars(layout.load(Path(directory))))
 
 
@@ -102,26 +102,26 @@ def sweep(study: str | Path | Deck, axes: Mapping[str, Sequence[Any]] | None = N
 
     Parameters
     ----------
-    study : path of a study file; or a deck or its path, with `axes`
+    study : path of a study file, or, with `axes`, a deck or its path
     axes : dict of lists by dotted deck key
-        What is varied: ``{"body.rod.velocity": ["1000 m/s", "1200 m/s"]}``. The cases are all combinations.
-    directory : where the study is kept; default: what its file says, else ``runs/NAME``
+        What is varied, such as ``{"body.rod.velocity": ["1000 m/s", "1200 m/s"]}``. The cases are all combinations.
+    directory : directory of the study; default: ``out`` of its file, else ``runs/NAME``
     overrides : values of the deck for all cases, as in `Deck.from_file`
     workers : number of processes; default: cores of this machine / threads
-    threads : number of threads of a worker, on which no result depends
-    resume : continue the study in the directory: what has ended is not run again
-    overwrite : begin the study anew
-    quiet : prints nothing; sweep.log is written
+    threads : number of threads per worker; the results do not depend on it
+    resume : continue the study in the directory; cases that have ended are not run again
+    overwrite : start the study again from the beginning
+    quiet : prints nothing; sweep.log is still written
 
     Returns
     -------
     pandas.DataFrame
-        A row for each case, by its name: the axes, ``status``, depths, lengths and what else `hydro2d report` lists, in SI
-        units. A case that failed has its reason in ``message``.
+        One row for each case, indexed by its name: the axes, ``status``, depths, lengths and the other columns that `hydro2d
+        report` lists, in SI units. For a case that failed, ``message`` has the reason.
 
-    Raises StudyError, DeckError, LockError; KeyboardInterrupt where it was interrupted, which ``resume=True`` continues.
+    Raises StudyError, DeckError, LockError; KeyboardInterrupt if the sweep was interrupted, which ``resume=True`` continues.
 
-    Workers are spawned: a script that calls this has to do so below ``if __name__ == "__main__":``.
+    Worker processes are spawned, so a script must call this below ``if __name__ == "__main__":``.
     """
     plan = _plan(study, axes, overrides, directory)
     place = Path(directory or plan.out)
@@ -137,7 +137,7 @@ def _plan(study: str | Path | Deck, axes: Mapping[str, Sequence[Any]] | None, ov
     """The cases of a study file, or of a deck and axes. Raises StudyError."""
     if axes is None:
         if isinstance(study, Deck):
-            raise StudyError("a deck alone is not a study: `axes` says what is varied")
+            raise StudyError("a deck alone is not a study: give `axes`, the keys to vary")
         return cases.plan(Path(study), overrides, search=False, quiet=True)
     if isinstance(study, Deck):
         if directory is None:
@@ -153,7 +153,7 @@ def _plan(study: str | Path | Deck, axes: Mapping[str, Sequence[Any]] | None, ov
 
 
 def _name(key: str, axes: Mapping[str, object]) -> str:
-    """What an axis is called: the last part of its key, or all of it where two keys end alike."""
+    """Name of an axis: the last part of its key, or the whole key if two keys have the same last part."""
     last = [toml.key_parts(each)[-1] for each in axes]
     own = toml.key_parts(key)[-1]
     return own if last.count(own) == 1 else key

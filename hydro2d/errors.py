@@ -1,6 +1,6 @@
-"""What a wrong deck is told: file, line, key, what is allowed, and the nearest valid name.
+"""Messages about wrong decks: file, line, key, what is allowed, and the nearest valid name.
 
-tomllib gives values without line numbers, so ``key_lines`` walks the text once more and notes where each key stands.
+tomllib gives values without line numbers, so ``key_lines`` reads the text a second time and notes the line of each key.
 """
 
 from __future__ import annotations
@@ -11,11 +11,11 @@ from collections.abc import Iterable
 
 
 class DeckError(Exception):
-    """A deck, a material or a command line is wrong; the message is meant for its author."""
+    """A deck, a material or a command line is wrong; the message is for its author."""
 
 
 class UnphysicalState(Exception):
-    """The state has become one that no material can be in; the message says where, which body and the values."""
+    """The state has become one that no material can have; the message gives the place, the body and the values."""
 
 
 def nearest(name: str, allowed: Iterable[str]) -> str | None:
@@ -26,23 +26,23 @@ def nearest(name: str, allowed: Iterable[str]) -> str | None:
     return lower[found[0]] if found else None
 
 
-#: names that a message lists at most
+#: largest number of names that a message lists
 MOST_NAMES = 40
 
 
 def unknown(what: str, name: str, allowed: Iterable[str]) -> str:
-    """'unknown material "W_aloy"; did you mean "W_alloy"? (allowed: ...)'; of long lists the names that are nearest."""
+    """'unknown material "W_aloy"; did you mean "W_alloy"? (allowed: ...)'; of a long list only the nearest names."""
     names = sorted(str(entry) for entry in allowed)
     close = nearest(name, names)
     hint = f'; did you mean "{close}"?' if close else ""
     if len(names) > MOST_NAMES:
         near = sorted(names, key=lambda each: -difflib.SequenceMatcher(None, name.lower(), each.lower()).ratio())[:MOST_NAMES]
-        return f'unknown {what} "{name}"{hint} (allowed are {len(names)}, such as {", ".join(sorted(near))})'
+        return f'unknown {what} "{name}"{hint} ({len(names)} are allowed, such as {", ".join(sorted(near))})'
     return f'unknown {what} "{name}"{hint} (allowed: {", ".join(names) or "none"})'
 
 
 class _Scanner:
-    """Walks TOML that tomllib has accepted and notes the line of every key and of every array element."""
+    """Reads TOML that tomllib has accepted and notes the line of every key and of every array element."""
 
     def __init__(self, text: str):
         self.text, self.at, self.line = text, 0, 1
@@ -68,7 +68,7 @@ class _Scanner:
         return taken
 
     def _skip(self, newlines: bool) -> bool:
-        """Passes blanks and comments; False at the end of the text."""
+        """Skips blanks and comments; False at the end of the text."""
         while self.at < len(self.text):
             character = self._next()
             if character == "#":
@@ -101,7 +101,7 @@ class _Scanner:
         return path
 
     def _resolved(self, keys: tuple) -> tuple:
-        """Keys with the index of the latest element wherever one names an array of tables."""
+        """Keys, with the index of the latest element where a key names an array of tables."""
         path: tuple = ()
         for key in keys:
             path += (key,)
@@ -189,7 +189,7 @@ def key_lines(text: str) -> dict[tuple, int]:
 
 
 def spelled(path: tuple) -> str:
-    """A key as a person writes it: ("body", 0, "name") is body[0].name."""
+    """A key as it is written: ("body", 0, "name") is body[0].name."""
     text = ""
     for part in path:
         text += f"[{part}]" if isinstance(part, int) else f".{part}" if text else str(part)
@@ -197,9 +197,9 @@ def spelled(path: tuple) -> str:
 
 
 class Sources:
-    """The files a deck was put together from, so that a key can be traced to its line.
+    """The files from which a deck was assembled, so that a key can be traced to its line.
 
-    Files are consulted from the last word on a key to the first: command line, the deck, what it includes.
+    They are searched in the order of precedence: command line, the deck, its includes.
     """
 
     def __init__(self) -> None:
@@ -207,16 +207,16 @@ class Sources:
         self._set: dict[tuple, str] = {}
 
     def add(self, name: str, data: dict, text: str) -> None:
-        """Registers a file before those that it includes; its lines are looked for when one is asked for."""
+        """Registers a file, before the files that it includes. Its lines are only searched when one is needed."""
         self._files.append((name, data, text))
 
     def add_override(self, path: tuple, said: str) -> None:
-        """Registers an override by what messages call it; the path has names where arrays hold named entries."""
+        """Registers an override under its name in messages; the path has names where arrays hold named entries."""
         self._set.pop(path, None)  # the last word stands last
         self._set[path] = said
 
     def where(self, path: tuple, merged: dict) -> str:
-        """'deck.toml:12' for the key, or for the nearest table around it that was written down; '' if none was."""
+        """'deck.toml:12' for the key, or for the nearest enclosing table that is in a file; '' if none is."""
         named = _named(path, merged)
         for key, said in reversed(self._set.items()):
             if named[: len(key)] == key:
@@ -230,7 +230,7 @@ class Sources:
 
 
 def _named(path: tuple, data) -> tuple:
-    """The path with the index of a named entry replaced by its name, where that is the first of this name."""
+    """The path with the index of a named entry replaced by its name, if it is the first entry with this name."""
     result: tuple = ()
     for part in path:
         if isinstance(data, list) and isinstance(part, int) and part < len(data):
@@ -259,7 +259,7 @@ def _line_of(named: tuple, data, lines: dict[tuple, int]) -> int | None:
 
 
 def entry_index(entries: list, key) -> int | None:
-    """Index of the entry that a name, or a number counted from 0, points to; None if there is none."""
+    """Index of the entry with a name, or with a number counted from 0; None if there is none."""
     for index, entry in enumerate(entries):
         if isinstance(entry, dict) and entry.get("name") == key:
             return index

@@ -1,4 +1,4 @@
-"""Files that are either whole or absent: written beside their place, flushed to the disk, renamed."""
+"""Files that are either complete or absent: written under a temporary name, flushed to disk, then renamed."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from typing import NamedTuple, TextIO
 
 
 def sync(path: Path) -> None:
-    """Flushes a closed file, or the names in a folder, to the disk."""
+    """Flushes a closed file, or the names in a folder, to disk."""
     handle = os.open(path, os.O_RDONLY)
     try:
         os.fsync(handle)
@@ -25,7 +25,7 @@ def sync(path: Path) -> None:
 
 @contextmanager
 def replacing(path: Path) -> Iterator[Path]:
-    """Gives a temporary name in the same folder; renames it to `path` on success, removes it on an exception."""
+    """Gives a temporary name in the same folder, which is renamed to `path` on success and removed on an exception."""
     path = Path(path)
     temporary = path.with_name(f".{path.name}.{os.getpid()}.tmp")
     try:
@@ -39,9 +39,9 @@ def replacing(path: Path) -> Iterator[Path]:
 
 @contextmanager
 def hdf5(path: Path) -> Iterator:
-    """Gives an h5py.File in memory and writes it to the disk at the end, where a full disk is one OSError.
+    """Gives an h5py.File in memory and writes it to disk at the end, so that a full disk raises one OSError.
 
-    (A file on the disk meets it again with every object that is closed, which h5py prints and goes on.)
+    With a file on disk, h5py would print the error again for every object that is closed, and go on.
     """
     import h5py
 
@@ -58,7 +58,7 @@ def write_text(path: Path, text: str) -> None:
 
 
 class LockError(Exception):
-    """A directory that another process works in; the message is for the user."""
+    """A directory in use by another process; the message is for the user."""
 
 
 class Holder(NamedTuple):
@@ -69,7 +69,7 @@ class Holder(NamedTuple):
 
     @property
     def is_here(self) -> bool:
-        """Whether that is a process of this machine."""
+        """Whether it is a process on this machine."""
         return self.host == socket.gethostname()
 
     def __str__(self) -> str:
@@ -77,7 +77,7 @@ class Holder(NamedTuple):
 
 
 def holder(path: Path) -> Holder | None:
-    """Who holds a lock; None where it is gone, or was left behind by a process of this machine."""
+    """Who holds a lock; None if it does not exist, or was left behind by a process on this machine."""
     try:
         with open(path, encoding="utf-8") as file:
             found = _said(file.read())
@@ -88,7 +88,7 @@ def holder(path: Path) -> Holder | None:
 
 
 def _taken(file: TextIO) -> bool:
-    """Takes the lock of an open file, as long as that is open, if no process of this machine has it."""
+    """Takes the lock of an open file, for as long as it is open, unless a process on this machine has it."""
     try:
         fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError:
@@ -98,20 +98,20 @@ def _taken(file: TextIO) -> bool:
 
 @contextmanager
 def locked(path: Path) -> Iterator[None]:
-    """Holds a lock file, which says who does.
+    """Holds a lock file, which says who holds it.
 
-    On one machine the lock is the system's (flock): it ends with the process, however that ends, and no number of a process
-    that comes again can feign it. Between machines what the file says counts, which is removed at the end.
+    On one machine, the lock belongs to the operating system (flock). It ends with the process, however that ends, and a process
+    number that is used again cannot imitate it. Between machines, the contents of the file count; it is removed at the end.
 
-    Raises LockError while another process holds it.
+    Raises LockError if another process holds the lock.
     """
     path, tries = Path(path), 5
     while True:
         with open(path, "a+", encoding="utf-8") as file:
             free = _taken(file)
             if free and not _is_at(file, path):
-                continue  # the holder before has removed it meanwhile
-            if not free and tries:  # it may be one that only looks whether it is held
+                continue  # its former holder has removed it in the meantime
+            if not free and tries:  # this may be a process that only checks whether the lock is held
                 tries -= 1
                 time.sleep(0.02)
                 continue
@@ -119,7 +119,7 @@ def locked(path: Path) -> Iterator[None]:
             by = _said(file.read())
             if not free or (by is not None and not by.is_here):
                 who = by or "another process"
-                raise LockError(f"{path.parent} is in use by {who}; if that is gone for good, remove {path}")
+                raise LockError(f"{path.parent} is in use by {who}; if that process no longer exists, remove {path}")
             file.truncate(0)
             file.write(f"{socket.gethostname()} {os.getpid()}\n")
             file.flush()
@@ -131,13 +131,13 @@ def locked(path: Path) -> Iterator[None]:
 
 
 def _said(text: str) -> Holder | None:
-    """Who a lock file says that holds it; None where it says nothing."""
+    """The holder named in a lock file; None if none is named."""
     words = text.split()
     return Holder(words[0], int(words[1])) if len(words) == 2 and words[1].isdecimal() else None
 
 
 def _is_at(file: TextIO, path: Path) -> bool:
-    """Whether an open file is still the one of this name."""
+    """Whether an open file is still the file with this name."""
     try:
         return os.path.samestat(os.fstat(file.fileno()), os.stat(path))
     except FileNotFoundError:
@@ -145,7 +145,7 @@ def _is_at(file: TextIO, path: Path) -> bool:
 
 
 def _plain(value):
-    """Numbers of numpy as numbers of Python; what is not finite as null, which JSON has no other word for."""
+    """Numpy numbers as Python numbers; values that are not finite as null, because JSON has no number for them."""
     if isinstance(value, dict):
         return {str(key): _plain(item) for key, item in value.items()}
     if isinstance(value, (list, tuple)):
@@ -163,9 +163,9 @@ def write_json(path: Path, value) -> None:
 
 @contextmanager
 def turn(file: Path) -> Iterator[None]:
-    """Waits until no other process is in such a block with this file, which is made if need be, and keeps others waiting.
+    """Waits until no other process is in such a block with this file, and makes others wait. Makes the file if necessary.
 
-    The turn ends with the process, however it ends. Meant for short work on one machine.
+    The turn ends with the process, however that ends. For short work on one machine.
     """
     file.parent.mkdir(parents=True, exist_ok=True)
     handle = os.open(file, os.O_CREAT | os.O_RDWR)

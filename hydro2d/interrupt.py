@@ -1,4 +1,4 @@
-"""What makes a run stop after its cycle: signals, a reader that has gone, a program that wants it to."""
+"""What makes a run stop after its cycle: a signal, a closed pipe, or a program that requests it."""
 
 from __future__ import annotations
 
@@ -10,17 +10,17 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 
-#: exit status of what a signal has ended, as shells have it
+#: exit status of a process that a signal has ended, as in shells
 STATUS = {number.name: 128 + number for number in (signal.SIGHUP, signal.SIGINT, signal.SIGPIPE, signal.SIGTERM)}
 #: the signals that end a run after its cycle
 CAUGHT = (signal.SIGHUP, signal.SIGINT, signal.SIGTERM)
-#: seconds after which a signal that came in the middle of an import is looked at again
+#: seconds after which a signal that arrived during an import is handled again
 AGAIN = 0.01
 
 
 @dataclass
 class Interrupt:
-    """Set by a signal, or by a program that runs a case and wants it to stop: the run ends after the cycle."""
+    """Set by a signal, or by a program that wants its run to stop. The run then ends after the current cycle."""
 
     reason: str = ""
     hears_signals: bool = False
@@ -30,16 +30,16 @@ class Interrupt:
 
 
 def status(reason: str) -> int:
-    """The exit status for the reason of an interrupt; that of SIGTERM where it was a program's."""
+    """The exit status for the reason of an interrupt; that of SIGTERM if a program requested it."""
     return next((number for name, number in STATUS.items() if name in reason), STATUS["SIGTERM"])
 
 
 @contextmanager
 def signals(interrupt: Interrupt) -> Iterator[None]:
-    """SIGINT, SIGTERM and SIGHUP set the interrupt; a second one does what it did before. Only the main thread gets signals.
+    """SIGINT, SIGTERM and SIGHUP set the interrupt; a second signal has its former effect. Only the main thread gets signals.
 
-    A signal that was ignored before, such as SIGHUP under nohup, stays so; within such a block for the same interrupt nothing
-    changes.
+    A signal that was ignored before, such as SIGHUP under nohup, is still ignored. A nested block for the same interrupt
+    changes nothing.
     """
     if interrupt.hears_signals or threading.current_thread() is not threading.main_thread():
         yield
@@ -63,21 +63,21 @@ def signals(interrupt: Interrupt) -> Iterator[None]:
             signal.signal(number, handler)
 
 
-#: names of the signals that came to `raise_between_imports`
+#: names of the signals that `raise_between_imports` has received
 _came: list[str] = []
 
 
 def ended_by() -> str:
-    """The name of the signal by which a command ends: other code may have replaced the exception that it raised."""
+    """The name of the signal that ends a command. It is kept because other code may replace the exception that it raised."""
     return _came[0] if _came else "SIGINT"
 
 
 def raise_between_imports() -> None:
-    """From now on SIGINT, SIGTERM and SIGHUP raise KeyboardInterrupt; while a module is being imported, a moment later.
+    """From now on, SIGINT, SIGTERM and SIGHUP raise KeyboardInterrupt; during an import, shortly after it.
 
-    An exception in the middle of an import becomes another one or, in libraries in C, ends in a crash. Where Python has nobody
-    to raise it to, as when an object goes or in what C calls, it is raised again a moment later. A signal that is ignored,
-    such as SIGHUP under nohup, stays so. For the main thread of a command.
+    An exception in the middle of an import turns into another one or, in C libraries, ends in a crash. Where Python cannot
+    propagate the exception, such as in a finaliser or in a callback from C, it is raised again shortly after. A signal that was
+    ignored before, such as SIGHUP under nohup, is still ignored. To be called in the main thread of a command.
     """
 
     def handle(number, frame):
@@ -105,7 +105,7 @@ def raise_between_imports() -> None:
 
 
 def lose_output() -> None:
-    """Sends what is still printed to nowhere: the reader of the standard output has gone."""
+    """Discards all further output, because the reader of the standard output has gone."""
     nowhere = os.open(os.devnull, os.O_WRONLY)
     os.dup2(nowhere, sys.stdout.fileno())
     os.close(nowhere)

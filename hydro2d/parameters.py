@@ -1,8 +1,8 @@
-"""What a material model says about itself: its parameters, and its page for ``hydro2d info``.
+"""Description of a material model: its parameters, and its page for ``hydro2d info``.
 
-A model is a module with the constants ``NAME`` (the deck's word), ``ID`` (the integer that kernels compare),
-``EQUATION``, ``SOURCE``, ``VALIDITY`` and ``PARAMETERS``, and a function ``row(values)`` that packs the parameters into
-the one-dimensional float64 array its ``@point`` functions read.
+A model is a module with the constants ``NAME`` (its name in decks), ``ID`` (the integer that kernels compare), ``EQUATION``,
+``SOURCE``, ``VALIDITY`` and ``PARAMETERS``, and a function ``row(values)`` that packs the parameters into the one-dimensional
+float64 array that its ``@point`` functions read.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from types import ModuleType
 
 
 class Required:
-    """The default of a parameter that has none."""
+    """The default value of a parameter that must be given."""
 
     def __repr__(self) -> str:
         return "required"
@@ -30,9 +30,9 @@ ANY, POSITIVE, NON_NEGATIVE = "any", "positive", "non-negative"
 class Parameter:
     """One number of a material model.
 
-    ``unit`` is in SI and empty for a pure number. ``default`` is a float or ``REQUIRED``; an infinite default is the
-    only value that may be infinite. ``sign`` is ``ANY``, ``POSITIVE`` or ``NON_NEGATIVE``. ``from_eos`` marks a
-    parameter that is the material's own and that its equation of state has under the same name.
+    ``unit`` is in SI, and empty for a pure number. ``default`` is a float or ``REQUIRED``; only a parameter with an infinite
+    default may be infinite. ``sign`` is ``ANY``, ``POSITIVE`` or ``NON_NEGATIVE``. ``from_eos`` marks a property of the
+    material that its equation of state has under the same name.
     """
 
     name: str
@@ -48,7 +48,7 @@ class Parameter:
         return isinstance(self.default, Required)
 
     def check(self, value: float) -> float:
-        """The value as a float; ValueError where it is not a number or outside the parameter's range."""
+        """The value as a float. Raises ValueError if it is not a number or outside the range of the parameter."""
         number = float(value)
         if math.isnan(number) or (math.isinf(number) and number != self.default):
             raise ValueError(f"{self.name} = {value}: not a finite number")
@@ -58,9 +58,9 @@ class Parameter:
 
 
 def collect(model: str, parameters: Iterable[Parameter], values: Mapping[str, float]) -> dict[str, float]:
-    """Every parameter of a model by name, defaults filled in.
+    """Every parameter of a model by name, with defaults filled in.
 
-    Raises ValueError for a missing, an unknown or an impossible value.
+    Raises ValueError for a missing, unknown or impossible value.
     """
     known = {parameter.name: parameter for parameter in parameters}
     for name in values:
@@ -82,7 +82,7 @@ def collect(model: str, parameters: Iterable[Parameter], values: Mapping[str, fl
 
 @dataclass(frozen=True)
 class Description:
-    """What ``hydro2d info`` shows of a model."""
+    """The page of a model in ``hydro2d info``."""
 
     name: str
     kind: str
@@ -117,7 +117,7 @@ def described(module: ModuleType, kind: str) -> Description:
 
 
 def by_name(name: str, kind: str, models: Mapping[str, ModuleType]) -> ModuleType:
-    """The module of a model; ValueError with the nearest name where there is none."""
+    """The module of a model. Raises ValueError with the nearest name if there is none."""
     if name not in models:
         near = difflib.get_close_matches(name, models, n=1)
         hint = f"; did you mean {near[0]!r}?" if near else ""

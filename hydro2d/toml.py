@@ -1,4 +1,4 @@
-"""Deck text: includes merged, command-line overrides laid over, and the way back to TOML."""
+"""Deck text: merges includes, applies overrides of the command line, and writes TOML."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ import tomli_w
 
 from hydro2d.errors import DeckError, Sources, entry_index
 
-#: the parts of a material that a model describes
+#: the parts of a material that are described by a model
 PARTS = ("eos", "strength", "damage")
 _BARE = re.compile(r"[A-Za-z0-9_-]+")
 
@@ -31,12 +31,12 @@ def problems_folder() -> Path:
 
 
 def is_study(data: dict) -> bool:
-    """Whether parsed TOML has what a study has and a deck has not: axes, or a transition to search."""
+    """Whether parsed TOML has axes or a transition to search, which only a study has."""
     return "axis" in data or "transition" in data
 
 
 def parse(text: str, name: str) -> dict:
-    """TOML as a dict; DeckError with file and line where the text is no TOML."""
+    """TOML as a dict. Raises DeckError with file and line if the text is not valid TOML."""
     try:
         return tomllib.loads(text)
     except tomllib.TOMLDecodeError as problem:
@@ -47,11 +47,11 @@ def parse(text: str, name: str) -> dict:
 
 
 def read(path: Path, sources: Sources, chain: tuple[Path, ...] = ()) -> dict:
-    """A deck file with everything it includes merged below it."""
+    """A deck file merged with the files that it includes; its own values take precedence."""
     path = Path(path)
     if path.resolve() in chain:
         circle = " -> ".join(entry.name for entry in (*chain[chain.index(path.resolve()) :], path))
-        raise DeckError(f"{chain[-1]}: include goes round in a circle: {circle}")
+        raise DeckError(f"{chain[-1]}: include: the files include each other in a circle: {circle}")
     try:
         text = path.read_text(encoding="utf-8-sig")
     except OSError as problem:
@@ -62,18 +62,18 @@ def read(path: Path, sources: Sources, chain: tuple[Path, ...] = ()) -> dict:
 
 
 def assemble(text: str, name: str, folder: Path, sources: Sources, chain: tuple[Path, ...] = ()) -> dict:
-    """Deck text with its includes, looked for beside it and among the shipped decks, merged below it."""
+    """Deck text merged with its includes, which are searched for in its folder and among the shipped decks."""
     data = parse(text, name)
     sources.add(name, data, text)
     return with_included(data, folder, sources, chain)
 
 
 def with_included(data: dict, folder: Path, sources: Sources, chain: tuple[Path, ...] = ()) -> dict:
-    """The tables of a deck with the decks that it includes, looked for in a folder and among the shipped ones, below them."""
+    """The tables of a deck merged with its includes, which are searched for in a folder and among the shipped decks."""
     included = data.get("include", [])
     included = [included] if isinstance(included, str) else included
     if not isinstance(included, list) or not all(isinstance(entry, str) for entry in included):
-        raise DeckError(f"{sources.where(('include',), data)}: include is a file name or a list of file names")
+        raise DeckError(f"{sources.where(('include',), data)}: include must be a file name or a list of file names")
     base: dict = {}
     for entry in included:
         target = next((place / entry for place in (folder, problems_folder()) if (place / entry).is_file()), None)
@@ -84,7 +84,7 @@ def with_included(data: dict, folder: Path, sources: Sources, chain: tuple[Path,
 
 
 def model_tables(data: dict) -> Iterator[tuple[tuple, dict]]:
-    """The tables of models, with their paths, in the materials of a deck that may be wrong in any way."""
+    """The tables of models in the materials of a deck, with their paths. The deck may be wrong in any way."""
     waiting = [(("materials", name), table) for name, table in _table(data.get("materials")).items()]
     while waiting:
         path, table = waiting.pop(0)
@@ -97,7 +97,7 @@ def _table(value) -> dict:
 
 
 def placed(data: dict, folder: Path) -> dict:
-    """A deck whose files of models are in a folder, unless they have a folder of their own."""
+    """A deck with full paths of its model files, which are relative to a folder."""
     data = copy.deepcopy(data)
     for _, table in model_tables(data):
         if isinstance(table.get("file"), str):
@@ -110,7 +110,7 @@ def _is_named(entries) -> bool:
 
 
 def merge(base: dict, over: dict) -> dict:
-    """``over`` laid on ``base``: tables merge by key, arrays of named tables by name, all else is replaced."""
+    """``base`` updated by ``over``: tables merge by key, arrays of named tables by name, and everything else is replaced."""
     result = copy.deepcopy(base)
     for key, value in over.items():
         old = result.get(key)
@@ -140,7 +140,7 @@ def key_parts(key: str) -> list[str]:
 
 
 def assignment(text: str) -> tuple[str, Any]:
-    """Key and value of ``key=value``; the value is read as TOML and, where it is none, as a bare string."""
+    """Key and value of ``key=value``. The value is read as TOML, or as a plain string if it is not valid TOML."""
     key, equals, value_text = text.partition("=")
     if not equals or not key_parts(key):
         raise DeckError(f"--set {text}: expected key=value, such as numerics.advection=momentum")
@@ -151,9 +151,9 @@ def assignment(text: str) -> tuple[str, Any]:
 
 
 def override(data: dict, key: str, value, said: str, sources: Sources) -> dict:
-    """Lays a value over the deck; entries of arrays go by name or by number from 0, as in ``body.rod.velocity``.
+    """Overrides a value of the deck. Entries of arrays are found by name, as in ``body.rod.velocity``, or by number from 0.
 
-    said : what messages call the override, such as "--set body.rod.velocity=1200 m/s"
+    said : name of the override in messages, such as "--set body.rod.velocity=1200 m/s"
     """
     keys = key_parts(key)
     if not keys:
@@ -164,7 +164,7 @@ def override(data: dict, key: str, value, said: str, sources: Sources) -> dict:
 
 
 def _put(data: dict, keys: list[str], value, said: str) -> list:
-    """Sets a value; returns its path with the indices of entries in the place of their names."""
+    """Sets a value. Returns its path, with indices of entries in place of their names."""
     place, path = data, []
     for depth, key in enumerate(keys):
         last = depth == len(keys) - 1
@@ -222,7 +222,7 @@ def quoted(name: str) -> str:
 
 
 def dumps(data: dict) -> str:
-    """TOML of plain data; None, which TOML has no word for, is left out. Floats keep every bit."""
+    """TOML of plain data. None is left out, because TOML cannot express it. Floats keep every bit."""
     return tomli_w.dumps(_without_none(data), multiline_strings=True)
 
 

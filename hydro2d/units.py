@@ -1,6 +1,6 @@
-"""Quantities at the door: "1086 m/s" becomes SI on the way in, SI becomes the reader's unit on the way out.
+"""Conversion of quantities: "1086 m/s" to SI on input, SI to the reader's unit on output.
 
-Common units stand in a table; pint, which takes long to import, knows all others.
+A table holds the common units. Pint, which takes long to import, converts all others.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ import math
 import re
 from collections.abc import Mapping
 
-#: what a person calls a quantity measured in this SI unit
+#: names of quantities by their SI unit
 KINDS = {
     "1": "a plain number",
     "m": "a length",
@@ -29,7 +29,7 @@ KINDS = {
     "rad": "an angle",
 }
 
-#: common units: name -> (SI unit, how many of it)
+#: common units: name -> (SI unit, factor)
 COMMON = {
     "m": ("m", 1.0), "cm": ("m", 1e-2), "mm": ("m", 1e-3), "um": ("m", 1e-6), "km": ("m", 1e3),
     "s": ("s", 1.0), "ms": ("s", 1e-3), "us": ("s", 1e-6), "ns": ("s", 1e-9),
@@ -40,13 +40,13 @@ COMMON = {
     "kg": ("kg", 1.0), "g": ("kg", 1e-3), "J": ("J", 1.0), "1/s": ("1/s", 1.0),
 }  # fmt: skip
 
-#: the smallest (other than 0) and the largest number in a unit that mean anything in an impact, and why none beyond does
+#: smallest nonzero and largest meaningful value in each unit for an impact, and the reason
 REACH = {
-    "m": (1e-15, 1e6, "no mesh of an impact is longer than 1000 km, and nothing in it smaller than a nucleus"),
-    "s": (1e-21, 1e6, "no impact lasts longer than days, nor is any step so short"),
+    "m": (1e-15, 1e6, "no mesh of an impact is longer than 1000 km, and nothing in it is smaller than a nucleus"),
+    "s": (1e-21, 1e6, "no impact lasts longer than days, and no time step is so short"),
     "kg": (1e-18, 1e15, "no projectile is so light or so heavy"),
     "m/s": (1e-12, 1e6, "matter that meets at more than 1000 km/s is a plasma, which no model here describes"),
-    "kg/m^3": (1e-9, 1e6, "no matter on earth is denser, and nothing thinner is a continuum"),
+    "kg/m^3": (1e-9, 1e6, "no matter on earth is denser, and no thinner matter is a continuum"),
     "Pa": (1e-12, 1e15, "no equation of state here reaches further"),
     "J/kg": (1e-12, 1e13, "no equation of state here reaches further"),
     "K": (1e-9, 1e8, "no equation of state here reaches further"),
@@ -58,7 +58,7 @@ _NUMBER = re.compile(r"\s*([+-]?(?:\d[\d_]*\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*
 
 
 def in_reach(value: float, unit: str, reach: Mapping[str, tuple[float, float, str]] = REACH) -> float:
-    """The value; ValueError where it is beyond what means anything in this unit, by ``reach``."""
+    """The value. Raises ValueError if it is outside the meaningful range of this unit in ``reach``."""
     least, most, reason = reach.get(unit, (0.0, math.inf, ""))
     if not math.isnan(value) and value != 0.0 and not least <= abs(value) <= most:
         bound = f"beyond {most:g}" if abs(value) > most else f"nearer to 0 than {least:g}"
@@ -67,7 +67,7 @@ def in_reach(value: float, unit: str, reach: Mapping[str, tuple[float, float, st
 
 
 def kind(unit: str) -> str:
-    """The word for a quantity of this SI unit, with its article."""
+    """The name of a quantity with this SI unit, with its article."""
     return KINDS.get(unit, f"a quantity in {unit}")
 
 
@@ -80,7 +80,7 @@ def _registry():
 
 @functools.lru_cache(maxsize=4096)
 def _parsed(text: str, unit: str) -> float:
-    """SI value of a string with a unit; ValueError names what was expected."""
+    """SI value of a string with a unit. The ValueError for a wrong one says what was expected."""
     match = _NUMBER.match(text)
     if match is None:
         raise ValueError(f'"{text}" is not a number with a unit; {_expected(unit)}')
@@ -95,7 +95,7 @@ def _parsed(text: str, unit: str) -> float:
 
 
 def _by_pint(text: str, number: float, name: str, unit: str) -> float:
-    """The same for any unit that pint knows, before rounding."""
+    """The SI value for any unit that pint knows, before rounding."""
     import pint
 
     registry = _registry()
@@ -140,7 +140,7 @@ def to_si(value, unit: str) -> float:
     Raises
     ------
     ValueError
-        The value is not finite, has no unit or one of another dimension; the message names what was expected.
+        The value is not finite, has no unit, or has a unit of another dimension; the message says what was expected.
     """
     if isinstance(value, bool) or not isinstance(value, (int, float, str)):
         raise ValueError(f"{value!r} is not a quantity; {_expected(unit)}")
@@ -151,7 +151,7 @@ def to_si(value, unit: str) -> float:
 
 
 def from_si(value: float, si_unit: str, unit: str) -> float:
-    """The number of the reader's units in an SI value: from_si(0.448, "m", "cm") is 44.8."""
+    """An SI value in the reader's unit: from_si(0.448, "m", "cm") is 44.8."""
     if si_unit == unit:
         return float(value)
     registry = _registry()

@@ -25,7 +25,7 @@ def page() -> str:
     commands = list(_commands(app, "hydro2d"))
     lead = (
         f"{NOTE} `hydro2d COMMAND --help` prints the same. An argument in capitals is given by its place, or by its name "
-        "like an option: `--deck FILE`. Options whose value is *several* may be given several times."
+        "like an option: `--deck FILE`. Options whose value is *several* can be repeated."
     )
     index = table(
         ("command", "what it does"),

@@ -1,4 +1,4 @@
-"""What the commands share: arguments that are wrong, and quantities in arguments."""
+"""Shared by all commands: wrong arguments, and quantities in arguments."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ Overrides = Annotated[list[str] | None, Parameter(name="--set", negative="")]
 
 
 class UsageError(Exception):
-    """Arguments that do not go together; the message is for the user."""
+    """Wrong arguments, or arguments that exclude each other; the message is for the user."""
 
 
-#: no machine gains by more threads, and thousands of them end in a crash
+#: more threads make no machine faster, and thousands of them end in a crash
 MOST = 1024
 
 
@@ -21,7 +21,7 @@ def _count(_type, tokens) -> int:
     """A whole number of threads or workers."""
     text = tokens[0].value
     if not text.isdecimal() or not 1 <= int(text) <= MOST:
-        raise UsageError(f"{tokens[0].keyword} {text}: a whole number from 1 to {MOST} is needed")
+        raise UsageError(f"{tokens[0].keyword} {text}: must be a whole number from 1 to {MOST}")
     return int(text)
 
 

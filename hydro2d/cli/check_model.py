@@ -1,4 +1,4 @@
-"""The command `hydro2d check-model`: whether a model from outside keeps what every model keeps."""
+"""The command `hydro2d check-model`: runs the checks of hydro2d's own models on a model from outside."""
 
 from __future__ import annotations
 
@@ -14,16 +14,16 @@ check_model = App(name="check-model")
 
 @check_model.default
 def check(file: Path, *, as_: Annotated[Literal["strength", "eos", "damage"] | None, Parameter(name="--as")] = None) -> int:
-    """Checks a model from outside as the tests check hydro2d's own: form, compilation, derivatives, limits.
+    """Runs the checks of hydro2d's own models on a model from outside: form, compilation, derivatives, limits.
 
     Example: hydro2d check-model my_model.py
 
     Parameters
     ----------
     file
-        The model's Python file, or the name of a model that an installed package gives.
+        Python file of the model, or the name of a model in an installed package.
     as_
-        What the file is a model of; default: what its functions say.
+        Kind of model; default: the kind to which the functions in the file belong.
     """
     from hydro2d.materials import contract, outside
 
@@ -48,7 +48,7 @@ def check(file: Path, *, as_: Annotated[Literal["strength", "eos", "damage"] | N
 
 
 def _model(file: Path, part: str | None):
-    """The model of a file, or of an installed package."""
+    """The model in a file, or in an installed package."""
     from hydro2d.materials import outside
 
     if not file.exists():

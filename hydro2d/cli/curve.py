@@ -9,7 +9,7 @@ from cyclopts import Parameter
 
 from hydro2d.cli.base import UsageError, quantity
 
-#: strains of the table where none are given, and the rates
+#: default strains of the table, and default rates
 STRAINS, RATES = (0.0, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 1.5), ("1e3 /s", "1e4 /s", "1e5 /s")
 
 
@@ -22,7 +22,7 @@ def curve(
     csv: Path | None = None,
     figure: Path | None = None,
 ) -> int:
-    """Flow stress of materials against plastic strain, at constant strain rates, heated by their own plastic work.
+    """Prints flow stress against plastic strain at constant strain rates, with the heat of the plastic work.
 
     Example: hydro2d curve W_alloy W_sintered --rate 1e4 --figure flow_stress.png
 
@@ -31,22 +31,22 @@ def curve(
     materials
         Materials of the library: NAME or NAME:VARIANT.
     rate
-        Plastic strain rate, 1/s; may be given several times; default: 1e3, 1e4 and 1e5.
+        Plastic strain rate, 1/s; can be repeated; default: 1e3, 1e4 and 1e5.
     strain
-        Plastic strain of a row of the table; may be given several times.
+        Plastic strain of a row of the table; can be repeated; default: eight strains from 0 to 1.5.
     isothermal
-        Keeps the temperature at which the material starts.
+        Keeps the material at its initial temperature.
     csv
-        Writes the table, with the temperatures, into this file.
+        Writes the table, with the temperatures, to this CSV file.
     figure
-        Draws the curves up to the largest strain into this file (.png, .pdf, .svg).
+        Draws the curves up to the largest strain and saves them as this file (.png, .pdf, .svg).
     """
     from hydro2d.analytic import model_materials
 
     rates = [quantity(text, "1/s", "--rate") for text in rate or RATES]
     strains = sorted(strain or STRAINS)
     if min(rates) < 0.0 or strains[0] < 0.0:
-        raise UsageError("rates and strains are not negative")
+        raise UsageError("--rate and --strain must not be negative")
     from hydro2d.analytic import flow_curves
 
     found = [flow_curves.Curve.of(material, each, strains, isothermal) for material in map(model_materials.load, materials)

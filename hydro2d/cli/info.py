@@ -1,4 +1,4 @@
-"""`hydro2d info`: a material, a model, a field, a key of the deck or a quantity of the history, in words."""
+"""`hydro2d info`: explains a material, a model, a field or a deck key in words."""
 
 from __future__ import annotations
 
@@ -7,14 +7,14 @@ from hydro2d.mesh import quantities
 
 
 def deck_keys() -> dict[str, dict]:
-    """Every key of a deck by its dotted name, with its JSON schema; body keys as body.SHAPE.KEY."""
+    """Every deck key by its dotted name, with its JSON schema; keys of bodies are body.SHAPE.KEY."""
     from hydro2d.deck import deck as decks
 
     schema = decks.schema()
     definitions, found = schema["$defs"], {}
 
     def target(entry: dict) -> list[dict]:
-        """The tables that a value may be."""
+        """The tables that a value can be."""
         if "$ref" in entry:
             return [definitions[entry["$ref"].rsplit("/", 1)[-1]]]
         parts = [*entry.get("anyOf", []), *entry.get("oneOf", [])]
@@ -41,7 +41,7 @@ def deck_keys() -> dict[str, dict]:
 
 
 def _type(entry: dict) -> str:
-    """What a value may be, in words."""
+    """The allowed values, in words."""
     if "x-unit" in entry:
         unit = entry["x-unit"]
         return "number" if unit == "1" else f'number in {unit}, or a string with a unit such as "1 {unit}"'
@@ -56,7 +56,7 @@ def _type(entry: dict) -> str:
 
 
 def _key_page(name: str, entry: dict, others: list[str]) -> str:
-    lines = [f"{name} (key of the deck): {entry.get('description', '')}".rstrip(": "), f"  takes    {_type(entry)}"]
+    lines = [f"{name} (deck key): {entry.get('description', '')}".rstrip(": "), f"  takes    {_type(entry)}"]
     if others:
         lines.append(f"  also in  {', '.join(others)}")
     if entry.get("default") is not None:
@@ -77,7 +77,7 @@ def _table(rows: list[tuple[str, str]]) -> list[str]:
 
 
 def page(name: str) -> str:
-    """Everything that goes by a name. Raises DeckError with the nearest name where there is nothing."""
+    """Everything that has this name. Raises DeckError with the nearest name if nothing has."""
     import eos
     import strength
     from hydro2d.analytic import model_text
@@ -107,12 +107,12 @@ def page(name: str) -> str:
         others = {other for part in outside.KINDS for other in outside.in_packages(part)}
         known = {*others, *library.names(), *eos.MODELS, *strength.STRENGTH_MODELS, *strength.DAMAGE_MODELS,
                  *catalogue.MODELS, *quantities.BY_KEY, *keys, *(key.rsplit(".", 1)[-1] for key in keys)}  # fmt: skip
-        raise DeckError(unknown("name", name, known).split(" (allowed")[0] + "; `hydro2d info` lists what there is")
+        raise DeckError(unknown("name", name, known).split(" (allowed")[0] + "; `hydro2d info` lists all names")
     return "\n\n".join(text.rstrip() for text in found)
 
 
 def _same_last(keys: dict[str, dict], name: str) -> dict[str, list[str]]:
-    """Keys that end in a name, each with those of the same section and meaning."""
+    """Keys that end in a name, each with the other keys of the same section and meaning."""
     groups: dict[tuple, list[str]] = {}
     for key in keys:
         if key.rsplit(".", 1)[-1] == name:
@@ -130,7 +130,7 @@ def overview() -> str:
     models = [(name, eos.describe(name).kind) for name in eos.MODELS]
     models += [(name, strength.describe(name).kind) for name in strength.STRENGTH_MODELS]
     models += [(name, strength.describe_damage(name).kind) for name in strength.DAMAGE_MODELS]
-    models += [(name, f"{kind.title} of the package {entry.dist.name}")
+    models += [(name, f"{kind.title} from the package {entry.dist.name}")
                for part, kind in outside.KINDS.items() for name, entry in outside.in_packages(part).items()]
     keys = deck_keys()
     parts = (
@@ -143,4 +143,4 @@ def overview() -> str:
     lines = []
     for heading, rows in parts:
         lines += [heading, *_table(rows), ""]
-    return "\n".join([*lines, "`hydro2d info NAME` explains each of them, and every key of a deck."])
+    return "\n".join([*lines, "`hydro2d info NAME` explains each of these names, and every deck key."])

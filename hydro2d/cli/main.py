@@ -1,4 +1,4 @@
-"""The command `hydro2d`. Everything heavy is imported where it is used, so that --help answers at once."""
+"""The command `hydro2d`. Large modules are imported where they are used, so that --help answers at once."""
 
 from __future__ import annotations
 
@@ -28,8 +28,8 @@ app = App(
     help="A two-dimensional axisymmetric Eulerian hydrocode for rod-into-plate impact.",
     help_format="plaintext",
     suppress_keyboard_interrupt=False,  # `call` knows by which signal a command ends
-    help_epilogue="Exit status: 0 done, 2 deck or arguments wrong, 3 unphysical state or failed cases, 4 the machine "
-    "refuses (disk, memory, rights), 129/130/141/143 ended by SIGHUP, SIGINT, a closed pipe, SIGTERM.",
+    help_epilogue="Exit status: 0 success; 2 wrong deck or arguments; 3 unphysical state or failed cases; 4 refused by the "
+    "machine (disk, memory, permissions); 129, 130, 141, 143 ended by SIGHUP, SIGINT, a closed pipe, SIGTERM.",
 )
 
 app.command(check_model)
@@ -40,7 +40,7 @@ app.command(sweep)
 app.command(transition)
 
 
-#: modules and their exceptions that are the user's to mend
+#: modules, and their exceptions that tell the user what to correct
 USER_ERRORS = (
     ("errors", "DeckError"), ("files", "LockError"), ("penetration.model", "InputError"),
     ("output.snapshot", "SnapshotError"), ("output.history", "HistoryError"), ("output.vtk", "VtkError"),
@@ -50,7 +50,7 @@ USER_ERRORS = (
 
 
 def _user_errors() -> tuple[type[Exception], ...]:
-    """What is told in one message, without a traceback."""
+    """Exceptions that are reported as one message, without a traceback."""
     found: list[type[Exception]] = [UsageError]
     for module, name in USER_ERRORS:
         loaded = sys.modules.get(f"hydro2d.{module}")
@@ -60,7 +60,7 @@ def _user_errors() -> tuple[type[Exception], ...]:
 
 
 def _set_threads(threads: int | None) -> None:
-    """Fixes the number of threads, best before numba is imported, which reads the largest number once."""
+    """Sets the number of threads. Best called before numba is imported, because numba reads the largest number once."""
     if threads is None:
         return
     if "numba" not in sys.modules:
@@ -69,7 +69,7 @@ def _set_threads(threads: int | None) -> None:
     from hydro2d.jit import max_threads, set_threads
 
     if threads > max_threads():
-        raise UsageError(f"--threads {threads}: this process can use {max_threads()}")
+        raise UsageError(f"--threads {threads}: this process can use at most {max_threads()}")
     set_threads(threads)
 
 
@@ -97,20 +97,20 @@ def run(
     Parameters
     ----------
     deck
-        The input deck, TOML.
+        Input deck (TOML).
     out
-        Directory of the run; default: what the deck says, else runs/<name of the deck>.
+        Run directory; default: output.directory of the deck, else runs/<name of the deck>.
     set_
-        Replaces a value of the deck, key=value; may be given several times.
+        Overrides a value of the deck, as key=value; can be repeated.
     threads
-        Largest number of threads; default: all cores. A run uses fewer while that is faster, as on a small mesh or a busy
-        machine. The results do not depend on it.
+        Largest number of threads; default: all cores. A run uses fewer where that is faster, for example on a small mesh or a
+        busy machine. The results do not depend on the number of threads.
     restart
-        Continues the run of the directory from its restart file, to the same bits.
+        Continues the run in the directory from its restart file; the results are bitwise the same.
     overwrite
-        Removes a run that is in the directory.
+        Replaces the run that is in the directory.
     quiet
-        Prints nothing; log.txt is written.
+        Prints nothing; log.txt is still written.
     """
     if restart and overwrite:
         raise UsageError("--restart continues a run and --overwrite removes it: give one of them")
@@ -128,20 +128,20 @@ def run(
 def check(
     deck: Path, *, set_: Overrides = None, threads: Count | None = None, picture: Path | None = None,
 ) -> int:
-    """Validates a deck and shows what it amounts to: mesh, masses, cells across the rod, cost and memory.
+    """Validates a deck and summarises it: mesh, masses, cells across the rod, cost and memory.
 
     Example: hydro2d check problems/cth_nose_shape/hemi_5083_1086.toml --picture start.png
 
     Parameters
     ----------
     deck
-        The input deck, TOML.
+        Input deck (TOML).
     set_
-        Replaces a value of the deck, key=value; may be given several times.
+        Overrides a value of the deck, as key=value; can be repeated.
     threads
-        Number of threads that the time is estimated for; default: all cores.
+        Number of threads for the estimate of the time; default: all cores.
     picture
-        Draws the initial state into this file (.png, .pdf, .svg).
+        Draws the initial state and saves it as this file (.png, .pdf, .svg).
     """
     from hydro2d.running import check as checks
 
@@ -158,7 +158,7 @@ def check(
 
 @app.command
 def info(name: str | None = None) -> int:
-    """Explains a material, a model, a field or a key of the deck; without a name, lists them.
+    """Explains a material, a model, a field or a deck key; without a name, lists all names.
 
     Example: hydro2d info johnson-cook
 
@@ -182,10 +182,10 @@ def _window(text: str | None) -> tuple[float, float, float] | None:
         return None
     parts = text.split(",")
     if len(parts) != 3:
-        raise UsageError(f'--window "{text}": three lengths are expected, z0,z1,r1, such as "-2 cm,8 cm,2 cm"')
+        raise UsageError(f'--window "{text}": expected three lengths z0,z1,r1, such as "-2 cm,8 cm,2 cm"')
     z0, z1, r1 = (quantity(part.strip(), "m", "--window") for part in parts)
     if not (z0 < z1 and r1 > 0):
-        raise UsageError(f'--window "{text}": z0 < z1 and r1 > 0 are needed')
+        raise UsageError(f'--window "{text}": z0 must be less than z1, and r1 positive')
     return z0, z1, r1
 
 
@@ -201,28 +201,28 @@ def plot(
     window: Annotated[str | None, Parameter(allow_leading_hyphen=True)] = None,
     quantity: Annotated[list[str] | None, Parameter(negative="")] = None,
 ) -> int:
-    """Draws runs: mirrored sections, histories, the holes in their targets, or a three-dimensional cut-away.
+    """Draws runs as mirrored sections, histories, holes in their targets, or a three-dimensional cut-away.
 
     Example: hydro2d plot runs/a runs/b -o both.png --field von_mises --mirror material --time "80 us"
 
     Parameters
     ----------
     runs
-        Run directories; several are drawn below one another, histories and craters into the same axes.
+        Run directories. Sections of several runs are drawn below one another, histories and craters in the same axes.
     output
-        The picture; its ending decides the format.
+        Picture file; its suffix sets the format.
     kind
-        What is drawn.
+        What to draw.
     field
-        Field of the upper half: a key of `hydro2d info`, velocity:z for a component, body_temperature:rod for a body.
+        Field of the upper half: a field of `hydro2d info`; velocity:z for a component, body_temperature:rod for one body.
     mirror
         Field of the lower half; default: the same.
     time
-        Moment, such as "80 us"; the nearest dump is drawn, without it the last. Several stand beside one another.
+        Time, such as "80 us", whose nearest dump is drawn; default: the last dump. Can be repeated, for sections side by side.
     window
-        Part of the mesh, z0,z1,r1, such as "-2 cm,8 cm,2 cm".
+        Part of the mesh to show, z0,z1,r1, such as "-2 cm,8 cm,2 cm".
     quantity
-        Column of the history; may be given several times.
+        Column of the history; can be repeated.
     """
     from hydro2d.results import figures
     from hydro2d.results.reading import Results
@@ -230,7 +230,7 @@ def plot(
     opened, times = [Results(path) for path in runs], _times(time)
     if kind == "cutaway":
         if len(opened) != 1 or len(times) != 1 or output.suffix != ".png":
-            raise UsageError("--kind cutaway draws one run at one time into a .png")
+            raise UsageError("--kind cutaway draws one run at one time, as a .png")
         figures.cutaway(opened[0].dump_file(times[0]), output, field, _window(window))
     elif kind == "history":
         figures.save(figures.histories(opened, quantity or figures.HISTORIES), output)
@@ -255,30 +255,30 @@ def movie(
     rate: Annotated[float, Parameter(validator=validators.Number(gt=0, lte=120))] = 10.0,
     beside: bool = False,
 ) -> int:
-    """Makes a film of the dumps of runs, with one range of colours.
+    """Makes a film from the dumps of runs, with one colour range for all frames.
 
     Example: hydro2d movie runs/a runs/b -o both.mp4 --field von_mises --mirror material --follow rod --window "-8 cm,2 cm,2 cm"
 
     Parameters
     ----------
     runs
-        Run directories; several stand below one another.
+        Run directories; several are shown below one another.
     output
-        The film: .gif, or .mp4 where there is ffmpeg.
+        Film file: .gif, or .mp4 where ffmpeg is installed.
     field
-        Field of the upper half: a key of `hydro2d info`, velocity:z for a component, body_temperature:rod for a body.
+        Field of the upper half: a field of `hydro2d info`; velocity:z for a component, body_temperature:rod for one body.
     mirror
         Field of the lower half; default: the same.
     window
-        Part of the mesh, z0,z1,r1, such as "-2 cm,8 cm,2 cm".
+        Part of the mesh to show, z0,z1,r1, such as "-2 cm,8 cm,2 cm".
     follow
-        A body that the window travels with; z0 and z1 then count from its leading end.
+        Body that the window follows; z0 and z1 are then measured from its leading end.
     colours
-        Range of colours of the field, low,high, in the unit of the colour bar; default: from all frames.
+        Colour range of the field, low,high, in the unit of the colour bar; default: the range of all frames.
     rate
         Frames per second.
     beside
-        Several runs stand beside one another.
+        Shows several runs side by side.
     """
     from hydro2d.results import movies
     from hydro2d.results.reading import Results
@@ -296,9 +296,9 @@ def _range(text: str | None) -> tuple[float, float] | None:
     try:
         low, high = (float(part) for part in text.split(","))
     except ValueError:
-        raise UsageError(f'--colours "{text}": two numbers are expected, low,high, such as "0,2.5"') from None
+        raise UsageError(f'--colours "{text}": expected two numbers low,high, such as "0,2.5"') from None
     if not (math.isfinite(low) and math.isfinite(high) and low < high):
-        raise UsageError(f'--colours "{text}": low < high is needed')
+        raise UsageError(f'--colours "{text}": low must be less than high')
     return low, high
 
 
@@ -316,11 +316,11 @@ def export(
     Parameters
     ----------
     run
-        The run directory. Without dumps, the state of its restart file is written, with all fields.
+        Run directory. If it has no dumps, the state in its restart file is written, with all fields.
     output
-        Default: the directory `export` in the run.
+        Directory to write to; default: `export` in the run directory.
     fields
-        Fields to take, keys of `hydro2d info`; default: all that were dumped.
+        Fields to write, as `hydro2d info` names them; default: all fields of the dumps.
     """
     from hydro2d.results.export import export as write
     from hydro2d.results.reading import Results
@@ -332,16 +332,16 @@ def export(
 
 @app.command
 def bench(*, json: Path | None = None, shot: bool = False, threads: Count | None = None) -> int:
-    """Time per cell and cycle, phase by phase, beside a triad measured in the same run.
+    """Measures the time per cell and cycle, phase by phase, and the memory bandwidth (a triad) in the same run.
 
     Example: hydro2d bench --json bench.json
 
     Parameters
     ----------
     json
-        Writes the numbers into this file as well.
+        Also writes the numbers to this JSON file.
     shot
-        Runs the shot at 1086 m/s to rest as well, with all its outputs, on one thread and on all: minutes.
+        Also runs the shot at 1086 m/s to rest, with all its outputs, on one thread and on all; this takes minutes.
     threads
         Number of threads; default: all cores.
     """
@@ -372,7 +372,7 @@ def main(arguments: list[str] | None = None) -> None:
 
 
 def call(arguments: list[str]) -> int:
-    """Runs the command line and returns its status; what goes wrong for the user to mend is one message."""
+    """Runs the command line and returns its status; an error that the user can correct is reported as one message."""
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(errors="replace")  # a terminal without UTF-8 gets question marks, not a traceback
@@ -399,10 +399,10 @@ def call(arguments: list[str]) -> int:
 
 
 def _no_directory(error: OSError) -> str:
-    """What of a path is a file where a directory is needed."""
+    """Says which part of a path is a file where a directory is needed."""
     path = Path(os.fsdecode(error.filename or ""))
     file = next((each for each in (path, *path.parents) if each.is_file()), None)
-    within = f", so that there can be no {path}" if file != path else ""
+    within = f", so {path} cannot exist" if file != path else ""
     return f"{file} is a file, not a directory{within}" if file else f"{error.strerror}: {path}"
 
 

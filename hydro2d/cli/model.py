@@ -12,7 +12,7 @@ from hydro2d.cli.base import Overrides, UsageError, quantity
 #: the most rows that --velocity A:B:N makes
 MOST_ROWS = 100_000
 
-#: `hydro2d model NAME --help` is a page of that model, so that --help is an option like any other
+#: `hydro2d model NAME --help` shows the page of that model, so --help is an ordinary option here
 model = App(name="model", help_flags=[], usage="Usage: hydro2d model [NAME] [OPTIONS]")
 
 
@@ -38,25 +38,26 @@ def evaluate(
     Parameters
     ----------
     name
-        The model. Without a velocity, its page is shown: equations' source, inputs, outputs, validity, an example.
+        Name of the model. Without --velocity and --deck its page is shown: source of the equations, inputs, outputs, validity,
+        and an example.
     rod
-        Material of the rod, of the library: NAME or NAME:VARIANT; default: that of the model's example.
+        Rod material from the library, NAME or NAME:VARIANT; default: the material of the model's example.
     target
-        Material of the target, likewise.
+        Target material, in the same form.
     velocity
         Impact velocity, such as 1086m/s, or a range A:B:N of N velocities, such as 500m/s:2000m/s:200.
     set_
-        Gives an input, key=value, such as rod.diameter=8.12mm; may be given several times.
+        Sets an input, as key=value, such as rod.diameter=8.12mm; can be repeated.
     deck
-        Takes materials, geometry and, without --velocity, the velocity from an input deck.
+        Input deck that gives materials, geometry and, without --velocity, the impact velocity.
     strain
-        Equivalent plastic strain at which the strengths of the materials are taken; 0 is initial yield.
+        Equivalent plastic strain at which the strengths of the materials are evaluated; 0 is initial yield.
     csv
-        Writes the results into this file.
+        Writes the results to this CSV file.
     figure
-        Draws the main output over a range of velocities into this file (.png, .pdf, .svg).
+        Draws the main output over a range of velocities and saves it as this file (.png, .pdf, .svg).
     json
-        Prints JSON: inputs with their sources, units, results.
+        Prints JSON: inputs with their sources, units and results.
     help_
         Shows the page of the model, or this text.
     """
@@ -95,7 +96,7 @@ def _without_name(help_: bool, *options) -> int:
 
 
 def _request(known, rod, target, set_, deck, strain):
-    """What the user chose, and the impact velocity of the deck or None."""
+    """The user's choices, and the impact velocity of the deck or None."""
     from hydro2d.analytic import model_deck, model_materials, models
 
     shot = model_deck.read(deck) if deck is not None else None
@@ -118,7 +119,7 @@ def _velocities(text: str) -> list[float]:
     low, high = (quantity(part, "m/s", "--velocity") for part in parts[:2])
     count = int(parts[2])
     if not (low < high and 2 <= count <= MOST_ROWS):
-        raise UsageError(f"--velocity {text}: A < B and N from 2 to {MOST_ROWS} are needed")
+        raise UsageError(f"--velocity {text}: A must be less than B, and N from 2 to {MOST_ROWS}")
     return [low + (high - low) * n / (count - 1) for n in range(count)]
 
 
@@ -130,7 +131,7 @@ def _show(found) -> None:
 
 
 def _write(case, rows, csv: Path | None, figure: Path | None) -> list[Path]:
-    """Writes the files that are asked for."""
+    """Writes the requested files and returns their paths."""
     for path in (csv, figure):
         if path is not None and not path.parent.is_dir():
             raise UsageError(f"{path.parent}: there is no such directory")
@@ -158,26 +159,26 @@ def transition(
     strain: float = 0.0,
     json: bool = False,
 ) -> int:
-    """Compares the velocities at which a rod stops being rigid: models, experiments, the CTH study, runs.
+    """Compares the impact velocities at which a rod stops being rigid: models, experiments, the CTH study, runs.
 
     Example: hydro2d model transition --rod W_alloy --target Al5083 --nose hemispherical
 
     Parameters
     ----------
     rod
-        Material of the rod, of the library: NAME or NAME:VARIANT.
+        Rod material from the library, NAME or NAME:VARIANT.
     target
-        Material of the target, likewise.
+        Target material, in the same form.
     nose
-        hemispherical, ogival, conical or flat; default: the deck's, else hemispherical.
+        Nose shape: hemispherical, ogival, conical or flat; default: the nose in the deck, else hemispherical.
     runs
-        Run directories: the fastest run that stayed rigid and the slowest that did not are a bracket.
+        Run directories; the fastest run that stayed rigid and the slowest that did not form a bracket.
     set_
-        Gives an input to every model that has it, key=value; may be given several times.
+        Sets an input of every model that has it, as key=value; can be repeated.
     deck
-        Takes materials and geometry from an input deck.
+        Input deck that gives materials and geometry.
     strain
-        Equivalent plastic strain at which the strengths of the materials are taken; 0 is initial yield.
+        Equivalent plastic strain at which the strengths of the materials are evaluated; 0 is initial yield.
     json
         Prints JSON.
     """

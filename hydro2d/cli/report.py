@@ -17,7 +17,7 @@ def report(
     by: Annotated[list[str] | None, Parameter(negative="")] = None,
     movie: str | None = None,
 ) -> int:
-    """Reports a study or runs: one HTML page with figures to zoom into, a table as CSV and pictures as PNG.
+    """Writes a report of a study or of runs: one HTML page with figures that zoom, a table as CSV and pictures as PNG.
 
     Example: hydro2d report runs/rigid_rod_laws --y penetration_depth_m --y crater.volume_m3 --by law
 
@@ -26,17 +26,17 @@ def report(
     directories
         A study directory in any state, a folder of run directories, or several run directories.
     out
-        Folder that is written into; default: `report` in the first directory.
+        Folder to write to; default: `report` in the first directory.
     x
-        What the figures have below: an axis of the study, velocity (of impact), a key of the decks or a number of
-        summary.json; default: the impact velocity where it varies, else the first axis of numbers, else the first axis.
+        Horizontal axis of the figures: an axis of the study, velocity (of impact), a deck key or a number in summary.json;
+        default: the impact velocity where it varies, else the first numeric axis of the study, else its first axis.
     y
-        Number of summary.json that is drawn, may be given several times; default: depth, and the residual velocity where
+        Vertical axis of a figure: a number in summary.json; can be repeated; default: depth, and the residual velocity where
         something perforates; without a projectile, velocity and extent of the first body.
     by
-        What tells the series of runs apart, named as x; may be given several times; default: whatever else is varied.
+        What distinguishes the series of runs, named as for --x; can be repeated; default: everything else that is varied.
     movie
-        Field of which each run with dumps gets a small film in the page, as of `hydro2d movie`; takes seconds to minutes a run.
+        Field to show in a small film of each run with dumps, as `hydro2d movie` makes; takes seconds to minutes per run.
     """
     from hydro2d.study.report import report as write
 

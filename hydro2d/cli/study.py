@@ -1,4 +1,4 @@
-"""The commands of studies: many runs from one file."""
+"""The commands for studies: many runs from one file."""
 
 from __future__ import annotations
 
@@ -29,29 +29,29 @@ def sweep(
     Parameters
     ----------
     study
-        The study file, TOML: a base deck, axes to vary, exclusions. With --status a study directory will do.
+        Study file (TOML): a base deck, axes to vary, exclusions. With --status, a study directory is accepted too.
     out
-        Directory of the study; default: what the study says, else runs/<name of the study file>.
+        Study directory; default: `out` of the study file, else runs/<name of the study file>.
     set_
-        Replaces a value of the deck in all cases, key=value; may be given several times.
+        Overrides a value of the deck in all cases, as key=value; can be repeated.
     workers
-        Number of worker processes; default: cores / threads. With --slurm, the number to ask for.
+        Number of worker processes; default: cores / threads. With --slurm, the number to request.
     threads
-        Number of threads of a worker. The results do not depend on it.
+        Number of threads per worker. The results do not depend on it.
     scheduler
-        Address of a running dask scheduler, such as tcp://host:8786, whose workers see the same files.
+        Address of a running dask scheduler, such as tcp://host:8786; its workers must see the same files.
     slurm
-        Starts workers with SLURM: a TOML file of arguments of dask_jobqueue.SLURMCluster, such as cores, memory, queue.
+        TOML file with arguments of dask_jobqueue.SLURMCluster, such as cores, memory, queue; SLURM then starts the workers.
     resume
-        Continues the study of the directory: finished cases stay, begun ones continue from their restart files.
+        Continues the study in the directory: finished cases are kept, unfinished cases continue from their restart files.
     overwrite
-        Begins cases anew: all of them, or with --resume those whose deck has changed.
+        Restarts cases from the beginning: all cases, or with --resume only those whose deck has changed.
     check
-        Resolves all decks and prints cases, cells and estimated time; runs nothing.
+        Resolves all decks and prints the cases with their cells and estimated times; runs nothing.
     status
         Prints the table of the study directory; runs nothing.
     quiet
-        Prints nothing but errors; sweep.log is written.
+        Prints errors only; sweep.log is still written.
     """
     _fits(workers, scheduler, slurm)
     if status:
@@ -87,41 +87,41 @@ def transition(
     status: bool = False,
     quiet: bool = False,
 ) -> int:
-    """Searches the impact velocities at which a rod is no longer rigid and at which it erodes, by bisection.
+    """Searches by bisection for the impact velocities at which a rod stops being rigid and at which it erodes.
 
     Example: hydro2d transition problems/cth_nose_shape/transition_hemi_5083.toml --workers 2 --out runs/transition
 
-    The criteria, the runs, experiments and the predictions of the analytic models are printed beside the brackets;
-    transition.json in the directory has the same for programs, and `hydro2d report` shows it.
+    The brackets are printed beside the criteria, the runs, the experiments and the predictions of the analytic models. The file
+    transition.json in the study directory has the same results for programs, and `hydro2d report` shows them.
 
     Parameters
     ----------
     study
-        The study file, TOML: a base deck, [transition] with the velocities to search, axes for several transitions. With
-        --status a study directory will do.
+        Study file (TOML): a base deck, [transition] with the velocities to search, axes for several transitions. With
+        --status, a study directory is accepted too.
     out
-        Directory of the study; default: what the study says, else runs/<name of the study file>.
+        Study directory; default: `out` of the study file, else runs/<name of the study file>.
     set_
-        Replaces a value of the deck in all cases, key=value; may be given several times.
+        Overrides a value of the deck in all cases, as key=value; can be repeated.
     workers
-        Number of worker processes; default: cores / threads. More than there are combinations of the axes try several
-        velocities of one at a time. With --slurm, the number to ask for.
+        Number of worker processes; default: cores / threads. Workers beyond the number of combinations of the axes try several
+        velocities of one combination at a time. With --slurm, the number to request.
     threads
-        Number of threads of a worker. The results do not depend on it.
+        Number of threads per worker. The results do not depend on it.
     scheduler
-        Address of a running dask scheduler, such as tcp://host:8786, whose workers see the same files.
+        Address of a running dask scheduler, such as tcp://host:8786; its workers must see the same files.
     slurm
-        Starts workers with SLURM: a TOML file of arguments of dask_jobqueue.SLURMCluster, such as cores, memory, queue.
+        TOML file with arguments of dask_jobqueue.SLURMCluster, such as cores, memory, queue; SLURM then starts the workers.
     resume
-        Continues the search of the directory: finished cases stay, begun ones continue where they are still needed.
+        Continues the search in the directory: finished cases are kept, unfinished cases continue where they are still needed.
     overwrite
-        Begins cases anew: all of them, or with --resume those whose deck has changed.
+        Restarts cases from the beginning: all cases, or with --resume only those whose deck has changed.
     check
-        Resolves the decks of all velocities and prints how many runs are needed and their time; runs nothing.
+        Resolves the decks of all velocities and prints the number of runs needed and their time; runs nothing.
     status
-        Prints the cases of the study directory and the transitions as far as they are known; runs nothing.
+        Prints the cases of the study directory and the transitions found so far; runs nothing.
     quiet
-        Prints nothing but errors; sweep.log and transition.json are written.
+        Prints errors only; sweep.log and transition.json are still written.
     """
     _fits(workers, scheduler, slurm)
     if status:
@@ -142,7 +142,7 @@ def transition(
 
 
 def _workers(most: int, workers: int | None, threads: int, scheduler: str | None, slurm: Path | None):
-    """Gives a dask client of the workers that the arguments ask for, at most so many on this machine."""
+    """A dask client with the workers that the arguments request; on this machine at most `most`."""
     from hydro2d.study import cluster
 
     if scheduler is not None:
@@ -156,7 +156,7 @@ def _fits(workers: int | None, scheduler: str | None, slurm: Path | None) -> Non
     if scheduler is not None and slurm is not None:
         raise UsageError("--scheduler joins workers and --slurm starts them: give one of them")
     if scheduler is not None and workers is not None:
-        raise UsageError("--workers starts workers and --scheduler joins those that run: give one of them")
+        raise UsageError("--workers starts workers and --scheduler joins running ones: give one of them")
 
 
 def _status(study: Path, out: Path | None) -> int:

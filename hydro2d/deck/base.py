@@ -1,4 +1,4 @@
-"""What every section of a deck is made of: strict frozen tables, and numbers that know their unit."""
+"""The base of every section of a deck: strict, frozen tables, and numbers with units."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ from hydro2d import units
 
 
 def _name(value: str) -> str:
-    """A name that can stand in tables, in names of files and in datasets."""
+    """A name that can be used in tables, file names and datasets."""
     if not value.strip():
         raise ValueError("is empty")
     bad = sorted({character for character in value if character in "/\\" or not character.isprintable()})
     if bad:
-        raise ValueError(f"{value!r} has {', '.join(map(repr, bad))}, which the names of fields and files cannot")
+        raise ValueError(f"{value!r} has {', '.join(map(repr, bad))}, which names of fields and files cannot contain")
     if value in (".", ".."):
         raise ValueError(f"{value!r} is a folder, not a name")
     return value
@@ -30,7 +30,7 @@ Name = Annotated[str, AfterValidator(_name)]
 
 
 class Section(BaseModel):
-    """A table of the deck: keys that nobody declared are errors, values never change after loading."""
+    """A table of the deck: undeclared keys are errors, and values never change after loading."""
 
     model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
 
@@ -59,7 +59,7 @@ def _to_si(value, unit: str) -> float:
 
 @dataclass(frozen=True)
 class Quantity(GroupedMetadata):
-    """What makes a float a number in ``unit``, given in SI or as a string with a unit, held in SI: Annotated[float, ...]."""
+    """Marks a float as a number in ``unit``, given in SI or as a string with a unit, and held in SI: Annotated[float, ...]."""
 
     unit: str
     check: Callable[[float], float] | None = None
@@ -75,7 +75,7 @@ class Quantity(GroupedMetadata):
 
 
 def within(low: float, high: float, reason: str, unit: str = "1") -> Quantity:
-    """A number between two bounds, with the reason for them in the message: Annotated[float, within(...)]."""
+    """A number between two bounds; the message gives the reason for the bounds: Annotated[float, within(...)]."""
 
     def check(value: float) -> float:
         if not low <= value <= high:
@@ -111,7 +111,7 @@ def _pair(value, unit: str) -> tuple[float, float]:
 def _interval(value) -> tuple[float, float]:
     low, high = _pair(value, "m")
     if not low < high:
-        raise ValueError(f"must grow from the first to the second, is [{low:g}, {high:g}]")
+        raise ValueError(f"the second must be greater than the first, is [{low:g}, {high:g}]")
     return low, high
 
 

@@ -1,4 +1,4 @@
-"""The bodies of a deck: what they are made of, how they look and how they move."""
+"""The bodies of a deck: their materials, shapes and velocities."""
 
 from __future__ import annotations
 
@@ -28,23 +28,23 @@ from hydro2d.deck.base import (
 
 
 class Flow(Section):
-    """A velocity that points away from a centre: speed (radius/distance)^exponent, for implosions and shells."""
+    """A velocity directed away from a centre, speed (radius/distance)^exponent, for implosions and shells."""
 
-    pattern: Literal["spherical", "cylindrical"] = Field(description="away from a point or from a line")
+    pattern: Literal["spherical", "cylindrical"] = Field(description="directed away from a point or from a line")
     speed: Speed = Field(description="speed at `radius`, outward positive", examples=["-200 m/s"])
-    centre: Length = Field(0.0, description="axial position of the point that a spherical flow leaves", examples=["1 cm"])
+    centre: Length = Field(0.0, description="axial position of the centre of a spherical flow", examples=["1 cm"])
     radius: PositiveLength = Field(1.0, description="distance at which `speed` holds", examples=["5 mm"])
     exponent: Number = Field(
-        0.0, description="decay with distance; 2 (spherical), 1 (cylindrical) keep the volume", examples=[2.0]
+        0.0, description="decay with distance; 2 (spherical) or 1 (cylindrical) conserves volume", examples=[2.0]
     )
 
 
 class Body(Section):
-    """What all bodies have. Where bodies overlap, the one that stands first in the deck has the place."""
+    """The keys that all bodies have. Where bodies overlap, the first of them in the deck is there."""
 
-    name: Name = Field(description="how the body is called in fields, tables and other sections", examples=["rod"])
+    name: Name = Field(description="name of the body in fields, tables and other sections", examples=["rod"])
     material: str = Field(description="a material of the library or of [materials]", examples=["W_alloy"])
-    join: str | None = Field(None, description="an earlier body of the same material to be one with", examples=["shank"])
+    join: str | None = Field(None, description="an earlier body of the same material to merge with", examples=["shank"])
     velocity: Velocity = Field((0.0, 0.0), description="axial velocity, or [radial, axial]", examples=["1086 m/s"])
     flow: Flow | None = Field(
         None, description="velocity away from a centre, added to `velocity`",
@@ -61,14 +61,14 @@ class Body(Section):
     def _one_thermal_state(self):
         given = [key for key in ("energy", "pressure", "temperature") if getattr(self, key) is not None]
         if len(given) > 1:
-            raise ValueError(f"only one of energy, pressure, temperature can be given, not {' and '.join(given)}")
+            raise ValueError(f"give only one of energy, pressure, temperature, not {' and '.join(given)}")
         return self
 
 
 def _one_of(model: Section, *keys: str) -> str:
     given = [key for key in keys if getattr(model, key) is not None]
     if len(given) != 1:
-        raise ValueError(f"exactly one of {', '.join(keys)} is needed, found {', '.join(given) or 'none'}")
+        raise ValueError(f"give exactly one of {', '.join(keys)}; given: {', '.join(given) or 'none'}")
     return given[0]
 
 
@@ -87,9 +87,11 @@ class Rod(Body):
     crh: PositiveNumber | None = Field(
         None, description="ogive: radius of the arc in diameters (tangent ogive)", examples=[3.0]
     )
-    half_angle: Angle | None = Field(None, description="cone: half the angle at the tip, a number in rad", examples=["30 deg"])
+    half_angle: Angle | None = Field(
+        None, description="cone: half the angle at the tip; a plain number is in rad", examples=["30 deg"]
+    )
     nose_length: PositiveLength | None = Field(
-        None, description="ogive, cone: instead of `crh` or `half_angle`", examples=["10 mm"]
+        None, description="ogive, cone: length of the nose, instead of `crh` or `half_angle`", examples=["10 mm"]
     )
 
     @model_validator(mode="before")
@@ -113,25 +115,25 @@ class Rod(Body):
                 raise ValueError("an ogive has no half_angle; give crh or nose_length")
             _one_of(self, "crh", "nose_length")
             if self.crh is not None and self.crh < 0.5:
-                raise ValueError(f"an ogive has a crh of at least 0.5 (a hemisphere), is {self.crh:g}")
+                raise ValueError(f"crh of an ogive must be at least 0.5 (a hemisphere), is {self.crh:g}")
             if self.nose_length is not None and self.nose_length < self.rod_radius:
-                raise ValueError("a tangent ogive is at least as long as the radius")
+                raise ValueError("nose_length of a tangent ogive must be at least the radius")
         else:
             if self.crh is not None:
                 raise ValueError("a cone has no crh; give half_angle or nose_length")
             _one_of(self, "half_angle", "nose_length")
             if self.half_angle is not None and not self.half_angle < math.pi / 2:
-                raise ValueError('half_angle must lie below 90 degrees; a number is in rad, write "30 deg"')
+                raise ValueError('half_angle must be less than 90 degrees; a plain number is in rad, so write "30 deg"')
         if self.length < self.resolved_nose_length:
             raise ValueError(
-                f"length ({self.length:g} m) is the total length and must not be below that of the nose "
+                f"length ({self.length:g} m) is the total length and must not be less than the length of the nose "
                 f"({self.resolved_nose_length:g} m)"
             )
         return self
 
     @property
     def rod_radius(self) -> float:
-        """Radius of the shank in m, from whichever of radius and diameter the deck gives."""
+        """Radius of the shank in m, from the radius or the diameter in the deck."""
         return self.radius if self.radius is not None else self.diameter / 2
 
     @property
@@ -149,13 +151,13 @@ class Rod(Body):
 
 
 class Plate(Body):
-    """A plate across the axis, from `z_front` on towards +z."""
+    """A plate across the axis, from `z_front` towards +z."""
 
     shape: Literal["plate"] = Field(description="a plate across the axis")
     z_front: Length = Field(description="axial position of the face with the smaller z", examples=["0 mm"])
     thickness: PositiveLength = Field(description="extent along z", examples=["12 mm"])
     radius: PositiveLength | None = Field(
-        None, description="outer radius; default: to the edge of the mesh", examples=["25 cm"]
+        None, description="outer radius; default: the plate reaches the edge of the mesh", examples=["25 cm"]
     )
 
 
@@ -185,7 +187,7 @@ class Sphere(Body):
         WithJsonSchema({"anyOf": [{"type": "number"}, {"type": "string"}, {"type": "array"}], "x-unit": "m"}),
     ] = Field(description="axial position of the centre, or [r, z]; with r > 0 in r-z the body is a ring", examples=["-5 mm"])
     radius: PositiveLength = Field(description="outer radius", examples=["5 mm"])
-    inner_radius: PositiveLength | None = Field(None, description="of a shell", examples=["4 mm"])
+    inner_radius: PositiveLength | None = Field(None, description="inner radius of a shell", examples=["4 mm"])
 
     @model_validator(mode="after")
     def _shell(self):
@@ -201,7 +203,7 @@ def _points(value):
 
 
 class Polygon(Body):
-    """A polygon in the (r, z) plane; its edges must not cross. It closes by itself."""
+    """A polygon in the (r, z) plane. Its edges must not cross. The last corner is joined to the first."""
 
     shape: Literal["polygon"] = Field(description="a polygon in the (r, z) plane")
     points: Annotated[tuple[Point, ...], BeforeValidator(_points)] = Field(
@@ -222,7 +224,7 @@ class Polygon(Body):
 
 
 def _cross(a, b, c, d) -> bool:
-    """True if the open segments ab and cd cross each other."""
+    """Whether the open segments ab and cd cross each other."""
 
     def side(p, q, x):
         return (q[0] - p[0]) * (x[1] - p[1]) - (q[1] - p[1]) * (x[0] - p[0])

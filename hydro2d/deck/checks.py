@@ -1,4 +1,4 @@
-"""What no single key shows to be wrong: names that point nowhere, bodies outside the mesh, unsupported combinations."""
+"""Checks that involve several keys: unknown names, bodies outside the mesh, unsupported combinations."""
 
 from __future__ import annotations
 
@@ -12,19 +12,19 @@ from hydro2d.deck.shapes import outline
 from hydro2d.errors import unknown
 from hydro2d.mesh.edges import BY_NAME, EDGES
 
-#: radii that a mesh should reach ahead of the rod that it follows: farther off a plate does not feel the mesh's edge
+#: rod radii that a mesh should reach ahead of the rod that it follows; at this distance its edge no longer affects the rod
 AHEAD = 20
 
-#: keys of `sliding` that mean nothing in a contact
+#: keys of `sliding` that have no meaning in a contact
 OF_SLIP_LAYER = ("boundary_layer", "slip_layer", "threshold", "shear", "refresh")
 
 
 def inconsistencies(deck: Deck) -> Iterator[tuple[tuple, str]]:
-    """What single keys cannot show: names that point nowhere, bodies outside the mesh, ends that cannot be."""
+    """Key and message of each mistake that involves several keys: unknown names, bodies outside the mesh, missing ends."""
     names = [entry.name for entry in deck.body]
     for number, entry in enumerate(deck.body):
         if entry.name in names[:number]:
-            yield ("body", number, "name"), f'the name "{entry.name}" is taken by an earlier body'
+            yield ("body", number, "name"), f'the name "{entry.name}" is already used by an earlier body'
         if entry.join is not None:
             yield from _bad_join(deck, number)
     for kind, names_of in (("tracer", [[entry.name] for entry in deck.tracer]),
@@ -32,20 +32,20 @@ def inconsistencies(deck: Deck) -> Iterator[tuple[tuple, str]]:
         taken: set[str] = set()
         for number, own in enumerate(names_of):
             if twice := taken.intersection(own):
-                yield (kind, number, "name"), f'the name "{min(twice)}" is taken by an earlier {kind}'
+                yield (kind, number, "name"), f'the name "{min(twice)}" is already used by an earlier {kind}'
             taken.update(own)
     yield from _bad_names(deck, names)
     yield from _bad_mesh(deck)
     yield from _bad_edges(deck)
     if deck.stop.time is None and deck.stop.cycles is None:
-        yield ("stop",), "needs a time or a number of cycles"
+        yield ("stop",), "needs time or cycles"
     if deck.sliding.method == "slip-layer" and not deck.sliding.hard:
         yield ("sliding", "hard"), "a slip layer needs the names of the hard bodies"
     yield from _bad_targets(deck)
     if deck.sliding.method == "contact":
         yield from _bad_contact(deck)
     elif deck.sliding.friction > 0 and deck.sliding.shear != "shear":
-        yield ("sliding", "friction"), 'friction acts only with shear = "shear"; a fluid slip layer has none'
+        yield ("sliding", "friction"), 'friction needs shear = "shear"; a fluid slip layer has no friction'
 
 
 def _bad_join(deck: Deck, number: int) -> Iterator[tuple[tuple, str]]:
@@ -66,10 +66,10 @@ def _bad_contact(deck: Deck) -> Iterator[tuple[tuple, str]]:
         yield ("sliding", "hard"), "a contact needs a body that is not hard"
     if slide.yield_factor in ("radius", "printed"):
         word = slide.yield_factor
-        yield ("sliding", "yield_factor"), f'"{word}" belongs to the slip layer; a contact takes "off" or a number'
+        yield ("sliding", "yield_factor"), f'"{word}" is for the slip layer only; a contact takes "off" or a number'
     for key in OF_SLIP_LAYER:
         if getattr(slide, key) != Sliding.model_fields[key].default:
-            yield ("sliding", key), f'{key} belongs to the slip layer and means nothing with method = "contact"'
+            yield ("sliding", key), f'{key} is for the slip layer only and has no meaning with method = "contact"'
 
 
 def _bad_names(deck: Deck, names: list[str]) -> Iterator[tuple[tuple, str]]:
@@ -96,7 +96,7 @@ def _bad_names(deck: Deck, names: list[str]) -> Iterator[tuple[tuple, str]]:
 
 
 def _bad_targets(deck: Deck) -> Iterator[tuple[tuple, str]]:
-    """Targets that cannot be penetrated one after the other."""
+    """Targets that cannot be penetrated in the given order."""
     shot, known = deck.penetration, {entry.name for entry in deck.body}
     if shot is None or not known.issuperset({shot.rod, *shot.targets}):
         return
@@ -106,7 +106,7 @@ def _bad_targets(deck: Deck) -> Iterator[tuple[tuple, str]]:
         elif number > 0:
             before, sign = shot.targets[number - 1], heading(body(deck, shot.rod))
             if sign * (faces(deck, shot.rod, name)[0] - faces(deck, shot.rod, before)[0]) < 0.0:
-                yield ("penetration", "targets", number), f'the rod meets "{name}" before "{before}"; name them in that order'
+                yield ("penetration", "targets", number), f'the rod reaches "{name}" before "{before}"; name them in that order'
 
 
 def _bad_edges(deck: Deck) -> Iterator[tuple[tuple, str]]:
@@ -117,20 +117,20 @@ def _bad_edges(deck: Deck) -> Iterator[tuple[tuple, str]]:
             if not given:
                 yield ("boundaries", edge), f"an edge with a velocity needs {key}"
             if deck.sliding.method == "contact":
-                yield ("boundaries", edge), "a contact has no edges with a velocity: the two groups would need one each"
+                yield ("boundaries", edge), "a contact allows no edge with a velocity: each body group would need its own"
         elif given:
-            yield ("boundaries", key), f'means nothing without {edge} = "velocity"'
+            yield ("boundaries", key), f'has no meaning without {edge} = "velocity"'
 
 
 def _bad_mesh(deck: Deck) -> Iterator[tuple[tuple, str]]:
     cylindrical = deck.mesh.geometry == "cylindrical"
     if cylindrical and deck.mesh.r_start < 0:
-        yield ("mesh", "r_start"), f"a cylindrical mesh starts at r >= 0, not at {deck.mesh.r_start:g} m"
+        yield ("mesh", "r_start"), f"a cylindrical mesh must start at r >= 0, not at {deck.mesh.r_start:g} m"
         return
     if deck.boundaries.r_min == "axis" and not (cylindrical and deck.mesh.r_start == 0):
         yield ("boundaries", "r_min"), "an axis needs a cylindrical mesh that starts at r = 0"
     if deck.boundaries.r_min not in ("axis", None) and cylindrical and deck.mesh.r_start == 0:
-        yield ("boundaries", "r_min"), "r = 0 of a cylindrical mesh is the axis"
+        yield ("boundaries", "r_min"), 'r = 0 of a cylindrical mesh is the axis; only "axis" is allowed there'
     try:
         r, z = axis_edges(deck, "r"), axis_edges(deck, "z")
     except SegmentError as problem:
@@ -148,7 +148,7 @@ def _bad_mesh(deck: Deck) -> Iterator[tuple[tuple, str]]:
         low, high = extent(entry, deck, "z")
         if direction and _comes(low, high, z, direction):
             if entry.velocity != (0.0, 0.0) or entry.flow is not None:
-                yield path, f'"{entry.name}" reaches beyond the mesh, which will meet it on its way; there it must be at rest'
+                yield path, f'"{entry.name}" reaches beyond the end of the travelling mesh; a body there must be at rest'
         elif high <= z[0] or low >= z[-1]:
             yield path, _outside(entry.name, "z", low, high, z)
         elif entry.shape == "rod" and (low < z[0] or high > z[-1]):
@@ -171,19 +171,19 @@ def _bad_mesh(deck: Deck) -> Iterator[tuple[tuple, str]]:
 
 
 def travel(deck: Deck) -> float:
-    """The sense in which the mesh travels along z, +1 or -1; 0 where it stands."""
+    """The direction in which the mesh travels along z, +1 or -1; 0 if it does not move."""
     if deck.mesh.follow is None:
         return 0.0
     return float(np.sign(body(deck, deck.mesh.follow).velocity[1]))
 
 
 def _comes(low: float, high: float, z: np.ndarray, direction: float) -> bool:
-    """Whether what lies from low to high reaches beyond the edge of the mesh that goes ahead."""
+    """Whether something from low to high reaches beyond the leading edge of the mesh."""
     return high > z[-1] if direction > 0 else low < z[0]
 
 
 def room(deck: Deck, z: np.ndarray) -> tuple[float, float]:
-    """How far a mesh with edges z reaches ahead of the body that it follows, and behind it, m."""
+    """Distances in m that a mesh with edges z reaches ahead of the body that it follows, and behind it."""
     low, high = extent(body(deck, deck.mesh.follow), deck, "z")
     below, above = low - float(z[0]), float(z[-1]) - high
     return (above, below) if travel(deck) > 0 else (below, above)
@@ -197,18 +197,18 @@ def _bad_follow(deck: Deck, z: np.ndarray) -> Iterator[tuple[tuple, str]]:
         return
     direction = travel(deck)
     if direction == 0.0:
-        yield path, f'"{name}" has no velocity along z that a mesh could follow'
+        yield path, f'"{name}" has no velocity along z for the mesh to follow'
         return
     for key in ("z_min", "z_max"):
         kind = getattr(deck.boundaries, key)
         if BY_NAME[kind].holds:
             what = "a wall" if kind == "wall" else "an edge with a velocity"
-            yield ("boundaries", key), f'a mesh that follows "{name}" has open ends along z; {what} cannot travel with it'
+            yield ("boundaries", key), f'a mesh that follows "{name}" must have open ends along z; {what} cannot travel with it'
     ahead, behind = room(deck, z)
     radius = extent(body(deck, name), deck, "r")[1]
     if ahead < (radius if np.isfinite(radius) else 0.0):
-        yield path, (f'the mesh is too short: it reaches {ahead:g} m ahead of "{name}", which needs its own radius of '
-                     f"{radius:g} m at least and {AHEAD} of them for an undisturbed flight")  # fmt: skip
+        yield path, (f'the mesh is too short: it reaches {ahead:g} m ahead of "{name}"; at least the radius of the body, '
+                     f"{radius:g} m, is needed, and {AHEAD} radii for an undisturbed flight")  # fmt: skip
     if behind <= 0.0:
         yield path, f'the mesh is too short: it ends {-behind:g} m before the tail of "{name}"'
 
@@ -233,14 +233,14 @@ def faces(deck: Deck, rod: str, target: str) -> tuple[float, float]:
 
 
 def unsupported(deck: Deck) -> Iterator[tuple[tuple, str]]:
-    """What the materials make impossible."""
+    """Combinations that are impossible with the materials of the deck."""
     if deck.sliding.method == "slip-layer":
         for number, name in enumerate(deck.sliding.hard):
             material = deck.materials[body(deck, name).material]
             if not material.has_strength:
                 yield (
                     ("sliding", "hard", number),
-                    f'"{name}" is made of {material.name}, which has no strength; a hard body needs one',
+                    f'"{name}" is made of {material.name}, which has no strength; a hard body needs strength',
                 )
         if deck.sliding.yield_factor in ("radius", "printed") and body_radius(deck, deck.sliding.hard[0]) is None:
             yield (
@@ -248,8 +248,8 @@ def unsupported(deck: Deck) -> Iterator[tuple[tuple, str]]:
                 f'"{deck.sliding.yield_factor}" needs a hard body with a radius; give a number or "off"',
             )
     if (deck.stop.speed_below is not None or deck.stop.rebound) and deck.stop.body is None:
-        yield ("stop", "body"), "the name of the body whose speed is watched is missing"
+        yield ("stop", "body"), "is missing: the name of the body whose speed is watched"
     if deck.stop.perforation and deck.penetration is None:
-        yield ("stop", "perforation"), "without a rod and a target nothing is perforated"
+        yield ("stop", "perforation"), "needs a rod and a target"
     if deck.output.history_interval is None or deck.output.vtk_interval is None:
         yield ("output",), "without stop.time, history_interval and vtk_interval must be given"

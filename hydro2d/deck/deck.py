@@ -1,8 +1,8 @@
-"""The input deck: strict TOML in, a frozen and validated Deck in SI units out.
+"""The input deck: reads strict TOML and gives a frozen, validated Deck in SI units.
 
-``load`` and ``loads`` read a deck with its includes and overrides; every mistake is a DeckError that names file, line,
-key and what is allowed. ``edges``, ``slots``, ``body_groups``, ``sliding_widths``, ``yield_factor`` and ``surface``
-answer what follows from a deck; ``warnings`` lists what is allowed but unwise.
+``load`` and ``loads`` read a deck with its includes and overrides. Every mistake raises a DeckError that names the file, the
+line, the key and what is allowed. ``edges``, ``slots``, ``body_groups``, ``sliding_widths``, ``yield_factor`` and ``surface``
+derive further values from a deck. ``warnings`` lists what is allowed but unwise.
 """
 
 from __future__ import annotations
@@ -48,26 +48,26 @@ __all__ = [
     "yield_factor",
 ]
 
-#: what is laid over a deck: "key=value" of a command line, or values by their dotted keys
+#: overrides of a deck: "key=value" of a command line, or values by their dotted keys
 Overrides = Sequence[str] | Mapping[str, Any]
 
-#: the context in which a Deck is validated by those who then resolve its defaults
+#: the context in which a Deck may be validated: its defaults are resolved afterwards
 _RESOLVING = {"resolving": True}
 
 
 class Deck(sections.Deck):
-    """An input deck: validated, with every default written out, all numbers in SI units. It never changes.
+    """An input deck: validated, with every default written out and all numbers in SI units. It never changes.
 
-    Made by `from_file`, `from_toml` or `from_dict`. Sections are attributes: ``deck.numerics.courant``,
+    `from_file`, `from_toml` and `from_dict` make one. Sections are attributes: ``deck.numerics.courant``,
     ``deck.body[0].velocity``.
     """
 
     @model_validator(mode="before")
     @classmethod
     def _is_resolved(cls, data: Any, info: ValidationInfo) -> Any:
-        """Refuses a Deck whose defaults nobody would resolve and whose consistency nobody would check."""
+        """Refuses a Deck made by its class, whose defaults would not be resolved and whose consistency would not be checked."""
         if info.context is not _RESOLVING:
-            raise DeckError("a Deck is made by Deck.from_file, Deck.from_toml or Deck.from_dict, not by its class")
+            raise DeckError("use Deck.from_file, Deck.from_toml or Deck.from_dict to make a Deck, not its class")
         return data
 
     @classmethod
@@ -79,13 +79,15 @@ class Deck(sections.Deck):
         path : str or Path
             A TOML file, or the path of a deck that hydro2d ships, such as ``problems/perforation/sphere.toml``.
         overrides : dict or list of str
-            Values by dotted key, laid over the deck: ``{"body.rod.velocity": "1200 m/s", "stop.time": 50e-6}``. A list holds
-            ``"key=value"`` as the option ``--set`` of the command line. Numbers are in SI units, text may name its unit.
+            Values by dotted key that replace those of the deck: ``{"body.rod.velocity": "1200 m/s", "stop.time": 50e-6}``. A
+            list holds ``"key=value"``, as for the option ``--set`` of the command line. Numbers are in SI units; text may name
+            its unit.
 
         Raises
         ------
         DeckError
-            The file or its contents are wrong. The message has a line for each mistake: file, line, key, what is allowed.
+            The file or its contents are wrong. The message has one line for each mistake, with file, line, key and what is
+            allowed.
         """
         return load(path, overrides)
 
@@ -94,8 +96,8 @@ class Deck(sections.Deck):
                   folder: str | Path = ".") -> Deck:  # fmt: skip
         """Reads a deck from TOML text.
 
-        name : of the run, which names its directory
-        folder : where the files that the text names are looked for: decks that it includes, models of your own
+        name : name of the run and of its directory
+        folder : folder of the files that the text names: included decks, and models of your own
         overrides : as in `from_file`
 
         Raises DeckError.
@@ -105,7 +107,7 @@ class Deck(sections.Deck):
     @classmethod
     def from_dict(cls, tables: Mapping[str, Any], overrides: Overrides = (), *, name: str = "deck",
                   folder: str | Path = ".") -> Deck:  # fmt: skip
-        """Makes a deck of nested dicts and lists, which hold what a TOML file would.
+        """Makes a deck from nested dicts and lists with the contents of a TOML file.
 
         name, folder, overrides : as in `from_toml`
 
@@ -115,7 +117,7 @@ class Deck(sections.Deck):
 
 
 def find(path: str | Path) -> Path:
-    """The deck file: as given, or among the decks that hydro2d ships; DeckError where there is none."""
+    """The deck file: as given, or among the decks that hydro2d ships. Raises DeckError if there is none."""
     path = Path(path)
     if path.is_file():
         return path
@@ -136,7 +138,7 @@ def load(path: str | Path, overrides: Overrides = ()) -> Deck:
     path : str or Path
         A file, or the path of a shipped deck below ``problems``.
     overrides : list of str, or dict
-        ``key=value`` with dotted keys, laid over the deck in order: ``body.rod.velocity=1200 m/s``; or values by such keys.
+        ``key=value`` with dotted keys, applied to the deck in order: ``body.rod.velocity=1200 m/s``; or values by such keys.
 
     Raises
     ------
@@ -147,19 +149,19 @@ def load(path: str | Path, overrides: Overrides = ()) -> Deck:
     sources = Sources()
     data = toml.read(file, sources)
     if toml.is_study(data) and "mesh" not in data:
-        raise DeckError(f"{file}: is a study, which `hydro2d sweep` or `hydro2d transition` runs, not a deck")
+        raise DeckError(f"{file}: is a study, not a deck; run it with `hydro2d sweep` or `hydro2d transition`")
     return _resolve(data, file.stem, overrides, sources, file.parent)
 
 
 def loads(text: str, overrides: Overrides = (), name: str = "deck", folder: str | Path = ".") -> Deck:
-    """Reads a deck from a string; includes and models are looked for in ``folder``. Raises DeckError as ``load`` does."""
+    """Reads a deck from a string, whose includes and models are in ``folder``. Raises DeckError as ``load`` does."""
     sources = Sources()
     data = toml.assemble(text, f"{name}.toml", Path(folder), sources)
     return _resolve(data, name, overrides, sources, Path(folder))
 
 
 def of_tables(tables: Mapping[str, Any], overrides: Overrides = (), name: str = "deck", folder: str | Path = ".") -> Deck:
-    """Makes a deck of nested dicts and lists, as a TOML file would give them. Raises DeckError as ``load`` does."""
+    """Makes a deck from nested dicts and lists, as a TOML file would give them. Raises DeckError as ``load`` does."""
     sources = Sources()
     sources.add(name, {}, "")
     data = toml.with_included(plain(tables), Path(folder), sources)
@@ -167,7 +169,7 @@ def of_tables(tables: Mapping[str, Any], overrides: Overrides = (), name: str = 
 
 
 def plain(value):
-    """A copy of what a program gives for a part of a deck, as TOML would give it: numpy's numbers become Python's."""
+    """A copy of a program's values for a part of a deck, as TOML would give them: numpy numbers become Python numbers."""
     if isinstance(value, Mapping):
         return {str(key): plain(entry) for key, entry in value.items()}
     if isinstance(value, (np.ndarray, np.generic)):
@@ -179,7 +181,7 @@ def plain(value):
 
 def _laid_over(data: dict, overrides: Overrides, sources: Sources) -> dict:
     if isinstance(overrides, str):
-        raise DeckError(f'overrides are a list of "key=value" or a dict of values by key, not the text "{overrides}"')
+        raise DeckError(f'overrides must be a list of "key=value" or a dict of values by key, not the text "{overrides}"')
     if isinstance(overrides, Mapping):
         given = {key: plain(value) for key, value in overrides.items()}
         entries = [(key, value, f"override {key} = {value!r}") for key, value in given.items()]
@@ -218,14 +220,14 @@ def _resolve(data: dict, name: str, overrides: Overrides, sources: Sources, fold
 
 
 def _causes(found: list[dict]) -> list[dict]:
-    """Pydantic's errors without "too few entries" of a list whose entries are what is wrong."""
+    """Pydantic's errors, without "too few entries" for a list whose entries themselves are wrong."""
     places = [entry["loc"] for entry in found]
     return [entry for entry in found if entry["type"] != "too_short"
             or not any(place[: len(entry["loc"])] == entry["loc"] and place != entry["loc"] for place in places)]
 
 
 def _explained(entry: dict, data: dict) -> tuple[tuple, str]:
-    """The key of the deck and our words for one of pydantic's errors."""
+    """The deck key and hydro2d's message for one of pydantic's errors."""
     path, kind = _key_path(entry["loc"], data), entry["type"]
     context = entry.get("ctx", {})
     if kind == "extra_forbidden":
@@ -247,7 +249,7 @@ def _explained(entry: dict, data: dict) -> tuple[tuple, str]:
 
 
 def _key_path(loc: tuple, data: Any) -> tuple:
-    """pydantic's location without the tags of unions: what can be followed in the deck."""
+    """Pydantic's location without the tags of unions, as a path in the deck."""
     path: tuple = ()
     for depth, part in enumerate(loc):
         last = depth == len(loc) - 1
@@ -277,7 +279,7 @@ def _allowed_keys(path: tuple, data: dict) -> list[str]:
 
 
 def key_problem(data: dict, key: str) -> str | None:
-    """What is wrong with an override's key for a deck of these merged tables; None where a deck has such a key."""
+    """What is wrong with the key of an override for a deck of these merged tables; None if the deck has such a key."""
     path, place = (), data
     for part in toml.key_parts(key):
         if isinstance(place, list):
@@ -295,7 +297,7 @@ def key_problem(data: dict, key: str) -> str | None:
 
 
 def _section(model: Any, key: str) -> Any:
-    """The section that a key of a section holds; None for bodies, which their shape decides."""
+    """The section under a key of a section; None for bodies, whose section depends on their shape."""
     field = model.model_fields.get(key) if model else None
     return _first_section(field.annotation) if field else None
 
@@ -309,7 +311,7 @@ def _first_section(annotation: Any) -> Any:
 
 
 def _own_materials(deck: Deck, complaint) -> tuple[dict[str, library.Material], list[str]]:
-    """The materials that the deck defines, and what is wrong with them."""
+    """The materials that the deck defines, and their mistakes."""
 
     def fail(path: tuple, message: str) -> DeckError:
         return complaint(("materials", *path), message)
@@ -333,7 +335,7 @@ def _materials(deck: Deck, own: dict[str, library.Material]) -> dict[str, librar
 
 
 def _unknown_materials(data: dict) -> Iterator[tuple[tuple, str]]:
-    """Bodies of a deck as it was read, however wrong it is otherwise, whose material nobody knows."""
+    """Bodies with an unknown material, in a deck as it was read, which may be wrong in other ways."""
     bodies, own = data.get("body"), data.get("materials")
     known = {*(own if isinstance(own, dict) else ()), *library.names()}
     for number, entry in enumerate(bodies if isinstance(bodies, list) else ()):
@@ -343,7 +345,7 @@ def _unknown_materials(data: dict) -> Iterator[tuple[tuple, str]]:
 
 
 def _with_defaults(deck: Deck) -> Deck:
-    """The deck with the defaults written in that follow from other keys."""
+    """The deck with the defaults that follow from other keys."""
     update: dict[str, Any] = {}
     data = copy.deepcopy(deck.model_dump(exclude={"materials"}))
     if deck.boundaries.r_min is None:
@@ -380,7 +382,7 @@ def _with_defaults(deck: Deck) -> Deck:
 
 
 def _is_the_shot(deck: Deck) -> bool:
-    """Whether the deck's experiment was shot at the velocity and the target that the deck has."""
+    """Whether the experiment of the deck has the velocity and the target of the deck."""
     shot = deck.experiment
     if shot is None or deck.penetration is None:
         return True
@@ -391,7 +393,7 @@ def _is_the_shot(deck: Deck) -> bool:
 
 
 def _in_the_way(deck: Deck, rod, plates: list) -> list[str]:
-    """Names of the plates and boxes that a rod's axis goes through ahead of it, in its order; the first one if none does."""
+    """Names of the plates and boxes ahead of a rod on its axis, in the order in which it reaches them; else the first one."""
     here, sign = sum(extent(rod, deck, "z")), heading(rod)
     across = [entry for entry in plates if extent(entry, deck, "r")[0] <= deck.mesh.r_start]
     ahead = [entry for entry in across if sign * (sum(extent(entry, deck, "z")) - here) > 0.0]
@@ -400,12 +402,12 @@ def _in_the_way(deck: Deck, rod, plates: list) -> list[str]:
 
 
 def slots(deck: Deck) -> list[str]:
-    """Names of the bodies that have a place of their own in the arrays, in the order of index m."""
+    """Names of the bodies with their own place in the arrays, in the order of index m."""
     return [entry.name for entry in deck.body if entry.join is None]
 
 
 def body_groups(deck: Deck) -> list[int]:
-    """Body group of every slot, which is the velocity field it moves with: 1 for the hard bodies of a contact, else 0."""
+    """Body group of every slot, that is, its velocity field: 1 for the hard bodies of a contact, else 0."""
     hard = deck.sliding.hard if deck.sliding.method == "contact" else ()
     return [int(name in hard) for name in slots(deck)]
 
@@ -416,7 +418,7 @@ def edges(deck: Deck) -> tuple[np.ndarray, np.ndarray]:
 
 
 def sliding_widths(deck: Deck) -> tuple[float, float]:
-    """Width of the boundary layer and of the slip layer in m; numbers of the deck count cells of the finest size."""
+    """Widths of the boundary layer and of the slip layer in m; plain numbers in the deck count cells of the finest size."""
     finest = min(float(np.diff(axis).min()) for axis in edges(deck))
     finest = float(f"{finest:.12g}")  # edges carry round-off
     given = (deck.sliding.boundary_layer, deck.sliding.slip_layer)
@@ -428,8 +430,8 @@ def yield_factor(deck: Deck) -> float:
     """The factor on the yield stress of hard bodies.
 
     "radius" is ((R + w)/R)^2 with the radius of the first hard body and the width w of the boundary layer: the load is
-    carried over the area out to R + w. "printed" is the same with the hard body's density in g/cm^3 and w in cm in the
-    place of R, as Scheffler prints it.
+    carried over the area out to R + w. "printed" is the same with the density of the hard body in g/cm^3 in place of R and w
+    in cm, as Scheffler prints it.
     """
     factor = deck.sliding.yield_factor
     if deck.sliding.method == "none" or factor == "off":
@@ -444,7 +446,7 @@ def yield_factor(deck: Deck) -> float:
 
 
 def surface(deck: Deck) -> float | None:
-    """Axial position that the penetration depth is measured from, m; None for a deck without rod and target."""
+    """Axial position from which the penetration depth is measured, m; None for a deck without rod and target."""
     return deck.penetration.surface if deck.penetration else None
 
 
@@ -458,7 +460,7 @@ def schema() -> dict:
     result["properties"]["materials"]["additionalProperties"] = {"$ref": "#/$defs/Material"}
     result["properties"]["include"] = {
         "anyOf": [{"type": "string"}, {"type": "array", "items": {"type": "string"}}],
-        "description": "decks that this one is laid over, relative to this file",
+        "description": "decks on which this one is based, relative to this file; values of this deck replace theirs",
         "examples": ["hemi_5083_1086.toml"],
     }
     return result

@@ -1,4 +1,4 @@
-"""Edges of the mesh from its segments."""
+"""The edges of the mesh, from its segments."""
 
 from __future__ import annotations
 
@@ -9,19 +9,19 @@ import numpy as np
 
 from hydro2d.deck.sections import Deck, Segment
 
-#: share of a cell by which a segment may miss a whole number of cells; beyond the second it is told
+#: fraction of a cell by which a segment may miss a whole number of cells; beyond the second value there is a notice
 _FIT, _TOLD = 1e-4, 1e-6
 _LIMIT = 1_000_000
-#: the smallest cell, as a share of its distance from the origin, whose edges are still apart by many roundings
+#: the smallest cell, as a fraction of its distance from the origin, whose edges still differ by many roundings
 _SMALLEST = 1e-9
-#: the smallest ratio that is tried, and a length that no mesh has, m
+#: the smallest ratio to try, and a length greater than that of any mesh, m
 _STEEPEST, _LARGEST = 1e-3, 1e300
-#: logarithm of the last cell of a graded segment over its first, at most
+#: largest logarithm of the ratio of the last cell of a graded segment to its first
 _GROWTH = 50.0
 
 
 class SegmentError(ValueError):
-    """A segment that cannot be laid; ``path`` is its key in the deck."""
+    """A segment that cannot be divided into cells; ``path`` is its key in the deck."""
 
     def __init__(self, path: tuple, message: str):
         super().__init__(message)
@@ -29,7 +29,7 @@ class SegmentError(ValueError):
 
 
 def body(deck: Deck, name: str):
-    """The body of this name; KeyError where there is none."""
+    """The body with this name. Raises KeyError if there is none."""
     for entry in deck.body:
         if entry.name == name:
             return entry
@@ -37,7 +37,7 @@ def body(deck: Deck, name: str):
 
 
 def body_radius(deck: Deck, name: str) -> float | None:
-    """Radius of a rod, a sphere or a plate with an edge; None for all else."""
+    """Radius of a rod, a sphere or a plate with an edge; None for other bodies."""
     for body in deck.body:
         if body.name == name:
             return body.rod_radius if body.shape == "rod" else getattr(body, "radius", None)
@@ -45,7 +45,7 @@ def body_radius(deck: Deck, name: str) -> float | None:
 
 
 def axis_edges(deck: Deck, axis: str) -> np.ndarray:
-    """Edges along "r" or "z", float64[n + 1]; SegmentError where a segment cannot be laid."""
+    """Edges along "r" or "z", float64[n + 1]. Raises SegmentError for a segment that cannot be divided into cells."""
     edges = [deck.mesh.r_start if axis == "r" else deck.mesh.z_start]
     for *_, new in _laid(deck, axis):
         edges += new.tolist()
@@ -53,18 +53,18 @@ def axis_edges(deck: Deck, axis: str) -> np.ndarray:
 
 
 def misfits(deck: Deck) -> Iterator[str]:
-    """Segments whose cells were made to fit, as they miss a whole number by more than round-off; a sentence for each."""
+    """One sentence for each segment whose cells were adjusted because they miss a whole number by more than round-off."""
     for axis in ("r", "z"):
         for number, segment, start, new in _laid(deck, axis):
             size = _size(deck, segment)
             if segment.to is not None and size is not None and None is segment.cells is segment.ratio is segment.last:
                 miss = abs(len(new) - (segment.to - start) / size)
                 if miss > _TOLD:
-                    yield f"mesh.{axis}[{number}]: ends {miss:.1g} of a cell from a whole number, so the cells were made to fit"
+                    yield f"mesh.{axis}[{number}]: ends {miss:.1g} of a cell from a whole number; the cells were adjusted"
 
 
 def _laid(deck: Deck, axis: str) -> Iterator[tuple[int, Segment, float, np.ndarray]]:
-    """The segments of an axis, each with its number, its start and its edges without the first. Raises SegmentError."""
+    """The segments of an axis: number, segment, start, and the edges without the first. Raises SegmentError."""
     start, previous = (deck.mesh.r_start if axis == "r" else deck.mesh.z_start), None
     for number, segment in enumerate(getattr(deck.mesh, axis)):
         try:
@@ -81,7 +81,7 @@ def _segment(deck: Deck, segment: Segment, start: float, previous: float | None)
     size = _size(deck, segment)
     length = None if segment.to is None else segment.to - start
     if length is not None and length <= 0:
-        raise ValueError(f"ends at {segment.to:g} m, which is not beyond its start at {start:g} m")
+        raise ValueError(f"must end beyond its start at {start:g} m, ends at {segment.to:g} m")
     if segment.ratio is not None or segment.last is not None:
         return _graded(segment, start, length, size, previous)
     cells = segment.cells
@@ -109,11 +109,11 @@ def _size(deck: Deck, segment: Segment) -> float | None:
 def _graded(segment: Segment, start: float, length: float | None, first: float | None, previous: float | None):
     if first is None:
         if previous is None:
-            raise ValueError("the first segment of an axis needs the size of its first cell: first")
+            raise ValueError("the first segment of an axis needs `first`, the size of its first cell")
         first = previous * (segment.ratio or 1.0)
     if segment.cells is not None:
         if segment.cells * abs(math.log(segment.ratio)) > _GROWTH:
-            raise ValueError(f"{segment.cells} cells with a ratio of {segment.ratio:g} end at nothing, or beyond all bounds")
+            raise ValueError(f"{segment.cells} cells with a ratio of {segment.ratio:g} end at nothing or beyond all bounds")
         sizes = first * segment.ratio ** np.arange(segment.cells)
         return _checked(start, start + np.cumsum(sizes))
     if first > length:
@@ -150,13 +150,13 @@ def _count(first: float, ratio: float, length: float) -> int:
 
 
 def _fitted_ratio(first: float, cells: int, length: float) -> float:
-    """The ratio with which ``cells`` cells from ``first`` on fill ``length``: where they begin to, to the last bit."""
+    """The smallest ratio, to the last bit, with which ``cells`` cells that begin with ``first`` fill ``length``."""
     if cells == 1:
         return 1.0
     from scipy.optimize import brentq
 
     def missing(ratio: float) -> float:
-        with np.errstate(over="ignore"):  # infinite is too long as well
+        with np.errstate(over="ignore"):  # an infinite length is too long as well
             return min(first * float(np.sum(ratio ** np.arange(cells))), _LARGEST) - length
 
     high = 2.0
@@ -177,5 +177,5 @@ def _checked(start: float, edges: np.ndarray) -> np.ndarray:
         raise ValueError(f"has {len(edges)} cells")
     smallest, farthest = float(np.min(np.diff(edges, prepend=start))), float(np.max(np.abs(edges)))
     if not smallest > _SMALLEST * farthest:
-        raise ValueError(f"its smallest cell, {smallest:.3g} m, is lost in the rounding of its place at {farthest:.3g} m")
+        raise ValueError(f"its smallest cell, {smallest:.3g} m, is lost in round-off at {farthest:.3g} m from the origin")
     return edges

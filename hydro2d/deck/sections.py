@@ -1,4 +1,4 @@
-"""The sections of a deck and everything that can stand in them, with defaults and meanings."""
+"""The sections of a deck and all their keys, with defaults and meanings."""
 
 from __future__ import annotations
 
@@ -25,29 +25,31 @@ from hydro2d.deck.bodies import AnyBody
 from hydro2d.mesh.edges import words
 
 _SEGMENTS = (
-    "{to, cells}, {to, size}, {cells, size}, {to, ratio}, {cells, ratio}, {to, last}; the last three take `first` too, "
-    "else they go on from the segment before; {across, cells_across} can stand for size and for first"
+    "{to, cells}, {to, size}, {cells, size}, {to, ratio}, {cells, ratio}, {to, last}; the last three also take `first`, "
+    "and without it continue the segment before; {across, cells_across} can replace size and first"
 )
 
 
-_UNEVEN = "cells beside each other that differ so much cannot hand a wave on"
+_UNEVEN = "neighbouring cells that differ by more cannot transmit a wave"
 
 
 class Segment(Section):
-    """A run of cells along one axis; segments follow one another. A ratio is adjusted so that `to` is met."""
+    """A row of cells along one axis; segments follow one another. A ratio is adjusted so that the segment ends at `to`."""
 
     to: Length | None = Field(None, description="position of the far edge", examples=["2 cm"])
     cells: int | None = Field(None, gt=0, le=1_000_000, description="number of cells", examples=[40])
-    size: PositiveLength | None = Field(None, description="size of every cell; must divide the segment", examples=["0.5 mm"])
+    size: PositiveLength | None = Field(
+        None, description="size of every cell; must divide the length of the segment", examples=["0.5 mm"]
+    )
     first: PositiveLength | None = Field(
         None, description="size of the first cell; default: previous size x ratio", examples=["0.5 mm"]
     )
     last: PositiveLength | None = Field(None, description="size of the last cell", examples=["5 mm"])
     ratio: Annotated[float, within(1e-3, 1e3, _UNEVEN)] | None = Field(
-        None, description="each cell's size over that of the one before", examples=[1.05]
+        None, description="ratio of the size of each cell to that of the cell before", examples=[1.05]
     )
-    across: str | None = Field(None, description="a body with a radius, to measure cells with", examples=["rod"])
-    cells_across: Annotated[float, within(0.01, 1e6, "fewer resolve nothing, and no machine holds more")] | None = Field(
+    across: str | None = Field(None, description="a body whose radius sets the size of the cells", examples=["rod"])
+    cells_across: Annotated[float, within(0.01, 1e6, "fewer resolve nothing, more fit on no machine")] | None = Field(
         None, description="cells across the radius of that body", examples=[8.5])
 
     @model_validator(mode="after")
@@ -58,7 +60,7 @@ class Segment(Section):
         if self.across is not None:
             graded = bool(given & {"ratio", "last"})
             if ("first" if graded else "size") in given:
-                raise ValueError("across gives the size of the cells, which is given beside it once more")
+                raise ValueError("across already gives the size of the cells; leave out first or size")
             given.add("first" if graded else "size")
         even = ("to cells", "to size", "cells size", "to ratio", "cells ratio", "to last")
         with_first = ("to first ratio", "cells first ratio", "to first last")
@@ -81,15 +83,15 @@ class Mesh(Section):
         min_length=1, description="segments from z_start upward", examples=[[{"to": "10 cm", "cells": 400}]]
     )
     follow: str | None = Field(
-        None, description="a body that the whole mesh travels with along z; what the deck has placed ahead enters in its turn; "
-        "default and none: the mesh stands still",
+        None, description="a body with which the whole mesh travels along z; what the deck places ahead enters when the mesh "
+        "reaches it; default and none: the mesh does not move",
         examples=["rod"],
     )
 
     @field_validator("follow")
     @classmethod
     def _nobody(cls, follow: str | None) -> str | None:
-        """``none`` undoes what an included deck says."""
+        """``none`` cancels the value of an included deck."""
         return None if follow == "none" else follow
 
 
@@ -103,7 +105,7 @@ else:
 
 
 class Boundaries(Section):
-    """What stands at the edges of the mesh: see the table of boundary conditions."""
+    """Boundary conditions at the edges of the mesh; see the table of boundary conditions."""
 
     r_min: Inner | None = Field(
         None, description="the inner edge; default: axis where a cylindrical mesh starts at r = 0, else wall"
@@ -121,54 +123,63 @@ class Numerics(Section):
     """How the equations are solved."""
 
     advection: Literal["ke", "momentum", "both"] = Field("ke", description="what the remap of velocities conserves")
-    ke_bound: Annotated[float, within(1.0, 1e12, "below 1 a vertex could not keep the velocity of its own momentum")] = Field(
-        1.05, description="bound of |u| over |momentum/mass| in the ke remap", examples=[1.1]
+    ke_bound: Annotated[float, within(1.0, 1e12, "below 1 a node could not keep the velocity of its own momentum")] = Field(
+        1.05, description="upper bound of |u| / |momentum/mass| in the ke remap", examples=[1.1]
     )
-    courant: Annotated[float, within(1e-3, 0.8, "beyond 0.8 the step is not stable where cells are mixed or viscous")] = Field(
-        0.5, description="time step over that of the fastest wave", examples=[0.4]
+    courant: Annotated[float, within(1e-3, 0.8, "above 0.8 the step is unstable in mixed or viscous cells")] = Field(
+        0.5, description="ratio of the time step to the time in which the fastest wave crosses a cell", examples=[0.4]
     )
     advective_courant: PositiveNumber = Field(
-        0.4, le=0.5, description="largest share of a cell crossed in one step", examples=[0.3]
+        0.4, le=0.5, description="largest fraction of a cell that material crosses in one step", examples=[0.3]
     )
-    max_growth: Annotated[float, within(1.0, 2.0, "a step that grows faster overtakes what sets it")] = Field(
+    max_growth: Annotated[float, within(1.0, 2.0, "a step that grows faster exceeds the limits that set it")] = Field(
         1.1, description="largest ratio of successive time steps", examples=[1.05]
     )
     ramp_cycles: int = Field(
         100, ge=0, le=1_000_000, description="cycles over which the time step rises from its initial factor", examples=[200])
-    initial_dt_factor: Fraction = Field(0.1, gt=0, description="first time step over the stable one", examples=[0.05])
+    initial_dt_factor: Fraction = Field(
+        0.1, gt=0, description="ratio of the first time step to the stable one", examples=[0.05]
+    )
     dt_min: Time = Field(1e-14, description="a time step below this ends the run as unphysical", examples=["1e-13 s"])
-    viscosity_linear: Annotated[float, within(0.0, 2.0, "a viscosity beyond it is not stable at this time step")] = Field(
+    viscosity_linear: Annotated[float, within(0.0, 2.0, "a larger viscosity is unstable at this time step")] = Field(
         0.5, description="linear coefficient of the artificial viscosity", examples=[0.2]
     )
-    viscosity_quadratic: Annotated[float, within(0.0, 4.0, "a viscosity beyond it is not stable at this time step")] = Field(
+    viscosity_quadratic: Annotated[float, within(0.0, 4.0, "a larger viscosity is unstable at this time step")] = Field(
         1.3, description="quadratic coefficient of the artificial viscosity", examples=[2.0]
     )
     hourglass: NotNegative = Field(0.05, le=1, description="coefficient of the hourglass filter", examples=[0.1])
-    mixed_cell: Literal["tipton", "uniform"] = Field("tipton", description="how materials share a volume change")
-    relaxation: Annotated[float, within(1e-6, 1.0, "at 1 the pressures meet within a step, beyond it they overshoot")] = Field(
+    mixed_cell: Literal["tipton", "uniform"] = Field(
+        "tipton", description="how the materials of a mixed cell share its volume change"
+    )
+    relaxation: Annotated[float, within(1e-6, 1.0, "at 1 the pressures meet within a step, above it they overshoot")] = Field(
         0.25, description="gamma of the pressure relaxation in mixed cells", examples=[0.5]
     )
     mixed_strength: Literal["volume", "solid", "zero", "max", "material"] = Field(
-        "volume", description="strength of a mixed cell: shared by volume, by solids, none, the largest, each its own"
+        "volume", description="strength of a mixed cell: mean over its volume, mean over the volume of the materials, none, "
+        "the largest, or that of each material"
     )
-    trace: Fraction = Field(1e-8, lt=0.01, description="volume fractions below this are removed and booked", examples=[1e-09])
+    trace: Fraction = Field(
+        1e-8, lt=0.01, description="volume fractions below this are removed and listed in the conservation audit",
+        examples=[1e-09],
+    )
     mass_floor: Fraction = Field(
-        1e-6, description="share of a vertex's full mass below which its velocity is limited", examples=[1e-05]
+        1e-6, description="fraction of a node's full mass below which its velocity is limited", examples=[1e-05]
     )
     clip_limit: Fraction = Field(
-        0.02, description="share of the energy that a clip (removed traces, the bound of ke, the speed limit) may take before "
-        "the run ends as unphysical; a summary is trustworthy up to 0.02, whatever stands here",
+        0.02, description="fraction of the energy that a clip (removed volume fractions, the bound of ke, the speed limit) may "
+        "remove before the run ends as unphysical; whatever this value, a summary is trustworthy only up to 0.02",
         examples=[0.05],
     )
     active_region: bool = Field(True, description="skip cells that no signal has reached")
     interface_order: tuple[str, ...] = Field(
-        (), description="nesting of bodies in mixed cells; default: the hard bodies of a contact, then deck order",
+        (), description="order in which interfaces of bodies are placed in mixed cells; default: the hard bodies of a contact, "
+        "then the others, in the order of the deck",
         examples=[["rod", "plate"]],
     )
 
 
 def _width(value):
-    """A number counts cells of the finest size; a string is a length, and stays a string."""
+    """A number counts cells of the finest size. A string is a length and remains a string."""
     if isinstance(value, str):
         if units.to_si(value, "m") < 0:
             raise ValueError("must not be negative")
@@ -184,7 +195,7 @@ def _factor(value):
             raise ValueError("must be positive")
         return float(value)
     if value not in ("radius", "printed", "off"):
-        raise ValueError(f'{value!r} is none of "radius", "printed", "off" and no number')
+        raise ValueError(f'must be "radius", "printed", "off" or a number, is {value!r}')
     return value
 
 
@@ -194,30 +205,34 @@ Factor = Annotated[float | str, BeforeValidator(_factor), WithJsonSchema(_NUMBER
 
 
 class Sliding(Section):
-    """Sliding between hard bodies and the rest; keys that say nothing of a contact belong to the slip layer."""
+    """Sliding between hard bodies and the others. Keys that do not mention a contact belong to the slip layer."""
 
     method: Literal["none", "slip-layer", "contact"] = Field(
         "none",
-        description="none: bodies stick as the mesh lets them; slip-layer: soft material beside the hard bodies loses its "
-        "shear; contact: the hard bodies have velocities of their own",
+        description="none: no special treatment, all bodies share one velocity field; slip-layer: soft material beside the "
+        "hard bodies loses its shear stress; contact: the hard bodies have velocities of their own",
     )
     hard: tuple[str, ...] = Field(
-        (), description="bodies that keep their own strength in mixed cells, or that a contact gives velocities of their own",
+        (), description="bodies that keep their own strength in mixed cells (slip layer) or have own velocities (contact)",
         examples=[["rod"]],
     )
     boundary_layer: Width = Field(
-        2.0, description="soft material that moves with the hard body: cells, or a length", examples=["0.8 mm"]
+        2.0, description="width of the soft material that moves with the hard body: cells, or a length", examples=["0.8 mm"]
     )
-    slip_layer: Width = Field(2.0, description="soft material beyond it whose shear is cut: cells, or a length", examples=[3.0])
-    threshold: Fraction = Field(0.3, description="share of hard material from which a cell counts as hard", examples=[0.5])
+    slip_layer: Width = Field(
+        2.0, description="width of the soft material beyond it that loses shear: cells, or a length", examples=[3.0]
+    )
+    threshold: Fraction = Field(
+        0.3, description="volume fraction of hard material from which a cell counts as hard", examples=[0.5]
+    )
     yield_factor: Factor = Field(
         "off",
-        description='on the hard yield: ((R + w)/R)^2 ("radius"), with the density in cgs for R ("printed"), a number; '
-        'a contact takes "off" or a number',
+        description='factor on the yield stress of hard bodies: ((R + w)/R)^2 ("radius"), the same with the density in cgs for '
+        'R ("printed"), a number, or "off"; a contact takes "off" or a number',
         examples=["radius"],
     )
     shear: Literal["fluid", "shear"] = Field(
-        "fluid", description="slip layer without deviator, or without shear along n"
+        "fluid", description="what the slip layer loses: all deviatoric stress, or the shear stress along the interface"
     )
     friction: NotNegative = Field(
         0.0, description='Coulomb coefficient at the interface of a contact, or in the slip layer with shear = "shear"',
@@ -227,46 +242,52 @@ class Sliding(Section):
 
 
 class Failure(Section):
-    """Which failure models of the materials act, and how void opens."""
+    """Which failure models of the materials are used, and how void opens."""
 
-    tensile: Literal["material", "none"] = Field("material", description="fracture pressure of each material, or never")
-    damage: Literal["material", "none"] = Field("none", description="damage model of each material, or never")
-    tension: Literal["mean", "min"] = Field("mean", description="fracture pressure of a mixed cell, by share or least")
+    tensile: Literal["material", "none"] = Field(
+        "material", description="tensile failure at the fracture pressure of each material, or none"
+    )
+    damage: Literal["material", "none"] = Field("none", description="the damage model of each material, or none")
+    tension: Literal["mean", "min"] = Field(
+        "mean", description="fracture pressure of a mixed cell: mean by volume fraction, or the smallest"
+    )
     max_opening: Fraction = Field(
-        0.2, gt=0, description="largest share of a cell that becomes void in one cycle", examples=[0.1]
+        0.2, gt=0, description="largest fraction of a cell that becomes void in one cycle", examples=[0.1]
     )
     loose: Fraction = Field(
-        0.94, lt=1, description="share of the reference density below which a material carries no shear; 0: never",
+        0.94, lt=1, description="fraction of the reference density below which a material carries no shear; 0: never",
         examples=[0.9],
     )
 
 
 class Stop(Section):
-    """When the run ends: whichever comes first. The speed of a body is looked at every 10 cycles.
+    """When the run ends: at the first of these conditions. The speed of a body is checked every 10 cycles.
 
-    Where the rod's speed, its rebound or perforation is watched, the run also ends when the rod has left the mesh.
+    If the speed of the rod, its rebound or perforation is watched, the run also ends when the rod has left the mesh.
     """
 
     time: PositiveTime | None = Field(None, description="end time", examples=["400 us"])
     cycles: int | None = Field(None, gt=0, le=10**12, description="number of cycles", examples=[1000])
     body: str | None = Field(None, description="the body watched; default: the rod", examples=["rod"])
     speed_below: PositiveSpeed | None = Field(
-        None, description="axial speed of that body's centre of mass, of a rod's core", examples=["5 m/s"]
+        None, description="stop when the axial speed of that body's centre of mass, for a rod of its core, falls below this",
+        examples=["5 m/s"],
     )
-    rebound: bool = Field(False, description="stop when that body turns round")
+    rebound: bool = Field(False, description="stop when that body reverses its direction")
     perforation: Literal[False, True, "tail"] = Field(
-        False, description="stop when the rod's nose is the rod's radius beyond the last target's rear, or its tail beyond that"
+        False, description="stop when the nose of the rod is one rod radius beyond the rear face of the last target; tail: "
+        "when its tail is beyond that face too"
     )
 
 
 def _directory(value: str) -> str:
     if not value.strip() or "\0" in value:
-        raise ValueError(f"{value!r} is no path; leave it out for runs/<name of the deck>")
+        raise ValueError(f"{value!r} is not a path; leave the key out for runs/<name of the deck>")
     return value
 
 
 def _fields(keys: tuple[str, ...]) -> tuple[str, ...]:
-    """Names of quantities, and of groups of them; the table is big, and imported where it is needed."""
+    """Names of quantities, and of groups of quantities. Their table is large and imported only if it is needed."""
     if set(keys) <= {"standard", "all"}:
         return keys
     from hydro2d.mesh import quantities
@@ -279,15 +300,17 @@ def _fields(keys: tuple[str, ...]) -> tuple[str, ...]:
 
 
 class Output(Section):
-    """What is written, and how often."""
+    """What is written, where, and how often."""
 
     directory: Annotated[str, AfterValidator(_directory)] | None = Field(
-        None, description="default: runs/<name of the deck>", examples=["runs/shot_4344"]
+        None, description="run directory; default: runs/<name of the deck>", examples=["runs/shot_4344"]
     )
     history_interval: PositiveTime | None = Field(
-        None, description="default: a thousandth of the end time", examples=["0.5 us"]
+        None, description="time between rows of the history; default: a thousandth of the end time", examples=["0.5 us"]
     )
-    vtk_interval: PositiveTime | None = Field(None, description="default: a fiftieth of the end time", examples=["10 us"])
+    vtk_interval: PositiveTime | None = Field(
+        None, description="time between dumps; default: a fiftieth of the end time", examples=["10 us"]
+    )
     restart_interval: PositiveTime = Field(300.0, description="wall-clock time between restart files", examples=["10 min"])
     fields: Annotated[tuple[str, ...], AfterValidator(_fields)] = Field(
         ("standard",), description="fields of the VTK files, by name", examples=[["pressure", "von_mises", "velocity"]]
@@ -303,7 +326,7 @@ class Tracer(Section):
 
 
 class Gauge(Section):
-    """A point that stands still, or a line of them, from (r, z) to (r_end, z_end)."""
+    """A fixed point, or a line of fixed points from (r, z) to (r_end, z_end)."""
 
     name: Name = Field(
         description="name of the gauge in the history; the points of a line are NAME_1, NAME_2 and so on", examples=["inside"]
@@ -311,17 +334,17 @@ class Gauge(Section):
     r: Length = Field(description="radial position", examples=["0 mm"])
     z: Length = Field(description="axial position", examples=["2 cm"])
     r_end: Length | None = Field(
-        None, description="radial position of the last point of a line; default: that of the first", examples=["0 mm"]
+        None, description="radial position of the last point of a line; default: the same as the first", examples=["0 mm"]
     )
     z_end: Length | None = Field(
-        None, description="axial position of the last point of a line; default: that of the first", examples=["10 cm"]
+        None, description="axial position of the last point of a line; default: the same as the first", examples=["10 cm"]
     )
     points: int = Field(1, ge=1, le=10_000, description="number of points of the line, the ends included", examples=[9])
 
     @model_validator(mode="after")
     def _line(self) -> Gauge:
         if (self.points > 1) != (self.r_end is not None or self.z_end is not None):
-            raise ValueError("a line of gauges has an end, r_end or z_end, and more than one of `points`")
+            raise ValueError("a line of gauges needs an end, r_end or z_end, and more than one of `points`")
         return self
 
     def places(self) -> list[tuple[str, tuple[float, float]]]:
@@ -335,38 +358,38 @@ class Gauge(Section):
 
 
 class Experiment(Section):
-    """What was measured, to be shown beside the run; the run does not use it.
+    """What was measured, shown beside the run; the run does not use it.
 
-    Where the deck, by an override or as it is laid over another, has another impact velocity (by more than 1 %) or target than
-    the shot's, the resolved deck has no experiment.
+    If an override or an including deck changes the impact velocity (by more than 1 %) or the target, so that the deck is no
+    longer this shot, the resolved deck has no experiment.
     """
 
     velocity: PositiveSpeed | None = Field(
-        None, description="impact velocity of the shot; default: whatever the rod has", examples=["1086 m/s"]
+        None, description="impact velocity of the shot; default: the velocity of the rod, whatever it is", examples=["1086 m/s"]
     )
     target: str | None = Field(
-        None, description="material that was shot at; default: whatever the target is made of", examples=["Al5083"]
+        None, description="material of the target in the shot; default: that of the target, whatever it is", examples=["Al5083"]
     )
     penetration: PositiveLength | None = Field(None, description="depth below the original surface", examples=["44.8 cm"])
-    qualifier: Literal["measured", "estimated", "at least"] = Field("measured", description="what the depth is")
+    qualifier: Literal["measured", "estimated", "at least"] = Field("measured", description="how the depth is known")
     source: str = Field(
         min_length=1, description="where the number comes from", examples=["Scheffler, CTH nose-shape study, Table 2"]
     )
 
 
 class Penetration(Section):
-    """What the penetration depth is measured between."""
+    """The bodies between which the penetration depth is measured."""
 
     rod: str = Field(description="the body that penetrates", examples=["rod"])
     target: str | None = Field(
-        None, description="the body that is penetrated; the first of them where there are several", examples=["plate"]
+        None, description="the body that is penetrated; of several, the first", examples=["plate"]
     )
     targets: tuple[str, ...] = Field(
-        (), description="the bodies that are penetrated, in the order in which the rod meets them; default: target alone",
+        (), description="the bodies that are penetrated, in the order in which the rod reaches them; default: target alone",
         examples=[["front", "rear"]],
     )
     surface: Length | None = Field(
-        None, description="where the first target's face was; default: its face in the deck", examples=["0 mm"]
+        None, description="original position of the face of the first target; default: its face in the deck", examples=["0 mm"]
     )
 
     @model_validator(mode="after")
@@ -374,7 +397,7 @@ class Penetration(Section):
         if self.target is None and not self.targets:
             raise ValueError("target or targets is missing: the bodies that are penetrated")
         if self.target is not None and self.targets and self.target != self.targets[0]:
-            raise ValueError(f'target is "{self.target}" and the first of targets "{self.targets[0]}"; give one of the keys')
+            raise ValueError(f'target is "{self.target}" and the first of targets is "{self.targets[0]}"; give one of them')
         if len(set(self.targets)) < len(self.targets):
             raise ValueError("targets names a body twice")
         return self
@@ -383,14 +406,14 @@ class Penetration(Section):
 class Deck(Section):
     """The tables of an input deck, in SI units. Sections are attributes: deck.numerics.courant, deck.body[0].name."""
 
-    name: Name = Field("deck", description="name of the run; default: that of the file", examples=["shot_4344"])
+    name: Name = Field("deck", description="name of the run; default: the name of the file", examples=["shot_4344"])
     title: str = Field(
-        "", description="a line for logs and pictures", examples=["Shot 4344: hemispherical nose, 5083 aluminium, 1086 m/s"]
+        "", description="title for logs and pictures", examples=["Shot 4344: hemispherical nose, 5083 aluminium, 1086 m/s"]
     )
     mesh: Mesh
     boundaries: Boundaries = Boundaries()
-    body: tuple[AnyBody, ...] = Field(min_length=1, description="bodies; the first has the place where they overlap")
-    materials: dict[str, Any] = Field({}, description="materials of this deck, each complete or `based_on` another")
+    body: tuple[AnyBody, ...] = Field(min_length=1, description="bodies; where they overlap, the first of them is there")
+    materials: dict[str, Any] = Field({}, description="materials of this deck, each either complete or `based_on` another")
     numerics: Numerics = Numerics()
     sliding: Sliding = Sliding()
     failure: Failure = Failure()

@@ -1,9 +1,9 @@
 """Outlines of bodies in the (r, z) half-plane.
 
 An outline is a list of slabs. In a slab, z runs from ``low`` to ``high`` and the body fills r from an inner to an outer
-curve; both curves are smooth and monotone there, so that volumes can be integrated exactly between their crossings with
-the mesh. A solid body on the axis has the mirror image of its outer curve as inner curve; what lies at r < 0 is simply
-never reached by a mesh that starts on the axis.
+curve. Both curves are smooth and monotone there, so volumes can be integrated exactly between their crossings with the
+mesh. The inner curve of a solid body on the axis is the mirror image of its outer curve; a mesh that starts on the axis
+never reaches the part at r < 0.
 """
 
 from __future__ import annotations
@@ -73,7 +73,7 @@ class Slab:
 
 @dataclass(frozen=True)
 class Outline:
-    """A body as slabs; two slabs may lie beside each other, never over each other."""
+    """A body as slabs, which may lie side by side but do not overlap."""
 
     slabs: tuple[Slab, ...]
 
@@ -145,7 +145,7 @@ def _side(a: tuple[float, float], b: tuple[float, float]) -> Line:
 
 
 def outline(body, r_start: float) -> Outline:
-    """The outline of a body of a deck; ``r_start`` is where a body without an inner edge begins."""
+    """The outline of a body of a deck; a body without an inner edge begins at ``r_start``."""
     if body.shape == "rod":
         return rod(body.rod_radius, body.length, body.tip, body.direction, body.nose, body.resolved_nose_length)
     if body.shape == "plate":

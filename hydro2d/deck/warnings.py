@@ -1,4 +1,4 @@
-"""What a deck may say and its author seldom means, one sentence each."""
+"""Warnings about a deck: what is allowed but seldom intended, one sentence each."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ from hydro2d.mesh.edges import BY_NAME
 GAS = 0.01
 #: a rod needs at least this many cells across its radius to behave like one
 CELLS_ACROSS_RADIUS = 5
-#: and any body as many across
+#: any other body needs at least this many cells across
 CELLS_ACROSS = 4
 
 
 def warnings(deck: Deck) -> list[str]:
-    """What is allowed but unwise, one sentence each; `hydro2d check` and the start of a run show it."""
+    """What is allowed but unwise, one sentence each, as `hydro2d check` and the start of a run show it."""
     return [*misfits(deck), *_coarse_rods(deck), *_coarse_bodies(deck), *_leaving(deck), *_jumps(deck), *_short_mesh(deck),
             *_yielding_rods(deck), *_no_failure(deck), *_gas_in_contact(deck)]
 
@@ -38,7 +38,7 @@ def _coarse_rods(deck: Deck) -> Iterator[str]:
 
 
 def _coarse_bodies(deck: Deck) -> Iterator[str]:
-    """Bodies with fewer cells across than waves in them need; of plates and of what the mesh cuts, what lies in the mesh."""
+    """Bodies with too few cells across for waves in them. Of bodies that the mesh cuts off, only the part inside counts."""
     for entry in deck.body:
         if entry.join is not None:
             continue
@@ -49,7 +49,7 @@ def _coarse_bodies(deck: Deck) -> Iterator[str]:
             low, high = np.clip((low, high), edges[0], edges[-1])
             cells = float(np.diff(np.interp((low, high), edges, np.arange(len(edges))))[0])
             if 0.0 < cells < CELLS_ACROSS - 1e-9 and not (low == edges[0] and high == edges[-1]):
-                yield f'body "{entry.name}": {cells:.1f} cells across it along {axis}; waves in it need {CELLS_ACROSS}'
+                yield f'body "{entry.name}": {cells:.1f} cells across it along {axis}; waves in it need at least {CELLS_ACROSS}'
 
 
 def _leaving(deck: Deck) -> Iterator[str]:
@@ -74,14 +74,14 @@ def _jumps(deck: Deck) -> Iterator[str]:
         sizes = np.diff(axis_edges(deck, axis))
         jump = float(np.max(np.maximum(sizes[1:] / sizes[:-1], sizes[:-1] / sizes[1:]), initial=1.0))
         if jump > 1.2 + 1e-9:
-            yield f"mesh.{axis}: neighbouring cells differ by a factor of {jump:.2f}; shocks reflect beyond 1.2"
+            yield f"mesh.{axis}: neighbouring cells differ by a factor of {jump:.2f}; above 1.2 shocks are reflected there"
 
 
 def _short_mesh(deck: Deck) -> Iterator[str]:
     if deck.mesh.follow is not None:
         ahead = room(deck, axis_edges(deck, "z"))[0] / extent(body(deck, deck.mesh.follow), deck, "r")[1]
         if ahead < AHEAD and not _within_the_mesh(deck):
-            yield f'mesh.follow: the mesh ends {ahead:.3g} radii ahead of "{deck.mesh.follow}"; its edge is felt below {AHEAD}'
+            yield f'mesh.follow: the mesh ends {ahead:.3g} radii ahead of "{deck.mesh.follow}"; below {AHEAD} its edge is felt'
 
 
 def _within_the_mesh(deck: Deck) -> bool:
@@ -94,7 +94,7 @@ def _within_the_mesh(deck: Deck) -> bool:
 
 def _yielding_rods(deck: Deck) -> Iterator[str]:
     if deck.sliding.method == "slip-layer" and deck.sliding.yield_factor == "off":
-        yield 'sliding.yield_factor is "off": noise at the interface can yield a rod that should stay rigid'
+        yield 'sliding.yield_factor is "off": noise at the interface can make a rod yield that should stay rigid'
 
 
 def _gas_in_contact(deck: Deck) -> Iterator[str]:
@@ -106,10 +106,10 @@ def _gas_in_contact(deck: Deck) -> Iterator[str]:
 
 
 def _no_failure(deck: Deck) -> Iterator[str]:
-    """Bodies with strength that cannot fail in a way that the deck or their material speaks of.
+    """Bodies with strength that cannot fail in a way that the deck or their material provides for.
 
-    A deck that says itself that failure.damage is "none" means it, and so does a material that says itself that its damage
-    model is "none"; a resolved deck says so of every deck.
+    There is no warning where the deck itself sets failure.damage to "none", or the material itself sets its damage model to
+    "none". A resolved deck always sets both.
     """
     failure = deck.failure
     forgotten = failure.damage == "none" and "damage" not in failure.model_fields_set
@@ -124,11 +124,11 @@ def _no_failure(deck: Deck) -> Iterator[str]:
             )
         if material.fracture_pressure is None and failure.tensile == "material":
             yield (
-                f'body "{entry.name}": {material.name} has no fracture_pressure, so that with failure.tensile = '
-                '"material" it never fractures in tension'
+                f'body "{entry.name}": {material.name} has no fracture_pressure and, with failure.tensile = "material", '
+                "never fractures in tension"
             )
         if material.damage.name == "none" and failure.damage == "material" and not material.says_damage:
             yield (
-                f'body "{entry.name}": {material.name} has no damage model, so that with failure.damage = "material" '
-                "it is never damaged"
+                f'body "{entry.name}": {material.name} has no damage model and, with failure.damage = "material", '
+                "is never damaged"
             )

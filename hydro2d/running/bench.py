@@ -1,9 +1,8 @@
 """`hydro2d bench`: time per cell and cycle, phase by phase, beside a triad measured in the same run.
 
-A triad update moves 24 bytes (two reads, one write of a double). The bandwidth of a shared machine drifts: it is measured
-before and after every case, and the mean of both is what the case is held against. Cases run on the whole mesh, with the
-active region off, so that a cell costs what it costs in the middle of a shot; "whole shot" runs as the deck says, with all
-its outputs.
+A triad update moves 24 bytes (two reads, one write of a double). The bandwidth of a shared machine drifts. It is therefore
+measured before and after every case, and the case is compared with the mean of both. Cases run on the whole mesh, with the
+active region off, so a cell costs as much as in the middle of a shot. "whole shot" runs as its deck says, with all its outputs.
 """
 
 from __future__ import annotations
@@ -31,9 +30,9 @@ from hydro2d.solver.simulation import Simulation
 DECK = "problems/cth_nose_shape/hemi_5083_1086_layer.toml"
 TRIAD_SHAPE, TRIAD_REPEATS = (2000, 4000), 7
 BYTES_PER_UPDATE = 24
-#: a case takes a multiple of so many cycles: the slip zones are found every few, and the order of the sweeps alternates
+#: a case takes a multiple of this number of cycles: slip zones are updated every few, and the order of the sweeps alternates
 CYCLES = 10
-#: cycles before the measurement on the mesh of the deck, and cell-cycles and cycles over these that are measured at most
+#: warm-up cycles on the mesh of the deck; most measured cell-cycles; most measured cycles per warm-up cycle
 WARM_CYCLES, TIMED_WORK, TIMED_OVER_WARM = 60, 16e6, 2
 WHOLE_SHOT = "whole shot"
 #: kernels that only outputs and stop checks call
@@ -95,7 +94,7 @@ thickness = {thickness!r}
 
 
 def layered(layers: int) -> str:
-    """The shot with a plate of this many layers, bodies of their own of one material, so that only their number differs."""
+    """The shot with a plate of this many layers. Each is a body of the same material, so only the number of bodies differs."""
     thickness = 0.5334 / layers
     names = ["plate", *(f"plate {n}" for n in range(2, layers + 1))]
     return SHOT + "".join(LAYER.format(name=name, front=n * thickness, thickness=thickness) for n, name in enumerate(names))
@@ -103,7 +102,7 @@ def layered(layers: int) -> str:
 
 @dataclass(frozen=True)
 class Case:
-    """A deck, as text, what is laid over it, and the cycles before the measurement."""
+    """A deck as text, its overrides, and the number of cycles before the measurement."""
 
     name: str
     text: str = SHOT
@@ -115,7 +114,7 @@ class Case:
 
 
 def refined(name: str, factor: float) -> Case:
-    """The shot with factor^2 times as many cells, as nearly as whole cells allow, measured at about the same time."""
+    """The shot with factor^2 times as many cells, as nearly as whole cells allow, measured at about the same simulated time."""
     near, behind, ahead = (round(cells * factor) for cells in (40, 252, 1293))
     mesh = MESH.format(near=near, behind=behind, ahead=ahead, ratio=1.05 ** (1 / factor))
     return Case(name, SHOT + mesh, warm=CYCLES * round(WARM_CYCLES * factor / CYCLES))
@@ -141,18 +140,18 @@ CASES = (
 
 
 class Bandwidth:
-    """The triad, measured now and then.
+    """The bandwidth of the triad, measured at intervals.
 
     Attributes
     ----------
-    seen : list of every measurement with the present number of threads, GB/s
+    seen : list of all measurements with the current number of threads, GB/s
     """
 
     def __init__(self):
         self.seen: list[float] = []
 
     def __call__(self) -> float:
-        """Median bandwidth of a few triads with the present number of threads, GB/s."""
+        """Median bandwidth of a few triads with the current number of threads, GB/s."""
         a, b, c = (np.full(TRIAD_SHAPE, value) for value in (0.0, 1.0, 2.0))
         seconds = []
         for _ in range(TRIAD_REPEATS):
@@ -170,9 +169,9 @@ def timed_cycles(case: Case, cells: int) -> int:
 
 
 def measure(case: Case, bandwidth: Bandwidth, cycles: int | None = None) -> dict:
-    """One case with the present number of threads: ns per cell and cycle, in all and by phase (kernel).
+    """One case with the current number of threads: ns per cell and cycle, in total and by phase (kernel).
 
-    cycles : how many are measured, after as many that are not; default: what the case and its cells ask for
+    cycles : number of measured cycles, after as many unmeasured ones; default: follows from the case and its cells
     """
     simulation = Simulation(case.deck())
     cells = simulation.grid.cells
@@ -189,7 +188,7 @@ def measure(case: Case, bandwidth: Bandwidth, cycles: int | None = None) -> dict
 
 
 class _Shot(run.Run):
-    """A run that keeps the seconds of what it does beside its cycles, from the end of its first cycle on."""
+    """A run that records the seconds spent outside its cycles, from the end of its first cycle."""
 
     def __init__(self, deck, directory: Path, report):
         super().__init__(deck, directory, restart=False, report=report)
@@ -224,7 +223,7 @@ class _Shot(run.Run):
 
 
 def measure_shot(bandwidth: Bandwidth, overrides: tuple[str, ...] = ()) -> dict:
-    """The shot to rest, with all its outputs, in a directory that is removed: everything from its second cycle on."""
+    """The shot to rest, with all its outputs, in a temporary directory, measured from its second cycle."""
     before = bandwidth()
     with tempfile.TemporaryDirectory() as folder, progress.reporter(Path(folder) / run.LOG, quiet=True) as report:
         shot = _Shot(decks.load(DECK, overrides), Path(folder), report)
@@ -242,7 +241,7 @@ def measure_shot(bandwidth: Bandwidth, overrides: tuple[str, ...] = ()) -> dict:
 
 
 def _kernel_seconds() -> dict[str, float]:
-    """Seconds by kernel since profiling began, which ends."""
+    """Seconds by kernel since profiling began. Ends profiling."""
     seconds = {name: spent for name, (spent, _) in jit.timings.items()}
     jit.profiling(False)
     return seconds
@@ -270,7 +269,7 @@ def _case(name: str, cells: int, cycles: int, seconds: float, phases: dict[str, 
 
 
 def lines(case: dict) -> list[str]:
-    """What is printed of a case."""
+    """The printed lines of a case."""
     shown = [f"  {case['name']:26s} {case['ns_per_cell_cycle']:7.1f} ns per cell and cycle, "
              f"{case['triad_updates_per_cell_cycle']:6.1f} triad updates at {case['triad_gb_s']:.1f} GB/s  "
              f"({case['cells']} cells, {case['cycles']} cycles)"]  # fmt: skip
@@ -279,7 +278,7 @@ def lines(case: dict) -> list[str]:
         shares = ", ".join(f"{name} {100 * share:.2f} %" for name, share in case["shares_beside_cycles"].items())
         end = f"{case['stop_reason']} after {case['wall_s']:.0f} s"
         shown.append(f"      {end}, depth {depth:.2f} cm, peak memory {memory:.0f} MiB")
-        shown.append(f"      beside the cycles: {shares}")
+        shown.append(f"      outside the cycles: {shares}")
     return shown
 
 
@@ -302,12 +301,12 @@ def header(about: dict) -> list[str]:
 
 def collect(cases: Iterable[Case] = CASES, *, threads: Iterable[int] | None = None, cycles: int | None = None,
             shot: bool = False, shot_overrides: tuple[str, ...] = (), say: Callable[[str], None] = print) -> dict:  # fmt: skip
-    """Measures cases on one thread and on all; what `--json` writes.
+    """Measures cases on one thread and on all, and returns what `--json` writes.
 
-    cases, threads : which cases, on how many threads each
+    cases, threads : the cases, and the numbers of threads for each
     cycles : see `measure`
-    shot, shot_overrides : whether the whole shot is run as well, and keys of its deck
-    say : takes the lines of the report
+    shot, shot_overrides : whether the whole shot is run too, and overrides of its deck
+    say : receives the lines of the report
     """
     about = provenance.collect(jit.max_threads())
     result = {"provenance": about, "triad_gb_s": {}, "cases": []}
@@ -341,7 +340,7 @@ def _tell(case: dict, result: dict, say: Callable[[str], None], *, phases: bool)
 
 
 def main(json: Path | None = None, *, shot: bool = False) -> int:
-    """Runs every case on one thread and on all, prints a table, and writes it as JSON where a file is named."""
+    """Runs every case on one thread and on all, prints a table, and writes it as JSON if a file is named."""
     with announced(print):
         result = collect(shot=shot)
     if json is not None:

@@ -1,4 +1,4 @@
-"""What a deck amounts to before it runs: mesh, masses, cells across the rod, memory, time; and its picture."""
+"""A summary of a deck before it runs: mesh, masses, cells across the rod, memory, time; and its picture."""
 
 from __future__ import annotations
 
@@ -16,17 +16,17 @@ from hydro2d.mesh.grid import Grid
 from hydro2d.output.vtk import Dump
 from hydro2d.solver import insertion, memory
 
-#: nanoseconds per cell and cycle on one thread, as a first guess; `hydro2d bench` measures the machine
+#: nanoseconds per cell and cycle on one thread, as a first estimate; `hydro2d bench` measures the machine
 NANOSECONDS = 250.0
-#: a run of more cycles is a mistake
+#: a deck that needs more cycles is a mistake
 MOST_CYCLES = 1e10
 
 
 @dataclass(frozen=True)
 class Check:
-    """A deck laid out on its mesh.
+    """A deck on its mesh.
 
-    dump : the initial state, as far as pictures need it;  masses : kg by body, full circle;  memory : bytes;
+    dump : the part of the initial state that pictures need;  masses : kg by body, full circle;  memory : bytes;
     cycles, seconds : estimates
     """
 
@@ -61,12 +61,12 @@ class Check:
         return found + [f"warning   {text}" for text in self.warnings]
 
     def _edge(self, key: str) -> str:
-        """What stands at an edge, with the velocity that it has been given."""
+        """The boundary condition at an edge, with its velocity if it has one."""
         kind, velocity = getattr(self.deck.boundaries, key), getattr(self.deck.boundaries, f"{key}_velocity")
         return f"{key} {kind}" + (f" {velocity:g} m/s" if velocity is not None else "")
 
     def _follow(self) -> list[str]:
-        """How far a travelling mesh reaches, and what will enter it."""
+        """How far a travelling mesh reaches, and which bodies will enter it."""
         deck, z = self.deck, self.grid.z_edges
         if deck.mesh.follow is None:
             return []
@@ -93,7 +93,7 @@ class Check:
 
 
 def check(deck) -> Check:
-    """Lays a deck out. Raises DeckError for what only shows then, and for a mesh that the machine has not the memory for."""
+    """Puts a deck on its mesh. Raises DeckError for mistakes that only show then, and for a mesh too large for the memory."""
     memory.refuse_too_large(deck)
     grid = Grid(*decks.edges(deck), deck.mesh.geometry)
     table = library.resolve(deck)
@@ -124,7 +124,7 @@ def _dump(grid, table, start) -> Dump:
 
 
 def _cycles(deck, grid, table, start) -> int:
-    """Cycles to the end at the time step that the fastest elastic wave allows in the smallest cell."""
+    """Number of cycles to the end, at the time step that the fastest elastic wave allows in the smallest cell."""
     from eos.dispatch import evaluate, sound_speed_squared
     from strength import SHEAR
 
@@ -145,12 +145,12 @@ def _cycles(deck, grid, table, start) -> int:
     by_time = deck.stop.time / dt if deck.stop.time else math.inf
     cycles = min(by_time, deck.stop.cycles or math.inf)
     if cycles > MOST_CYCLES:
-        raise DeckError(f"the run would take {cycles:.3g} cycles, at a time step of {dt:.3g} s: it would not end in a lifetime")
+        raise DeckError(f"the run would take {cycles:.3g} cycles at a time step of {dt:.3g} s, and not end in a lifetime")
     return math.ceil(cycles)
 
 
 def _disk(found: Check) -> str:
-    """Dumps and what they and the restart files take at most, before compression."""
+    """Number of dumps, and the disk space that they and the restart files need at most, before compression."""
     deck, bodies = found.deck, len(found.table)
     keys = [quantities.BY_KEY[key] for key in quantities.expand(deck.output.fields)]
     contact = deck.sliding.method == "contact"
@@ -158,7 +158,7 @@ def _disk(found: Check) -> str:
                  if not each.internal and (contact or not each.contact))
     dumps = math.ceil(deck.stop.time / deck.output.vtk_interval) + 1 if deck.stop.time and deck.output.vtk_interval else 2
     size = (4 * values * dumps * found.grid.cells + 2 * found.memory) / 2**20
-    return f"at most {size:.0f} MiB on the disk with {dumps} dumps"
+    return f"at most {size:.0f} MiB on disk with {dumps} dumps"
 
 
 def _axis(name: str, edges: np.ndarray) -> str:

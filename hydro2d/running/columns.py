@@ -1,6 +1,6 @@
-"""THE list of what a run writes as numbers: the columns of history.h5 and the keys of summary.json, with their meanings.
+"""The columns of history.h5 and the keys of summary.json, with their meanings: every number that a run writes.
 
-In a name BODY, TARGET, STATION and SINK stand for the name of each; a station is `tracer_NAME` or `gauge_NAME`.
+In a name, BODY, TARGET, STATION and SINK stand for the names of each; a station is `tracer_NAME` or `gauge_NAME`.
 """
 
 from __future__ import annotations
@@ -9,19 +9,19 @@ from hydro2d.solver import bodies, crater, penetrator, tracers
 
 PLACES = {"r_m": "radial position", "z_m": "axial position"}
 
-#: amounts of a sink, and of an exchange between bodies
+#: what a sink takes, and what bodies exchange
 AMOUNTS = {"mass_kg": "mass", "momentum_N_s": "axial momentum", "energy_J": "energy"}
 
 HISTORY: dict[str, str] = {
     "time": "time since the start",
-    "cycle": "number of the cycle",
+    "cycle": "cycle number",
     "dt": "time step",
     **penetrator.QUANTITIES,
     "internal_energy_J": "internal energy of all bodies",
-    "kinetic_energy_J": "kinetic energy of all vertices",
-    "mass_change_BODY": "relative change of the mass of a body that no sink explains",
-    "axial_momentum_change": "change of the axial momentum that no sink explains, relative to what there was of it",
-    "total_energy_change": "relative change of the total energy that no sink explains",
+    "kinetic_energy_J": "kinetic energy of all nodes",
+    "mass_change_BODY": "relative change of the mass of a body that no sink accounts for",
+    "axial_momentum_change": "change of the axial momentum that no sink accounts for, over sqrt(2 m E) at the start",
+    "total_energy_change": "relative change of the total energy that no sink accounts for",
     **{f"body_BODY_{key}": f"of each body: {meaning}" for key, meaning in bodies.QUANTITIES.items()},
     **{f"STATION_{key}": f"of each tracer and gauge: {meaning}" for key, meaning in {**PLACES, **tracers.QUANTITIES}.items()},
     **{f"sink_SINK_{key}": f"{meaning} that a sink has taken since the start" for key, meaning in AMOUNTS.items()},
@@ -29,16 +29,16 @@ HISTORY: dict[str, str] = {
 
 SUMMARY: dict[str, str] = {
     "deck": "name of the deck",
-    "title": "its title",
-    "deck_sha256": "hash of the resolved deck: the same for the same case",
+    "title": "title of the deck",
+    "deck_sha256": "hash of the resolved deck, the same for the same case",
     "version": "version of hydro2d",
     "status": "done, interrupted or unphysical",
-    "stop_reason": "what ended the run",
-    "trustworthy": "whether nothing is wrong with the state at the end",
-    "faults": "what is wrong, in sentences",
+    "stop_reason": "why the run ended",
+    "trustworthy": "whether the state at the end has no faults",
+    "faults": "the faults of that state, in sentences",
     "time_s": "time at the end",
     "cycles": "number of cycles",
-    "wall_s": "seconds that the run took",
+    "wall_s": "wall-clock time of the run",
     "ns_per_cell_cycle": "nanoseconds per cell and cycle",
     "cells": "number of cells",
     **penetrator.QUANTITIES,
@@ -48,15 +48,15 @@ SUMMARY: dict[str, str] = {
     **{f"bodies.BODY.{key}": f"of each body: {meaning}" for key, meaning in bodies.QUANTITIES.items()},
     **{f"stations.STATION.{key}": f"of each tracer and gauge: {meaning}"
        for key, meaning in {**PLACES, **tracers.QUANTITIES, **tracers.PEAKS}.items()},
-    "experiment.penetration_m": "depth of the experiment that the deck names",
+    "experiment.penetration_m": "penetration depth of the experiment in the deck",
     "experiment.qualifier": "measured, estimated or at least",
-    "experiment.source": "where it comes from",
-    "conservation.mass.BODY": "relative change of the mass of a body that no sink explains",
-    "conservation.axial_momentum": "change of the axial momentum that no sink explains, relative to what there was of it",
-    "conservation.total_energy": "relative change of the total energy that no sink explains",
+    "experiment.source": "source of the depth",
+    "conservation.mass.BODY": "relative change of the mass of a body that no sink accounts for",
+    "conservation.axial_momentum": "change of the axial momentum that no sink accounts for, over sqrt(2 m E) at the start",
+    "conservation.total_energy": "relative change of the total energy that no sink accounts for",
     "conservation.internal_energy_J": "internal energy of all bodies",
-    "conservation.kinetic_energy_J": "kinetic energy of all vertices",
-    "conservation.start_energy_J": "total energy at the start, with the kinetic energy of all bodies",
+    "conservation.kinetic_energy_J": "kinetic energy of all nodes",
+    "conservation.start_energy_J": "total energy at the start, including the kinetic energy of all bodies",
     **{f"conservation.sinks.SINK.{key}": f"{meaning} that a sink has taken" for key, meaning in AMOUNTS.items()},
     **{f"conservation.exchanges.EXCHANGE.{key}": f"{meaning} that bodies have exchanged"
        for key, meaning in AMOUNTS.items() if key != "mass_kg"},

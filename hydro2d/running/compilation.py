@@ -1,4 +1,4 @@
-"""Says that kernels are being compiled, when they are: a run that waits for a minute should say why."""
+"""Announces the compilation of kernels, so that a run which waits for a minute says why."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ events = jit.numba.core.event
 
 
 class Compilation(events.Listener):
-    """Listens to numba. Kernels that come from the cache are not compiled and count nothing.
+    """Listens to numba. Kernels from the cache are not compiled and are not counted.
 
     Attributes
     ----------
-    seconds, kernels : float, int; spent so far, and on how many functions that were not inlined in another one
+    seconds, kernels : float, int; time spent so far, and number of functions compiled, without those inlined in others
     """
 
     def __init__(self, say: Callable[[str], None], begins: Callable[[], None]):
@@ -36,7 +36,7 @@ class Compilation(events.Listener):
         if self._depth == 0:
             self._start = time.perf_counter()
             if self.kernels == 0:
-                self._say("compiling kernels; this takes about a minute and is kept for later runs")
+                self._say("compiling kernels; this takes about a minute, and later runs reuse them")
                 self._begins()
         self._depth += 1
 
@@ -48,7 +48,7 @@ class Compilation(events.Listener):
             self.kernels += 1
 
     def report(self) -> None:
-        """Says how long it took, where anything was compiled since it was last said."""
+        """Reports the time, if anything was compiled since the last report."""
         if self.seconds > self._told:
             what = "kernel" if self.kernels == 1 else "kernels"
             self._say(f"compiled {self.kernels} {what} in {self.seconds:.1f} s")
@@ -56,9 +56,9 @@ class Compilation(events.Listener):
 
 
 class Second:
-    """A second process that compiles the kernels of a deck, from the last one on, while this process begins with the first.
+    """A second process that compiles the kernels of a deck from last to first, while this process begins with the first.
 
-    Each takes from the cache what the other has compiled, and waits where the other is at it.
+    Each takes from the cache what the other has compiled, and waits for a kernel that the other is compiling.
 
     deck : the resolved deck
     """
@@ -67,7 +67,7 @@ class Second:
         self._deck, self._process = deck, None
 
     def start(self) -> None:
-        """Where there is a second core."""
+        """Starts it, if there is a second core."""
         cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
         if cores < 2 or self._process:
             return
@@ -78,7 +78,7 @@ class Second:
         self._process.stdin.close()
 
     def stop(self) -> int | None:
-        """Ends it; its exit status if it had failed, else None."""
+        """Ends it. Returns its exit status if it had failed, else None."""
         if self._process is None:
             return None
         status = self._process.poll()
@@ -90,9 +90,9 @@ class Second:
 
 @contextmanager
 def announced(say: Callable[[str], None], deck=None) -> Iterator[Compilation]:
-    """Says so while kernels are compiled within the block, and at its end how long it took.
+    """Reports that kernels are compiled within the block, and at its end how long that took.
 
-    deck : a resolved deck whose kernels a second process helps to compile
+    deck : a resolved deck; a second process helps to compile its kernels
     """
     second = Second(deck)
     listener = Compilation(say, second.start if deck else lambda: None)
@@ -103,11 +103,11 @@ def announced(say: Callable[[str], None], deck=None) -> Iterator[Compilation]:
         events.unregister(EVENT, listener)
         listener.report()
         if status := second.stop():
-            say(f"the second process that compiled kernels failed with exit status {status}; nothing is lost but time")
+            say(f"the second process for compilation failed with exit status {status}; only time was lost")
 
 
 def _mark(key: str) -> Path:
-    """The file that says that the kernels of a kind of deck are in the cache: for these sources and this processor."""
+    """The file that marks the kernels of a kind of deck as cached, for these sources and this processor."""
     name = hashlib.sha256(f"{key} {jit.llvmlite.binding.get_host_cpu_name()}".encode()).hexdigest()[:16]
     return Path(jit.CACHE_FOLDER) / f"{name}.compiled"
 
@@ -118,9 +118,9 @@ def is_compiled(key: str) -> bool:
 
 
 def once(key: str, compile: Callable[[], None]) -> None:
-    """Calls `compile` unless some process did for this key; of several that come at once, one does and the others wait.
+    """Calls `compile` unless a process has done so for this key. Of several processes at once, one does and the others wait.
 
-    key : names the set of kernels
+    key : name of the set of kernels
     """
     mark = _mark(key)
     if mark.exists():

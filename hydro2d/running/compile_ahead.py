@@ -14,10 +14,10 @@ from hydro2d.deck import deck as decks
 
 
 def calls_of_a_cycle(deck) -> list[jit.Call]:
-    """The kernels that a simulation of a deck calls when it is set up and in its first cycle, in order, each but once.
+    """The kernels that a simulation of a deck calls during set-up and in its first cycle, in order, each once.
 
-    Nothing is computed: kernels are only written down. What is worked out from numbers that are not there may therefore fail,
-    and every part of the cycle is left where it fails.
+    Nothing is computed: calls of kernels are only recorded. Code that needs their results may therefore fail, and every part of
+    the cycle ends quietly where it fails.
     """
     from hydro2d.solver.simulation import Simulation
 
@@ -31,7 +31,7 @@ def calls_of_a_cycle(deck) -> list[jit.Call]:
 
 
 def _go_on_after_failure(part) -> None:
-    """Makes every method of an object leave quietly where it fails."""
+    """Makes every method of an object return quietly where it fails."""
     for name in dir(type(part)) if part is not None else ():
         method = getattr(type(part), name)
         if not name.startswith("__") and callable(method) and not isinstance(method, type):
@@ -48,7 +48,7 @@ def _quiet(method):
 
 
 def main() -> None:
-    """From the last kernel to the first: the process that runs the deck comes the other way."""
+    """Compiles from the last kernel to the first, while the process that runs the deck goes from the first to the last."""
     for call in reversed(calls_of_a_cycle(decks.loads(sys.stdin.read()))):
         call.compile()
 

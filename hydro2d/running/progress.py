@@ -1,4 +1,4 @@
-"""What a run tells while it runs: bar and table on a terminal, a line every few seconds elsewhere, log.txt always."""
+"""Progress reports of a run: a bar and a table on a terminal, a line every few seconds elsewhere, and always log.txt."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ T = TypeVar("T")
 
 #: seconds between lines, and between refreshes of the table
 LINE_SECONDS, TABLE_SECONDS = 5.0, 0.5
-#: seconds that the pace is measured over
+#: seconds over which the pace is measured
 PACE_SECONDS = 60.0
 
 
@@ -32,7 +32,7 @@ def duration(seconds: float) -> str:
 
 
 def moment(seconds: float) -> str:
-    """A time of the simulation: microseconds, or what suits longer ones."""
+    """A time of the simulation in microseconds, or in a larger unit for longer times."""
     for unit, scale in (("s", 1.0), ("ms", 1e3)):
         if seconds * scale >= 10:
             return f"{seconds * scale:.3f} {unit}"
@@ -40,7 +40,7 @@ def moment(seconds: float) -> str:
 
 
 def number(value, scale: float, form: str, unit: str) -> str:
-    """A quantity in the reader's unit, "-" where it has none."""
+    """A quantity in the reader's unit; "-" if there is no value."""
     if value is None or value != value:
         return "-"
     return f"{value * scale:{form}} {unit}"
@@ -52,9 +52,9 @@ def worst_mass(conservation: dict) -> float:
 
 
 def counted(items: Sequence[T], what: str, quiet: bool = False) -> Iterator[T]:
-    """The items; where they take long, a line on stderr every few seconds tells how many are through.
+    """The items; if they take long, a line on stderr every few seconds says how many are done.
 
-    "decks read: 512 of 3000"; nothing where ``quiet``.
+    Such as "decks read: 512 of 3000"; nothing if ``quiet``.
     """
     last = clock.monotonic()
     for number, item in enumerate(items):
@@ -65,10 +65,9 @@ def counted(items: Sequence[T], what: str, quiet: bool = False) -> Iterator[T]:
 
 
 class Clock:
-    """How much is done, against the end time and the number of cycles of the deck, and how long the rest takes.
+    """How much of a run is done, by the end time and the number of cycles in the deck, and how long the rest will take.
 
-    The pace is that of the last minute: neither the compilation of the kernels nor the small steps after an impact count for
-    longer than that.
+    The pace is that of the last minute, so compilation and the small time steps after an impact affect it no longer than that.
 
     Parameters
     ----------
@@ -81,17 +80,17 @@ class Clock:
         self._marks: deque[tuple[float, float | None]] = deque()
 
     def begin(self, sim) -> None:
-        """After the first cycle, in which the kernels are compiled or loaded."""
+        """To be called after the first cycle, in which the kernels are compiled or loaded."""
         self._marks.append((self._clock(), self.done(sim)))
 
     def done(self, sim) -> float | None:
-        """Fraction of the run, 0 to 1; None where the deck gives neither an end time nor a number of cycles."""
+        """Fraction of the run that is done, 0 to 1; None if the deck has neither an end time nor a number of cycles."""
         shares = [sim.time / self._stop.time] if self._stop.time else []
         shares += [sim.cycle / self._stop.cycles] if self._stop.cycles else []
         return min(max(shares), 1.0) if shares else None
 
     def left(self, sim) -> float | None:
-        """Seconds to the end at the pace of the last minute; None where it is not known."""
+        """Seconds to the end at the pace of the last minute; None if it is not known."""
         done, now = self.done(sim), self._clock()
         if done is None or not self._marks:
             return None
@@ -110,7 +109,7 @@ class Clock:
 
 
 def values(run, left: Clock) -> dict[str, str]:
-    """What is shown of a run, by name."""
+    """The values shown for a run, by name."""
     sim = run.sim
     found, conserved = sim.diagnostics(), sim.conservation()
     seconds = left.left(sim)
@@ -175,7 +174,7 @@ class Report:
             self.line(f"warning: {text}")
 
     def update(self, run) -> None:
-        """Called after every cycle; speaks when it is time."""
+        """Called after every cycle; prints a line when one is due."""
         now = clock.perf_counter()
         if now - self._last >= LINE_SECONDS:
             self._last = now
@@ -245,7 +244,7 @@ class Live(Report):
 
 
 def result(summary: dict) -> list[str]:
-    """The final lines: the result, beside the experiment's."""
+    """The final lines: the result beside that of the experiment."""
     conserved = summary["conservation"]
     lines = [
         f"{summary['status']}: {summary['stop_reason']}",
@@ -290,7 +289,7 @@ def _rod(summary: dict) -> list[str]:
 
 @contextmanager
 def reporter(log: Path, quiet: bool, gone: Callable[[], None] = lambda: None) -> Iterator[Report]:
-    """The report that suits the output; appends to the log. ``gone`` is called if nobody reads the output any more."""
+    """The report for this kind of output; it appends to the log. ``gone`` is called when the reader of the output has gone."""
     with open(log, "a", encoding="utf-8") as file:
         kind = Live if not quiet and sys.stdout.isatty() else Report
         report = kind(file, quiet, gone)

@@ -1,4 +1,4 @@
-"""Where a result comes from: version, commit, packages, threads, processor, command line."""
+"""The provenance of a result: version, commit, packages, threads, processor, command line."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ PACKAGES = (
 
 
 def _git(*arguments: str) -> str | None:
-    """Output of a git command in the folder of the sources; None where there is no git or no repository."""
+    """Output of a git command in the folder of the sources; None if there is no git or no repository."""
     try:
         done = subprocess.run(
             ["git", "-C", str(Path(__file__).resolve().parent), *arguments],
@@ -32,7 +32,7 @@ def _git(*arguments: str) -> str | None:
 
 
 def git_commit() -> tuple[str, bool] | None:
-    """Commit hash and whether tracked files differ from it; None for a copy outside of a repository."""
+    """Commit hash, and whether tracked files differ from it; None for a copy outside a repository."""
     if _git("ls-files", "--error-unmatch", Path(__file__).name) is None:
         return None  # the repository around an installed copy is not ours
     commit, changes = _git("rev-parse", "HEAD"), _git("status", "--porcelain", "--untracked-files=no")
@@ -51,7 +51,7 @@ def processor() -> str:
 
 
 def package_versions() -> dict[str, str]:
-    """Installed version of every package that can change a result or a file."""
+    """Installed versions of the packages that can change a result or a file."""
     versions = {"python": platform.python_version()}
     for name in PACKAGES:
         try:
@@ -62,14 +62,14 @@ def package_versions() -> dict[str, str]:
 
 
 def command() -> str:
-    """The command line, as one would type it."""
+    """The command line, as a user would type it."""
     program = Path(sys.argv[0])
     words = ["python", "-m", program.parent.name] if program.name == "__main__.py" else [program.name]
     return shlex.join([*words, *sys.argv[1:]])
 
 
 def collect(threads: int) -> dict:
-    """All of it, as plain JSON-able values; `threads` is the number the kernels run on."""
+    """The whole provenance as values for JSON; `threads` is the number of threads of the kernels."""
     git = git_commit()
     return {
         "version": __version__,

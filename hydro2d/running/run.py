@@ -1,15 +1,15 @@
-"""A run and its directory: cycles, outputs when they are due, progress, the last word.
+"""A run and its directory: cycles, outputs when they are due, progress, and the summary.
 
     deck.toml         the deck with every default written out
-    summary.json      the result, where it comes from, and what was conserved
-    progress.json     how far it is, while it runs
+    summary.json      the results, their provenance, and what was conserved
+    progress.json     the progress, while it runs
     history.h5        quantities against time, and the hole in the target at the end
-    restart.h5        to continue to the same bits (and restart.previous.h5)
+    restart.h5        the state to continue from, bitwise (and restart.previous.h5)
     vtk/, *.pvd       fields, outlines and tracers for ParaView
-    log.txt           what happened
+    log.txt           the log
 
-Outputs are due at the first cycle at or after their time: they never change a time step, and a run that was
-interrupted anywhere continues to the same bits as one that was not.
+An output is due at the first cycle at or after its time, so outputs never change a time step. A run that was interrupted
+continues to the same bits as one that was not.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ DECK, SUMMARY, HISTORY, LOG, LOCK = "deck.toml", "summary.json", "history.h5", "
 PROGRESS = "progress.json"
 OWN_FILES = (DECK, SUMMARY, HISTORY, LOG, PROGRESS, snapshot.NAME, snapshot.PREVIOUS, *SERIES.values())
 
-#: cycles between copies of the state kept in memory as the last good one
+#: cycles between copies of the state in memory, the last good one
 GOOD_EVERY = 100
 #: seconds between writes of the history
 FLUSH_SECONDS = 10.0
@@ -54,7 +54,7 @@ PROGRESS_SECONDS = 3.0
 DONE, WRONG_INPUT, UNPHYSICAL = 0, 2, 3
 
 
-#: results that a summary always has; null for a deck without rod and target
+#: results that every summary has; null for a deck without rod and target
 ROD_RESULTS = (
     "penetration_depth_m", "rod_length_m", "rod_mass_kg", "rod_max_plastic_strain", "rod_tail_velocity_m_s", "regime",
     "rod_residual_velocity_m_s", "rod_residual_mass_kg", "rod_residual_length_m", "exit_time_s",
@@ -62,23 +62,23 @@ ROD_RESULTS = (
 
 
 class RunError(Exception):
-    """A run that cannot begin: the directory is taken, or a restart does not fit; the message is for the user."""
+    """A run that cannot start: the directory is in use, or a restart does not match; the message is for the user."""
 
 
 def check_free(directory: Path, *, restart: bool, overwrite: bool) -> None:
-    """Raises RunError where the directory is not what the options allow."""
+    """Raises RunError if the options do not allow a run in this directory."""
     if directory.exists() and not directory.is_dir():
         raise RunError(f"{directory} is a file, not a directory")
     if restart and not directory.is_dir():
         raise RunError(f"{directory}: there is no run to continue")
     if overwrite and {name for name in (*OWN_FILES, LOCK) if (directory / name).exists()} == {DECK}:
-        raise RunError(f"{directory / DECK} is no run's, for nothing else of a run is there; --overwrite would replace it")
+        raise RunError(f"{directory / DECK} does not belong to a run, as no other file does; --overwrite would replace it")
     if not (restart or overwrite) and any((directory / name).exists() for name in OWN_FILES):
         raise RunError(f"{directory} already holds a run; --restart continues it, --overwrite removes it")
 
 
 def clear(directory: Path) -> None:
-    """Removes what a run has left in a directory, and nothing else."""
+    """Removes the files of a run from a directory, and nothing else."""
     for name in OWN_FILES:
         (directory / name).unlink(missing_ok=True)
     for file in (directory / FOLDER).glob("*_[0-9]*.vt?"):
@@ -90,7 +90,7 @@ FREE_SECTIONS = ("name", "title", "stop", "output", "experiment")
 
 
 def check_same_deck(now: str, before: str) -> None:
-    """Raises RunError if two resolved decks differ in anything that the state depends on."""
+    """Raises RunError if two resolved decks differ in anything on which the state depends."""
     now, before = (tomllib.loads(text) for text in (now, before))
     new, old = ({table["model"]: table["code"] for _, table in model_tables(data) if table.pop("code_from", "")}
                 for data in (now, before))
@@ -100,7 +100,7 @@ def check_same_deck(now: str, before: str) -> None:
     if changed:
         models = [f"the code of the model {name}" for name in sorted(new.keys() & old.keys()) if new[name] != old[name]]
         raise RunError(
-            f"the deck is not the one that the run was begun with: {', '.join([*changed, *models])} differ "
+            f"the deck differs from that of the run in {', '.join([*changed, *models])} "
             f"(a restart may change only {', '.join(FREE_SECTIONS)})"
         )
 
@@ -153,7 +153,7 @@ class Run:
         write_text(self.directory / DECK, self.deck_text)
 
     def _history(self, rows: int) -> History:
-        """The history to go on with; a damaged one is put aside, and begun anew."""
+        """The history to continue; a damaged file is renamed and a new history begun."""
         path = self.directory / HISTORY
         try:
             return History(path, rows)
@@ -161,18 +161,18 @@ class Run:
             aside = path.with_name(f"damaged-{HISTORY}")
             if path.exists():
                 path.replace(aside)
-            self.report.line(f"warning: {error}; the history begins anew, what there was is {aside.name}")
+            self.report.line(f"warning: {error}; a new history is begun, the old file is now {aside.name}")
             return History(path)
 
     @property
     def wall(self) -> float:
-        """Seconds spent on the run, in this process and before."""
+        """Seconds spent on the run, in this process and in earlier ones."""
         return self.wall_before + clock.perf_counter() - self.started
 
     def execute(self, interrupt: Interrupt, compiled=None) -> dict:
-        """Runs to a stop reason. Returns the summary, which is also in summary.json.
+        """Runs until there is a reason to stop. Returns the summary, which is also in summary.json.
 
-        compiled : what tells after the first cycle how long the kernels were compiled, see compilation.announced
+        compiled : reports after the first cycle how long compilation took, see compilation.announced
         """
         self.report.begin(self)
         reason = self.sim.stop_reason()
@@ -200,7 +200,7 @@ class Run:
         return self._finish("done", reason)
 
     def _step(self) -> None:
-        """One cycle and its wall time; not that of the first, which compiles."""
+        """One cycle. Adds its wall time, except that of the first, which compiles."""
         if self.stepped == 0:
             self.sim.step()
             self.clock.begin(self.sim)
@@ -229,7 +229,7 @@ class Run:
         self.report.update(self)
 
     def _publish(self) -> None:
-        """Writes progress.json, which others look at."""
+        """Writes progress.json, which other programs read."""
         found = self.sim.diagnostics()
         write_json(self.directory / PROGRESS, {
             "time_s": self.sim.time,
@@ -245,7 +245,7 @@ class Run:
         self.published = clock.perf_counter()
 
     def _snapshot(self, reuse: snapshot.Snapshot | None = None) -> snapshot.Snapshot:
-        """A copy of the state, in the memory of an earlier one that is no longer needed."""
+        """A copy of the state, in the memory of an earlier copy that is no longer needed."""
         arrays = self.sim.restart_arrays()
         copies = reuse.arrays if reuse else {name: np.empty_like(array) for name, array in arrays.items()}
         for name, array in arrays.items():
@@ -264,13 +264,13 @@ class Run:
         )
 
     def _save(self, state: snapshot.Snapshot) -> None:
-        """Writes the history and then the restart file, which counts on its rows."""
+        """Writes the history and then the restart file, which relies on its rows."""
         self.history.write()
         snapshot.write(self.directory / snapshot.NAME, state)
         self.flushed = self.saved_at = clock.perf_counter()
 
     def _save_if_possible(self, state: snapshot.Snapshot | None) -> None:
-        """Writes a restart file on the way out of an error; if that fails too, the one before stays."""
+        """Writes a restart file after an error; if that fails too, the previous one is kept."""
         with suppress(OSError, MemoryError):
             if state is not None:
                 self._save(state)
@@ -335,12 +335,12 @@ def deck_hash(text: str) -> str:
 
 
 def models_from_outside(deck) -> list[dict]:
-    """The models of a deck that are not hydro2d's: kind, name, file and SHA-256."""
+    """The models of a deck that are not part of hydro2d: kind, name, file and SHA-256."""
     return [model.about() for material in deck.materials.values() for model in material.from_outside()]
 
 
 def experiment(deck) -> dict | None:
-    """The experiment that a deck names, or None."""
+    """The experiment in a deck, or None."""
     if deck.experiment is None:
         return None
     return {
@@ -354,14 +354,14 @@ def run(deck, directory: Path | None = None, *, restart=False, overwrite=False, 
         interrupt: Interrupt | None = None, columns: Mapping[str, Callable] | None = None) -> dict:  # fmt: skip
     """Runs a deck in a directory and returns its summary.
 
-    deck : as deck.load gives it
-    directory : default is the deck's own
-    restart, overwrite : continue a run that is there, or remove it
-    quiet : nothing is printed (log.txt is written)
-    interrupt : call it from anywhere to stop after the cycle with a restart file
+    deck : a resolved deck, from deck.load
+    directory : default: the directory in the deck
+    restart, overwrite : continue an existing run, or replace it
+    quiet : prints nothing (log.txt is written)
+    interrupt : may be called from anywhere to stop the run after the cycle, with a restart file
     columns : further columns of the history, functions of the simulation by name
 
-    Raises RunError, SnapshotError, LockError (another process runs there).
+    Raises RunError, SnapshotError, LockError (another process uses the directory).
     """
     from hydro2d.running.compilation import announced
 

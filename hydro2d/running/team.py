@@ -1,8 +1,8 @@
-"""How many threads a run uses: all that it may, while that is faster than one.
+"""Chooses the number of threads of a run: the number that is fastest, up to the maximum.
 
-Kernels wait for each other some forty times a cycle. Two threads on a small mesh gain nothing by it; where another process
-holds a core, every one of these waits lasts until the operating system lets the second thread run again. The results do not
-depend on the number of threads, so a run may change it between any two cycles.
+Threads wait for each other some forty times a cycle. On a small mesh, a second thread gains nothing. If another process uses a
+core, every one of these waits lasts until the operating system lets the second thread run again. The results do not depend on
+the number of threads, so a run may change it between any two cycles.
 """
 
 from __future__ import annotations
@@ -14,30 +14,30 @@ from collections.abc import Callable
 
 from hydro2d import jit
 
-#: cycles of each number of threads in a trial
+#: cycles in a trial for each number of threads
 TRIAL = 5
-#: the next trial comes after so many times the seconds of the last one, and after so many seconds at least
+#: the next trial comes after this many times the duration of the last one, and after at least this many seconds
 REST, LEAST = 20.0, 2.0
-#: it comes after this part of the rest if the median of so many cycles is longer than in the last trial, by this factor
+#: it comes after this fraction of that interval if the median of this many cycles is longer by this factor than in the trial
 EARLY, LATE, SLOWER = 0.25, 20, 1.5
 
 
 class Team:
-    """Chooses the number of threads from the seconds that cycles take.
+    """Chooses the number of threads from the duration of cycles.
 
-    Now and then a trial runs a few cycles on every number that comes into question: all threads, a half and a quarter of them,
-    and one. The one with the shortest median is used until the next trial.
+    At intervals, a trial runs a few cycles with each candidate: all threads, a half and a quarter of them, and one. The number
+    with the shortest median is used until the next trial.
 
     Parameters
     ----------
     most : int, the largest number of threads
     use : sets the number of threads
-    clock : gives seconds
+    clock : returns seconds
 
     Attributes
     ----------
-    threads : int, in use now
-    cycles : dict, cycles that were run on each number
+    threads : int, the number in use
+    cycles : dict, the cycles run with each number of threads
     """
 
     def __init__(self, most: int, use: Callable[[int], None] = jit.set_threads, clock: Callable[[], float] = time.perf_counter):
@@ -49,7 +49,7 @@ class Team:
         self._expected, self._early, self._until = 0.0, 0.0, 0.0
 
     def run(self, cycle: Callable[[], None]) -> float:
-        """One cycle, on as many threads as the last trial found best, or as this one asks for; its seconds."""
+        """Runs one cycle with the best number of threads of the last trial, or the next of this one. Returns its seconds."""
         if self._trial:
             self._set(next(n for n in self._options if len(self._trial[n]) < TRIAL))
         before = self._clock()
@@ -60,7 +60,7 @@ class Team:
         return seconds
 
     def told(self) -> str:
-        """'2 threads in 93 % of the cycles, 1 in 7 %'; empty for a run on one."""
+        """Such as '2 threads in 93 % of the cycles, 1 in 7 %'; empty for a run on one thread."""
         if self.most == 1 or not self.cycles:
             return ""
         total = sum(self.cycles.values())
@@ -70,7 +70,7 @@ class Team:
         return ", ".join([told, *(f"{n} in {share[n]}" for n in rest)])
 
     def all(self) -> None:
-        """Back to all threads."""
+        """Returns to all threads."""
         self._set(self.most)
 
     def _set(self, threads: int) -> None:

@@ -1,9 +1,9 @@
-"""Bisection for the velocities at which a rod's regime changes, any number of runs at a time. It knows no files and no runs.
+"""Bisection for the velocities at which the regime of a rod changes, with any number of runs at a time, apart from any files.
 
-Regimes are ordered: rigid, deforming, eroding; or, for a ballistic limit, stopped, perforated. A transition to a regime lies
-between the slowest run that has reached it and the fastest run below that which has not. All transitions use all runs. Where
-runs are under way inside a bracket, the next goes into the middle of the widest gap that they leave: with three at a time a
-bracket is quartered.
+Regimes are ordered: rigid, deforming, eroding; or, for a ballistic limit, stopped, perforated. The transition to a regime lies
+between the slowest run that has reached it and the fastest slower run that has not. All transitions use all runs. If runs are
+under way inside a bracket, the next one is placed in the middle of the widest gap between them, so three at a time quarter a
+bracket.
 """
 
 from __future__ import annotations
@@ -19,9 +19,9 @@ MOST_FAILED = 4
 
 
 def bracket(found: Mapping[float, str], regime: str, order: Sequence[str] = GROWING) -> tuple[float | None, float | None]:
-    """Velocities between which a regime is reached: the fastest below it and the slowest in it; None is an open end.
+    """Velocities between which a regime is reached: the fastest run below it and the slowest run in it; None is an open end.
 
-    found : regimes by velocity, or by anything that grows with it;  order : all of them
+    found : regimes by velocity, or by anything that grows with it;  order : all regimes in order
     """
     reached = {speed: order.index(each) >= order.index(regime) for speed, each in found.items()}
     high = min((speed for speed, yes in reached.items() if yes), default=None)
@@ -30,7 +30,7 @@ def bracket(found: Mapping[float, str], regime: str, order: Sequence[str] = GROW
 
 
 def disordered(found: Mapping[float, str], order: Sequence[str] = GROWING) -> list[tuple[float, float]]:
-    """Pairs (slower, faster) of runs next to one another of which the faster has the lower regime."""
+    """Pairs (slower, faster) of neighbouring runs in which the faster one has the lower regime."""
     speeds = sorted(found)
     return [(slow, fast) for slow, fast in pairwise(speeds) if order.index(found[fast]) < order.index(found[slow])]
 
@@ -39,8 +39,8 @@ def disordered(found: Mapping[float, str], order: Sequence[str] = GROWING) -> li
 class Search:
     """One search on positions 0 to count - 1, the velocities in their order.
 
-    order : regimes as they grow with the velocity;  found : regimes by position;  failed : positions without one
-    begun : those that a restart file would spare work
+    order : regimes in the order of velocity;  found : regimes by position;  failed : positions without a regime
+    begun : positions that have a restart file to continue from
     """
 
     count: int
@@ -50,7 +50,7 @@ class Search:
     order: Sequence[str] = GROWING
 
     def next(self, busy: Collection[int] = ()) -> int | None:
-        """The position to run next while those of `busy` are run; None where nothing is left to find out."""
+        """The position to run next while those in `busy` are running; None if no further run is useful."""
         if len(self.failed) >= MOST_FAILED:
             return None
         taken = {*busy, *self.failed}
@@ -61,7 +61,7 @@ class Search:
         return min(options)[-1] if options else None
 
     def _inside(self, regime: str, taken: set[int]) -> tuple[int, int, int] | None:
-        """A position in the bracket of a regime, behind what makes it less wanted: runs under way there, a narrow gap."""
+        """A position in the bracket of a regime, after its rank: number of runs under way there, then width of the gap."""
         low, high = bracket(self.found, regime, self.order)
         first, last = 0 if low is None else low, self.count - 1 if high is None else high
         within = {position for position in taken if first < position < last}
@@ -72,7 +72,7 @@ class Search:
         return len(within - self.failed), slow - fast, begun[0] if begun else (slow + fast) // 2
 
     def further(self) -> int:
-        """About how many runs are still to come after those that are under way."""
+        """Approximate number of runs still to come after those under way."""
         ends = len({0, self.count - 1} - set(self.found) - self.failed)
         gaps = []
         for regime in self.order[1:]:

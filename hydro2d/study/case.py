@@ -1,4 +1,4 @@
-"""One case in one directory: begun, continued or already there. It can be called any number of times, after anything."""
+"""One case in one directory: begun, continued or already finished. It can be run any number of times, after any failure."""
 
 from __future__ import annotations
 
@@ -22,23 +22,23 @@ from hydro2d.output.vtk import VtkError
 from hydro2d.running import compilation, run
 from hydro2d.study.layout import DONE, FAILED, FAILED_STATUS, UNPHYSICAL, read_json
 
-#: what is told in one line, without a traceback
+#: exceptions that are reported in one line, without a traceback
 TOLD = (DeckError, FieldError, HistoryError, LockError, VtkError, run.RunError, snapshot.SnapshotError)
 FULL = "No space left on device"
 #: cycles that call every kernel: more than simulation.WATCH_EVERY
 CYCLES = 11
-#: seconds without a sign of life after which a process on another machine has lost its lock; progress.json comes every 3
+#: seconds without progress after which a process on another machine loses its lock; progress.json is written every 3
 SILENCE = 120.0
-#: seconds that a worker may take to end after its sweep was killed
+#: longest time in seconds for a worker to end after its sweep was killed
 ENDING = 60.0
 
 
 @dataclass(frozen=True)
 class Outcome:
-    """What became of a try.
+    """The outcome of an attempt.
 
-    status : of layout.STATUSES;  message : why, where it is not done;  kind : of the failure;  wall_s : spent in this try;
-    fresh : False where the result was there already;  trace : traceback of a failure that nobody foresaw
+    status : one of layout.STATUSES;  message : why it is not done;  kind : kind of failure;  wall_s : time of this attempt;
+    fresh : False if the result already existed;  trace : traceback of an unexpected failure
     """
 
     status: str
@@ -55,15 +55,15 @@ class Outcome:
 
 def run_case(directory: str | Path, deck_text: str, *, threads: int = 1, overwrite: bool = False,
              interrupt: Interrupt | None = None) -> Outcome:  # fmt: skip
-    """Runs a resolved deck in a directory, or continues it from its restart file, or finds it done.
+    """Runs a resolved deck in a directory, continues it from its restart file, or finds that it is done.
 
-    directory : its parent must exist, so that a machine that does not see the study's disk says so
-    deck_text : resolved TOML, as Deck.to_toml gives it
-    threads : number of threads that kernels use; the results do not depend on it
-    overwrite : remove the run of another deck that is in the directory, which is a failure otherwise
-    interrupt : call it from anywhere to stop after the cycle with a restart file
+    directory : its parent must exist, so that a machine without access to the study's disk says so
+    deck_text : resolved TOML, as from Deck.to_toml
+    threads : number of threads for the kernels; the results do not depend on it
+    overwrite : replace a run of another deck in the directory, which otherwise is a failure
+    interrupt : may be called from anywhere to stop the run after the cycle, with a restart file
 
-    Never raises: what goes wrong is the outcome's message.
+    Never raises; the message of the outcome says what went wrong.
     """
     started, directory = time.perf_counter(), Path(directory)
     about = {"host": socket.gethostname()}
@@ -80,7 +80,7 @@ def run_case(directory: str | Path, deck_text: str, *, threads: int = 1, overwri
 
 
 def _finished(directory: Path, deck_text: str) -> dict | None:
-    """The summary of this deck's finished run; a state that was unphysical would be so again."""
+    """The summary of a finished run of this deck. A run that ended as unphysical counts, because it would do so again."""
     summary = read_json(directory / run.SUMMARY)
     same = summary.get("deck_sha256") == run.deck_hash(deck_text)
     return summary if same and summary["status"] in (DONE, UNPHYSICAL) else None
@@ -88,7 +88,7 @@ def _finished(directory: Path, deck_text: str) -> dict | None:
 
 def _run(directory: Path, deck_text: str, threads: int, overwrite: bool, interrupt: Interrupt | None) -> dict:
     if not directory.parent.is_dir():
-        raise run.RunError(f"{directory.parent} is not there on {socket.gethostname()}: workers need the study's file system")
+        raise run.RunError(f"{directory.parent} does not exist on {socket.gethostname()}; workers need the study's file system")
     _wait_for_silence(directory, interrupt)
     deck = decks.loads(deck_text)
     restart = _can_continue(directory, deck_text, overwrite)
@@ -99,10 +99,10 @@ def _run(directory: Path, deck_text: str, threads: int, overwrite: bool, interru
 
 
 def _wait_for_silence(directory: Path, interrupt: Interrupt | None) -> None:
-    """Waits for a worker of this machine that is still ending, as after a sweep that was killed, for so long as that may take.
+    """Waits for a worker on this machine that is still ending, for example after its sweep was killed.
 
-    Takes a lock away from a process on another machine that no longer shows progress: its worker is gone. A process that goes
-    on showing progress keeps its lock, and the run tells so.
+    Removes the lock of a process on another machine that no longer shows progress, because its worker is gone. A process that
+    still shows progress keeps its lock, and the run reports that.
     """
     lock, began = directory / run.LOCK, time.monotonic()
     while not (interrupt and interrupt.reason):
@@ -120,7 +120,7 @@ def _wait_for_silence(directory: Path, interrupt: Interrupt | None) -> None:
 
 
 def _can_continue(directory: Path, deck_text: str, overwrite: bool) -> bool:
-    """Whether a restart file of this deck is there. Raises RunError where another deck's run is in the directory."""
+    """Whether there is a restart file of this deck. Raises RunError if the directory holds a run of another deck."""
     run.check_free(directory, restart=False, overwrite=True)
     file = directory / run.DECK
     if not file.is_file():
@@ -133,21 +133,21 @@ def _can_continue(directory: Path, deck_text: str, overwrite: bool) -> bool:
 
 
 def kernels(deck) -> str:
-    """Names the set of kernels that a deck needs: the words of its methods."""
+    """Name of the set of kernels that a deck needs, from the names of its methods."""
     words = {name: getattr(deck, name).model_dump() for name in ("numerics", "sliding", "failure")}
     chosen = {name: {k: v for k, v in table.items() if isinstance(v, str | bool)} for name, table in words.items()}
     return json.dumps([deck.mesh.geometry, bool(deck.tracer), deck.penetration is not None, chosen], sort_keys=True)
 
 
 def _compile(deck) -> None:
-    """Runs a few cycles elsewhere, which leaves the kernels in the cache."""
+    """Runs a few cycles in a temporary directory, so that the kernels are in the cache."""
     few = deck.model_copy(update={"stop": deck.stop.model_copy(update={"cycles": CYCLES})})
     with tempfile.TemporaryDirectory() as folder:
         run.run(few, Path(folder) / "compile", quiet=True)
 
 
 def _failure(error: Exception, directory: Path) -> dict:
-    """What an exception means for the user."""
+    """The outcome that describes an exception to the user."""
     text = " ".join(str(error).split())
     if FULL in text:
         message, trace = f"the disk is full: {directory} could not be written; free some space and continue", ""

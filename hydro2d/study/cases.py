@@ -1,6 +1,6 @@
-"""The cases of a study: the product of its axes without its exclusions, each with its resolved deck.
+"""The cases of a study: all combinations of its axes without the exclusions, each with its resolved deck.
 
-A search for a transition has one axis more, the last: all velocities at which it may look.
+A search for a transition has one further axis, the last: all velocities that it may try.
 """
 
 from __future__ import annotations
@@ -20,13 +20,13 @@ from hydro2d.running.run import deck_hash
 from hydro2d.study import ranges, velocities
 from hydro2d.study.definition import DECK, Axis, Definition, Overrides, StudyError, of_tables, read
 
-#: longest part of a case's name that one axis gives
+#: longest part of the name of a case that comes from one axis
 LONGEST = 40
 
 
 @dataclass(frozen=True)
 class Option:
-    """One value or variant of an axis: its label, its part of a case's name, what it sets."""
+    """One value or variant of an axis: its label, its part of the name of a case, and the keys that it sets."""
 
     label: str
     short: str
@@ -35,7 +35,7 @@ class Option:
 
 @dataclass(frozen=True)
 class Planned:
-    """A case before it runs. `text` is its resolved deck; where that is wrong it is empty and `message` says why."""
+    """A case before it runs. `text` is its resolved deck, or empty if the deck is wrong, and `message` then says why."""
 
     name: str
     values: dict[str, str]
@@ -51,7 +51,7 @@ class Planned:
 
 @dataclass(frozen=True)
 class Plan:
-    """A study before it runs: all decks of all cases are resolved."""
+    """A study before it runs, with the decks of all cases resolved."""
 
     name: str
     title: str
@@ -65,17 +65,17 @@ class Plan:
 def plan(path: Path, overrides: Overrides | None = None, *, search: bool | None = None, quiet: bool = False) -> Plan:
     """Reads a study file and resolves all decks.
 
-    search : whether it must be one for a search; None: it may be either
-    quiet : says nothing while it reads the decks of many cases
+    search : whether the study must be a search; None: it may be either
+    quiet : prints nothing while the decks of many cases are read
 
-    Raises StudyError for what is wrong with the study itself.
+    Raises StudyError for mistakes in the study itself.
     """
     path = Path(path)
     return _Planner(path, *read(path, overrides or [])).plan(search, quiet)
 
 
 def plan_of(tables: dict, name: str, overrides: Overrides = ()) -> Plan:
-    """A sweep of nested dicts and lists, as a study file would give them, with all decks resolved. Raises StudyError."""
+    """A sweep from nested dicts and lists, as a study file would give them, with all decks resolved. Raises StudyError."""
     return _Planner(Path(name), *of_tables(tables, name, overrides)).plan(False, True)
 
 
@@ -90,7 +90,7 @@ def _label(value) -> str:
 
 
 class _Planner:
-    """Puts a plan together; `wrong` gathers what is wrong, one line each."""
+    """Assembles a plan; `wrong` collects the mistakes, one line each."""
 
     def __init__(self, path: Path, definition: Definition, text: str, data: dict, sources: Sources):
         self.path, self.definition, self.text, self.data, self.sources = path, definition, text, data, sources
@@ -125,10 +125,10 @@ class _Planner:
         )  # fmt: skip
 
     def _of_the_kind(self, search: bool | None) -> None:
-        """Raises StudyError for a search in the place of a sweep, and the other way round."""
+        """Raises StudyError for a search instead of a sweep, or a sweep instead of a search."""
         if search is False and self.definition.transition is not None:
-            command = f"`hydro2d transition {self.path}` runs it; `hydro2d sweep` runs cases of [[axis]] alone"
-            self._say(("transition",), f"transition: is a search in velocity: {command}")
+            command = f"run it with `hydro2d transition {self.path}`; `hydro2d sweep` only runs the cases of [[axis]]"
+            self._say(("transition",), f"transition: the study is a search in velocity; {command}")
         if search is True and self.definition.transition is None:
             self._say((), 'transition: is missing: a table with the velocities to search, from = "900 m/s" and to = "1500 m/s"')
         self._raise()
@@ -154,17 +154,17 @@ class _Planner:
                 return []
         labels = [_label(value) for value in values]
         for twice in sorted({label for label in labels if labels.count(label) > 1}):
-            self._say(("axis", number, "values"), f'axis "{axis.name}" has the value {twice} twice')
+            self._say(("axis", number, "values"), f'axis "{axis.name}" contains the value {twice} twice')
         shorts = distinct([short(label) for label in labels])
         return [Option(label, slug, {axis.key: value}) for label, slug, value in zip(labels, shorts, values, strict=True)]
 
     def _distinct_axes(self) -> None:
-        """No two axes have a name or set a key, or a part of it, in common."""
+        """Checks that no two axes have the same name, or set the same key or a part of it."""
         names = [axis.name for axis in self.definition.axis]
         keys: dict[tuple, str] = {}
         for number, axis in enumerate(self.definition.axis):
             if axis.name in names[:number]:
-                self._say(("axis", number), f'axis[{number}].name: there is an axis "{axis.name}" already')
+                self._say(("axis", number), f'axis[{number}].name: there is already an axis "{axis.name}"')
             own = {axis.key} if axis.key else {key for settings in axis.variants.values() for key in settings}
             for key in sorted(own):
                 parts = tuple(toml.key_parts(key))
@@ -187,7 +187,8 @@ class _Planner:
             return []
         for number, axis in enumerate(self.definition.axis):
             if axis.name == velocities.AXIS:
-                self._say(("axis", number), f'axis[{number}].name: "{velocities.AXIS}" is the axis that [transition] makes')
+                self._say(("axis", number), (f'axis[{number}].name: "{velocities.AXIS}" '
+                                             "is the name of the axis that [transition] adds"))
         try:
             return list(velocities.labels(self.definition.transition))
         except ValueError as error:
@@ -195,7 +196,7 @@ class _Planner:
             return []
 
     def _velocities(self, labels: list[str], cases: list[tuple], files: dict[str, Path]) -> velocities.Velocities:
-        """The velocities with their key, which no axis may set."""
+        """The velocities and their key, which no axis may set."""
         key = self.definition.transition.key
         try:
             key = key or velocities.key((files[base], overrides) for _, base, overrides in cases)
@@ -217,7 +218,7 @@ class _Planner:
         return [(*combination, choice) for combination in combinations for choice in choices]
 
     def _check_impacts(self, cases: list[Planned], found: velocities.Velocities) -> None:
-        """Raises StudyError where the velocity of the search is not that of the impact."""
+        """Raises StudyError if the velocity of the search is not the impact velocity."""
         for case in cases[:: len(found.labels)]:
             fault = velocities.fault(decks.loads(case.text), found.key, found.labels[0]) if case.text else None
             if fault and not self.wrong:
@@ -239,9 +240,9 @@ class _Planner:
         return kept
 
     def _rule(self, number: int, entry: dict, axes: dict[str, list[Option]]) -> dict[str, list[str]]:
-        """What an exclusion names, values by axis, checked: each must be there, so that it matches something."""
+        """The values of an exclusion by axis. Each must exist, so that the exclusion matches something."""
         if not entry:
-            self._say(("exclude", number), f"exclude[{number}]: is empty and would leave out everything")
+            self._say(("exclude", number), f"exclude[{number}]: is empty, which would exclude every case")
         rule = {}
         for name, value in entry.items():
             if name not in axes:
@@ -279,7 +280,7 @@ class _Planner:
         return files
 
     def _known_keys(self, files: dict[str, Path]) -> None:
-        """Every key must be one that some base deck has; what only some lack makes their cases invalid."""
+        """Checks that at least one base deck has each key. A base deck without it makes its own cases invalid."""
         tables = []
         for file in files.values():
             try:
@@ -292,7 +293,7 @@ class _Planner:
                 self._say(place, f"no deck has the key {key}: {problems[0]}")
 
     def _keys(self):
-        """Every deck key of the study, and where it stands."""
+        """Every deck key of the study, and its place in the study file."""
         if self.definition.transition and self.definition.transition.key:
             yield ("transition", "key"), self.definition.transition.key
         yield from ((_place(("set",), key, self.data.get("set", {})), key) for key in self.definition.set if key != DECK)
@@ -318,18 +319,18 @@ class _Planner:
 
 
 def _place(table: tuple, key: str, given: dict) -> tuple:
-    """Where a deck key stands in the study file: quoted, or as a table of tables."""
+    """Place of a deck key in the study file, where it is quoted or a table of tables."""
     return (*table, key) if key in given else (*table, *toml.key_parts(key))
 
 
 def short(label: str) -> str:
-    """A label as a part of a directory's name: "1086 m/s" is 1086m-s."""
+    """A label as part of a directory name: "1086 m/s" is 1086m-s."""
     text = re.sub(r"[^A-Za-z0-9.+-]+", "-", label.replace(" ", "").replace("_", "-")).strip("-.")
     return text[:LONGEST] or "value"
 
 
 def distinct(names: list[str]) -> list[str]:
-    """The names with -2, -3 and so on behind those that were there before."""
+    """The names, with -2, -3 and so on added to repeated ones."""
     found: dict[str, None] = {}
     for name in names:
         number, given = 2, name

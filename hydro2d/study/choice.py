@@ -1,4 +1,4 @@
-"""Which cases a study has and which of them run next: all of them in their order; `transition` has the other answer."""
+"""Which cases a study has and which of them run next: here all, in their order; `transition` has the other choice."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ from hydro2d.study.layout import ENDED, Case, Study
 class Choice:
     """All cases of a plan, one after another.
 
-    No more than there are workers are given to dask at a time: it would hand them out at once, and with a worker that dies it
-    blames every case that waits there.
+    Dask is given no more cases at a time than there are workers. It would assign more to the workers at once, and when a worker
+    dies, it blames every case that waits there.
     """
 
     def __init__(self, plan: Plan):
@@ -22,7 +22,7 @@ class Choice:
         self.given: set[str] = set()
 
     def compared(self, directory: Path) -> Plan:
-        """The cases that are held against those of the directory."""
+        """The cases that are compared with those of the directory."""
         return self.plan
 
     def begin(self, directory: Path) -> Plan:
@@ -34,7 +34,7 @@ class Choice:
         return f"{study.name}: {len(study.cases)} cases in {study.directory}"
 
     def wanted(self, cases: Sequence[Case], busy: Collection[str], room: int) -> list[str]:
-        """Names of cases to run now, which need not be in the study yet; `room` more than those of `busy` at most."""
+        """Names of cases to run now, at most `room`, besides those in `busy`. They need not be in the study yet."""
         left = (case.name for case in cases if case.status not in ENDED and case.name not in self.given)
         names = list(islice(left, room))
         self.given |= set(names)
@@ -45,9 +45,9 @@ class Choice:
         return self.plan
 
     def further(self, cases: Sequence[Case], busy: Collection[str]) -> int:
-        """About how many cases will come into the study."""
+        """Approximate number of cases that will be added to the study."""
         return 0
 
     def news(self, cases: Sequence[Case], name: str) -> str:
-        """What a case that has ended says of the whole; may be empty."""
+        """What a case that has ended means for the whole study; may be empty."""
         return ""

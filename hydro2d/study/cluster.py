@@ -1,4 +1,4 @@
-"""Where the workers come from: this machine, a cluster that runs, or SLURM. All of it is dask's."""
+"""The source of the workers: this machine, a running cluster, or SLURM; all of them through dask."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ ANSWER = 15
 
 
 class Slurm(Section):
-    """Keyword arguments of dask_jobqueue.SLURMCluster for one job; threads and environment follow from --threads."""
+    """Keyword arguments of dask_jobqueue.SLURMCluster for one job. Threads and environment follow from --threads."""
 
     cores: int = Field(ge=1, description="cores of a job; it has cores // threads workers")
     memory: str = Field(description='memory of a job, such as "16 GB"')
@@ -33,15 +33,15 @@ class Slurm(Section):
     python: str | None = Field(None, description="the interpreter of the workers; default: this one")
     shebang: str | None = None
     local_directory: str | None = Field(None, description="dask's scratch folder on the nodes")
-    log_directory: str | None = Field(None, description="where the jobs' output goes")
-    death_timeout: float | None = Field(None, gt=0, description="seconds after which a worker without scheduler ends")
+    log_directory: str | None = Field(None, description="folder for the output of the jobs")
+    death_timeout: float | None = Field(None, gt=0, description="seconds after which a worker without a scheduler ends")
     job_extra_directives: tuple[str, ...] = Field((), description="further lines for #SBATCH")
     job_directives_skip: tuple[str, ...] = Field((), description="#SBATCH lines to leave out")
     job_script_prologue: tuple[str, ...] = Field((), description="commands before the worker, such as module load")
     worker_extra_args: tuple[str, ...] = Field((), description="arguments of `dask worker`")
 
     def arguments(self, threads: int) -> dict[str, Any]:
-        """What SLURMCluster is given: dask sees one core per worker, SLURM all of them."""
+        """The arguments for SLURMCluster: dask sees one core per worker, SLURM sees all cores."""
         given = {name: value for name, value in self.model_dump().items() if value not in (None, ())}
         given = {name: list(value) if isinstance(value, tuple) else value for name, value in given.items()}
         workers = max(self.cores // threads, 1)
@@ -65,7 +65,7 @@ def read_slurm(path: Path) -> Slurm:
 
 
 def default_workers(threads: int) -> int:
-    """As many as the cores of this machine carry."""
+    """Number of workers that use all cores of this machine."""
     return max((os.cpu_count() or 1) // threads, 1)
 
 
@@ -79,10 +79,10 @@ def environment(threads: int) -> dict[str, str]:
 
 @contextmanager
 def local(workers: int, threads: int) -> Iterator:
-    """A client of spawned worker processes on this machine, which nobody else can reach.
+    """A client with spawned worker processes on this machine, which nobody else can reach.
 
-    All listen on the loopback alone, and talk by TLS with a certificate made for this sweep: whoever could connect could run
-    code in the workers.
+    All of them listen on the loopback interface only and communicate by TLS with a certificate made for this sweep, because
+    anyone who could connect could run code in the workers.
     """
     import distributed
     from distributed.security import Security
@@ -100,7 +100,7 @@ def local(workers: int, threads: int) -> Iterator:
 
 
 def _with_checkpoints(client, *, silent: bool):
-    """The client, whose workers write restart files before they go."""
+    """The client, with workers that write restart files before they end."""
     from hydro2d.materials import outside
     from hydro2d.study import worker
 
@@ -110,7 +110,7 @@ def _with_checkpoints(client, *, silent: bool):
 
 @contextmanager
 def joined(address: str) -> Iterator:
-    """A client of a cluster that others have started. Raises StudyError where its workers do not fit."""
+    """A client of a cluster that someone else has started. Raises StudyError if its workers are unsuitable."""
     import distributed
 
     try:
@@ -123,7 +123,7 @@ def joined(address: str) -> Iterator:
 
 
 def _check_workers(client, address: str) -> None:
-    """One thread each, and this version of hydro2d."""
+    """Checks that each worker has one thread and this version of hydro2d."""
     from hydro2d.study import worker
 
     try:
@@ -140,7 +140,7 @@ def _check_workers(client, address: str) -> None:
 
 @contextmanager
 def slurm(path: Path, workers: int, threads: int) -> Iterator:
-    """A client of workers that SLURM starts. Raises StudyError."""
+    """A client with workers that SLURM starts. Raises StudyError."""
     arguments = read_slurm(path).arguments(threads)
     import distributed
 

@@ -1,4 +1,4 @@
-"""Everything that a report shows, read from the cases of a study."""
+"""The contents of a report, read from the cases of a study."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ from hydro2d.study.record import Record, Setup
 
 @dataclass
 class Contents:
-    """A study's cases, read.
+    """The cases of a study, as read.
 
-    groups, measurements : by setup;  belonging : each case's measurement by its name;  rows : of the table, in SI
+    groups, measurements : by setup;  belonging : the measurement of each case by its name;  rows : of the table, in SI
     notes : what could not be used
     """
 
@@ -28,7 +28,7 @@ class Contents:
 
 
 def collect(study: Study) -> Contents:
-    """Reads every case and finds what was measured for it."""
+    """Reads every case and finds its measurement."""
     records = [record.read(case) for case in study.cases]
     notes = [f"{each.case.name}: {problem}" for each in records for problem in each.problems]
     groups: dict[Setup, list[Record]] = {}
@@ -57,6 +57,6 @@ def _key(each: Record) -> tuple:
 def _said(key: tuple, velocities: set[float]) -> str:
     source, depth = key
     return (
-        f"Decks at {len(velocities)} impact velocities name one experiment ({source}: {depth * 100:.4g} cm). Runs that no shot "
-        "of the catalogue belongs to are not compared with it: experiment.velocity in a deck says at which it was measured."
+        f"Decks at {len(velocities)} impact velocities name one experiment ({source}: {depth * 100:.4g} cm). It is not used "
+        "for runs without a shot in the catalogue; experiment.velocity in a deck says at which velocity it was measured."
     )

@@ -1,4 +1,4 @@
-"""The study file: a base deck, axes to vary, exclusions, or a search in velocity. Strict TOML in, a frozen Definition out."""
+"""The study file: a base deck, axes to vary, exclusions, or a search in velocity. Strict TOML becomes a frozen Definition."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from hydro2d import toml
 from hydro2d.deck.base import PositiveSpeed, Section, Speed
 from hydro2d.errors import DeckError, Sources, spelled, unknown
 
-#: what is laid over the decks of a study: "key=value" of a command line, or values by their dotted keys
+#: overrides of the decks of a study: "key=value" of a command line, or values by their dotted keys
 Overrides = Sequence[str] | Mapping[str, Any]
 
 #: the key of a variant that names another base deck
@@ -25,12 +25,12 @@ class StudyError(Exception):
 
 def _filled(value):
     if not value:
-        raise ValueError("is empty: at least one is needed")
+        raise ValueError("is empty; at least one entry is needed")
     return value
 
 
 def _flat(table: Any, prefix: str = "") -> dict[str, Any]:
-    """Deck keys and values: sliding.method = ... and "sliding.method" = ... are the same key."""
+    """Deck keys and values; sliding.method = ... and "sliding.method" = ... are the same key."""
     if not isinstance(table, dict):
         raise ValueError("expected a table of deck keys and values")
     flat: dict[str, Any] = {}
@@ -46,11 +46,11 @@ Keys = Annotated[dict[str, Any], AfterValidator(_flat)]
 
 
 class Range(Section):
-    """Values from one number to another: by a step, which may end before `to`, or a count, which ends at it."""
+    """Values from one number to another, by a step, which may end before `to`, or by a count, which ends at `to`."""
 
     from_: float | int | str = Field(alias="from", description="first value")
     to: float | int | str = Field(description="last value")
-    step: float | int | str | None = Field(None, description="distance of the values")
+    step: float | int | str | None = Field(None, description="difference between successive values")
     count: int | None = Field(None, ge=2, description="number of values")
 
     @model_validator(mode="after")
@@ -61,9 +61,9 @@ class Range(Section):
 
 
 class Axis(Section):
-    """One thing that is varied: the values of a key, or variants that set several keys."""
+    """One axis of a study: the values of a key, or variants that set several keys."""
 
-    name: str = Field(min_length=1, description="what tables and exclusions call it")
+    name: str = Field(min_length=1, description="name of the axis in tables and exclusions")
     key: str | None = Field(None, min_length=1, description="deck key, as in --set")
     values: Annotated[tuple[Any, ...], AfterValidator(_filled)] | None = Field(None, description="values of the key")
     range: Range | None = Field(None, description="values of the key, by from, to and step or count")
@@ -75,42 +75,42 @@ class Axis(Section):
     def _one_way(self):
         given = [name for name in ("values", "range", "variants") if getattr(self, name) is not None]
         if len(given) != 1:
-            raise ValueError(f"give one of values, range, variants; there are {' and '.join(given) or 'none'}")
+            raise ValueError(f"give one of values, range, variants; given: {' and '.join(given) or 'none'}")
         if (self.key is None) != (self.variants is not None):
-            raise ValueError("variants name their own keys: key does not belong here" if self.key else "key is missing")
+            raise ValueError("variants name their own keys; leave out key" if self.key else "key is missing")
         return self
 
 
 class Transition(Section):
     """The impact velocities between which `hydro2d transition` searches, for every combination of the axes."""
 
-    from_: Speed = Field(alias="from", description="slowest: the rod should be rigid, or stopped")
+    from_: Speed = Field(alias="from", description="lowest velocity: the rod should stay rigid, or be stopped")
     to: Speed = Field(
-        description="fastest: the rod should erode, or perforate; negative, as `from`, for a body that flies to -z"
+        description="highest velocity: the rod should erode, or perforate; negative, as `from`, for a body that flies to -z"
     )
-    tolerance: PositiveSpeed = Field(25.0, description="widest bracket; velocities lie this far apart, counted from `from`")
+    tolerance: PositiveSpeed = Field(25.0, description="largest width of a bracket; velocities are this far apart, from `from`")
     key: str | None = Field(None, description="deck key that is varied; default: the velocity of the deck's penetrating rod")
     of: Literal["regime", "perforation"] = Field(
-        "regime", description="what changes: the regime of the rod, or whether it goes through the target, the ballistic limit"
+        "regime", description="what changes: the regime of the rod, or whether it perforates the target (ballistic limit)"
     )
 
     @model_validator(mode="after")
     def _growing(self):
         if not abs(self.from_) < abs(self.to) or self.from_ * self.to <= 0:
-            raise ValueError(f"from = {self.from_:g} m/s, to = {self.to:g} m/s: to must be the faster, in the same direction")
+            raise ValueError(f"from = {self.from_:g} m/s, to = {self.to:g} m/s: to must be faster, in the same direction")
         return self
 
 
 class Definition(Section):
-    """A study file: of a sweep, with axes, or of a search for a transition, with or without."""
+    """A study file: a sweep with axes, or a search for a transition, with or without axes."""
 
-    title: str = Field("", description="a line for tables and reports")
+    title: str = Field("", description="title for tables and reports")
     deck: str | None = Field(None, description="base deck: beside the study file, or as `hydro2d run` finds decks")
     out: str | None = Field(None, description="directory of the study; default: runs/<name of the study file>")
     set: Keys = Field({}, description="deck keys and values for every case")
-    axis: Annotated[tuple[Axis, ...], AfterValidator(_filled)] = Field((), description="what is varied, the first slowest")
+    axis: Annotated[tuple[Axis, ...], AfterValidator(_filled)] = Field((), description="what is varied, the first axis slowest")
     transition: Transition | None = Field(None, description="the search of `hydro2d transition`")
-    exclude: tuple[dict[str, Any], ...] = Field((), description="combinations that are left out")
+    exclude: tuple[dict[str, Any], ...] = Field((), description="combinations to leave out")
 
 
 _TABLES: dict[tuple, type[Section]] = {
@@ -119,9 +119,9 @@ _TABLES: dict[tuple, type[Section]] = {
 
 
 def read(path: Path, overrides: Overrides) -> tuple[Definition, str, dict, Sources]:
-    """A study file with the overrides of the command line laid over [set]: validated, as text, as tables; where keys stand.
+    """A study file with the overrides of the command line applied to [set]: validated, as text, as tables, and places of keys.
 
-    Raises StudyError, one line for each mistake.
+    Raises StudyError with one line for each mistake.
     """
     try:
         text = Path(path).read_text(encoding="utf-8-sig")
@@ -135,7 +135,7 @@ def read(path: Path, overrides: Overrides) -> tuple[Definition, str, dict, Sourc
     except DeckError as error:
         raise StudyError(str(error)) from None
     if not toml.is_study(data) and "mesh" in data:
-        raise StudyError(f"{path}: is a deck, which `hydro2d run` runs; a study names a deck and what is varied")
+        raise StudyError(f"{path}: is a deck; run it with `hydro2d run`. A study names a deck and what to vary")
     sources.add(str(path), data, text)
     if overrides:
         data = _with(data, overrides)
@@ -144,7 +144,7 @@ def read(path: Path, overrides: Overrides) -> tuple[Definition, str, dict, Sourc
 
 
 def of_tables(data: dict, name: str, overrides: Overrides) -> tuple[Definition, str, dict, Sources]:
-    """The same of nested dicts and lists, as a study file would give them; name : what messages call the study."""
+    """The same for nested dicts and lists, as a study file would give them; name : name of the study in messages."""
     sources = Sources()
     sources.add(name, {}, "")
     data = _with(data, overrides) if overrides else data
@@ -152,7 +152,7 @@ def of_tables(data: dict, name: str, overrides: Overrides) -> tuple[Definition, 
 
 
 def _with(data: dict, overrides: Overrides) -> dict:
-    """The study with overrides laid over [set]."""
+    """The study with overrides applied to [set]."""
     given = dict(overrides) if isinstance(overrides, Mapping) else dict(_assigned(entry) for entry in overrides)
     return {**data, "set": {**_settings(data), **given}}
 

@@ -1,4 +1,4 @@
-"""What a study amounts to before it runs: its cases, their cells and time."""
+"""An estimate of a study before it runs: its cases, their cells and time."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ HEADS = ("case", "deck", "cells", "cycles", "time")
 
 
 def show(plan: Plan, workers: int) -> int:
-    """Prints the table of the cases and what is wrong with them. Returns 0, or 2 where a case is invalid."""
+    """Prints the table of the cases and their mistakes. Returns 0, or 2 if a case is invalid."""
     found = _table(plan, plan.cases)
     total = sum(seconds for _, seconds, _ in found)
     print(f"\n{len(found)} cases, about {duration(total / min(workers, len(found)))} on {workers} workers (a guess)")
@@ -23,7 +23,7 @@ def show(plan: Plan, workers: int) -> int:
 
 
 def show_search(plan: Plan, workers: int) -> int:
-    """The same for a search: the ends of every combination, and how many runs it takes."""
+    """The same for a search: the two ends of every combination, and the number of runs needed."""
     count = len(plan.search.labels)
     found = _table(plan, [case for number, case in enumerate(plan.cases) if number % count in (0, count - 1)])
     combinations = len(plan.cases) // count
@@ -36,7 +36,7 @@ def show_search(plan: Plan, workers: int) -> int:
 
 
 def _table(plan: Plan, cases: Sequence[Planned]) -> list[tuple[tuple[str, ...], float, str]]:
-    """Prints the title and the table of cases; returns what `_row` says of each."""
+    """Prints the title and the table of cases. Returns the result of `_row` for each."""
     found = [_row(case) for case in counted(cases, "cases estimated")]
     print(f"{plan.name}: {plan.title}\n" if plan.title else f"{plan.name}\n")
     for line in lines([cells for cells, _, _ in found], HEADS):
@@ -45,7 +45,7 @@ def _table(plan: Plan, cases: Sequence[Planned]) -> list[tuple[tuple[str, ...], 
 
 
 def _wrong(found: Sequence[tuple[tuple[str, ...], float, str]]) -> int:
-    """Prints what is wrong with cases. Returns the exit status."""
+    """Prints the mistakes of cases. Returns the exit status."""
     wrong = [(cells[0], message) for cells, _, message in found if message]
     for name, message in wrong:
         print("\n".join(f"{name}: {text}" for text in message.splitlines()))
@@ -53,7 +53,7 @@ def _wrong(found: Sequence[tuple[tuple[str, ...], float, str]]) -> int:
 
 
 def _row(case: Planned) -> tuple[tuple[str, ...], float, str]:
-    """Cells of the table, estimated seconds on one thread, and what is wrong."""
+    """Cells of the table, estimated seconds on one thread, and mistakes."""
     try:
         if not case.text:
             raise DeckError(case.message)

@@ -1,11 +1,11 @@
-"""The study directory, written whole and read back in any state of completion; also plain folders of runs, read alike.
+"""The study directory, which can be read in any state of completion, and folders of runs, which are read in the same way.
 
     study.toml          the study file, with the overrides of the command line
     study.json          axes and cases
     cases/<name>/       a run directory for each case, as `hydro2d run` makes it
-    cases/<name>/failed.json   why the last try failed, where it did
-    sweep.log           what happened
-    transition.json     what a search for a transition has found
+    cases/<name>/failed.json   why the last attempt failed, if it did
+    sweep.log           the log
+    transition.json     the results of a search for a transition
 """
 
 from __future__ import annotations
@@ -34,37 +34,37 @@ FAILED = "failed.json"
 
 WAITING, RUNNING, DONE, INTERRUPTED = "waiting", "running", "done", "interrupted"
 UNPHYSICAL, FAILED_STATUS, INVALID = "unphysical", "failed", "invalid"
-#: what is not run again
+#: statuses of cases that are not run again
 ENDED = (INVALID, DONE, UNPHYSICAL)
 STATUSES = (WAITING, RUNNING, DONE, INTERRUPTED, UNPHYSICAL, FAILED_STATUS, INVALID)
 
 
 @dataclass(frozen=True)
 class Axis:
-    """What a study varies: its name, the key of the deck (None for named variants), its labels in order."""
+    """An axis of a study: its name, the deck key (None for named variants), and its labels in order."""
 
     name: str
     key: str | None
     values: tuple[str, ...]
 
     def said(self, label: str) -> str:
-        """A label that can stand alone: behind the axis's name where some label of it begins as a number does."""
+        """A label that can be read alone: with the name of the axis if one of its labels begins like a number."""
         return f"{self.name} {label}" if any(value[:1] in set("+-.0123456789") for value in self.values) else label
 
 
 @dataclass(frozen=True)
 class Case:
-    """A case as its directory shows it.
+    """A case, as read from its directory.
 
     Attributes
     ----------
     name, values : its name, and its label on every axis
     directory : its run directory, which need not exist
-    base, overrides, deck_sha256 : base deck, what is laid over, and the hash of the resolved deck (None where there is none)
+    base, overrides, deck_sha256 : base deck, its overrides, and the hash of the resolved deck (None if there is none)
     status : one of STATUSES
     message : why it failed, is invalid, unphysical or interrupted, or which process runs it
-    summary : what summary.json holds; empty until the run has ended
-    progress : what progress.json holds; empty while it does not run
+    summary : contents of summary.json; empty until the run has ended
+    progress : contents of progress.json; empty while the case does not run
     """
 
     name: str
@@ -87,7 +87,7 @@ class Case:
 
 @dataclass(frozen=True)
 class Interval:
-    """Where a search for a transition may look: velocities of a key of the deck, m/s, its widest bracket, m/s, what changes."""
+    """The velocities of a search for a transition: deck key, velocities and largest width of a bracket in m/s, what changes."""
 
     key: str
     speeds: tuple[float, ...]
@@ -97,10 +97,10 @@ class Interval:
 
 @dataclass(frozen=True)
 class Study:
-    """A study directory, or runs that were put together; without axes the decks say what varies.
+    """A study directory, or several runs treated as a study; without axes, the decks show what varies.
 
     title, name : of the study;  axes, cases : in the order of the file;  entries : the cases in study.json
-    search : of a search for a transition, whose last axis is the velocity and whose cases are those that were run
+    search : for a search for a transition, whose last axis is the velocity and whose cases are those that were run
     """
 
     directory: Path
@@ -117,7 +117,7 @@ class Study:
 
 
 def make(directory: Path) -> None:
-    """Makes the folders of a study where they are missing. Raises OSError."""
+    """Makes the missing folders of a study. Raises OSError."""
     (Path(directory) / CASES).mkdir(parents=True, exist_ok=True)
 
 
@@ -129,12 +129,12 @@ def write(plan, directory: Path) -> None:
 
 
 def of_plan(plan, directory: Path) -> Study:
-    """A plan with the state of its cases in a directory, whether it is written there or not."""
+    """A plan with the state of its cases in a directory, whether or not it has been written there."""
     return _study(Path(directory), _data(plan))
 
 
 def _data(plan) -> dict:
-    """What study.json holds of a plan."""
+    """The contents of study.json for a plan."""
     found = plan.search
     search = found and {
         "key": found.key, "speeds_m_s": [velocities.speed(label) for label in found.labels], "tolerance_m_s": found.tolerance,
@@ -179,14 +179,14 @@ def read(directory: Path | str) -> Study:
     try:
         found = _study(directory, data)
     except (KeyError, TypeError, AttributeError) as error:
-        raise StudyError(f"{directory / STUDY} is not that of a study: {error!r}") from None
+        raise StudyError(f"{directory / STUDY} is not a valid study file: {error!r}") from None
     if not found.cases:
         raise StudyError(f"{directory / STUDY}: the study has no cases")
     return found
 
 
 def _study(directory: Path, data: dict) -> Study:
-    """What study.json holds, with the state of every case."""
+    """The study in study.json, with the state of every case."""
     axes = tuple(Axis(entry["name"], entry["key"], tuple(map(str, entry["values"]))) for entry in data["axes"])
     entries = tuple(data["cases"])
     cases = tuple(_case(directory, entry) for entry in entries)
@@ -196,9 +196,9 @@ def _study(directory: Path, data: dict) -> Study:
 
 
 def gather(directories: Sequence[Path | str]) -> Study:
-    """Puts the runs of several directories together, without axes, named by what their paths differ in.
+    """Combines the runs of several directories, without axes, with the differing parts of their paths as names.
 
-    Raises StudyError where one of them holds no run.
+    Raises StudyError if one of them holds no run.
     """
     found: list[Path] = []
     for directory in map(Path, directories):
@@ -211,7 +211,7 @@ def gather(directories: Sequence[Path | str]) -> Study:
 
 
 def _runs(directory: Path) -> list[Path]:
-    """The run directories that a directory is, lists as a study, or holds."""
+    """The run directories of a directory: itself, the cases of a study, or the directories in it."""
     if (directory / STUDY).is_file():
         return [case.directory for case in read(directory).cases]
     if (directory / run.DECK).is_file():
@@ -228,7 +228,7 @@ def _runs(directory: Path) -> list[Path]:
 
 
 def _text(file: Path) -> str:
-    """The text of a file; empty where there is none, or where a file stands in the place of its folder. Raises StudyError."""
+    """The text of a file; empty if it does not exist, or if its folder is a file. Raises StudyError."""
     try:
         return file.read_text(encoding="utf-8")
     except (FileNotFoundError, NotADirectoryError):
@@ -238,7 +238,7 @@ def _text(file: Path) -> str:
 
 
 def read_json(file: Path) -> dict:
-    """A table of a JSON file; empty where there is no such file. Raises StudyError."""
+    """The table in a JSON file; empty if there is no such file. Raises StudyError."""
     text = _text(file)
     try:
         found = json.loads(text) if text else {}
@@ -263,7 +263,7 @@ def _case(directory: Path, entry: dict) -> Case:
 
 
 def _state(place: Path, deck_sha256: str | None) -> dict:
-    """Status, message, summary and progress of a run directory; what cannot be read is its message."""
+    """Status, message, summary and progress of a run directory; the message says what cannot be read."""
     try:
         return _read_state(place, deck_sha256)
     except StudyError as error:
@@ -289,10 +289,10 @@ def _read_state(place: Path, deck_sha256: str | None) -> dict:
             faults = "; ".join(summary.get("faults") or ())
             why = f"not trustworthy: {faults}" if summary.get("trustworthy") is False else ""
         if odd:
-            why = "; ".join([*([why] if why else []), f"{run.SUMMARY} has something of the wrong kind in {', '.join(odd)}"])
+            why = "; ".join([*([why] if why else []), f"{run.SUMMARY} has values of the wrong kind in {', '.join(odd)}"])
         return {"status": status, "message": why, "summary": summary}
     if any((place / name).is_file() for name in (snapshot.NAME, snapshot.PREVIOUS)):
-        return {"status": INTERRUPTED, "message": "its process ended; the restart file is there"}
+        return {"status": INTERRUPTED, "message": "its process has ended; there is a restart file"}
     if text:
-        return {"status": WAITING, "message": f"there is no {run.SUMMARY}: its process ended before the first restart file"}
+        return {"status": WAITING, "message": f"there is no {run.SUMMARY}; its process ended before the first restart file"}
     return {"status": WAITING}

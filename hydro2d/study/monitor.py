@@ -1,4 +1,4 @@
-"""What a sweep tells while it runs: a table on a terminal, plain lines elsewhere, sweep.log always."""
+"""Progress of a sweep while it runs: a table on a terminal, plain lines elsewhere, and always sweep.log."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ def counts(cases: list[Case]) -> str:
 
 
 def left(cases: list[Case], workers: int, further: int = 0) -> float | None:
-    """Seconds until all cases and so many further ones are done, at the mean time of those that are; None: not known yet."""
+    """Seconds until all cases and `further` more are done, at the mean time of finished cases; None if not known yet."""
     running = [case.progress for case in cases if case.status == RUNNING]
     rest = [now["left_s"] for now in running if now.get("left_s") is not None]
     whole = [case.summary["wall_s"] for case in cases if case.status == DONE and case.summary.get("wall_s") is not None]
@@ -78,11 +78,11 @@ def status(study: Study) -> list[str]:
 
 
 class Board:
-    """What is known of all cases, and where it is told.
+    """The state of all cases, and where it is reported.
 
-    cases : as they were read last; those of `moving` are read again for every line and table
-    workers : tells how many there are
-    further : cases that are expected to come
+    cases : as they were last read; those in `moving` are read again for every line and table
+    workers : returns the number of workers
+    further : number of cases expected to be added
     """
 
     def __init__(self, study: Study, log, quiet: bool):
@@ -133,7 +133,7 @@ class Board:
         return counts(self.cases) + coming + ("" if seconds is None else f"; {duration(seconds)} left")
 
     def update(self) -> None:
-        """Called twice a second; speaks when it is time."""
+        """Called twice a second; prints when output is due."""
         now = time.monotonic()
         if now - self._last >= LINE_SECONDS and not self._quiet:
             self._last = now
@@ -181,7 +181,7 @@ class Live(Board):
 
 @contextmanager
 def board(study: Study, quiet: bool) -> Iterator[Board]:
-    """The board that suits the output; appends to the log of the study."""
+    """The board for this kind of output; it appends to the log of the study."""
     file = open(Path(study.directory) / LOG, "a", encoding="utf-8")
     kind = Live if not quiet and sys.stdout.isatty() else Board
     shown = kind(study, file, quiet)

@@ -1,4 +1,4 @@
-"""The page of a report: one HTML file that needs nothing else, from the templates beside this module."""
+"""The page of a report: one self-contained HTML file, from the templates beside this module."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from hydro2d.study.responses import Choice
 from hydro2d.study.table import columns_of_books, columns_of_results, to_csv
 
 PAGE, TABLE = "report.html", "cases.csv"
-#: where lines of names may break: behind underscores and dots, but for those of numbers
+#: where names may break across lines: after underscores and dots, except in numbers
 BREAKS = re.compile(r"(?<=_)(?=[^\s._])|(?<=\.)(?=[^\s._\d])")
 
 
@@ -46,21 +46,21 @@ def page(contents: Contents, choice: Choice, charts: Sequence[Chart], pictures: 
 
 
 def breakable(text: str):
-    """Text whose lines may break behind dots and underscores too, not in numbers."""
+    """Text whose lines may also break after dots and underscores, except in numbers."""
     from markupsafe import Markup, escape
 
     return Markup("<wbr>").join(escape(part) for part in BREAKS.split(str(text)))
 
 
 def whole_words(text: str):
-    """A key or a name whose lines break behind dots and underscores alone: of class `key`."""
+    """A key or a name, of class `key`, whose lines break only after dots and underscores."""
     from markupsafe import Markup
 
     return Markup("<wbr>").join(Markup("<span>{}</span>").format(part) for part in BREAKS.split(str(text)))
 
 
 def download(text: str, kind: str) -> str:
-    """A text as an address that needs no network."""
+    """A text as a data URL, which needs no network."""
     return f"data:{kind};charset=utf-8;base64,{base64.b64encode(text.encode()).decode()}"
 
 
@@ -86,7 +86,7 @@ def _of_combination(each: regimes.Transitions, names: Sequence[str]) -> list[str
 
 
 def _decks(contents: Contents) -> dict:
-    """The keys in which the decks differ, with the cases of each value, and those that all share."""
+    """The keys in which the decks differ, with the cases of each value, and the keys that all share."""
     decks = {each.case.name: each.deck for each in contents.records if each.deck}
     found = differences.compare(decks) if decks else differences.Differences({}, {})
     varying = {key: [(value, _who(contents, names)) for value, names in users.items()] for key, users in found.varying.items()}
@@ -94,7 +94,7 @@ def _decks(contents: Contents) -> dict:
 
 
 def _who(contents: Contents, names: tuple[str, ...]) -> str:
-    """Cases by the value of an axis where that is the same, else by their names."""
+    """Cases as the value of an axis if they are all cases with it, else by their names."""
     with_deck = {each.case.name: each.case for each in contents.records if each.deck}
     for axis in contents.study.axes:
         for label in axis.values:

@@ -1,4 +1,4 @@
-"""Values of a range, exact in decimals: 0.1, 0.2, 0.3 and "900 m/s", "950 m/s" as one would write them."""
+"""Values of a range, exact in decimals: 0.1, 0.2, 0.3 and "900 m/s", "950 m/s", as they would be written by hand."""
 
 from __future__ import annotations
 
@@ -23,12 +23,12 @@ def _split(value, key: str) -> tuple[Decimal, str]:
 
 
 def values(given: Range) -> list[int | float | str]:
-    """All values of a range. Raises ValueError where it never ends or has too many."""
+    """All values of a range. Raises ValueError if it never ends or has too many values."""
     parts = {"from": given.from_, "to": given.to} | ({} if given.step is None else {"step": given.step})
     split = {key: _split(value, key) for key, value in parts.items()}
     units = {unit for _, unit in split.values()}
     if len(units) > 1:
-        raise ValueError(f"{', '.join(parts)} need the same unit; there are {', '.join(sorted(units or '-'))}")
+        raise ValueError(f"{', '.join(parts)} must have the same unit; given: {', '.join(sorted(units or '-'))}")
     first, last = split["from"][0], split["to"][0]
     numbers = _stepped(first, last, split["step"][0]) if "step" in split else _counted(first, last, given.count)
     whole = all(isinstance(value, int) for value in parts.values()) and all(n == n.to_integral() for n in numbers)

@@ -1,4 +1,4 @@
-"""What a report takes from one run: its deck and shot, its history, the rod's outline at the end."""
+"""The data of one run for a report: its deck and shot, its history, and the outline of the rod at the end."""
 
 from __future__ import annotations
 
@@ -19,16 +19,16 @@ from hydro2d.solver import penetrator, targets
 from hydro2d.study.differences import flatten
 from hydro2d.study.layout import DONE, Case
 
-#: columns of the history that are drawn: of a projectile, of the first body of other decks; the most points of a line
+#: columns of the history to draw: of a projectile, and of the first body in other decks; largest number of points of a line
 DRAWN = ("penetration_depth_m", "rod_tail_velocity_m_s", "rod_length_m")
 DRAWN_OF_BODY = ("velocity_m_s", "kinetic_energy_J", "z_max_m")
 POINTS = 300
-#: how runs end that would have gone on, and the share of the impact velocity from which on a projectile still moves
+#: stop reasons of runs that were cut short; fraction of the impact velocity above which a projectile still moves
 CUT, MOVING = ("end time", "number of cycles"), 0.01
 
 
 class Setup(NamedTuple):
-    """What an experiment and an analytic model are about: materials, nose (a rod's) or shape, and the geometry in m."""
+    """The setup of an experiment or an analytic model: materials, nose of a rod or shape, and the geometry in m."""
 
     rod: str
     target: str
@@ -51,7 +51,7 @@ class Setup(NamedTuple):
 
     @property
     def kind(self) -> str:
-        """What the projectile is, without its material."""
+        """The projectile in words, without its material."""
         return f"{self.nose} rod" if self.shape == "rod" else self.shape
 
     @property
@@ -81,11 +81,11 @@ class Place(NamedTuple):
 
 @dataclass
 class Record:
-    """One case, read; ``problems`` says what could not be. Outlines are radius and depth below the surface, (n, 2) in m.
+    """One case as read; ``problems`` lists what could not be. Outlines are radius and depth below the surface, (n, 2) in m.
 
-    deck : the resolved deck, SI;  setup, velocity : of a projectile and a target, impact velocity in m/s; None: there are none
-    target_density : of a single target at the start, kg/m^3
-    shot : what the analytic models take; None where they take no such deck, and ``without_models`` says why
+    deck : the resolved deck, SI;  setup, velocity : setup and impact velocity in m/s; None without a projectile and a target
+    target_density : initial density of a single target, kg/m^3
+    shot : input of the analytic models; None if they do not apply to the deck, and ``without_models`` says why
     history : thinned columns, SI;  first, last : first and last row of all columns;  deepest : largest depth, m
     start, rod : outlines of the projectile at the start and at the end
     """
@@ -123,7 +123,7 @@ class Record:
 
     @property
     def unfinished(self) -> str:
-        """Why the results are not those of the end: the run has not ended, or was cut while the projectile flew; else empty."""
+        """Why the results are not final: the run has not ended, or was cut short while the projectile moved; else empty."""
         if not self.done:
             return self.case.status
         if not self.case.summary:
@@ -132,7 +132,7 @@ class Record:
 
     @property
     def cut(self) -> bool:
-        """Whether the run ended by its time or its cycles while the projectile's core still moved."""
+        """Whether the run ended by its end time or number of cycles while the core of the projectile still moved."""
         ended = self.done and self.case.summary.get("stop_reason") in CUT
         return ended and self.velocity is not None and self._speed > MOVING * self.velocity
 
@@ -142,7 +142,7 @@ class Record:
 
     @cached_property
     def numbers(self) -> dict[str, float]:
-        """Every number of the summary, SI, by dotted name; of a run without one, of the last row of its history; ratios."""
+        """Every number of the summary by dotted name, SI, or of the last row of the history without a summary; and ratios."""
         found = {self._as_in_summary(name): value for name, value in self.last.items()}
         found |= flatten({key: value for key, value in self.case.summary.items() if key != "provenance"})
         found = {name: value for name, value in found.items() if is_number(value)}
@@ -161,15 +161,15 @@ class Record:
 
     @cached_property
     def experiment(self) -> dict:
-        """The experiment that the deck names, where it has a depth."""
+        """The experiment in the deck, if it has a depth."""
         found = self.deck.get("experiment") or {}
         return found if found.get("penetration") else {}
 
     @property
     def perforated(self) -> bool:
-        """Whether the rod went through the target at any time, even if it has left the mesh since.
+        """Whether the rod perforated the target at any time, even if it has since left the mesh.
 
-        Not where it came to rest, or turned round, with its nose beyond the rear: in a bulge, or stuck in its hole.
+        Not if it came to rest or reversed with its nose beyond the rear face, in a bulge or stuck in its hole.
         """
         if "exit_time_s" in self.case.summary:
             rested = (self.case.summary.get("stop_reason") or "").startswith(("speed of", "rebound of"))
@@ -184,28 +184,28 @@ class Record:
 
     @property
     def at_least(self) -> bool:
-        """Whether the rod would have gone deeper than `depth`: it went through the target, or left the mesh."""
+        """Whether `depth` is a lower bound, because the rod perforated the target or left the mesh."""
         return self.perforated or self.left
 
     @property
     def depth(self) -> float | None:
-        """Penetration depth, m; the target's thickness where that was perforated and is known."""
+        """Penetration depth, m; for a perforated target its thickness, if that is known."""
         thickness = self.setup.thickness if self.setup and self.perforated else None
         return self.value("penetration_depth_m") if thickness is None else thickness
 
     def value(self, name: str):
-        """A result of the summary; of a run without one, the last of its history. None where there is neither."""
+        """A result from the summary or, without a summary, from the last row of the history; None if there is neither."""
         found = self.case.summary.get(name)
         return found if found is not None else self.last.get(name)
 
 
 def is_number(value) -> bool:
-    """Whether a value of a deck or a summary is a number, which yes and no are not."""
+    """Whether a value of a deck or a summary is a number; true and false are not."""
     return isinstance(value, (int, float)) and not isinstance(value, bool)
 
 
 def read(case: Case) -> Record:
-    """Reads a case; what cannot be read is told in its problems and left out."""
+    """Reads a case; what cannot be read is left out and listed in its problems."""
     record = Record(case)
     if not (case.directory / DECK).is_file():
         return record
@@ -217,7 +217,7 @@ def read(case: Case) -> Record:
 
 
 def _read_deck(record: Record) -> Place | None:
-    """Fills in deck, velocity, shot and setup. Returns where the projectile is found, None where there is none."""
+    """Fills in deck, velocity, shot and setup. Returns the place of the projectile, or None if there is none."""
     file = record.case.directory / DECK
     try:
         text = file.read_text(encoding="utf-8")
@@ -246,7 +246,7 @@ def _read_deck(record: Record) -> Place | None:
 
 
 def _setup(deck: decks.Deck, body, shot: model_deck.Shot | None, direction: int) -> Setup:
-    """The setup of a projectile and its targets; the thickness is that of all targets and of the gaps between them."""
+    """The setup of a projectile and its targets; the thickness includes all targets and the gaps between them."""
     through = targets.targets(deck, direction)
     bodies = [decks.body(deck, target.name) for target in through]
     names = dict.fromkeys(deck.materials[each.material].name for each in bodies)
@@ -261,7 +261,7 @@ def _setup(deck: decks.Deck, body, shot: model_deck.Shot | None, direction: int)
 
 
 def _thickness(through: list[targets.Target], bodies: list) -> float | None:
-    """From the face of the first target to the rear of the last, m; None where that has none."""
+    """Distance from the face of the first target to the rear face of the last, m; None if the last has no rear face."""
     solid = bodies[-1].shape in ("plate", "box")
     return float(f"{abs(through[-1].rear - through[0].surface):.12g}") if solid else None
 
@@ -301,7 +301,7 @@ def _read_rod(record: Record, place: Place) -> None:
     series = directory / vtk.SERIES["interfaces"]
     if not series.is_file():
         if record.done:
-            record.problems.append(f"there is no {series.name}: the rod's shape is not shown")
+            record.problems.append(f"there is no {series.name}, so the shape of the rod is not shown")
         return
     try:
         files = [directory / file for _, file in vtk.read_series(series)]

@@ -1,4 +1,4 @@
-"""What the runs of a search say: transitions by regime and by depth, beside experiments, the CTH study and analytic models."""
+"""The results of a search: transitions by regime and by depth, beside experiments, the CTH study and analytic models."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ FILE = "transition.json"
 
 @dataclass(frozen=True)
 class Scheme:
-    """What a search distinguishes: regimes as they grow with the velocity, and names of transitions by the one they lead to."""
+    """What a search distinguishes: regimes in the order of velocity, and names of transitions by the regime they lead to."""
 
     order: tuple[str, ...]
     names: Mapping[str, str]
@@ -37,24 +37,24 @@ FALL, LIMIT = "depth falls", "hydrodynamic limit"
 CRITERIA = {
     "rigid": f"less than {100 * penetrator.RIGID_LENGTH:g} % of the length lost, no section beyond "
              f"{1 + penetrator.RIGID_RADIUS:g} of the radius",
-    "eroding": f"more than {100 * penetrator.ERODED_MASS:g} % of the mass has left the core; what is neither is deforming",
-    FALL: "between the deepest run and the next faster one, however far apart: no runs are made for it",
-    LIMIT: f"as for experiments: {model_transition.RULE}; likewise from the same runs",
+    "eroding": f"more than {100 * penetrator.ERODED_MASS:g} % of the mass has left the core; else it is deforming",
+    FALL: "between the deepest run and the next faster one, however far apart; it prompts no further runs",
+    LIMIT: f"as for experiments: {model_transition.RULE}; also from the same runs",
 }  # fmt: skip
 OF_PERFORATION = {
-    PERFORATED: "the nose has come as far beyond the rear of the target as the rod's radius",
-    "ballistic limit": "between the fastest run that is stopped and the slowest that goes through",
+    PERFORATED: "the nose is at least one rod radius beyond the rear face of the target",
+    "ballistic limit": "between the fastest run that is stopped and the slowest that perforates",
 }
 
 
 def criteria(study: Study) -> dict[str, str]:
-    """What the words of a search mean."""
+    """The definitions of the terms of a search."""
     return OF_PERFORATION if study.search and study.search.of == "perforation" else CRITERIA
 
 
 @dataclass(frozen=True)
 class Run:
-    """One case: its velocity in m/s, its regime, or None and why there is none."""
+    """One case: its velocity in m/s, and its regime, or None and the reason."""
 
     record: Record
     velocity: float
@@ -74,7 +74,7 @@ class Run:
         }  # fmt: skip
 
     def row(self) -> tuple[str, ...]:
-        """Velocity, regime, depth, length, radius and core over their first values, and how it ended."""
+        """Velocity, regime, depth; length, radius and core mass relative to their initial values; and how the run ended."""
         value, first = self.record.case.summary.get, self.record.first.get("rod_mass_kg")
         depth = "" if self.record.depth is None else f"{_at_least(self)}{100 * self.record.depth:.2f} cm"
         return (
@@ -85,7 +85,7 @@ class Run:
         )  # fmt: skip
 
     def _end(self) -> str:
-        """How the run ended, and how fast what went through the target flew on."""
+        """How the run ended, and the residual velocity after a perforation."""
         value = self.record.case.summary.get
         left = value("rod_residual_velocity_m_s")
         return str(value("stop_reason") or "") + ("" if left is None else f", {left:.0f} m/s left")
@@ -103,10 +103,10 @@ def _at_least(run: Run) -> str:
 
 
 def judge(found: Record, of: str = "regime") -> Run:
-    """The regime of a case at its end, or whether it went through the target.
+    """The regime of a case at its end, or whether the rod perforated the target.
 
-    None for one that is not done, and where the rod left the mesh: it was not followed to its end. Runs of versions that did
-    not know this regime are told by the mass that a perforating rod has lost.
+    None for a case that is not done, and for a rod that left the mesh and was not followed to its end. In runs of versions
+    without this regime, such a rod is recognised by the mass that it has lost.
     """
     case = found.case
     velocity = found.velocity if found.velocity is not None else velocities.speed(case.values[velocities.AXIS])
@@ -126,12 +126,12 @@ def judge(found: Record, of: str = "regime") -> Run:
 
 @dataclass(frozen=True)
 class Transitions:
-    """What the runs of one combination of the axes say.
+    """The results of the runs of one combination of the axes.
 
-    values : labels of the axes without the velocity;  brackets : by regime, by depth, by the hydrodynamic limit
-    settled : by the name of a bracket of regimes, whether no further run could narrow it
+    values : labels of the axes except the velocity;  brackets : by regime, by depth, by the hydrodynamic limit
+    settled : by name of a bracket of regimes, whether no further run could narrow it
     notes : what is open and why, what is out of order, which runs did not end at rest
-    comparison : models, experiments, the CTH study and last these runs; None where there is nothing to compare, as a note says
+    comparison : models, experiments, the CTH study and, last, these runs; None if there is nothing to compare, as a note says
     """
 
     title: str
@@ -149,11 +149,11 @@ class Transitions:
 
     @property
     def predictions(self) -> list[Prediction]:
-        """What the analytic models say."""
+        """The predictions of the analytic models."""
         return self.comparison.predictions if self.comparison else []
 
     def lines(self) -> list[str]:
-        """For reading."""
+        """The results as lines of text."""
         told = [self.title, *columns((each.name, in_words(each), each.source) for each in self.brackets)]
         told += [f"  {note}" for note in self.notes]
         told += ["", *columns([HEADS, *(run.row() for run in self.runs)])]
@@ -195,7 +195,7 @@ def so_far(found: Mapping[float, str], of: str = "regime") -> list[str]:
 
 
 def of_study(study: Study, records: Sequence[Record] | None = None) -> list[Transitions]:
-    """The transitions of every combination of a search's axes. ``records`` : of the cases, where they have been read."""
+    """The transitions of every combination of the axes of a search. ``records`` : those of the cases, if already read."""
     groups: dict[str, list[Record]] = {}
     for each in records if records is not None else map(record.read, study.cases):
         groups.setdefault(label(each.case.values), []).append(each)
@@ -219,7 +219,7 @@ def _transitions(study: Study, title: str, members: Sequence[Record]) -> Transit
         notes.append(f"out of order: {found[slow]} at {slow:g} m/s, {found[fast]} at {fast:g} m/s; the slowest change is given")
     cut = [f"{run.velocity:g} m/s" for run in known if run.record.cut]
     if cut:
-        notes.append(f"not at rest when they ended, regime and depth are those of that moment: {', '.join(cut)}")
+        notes.append(f"runs that did not end at rest, whose regime and depth are those at their end: {', '.join(cut)}")
     comparison, problem = _compared(known, brackets[0]) if of == "regime" else (None, "")
     notes += [problem] if problem else []
     values = {name: value for name, value in members[0].case.values.items() if name != velocities.AXIS}
@@ -232,7 +232,7 @@ def _ends(bracket: Bracket, found: Mapping[float, str]) -> str:
 
 
 def _settled(bracket: Bracket, interval: Interval, runs: Sequence[Run]) -> tuple[bool, str]:
-    """Whether no further run could narrow a bracket, and why it is wider than the tolerance where it is."""
+    """Whether no further run could narrow a bracket, and why it is wider than the tolerance if it is."""
     low, high, slowest, fastest = bracket.low, bracket.high, interval.speeds[0], interval.speeds[-1]
     if low is not None and high is not None and high - low <= interval.tolerance * (1.0 + velocities.SAME):
         return True, ""
@@ -269,10 +269,10 @@ def _limit(known: Sequence[Run]) -> list[Bracket]:
 
 
 def _compared(known: Sequence[Run], bracket: Bracket) -> tuple[Comparison | None, str]:
-    """What models, experiments and the CTH study say of the first run's rod and target, or why they say nothing."""
+    """Models, experiments and the CTH study for the rod and target of the first run, or why there is no comparison."""
     first = next((run.record for run in known if run.record.shot), None)
     if first is None:
-        why = next((run.record.without_models for run in known if run.record.without_models), "there is no rod and target")
+        why = next((run.record.without_models for run in known if run.record.without_models), "there are no rod and target")
         return None, f"nothing to compare with: {why if known else 'no run is done'}"
     shot = first.shot
     try:

@@ -15,23 +15,23 @@ def report(directories: Sequence[Path], out: Path | None = None, say: Callable[[
            y: Sequence[str] = (), by: Sequence[str] = (), movie: str | None = None) -> Path:  # fmt: skip
     """Writes the report of a study directory, or of run directories and folders of them.
 
-    out : the folder it is written into; default: `report` in the first directory
-    say : takes one line for everything that could not be read, and for what was written
-    x, y, by : what the figures draw against what, see responses.choose
-    movie : a field, of which a film is made for every run with dumps
+    out : folder to write to; default: `report` in the first directory
+    say : receives one line for everything that could not be read, and for every file written
+    x, y, by : axes and series of the figures, see responses.choose
+    movie : a field; a film of it is made for every run with dumps
 
-    Returns the page's path. Raises StudyError, FigureError, OSError.
+    Returns the path of the page. Raises StudyError, FigureError, OSError.
     """
     study = layout.load(directories[0]) if len(directories) == 1 else layout.gather(directories)
     folder = Path(out or Path(directories[0]) / "report")
     if folder.exists() and not folder.is_dir():
-        raise layout.StudyError(f"{folder} is a file; --out names a folder")
+        raise layout.StudyError(f"{folder} is a file; --out must name a folder")
     if movie:
         pictures.check_field(movie)
     contents = collect(study)
     choice = responses.choose(study, contents.records, x, y, by)
     missing = [name for name in y if all(responses.raw(each, name) is None for each in contents.records)]
-    contents.notes += [f"no run has {name}: it is not drawn" for name in missing]
+    contents.notes += [f"no run has {name}, so it is not drawn" for name in missing]
     contents.rows = table.with_responses(contents.rows, contents.records, choice)
     for note in contents.notes:
         say(f"warning: {note}")

@@ -1,4 +1,4 @@
-"""What a report draws against what: responses of the runs, and what was varied, by name and in the reader's units."""
+"""The axes of a report's figures: responses of the runs, and what was varied, by name and in the reader's units."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ from hydro2d.units import COMMON
 DEPTH, RESIDUAL, IMPACT = "penetration_depth_m", "rod_residual_velocity_m_s", "velocity"
 #: responses of decks without a projectile, of their first body
 OF_BODY = ("velocity_m_s", "z_max_m")
-#: the name of each case, where nothing else is varied
+#: the name of each case, if nothing else is varied
 CASE = "case"
-#: what readers use: unit and number of them in one of the SI unit that a name ends in
+#: the reader's unit and the factor to it, by the SI unit at the end of a name
 READER = {
     "m": ("cm", 1e2), "m2": ("cm²", 1e4), "m3": ("cm³", 1e6), "s": ("µs", 1e6), "kg": ("g", 1e3), "J": ("kJ", 1e-3),
     "Pa": ("GPa", 1e-9), "J/kg": ("MJ/kg", 1e-6), "kg/m3": ("g/cm³", 1e-3), "N s": ("N s", 1.0),
@@ -37,7 +37,7 @@ _ENDING = re.compile(r"_(kg_m3|J_kg|m_s|N_s|kg|Pa|K|J|s|m2|m3|m)$")
 
 @dataclass(frozen=True)
 class Response:
-    """A number of each run: its name, its title with the unit, and that unit's number in one of SI."""
+    """A number of each run: its name, its title with the unit, the unit, and the factor from SI to it."""
 
     name: str
     title: str
@@ -45,16 +45,16 @@ class Response:
     factor: float
 
     def value(self, record: Record) -> float | None:
-        """Of a run, in the reader's unit; None where it has none."""
+        """The value for a run in the reader's unit; None if it has none."""
         found = raw(record, self.name)
         return None if found is None else found * self.factor
 
 
 @dataclass(frozen=True)
 class Variable:
-    """What is varied. ``values`` by case, numbers or words; ``order`` of the words, None for numbers.
+    """Something that is varied. ``values`` by case, numbers or words; ``order`` of the words, None for numbers.
 
-    impact : it is the impact velocity, in m/s
+    impact : whether it is the impact velocity, in m/s
     """
 
     name: str
@@ -64,13 +64,13 @@ class Variable:
     impact: bool = False
 
     def value(self, record: Record) -> float | str | None:
-        """Of a run; None where it has none."""
+        """The value for a run; None if it has none."""
         return self.values.get(record.case.name)
 
 
 @dataclass(frozen=True)
 class Choice:
-    """What is drawn: responses ``y`` against ``x``, a series for each combination of ``by``; None: whatever else is varied."""
+    """What is drawn: responses ``y`` against ``x``, a series for each combination of ``by``; None: of all else that varies."""
 
     x: Variable
     y: tuple[Response, ...]
@@ -79,7 +79,7 @@ class Choice:
 
 def choose(study: Study, records: Sequence[Record], x: str | None = None, y: Sequence[str] = (),
            by: Sequence[str] = ()) -> Choice:  # fmt: skip
-    """Finds what names stand for, and what is sensible where none is given. StudyError for a name that nothing has."""
+    """Finds what the names refer to, with sensible defaults. Raises StudyError for an unknown name."""
     names = y or _usual_responses(records)
     known = numbers(records)
     for name in y:
@@ -97,7 +97,7 @@ def response(name: str) -> Response:
 
 
 def readers(name: str) -> tuple[str, float]:
-    """Unit that readers use for a quantity, empty for a plain number, and the number of them in one of SI."""
+    """The reader's unit of a quantity, empty for a plain number, and the factor from SI to it."""
     si = name[-2:] if name.endswith(("_m2", "_m3")) and not name.endswith("kg_m3") else unit(name)
     return READER.get(si, ("" if si == "1" else si, 1.0))
 
@@ -108,7 +108,7 @@ def title(name: str) -> str:
 
 
 def raw(record: Record, name: str) -> float | None:
-    """A number of a run in SI. Some depths are bounds (`Record.at_least`); what was stopped has a residual velocity of 0."""
+    """A number of a run in SI. Some depths are bounds (`Record.at_least`); a stopped projectile has zero residual velocity."""
     if name == DEPTH:
         return record.depth
     if name == RESIDUAL and record.depth is not None and not record.unfinished and not record.at_least:
@@ -118,7 +118,7 @@ def raw(record: Record, name: str) -> float | None:
 
 
 def numbers(records: Sequence[Record]) -> list[str]:
-    """Names of all numbers that some run has."""
+    """Names of all numbers that at least one run has."""
     return sorted({name for record in records for name in record.numbers})
 
 
@@ -129,7 +129,7 @@ def _listed() -> list[str]:
 
 
 def _usual_responses(records: Sequence[Record]) -> list[str]:
-    """Depth of projectiles, the velocity that is left where some perforate; else what becomes of the first body."""
+    """Depth of projectiles, and the residual velocity if some perforate; else velocity and extent of the first body."""
     if any(record.setup for record in records):
         return [DEPTH, *([RESIDUAL] if any(record.perforated for record in records) else [])]
     body = next((record.body for record in records if record.body), None)
@@ -142,7 +142,7 @@ def is_velocity(axis: Axis) -> bool:
 
 
 def usual_variable(study: Study, records: Sequence[Record]) -> Variable:
-    """The impact velocity where it varies, the first axis of numbers, the first axis; without axes velocity or case."""
+    """The impact velocity if it varies, else the first numeric axis, else the first axis; without axes velocity or case."""
     speeds = {record.velocity for record in records} - {None}
     axes = [of_axis(axis, study) for axis in study.axes if len(axis.values) > 1]
     if len(speeds) > 1 or (speeds and not axes):
@@ -152,7 +152,7 @@ def usual_variable(study: Study, records: Sequence[Record]) -> Variable:
 
 
 def variable(study: Study, records: Sequence[Record], name: str, option: str) -> Variable:
-    """An axis, the impact velocity, a key of the decks or a number of the runs, by its name. StudyError."""
+    """An axis, the impact velocity, a deck key or a number of the runs, by its name. Raises StudyError."""
     axes = {axis.name: axis for axis in study.axes}
     with_velocity = any(record.velocity is not None for record in records)
     axis = axes.get(name)
@@ -170,7 +170,7 @@ def variable(study: Study, records: Sequence[Record], name: str, option: str) ->
         values = {each.case.name: found.value(each) for each in records}
         return Variable(name, found.title, {case: value for case, value in values.items() if value is not None})
     allowed = [*axes, *([IMPACT] if with_velocity else []), *known, *keys]
-    raise StudyError(f"{option}: {unknown('axis, key of the decks or number of the runs', name, dict.fromkeys(allowed))}")
+    raise StudyError(f"{option}: {unknown('axis, deck key or number of the runs', name, dict.fromkeys(allowed))}")
 
 
 def impact(records: Sequence[Record]) -> Variable:
@@ -185,7 +185,7 @@ def _cases(records: Sequence[Record]) -> Variable:
 
 
 def of_axis(axis: Axis, study: Study) -> Variable:
-    """An axis of a study: numbers where all of its labels are numbers of one quantity, else words."""
+    """An axis of a study: numbers if all its labels are numbers of one quantity, else words."""
     labels = {case.name: case.values[axis.name] for case in study.cases if axis.name in case.values}
     parsed = _in_one_unit(axis.values)
     if parsed is None:
@@ -196,7 +196,7 @@ def of_axis(axis: Axis, study: Study) -> Variable:
 
 
 def _in_one_unit(labels: Sequence[str]) -> tuple[str, dict[str, float]] | None:
-    """Unit and numbers of labels such as "2 mm": in their own unit where they share it, else in SI; None for words."""
+    """Unit and numbers of labels such as "2 mm", in their own unit if it is the same for all, else in SI; None for words."""
     found = {label: _QUANTITY.match(label) for label in labels}
     if not all(found.values()):
         return None
@@ -210,7 +210,7 @@ def _in_one_unit(labels: Sequence[str]) -> tuple[str, dict[str, float]] | None:
 
 
 def _of_key(key: str, found: Mapping[str, object]) -> Variable:
-    """A key of the decks: numbers in SI, else words in the order in which they come."""
+    """A deck key: numbers in SI, else words in the order in which they occur."""
     if all(is_number(value) for value in found.values()):
         return Variable(key, f"{key} (SI)", {case: float(value) for case, value in found.items()})
     words = {case: text(value) for case, value in found.items()}

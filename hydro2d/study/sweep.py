@@ -1,6 +1,6 @@
-"""A sweep: the cases of a study given to dask, and what becomes of them told.
+"""A sweep: gives the cases of a study to dask, and reports their results.
 
-Which cases a study has and which run next is a `choice.Choice`.
+A `choice.Choice` decides which cases a study has and which of them run next.
 """
 
 from __future__ import annotations
@@ -29,15 +29,15 @@ from hydro2d.study.definition import StudyError
 from hydro2d.study.layout import CASES, DONE, FAILED, FAILED_STATUS, INTERRUPTED, INVALID, LOCK, STUDY, UNPHYSICAL, WAITING
 
 ALL_DONE, SOME_FAILED = 0, 3
-#: seconds between looks for a finished case, a signal, and the table
+#: seconds between checks for a finished case, a signal, and the table
 BEAT = 0.5
 
 
 def changes(plan: Plan, directory: Path, *, resume: bool, overwrite: bool) -> list[str]:
-    """What has changed since the study directory was written last, in words.
+    """What has changed since the study directory was last written, in words.
 
-    Raises StudyError where a study is there and `resume` and `overwrite` do not allow it, or where its cases have other
-    decks than before.
+    Raises StudyError if there is a study and neither `resume` nor `overwrite` is given, or if the decks of its cases have
+    changed.
     """
     if directory.exists() and not directory.is_dir():
         raise StudyError(f"{directory} is a file, not a directory")
@@ -47,7 +47,7 @@ def changes(plan: Plan, directory: Path, *, resume: bool, overwrite: bool) -> li
         if not (resume or overwrite) and any(case.directory.exists() for case in before.cases):
             raise StudyError(
                 f"{directory} already holds a study ({monitor.counts(before.cases)}); --resume continues it, "
-                "--overwrite begins it anew"
+                "--overwrite starts it again from the beginning"
             )
         told = _changes(plan, before, overwrite)
     elif resume:
@@ -63,13 +63,13 @@ def _changes(plan: Plan, before: layout.Study, overwrite: bool) -> list[str]:
     changed = [name for name in begun if old[name].deck_sha256 != new[name].sha256]
     if changed and not overwrite:
         raise StudyError(
-            f"{before.directory}: {_names(changed)} had another deck when the study was begun; "
-            "--overwrite begins them anew, --out makes a study of its own"
+            f"{before.directory}: {_names(changed)} had a different deck when the study was begun; "
+            "--overwrite runs them again from the beginning, --out makes a separate study"
         )
     added, gone = [name for name in new if name not in old], [name for name in old if name not in new]
     told = [f"{_names(added)} new"] if added else []
-    told += [f"{_names(gone)} no longer in the study; what is in {CASES} stays"] if gone else []
-    return told + ([f"{_names(changed)} with another deck than before"] if changed else [])
+    told += [f"{_names(gone)} no longer in the study; their files in {CASES} are kept"] if gone else []
+    return told + ([f"{_names(changed)} with a different deck than before"] if changed else [])
 
 
 def _names(names: list[str]) -> str:
@@ -84,10 +84,10 @@ def sweep(choice: Choice, directory: Path, connect: AbstractContextManager, *, t
 
     connect : gives a dask client, see cluster.local, joined and slurm
     threads : numba threads of a case
-    resume : continue the study of the directory
-    overwrite : with resume, begin cases anew whose deck has changed; without it, all
+    resume : continue the study in the directory
+    overwrite : run cases again from the beginning: with resume those whose deck has changed, without it all
 
-    Raises StudyError, LockError (another sweep runs there).
+    Raises StudyError, LockError (another sweep uses the directory).
     """
     told, interrupt = changes(choice.compared(directory), directory, resume=resume, overwrite=overwrite), Interrupt()
     layout.make(directory)
@@ -111,7 +111,7 @@ def _sweep(choice: Choice, study: layout.Study, told: list[str], connect: Abstra
 
 
 def _clear(study: layout.Study) -> None:
-    """Removes what runs have left in the cases."""
+    """Removes the files of runs from the cases."""
     for case in study.cases:
         if case.directory.is_dir():
             clear(case.directory)
@@ -134,13 +134,13 @@ class _Sweep:
         board.workers = self.workers
 
     def workers(self) -> int:
-        """How many there are; the scheduler is asked once a beat."""
+        """Number of workers; the scheduler is asked once per beat."""
         if time.monotonic() - self.counted >= BEAT:
             self.count, self.counted = len(self.client.scheduler_info(n_workers=-1)["workers"]), time.monotonic()
         return self.count
 
     def run(self, interrupt: Interrupt) -> float:
-        """Returns when every case has ended and no other is wanted: the seconds that they took in their workers."""
+        """Runs until every case has ended and no more are wanted. Returns the seconds that they took in their workers."""
         told = False
         self._begin()
         while self.tasks:
@@ -168,17 +168,17 @@ class _Sweep:
             if todo and not self.compiling:
                 self.compiling = True
                 if not compilation.is_compiled(kernels(decks.loads(self.texts[todo[0].name]))):
-                    self.board.line("kernels are compiled first where they are not kept from earlier runs: a minute or more")
+                    self.board.line("kernels not compiled by earlier runs are compiled first: a minute or more")
             for case in todo:
                 self._give(case)
         self.board.further = self.choice.further(self.board.cases, self.board.moving)
 
     def _room(self) -> int:
-        """How many cases more than those under way can run; one is given out even while workers are still coming."""
+        """Number of further cases that can run; one is given out even before the first worker has started."""
         return max(max(self.workers(), 1) - len(self.board.moving), 0)
 
     def _enlarge(self, names: Sequence[str]) -> None:
-        """Takes further cases into the study; where its file cannot be written, the cases run and the log has the reason."""
+        """Adds further cases to the study. If its file cannot be written, the cases still run and the log has the reason."""
         plan = self.choice.enlarged(names)
         try:
             layout.write(plan, self.board.study.directory)
@@ -211,13 +211,13 @@ class _Sweep:
             return None
 
     def _take(self, future) -> layout.Case:
-        """The case that has ended; its worker is free for another before more is asked about this one."""
+        """The case that has ended. Its worker is free for the next case before this one is examined."""
         case = self.tasks.pop(future.key)
         self.board.moving.discard(case.name)
         return self.board.look(case.name)
 
     def _finish(self, case: layout.Case, outcome: Outcome) -> None:
-        """Tells what became of a case."""
+        """Reports the outcome of a case."""
         self.spent += outcome.wall_s
         if outcome.status == FAILED_STATUS:
             self._record(case, outcome)
@@ -225,7 +225,7 @@ class _Sweep:
         name, *shown = monitor.row(case)
         depth = "" if shown[1] == "-" else f"depth {shown[1]}"
         words = [outcome.status, depth if outcome.status == DONE else outcome.message]
-        words += [] if outcome.fresh else ["was there already" if outcome.status == DONE else "not begun"]
+        words += [] if outcome.fresh else ["already finished" if outcome.status == DONE else "not begun"]
         where = f"({duration(outcome.wall_s)}, {outcome.host})" if outcome.host else ""
         self.board.line(f"{name}: {', '.join(filter(None, words))} {where}".rstrip())
         if outcome.trace:
@@ -233,7 +233,7 @@ class _Sweep:
         self.board.line(self.choice.news(self.board.cases, case.name))
 
     def _record(self, case: layout.Case, outcome: Outcome) -> None:
-        """Writes failed.json; where that is impossible, table and log have the reason."""
+        """Writes failed.json; if that is impossible, the log has the reason."""
         try:
             case.directory.mkdir(exist_ok=True)
             write_json(case.directory / FAILED, {
@@ -245,7 +245,7 @@ class _Sweep:
 
 
 def _outcome(future) -> Outcome:
-    """What a task returned, or why dask gave it up."""
+    """The result of a task, or why dask gave it up."""
     import distributed
 
     if future.status == "finished":
@@ -262,7 +262,7 @@ def _outcome(future) -> Outcome:
 
 
 def _end(board: monitor.Board, interrupt: Interrupt, seconds: float, spent: float) -> int:
-    """The last word, and the exit status."""
+    """Prints the final lines and returns the exit status."""
     cases = [board.look(case.name) for case in board.cases]
     for case in cases:
         if case.status in (FAILED_STATUS, UNPHYSICAL, INVALID):
@@ -278,7 +278,7 @@ def _end(board: monitor.Board, interrupt: Interrupt, seconds: float, spent: floa
 
 
 class _ToLog(logging.Handler):
-    """Lines of dask go to sweep.log."""
+    """Writes the messages of dask to sweep.log."""
 
     def __init__(self, board: monitor.Board):
         super().__init__(logging.WARNING)
@@ -290,7 +290,7 @@ class _ToLog(logging.Handler):
 
 @contextmanager
 def _dask_told(board: monitor.Board) -> Iterator[None]:
-    """What dask says of workers that die is in the log of the sweep, not on the screen."""
+    """Sends the messages of dask, such as those about dead workers, to the log of the sweep instead of the screen."""
     import distributed  # noqa: F401  (it sets its own handlers when it is imported)
 
     logger, handler = logging.getLogger("distributed"), _ToLog(board)

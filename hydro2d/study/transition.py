@@ -1,4 +1,4 @@
-"""`hydro2d transition`: the runs of a search for the velocities at which a rod's regime changes, and what they say."""
+"""`hydro2d transition`: the runs of a search for the velocities at which the regime of a rod changes, and their results."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ from hydro2d.study.layout import DONE, ENDED, INTERRUPTED, UNPHYSICAL, Case
 
 
 class Bisection(Choice):
-    """The cases that a search asks for: one search for each combination of the axes, all of them in turn.
+    """The cases that a search needs: one search for each combination of the axes, all of them in turn.
 
-    A combination is the run of neighbouring cases of the plan that differ in the velocity alone, the slowest first.
+    A combination is a sequence of neighbouring cases of the plan that differ only in velocity, the slowest first.
     """
 
     def __init__(self, plan: Plan):
@@ -31,11 +31,11 @@ class Bisection(Choice):
     # ------------------------------------------------------------------------------------------------ cases of the study
 
     def compared(self, directory: Path) -> Plan:
-        """Those that have been begun, and the ends of every combination."""
+        """The cases that have been begun, and the ends of every combination."""
         return self._only({case.name for case in layout.of_plan(self.plan, directory).cases if case.directory.exists()})
 
     def begin(self, directory: Path) -> Plan:
-        """Those that have ended before, and the ends. Others that were begun come back where the search wants them."""
+        """The cases that have already ended, and the ends. Other begun cases are added when the search needs them."""
         before = layout.of_plan(self.plan, directory).cases
         self.begun = {case.name for case in before if case.status == INTERRUPTED}
         self.chosen = {case.name for case in before if case.status in (DONE, UNPHYSICAL)}
@@ -46,7 +46,7 @@ class Bisection(Choice):
         return self._only(self.chosen)
 
     def _only(self, names: Collection[str]) -> Plan:
-        """The plan with these cases and the ends, by combination and velocity, and with their velocities alone on the axis."""
+        """The plan with these cases and the ends, by combination and velocity, and only their velocities on the axis."""
         ends = {case.name for group in self.groups for case in (group[0], group[-1])}
         kept = [case for case in self.plan.cases if case.name in ends or case.name in names]
         used = {case.values[velocities.AXIS] for case in kept}
@@ -65,7 +65,7 @@ class Bisection(Choice):
         )
 
     def wanted(self, cases: Sequence[Case], busy: Collection[str], room: int) -> list[str]:
-        """As many cases as there are idle workers, those of combinations with the fewest under way first."""
+        """As many cases as there are idle workers; combinations with the fewest cases under way come first."""
         names: list[str] = []
         while len(names) < room:
             found = self._next(cases, {*busy, *names})
@@ -85,7 +85,7 @@ class Bisection(Choice):
         return None
 
     def _search(self, group: Sequence[Planned], cases: dict[str, Case], busy: Collection[str]) -> Search:
-        """What is known of a combination."""
+        """The state of the search of a combination."""
         begun = {n for n, case in enumerate(group) if case.name in self.begun}
         search = Search(len(group), begun=begun, order=regimes.SCHEMES[self.plan.search.of].order)
         for position, planned in enumerate(group):
@@ -100,7 +100,7 @@ class Bisection(Choice):
         return search
 
     def record(self, case: Case) -> record.Record:
-        """A case, read; once, where it is done."""
+        """The record of a case; a finished case is read only once."""
         if case.status != DONE:
             return record.read(case)
         if case.name not in self.records:
@@ -115,7 +115,7 @@ class Bisection(Choice):
         return sum(self._search(group, by_name, busy).further() for group in self.groups)
 
     def news(self, cases: Sequence[Case], name: str) -> str:
-        """The transitions of the combination as far as they are known."""
+        """The transitions of the combination found so far."""
         group = next(group for group in self.groups if any(case.name == name for case in group))
         names = {case.name for case in group}
         found = {velocities.speed(case.values[velocities.AXIS]): regime for case in cases
@@ -126,9 +126,9 @@ class Bisection(Choice):
 
 def find(plan: Plan, directory: Path, connect: AbstractContextManager, *, threads: int = 1, resume: bool = False,
          overwrite: bool = False, quiet: bool = False) -> int:  # fmt: skip
-    """Searches, writes transition.json and prints the transitions; returns the exit status. Arguments as of sweep.sweep.
+    """Searches, writes transition.json and prints the transitions. Returns the exit status. Arguments as for sweep.sweep.
 
-    Raises StudyError, LockError (another sweep runs there).
+    Raises StudyError, LockError (another sweep uses the directory).
     """
     choice = Bisection(plan)
     status = sweep.sweep(choice, directory, connect, threads=threads, resume=resume, overwrite=overwrite, quiet=quiet)

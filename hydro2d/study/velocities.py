@@ -1,4 +1,4 @@
-"""The velocities of a search for a transition: equally spaced, so that runs are used again and their names can be read."""
+"""The velocities of a search for a transition: equally spaced, so that runs can be reused and have readable names."""
 
 from __future__ import annotations
 
@@ -14,17 +14,17 @@ from hydro2d.errors import DeckError
 from hydro2d.study import ranges
 from hydro2d.study.definition import Range, Transition
 
-#: what the axis of a search is called
+#: name of the axis of a search
 AXIS = "velocity"
-#: share by which the velocity of the key and that of the impact may differ
+#: largest relative difference between the velocity of the key and the impact velocity
 SAME = 1e-9
 
 
 @dataclass(frozen=True)
 class Velocities:
-    """Where a search may look.
+    """The velocities that a search may try.
 
-    key : of the deck;  labels : velocities as decks take them, the slowest first;  tolerance : widest bracket, m/s
+    key : deck key;  labels : velocities as in a deck, the slowest first;  tolerance : largest width of a bracket, m/s
     of : what changes, "regime" or "perforation"
     """
 
@@ -35,7 +35,7 @@ class Velocities:
 
 
 def labels(given: Transition) -> tuple[str, ...]:
-    """Velocities a tolerance apart, counted from the slowest; the last step may be shorter. ValueError: there are too many."""
+    """Velocities one tolerance apart, from the slowest; the last step may be shorter. Raises ValueError for too many."""
     first, last = (f"{speed:.12g} m/s" for speed in (given.from_, given.to))
     step = f"{math.copysign(given.tolerance, given.to):.12g} m/s"
     found = ranges.values(Range.model_validate({"from": first, "to": last, "step": step}))
@@ -48,9 +48,9 @@ def speed(label: str) -> float:
 
 
 def key(bases: Iterable[tuple[Path, Sequence[str]]]) -> str:
-    """The velocity of the rod that penetrates in these decks, given as files with overrides; wrong ones do not count.
+    """The velocity key of the penetrating rod in these decks, given as files with overrides; wrong decks are ignored.
 
-    ValueError: none is right, one has no rod, or the rods have several names.
+    Raises ValueError if all decks are wrong, one has no rod, or the rods have different names.
     """
     rods, problems = set(), []
     for file, overrides in bases:
@@ -63,17 +63,17 @@ def key(bases: Iterable[tuple[Path, Sequence[str]]]) -> str:
             raise ValueError(f"{file.name} has no rod and target; [penetration] names them")
         rods.add(deck.penetration.rod)
     if not rods:
-        raise ValueError(f"no deck is right: {problems[0]}")
+        raise ValueError(f"all decks are wrong: {problems[0]}")
     if len(rods) > 1:
-        raise ValueError(f"the rods of the decks are called {', '.join(sorted(rods))}: key is needed")
+        raise ValueError(f"the rods of the decks have different names ({', '.join(sorted(rods))}); give key")
     return f"body.{toml.quoted(rods.pop())}.velocity"
 
 
 def fault(deck: decks.Deck, key: str, label: str) -> str | None:
-    """Why a deck in which the key has this velocity has not this impact velocity; None where it has."""
+    """Why a deck with this velocity under the key does not have this impact velocity; None if it has."""
     if deck.penetration is None:
         return "the deck has no rod and target; [penetration] names them"
     impact = model_deck.impact_velocity(deck)
     if math.isclose(impact, speed(label), rel_tol=SAME):
         return None
-    return f"with {key} = {label} the rod meets the target at {impact:g} m/s: the key must set the impact velocity"
+    return f"with {key} = {label} the rod hits the target at {impact:g} m/s; the key must set the impact velocity"

@@ -1,4 +1,4 @@
-"""What happens in a dask worker: one case at a time, and a restart file before the worker goes."""
+"""The work of a dask worker: one case at a time, and a restart file before the worker ends."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ from hydro2d.materials import outside
 from hydro2d.study.case import Outcome, run_case
 from hydro2d.study.layout import FAILED_STATUS, WAITING
 
-#: seconds that a worker which is told to go waits for the case to write its restart file
+#: seconds that a worker which must end waits for its case to write a restart file
 PATIENCE = 60.0
-#: exit status of a worker that SIGTERM has ended
+#: exit status of a worker that was ended by SIGTERM
 GONE = 128 + signal.SIGTERM
 
 
 class _Process:
-    """The case that this process runs, and the sweeps that were told to stop."""
+    """The case that this process runs, and the sweeps that must stop."""
 
     def __init__(self):
         self.busy = threading.Lock()
@@ -43,7 +43,7 @@ def work(sweep: str, directory: str, deck_text: str, threads: int, overwrite: bo
     sweep : name of the sweep, which `stop` may have stopped
     """
     if not _process.busy.acquire(blocking=False):
-        return Outcome(FAILED_STATUS, "its worker runs another case: workers must have one thread (--nthreads 1)").plain()
+        return Outcome(FAILED_STATUS, "its worker is running another case; workers must have one thread (--nthreads 1)").plain()
     try:
         _process.interrupt = Interrupt()
         if sweep in _process.stopped:  # after the line above: a stop that comes now finds the interrupt
@@ -58,7 +58,7 @@ def work(sweep: str, directory: str, deck_text: str, threads: int, overwrite: bo
 
 
 def stop(sweep: str, reason: str) -> None:
-    """Ends the running case after its cycle with a restart file; cases of this sweep that follow do not begin."""
+    """Ends the running case after its cycle, with a restart file. Later cases of this sweep do not begin."""
     _process.stopped[sweep] = reason
     interrupt = _process.interrupt
     if interrupt is not None:
@@ -66,12 +66,12 @@ def stop(sweep: str, reason: str) -> None:
 
 
 def introduce(dask_worker) -> dict:
-    """What a sweep must know of a worker that others have started."""
+    """What a sweep must know about a worker that someone else has started."""
     return {"version": __version__, "threads": dask_worker.state.nthreads}
 
 
 def _on_sigterm(_number, _frame) -> None:
-    """The case writes its restart file first, where there is one."""
+    """Lets the running case, if there is one, write its restart file first."""
     _process.leaving = True
     interrupt = _process.interrupt
     if interrupt is None:
@@ -80,13 +80,13 @@ def _on_sigterm(_number, _frame) -> None:
 
 
 class Checkpoint(distributed.WorkerPlugin):
-    """A worker that is told to go lets its case write a restart file; Ctrl-C is the sweep's business, not the worker's."""
+    """Lets the case of a worker that must end write a restart file. The sweep handles Ctrl-C, not its workers."""
 
     name = "hydro2d-checkpoint"
 
     def __init__(self, silent: bool, models: Iterable[tuple[str, str, str]] = ()):
         self.models = list(models)  # of the whole study: kernels are loaded with the first case
-        self.silent = silent  # what dask says of lost connections as everything ends belongs on no screen
+        self.silent = silent  # messages about lost connections at the end are not for the user
 
     def setup(self, worker) -> None:
         """Called by dask as the worker starts."""

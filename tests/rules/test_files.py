@@ -83,7 +83,7 @@ def test_versions_agree():
 
     assert project()["project"]["version"] == __version__
     assert f"\nversion: {__version__}\n" in (source.ROOT / "CITATION.cff").read_text()
-    assert f"## {__version__}" in (source.ROOT / "CHANGELOG.md").read_text()
+    assert f"## [{__version__}]" in (source.ROOT / "CHANGELOG.md").read_text()
 
 
 def test_the_readme_commands_exist():

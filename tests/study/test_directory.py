@@ -132,14 +132,14 @@ def test_a_changed_study_is_told(plan, written, tmp_path):
     told = sweep.changes(wider, written, resume=True, overwrite=False)
     assert told == [
         "2 cases (ke_0.3, momentum_0.3) new",
-        "4 cases (ke_0.2, ke_2mm, momentum_0.2, momentum_2mm) no longer in the study; what is in cases stays",
+        "4 cases (ke_0.2, ke_2mm, momentum_0.2, momentum_2mm) no longer in the study; their files in cases are kept",
     ]
     layout.write(wider, written)
     other = cases.plan(tubes.write(tmp_path), ["numerics.courant=0.3"])
-    with pytest.raises(StudyError, match=r"1 case \(ke_0.1\) had another deck.*--overwrite"):
+    with pytest.raises(StudyError, match=r"1 case \(ke_0.1\) had a different deck.*--overwrite"):
         sweep.changes(other, written, resume=True, overwrite=False)
     told = sweep.changes(other, written, resume=True, overwrite=True)
-    assert "1 case (ke_0.1) with another deck than before" in told
+    assert "1 case (ke_0.1) with a different deck than before" in told
 
 
 def test_the_board_tells_of_running_cases(plan, written, capsys, monkeypatch):

@@ -84,7 +84,7 @@ def test_what_is_no_study(study, tmp_path):
     with pytest.raises(StudyError, match="is a file"):
         layout.load(study / "study.json")
     (study / "study.json").write_text('{"title": "A study"}')
-    with pytest.raises(StudyError, match="is not that of a study"):
+    with pytest.raises(StudyError, match="is not a valid study file"):
         layout.load(study)
     (study / "study.json").write_text('{"name": "x", "axes": [], "cases": []}')
     with pytest.raises(StudyError, match="no cases"):

@@ -5,6 +5,7 @@ import shutil
 
 import pytest
 
+from hydro2d import __version__
 from hydro2d.cli.main import call
 from hydro2d.results import movies
 from hydro2d.study import layout
@@ -57,7 +58,7 @@ def test_one_well_formed_file(made):
     assert page.faults == []
     assert page.all("html") == [{"lang": "en"}]
     assert {"name": "viewport", "content": "width=device-width, initial-scale=1"} in page.all("meta")
-    assert "Depth <against> velocity hydro2d 0.1.0" in page.text
+    assert f"Depth <against> velocity hydro2d {__version__}" in page.text
     assert "6 cases: 6 done." in page.text
     assert len(page.all("img")) == len(list((made[0] / "report").glob("*.png"))) == 1
     assert charts(page) == ["penetration_depth_m-W_alloy-into-Al5083-hemispherical-nose",
@@ -237,7 +238,7 @@ def test_responses_are_chosen(study):
     assert "Rod mass [g]" in page.text  # a column of the table
     assert "crater.volume_m3" in table(study / "report")["1086m-s_ke"]
     assert [name for name in charts(page) if "volume" in name] == []
-    assert lines[0] == "warning: no run has crater.volume_m3: it is not drawn"
+    assert lines[0] == "warning: no run has crater.volume_m3, so it is not drawn"
 
 
 def test_a_run_that_was_cut_has_no_error(study):

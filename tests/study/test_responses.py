@@ -85,8 +85,8 @@ def test_names_choose(tmp_path):
     [
         ({"y": ["penetration_dept_m"]}, '--y: unknown response "penetration_dept_m"; did you mean "penetration_depth_m"?'),
         ({"y": ["regime"]}, "--y: unknown response"),
-        ({"x": "velocty"}, '--x: unknown axis, key of the decks or number of the runs "velocty"; did you mean "velocity"?'),
-        ({"by": ["lav"]}, '--by: unknown axis, key of the decks or number of the runs "lav"; did you mean "law"?'),
+        ({"x": "velocty"}, '--x: unknown axis, deck key or number of the runs "velocty"; did you mean "velocity"?'),
+        ({"by": ["lav"]}, '--by: unknown axis, deck key or number of the runs "lav"; did you mean "law"?'),
     ],
 )
 def test_a_wrong_name_is_said_with_the_nearest(tmp_path, options, said):

@@ -65,7 +65,7 @@ def test_what_is_of_the_wrong_kind_is_left_out_and_told(place):
     fake.edit_json(place / "summary.json", rod_length_m="long", cycles=[3], wall_s=None)
     (case,) = layout.gather([place]).cases
     (place / "summary.json").write_text(text)
-    assert case.message == "summary.json has something of the wrong kind in cycles, rod_length_m"
+    assert case.message == "summary.json has values of the wrong kind in cycles, rod_length_m"
     assert "rod_length_m" not in case.summary
     assert case.summary["penetration_depth_m"] == 0.31
 

@@ -85,17 +85,18 @@ WRONG = [
     ('tolerance = "50 m/s"', 'tolerence = "50 m/s"', 'search.toml:7: transition.tolerence: unknown key "tolerence"; did you'),
     ('from = "900 m/s"', "", "search.toml:4: transition.from: is missing"),
     ('"900 m/s"', '"900 mm"', 'search.toml:5: transition.from: "900 mm" is a length; expected a velocity'),
-    ('"900 m/s"', '"1600 m/s"', "search.toml:4: transition: from = 1600 m/s, to = 1500 m/s: to must be the faster"),
+    ('"900 m/s"', '"1600 m/s"', "search.toml:4: transition: from = 1600 m/s, to = 1500 m/s: to must be faster"),
     ('"900 m/s"', '"-900 m/s"', "in the same direction"),
     ('"50 m/s"', '"0 m/s"', "search.toml:7: transition.tolerance: must be positive"),
     ('"50 m/s"', '"1 mm/s"', "search.toml:4: transition: has 600001 values; at most 10000"),
     ('"50 m/s"', '"50 m/s"\nkey = "body.rd.velocity"', 'toml:8: no deck has the key body.rd.velocity: body: unknown entry'),
     ('"50 m/s"', '"50 m/s"\nkey = "body.plate.thickness"', 'body[1].thickness: "900 m/s" is a velocity; expected a length'),
     ('"50 m/s"', '"50 m/s"\nkey = "body.rod.velocity"\n[set]\n"body.plate.velocity" = "-9 m/s"',
-     "search.toml:8: transition.key: with body.rod.velocity = 900 m/s the rod meets the target at 909 m/s"),
+     "search.toml:8: transition.key: with body.rod.velocity = 900 m/s the rod hits the target at 909 m/s"),
     ('"numerics.advection"\nvalues = ["ke", "momentum"]', '"body.rod.velocity"\nvalues = [900, 1000]',
      'search.toml:8: axis "advection" sets body.rod.velocity, and the search varies body.rod.velocity'),
-    ('name = "advection"', 'name = "velocity"', 'search.toml:8: axis[0].name: "velocity" is the axis that [transition] makes'),
+    ('name = "advection"', 'name = "velocity"',
+     'search.toml:8: axis[0].name: "velocity" is the name of the axis that [transition] adds'),
     ('["ke", "momentum"]', '["ke"]\n[[exclude]]\nvelocity = "900 m/s"', 'exclude[0]: unknown axis "velocity"'),
     ('"problems/', '"problem/', "no such file"),
     (BASE, "problems/verification/sod_z.toml", "search.toml:4: transition: sod_z.toml has no rod and target"),
@@ -114,7 +115,8 @@ def test_a_wrong_file_is_one_message_and_status_2(tmp_path, capsys, old, new, sa
 def test_each_command_says_what_the_others_file_is_for(tmp_path, capsys):
     file = write(tmp_path)
     assert call(["sweep", str(file), "--check"]) == 2
-    assert f"search.toml:4: transition: is a search in velocity: `hydro2d transition {file}` runs it" in capsys.readouterr().err
+    said = f"search.toml:4: transition: the study is a search in velocity; run it with `hydro2d transition {file}`"
+    assert said in capsys.readouterr().err
     assert call(["transition", str(tubes.write(tmp_path)), "--check"]) == 2
     assert "tubes.toml: transition: is missing: a table with the velocities to search" in capsys.readouterr().err
 
@@ -338,7 +340,7 @@ def test_a_rod_that_left_a_short_mesh_has_no_regime_either(tmp_path):
 def test_a_run_that_was_cut_short_is_told(tmp_path, capsys):
     cut = {"stop_reason": "end time", "rod_core_velocity_m_s": 300.0}
     search(tmp_path, made_up.Client(lambda velocity, deck: usual(velocity, deck) | cut), ALONE)
-    assert "not at rest when they ended, regime and depth are those of that moment: 900 m/s, " in capsys.readouterr().out
+    assert "runs that did not end at rest, whose regime and depth are those at their end: 900 m/s, " in capsys.readouterr().out
 
 
 def test_another_rod_than_the_experiments_is_told(tmp_path, capsys):
@@ -456,7 +458,7 @@ def test_a_ballistic_limit_is_searched(tmp_path, capsys):
     shown = capsys.readouterr().out
     assert "ballistic limit  1150 to 1200 m/s  stopped at 1150 m/s, perforated at 1200 m/s" in shown
     assert "perforation of plate, 920 m/s left" in shown
-    assert "between the fastest run that is stopped and the slowest that goes through" in shown
+    assert "between the fastest run that is stopped and the slowest that perforates" in shown
     assert "rigid" not in shown
 
 

@@ -89,7 +89,7 @@ def test_a_dict_is_not_changed():
 
 
 def test_the_class_alone_makes_no_deck():
-    with pytest.raises(hydro2d.DeckError, match="made by Deck.from_file, Deck.from_toml or Deck.from_dict"):
+    with pytest.raises(hydro2d.DeckError, match="use Deck.from_file, Deck.from_toml or Deck.from_dict"):
         hydro2d.Deck(**tomllib.loads(TEXT))
 
 
@@ -318,7 +318,7 @@ def test_a_sweep_of_a_deck_object_and_of_a_study_file(tmp_path):
 
 
 def test_what_is_no_study_is_refused(tmp_path):
-    with pytest.raises(hydro2d.StudyError, match="`axes` says what is varied"):
+    with pytest.raises(hydro2d.StudyError, match="give `axes`, the keys to vary"):
         hydro2d.sweep(hydro2d.Deck.from_toml(tubes.TUBE))
     with pytest.raises(hydro2d.StudyError, match="no deck has the key body.low.colour"):
         hydro2d.sweep(tubes.write(tmp_path).with_name("tube.toml"), {"body.low.colour": [1]}, directory=tmp_path / "out")

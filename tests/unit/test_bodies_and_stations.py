@@ -156,10 +156,11 @@ def test_what_is_no_number_is_no_peak():
 @pytest.mark.parametrize(
     ("gauge", "said"),
     [
-        ('{ name = "a", r = 0.0, z = 0.0, points = 3 }', "a line of gauges has an end"),
-        ('{ name = "a", r = 0.0, z = 0.0, z_end = "1 mm" }', "a line of gauges has an end"),
+        ('{ name = "a", r = 0.0, z = 0.0, points = 3 }', "a line of gauges needs an end"),
+        ('{ name = "a", r = 0.0, z = 0.0, z_end = "1 mm" }', "a line of gauges needs an end"),
         ('{ name = "a", r = 0.0, z = "30 mm" }', "lies outside the mesh"),
-        ('{ name = "a", r = 0.0, z = 0.0 }, { name = "a", r = 0.0, z = "1 mm" }', 'the name "a" is taken by an earlier gauge'),
+        ('{ name = "a", r = 0.0, z = 0.0 }, { name = "a", r = 0.0, z = "1 mm" }',
+         'the name "a" is already used by an earlier gauge'),
     ],
 )
 def test_a_wrong_gauge_is_told(gauge, said):

@@ -171,7 +171,7 @@ def test_info(capsys):
         assert call(["info", name]) == 0
     assert call(["info"]) == 0
     shown = capsys.readouterr().out
-    assert "numerics.courant (key of the deck)" in shown
+    assert "numerics.courant (deck key)" in shown
     assert '"Pressure [Pa]"' in shown
 
 

@@ -108,7 +108,7 @@ def test_a_second_process_that_fails_is_said_to():
     with announced(said.append, SimpleNamespace(to_toml=lambda: "no deck at all")):
         assert numba.njit(lambda x: x + 5)(1.0) == 6.0
         time.sleep(5.0)
-    assert said[-1].startswith("the second process that compiled kernels failed with exit status 1")
+    assert said[-1].startswith("the second process for compilation failed with exit status 1")
 
 
 def test_a_second_process_is_ended(monkeypatch):

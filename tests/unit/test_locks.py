@@ -45,7 +45,8 @@ def test_the_lock_of_another_machine_counts_by_what_it_says(tmp_path):
     lock = tmp_path / "a.lock"
     lock.write_text("elsewhere 7")
     assert holder(lock) == ("elsewhere", 7)
-    with pytest.raises(LockError, match=r"in use by process 7 on elsewhere; if that is gone for good, remove "), locked(lock):
+    message = "in use by process 7 on elsewhere; if that process no longer exists, remove "
+    with pytest.raises(LockError, match=message), locked(lock):
         pass
     assert lock.read_text() == "elsewhere 7"
 

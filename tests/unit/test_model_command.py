@@ -250,7 +250,7 @@ def test_a_deck_stands_for_materials_geometry_and_velocity(capsys):
         (["tate", "--target", "Al5083:c0-524", "--velocity", "1000"], 'did you mean "c0-5240"'),
         (["tate", *W_INTO_5083, "--velocity", "1000 kg"], "is a mass"),
         (["tate", *W_INTO_5083, "--velocity", "-1000"], "velocity = -1000: must be"),
-        (["tate", *W_INTO_5083, "--velocity", "1000:500:3"], "A < B"),
+        (["tate", *W_INTO_5083, "--velocity", "1000:500:3"], "A must be less than B"),
         (["tate", *W_INTO_5083, "--velocity", "500:1000"], "A:B:N"),
         (["tate", *W_INTO_5083, "--velocity", "1000", "--set", "target.strength=-1"], "target.strength"),
         (["tate", *W_INTO_5083, "--velocity", "1000", "--set", "rod.strength=-1 GPa"], "rod.strength = -1e+09: must be"),

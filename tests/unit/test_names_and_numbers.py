@@ -54,7 +54,7 @@ def test_names_may_be_changed_by_an_override(name):
 
 
 def test_two_tracers_of_one_name():
-    with pytest.raises(DeckError, match=r'tracer\[1\].name: the name "tail" is taken by an earlier tracer'):
+    with pytest.raises(DeckError, match=r'tracer\[1\].name: the name "tail" is already used by an earlier tracer'):
         deck.loads(TRACED, ['tracer.tip.name="tail"'])
 
 
@@ -91,7 +91,7 @@ def test_there_are_keys_to_try():
     ("body.flyer.density=1e30", "no matter on earth is denser"), ('stop.time="1e308 us"', "no impact lasts longer"),
     ("numerics.dt_min=1e300", "no impact lasts longer"), ("mesh.r=[{to=1e30, cells=3}]", "no mesh of an impact"),
     ("mesh.z=[{to='20 mm', first='1 mm', ratio=1e-300}]", "must lie between 0.001 and 1000"),
-    ('output.directory=""', "is no path")])
+    ('output.directory=""', "is not a path")])
 def test_ranges_have_reasons(override, reason):
     with pytest.raises(DeckError) as refused:
         deck.loads(TRACED, [override])
@@ -114,15 +114,15 @@ def test_decks_and_studies_are_told_apart(tmp_path, capsys):
     (tmp_path / "shot.toml").write_text(TEXT)
     (tmp_path / "study.toml").write_text(STUDY)
     assert call(["sweep", str(tmp_path / "shot.toml")]) == 2
-    assert "is a deck, which `hydro2d run` runs" in capsys.readouterr().err
+    assert "is a deck; run it with `hydro2d run`" in capsys.readouterr().err
     assert call(["run", str(tmp_path / "study.toml")]) == 2
-    assert "is a study, which `hydro2d sweep`" in capsys.readouterr().err
+    assert "is a study, not a deck; run it with `hydro2d sweep`" in capsys.readouterr().err
 
 
 def test_a_deck_of_the_user_is_not_overwritten(tmp_path, capsys):
     (tmp_path / "deck.toml").write_text(TEXT)
     assert call(["run", str(tmp_path / "deck.toml"), "--out", str(tmp_path), "--overwrite", "--quiet"]) == 2
-    assert "deck.toml is no run's" in capsys.readouterr().err
+    assert "deck.toml does not belong to a run" in capsys.readouterr().err
     assert (tmp_path / "deck.toml").read_text() == TEXT
     run.run(deck.loads(TEXT, ["stop.cycles=1"]), tmp_path / "out", quiet=True)
     assert run.run(deck.loads(TEXT, ["stop.cycles=1"]), tmp_path / "out", overwrite=True, quiet=True)["cycles"] == 1
@@ -133,7 +133,7 @@ def test_an_end_that_misses_whole_cells_by_a_trifle_is_met_and_told():
     meant = deck.loads(TEXT, ['mesh.z=[{to="20 mm", size="0.5 mm"}]'])
     assert [text for text in deck.warnings(meant) if text.startswith("mesh")] == []
     snapped = deck.loads(TEXT, ['mesh.z=[{to="20.00004 mm", size="0.5 mm"}]'])
-    assert deck.warnings(snapped)[0] == "mesh.z[0]: ends 8e-05 of a cell from a whole number, so the cells were made to fit"
+    assert deck.warnings(snapped)[0] == "mesh.z[0]: ends 8e-05 of a cell from a whole number; the cells were adjusted"
     edges = deck.edges(snapped)[1]
     assert (len(edges), edges[-1]) == (41, 20.00004e-3)
     assert np.ptp(np.diff(edges)) < 1e-15

@@ -127,8 +127,8 @@ def test_check_says_the_velocity():
     ("options", "words"),
     [
         (['boundaries.z_max="velocity"'], "needs z_max_velocity"),
-        (['boundaries.z_max_velocity="3 m/s"'], 'means nothing without z_max = "velocity"'),
-        (['sliding.method="contact"', 'sliding.hard=["bar"]'], "a contact has no edges with a velocity"),
+        (['boundaries.z_max_velocity="3 m/s"'], 'has no meaning without z_max = "velocity"'),
+        (['sliding.method="contact"', 'sliding.hard=["bar"]'], "a contact allows no edge with a velocity"),
     ],
 )
 def test_what_makes_no_sense_is_said(options, words):
