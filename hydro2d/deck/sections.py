@@ -151,13 +151,15 @@ class Numerics(Section):
     mixed_strength: Literal["volume", "solid", "zero", "max", "material"] = Field(
         "volume", description="strength of a mixed cell: shared by volume, by solids, none, the largest, each its own"
     )
-    trace: Fraction = Field(1e-8, lt=0.01, description="volume fractions below this are removed and booked", examples=[1e-09])
+    cutoff: Fraction = Field(
+        1e-8, lt=0.01, description="volume fractions below this are removed; the audit has what they held", examples=[1e-09]
+    )
     mass_floor: Fraction = Field(
         1e-6, description="share of a vertex's full mass below which its velocity is limited", examples=[1e-05]
     )
     clip_limit: Fraction = Field(
-        0.02, description="share of the energy that a clip (removed traces, the bound of ke, the speed limit) may take before "
-        "the run ends as unphysical; a summary is trustworthy up to 0.02, whatever stands here",
+        0.02, description="share of the energy that a clip (sub-cutoff fractions, the bound of ke, the speed limit) may take "
+        "before the run ends as unphysical; a summary is trustworthy up to 0.02, whatever stands here",
         examples=[0.05],
     )
     active_region: bool = Field(True, description="skip cells that no signal has reached")
@@ -194,12 +196,12 @@ Factor = Annotated[float | str, BeforeValidator(_factor), WithJsonSchema(_NUMBER
 
 
 class Sliding(Section):
-    """Sliding between hard bodies and the rest; keys that say nothing of a contact belong to the slip layer."""
+    """Sliding between hard and soft bodies; keys that say nothing of a contact belong to the slip layer."""
 
     method: Literal["none", "slip-layer", "contact"] = Field(
         "none",
-        description="none: bodies stick as the mesh lets them; slip-layer: soft material beside the hard bodies loses its "
-        "shear; contact: the hard bodies have velocities of their own",
+        description="none: tied contact, as far as the mesh holds the bodies together; slip-layer: soft material "
+        "beside the hard bodies loses its shear; contact: the hard bodies have velocities of their own",
     )
     hard: tuple[str, ...] = Field(
         (), description="bodies that keep their own strength in mixed cells, or that a contact gives velocities of their own",
@@ -235,9 +237,10 @@ class Failure(Section):
     max_opening: Fraction = Field(
         0.2, gt=0, description="largest share of a cell that becomes void in one cycle", examples=[0.1]
     )
-    loose: Fraction = Field(
-        0.94, lt=1, description="share of the reference density below which a material carries no shear; 0: never",
-        examples=[0.9],
+    strength_cutoff: Fraction = Field(
+        0.94, lt=1, examples=[0.9],
+        description="low-density cutoff of strength: share of the reference density below which a material carries no shear; "
+        "0: never",
     )
 
 

@@ -29,13 +29,13 @@ class Method:
     tipton: bool
     relaxation: float
     mixed_strength: int
-    trace: float
+    cutoff: float
     mass_floor: float
     active_region: bool
     interface_order: np.ndarray
     smallest_tension: bool
     max_opening: float
-    loose: float
+    strength_cutoff: float
     hard: np.ndarray
     threshold: float
     slip_widths: tuple[float, float] | None
@@ -71,13 +71,13 @@ class Method:
             tipton=n.mixed_cell == "tipton",
             relaxation=n.relaxation,
             mixed_strength=mixed.STRENGTH_MODES.index(n.mixed_strength),
-            trace=n.trace,
+            cutoff=n.cutoff,
             mass_floor=n.mass_floor,
             active_region=n.active_region,
             interface_order=np.array([slots.index(name) for name in order], dtype=np.int64),
             smallest_tension=failure.tension == "min",
             max_opening=failure.max_opening,
-            loose=failure.loose,
+            strength_cutoff=failure.strength_cutoff,
             hard=hard,
             threshold=slide.threshold,
             slip_widths=widths if layer else None,

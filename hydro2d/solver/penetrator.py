@@ -250,7 +250,7 @@ class Penetrator:
 
     def _outflow(self) -> float:
         """Mass of the rod that has left through open edges, kg."""
-        return float(self.sim.ledger.sinks["outflow"].mass[self.m]) * self._around
+        return float(self.sim.audit.sinks["outflow"].mass[self.m]) * self._around
 
     @property
     def left(self) -> bool:
