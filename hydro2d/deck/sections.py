@@ -22,7 +22,7 @@ from hydro2d.deck.base import (
     within,
 )
 from hydro2d.deck.bodies import AnyBody
-from hydro2d.mesh.edges import words
+from hydro2d.mesh.boundary_conditions import words
 
 _SEGMENTS = (
     "{to, cells}, {to, size}, {cells, size}, {to, ratio}, {cells, ratio}, {to, last}; the last three take `first` too, "
@@ -200,8 +200,8 @@ class Sliding(Section):
 
     method: Literal["none", "slip-layer", "contact"] = Field(
         "none",
-        description="none: tied contact, as far as the mesh holds the bodies together; slip-layer: soft material "
-        "beside the hard bodies loses its shear; contact: the hard bodies have velocities of their own",
+        description="none: one velocity for all bodies, which is tied contact; slip-layer: soft material beside the hard "
+        "bodies loses its shear; contact: the hard bodies have velocities of their own",
     )
     hard: tuple[str, ...] = Field(
         (), description="bodies that keep their own strength in mixed cells, or that a contact gives velocities of their own",

@@ -8,7 +8,7 @@ import numpy as np
 
 from hydro2d.deck import deck as decks
 from hydro2d.kernels import mixed, momentum, sliding
-from hydro2d.mesh.edges import BY_NAME, EDGES, Edges
+from hydro2d.mesh.boundary_conditions import BY_NAME, EDGES, BoundaryConditions
 
 
 @dataclass(frozen=True)
@@ -44,7 +44,7 @@ class Method:
     refresh: int
     yield_factor: np.ndarray
     group: np.ndarray
-    boundaries: Edges
+    boundaries: BoundaryConditions
 
     @classmethod
     def from_deck(cls, deck, slots: list[str], widths: tuple[float, float], factor: float) -> Method:
@@ -86,5 +86,5 @@ class Method:
             refresh=slide.refresh,
             yield_factor=np.where(hard | (group == 1), factor, 1.0),
             group=group,
-            boundaries=Edges(kinds, velocity),
+            boundaries=BoundaryConditions(kinds, velocity),
         )

@@ -8,7 +8,7 @@ import numpy as np
 
 from hydro2d.deck import deck as decks
 from hydro2d.mesh import sums
-from hydro2d.mesh.edges import BY_NAME
+from hydro2d.mesh.boundary_conditions import BY_NAME
 from hydro2d.mesh.sums import HALF
 from hydro2d.solver.targets import Target
 

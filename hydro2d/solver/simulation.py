@@ -12,7 +12,7 @@ from hydro2d.deck import deck as decks
 from hydro2d.errors import UnphysicalState, unknown
 from hydro2d.materials import library
 from hydro2d.mesh import fields, quantities, sums
-from hydro2d.mesh.edges import Edges
+from hydro2d.mesh.boundary_conditions import BoundaryConditions
 from hydro2d.mesh.grid import Grid
 from hydro2d.mesh.state import State
 from hydro2d.solver import bodies, insertion, tracers
@@ -93,7 +93,7 @@ class Simulation:
         inner, outer, *_ = method.boundaries.having("mirrors")
         return FollowingMesh(self.state, space, slots.index(name), direction, (inner, outer))
 
-    def _insert(self, edges: Edges) -> None:
+    def _insert(self, conditions: BoundaryConditions) -> None:
         """Fills the mesh.
 
         Vertex velocities of a body group are the mass-weighted means of its own in the cells around; where nothing of it is
@@ -116,7 +116,7 @@ class Simulation:
             np.divide(vertex, dual, out=vertex, where=dual > 0)
             vertex[...] = np.where(dual > 0, vertex, vertex[::-1])
         ends = (g.g, g.g + g.nr, g.g, g.g + g.nz)
-        for edge, (at, holds, velocity) in enumerate(zip(ends, edges.having("holds"), edges.velocity, strict=True)):
+        for edge, (at, holds, velocity) in enumerate(zip(ends, conditions.having("holds"), conditions.velocity, strict=True)):
             if holds:
                 (s.u[..., at] if edge < 2 else s.v[:, at])[...] = velocity
 

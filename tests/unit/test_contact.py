@@ -191,7 +191,7 @@ def test_a_tracer_changes_its_group_with_its_place(contact):
     contact.state.vof[1, CUT[0] + 2] = 1.0
     points = np.array([[1.5e-3, 0.3e-3], [6.5e-3, 3e-3]])
     g, s = contact.grid, contact.state
-    tracers.follow(g.g, g.nr, g.nz, 1e-3, g.r, g.z, s.group, s.vof, s.u, s.v, points)
+    tracers.advect(g.g, g.nr, g.nz, 1e-3, g.r, g.z, s.group, s.vof, s.u, s.v, points)
     np.testing.assert_allclose(points, [[1.5e-3, -1.7e-3], [6.5e-3, 2e-3]], rtol=1e-12)
 
 
