@@ -18,7 +18,7 @@ pressed = contact_velocities.pressed.py_func
 face_aperture = contact_geometry.face_aperture.py_func
 filled_share = contact_geometry.filled_share.py_func
 
-#: edges of a graded mesh, as kernels see them
+#: edges of the cells of a graded mesh, as kernels see them
 R, Z = np.cumsum(1.0 + 0.3 * np.sin(np.arange(12))), np.cumsum(0.8 + 0.2 * np.cos(np.arange(12)))
 NOWHERE = np.full(4, -1)
 
@@ -32,7 +32,7 @@ CELLS = [(dj, di) for dj in range(-REACH, REACH) for di in range(-REACH, REACH)]
 
 
 @pytest.mark.parametrize(("dj", "di"), CELLS)
-def test_a_light_vertex_has_the_linear_field_of_its_cell(dj, di):
+def test_a_slave_has_the_linear_field_of_its_cell(dj, di):
     j, i, code = 5, 6, code_of(dj, di)
     weights = np.full((4, 2, 12, 12), np.nan)
     weigh(1, j, i, code, R, Z, weights)
@@ -45,7 +45,7 @@ def test_a_light_vertex_has_the_linear_field_of_its_cell(dj, di):
     assert {group for group, *_ in found} == {1}
 
 
-def test_a_vertex_that_sticks_moves_with_the_other_group():
+def test_a_node_in_tied_contact_moves_with_the_other_group():
     assert number_of_masters(TIED) == 1
     assert master(0, 0, 5, 6, TIED, None) == (1, 5, 6, 1.0)
     assert master(0, 1, 5, 6, TIED, None) == (0, 5, 6, 1.0)
@@ -60,7 +60,7 @@ def test_a_vertex_that_is_linked_moves_with_one_of_its_group():
 
 def test_codes_do_not_meet():
     assert len({FREE, TIED, *range(25), *(code_of(*cell) for cell in CELLS)}) == 2 + 25 + len(CELLS)
-    assert max(code_of(*cell) for cell in CELLS) < 128  # link is an int8
+    assert max(code_of(*cell) for cell in CELLS) < 128  # masters is an int8
 
 
 def test_axis_and_walls_hold_one_component():
@@ -82,7 +82,7 @@ def test_an_impulse_moves_what_is_not_held(constrained, gained):
     assert mass[0, 1, 1] * v[0, 1, 1] + transfer[4, 1] == -4.0  # what moves and what a wall takes is the impulse
 
 
-def test_a_light_vertex_is_as_heavy_as_all_that_move_with_it():
+def test_a_slave_is_as_heavy_as_it_and_its_masters():
     mass, ease = np.full((2, 2, 2), 4.0), np.zeros((2, 2, 2, 2))
     assert mobility(0, 1, 1, FREE, mass, ease) == 0.25
     ease[:, 0, 1, 1] = 1.0 / 6.0  # they yield like one mass of 6
@@ -113,7 +113,7 @@ def test_the_line_of_a_cell_wets_its_edges():
     assert face_aperture(0, 0, 0.0, 0.0, 0.0, 1.0, True, line, hard, soft) == (1.0, 1.0, 1.0)
     assert face_aperture(0, 0, 1.0, 0.0, 1.0, 1.0, True, line, hard, soft) == (1.0, 0.0, 0.0)
     solid, low, high = face_aperture(0, 0, 0.0, 0.0, 1.0, 0.0, True, line, hard, soft)
-    assert (solid, low + high) == (1.0, pytest.approx(2.0 * 0.25))  # the two ends share the quarter that is wetted
+    assert (solid, low + high) == (1.0, pytest.approx(2.0 * 0.25))  # the two ends share the quarter that is open
     assert low > high
 
 
@@ -177,7 +177,7 @@ def links(damage: float) -> np.ndarray:
     return masters[:, grid.g:, grid.g:]
 
 
-def test_a_crumb_sticks_in_debris_alone():
+def test_a_crumb_is_tied_in_debris_alone():
     sound, failed = links(0.9), links(1.0)
     assert extended_cell(6, 5, sound[0, 6, 5])[1] == 7
     assert (failed[0, 6:8, 4:6] == TIED).all()

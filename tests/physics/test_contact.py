@@ -31,12 +31,12 @@ ALONG = (np.arange(20000) + 0.5) / 20000
 @settings(deadline=None)
 @given(LEVEL, LEVEL)
 def test_apertures_are_twice_the_integrals_of_the_linear_functions_over_the_open_part(first, last):
-    wet = first + (last - first) * ALONG >= 0.0
-    expected = 2.0 * np.mean((1.0 - ALONG) * wet), 2.0 * np.mean(ALONG * wet)
+    open_part = first + (last - first) * ALONG >= 0.0
+    expected = 2.0 * np.mean((1.0 - ALONG) * open_part), 2.0 * np.mean(ALONG * open_part)
     assert end_apertures(first, last) == pytest.approx(expected, abs=2e-4)
 
 
-def test_of_a_face_that_is_wetted_to_its_middle_the_near_end_has_three_quarters_and_the_far_one_a_quarter():
+def test_of_a_face_that_is_open_to_its_middle_the_near_end_has_three_quarters_and_the_far_one_a_quarter():
     assert end_apertures(0.2, -0.2) == (0.75, 0.25)
 
 
@@ -48,7 +48,7 @@ def test_a_face_seen_from_its_other_end_has_the_same_apertures(first, last):
 
 @settings(deadline=None)
 @given(LEVEL.filter(bool), LEVEL.filter(bool))
-def test_what_the_one_group_does_not_wet_the_other_does(first, last):
+def test_what_the_one_group_leaves_the_other_has(first, last):
     np.testing.assert_allclose(np.add(end_apertures(first, last), end_apertures(-first, -last)), 1.0, rtol=1e-14)
 
 
@@ -281,10 +281,10 @@ def test_with_one_groups_velocities_a_cell_grows_as_its_corners_move(geometry, g
 def test_by_the_apertures_of_one_group_the_rate_is_that_groups(aperture):
     g = small("cylindrical")
     u, v = velocities(g, 12)
-    wet = np.full_like(u, aperture)
+    apertures = np.full_like(u, aperture)
     for i in COLUMNS:
         one = rate_of_volume(g, 2, i, u[int(aperture)], v[int(aperture)])
-        assert rate(g, 2, i, BOTH, wet, wet, u, v) == pytest.approx(one, rel=1e-5)
+        assert rate(g, 2, i, BOTH, apertures, apertures, u, v) == pytest.approx(one, rel=1e-5)
 
 
 def test_where_both_groups_move_alike_the_apertures_do_not_matter():
@@ -315,23 +315,23 @@ def apertures_of_line(g, j, i, n_r, n_z, place):
 @pytest.mark.parametrize("place", [(0.5, 0.5), (0.1, 0.3), (0.7, 0.9)])
 def test_slip_along_a_straight_line_changes_no_volume(angle, place):
     g, n_r, n_z = small("planar"), np.cos(angle), np.sin(angle)
-    wet = apertures_of_line(g, 2, 3, n_r, n_z, place)
+    apertures = apertures_of_line(g, 2, 3, n_r, n_z, place)
     u, v = np.zeros((2, 2, *g.vertex_shape))
     u[HARD], v[HARD] = -800.0 * n_z, 800.0 * n_r
-    assert rate(g, 2, 3, BOTH, *wet, u, v) == pytest.approx(0.0, abs=1e-11)
+    assert rate(g, 2, 3, BOTH, *apertures, u, v) == pytest.approx(0.0, abs=1e-11)
 
 
 def test_groups_that_close_in_take_the_volume_that_the_line_sweeps():
     """A line 2 r/dr + z/dz = 1 through the cell, hard below: its length times the speed along its normal."""
     g = small("planar")
-    wet = apertures_of_line(g, 2, 3, 2.0 / g.dr[3], 1.0 / g.dz[2], (0.5, 0.0))
+    apertures = apertures_of_line(g, 2, 3, 2.0 / g.dr[3], 1.0 / g.dz[2], (0.5, 0.0))
     u, v = np.zeros((2, 2, *g.vertex_shape))
     u[HARD], v[HARD] = 3.0, 5.0
     triangle = g.r[3] + np.array([0.0, 0.5, 0.0]) * g.dr[3], g.z[2] + np.array([0.0, 0.0, 1.0]) * g.dz[2]
     moved = triangle[0] + np.array([0.0, 3.0, 3.0]), triangle[1] + np.array([0.0, 5.0, 5.0])
     # from the side of the triangle that is the line to where it would be one second later
     swept = polygon_volume(*(np.array([a[1], b[1], b[2], a[2]]) for a, b in zip(triangle, moved, strict=True)), False)
-    assert rate(g, 2, 3, BOTH, *wet, u, v) == pytest.approx(-swept)
+    assert rate(g, 2, 3, BOTH, *apertures, u, v) == pytest.approx(-swept)
 
 
 # ----------------------------------------------------------------------------------------------------------- bodies

@@ -51,13 +51,13 @@ def close(simulation):
     audit.add("advection", energy=gone)
 
 
-def test_energy_that_nobody_booked(shot):
+def test_energy_that_nobody_recorded(shot):
     shot.state.e[0] *= 1.0 + 1e-3
     (fault,) = shot.faults()
     assert fault.startswith("the energy does not add up: ")
 
 
-def test_mass_that_nobody_booked(shot):
+def test_mass_that_nobody_recorded(shot):
     shot.state.rho[1] *= 1.0 + 1e-5
     close(shot)
     (fault,) = shot.faults()

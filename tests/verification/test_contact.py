@@ -149,7 +149,7 @@ def test_load_without_friction_drags_nothing():
     assert abs(slider) < 1e-4 * p
 
 
-def test_a_single_velocity_sticks():
+def test_a_single_velocity_is_tied_contact():
     """Welded, the blocks send shear waves of 50 m/s/(1/Z_W + 1/Z_Al) into each other: 358 MPa, until 1.49 us."""
     slider, base, _ = tractions(run("block_level_friction", *SINGLE, "stop.time=1.4e-6"))
     impedance = [math.sqrt(rho * modulus) for rho, modulus in ((18160.0, 145e9), (2660.0, 26e9))]

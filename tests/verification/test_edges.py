@@ -151,7 +151,7 @@ def test_a_plane_wave_leaves_through_a_transmitting_edge(velocity, component, ti
     assert np.abs(left - endless).max() < (0.15 if component == "v" else 0.3)
 
 
-def test_what_goes_through_transmitting_edges_is_booked():
+def test_what_goes_through_transmitting_edges_is_recorded():
     simulation = Simulation(decks.loads(WAVE, ["body.kick.velocity=[0.0, 10.0]", "stop.time=4e-6"]))
     start = simulation.conservation()["start_energy_J"]
     middle(simulation, "v")

@@ -60,7 +60,7 @@ def test_a_linear_field_stays_linear(angle):
     assert max(np.abs(after[:, :, j, i] - before[:, :, j, i]).max() for j, i in inside) < 1e-6  # of 600 m/s
 
 
-def test_light_vertices_keep_momentum_and_lose_energy():
+def test_slave_nodes_keep_momentum_and_lose_energy():
     """Whatever the slave nodes did before: the momentum stays, and the kinetic energy that is lost is the heat."""
     simulation = shipped("block_inclined_30")
     before, after, _ = settled(simulation, disturb=50.0)
