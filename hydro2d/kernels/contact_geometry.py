@@ -5,7 +5,8 @@ nodes are contact-interface cells, and everything in the kernels of contact is d
 row, the smallest range that holds its contact-interface cells. Elsewhere one group is alone and the other kernels are right
 (explanation/sliding, contact).
 
-A face has for either end the aperture of the hard group, aperture[end, j, i]; that of the soft group is what is missing to 1.
+A face has for either end the aperture of the hard group, aperture[end, j, i], which is the weight w of explanation/sliding,
+equation 1; that of the soft group is what is missing to 1.
 """
 
 from math import sqrt

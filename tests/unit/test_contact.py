@@ -209,10 +209,10 @@ def test_fields_of_a_contact(contact):
     set_velocities(contact, (5.0, 100.0), (7.0, 900.0))
     state.contact_pressure[CUT[0] + grid.g, CUT[1] + grid.g] = 2e9
     found = derived.evaluate(contact, ["standard"])
-    velocity, hard, rest = (found[f"Velocity{of} [m/s]"] for of in ("", " of Hard Bodies", " of the Rest"))
-    assert velocity.shape == hard.shape == rest.shape == (16, 8, 3)
+    velocity, hard, soft = (found[f"Velocity{of} [m/s]"] for of in ("", " of Hard Bodies", " of Soft Bodies"))
+    assert velocity.shape == hard.shape == soft.shape == (16, 8, 3)
     assert [hard[cell].tolist() for cell in (PURE, CUT, PLATE, VOID)] == [[7, 900, 0], [7, 900, 0], [0, 0, 0], [0, 0, 0]]
-    assert [rest[cell].tolist() for cell in (PURE, CUT, PLATE, VOID)] == [[0, 0, 0], [5, 100, 0], [5, 100, 0], [0, 0, 0]]
+    assert [soft[cell].tolist() for cell in (PURE, CUT, PLATE, VOID)] == [[0, 0, 0], [5, 100, 0], [5, 100, 0], [0, 0, 0]]
     rod, plate = 0.4 * grid.interior(state.rho[0])[CUT], 0.6 * grid.interior(state.rho[1])[CUT]
     mean = [(rod * of_rod + plate * of_plate) / (rod + plate) for of_rod, of_plate in ((7.0, 5.0), (900.0, 100.0))]
     np.testing.assert_allclose(velocity[CUT], [*mean, 0.0], rtol=1e-12)
