@@ -147,16 +147,17 @@ def results_page() -> str:
     return "\n\n".join([
         "# Results", NOTE,
         "In a name, `BODY` stands for the name of a body, `TARGET` for that of a target, "
-        "`STATION` for `tracer_NAME` or `gauge_NAME`, `SINK` and `EXCHANGE` "
-        "for one of the [names below](#sinks-and-exchanges). All numbers are in SI units, of the whole circumference, and in "
-        "planar geometry per metre of depth. A number that is not known is NaN in the history and `null` in the summary: that "
-        "of a rod in a deck without rod and target, of a station outside of the mesh.",
+        "`STATION` for `tracer_NAME` or `gauge_NAME`, `SINK` and `TRANSFER` "
+        "for one of the [names below](#sinks-and-contact-transfers). All numbers are in SI units, of the whole "
+        "circumference, and in planar geometry per metre of depth. A number that is not known is NaN in the history and "
+        "`null` in the summary: that of a rod in a deck without rod and target, of a station outside of the mesh.",
         "## Columns of `history.h5`", table(("column", "unit", "meaning"), rows(columns.HISTORY)),
         "## Keys of `summary.json`", "A dot leads into a table.",
         table(("key", "unit", "meaning"), rows(columns.SUMMARY)),
-        "## Sinks and exchanges",
+        "## Sinks and contact transfers",
         table(("sink", "what it is"), ((f"`{name}`", meaning) for name, meaning in audit.SINKS.items())),
-        table(("exchange", "what it is"), ((f"`{name}`", meaning) for name, meaning in audit.EXCHANGES.items())),
+        table(("contact transfer", "what it is"),
+              ((f"`{name}`", meaning) for name, meaning in audit.CONTACT_TRANSFERS.items())),
     ])  # fmt: skip
 
 

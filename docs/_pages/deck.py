@@ -163,7 +163,7 @@ def page() -> str:
 
 def boundary_conditions() -> str:
     """The table of boundary conditions."""
-    from hydro2d.mesh.edges import BOUNDARIES, EDGES
+    from hydro2d.mesh.boundary_conditions import BOUNDARIES, EDGES
 
     rows = (
         (f"`{b.name}`", "every edge" if b.edges == EDGES else ", ".join(f"`{edge}`" for edge in b.edges),

@@ -10,7 +10,7 @@ from hydro2d.deck.mesh import SegmentError, axis_edges, body, body_radius
 from hydro2d.deck.sections import Deck, Sliding
 from hydro2d.deck.shapes import outline
 from hydro2d.errors import unknown
-from hydro2d.mesh.edges import BY_NAME, EDGES
+from hydro2d.mesh.boundary_conditions import BY_NAME, EDGES
 
 #: rod radii that a mesh should reach ahead of the rod that it follows; at this distance its edge no longer affects the rod
 AHEAD = 20

@@ -53,6 +53,8 @@ Overrides = Sequence[str] | Mapping[str, Any]
 
 #: the context in which a Deck may be validated: its defaults are resolved afterwards
 _RESOLVING = {"resolving": True}
+#: keys of decks of older versions, and what they are called now
+RENAMED = {"numerics.trace": "numerics.cutoff", "failure.loose": "failure.strength_cutoff"}
 
 
 class Deck(sections.Deck):
@@ -231,7 +233,7 @@ def _explained(entry: dict, data: dict) -> tuple[tuple, str]:
     path, kind = _key_path(entry["loc"], data), entry["type"]
     context = entry.get("ctx", {})
     if kind == "extra_forbidden":
-        return path, unknown("key", str(path[-1]), _allowed_keys(path[:-1], data))
+        return path, _no_such_key(path, _allowed_keys(path[:-1], data))
     if kind == "missing":
         return path, "is missing"
     if kind == "value_error":
@@ -265,6 +267,21 @@ def _key_path(loc: tuple, data: Any) -> tuple:
     return path
 
 
+def renewed(data: dict) -> dict:
+    """The tables of a deck that an older version may have written, with the keys of today."""
+    for old, new in RENAMED.items():
+        (section, key), (place, name) = old.split("."), new.split(".")
+        if isinstance(data.get(section), dict) and key in data[section]:
+            data.setdefault(place, {})[name] = data[section].pop(key)
+    return data
+
+
+def _no_such_key(path: tuple, allowed: list[str]) -> str:
+    """What is said of a key that no deck has: its name of today, if it had another, else what is allowed in its place."""
+    now = RENAMED.get(spelled(path))
+    return f"is now called {now}" if now else unknown("key", str(path[-1]), allowed)
+
+
 def _allowed_keys(path: tuple, data: dict) -> list[str]:
     """Keys of the table at ``path``."""
     model: Any = Deck
@@ -291,7 +308,8 @@ def key_problem(data: dict, key: str) -> str | None:
             continue
         allowed = _allowed_keys(path, data)
         if allowed and part not in allowed:
-            return f"{spelled(path)}: {unknown('key', part, allowed)}" if path else unknown("key", part, allowed)
+            problem = _no_such_key((*path, part), allowed)
+            return f"{spelled(path)}: {problem}" if path else problem
         path, place = (*path, part), place.get(part) if isinstance(place, dict) else None
     return None
 

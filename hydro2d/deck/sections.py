@@ -22,7 +22,7 @@ from hydro2d.deck.base import (
     within,
 )
 from hydro2d.deck.bodies import AnyBody
-from hydro2d.mesh.edges import words
+from hydro2d.mesh.boundary_conditions import words
 
 _SEGMENTS = (
     "{to, cells}, {to, size}, {cells, size}, {to, ratio}, {cells, ratio}, {to, last}; the last three also take `first`, "
@@ -158,7 +158,7 @@ class Numerics(Section):
         "volume", description="strength of a mixed cell: mean over its volume, mean over the volume of the materials, none, "
         "the largest, or that of each material"
     )
-    trace: Fraction = Field(
+    cutoff: Fraction = Field(
         1e-8, lt=0.01, description="volume fractions below this are removed and listed in the conservation audit",
         examples=[1e-09],
     )
@@ -166,8 +166,8 @@ class Numerics(Section):
         1e-6, description="fraction of a node's full mass below which its velocity is limited", examples=[1e-05]
     )
     clip_limit: Fraction = Field(
-        0.02, description="fraction of the energy that a clip (removed volume fractions, the bound of ke, the speed limit) may "
-        "remove before the run ends as unphysical; whatever this value, a summary is trustworthy only up to 0.02",
+        0.02, description="fraction of the energy that a clip (sub-cutoff volume fractions, the bound of ke, the speed limit) "
+        "may remove before the run ends as unphysical; whatever this value, a summary is trustworthy only up to 0.02",
         examples=[0.05],
     )
     active_region: bool = Field(True, description="skip cells that no signal has reached")
@@ -205,12 +205,12 @@ Factor = Annotated[float | str, BeforeValidator(_factor), WithJsonSchema(_NUMBER
 
 
 class Sliding(Section):
-    """Sliding between hard bodies and the others. Keys that do not mention a contact belong to the slip layer."""
+    """Sliding between hard and soft bodies. Keys that do not mention a contact belong to the slip layer."""
 
     method: Literal["none", "slip-layer", "contact"] = Field(
         "none",
-        description="none: no special treatment, all bodies share one velocity field; slip-layer: soft material beside the "
-        "hard bodies loses its shear stress; contact: the hard bodies have velocities of their own",
+        description="none: tied contact, all bodies share one velocity field; slip-layer: soft material beside the hard "
+        "bodies loses its shear stress; contact: the hard bodies have velocities of their own",
     )
     hard: tuple[str, ...] = Field(
         (), description="bodies that keep their own strength in mixed cells (slip layer) or have own velocities (contact)",
@@ -254,9 +254,10 @@ class Failure(Section):
     max_opening: Fraction = Field(
         0.2, gt=0, description="largest fraction of a cell that becomes void in one cycle", examples=[0.1]
     )
-    loose: Fraction = Field(
-        0.94, lt=1, description="fraction of the reference density below which a material carries no shear; 0: never",
-        examples=[0.9],
+    strength_cutoff: Fraction = Field(
+        0.94, lt=1, examples=[0.9],
+        description="low-density strength cutoff: fraction of the reference density below which a material carries no shear; "
+        "0: never",
     )
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from hydro2d.deck.checks import AHEAD, extent, room
 from hydro2d.deck.mesh import axis_edges, body, misfits
 from hydro2d.deck.sections import Deck
-from hydro2d.mesh.edges import BY_NAME
+from hydro2d.mesh.boundary_conditions import BY_NAME
 
 #: a body whose density is below this share of the densest one's is a gas
 GAS = 0.01

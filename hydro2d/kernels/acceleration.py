@@ -3,7 +3,7 @@
 from math import sqrt
 
 from hydro2d.jit import kernel, prange, rowwise
-from hydro2d.kernels.spans import block_rows, columns, copy_beside, number_of_blocks, spread, union
+from hydro2d.kernels.column_ranges import block_rows, columns, copy_beside, number_of_blocks, spread, union
 from hydro2d.mesh.fields import SRR, SRZ, SZZ
 from hydro2d.mesh.grid import AZ_IN, AZ_OUT, CM_IN, CM_OUT, FACE_R, HOOP, MID_R, VOL_R
 from hydro2d.physics.advection import TINY
@@ -15,8 +15,8 @@ SILENCE = 1e-20
 
 
 @rowwise
-def total_stress_row(j, dt, metrics, dz, span, reach, mixed_count, mixed, solid_mode, hard, hard_threshold, u, v, vof, q, p,
-                     bulk, solid, qr, qz, ph, sig_rr, sig_zz, sig_tt, sig_rz):
+def total_stress_row(j, dt, metrics, dz, body_range, active_range, mixed_count, mixed, solid_mode, hard, hard_threshold, u, v,
+                     vof, q, p, bulk, solid, qr, qz, ph, sig_rr, sig_zz, sig_tt, sig_rz):
     """sigma = s - (p + q) I with the pressure at half the step, p^(n+1/2) = p - (dt/2) K div u^n.
 
     The cell's deviator is sum f_m s_m, in mode `solid` divided by the share of solids; in the hard zone of a slip layer it is
@@ -26,7 +26,7 @@ def total_stress_row(j, dt, metrics, dz, span, reach, mixed_count, mixed, solid_
     Writes   ph, sig_rr, sig_zz, sig_tt, sig_rz [j, i]
     """
     bodies = vof.shape[0]
-    lo, n = columns(reach[j, 0], reach[j, 1])
+    lo, n = columns(active_range[j, 0], active_range[j, 1])
     rr = sig_rr[j]
     zz = sig_zz[j]
     tt = sig_tt[j]
@@ -42,7 +42,7 @@ def total_stress_row(j, dt, metrics, dz, span, reach, mixed_count, mixed, solid_
         a_j = q[SRR, m, j]
         b_j = q[SZZ, m, j]
         c_j = q[SRZ, m, j]
-        first, number = columns(span[m, j, 0], span[m, j, 1])
+        first, number = columns(body_range[m, j, 0], body_range[m, j, 1])
         for x in range(number):
             i = first + x
             rr[i] += f_j[i] * a_j[i]
@@ -79,20 +79,20 @@ def total_stress_row(j, dt, metrics, dz, span, reach, mixed_count, mixed, solid_
 
 
 @kernel
-def total_stress(j0, j1, dt, metrics, dz, span, reach, mixed_count, mixed, solid_mode, hard, hard_threshold, u, v, vof, q, p,
-                 bulk, solid, qr, qz, ph, sig_rr, sig_zz, sig_tt, sig_rz):
+def total_stress(j0, j1, dt, metrics, dz, body_range, active_range, mixed_count, mixed, solid_mode, hard, hard_threshold, u, v,
+                 vof, q, p, bulk, solid, qr, qz, ph, sig_rr, sig_zz, sig_tt, sig_rz):
     """total_stress_row for rows j0 to j1."""
     blocks = number_of_blocks(j0, j1)
     for place in prange(blocks):
         b = spread(place, blocks)
         first_row, last_row = block_rows(b, blocks, j0, j1)
         for j in range(first_row, last_row):
-            total_stress_row(j, dt, metrics, dz, span, reach, mixed_count, mixed, solid_mode, hard, hard_threshold, u, v, vof,
-                             q, p, bulk, solid, qr, qz, ph, sig_rr, sig_zz, sig_tt, sig_rz)
+            total_stress_row(j, dt, metrics, dz, body_range, active_range, mixed_count, mixed, solid_mode, hard, hard_threshold,
+                             u, v, vof, q, p, bulk, solid, qr, qz, ph, sig_rr, sig_zz, sig_tt, sig_rz)
 
 
 @kernel
-def vertex_masses(j0, j1, i0, i1, metrics, around, cell_mass, mass):
+def vertex_masses(j0, j1, i0, i1, metrics, group_ranges, cell_mass, mass):
     """Mass of the dual cells: corner shares of the four cells around a vertex, weighted by radius.
 
     Reads    cell_mass [b, j, i]
@@ -100,7 +100,7 @@ def vertex_masses(j0, j1, i0, i1, metrics, around, cell_mass, mass):
     """
     for j in prange(j0, j1):
         for b in range(mass.shape[0]):
-            lo, hi = around[b, 1, j, 0], around[b, 1, j, 1]
+            lo, hi = group_ranges[b, 1, j, 0], group_ranges[b, 1, j, 1]
             lo, n = columns(max(lo, i0), min(hi + 1, i1))
             below = cell_mass[b, j - 1]
             above = cell_mass[b, j]
@@ -111,10 +111,10 @@ def vertex_masses(j0, j1, i0, i1, metrics, around, cell_mass, mass):
 
 
 @rowwise
-def limit_speed_row(b, j, lo, n, speed_limit, light, metrics, mass, u0, v0, u, v, limited):
-    """Holds the thinly filled vertices of group b in row j to speed_limit; those that two groups share are the contact's.
+def limit_speed_row(b, j, lo, n, speed_limit, underfilled, metrics, mass, u0, v0, u, v, limited):
+    """Holds the under-filled nodes of group b in row j to speed_limit; contact nodes are left to the contact.
 
-    light is a quarter of the density below which a vertex is thinly filled, times the height of both rows of cells beside it.
+    underfilled is a quarter of the density below which a node is so, times the height of both rows of cells beside it.
 
     Reads    mass, u0, v0 [b, j, i]
     Updates  u, v [b, j, i]; limited [3, j]: momentum and energy taken, and how often
@@ -131,7 +131,7 @@ def limit_speed_row(b, j, lo, n, speed_limit, light, metrics, mass, u0, v0, u, v
         i = lo + x
         m = m_j[i]
         square = un[i] * un[i] + vn[i] * vn[i]
-        thin = m < light * (metrics[VOL_R, i - 1] + metrics[VOL_R, i])
+        thin = m < underfilled * (metrics[VOL_R, i - 1] + metrics[VOL_R, i])
         if square <= speed_limit * speed_limit or not thin:
             continue
         if not alone and other[i] > 0.0:
@@ -149,16 +149,16 @@ def limit_speed_row(b, j, lo, n, speed_limit, light, metrics, mass, u0, v0, u, v
 
 
 @rowwise
-def accelerate_row(b, j, i0, i1, dt, speed_limit, light_density, metrics, dz, occupied, mass, weight, sig_rr, sig_zz, sig_tt,
-                   sig_rz, u0, v0, u, v, limited):
+def accelerate_row(b, j, i0, i1, dt, speed_limit, underfilled_density, metrics, dz, occupied, mass, hg_coefficient, sig_rr,
+                   sig_zz, sig_tt, sig_rz, u0, v0, u, v, limited):
     """Velocities at the end of the Lagrangian step: u = u0 + dt f/M, f the sum of the corner forces of four cells.
 
     f_r = -[sig_rr (c_r - A/4) + sig_tt A/4 + sig_rz c_z],  f_z = -[sig_zz c_z + sig_rz g] per corner, and the filter of the
     hourglass mode (explanation/lagrangian-step, equations 4 and 6). The same corner forces do the work in `deform`. A
-    vertex whose dual cell is filled more thinly than light_density is held to speed_limit. Vertices that two groups share
-    are the contact's (explanation/sliding).
+    node whose dual cell is filled more thinly than underfilled_density is held to speed_limit. Contact nodes are left to the
+    contact (explanation/sliding).
 
-    Reads    u0, v0, mass [b, j, i]; sig_rr, sig_zz, sig_tt, sig_rz, weight (of the hourglass filter) [j, i]
+    Reads    u0, v0, mass [b, j, i]; sig_rr, sig_zz, sig_tt, sig_rz, hg_coefficient (of the hourglass filter) [j, i]
     Writes   u, v [b, j, i], of group 0 for whole rows
     Updates  limited [3, j]: momentum and energy taken by the speed limit, and its count
     """
@@ -177,8 +177,8 @@ def accelerate_row(b, j, i0, i1, dt, speed_limit, light_density, metrics, dz, oc
     tt_t = sig_tt[j]
     rz_b = sig_rz[j - 1]
     rz_t = sig_rz[j]
-    w_b = weight[j - 1]
-    w_t = weight[j]
+    w_b = hg_coefficient[j - 1]
+    w_t = hg_coefficient[j]
     u_b = u0[b, j - 1]
     u_c = u0[b, j]
     u_t = u0[b, j + 1]
@@ -217,12 +217,12 @@ def accelerate_row(b, j, i0, i1, dt, speed_limit, light_density, metrics, dz, oc
         axial = keep * v_c[i] + scale * force_z
         un[i] = radial if abs(radial) > SILENCE else 0.0
         vn[i] = axial if abs(axial) > SILENCE else 0.0
-    limit_speed_row(b, j, lo, n, speed_limit, light_density * 0.25 * (hb + ht), metrics, mass, u0, v0, u, v, limited)
+    limit_speed_row(b, j, lo, n, speed_limit, underfilled_density * 0.25 * (hb + ht), metrics, mass, u0, v0, u, v, limited)
 
 
 @kernel
-def accelerate(j0, j1, i0, i1, dt, speed_limit, light_density, metrics, dz, occupied, mass, weight, sig_rr, sig_zz, sig_tt,
-               sig_rz, u0, v0, u, v, limited):
+def accelerate(j0, j1, i0, i1, dt, speed_limit, underfilled_density, metrics, dz, occupied, mass, hg_coefficient, sig_rr,
+               sig_zz, sig_tt, sig_rz, u0, v0, u, v, limited):
     """accelerate_row for rows j0 to j1."""
     blocks = number_of_blocks(j0, j1)
     for place in prange(blocks):
@@ -231,12 +231,12 @@ def accelerate(j0, j1, i0, i1, dt, speed_limit, light_density, metrics, dz, occu
             for row in range(3):
                 limited[row, j] = 0.0
             for b in range(mass.shape[0]):
-                accelerate_row(b, j, i0, i1, dt, speed_limit, light_density, metrics, dz, occupied, mass, weight, sig_rr,
-                               sig_zz, sig_tt, sig_rz, u0, v0, u, v, limited)
+                accelerate_row(b, j, i0, i1, dt, speed_limit, underfilled_density, metrics, dz, occupied, mass, hg_coefficient,
+                               sig_rr, sig_zz, sig_tt, sig_rz, u0, v0, u, v, limited)
 
 
 @kernel
-def swept_volumes(j0, j1, i0, i1, dt, metrics, dz, around, u0, v0, u, v, fr, fz):
+def swept_volumes(j0, j1, i0, i1, dt, metrics, dz, group_ranges, u0, v0, u, v, fr, fz):
     """Volumes swept by the faces in the step, from the velocity at mid-step (explanation/remap, equation 1).
 
     F_r = dt r h <u>,  F_z = dt (a v_inner + b v_outer), with the areas of the cell vectors, so that their sum over a cell is
@@ -246,7 +246,7 @@ def swept_volumes(j0, j1, i0, i1, dt, metrics, dz, around, u0, v0, u, v, fr, fz)
     Writes   fr, fz [j, i]
     """
     for j in prange(j0, j1):
-        lo, hi = around[0, 1, j, 0], around[0, 1, j, 1]
+        lo, hi = group_ranges[0, 1, j, 0], group_ranges[0, 1, j, 1]
         lo, n = columns(max(lo, i0), min(hi, i1))
         ub = u[0, j]
         ub0 = u0[0, j]

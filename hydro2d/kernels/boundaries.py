@@ -20,10 +20,10 @@ def fill(m, j, i, from_j, from_i, mirror, fields, rules, vof, q):
 
 
 @kernel
-def ghost_columns(j0, j1, nr, mirror_low, mirror_high, fields, rules, span, vof, q):
+def ghost_columns(j0, j1, nr, mirror_low, mirror_high, fields, rules, body_range, vof, q):
     """Ghost cells left and right of rows j0 to j1, of bodies that are near or were: fractions and the first `fields` of q.
 
-    Reads    rules [m, k, 4]; span [m, j, 2]
+    Reads    rules [m, k, 4]; body_range [m, j, 2]
     Updates  vof [m, j, i], q [k, m, j, i]
     """
     g = GHOSTS
@@ -32,7 +32,7 @@ def ghost_columns(j0, j1, nr, mirror_low, mirror_high, fields, rules, span, vof,
             for side in range(2):
                 edge = g + nr - 1 if side else g  # the last cell of the mesh
                 out = 1 if side else -1
-                near = span[m, j, 1] > nr if side else span[m, j, 0] < 2 * g
+                near = body_range[m, j, 1] > nr if side else body_range[m, j, 0] < 2 * g
                 if not (near or vof[m, j, edge + out] > 0.0 or vof[m, j, edge + 2 * out] > 0.0):
                     continue
                 mirror = mirror_high if side else mirror_low

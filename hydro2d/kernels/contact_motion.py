@@ -3,8 +3,8 @@
 from math import sqrt
 
 from hydro2d.jit import apart, kernel, prange
-from hydro2d.kernels.contact import HARD_R, HARD_Z, SOFT_R, SOFT_Z
-from hydro2d.kernels.spans import mixed_row
+from hydro2d.kernels.column_ranges import mixed_row
+from hydro2d.kernels.contact_geometry import HARD_R, HARD_Z, SOFT_R, SOFT_Z
 from hydro2d.mesh.fields import RHO, SRR, SRZ, SZZ
 from hydro2d.mesh.grid import AZ_IN, AZ_OUT, FACE_R, HOOP, MID_R, VOL_R
 from hydro2d.physics.closure import common_pressure
@@ -18,23 +18,24 @@ SEED = 1e-11
 
 
 @kernel
-def cut_viscosity(j0, j1, edges, linear, quadratic, courant, dr, dz, metrics, cut, line, around, normal, wet_r, wet_z, hard,
-                  soft, u, v, cl, rhobar, vof, q, pm, km, p, solid, bulk, qr, qz, rate, row_step, mixed_count, mixed, scratch):
-    """Volume rate and viscosity of the cut cells, the step they allow, and room where their groups part.
+def contact_viscosity(j0, j1, mesh_box, linear, quadratic, courant, dr, dz, metrics, contact_columns, line, group_ranges,
+                      normal, aperture_r, aperture_z, hard, soft, u, v, cl, rhobar, vof, q, pm, km, p, solid, bulk, qr, qz,
+                      rate, row_step, mixed_count, mixed, scratch):
+    """Volume rate and viscosity of the contact-interface cells, the step they allow, and room where their groups part.
 
     A cell of both groups has the pressure at which they would meet, the mean of theirs by compressibility, and the density of
     that mean: the stiffer body's errors, or its mass, must not push the other. One q answers to the one rate of volume over the
     cell's length along the normal, unless the cell has void to lose. Where
     the groups part at a vertex of a cell without pressure where they meet, the cell is given a seed of void.
 
-    Reads    what face_weights wrote; hard, soft [j, i]; u, v [b, j, i]; pm, km [m, j, i]; cl, rhobar [j, i]
+    Reads    what face_apertures wrote; hard, soft [j, i]; u, v [b, j, i]; pm, km [m, j, i]; cl, rhobar [j, i]
     Updates  vof [m, j, i], q (rho) [k, m, j, i], p, solid, bulk [j, i], row_step [j], mixed_count [j], mixed [j, k]
     Writes   qr, qz, rate [j, i] (1/s)
     Scratch  scratch [row, i]
     """
     for j in prange(j0, j1):
         seeded = False
-        for i in range(cut[j, 0], cut[j, 1]):
+        for i in range(contact_columns[j, 0], contact_columns[j, 1]):
             rho = rhobar[j, i]
             if hard[j, i] > 0.0 and soft[j, i] > 0.0:
                 p[j, i], rho = common_pressure(j, i, vof, q, pm, km)
@@ -45,7 +46,7 @@ def cut_viscosity(j0, j1, edges, linear, quadratic, courant, dr, dz, metrics, cu
                     w = (normal[0, 0, row, column] * (u[1, row, column] - u[0, row, column])
                          + normal[0, 1, row, column] * (v[1, row, column] - v[0, row, column]))
                     opens = min(opens, w)
-            if opens < 0.0 and p[j, i] <= 0.0 and solid[j, i] > 1.0 - SEED and meeting(j, i, edges, hard, soft):
+            if opens < 0.0 and p[j, i] <= 0.0 and solid[j, i] > 1.0 - SEED and meeting(j, i, mesh_box, hard, soft):
                 for m in range(vof.shape[0]):
                     if vof[m, j, i] > 0.0:
                         vof[m, j, i] *= 1.0 - SEED
@@ -55,7 +56,7 @@ def cut_viscosity(j0, j1, edges, linear, quadratic, courant, dr, dz, metrics, cu
                 seeded = True
             h = dz[j]
             volume = metrics[VOL_R, i] * h
-            loss = -volume_rate(j, i, -1, metrics, h, wet_r, wet_z, u, v) / volume
+            loss = -volume_rate(j, i, -1, metrics, h, aperture_r, aperture_z, u, v) / volume
             rate[j, i] = -loss
             qr[j, i] = 0.0
             qz[j, i] = 0.0
@@ -73,20 +74,21 @@ def cut_viscosity(j0, j1, edges, linear, quadratic, courant, dr, dz, metrics, cu
                 sound = courant * min(dr[i], h) / sqrt(cl[j, i] * cl[j, i] + 2.0 * viscosity / rho)
                 row_step[j] = min(row_step[j], min(sound, 0.2 / loss if loss > 0.0 else 1e300))
         if seeded:
-            mixed_row(j, around[0, 0], vof, scratch, j, mixed_count, mixed)
+            mixed_row(j, group_ranges[0, 0], vof, scratch, j, mixed_count, mixed)
 
 
 @kernel
-def cut_stress(j0, j1, dt, cut, around, line, hard, soft, rate, p, bulk, ph, sig_rr, sig_zz, sig_tt, sig_rz, contact_pressure):
-    """The pressure of cut cells at half the step by their one rate of volume, and the normal pressure of the contact.
+def contact_stress(j0, j1, dt, contact_columns, group_ranges, line, hard, soft, rate, p, bulk, ph, sig_rr, sig_zz, sig_tt,
+                   sig_rz, contact_pressure):
+    """Pressure of contact-interface cells at half the step by their one rate of volume, and normal pressure of the contact.
 
     Reads    rate, p, bulk, hard, soft, sig_rz [j, i], line [9, j, i]
     Updates  ph, sig_rr, sig_zz, sig_tt [j, i];  writes contact_pressure [j, i], 0 where a cell does not hold both groups
     """
     for j in prange(j0, j1):
-        for i in range(around[1, 0, j, 0], around[1, 0, j, 1]):
+        for i in range(group_ranges[1, 0, j, 0], group_ranges[1, 0, j, 1]):
             contact_pressure[j, i] = 0.0
-        for i in range(cut[j, 0], cut[j, 1]):
+        for i in range(contact_columns[j, 0], contact_columns[j, 1]):
             pressure = p[j, i] - 0.5 * dt * bulk[j, i] * rate[j, i]
             gain = pressure - ph[j, i]
             ph[j, i] = pressure
@@ -114,7 +116,7 @@ def group_stress(g, j, i, group, solid_mode, solid, vof, q):
 
 
 @apart
-def corner_force(g, j, i, at_j, at_i, group, solid_mode, solid, vof, q, weight, cell_mass, metrics, dz, u0, v0):
+def corner_force(g, j, i, at_j, at_i, group, solid_mode, solid, vof, q, hg_coefficient, cell_mass, metrics, dz, u0, v0):
     """Force of the deviators of group g in cell (at_j, at_i), and of its hourglass filter, on vertex (j, i) (as accelerate)."""
     if cell_mass[g, at_j, at_i] == 0.0:
         return 0.0, 0.0
@@ -130,7 +132,7 @@ def corner_force(g, j, i, at_j, at_i, group, solid_mode, solid, vof, q, weight, 
     normal = h * (half - metrics[HOOP, at_i]) if left else -h * (half + metrics[HOOP, at_i])
     force_r = -(normal * rr + metrics[HOOP, at_i] * h * tt + upward * rz)
     force_z = -(upward * zz + outward * rz)
-    w = weight[at_j, at_i] * cell_mass[g, at_j, at_i] / (cell_mass[0, at_j, at_i] + cell_mass[1, at_j, at_i])
+    w = hg_coefficient[at_j, at_i] * cell_mass[g, at_j, at_i] / (cell_mass[0, at_j, at_i] + cell_mass[1, at_j, at_i])
     sign = w if left == low else -w
     force_r -= sign * hourglass_mode(at_i, u0[g, at_j], u0[g, at_j + 1])
     force_z -= sign * hourglass_mode(at_i, v0[g, at_j], v0[g, at_j + 1])
@@ -138,51 +140,52 @@ def corner_force(g, j, i, at_j, at_i, group, solid_mode, solid, vof, q, weight, 
 
 
 @kernel
-def shared_forces(j0, j1, dt, group, solid_mode, metrics, dz, still, count, shared, wet_r, wet_z, ph, qr, solid, vof, q, weight,
-                  cell_mass, mass, u0, v0, u, v, exchange):
-    """Velocities that the forces alone would give both groups at shared vertices.
+def contact_node_forces(j0, j1, dt, group, solid_mode, metrics, dz, constrained, count, contact_nodes, aperture_r, aperture_z,
+                        ph, qr, solid, vof, q, hg_coefficient, cell_mass, mass, u0, v0, u, v, transfer):
+    """Velocities that the forces alone would give both groups at contact nodes.
 
-    The pressure of a cell acts on each group by the weights of the cell's faces, the deviators of a group act on it alone
+    The pressure of a cell acts on each group by the apertures of the cell's faces, the deviators of a group act on it alone
     (explanation/sliding, contact).
 
-    Reads    ph, qr, solid, weight [j, i]; vof, q; cell_mass, mass, u0, v0 [b, j, i]
-    Writes   u, v [b, j, i], without what walls and the axis take; exchange[4, j], axial momentum given to walls
+    Reads    ph, qr, solid, hg_coefficient [j, i]; vof, q; cell_mass, mass, u0, v0 [b, j, i]
+    Writes   u, v [b, j, i], without what walls and the axis take; transfer[4, j], axial momentum given to walls
     """
     for j in prange(j0, j1 + 1):
-        exchange[4, j] = 0.0
+        transfer[4, j] = 0.0
         for k in range(count[j]):
-            i = shared[j, k]
+            i = contact_nodes[j, k]
             ll, lr = ph[j - 1, i - 1] + qr[j - 1, i - 1], ph[j - 1, i] + qr[j - 1, i]
             ul, ur = ph[j, i - 1] + qr[j, i - 1], ph[j, i] + qr[j, i]
             for g in range(2):
-                below, above, left, right = wet_r[1, j - 1, i], wet_r[0, j, i], wet_z[1, j, i - 1], wet_z[0, j, i]
+                below, above = aperture_r[1, j - 1, i], aperture_r[0, j, i]
+                left, right = aperture_z[1, j, i - 1], aperture_z[0, j, i]
                 if g == 0:
                     below, above, left, right = 1.0 - below, 1.0 - above, 1.0 - left, 1.0 - right
                 force_r = 0.5 * metrics[FACE_R, i] * (below * dz[j - 1] * (ll - lr) + above * dz[j] * (ul - ur))
                 force_z = metrics[AZ_OUT, i - 1] * left * (ll - ul) + metrics[AZ_IN, i] * right * (lr - ur)
                 for row in range(j - 1, j + 1):
                     for column in range(i - 1, i + 1):
-                        more_r, more_z = corner_force(g, j, i, row, column, group, solid_mode, solid, vof, q, weight, cell_mass,
-                                                      metrics, dz, u0, v0)
+                        more_r, more_z = corner_force(g, j, i, row, column, group, solid_mode, solid, vof, q, hg_coefficient,
+                                                      cell_mass, metrics, dz, u0, v0)
                         force_r += more_r
                         force_z += more_z
                 u[g, j, i] = u0[g, j, i] + dt * force_r / mass[g, j, i]
                 v[g, j, i] = v0[g, j, i] + dt * force_z / mass[g, j, i]
-                if i == still[0] or i == still[1]:
+                if i == constrained[0] or i == constrained[1]:
                     u[g, j, i] = 0.0
-                if j == still[2] or j == still[3]:
-                    exchange[4, j] += mass[g, j, i] * v[g, j, i]
+                if j == constrained[2] or j == constrained[3]:
+                    transfer[4, j] += mass[g, j, i] * v[g, j, i]
                     v[g, j, i] = 0.0
 
 
 @kernel
-def keep_one(j0, j1, i0, i1, around, mass, u, v):
+def keep_one(j0, j1, i0, i1, group_ranges, mass, u, v):
     """Where one group has no mass its velocity is the other's, so that a vertex of one group has one velocity.
 
     Updates  u, v [b, j, i] around hard bodies
     """
     for j in prange(j0, j1 + 1):
-        for i in range(max(around[1, 1, j, 0], i0), min(around[1, 1, j, 1] + 1, i1 + 1)):
+        for i in range(max(group_ranges[1, 1, j, 0], i0), min(group_ranges[1, 1, j, 1] + 1, i1 + 1)):
             if mass[1, j, i] == 0.0:
                 u[1, j, i] = u[0, j, i]
                 v[1, j, i] = v[0, j, i]

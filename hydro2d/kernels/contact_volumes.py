@@ -1,11 +1,11 @@
-"""Volumes in the cells that the contact of two groups cuts: one rate of change, what it does to pure cells, what flows.
+"""Volumes in contact-interface cells: one rate of change, what it does to pure cells, what flows.
 
-The faces are swept by both groups, each by its weight (kernels/contact); a body flows with the velocity of its group.
+The faces are swept by both groups, each by its aperture (kernels/contact_geometry); a body flows with its group's velocity.
 """
 
 from hydro2d.jit import apart, kernel, prange
-from hydro2d.kernels.contact import FIRST, PARTED
-from hydro2d.kernels.spans import union
+from hydro2d.kernels.column_ranges import union
+from hydro2d.kernels.contact_geometry import FIRST, PARTED
 from hydro2d.mesh.fields import E
 from hydro2d.mesh.grid import FACE_R
 from hydro2d.physics.contact import GAP, face_flow_r, face_flow_z, largest_of, volume_rate
@@ -13,31 +13,32 @@ from hydro2d.physics.interfaces import FULL, cumulative, share_in_strip, surface
 
 
 @kernel
-def cut_volumes(j0, j1, dt, metrics, dz, cut, wet_r, wet_z, u0, v0, u, v, fr, fz, own_r, own_z):
-    """Volumes swept in the step by the faces of cut cells: by weight, and by each group as if it were alone.
+def contact_swept_volumes(j0, j1, dt, metrics, dz, contact_columns, aperture_r, aperture_z, u0, v0, u, v, fr, fz, own_r, own_z):
+    """Volumes swept in the step by the faces of contact-interface cells: by aperture, and by each group as if it were alone.
 
     Reads    u0, v0, u, v [b, j, i]
     Writes   fr, fz [j, i]; own_r, own_z [b, j, i]
     """
     for j in prange(j0, j1 + 1):
         if j < j1:
-            for i in range(cut[j, 0], cut[j, 1] + 1):
+            for i in range(contact_columns[j, 0], contact_columns[j, 1] + 1):
                 scale = 0.25 * dt * metrics[FACE_R, i] * dz[j]
-                fr[j, i] = scale * (face_flow_r(j, i, -1, wet_r, u) + face_flow_r(j, i, -1, wet_r, u0))
+                fr[j, i] = scale * (face_flow_r(j, i, -1, aperture_r, u) + face_flow_r(j, i, -1, aperture_r, u0))
                 for g in range(2):
-                    own_r[g, j, i] = scale * (face_flow_r(j, i, g, wet_r, u) + face_flow_r(j, i, g, wet_r, u0))
-        lo, hi = union(cut, max(j - 1, j0), min(j + 1, j1))
+                    own_r[g, j, i] = scale * (face_flow_r(j, i, g, aperture_r, u) + face_flow_r(j, i, g, aperture_r, u0))
+        lo, hi = union(contact_columns, max(j - 1, j0), min(j + 1, j1))
         for i in range(lo, hi):
-            fz[j, i] = 0.5 * dt * (face_flow_z(j, i, -1, metrics, wet_z, v)
-                                   + face_flow_z(j, i, -1, metrics, wet_z, v0))
+            fz[j, i] = 0.5 * dt * (face_flow_z(j, i, -1, metrics, aperture_z, v) + face_flow_z(j, i, -1, metrics, aperture_z,
+                                   v0))
             for g in range(2):
-                own_z[g, j, i] = 0.5 * dt * (face_flow_z(j, i, g, metrics, wet_z, v)
-                                             + face_flow_z(j, i, g, metrics, wet_z, v0))
+                own_z[g, j, i] = 0.5 * dt * (face_flow_z(j, i, g, metrics, aperture_z, v) + face_flow_z(j, i, g, metrics,
+                                             aperture_z, v0))
 
 
 @kernel
-def cut_work(j0, j1, dt, metrics, dz, cut, group, wet_r, wet_z, ph, qr, u0, v0, u, v, fr, fz, cell_mass, vof, q):
-    """Pressure work in the pure cells among the cut ones: by the volume that they lose, not by their group's own.
+def contact_work(j0, j1, dt, metrics, dz, contact_columns, group, aperture_r, aperture_z, ph, qr, u0, v0, u, v, fr, fz,
+                 cell_mass, vof, q):
+    """Pressure work in the pure ones among contact-interface cells: by the volume that they lose, not by their group's own.
 
     `deform` does the work of the group's own rate of volume; this is what is missing.
 
@@ -45,19 +46,19 @@ def cut_work(j0, j1, dt, metrics, dz, cut, group, wet_r, wet_z, ph, qr, u0, v0, 
     Updates  q (e) [k, m, j, i]
     """
     for j in prange(j0, j1):
-        for i in range(cut[j, 0], cut[j, 1]):
+        for i in range(contact_columns[j, 0], contact_columns[j, 1]):
             for m in range(vof.shape[0]):
                 if vof[m, j, i] == 1.0:
                     g = group[m]
-                    own = 0.5 * dt * (volume_rate(j, i, g, metrics, dz[j], wet_r, wet_z, u, v)
-                                      + volume_rate(j, i, g, metrics, dz[j], wet_r, wet_z, u0, v0))
+                    own = 0.5 * dt * (volume_rate(j, i, g, metrics, dz[j], aperture_r, aperture_z, u, v) + volume_rate(j, i, g,
+                                      metrics, dz[j], aperture_r, aperture_z, u0, v0))
                     change = (fr[j, i + 1] - fr[j, i]) + (fz[j + 1, i] - fz[j, i])
                     q[E, m, j, i] -= (ph[j, i] + qr[j, i]) * (change - own) / cell_mass[g, j, i]
 
 
 @kernel
-def cut_shares(j0, j1, edges, cut, volume, pre, vof, part, size):
-    """Fractions of the cell as it stands on the mesh, in the cut cells and two around them.
+def contact_shares(j0, j1, mesh_box, contact_columns, volume, pre, vof, part, size):
+    """Fractions of the cell as it stands on the mesh, in contact-interface cells and two around them.
 
     The volume before a sweep is what both groups leave of the cell. Neither is stretched by what the other does: a line that
     follows that volume would move and turn without its body. In void the bodies fill no more than the cell.
@@ -66,14 +67,14 @@ def cut_shares(j0, j1, edges, cut, volume, pre, vof, part, size):
     Writes   part [m, j, i], the fractions; size [j, i] (m^3), the volume that they are of
     """
     for j in prange(j0 - 2, j1 + 2):
-        lo, hi = union(cut, max(j - 2, j0), min(j + 3, j1))
+        lo, hi = union(contact_columns, max(j - 2, j0), min(j + 3, j1))
         for i in range(max(lo - 3, 0), min(hi + 3, vof.shape[2])):
             total, largest = 0.0, 0.0
             for m in range(vof.shape[0]):
                 total += vof[m, j, i]
                 largest = max(largest, vof[m, j, i])
             scale = 1.0
-            if edges[0] <= j < edges[1] and edges[2] <= i < edges[3] and 0.0 < total and largest < 1.0:
+            if mesh_box[0] <= j < mesh_box[1] and mesh_box[2] <= i < mesh_box[3] and 0.0 < total and largest < 1.0:
                 scale = pre[j, i] / volume[j, i]
                 if total < 1.0 - FULL:
                     scale = min(scale, 1.0 / total)
@@ -105,26 +106,26 @@ def strip_of(m, j, i, along_z, width, high, order, part, dr, dz):
 
 
 @kernel
-def cut_fluxes(dj, di, j0, j1, edges, dr, dz, hard_first, soft_first, group, cut, line, face, own, part, size, vof,
-               flux_volume):
-    """Volume of every body through the faces of cut cells, with the velocity of its group.
+def contact_fluxes(dj, di, j0, j1, mesh_box, dr, dz, hard_first, soft_first, group, contact_columns, line, face, own, part,
+                   size, vof, flux_volume):
+    """Volume of every body through the faces of contact-interface cells, with the velocity of its group.
 
     In a cell the group with the flatter surface comes first among the nested interfaces, where void parts them each group for
     itself. What the bodies together are short of, or beyond, the volume that the face sweeps goes to the largest of the softer
     bodies in the cell that this comes from, and to the hard one only if there is none. Where that cell has a gap, a full cell
     into which volume flows is short of nothing as long as there is more of its body: no void enters a body from its surface.
 
-    Reads    face [j, i], own [b, j, i], what cut_shares wrote, vof [m, j, i], group [m], line [9, j, i];
+    Reads    face [j, i], own [b, j, i], what contact_shares wrote, vof [m, j, i], group [m], line [9, j, i];
              hard_first, soft_first [m], the bodies in the order in which their interfaces are nested
     Updates  flux_volume [m, j, i]
     """
     bodies = group.shape[0]
     for j in prange(j0, j1 + dj):
-        lo, hi = union(cut, max(j - dj, j0), min(j + 1, j1))
+        lo, hi = union(contact_columns, max(j - dj, j0), min(j + 1, j1))
         if lo >= hi:
             continue
         for i in range(lo, hi + di):
-            if (di == 1 and (i == edges[2] or i == edges[3])) or (dj == 1 and (j == edges[0] or j == edges[1])):
+            if (di == 1 and (i == mesh_box[2] or i == mesh_box[3])) or (dj == 1 and (j == mesh_box[0] or j == mesh_box[1])):
                 continue
             total, softer = 0.0, 0.0
             for m in range(bodies):
@@ -136,7 +137,7 @@ def cut_fluxes(dj, di, j0, j1, edges, dr, dz, hard_first, soft_first, group, cut
                     volume = swept
                 elif vof[m, row, column] > 0.0 and swept != 0.0:
                     width = min(abs(swept) / size[row, column], 1.0)
-                    first = line[FIRST, row, column] if cut[row, 0] <= column < cut[row, 1] else 1.0
+                    first = line[FIRST, row, column] if contact_columns[row, 0] <= column < contact_columns[row, 1] else 1.0
                     if first == 0.0 or (first == PARTED and group[m] == 0):
                         given = strip_of(m, row, column, dj == 1, width, up, soft_first, part, dr, dz)
                     else:
@@ -167,15 +168,15 @@ def cut_fluxes(dj, di, j0, j1, edges, dr, dz, hard_first, soft_first, group, cut
 
 
 @kernel
-def limit_fluxes(dj, di, j0, j1, edges, cut, pre, vof, flux_volume):
+def limit_fluxes(dj, di, j0, j1, mesh_box, contact_columns, pre, vof, flux_volume):
     """No cell gives more of a body through both of its faces than it has.
 
     Reads    pre [j, i], vof [m, j, i]
-    Updates  flux_volume [m, j, i] of the faces around cut cells
+    Updates  flux_volume [m, j, i] of the faces around contact-interface cells
     """
     for j in prange(j0, j1):
-        lo, hi = union(cut, max(j - dj, j0), min(j + dj + 1, j1))
-        for i in range(max(lo - di, edges[2]), min(hi + di, edges[3])):
+        lo, hi = union(contact_columns, max(j - dj, j0), min(j + dj + 1, j1))
+        for i in range(max(lo - di, mesh_box[2]), min(hi + di, mesh_box[3])):
             for m in range(vof.shape[0]):
                 low, high = max(-flux_volume[m, j, i], 0.0), max(flux_volume[m, j + dj, i + di], 0.0)
                 there = vof[m, j, i] * pre[j, i]

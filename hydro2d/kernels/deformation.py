@@ -2,8 +2,8 @@
 
 
 from hydro2d.jit import kernel, prange, rowwise
-from hydro2d.kernels.spans import block_rows, columns, number_of_blocks, spread
-from hydro2d.materials.rows import DAMAGE, DAMAGE_AT, FACTOR, LOOSE, STRENGTH, STRENGTH_AT, TENSILE
+from hydro2d.kernels.column_ranges import block_rows, columns, number_of_blocks, spread
+from hydro2d.materials.rows import CUTOFF_DENSITY, DAMAGE, DAMAGE_AT, FACTOR, STRENGTH, STRENGTH_AT, TENSILE
 from hydro2d.mesh.fields import DMG, EP, RHO, SRR, SRZ, SZZ, E
 from hydro2d.mesh.grid import VOL_R
 from hydro2d.physics.fracture import damaged
@@ -15,20 +15,20 @@ from strength.radial_return import plastic_increment
 
 
 @rowwise
-def strain_row(m, j, b, g, first, n, dt, metrics, h, loose, u0, v0, u, v, sig_rr, sig_zz, sig_tt, sig_rz, weight, vof, scratch,
-               q):
+def strain_row(m, j, b, g, first, n, dt, metrics, h, cutoff_density, u0, v0, u, v, sig_rr, sig_zz, sig_tt, sig_rz,
+               hg_coefficient, vof, scratch, q):
     """Energy and elastic trial deviators of body m in the cells of row j that it fills.
 
-    Reads    u0, v0, u, v [b, j, i]; sig_.., weight [j, i]; vof [m, j, i]; scratch [0, b, i], shear modulus
+    Reads    u0, v0, u, v [b, j, i]; sig_.., hg_coefficient [j, i]; vof [m, j, i]; scratch [0, b, i], shear modulus
     Updates  q (energy, deviators) [k, m, j, i]
-    Writes   scratch [1, b, i], von Mises norm of the trial: negative in loose material, 0 where the body fills no cell;
-             scratch [2, b, i], spin
+    Writes   scratch [1, b, i], von Mises norm of the trial: negative up to the cutoff density, 0 where the body fills no
+             cell; scratch [2, b, i], spin
     """
     rr_j = sig_rr[j]
     zz_j = sig_zz[j]
     tt_j = sig_tt[j]
     rz_j = sig_rz[j]
-    weight_j = weight[j]
+    hg_j = hg_coefficient[j]
     shear_j = scratch[0, b]
     trial_j = scratch[1, b]
     spin_j = scratch[2, b]
@@ -52,7 +52,7 @@ def strain_row(m, j, b, g, first, n, dt, metrics, h, loose, u0, v0, u, v, sig_rr
         volume = metrics[VOL_R, i] * h
         a_rr, a_tt, a_zz, a_rbz, a_zbr = velocity_gradient(i, ub0, ut0, vb0, vt0, metrics, h)
         rr, tt, zz, rbz, zbr = velocity_gradient(i, ub, ut, vb, vt, metrics, h)
-        w = weight_j[i]
+        w = hg_j[i]
         h_u0, h_v0 = hourglass_mode(i, ub0, ut0), hourglass_mode(i, vb0, vt0)
         h_u, h_v = hourglass_mode(i, ub, ut), hourglass_mode(i, vb, vt)
         work = 0.5 * dt * (
@@ -71,7 +71,7 @@ def strain_row(m, j, b, g, first, n, dt, metrics, h, loose, u0, v0, u, v, sig_rr
         szz_j[i] = szz if pure else szz_j[i]
         srz_j[i] = srz if pure else srz_j[i]
         size = von_mises(srr, szz, srz)
-        size = -size if rho <= loose else size
+        size = -size if rho <= cutoff_density else size
         trial_j[i] = size if pure else 0.0
         spin_j[i] = spin
 
@@ -149,9 +149,11 @@ def internal_row(m, j, b, first, n, dt, models, materials, vof, pm, tm, scratch,
 
 @rowwise
 def expand_row(m, j, b, first, n, metrics, h, fr, fz, vof, scratch, q):
-    """Density of body m in the cells of row j that it fills, whose mass stays; no deviator where it has failed or is loose.
+    """Density of body m in the cells of row j that it fills, whose mass stays.
 
-    Reads    fr, fz [j, i]; vof [m, j, i]; scratch [1, b, i], negative in loose material
+    No deviator is left where it has failed or has the cutoff density or less.
+
+    Reads    fr, fz [j, i]; vof [m, j, i]; scratch [1, b, i], negative up to the cutoff density
     Updates  q (density, deviators) [k, m, j, i]
     """
     fr_j = fr[j]
@@ -177,15 +179,15 @@ def expand_row(m, j, b, first, n, metrics, h, fr, fz, vof, scratch, q):
 
 
 @kernel
-def deform(j0, j1, dt, metrics, dz, span, group, models, materials, u0, v0, u, v, fr, fz, sig_rr, sig_zz, sig_tt, sig_rz,
-           weight, vof, pm, tm, scratch, q, internal):
+def deform(j0, j1, dt, metrics, dz, body_range, group, models, materials, u0, v0, u, v, fr, fz, sig_rr, sig_zz, sig_tt, sig_rz,
+           hg_coefficient, vof, pm, tm, scratch, q, internal):
     """Energy, density, deviator, plastic strain and damage of every body in the cells that it fills, over one Lagrangian step.
 
     de = V dt sigma : D(u mid-step) / m, the work of the same corner forces that moved the vertices; rho V is constant;
     the deviators are strained with the velocities at the end of the step (explanation/lagrangian-step, equations 5 and
-    7). Failed or loose material carries no deviator.
+    7). Failed material and material at or below its cutoff density carries no deviator.
 
-    Reads    group [m]; u0, v0, u, v [b, j, i]; fr, fz, sig_.., weight [j, i]; vof, pm, tm [m, j, i]
+    Reads    group [m]; u0, v0, u, v [b, j, i]; fr, fz, sig_.., hg_coefficient [j, i]; vof, pm, tm [m, j, i]
     Updates  q [k, m, j, i]
     Scratch  scratch [s, block, i], shear modulus, trial stress and spin; internal [j, k]
     """
@@ -198,10 +200,10 @@ def deform(j0, j1, dt, metrics, dz, span, group, models, materials, u0, v0, u, v
             for m in range(vof.shape[0]):
                 model = models[m, STRENGTH]
                 par = materials[m, STRENGTH_AT:DAMAGE_AT]
-                first, n = columns(span[m, j, 0], span[m, j, 1])
+                first, n = columns(body_range[m, j, 0], body_range[m, j, 1])
                 modulus_row(model, par, first, n, pm[m, j], q[RHO, m, j], tm[m, j], scratch[0, b])
-                strain_row(m, j, b, group[m], first, n, dt, metrics, h, materials[m, LOOSE], u0, v0, u, v, sig_rr, sig_zz,
-                           sig_tt, sig_rz, weight, vof, scratch, q)
+                strain_row(m, j, b, group[m], first, n, dt, metrics, h, materials[m, CUTOFF_DENSITY], u0, v0, u, v, sig_rr,
+                           sig_zz, sig_tt, sig_rz, hg_coefficient, vof, scratch, q)
                 if model in WITH_INTERNAL:
                     internal_row(m, j, b, first, n, dt, models, materials, vof, pm, tm, scratch, q, internal)
                 elif model > 0:

@@ -1,7 +1,7 @@
 """A mesh that travels along z: volumes swept relative to it, and an end to what fades ahead of waves."""
 
 from hydro2d.jit import kernel, prange
-from hydro2d.kernels.spans import columns, union
+from hydro2d.kernels.column_ranges import columns, union
 from hydro2d.mesh.fields import E
 
 #: stresses (Pa), energies (J/kg) and strains below this are nothing; a mesh that travels would carry them on, ever smaller
@@ -9,48 +9,48 @@ FADED = 1e-30
 
 
 @kernel
-def leave(j0, j1, advance, vol_r, around, fz):
+def leave(j0, j1, advance, vol_r, group_ranges, fz):
     """F_z - d A for the faces j0 to j1 along z: what they sweep relative to a mesh that advances by d in the step.
 
     A is the axial area of the column, vol_r (explanation/following-mesh, equation 1).
 
-    Reads    around [n, j, 2]
+    Reads    group_ranges [n, j, 2]
     Updates  fz [j, i]
     """
     for j in prange(j0, j1):
-        lo, n = columns(around[1, j, 0], around[1, j, 1])
+        lo, n = columns(group_ranges[1, j, 0], group_ranges[1, j, 1])
         face = fz[j]
         for x in range(n):
             face[lo + x] -= advance * vol_r[lo + x]
 
 
 @kernel
-def leave_cut(j0, j1, advance, vol_r, cut, own_z):
-    """The same for what each group of a contact sweeps of the faces around cut cells.
+def leave_contact(j0, j1, advance, vol_r, contact_columns, own_z):
+    """The same for what each group of a contact sweeps of the faces around contact-interface cells.
 
-    Reads    cut [j, 2]
+    Reads    contact_columns [j, 2]
     Updates  own_z [b, j, i]
     """
     for j in prange(j0, j1 + 1):
-        lo, hi = union(cut, max(j - 1, j0), min(j + 1, j1))
+        lo, hi = union(contact_columns, max(j - 1, j0), min(j + 1, j1))
         for i in range(lo, hi):
             for g in range(2):
                 own_z[g, j, i] -= advance * vol_r[i]
 
 
 @kernel
-def silence(j0, j1, carried, near, q):
+def silence(j0, j1, carried, body_ranges, q):
     """Sets what has faded to nothing to zero: numbers too small to be normal cost the processor a hundred times as much.
 
     Material that flows through a travelling mesh takes a share of its neighbours' stress along in every step, also ahead of
     all waves, where this makes a tail that falls below the smallest normal number.
 
-    Reads    carried [m], near [m, j, 2]
+    Reads    carried [m], body_ranges [m, j, 2]
     Updates  q (all but the density) [k, m, j, i]
     """
     for j in prange(j0, j1):
-        for m in range(near.shape[0]):
-            lo, n = columns(near[m, j, 0], near[m, j, 1])
+        for m in range(body_ranges.shape[0]):
+            lo, n = columns(body_ranges[m, j, 0], body_ranges[m, j, 1])
             for k in range(E, carried[m]):
                 row = q[k, m, j]
                 for x in range(n):

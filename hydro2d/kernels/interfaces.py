@@ -7,18 +7,18 @@ stated order bounds their cumulative fraction, void comes last.
 
 
 from hydro2d.jit import kernel, point, prange, rowwise
-from hydro2d.kernels.spans import columns
+from hydro2d.kernels.column_ranges import columns
 from hydro2d.physics.interfaces import FULL, share_in_strip, surface
 
 
 @rowwise
-def sweep_volumes_row(j, dj, di, first, volume, reach, fr, fz, pre):
+def sweep_volumes_row(j, dj, di, first, volume, active_range, fr, fz, pre):
     """Volume of cells before a sweep: V + dF_r + dF_z for the first sweep, V + dF of its own direction for the second.
 
     Reads    volume [j, i], fr, fz [j, i]
     Writes   pre [j, i]
     """
-    lo, n = columns(reach[j, 0], reach[j, 1])
+    lo, n = columns(active_range[j, 0], active_range[j, 1])
     fr_j = fr[j]
     fz_b = fz[j]
     fz_t = fz[j + 1]
@@ -32,14 +32,14 @@ def sweep_volumes_row(j, dj, di, first, volume, reach, fr, fz, pre):
 
 
 @point
-def flux_range(dj, di, i0, i1, m, j, near):
+def flux_range(dj, di, i0, i1, m, j, body_ranges):
     """Faces of row j through which body m may flow within the active columns: one beyond its own; empty is (0, 0)."""
-    lo, hi = max(near[2 * dj, m, j, 0] - 1, i0), min(near[2 * dj, m, j, 1] + 2, i1 + di)
+    lo, hi = max(body_ranges[2 * dj, m, j, 0] - 1, i0), min(body_ranges[2 * dj, m, j, 1] + 2, i1 + di)
     return (lo, hi) if lo < hi else (0, 0)
 
 
 @rowwise
-def donor_volumes_row(j, dj, di, i0, i1, open_faces, near, f_face, vof, flux_volume):
+def donor_volumes_row(j, dj, di, i0, i1, open_faces, body_ranges, f_face, vof, flux_volume):
     """Volume of each body through each face, taken as if the donor cell were filled evenly: right where it is pure.
 
     Nothing but void flows in through the faces of the mesh's edge.
@@ -49,7 +49,7 @@ def donor_volumes_row(j, dj, di, i0, i1, open_faces, near, f_face, vof, flux_vol
     """
     bodies = vof.shape[0]
     for m in range(bodies):
-        lo, hi = flux_range(dj, di, i0, i1, m, j, near)
+        lo, hi = flux_range(dj, di, i0, i1, m, j, body_ranges)
         if lo >= hi:
             continue
         swept = f_face[j, lo:hi]
@@ -130,15 +130,15 @@ def interface_volumes_row(j, dj, di, dr, dz, order, mixed_count, mixed, f_face, 
 
 
 @kernel
-def donor_volumes(dj, di, j0, j1, i0, i1, first, open_faces, volume, near, reach, fr, fz, vof, pre, flux_volume):
+def donor_volumes(dj, di, j0, j1, i0, i1, first, open_faces, volume, body_ranges, active_range, fr, fz, vof, pre, flux_volume):
     """Rows j0 to j1 before a sweep: sweep_volumes_row, and donor_volumes_row, which has one more row of faces along z."""
     for j in prange(j0, j1 + dj):
         if j < j1:
-            sweep_volumes_row(j, dj, di, first, volume, reach, fr, fz, pre)
+            sweep_volumes_row(j, dj, di, first, volume, active_range, fr, fz, pre)
         if di == 1:
-            donor_volumes_row(j, dj, di, i0, i1, open_faces, near, fr, vof, flux_volume)
+            donor_volumes_row(j, dj, di, i0, i1, open_faces, body_ranges, fr, vof, flux_volume)
         else:
-            donor_volumes_row(j, dj, di, i0, i1, open_faces, near, fz, vof, flux_volume)
+            donor_volumes_row(j, dj, di, i0, i1, open_faces, body_ranges, fz, vof, flux_volume)
 
 
 @kernel

@@ -1,10 +1,10 @@
-"""Cells in which bodies meet each other or void: tearing, closure of pressure and volume, shared strength."""
+"""Cells in which bodies meet each other or void: void insertion, closure of pressure and volume, shared strength."""
 
 from eos.dispatch import evaluate, zero_pressure_density
 from hydro2d.jit import kernel, point, prange, rowwise
-from hydro2d.kernels.spans import block_rows, mixed_row, number_of_blocks, spread
+from hydro2d.kernels.column_ranges import block_rows, mixed_row, number_of_blocks, spread
 from hydro2d.kernels.thermodynamics import pressures_row, viscosity_row
-from hydro2d.materials.rows import DAMAGE, DAMAGE_AT, EOS, EOS_AT, FACTOR, LOOSE, STRENGTH, STRENGTH_AT, TENSILE
+from hydro2d.materials.rows import CUTOFF_DENSITY, DAMAGE, DAMAGE_AT, EOS, EOS_AT, FACTOR, STRENGTH, STRENGTH_AT, TENSILE
 from hydro2d.mesh.fields import DMG, EP, RHO, SRR, SRZ, SZZ, E
 from hydro2d.mesh.grid import VOL_R
 from hydro2d.physics.closure import NO_VOID, relaxation_bound, relaxation_strain, softness, split_volume
@@ -33,8 +33,8 @@ RR, TT, ZZ, RBZ, ZBR, MEAN_RR, MEAN_TT, MEAN_ZZ, MEAN_RZ, HOURGLASS = range(10)
 
 
 @rowwise
-def tear_mixed_row(j, smallest, max_opening, metrics, dz, mixed_count, mixed, group, models, materials, vof, q, pm, p, solid,
-                   bulk, opened):
+def insert_void_mixed_row(j, smallest, max_opening, metrics, dz, mixed_count, mixed, group, models, materials, vof, q, pm, p,
+                          solid, bulk, opened):
     """Opens void in mixed cells whose pressure falls below their fracture pressure, and frees them of stress.
 
     The threshold is the mean of the bodies' by volume fraction, or the smallest (explanation/fracture). Two groups hold
@@ -89,11 +89,11 @@ def tear_mixed_row(j, smallest, max_opening, metrics, dz, mixed_count, mixed, gr
 
 @kernel
 def close_cells(j0, j1, max_opening, smallest_tension, linear, quadratic, courant, advective, mesh_speed, hourglass, metrics,
-                dr, dz, span, reach, mixed_count, mixed, group, models, materials, u, v, vof, q, pm, km, tm, p, bulk, rhobar,
-                solid, cl, qr, qz, weight, opened, row_step, bad, scratch):
-    """Equation of state, void where a cell tears, artificial viscosity and the time step that every cell allows.
+                dr, dz, body_range, active_range, mixed_count, mixed, group, models, materials, u, v, vof, q, pm, km, tm, p,
+                bulk, rhobar, solid, cl, qr, qz, hg_coefficient, opened, row_step, bad, scratch):
+    """Equation of state, void where a cell fractures, artificial viscosity and the time step that every cell allows.
 
-    Reads, updates and writes what pressures_row, tear_mixed_row and viscosity_row do, and the list of mixed cells
+    Reads, updates and writes what pressures_row, insert_void_mixed_row and viscosity_row do, and the list of mixed cells
     Scratch  scratch [s, block, i]
     """
     blocks = number_of_blocks(j0, j1)
@@ -101,18 +101,18 @@ def close_cells(j0, j1, max_opening, smallest_tension, linear, quadratic, couran
         b = spread(place, blocks)
         first_row, last_row = block_rows(b, blocks, j0, j1)
         for j in range(first_row, last_row):
-            pressures_row(j, b, max_opening, metrics, dz, span, reach, models, materials, vof, q, pm, km, tm, p, bulk, rhobar,
-                          solid, cl, scratch, opened, bad)
+            pressures_row(j, b, max_opening, metrics, dz, body_range, active_range, models, materials, vof, q, pm, km, tm, p,
+                          bulk, rhobar, solid, cl, scratch, opened, bad)
             if opened[j] > 0.0:
-                mixed_row(j, reach, vof, scratch[0], b, mixed_count, mixed)
-            tear_mixed_row(j, smallest_tension, max_opening, metrics, dz, mixed_count, mixed, group, models, materials, vof, q,
-                           pm, p, solid, bulk, opened)
-            viscosity_row(j, b, linear, quadratic, courant, advective, mesh_speed, hourglass, dr, dz, metrics, reach, u, v,
-                          rhobar, bulk, cl, qr, qz, weight, row_step, bad, scratch)
+                mixed_row(j, active_range, vof, scratch[0], b, mixed_count, mixed)
+            insert_void_mixed_row(j, smallest_tension, max_opening, metrics, dz, mixed_count, mixed, group, models, materials,
+                                  vof, q, pm, p, solid, bulk, opened)
+            viscosity_row(j, b, linear, quadratic, courant, advective, mesh_speed, hourglass, dr, dz, metrics, active_range, u,
+                          v, rhobar, bulk, cl, qr, qz, hg_coefficient, row_step, bad, scratch)
 
 
 @point
-def cell_motion(j, i, g, dt, h, metrics, weight, u0, v0, u, v, motion):
+def cell_motion(j, i, g, dt, h, metrics, hg_coefficient, u0, v0, u, v, motion):
     """Volume times the velocity gradients of group g in cell (j, i), and the work of its hourglass filter.
 
     Writes   motion [j, g, RR to HOURGLASS]
@@ -132,17 +132,17 @@ def cell_motion(j, i, g, dt, h, metrics, weight, u0, v0, u, v, motion):
     motion[j, g, MEAN_TT] = 0.5 * (a_tt + tt)
     motion[j, g, MEAN_ZZ] = 0.5 * (a_zz + zz)
     motion[j, g, MEAN_RZ] = 0.5 * ((a_rbz + rbz) + (a_zbr + zbr))
-    motion[j, g, HOURGLASS] = 0.5 * dt * weight[j, i] * (h_u0 * (h_u0 + h_u) + h_v0 * (h_v0 + h_v))
+    motion[j, g, HOURGLASS] = 0.5 * dt * hg_coefficient[j, i] * (h_u0 * (h_u0 + h_u) + h_v0 * (h_v0 + h_v))
 
 
 @point
-def ruling_body(j, i, hard, hard_threshold, vof):
-    """The body whose strength rules a cell of the hard zone, -1 outside of it."""
-    ruler = -1
+def dominant_body(j, i, hard, hard_threshold, vof):
+    """The body whose strength dominates in a cell of the hard zone, -1 outside of it."""
+    dominant = -1
     for m in range(vof.shape[0]):
         if hard[m] and vof[m, j, i] >= hard_threshold:
-            ruler = m
-    return ruler
+            dominant = m
+    return dominant
 
 
 @point
@@ -161,8 +161,8 @@ def soften(j, i, tipton, vof, pm, km, mix):
 
 
 @point
-def work_of_deviators(j, i, dt, ruler, total, scale, group, motion, vof, q, mix):
-    """What the deviators of every body do in the step: its own, or in the hard zone the ruling body's alone.
+def work_of_deviators(j, i, dt, dominant, total, scale, group, motion, vof, q, mix):
+    """What the deviators of every body do in the step: its own, or in the hard zone the dominant body's alone.
 
     Writes   mix [j, HEAT, m], J per radian
     """
@@ -171,8 +171,8 @@ def work_of_deviators(j, i, dt, ruler, total, scale, group, motion, vof, q, mix)
         mix[j, HEAT, m] = 0.0
         if f == 0.0:
             continue
-        part = total if m == ruler else 0.0
-        if ruler < 0:
+        part = total if m == dominant else 0.0
+        if dominant < 0:
             part = f * scale
         g = group[m]
         power = deviator_power(q[SRR, m, j, i], q[SZZ, m, j, i], q[SRZ, m, j, i], motion[j, g, MEAN_RR],
@@ -189,7 +189,7 @@ def strain_deviators(j, i, rate, mode, total, group, models, materials, pm, tm, 
     Updates  q (internal variables) [k, m, j, i]; scratch internal [j, k]
     Writes   mix [j, TRIAL_RR to TRIAL_RZ, m], deviators; mix [j, MODULUS, m], mix [j, YIELD, m], 0 without strength, all in Pa
     """
-    shared_yield, largest_yield = 0.0, 0.0
+    cell_yield, largest_yield = 0.0, 0.0
     for m in range(vof.shape[0]):
         f = vof[m, j, i]
         mix[j, YIELD, m] = 0.0
@@ -209,21 +209,21 @@ def strain_deviators(j, i, rate, mode, total, group, models, materials, pm, tm, 
         mix[j, TRIAL_ZZ, m] = zz
         mix[j, TRIAL_RZ, m] = rz
         mix[j, MODULUS, m] = modulus
-        if not carries_no_stress(q[DMG, m, j, i], rho, materials[m, LOOSE]):
+        if not carries_no_stress(q[DMG, m, j, i], rho, materials[m, CUTOFF_DENSITY]):
             flow = flow_stress(model, q[EP, m, j, i], 0.0, tm[m, j, i], pm[m, j, i], rho, par)
             mix[j, YIELD, m] = materials[m, FACTOR] * flow
-        shared_yield += f * mix[j, YIELD, m]
+        cell_yield += f * mix[j, YIELD, m]
         largest_yield = max(largest_yield, mix[j, YIELD, m])
     if mode == ZERO:
         return 0.0
-    return largest_yield if mode == MAX else shared_yield / total
+    return largest_yield if mode == MAX else cell_yield / total
 
 
 @point
-def return_deviators(j, i, dt, own, shared_yield, ruler, volume, total, models, materials, pm, tm, vof, q, mix, internal):
+def return_deviators(j, i, dt, own, cell_yield, dominant, volume, total, models, materials, pm, tm, vof, q, mix, internal):
     """Brings the trial deviators back to the yield surface: each body's own, or the one of the cell.
 
-    In the hard zone the plastic heat of the ruling body is shared by f_m/Y_m among what is solid, as in layers under one
+    In the hard zone the plastic heat of the dominant body is shared by f_m/Y_m among what is solid, as in layers under one
     stress.
 
     Reads    what strain_deviators wrote
@@ -244,8 +244,8 @@ def return_deviators(j, i, dt, own, shared_yield, ruler, volume, total, models, 
         if own:
             dep, final = plastic_increment(model, trial, q[EP, m, j, i], dt, t_m, p_m, rho, stiffness, materials[m, FACTOR],
                                            par)
-        elif trial > shared_yield:
-            final = shared_yield
+        elif trial > cell_yield:
+            final = cell_yield
             dep = (trial - final) / (3.0 * stiffness) if modulus > 0.0 else 0.0
         if dep > 0.0:
             rr, zz, rz = returned(x_rr, x_zz, x_rz, trial, dep, final, model, par, internal[j])
@@ -254,17 +254,17 @@ def return_deviators(j, i, dt, own, shared_yield, ruler, volume, total, models, 
             damage_par = materials[m, DAMAGE_AT:TENSILE]
             increment = damage_increment(models[m, DAMAGE], dep, dep / dt, t_m, p_m, final, damage_par)
             q[DMG, m, j, i] = damaged(q[DMG, m, j, i], increment)
-        gone = carries_no_stress(q[DMG, m, j, i], rho, materials[m, LOOSE])
+        gone = carries_no_stress(q[DMG, m, j, i], rho, materials[m, CUTOFF_DENSITY])
         q[SRR, m, j, i] = 0.0 if gone else rr
         q[SZZ, m, j, i] = 0.0 if gone else zz
         q[SRZ, m, j, i] = 0.0 if gone else rz
-        if m == ruler and dep > 0.0 and mix[j, YIELD, m] > 0.0:
+        if m == dominant and dep > 0.0 and mix[j, YIELD, m] > 0.0:
             share_plastic_heat(j, i, m, dep * final * volume * total, vof, mix)
 
 
 @point
-def share_plastic_heat(j, i, ruler, plastic, vof, mix):
-    """Gives the plastic work of the ruling body to all that is solid, by f_m/Y_m.
+def share_plastic_heat(j, i, dominant, plastic, vof, mix):
+    """Gives the plastic work of the dominant body to all that is solid, by f_m/Y_m.
 
     Updates  mix [j, HEAT, m]
     """
@@ -274,7 +274,7 @@ def share_plastic_heat(j, i, ruler, plastic, vof, mix):
     for m in range(vof.shape[0]):
         share = vof[m, j, i] / mix[j, YIELD, m] if mix[j, YIELD, m] > 0.0 else 0.0
         mix[j, HEAT, m] += plastic * share / whole
-    mix[j, HEAT, ruler] -= plastic
+    mix[j, HEAT, dominant] -= plastic
 
 
 @point
@@ -320,20 +320,20 @@ def fill_cell(j, i, change, volume, total, inverse, mean_p, work_p, work_q, rela
 
 
 @kernel
-def deform_mixed(j0, j1, dt, relaxation, tipton, mode, hard, hard_threshold, metrics, dz, mixed_count, mixed, group, cut,
-                 cell_mass, models, materials, u0, v0, u, v, fr, fz, ph, qr, qz, weight, solid, pm, km, tm, vof, q, mix, motion,
-                 internal):
+def deform_mixed(j0, j1, dt, relaxation, tipton, mode, hard, hard_threshold, metrics, dz, mixed_count, mixed, group,
+                 contact_columns, cell_mass, models, materials, u0, v0, u, v, fr, fz, ph, qr, qz, hg_coefficient, solid, pm, km,
+                 tm, vof, q, mix, motion, internal):
     """The Lagrangian step of the bodies in mixed cells.
 
     Volume: void first, then by compressibility, w_m = R_m/Rbar with R_m = f_m/K_m, then relaxation of the pressures,
     df_m = gamma R_m (p_m - pbar), with pbar = sum R_m p_m/Rbar, or 0 where void is left (explanation/mixed-cells).
     Energy: pressure work by w_m, viscous and hourglass work by volume fraction (the latter by mass where two groups meet),
     deviatoric work by what each body's stress did.
-    Strength: by mode, see STRENGTH_MODES; every body moves with its group. In the cut cells of a contact pressure and
+    Strength: by mode, see STRENGTH_MODES; every body moves with its group. In contact-interface cells pressure and
     viscosity do the work of the one change of volume, and each body has its own strength where two groups meet.
 
-    Reads    velocities, swept volumes, stresses as `deform`; ph, qr, qz, solid [j, i]; cut [j, 2]; cell_mass [b, j, i];
-             group, hard [m]
+    Reads    velocities, swept volumes, stresses as `deform`; ph, qr, qz, solid [j, i]; contact_columns [j, 2];
+             cell_mass [b, j, i]; group, hard [m]
     Updates  vof [m, j, i] (share of the volume after the step), q [k, m, j, i]
     Scratch  mix [j, 7, m] (rows SOFT to MODULUS), motion [j, b, 10], internal [j, k]
     """
@@ -350,20 +350,20 @@ def deform_mixed(j0, j1, dt, relaxation, tipton, mode, hard, hard_threshold, met
                 for g in range(groups):
                     if cell_mass[g, j, i] > 0.0:
                         held += 1
-                        cell_motion(j, i, g, dt, dz[j], metrics, weight, u0, v0, u, v, motion)
+                        cell_motion(j, i, g, dt, dz[j], metrics, hg_coefficient, u0, v0, u, v, motion)
                         across = motion[j, g, MEAN_RR] + motion[j, g, MEAN_TT]
                         work_q = -dt * (qr[j, i] * across + qz[j, i] * motion[j, g, MEAN_ZZ])
                         work_p = -ph[j, i] * dt * (across + motion[j, g, MEAN_ZZ])
-                if groups > 1 and cut[j, 0] <= i < cut[j, 1]:
+                if groups > 1 and contact_columns[j, 0] <= i < contact_columns[j, 1]:
                     work_q = -qr[j, i] * change
                     work_p = -ph[j, i] * change
                 total, meet = solid[j, i], held > 1
-                ruler = ruling_body(j, i, hard, hard_threshold, vof)
+                dominant = dominant_body(j, i, hard, hard_threshold, vof)
                 inverse, mean_p = soften(j, i, tipton, vof, pm, km, mix)
-                work_of_deviators(j, i, dt, ruler, total, stress_scale(mode == SOLID, total), group, motion, vof, q, mix)
-                shared_yield = strain_deviators(j, i, dt / volume, mode, total, group, models, materials, pm, tm, motion, vof,
-                                                q, mix, internal)
-                return_deviators(j, i, dt, mode == MATERIAL or ruler >= 0 or meet, shared_yield, ruler, volume, total, models,
-                                 materials, pm, tm, vof, q, mix, internal)
+                work_of_deviators(j, i, dt, dominant, total, stress_scale(mode == SOLID, total), group, motion, vof, q, mix)
+                cell_yield = strain_deviators(j, i, dt / volume, mode, total, group, models, materials, pm, tm, motion, vof, q,
+                                              mix, internal)
+                return_deviators(j, i, dt, mode == MATERIAL or dominant >= 0 or meet, cell_yield, dominant, volume, total,
+                                 models, materials, pm, tm, vof, q, mix, internal)
                 fill_cell(j, i, change, volume, total, inverse, mean_p, work_p, work_q, relaxation, tipton, meet, group,
                           motion, cell_mass, pm, km, vof, q, mix)

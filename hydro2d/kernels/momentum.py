@@ -3,7 +3,7 @@
 from math import sqrt
 
 from hydro2d.jit import kernel, plus, point, prange, rowwise
-from hydro2d.kernels.spans import block_rows, copy_beside, number_of_blocks, spread
+from hydro2d.kernels.column_ranges import block_rows, copy_beside, number_of_blocks, spread
 from hydro2d.mesh.fields import E
 from hydro2d.mesh.grid import CM_IN, CM_OUT, GHOSTS
 from hydro2d.physics.advection import TINY, upwind
@@ -14,7 +14,7 @@ MOMENTUM, KE, BOTH = range(3)
 
 
 @rowwise
-def dual_row(g, dj, di, j, i0, i1, slot, metrics, around, flux_mass, mass, w, dual):
+def dual_row(g, dj, di, j, i0, i1, slot, metrics, group_ranges, flux_mass, mass, w, dual):
     """Mass, momentum and kinetic energy of group g that flow between the vertices of row j and those at higher r or z.
 
     r-sweep: Phi = cm_out (F_left) + cm_in (F_right) of the column between, summed over the two rows beside the vertex;
@@ -24,7 +24,7 @@ def dual_row(g, dj, di, j, i0, i1, slot, metrics, around, flux_mass, mass, w, du
     Reads    flux_mass, mass [b, j, i], w = (u, v) [c, b, j, i]
     Writes   dual [k, slot, i]: mass, radial and axial momentum, and kinetic energy of each component
     """
-    lo, hi = dual_range(dj, di, i0, i1, j, around[g])
+    lo, hi = dual_range(dj, di, i0, i1, j, group_ranges[g])
     n = hi - lo
     if n > 0:
         flow = dual[0, slot, lo:hi]
@@ -62,14 +62,14 @@ def dual_row(g, dj, di, j, i0, i1, slot, metrics, around, flux_mass, mass, w, du
 
 
 @point
-def dual_range(dj, di, i0, i1, j, around):
+def dual_range(dj, di, i0, i1, j, group_ranges):
     """Vertices of row j from which something may flow within the active columns."""
-    return max(around[1 + dj, j, 0], i0) - di, min(around[1 + dj, j, 1] + 1, i1 + 1)
+    return max(group_ranges[1 + dj, j, 0], i0) - di, min(group_ranges[1 + dj, j, 1] + 1, i1 + 1)
 
 
 @rowwise
-def vertex_row(g, dj, di, j, i0, i1, below, above, advection, bound, still, held, metrics, around, cell_mass, dual, w_old, w,
-               mass, deficit, sums):
+def vertex_row(g, dj, di, j, i0, i1, below, above, advection, bound, constrained, held, metrics, group_ranges, cell_mass, dual,
+               w_old, w, mass, deficit, sums):
     """Velocities of group g in row j after the sweep, by the kind of advection (explanation/remap, equations 7 to 9).
 
     momentum   u = P/M
@@ -77,7 +77,7 @@ def vertex_row(g, dj, di, j, i0, i1, below, above, advection, bound, still, held
     both       u = P/M, and the deficit K - M u^2/2 is left in `deficit` for `deposit` to give to the cells
     P/M is kept within the velocities of the three vertices that it comes from: this removes round-off, and what a vertex at an
     open edge, which has half a cell's mass, lacks when the whole cell leaves. The normal velocity on the axis, on walls and on
-    edges with a velocity is given: still has their columns (2) and rows (2), -1 for none, held what it is.
+    edges with a velocity is given: constrained has their columns (2) and rows (2), -1 for none, held what it is.
 
     Reads    cell_mass [b, j, i] after the sweep, dual [k, slot, i] in the slots `below` and `above`;
              w_old = (u, v) [c, b, j, i] and mass [b, j, i] before it
@@ -85,7 +85,7 @@ def vertex_row(g, dj, di, j, i0, i1, below, above, advection, bound, still, held
     Updates  sums [5, j]: kinetic energy before and after; axial momentum after less P; kinetic energy cut by the bound;
              axial momentum given to walls
     """
-    lo, hi = max(around[g, 1, j, 0], i0), min(around[g, 1, j, 1] + 1, i1)
+    lo, hi = max(group_ranges[g, 1, j, 0], i0), min(group_ranges[g, 1, j, 1] + 1, i1)
     n = hi - lo
     if g == 0:
         for c in range(2):
@@ -113,15 +113,15 @@ def vertex_row(g, dj, di, j, i0, i1, below, above, advection, bound, still, held
             a_high = w_old[c, g, j + dj, lo + di:hi + di]
             out = w[c, g, j, lo:hi]
             k_before, k_after, k_cut, p_gained, p_wall = 0.0, 0.0, 0.0, 0.0, 0.0
-            wall_row = c == 1 and (j == still[2] or j == still[3])
-            given = held[2 * c] if c == 0 or j == still[2] else held[3]  # at the low edge, if this is one
+            wall_row = c == 1 and (j == constrained[2] or j == constrained[3])
+            given = held[2 * c] if c == 0 or j == constrained[2] else held[3]  # at the low edge, if this is one
             for x in range(n):
                 a = a_j[x]
                 old = m_j[x]
                 new = new_j[x]
                 resting = f_in[x] == 0.0 and f_out[x] == 0.0  # nothing flows: not a bit may change
-                wall = wall_row or (c == 0 and (lo + x == still[0] or lo + x == still[1]))
-                fixed = held[1] if c == 0 and lo + x == still[1] else given
+                wall = wall_row or (c == 0 and (lo + x == constrained[0] or lo + x == constrained[1]))
+                fixed = held[1] if c == 0 and lo + x == constrained[1] else given
                 over = 1.0 / max(new, TINY)
                 momentum = old * a + (p_in[x] - p_out[x])
                 mean = min(max(momentum * over, min(a, min(a_low[x], a_high[x]))), max(a, max(a_low[x], a_high[x])))
@@ -153,11 +153,11 @@ def vertex_row(g, dj, di, j, i0, i1, below, above, advection, bound, still, held
 
 
 @kernel
-def sweep_momentum(dj, di, j0, j1, i0, i1, advection, bound, still, held, edges, metrics, around, cell_mass, flux_mass, mass,
-                   w_old, w, dual, edge_dual, deficit, sums):
+def sweep_momentum(dj, di, j0, j1, i0, i1, advection, bound, constrained, held, mesh_box, metrics, group_ranges, cell_mass,
+                   flux_mass, mass, w_old, w, dual, edge_dual, deficit, sums):
     """Carries the momentum of the vertices j0 to j1 along one direction.
 
-    Reads    what dual_row and vertex_row read; edges (j0, j1, i0, i1 of the mesh)
+    Reads    what dual_row and vertex_row read; mesh_box (j0, j1, i0, i1 of the mesh)
     Writes   w = (u, v) [c, b, j, i]; deficit [b, j, i], sums [5, j]; edge_dual [b, side, k, j or i],
              what flows over the mesh's edges
     Scratch  dual [k, slot, i], two slots to a block of rows; in z they take turns
@@ -169,10 +169,10 @@ def sweep_momentum(dj, di, j0, j1, i0, i1, advection, bound, still, held, edges,
         for g in range(mass.shape[0]):
             for j in range(first - dj, last):
                 slot = 2 * b + dj * (j % 2)
-                dual_row(g, dj, di, j, i0, i1, slot, metrics, around, flux_mass, mass, w_old, dual)
-                lo, hi = dual_range(dj, di, i0, i1, j, around[g])
+                dual_row(g, dj, di, j, i0, i1, slot, metrics, group_ranges, flux_mass, mass, w_old, dual)
+                lo, hi = dual_range(dj, di, i0, i1, j, group_ranges[g])
                 for side in range(2):
-                    at = edges[2 * di + side] + side - 1  # the edge from a ghost vertex to the mesh, or from the mesh to one
+                    at = mesh_box[2 * di + side] + side - 1  # the edge from a ghost vertex to the mesh, or from the mesh to one
                     for k in range(5):
                         if di == 1:
                             edge_dual[g, side, k, j] = dual[k, slot, at] if lo <= at < hi else 0.0
@@ -183,8 +183,8 @@ def sweep_momentum(dj, di, j0, j1, i0, i1, advection, bound, still, held, edges,
                     below = 2 * b + dj * ((j - 1) % 2)
                     for row in range(5):
                         sums[row, j] = 0.0 if g == 0 else sums[row, j]
-                    vertex_row(g, dj, di, j, i0, i1 + 1, below, slot, advection, bound, still, held, metrics, around, cell_mass,
-                               dual, w_old, w, mass, deficit, sums)
+                    vertex_row(g, dj, di, j, i0, i1 + 1, below, slot, advection, bound, constrained, held, metrics,
+                               group_ranges, cell_mass, dual, w_old, w, mass, deficit, sums)
 
 
 @kernel

@@ -8,8 +8,8 @@ still in the processor's cache (explanation/remap, blocks of rows).
 from math import inf
 
 from hydro2d.jit import kernel, point, prange, rowwise
+from hydro2d.kernels.column_ranges import block_rows, columns, mixed_row, number_of_blocks, spread
 from hydro2d.kernels.interfaces import flux_range
-from hydro2d.kernels.spans import block_rows, columns, mixed_row, number_of_blocks, spread
 from hydro2d.mesh.fields import BLOCK, DMG, LEAST, MOST, PER_MASS, RHO, SRR, SRZ, E
 from hydro2d.mesh.grid import CM_IN, CM_OUT
 from hydro2d.physics.advection import TINY, upwind
@@ -19,16 +19,16 @@ FULL = 1.0 - 1e-6
 
 
 @rowwise
-def flux_row(dj, di, j, i0, i1, m, carried, rules, slot, b, near, pre, flux_volume, vof, q, scratch, flux):
+def flux_row(dj, di, j, i0, i1, m, carried, rules, slot, b, body_ranges, pre, flux_volume, vof, q, scratch, flux):
     """Fluxes of what body m carries through the faces of row j.
 
     Second order, monotone, in cells whose neighbours are full of the same body; the donor's own value in and next to mixed
     cells. Specific quantities in the mass coordinate, deviators in the volume coordinate (explanation/remap, equation 4).
 
-    Reads    pre [j, i]; flux_volume, vof [m, j, i]; q [k, m, j, i]
+    Reads    pre (pre-sweep volume) [j, i]; flux_volume, vof [m, j, i]; q [k, m, j, i]
     Writes   flux [k, m, slot, i]
     """
-    lo, hi = flux_range(dj, di, i0, i1, m, j, near)
+    lo, hi = flux_range(dj, di, i0, i1, m, j, body_ranges)
     n = hi - lo
     if n > 0:
         swept = flux_volume[m, j, lo:hi]
@@ -71,15 +71,16 @@ def flux_row(dj, di, j, i0, i1, m, carried, rules, slot, b, near, pre, flux_volu
 
 
 @rowwise
-def update_row(dj, di, j, i0, i1, m, carried, rules, below, above, b, near, face, pre, flux_volume, flux, scratch, vof, q):
+def update_row(dj, di, j, i0, i1, m, carried, rules, below, above, b, body_ranges, face, pre, flux_volume, flux, scratch, vof,
+               q):
     """Body m in row j after the sweep: volume, mass and what it carries. A cell without flux keeps its bits.
 
     Fields stay within the bounds of the table; what has failed stays so, to the last bit, and has no deviator.
 
-    Reads    face, pre [j, i]; flux_volume [m, j, i]; flux [k, m, slot, i] in the slots `below` and `above`
+    Reads    face, pre (pre-sweep volume) [j, i]; flux_volume [m, j, i]; flux [k, m, slot, i] in the slots `below` and `above`
     Updates  vof [m, j, i] (share of the volume after the sweep), q [k, m, j, i]
     """
-    lo, hi = max(near[dj, m, j, 0] - di, i0), min(near[dj, m, j, 1] + di, i1)
+    lo, hi = max(body_ranges[dj, m, j, 0] - di, i0), min(body_ranges[dj, m, j, 1] + di, i1)
     n = hi - lo
     if n > 0:
         v_in = flux_volume[m, j, lo:hi]
@@ -102,11 +103,11 @@ def update_row(dj, di, j, i0, i1, m, carried, rules, below, above, b, near, face
             mass_after = mass + (m_in[x] - m_out[x])
             post = pre_j[x] - (s_out[x] - s_in[x])
             same = v_in[x] == 0.0 and v_out[x] == 0.0
-            still = same and s_in[x] == 0.0 and s_out[x] == 0.0
+            unchanged = same and s_in[x] == 0.0 and s_out[x] == 0.0
             density = mass_after / after if after > 0.0 else 0.0
             fraction = max(after / post, 0.0)
-            r_j[x] = r_j[x] if still else density
-            f_j[x] = f_j[x] if still else fraction
+            r_j[x] = r_j[x] if unchanged else density
+            f_j[x] = f_j[x] if unchanged else fraction
             # what a cell without flux is multiplied and divided by is one
             old_v[x] = 1.0 if same else volume
             old_m[x] = 1.0 if same else mass
@@ -134,18 +135,18 @@ def update_row(dj, di, j, i0, i1, m, carried, rules, below, above, b, near, face
 
 
 @rowwise
-def mass_flux_row(dj, di, j, i0, i1, slot, around, near, group, flux, flux_mass):
+def mass_flux_row(dj, di, j, i0, i1, slot, group_ranges, body_ranges, group, flux, flux_mass):
     """Mass flux of each group through the faces of row j, zero wherever the dual fluxes read it and nothing flows.
 
     Reads    group [m]; flux [k, m, slot, i];  writes flux_mass [b, j, i]
     """
     for g in range(flux_mass.shape[0]):
-        lo, n = columns(max(around[g, 3, j, 0] - 2, i0 - 2), min(around[g, 3, j, 1] + 3, i1 + 3))
+        lo, n = columns(max(group_ranges[g, 3, j, 0] - 2, i0 - 2), min(group_ranges[g, 3, j, 1] + 3, i1 + 3))
         total = flux_mass[g, j]
         for x in range(n):
             total[lo + x] = 0.0
-    for m in range(near.shape[1]):
-        lo, hi = flux_range(dj, di, i0, i1, m, j, near)
+    for m in range(body_ranges.shape[1]):
+        lo, hi = flux_range(dj, di, i0, i1, m, j, body_ranges)
         lo, n = columns(lo, hi)
         mass = flux[RHO, m, slot]
         total = flux_mass[group[m], j]
@@ -154,14 +155,14 @@ def mass_flux_row(dj, di, j, i0, i1, slot, around, near, group, flux, flux_mass)
 
 
 @rowwise
-def cell_mass_row(dj, di, j, around, group, pre, face, volume, second, vof, q, cell_mass):
+def cell_mass_row(dj, di, j, group_ranges, group, pre, face, volume, second, vof, q, cell_mass):
     """Mass of each group in the cells of row j, in the volume that they have after the sweep.
 
-    Reads    group [m]; pre, face, volume [j, i]; vof [m, j, i]; q [k, m, j, i]
+    Reads    group [m]; pre (pre-sweep volume), face, volume [j, i]; vof [m, j, i]; q [k, m, j, i]
     Writes   cell_mass [b, j, i]
     """
     for g in range(cell_mass.shape[0]):
-        lo, n = columns(around[g, 0, j, 0], around[g, 0, j, 1])
+        lo, n = columns(group_ranges[g, 0, j, 0], group_ranges[g, 0, j, 1])
         out = cell_mass[g, j]
         for x in range(n):
             out[lo + x] = 0.0
@@ -186,34 +187,34 @@ def cell_mass_row(dj, di, j, around, group, pre, face, volume, second, vof, q, c
 
 
 @kernel
-def sum_cell_mass(j0, j1, around, group, volume, vof, q, cell_mass):
+def sum_cell_mass(j0, j1, group_ranges, group, volume, vof, q, cell_mass):
     """Mass of each group in every cell, without a sweep.
 
     Reads    group [m]; volume [j, i]; vof [m, j, i]; q [k, m, j, i]
     Writes   cell_mass [b, j, i]
     """
     for j in prange(j0, j1):
-        cell_mass_row(0, 0, j, around, group, volume, volume, volume, True, vof, q, cell_mass)
+        cell_mass_row(0, 0, j, group_ranges, group, volume, volume, volume, True, vof, q, cell_mass)
 
 
 @rowwise
-def sweep_row(dj, di, j, i0, i1, below, above, b, carried, rules, group, near, around, face, pre, volume, second, flux_volume,
-              flux, scratch, vof, q, cell_mass, mixed_count, mixed):
+def sweep_row(dj, di, j, i0, i1, below, above, b, carried, rules, group, body_ranges, group_ranges, face, pre, volume, second,
+              flux_volume, flux, scratch, vof, q, cell_mass, mixed_count, mixed):
     """Row j after the sweep: every body, the mass of the cells and the list of those that are mixed."""
-    for m in range(near.shape[1]):
-        update_row(dj, di, j, i0, i1, m, carried[m], rules, below, above, b, near, face, pre, flux_volume, flux, scratch, vof,
-                   q)
-    cell_mass_row(dj, di, j, around, group, pre, face, volume, second, vof, q, cell_mass)
-    mixed_row(j, around[0, 0], vof, scratch[0], b, mixed_count, mixed)
+    for m in range(body_ranges.shape[1]):
+        update_row(dj, di, j, i0, i1, m, carried[m], rules, below, above, b, body_ranges, face, pre, flux_volume, flux, scratch,
+                   vof, q)
+    cell_mass_row(dj, di, j, group_ranges, group, pre, face, volume, second, vof, q, cell_mass)
+    mixed_row(j, group_ranges[0, 0], vof, scratch[0], b, mixed_count, mixed)
 
 
 @kernel
-def sweep_r(j0, j1, i0, i1, carried, rules, group, edges, near, around, face, pre, volume, second, flux_volume, scratch, flux,
-            flux_mass, edge_flux, vof, q, cell_mass, mixed_count, mixed):
+def sweep_r(j0, j1, i0, i1, carried, rules, group, mesh_box, body_ranges, group_ranges, face, pre, volume, second, flux_volume,
+            scratch, flux, flux_mass, edge_flux, vof, q, cell_mass, mixed_count, mixed):
     """Carries every body along r: fluxes and update row by row.
 
-    Reads    carried, group [m]; rules [m, k, 4]; edges (j0, j1, i0, i1 of the mesh), near, around; face, pre, volume [j, i];
-             flux_volume [m, j, i]
+    Reads    carried, group [m]; rules [m, k, 4]; mesh_box (j0, j1, i0, i1 of the mesh), body_ranges, group_ranges; face,
+             pre (pre-sweep volume), volume [j, i]; flux_volume [m, j, i]
     Updates  vof [m, j, i], q [k, m, j, i]
     Writes   flux_mass, cell_mass [b, j, i]; edge_flux [side, k, m, j] of mass and energy; mixed_count [j], mixed [j, k]
     Scratch  scratch [s, block, i], flux [k, m, slot, i]
@@ -224,20 +225,20 @@ def sweep_r(j0, j1, i0, i1, carried, rules, group, edges, near, around, face, pr
         slot = 6 * b + 3
         first, last = block_rows(b, blocks, j0, j1)
         for j in range(first, last):
-            for m in range(near.shape[1]):
-                flux_row(0, 1, j, i0, i1, m, carried[m], rules, slot, b, near, pre, flux_volume, vof, q, scratch, flux)
-                lo, hi = flux_range(0, 1, i0, i1, m, j, near)
+            for m in range(body_ranges.shape[1]):
+                flux_row(0, 1, j, i0, i1, m, carried[m], rules, slot, b, body_ranges, pre, flux_volume, vof, q, scratch, flux)
+                lo, hi = flux_range(0, 1, i0, i1, m, j, body_ranges)
                 for side in range(2):
-                    i = edges[2 + side]
+                    i = mesh_box[2 + side]
                     edge_flux[side, RHO, m, j] = flux[RHO, m, slot, i] if lo <= i < hi else 0.0
                     edge_flux[side, E, m, j] = flux[E, m, slot, i] if lo <= i < hi else 0.0
-            mass_flux_row(0, 1, j, i0, i1, slot, around, near, group, flux, flux_mass)
-            sweep_row(0, 1, j, i0, i1, slot, slot, b, carried, rules, group, near, around, face, pre, volume, second,
-                      flux_volume, flux, scratch, vof, q, cell_mass, mixed_count, mixed)
+            mass_flux_row(0, 1, j, i0, i1, slot, group_ranges, body_ranges, group, flux, flux_mass)
+            sweep_row(0, 1, j, i0, i1, slot, slot, b, carried, rules, group, body_ranges, group_ranges, face, pre, volume,
+                      second, flux_volume, flux, scratch, vof, q, cell_mass, mixed_count, mixed)
 
 
 @point
-def shared(f, j0, blocks):
+def at_block_edge(f, j0, blocks):
     """Whether the flux through face f needs rows of two blocks, where a row is updated two faces after it was below one."""
     k = f - j0 + 1
     return k % BLOCK < 3 and 1 <= k // BLOCK < blocks
@@ -245,13 +246,13 @@ def shared(f, j0, blocks):
 
 @point
 def slot_of(f, b, j0, blocks):
-    """Slot of face f of block b: its own for a shared face, one of three that take turns for the others."""
+    """Slot of face f of block b: its own for a face at the edge of a block, one of three that take turns for the others."""
     k = f - j0 + 1
-    return 6 * (k // BLOCK) + k % BLOCK if shared(f, j0, blocks) else 6 * b + 3 + f % 3
+    return 6 * (k // BLOCK) + k % BLOCK if at_block_edge(f, j0, blocks) else 6 * b + 3 + f % 3
 
 
 @kernel
-def shared_fluxes(j0, j1, i0, i1, carried, rules, near, pre, flux_volume, vof, q, scratch, flux):
+def block_edge_fluxes(j0, j1, i0, i1, carried, rules, body_ranges, pre, flux_volume, vof, q, scratch, flux):
     """Fluxes along z through the faces that two blocks of rows share, before either changes.
 
     Reads    as sweep_z;  writes flux [k, m, slot, i];  scratch [s, block, i]
@@ -259,17 +260,17 @@ def shared_fluxes(j0, j1, i0, i1, carried, rules, near, pre, flux_volume, vof, q
     blocks = number_of_blocks(j0, j1)
     for b in prange(1, blocks):
         for f in range(j0 + b * BLOCK - 1, j0 + b * BLOCK + 2):
-            for m in range(near.shape[1]):
-                flux_row(1, 0, f, i0, i1, m, carried[m], rules, slot_of(f, b, j0, blocks), b, near, pre, flux_volume, vof, q,
-                         scratch, flux)
+            for m in range(body_ranges.shape[1]):
+                flux_row(1, 0, f, i0, i1, m, carried[m], rules, slot_of(f, b, j0, blocks), b, body_ranges, pre, flux_volume,
+                         vof, q, scratch, flux)
 
 
 @kernel
-def sweep_z(j0, j1, i0, i1, carried, rules, group, edges, near, around, face, pre, volume, second, flux_volume, scratch, flux,
-            flux_mass, edge_flux, vof, q, cell_mass, mixed_count, mixed):
+def sweep_z(j0, j1, i0, i1, carried, rules, group, mesh_box, body_ranges, group_ranges, face, pre, volume, second, flux_volume,
+            scratch, flux, flux_mass, edge_flux, vof, q, cell_mass, mixed_count, mixed):
     """Carries every body along z: a row is updated as soon as the fluxes of the faces that need it are known.
 
-    Reads    flux of the shared faces (shared_fluxes), and what sweep_r reads
+    Reads    flux of the faces at the edges of blocks (block_edge_fluxes), and what sweep_r reads
     Updates, writes and scratch as sweep_r; edge_flux [side, k, m, i]
     """
     blocks = number_of_blocks(j0, j1)
@@ -279,15 +280,16 @@ def sweep_z(j0, j1, i0, i1, carried, rules, group, edges, near, around, face, pr
         for f in range(first, last + 2):
             if f <= last:
                 slot = slot_of(f, b, j0, blocks)
-                if not shared(f, j0, blocks):
-                    for m in range(near.shape[1]):
-                        flux_row(1, 0, f, i0, i1, m, carried[m], rules, slot, b, near, pre, flux_volume, vof, q, scratch, flux)
+                if not at_block_edge(f, j0, blocks):
+                    for m in range(body_ranges.shape[1]):
+                        flux_row(1, 0, f, i0, i1, m, carried[m], rules, slot, b, body_ranges, pre, flux_volume, vof, q,
+                                 scratch, flux)
                 if f < last or last == j1:
-                    mass_flux_row(1, 0, f, i0, i1, slot, around, near, group, flux, flux_mass)
+                    mass_flux_row(1, 0, f, i0, i1, slot, group_ranges, body_ranges, group, flux, flux_mass)
                 for side in range(2):
-                    if f == edges[side]:
-                        for m in range(near.shape[1]):
-                            lo, hi = flux_range(1, 0, i0, i1, m, f, near)
+                    if f == mesh_box[side]:
+                        for m in range(body_ranges.shape[1]):
+                            lo, hi = flux_range(1, 0, i0, i1, m, f, body_ranges)
                             for k in range(2):
                                 for i in range(i0, i1):
                                     edge_flux[side, k, m, i] = flux[k, m, slot, i] if lo <= i < hi else 0.0
@@ -295,27 +297,27 @@ def sweep_z(j0, j1, i0, i1, carried, rules, group, edges, near, around, face, pr
             if j >= first and (f > last or j < last - 1):
                 below = slot_of(j, b, j0, blocks)
                 above = slot_of(j + 1, b, j0, blocks)
-                sweep_row(1, 0, j, i0, i1, below, above, b, carried, rules, group, near, around, face, pre, volume, second,
-                          flux_volume, flux, scratch, vof, q, cell_mass, mixed_count, mixed)
+                sweep_row(1, 0, j, i0, i1, below, above, b, carried, rules, group, body_ranges, group_ranges, face, pre, volume,
+                          second, flux_volume, flux, scratch, vof, q, cell_mass, mixed_count, mixed)
 
 
 @kernel
-def tidy(j0, j1, trace, metrics, volume, group, mixed_count, mixed, pre, dj, di, fr, fz, second, u, v, vof, q, cell_mass,
-         booked):
-    """Removes traces of bodies and of void, makes fractions that should be 1 exactly 1, and books what was removed.
+def tidy(j0, j1, cutoff, metrics, volume, group, mixed_count, mixed, pre, dj, di, fr, fz, second, u, v, vof, q, cell_mass,
+         removed):
+    """Removes sub-cutoff fractions of bodies and void, makes fractions that should be 1 exactly 1, and sums what was removed.
 
-    A body below the trace fraction is removed with its mass, internal energy, momentum and kinetic energy; void below it is
-    closed by scaling the bodies' volumes at constant mass. A negative density or volume counts as a trace.
+    A body below the cutoff is removed with its mass, internal energy, momentum and kinetic energy; void below it is
+    closed by scaling the bodies' volumes at constant mass. A negative density or volume counts as sub-cutoff.
 
     Reads    group [m]; u, v [b, j, i]
     Updates  mixed_count [j], mixed [j, k], the list of cells that are not full of one body; vof [m, j, i], q [k, m, j, i],
              cell_mass [b, j, i]
-    Writes   booked [4 + m, j]: internal energy, kinetic energy, axial momentum, volume closed; then mass of each body
+    Writes   removed [4 + m, j]: internal energy, kinetic energy, axial momentum, volume closed; then mass of each body
     """
     bodies = vof.shape[0]
     for j in prange(j0, j1):
         for row in range(4 + bodies):
-            booked[row, j] = 0.0
+            removed[row, j] = 0.0
         left = 0
         for k in range(mixed_count[j]):
             i = mixed[j, k]
@@ -326,17 +328,17 @@ def tidy(j0, j1, trace, metrics, volume, group, mixed_count, mixed, pre, dj, di,
             for m in range(bodies):
                 f = vof[m, j, i]
                 rho = q[RHO, m, j, i]
-                if f > 0.0 and (f < trace or not rho > 0.0):
+                if f > 0.0 and (f < cutoff or not rho > 0.0):
                     mass = f * rho * post
                     inner, outer = metrics[CM_IN, i] * mass, metrics[CM_OUT, i] * mass
                     g = group[m]
                     v_in, v_out = v[g, j, i] + v[g, j + 1, i], v[g, j, i + 1] + v[g, j + 1, i + 1]
                     k_in = (v[g, j, i] ** 2 + v[g, j + 1, i] ** 2) + (u[g, j, i] ** 2 + u[g, j + 1, i] ** 2)
                     k_out = (v[g, j, i + 1] ** 2 + v[g, j + 1, i + 1] ** 2) + (u[g, j, i + 1] ** 2 + u[g, j + 1, i + 1] ** 2)
-                    booked[0, j] += mass * q[E, m, j, i]
-                    booked[1, j] += 0.5 * (inner * k_in + outer * k_out)
-                    booked[2, j] += inner * v_in + outer * v_out
-                    booked[4 + m, j] += mass
+                    removed[0, j] += mass * q[E, m, j, i]
+                    removed[1, j] += 0.5 * (inner * k_in + outer * k_out)
+                    removed[2, j] += inner * v_in + outer * v_out
+                    removed[4 + m, j] += mass
                     f = 0.0
                     vof[m, j, i] = 0.0
                 if f == 0.0:
@@ -344,8 +346,8 @@ def tidy(j0, j1, trace, metrics, volume, group, mixed_count, mixed, pre, dj, di,
                         q[field, m, j, i] = 0.0
                 total += f
                 present += 1 if f > 0.0 else 0
-            if total > 1.0 - trace and total != 1.0:
-                booked[3, j] += max(1.0 - total, 0.0) * post
+            if total > 1.0 - cutoff and total != 1.0:
+                removed[3, j] += max(1.0 - total, 0.0) * post
                 scale = 1.0 / total
                 for m in range(bodies):
                     if vof[m, j, i] > 0.0:

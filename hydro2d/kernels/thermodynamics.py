@@ -4,8 +4,8 @@ from math import sqrt
 
 from eos.dispatch import evaluate, pressure_row, temperature_row, zero_pressure_density
 from hydro2d.jit import apart, point, rowwise, serial
-from hydro2d.kernels.spans import columns
-from hydro2d.materials.rows import DAMAGE, DAMAGE_AT, EOS, EOS_AT, LOOSE, STRENGTH, STRENGTH_AT, TENSILE
+from hydro2d.kernels.column_ranges import columns
+from hydro2d.materials.rows import CUTOFF_DENSITY, DAMAGE, DAMAGE_AT, EOS, EOS_AT, STRENGTH, STRENGTH_AT, TENSILE
 from hydro2d.mesh.fields import DMG, EP, RHO, SRR, SRZ, SZZ, E
 from hydro2d.mesh.grid import VOL_R
 from hydro2d.physics.fracture import share_that_stays, tension_limit
@@ -18,8 +18,8 @@ SOUND_FLOOR = 1.0  # (1 m/s)^2
 
 
 @apart
-def tear_row(m, j, first, number, model, par, fracture_pressure, max_opening, metrics, h, vof, q):
-    """Opens void in the cells of row j that body m fills and that tear; returns its volume.
+def insert_void_row(m, j, first, number, model, par, fracture_pressure, max_opening, metrics, h, vof, q):
+    """Inserts void in the cells of row j that body m fills and that fracture; returns its volume.
 
     Void until p(rho*, e) = 0, at most max_opening of the cell in a cycle; the deviator is set to zero (explanation/fracture).
 
@@ -56,10 +56,10 @@ def report_row(m, j, first, number, vof, q, pm, bad):
 
 
 @rowwise
-def add_row(m, j, b, first, number, loose, vof, q, pm, km, p, bulk, rhobar, solid, cl, scratch):
+def add_row(m, j, b, first, number, cutoff_density, vof, q, pm, km, p, bulk, rhobar, solid, cl, scratch):
     """Adds what body m gives to the cells of row j: pressure, compressibility, density, fraction; and its wave speed squared.
 
-    Reads    vof, pm [m, j, i]; q (rho) [k, m, j, i]; scratch [0, b, i], shear modulus, of no avail in loose material
+    Reads    vof, pm [m, j, i]; q (rho) [k, m, j, i]; scratch [0, b, i], shear modulus, of no avail up to the cutoff density
     Updates  km [m, j, i], which holds the square of the sound speed and then the bulk modulus; p, bulk (1/K), rhobar, solid,
              cl (squared) [j, i]
     """
@@ -79,7 +79,7 @@ def add_row(m, j, b, first, number, loose, vof, q, pm, km, p, bulk, rhobar, soli
         there = f > 0.0
         rho = r_j[i] if there else 1.0
         c2 = km_j[i]
-        modulus = shear_j[i] if rho > loose else 0.0
+        modulus = shear_j[i] if rho > cutoff_density else 0.0
         stiffness = rho * c2
         km_j[i] = stiffness
         p_j[i] += f * pm_j[i]
@@ -90,23 +90,23 @@ def add_row(m, j, b, first, number, loose, vof, q, pm, km, p, bulk, rhobar, soli
 
 
 @rowwise
-def pressures_row(j, b, max_opening, metrics, dz, span, reach, models, materials, vof, q, pm, km, tm, p, bulk, rhobar, solid,
-                  cl, scratch, opened, bad):
-    """Equation of state of every body, void opened in pure cells that tear, and the sums over a cell.
+def pressures_row(j, b, max_opening, metrics, dz, body_range, active_range, models, materials, vof, q, pm, km, tm, p, bulk,
+                  rhobar, solid, cl, scratch, opened, bad):
+    """Equation of state of every body, void inserted in pure cells that fracture, and the sums over a cell.
 
     p = sum f_m p_m;  rhobar = sum f_m rho_m;  1/bulk = sum f_m / K_m (explanation/equation-of-state, mixed-cells);
-    A loose body is no solid any more and has no shear modulus.
+    A body at or below its cutoff density is no solid any more and has no shear modulus.
     cl = max over bodies of sqrt((K + 4 G/3)/rho), for the time step.
-    A pure cell below its fracture pressure is given void (`tear_row`).
+    A pure cell below its fracture pressure is given void (`insert_void_row`).
 
-    Reads    q (rho, e, damage) [k, m, j, i], span [m, j, 2]
-    Updates  vof [m, j, i], q (rho and deviators where a cell tears)
+    Reads    q (rho, e, damage) [k, m, j, i], body_range [m, j, 2]
+    Updates  vof [m, j, i], q (rho and deviators where a cell fractures)
     Writes   pm, km, tm [m, j, i] (tm of bodies that feel temperature); p, bulk, rhobar, solid, cl [j, i]; opened [j]
              volume of new void; bad [j, :3] count of cells that are not finite, the column and body of the first
     Scratch  scratch [s, b, i]
     """
     bodies = vof.shape[0]
-    lo, n = columns(reach[j, 0], reach[j, 1])
+    lo, n = columns(active_range[j, 0], active_range[j, 1])
     p_j = p[j]
     bulk_j = bulk[j]
     rhobar_j = rhobar[j]
@@ -126,7 +126,7 @@ def pressures_row(j, b, max_opening, metrics, dz, span, reach, models, materials
         model = models[m, EOS]
         par = materials[m, EOS_AT:STRENGTH_AT]
         tensile = materials[m, TENSILE]
-        loose = materials[m, LOOSE]
+        cutoff_density = materials[m, CUTOFF_DENSITY]
         f_j = vof[m, j]
         r_j = q[RHO, m, j]
         e_j = q[E, m, j]
@@ -135,26 +135,26 @@ def pressures_row(j, b, max_opening, metrics, dz, span, reach, models, materials
         pm_j = pm[m, j]
         km_j = km[m, j]
         tm_j = tm[m, j]
-        first, number = columns(span[m, j, 0], span[m, j, 1])
-        for attempt in range(2):  # once more where a cell has torn
+        first, number = columns(body_range[m, j, 0], body_range[m, j, 1])
+        for attempt in range(2):  # once more where a cell has fractured
             pressure_row(model, par, SOUND_FLOOR, first, number, f_j, r_j, e_j, d_j, pm_j, km_j)
-            torn = 0
+            fractured = 0
             wrong = 0
             for x in range(number):
                 i = first + x
-                tears = f_j[i] == 1.0 and (pm_j[i] < -tensile or d_j[i] >= 1.0)
+                fractures = f_j[i] == 1.0 and (pm_j[i] < -tensile or d_j[i] >= 1.0)
                 good = r_j[i] > 0.0 and abs(pm_j[i]) < 1e300 and abs(ep_j[i]) < 1e300
-                torn += 1 if tears else 0
+                fractured += 1 if fractures else 0
                 wrong += 0 if good or f_j[i] == 0.0 else 1
-            if torn == 0 or attempt == 1:
+            if fractured == 0 or attempt == 1:
                 break
-            new_void += tear_row(m, j, first, number, model, par, tensile, max_opening, metrics, dz[j], vof, q)
+            new_void += insert_void_row(m, j, first, number, model, par, tensile, max_opening, metrics, dz[j], vof, q)
         if wrong > 0:
             report_row(m, j, first, number, vof, q, pm, bad)
         if feels_temperature(models[m, STRENGTH], models[m, DAMAGE]):
             temperature_row(model, par, first, number, f_j, r_j, e_j, tm_j)
         modulus_row(models[m, STRENGTH], materials[m, STRENGTH_AT:DAMAGE_AT], first, number, pm_j, r_j, tm_j, shear_j)
-        add_row(m, j, b, first, number, loose, vof, q, pm, km, p, bulk, rhobar, solid, cl, scratch)
+        add_row(m, j, b, first, number, cutoff_density, vof, q, pm, km, p, bulk, rhobar, solid, cl, scratch)
     for x in range(n):
         i = lo + x
         full = solid_j[i] > 1.0 - 1e-12
@@ -178,8 +178,8 @@ def row_minimum(a, first, number):
 
 
 @rowwise
-def viscosity_row(j, b, linear, quadratic, courant, advective, mesh_speed, hourglass, dr, dz, metrics, reach, u, v, rhobar,
-                  bulk, cl, qr, qz, weight, row_step, bad, scratch):
+def viscosity_row(j, b, linear, quadratic, courant, advective, mesh_speed, hourglass, dr, dz, metrics, active_range, u, v,
+                  rhobar, bulk, cl, qr, qz, hg_coefficient, row_step, bad, scratch):
     """Artificial viscosity direction by direction, and the time step that every cell allows.
 
     q_r answers only to the radial difference du, q_z only to the axial one (a shock along z must not see dr), and neither to
@@ -188,11 +188,11 @@ def viscosity_row(j, b, linear, quadratic, courant, advective, mesh_speed, hourg
     dz)/sqrt(c_l^2 + 2 q/rho), |u| dt <= advective dx, |div u| dt <= 0.2 in compression (explanation/lagrangian-step).
 
     Reads    u, v [b, j, i]; rhobar, bulk, cl [j, i]
-    Writes   qr, qz [j, i]; weight [j, i], coefficient of the hourglass filter, kg/s; row_step [j], the least of a row;
+    Writes   qr, qz [j, i]; hg_coefficient [j, i], coefficient of the hourglass filter, kg/s; row_step [j], the least of a row;
              bad [j, 3] velocities that are not finite
     Scratch  scratch [s, b, i]
     """
-    lo, n = columns(reach[j, 0], reach[j, 1])
+    lo, n = columns(active_range[j, 0], active_range[j, 1])
     ub = u[0, j]
     ut = u[0, j + 1]
     vbb = v[0, j - 1]
@@ -205,7 +205,7 @@ def viscosity_row(j, b, linear, quadratic, courant, advective, mesh_speed, hourg
     cl_j = cl[j]
     bulk_j = bulk[j]
     step_j = scratch[1, b]
-    weight_j = weight[j]
+    hg_j = hg_coefficient[j]
     h = dz[j]
     wrong = 0
     for x in range(n):
@@ -227,7 +227,7 @@ def viscosity_row(j, b, linear, quadratic, courant, advective, mesh_speed, hourg
         q_z = directional_viscosity(rho, c, dv_q, smoothness(dv_b, dv, dv_t), linear, quadratic)
         sound, radial, axial, volume = step_limits(
             i, ub, ut, vb, vt, courant, advective, mesh_speed, dr, h, rho, cl_j[i], max(q_r, q_z), loss)
-        weight_j[i] = 0.25 * hourglass * rho_j[i] * cl_j[i] * metrics[VOL_R, i] * h / max(dr[i], h)
+        hg_j[i] = 0.25 * hourglass * rho_j[i] * cl_j[i] * metrics[VOL_R, i] * h / max(dr[i], h)
         qr_j[i] = 0.0 if void else q_r
         qz_j[i] = 0.0 if void else q_z
         step_j[i] = 1e300 if void else min(min(sound, radial), min(axial, volume))
@@ -251,14 +251,14 @@ def least_step(j0, j1, row_step, bad, found):
 
 
 @serial
-def step_cause(j, courant, advective, mesh_speed, dr, dz, metrics, reach, u, v, rhobar, cl, qr, qz, cause):
+def step_cause(j, courant, advective, mesh_speed, dr, dz, metrics, active_range, u, v, rhobar, cl, qr, qz, cause):
     """Which cell of row j allows the least step, and which of the bounds it is.
 
     Reads    what viscosity_row read and wrote
     Writes   cause [2]: index into CAUSES, column
     """
     best = 1e300
-    for i in range(reach[j, 0], reach[j, 1]):
+    for i in range(active_range[j, 0], active_range[j, 1]):
         if rhobar[j, i] > 0.0:
             loss = volume_loss(i, u[0, j], u[0, j + 1], v[0, j], v[0, j + 1], metrics, dz[j])
             limits = step_limits(i, u[0, j], u[0, j + 1], v[0, j], v[0, j + 1], courant, advective, mesh_speed, dr, dz[j],

@@ -67,7 +67,7 @@ TABLE: tuple[Quantity, ...] = (
     Quantity("material", "Material", "", "number of the body, from 1, that fills most of the cell; 0: void"),
     Quantity("velocity_hard", "Velocity of Hard Bodies", "m/s",
              "that of the hard bodies in a contact, as the vector (r, z, 0)", contact=True),
-    Quantity("velocity_rest", "Velocity of the Rest", "m/s",
+    Quantity("velocity_soft", "Velocity of Soft Bodies", "m/s",
              "that of the other bodies in a contact, as the vector (r, z, 0)", contact=True),
     Quantity("hard_share", "Share of Hard Bodies", "",
              "share of the cell that the hard bodies of a contact fill", contact=True),
@@ -82,6 +82,9 @@ TABLE: tuple[Quantity, ...] = (
     Quantity("body_damage", "Damage of {body}", "", "0 intact, 1 failed"),
     *INTERNAL.values(),
 )  # fmt: skip
+
+#: keys of older versions, and what they are called now
+RENAMED = {"velocity_rest": "velocity_soft"}
 
 BY_KEY = {quantity.key: quantity for quantity in TABLE}
 
@@ -110,6 +113,7 @@ def expand(keys) -> tuple[str, ...]:
     expanded: list[str] = []
     for key in keys:
         if key not in GROUPS and key not in BY_KEY:
-            raise FieldError(unknown("field", key, (*GROUPS, *BY_KEY)))
+            now = RENAMED.get(key)
+            raise FieldError(f"{key} is now called {now}" if now else unknown("field", key, (*GROUPS, *BY_KEY)))
         expanded += GROUPS[key] if key in GROUPS else [key]
     return tuple(dict.fromkeys((*expanded, *ALWAYS)))

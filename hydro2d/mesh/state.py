@@ -50,8 +50,8 @@ class State:
 
     Its arrays are those of `fields.FIELDS` and `fields.WORK`, by their symbols; with two groups, of `fields.CONTACT_WORK` as
     well. Shapes: body fields [m, j, i], cell fields [j, i], vertex fields [b, j, i] with a leading index of body group b (one
-    group unless contact is on); all with ghosts. ``velocity`` and ``velocity0`` hold u, v and u0, v0; ``span`` and ``reach``
-    are the first of ``near`` and ``around``.
+    group unless contact is on); all with ghosts. ``velocity`` and ``velocity0`` hold u, v and u0, v0; ``body_range``
+    and ``active_range`` are the first of ``body_ranges`` and ``group_ranges``.
 
     Parameters
     ----------
@@ -79,12 +79,12 @@ class State:
         for field, row in zip(fields.BODY, self.q, strict=False):
             setattr(self, field.symbol, row)
         self.pre[...] = grid.volume  # ghosts keep it: a face beside them divides by it
-        self.span, self.reach = self.near[0], self.around[0, 0]
-        self.empty_spans()
+        self.body_range, self.active_range = self.body_ranges[0], self.group_ranges[0, 0]
+        self.empty_ranges()
 
-    def empty_spans(self) -> None:
+    def empty_ranges(self) -> None:
         """No body is in any row."""
-        for ranges in (self.near, self.around, self.occupied):
+        for ranges in (self.body_ranges, self.group_ranges, self.occupied):
             ranges[..., 0], ranges[..., 1] = EMPTY
 
     def swap_velocities(self) -> None:

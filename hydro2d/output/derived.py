@@ -136,7 +136,7 @@ EVALUATE: dict[str, Callable[[Cells], np.ndarray]] = {
     "damage": lambda c: c.by_mass(np.minimum(c.dmg, 1.0)),
     "material": Cells.material,
     "velocity_hard": lambda c: c.group_velocity(1),
-    "velocity_rest": lambda c: c.group_velocity(0),
+    "velocity_soft": lambda c: c.group_velocity(0),
     "hard_share": lambda c: c.group_share(1),
     "contact_pressure": Cells.contact_pressure,
     "volume_fraction": lambda c: c.vof,

@@ -8,10 +8,10 @@ GAP = 0.01
 
 
 @point
-def wetted(first, last):
-    """Weights of both ends of a face, of which the part with levels from 0 up is wetted; levels at the ends, linear between.
+def end_apertures(first, last):
+    """Apertures of a face at both ends, open where the level is 0 or more; levels at the ends, linear between.
 
-    With the length a wetted from one end (2 a - a^2, a^2): what lies there of either linear shape function, as a share of its
+    With the length a open from one end (2 a - a^2, a^2): what lies there of either linear shape function, as a share of its
     whole integral of 1/2.
     """
     if first >= 0.0 and last >= 0.0:
@@ -26,19 +26,19 @@ def wetted(first, last):
 
 
 @point
-def known(weight, rest, hard_mass):
-    """A weight, all of which goes to the group that is alone at a vertex."""
+def known(aperture, soft_mass, hard_mass):
+    """An aperture, all of which goes to the group that is alone at a vertex."""
     if hard_mass == 0.0:
         return 0.0
-    return 1.0 if rest == 0.0 else weight
+    return 1.0 if soft_mass == 0.0 else aperture
 
 
 @point
-def dual_share(g, j, i, edges, volume, metrics, hard, soft):
+def dual_share(g, j, i, mesh_box, volume, metrics, hard, soft):
     """Share of the dual cell of vertex (j, i), as far as it lies in the mesh, that group g fills."""
     whole, part = 0.0, 0.0
-    for row in range(max(j - 1, edges[0]), min(j + 1, edges[1])):
-        for column in range(max(i - 1, edges[2]), min(i + 1, edges[3])):
+    for row in range(max(j - 1, mesh_box[0]), min(j + 1, mesh_box[1])):
+        for column in range(max(i - 1, mesh_box[2]), min(i + 1, mesh_box[3])):
             corner = volume[row, column] * (metrics[CM_OUT, column] if column < i else metrics[CM_IN, column])
             whole += corner
             part += corner * (hard[row, column] if g == 1 else soft[row, column])
@@ -46,46 +46,47 @@ def dual_share(g, j, i, edges, volume, metrics, hard, soft):
 
 
 @point
-def meeting(j, i, edges, hard, soft):
+def meeting(j, i, mesh_box, hard, soft):
     """Whether both groups are in cell (j, i), or one is and the other fills a cell beside it but for GAP."""
     h, s = hard[j, i] > 0.0, soft[j, i] > 0.0
     if h and s:
         return True
     for row, column in ((j - 1, i), (j + 1, i), (j, i - 1), (j, i + 1)):
-        if edges[0] <= row < edges[1] and edges[2] <= column < edges[3]:
+        if mesh_box[0] <= row < mesh_box[1] and mesh_box[2] <= column < mesh_box[3]:
             if (soft[row, column] if h else hard[row, column]) >= 1.0 - GAP:
                 return True
     return False
 
 
 @point
-def blend(weight, hard, soft):
-    """Velocity of a face at one end: the hard group's by its weight, the other's for the rest."""
-    return weight * hard + (1.0 - weight) * soft
+def blend(aperture, hard, soft):
+    """Velocity of a face at one end: the hard group's by its aperture, the soft group's for what is missing to 1."""
+    return aperture * hard + (1.0 - aperture) * soft
 
 
 @point
-def face_flow_r(j, i, g, wet_r, u):
-    """Sum of the velocities of both ends of r-face (j, i), m/s: of group g, or of both by weight for g < 0."""
+def face_flow_r(j, i, g, aperture_r, u):
+    """Sum of the velocities of both ends of r-face (j, i), m/s: of group g, or of both by aperture for g < 0."""
     if g >= 0:
         return u[g, j, i] + u[g, j + 1, i]
-    return blend(wet_r[0, j, i], u[1, j, i], u[0, j, i]) + blend(wet_r[1, j, i], u[1, j + 1, i], u[0, j + 1, i])
+    return blend(aperture_r[0, j, i], u[1, j, i], u[0, j, i]) + blend(aperture_r[1, j, i], u[1, j + 1, i], u[0, j + 1, i])
 
 
 @point
-def face_flow_z(j, i, g, metrics, wet_z, v):
-    """Volume per time and radian through z-face (j, i), m^3/s: of group g, or of both by weight for g < 0."""
+def face_flow_z(j, i, g, metrics, aperture_z, v):
+    """Volume per time and radian through z-face (j, i), m^3/s: of group g, or of both by aperture for g < 0."""
     if g >= 0:
         return metrics[AZ_IN, i] * v[g, j, i] + metrics[AZ_OUT, i] * v[g, j, i + 1]
-    return metrics[AZ_IN, i] * blend(wet_z[0, j, i], v[1, j, i], v[0, j, i]) + metrics[AZ_OUT, i] * blend(
-        wet_z[1, j, i], v[1, j, i + 1], v[0, j, i + 1])
+    return metrics[AZ_IN, i] * blend(aperture_z[0, j, i], v[1, j, i], v[0, j, i]) + metrics[AZ_OUT, i] * blend(
+        aperture_z[1, j, i], v[1, j, i + 1], v[0, j, i + 1])
 
 
 @point
-def volume_rate(j, i, g, metrics, h, wet_r, wet_z, u, v):
-    """Rate of change of the volume of cell (j, i) with the velocities of group g, or with both by weight for g < 0."""
-    radial = metrics[FACE_R, i + 1] * face_flow_r(j, i + 1, g, wet_r, u) - metrics[FACE_R, i] * face_flow_r(j, i, g, wet_r, u)
-    axial = face_flow_z(j + 1, i, g, metrics, wet_z, v) - face_flow_z(j, i, g, metrics, wet_z, v)
+def volume_rate(j, i, g, metrics, h, aperture_r, aperture_z, u, v):
+    """Rate of change of the volume of cell (j, i) with the velocities of group g, or with both by aperture for g < 0."""
+    radial = metrics[FACE_R, i + 1] * face_flow_r(j, i + 1, g, aperture_r, u) - metrics[FACE_R, i] * face_flow_r(j, i, g,
+                                                  aperture_r, u)
+    axial = face_flow_z(j + 1, i, g, metrics, aperture_z, v) - face_flow_z(j, i, g, metrics, aperture_z, v)
     return 0.5 * h * radial + axial
 
 

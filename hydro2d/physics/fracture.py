@@ -1,4 +1,4 @@
-"""Where material tears, and how much void opens (explanation/fracture)."""
+"""Where material fractures, and how much void is inserted (explanation/fracture)."""
 
 from hydro2d.jit import point
 from hydro2d.mesh.fields import FAILED
@@ -20,7 +20,7 @@ def tension_limit(fracture_pressure, damage):
 
 @point
 def share_that_stays(rho, relaxed, max_opening):
-    """Share of its volume that a torn body keeps, so that the rest is void.
+    """Share of its volume that a fractured body keeps, so that the rest is void.
 
     ``relaxed`` is the density at zero pressure with the same energy, kg/m^3: at rho/relaxed the tension is gone. No more than
     ``max_opening`` of the volume opens in one cycle (explanation/fracture, equation 3).

@@ -16,9 +16,9 @@ def deviator_power(rr, zz, rz, d_rr, d_zz, d_tt, d_rz):
 
 
 @point
-def carries_no_stress(damage, rho, loose):
-    """Whether material has failed, or is as thin as `loose` kg/m^3 and less: neither carries shear (explanation/fracture)."""
-    return damage >= 1.0 or rho <= loose
+def carries_no_stress(damage, rho, cutoff_density):
+    """Whether material has failed, or has the cutoff density (kg/m^3) or less: neither carries shear (explanation/fracture)."""
+    return damage >= 1.0 or rho <= cutoff_density
 
 
 @point

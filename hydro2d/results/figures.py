@@ -31,7 +31,7 @@ READER = {
 BODY_COLOURS = ("#5b6770", "#c9a66b", "#7aa6c2", "#a3b18a", "#b57ba6", "#d08c60", "#8d99ae", "#c05a5a")
 HISTORIES = ("penetration_depth_m", "rod_tail_velocity_m_s", "rod_length_m", "rod_max_plastic_strain")
 COMPONENTS = {"r": 0, "z": 1}
-VECTORS = ("velocity", "velocity_hard", "velocity_rest")
+VECTORS = ("velocity", "velocity_hard", "velocity_soft")
 #: endings of films, which are no pictures
 FILMS = ("gif", "mp4", "avi", "mov", "webm")
 #: seconds before a rendering process is given up

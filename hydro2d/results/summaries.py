@@ -6,14 +6,14 @@ import math
 
 #: keys that hold words, lists of words, tables, and yes or no
 WORDS = ("deck", "title", "deck_sha256", "version", "status", "stop_reason", "regime", "qualifier", "source")
-TABLES = ("conservation", "experiment", "provenance", "packages", "crater", "mass", "sinks", "exchanges",
+TABLES = ("conservation", "experiment", "provenance", "packages", "crater", "mass", "sinks", "contact_transfers",
           "bodies", "stations", "targets")
 YES_OR_NO = ("trustworthy", "git_dirty")
 #: keys that hold numbers, and what the names of others end in that do
 NUMBERS = ("cycles", "cells", "ns_per_cell_cycle", "axial_momentum", "total_energy", "rod_max_plastic_strain")
 UNITS = ("_m", "_m_s", "_s", "_kg", "_J", "_N_s", "_m2", "_m3", "_K", "_Pa")
 #: tables that hold numbers alone, or tables alone, whatever their keys are
-OF_NUMBERS, OF_TABLES = ("mass",), ("sinks", "exchanges", "bodies", "stations", "targets")
+OF_NUMBERS, OF_TABLES = ("mass",), ("sinks", "contact_transfers", "bodies", "stations", "targets")
 
 
 def plausible(summary: dict) -> tuple[dict, list[str]]:

@@ -11,7 +11,7 @@ from hydro2d.deck import deck as decks
 from hydro2d.errors import DeckError
 from hydro2d.materials import library
 from hydro2d.mesh import quantities
-from hydro2d.mesh.edges import EDGES
+from hydro2d.mesh.boundary_conditions import EDGES
 from hydro2d.mesh.grid import Grid
 from hydro2d.output.vtk import Dump
 from hydro2d.solver import insertion, memory

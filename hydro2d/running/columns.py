@@ -1,6 +1,6 @@
 """The columns of history.h5 and the keys of summary.json, with their meanings: every number that a run writes.
 
-In a name, BODY, TARGET, STATION and SINK stand for the names of each; a station is `tracer_NAME` or `gauge_NAME`.
+In a name, BODY, TARGET, STATION, SINK and TRANSFER stand for the names of each; a station is `tracer_NAME` or `gauge_NAME`.
 """
 
 from __future__ import annotations
@@ -9,7 +9,7 @@ from hydro2d.solver import bodies, crater, penetrator, tracers
 
 PLACES = {"r_m": "radial position", "z_m": "axial position"}
 
-#: what a sink takes, and what bodies exchange
+#: amounts of a sink, and of a contact transfer
 AMOUNTS = {"mass_kg": "mass", "momentum_N_s": "axial momentum", "energy_J": "energy"}
 
 HISTORY: dict[str, str] = {
@@ -58,7 +58,7 @@ SUMMARY: dict[str, str] = {
     "conservation.kinetic_energy_J": "kinetic energy of all nodes",
     "conservation.start_energy_J": "total energy at the start, including the kinetic energy of all bodies",
     **{f"conservation.sinks.SINK.{key}": f"{meaning} that a sink has taken" for key, meaning in AMOUNTS.items()},
-    **{f"conservation.exchanges.EXCHANGE.{key}": f"{meaning} that bodies have exchanged"
+    **{f"conservation.contact_transfers.TRANSFER.{key}": f"{meaning} that bodies in contact have transferred"
        for key, meaning in AMOUNTS.items() if key != "mass_kg"},
     "provenance": "commit, machine, packages, command and times",
 }  # fmt: skip

@@ -1,4 +1,4 @@
-"""Conservation: every total, and every named sink through which something left the mesh or the balance."""
+"""The conservation audit: every total, and every named sink through which something left the mesh or the balance."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from hydro2d.mesh.sums import body_totals, vertex_totals
 
 #: sinks by name, and what each of them is
 SINKS = {
-    "traces": "bodies below the trace fraction, removed from their cell",
+    "cutoff": "sub-cutoff volume fractions: bodies below the cutoff, removed from their cell",
     "advection": "kinetic energy that the remap of velocities discarded (negative: gained), and the momentum it gained",
     "ke_bound": "kinetic energy that `ke` would have turned into more speed than ke_bound allows",
     "outflow": "what left through open edges",
@@ -21,13 +21,13 @@ SINKS = {
 }
 
 #: the sinks that are clips: what a limit of the method took from material that is still there
-CLIPS = {name: SINKS[name] for name in ("traces", "ke_bound", "speed_limit")}
+CLIPS = {name: SINKS[name] for name in ("cutoff", "ke_bound", "speed_limit")}
 
-#: what a contact passes on within the balance: axial momentum from the hard bodies to the rest, and the heat that it makes
-EXCHANGES = {
-    "contact": "the impulse along the normal, and along the tangent, where hard bodies and the rest share a vertex",
+#: what a contact passes on within the balance: axial momentum from the hard bodies to the soft ones, and the heat that it makes
+CONTACT_TRANSFERS = {
+    "contact": "the impulse along the normal, and along the tangent, at contact nodes, where hard and soft bodies meet",
     "friction": "heat of the impulse along the tangent",
-    "light vertices": "heat of what moves with a neighbour because there is too little of it",
+    "under-filled nodes": "heat of what moves with its master nodes because there is too little of it",
 }
 
 
@@ -41,7 +41,7 @@ class Sink:
 
 
 @dataclass
-class Exchange:
+class ContactTransfer:
     """What passed between two groups by one name: axial momentum and heat; per radian (per unit depth in planar geometry)."""
 
     momentum: float = 0.0
@@ -79,36 +79,36 @@ def totals(state) -> Totals:
 
 
 @dataclass
-class Ledger:
+class Audit:
     """The totals at the start and the sinks since.
 
     Attributes
     ----------
     start : Totals
     sinks : name -> Sink
-    exchanges : name -> Exchange, empty without contact
+    contact_transfers : name -> ContactTransfer, empty without contact
     """
 
     start: Totals
     sinks: dict[str, Sink] = field(default_factory=dict)
-    exchanges: dict[str, Exchange] = field(default_factory=dict)
+    contact_transfers: dict[str, ContactTransfer] = field(default_factory=dict)
 
     @classmethod
-    def open(cls, state) -> Ledger:
-        """A ledger that begins with the state as it is."""
+    def open(cls, state) -> Audit:
+        """An audit that begins with the state as it is."""
         return cls(totals(state), {name: Sink(np.zeros(state.bodies)) for name in SINKS},
-                   {name: Exchange() for name in EXCHANGES if state.groups > 1})
+                   {name: ContactTransfer() for name in CONTACT_TRANSFERS if state.groups > 1})
 
-    def book(self, name: str, mass=0.0, momentum: float = 0.0, energy: float = 0.0) -> None:
+    def add(self, name: str, mass=0.0, momentum: float = 0.0, energy: float = 0.0) -> None:
         """Adds to a sink what left the totals."""
         sink = self.sinks[name]
         sink.mass += mass
         sink.momentum += momentum
         sink.energy += energy
 
-    def exchange(self, name: str, momentum: float = 0.0, energy: float = 0.0) -> None:
-        """Adds to what a contact passed on: axial momentum that the rest gained from hard bodies, and heat."""
-        entry = self.exchanges[name]
+    def transfer(self, name: str, momentum: float = 0.0, energy: float = 0.0) -> None:
+        """Adds to what a contact passed on: axial momentum that soft bodies gained from hard ones, and heat."""
+        entry = self.contact_transfers[name]
         entry.momentum += momentum
         entry.energy += energy
 
@@ -145,9 +145,9 @@ class Ledger:
                 }
                 for name, sink in self.sinks.items()
             },
-            "exchanges": {
+            "contact_transfers": {
                 name: {"momentum_N_s": entry.momentum * around, "energy_J": entry.energy * around}
-                for name, entry in self.exchanges.items()
+                for name, entry in self.contact_transfers.items()
             },
         }
 
@@ -156,14 +156,14 @@ class Ledger:
         return {
             "start": {**vars(self.start), "mass": self.start.mass.tolist(), "internal_of": self.start.internal_of.tolist()},
             "sinks": {name: {**vars(sink), "mass": sink.mass.tolist()} for name, sink in self.sinks.items()},
-            "exchanges": {name: vars(entry) for name, entry in self.exchanges.items()},
+            "contact_transfers": {name: vars(entry) for name, entry in self.contact_transfers.items()},
         }
 
     @classmethod
-    def resume(cls, saved: dict) -> Ledger:
-        """The ledger that `saved` described."""
+    def resume(cls, saved: dict) -> Audit:
+        """The audit that `saved` described."""
         arrays = {name: np.array(saved["start"][name]) for name in ("mass", "internal_of")}
         start = Totals(**{**saved["start"], **arrays})
         sinks = {name: Sink(**{**entry, "mass": np.array(entry["mass"])}) for name, entry in saved["sinks"].items()}
-        exchanges = {name: Exchange(**entry) for name, entry in saved["exchanges"].items()}
-        return cls(start, sinks, exchanges)
+        contact_transfers = {name: ContactTransfer(**entry) for name, entry in saved["contact_transfers"].items()}
+        return cls(start, sinks, contact_transfers)

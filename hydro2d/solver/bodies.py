@@ -32,7 +32,7 @@ def measure(sim) -> dict[str, dict[str, float | None]]:
     """
     grid, state = sim.grid, sim.state
     around = 2 * np.pi if grid.cylindrical else 1.0
-    flows = {name: sim.ledger.sinks[name].mass if name in sim.ledger.sinks else None for name in ("outflow", "inflow")}
+    flows = {name: sim.audit.sinks[name].mass if name in sim.audit.sinks else None for name in ("outflow", "inflow")}
     found, sums_of_body = {}, np.zeros(4)
     for m, name in enumerate(sim.table.names):
         b = state.group[m]

@@ -12,19 +12,19 @@ from hydro2d.errors import UnphysicalState
 from hydro2d.kernels import (
     acceleration,
     boundaries,
+    column_ranges,
     deformation,
     interfaces,
     mixed,
     momentum,
     remap,
     sliding,
-    spans,
     thermodynamics,
 )
 from hydro2d.materials import rows
 from hydro2d.mesh import fields
 from hydro2d.physics import waves
-from hydro2d.solver.audit import Ledger
+from hydro2d.solver.audit import Audit
 from hydro2d.solver.contact import Contact
 from hydro2d.solver.following import StandingMesh
 from hydro2d.solver.method import Method
@@ -50,7 +50,7 @@ class Cycle:
     time, dt, number : time reached (s), last time step (s), cycles done
     cause : str, what set the last time step, and where
     box : [j0, j1, i0, i1] of the cells that are active
-    ledger : Ledger
+    audit : Audit
     """
 
     def __init__(self, state, table, method: Method, mesh=None):
@@ -59,21 +59,21 @@ class Cycle:
         grid = self.grid = state.grid
         self.time, self.dt, self.number, self.cause = 0.0, 0.0, 0, "start"
         g = grid.g
-        self.edges = np.array([g, g + grid.nz, g, g + grid.nr], dtype=np.int64)
+        self.mesh_box = np.array([g, g + grid.nz, g, g + grid.nr], dtype=np.int64)
         at = np.array([g, g + grid.nr, g, g + grid.nz], dtype=np.int64)
-        self.still = np.where(method.boundaries.having("holds"), at, -1)
+        self.constrained = np.where(method.boundaries.having("holds"), at, -1)
         self.void_only = self._edges_with_void_beyond()
         self.carried = np.array([self._carried(m) for m in range(state.bodies)])
-        self.contact = Contact(state, method, self.edges, self.still) if state.groups > 1 else None
-        self.box = list(self.edges)
-        self.ledger: Ledger | None = None
+        self.contact = Contact(state, method, self.mesh_box, self.constrained) if state.groups > 1 else None
+        self.box = list(self.mesh_box)
+        self.audit: Audit | None = None
         self.speed_limit = 0.0
-        self.models, self.materials = rows.packed(table, method.loose * table.rho0, method.yield_factor)
-        self.light_density = method.mass_floor * float(np.max(table.rho0))
+        self.models, self.materials = rows.packed(table, method.strength_cutoff * table.rho0, method.yield_factor)
+        self.underfilled_density = method.mass_floor * float(np.max(table.rho0))
 
     def _edges_with_void_beyond(self) -> np.ndarray:
         """The edges of the mesh (rows j0, j1, columns i0, i1) through which nothing but void comes in, -1 for the others."""
-        found = self.edges.copy()
+        found = self.mesh_box.copy()
         found[np.roll(self.method.boundaries.having("supplies"), 2)] = -1
         if self.mesh.leading is not None:
             found[self.mesh.leading] = -1
@@ -117,28 +117,28 @@ class Cycle:
     # ------------------------------------------------------------------------------------------------ preparation
 
     def prepare(self) -> None:
-        """Everything that follows from vof, q, u, v: masses, spans, the active box. Called once, and after a restart."""
+        """Everything that follows from vof, q, u, v: masses, ranges, the active box. Called once, and after a restart."""
         s = self.state
         every = self.box
-        self.box = list(self.edges)
+        self.box = list(self.mesh_box)
         self.mesh.announce()
-        self._spans(anew=True)
+        self._find_ranges(anew=True)
         s.cell_mass[...], s.mass[...] = 0.0, 0.0
         j0, j1, _, _ = self.box
-        remap.sum_cell_mass(j0, j1, s.around, s.group, self.grid.volume, s.vof, s.q, s.cell_mass)
+        remap.sum_cell_mass(j0, j1, s.group_ranges, s.group, self.grid.volume, s.vof, s.q, s.cell_mass)
         self._vertex_mass()
         self._keep_one()
-        if self.ledger is None:
-            self.box = self._first_box() if self._skips_cells else list(self.edges)
-            self.ledger = Ledger.open(s)
+        if self.audit is None:
+            self.box = self._first_box() if self._skips_cells else list(self.mesh_box)
+            self.audit = Audit.open(s)
             sound = self._slowest_wave()
             fastest = float(np.sqrt(np.max(s.u**2 + s.v**2)))
             self.speed_limit = SPEED_LIMIT_FACTOR * max(fastest, sound)
         else:
             self.box = every
-        if self.box != list(self.edges):  # beyond the box nothing has a span yet
-            s.empty_spans()
-            self._spans(anew=True)
+        if self.box != list(self.mesh_box):  # beyond the box nothing has a range yet
+            s.empty_ranges()
+            self._find_ranges(anew=True)
         self._list_mixed()
 
     @property
@@ -169,24 +169,24 @@ class Cycle:
             loud |= present & ~(at_rest & quiet_p)
         moving = ((s.u != 0) | (s.v != 0)).any(axis=0)
         loud |= moving[:-1, :-1] | moving[1:, :-1] | moving[:-1, 1:] | moving[1:, 1:]
-        j0, j1, i0, i1 = self.edges
+        j0, j1, i0, i1 = self.mesh_box
         rows, columns = np.nonzero(loud[j0:j1, i0:i1])
         if len(rows) == 0:
-            return list(self.edges)
+            return list(self.mesh_box)
         return self._clipped([rows.min() + j0, rows.max() + j0 + 1, columns.min() + i0, columns.max() + i0 + 1], MARGIN)
 
     def _clipped(self, box, margin) -> list[int]:
-        j0, j1, i0, i1 = self.edges
+        j0, j1, i0, i1 = self.mesh_box
         return [int(max(box[0] - margin, j0)), int(min(box[1] + margin, j1)), int(max(box[2] - margin, i0)),
                 int(min(box[3] + margin, i1))]
 
     def activate(self) -> None:
         """Lets the active box grow ahead of whatever moves (explanation/active-region)."""
-        if self.box == list(self.edges):
+        if self.box == list(self.mesh_box):
             return
         s, (j0, j1, i0, i1) = self.state, self.box
-        spans.moving_columns(j0, j1 + 1, i0, i1 + 1, s.u, s.v, s.row_moving)
-        spans.moving_box(j0, j1 + 1, s.row_moving, s.moving)
+        column_ranges.moving_columns(j0, j1 + 1, i0, i1 + 1, s.u, s.v, s.row_moving)
+        column_ranges.moving_box(j0, j1 + 1, s.row_moving, s.moving)
         first, last, low, high = s.moving
         if first == last:
             return
@@ -194,22 +194,22 @@ class Cycle:
         box = [min(j0, grown[0]), max(j1, grown[1]), min(i0, grown[2]), max(i1, grown[3])]
         if box != self.box:
             self.box = box
-            self._spans(anew=True)
+            self._find_ranges(anew=True)
             self._list_mixed()
 
-    def _spans(self, anew: bool) -> None:
+    def _find_ranges(self, anew: bool) -> None:
         s, box = self.state, self.box
-        spans.body_spans(*box, anew, s.group, s.vof, s.near, s.occupied)
-        spans.reached(*box, s.occupied, s.around)
-        spans.neighbours(box[0], box[1], s.near, s.around)
+        column_ranges.find_body_ranges(*box, anew, s.group, s.vof, s.body_ranges, s.occupied)
+        column_ranges.find_active_ranges(*box, s.occupied, s.group_ranges)
+        column_ranges.widen_ranges(box[0], box[1], s.body_ranges, s.group_ranges)
 
     def _list_mixed(self) -> None:
         s, (j0, j1, _, _) = self.state, self.box
-        spans.list_mixed(j0, j1, s.reach, s.vof, s.mixed_count, s.mixed, s.scratch)
+        column_ranges.list_mixed(j0, j1, s.active_range, s.vof, s.mixed_count, s.mixed, s.scratch)
 
     def _vertex_mass(self) -> None:
         s, g, (j0, j1, i0, i1) = self.state, self.grid, self.box
-        acceleration.vertex_masses(j0, j1 + 1, i0, i1 + 1, g.metrics, s.around, s.cell_mass, s.mass)
+        acceleration.vertex_masses(j0, j1 + 1, i0, i1 + 1, g.metrics, s.group_ranges, s.cell_mass, s.mass)
 
     def _keep_one(self) -> None:
         if self.contact:
@@ -222,10 +222,10 @@ class Cycle:
         boundaries.ghost_vertices_r(j0, j1 + 1, g.nr, low_r, high_r, s.u, s.v)
         boundaries.ghost_vertices_z(i0 - 2, i1 + 3, g.nz, low_z, high_z, s.u, s.v)
 
-    def _hold_still(self) -> None:
-        """The given normal velocity of the axis, walls and edges with a velocity; their impulse and its work are booked."""
+    def _constrain(self) -> None:
+        """The given normal velocity of constrained nodes: axis, walls, edges with a velocity; impulse and work are audited."""
         s = self.state
-        for edge, (at, velocity) in enumerate(zip(self.still, self.method.boundaries.velocity, strict=True)):
+        for edge, (at, velocity) in enumerate(zip(self.constrained, self.method.boundaries.velocity, strict=True)):
             if at < 0:
                 continue
             along_r = edge < 2
@@ -234,11 +234,11 @@ class Cycle:
                 before, mass = (s.u0[..., at], s.mass[..., at]) if along_r else (s.v0[:, at], s.mass[:, at])
                 impulse = mass * (normal - velocity)
                 work = float(np.sum(0.5 * impulse * (before + velocity))) if velocity else 0.0
-                self.ledger.book("walls", momentum=0.0 if along_r else float(np.sum(impulse)), energy=work)
+                self.audit.add("walls", momentum=0.0 if along_r else float(np.sum(impulse)), energy=work)
             normal[...] = velocity
 
     def _transmit(self) -> None:
-        """What an endless plate would hold the transmitting edges with; what it takes is booked."""
+        """What an endless plate would hold the transmitting edges with; what it takes goes into the audit."""
         s, g, taken = self.state, self.grid, np.zeros(2)
         for along_r in (True, False):
             j0, j1, i0, i1 = self.box
@@ -247,7 +247,7 @@ class Cycle:
                 boundaries.transmit(along_r, at, first, last, self.dt, g.metrics, g.dz, s.rhobar, s.cl, s.bulk, s.mass, s.u0,
                                     s.v0, s.u, s.v, taken)
         if taken.any():
-            self.ledger.book("transmitted", momentum=float(taken[0]), energy=float(taken[1]))
+            self.audit.add("transmitted", momentum=float(taken[0]), energy=float(taken[1]))
 
     # ------------------------------------------------------------------------------------------------ Lagrangian step
 
@@ -260,13 +260,13 @@ class Cycle:
                            s.distance, s.zone, s.normal)
 
     def close_cells(self) -> None:
-        """Pressure and sound speed of every body, void where a cell tears, artificial viscosity, the step a cell allows."""
+        """Pressure and sound speed of every body, void where a cell fractures, artificial viscosity, the step a cell allows."""
         s, g, method, (j0, j1, _, _) = self.state, self.grid, self.method, self.box
         mixed.close_cells(
             j0, j1, method.max_opening, method.smallest_tension, method.viscosity_linear, method.viscosity_quadratic,
-            method.courant, method.advective_courant, self.mesh.velocity, method.hourglass, g.metrics, g.dr, g.dz, s.span,
-            s.reach, s.mixed_count, s.mixed, s.group, self.models, self.materials, s.u, s.v, s.vof, s.q, s.pm, s.km, s.tm, s.p,
-            s.bulk, s.rhobar, s.solid, s.cl, s.qr, s.qz, s.weight, s.opened, s.row_step, s.bad, s.scratch)
+            method.courant, method.advective_courant, self.mesh.velocity, method.hourglass, g.metrics, g.dr, g.dz, s.body_range,
+            s.active_range, s.mixed_count, s.mixed, s.group, self.models, self.materials, s.u, s.v, s.vof, s.q, s.pm, s.km,
+            s.tm, s.p, s.bulk, s.rhobar, s.solid, s.cl, s.qr, s.qz, s.hg_coefficient, s.opened, s.row_step, s.bad, s.scratch)
         if self.contact:
             self.contact.find(j0, j1)
         thermodynamics.least_step(j0, j1, s.row_step, s.bad, s.least_row)
@@ -290,8 +290,8 @@ class Cycle:
         j = int(s.least_row[0])
         stable = float(s.row_step[j])
         thermodynamics.step_cause(
-            j, method.courant, method.advective_courant, self.mesh.velocity, g.dr, g.dz, g.metrics, s.reach, s.u, s.v, s.rhobar,
-            s.cl, s.qr, s.qz, s.cause)
+            j, method.courant, method.advective_courant, self.mesh.velocity, g.dr, g.dz, g.metrics, s.active_range, s.u, s.v,
+            s.rhobar, s.cl, s.qr, s.qz, s.cause)
         cause, i = s.cause
         ramp = min(1.0, method.initial_dt_factor + (1.0 - method.initial_dt_factor) * self.number / max(method.ramp_cycles, 1))
         dt, self.cause = stable * ramp, (f"{waves.CAUSES[cause]} at r = {g.rc[i] * 1e3:.3f} mm, "
@@ -310,9 +310,9 @@ class Cycle:
         """Total stress of every cell at half the step."""
         s, g, method, (j0, j1, _, _) = self.state, self.grid, self.method, self.box
         acceleration.total_stress(
-            j0, j1, self.dt, g.metrics, g.dz, s.span, s.reach, s.mixed_count, s.mixed, method.mixed_strength == mixed.SOLID,
-            method.hard, method.threshold, s.u, s.v, s.vof, s.q, s.p, s.bulk, s.solid, s.qr, s.qz, s.ph, s.sig_rr, s.sig_zz,
-            s.sig_tt, s.sig_rz)
+            j0, j1, self.dt, g.metrics, g.dz, s.body_range, s.active_range, s.mixed_count, s.mixed,
+            method.mixed_strength == mixed.SOLID, method.hard, method.threshold, s.u, s.v, s.vof, s.q, s.p, s.bulk, s.solid,
+            s.qr, s.qz, s.ph, s.sig_rr, s.sig_zz, s.sig_tt, s.sig_rz)
         if self.contact:
             self.contact.stress(j0, j1, self.dt)
 
@@ -322,22 +322,23 @@ class Cycle:
         s.swap_velocities()
         limited = s.limited
         acceleration.accelerate(
-            j0, j1 + 1, i0, i1 + 1, self.dt, self.speed_limit, self.light_density, g.metrics, g.dz, s.occupied, s.mass,
-            s.weight, s.sig_rr, s.sig_zz, s.sig_tt, s.sig_rz, s.u0, s.v0, s.u, s.v, limited)
+            j0, j1 + 1, i0, i1 + 1, self.dt, self.speed_limit, self.underfilled_density, g.metrics, g.dz, s.occupied, s.mass,
+            s.hg_coefficient, s.sig_rr, s.sig_zz, s.sig_tt, s.sig_rz, s.u0, s.v0, s.u, s.v, limited)
         if limited[2, j0:j1 + 1].any():
-            self.ledger.book("speed_limit", momentum=float(limited[0, j0:j1 + 1].sum()),
-                             energy=float(limited[1, j0:j1 + 1].sum()))
+            self.audit.add("speed_limit", momentum=float(limited[0, j0:j1 + 1].sum()),
+                           energy=float(limited[1, j0:j1 + 1].sum()))
         if self.contact:
-            self.contact.meet(j0, j1, self.dt, self.ledger)
+            self.contact.meet(j0, j1, self.dt, self.audit)
         self._transmit()
-        self._hold_still()
+        self._constrain()
         self._keep_one()
         self.ghost_vertices()
 
     def sweep_faces(self) -> None:
         """Volumes that the faces sweep in the step; they are the change of volume, and later the remap's fluxes."""
         s, g, (j0, j1, i0, i1) = self.state, self.grid, self.box
-        acceleration.swept_volumes(j0, j1 + 1, i0, i1, self.dt, g.metrics, g.dz, s.around, s.u0, s.v0, s.u, s.v, s.fr, s.fz)
+        acceleration.swept_volumes(j0, j1 + 1, i0, i1, self.dt, g.metrics, g.dz, s.group_ranges, s.u0, s.v0, s.u, s.v, s.fr,
+                                   s.fz)
         if self.contact:
             self.contact.volumes(j0, j1, self.dt)
 
@@ -345,12 +346,13 @@ class Cycle:
         """Work, volume, strain: body by body in pure cells, then the mixed cells; no shear in the slip layer."""
         s, g, method, (j0, j1, _, _) = self.state, self.grid, self.method, self.box
         deformation.deform(
-            j0, j1, self.dt, g.metrics, g.dz, s.span, s.group, self.models, self.materials, s.u0, s.v0, s.u, s.v, s.fr, s.fz,
-            s.sig_rr, s.sig_zz, s.sig_tt, s.sig_rz, s.weight, s.vof, s.pm, s.tm, s.scratch, s.q, s.internal)
+            j0, j1, self.dt, g.metrics, g.dz, s.body_range, s.group, self.models, self.materials, s.u0, s.v0, s.u, s.v, s.fr,
+            s.fz, s.sig_rr, s.sig_zz, s.sig_tt, s.sig_rz, s.hg_coefficient, s.vof, s.pm, s.tm, s.scratch, s.q, s.internal)
         mixed.deform_mixed(
             j0, j1, self.dt, method.relaxation, method.tipton, method.mixed_strength, method.hard, method.threshold, g.metrics,
-            g.dz, s.mixed_count, s.mixed, s.group, s.cut, s.cell_mass, self.models, self.materials, s.u0, s.v0, s.u, s.v, s.fr,
-            s.fz, s.ph, s.qr, s.qz, s.weight, s.solid, s.pm, s.km, s.tm, s.vof, s.q, s.mix, s.motion, s.internal)
+            g.dz, s.mixed_count, s.mixed, s.group, s.contact_columns, s.cell_mass, self.models, self.materials, s.u0, s.v0, s.u,
+            s.v, s.fr, s.fz, s.ph, s.qr, s.qz, s.hg_coefficient, s.solid, s.pm, s.km, s.tm, s.vof, s.q, s.mix, s.motion,
+            s.internal)
         if self.contact:
             self.contact.warm(j0, j1)
         if method.slip_widths is not None:
@@ -365,14 +367,14 @@ class Cycle:
         j0, j1, i0, i1 = box
         low_r, high_r, low_z, high_z = self.method.boundaries.having("mirrors")
         along_r, along_z = di * len(s.q), dj * len(s.q)  # the other direction's interfaces need fractions
-        boundaries.ghost_columns(j0, j1, g.nr, low_r, high_r, along_r, s.rules, s.span, s.vof, s.q)
+        boundaries.ghost_columns(j0, j1, g.nr, low_r, high_r, along_r, s.rules, s.body_range, s.vof, s.q)
         boundaries.ghost_rows(i0 - 2, i1 + 2, g.nz, low_z, high_z, along_z, s.rules, s.vof, s.q)
         self.mesh.fill_ghosts(self.dt)
         if not second:  # cells may have been filled by the Lagrangian step
             self._list_mixed()
         face = s.fr if di else s.fz
-        interfaces.donor_volumes(dj, di, *box, second == 0, self.void_only, g.volume, s.near, s.reach, s.fr, s.fz, s.vof, s.pre,
-                                 s.flux_volume)
+        interfaces.donor_volumes(dj, di, *box, second == 0, self.void_only, g.volume, s.body_ranges, s.active_range, s.fr, s.fz,
+                                 s.vof, s.pre, s.flux_volume)
         interfaces.interface_volumes(dj, di, j0, j1, g.dr, g.dz, self.method.interface_order, s.mixed_count, s.mixed, face,
                                      s.pre, s.vof, s.flux_volume, s.strips)
         if self.contact:
@@ -382,30 +384,31 @@ class Cycle:
         """Fluxes and update of every body's fields; the cells' masses, and which of them are mixed."""
         s, g, box = self.state, self.grid, self.box
         if dj:
-            remap.shared_fluxes(*box, self.carried, s.rules, s.near, s.pre, s.flux_volume, s.vof, s.q, s.scratch, s.flux)
+            remap.block_edge_fluxes(*box, self.carried, s.rules, s.body_ranges, s.pre, s.flux_volume, s.vof, s.q, s.scratch,
+                                    s.flux)
         sweep = remap.sweep_r if di else remap.sweep_z
-        sweep(*box, self.carried, s.rules, s.group, self.edges, s.near, s.around, s.fr if di else s.fz, s.pre, g.volume,
-              bool(second), s.flux_volume, s.scratch, s.flux, s.flux_mass, s.edge_flux, s.vof, s.q, s.cell_mass, s.mixed_count,
-              s.mixed)
-        self._book_outflow(di)
+        sweep(*box, self.carried, s.rules, s.group, self.mesh_box, s.body_ranges, s.group_ranges, s.fr if di else s.fz, s.pre,
+              g.volume, bool(second), s.flux_volume, s.scratch, s.flux, s.flux_mass, s.edge_flux, s.vof, s.q, s.cell_mass,
+              s.mixed_count, s.mixed)
+        self._audit_outflow(di)
 
     def _open_faces(self, di: int, flag: str = "opens"):
         """(index of the face, outward sign) of the edges of a direction that have a flag of the table of boundary conditions,
         where the active box has reached them."""
         having = self.method.boundaries.having(flag)
         low, high = having[0:2] if di else having[2:4]
-        box, edges = (self.box[2:4], self.edges[2:4]) if di else (self.box[0:2], self.edges[0:2])
-        if low and box[0] == edges[0]:
-            yield int(edges[0]), -1.0
-        if high and box[1] == edges[1]:
-            yield int(edges[1]), 1.0
+        box, ends = (self.box[2:4], self.mesh_box[2:4]) if di else (self.box[0:2], self.mesh_box[0:2])
+        if low and box[0] == ends[0]:
+            yield int(ends[0]), -1.0
+        if high and box[1] == ends[1]:
+            yield int(ends[1]), 1.0
 
-    def _book_outflow(self, di: int) -> None:
+    def _audit_outflow(self, di: int) -> None:
         s, (j0, j1, i0, i1) = self.state, self.box
         for _, sign in self._open_faces(di):
             side, along = int(sign > 0), slice(j0, j1) if di else slice(i0, i1)
             for name, (mass, energy) in self._out_and_in(sign, s.edge_flux[side, ..., along]):
-                self.ledger.book(name, mass=mass, energy=float(energy.sum()))
+                self.audit.add(name, mass=mass, energy=float(energy.sum()))
 
     @staticmethod
     def _out_and_in(sign: float, flow: np.ndarray):
@@ -421,10 +424,10 @@ class Cycle:
                 yield name, sign * part.sum(axis=-1)
 
     def remap_momentum(self, dj: int, di: int) -> None:
-        """Velocities after the sweep, by the advection choice; what it discards is booked."""
+        """Velocities after the sweep, by the advection choice; what it discards goes into the audit."""
         s, g, method = self.state, self.grid, self.method
         flow = s.flux_mass
-        j0, j1, i0, i1 = self.edges
+        j0, j1, i0, i1 = self.mesh_box
         if di:  # the sweep along the other direction has left its fluxes beyond the mesh, where nothing flows along this one
             flow[:, [j0 - 1, j1]] = 0.0
         else:
@@ -439,21 +442,21 @@ class Cycle:
         s.swap_velocities()
         sums = s.momentum_sums
         momentum.sweep_momentum(
-            dj, di, *self.box, method.advection, method.ke_bound, self.still, method.boundaries.velocity, self.edges, g.metrics,
-            s.around, s.cell_mass, flow, s.mass, s.velocity0, s.velocity, s.dual, s.edge_dual, s.deficit, sums)
+            dj, di, *self.box, method.advection, method.ke_bound, self.constrained, method.boundaries.velocity, self.mesh_box,
+            g.metrics, s.group_ranges, s.cell_mass, flow, s.mass, s.velocity0, s.velocity, s.dual, s.edge_dual, s.deficit, sums)
         j0, j1, _, _ = self.box
         before, after, p_gained, k_cut, p_wall = sums[:, j0:j1 + 1].sum(axis=1)
         lost = before - after - self._kinetic_outflow(di)
         if method.advection == momentum.BOTH:
-            momentum.deposit(j0, j1, g.metrics, s.reach, s.group, s.deficit, s.cell_mass, s.vof, s.q, s.deposited)
+            momentum.deposit(j0, j1, g.metrics, s.active_range, s.group, s.deficit, s.cell_mass, s.vof, s.q, s.deposited)
             lost -= s.deposited[j0:j1].sum()
-        self.ledger.book("advection", momentum=-float(p_gained), energy=float(lost - k_cut))
-        self.ledger.book("ke_bound", energy=float(k_cut))
-        self.ledger.book("walls", momentum=float(p_wall))
+        self.audit.add("advection", momentum=-float(p_gained), energy=float(lost - k_cut))
+        self.audit.add("ke_bound", energy=float(k_cut))
+        self.audit.add("walls", momentum=float(p_wall))
         self.ghost_vertices()
 
     def _kinetic_outflow(self, di: int) -> float:
-        """Books the momentum that went through open edges and returns the kinetic energy that left with it."""
+        """Audits the momentum that went through open edges and returns the kinetic energy that left with it."""
         s, (j0, j1, i0, i1) = self.state, self.box
         total = 0.0
         for _, sign in self._open_faces(di):
@@ -462,17 +465,17 @@ class Cycle:
                 _, _, axial, *kinetic = part.sum(axis=-1)
                 energy = float(sum(kinetic))
                 if energy != 0.0:
-                    self.ledger.book(name, momentum=float(axial), energy=energy)
+                    self.audit.add(name, momentum=float(axial), energy=energy)
                 total += energy
         return total
 
     def tidy(self, dj: int, di: int, second: int) -> None:
-        """Removes traces, makes full cells full, and finds the bodies anew."""
+        """Removes sub-cutoff volume fractions, makes full cells full, and finds the bodies anew."""
         s, g, (j0, j1, _, _) = self.state, self.grid, self.box
-        remap.tidy(j0, j1, self.method.trace, g.metrics, g.volume, s.group, s.mixed_count, s.mixed, s.pre, dj, di, s.fr, s.fz,
-                   bool(second), s.u, s.v, s.vof, s.q, s.cell_mass, s.booked)
-        internal, kinetic, axial, _, *mass = s.booked[:, j0:j1].sum(axis=1)
-        self.ledger.book("traces", mass=np.array(mass), momentum=float(axial), energy=float(internal + kinetic))
+        remap.tidy(j0, j1, self.method.cutoff, g.metrics, g.volume, s.group, s.mixed_count, s.mixed, s.pre, dj, di, s.fr, s.fz,
+                   bool(second), s.u, s.v, s.vof, s.q, s.cell_mass, s.removed)
+        internal, kinetic, axial, _, *mass = s.removed[:, j0:j1].sum(axis=1)
+        self.audit.add("cutoff", mass=np.array(mass), momentum=float(axial), energy=float(internal + kinetic))
         self._vertex_mass()  # by the ranges before: where nothing is left there is no mass either
-        self._spans(anew=False)
+        self._find_ranges(anew=False)
         self._keep_one()

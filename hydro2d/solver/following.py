@@ -117,9 +117,9 @@ class FollowingMesh:
         s, g = self.state, self.grid
         coming = self.space.beyond(self._edge, self.direction)
         for row in self._ghost_rows:
-            s.near[0, :, row], s.occupied[:, row] = EMPTY, EMPTY
+            s.body_ranges[0, :, row], s.occupied[:, row] = EMPTY, EMPTY
             for m in coming:
-                s.near[0, m, row] = g.g, g.g + g.nr
+                s.body_ranges[0, m, row] = g.g, g.g + g.nr
                 s.occupied[: s.group[m] + 1, row] = g.g, g.g + g.nr
 
     def follow(self) -> None:
@@ -145,10 +145,10 @@ class FollowingMesh:
         """
         s, vol_r, (j0, j1, _, _) = self.state, self.grid.vol_r, box
         advance = self.velocity * dt
-        following.leave(j0, j1 + 1, advance, vol_r, s.around[0], s.fz)
+        following.leave(j0, j1 + 1, advance, vol_r, s.group_ranges[0], s.fz)
         if s.groups > 1:
-            following.leave_cut(j0, j1, advance, vol_r, s.cut, s.own_z)
-        following.silence(j0, j1, carried, s.span, s.q)
+            following.leave_contact(j0, j1, advance, vol_r, s.contact_columns, s.own_z)
+        following.silence(j0, j1, carried, s.body_range, s.q)
 
     def fill_ghosts(self, dt: float) -> None:
         """What the deck has placed in the strip that the leading edge crosses in the step, at rest and without stress."""

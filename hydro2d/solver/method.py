@@ -8,7 +8,7 @@ import numpy as np
 
 from hydro2d.deck import deck as decks
 from hydro2d.kernels import mixed, momentum, sliding
-from hydro2d.mesh.edges import BY_NAME, EDGES, Edges
+from hydro2d.mesh.boundary_conditions import BY_NAME, EDGES, BoundaryConditions
 
 
 @dataclass(frozen=True)
@@ -29,13 +29,13 @@ class Method:
     tipton: bool
     relaxation: float
     mixed_strength: int
-    trace: float
+    cutoff: float
     mass_floor: float
     active_region: bool
     interface_order: np.ndarray
     smallest_tension: bool
     max_opening: float
-    loose: float
+    strength_cutoff: float
     hard: np.ndarray
     threshold: float
     slip_widths: tuple[float, float] | None
@@ -44,7 +44,7 @@ class Method:
     refresh: int
     yield_factor: np.ndarray
     group: np.ndarray
-    boundaries: Edges
+    boundaries: BoundaryConditions
 
     @classmethod
     def from_deck(cls, deck, slots: list[str], widths: tuple[float, float], factor: float) -> Method:
@@ -71,13 +71,13 @@ class Method:
             tipton=n.mixed_cell == "tipton",
             relaxation=n.relaxation,
             mixed_strength=mixed.STRENGTH_MODES.index(n.mixed_strength),
-            trace=n.trace,
+            cutoff=n.cutoff,
             mass_floor=n.mass_floor,
             active_region=n.active_region,
             interface_order=np.array([slots.index(name) for name in order], dtype=np.int64),
             smallest_tension=failure.tension == "min",
             max_opening=failure.max_opening,
-            loose=failure.loose,
+            strength_cutoff=failure.strength_cutoff,
             hard=hard,
             threshold=slide.threshold,
             slip_widths=widths if layer else None,
@@ -86,5 +86,5 @@ class Method:
             refresh=slide.refresh,
             yield_factor=np.where(hard | (group == 1), factor, 1.0),
             group=group,
-            boundaries=Edges(kinds, velocity),
+            boundaries=BoundaryConditions(kinds, velocity),
         )

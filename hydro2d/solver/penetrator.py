@@ -8,7 +8,7 @@ import numpy as np
 
 from hydro2d.deck import deck as decks
 from hydro2d.mesh import sums
-from hydro2d.mesh.edges import BY_NAME
+from hydro2d.mesh.boundary_conditions import BY_NAME
 from hydro2d.mesh.sums import HALF
 from hydro2d.solver.targets import Target
 
@@ -250,7 +250,7 @@ class Penetrator:
 
     def _outflow(self) -> float:
         """Mass of the rod that has left through open edges, kg."""
-        return float(self.sim.ledger.sinks["outflow"].mass[self.m]) * self._around
+        return float(self.sim.audit.sinks["outflow"].mass[self.m]) * self._around
 
     @property
     def left(self) -> bool:

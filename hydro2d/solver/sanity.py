@@ -1,4 +1,4 @@
-"""What no run may do, whatever its ledger says: clips and sinks have names, so the totals close over nonsense as well.
+"""What no run may do, whatever its audit says: clips and sinks have names, so the totals close over nonsense as well.
 
 A state is refused where the energy does not add up, a body as a whole has lost more internal energy than there ever was, the
 kinetic energy has outgrown all that was put in, or a clip has taken a sizeable share of it (explanation/sanity).
@@ -8,33 +8,33 @@ from __future__ import annotations
 
 import numpy as np
 
-from hydro2d.solver.audit import CLIPS, Ledger, totals
+from hydro2d.solver.audit import CLIPS, Audit, totals
 
-#: relative change of mass, momentum or energy that no sink explains, from which the books do not close
+#: relative change of mass, momentum or energy that no sink explains, from which the audit does not close
 CLOSES = 1e-6
 #: share of the energy that a clip may take, and that a total may be beyond what is possible, in a run to be trusted
 TRUSTED = 0.02
 
 
-def faults(state, ledger: Ledger, names, share: float = TRUSTED) -> list[str]:
+def faults(state, audit: Audit, names, share: float = TRUSTED) -> list[str]:
     """What is wrong with a state, a sentence for each fault with its place where it has one; empty where nothing is.
 
     Parameters
     ----------
     state : State
-    ledger : Ledger
+    audit : Audit
     names : of the bodies
     share : of the energy of the start and of what came in since, beyond which a clip or a total is a fault
     """
-    now, start = totals(state), ledger.start
-    came = -sum(min(ledger.sinks[name].energy, 0.0) for name in ("inflow", "walls", "transmitted"))
+    now, start = totals(state), audit.start
+    came = -sum(min(audit.sinks[name].energy, 0.0) for name in ("inflow", "walls", "transmitted"))
     energy = max(abs(start.energy), start.kinetic) + came
     if not energy > 0.0:
         return []
     found = []
-    for kind, error in ledger.unexplained(now, energy).items():
+    for kind, error in audit.unexplained(now, energy).items():
         if not abs(error) <= CLOSES:
-            found.append(f"the {kind} does not add up: {error:.2g} of it is explained by nothing that is booked")
+            found.append(f"the {kind} does not add up: {error:.2g} of it is explained by nothing in the audit")
     for m, internal in enumerate(now.internal_of):
         if not internal >= -share * energy:
             found.append(f'body "{names[m]}" as a whole has {internal / energy:.2g} times the energy of the start as internal '
@@ -43,10 +43,10 @@ def faults(state, ledger: Ledger, names, share: float = TRUSTED) -> list[str]:
         found.append(f"the kinetic energy is {now.kinetic / energy:.3g} times the energy that was ever put in"
                      f"{_fastest(state, names)}")
     for name in CLIPS:
-        taken = ledger.sinks[name].energy
+        taken = audit.sinks[name].energy
         if not abs(taken) <= share * energy:
             found.append(f"{taken / energy:.2g} of the energy went to {name} ({CLIPS[name]}), more than {share:g} of it")
-    gained = -ledger.sinks["advection"].energy
+    gained = -audit.sinks["advection"].energy
     if not gained <= share * energy:
         found.append(f"the remap of velocities has gained {gained / energy:.2g} of the energy, more than {share:g} of it")
     return found

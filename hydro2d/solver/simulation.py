@@ -12,11 +12,11 @@ from hydro2d.deck import deck as decks
 from hydro2d.errors import UnphysicalState, unknown
 from hydro2d.materials import library
 from hydro2d.mesh import fields, quantities, sums
-from hydro2d.mesh.edges import Edges
+from hydro2d.mesh.boundary_conditions import BoundaryConditions
 from hydro2d.mesh.grid import Grid
 from hydro2d.mesh.state import State
 from hydro2d.solver import bodies, insertion, tracers
-from hydro2d.solver.audit import Ledger
+from hydro2d.solver.audit import Audit
 from hydro2d.solver.crater import Crater
 from hydro2d.solver.cycle import Cycle
 from hydro2d.solver.following import FollowingMesh, StandingMesh, UndisturbedSpace
@@ -46,7 +46,7 @@ class Simulation:
     ----------
     columns : dict of functions of the simulation, by name
         Further columns of the history, each a number. The ending of a name tells its unit: ``_m``, ``_m_s``, ``_Pa``, ``_K``.
-    grid, state, table, ledger : the mesh, the fields, the materials, what is conserved
+    grid, state, table, audit : the mesh, the fields, the materials, what is conserved
     stations : the tracers and gauges
     penetrator : what measures the rod; None for a deck without rod and target
     craters : what measures the hole in each target, in the order in which the rod meets them; empty without rod and target
@@ -93,7 +93,7 @@ class Simulation:
         inner, outer, *_ = method.boundaries.having("mirrors")
         return FollowingMesh(self.state, space, slots.index(name), direction, (inner, outer))
 
-    def _insert(self, edges: Edges) -> None:
+    def _insert(self, conditions: BoundaryConditions) -> None:
         """Fills the mesh.
 
         Vertex velocities of a body group are the mass-weighted means of its own in the cells around; where nothing of it is
@@ -116,7 +116,7 @@ class Simulation:
             np.divide(vertex, dual, out=vertex, where=dual > 0)
             vertex[...] = np.where(dual > 0, vertex, vertex[::-1])
         ends = (g.g, g.g + g.nr, g.g, g.g + g.nz)
-        for edge, (at, holds, velocity) in enumerate(zip(ends, edges.having("holds"), edges.velocity, strict=True)):
+        for edge, (at, holds, velocity) in enumerate(zip(ends, conditions.having("holds"), conditions.velocity, strict=True)):
             if holds:
                 (s.u[..., at] if edge < 2 else s.v[:, at])[...] = velocity
 
@@ -151,10 +151,10 @@ class Simulation:
         return self.engine.cause
 
     @property
-    def ledger(self) -> Ledger:
+    def audit(self) -> Audit:
         """What is conserved, and what has left the mesh or was taken by the method."""
-        assert self.engine.ledger is not None, "it is opened when the cycle is prepared"
-        return self.engine.ledger
+        assert self.engine.audit is not None, "it is opened when the cycle is prepared"
+        return self.engine.audit
 
     def run(self, until: float | str | Callable[[Simulation], bool] | None = None,
             callbacks: Iterable[Callable[[Simulation], object]] = ()) -> str:  # fmt: skip
@@ -277,13 +277,13 @@ class Simulation:
 
     def conservation(self) -> dict:
         """Relative changes that no sink explains: mass per body, axial momentum, total energy; and every sink by name."""
-        result = self.ledger.balance(self.state)
+        result = self.audit.balance(self.state)
         result["mass"] = dict(zip(self.table.names, (float(x) for x in result["mass"]), strict=True))
         return result
 
     def faults(self, share: float = TRUSTED) -> list[str]:
         """Why the state is not to be trusted, see `sanity.faults`; empty where there is no reason."""
-        return faults(self.state, self.ledger, self.table.names, share)
+        return faults(self.state, self.audit, self.table.names, share)
 
     def refuse_nonsense(self) -> None:
         """Raises UnphysicalState with the first fault of the state, if it has any."""
@@ -360,7 +360,7 @@ class Simulation:
         e = self.engine
         return {"time": e.time, "dt": e.dt, "cycle": e.number, "cause": e.cause, "box": [int(x) for x in e.box],
                 "mesh_offset": self.grid.offset, "speed_limit": e.speed_limit, "sign": self._sign,
-                "ledger": self.ledger.saved(), "penetrator": self.penetrator and self.penetrator.saved(),
+                "audit": self.audit.saved(), "penetrator": self.penetrator and self.penetrator.saved(),
                 "craters": [crater.saved() for crater in self.craters]}
 
     def load_restart_scalars(self, scalars: dict) -> None:
@@ -369,7 +369,7 @@ class Simulation:
         e.time, e.dt, e.number, e.cause = (scalars[name] for name in ("time", "dt", "cycle", "cause"))
         e.box, e.speed_limit, self._sign = list(scalars["box"]), scalars["speed_limit"], scalars["sign"]
         self.grid.move(scalars["mesh_offset"])
-        e.ledger = Ledger.resume(scalars["ledger"])
+        e.audit = Audit.resume(scalars["audit"])
         if self.penetrator:
             self.penetrator.resume(scalars["penetrator"])
             for crater, saved in zip(self.craters, scalars["craters"], strict=True):

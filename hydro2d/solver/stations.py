@@ -45,7 +45,7 @@ class Stations:
             return
         if len(self.tracers):
             g, s = self._sim.grid, self._sim.state
-            tracers.follow(g.g, g.nr, g.nz, self._sim.dt, g.r, g.z, s.group, s.vof, s.u, s.v, self.tracers)
+            tracers.advect(g.g, g.nr, g.nz, self._sim.dt, g.r, g.z, s.group, s.vof, s.u, s.v, self.tracers)
         self._look()
 
     def measure(self) -> dict[str, dict[str, float | None]]:

@@ -89,7 +89,7 @@ def velocities(g, nr, nz, own, r, z, group, vof, u, v, points, result):
 
 
 @serial
-def follow(g, nr, nz, dt, r, z, group, vof, u, v, points):
+def advect(g, nr, nz, dt, r, z, group, vof, u, v, points):
     """Moves points (r, z) with the velocity of the body group of their cell over dt, by the midpoint rule.
 
     Reads    r, z edges;  group [m];  vof [m, j, i];  u, v [b, j-1/2, i-1/2]

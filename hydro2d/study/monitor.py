@@ -86,13 +86,13 @@ class Board:
     """
 
     def __init__(self, study: Study, log, quiet: bool):
-        self.follow(study)
+        self.watch(study)
         self.moving: set[str] = set()
         self.further = 0
         self.workers: Callable[[], int] = lambda: 0
         self._log, self._quiet, self._last = log, quiet, time.monotonic()
 
-    def follow(self, study: Study) -> None:
+    def watch(self, study: Study) -> None:
         """Takes a study, or the same one with other cases."""
         self.study, self.cases = study, list(study.cases)
         self.numbers = {case.name: n for n, case in enumerate(study.cases)}

@@ -17,7 +17,7 @@ from hydro2d.study.panels import Chart
 from hydro2d.study.pictures import Picture
 from hydro2d.study.record import Record
 from hydro2d.study.responses import Choice
-from hydro2d.study.table import columns_of_books, columns_of_results, to_csv
+from hydro2d.study.table import columns_of_audit, columns_of_results, to_csv
 
 PAGE, TABLE = "report.html", "cases.csv"
 #: where names may break across lines: after underscores and dots, except in numbers
@@ -40,7 +40,7 @@ def page(contents: Contents, choice: Choice, charts: Sequence[Chart], pictures: 
         made=f"hydro2d {__version__}, {datetime.now(UTC):%Y-%m-%d %H:%M} UTC",
         states=", ".join(f"{number} {status}" for status, number in states.items()),
         transitions=_transitions(contents) if contents.study.search else None,
-        results=columns_of_results(contents.study, contents.rows, choice), books=columns_of_books(),
+        results=columns_of_results(contents.study, contents.rows, choice), audit=columns_of_audit(),
         decks=_decks(contents), origins=[_origin(each) for each in contents.records],
     )  # fmt: skip
 

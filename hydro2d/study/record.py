@@ -18,6 +18,7 @@ from hydro2d.running.run import DECK, HISTORY
 from hydro2d.solver import penetrator, targets
 from hydro2d.study.differences import flatten
 from hydro2d.study.layout import DONE, Case
+from hydro2d.toml import dumps
 
 #: columns of the history to draw: of a projectile, and of the first body in other decks; largest number of points of a line
 DRAWN = ("penetration_depth_m", "rod_tail_velocity_m_s", "rod_length_m")
@@ -221,8 +222,8 @@ def _read_deck(record: Record) -> Place | None:
     file = record.case.directory / DECK
     try:
         text = file.read_text(encoding="utf-8")
-        record.deck = tomllib.loads(text)
-        deck = decks.loads(text, name=record.case.name.replace("/", "_"))
+        record.deck = decks.renewed(tomllib.loads(text))
+        deck = decks.loads(dumps(record.deck), name=record.case.name.replace("/", "_"))
     except (OSError, ValueError) as error:
         record.problems.append(f"{file} cannot be read: {error}")
         return None

@@ -184,7 +184,7 @@ class _Sweep:
             layout.write(plan, self.board.study.directory)
         except OSError as error:
             self.board.line(f"{self.board.study.directory}: the study cannot be written: {error.strerror or error}")
-        self.board.follow(layout.of_plan(plan, self.board.study.directory))
+        self.board.watch(layout.of_plan(plan, self.board.study.directory))
 
     def _give(self, case: layout.Case) -> None:
         from hydro2d.study import worker

@@ -29,7 +29,7 @@ def _row(study: Study, record: Record, measurement: Measurement | None) -> Row:
                 "velocity_m_s": record.velocity}  # fmt: skip
     what = (setup.shape, setup.rod, setup.target, setup.nose, setup.thickness) if setup else (None,) * 5
     row |= zip(("projectile", "rod", "target", "nose", "target_thickness_m"), what, strict=True)
-    row |= _results(record) | _compared(record, measurement) | _books(case.summary) | _cost(record)
+    row |= _results(record) | _compared(record, measurement) | _audit(case.summary) | _cost(record)
     axes = {_name_of(axis, row): case.values.get(axis.name) for axis in study.axes}
     return {"case": case.name, **axes, **row}
 
@@ -76,17 +76,17 @@ def _compared(record: Record, measurement: Measurement | None) -> Row:
     return dict(zip(names, values, strict=True))
 
 
-def _books(summary: dict) -> Row:
+def _audit(summary: dict) -> Row:
     """The worst relative changes, and every sink's energy as a share of the energy at the start."""
-    books = summary.get("conservation") or {}
-    masses = [change for change in (books.get("mass") or {}).values() if change is not None]
+    audit = summary.get("conservation") or {}
+    masses = [change for change in (audit.get("mass") or {}).values() if change is not None]
     row: Row = {
         "mass_change_worst": max(masses, key=abs, default=None),
-        "momentum_change": books.get("axial_momentum"),
-        "energy_change": books.get("total_energy"),
+        "momentum_change": audit.get("axial_momentum"),
+        "energy_change": audit.get("total_energy"),
     }
-    start = books.get("start_energy_J")
-    for name, amounts in (books.get("sinks") or {}).items():
+    start = audit.get("start_energy_J")
+    for name, amounts in (audit.get("sinks") or {}).items():
         row[f"sink_{name}_share"] = _ratio(amounts.get("energy_J"), start)
     return row
 
@@ -210,7 +210,7 @@ def _of_response(name: str) -> Column:
     return Column(found.title[0].upper() + found.title[1:], name, _number(name, "{:.4g}", found.factor))
 
 
-def columns_of_books() -> list[Column]:
+def columns_of_audit() -> list[Column]:
     """Conservation and cost."""
     return [
         Column("Mass, worst body", "mass_change_worst", _number("mass_change_worst", "{:+.0e}")),

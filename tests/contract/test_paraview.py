@@ -327,7 +327,7 @@ def test_paths_of_tracers(shot):
 
 
 @pytest.mark.parametrize(("name", "lowest", "highest"), [("Velocity of Hard Bodies [m/s]", 0.5, 1.0),
-                                                         ("Velocity of the Rest [m/s]", 0.0, 0.5)])  # fmt: skip
+                                                         ("Velocity of Soft Bodies [m/s]", 0.0, 0.5)])  # fmt: skip
 def test_glyphs_of_both_velocities(shot, name, lowest, highest):
     """One arrow in every cell of its side of the interface; on the other side the velocity is zero."""
     read = reader(shot, 4)

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from hydro2d.kernels.contact import FIRST
-from hydro2d.kernels.contact_volumes import cut_fluxes
+from hydro2d.kernels.contact_geometry import FIRST
+from hydro2d.kernels.contact_volumes import contact_fluxes
 
 #: rows and columns, the row and the column of the cell that volume leaves to the left
 SHAPE, ROW, GIVER = (7, 10), 3, 5
@@ -23,10 +23,10 @@ def flux(hard: float, soft: float, swept: float) -> tuple[float, float]:
     line[FIRST] = 0.0
     face, own, result = np.full(SHAPE, swept), np.full((2, *SHAPE), swept), np.zeros((2, *SHAPE))
     first = [np.array(order, dtype=np.int64) for order in ((0, 1), (1, 0))]
-    cut = np.tile(np.array([GIVER - 1, GIVER + 2], dtype=np.int64), (SHAPE[0], 1))
-    edges = np.array([2, SHAPE[0] - 2, 2, SHAPE[1] - 2], dtype=np.int64)
-    cut_fluxes(0, 1, ROW, ROW + 1, edges, np.ones(SHAPE[1]), np.ones(SHAPE[0]), *first, np.array([1, 0], dtype=np.int64), cut,
-               line, face, own, vof.copy(), np.ones(SHAPE), vof, result)
+    contact_columns = np.tile(np.array([GIVER - 1, GIVER + 2], dtype=np.int64), (SHAPE[0], 1))
+    mesh_box = np.array([2, SHAPE[0] - 2, 2, SHAPE[1] - 2], dtype=np.int64)
+    contact_fluxes(0, 1, ROW, ROW + 1, mesh_box, np.ones(SHAPE[1]), np.ones(SHAPE[0]), *first, np.array([1, 0], dtype=np.int64),
+                   contact_columns, line, face, own, vof.copy(), np.ones(SHAPE), vof, result)
     return tuple(result[:, ROW, GIVER])
 
 

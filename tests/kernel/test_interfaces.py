@@ -94,10 +94,10 @@ def test_circle_in_a_flow(name, n):
     carry(engine, by_stream_function(engine, stream, period / steps), steps)
     vof = g.interior(s.vof[0])
     assert np.mean(np.abs(vof - first)) < 1.5 * YOUNGS[name, n]
-    mass = np.sum(g.interior(s.vof[0] * s.rho[0])) + engine.ledger.sinks["traces"].mass[0] * n * n
+    mass = np.sum(g.interior(s.vof[0] * s.rho[0])) + engine.audit.sinks["cutoff"].mass[0] * n * n
     assert mass == pytest.approx(np.sum(first), rel=1e-12)
     np.testing.assert_allclose(g.interior(s.e[0])[vof > 0], 2.5, rtol=1e-12)
-    np.testing.assert_allclose(g.interior(s.rho[0])[vof > 0], 1.0, atol=1e-7)  # cells that lack a trace are made full
+    np.testing.assert_allclose(g.interior(s.rho[0])[vof > 0], 1.0, atol=1e-7)  # what lacks less than the cutoff is made full
 
 
 def test_three_bodies_without_void_fill_every_cell():
@@ -120,7 +120,7 @@ z = [0.0, 1.0]
     assert np.abs(g.interior(s.vof).sum(axis=0) - 1.0).max() < 1e-12
     carry(engine, by_stream_function(engine, rotation, 1.0 / 256), 128)
     assert np.abs(g.interior(s.vof).sum(axis=0) - 1.0).max() < 1e-12
-    after = g.interior(s.vof * s.rho).sum(axis=(1, 2)) + 32**2 * engine.ledger.sinks["traces"].mass
+    after = g.interior(s.vof * s.rho).sum(axis=(1, 2)) + 32**2 * engine.audit.sinks["cutoff"].mass
     np.testing.assert_allclose(after, before, rtol=1e-12)
 
 
@@ -159,7 +159,7 @@ def test_ring_that_shrinks_keeps_its_volume():
     exact = np.clip(np.minimum(high, edges[1:]) - np.maximum(low, edges[:-1]), 0.0, None) / np.diff(edges)
     np.testing.assert_allclose(g.interior(s.vof[0]), np.broadcast_to(exact, (8, 40)), atol=1e-7)
     volume = np.sum(g.interior(s.vof[0] * s.rho[0] * g.volume))
-    assert volume + engine.ledger.sinks["traces"].mass[0] == pytest.approx((high - low) * 0.2, rel=1e-12)
+    assert volume + engine.audit.sinks["cutoff"].mass[0] == pytest.approx((high - low) * 0.2, rel=1e-12)
 
 
 @pytest.mark.parametrize(("n", "error"), [(16, 4e-5), (32, 2e-5)])
@@ -176,5 +176,5 @@ def test_sphere_moved_along_the_axis_and_back(n, error):
     volume = g.interior(g.volume)
     change = np.sum(volume * np.abs(g.interior(s.vof[0]) - first))
     assert change < error
-    mass = np.sum(volume * g.interior(s.vof[0] * s.rho[0])) + engine.ledger.sinks["traces"].mass[0]
+    mass = np.sum(volume * g.interior(s.vof[0] * s.rho[0])) + engine.audit.sinks["cutoff"].mass[0]
     assert mass == pytest.approx(np.sum(volume * first), rel=1e-12)

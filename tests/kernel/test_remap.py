@@ -1,4 +1,4 @@
-"""The remap: what each advection choice keeps, and what it books."""
+"""The remap: what each advection choice keeps, and what it gives to the audit."""
 
 import numpy as np
 import pytest
@@ -60,7 +60,7 @@ def disturbed(e, seed: int, size: float = 1.0):
         w[0][g.inside_vertices] = np.where(moving, 100.0 * random.normal(size=moving.shape), 0.0)
     e.prepare()
     e._hold_still()
-    e.ledger = None
+    e.audit = None
     e.prepare()
 
 
@@ -97,17 +97,17 @@ def test_remap_conserves(choice, geometry, text):
     disturbed(e, 3)
     for _ in range(4):
         remap_only(e)
-    balance, sinks = e.ledger.balance(e.state), e.ledger.sinks
+    balance, sinks = e.audit.balance(e.state), e.audit.sinks
     assert np.abs(balance["mass"]).max() < 1e-13
     assert abs(balance["axial_momentum"]) < 1e-13
     assert abs(balance["total_energy"]) < 1e-13
-    start = e.ledger.start.energy
+    start = e.audit.start.energy
     if choice == "momentum":
         assert sinks["advection"].energy > 1e-4 * start
     if choice == "both":
         assert abs(sinks["advection"].energy) < 1e-13 * start
     if choice != "ke":
-        assert abs(sinks["advection"].momentum) < 1e-13 * np.sqrt(2 * start * e.ledger.start.mass.sum())
+        assert abs(sinks["advection"].momentum) < 1e-13 * np.sqrt(2 * start * e.audit.start.mass.sum())
     else:
         assert sinks["advection"].momentum != 0.0
         assert abs(sinks["advection"].energy) < 1e-13 * start
@@ -122,7 +122,7 @@ def test_unbounded_ke_keeps_kinetic_energy():
     e.state.v[:, : e.grid.g + 3] = 0.0
     start = 0.5 * np.sum(e.state.mass * (e.state.u**2 + e.state.v**2))
     remap_only(e)
-    assert abs(e.ledger.sinks["advection"].energy) < 1e-13 * start
+    assert abs(e.audit.sinks["advection"].energy) < 1e-13 * start
 
 
 def test_uniform_state_stays_uniform_in_a_vortex():
@@ -161,7 +161,7 @@ def carried(choice: str, profile, share: float, steps: int, bound: float = 1e9):
     """Radial velocity as a passive quantity, carried along z by `share` of a cell a step: before, after."""
     e = engine(COLUMN, f'numerics.advection="{choice}"', f"numerics.ke_bound={bound}")
     s, g = e.state, e.grid
-    e.still[:] = -1  # walls at the sides would stop it
+    e.constrained[:] = -1  # walls at the sides would stop it
     s.u[0] = profile(g.z)[:, None]
     first = s.u[0, :, g.g + 1].copy()
     s.fz[g.g:g.g + g.nz + 1, :-1] = share
@@ -213,13 +213,13 @@ def test_passive_velocity_by_kinetic_energy(profile, gained):
     assert np.sum(after) / np.sum(first) == pytest.approx(gained, abs=5e-3)
 
 
-def test_a_cell_with_a_trace_of_another_body_is_not_full():
-    """Scaling a cell that is a little too full takes the trace below its limit: were the rest then called full, the cell would
-    count as pure and as mixed, and be deformed twice."""
+def test_a_cell_with_a_little_of_another_body_is_not_full():
+    """Scaling a cell that is a little too full takes the small one below the cutoff: were the rest then called full, the cell
+    would count as pure and as mixed, and be deformed twice."""
     e = engine(WITH_VOID)
     s = e.state
     j, i = np.argwhere(s.vof[0] == 1.0)[0]
-    limit = e.method.trace
+    limit = e.method.cutoff
     s.vof[:, j, i], s.rho[1, j, i] = (1.0005, 1.0003 * limit), 2770.0
     mass = s.vof[:, j, i] * s.rho[:, j, i]
     e._list_mixed()

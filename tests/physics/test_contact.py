@@ -1,4 +1,4 @@
-"""Two groups that meet: wetted faces, dual cells, and the rate of volume that both velocities make."""
+"""Two groups that meet: face apertures, dual cells, and the rate of volume that both velocities make."""
 
 import numpy as np
 import pytest
@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from hydro2d.physics import contact
 from tests.physics.cells import COLUMNS, GEOMETRIES, ROWS, polygon_volume, rate_of_volume, small
 
-wetted = contact.wetted.py_func
+end_apertures = contact.end_apertures.py_func
 known = contact.known.py_func
 dual_share = contact.dual_share.py_func
 meeting = contact.meeting.py_func
@@ -30,49 +30,49 @@ ALONG = (np.arange(20000) + 0.5) / 20000
 
 @settings(deadline=None)
 @given(LEVEL, LEVEL)
-def test_weights_are_twice_the_integrals_of_the_linear_functions_over_the_wetted_part(first, last):
-    wet = first + (last - first) * ALONG >= 0.0
-    expected = 2.0 * np.mean((1.0 - ALONG) * wet), 2.0 * np.mean(ALONG * wet)
-    assert wetted(first, last) == pytest.approx(expected, abs=2e-4)
+def test_apertures_are_twice_the_integrals_of_the_linear_functions_over_the_open_part(first, last):
+    open_part = first + (last - first) * ALONG >= 0.0
+    expected = 2.0 * np.mean((1.0 - ALONG) * open_part), 2.0 * np.mean(ALONG * open_part)
+    assert end_apertures(first, last) == pytest.approx(expected, abs=2e-4)
 
 
-def test_of_a_face_that_is_wetted_to_its_middle_the_near_end_has_three_quarters_and_the_far_one_a_quarter():
-    assert wetted(0.2, -0.2) == (0.75, 0.25)
+def test_of_a_face_that_is_open_to_its_middle_the_near_end_has_three_quarters_and_the_far_one_a_quarter():
+    assert end_apertures(0.2, -0.2) == (0.75, 0.25)
 
 
 @settings(deadline=None)
 @given(LEVEL, LEVEL)
-def test_a_face_seen_from_its_other_end_has_the_same_weights(first, last):
-    assert wetted(last, first) == wetted(first, last)[::-1]
+def test_a_face_seen_from_its_other_end_has_the_same_apertures(first, last):
+    assert end_apertures(last, first) == end_apertures(first, last)[::-1]
 
 
 @settings(deadline=None)
 @given(LEVEL.filter(bool), LEVEL.filter(bool))
-def test_what_the_one_group_does_not_wet_the_other_does(first, last):
-    np.testing.assert_allclose(np.add(wetted(first, last), wetted(-first, -last)), 1.0, rtol=1e-14)
+def test_what_the_one_group_leaves_the_other_has(first, last):
+    np.testing.assert_allclose(np.add(end_apertures(first, last), end_apertures(-first, -last)), 1.0, rtol=1e-14)
 
 
-@pytest.mark.parametrize(("first", "last", "weight"), [(1.0, 0.5, 1.0), (0.0, 0.3, 1.0), (-1.0, -0.5, 0.0)])
-def test_a_face_on_one_side_of_the_line_is_wetted_all_or_not_at_all(first, last, weight):
-    assert wetted(first, last) == (weight, weight)
+@pytest.mark.parametrize(("first", "last", "aperture"), [(1.0, 0.5, 1.0), (0.0, 0.3, 1.0), (-1.0, -0.5, 0.0)])
+def test_a_face_on_one_side_of_the_line_is_open_all_or_not_at_all(first, last, aperture):
+    assert end_apertures(first, last) == (aperture, aperture)
 
 
-def test_a_weight_holds_where_both_groups_have_mass():
+def test_an_aperture_holds_where_both_groups_have_mass():
     assert known(0.3, 2.0, 5.0) == 0.3
 
 
-def test_a_group_that_is_alone_has_all_of_the_weight():
+def test_a_group_that_is_alone_has_all_of_the_aperture():
     assert known(0.3, 0.0, 5.0) == 1.0
     assert known(0.3, 2.0, 0.0) == 0.0
 
 
 @settings(deadline=None)
 @given(st.floats(0.0, 1.0), VELOCITY)
-def test_groups_of_one_velocity_have_that_velocity(weight, velocity):
-    assert blend(weight, velocity, velocity) == pytest.approx(velocity, rel=1e-14)
+def test_groups_of_one_velocity_have_that_velocity(aperture, velocity):
+    assert blend(aperture, velocity, velocity) == pytest.approx(velocity, rel=1e-14)
 
 
-def test_a_quarter_of_the_weight_is_a_quarter_of_the_way_to_the_hard_velocity():
+def test_a_quarter_of_the_aperture_is_a_quarter_of_the_way_to_the_hard_velocity():
     assert blend(0.25, 100.0, 20.0) == pytest.approx(40.0)
     assert blend(1.0, 100.0, 20.0) == 100.0
     assert blend(0.0, 100.0, 20.0) == 20.0
@@ -208,7 +208,7 @@ def test_through_an_r_face_flows_what_each_group_carries_through_its_part(veloci
     u = ends((soft_low, hard_low), (soft_high, hard_high), (4, 3), (2, 1), (1, 0))
     hard, soft = (low + (high - low) * ALONG for low, high in ((hard_low, hard_high), (soft_low, soft_high)))
     expected = 2.0 * np.mean(np.where(first + (last - first) * ALONG >= 0.0, hard, soft))
-    assert face_flow_r(2, 1, BOTH, at_face(*wetted(first, last), (4, 3), (2, 1)), u) == pytest.approx(expected, abs=0.5)
+    assert face_flow_r(2, 1, BOTH, at_face(*end_apertures(first, last), (4, 3), (2, 1)), u) == pytest.approx(expected, abs=0.5)
 
 
 def test_the_flow_of_one_group_through_an_r_face_is_its_own():
@@ -238,11 +238,11 @@ def test_through_a_planar_z_face_flows_what_each_group_carries_through_its_part(
     v = ends((soft_in, hard_in), (soft_out, hard_out), g.vertex_shape, (3, i), (0, 1))
     hard, soft = (inner + (outer - inner) * ALONG for inner, outer in ((hard_in, hard_out), (soft_in, soft_out)))
     expected = g.dr[i] * np.mean(np.where(first + (last - first) * ALONG >= 0.0, hard, soft))
-    weights = at_face(*wetted(first, last), g.vertex_shape, (3, i))
-    assert face_flow_z(3, i, BOTH, g.metrics, weights, v) == pytest.approx(expected, abs=0.1)
+    apertures = at_face(*end_apertures(first, last), g.vertex_shape, (3, i))
+    assert face_flow_z(3, i, BOTH, g.metrics, apertures, v) == pytest.approx(expected, abs=0.1)
 
 
-def test_each_end_of_a_face_has_its_own_weight():
+def test_each_end_of_a_face_has_its_own_aperture():
     """The inner vertex of a z-face is the hard group's alone, the outer one the other's."""
     g = small("cylindrical")
     v = ends((np.nan, 6.0), (2.0, np.nan), g.vertex_shape, (3, 3), (0, 1))
@@ -257,8 +257,8 @@ def test_each_end_of_a_face_has_its_own_weight():
 # ------------------------------------------------------------------------------------------------ rates of volume
 
 
-def rate(g, j, i, group, wet_r, wet_z, u, v):
-    return volume_rate(j, i, group, g.metrics, g.dz[j], wet_r, wet_z, u, v)
+def rate(g, j, i, group, aperture_r, aperture_z, u, v):
+    return volume_rate(j, i, group, g.metrics, g.dz[j], aperture_r, aperture_z, u, v)
 
 
 def velocities(g, seed):
@@ -277,60 +277,61 @@ def test_with_one_groups_velocities_a_cell_grows_as_its_corners_move(geometry, g
             assert rate(g, j, i, group, unknown, unknown, u, v) == pytest.approx(expected, rel=1e-5)
 
 
-@pytest.mark.parametrize("weight", [0.0, 1.0])
-def test_by_the_weights_of_one_group_the_rate_is_that_groups(weight):
+@pytest.mark.parametrize("aperture", [0.0, 1.0])
+def test_by_the_apertures_of_one_group_the_rate_is_that_groups(aperture):
     g = small("cylindrical")
     u, v = velocities(g, 12)
-    wet = np.full_like(u, weight)
+    apertures = np.full_like(u, aperture)
     for i in COLUMNS:
-        one = rate_of_volume(g, 2, i, u[int(weight)], v[int(weight)])
-        assert rate(g, 2, i, BOTH, wet, wet, u, v) == pytest.approx(one, rel=1e-5)
+        one = rate_of_volume(g, 2, i, u[int(aperture)], v[int(aperture)])
+        assert rate(g, 2, i, BOTH, apertures, apertures, u, v) == pytest.approx(one, rel=1e-5)
 
 
-def test_where_both_groups_move_alike_the_weights_do_not_matter():
+def test_where_both_groups_move_alike_the_apertures_do_not_matter():
     g = small("cylindrical")
     u, v = velocities(g, 13)
     u[HARD], v[HARD] = u[SOFT], v[SOFT]
-    wet_r, wet_z = np.random.default_rng(14).uniform(size=(2, *u.shape))
+    aperture_r, aperture_z = np.random.default_rng(14).uniform(size=(2, *u.shape))
     for i in COLUMNS:
-        assert rate(g, 3, i, BOTH, wet_r, wet_z, u, v) == pytest.approx(rate(g, 3, i, SOFT, wet_r, wet_z, u, v), abs=1e-15)
+        expected = rate(g, 3, i, SOFT, aperture_r, aperture_z, u, v)
+        assert rate(g, 3, i, BOTH, aperture_r, aperture_z, u, v) == pytest.approx(expected, abs=1e-15)
 
 
-def weights_of_line(g, j, i, n_r, n_z, place):
+def apertures_of_line(g, j, i, n_r, n_z, place):
     """Weights on the four faces of cell (j, i) that a line in it leaves, nothing known of others."""
     def level(row, column):
         r0, z0 = g.r[i] + place[0] * g.dr[i], g.z[j] + place[1] * g.dz[j]
         return n_r * (r0 - g.r[column]) + n_z * (z0 - g.z[row])
 
-    wet_r, wet_z = np.full((2, 2, *g.vertex_shape), np.nan)
+    aperture_r, aperture_z = np.full((2, 2, *g.vertex_shape), np.nan)
     for column in (i, i + 1):
-        wet_r[:, j, column] = wetted(level(j, column), level(j + 1, column))
+        aperture_r[:, j, column] = end_apertures(level(j, column), level(j + 1, column))
     for row in (j, j + 1):
-        wet_z[:, row, i] = wetted(level(row, i), level(row, i + 1))
-    return wet_r, wet_z
+        aperture_z[:, row, i] = end_apertures(level(row, i), level(row, i + 1))
+    return aperture_r, aperture_z
 
 
 @pytest.mark.parametrize("angle", [0.0, 0.4, 1.0, 1.9, 2.7, 4.0, 5.5])
 @pytest.mark.parametrize("place", [(0.5, 0.5), (0.1, 0.3), (0.7, 0.9)])
 def test_slip_along_a_straight_line_changes_no_volume(angle, place):
     g, n_r, n_z = small("planar"), np.cos(angle), np.sin(angle)
-    wet = weights_of_line(g, 2, 3, n_r, n_z, place)
+    apertures = apertures_of_line(g, 2, 3, n_r, n_z, place)
     u, v = np.zeros((2, 2, *g.vertex_shape))
     u[HARD], v[HARD] = -800.0 * n_z, 800.0 * n_r
-    assert rate(g, 2, 3, BOTH, *wet, u, v) == pytest.approx(0.0, abs=1e-11)
+    assert rate(g, 2, 3, BOTH, *apertures, u, v) == pytest.approx(0.0, abs=1e-11)
 
 
 def test_groups_that_close_in_take_the_volume_that_the_line_sweeps():
     """A line 2 r/dr + z/dz = 1 through the cell, hard below: its length times the speed along its normal."""
     g = small("planar")
-    wet = weights_of_line(g, 2, 3, 2.0 / g.dr[3], 1.0 / g.dz[2], (0.5, 0.0))
+    apertures = apertures_of_line(g, 2, 3, 2.0 / g.dr[3], 1.0 / g.dz[2], (0.5, 0.0))
     u, v = np.zeros((2, 2, *g.vertex_shape))
     u[HARD], v[HARD] = 3.0, 5.0
     triangle = g.r[3] + np.array([0.0, 0.5, 0.0]) * g.dr[3], g.z[2] + np.array([0.0, 0.0, 1.0]) * g.dz[2]
     moved = triangle[0] + np.array([0.0, 3.0, 3.0]), triangle[1] + np.array([0.0, 5.0, 5.0])
     # from the side of the triangle that is the line to where it would be one second later
     swept = polygon_volume(*(np.array([a[1], b[1], b[2], a[2]]) for a, b in zip(triangle, moved, strict=True)), False)
-    assert rate(g, 2, 3, BOTH, *wet, u, v) == pytest.approx(-swept)
+    assert rate(g, 2, 3, BOTH, *apertures, u, v) == pytest.approx(-swept)
 
 
 # ----------------------------------------------------------------------------------------------------------- bodies

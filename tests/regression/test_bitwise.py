@@ -95,7 +95,7 @@ def test_one_and_two_threads(options):
         runs.append(simulation)
     for other in runs[1:]:
         assert_same(runs[0], other)
-        assert runs[0].restart_scalars()["ledger"] == other.restart_scalars()["ledger"]
+        assert runs[0].restart_scalars()["audit"] == other.restart_scalars()["audit"]
 
 
 @every_case

@@ -17,7 +17,7 @@ def test_there_are_decks():
 
 @pytest.mark.parametrize("file", DECKS, ids=lambda file: f"{file.parent.name}/{file.stem}")
 def test_deck_runs(file):
-    """Twenty cycles: no unphysical state, nothing lost that is not booked, nothing lost at all but through open edges."""
+    """Twenty cycles: no unphysical state, nothing lost that is not in the audit, nothing lost at all but through open edges."""
     simulation = Simulation(decks.load(file))
     for _ in range(20):
         simulation.step()
@@ -32,7 +32,7 @@ def test_deck_runs(file):
     assert max(abs(x) for x in balance["mass"].values()) < 1e-12
     assert abs(balance["axial_momentum"]) < 1e-12
     assert abs(balance["total_energy"]) < 1e-11
-    for name in ("traces", "speed_limit"):
+    for name in ("cutoff", "speed_limit"):
         assert abs(balance["sinks"][name]["energy_J"]) < 1e-6 * balance["start_energy_J"], name
 
 

@@ -20,7 +20,7 @@ import strength
 from hydro2d import units
 from hydro2d.deck import bodies, deck, sections
 from hydro2d.materials import library
-from hydro2d.mesh import edges, fields, quantities
+from hydro2d.mesh import boundary_conditions, fields, quantities
 from hydro2d.penetration import catalogue
 from strength import tensile_pressure
 from tests.rules import source
@@ -155,7 +155,7 @@ def test_the_reference_has_everything():
     assert [name for name in models if f"### `{name}`" not in pages["models.md"]] == []
     assert [name for name in library.names() if f"## `{name}`" not in pages["materials.md"]] == []
     assert [key for key in deck.schema()["properties"] if key not in pages["deck.md"]] == []
-    assert [entry.name for entry in edges.BOUNDARIES if f"| `{entry.name}` |" not in pages["deck.md"]] == []
+    assert [entry.name for entry in boundary_conditions.BOUNDARIES if f"| `{entry.name}` |" not in pages["deck.md"]] == []
     assert [name for name in catalogue.MODELS if f"## `{name}`" not in pages["penetration-models.md"]] == []
     assert [name for name in getattr(hydro2d, "__all__", ()) if f"## `hydro2d.{name}`" not in pages["api.md"]] == []
 

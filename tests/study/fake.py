@@ -67,7 +67,7 @@ def _write_outlines(directory: Path, depth: float, shortened: float) -> None:
 
 
 def _summary(depth: float, shortened: float) -> dict:
-    energies = {"traces": 1e-3, "advection": 300.0, "outflow": 12.0}
+    energies = {"cutoff": 1e-3, "advection": 300.0, "outflow": 12.0}
     return {
         "status": "done", "stop_reason": "speed of rod below 5 m/s", "time_s": TIME, "cycles": 1000, "cells": 60984,
         "wall_s": 321.3, "ns_per_cell_cycle": 120.0, "version": "0.1.0", "deck_sha256": "ab" * 32,

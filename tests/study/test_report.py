@@ -1,6 +1,7 @@
 """The page says what the runs say, and what could not be read; it is one well-formed file."""
 
 import csv
+import json
 import shutil
 
 import pytest
@@ -85,7 +86,7 @@ def test_the_table(made):
     assert (row["cycles"], row["wall_s"], row["ns_per_cell_cycle"]) == ("1000", "321.3", "120.0")
     page = Page((made[0] / "report" / "report.html").read_text(encoding="utf-8"))
     assert "1200m-s_ke 1200 m/s ke 34.8 20.0 +14.8 +74 0.988 1.01 rigid done" in page.text
-    assert "advection 0.81 %; outflow 0.032 % 600" in page.text  # traces are below the share that is named
+    assert "advection 0.81 %; outflow 0.032 % 600" in page.text  # the cutoff's is below the share that is named
 
 
 def test_a_run_is_compared_with_the_experiment_of_its_velocity(made):
@@ -199,6 +200,23 @@ def test_an_experiment_at_an_unknown_velocity_is_compared_with_nothing(tmp_path)
     assert lines[0].startswith("wrote")
     assert rows["v1000"]["depth_error_m"] == ""
     assert float(rows["v1200"]["depth_error_m"]) == pytest.approx(0.4 - 0.448)
+
+
+def test_a_run_of_a_version_with_other_names_is_read(tmp_path):
+    """Its deck has the old keys, its summary the old names of what it audits."""
+    old = fake.write_run(tmp_path / "runs" / "v1086")
+    text, audit = (old / "deck.toml").read_text(), json.loads((old / "summary.json").read_text())["conservation"]
+    text = text.replace("\ncutoff = ", "\ntrace = ").replace("\nstrength_cutoff = ", "\nloose = ")
+    fake.write_run(tmp_path / "old" / "v1086", text=text, conservation={
+        **audit, "sinks": {"traces": audit["sinks"].pop("cutoff"), **audit["sinks"]},
+        "exchanges": {"light vertices": {"momentum_N_s": 0.0, "energy_J": 1.0}},
+    })  # fmt: skip
+    (_, lines), (page, of_old) = page_of(tmp_path / "runs"), page_of(tmp_path / "old")
+    assert page.faults == []
+    assert len(of_old) == len(lines)
+    rows, before = table(tmp_path / "runs" / "report")["v1086"], table(tmp_path / "old" / "report")["v1086"]
+    assert before.pop("sink_traces_share") == rows.pop("sink_cutoff_share")
+    assert {**before, "directory": ""} == {**rows, "directory": ""}
 
 
 def test_a_wrong_deck_is_said_and_what_the_summary_has_is_drawn(tmp_path):

@@ -53,7 +53,7 @@ vtk_interval = "1 us"
 """
 NAMES = {
     "BODY": "rod|plate", "TARGET": "plate", "STATION": "tracer_tip|gauge_line_[123]", "SINK": "|".join(audit.SINKS),
-    "EXCHANGE": "|".join(audit.EXCHANGES),
+    "TRANSFER": "|".join(audit.CONTACT_TRANSFERS),
 }  # fmt: skip
 
 

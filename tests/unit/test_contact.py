@@ -191,7 +191,7 @@ def test_a_tracer_changes_its_group_with_its_place(contact):
     contact.state.vof[1, CUT[0] + 2] = 1.0
     points = np.array([[1.5e-3, 0.3e-3], [6.5e-3, 3e-3]])
     g, s = contact.grid, contact.state
-    tracers.follow(g.g, g.nr, g.nz, 1e-3, g.r, g.z, s.group, s.vof, s.u, s.v, points)
+    tracers.advect(g.g, g.nr, g.nz, 1e-3, g.r, g.z, s.group, s.vof, s.u, s.v, points)
     np.testing.assert_allclose(points, [[1.5e-3, -1.7e-3], [6.5e-3, 2e-3]], rtol=1e-12)
 
 
@@ -209,10 +209,10 @@ def test_fields_of_a_contact(contact):
     set_velocities(contact, (5.0, 100.0), (7.0, 900.0))
     state.contact_pressure[CUT[0] + grid.g, CUT[1] + grid.g] = 2e9
     found = derived.evaluate(contact, ["standard"])
-    velocity, hard, rest = (found[f"Velocity{of} [m/s]"] for of in ("", " of Hard Bodies", " of the Rest"))
-    assert velocity.shape == hard.shape == rest.shape == (16, 8, 3)
+    velocity, hard, soft = (found[f"Velocity{of} [m/s]"] for of in ("", " of Hard Bodies", " of Soft Bodies"))
+    assert velocity.shape == hard.shape == soft.shape == (16, 8, 3)
     assert [hard[cell].tolist() for cell in (PURE, CUT, PLATE, VOID)] == [[7, 900, 0], [7, 900, 0], [0, 0, 0], [0, 0, 0]]
-    assert [rest[cell].tolist() for cell in (PURE, CUT, PLATE, VOID)] == [[0, 0, 0], [5, 100, 0], [5, 100, 0], [0, 0, 0]]
+    assert [soft[cell].tolist() for cell in (PURE, CUT, PLATE, VOID)] == [[0, 0, 0], [5, 100, 0], [5, 100, 0], [0, 0, 0]]
     rod, plate = 0.4 * grid.interior(state.rho[0])[CUT], 0.6 * grid.interior(state.rho[1])[CUT]
     mean = [(rod * of_rod + plate * of_plate) / (rod + plate) for of_rod, of_plate in ((7.0, 5.0), (900.0, 100.0))]
     np.testing.assert_allclose(velocity[CUT], [*mean, 0.0], rtol=1e-12)
@@ -239,7 +239,7 @@ def test_fields_of_a_contact_are_written_only_there(contact):
 def test_velocities_of_a_contact_have_components(contact):
     set_velocities(contact, (5.0, 100.0), (7.0, 900.0))
     assert np.nanmax(figures.chosen(Dump.of(contact), "velocity_hard:z").values) == pytest.approx(900.0)
-    with pytest.raises(figures.FigureError, match="only velocity, velocity_hard, velocity_rest have components"):
+    with pytest.raises(figures.FigureError, match="only velocity, velocity_hard, velocity_soft have components"):
         figures.chosen(Dump.of(contact), "contact_pressure:z")
 
 

@@ -1,5 +1,6 @@
 """Decks: what they accept, what they refuse and how they say it."""
 
+import copy
 import json
 import subprocess
 import sys
@@ -127,6 +128,9 @@ def test_a_deck_does_not_change():
         ('across = "rod"', 'across = "plate"', 5, ['"plate" is not a body with a radius']),
         ("[stop]", "[numerics]\ncourant = 1.5\n[stop]", 29, ["courant: must lie between 0.001 and 0.8, is 1.5: "]),
         ("[stop]", "[numerics]\ncourant = nan\n[stop]", 29, ["nan is not finite"]),
+        ("[stop]", "[numerics]\ntrace = 1e-9\n[stop]", 29, ["numerics.trace: is now called numerics.cutoff"]),
+        ("[stop]", "[failure]\nloose = 0.9\n[stop]", 29, ["failure.loose: is now called failure.strength_cutoff"]),
+        ("[stop]", '[output]\nfields = ["velocity_rest"]\n[stop]', 29, ["velocity_rest is now called velocity_soft"]),
         ("[stop]", '[numerics]\ninterface_order = ["rod"]\n[stop]', 29, ["must name every body once: rod, plate"]),
         ("[stop]", '[failure]\ndamage = "yes"\n[stop]', 29, ['unknown value "yes"', "material, none"]),
         ("[stop]", '[[tracer]]\nname = "t"\nr = 1.0\nz = 0.0\n[stop]', 28, ['"t" at r = 1 m, z = 0 m lies outside']),
@@ -314,12 +318,24 @@ def test_overrides(override, value):
         ("body.rod.velocity=12 GPa", '--set body.rod.velocity=12 GPa: body[0].velocity: "12 GPa" is a pressure'),
         ("body.bar.velocity=1", "--set body.bar.velocity=1: there is no entry bar; there are rod, plate"),
         ("numerics.advecton=ke", '--set numerics.advecton=ke: numerics.advecton: unknown key "advecton"'),
+        ("numerics.trace=1e-9", "--set numerics.trace=1e-9: numerics.trace: is now called numerics.cutoff"),
         ("title.x=1", "title is a value and has no key x"),
         ("title", "expected key=value"),
     ],
 )
 def test_wrong_overrides(override, fragment):
     assert fragment in message(TEXT, overrides=[override])
+
+
+def test_a_resolved_deck_of_an_older_version_gets_the_keys_of_today():
+    now = tomllib.loads(deck.loads(TEXT).to_toml())
+    old = copy.deepcopy(now)
+    for before, after in deck.RENAMED.items():
+        (section, key), (place, name) = before.split("."), after.split(".")
+        old[section][key] = old[place].pop(name)
+    assert old != now
+    assert deck.renewed(old) == now
+    assert deck.renewed({"numerics": 3}) == {"numerics": 3}
 
 
 def test_the_resolved_deck_is_complete_and_loads_to_the_same():

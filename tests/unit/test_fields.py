@@ -49,17 +49,17 @@ def test_every_array_of_the_state_is_in_a_table(groups):
     symbols = [entry.symbol for entry in tables]
     assert len(set(symbols)) == len(symbols)
     arrays = {name for name, value in vars(state).items() if isinstance(value, np.ndarray)}
-    assert arrays - set(symbols) == {"group", "rules", "q", "velocity", "velocity0", "span", "reach"}
+    assert arrays - set(symbols) == {"group", "rules", "q", "velocity", "velocity0", "body_range", "active_range"}
     assert set(symbols) <= arrays
 
 
 def test_axes_of_work_are_lengths():
     state = State(Grid(np.linspace(0.0, 1.0, 4), np.linspace(0.0, 1.0, 71)), 2, [0, 1])
     assert state.flux.shape == (7, 2, 18, 8)
-    assert state.booked.shape == (6, 75)
+    assert state.removed.shape == (6, 75)
     assert state.edge_dual.shape == (2, 2, 5, 75)
-    assert state.near.shape == (3, 2, 74, 2)
-    assert (state.near.dtype, state.link.dtype, state.fr.dtype) == (np.int64, np.int8, np.float64)
+    assert state.body_ranges.shape == (3, 2, 74, 2)
+    assert (state.body_ranges.dtype, state.masters.dtype, state.fr.dtype) == (np.int64, np.int8, np.float64)
 
 
 @pytest.mark.parametrize("field", fields.FIELDS, ids=lambda field: field.name)

@@ -186,7 +186,7 @@ def test_a_run_that_watches_its_rod_ends_when_that_is_gone(options, reason):
 
 def test_debris_does_not_leave_for_the_rod(simulation):
     """Mass of the rod that flows out while its core is inside, or reaches an edge that it moves away from, says nothing."""
-    sim, sink = simulation, simulation.ledger.sinks["outflow"]
+    sim, sink = simulation, simulation.audit.sinks["outflow"]
     fraction, z = cells(sim)
     sink.mass[0] += 0.3 * sim.penetrator.mass
     sim.state.v[...], sim.engine.dt = 1000.0, 1e-9

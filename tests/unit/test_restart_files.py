@@ -37,7 +37,7 @@ def spoiled(directory, change):
     (lambda a, s, r: a.pop("vof"), r"vof is nothing in the restart file and float64\[2, 44, 8\] in the deck"),
     (lambda a, s, r: a.update(q=a["q"].astype(np.float32)), r"q is float32\[.*\] in the restart file and float64\["),
     (lambda a, s, r: a.update(u=a["u"][:, 1:]), r"u is float64\[1, 44, 9\] in the restart file and float64\[1, 45, 9\]"),
-    (lambda a, s, r: s.pop("ledger"), "'ledger' is missing"),
+    (lambda a, s, r: s.pop("audit"), "'audit' is missing"),
     (lambda a, s, r: s.update(box=7), "the restart file does not fit: "),
     (lambda a, s, r: r.pop("due"), "'due' is missing")])
 def test_what_does_not_fit_is_one_message(begun, change, said):

@@ -17,7 +17,7 @@ SINGLE = 'sliding.method="none"', "sliding.friction=0.0"
 #: upper end of the tungsten in mm, in cells of 0.5 mm, and the share of its cell that it fills
 CUTS = {"2 %": 0.01, "50 %": 0.25, "98 %": 0.49}
 EDGE = {"edge": 0.0}
-#: a light vertex of tungsten, whose surface recedes into the next cell
+#: an under-filled node of tungsten, whose surface recedes into the next cell
 LIGHT = {"70 %": 0.35}
 P, U = 14.1016e9, 817.535  # impedance match at 1 km/s, as in test_planar_impact.py
 
@@ -149,7 +149,7 @@ def test_load_without_friction_drags_nothing():
     assert abs(slider) < 1e-4 * p
 
 
-def test_a_single_velocity_sticks():
+def test_a_single_velocity_is_tied_contact():
     """Welded, the blocks send shear waves of 50 m/s/(1/Z_W + 1/Z_Al) into each other: 358 MPa, until 1.49 us."""
     slider, base, _ = tractions(run("block_level_friction", *SINGLE, "stop.time=1.4e-6"))
     impedance = [math.sqrt(rho * modulus) for rho, modulus in ((18160.0, 145e9), (2660.0, 26e9))]
@@ -182,7 +182,7 @@ def test_slip_along_an_inclined_interface_does_no_work(angle):
     assert abs(drift(run(f"block_inclined_{angle}"))[0]) < 1e-4
 
 
-UNEVEN = pytest.mark.xfail(strict=True, reason="1.33 % since light vertices extend their body's motion; not explained")
+UNEVEN = pytest.mark.xfail(strict=True, reason="1.33 % since slave nodes extend their body's motion; not explained")
 
 
 @pytest.mark.parametrize("angle", [15, pytest.param(30, marks=UNEVEN), 45])

@@ -37,7 +37,7 @@ KNOWN = bar.reference(227.0, 32.4e-3)
 
 
 def test_on_a_wall():
-    """21.42 mm within 1.5 %, 7.226 mm within 4 %, and so on the way; the books are closed."""
+    """21.42 mm within 1.5 %, 7.226 mm within 4 %, and so on the way; the audit closes."""
     simulation, bars = history("copper_bar")
     held(bars, KNOWN, 0.015, 0.04)
     assert 2.4 < bars[-1].strain < 3.4

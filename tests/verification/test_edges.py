@@ -151,7 +151,7 @@ def test_a_plane_wave_leaves_through_a_transmitting_edge(velocity, component, ti
     assert np.abs(left - endless).max() < (0.15 if component == "v" else 0.3)
 
 
-def test_what_goes_through_transmitting_edges_is_booked():
+def test_what_goes_through_transmitting_edges_is_recorded():
     simulation = Simulation(decks.loads(WAVE, ["body.kick.velocity=[0.0, 10.0]", "stop.time=4e-6"]))
     start = simulation.conservation()["start_energy_J"]
     middle(simulation, "v")
@@ -185,8 +185,8 @@ def test_hot_debris_that_leaves_takes_nothing_unnamed_along(choice, energy):
     simulation, worst = Simulation(decks.loads(DEBRIS.replace("ENERGY", energy), [advection(choice)])), 0.0
     while simulation.time < 20e-6:
         simulation.step()
-        books = simulation.conservation()
-        worst = max(worst, abs(books["total_energy"]), abs(books["axial_momentum"]), abs(books["mass"]["ball"]))
+        audit = simulation.conservation()
+        worst = max(worst, abs(audit["total_energy"]), abs(audit["axial_momentum"]), abs(audit["mass"]["ball"]))
     assert worst < 1e-12
-    assert simulation.ledger.sinks["outflow"].mass.sum() > 0.1 * simulation.ledger.start.mass.sum()  # there is much to book
+    assert simulation.audit.sinks["outflow"].mass.sum() > 0.1 * simulation.audit.start.mass.sum()  # there is much to audit
     assert simulation.faults() == []

@@ -49,7 +49,7 @@ def test_two_waves(choice):
 def test_yield_surface_and_symmetry(choice):
     """No stress beyond yield, no radial motion, and energy is kept.
 
-    Round-off: a cell that the flyer's rear leaves holds a sliver down to the trace fraction 1e-8, whose density is a
+    Round-off: a cell that the flyer's rear leaves holds a sliver down to the cutoff of 1e-8, whose density is a
     difference of numbers with 16 digits. So its pressure is known to 1e-8 of the bulk modulus, 1e3 Pa.
     """
     simulation = finish(decks.load(f"{FOLDER}/elastic_precursor.toml", ["stop.time=0.7e-6", advection(choice)]))

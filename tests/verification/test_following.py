@@ -199,7 +199,7 @@ def test_two_plates_and_the_gap_between_them():
     assert 1000.0 - one == pytest.approx(1000.0 - two, rel=0.05)
     assert one == pytest.approx(two, rel=0.01)
     closes(moving)
-    inflow = moving.ledger.sinks["inflow"]
+    inflow = moving.audit.sinks["inflow"]
     assert inflow.mass[moving.table.names.index("rear")] < 0.0
 
 
@@ -253,7 +253,7 @@ def test_a_rod_that_flies_down_goes_as_deep():
 
 
 def test_a_rod_that_flies_down_is_the_mirror_image():
-    """The way differs by 7e-5 and the velocity by 2e-5: of two cells that lie alike a light vertex goes with the lower one."""
+    """The way differs by 7e-5 and the velocity by 2e-5: of two cells that lie alike a slave node goes with the lower one."""
     up, down = mirror_images()
     assert down.grid.offset == pytest.approx(-up.grid.offset, rel=1e-4)
     assert down.penetrator.velocity() == pytest.approx(-up.penetrator.velocity(), rel=1e-4)

@@ -44,8 +44,8 @@ def test_planar_does_not_converge_without_conservation():
     """At an infinite shock `momentum` discards 5 % of the energy, the bound of `ke` 3 %; both end up 6 % too dense."""
     for choice, energy in (("momentum", (0.04, 0.06)), ("ke", (0.02, 0.03))):
         profile = line("noh_planar", choice, 200)
-        ledger = profile.simulation.ledger
-        sink = sum(ledger.sinks[name].energy for name in ("advection", "ke_bound")) / ledger.start.energy
+        audit = profile.simulation.audit
+        sink = sum(audit.sinks[name].energy for name in ("advection", "ke_bound")) / audit.start.energy
         assert energy[0] < sink < energy[1]
         assert 0.04 < plateau(profile, 1) < 0.07
         assert abs(profile.simulation.conservation()["total_energy"]) < 1e-12

@@ -57,11 +57,11 @@ def test_hugoniot(pair, velocity, choice):
 
 
 def test_discarded_energy():
-    """`momentum` discards kinetic energy at the shocks, the bound of `ke` a little, and the ledger says how much."""
+    """`momentum` discards kinetic energy at the shocks, the bound of `ke` a little, and the audit says how much."""
     for choice, low, high in (("momentum", 5e-4, 8e-4), ("ke", 0.0, 5e-5), ("both", -1e-12, 1e-12)):
         simulation = run("plate_impact_w_on_al", f"stop.time={END}", advection(choice))
-        ledger = simulation.ledger
-        assert low <= (ledger.sinks["advection"].energy + ledger.sinks["ke_bound"].energy) / ledger.start.energy <= high
+        audit = simulation.audit
+        assert low <= (audit.sinks["advection"].energy + audit.sinks["ke_bound"].energy) / audit.start.energy <= high
 
 
 @pytest.mark.parametrize("choice", ADVECTION)

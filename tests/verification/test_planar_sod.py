@@ -54,20 +54,20 @@ def test_plateaus(choice):
 
 
 def test_what_the_choices_conserve():
-    """Energy balances to round-off with what the ledger books; the study's choices trade momentum for energy."""
-    booked = {}
+    """Energy balances to round-off with what the audit records; the study's choices trade momentum for energy."""
+    recorded = {}
     for choice in ADVECTION:
         simulation = shock_tube(choice).simulation
         assert abs(simulation.conservation()["total_energy"]) < 1e-12
-        sink = simulation.ledger.sinks["advection"]
-        booked[choice] = (sink.energy / simulation.ledger.start.energy, sink.momentum)
-    assert abs(booked["both"][0]) < 1e-12
-    assert 1e-4 < booked["momentum"][0] < 1e-3  # kinetic energy discarded
-    start = simulation.ledger.start  # what the bound of P/M removes is round-off, and booked with the rest
+        sink = simulation.audit.sinks["advection"]
+        recorded[choice] = (sink.energy / simulation.audit.start.energy, sink.momentum)
+    assert abs(recorded["both"][0]) < 1e-12
+    assert 1e-4 < recorded["momentum"][0] < 1e-3  # kinetic energy discarded
+    start = simulation.audit.start  # what the bound of P/M removes is round-off, and recorded with the rest
     scale = (2.0 * start.mass.sum() * start.energy) ** 0.5
-    assert max(abs(booked["momentum"][1]), abs(booked["both"][1])) < 1e-15 * scale
-    assert abs(booked["ke"][0]) < 5e-5  # what the bound cuts
-    assert booked["ke"][1] < 0.0  # momentum gained is a negative loss
+    assert max(abs(recorded["momentum"][1]), abs(recorded["both"][1])) < 1e-15 * scale
+    assert abs(recorded["ke"][0]) < 5e-5  # what the bound cuts
+    assert recorded["ke"][1] < 0.0  # momentum gained is a negative loss
 
 
 @pytest.mark.parametrize("choice", ADVECTION)

@@ -95,7 +95,7 @@ def test_friction_times_pressure_gets_through(friction):
     assert (beyond - free) / pressure == pytest.approx(friction, rel=0.2)
 
 
-def test_much_friction_is_sticking():
+def test_much_friction_is_tied_contact():
     beyond, _, _ = slid(1e9, *SHEAR, "sliding.friction=0.5")
     assert beyond == pytest.approx(slid(1e9)[0], rel=0.1)
 

@@ -100,7 +100,7 @@ def test_open_cell_carries_no_tension(choice):
     assert line.pressure.min() > -0.45e9 * (1 + 1e-12)
 
 
-def test_weak_pulse_does_not_tear():
+def test_weak_pulse_does_not_fracture():
     """Below half the fracture pressure at its peak, nothing fails."""
     _, history, depth = shoot("Al5083", "ke", 15.0, 1.2e-6)
     assert depth is None

@@ -94,7 +94,7 @@ def test_mirrored_in_z(geometry, options):
         mirrored = sign * inside(up, name)[..., ::-1, :]
         np.testing.assert_allclose(inside(down, name), mirrored, rtol=1e-13, atol=1e-12, err_msg=name)
         inside(down, name)[...] = mirrored  # insertion rounds differently
-    down.engine.ledger = None
+    down.engine.audit = None
     down.engine.prepare()
     run(up), run(down)
     assert inside(up, "ep").max() > 0.2
@@ -114,7 +114,7 @@ def compared(first: Simulation, second: Simulation, order: list[int]) -> dict[st
     result = {}
     for name in ("vof", "rho", "e", "srr", "srz", "ep"):
         a, b = inside(first, name), inside(second, name)[order]
-        weight = inside(first, "vof") + inside(second, "vof")[order]  # a trace may have any value
+        weight = inside(first, "vof") + inside(second, "vof")[order]  # next to no material may have any value
         result[name] = float(np.sum(weight * np.abs(a - b)) / np.sum(weight * np.abs(a)))
     for name in ("u", "v"):
         a, b = inside(first, name), inside(second, name)

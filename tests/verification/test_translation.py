@@ -69,24 +69,24 @@ def unchanged(simulation: Simulation, u: float, v: float, strain: float) -> None
         assert abs(sink["energy_J"]) < 1e-9 * balance["start_energy_J"], name
 
 
-ROUND_OFF = "numerics.trace=1e-12", 1e-12  # stress below 0.3 Pa, drift below 4e-9 m/s in 1000 m/s
-FULL_CELLS = "numerics.trace=1e-8", 1e-9  # cells that lack a trace of volume are made full, and ring
+ROUND_OFF = "numerics.cutoff=1e-12", 1e-12  # stress below 0.3 Pa, drift below 4e-9 m/s in 1000 m/s
+FULL_CELLS = "numerics.cutoff=1e-8", 1e-9  # cells that lack less than the cutoff are made full, and ring
 
 
 @pytest.mark.parametrize("advection", ["ke", "momentum", "both"])
 @pytest.mark.parametrize("options", [(), (*SLIP, 'sliding.hard=["rod"]')], ids=["sticking", "slip-layer"])
-@pytest.mark.parametrize(("trace", "strain"), [ROUND_OFF, FULL_CELLS], ids=["tiny trace", "default trace"])
-def test_rod_flies_over_three_lengths(advection, options, trace, strain):
-    simulation = flown(ROD, trace, f'numerics.advection="{advection}"', *options)
+@pytest.mark.parametrize(("cutoff", "strain"), [ROUND_OFF, FULL_CELLS], ids=["tiny cutoff", "default cutoff"])
+def test_rod_flies_over_three_lengths(advection, options, cutoff, strain):
+    simulation = flown(ROD, cutoff, f'numerics.advection="{advection}"', *options)
     unchanged(simulation, 0.0, 1000.0, strain)
 
 
 @pytest.mark.parametrize("advection", ["ke", "momentum", "both"])
 @pytest.mark.parametrize("options", [(), (*SLIP, 'sliding.hard=["block"]', "sliding.yield_factor=1.5")],
                          ids=["sticking", "slip-layer"])
-@pytest.mark.parametrize(("trace", "strain"), [ROUND_OFF, FULL_CELLS], ids=["tiny trace", "default trace"])
-def test_block_flies_obliquely(advection, options, trace, strain):
-    simulation = flown(BLOCK, trace, f'numerics.advection="{advection}"', *options)
+@pytest.mark.parametrize(("cutoff", "strain"), [ROUND_OFF, FULL_CELLS], ids=["tiny cutoff", "default cutoff"])
+def test_block_flies_obliquely(advection, options, cutoff, strain):
+    simulation = flown(BLOCK, cutoff, f'numerics.advection="{advection}"', *options)
     unchanged(simulation, 250.0, 1000.0, strain)
 
 

@@ -1,4 +1,4 @@
-"""Where the bodies are: the columns that each fills in a row, the cells that are mixed, and the region that is active.
+"""Where the bodies are: the range of columns that each fills in a row, the cells that are mixed, and the region that is active.
 
 A range (lo, hi) means lo <= i < hi; an empty range is (2**30, 0), so that the union of ranges is a min and a max. Every
 other kernel loops over these ranges: a row of void costs nothing, and a pure cell pays for the one body in it.
@@ -60,13 +60,13 @@ def copy_beside(old, new, first, lo, hi, last):
 
 
 @kernel
-def body_spans(j0, j1, i0, i1, anew, group, vof, near, occupied):
+def find_body_ranges(j0, j1, i0, i1, anew, group, vof, body_ranges, occupied):
     """First column and one past the last in which each body lies, for the rows and columns of the active box.
 
-    A body moves by no more than a cell: unless `anew`, it is looked for around the columns near[1] that it was in.
+    A body moves by no more than a cell: unless `anew`, it is looked for around the columns body_ranges[1] that it was in.
 
     Reads    vof [m, j, i], group [m]
-    Updates  near [n, m, j, 2], of which near[0] is the span
+    Updates  body_ranges [n, m, j, 2], of which body_ranges[0] is body_range
     Writes   occupied [b, j, 2], the union over the bodies: for b = 0 all of them, for b = 1 those of group 1
     """
     bodies = vof.shape[0]
@@ -76,8 +76,8 @@ def body_spans(j0, j1, i0, i1, anew, group, vof, near, occupied):
             occupied[b, j, 1] = 0
         for m in range(bodies):
             row = vof[m, j]
-            lo = i0 if anew else max(near[1, m, j, 0] - 1, i0)
-            end = i1 if anew else min(near[1, m, j, 1] + 1, i1)
+            lo = i0 if anew else max(body_ranges[1, m, j, 0] - 1, i0)
+            end = i1 if anew else min(body_ranges[1, m, j, 1] + 1, i1)
             while lo < end and row[lo] == 0.0:
                 lo += 1
             hi = max(end, lo)
@@ -85,19 +85,19 @@ def body_spans(j0, j1, i0, i1, anew, group, vof, near, occupied):
                 hi -= 1
             if lo == hi:
                 lo, hi = NOTHING, 0
-            near[0, m, j, 0] = lo
-            near[0, m, j, 1] = hi
+            body_ranges[0, m, j, 0] = lo
+            body_ranges[0, m, j, 1] = hi
             for b in range(group[m] + 1):
                 occupied[b, j, 0] = min(occupied[b, j, 0], lo)
                 occupied[b, j, 1] = max(occupied[b, j, 1], hi)
 
 
 @kernel
-def reached(j0, j1, i0, i1, occupied, around):
+def find_active_ranges(j0, j1, i0, i1, occupied, group_ranges):
     """Columns that a body can touch within one cycle: those occupied in rows j-2 to j+2, and two more on either side.
 
     Reads    occupied [b, j, 2]
-    Writes   around[b, 0], the reach [j, 2]
+    Writes   group_ranges[b, 0], the active range [j, 2]
     """
     for j in prange(j0, j1):
         for b in range(occupied.shape[0]):
@@ -105,40 +105,41 @@ def reached(j0, j1, i0, i1, occupied, around):
             if lo < hi:
                 lo = max(lo - 2, i0)
                 hi = min(hi + 2, i1)
-            around[b, 0, j, 0] = lo
-            around[b, 0, j, 1] = hi
+            group_ranges[b, 0, j, 0] = lo
+            group_ranges[b, 0, j, 1] = hi
 
 
 @kernel
-def neighbours(j0, j1, near, around):
+def widen_ranges(j0, j1, body_ranges, group_ranges):
     """The ranges of a row joined with those of its neighbours, for rows j0 - 1 to j1.
 
-    Reads    near[0], the span of each body, around[b, 0], the reach
-    Writes   near[1, m, j] joined over rows j-1 to j+1, the cells that a sweep along z can change; near[2, m, j] over j-2 to
-             j+1, the faces through which it flows; around[b, n, j] over the n rows below face or vertex j and the n above
+    Reads    body_ranges[0], the range of each body, group_ranges[b, 0], the active range
+    Writes   body_ranges[1, m, j] joined over rows j-1 to j+1, the cells that a sweep along z can change;
+             body_ranges[2, m, j] over j-2 to j+1, the faces through which it flows;
+             group_ranges[b, n, j] over the n rows below face or vertex j and the n above
     """
     for j in prange(j0 - 1, j1 + 1):
-        for m in range(near.shape[1]):
+        for m in range(body_ranges.shape[1]):
             for n in range(1, 3):
-                lo, hi = union(near[0, m], j - n, j + 2)
-                near[n, m, j, 0] = lo
-                near[n, m, j, 1] = hi
-        for b in range(around.shape[0]):
-            for n in range(1, around.shape[1]):
-                lo, hi = union(around[b, 0], j - n, j + n)
-                around[b, n, j, 0] = lo
-                around[b, n, j, 1] = hi
+                lo, hi = union(body_ranges[0, m], j - n, j + 2)
+                body_ranges[n, m, j, 0] = lo
+                body_ranges[n, m, j, 1] = hi
+        for b in range(group_ranges.shape[0]):
+            for n in range(1, group_ranges.shape[1]):
+                lo, hi = union(group_ranges[b, 0], j - n, j + n)
+                group_ranges[b, n, j, 0] = lo
+                group_ranges[b, n, j, 1] = hi
 
 
 @rowwise
-def mixed_row(j, reach, vof, scratch, row, count, mixed):
+def mixed_row(j, active_range, vof, scratch, row, count, mixed):
     """Lists the cells of row j in which a body and something else (another body or void) meet.
 
-    Reads    vof [m, j, i], reach [j, 2]
+    Reads    vof [m, j, i], active_range [j, 2]
     Writes   count [j], mixed [j, k] (columns, ascending)
     Scratch  scratch [row, i]: a thousand per body that fills the cell, one per body in it
     """
-    first, n = columns(reach[j, 0], reach[j, 1])
+    first, n = columns(active_range[j, 0], active_range[j, 1])
     kind = scratch[row]
     for x in range(n):
         kind[first + x] = 0.0
@@ -157,7 +158,7 @@ def mixed_row(j, reach, vof, scratch, row, count, mixed):
 
 
 @kernel
-def list_mixed(j0, j1, reach, vof, count, mixed, scratch):
+def list_mixed(j0, j1, active_range, vof, count, mixed, scratch):
     """mixed_row for rows j0 to j1.
 
     Scratch  scratch [s, block, i]
@@ -167,7 +168,7 @@ def list_mixed(j0, j1, reach, vof, count, mixed, scratch):
         b = spread(place, blocks)
         first_row, last_row = block_rows(b, blocks, j0, j1)
         for j in range(first_row, last_row):
-            mixed_row(j, reach, vof, scratch[0], b, count, mixed)
+            mixed_row(j, active_range, vof, scratch[0], b, count, mixed)
 
 
 @kernel

@@ -53,7 +53,7 @@ def words(edge: str) -> tuple[str, ...]:
 
 
 @dataclass(frozen=True)
-class Edges:
+class BoundaryConditions:
     """What stands at the four edges of a mesh.
 
     kinds : four Boundary, in the order of EDGES;  velocity : float64[4], normal velocity of those that hold, m/s, towards

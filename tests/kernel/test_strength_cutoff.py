@@ -1,4 +1,4 @@
-"""Material that heat has expanded beyond `failure.loose` is no solid any more."""
+"""Material that heat has expanded beyond `failure.strength_cutoff` is no solid any more."""
 
 import numpy as np
 import pytest
@@ -25,15 +25,15 @@ z = [0.0, "10 mm"]
 density = "DENSITY kg/m^3"
 pressure = "0 Pa"
 [failure]
-loose = LOOSE
+strength_cutoff = CUTOFF
 [stop]
 time = "1 us"
 """
 
 
-@pytest.mark.parametrize(("density", "loose", "solid"), [(2600, 0.94, True), (2450, 0.94, False), (2450, 0.0, True)])
-def test_shear_ends_where_the_material_is_loose(density, loose, solid):
-    simulation = Simulation(deck.loads(TEXT.replace("DENSITY", str(density)).replace("LOOSE", str(loose))))
+@pytest.mark.parametrize(("density", "cutoff", "solid"), [(2600, 0.94, True), (2450, 0.94, False), (2450, 0.0, True)])
+def test_shear_ends_at_the_cutoff(density, cutoff, solid):
+    simulation = Simulation(deck.loads(TEXT.replace("DENSITY", str(density)).replace("CUTOFF", str(cutoff))))
     simulation.state.v[0] += 10.0 * simulation.grid.r / 10e-3  # a shear flow
     simulation.state.v[0, 2], simulation.state.v[0, 12] = 0.0, 0.0
     simulation.step()

@@ -1,0 +1,316 @@
+"""Contact of two body groups that move with velocities of their own: where they meet, and on which side what lies.
+
+Group 1 are the hard bodies, group 0 the soft ones. A vertex at which both have mass is a contact node; the cells around contact
+nodes are contact-interface cells, and everything in the kernels of contact is done in the columns contact_columns[j] of every
+row, the smallest range that holds its contact-interface cells. Elsewhere one group is alone and the other kernels are right
+(explanation/sliding, contact).
+
+A face has for either end the aperture of the hard group, aperture[end, j, i], which is the weight w of explanation/sliding,
+equation 1; that of the soft group is what is missing to 1.
+"""
+
+from math import sqrt
+
+from hydro2d.jit import apart, kernel, point, prange
+from hydro2d.kernels.column_ranges import union
+from hydro2d.physics.contact import GAP, dual_share, end_apertures, known
+from hydro2d.physics.interfaces import line_constant, youngs_gradient
+
+#: share of its dual cell below which a node of a group is under-filled: a slave, it moves as its body inward of there does
+UNDERFILLED = 0.5
+#: square of the ratio of two slopes from which the steeper surface alone draws the line: more than round-off
+FLATTER = 1.0 + 1e-12
+
+#: rows of `line`: normal of the hard side in the unit square, its constant, share of the hard among the solids; slopes, down
+#: the hard bodies' fraction and up that of the soft ones; the group whose surface is the flatter, 1 where none is, or PARTED
+LINE_R, LINE_Z, CONSTANT, SHARE, HARD_R, HARD_Z, SOFT_R, SOFT_Z, FIRST = range(9)
+
+#: square of the ratio of the slope of all that is solid to those of the groups, below which void lies between them
+BETWEEN = 0.25
+#: in the place of a group: void lies between the two, and each has a surface of its own
+PARTED = 2.0
+
+#: the masters of a node, which is FREE where it has none: from EXTENDS on the vertices of a cell of its own group, by the
+#: cell's linear field, 0 to 24 a vertex of it up to two away, else TIED to the other group
+FREE, TIED, EXTENDS = -1, 25, 30
+#: the vertices of such a cell are up to so far away
+REACH = 3
+#: a cell is taken in the place of another only if it lies better by so much: two that lie alike must not take turns
+CLOSER = 1.05
+
+
+@kernel
+def find_contact_nodes(j0, j1, mesh_box, group_ranges, mass, group, vof, count, contact_nodes, hard, soft, heat, warmed):
+    """Contact nodes of rows j0 to j1, and what hard and soft bodies fill of the cells near hard ones.
+
+    Reads    group_ranges[1] [n, j, 2], the columns near hard bodies; mass [b, j, i]; vof [m, j, i]; group [m]
+    Writes   count [j], contact_nodes [j, k] (columns, ascending); hard, soft [j, i]; zero in heat [b, j, i];
+             warmed [j, 2], the cells around vertices that can be masters of a contact node
+    """
+    for j in prange(j0, j1 + 1):
+        found = 0
+        lo, hi = union(group_ranges[1, 0], j - REACH - 1, j + REACH + 1)
+        for i in range(max(lo - REACH, mesh_box[2]), min(hi + REACH + 1, mesh_box[3] + 1)):
+            for g in range(2):
+                heat[g, j, i] = 0.0
+        for i in range(max(group_ranges[1, 1, j, 0], mesh_box[2]), min(group_ranges[1, 1, j, 1] + 1, mesh_box[3] + 1)):
+            if mass[0, j, i] > 0.0 and mass[1, j, i] > 0.0:
+                contact_nodes[j, found] = i
+                found += 1
+        count[j] = found
+        lo, hi = union(group_ranges[1, 0], j - REACH, j + REACH + 1)
+        warmed[j, 0] = max(lo - REACH, mesh_box[2])
+        warmed[j, 1] = min(hi + REACH, mesh_box[3])
+        if j < j1:
+            lo, hi = union(group_ranges[1, 0], j - 2, j + 3)
+            lo, hi = max(lo - 2, mesh_box[2]), min(hi + 2, mesh_box[3])
+            for i in range(lo, hi):
+                hard[j, i] = 0.0
+                soft[j, i] = 0.0
+            for m in range(vof.shape[0]):
+                for i in range(lo, hi):
+                    if group[m] == 1:
+                        hard[j, i] += vof[m, j, i]
+                    else:
+                        soft[j, i] += vof[m, j, i]
+
+
+@kernel
+def contact_lines(j0, j1, mesh_box, dr, dz, count, contact_nodes, hard, soft, contact_columns, line):
+    """The contact-interface columns of every row, and in them the line that parts the hard side of a cell from the soft one.
+
+    The normal is Youngs' from f_hard - f_soft, the line encloses the hard share of what is solid. Near void, where one of the
+    two surfaces has a corner, the steeper slope is that of the flat one: then the line is its own, and the void of the cell
+    lies on the other side. Where there is more than GAP of void and the two slopes all but cancel, it lies between the groups.
+    Beyond the edges of the mesh the cells beside them are repeated.
+
+    Reads    count [j], contact_nodes [j, k]; hard, soft [j, i]
+    Writes   contact_columns [j, 2]; line [9, j, i]
+    """
+    for j in prange(j0, j1):
+        lo, hi = 1 << 30, 0
+        for row in range(j, j + 2):
+            if count[row] > 0:
+                lo = min(lo, contact_nodes[row, 0] - 1)
+                hi = max(hi, contact_nodes[row, count[row] - 1] + 1)
+        if lo < hi:
+            lo = max(lo, mesh_box[2])
+            hi = min(hi, mesh_box[3])
+        contact_columns[j, 0] = lo
+        contact_columns[j, 1] = hi
+        below, above = max(j - 1, mesh_box[0]), min(j + 1, mesh_box[1] - 1)
+        for i in range(lo, hi):
+            left, right = max(i - 1, mesh_box[2]), min(i + 1, mesh_box[3] - 1)
+            hard_r, hard_z = youngs_gradient(
+                j, i, hard[below, left], hard[below, i], hard[below, right], hard[j, left], hard[j, right],
+                hard[above, left], hard[above, i], hard[above, right], dr, dz)
+            soft_r, soft_z = youngs_gradient(
+                j, i, soft[below, left], soft[below, i], soft[below, right], soft[j, left], soft[j, right],
+                soft[above, left], soft[above, i], soft[above, right], dr, dz)
+            along_r, along_z = hard_r - soft_r, hard_z - soft_z
+            steep_h, steep_s = hard_r * hard_r + hard_z * hard_z, soft_r * soft_r + soft_z * soft_z
+            size = abs(along_r) + abs(along_z)
+            total = hard[j, i] + soft[j, i]
+            share = min(max(hard[j, i] / total, 0.0), 1.0) if total > 0.0 else -1.0
+            line[HARD_R, j, i] = hard_r / dr[i]
+            line[HARD_Z, j, i] = hard_z / dz[j]
+            line[SOFT_R, j, i] = -soft_r / dr[i]
+            line[SOFT_Z, j, i] = -soft_z / dz[j]
+            line[SHARE, j, i] = share
+            line[FIRST, j, i] = 0.0 if steep_s > FLATTER * steep_h else 1.0
+            open_r, open_z = hard_r + soft_r, hard_z + soft_z
+            if total < 1.0 - GAP and open_r * open_r + open_z * open_z < BETWEEN * min(steep_h, steep_s):
+                line[FIRST, j, i] = PARTED
+            line[LINE_R, j, i] = 0.0
+            line[LINE_Z, j, i] = 0.0
+            line[CONSTANT, j, i] = 0.0
+            if size > 1e-14 and 0.0 < share < 1.0:
+                if steep_s > FLATTER * steep_h:
+                    along_r, along_z, share = -soft_r, -soft_z, 1.0 - soft[j, i]
+                elif steep_h > FLATTER * steep_s:
+                    along_r, along_z, share = hard_r, hard_z, hard[j, i]
+                size = abs(along_r) + abs(along_z)
+                n_r, n_z = along_r / size, along_z / size
+                line[LINE_R, j, i] = n_r
+                line[LINE_Z, j, i] = n_z
+                line[CONSTANT, j, i] = line_constant(abs(n_r), abs(n_z), share) + min(n_r, 0.0) + min(n_z, 0.0)
+
+
+@point
+def face_aperture(j, i, x0, y0, x1, y1, inside, line, hard, soft):
+    """(solid, apertures of the hard side at both ends) of the edge (x0, y0) to (x1, y1) of the unit square of cell (j, i)."""
+    if not inside:
+        total = hard[j, i] + soft[j, i]
+        share = hard[j, i] / total if total > 0.0 else 0.0
+        return (1.0 if total > 0.0 else 0.0), share, share
+    share = line[SHARE, j, i]
+    if share < 0.0:
+        return 0.0, 0.0, 0.0
+    n_r, n_z, constant = line[LINE_R, j, i], line[LINE_Z, j, i], line[CONSTANT, j, i]
+    if n_r == 0.0 and n_z == 0.0:
+        return 1.0, share, share
+    first, last = end_apertures(constant - (n_r * x0 + n_z * y0), constant - (n_r * x1 + n_z * y1))
+    return 1.0, first, last
+
+
+@kernel
+def face_apertures(j0, j1, mesh_box, constrained, contact_columns, line, hard, soft, mass, count, contact_nodes, aperture_r,
+                   aperture_z, normal, touch):
+    """Apertures of the hard group on the faces around contact nodes, and normals and contact at these.
+
+    The aperture of a face is the mean of what the lines of both neighbours leave open of it. A normal is the mean of the
+    four cells' slopes, from hard to soft, along the axis and along walls: of f_hard - f_soft, of f_hard, and of -f_soft,
+    which differ where void is near. Groups touch where a cell holds both and no more than GAP of void, or where
+    a full cell of one is a neighbour of a full cell of the other.
+
+    Reads    contact_columns [j, 2], line [9, j, i], hard, soft [j, i], mass [b, j, i], count [j], contact_nodes [j, k]
+    Writes   aperture_r, aperture_z [end, j, i]; normal [3, 2, j, i], touch [j, i] at contact nodes
+    """
+    for j in prange(j0, j1 + 1):
+        if j < j1:
+            for i in range(contact_columns[j, 0], contact_columns[j, 1] + 1):
+                solid_l, low_l, high_l = 0.0, 0.0, 0.0
+                solid_r, low_r, high_r = 0.0, 0.0, 0.0
+                if i > mesh_box[2]:
+                    solid_l, low_l, high_l = face_aperture(j, i - 1, 1.0, 0.0, 1.0, 1.0, i - 1 >= contact_columns[j, 0], line,
+                                                           hard, soft)
+                if i < mesh_box[3]:
+                    solid_r, low_r, high_r = face_aperture(j, i, 0.0, 0.0, 0.0, 1.0, i < contact_columns[j, 1], line, hard,
+                                                           soft)
+                number = max(solid_l + solid_r, 1.0)
+                aperture_r[0, j, i] = known((low_l + low_r) / number, mass[0, j, i], mass[1, j, i])
+                aperture_r[1, j, i] = known((high_l + high_r) / number, mass[0, j + 1, i], mass[1, j + 1, i])
+        lo, hi = union(contact_columns, max(j - 1, j0), min(j + 1, j1))
+        for i in range(lo, hi):
+            solid_b, in_b, out_b = 0.0, 0.0, 0.0
+            solid_t, in_t, out_t = 0.0, 0.0, 0.0
+            if j > mesh_box[0]:
+                inside = contact_columns[j - 1, 0] <= i < contact_columns[j - 1, 1]
+                solid_b, in_b, out_b = face_aperture(j - 1, i, 0.0, 1.0, 1.0, 1.0, inside, line, hard, soft)
+            if j < mesh_box[1]:
+                inside = contact_columns[j, 0] <= i < contact_columns[j, 1]
+                solid_t, in_t, out_t = face_aperture(j, i, 0.0, 0.0, 1.0, 0.0, inside, line, hard, soft)
+            number = max(solid_b + solid_t, 1.0)
+            aperture_z[0, j, i] = known((in_b + in_t) / number, mass[0, j, i], mass[1, j, i])
+            aperture_z[1, j, i] = known((out_b + out_t) / number, mass[0, j, i + 1], mass[1, j, i + 1])
+        for k in range(count[j]):
+            i = contact_nodes[j, k]
+            hard_r, hard_z, soft_r, soft_z = 0.0, 0.0, 0.0, 0.0
+            both, full_hard, full_soft = 1.0, 0, 0
+            for row in range(max(j - 1, mesh_box[0]), min(j + 1, mesh_box[1])):
+                for column in range(max(i - 1, mesh_box[2]), min(i + 1, mesh_box[3])):
+                    hard_r += line[HARD_R, row, column]
+                    hard_z += line[HARD_Z, row, column]
+                    soft_r += line[SOFT_R, row, column]
+                    soft_z += line[SOFT_Z, row, column]
+                    h, s = hard[row, column], soft[row, column]
+                    if h > 0.0 and s > 0.0:
+                        both = min(both, 1.0 - (h + s))
+                    full_hard += 1 if h > 1.0 - GAP else 0
+                    full_soft += 1 if s > 1.0 - GAP else 0
+            free_r = 0.0 if i == constrained[0] or i == constrained[1] else 1.0
+            free_z = 0.0 if j == constrained[2] or j == constrained[3] else 1.0
+            for way in range(3):
+                n_r = free_r * ((hard_r if way != 2 else 0.0) + (soft_r if way != 1 else 0.0))
+                n_z = free_z * ((hard_z if way != 2 else 0.0) + (soft_z if way != 1 else 0.0))
+                size = sqrt(n_r * n_r + n_z * n_z)
+                normal[way, 0, j, i] = n_r / size if size > 0.0 else 0.0
+                normal[way, 1, j, i] = n_z / size if size > 0.0 else 0.0
+            touch[j, i] = 1.0 if both <= GAP or (full_hard > 0 and full_soft > 0) else 0.0
+
+
+@point
+def filled_share(g, row, column, mesh_box, volume, metrics, hard, soft, mass):
+    """Share that group g fills of the dual cell of a vertex, 0 where the node is under-filled or none of the mesh."""
+    if row < mesh_box[0] or row > mesh_box[1] or column < mesh_box[2] or column > mesh_box[3] or mass[g, row, column] == 0.0:
+        return 0.0
+    share = dual_share(g, row, column, mesh_box, volume, metrics, hard, soft)
+    return share if share >= UNDERFILLED else 0.0
+
+
+@apart
+def cell_to_extend(g, j, i, rings, inward_r, inward_z, mesh_box, volume, metrics, hard, soft, mass):
+    """Code of the cell of group g, in so many rings around, whose linear field the slave (j, i) takes, else 0.
+
+    None of the cell's own vertices is under-filled. It is the one, among the nearest that there are, with the largest share of
+    the group times the cosine between its direction and the normal inwards over the distance.
+    """
+    most, code = 0.0, 0
+    for ring in range(1, rings + 1):
+        for dj in range(-ring, ring):
+            for di in range(-ring, ring):
+                if -ring < dj < ring - 1 and -ring < di < ring - 1:
+                    continue
+                row, column = j + dj, i + di
+                if row < mesh_box[0] or row >= mesh_box[1] or column < mesh_box[2] or column >= mesh_box[3]:
+                    continue
+                part = hard[row, column] if g == 1 else soft[row, column]
+                if part < UNDERFILLED:
+                    continue
+                z, r = dj + 0.5, di + 0.5
+                along = part * (inward_r * r + inward_z * z) / (r * r + z * z)
+                if along <= CLOSER * most:
+                    continue
+                if (filled_share(g, row, column, mesh_box, volume, metrics, hard, soft, mass) > 0.0 and filled_share(g, row + 1,
+                    column, mesh_box, volume, metrics, hard, soft, mass) > 0.0 and filled_share(g, row, column + 1, mesh_box,
+                    volume, metrics, hard, soft, mass) > 0.0 and filled_share(g, row + 1, column + 1, mesh_box, volume, metrics,
+                    hard, soft, mass) > 0.0):
+                    most = along
+                    code = EXTENDS + 2 * REACH * (dj + REACH) + di + REACH
+        if code > 0:
+            break
+    return code
+
+
+@point
+def in_debris(g, j, i, mesh_box, group, vof, dmg):
+    """Whether material of the group other than g that has failed fills a cell around vertex (j, i) by half or more."""
+    found = False
+    for m in range(group.shape[0]):
+        if group[m] != g:
+            for row in range(max(j - 1, mesh_box[0]), min(j + 1, mesh_box[1])):
+                for column in range(max(i - 1, mesh_box[2]), min(i + 1, mesh_box[3])):
+                    found = found or (vof[m, row, column] >= 0.5 and dmg[m, row, column] >= 1.0)
+    return found
+
+
+@kernel
+def find_masters(j0, j1, mesh_box, volume, metrics, count, contact_nodes, normal, hard, soft, mass, group, vof, dmg, masters):
+    """How each group moves at a contact node: by itself, or, where the node is under-filled, as its body does inward of there.
+
+    That is the linear field of the velocities of a cell, or, where no cell has four vertices of the group, one vertex: among
+    its neighbours, or else among those two away, by the same measure. Where there is none the contact is tied; so is that of
+    a crumb within failed material of the other group, to which its body comes no nearer than two vertices.
+
+    Reads    normal [3, 2, j, i], hard, soft [j, i], mass [b, j, i]; vof, dmg [m, j, i]
+    Writes   masters [b, j, i]: FREE, EXTENDS + 6 (dj + 3) + (di + 3), 5 (dj + 2) + (di + 2), or TIED
+    """
+    for j in prange(j0, j1 + 1):
+        for k in range(count[j]):
+            i = contact_nodes[j, k]
+            for g in range(2):
+                masters[g, j, i] = FREE
+                if filled_share(g, j, i, mesh_box, volume, metrics, hard, soft, mass) > 0.0:
+                    continue
+                inward = 1.0 if g == 0 else -1.0
+                far = 1 if in_debris(g, j, i, mesh_box, group, vof, dmg) else 2
+                code = cell_to_extend(g, j, i, 1 + far, inward * normal[0, 0, j, i], inward * normal[0, 1, j, i], mesh_box,
+                                      volume, metrics, hard, soft, mass)
+                if code > 0:
+                    masters[g, j, i] = code
+                    continue
+                masters[g, j, i] = TIED
+                most = 0.0
+                for ring in range(1, far + 1):
+                    for dj in range(-ring, ring + 1):
+                        for di in range(-ring, ring + 1):
+                            row, column = j + dj, i + di
+                            if max(abs(dj), abs(di)) < ring:
+                                continue
+                            share = filled_share(g, row, column, mesh_box, volume, metrics, hard, soft, mass)
+                            along = inward * (normal[0, 0, j, i] * di + normal[0, 1, j, i] * dj) / (di * di + dj * dj)
+                            if share * along > most * (1.0 + 1e-9):
+                                most = share * along
+                                masters[g, j, i] = 5 * (dj + 2) + (di + 2)
+                    if most > 0.0:
+                        break
