@@ -19,7 +19,7 @@ __version__ = "0.2.0"
 if TYPE_CHECKING:
     from hydro2d.api import Study, open_run, open_study, run, sweep
     from hydro2d.deck.deck import Deck
-    from hydro2d.errors import DeckError, UnphysicalState
+    from hydro2d.errors import DeckError, Error, UnphysicalState
     from hydro2d.materials.outside import register
     from hydro2d.results.reading import Results, ResultsError
     from hydro2d.running.run import RunError
@@ -39,6 +39,7 @@ _PLACES = {
     "open_study": "hydro2d.api",
     "Study": "hydro2d.api",
     "register": "hydro2d.materials.outside",
+    "Error": "hydro2d.errors",
     "DeckError": "hydro2d.errors",
     "RunError": "hydro2d.running.run",
     "UnphysicalState": "hydro2d.errors",
@@ -49,6 +50,7 @@ _PLACES = {
 __all__ = [
     "Deck",
     "DeckError",
+    "Error",
     "Results",
     "ResultsError",
     "RunError",

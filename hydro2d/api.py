@@ -5,7 +5,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -16,6 +16,7 @@ from hydro2d.errors import UnphysicalState
 from hydro2d.files import write_text
 from hydro2d.results.reading import Results
 from hydro2d.running import run as runs
+from hydro2d.running.run import deck_hash
 from hydro2d.study import cases, cluster, contents, layout
 from hydro2d.study import sweep as sweeps
 from hydro2d.study.choice import Choice
@@ -27,9 +28,6 @@ if TYPE_CHECKING:
     from hydro2d.solver.simulation import Simulation
 
 __all__ = ["Study", "open_run", "open_study", "run", "sweep"]
-
-#: the base deck of a study of a Deck, in its directory
-BASE = "base.toml"
 
 
 def run(deck: Deck | str | Path, directory: str | Path | None = None, *, restart: bool = False, overwrite: bool = False,
@@ -123,6 +121,9 @@ def sweep(study: str | Path | Deck, axes: Mapping[str, Sequence[Any]] | None = N
 
     Worker processes are spawned, so a script must call this below ``if __name__ == "__main__":``.
     """
+    for name, number in (("workers", workers), ("threads", threads)):
+        if number is not None and number < 1:
+            raise StudyError(f"{name} = {number}: at least one is needed")
     plan = _plan(study, axes, overrides, directory)
     place = Path(directory or plan.out)
     connect = cluster.local(min(workers or cluster.default_workers(threads), len(plan.cases)), threads)
@@ -135,21 +136,37 @@ def sweep(study: str | Path | Deck, axes: Mapping[str, Sequence[Any]] | None = N
 def _plan(study: str | Path | Deck, axes: Mapping[str, Sequence[Any]] | None, overrides: decks.Overrides,
           directory: str | Path | None) -> cases.Plan:  # fmt: skip
     """The cases of a study file, or of a deck and axes. Raises StudyError."""
+    if isinstance(overrides, str):
+        raise StudyError(f'overrides are a dict of values by key or a list of "key=value", not the text "{overrides}"')
+    overrides = decks.plain(overrides)
     if axes is None:
         if isinstance(study, Deck):
             raise StudyError("a deck alone is not a study: give `axes`, the keys to vary")
         return cases.plan(Path(study), overrides, search=False, quiet=True)
-    if isinstance(study, Deck):
-        if directory is None:
-            raise StudyError("a study of a Deck needs a directory")
-        place = Path(directory) / BASE
-        place.parent.mkdir(parents=True, exist_ok=True)
-        write_text(place, study.to_toml())
-        study = place
-    file = decks.find(study)
+    for key, values in axes.items():
+        if not toml.key_parts(key):
+            raise StudyError("axes: a key is empty")
+        if isinstance(values, str) or not isinstance(values, Iterable):
+            raise StudyError(f"axes: {key}: expected a list of values, is {values!r}")
+    file = _base(study, directory) if isinstance(study, Deck) else decks.find(study)
     tables = {"deck": str(file.resolve()), "axis": [{"name": _name(key, axes), "key": key, "values": list(values)}
                                                     for key, values in axes.items()]}  # fmt: skip
-    return cases.plan_of(decks.plain(tables), file.stem, overrides)
+    plan = cases.plan_of(decks.plain(tables), file.stem, overrides)
+    if not any(case.text for case in plan.cases):
+        raise StudyError(f"no case has a valid deck; {plan.cases[0].name}: {plan.cases[0].message}")
+    return plan
+
+
+def _base(deck: Deck, directory: str | Path | None) -> Path:
+    """The file of a Deck in the directory of its study, named by what is in it, so that no other deck is replaced."""
+    if directory is None:
+        raise StudyError("a study of a Deck needs a directory")
+    text = toml.dumps(deck._tables)
+    file = Path(directory) / f"base_{deck_hash(text)[:8]}.toml"
+    if not file.exists():
+        file.parent.mkdir(parents=True, exist_ok=True)
+        write_text(file, text)
+    return file
 
 
 def _name(key: str, axes: Mapping[str, object]) -> str:

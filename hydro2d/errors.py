@@ -10,11 +10,15 @@ import functools
 from collections.abc import Iterable
 
 
-class DeckError(Exception):
+class Error(Exception):
+    """The base of what hydro2d raises for its users; the message says what is wrong, and what is allowed."""
+
+
+class DeckError(Error):
     """A deck, a material or a command line is wrong; the message is for its author."""
 
 
-class UnphysicalState(Exception):
+class UnphysicalState(Error):
     """The state has become one that no material can have; the message gives the place, the body and the values."""
 
 

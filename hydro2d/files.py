@@ -13,6 +13,8 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import NamedTuple, TextIO
 
+from hydro2d.errors import Error
+
 
 def sync(path: Path) -> None:
     """Flushes a closed file, or the names in a folder, to disk."""
@@ -57,7 +59,7 @@ def write_text(path: Path, text: str) -> None:
         temporary.write_text(text, encoding="utf-8")
 
 
-class LockError(Exception):
+class LockError(Error):
     """A directory in use by another process; the message is for the user."""
 
 

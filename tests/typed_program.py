@@ -19,11 +19,12 @@ def calibrated(path: str) -> float:
     sim = hydro2d.Simulation(deck)
     sim.columns["peak_Pa"] = lambda each: float(each.field("pressure").max())
     reason: str = sim.run(until="50 us", callbacks=[hydro2d.every(10, print), lambda each: each.time])
-    rows: pandas.DataFrame = sim.history
+    rows: pandas.DataFrame = sim.to_pandas()
+    columns: dict[str, np.ndarray] = sim.history
     density: np.ndarray = sim.array("density")
     now: xarray.Dataset = sim.fields
     grid: pyvista.RectilinearGrid = sim.to_pyvista()
-    print(text, reason, rows, density, now, grid)
+    print(text, reason, rows, columns, density, now, grid)
 
     shot: hydro2d.Results = hydro2d.run(deck, "runs/shot", columns={"time_again_s": lambda each: each.time})
     same: hydro2d.Results = hydro2d.open_run("runs/shot")

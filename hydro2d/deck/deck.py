@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from pydantic import ValidationError, ValidationInfo, model_validator
+from pydantic import PrivateAttr, ValidationError, ValidationInfo, model_validator
 
 from hydro2d import toml, units
 from hydro2d.deck import sections
@@ -63,6 +63,15 @@ class Deck(sections.Deck):
     `from_file`, `from_toml` and `from_dict` make one. Sections are attributes: ``deck.numerics.courant``,
     ``deck.body[0].velocity``.
     """
+
+    #: what the deck was made of, before its defaults were written out
+    _tables: dict[str, Any] = PrivateAttr(default_factory=dict)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Deck) and dict(self) == dict(other)
+
+    def __repr__(self) -> str:
+        return f"<Deck {self.name}: {self.title or 'without title'}; bodies {', '.join(entry.name for entry in self.body)}>"
 
     @model_validator(mode="before")
     @classmethod
@@ -201,7 +210,8 @@ def _resolve(data: dict, name: str, overrides: Overrides, sources: Sources, fold
     def complaint(path: tuple, message: str) -> DeckError:
         return DeckError(f"{sources.where(path, data)}: {spelled(path)}: {message}")
 
-    data = from_files.read(toml.placed(data, folder), complaint)
+    tables = toml.placed(data, folder)
+    data = from_files.read(tables, complaint)
     try:
         deck = Deck.model_validate(data, context=_RESOLVING)
     except ValidationError as error:
@@ -218,6 +228,7 @@ def _resolve(data: dict, name: str, overrides: Overrides, sources: Sources, fold
     problems = [str(complaint(path, message)) for path, message in unsupported(deck)]
     if problems:
         raise DeckError("\n".join(problems))
+    deck._tables = tables
     return deck
 
 

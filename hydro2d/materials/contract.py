@@ -15,6 +15,7 @@ from types import ModuleType
 
 import numpy as np
 
+from eos.layout import RHO0
 from hydro2d.materials.outside import KINDS, Kind
 
 #: an ID that no model has
@@ -72,6 +73,9 @@ def row(case: Case) -> None:
     require(kept, f"row gives {getattr(found, 'dtype', type(found).__name__)} {getattr(found, 'shape', '')}, not float64 "
                   f"({case.kind.length},)")  # fmt: skip
     require(not np.isnan(found).any(), f"row has NaN in slot {np.isnan(found).argmax()}")
+    if case.kind.part == "eos":
+        density = case.values["reference_density"]
+        require(found[RHO0] == density, f"slot RHO0 = {RHO0} of the row is {found[RHO0]:g}, not reference_density, {density:g}")
 
 
 def wrong_parameters(case: Case) -> None:

@@ -118,3 +118,5 @@ def _variables(module: ModuleType, kind) -> Iterator[str]:
         known = quantities.BY_KEY.get(entry.name)
         if known is not None and not known.internal:
             yield f"the internal variable {entry.name} has the name of a field"
+        elif known is not None and known.unit != quantities.unit(entry):
+            yield f"the internal variable {entry.name} is known in {known.unit or 'no unit'}, not in {entry.unit}"

@@ -213,7 +213,7 @@ def _module(text: str, kind: Kind) -> ModuleType:
         raise ModelError(f":{error.lineno or 1}: is not Python: {error.msg}") from None
     except ModelError:
         raise
-    except Exception as error:
+    except (Exception, SystemExit) as error:
         frames = traceback.extract_tb(error.__traceback__)
         lines = [frame.lineno for frame in frames if Path(frame.filename).name.startswith(stem)]
         raise ModelError(f":{(lines or [1])[-1]}: cannot be imported: {type(error).__name__}: {_line(error)}") from None

@@ -8,12 +8,12 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from hydro2d.errors import unknown
+from hydro2d.errors import Error, unknown
 from hydro2d.mesh.fields import Field
 from strength.registry import STRENGTH_MODULES
 
 
-class FieldError(Exception):
+class FieldError(Error):
     """A field that there is not; the message is for the user."""
 
 
@@ -42,8 +42,12 @@ class Quantity:
 def _internal(field: Field) -> Quantity:
     """The row of an internal variable of a strength model: back_stress_rr is "Back Stress rr of ..."."""
     words = [word if len(word) < 3 else word.capitalize() for word in field.name.split("_")]
-    return Quantity(field.name, f"{' '.join(words)} of {{body}}", "" if field.unit == "1" else field.unit, field.meaning,
-                    internal=True)
+    return Quantity(field.name, f"{' '.join(words)} of {{body}}", unit(field), field.meaning, internal=True)
+
+
+def unit(field: Field) -> str:
+    """The unit of a field as files show it: none for a number without unit."""
+    return "" if field.unit == "1" else field.unit
 
 
 #: the internal variables that strength models declare, each name once

@@ -8,24 +8,21 @@ is.
 
 from __future__ import annotations
 
-import functools
-import os
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from hydro2d.mesh.quantities import TABLE, Quantity
-from hydro2d.output.vtk import Dump, read_grid
+from hydro2d.mesh import quantities
+from hydro2d.mesh.quantities import Quantity
+from hydro2d.output.vtk import Dump, VtkError, read_grid
 
 if TYPE_CHECKING:
     import xarray
 
 #: components of the vectors; the third, which files have for ParaView, is zero
 COMPONENTS = ("r", "z")
-#: dumps that are kept in memory as long as others do not take their places
-KEPT = 4
 
 
 def _names(quantity: Quantity, dump: Dump) -> list[str]:
@@ -66,7 +63,7 @@ def _coordinates(dump: Dump) -> dict:
 
 def _quantities(*dumps: Dump) -> list[Quantity]:
     """The quantities that one of the dumps holds."""
-    return [quantity for quantity in TABLE
+    return [quantity for quantity in quantities.TABLE
             if any(name in dump.fields for dump in dumps for name in _names(quantity, dump))]
 
 
@@ -82,22 +79,20 @@ def of_state(dump: Dump) -> xarray.Dataset:
     return xarray.Dataset(variables, coords={**_coordinates(dump), "time": time})
 
 
-@functools.lru_cache(maxsize=KEPT)
-def _kept(path: Path, changed: int) -> Dump:
-    return read_grid(path)
+def _read(path: Path, shape: tuple[int, ...]) -> Dump:
+    """A dump whose mesh has this shape, (nz, nr). Raises VtkError."""
+    dump = read_grid(path)
+    if (len(dump.z_edges) - 1, len(dump.r_edges) - 1) != shape:
+        raise VtkError(f"{path} has another mesh than the dumps that were opened: the run was begun anew")
+    return dump
 
 
-def _read(path: Path) -> Dump:
-    """A dump, from memory where it was read lately and the file is the same."""
-    return _kept(path, os.stat(path).st_mtime_ns)
+def _values_of(dump: Dump, quantity: Quantity) -> np.ndarray:
+    return _values(quantity, dump)
 
 
-def _values_of(path: Path, quantity: Quantity) -> np.ndarray:
-    return _values(quantity, _read(path))
-
-
-def _travel(path: Path, start: float) -> np.ndarray:
-    return np.array(_read(path).z_edges[0] - start)
+def _travel(dump: Dump, start: float) -> np.ndarray:
+    return np.array(dump.z_edges[0] - start)
 
 
 def of_dumps(dumps: Sequence[tuple[float, Path]]) -> xarray.Dataset:
@@ -105,20 +100,22 @@ def of_dumps(dumps: Sequence[tuple[float, Path]]) -> xarray.Dataset:
 
     dumps : times in s and files, at least one
 
-    Raises VtkError, also later where a file is damaged.
+    Raises VtkError, also later where a file is damaged or gone.
     """
     import dask
     import dask.array
     import xarray
 
-    first, last = _read(dumps[0][1]), _read(dumps[-1][1])
+    first, last = read_grid(dumps[0][1]), read_grid(dumps[-1][1])
+    shape = len(first.z_edges) - 1, len(first.r_edges) - 1
+    opened = [dask.delayed(_read)(path, shape) for _, path in dumps]  # all variables of a dump share one reading of it
     variables = {}
     for quantity in _quantities(first, last):
         like = _values(quantity, last)
-        parts = [dask.array.from_delayed(dask.delayed(_values_of)(path, quantity), like.shape, like.dtype) for _, path in dumps]
+        parts = [dask.array.from_delayed(dask.delayed(_values_of)(dump, quantity), like.shape, like.dtype) for dump in opened]
         variables[quantity.key] = (("time", *_dimensions(quantity, like)), dask.array.stack(parts), _attributes(quantity))
     start = first.z_edges[0]
-    travelled = [dask.array.from_delayed(dask.delayed(_travel)(path, start), (), float) for _, path in dumps]
+    travelled = [dask.array.from_delayed(dask.delayed(_travel)(dump, start), (), float) for dump in opened]
     coordinates = {
         **_coordinates(first),
         "time": ("time", [time for time, _ in dumps], {"units": "s"}),

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from hydro2d.errors import Error
 from hydro2d.files import hdf5, replacing
 
 if TYPE_CHECKING:
@@ -33,7 +34,7 @@ _UNITS = (
 )  # fmt: skip
 
 
-class HistoryError(Exception):
+class HistoryError(Error):
     """A history file that cannot be read."""
 
 
@@ -140,7 +141,7 @@ def frame(columns: dict[str, np.ndarray]) -> pandas.DataFrame:
     """Columns as a pandas.DataFrame with the time in s as index, the regime in words; `attrs["units"]` has every unit."""
     import pandas
 
-    shown: dict = dict(columns)
+    shown: dict = dict(columns) or {"time": np.empty(0)}
     if "regime" in shown:
         shown["regime"] = pandas.Categorical.from_codes(shown["regime"], REGIMES)
     table = pandas.DataFrame(shown).set_index("time")

@@ -16,13 +16,14 @@ from pathlib import Path
 
 import numpy as np
 
+from hydro2d.errors import Error
 from hydro2d.files import hdf5, replacing, sync
 
 FORMAT = "hydro2d restart 3"
 NAME, PREVIOUS = "restart.h5", "restart.previous.h5"
 
 
-class SnapshotError(Exception):
+class SnapshotError(Error):
     """A restart file that is missing, truncated, altered or foreign; the message is one line for the user."""
 
 

@@ -17,7 +17,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 
-from hydro2d.errors import unknown
+from hydro2d.errors import Error, unknown
 from hydro2d.files import replacing, write_text
 from hydro2d.mesh import quantities
 from hydro2d.output import derived
@@ -30,7 +30,7 @@ SERIES = {"dump": "series.pvd", "interfaces": "interfaces.pvd", "tracers": "trac
 BLOCK = 1 << 18
 
 
-class VtkError(Exception):
+class VtkError(Error):
     """A VTK file that cannot be read."""
 
 

@@ -16,7 +16,7 @@ from pathlib import Path
 
 import numpy as np
 
-from hydro2d.errors import unknown
+from hydro2d.errors import Error, unknown
 from hydro2d.files import replacing
 from hydro2d.mesh import quantities
 from hydro2d.output import history
@@ -38,7 +38,7 @@ FILMS = ("gif", "mp4", "avi", "mov", "webm")
 RENDER_SECONDS = 180
 
 
-class FigureError(Exception):
+class FigureError(Error):
     """A figure that cannot be drawn; the message is for the user."""
 
 

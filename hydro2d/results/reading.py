@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import functools
 import html
 import json
 import tomllib
@@ -11,9 +10,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from hydro2d.errors import Error
 from hydro2d.output import history, snapshot, vtk
 from hydro2d.results.summaries import plausible
 from hydro2d.running.run import DECK, HISTORY, SUMMARY
+from hydro2d.toml import model_tables
 
 if TYPE_CHECKING:
     import pandas
@@ -27,7 +28,7 @@ if TYPE_CHECKING:
 STUDY = "study.json"
 
 
-class ResultsError(Exception):
+class ResultsError(Error):
     """A directory that holds no run, or not what is asked for; the message is for the user."""
 
 
@@ -44,7 +45,7 @@ class Results:
     """
 
     def __init__(self, directory: Path | str):
-        self.directory = Path(directory)
+        self.directory = Path(directory).absolute()
         try:
             self.deck = tomllib.loads((self.directory / DECK).read_text(encoding="utf-8"))
         except FileNotFoundError:
@@ -59,16 +60,27 @@ class Results:
         if not isinstance(found, dict):
             raise ResultsError(f"{file} cannot be read: it holds no table")
         self.summary, _ = plausible(found)
+        self._history: tuple[int, dict[str, np.ndarray]] | None = None
 
     @property
     def label(self) -> str:
         """What the run is called in figures: the name of its directory."""
         return self.directory.resolve().name
 
-    @functools.cached_property
+    @property
     def history(self) -> dict[str, np.ndarray]:
-        """Columns of the history by name, shapes (rows,). Raises HistoryError."""
-        return history.read(self.directory / HISTORY)
+        """Columns of the history by name, shapes (rows,); read again where a run that is under way has written more.
+
+        Raises HistoryError.
+        """
+        file = self.directory / HISTORY
+        try:
+            written = file.stat().st_mtime_ns
+        except OSError:
+            raise history.HistoryError(f"{self.directory} has no history: none was written yet") from None
+        if self._history is None or self._history[0] != written:
+            self._history = written, history.read(file)
+        return self._history[1]
 
     @property
     def crater(self) -> tuple[np.ndarray, np.ndarray]:
@@ -103,10 +115,14 @@ class Results:
 
         See `output/datasets.py`. Raises ResultsError where no dump was written, VtkError where one is damaged.
         """
+        from hydro2d.materials import outside
         from hydro2d.output import datasets
 
         if not self.dumps:
             raise ResultsError(f"{self.directory} has no fields: no dump was written yet")
+        for place, table in model_tables(self.deck):  # a model of the user's may have variables of its own
+            if "code" in table:
+                outside.from_text(table["code"], table["code_from"], place[-1])
         return datasets.of_dumps(self.dumps)
 
     @property
@@ -146,7 +162,7 @@ class Results:
             sim.load_restart_scalars(saved.scalars)
         return sim
 
-    def grid(self, time: float | None = None) -> pyvista.RectilinearGrid:
+    def to_pyvista(self, time: float | None = None) -> pyvista.RectilinearGrid:
         """The dump nearest to a time in s, or the last, as a pyvista.RectilinearGrid with x = r, y = z."""
         return vtk.pyvista_grid(self.dump_file(time))
 

@@ -27,7 +27,7 @@ import numpy as np
 from hydro2d import __version__
 from hydro2d import interrupt as interrupts
 from hydro2d.deck.warnings import warnings
-from hydro2d.errors import UnphysicalState
+from hydro2d.errors import Error, UnphysicalState
 from hydro2d.files import locked, write_json, write_text
 from hydro2d.interrupt import Interrupt, signals
 from hydro2d.output import snapshot
@@ -37,7 +37,7 @@ from hydro2d.running import provenance
 from hydro2d.running.progress import Clock, reporter
 from hydro2d.running.team import Team
 from hydro2d.solver.callbacks import Due
-from hydro2d.solver.record import row
+from hydro2d.solver.record import ColumnError, check, row
 from hydro2d.toml import model_tables
 
 DECK, SUMMARY, HISTORY, LOG, LOCK = "deck.toml", "summary.json", "history.h5", "log.txt", "run.lock"
@@ -61,7 +61,7 @@ ROD_RESULTS = (
 )  # fmt: skip
 
 
-class RunError(Exception):
+class RunError(Error):
     """A run that cannot start: the directory is in use, or a restart does not match; the message is for the user."""
 
 
@@ -69,6 +69,8 @@ def check_free(directory: Path, *, restart: bool, overwrite: bool) -> None:
     """Raises RunError if the options do not allow a run in this directory."""
     if directory.exists() and not directory.is_dir():
         raise RunError(f"{directory} is a file, not a directory")
+    if restart and overwrite:
+        raise RunError("restart continues a run and overwrite removes it; give one of them")
     if restart and not directory.is_dir():
         raise RunError(f"{directory}: there is no run to continue")
     if overwrite and {name for name in (*OWN_FILES, LOCK) if (directory / name).exists()} == {DECK}:
@@ -190,6 +192,10 @@ class Run:
         except OSError:  # in an output: the state is whole
             self._save_if_possible(self._snapshot())
             raise
+        except ColumnError:  # the state is whole
+            self._save_if_possible(self._snapshot())
+            (self.directory / PROGRESS).unlink(missing_ok=True)
+            raise
         except MemoryError:
             self._save_if_possible(self.good)
             raise
@@ -285,8 +291,7 @@ class Run:
             self._save(self._snapshot())
         if status != "interrupted":
             if self.history.last_time != self.sim.time:
-                self.history.append(row(self.sim))
-                self.history.write()
+                self._last_row(status)
             if self.series.last_time != self.sim.time:
                 self.series.dump(self.sim)
         summary = self.summary(status, reason)
@@ -296,6 +301,16 @@ class Run:
             self.report.line(text)
         self.report.end(self, summary)
         return summary
+
+    def _last_row(self, status: str) -> None:
+        """Writes the row of the end. An unphysical state may be one that a column of the user's cannot bear."""
+        try:
+            self.history.append(row(self.sim))
+        except ColumnError as error:
+            if status != "unphysical":
+                raise
+            self.report.line(f"warning: {error}")
+        self.history.write()
 
     def summary(self, status: str, reason: str) -> dict:
         """What summary.json holds."""
@@ -367,6 +382,7 @@ def run(deck, directory: Path | None = None, *, restart=False, overwrite=False, 
 
     directory = Path(directory or deck.output.directory)
     interrupt = interrupt or Interrupt()
+    check(columns or {})
     check_free(directory, restart=restart, overwrite=overwrite)
     directory.mkdir(parents=True, exist_ok=True)
     with locked(directory / LOCK):

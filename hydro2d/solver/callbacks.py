@@ -6,6 +6,8 @@ import math
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from hydro2d import units
 
 if TYPE_CHECKING:
@@ -50,23 +52,21 @@ def every(interval: int | float | str, call: Callable[[Simulation], object]) -> 
 
     Raises ValueError for an interval that is not positive.
     """
-    if isinstance(interval, int) and not isinstance(interval, bool):
-        period: float = interval
-    else:
-        period = units.to_si(interval, "s")
+    cycles = isinstance(interval, (int, np.integer)) and not isinstance(interval, bool)
+    period: float = int(interval) if cycles else units.to_si(interval, "s")
     if not period > 0:
         raise ValueError(f"the interval of a callback must be positive, is {interval!r}")
-    due: list[Due] = []
+    due, of = Due(period), None
 
     def after(sim: Simulation) -> None:
-        if isinstance(interval, int):
-            if sim.cycle % interval == 0:
+        nonlocal of
+        if cycles:
+            if sim.cycle % period == 0:
                 call(sim)
             return
-        if not due:  # the first call: nothing of the time before counts
-            due.append(Due(period))
-            due[0].count = math.floor((sim.time - sim.dt) / period) + 1
-        if due[0](sim.time):
+        if of is not sim:  # the first call of this simulation: nothing of the time before counts
+            of, due.count = sim, math.floor((sim.time - sim.dt) / period) + 1
+        if due(sim.time):
             call(sim)
 
     return after

@@ -2,19 +2,25 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
-from hydro2d.output.history import Columns
+from hydro2d.errors import Error
+from hydro2d.output.history import CRATER, Columns
 from hydro2d.solver.callbacks import Due
 
 if TYPE_CHECKING:
     from hydro2d.solver.simulation import Simulation
 
 
+class ColumnError(Error):
+    """A column of the user's that has no name for a file, or fails."""
+
+
 def row(sim: Simulation) -> dict[str, float | str | None]:
     """One row of the history: what a simulation measures, by name; see `running/columns.py` for all names.
 
-    Raises ValueError where a column of the user has the name of another.
+    Raises ColumnError for a column of the user's that fails.
     """
     from hydro2d.solver.tracers import PEAKS  # it loads kernels, after which no model can join them
 
@@ -29,11 +35,25 @@ def row(sim: Simulation) -> dict[str, float | str | None]:
         values |= {f"{name}_{key}": value for key, value in found.items() if key not in PEAKS}
     for sink, amounts in conserved["sinks"].items():
         values |= {f"sink_{sink}_{name}": amount for name, amount in amounts.items()}
+    check(sim.columns)
     for name, of in sim.columns.items():
         if name in values:
-            raise ValueError(f"the history has a column {name} of its own; give yours another name")
-        values[name] = float(of(sim))
+            raise ColumnError(f"the history has a column {name} of its own; give yours another name")
+        try:
+            values[name] = float(of(sim))
+        except Exception as error:
+            raise ColumnError(f"the column {name} fails: {type(error).__name__}: {error}") from error
     return values
+
+
+def check(columns: Mapping[str, object]) -> None:
+    """Raises ColumnError for what no file could hold, or is no function."""
+    for name, of in columns.items():
+        if not isinstance(name, str) or not name.isidentifier() or name.startswith(CRATER):
+            raise ColumnError(f"a column cannot be called {name!r}: its name is a word of letters, digits and underscores that "
+                              f"does not begin with {CRATER}")
+        if not callable(of):
+            raise ColumnError(f"the column {name} is a function of the simulation, not {of!r}")
 
 
 class Recorder:

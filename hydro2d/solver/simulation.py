@@ -10,22 +10,20 @@ import numpy as np
 from hydro2d import units
 from hydro2d.deck import deck as decks
 from hydro2d.errors import UnphysicalState, unknown
+from hydro2d.interrupt import Interrupt, signals
 from hydro2d.materials import library
 from hydro2d.mesh import fields, quantities, sums
 from hydro2d.mesh.boundary_conditions import BoundaryConditions
 from hydro2d.mesh.grid import Grid
 from hydro2d.mesh.state import State
-from hydro2d.solver import bodies, insertion, tracers
+from hydro2d.solver import bodies, insertion
 from hydro2d.solver.audit import Audit
 from hydro2d.solver.crater import Crater
-from hydro2d.solver.cycle import Cycle
 from hydro2d.solver.following import FollowingMesh, StandingMesh, UndisturbedSpace
 from hydro2d.solver.memory import refuse_too_large
-from hydro2d.solver.method import Method
 from hydro2d.solver.penetrator import WATCH_EVERY, Penetrator
 from hydro2d.solver.record import Recorder
 from hydro2d.solver.sanity import TRUSTED, faults
-from hydro2d.solver.stations import Stations
 from hydro2d.solver.targets import targets
 
 if TYPE_CHECKING:
@@ -33,6 +31,8 @@ if TYPE_CHECKING:
     import pyvista
     import xarray
     from numpy.typing import ArrayLike
+
+    from hydro2d.solver.method import Method
 
 
 class Simulation:
@@ -55,6 +55,10 @@ class Simulation:
     """
 
     def __init__(self, deck: decks.Deck):
+        from hydro2d.solver.cycle import Cycle  # these load kernels, after which no model can join them
+        from hydro2d.solver.method import Method
+        from hydro2d.solver.stations import Stations
+
         refuse_too_large(deck)
         self.deck = deck
         self.grid = Grid(*decks.edges(deck), deck.mesh.geometry)
@@ -168,15 +172,21 @@ class Simulation:
         callbacks : functions of the simulation
             Each is called after every cycle; `hydro2d.every` makes one that is called now and then.
 
-        Adds a row to `history` at every ``output.history_interval`` of the deck, and at the end. Raises UnphysicalState.
+        Adds a row to `history` at every ``output.history_interval`` of the deck, and at the end.
+
+        Raises UnphysicalState, ColumnError for a column that fails, and KeyboardInterrupt, after which `run` can go on: an
+        interrupt waits for the end of the cycle.
         """
-        ended, callbacks = self._end(until), tuple(callbacks)
+        ended, callbacks, interrupt = self._end(until), tuple(callbacks), Interrupt()
         self._recorder(self)
-        while (reason := ended()) is None:
-            self.step()
-            for each in callbacks:
-                each(self)
-            self._recorder(self)
+        with signals(interrupt):
+            while (reason := ended()) is None and not interrupt.reason:
+                self.step()
+                for each in callbacks:
+                    each(self)
+                self._recorder(self)
+        if reason is None:
+            raise KeyboardInterrupt(f"{self!r} was interrupted ({interrupt.reason})")
         self.refuse_nonsense()
         self._recorder.last(self)
         return reason
@@ -191,11 +201,19 @@ class Simulation:
         return lambda: "end time" if self.time >= time else None
 
     @property
-    def history(self) -> pandas.DataFrame:
-        """The rows that `run` has recorded, over the time in s; ``attrs["units"]`` has the unit of every column."""
+    def history(self) -> dict[str, np.ndarray]:
+        """Columns of the history that `run` has recorded, by name, shapes (rows,); empty before the first run."""
+        return self._recorder.columns.arrays()
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """The history as a pandas.DataFrame over the time in s; ``attrs["units"]`` has the unit of every column."""
         from hydro2d.output import history
 
-        return history.frame(self._recorder.columns.arrays())
+        return history.frame(self.history)
+
+    def __repr__(self) -> str:
+        where = f"{1e6 * self.time:.2f} us, cycle {self.cycle}, {self.grid.nr} x {self.grid.nz} cells"
+        return f"<Simulation {self.deck.name}: {where}>"
 
     def step(self) -> None:
         """One cycle. Raises UnphysicalState."""
@@ -213,6 +231,8 @@ class Simulation:
 
         Raises ValueError for points of another shape.
         """
+        from hydro2d.solver import tracers
+
         return tracers.velocity_at(self.grid, self.state, points, group)
 
     def body_sums(self, m: int) -> tuple[np.ndarray, np.ndarray]:
@@ -293,7 +313,7 @@ class Simulation:
     # ------------------------------------------------------------------------------------------------ fields
 
     def array(self, name: str) -> np.ndarray:
-        """A field of the solver as a view without ghost cells: what is written into it, the next cycle starts from.
+        """A field of the solver as a read-only view without ghost cells, which later cycles change.
 
         name : name or symbol in the table of fields, such as "density" or "rho"
 
@@ -304,7 +324,9 @@ class Simulation:
         if field is None:
             raise quantities.FieldError(unknown("field", name, (each.name for each in fields.FIELDS)))
         values = getattr(self.state, field.symbol)
-        return self.grid.interior_vertices(values) if field.centring == "vertex" else self.grid.interior(values)
+        inner = self.grid.interior_vertices(values) if field.centring == "vertex" else self.grid.interior(values)
+        inner.flags.writeable = False
+        return inner
 
     def field(self, key: str, body: str | None = None) -> np.ndarray:
         """A quantity as it is written and drawn, computed now: shape (nz, nr), or (nz, nr, 3) for a vector (r, z, 0).

@@ -10,7 +10,7 @@ from pydantic import AfterValidator, Field, ValidationError, model_validator
 
 from hydro2d import toml
 from hydro2d.deck.base import PositiveSpeed, Section, Speed
-from hydro2d.errors import DeckError, Sources, spelled, unknown
+from hydro2d.errors import DeckError, Error, Sources, spelled, unknown
 
 #: overrides of the decks of a study: "key=value" of a command line, or values by their dotted keys
 Overrides = Sequence[str] | Mapping[str, Any]
@@ -19,7 +19,7 @@ Overrides = Sequence[str] | Mapping[str, Any]
 DECK = "deck"
 
 
-class StudyError(Exception):
+class StudyError(Error):
     """A study, its directory or its workers are wrong; the message is for the user."""
 
 

@@ -1,6 +1,7 @@
 """The public interface: decks, simulations in memory, runs, their fields, and sweeps, as a program uses them."""
 
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -11,6 +12,7 @@ import pandas
 import pytest
 
 import hydro2d
+from hydro2d import api
 from hydro2d.mesh.quantities import FieldError
 from hydro2d.output import datasets
 from hydro2d.output.vtk import read_grid
@@ -130,11 +132,12 @@ def test_a_run_in_memory_computes_what_a_run_on_disk_does(deck, shot):
     sim = hydro2d.Simulation(deck)
     sim.columns["highest_Pa"] = lambda each: each.array("pressure").max()
     assert sim.run() == shot.summary["stop_reason"]
-    ours, theirs = sim.history, shot.to_pandas()
+    ours, theirs = sim.to_pandas(), shot.to_pandas()
     pandas.testing.assert_frame_equal(ours, theirs, check_exact=True)
     assert ours.attrs == theirs.attrs
     assert ours.attrs["units"]["highest_Pa"] == "Pa"
     assert ours["highest_Pa"].max() > 1e7
+    assert list(sim.history) == list(shot.history)
 
 
 def test_callbacks_are_called_when_they_are_due(deck):
@@ -164,11 +167,64 @@ def test_an_interval_is_positive(interval):
         hydro2d.every(interval, print)
 
 
-def test_a_column_must_have_a_name_of_its_own(deck):
+def test_a_callback_serves_several_simulations(deck):
+    times = []
+    callback = hydro2d.every("0.5 us", lambda each: times.append(each.time))
+    for _ in range(2):
+        hydro2d.Simulation(deck).run(until="1 us", callbacks=[callback])
+    assert len(times) == 4
+    assert times[:2] == times[2:]
+
+
+def test_the_history_begins_with_the_first_run(deck):
     sim = hydro2d.Simulation(deck)
-    sim.columns["penetration_depth_m"] = lambda each: 1.0
-    with pytest.raises(ValueError, match="the history has a column penetration_depth_m of its own"):
+    assert sim.history == {}
+    assert sim.to_pandas().empty
+    sim.step()
+    assert sim.to_pandas().empty
+
+
+def test_an_interrupt_waits_for_the_end_of_the_cycle(deck):
+    sim, whole = hydro2d.Simulation(deck), hydro2d.Simulation(deck)
+    with pytest.raises(KeyboardInterrupt, match="Simulation shot"):
+        sim.run(callbacks=[lambda each: os.kill(os.getpid(), signal.SIGINT) if each.cycle == 10 else None])
+    assert sim.cycle == 10
+    sim.run()
+    whole.run()
+    pandas.testing.assert_frame_equal(sim.to_pandas(), whole.to_pandas(), check_exact=True)
+
+
+@pytest.mark.parametrize(("name", "column", "told"), [
+    ("penetration_depth_m", lambda sim: 1.0, "the history has a column penetration_depth_m of its own"),
+    ("crater_radius", lambda sim: 1.0, "a column cannot be called 'crater_radius'"),
+    ("a/b", lambda sim: 1.0, "a column cannot be called 'a/b'"),
+    (1, lambda sim: 1.0, "a column cannot be called 1"),
+    ("mine", 1.0, "the column mine is a function of the simulation, not 1.0"),
+    ("mine", lambda sim: 1 / 0, "the column mine fails: ZeroDivisionError: division by zero"),
+    ("mine", lambda sim: None, "the column mine fails: TypeError"),
+])  # fmt: skip
+def test_a_wrong_column_is_named(deck, name, column, told):
+    sim = hydro2d.Simulation(deck)
+    sim.columns[name] = column
+    with pytest.raises(hydro2d.Error, match=told):
         sim.run(until="1 us")
+
+
+def test_a_run_with_a_wrong_name_of_a_column_removes_nothing(tmp_path, deck):
+    (tmp_path / "deck.toml").write_text("kept")
+    with pytest.raises(hydro2d.Error, match="a column cannot be called"):
+        hydro2d.run(deck, tmp_path, overwrite=True, quiet=True, columns={"a b": lambda sim: 1.0})
+    assert (tmp_path / "deck.toml").read_text() == "kept"
+
+
+def test_a_column_that_fails_leaves_a_run_that_can_go_on(tmp_path, deck, shot):
+    fails = {"highest_Pa": lambda sim: sim.array("pressure").max() if sim.time < 2e-6 else 1 / 0}
+    with pytest.raises(hydro2d.Error, match="the column highest_Pa fails"):
+        hydro2d.run(deck, tmp_path / "run", quiet=True, columns=fails)
+    assert not (tmp_path / "run" / "progress.json").exists()
+    rights = {"highest_Pa": lambda sim: sim.array("pressure").max()}
+    found = hydro2d.run(deck, tmp_path / "run", restart=True, quiet=True, columns=rights)
+    assert found.summary["cycles"] == shot.summary["cycles"]
 
 
 def test_arrays_are_views(deck):
@@ -177,8 +233,10 @@ def test_arrays_are_views(deck):
     assert sim.array("rho").shape == (2, 48, 18)
     assert sim.array("axial_velocity").shape == (1, 49, 19)
     assert sim.array("pressure").shape == (48, 18)
-    sim.array("e")[1] = 123.0
-    assert sim.grid.interior(sim.state.e)[1].min() == 123.0
+    with pytest.raises(ValueError, match="read-only"):
+        sim.array("e")[1] = 123.0
+    sim.state.e[1] = 123.0
+    assert sim.array("e")[1].min() == 123.0
     with pytest.raises(FieldError, match='unknown field "presure"; did you mean "pressure"'):
         sim.array("presure")
 
@@ -232,12 +290,31 @@ def test_fields_of_all_dumps(shot):
 
 def test_fields_are_read_late(shot, monkeypatch):
     opened = []
-    datasets._kept.cache_clear()
     monkeypatch.setattr(datasets, "read_grid", lambda path: opened.append(path) or read_grid(path))
     fields = shot.fields
     assert len(opened) == 2, "the first and the last"
     fields.pressure[1].values  # noqa: B018
     assert opened[2:] == [shot.dumps[1][1]]
+    fields.compute()
+    assert sorted(opened[3:]) == sorted(file for _, file in shot.dumps), "all variables of a dump share one reading"
+
+
+def test_fields_of_a_run_that_was_begun_anew_are_refused(tmp_path, deck):
+    place = tmp_path / "run"
+    fields = hydro2d.run(deck, place, quiet=True).fields
+    finer = hydro2d.Deck.from_toml(TEXT, {"stop.time": "4 us", "output.vtk_interval": "1 us", "mesh.r.0.cells": 20})
+    hydro2d.run(finer, place, overwrite=True, quiet=True)
+    with pytest.raises(hydro2d.Error, match="another mesh"):
+        fields.pressure[1].compute()
+
+
+def test_the_history_of_a_run_under_way_is_read_again(tmp_path, shot):
+    (tmp_path / "deck.toml").write_text((shot.directory / "deck.toml").read_text())
+    run = hydro2d.open_run(tmp_path)
+    with pytest.raises(hydro2d.Error, match="none was written yet"):
+        run.history  # noqa: B018
+    shutil.copy(shot.directory / "history.h5", tmp_path)
+    assert len(run.history["time"]) == len(shot.history["time"])
 
 
 def test_a_mesh_that_travels_says_where_it_is(tmp_path):
@@ -296,7 +373,7 @@ def test_a_sweep_of_a_deck_is_a_table(tmp_path):
     file.write_text(tubes.TUBE)
     axes = {"numerics.advection": ["ke", "momentum"], "body.low.pressure": [0.1, np.float64(0.2)]}
     place = tmp_path / "study"
-    table = hydro2d.sweep(file, axes, directory=place, overrides={"stop.time": 0.005}, workers=1)
+    table = hydro2d.sweep(file, axes, directory=place, overrides={"stop.time": np.float64(0.005)}, workers=1)
     assert table.index.tolist() == ["ke_0.1", "ke_0.2", "momentum_0.1", "momentum_0.2"]
     assert table["status"].tolist() == ["done"] * 4
     assert table["advection"].tolist() == ["ke", "ke", "momentum", "momentum"]
@@ -317,8 +394,25 @@ def test_a_sweep_of_a_deck_object_and_of_a_study_file(tmp_path):
     assert table["cycles"].tolist() == other["cycles"].tolist()
 
 
+def test_a_sweep_of_a_deck_object_resolves_its_defaults_anew(tmp_path):
+    """The surface from which the depth counts and the intervals of output follow the case, not the deck that it was made of."""
+    deck = hydro2d.Deck.from_toml(TEXT)
+    plan = api._plan(deck, {"body.plate.z_front": ["0 mm", "1 mm"], "stop.time": ["10 us", "20 us"]}, (), tmp_path / "study")
+    cases = [hydro2d.Deck.from_toml(case.text) for case in plan.cases]
+    assert [case.penetration.surface for case in cases] == [0.0, 0.0, 1e-3, 1e-3]
+    assert [case.output.history_interval for case in cases] == [1e-8, 2e-8, 1e-8, 2e-8]
+
+
 def test_what_is_no_study_is_refused(tmp_path):
     with pytest.raises(hydro2d.StudyError, match="give `axes`, the keys to vary"):
         hydro2d.sweep(hydro2d.Deck.from_toml(tubes.TUBE))
+    for axes, told in (({"body.low.pressure": "0.1"}, "expected a list of values, is '0.1'"), ({"": [1]}, "a key is empty"),
+                       ({"body.low.pressure": ["low"]}, "no case has a valid deck")):  # fmt: skip
+        with pytest.raises(hydro2d.StudyError, match=told):
+            hydro2d.sweep(tubes.write(tmp_path).with_name("tube.toml"), axes, directory=tmp_path / "out")
+    for options, told in (({"workers": 0}, "workers = 0"), ({"threads": -1}, "threads = -1"),
+                          ({"overrides": "a=1"}, "not the text")):  # fmt: skip
+        with pytest.raises(hydro2d.StudyError, match=told):
+            hydro2d.sweep(tubes.write(tmp_path), directory=tmp_path / "out", **options)
     with pytest.raises(hydro2d.StudyError, match="no deck has the key body.low.colour"):
         hydro2d.sweep(tubes.write(tmp_path).with_name("tube.toml"), {"body.low.colour": [1]}, directory=tmp_path / "out")
