@@ -59,7 +59,7 @@ def disturbed(e, seed: int, size: float = 1.0):
     for w in (s.u, s.v):
         w[0][g.inside_vertices] = np.where(moving, 100.0 * random.normal(size=moving.shape), 0.0)
     e.prepare()
-    e._hold_still()
+    e._constrain()
     e.audit = None
     e.prepare()
 
