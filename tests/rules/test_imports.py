@@ -101,7 +101,7 @@ def test_the_package_itself_imports_nothing_at_once():
     """``import hydro2d`` is instant; what it offers it imports when asked."""
     body = source.tree(source.modules()["hydro2d"]).body
     at_once = ast.Module([node for node in body if isinstance(node, (ast.Import, ast.ImportFrom))], [])
-    assert {name for name, _ in source.imports(at_once, frozenset())} <= sys.stdlib_module_names
+    assert {name.split(".")[0] for name, _ in source.imports(at_once, frozenset())} <= sys.stdlib_module_names
 
 
 @pytest.mark.parametrize(
