@@ -198,7 +198,7 @@ def test_fields_are_computed_from_the_state(deck):
 
 @pytest.mark.parametrize(("key", "body", "told"), [
     ("presure", None, 'unknown field "presure"'),
-    ("body_density", None, "body_density belongs to each body"),
+    ("body_density", None, "body_density is one of every body"),
     ("body_density", "bar", 'unknown body "bar"'),
     ("contact_pressure", None, "contact_pressure: the simulation has none"),
 ])  # fmt: skip

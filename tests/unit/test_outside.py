@@ -72,8 +72,8 @@ plain = { based_on = "Al5083", strength = { model = "elastic-plastic", shear_mod
     ("old", "new", "said"),
     [
         ('"my_model.py"', '"no_model.py"', "shot.toml:18: materials.Al5083.strength.file: "),
-        ('"my_model.py"', "3", "is the name of a Python file"),
-        ('file = "my_model.py"', 'file = "my_model.py"\nmodel = "vocal"', 'strength.model: is "vocal", and the model of'),
+        ('"my_model.py"', "3", "must be the name of a Python file"),
+        ('file = "my_model.py"', 'file = "my_model.py"\nmodel = "vocal"', 'strength.model: is "vocal", but the model in'),
         ('file = "my_model.py"', 'model = "voce"', 'unknown strength model "voce"'),
         ('file = "my_model.py"', 'file = "my_model.py"\nhardening = 3', 'unknown parameter of voce "hardening"'),
         ('yield_stress = "240 MPa"', "", "voce needs yield_stress (initial yield stress, Pa)"),
