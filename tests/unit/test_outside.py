@@ -258,7 +258,7 @@ def test_a_package_gives_models_by_name(folder, package):
     assert "my_models.lost (my-models 1.2): the entry point lost names a module that cannot be found" in told
     assert "the entry point is called another and the model voce; the names must be the same" in told
     assert 'unknown strength model "voze"; did you mean "voce"?' in told
-    assert "  voce                 strength model of the package my-models" in told
+    assert "  voce                 strength model from the package my-models" in told
     assert "voce (strength model)\n\nY = Y0 + Q (1 - exp(-10 ep))" in told
     assert "\nTrue\n" in told
     assert told.endswith("voce: all checks passed\nstatus 0\n")
