@@ -27,7 +27,7 @@ class Curve:
 
     @classmethod
     def of(cls, material: Material, rate: float, strains: Sequence[float], isothermal: bool = False) -> Curve:
-        """Raises DeckError for a material without strength, or without what its heating needs."""
+        """Raises DeckError for a material without strength, or without the data for its heating."""
         stress, temperature = curves.flow_stress(material, rate, strains, isothermal=isothermal)
         return cls(material, rate, isothermal, tuple(strains), stress, temperature)
 

@@ -39,12 +39,12 @@ def read(path: Path) -> Shot:
 def shot(deck: decks.Deck) -> Shot:
     """The shot of a resolved deck."""
     if deck.penetration is None or deck.mesh.geometry != "cylindrical":
-        raise DeckError(f"{deck.name}: a rod on the axis and a target are needed; [penetration] names them")
+        raise DeckError(f"{deck.name}: needs a rod on the axis and a target, named in [penetration]")
     rod, target = (decks.body(deck, getattr(deck.penetration, key)) for key in ("rod", "target"))
     if rod.shape != "rod":
-        raise DeckError(f'{deck.name}: the penetrator "{rod.name}" is a {rod.shape}; the models take a rod')
+        raise DeckError(f'{deck.name}: the penetrator "{rod.name}" is a {rod.shape}; the models need a rod')
     if len(deck.penetration.targets) > 1:
-        raise DeckError(f"{deck.name}: the rod goes through {', '.join(deck.penetration.targets)}; the models take one target")
+        raise DeckError(f"{deck.name}: the rod penetrates {', '.join(deck.penetration.targets)}; the models allow one target")
     numbers = {**_rod(rod, deck.materials[rod.material]), **_target(target)}
     values = {name: Given(value, f"deck {deck.name}") for name, value in numbers.items()}
     return Shot(deck.name, deck.materials[rod.material], deck.materials[target.material], impact_velocity(deck),

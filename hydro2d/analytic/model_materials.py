@@ -1,4 +1,4 @@
-"""What an analytic model needs of a material of the library, each number with a word on where it comes from."""
+"""The numbers that analytic models need from a material of the library, each with its source."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ RATE, ULTIMATE_STRAIN = 1.0, 1.0
 
 @dataclass(frozen=True)
 class Given:
-    """A value of an input in SI, and where it comes from."""
+    """The value of an input in SI, and its source."""
 
     value: Value
     source: str

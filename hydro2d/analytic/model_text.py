@@ -1,4 +1,4 @@
-"""What `hydro2d model` prints and writes: lists, pages, results, tables."""
+"""The output of `hydro2d model`: lists, pages, results, tables."""
 
 from __future__ import annotations
 

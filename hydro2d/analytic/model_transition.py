@@ -75,7 +75,7 @@ class Bracket:
 
 @dataclass(frozen=True)
 class Prediction:
-    """What one model says; ``velocity`` None and no ``note`` where the rod is rigid at any velocity."""
+    """The prediction of one model; ``velocity`` None without a ``note`` means that the rod is rigid at any velocity."""
 
     model: Model
     case: models.Case
@@ -115,7 +115,7 @@ def between(name: str, rigid: Iterable[float], others: Iterable[float], source: 
 
 
 def brackets(rod: str, target: str, nose: str) -> list[Bracket]:
-    """What is known of a rod, target and nose from the study, by the library's names; empty where nothing is."""
+    """The brackets of the study for a rod, target and nose, by their names in the library; empty if there are none."""
     shots = [shot for shot in experiments() if (shot.rod, shot.target, shot.nose) == (rod, target, nose)]
     found = []
     if shots:
@@ -138,7 +138,7 @@ def of_runs(directories: Sequence[Path], nose: str) -> tuple[Bracket, list[tuple
     for directory in directories:
         run = reading.Results(directory)
         if "regime" not in run.summary:
-            raise reading.ResultsError(f"{directory}: the run has not ended, it has no regime")
+            raise reading.ResultsError(f"{directory}: the run has not ended and has no regime")
         shot, regime = model_deck.read(run.directory / reading.DECK), run.summary["regime"]
         counted = shot.nose == nose and regime != LEFT
         if counted:
@@ -150,7 +150,7 @@ def of_runs(directories: Sequence[Path], nose: str) -> tuple[Bracket, list[tuple
 
 
 def with_transition() -> list[Model]:
-    """Models that say when a rod stops being rigid."""
+    """Models that predict when a rod stops being rigid."""
     return [model for model in catalogue.MODELS.values() if model.transition is not None]
 
 
@@ -170,7 +170,7 @@ def geometry(rod: str, nose: str) -> dict[str, Given]:
 
 
 def predict(model: Model, request: models.Request) -> Prediction:
-    """What a model says of a request. Raises InputError for inputs that are impossible."""
+    """The prediction of a model for a request. Raises InputError for impossible inputs."""
     case = models.resolve(model, request)
     try:
         return Prediction(model, case, case.transition())
@@ -180,7 +180,7 @@ def predict(model: Model, request: models.Request) -> Prediction:
 
 @dataclass(frozen=True)
 class Comparison:
-    """Predictions of a rod, target and nose beside what is known."""
+    """Predictions for a rod, target and nose beside known brackets."""
 
     title: str
     predictions: list[Prediction]
@@ -234,7 +234,7 @@ def distance(off: float) -> str:
 
 
 def extent(bracket: Bracket, state: str = "rigid") -> str:
-    """A bracket in words; ``state`` is what its low end still is."""
+    """A bracket in words; ``state`` is the state at its low end."""
     if bracket.low is None or bracket.high is None:
         known = [f"{word} {end:g} m/s" for word, end in (("above", bracket.low), ("below", bracket.high)) if end is not None]
         return known[0] if known else "nothing known"
@@ -244,7 +244,7 @@ def extent(bracket: Bracket, state: str = "rigid") -> str:
 
 
 def compare(request: models.Request, nose: str, runs: Sequence[Path] = ()) -> Comparison:
-    """Every model's transition for a rod and a target; ``nose`` is that of the brackets and of the runs that count."""
+    """The transitions of all models for a rod and a target; ``nose`` is the nose of the brackets and of the runs to include."""
     if request.rod is None or request.target is None:
         raise InputError("transition: a rod and a target are needed, by --rod and --target or by --deck")
     rod, target = request.rod.name, request.target.name

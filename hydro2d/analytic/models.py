@@ -1,7 +1,7 @@
-"""Analytic models on materials of the library: every input found and its source told, then evaluated.
+"""Analytic models with materials of the library: finds every input and its source, then evaluates the model.
 
-An input comes, in this order, from what the user sets, from a deck, from the material library, from the geometry of a
-cylinder of equal mass, from its default, and last from the model's own example, which is always said.
+An input comes, in this order, from the user, from a deck, from the material library, from the geometry of a cylinder of equal
+mass, from its default, and last from the example of the model, which is always stated.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ LIBRARY = {side: {f"{side}.{last}" for last in FROM_LIBRARY} for side in ("rod",
 
 @dataclass(frozen=True)
 class Request:
-    """What a user chose: materials, inputs by name in SI, a geometry (a deck's), the plastic strain of the strengths."""
+    """The choices of a user: materials, inputs by name in SI, a geometry (from a deck), the plastic strain of the strengths."""
 
     rod: Material | None = None
     target: Material | None = None
@@ -60,7 +60,7 @@ class Case:
             raise InputError(f"at {velocity:g} m/s: {error}" if one_of_many else str(error)) from None
 
     def transition(self) -> float | None:
-        """Impact velocity above which the rod is no longer rigid, m/s; None where it always is."""
+        """Impact velocity above which the rod is no longer rigid, m/s; None if it is always rigid."""
         return self.model.limit(self.values)
 
 
@@ -77,7 +77,7 @@ def example(model: Model) -> Case:
 
 
 def settings(texts: Sequence[str], models: Sequence[Model]) -> dict[str, Value]:
-    """Inputs by name in SI from key=value. Raises InputError where no model has the key or the value does not fit."""
+    """Inputs by name in SI from key=value. Raises InputError if no model has the key or the value is not allowed."""
     known = {entry.name: entry for model in models for entry in model.inputs}
     if set(CYLINDER) & set(known):
         known |= {entry.name: entry for entry in (ROD_DIAMETER, ROD_LENGTH, ROD_MASS)}
@@ -110,7 +110,7 @@ def _number(text: str) -> float | str:
 
 
 def resolve(model: Model, request: Request) -> Case:
-    """Every input of a model with its source. Raises InputError for an input that is impossible or that nothing gives."""
+    """Every input of a model with its source. Raises InputError for an impossible or a missing input."""
     chosen = {name: Given(value, "given") for name, value in request.settings.items()}
     given = {**_library(model, request), **request.geometry, **chosen}
     given.update(_cylinder(model, request, chosen, given.get("rod.density")))
@@ -125,7 +125,7 @@ def resolve(model: Model, request: Request) -> Case:
 
 
 def _library(model: Model, request: Request) -> dict[str, Given]:
-    """What the materials give by input name; the example's own numbers and materials where none was chosen."""
+    """Inputs from the materials by name; without a chosen material, those of the example."""
     found = {}
     for side in ("rod", "target"):
         wanted = {entry.name for entry in model.inputs if entry.name in LIBRARY[side]} | {f"{side}.density"}
@@ -147,7 +147,7 @@ def _example(model: Model, name: str) -> Given | None:
 
 
 def _fallback(model: Model, request: Request, entry: Input) -> Given | None:
-    """The example's value where the user chose nothing of that side; else the default; else the example's value."""
+    """The value of the example if the user chose nothing for that side; else the default; else the value of the example."""
     value, side = _example(model, entry.name), SIDES.get(entry.name.split(".")[0])
     if value is not None and all(getattr(request, each) is None for each in ([side] if side else ["rod", "target"])):
         return value
@@ -155,7 +155,7 @@ def _fallback(model: Model, request: Request, entry: Input) -> Given | None:
 
 
 def _cylinder(model: Model, request: Request, chosen: Mapping[str, Given], density: Given | None) -> dict[str, Given]:
-    """Diameter, length and mass of a cylinder: what the user chose, topped up to two, and the third from the density."""
+    """Diameter, length and mass of a cylinder: the user's choices, completed to two, and the third from the density."""
     have = {name: chosen[name] for name in CYLINDER if name in chosen}
     if not have and not set(CYLINDER) & set(request.geometry) and request.rod is None:
         have = {name: value for name in CYLINDER if (value := _example(model, name)) is not None}

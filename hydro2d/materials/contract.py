@@ -1,8 +1,8 @@
-"""What every equation of state, strength model and damage model keeps, be it hydro2d's or from outside.
+"""The checks that every equation of state, strength model and damage model must pass, whether part of hydro2d or from outside.
 
-``CHECKS`` has the checks of each part of a material. Each is a function of a Case; its first line of documentation says what
-is asked. It raises Broken where a model does not keep it, and returns why where it does not apply. The tests of hydro2d and
-``hydro2d check-model`` run the same.
+``CHECKS`` has the checks for each part of a material. Each is a function of a Case, and the first line of its docstring says
+what is required. It raises Broken if a model fails, and returns the reason if it does not apply. The tests of hydro2d and
+``hydro2d check-model`` run the same checks.
 """
 
 from __future__ import annotations
@@ -23,16 +23,16 @@ NOBODY = 99
 
 
 class Broken(Exception):
-    """What a model does not keep, with the state and the numbers."""
+    """A requirement that a model does not meet, with the state and the numbers."""
 
 
 @dataclass(frozen=True)
 class Case:
-    """A model with numbers to try it on.
+    """A model, with the numbers for its checks.
 
-    values : its parameters in SI, with every term on
-    densities : of the stated range of an equation of state, over the density at rest;  energies : likewise, J/kg
-    constant : parameters with which the flow stress is constant, or None
+    values : its parameters in SI, with every term in use
+    densities : densities in the stated range of an equation of state, over the density at rest;  energies : in J/kg
+    constant : parameters for which the flow stress is constant, or None
     """
 
     kind: Kind
@@ -58,7 +58,7 @@ class Case:
 
 
 def require(kept: bool, message: str) -> None:
-    """Raises Broken where something is not kept."""
+    """Raises Broken with a message if a requirement is not met."""
     if not kept:
         raise Broken(message)
 
@@ -67,7 +67,7 @@ def require(kept: bool, message: str) -> None:
 
 
 def row(case: Case) -> None:
-    """row(values) gives as many numbers as kernels read, none of them NaN"""
+    """row(values) returns as many numbers as the kernels read, and none of them is NaN"""
     found = case.row
     kept = isinstance(found, np.ndarray) and found.shape == (case.kind.length,) and found.dtype == np.float64
     require(kept, f"row gives {getattr(found, 'dtype', type(found).__name__)} {getattr(found, 'shape', '')}, not float64 "
@@ -79,7 +79,7 @@ def row(case: Case) -> None:
 
 
 def wrong_parameters(case: Case) -> None:
-    """row refuses parameters that are unknown, missing or no numbers, and says which"""
+    """row refuses parameters that are unknown, missing or not numbers, and names them"""
     refused(case, {**case.values, "colour": 1.0}, "unknown parameter 'colour'")
     for parameter in case.module.PARAMETERS:
         refused(case, {**case.values, parameter.name: math.nan}, parameter.name)
@@ -102,7 +102,7 @@ def refused(case: Case, values: Mapping[str, float], words: str) -> None:
 
 
 def eos_is_chosen(case: Case) -> None:
-    """compiled with the other equations of state, it gives the same numbers"""
+    """compiled with the other equations of state, the model gives the same numbers"""
     from eos import dispatch
 
     par = case.row
@@ -113,7 +113,7 @@ def eos_is_chosen(case: Case) -> None:
 
 
 def derivatives(case: Case) -> None:
-    """dp/drho and dp/de are those of p"""
+    """dp/drho and dp/de are the derivatives of p"""
     par = case.row
     for rho, e in case.states():
         p, dpdrho, dpde, _ = case.module.evaluate(rho, e, par)
@@ -132,7 +132,7 @@ def derivatives(case: Case) -> None:
 
 
 def near(value: float, expected: float, share: float) -> bool:
-    """Whether two numbers are equal but for a share of the second, or 1e-12."""
+    """Whether two numbers are equal within a fraction of the second, or within 1e-12."""
     return abs(value - expected) <= max(share * abs(expected), 1e-12)
 
 
@@ -146,14 +146,14 @@ def sound_speed(case: Case) -> None:
 
 
 def rest(case: Case) -> None:
-    """at the density at rest and no energy the pressure is exactly zero"""
+    """at the density at rest and zero energy, the pressure is exactly zero"""
     par = case.row
     p = case.module.evaluate(par[0], 0.0, par)[0]
     require(p == 0.0, f"p is {p:g} Pa at rho = {par[0]:g} kg/m^3, e = 0")
 
 
 def finite(case: Case) -> None:
-    """every density above zero gives finite numbers, and no temperature below zero"""
+    """every positive density gives finite numbers and no negative temperature"""
     par = case.row
     for rho, e in itertools.product((1e-300, 1e-100, 1e-12, 1.0, 1e3, 1e5, 1e9), (-1e6, 0.0, 1e8)):
         found = case.module.evaluate(rho, e, par)
@@ -162,7 +162,7 @@ def finite(case: Case) -> None:
 
 
 def pressure_rises(case: Case) -> None:
-    """p rises with the density and has no jump, beyond the stated range as well"""
+    """p rises with density without a jump, also outside the stated range"""
     par = case.row
     rho = par[0] * np.linspace(0.3, 8.0, 20001)
     found = np.array([case.module.evaluate(x, 1e5, par)[:2] for x in rho])
@@ -174,7 +174,7 @@ def pressure_rises(case: Case) -> None:
 
 
 def temperature(case: Case) -> None:
-    """the temperature belongs to the pressure, T ds = de - p drho/rho^2: d(1/T)/drho|e = -d(p/(rho^2 T))/de|rho"""
+    """the temperature is consistent with the pressure, T ds = de - p drho/rho^2: d(1/T)/drho|e = -d(p/(rho^2 T))/de|rho"""
     par, checked = case.row, 0
     for rho, e in case.states():
         p, _, dpde, T = case.module.evaluate(rho, e, par)
@@ -195,7 +195,7 @@ def temperature(case: Case) -> None:
 
 
 def strength_is_chosen(case: Case) -> None:
-    """compiled with the other strength models, it gives the same numbers"""
+    """compiled with the other strength models, the model gives the same numbers"""
     from strength import dispatch
 
     module, par = case.module, case.row
@@ -214,7 +214,7 @@ def states() -> np.ndarray:
 
 
 def moduli(case: Case) -> None:
-    """a row of shear moduli is the modulus of every cell, and constant where the model says CONSTANT_MODULUS"""
+    """a row of shear moduli equals the modulus of each cell, and is constant if the model says CONSTANT_MODULUS"""
     from strength import dispatch
     from strength.layout import SHEAR
 
@@ -232,7 +232,7 @@ def moduli(case: Case) -> None:
 
 
 def virgin(case: Case) -> None:
-    """slots SHEAR and YIELD of the row are modulus and flow stress of the virgin material at rest"""
+    """slots SHEAR and YIELD of the row are the modulus and the flow stress of the virgin material at rest"""
     from strength.layout import SHEAR, YIELD
 
     par, T, rho = case.row, at_rest(case), case.given("reference_density") or 2700.0
@@ -248,7 +248,7 @@ def at_rest(case: Case) -> float:
 
 
 def monotone(case: Case) -> None:
-    """strain and rate harden, heat softens, and neither stress nor modulus is negative"""
+    """strain and strain rate harden, heat softens, and neither flow stress nor modulus is negative"""
     module, par, T = case.module, case.row, np.linspace(0.0, 3000.0, 200)
     strains, rates = [0.0, 1e-12, 1e-6, *np.linspace(0.001, 5.0, 60), 1e3], [0.0, *np.geomspace(1e-9, 1e9, 60)]
     flow = np.array([module.flow_stress(ep, 1e3, 400.0, 1e9, 2750.0, par) for ep in strains])
@@ -271,7 +271,7 @@ def in_order(rises: np.ndarray, at, what: str, message: str) -> None:
 
 
 def melt(case: Case) -> str | None:
-    """there is no strength from the melting temperature on"""
+    """there is no strength at and above the melting temperature"""
     if "melt_temperature" not in case.values:
         return "EXAMPLE has no melt_temperature"
     for ep, T, p, rho in ((0.5, case.values["melt_temperature"], 0.0, 2700.0), (0.5, 5e4, 5e9, 3000.0)):
@@ -292,7 +292,7 @@ def yield_floor(case: Case) -> str | None:
 
 
 def constant_yield(case: Case) -> str | None:
-    """with a constant yield stress it is elastic-plastic to the last bit, the return to the yield surface included"""
+    """with a constant yield stress the model is elastic-plastic to the last bit, including the return to the yield surface"""
     if case.constant is None:
         return "the model has no CONSTANT_YIELD"
     from strength import STRENGTH_MODELS, dispatch, radial_return
@@ -321,7 +321,7 @@ def constant_yield(case: Case) -> str | None:
 
 
 def damage(case: Case) -> None:
-    """damage grows with plastic strain alone, and by a finite amount; compiled with the other models, it is the same"""
+    """damage grows only with plastic strain, and by a finite amount; compiled with the other models, it is the same"""
     from strength import dispatch
 
     module, par = case.module, case.row
@@ -344,7 +344,7 @@ CHECKS: dict[str, tuple[Callable[[Case], str | None], ...]] = {
 
 
 def case_of(part: str, module: ModuleType) -> Case:
-    """The case that a model gives itself: EXAMPLE, and if it has them DENSITIES, ENERGIES and CONSTANT_YIELD.
+    """The case that a model itself provides: EXAMPLE, and DENSITIES, ENERGIES and CONSTANT_YIELD if it has them.
 
     Raises Broken for one without EXAMPLE.
     """

@@ -21,7 +21,7 @@ GROUND = ("hydro2d.jit", "hydro2d.parameters")
 
 
 def part(text: str, required: Mapping[str, tuple[str, ...]]) -> str | None:
-    """Which of some parts of a material a text is a model of, by the functions that each requires; None for none."""
+    """The part of a material for which a text is a model, by the functions that each part requires; None if there is none."""
     try:
         names = {node.name for node in ast.parse(text).body if isinstance(node, ast.FunctionDef)}
     except SyntaxError:
@@ -40,7 +40,7 @@ def _imported(tree: ast.AST) -> Iterator[tuple[str, int]]:
 
 
 def wrong_import(text: str, package: str) -> tuple[int, str] | None:
-    """Line of the first import that a model of ``package`` must not have, and why; None where all may stand.
+    """Line of the first import that a model of ``package`` must not have, and the reason; None if all are allowed.
 
     What is compiled is kept by the text of the file alone, and the file travels alone.
     """
@@ -56,7 +56,7 @@ def wrong_import(text: str, package: str) -> tuple[int, str] | None:
 
 
 def fault(module: ModuleType, kind) -> str | None:
-    """What the file of a model lacks or has wrong, in words; None where it is in order. ``kind`` is an outside.Kind."""
+    """The first mistake in the file of a model, in words; None if there is none. ``kind`` is an outside.Kind."""
     return next((found for check in (_constants, _parameters, _functions, _variables) for found in check(module, kind)), None)
 
 

@@ -1,4 +1,4 @@
-"""The models of a deck that are files: their texts are put into the deck."""
+"""Models of a deck that are files: puts their texts into the deck."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from hydro2d.toml import model_tables
 def read(data: dict, complaint: Callable[[tuple, str], DeckError]) -> dict:
     """The deck, in which every ``file`` of a model has become its ``model``, the name, ``code``, the text, and ``code_from``.
 
-    A model of hydro2d is replaced by the file that is laid over it. ``data`` is changed. ``complaint(path, message)`` makes the
+    A file replaces a model of hydro2d in an included deck. ``data`` is changed. ``complaint(path, message)`` makes the
     error for a key of the deck; it is raised here.
     """
     for path, table in model_tables(data):
@@ -20,13 +20,13 @@ def read(data: dict, complaint: Callable[[tuple, str], DeckError]) -> dict:
         from hydro2d.materials import outside
 
         if not isinstance(table["file"], str):
-            raise complaint((*path, "file"), "is the name of a Python file")
+            raise complaint((*path, "file"), "must be the name of a Python file")
         try:
             found = outside.read(table["file"], path[-1])
         except outside.ModelError as error:
             raise complaint((*path, "file"), str(error)) from None
         if "code" not in table and table.get("model") not in (None, found.name, *found.kind.models):
-            raise complaint((*path, "model"), f'is "{table["model"]}", and the model of {table["file"]} is "{found.name}"')
+            raise complaint((*path, "model"), f'is "{table["model"]}", but the model in {table["file"]} is "{found.name}"')
         del table["file"]
         table |= {"model": found.name, "code": found.text, "code_from": found.file}
     return data

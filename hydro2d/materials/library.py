@@ -1,7 +1,7 @@
 """Named materials: the library, the materials of a deck, and the rows of numbers that kernels read.
 
 A material is an equation of state, a strength model, a damage model and a fracture pressure. Every number of the
-library carries its source and a confidence; printed values in doubt are kept as variants, beside the default.
+library has its source and a confidence. Doubtful printed values are kept as variants, beside the default.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from hydro2d.errors import DeckError, Sources, unknown
 from hydro2d.mesh.fields import Field
 from hydro2d.toml import PARTS, merge, parse, problems_folder
 
-#: how far a number can be trusted
+#: how reliable a number is
 CONFIDENCE = {
     "printed": "printed in the study that the material is taken from",
     "found": "read in a public source, not in the original",
@@ -44,7 +44,7 @@ Fail = Callable[[tuple, str], Exception]
 
 @dataclass(frozen=True)
 class Number:
-    """A parameter in SI, with where it comes from."""
+    """A parameter in SI, with its source."""
 
     value: float
     unit: str
@@ -55,7 +55,7 @@ class Number:
 
 @dataclass(frozen=True)
 class Model:
-    """A model by name, with a number for every parameter; one from outside has a file's name and text."""
+    """A model by name, with a number for every parameter; a model from outside also has the name and text of its file."""
 
     name: str
     numbers: Mapping[str, Number] = field(default_factory=dict)
@@ -67,7 +67,7 @@ class Model:
         return {name: number.value for name, number in self.numbers.items()}
 
     def outside(self, part: str) -> Outside | None:
-        """The model from outside that it is as a part of a material; None for one of hydro2d."""
+        """The model from outside, as a part of a material; None for a model of hydro2d."""
         from hydro2d.materials import outside
 
         return outside.from_text(self.code, self.file, part) if self.code else None
@@ -87,7 +87,7 @@ class Model:
 
 @dataclass(frozen=True)
 class Material:
-    """A resolved material: nothing left to default."""
+    """A resolved material, with all defaults filled in."""
 
     name: str
     title: str
@@ -97,7 +97,7 @@ class Material:
     damage: Model
     fracture_pressure: Number | None
     variants: Mapping[str, str] = field(default_factory=dict)
-    #: whether it says itself what its damage is, even that it has none
+    #: whether it sets its damage model itself, even to none
     says_damage: bool = field(default=False, compare=False)
 
     @property
@@ -125,7 +125,7 @@ class Material:
 
 @functools.cache
 def _library() -> tuple[dict[str, dict], Sources]:
-    """Raw tables of the library by name, and where their keys stand."""
+    """Raw tables of the library by name, and the places of their keys."""
     tables: dict[str, dict] = {}
     sources = Sources()
     for file in sorted((problems_folder() / "materials").glob("*.toml")):
@@ -140,7 +140,7 @@ def _library() -> tuple[dict[str, dict], Sources]:
 
 
 def _sourced(table: dict, confidence: str, about: dict | None = None) -> dict:
-    """The table with its source and confidence written to every number, so that it can be laid over another."""
+    """The table with source and confidence added to every number, so that it can be merged with another."""
     about = {"source": "", "confidence": confidence, **(about or {}), **_about(table), "note": ""}
     result = {key: value for key, value in table.items() if key not in ("source", "confidence")}
     for part in PARTS:
@@ -169,7 +169,7 @@ def names() -> list[str]:
 
 
 def load(name: str, variant: str | None = None) -> Material:
-    """A material of the library, or one of its variants; DeckError where there is none."""
+    """A material of the library, or one of its variants. Raises DeckError if there is none."""
     tables, sources = _library()
 
     def fail(path: tuple, message: str) -> DeckError:
@@ -191,12 +191,12 @@ def from_deck(name: str, tables: Mapping[str, dict], fail: Fail) -> Material:
 
 
 def _based(name: str, tables: Mapping[str, dict], fail: Fail, chain: tuple[str, ...]) -> dict:
-    """The raw table of a deck's material laid over what it is based on."""
+    """The raw table of a material of a deck, merged with the material on which it is based."""
     if not isinstance(tables[name], dict):
-        raise fail((name,), "a material is a table")
+        raise fail((name,), "a material must be a table")
     variants = tables[name].get("variants", {})
     if not isinstance(variants, dict) or not all(isinstance(entry, dict) for entry in variants.values()):
-        raise fail((name, "variants"), "holds a table for each variant")
+        raise fail((name, "variants"), "must hold a table for each variant")
     own = _sourced(tables[name], "deck")
     base = own.get("based_on")
     if base is None:
@@ -205,10 +205,10 @@ def _based(name: str, tables: Mapping[str, dict], fail: Fail, chain: tuple[str, 
             raise fail((name,), f"has no eos{hint}")
         raw = own
     elif not isinstance(base, str):
-        raise fail((name, "based_on"), "is the name of a material")
+        raise fail((name, "based_on"), "must be the name of a material")
     elif base in tables and base != name:
         if base in chain:
-            raise fail((name, "based_on"), f"goes round in a circle: {' -> '.join((*chain, name, base))}")
+            raise fail((name, "based_on"), f"are based on each other in a circle: {' -> '.join((*chain, name, base))}")
         raw = _overlaid(_based(base, tables, fail, (*chain, name)), own)
     elif base in names():
         raw = _overlaid(_library()[0][base], own)
@@ -229,11 +229,11 @@ def _overlaid(base: dict, over: dict) -> dict:
 
 
 def _varied(raw: dict, variant, fail: Fail, own: dict | None = None) -> dict:
-    """The table with one or several of its variants laid over it, and the deck's own numbers on top of them."""
+    """The table with one or several of its variants applied, and then the numbers of the deck itself."""
     chosen = [] if variant is None else [variant] if isinstance(variant, str) else variant
     known = raw.get("variants", {})
     if not isinstance(chosen, list):
-        raise fail(("variant",), "is the name of a variant or a list of names")
+        raise fail(("variant",), "must be the name of a variant or a list of names")
     for name in chosen:
         if str(name) not in known:
             raise fail(("variant",), unknown("variant", str(name), known))
@@ -279,7 +279,7 @@ def _chosen(raw, part: str, fail: Fail) -> tuple[ModuleType, str, str]:
     if found is None:
         raise fail((part, "model"), unknown(f"{part} model", name, [*models, *outside.in_packages(part)]))
     if found.name != name:
-        raise fail((part, "model"), f'is "{name}", and the model of {found.file} is "{found.name}"')
+        raise fail((part, "model"), f'is "{name}", but the model in {found.file} is "{found.name}"')
     found.offer()
     return found.module, found.file, found.text
 
@@ -316,7 +316,7 @@ def _model(raw, part: str, default: str | None, eos: Mapping, fail: Fail) -> Mod
 def _unknown_parameter(model: str, key: str, parameters: Mapping) -> str:
     for parameter in parameters.values():
         if key.lower() == parameter.symbol.lower():
-            return f'unknown parameter "{key}" of {model}; it is called "{parameter.name}"'
+            return f'unknown parameter "{key}" of {model}; its name is "{parameter.name}"'
     return unknown(f"parameter of {model}", key, parameters)
 
 
@@ -338,7 +338,7 @@ def _number(raw: dict, unit: str, path: tuple, fail: Fail) -> Number:
 
 @dataclass(frozen=True)
 class MaterialTable:
-    """What kernels need of the materials, one line per slot m (a body, with all bodies that join it).
+    """The numbers of the materials for kernels, one row per slot m (a body, with all bodies that join it).
 
     ``eos_par`` is float64[m, eos.ROW], ``strength_par`` float64[m, strength.ROW], ``damage_par`` float64[m,
     strength.DAMAGE_ROW]; the model ids are int64[m]; ``internal`` holds the internal variables of every strength model;

@@ -1,8 +1,8 @@
 """Models from outside: an equation of state, strength or damage model in a user's own file or installed package.
 
-A model is one Python file with what a file in ``eos`` or ``strength`` has, except an ID. Its text travels with the resolved
-deck, so that restarts and workers have it wherever they are. It is imported from a copy whose name has a hash of the text, and
-compiled with the models of hydro2d, provided that it is known before the kernels are loaded.
+A model is one Python file with the contents of a file in ``eos`` or ``strength``, except an ID. Its text is part of the
+resolved deck, so that restarts and workers have it on any machine. It is imported from a copy with a hash of the text in its
+name, and compiled with the models of hydro2d, provided that it is known before the kernels are loaded.
 """
 
 from __future__ import annotations
@@ -32,12 +32,12 @@ FIRST_ID = 1000
 
 
 class ModelError(DeckError):
-    """A model from outside is wrong, or comes too late; the message is meant for its author."""
+    """A model from outside is wrong, or is registered too late; the message is for its author."""
 
 
 @dataclass(frozen=True)
 class Kind:
-    """What can come from outside: a part of a material.
+    """A part of a material whose model can come from outside.
 
     models, added : those of hydro2d by name, and those from outside that kernels know;  functions : see eos/registry.py
     """
@@ -69,9 +69,9 @@ KINDS = {
 
 @dataclass(frozen=True)
 class Outside:
-    """A model from outside that is in order.
+    """A model from outside that has passed the checks of its form.
 
-    file : what messages and summaries call it;  text : the whole file
+    file : its name in messages and summaries;  text : the whole file
     """
 
     kind: Kind
@@ -84,7 +84,7 @@ class Outside:
         return self.module.NAME
 
     def offer(self) -> bool:
-        """Adds it to what kernels choose among; False where they are loaded without it."""
+        """Adds it to the models that kernels can use. Returns False if they are loaded without it."""
         _offered.setdefault((self.text, self.kind.part), self.file)
         if self.module in self.kind.added:
             return True
@@ -94,7 +94,7 @@ class Outside:
         return True
 
     def require(self, what: str = "") -> Outside:
-        """Itself; ModelError, which begins with `what`, where the kernels of this process are loaded without it."""
+        """Returns itself. Raises ModelError, beginning with `what`, if the kernels of this process are loaded without it."""
         if not self.offer():
             raise ModelError(
                 f"{what}the kernels of this process were loaded without the {self.kind.title} {self.name} of {self.file}; "
@@ -102,12 +102,12 @@ class Outside:
         return self
 
     def about(self) -> dict:
-        """What a summary says of it."""
+        """Its entry in a summary."""
         digest = hashlib.sha256(self.text.encode()).hexdigest()
         return {"kind": self.kind.part, "name": self.name, "file": self.file, "sha256": digest}
 
 
-#: files of the models that this process has met, by text and part
+#: files of the models that this process has offered, by text and part
 _offered: dict[tuple[str, str], str] = {}
 
 
@@ -117,7 +117,7 @@ def offered() -> list[tuple[str, str, str]]:
 
 
 def take_over(models: Iterable[tuple[str, str, str]]) -> None:
-    """Offers the kernels of this process what another process has ``offered``; what comes too late is told when it is used."""
+    """Offers the models that another process has ``offered``. A model that comes too late is reported when it is used."""
     for text, file, part in models:
         from_text(text, file, part).offer()
 
@@ -128,7 +128,7 @@ def register(*models: str | Path) -> None:
     A deck that is loaded makes its own models known. Call this only where kernels are loaded before the deck is, for example
     because another simulation ran first.
 
-    Raises ModelError for a model that is wrong, or that comes after the kernels are loaded.
+    Raises ModelError for a wrong model, or if the kernels are already loaded.
     """
     for model in models:
         found = [] if Path(model).is_file() else [each for part in KINDS if (each := from_package(part, str(model)))]
@@ -137,7 +137,7 @@ def register(*models: str | Path) -> None:
 
 
 def read(path: str | Path, part: str | None = None) -> Outside:
-    """The model of a file; `part` is one of KINDS, None for what the functions of the file say. Raises ModelError."""
+    """The model in a file; `part` is one of KINDS, or None to infer it from the functions. Raises ModelError."""
     path = Path(path)
     try:
         text = path.read_text(encoding="utf-8-sig")
@@ -148,12 +148,12 @@ def read(path: str | Path, part: str | None = None) -> Outside:
     part = part or form.part(text, {kind.part: kind.required for kind in KINDS.values()})
     if part is None:
         needed = "; ".join(f"{kind.title}: {' and '.join(kind.required)}" for kind in KINDS.values())
-        raise ModelError(f"{path}: has none of the functions by which a model is known ({needed})")
+        raise ModelError(f"{path}: has none of the functions that identify a model ({needed})")
     return from_text(text, path.name, part, str(path))
 
 
 def from_text(text: str, file: str, part: str, place: str | None = None) -> Outside:
-    """The model of a text; `file` is its name, and `place` what messages call it. Raises ModelError."""
+    """The model in a text; `file` is its name, `place` its name in messages. Raises ModelError."""
     try:
         return Outside(KINDS[part], file, text, _checked(text, part))
     except ModelError as error:
@@ -166,7 +166,7 @@ def in_packages(part: str) -> dict[str, metadata.EntryPoint]:
 
 
 def from_package(part: str, name: str) -> Outside | None:
-    """The model that an installed package gives under a name; None where none does. Raises ModelError."""
+    """The model with a name in an installed package; None if there is none. Raises ModelError."""
     entry = in_packages(part).get(name)
     if entry is None:
         return None
@@ -189,7 +189,7 @@ def from_package(part: str, name: str) -> Outside | None:
 
 @functools.cache
 def _checked(text: str, part: str) -> ModuleType:
-    """The module of a text, with its ID. Raises ModelError, which lacks the name of the file in front."""
+    """The module of a text, with its ID. Raises ModelError, without the file name at the beginning."""
     kind = KINDS[part]
     module = _module(text, kind)
     fault = form.fault(module, kind)
@@ -220,7 +220,7 @@ def _module(text: str, kind: Kind) -> ModuleType:
 
 
 def _compiled(module: ModuleType, name: str, kind: Kind) -> str | None:
-    """Why a function of a model cannot be compiled, or what it returns that it should not; None where all is well."""
+    """Why a function of a model cannot be compiled, or how its return value is wrong; None if there is no fault."""
     arguments, count = kind.functions[name]
     if not hasattr(module, name):
         return None
@@ -236,6 +236,6 @@ def _compiled(module: ModuleType, name: str, kind: Kind) -> str | None:
 
 
 def _line(error: Exception) -> str:
-    """What an exception says, on one line and without numba's frame around it."""
+    """The message of an exception on one line, without the frame that numba adds."""
     lines = [line.strip() for line in str(error).splitlines() if line.strip() and not line.startswith("Failed in nopython")]
     return lines[0] if lines else type(error).__name__

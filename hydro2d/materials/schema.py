@@ -1,4 +1,4 @@
-"""JSON schema of what a deck says of materials, for editors and for ``hydro2d info``."""
+"""JSON schema of the materials of a deck, for editors and for ``hydro2d info``."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ _QUANTITY = {"anyOf": [{"type": "number"}, {"type": "string"}, {"type": "object"
 _TEXT = {"type": "string"}
 _ABOUT = {
     "source": {**_TEXT, "description": "where the numbers come from"},
-    "confidence": {"enum": list(CONFIDENCE), "description": "how far they can be trusted"},
+    "confidence": {"enum": list(CONFIDENCE), "description": "how reliable they are"},
 }
 
 
@@ -19,7 +19,7 @@ def definitions() -> dict[str, dict]:
 
 
 def _part(kind: Kind) -> dict:
-    """The table of a model. What keys a model from outside has is not known here."""
+    """The table of a model. The keys of models from outside are not known here."""
     known: dict[str, list[tuple[str, str, str]]] = {}
     for name, module in kind.models.items():
         for parameter in module.PARAMETERS:
@@ -47,24 +47,25 @@ def _material() -> dict:
         "type": "object", "title": "Material", "additionalProperties": False,
         "description": "A material: complete with its equation of state, or `based_on` another, from which it differs.",
         "properties": {
-            "based_on": {**_TEXT, "description": "a material of the library or of the deck; what is not given here is its"},
+            "based_on": {**_TEXT,
+                         "description": "a material of the library or of the deck, which gives all that is not given here"},
             "variant": {"anyOf": [_TEXT, {"type": "array", "items": _TEXT}],
-                        "description": "variants of it that are laid over it"},
+                        "description": "variants of it to apply"},
             "eos": {"$ref": "#/$defs/Eos", "description": "equation of state"},
-            "strength": {"$ref": "#/$defs/Strength", "description": "strength model; without one a material bears no shear"},
+            "strength": {"$ref": "#/$defs/Strength", "description": "strength model; without one there is no shear stress"},
             "damage": {"$ref": "#/$defs/Damage", "description": 'damage model; used with failure.damage = "material"'},
             "fracture_pressure": {**_QUANTITY, "x-unit": "Pa", "description": "tension at which the material opens, positive; "
                                   'used with failure.tensile = "material"'},
-            "title": {**_TEXT, "description": "a line for `hydro2d info`"},
-            "note": {**_TEXT, "description": "what else is to be known"},
+            "title": {**_TEXT, "description": "title for `hydro2d info`"},
+            "note": {**_TEXT, "description": "further remarks"},
             **_ABOUT,
-            "variants": {"type": "object", "description": "tables by name that `variant` can lay over the material"},
+            "variants": {"type": "object", "description": "tables by name that `variant` can apply to the material"},
         },
     }  # fmt: skip
 
 
 def _meanings(entries: list[tuple[str, str, str]]) -> str:
-    """What a parameter is, by model where models differ."""
+    """The meaning of a parameter, by model if models differ."""
     meanings: dict[str, list[str]] = {}
     for model, _, meaning in entries:
         meanings.setdefault(meaning, []).append(model)

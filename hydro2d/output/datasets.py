@@ -1,9 +1,8 @@
 """Fields as xarray datasets, by the keys of the table of quantities: of one state, or of all dumps of a run.
 
-Dimensions are z and r, with `body` in front for what every body has and `component` behind for vectors, and `time` in front of
-all for the dumps of a run, which are read when their values are asked for. Coordinates are the centres of the cells in m. A
-mesh that travels keeps the z of the first dump, and `mesh_position` says how far it has come: z + mesh_position is where a cell
-is.
+Dimensions are z and r, preceded by `body` for quantities of each body and followed by `component` for vectors. Dumps of a run
+have `time` as the first dimension and are read when their values are used. Coordinates are the centres of the cells in m. A
+travelling mesh keeps the z of the first dump, and `mesh_position` is its displacement: a cell is at z + mesh_position.
 """
 
 from __future__ import annotations
@@ -21,7 +20,7 @@ from hydro2d.output.vtk import Dump, VtkError, read_grid
 if TYPE_CHECKING:
     import xarray
 
-#: components of the vectors; the third, which files have for ParaView, is zero
+#: components of vectors; the third, which the files have for ParaView, is zero
 COMPONENTS = ("r", "z")
 
 

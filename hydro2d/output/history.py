@@ -1,8 +1,8 @@
-"""history.h5: one 1-D dataset per quantity against time, and at the end of a run the holes in the targets.
+"""history.h5: one 1-D dataset per quantity against time and, at the end of a run, the holes in the targets.
 
-Every dataset carries `units` and has `time` as its dimension scale, so that xarray opens the file as it stands. The hole in the
-first target is the group `crater`: its radius over its axial positions. Those in further targets are `crater_NAME`. The file is
-rewritten whole, beside its place, and renamed: a run that is killed leaves the last complete one.
+Every dataset has the attribute `units` and `time` as its dimension scale, so that xarray can open the file directly. The hole
+in the first target is the group `crater`: its radius over its axial positions. Those in further targets are `crater_NAME`. The
+whole file is written under a temporary name and renamed each time, so a run that is killed leaves the last complete file.
 """
 
 from __future__ import annotations
@@ -20,11 +20,11 @@ if TYPE_CHECKING:
     import pandas
     import xarray
 
-#: regimes of a rod in the order of the impact velocity, and all of them by the number that stands in the file
+#: regimes of a rod in the order of impact velocity, and all regimes by their number in the file
 GROWING = ("rigid", "deforming", "eroding")
 REGIMES = (*GROWING, "left the mesh")
 
-#: the group of the hole in the first target, with which the names of the others begin, and its datasets
+#: the group of the hole in the first target, which is also the prefix of the other groups, and its datasets
 CRATER, CRATER_COLUMNS = "crater", ("z_m", "radius_m")
 
 #: unit by ending of the name, the longest first
@@ -39,14 +39,14 @@ class HistoryError(Error):
 
 
 def unit(name: str) -> str:
-    """Unit of a quantity, from the ending of its name; "1" where it has none."""
+    """Unit of a quantity, from the end of its name; "1" if it has none."""
     if name in ("time", "dt"):
         return "s"
     return next((unit for ending, unit in _UNITS if name.endswith(ending)), "1")
 
 
 def attributes(name: str) -> dict:
-    """What a reader of a quantity should know: its unit, and for the regime the words of its numbers."""
+    """Attributes of a quantity: its unit, and for the regime the meaning of its numbers."""
     if name == "regime":
         words = " ".join(word.replace(" ", "_") for word in REGIMES)
         return {"units": unit(name), "flag_values": np.arange(len(REGIMES), dtype=np.int8), "flag_meanings": words}
@@ -75,7 +75,7 @@ class Columns:
         return self._columns["time"][-1] if self._rows else None
 
     def append(self, row: dict[str, float | str | None]) -> None:
-        """Adds a row; it must hold `time`. A quantity that other rows lack is NaN there."""
+        """Adds a row, which must contain `time`. Quantities missing from other rows are NaN there."""
         for name in row:
             if name not in self._columns:
                 self._columns[name] = [np.nan] * self._rows
@@ -84,7 +84,7 @@ class Columns:
         self._rows += 1
 
     def arrays(self) -> dict[str, np.ndarray]:
-        """All columns by name, `time` first, as `read` gives those of a file."""
+        """All columns by name, `time` first, as `read` returns them for a file."""
         names = sorted(self._columns, key=lambda name: (name != "time", name))
         return {name: _numbers(name, self._columns[name]) for name in names}
 
@@ -129,16 +129,16 @@ class History(Columns):
 
 
 def _numbers(name: str, values) -> np.ndarray:
-    """A column as it stands in the file."""
+    """A column as stored in the file."""
     kind = {"cycle": np.int64, "regime": np.int8}.get(name, np.float64)
     numbers = np.asarray(values, dtype=float)
     if kind is not np.float64:
-        numbers = np.nan_to_num(numbers, nan=-1)  # integers have no other word for "not known"
+        numbers = np.nan_to_num(numbers, nan=-1)  # integers have no NaN
     return numbers.astype(kind)
 
 
 def frame(columns: dict[str, np.ndarray]) -> pandas.DataFrame:
-    """Columns as a pandas.DataFrame with the time in s as index, the regime in words; `attrs["units"]` has every unit."""
+    """Columns as a pandas.DataFrame with time in s as index and the regime in words; `attrs["units"]` has every unit."""
     import pandas
 
     shown: dict = dict(columns) or {"time": np.empty(0)}
@@ -166,7 +166,7 @@ def _dataset(file, name: str, values):
 
 @contextmanager
 def _opened(path: Path):
-    """A history file to be read. Raises HistoryError."""
+    """A history file opened for reading. Raises HistoryError."""
     import h5py
 
     try:
@@ -182,7 +182,7 @@ def read(path: Path) -> dict[str, np.ndarray]:
         names = sorted(file.keys() - set(_craters(file)), key=lambda name: (name != "time", name))
         columns = {name: file[name][...] for name in names}
         if any(column.shape != columns["time"].shape or column.dtype.kind not in "fi" for column in columns.values()):
-            raise HistoryError(f"{path} is damaged: its columns are not of one length")
+            raise HistoryError(f"{path} is damaged: its columns differ in length")
         return columns
 
 
@@ -195,7 +195,7 @@ def _craters(file) -> list[str]:
 
 
 def read_craters(path: Path) -> dict[str, tuple[np.ndarray, np.ndarray]]:
-    """Axial positions and radii of the hole in each target, m, shapes (n,), by its name; empty where there are none.
+    """Axial positions and radii of the hole in each target, m, shapes (n,), by its name; empty if there are none.
 
     Raises HistoryError.
     """

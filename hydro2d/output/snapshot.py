@@ -1,7 +1,7 @@
-"""restart.h5: everything that a run needs to continue to the same bits.
+"""restart.h5: everything that a run needs to continue with bitwise the same results.
 
-The file holds every array of the state, the scalars of the simulation and of the run as JSON, and the deck's text. A
-SHA-256 over all of them and the attribute `complete` are written last. The file before is kept as restart.previous.h5.
+The file holds every array of the state, the scalars of the simulation and of the run as JSON, and the text of the deck. A
+SHA-256 over all of them and the attribute `complete` are written last. The previous file is kept as restart.previous.h5.
 """
 
 from __future__ import annotations
@@ -24,12 +24,12 @@ NAME, PREVIOUS = "restart.h5", "restart.previous.h5"
 
 
 class SnapshotError(Error):
-    """A restart file that is missing, truncated, altered or foreign; the message is one line for the user."""
+    """A restart file that is missing, truncated, altered or not from hydro2d; the message is one line for the user."""
 
 
 @dataclass(frozen=True)
 class Snapshot:
-    """What a restart file holds.
+    """The contents of a restart file.
 
     arrays : every array of the state by name;  scalars : of the simulation;  run : of the run directory (output
     schedule, rows written);  deck : resolved TOML;  provenance : see provenance.collect
@@ -62,7 +62,7 @@ def _checksum(arrays: dict[str, np.ndarray], texts: dict[str, str]) -> str:
 
 
 def write(path: Path, snapshot: Snapshot) -> None:
-    """Writes a restart file; an existing one becomes the previous one."""
+    """Writes a restart file. An existing one becomes the previous one."""
     path = Path(path)
     texts = snapshot.texts()
     with replacing(path) as temporary:
@@ -83,7 +83,7 @@ def write(path: Path, snapshot: Snapshot) -> None:
 
 
 def read(path: Path) -> Snapshot:
-    """Reads and verifies a restart file. Raises SnapshotError with one clear line, whatever the file is."""
+    """Reads and verifies a restart file. Raises SnapshotError with one line for any wrong file."""
     import h5py
 
     path = Path(path)
@@ -109,7 +109,7 @@ def read(path: Path) -> Snapshot:
 
 @contextmanager
 def fitting(directory: Path) -> Iterator[None]:
-    """While what a restart file holds is put into a run: what is missing there or does not fit is a SnapshotError."""
+    """Raises SnapshotError if the contents of a restart file do not fit the run into which they are loaded in this block."""
     try:
         yield
     except (KeyError, TypeError, ValueError) as error:
@@ -118,9 +118,9 @@ def fitting(directory: Path) -> Iterator[None]:
 
 
 def read_latest(directory: Path) -> tuple[Snapshot, list[str]]:
-    """The newest readable restart file of a run directory, and what is wrong with newer ones.
+    """The newest readable restart file of a run directory, and what is wrong with a newer one.
 
-    Raises SnapshotError where neither of the two can be read.
+    Raises SnapshotError if neither of the two files can be read.
     """
     problems = []
     for name in (NAME, PREVIOUS):

@@ -58,7 +58,7 @@ def _write(dataset, path: Path, time: float, writer) -> None:
 
 
 def _write_error(code: int, path: Path) -> OSError:
-    """VTK's reason for a file that it could not write: numbers below its own are the system's."""
+    """The reason why VTK could not write a file; numbers below VTK's own are errors of the operating system."""
     from vtkmodules.vtkCommonMisc import vtkErrorCode
 
     if code == vtkErrorCode.OutOfDiskSpaceError:
@@ -79,7 +79,7 @@ def _array(values: np.ndarray, name: str):
 
 
 def _coordinates(values, name: str):
-    """A float64 VTK array; with a name, or VTK writes an address of memory and no two files are the same."""
+    """A float64 VTK array. It has a name, because VTK would otherwise write a memory address, and no two files were equal."""
     from vtkmodules.util.numpy_support import numpy_to_vtk
 
     array = numpy_to_vtk(np.ascontiguousarray(values, dtype=float), deep=True)
@@ -203,7 +203,7 @@ class Series:
             self._write_series()
 
     def _read(self, dumps: int) -> list[float]:
-        """Times of the first dumps: by the series, or where that is damaged by the dumps themselves, up to one that is."""
+        """Times of the first dumps, from the series or, if it is damaged, from the dumps up to the first damaged one."""
         try:
             return [time for time, _ in read_series(self.directory / SERIES["dump"])][:dumps]
         except VtkError as error:
@@ -295,7 +295,7 @@ class Dump:
 
 
 def _read(reader, path: Path):
-    """What a reader of VTK makes of a file. Raises VtkError."""
+    """The data that a VTK reader reads from a file. Raises VtkError."""
     if not Path(path).is_file() or not reader.CanReadFile(str(path)):
         raise VtkError(f"{path} is not a VTK file of a run")
     reader.SetFileName(str(path))
@@ -306,7 +306,7 @@ def _read(reader, path: Path):
     finally:
         reader.SetGlobalWarningDisplay(shown)
     if reader.GetErrorCode():
-        raise VtkError(f"{path} is damaged: VTK cannot read the whole of it")
+        raise VtkError(f"{path} is damaged: VTK cannot read all of it")
     return reader.GetOutput()
 
 
@@ -322,7 +322,7 @@ def read_grid(path: Path) -> Dump:
     cells = math.prod(axis.GetNumberOfTuples() - 1 for axis in axes)
     whole = len(axes) == 2 and cells > 0 and all(each is not None and each.GetNumberOfTuples() == cells for each in arrays)
     if not whole or time is None or time.GetNumberOfTuples() < 1:
-        raise VtkError(f"{path} is damaged: its time, its mesh or the values of its cells are not whole")
+        raise VtkError(f"{path} is damaged: its time, its mesh or its cell values are incomplete")
     r, z = map(vtk_to_numpy, axes)
     for each in arrays:
         values = vtk_to_numpy(each)

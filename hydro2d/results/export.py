@@ -1,4 +1,4 @@
-"""Takes fields out of a run: a VTK series with chosen fields, the state of the restart file, the history as CSV."""
+"""Exports a run: a VTK series with chosen fields, or the state of the restart file, and the history as CSV."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from hydro2d.running.run import HISTORY
 
 
 def names(dump: vtk.Dump, keys) -> list[str]:
-    """Names in a dump of the quantities `keys` (and words of quantities.GROUPS), with those always written."""
+    """Names in a dump of the quantities `keys` (or groups of quantities.GROUPS), and of those that are always written."""
     wanted = []
     for quantity in (quantities.BY_KEY[key] for key in quantities.expand(keys)):
         found = [quantity.name(body) for body in dump.bodies] if quantity.per_body else [quantity.name()]
@@ -23,14 +23,14 @@ def names(dump: vtk.Dump, keys) -> list[str]:
 def export(run: Results, out: Path, keys=("all",)) -> list[Path]:
     """Writes `out`/series.pvd with the dumps of a run, and `out`/history.csv. Returns the files to open.
 
-    keys : quantities of quantities.TABLE to take. A run without dumps gives the state of its restart file.
+    keys : quantities of quantities.TABLE to export. For a run without dumps, the state of its restart file is written.
 
     Raises ResultsError, FieldError, SnapshotError.
     """
     quantities.expand(keys)
     out = Path(out)
     if out.resolve() == run.directory.resolve():
-        raise ResultsError(f"{out} is the run itself; export to another directory")
+        raise ResultsError(f"{out} is the run directory itself; export to another directory")
     (out / vtk.FOLDER).mkdir(parents=True, exist_ok=True)
     dumps = [vtk.read_grid(file) for _, file in run.dumps] or [run.state()]
     entries = []

@@ -44,7 +44,7 @@ class FigureError(Error):
 
 @dataclass(frozen=True)
 class Shown:
-    """A field ready to be drawn: values (nz, nr) in the reader's unit, label, colour map; NaN where there is void."""
+    """A field ready to draw: values (nz, nr) in the reader's unit, label, colour map; NaN in void."""
 
     values: np.ndarray
     label: str
@@ -66,12 +66,12 @@ def chosen(dump: Dump, field: str) -> Shown:
         raise FigureError(unknown("field", key, quantities.BY_KEY))
     quantity = quantities.BY_KEY[key]
     if quantity.per_body and part not in dump.bodies:
-        raise FigureError(f'field "{key}" is one of every body: write {key}:NAME; {unknown("body", part, dump.bodies)}')
+        raise FigureError(f'field "{key}" belongs to each body: write {key}:NAME; {unknown("body", part, dump.bodies)}')
     if not quantity.per_body and part and (key not in VECTORS or part not in COMPONENTS):
         raise FigureError(f'field "{field}": only {", ".join(VECTORS)} have components, such as velocity:r and velocity:z')
     name = quantity.name(part)
     if name not in dump.fields:
-        raise FigureError(f'the file holds no "{name}"; output.fields of the deck decides what is written')
+        raise FigureError(f'the file has no "{name}"; output.fields of the deck sets which fields are written')
     values = dump.fields[name].astype(float)
     if values.ndim == 3:
         values = values[..., COMPONENTS[part]] if part else np.linalg.norm(values, axis=-1)
@@ -99,7 +99,7 @@ def limits_of(shown: list[Shown]) -> tuple[float, float]:
 
 
 def balanced(low: float, high: float) -> tuple[float, float]:
-    """A range of colours, symmetric about zero where it has negative values."""
+    """A colour range, symmetric about zero if it has negative values."""
     largest = max(-low, high)
     return (-largest, largest) if low < 0.0 else (low, high)
 
@@ -255,7 +255,7 @@ def draw_sections(panels: list[list[tuple[Dump, str, float | None]]], field: str
 
 
 def cropped(dump: Dump, window) -> Dump:
-    """The part of a dump that a window shows, for its range of colours."""
+    """The part of a dump inside a window, for its colour range."""
     if window is None:
         return dump
     z0, z1, r1 = window
@@ -318,7 +318,7 @@ def craters(runs: list):
             (line,) = axes.plot(*np.concatenate([upper, lower]).T, linewidth=1.2, **style)
             style = {"color": line.get_color()}
     if not axes.lines:
-        raise FigureError("there is no hole to draw")
+        raise FigureError("no run has a hole to draw")
     for depth in dict.fromkeys(run.measured_depth for run in runs):
         if depth is not None:
             axes.axvline(depth * 1e3, color="crimson", linestyle="--", linewidth=1.0, label="experiment")
@@ -333,12 +333,12 @@ def craters(runs: list):
 
 
 def save(figure, path: Path) -> None:
-    """Writes a figure; the ending of the name decides the format. Raises FigureError."""
+    """Writes a figure; the suffix of the name sets the format. Raises FigureError."""
     path = Path(path)
     allowed = figure.canvas.get_supported_filetypes()
     ending = path.suffix.lower().lstrip(".")
     if ending in FILMS:
-        raise FigureError(f"{path} is a film: `hydro2d movie RUN -o {path.name}` makes it")
+        raise FigureError(f"{path} is a film; make it with `hydro2d movie RUN -o {path.name}`")
     if ending not in allowed:
         raise FigureError(f'{path}: unknown picture format "{path.suffix}" (allowed: {", ".join(sorted(allowed))})')
     if not path.parent.is_dir():

@@ -1,4 +1,4 @@
-"""Films of runs: the sections of figures.py, dump by dump, with one range of colours."""
+"""Films of runs: the sections of figures.py, dump by dump, with one colour range for all frames."""
 
 from __future__ import annotations
 
@@ -23,17 +23,17 @@ Window = tuple[float, float, float] | None
 def film(runs: list, path: Path, field: str = "pressure", *, mirror: str | None = None, window: Window = None,
          follow: str | None = None, limits: tuple[float, float] | None = None, rate: float = 10.0,
          beside: bool = False, dpi: float = DPI) -> int:  # fmt: skip
-    """Writes a film of runs (results.Results): a frame for every dump of the run that has most, of all others the nearest.
+    """Writes a film of runs (results.Results): one frame for each dump of the run with most dumps, the nearest of the others.
 
     Parameters
     ----------
-    path : its ending, .gif or .mp4, decides the format
-    field, mirror : of the upper and of the lower half, see figures.chosen
-    window : (z0, z1, r1) in m that is shown; the whole mesh where absent
-    follow : a body; z0 and z1 then count from its leading end along z, so that the window travels with it
-    limits : range of colours of `field` in the reader's unit; from all frames where absent
+    path : the film file; its suffix, .gif or .mp4, sets the format
+    field, mirror : fields of the upper and of the lower half, see figures.chosen
+    window : (z0, z1, r1) in m, the part to show; default: the whole mesh
+    follow : a body that the window follows; z0 and z1 are then measured from its leading end along z
+    limits : colour range of `field` in the reader's unit; default: the range of all frames
     rate : frames per second
-    beside : runs stand beside one another, not below
+    beside : shows runs side by side instead of below one another
     dpi : dots per inch of the frames
 
     Returns the number of frames. Raises FigureError.
@@ -73,7 +73,7 @@ def _refuse(path: Path, runs: list, window: Window, follow: str | None) -> None:
     if path.suffix.lower() not in FORMATS:
         raise FigureError(f'{path}: unknown film format "{path.suffix}" (allowed: {", ".join(FORMATS)})')
     if follow is not None and window is None:
-        raise FigureError(f"a film that follows {follow} needs a window, with z0 and z1 counted from its leading end")
+        raise FigureError(f"a film that follows {follow} needs a window, with z0 and z1 measured from its leading end")
     for run in runs if follow is not None else ():
         names = [body["name"] for body in run.deck.get("body", ())]
         if follow not in names:
@@ -96,18 +96,18 @@ def has_ffmpeg() -> bool:
 
 
 def _writer(path: Path, rate: float):
-    """matplotlib's writer of a format. Raises FigureError where ffmpeg is missing."""
+    """The matplotlib writer of a format. Raises FigureError if ffmpeg is missing."""
     from matplotlib import animation
 
     if FORMATS[path.suffix.lower()] == "pillow":
         return animation.PillowWriter(fps=rate)
     if not has_ffmpeg():
-        raise FigureError(f"{path}: ffmpeg is not there; `pip install imageio-ffmpeg` brings one, and a .gif needs none")
+        raise FigureError(f"{path}: ffmpeg is missing; `pip install imageio-ffmpeg` installs it, and a .gif needs none")
     return animation.FFMpegWriter(fps=rate, extra_args=["-pix_fmt", "yuv420p", "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2"])
 
 
 class _Window:
-    """What is shown of each run, also where it travels."""
+    """The window of each run, which may travel."""
 
     def __init__(self, runs: list, window: Window, follow: str | None):
         self.window, self.follow = window, follow
@@ -119,7 +119,7 @@ class _Window:
         return (velocity[1] if isinstance(velocity, list) else velocity) < 0.0
 
     def of(self, run, dump: Dump) -> Window:
-        """The window of a run at the moment of a dump; where nothing of the body is left, where it was."""
+        """The window of a run at the time of a dump; the last one if nothing of the body is left."""
         if self.follow is None:
             return self.window
         fraction = dump.fields[f"Volume Fraction for {self.follow}"]
@@ -133,7 +133,7 @@ class _Window:
 
 
 def _ranges(runs: list, times: list[float], words: list[str], shown: _Window) -> dict[str, tuple[float, float]]:
-    """One range of colours for each field, from all frames."""
+    """One colour range for each field, from all frames."""
     ranges: dict[str, tuple[float, float]] = {}
     for word, dump in _seen(runs, times, words, shown):
         low, high = figures.limits_of([figures.chosen(dump, word)])

@@ -1,4 +1,4 @@
-"""A finished or interrupted run, read back: summary, history, fields. `hydro2d.open_run(directory)` gives one."""
+"""The results of a run, read from its directory: summary, history, fields. `hydro2d.open_run(directory)` gives them."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ STUDY = "study.json"
 
 
 class ResultsError(Error):
-    """A directory that holds no run, or not what is asked for; the message is for the user."""
+    """A directory that holds no run, or not the requested data; the message is for the user."""
 
 
 class Results:
@@ -41,7 +41,7 @@ class Results:
     deck : dict
         The resolved deck, SI units.
     summary : dict
-        What summary.json holds; empty while the run has not ended.
+        The contents of summary.json; empty until the run has ended.
     """
 
     def __init__(self, directory: Path | str):
@@ -64,7 +64,7 @@ class Results:
 
     @property
     def label(self) -> str:
-        """What the run is called in figures: the name of its directory."""
+        """The name of the run in figures, which is that of its directory."""
         return self.directory.resolve().name
 
     @property
@@ -86,22 +86,22 @@ class Results:
     def crater(self) -> tuple[np.ndarray, np.ndarray]:
         """Axial positions and radii of the hole in the first target at the end, m, shapes (n,), from entrance to bottom.
 
-        Raises HistoryError, and ResultsError where the run has not ended or has no rod and target.
+        Raises HistoryError, and ResultsError if the run has not ended or has no rod and target.
         """
         return next(iter(self.craters.values()))
 
     @property
     def craters(self) -> dict[str, tuple[np.ndarray, np.ndarray]]:
-        """The same of every target, by its name, in the order in which the rod meets them; raises the same."""
+        """The holes in all targets by name, in the order in which the rod reaches them. Raises the same errors as `crater`."""
         found = history.read_craters(self.directory / HISTORY)
         if not found:
             raise ResultsError(f"{self.directory} has no crater: the run has not ended, or has no rod and target")
         return found
 
     def to_pandas(self) -> pandas.DataFrame:
-        """The history as a pandas.DataFrame with the time in s as index, the regime in words.
+        """The history as a pandas.DataFrame with the time in s as index and the regime in words.
 
-        `attrs["units"]` of the frame has the unit of every column by name. Raises HistoryError.
+        `attrs["units"]` of the frame gives the unit of every column by name. Raises HistoryError.
         """
         return history.frame(self.history)
 
@@ -111,9 +111,9 @@ class Results:
 
     @property
     def fields(self) -> xarray.Dataset:
-        """The fields of all dumps as one dataset over time, z and r, read from the files when values are asked for.
+        """The fields of all dumps as one dataset over time, z and r, read from the files when their values are used.
 
-        See `output/datasets.py`. Raises ResultsError where no dump was written, VtkError where one is damaged.
+        See `output/datasets.py`. Raises ResultsError if no dump was written, VtkError if one is damaged.
         """
         from hydro2d.materials import outside
         from hydro2d.output import datasets
@@ -127,29 +127,29 @@ class Results:
 
     @property
     def dumps(self) -> list[tuple[float, Path]]:
-        """Times and files of the dumps; empty where none was written."""
+        """Times and files of the dumps; empty if none was written."""
         series = self.directory / vtk.SERIES["dump"]
         if not series.exists():
             return []
         return [(time, self.directory / file) for time, file in vtk.read_series(series)]
 
     def dump_file(self, time: float | None = None) -> Path:
-        """The dump nearest to a time in s; the last one where no time is given. Raises ResultsError."""
+        """The file of the dump nearest to a time in s, or of the last dump without a time. Raises ResultsError."""
         dumps = self.dumps
         if not dumps:
             raise ResultsError(f"{self.directory} has no fields: no dump was written yet")
         return dumps[-1][1] if time is None else min(dumps, key=lambda entry: abs(entry[0] - time))[1]
 
     def dump(self, time: float | None = None) -> vtk.Dump:
-        """The fields at the dump nearest to a time in s, or at the last, as arrays by the name that they have in the file."""
+        """The fields of the dump nearest to a time in s, or of the last dump, as arrays by their names in the file."""
         return vtk.read_grid(self.dump_file(time))
 
     def state(self) -> vtk.Dump:
-        """The fields in full precision at the restart file, whatever was dumped. Raises SnapshotError."""
+        """All fields of the restart file, in full precision. Raises SnapshotError."""
         return vtk.Dump.of(self.simulation())
 
     def simulation(self) -> Simulation:
-        """The simulation as the restart file holds it. Raises SnapshotError."""
+        """The simulation in the state of the restart file. Raises SnapshotError."""
         from hydro2d.deck import deck as decks
 
         saved, _ = snapshot.read_latest(self.directory)
@@ -163,22 +163,22 @@ class Results:
         return sim
 
     def to_pyvista(self, time: float | None = None) -> pyvista.RectilinearGrid:
-        """The dump nearest to a time in s, or the last, as a pyvista.RectilinearGrid with x = r, y = z."""
+        """The dump nearest to a time in s, or the last dump, as a pyvista.RectilinearGrid with x = r, y = z."""
         return vtk.pyvista_grid(self.dump_file(time))
 
     def section(self, field: str = "pressure", mirror: str | None = None, time: float | None = None, *,
                 axes: Axes | None = None, limits: dict[str, tuple[float, float]] | None = None,
                 window: tuple[float, float, float] | None = None, colour_bar: bool = True) -> Axes:  # fmt: skip
-        """Draws the section at the dump nearest to a time in s, or at the last, into matplotlib axes and returns them.
+        """Draws a section of the dump nearest to a time in s, or of the last dump, in matplotlib axes and returns them.
 
-        field, mirror : what the upper and the lower half show, such as "pressure", "velocity:z", "body_temperature:plate"
-            or "material"; mirror None: the same
-        axes : where to draw; None: in a figure of its own
-        limits : (low, high) of the colours by field, in the unit of the colour bar; None: those of the data
-        window : (z0, z1, r1) in m, what is shown; None: the whole mesh
+        field, mirror : fields of the upper and the lower half, such as "pressure", "velocity:z", "body_temperature:plate"
+            or "material"; mirror None: the same field
+        axes : the axes to draw in; None: a new figure
+        limits : colour range (low, high) by field, in the unit of the colour bar; None: the range of the data
+        window : (z0, z1, r1) in m, the part to show; None: the whole mesh
         colour_bar : whether a bar is added for each field
 
-        Raises ResultsError where no dump was written, and FigureError.
+        Raises ResultsError if no dump was written, and FigureError.
         """
         from hydro2d.results import figures
 
@@ -204,18 +204,18 @@ class Results:
 
     @property
     def measured_depth(self) -> float | None:
-        """The experiment's penetration, m."""
+        """Penetration depth of the experiment, m."""
         return self.deck.get("experiment", {}).get("penetration")
 
     @property
     def measured_position(self) -> float | None:
-        """Axial position of the experiment's penetration, m."""
+        """Axial position of the penetration depth of the experiment, m."""
         if self.measured_depth is None or self.surface is None:
             return None
         return self.surface + self.direction * self.measured_depth
 
     def _facts(self) -> dict[str, str]:
-        """What a person wants to know of a run first, in words."""
+        """The main facts of a run, in words."""
         summary, dumps = self.summary, self.dumps
         facts = {"shot": self.deck.get("title", "")}
         facts["run"] = "has not ended"
@@ -245,9 +245,9 @@ def _millimetres(length: float | None) -> str:
 
 
 def _no_run(directory: Path) -> str:
-    """Why a directory without a deck is not a run, and what reads it if it is a study or holds runs."""
+    """Why a directory without a deck is not a run, and how to read it if it is a study or holds runs."""
     said = f"{directory} is not a run directory: it has no {DECK}"
     if (directory / STUDY).is_file():
-        return f"{said}; it is a study, which hydro2d.open_study reads"
+        return f"{said}; it is a study, so use hydro2d.open_study"
     inside = sorted(file.parent.name for file in directory.glob(f"*/{DECK}"))
     return f"{said}; it holds runs: {', '.join(inside[:5])}{', ...' if len(inside) > 5 else ''}" if inside else said

@@ -1,4 +1,4 @@
-"""summary.json as others may have left it: only what is of the right kind is used, and the rest is told."""
+"""Checks summary.json, which may have been changed: values of the right kind are used, and the others reported."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ OF_NUMBERS, OF_TABLES = ("mass",), ("sinks", "contact_transfers", "bodies", "sta
 
 
 def plausible(summary: dict) -> tuple[dict, list[str]]:
-    """The summary without what is of the wrong kind, and the dotted keys of that. A number that is not finite is none."""
+    """The summary without values of the wrong kind, and their dotted keys. Numbers that are not finite count as wrong."""
     odd: list[str] = []
     return _checked(summary, (), odd), odd
 
@@ -35,7 +35,7 @@ def _checked(table: dict, path: tuple[str, ...], odd: list[str]) -> dict:
 
 
 def _fits(key: str, value, table: str) -> bool:
-    """Whether a value is of the kind that its key, or the table that it is in, asks for."""
+    """Whether a value is of the kind that its key, or its table, requires."""
     if key in TABLES or table in OF_TABLES:
         return isinstance(value, dict)
     if table in OF_NUMBERS or key in NUMBERS or key.endswith(UNITS):

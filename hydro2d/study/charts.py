@@ -73,7 +73,7 @@ def _finished(figure, rows: int = 1, labels: int = 0):
 
 
 def _hover(record: Record, x: Variable, y: Response) -> str:
-    """What a pointer shows of a run."""
+    """The text that a pointer shows for a run."""
     there, value = x.value(record), y.value(record)
     told = [f"<b>{record.case.name}</b>", f"{x.title}: {there if isinstance(there, str) else f'{there:.5g}'}",
             f"{y.title}: {'≥ ' * (y.name == DEPTH and record.at_least)}{value:.5g}"]  # fmt: skip
@@ -100,7 +100,7 @@ def _points(figure, records: Sequence[Record], x: Variable, y: Response, how, na
 def response(setup: Setup | None, series: Sequence[Series], x: Variable, y: Response, measured: dict[str, Measurement],
              shots: Sequence[Measurement], curves: Sequence[theory.Curve],
              left: Sequence[residual.Curve]):  # fmt: skip
-    """A response against what was varied: runs that have ended filled, unfinished ones open, bounds in a triangle.
+    """A response against what was varied: ended runs have filled marks, unfinished runs open ones, bounds triangles.
 
     setup : of a panel of one projectile and target, whose rear a line shows in a panel of depths
     measured : experiments by case, drawn where x is not the velocity;  shots : all experiments of the setup, where it is
@@ -146,7 +146,7 @@ def _models(figure, lines: Sequence[tuple[str, str, np.ndarray, np.ndarray]], y:
 
 
 def _runs(figure, series: Sequence[Series], x: Variable, y: Response) -> None:
-    """Ended runs with a thin line through them where x tells all of them apart; unfinished runs open, without a line."""
+    """Ended runs, with a thin line if x distinguishes all of them; unfinished runs with open marks and no line."""
     unfinished = False
     for each in series:
         ended = [record for record in each.records if not record.unfinished]
@@ -173,7 +173,7 @@ def _bounds(figure, series: Sequence[Series], x: Variable, y: Response) -> None:
 
 def _experiments(figure, series: Sequence[Series], x: Variable, y: Response, measured: dict[str, Measurement],
                  shots: Sequence[Measurement]) -> None:  # fmt: skip
-    """Measured depths, at their velocities or at those of the runs that they belong to."""
+    """Measured depths, at their velocities or at those of their runs."""
     if x.impact:
         places = [(entry.velocity, entry) for entry in shots]
     else:
@@ -205,7 +205,7 @@ def _highest(figure) -> float:
 
 
 def histories(series: Sequence[Series]):
-    """Columns of the history against time, one panel each: few runs have a line style each, many that of their series."""
+    """Columns of the history against time, one panel each. Few runs each have a line style; many have that of their series."""
     drawn = [(each, record) for each in series for record in each.records if record.history]
     names = list(dict.fromkeys(name for _, record in drawn for name in record.history if name != "time"))
     few, told = len(drawn) <= MOST_LINES, set()
@@ -231,7 +231,7 @@ def histories(series: Sequence[Series]):
 
 
 def html(figure, name: str) -> str:
-    """A figure as markup of its own id, for a page that has the library once."""
+    """A figure as markup with its own id, for a page that contains the library once."""
     config = {
         "responsive": True, "displaylogo": False, "plotlyServerURL": "",
         "toImageButtonOptions": {"filename": name, "scale": 2},

@@ -1,4 +1,4 @@
-"""In which keys resolved decks differ, and what they share."""
+"""The keys in which resolved decks differ, and those that they share."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def flatten(value, prefix: str = "") -> dict[str, object]:
 
 
 def text(value) -> str:
-    """A value of a deck as a reader wants it; SI."""
+    """A value of a deck as readable text, in SI."""
     if value is None:
         return "not set"
     if isinstance(value, bool):
@@ -71,7 +71,7 @@ def compare(decks: Mapping[str, dict]) -> Differences:
 
 
 def _table(key: str) -> str:
-    """The body, material or tracer that a key belongs to; nothing for all other keys."""
+    """The body, material or tracer to which a key belongs; empty for other keys."""
     parts = key.split(".")
     return ".".join(parts[:2]) if parts[0] in NAMED and len(parts) > 2 else ""
 
@@ -85,6 +85,6 @@ def _users(key: str, flat: Mapping[str, dict]) -> dict[str, tuple[str, ...]]:
 
 
 def shortened(names: Sequence[str], most: int = 6) -> str:
-    """A list of names, without those beyond a number, which is told."""
+    """A list of names, shortened, with the number of names left out."""
     rest = len(names) - most
     return ", ".join(names) if rest <= 1 else f"{', '.join(names[:most])} and {rest} more"

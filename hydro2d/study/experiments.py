@@ -1,7 +1,7 @@
-"""What was measured for the setups of a study, and how far runs are from it.
+"""The measurements for the setups of a study, and the errors of runs.
 
 A measurement belongs to a rod, a target and an impact velocity. It comes from the catalogue of shots or from a deck. A deck
-with `experiment.velocity` loses it at other velocities (`hydro2d.deck.deck`); one without keeps it, see ``unplaced``.
+with `experiment.velocity` has no experiment at other velocities (`hydro2d.deck.deck`); for one without, see ``unplaced``.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from hydro2d.analytic.model_transition import Shot
 from hydro2d.analytic.model_transition import experiments as catalogue
 from hydro2d.study.record import Record, Setup
 
-#: shares by which geometry, velocity and depth may differ and still be the same
+#: largest relative differences of geometry, velocity and depth that count as equal
 SAME_GEOMETRY, SAME_VELOCITY, SAME_DEPTH = 0.01, 0.005, 1e-3
 AT_LEAST = "at least"
 
@@ -29,9 +29,9 @@ class Measurement:
     source: str
 
     def error(self, depth: float, perforated: bool = False) -> tuple[float, str] | None:
-        """Depth of a run less this one in m, and "exact", "at most" or "at least": so where one of both perforated the plate.
+        """Depth of a run minus this depth in m, and "exact", or "at most" or "at least" if one of the two is a lower bound.
 
-        None where nothing can be said, because both did or because a run went deeper than "at least".
+        None if no error can be given, because both are bounds or the run is deeper than an "at least".
         """
         bound = self.qualifier == AT_LEAST
         if bound and (perforated or depth >= self.depth):
@@ -51,9 +51,9 @@ def same_geometry(shot: Shot, setup: Setup) -> bool:
 
 
 def measured(setup: Setup, records: Sequence[Record]) -> list[Measurement]:
-    """The experiments of a setup by velocity: the catalogue's shots, and what the decks of its runs name beside them.
+    """The experiments of a setup by velocity: the shots of the catalogue, and further ones from the decks of its runs.
 
-    An experiment without a velocity belongs to that of the run; see ``unplaced``.
+    An experiment without a velocity is assigned to the velocity of the run; see ``unplaced``.
     """
     found = [
         Measurement(shot.velocity, shot.depth, shot.depth_is, f"shot {shot.number} of the CTH nose-shape study")
@@ -69,12 +69,12 @@ def measured(setup: Setup, records: Sequence[Record]) -> list[Measurement]:
 
 
 def same_depth(record: Record, measurement: Measurement) -> bool:
-    """Whether a measurement is the one that a run's deck names."""
+    """Whether a measurement is the one in the deck of a run."""
     return isclose(record.experiment["penetration"], measurement.depth, rel_tol=SAME_DEPTH)
 
 
 def unplaced(records: Sequence[Record]) -> dict[tuple, set[float]]:
-    """Experiments, by source and depth, that decks name at several impact velocities and do not say which is theirs."""
+    """Experiments, by source and depth, in decks with several impact velocities that do not say at which they were made."""
     users: dict[tuple, set[float]] = {}
     for record in records:
         data = record.experiment

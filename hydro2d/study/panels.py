@@ -1,4 +1,4 @@
-"""The drawn figures of a report with their headings, captions, notes, and words for those who cannot see them."""
+"""The figures of a report with headings, captions, notes, and texts for readers who cannot see them."""
 
 from __future__ import annotations
 
@@ -12,15 +12,15 @@ from hydro2d.study.experiments import Measurement
 from hydro2d.study.record import Record, Setup
 from hydro2d.study.responses import DEPTH, RESIDUAL, Choice, Response
 
-#: share by which the models' lines reach beyond the velocities of runs and experiments
+#: fraction by which lines of models extend beyond the velocities of runs and experiments
 BEYOND = 0.05
-#: runs that the words for those who cannot see a figure list at most
+#: largest number of runs in the text for readers who cannot see a figure
 MOST_WORDS = 12
 
 
 @dataclass(frozen=True)
 class Chart:
-    """A figure of Plotly: its id in the page, its markup, its heading, what it shows, the same in words, notes."""
+    """A Plotly figure: its id in the page, markup, heading, caption, text for readers who cannot see it, notes."""
 
     name: str
     markup: str
@@ -34,8 +34,8 @@ class Chart:
 class Panel:
     """Runs in one figure.
 
-    members : they;  series : the same, told apart;  heading, words : what they are of, in short and in full
-    setup : the projectile and target of the first, where all share geometry, else None;  shots : experiments of all setups
+    members : the runs;  series : the runs by series;  heading, words : their setup, in short and in full
+    setup : projectile and target of the first run if all have the same geometry, else None;  shots : experiments of all setups
     """
 
     members: list[Record]
@@ -47,7 +47,7 @@ class Panel:
 
 
 def draw(contents: Contents, choice: Choice) -> Iterator[Chart]:
-    """Every figure: of each panel its responses, then its histories."""
+    """All figures: for each panel its responses, then its histories."""
     names: list[str] = []
     through = any(each.perforated for each in contents.records)
     for panel in panels(contents, choice):
@@ -96,7 +96,7 @@ def panels(contents: Contents, choice: Choice) -> list[Panel]:
 
 
 def _tells_setups_apart(panel: Panel, setups: Sequence[Setup]) -> bool:
-    """Whether several setups can share a figure: each series is of one, and experiments are of the geometry of all."""
+    """Whether several setups can share a figure: each series has one setup, and the experiments have the same geometry."""
     single = all(len({each.setup for each in one.records}) == 1 for one in panel.series)
     return single and (not panel.shots or len({setup[3:] for setup in setups}) == 1)
 
@@ -150,7 +150,7 @@ def _value(each: Record, y: Response) -> str:
 
 
 def _modelled(panel: Panel) -> Record | None:
-    """The run whose deck the models of the depth take."""
+    """The run whose deck is the input of the models of the depth."""
     return next((each for each in panel.members if each.shot), None)
 
 

@@ -17,18 +17,18 @@ from hydro2d.study import rods
 from hydro2d.study.contents import Contents
 from hydro2d.study.record import Record
 
-#: names of pictures and films, for those that an earlier report, or an earlier version, has left
+#: names of pictures and films, to remove those of earlier reports and versions
 NAMES = re.compile(r"(rods|film|depth|histories)_[\w-]+\.(png|gif|mp4)")
-#: pages of rods beyond which the rest is left out, and said to be
+#: largest number of pages of rods; the caption says how many runs are left out
 MOST_PAGES = 8
-#: dots per inch of films, less than those of `hydro2d movie` have
+#: dots per inch of films, fewer than in those of `hydro2d movie`
 FILM_DPI = 80
 KINDS = {".png": "image/png", ".gif": "image/gif", ".mp4": "video/mp4"}
 
 
 @dataclass(frozen=True)
 class Picture:
-    """A picture or a film: its file, its heading, what it shows, and the same for those who cannot see it."""
+    """A picture or a film: its file, its heading, its caption, and a text for readers who cannot see it."""
 
     file: Path
     heading: str
@@ -37,7 +37,7 @@ class Picture:
 
     @property
     def data(self) -> str:
-        """The file as an address that needs no network."""
+        """The file as a data URL, which needs no network."""
         return f"data:{KINDS[self.file.suffix]};base64," + base64.b64encode(self.file.read_bytes()).decode()
 
     @property
@@ -47,7 +47,7 @@ class Picture:
 
 
 def draw(contents: Contents, folder: Path) -> Iterator[Picture]:
-    """Pages of rods; all of them share one scale."""
+    """Pages of rods, all at one scale."""
     with_rod = [each for each in contents.records if each.rod]
     shown = rods.pages(with_rod)[:MOST_PAGES]
     scale = [each for part in shown for each in part]
@@ -74,16 +74,16 @@ def _shape_in_words(each: Record) -> str:
 
 
 def check_field(field: str) -> None:
-    """Refuses a field that nobody knows, before anything is drawn. Raises FigureError."""
+    """Refuses an unknown field before anything is drawn. Raises FigureError."""
     key = field.partition(":")[0]
     if key not in quantities.BY_KEY:
         raise FigureError(f"--movie: {unknown('field', key, quantities.BY_KEY)}")
 
 
 def films(contents: Contents, field: str, folder: Path, say: Callable[[str], None]) -> Iterator[Picture]:
-    """A film of a field for every run with dumps, small: MP4 where ffmpeg is there, else GIF.
+    """A small film of a field for every run with dumps: MP4 if ffmpeg is installed, else GIF.
 
-    Runs without dumps are told to `say`, as are those whose dumps cannot be read. Raises FigureError where no film can be made.
+    Runs without dumps, and those whose dumps cannot be read, are reported to `say`. Raises FigureError if no film can be made.
     """
     ending, made, problem = ".mp4" if movies.has_ffmpeg() else ".gif", 0, None
     for number, each in enumerate(contents.records, 1):

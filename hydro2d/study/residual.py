@@ -30,14 +30,14 @@ class Curve:
 
 @dataclass(frozen=True)
 class Shots:
-    """Runs of one projectile and plate that have ended: impact and residual velocities in m/s, 0 for what was stopped."""
+    """Ended runs of one projectile and plate: impact and residual velocities in m/s, 0 for stopped projectiles."""
 
     velocity: tuple[float, ...]
     residual: tuple[float, ...]
 
     @property
     def limit(self) -> tuple[float, float] | None:
-        """Fastest run that was stopped and slowest that went through, m/s; None where one of both is missing."""
+        """Velocities of the fastest stopped run and the slowest perforation, m/s; None if one of them is missing."""
         held = [v for v, left in zip(self.velocity, self.residual, strict=True) if left == 0.0]
         through = [v for v, left in zip(self.velocity, self.residual, strict=True) if left > 0.0]
         return (max(held), min(through)) if held and through and max(held) < min(through) else None
@@ -51,7 +51,7 @@ def shots(records: Sequence[Record]) -> Shots:
 
 
 def curves(records: Sequence[Record], low: float, high: float) -> tuple[list[Curve], list[str]]:
-    """The models of a series between two impact velocities in m/s, and notes: their constants, or why one is not drawn."""
+    """The models of a series between two impact velocities in m/s, and notes with their constants, or why one is not drawn."""
     found, velocity = shots(records), np.linspace(low, high, POINTS)
     drawn, notes, fit = [], [], None
     try:
@@ -85,13 +85,13 @@ def _perforations(found: Shots) -> int:
 
 
 def _fit(found: Shots) -> lambert_jonas.Fit:
-    """Three constants, or two with p = 2 where there are two perforations. InputError."""
+    """Three constants, or two with p = 2 if there are two perforations. Raises InputError."""
     p = 2.0 if _perforations(found) == 2 else None
     return lambert_jonas.fit(found.velocity, found.residual, p=p)
 
 
 def _plug(record: Record) -> tuple[float | None, str]:
-    """Mass of a plug as wide as the projectile over the mass of that, and the reason where a plug makes no sense."""
+    """Mass of a plug as wide as the projectile, over the mass of the projectile; or None and the reason."""
     setup = record.setup
     mass = record.first.get("rod_mass_kg")
     if setup is None or setup.thickness is None or not mass:

@@ -1,4 +1,4 @@
-"""Rods at the end of their runs, side by side at one scale, pages of them; as in Figure 4 of the CTH nose-shape study."""
+"""Pages of rods at the end of their runs, side by side at one scale, as in Figure 4 of the CTH nose-shape study."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ WIDTH, FONT = 5.0, 10.0
 LABEL, LOWEST = 1.1, 2.2
 COLUMNS, ROWS = 6, 3
 PER_PAGE = COLUMNS * ROWS
-#: rods are drawn at their depths where these span less than this many lengths of a rod, else tip beside tip
+#: rods are drawn at their depths if these span less than this many rod lengths, else tip beside tip
 MOST_LENGTHS = 2.5
 #: half the width of a panel, at least, over its height
 SLOT = 0.1
@@ -27,21 +27,21 @@ FILLED, START = "#5b6770", "#8a8a8a"
 
 
 def extent(record: Record) -> tuple[float, float]:
-    """Depth of the tail and the tip, m; what lies more than a length behind the tip does not count."""
+    """Depths of the tail and the tip, m, without anything more than one rod length behind the tip."""
     points = np.concatenate(record.rod)
     tip = float(points[:, 1].max())
     return max(float(points[:, 1].min()), tip - 1.05 * record.setup.length), tip
 
 
 def span(records: Sequence[Record], measurements: Mapping[str, Measurement]) -> tuple[float, float]:
-    """Depths that hold all rods, and the experiments that belong to them, m."""
+    """Range of depths of all rods and their experiments, m."""
     ends = [end for record in records for end in extent(record)]
     ends += [measurements[record.case.name].depth for record in records if record.case.name in measurements]
     return min(ends), max(ends)
 
 
 def at_their_depths(records: Sequence[Record], measurements: Mapping[str, Measurement]) -> bool:
-    """Whether all rods fit into one picture at the depths where they are, and are still seen."""
+    """Whether all rods can be drawn at their depths in one picture and still be visible."""
     low, high = span(records, measurements)
     return high - low <= MOST_LENGTHS * max(record.setup.length for record in records)
 
@@ -110,7 +110,7 @@ def _label(record: Record) -> str:
 
 
 def _rod(axes, record: Record, shift: float) -> None:
-    """The rod as it ended, and as it began as a thin line with its tip at the same place."""
+    """The rod at the end, and the initial rod as a thin line with its tip at the same place."""
     from matplotlib.patches import PathPatch
 
     if record.start:

@@ -1,4 +1,4 @@
-"""Which runs belong together in a figure, and how they are told apart: by colour and by marker, so that both alone do."""
+"""The series of runs in a figure. Colour and marker each distinguish them, so that either is sufficient."""
 
 from __future__ import annotations
 
@@ -10,13 +10,13 @@ from hydro2d.study.layout import Axis
 from hydro2d.study.record import Record
 from hydro2d.study.responses import Choice, Variable, is_velocity
 
-#: colours that colour-blind readers tell apart (after Okabe and Ito) on light and on dark; markers and dashes for print
+#: colours that colour-blind readers can distinguish (after Okabe and Ito) on light and dark; markers and dashes for print
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#b0538a", "#7d7d7d", "#b8860b")
 MARKERS = ("circle", "square", "triangle-up", "diamond", "triangle-down", "cross", "pentagon", "x", "star", "hexagram")
 DASHES = ("solid", "dash", "dot", "dashdot")
-#: sections of a deck that make no other physics or numerics
+#: sections of a deck that change neither physics nor numerics
 ASIDE = ("title", "output", "experiment", "tracer", "gauge", "stop", "penetration")
-#: the most keys that make a name for a series of runs
+#: largest number of keys in the name of a series of runs
 MOST_KEYS = 3
 
 
@@ -31,7 +31,7 @@ class Style:
 
 @dataclass(frozen=True)
 class Series:
-    """Runs that differ in what is on the x axis alone, unless others were asked for."""
+    """Runs that differ only in the quantity on the x axis, unless other series were requested."""
 
     label: str
     style: Style
@@ -39,7 +39,7 @@ class Series:
 
 
 def style(number: int) -> Style:
-    """The style of the n-th series: no two of the first thirty are the same, nor two neighbours in black and white."""
+    """The style of the n-th series: the first thirty all differ, and neighbours also differ in black and white."""
     return Style(COLOURS[number % len(COLOURS)], MARKERS[number % len(MARKERS)], DASHES[number % len(DASHES)])
 
 
@@ -59,7 +59,7 @@ def grouped(records: Sequence[Record], axes: Sequence[Axis], choice: Choice) -> 
 
 
 def _said(variable: Variable, record: Record) -> str:
-    """A variable's value of a run, in words that can stand alone."""
+    """The value of a variable for a run, in words that can be read alone."""
     value = variable.value(record)
     if value is None:
         return f"no {variable.name}"
@@ -67,7 +67,7 @@ def _said(variable: Variable, record: Record) -> str:
 
 
 def _tells_apart(axis: Axis, records: Sequence[Record], x: Variable) -> bool:
-    """Whether an axis says more than what is on the x axis: not that itself, not constant, no variant for each value."""
+    """Whether an axis adds to the x axis: it is not that axis, not constant, and not a variant for each of its values."""
     if axis.name == x.name or (x.impact and is_velocity(axis)):
         return False
     pairs = {(x.value(record), record.case.values.get(axis.name)) for record in records}
@@ -76,7 +76,7 @@ def _tells_apart(axis: Axis, records: Sequence[Record], x: Variable) -> bool:
 
 
 def _labels_from_decks(records: Sequence[Record]) -> list[str]:
-    """The keys in which the decks of a setup differ, with their values; the run's name where these are many."""
+    """The keys in which the decks of a setup differ, with their values; the name of the run if there are many."""
     varying = compare({record.case.name: record.deck for record in records}).varying
     keys = [key for key in varying if key.split(".")[0] not in ASIDE and not key.endswith(".velocity")]
     if len({key.rsplit(".", 1)[-1] for key in keys}) > MOST_KEYS:

@@ -1,4 +1,4 @@
-"""The table of cases: one row of values in SI for each, as CSV, and the columns that readers are shown."""
+"""The table of cases: one row of values in SI for each case, as CSV, and the columns shown on the page."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ from hydro2d.study.layout import Axis, Study
 from hydro2d.study.record import Record
 from hydro2d.study.responses import DEPTH, RESIDUAL, Choice, is_velocity, raw, response
 
-#: sinks that are named in the page, and the share of the start energy from which on
+#: largest number of sinks named on the page, and the smallest fraction of the start energy of one that is named
 NAMED_SINKS, SMALLEST_SHARE = 3, 1e-6
 
 Row = dict[str, object]
 
 
 def rows(study: Study, records: Sequence[Record], measurements: dict[str, Measurement]) -> list[Row]:
-    """One row for each case, values by name with their unit; None where there is none. ``measurements`` by case."""
+    """One row for each case, with values by name and unit; None for missing values. ``measurements`` by case."""
     found = [_row(study, record, measurements.get(record.case.name)) for record in records]
     names = list(dict.fromkeys(name for row in found for name in row))
     return [{name: row.get(name) for name in names} for row in found]
@@ -35,7 +35,7 @@ def _row(study: Study, record: Record, measurement: Measurement | None) -> Row:
 
 
 def _name_of(axis: Axis, row: Row) -> str:
-    """The column of an axis in a row without it, whose name is not that of a result."""
+    """The column of an axis in a row without it, with a name that differs from those of the results."""
     return f"{axis.name} (axis)" if axis.name in ("case", *row) else axis.name
 
 
@@ -64,7 +64,7 @@ def _ratio(value, reference) -> float | None:
 
 
 def _compared(record: Record, measurement: Measurement | None) -> Row:
-    """The experiment and the error; no error for a run that is unfinished."""
+    """The experiment and the error; unfinished runs have no error."""
     names = ("experiment_depth_m", "experiment_is", "experiment_source", "depth_error_m", "depth_error_percent",
              "depth_error_is")  # fmt: skip
     if measurement is None:
@@ -77,7 +77,7 @@ def _compared(record: Record, measurement: Measurement | None) -> Row:
 
 
 def _audit(summary: dict) -> Row:
-    """The worst relative changes, and every sink's energy as a share of the energy at the start."""
+    """The largest relative changes, and the energy of every sink as a fraction of the energy at the start."""
     audit = summary.get("conservation") or {}
     masses = [change for change in (audit.get("mass") or {}).values() if change is not None]
     row: Row = {
@@ -99,7 +99,7 @@ def _cost(record: Record) -> Row:
 
 
 def with_responses(table: Sequence[Row], records: Sequence[Record], choice: Choice) -> list[Row]:
-    """The rows with the responses that are drawn, in SI, where they are not among the columns."""
+    """The rows with the drawn responses added in SI, if they are not among the columns."""
     added = [y.name for y in choice.y if y.name not in (DEPTH, *table[0])]
     return [row | {name: raw(record, name) for name in added} for row, record in zip(table, records, strict=True)]
 
@@ -113,7 +113,7 @@ def to_csv(table: Sequence[Row]) -> str:
 
 
 def _cell(value):
-    """A value of the table: nothing for None, and no word that a spreadsheet would take for a formula."""
+    """A value of the table: empty for None, and no text that a spreadsheet would take for a formula."""
     if isinstance(value, str) and value.startswith(("=", "+", "-", "@", "\t", "\r")):
         return f"'{value}"
     return "" if value is None else value
@@ -141,7 +141,7 @@ SIGNS = {"at least": "≥ ", "at most": "≤ ", "estimated": "≈ "}
 
 
 def _qualified(name: str, qualifier: str, form: str, factor: float = 1.0) -> Callable[[Row], str]:
-    """A number with the sign of its qualifier; a word where two depths are as good as equal."""
+    """A number with the sign of its qualifier; a word if no error can be given."""
     number = _number(name, form, factor)
 
     def show(row: Row) -> str:
@@ -166,9 +166,9 @@ def _sinks(row: Row) -> str:
 
 
 def columns_of_results(study: Study, table: Sequence[Row], choice: Choice) -> list[Column]:
-    """Axes, the impact velocity where none of them is that, depth, experiment, projectile, what is drawn, status.
+    """Axes, the impact velocity if it is not an axis, depth, experiment, projectile, drawn responses, status.
 
-    Columns that no case has a value for are left out.
+    Columns without values are left out.
     """
     depths = [
         Column("Depth [cm]", "depth_m", _qualified("depth_m", "depth_is", "{:.1f}", 100.0)),

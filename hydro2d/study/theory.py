@@ -17,7 +17,7 @@ POINTS = 31
 
 @dataclass(frozen=True)
 class Curve:
-    """A model's depth in m at impact velocities in m/s, NaN where it has none; ``note`` says why."""
+    """The depth of a model in m at impact velocities in m/s; NaN where it has none, and ``note`` says why."""
 
     name: str
     title: str
@@ -61,7 +61,7 @@ def _depth(case: models.Case, velocity: float) -> tuple[float, str]:
 
 
 def _first_problem(velocity: np.ndarray, problems: Sequence[str]) -> str:
-    """The first reason for a missing depth, and for how many velocities there is none."""
+    """The first reason for a missing depth, and the velocities without one."""
     missing = [(speed, problem) for speed, problem in zip(velocity, problems, strict=True) if problem]
     if not missing:
         return ""

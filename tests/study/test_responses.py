@@ -124,13 +124,13 @@ def test_spheres_get_all_but_the_models_of_rods(tmp_path):
     contents = perforations(tmp_path / "runs", [(400, None), *((v, lambert_jonas(v)) for v in (600, 800, 1000, 1200))])
     record = contents.records[-1]
     assert record.setup.words == "steel_4340_rod sphere (16 mm) into 0.4 cm of Al5083"
-    assert "the models take a rod" in record.without_models
+    assert "the models need a rod" in record.without_models
     assert record.problems == []
     choice = chosen(contents)
     assert [y.name for y in choice.y] == ["penetration_depth_m", "rod_residual_velocity_m_s"]
     charts = list(panels.draw(contents, choice))
     assert [each.heading.split(":")[0] for each in charts] == ["Depth", "Residual velocity", "Histories"]
-    assert "the models take a rod" in charts[0].notes[0]
+    assert "the models need a rod" in charts[0].notes[0]
 
 
 def test_models_of_the_residual_velocity_are_fitted_to_the_study(tmp_path):

@@ -159,7 +159,7 @@ def test_a_hard_body_needs_strength():
     text = TEXT.replace("W_alloy", "fluid") + fluid
     found = message(text)
     assert found == (
-        'deck.toml:26: sliding.hard[0]: "rod" is made of fluid, which has no strength; a hard body needs one'
+        'deck.toml:26: sliding.hard[0]: "rod" is made of fluid, which has no strength; a hard body needs strength'
     )
 
 
@@ -386,7 +386,7 @@ FLIGHT = changed('[[body]]\nname = "plate"\nmaterial = "Al5083"\nshape = "plate"
 @pytest.mark.parametrize(
     ("text", "overrides", "warned"),
     [
-        (SHEET, [], 'body "plate": 2.0 cells across it along z; waves in it need 4'),
+        (SHEET, [], 'body "plate": 2.0 cells across it along z; waves in it need at least 4'),
         (SHEET.replace('"1 mm"', '"2 mm"'), [], None),
         (FLIGHT, ['stop.time="40 us"'], 'body "rod": reaches the edge of the mesh after 36.8 us and leaves it before the end'),
         (FLIGHT, ['stop.time="30 us"'], None),

@@ -87,7 +87,7 @@ def test_without_ffmpeg_the_cure_is_told(finished, tmp_path, monkeypatch, capsys
         (["-o", "x.gif", "--follow", "rod"], "needs a window"),
         (["-o", "x.gif", "--follow", "rot", "--window", "0,1,1"], 'did you mean "rod"'),
         (["-o", "x.gif", "--field", "presure"], 'did you mean "pressure"'),
-        (["-o", "x.gif", "--colours", "2,1"], "low < high"),
+        (["-o", "x.gif", "--colours", "2,1"], "low must be less than high"),
         (["-o", "x.gif", "--colours", "red"], "two numbers"),
         (["-o", "x.gif", "--rate", "0"], "rate"),
     ],

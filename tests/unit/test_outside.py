@@ -72,8 +72,8 @@ plain = { based_on = "Al5083", strength = { model = "elastic-plastic", shear_mod
     ("old", "new", "said"),
     [
         ('"my_model.py"', '"no_model.py"', "shot.toml:18: materials.Al5083.strength.file: "),
-        ('"my_model.py"', "3", "is the name of a Python file"),
-        ('file = "my_model.py"', 'file = "my_model.py"\nmodel = "vocal"', 'strength.model: is "vocal", and the model of'),
+        ('"my_model.py"', "3", "must be the name of a Python file"),
+        ('file = "my_model.py"', 'file = "my_model.py"\nmodel = "vocal"', 'strength.model: is "vocal", but the model in'),
         ('file = "my_model.py"', 'model = "voce"', 'unknown strength model "voce"'),
         ('file = "my_model.py"', 'file = "my_model.py"\nhardening = 3', 'unknown parameter of voce "hardening"'),
         ('yield_stress = "240 MPa"', "", "voce needs yield_stress (initial yield stress, Pa)"),
@@ -258,7 +258,7 @@ def test_a_package_gives_models_by_name(folder, package):
     assert "my_models.lost (my-models 1.2): the entry point lost names a module that cannot be found" in told
     assert "the entry point is called another and the model voce; the names must be the same" in told
     assert 'unknown strength model "voze"; did you mean "voce"?' in told
-    assert "  voce                 strength model of the package my-models" in told
+    assert "  voce                 strength model from the package my-models" in told
     assert "voce (strength model)\n\nY = Y0 + Q (1 - exp(-10 ep))" in told
     assert "\nTrue\n" in told
     assert told.endswith("voce: all checks passed\nstatus 0\n")

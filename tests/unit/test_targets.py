@@ -179,7 +179,7 @@ def test_the_models_take_one_target(tmp_path, capsys):
     deck.write_text(TEXT.replace('shape = "sphere"\ncentre = "-6 mm"', 'shape = "rod"\ntip = "-1 mm"\nlength = "20 mm"')
                     .replace('z_start = "-13 mm"', 'z_start = "-25 mm"'))  # fmt: skip
     assert call(["model", "forrestal", "--deck", str(deck)]) == 2
-    assert "the models take one target" in capsys.readouterr().err
+    assert "the models allow one target" in capsys.readouterr().err
 
 
 def test_a_run_to_the_end_of_the_tail():
