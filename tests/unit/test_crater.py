@@ -302,7 +302,7 @@ def test_a_figure_of_it(shot, tmp_path):
 
 def test_no_hole(tmp_path):
     run(deck.loads(TEXT, ["stop.cycles=1", 'body.rod.tip="-2 mm"']), tmp_path / "early", quiet=True)
-    with pytest.raises(FigureError, match="no hole"):
+    with pytest.raises(FigureError, match="no run has a hole to draw"):
         figures.craters([Results(tmp_path / "early")])
     plate = TEXT[TEXT.rindex("[[body]]") :]
     without = deck.loads(TEXT[: TEXT.index("[[body]]")] + plate.replace("24 mm", "20 mm"), ["stop.cycles=1"])
