@@ -5,7 +5,8 @@ In a name, BODY, TARGET, STATION, SINK and TRANSFER stand for the names of each;
 
 from __future__ import annotations
 
-from hydro2d.solver import bodies, crater, penetrator, tracers
+from hydro2d.solver import bodies, crater, penetrator
+from hydro2d.solver.station_columns import PEAKS, QUANTITIES
 
 PLACES = {"r_m": "radial position", "z_m": "axial position"}
 
@@ -23,7 +24,7 @@ HISTORY: dict[str, str] = {
     "axial_momentum_change": "change of the axial momentum that no sink accounts for, over sqrt(2 m E) at the start",
     "total_energy_change": "relative change of the total energy that no sink accounts for",
     **{f"body_BODY_{key}": f"of each body: {meaning}" for key, meaning in bodies.QUANTITIES.items()},
-    **{f"STATION_{key}": f"of each tracer and gauge: {meaning}" for key, meaning in {**PLACES, **tracers.QUANTITIES}.items()},
+    **{f"STATION_{key}": f"of each tracer and gauge: {meaning}" for key, meaning in {**PLACES, **QUANTITIES}.items()},
     **{f"sink_SINK_{key}": f"{meaning} that a sink has taken since the start" for key, meaning in AMOUNTS.items()},
 }
 
@@ -47,7 +48,7 @@ SUMMARY: dict[str, str] = {
     **{f"targets.TARGET.crater.{key}": f"of each target: {meaning}" for key, meaning in crater.QUANTITIES.items()},
     **{f"bodies.BODY.{key}": f"of each body: {meaning}" for key, meaning in bodies.QUANTITIES.items()},
     **{f"stations.STATION.{key}": f"of each tracer and gauge: {meaning}"
-       for key, meaning in {**PLACES, **tracers.QUANTITIES, **tracers.PEAKS}.items()},
+       for key, meaning in {**PLACES, **QUANTITIES, **PEAKS}.items()},
     "experiment.penetration_m": "penetration depth of the experiment in the deck",
     "experiment.qualifier": "measured, estimated or at least",
     "experiment.source": "source of the depth",

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from hydro2d.errors import Error
 from hydro2d.output.history import CRATER, Columns
 from hydro2d.solver.callbacks import Due
+from hydro2d.solver.station_columns import PEAKS
 
 if TYPE_CHECKING:
     from hydro2d.solver.simulation import Simulation
@@ -22,8 +23,6 @@ def row(sim: Simulation) -> dict[str, float | str | None]:
 
     Raises ColumnError for a column of the user's that fails.
     """
-    from hydro2d.solver.tracers import PEAKS  # it loads kernels, after which no model can join them
-
     conserved = sim.conservation()
     values = {"time": sim.time, "cycle": sim.cycle, "dt": sim.dt, **sim.diagnostics()}
     values |= {f"mass_change_{body}": change for body, change in conserved["mass"].items()}

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from hydro2d.solver import tracers
+from hydro2d.solver.station_columns import NO_PEAKS, PEAKS, QUANTITIES
 
 
 class Stations:
@@ -30,8 +31,8 @@ class Stations:
         self.names = [name for name, _ in (*followed, *fixed)]
         self.places = np.array([place for _, place in (*followed, *fixed)], dtype=float).reshape(-1, 2)
         self.tracers = self.places[: len(followed)]
-        self.peaks = np.tile(np.array(tracers.NO_PEAKS), (len(self.names), 1))
-        self._found = np.zeros((len(self.names), len(tracers.QUANTITIES)))
+        self.peaks = np.tile(np.array(NO_PEAKS), (len(self.names), 1))
+        self._found = np.zeros((len(self.names), len(QUANTITIES)))
 
     def _look(self) -> None:
         g, s, t = self._sim.grid, self._sim.state, self._sim.table
@@ -53,7 +54,7 @@ class Stations:
         if not self.names:
             return {}
         self._look()
-        keys = ("r_m", "z_m", *tracers.QUANTITIES, *tracers.PEAKS)
+        keys = ("r_m", "z_m", *QUANTITIES, *PEAKS)
         rows = np.concatenate([self.places, self._found, self.peaks], axis=1)
         known = np.where(np.isfinite(rows), rows, None).tolist()
         return {name: dict(zip(keys, row, strict=True)) for name, row in zip(self.names, known, strict=True)}

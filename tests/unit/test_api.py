@@ -53,6 +53,14 @@ def test_another_package_called_eos_is_told(tmp_path, first):
     assert f"hydro2d has a package eos of its own, and Python finds another one at {tmp_path / 'eos.py'}" in found.stderr
 
 
+def test_the_names_load_no_kernels():
+    """Until the first simulation is made a deck can still bring a model of its own."""
+    text = ("import sys, hydro2d; [getattr(hydro2d, name) for name in hydro2d.__all__];"
+            "print({'eos.dispatch', 'strength.dispatch'} & set(sys.modules))")  # fmt: skip
+    found = subprocess.run([sys.executable, "-c", text], capture_output=True, text=True, check=True)
+    assert found.stdout.strip() == "set()"
+
+
 def test_an_unknown_name_is_refused():
     with pytest.raises(AttributeError, match="no attribute 'simulate'"):
         hydro2d.simulate  # noqa: B018

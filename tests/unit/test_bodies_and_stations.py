@@ -9,7 +9,7 @@ from hydro2d.deck import deck as decks
 from hydro2d.errors import DeckError
 from hydro2d.mesh import quantities, sums
 from hydro2d.output import derived
-from hydro2d.solver import bodies, tracers
+from hydro2d.solver import bodies, station_columns, tracers
 from hydro2d.solver.simulation import Simulation
 
 DECK = """
@@ -148,9 +148,9 @@ def test_peaks_and_places_are_in_the_restart():
 
 
 def test_what_is_no_number_is_no_peak():
-    peaks = np.array([tracers.NO_PEAKS])
-    tracers.keep_peaks(1.0, np.full((1, len(tracers.QUANTITIES)), np.nan), peaks)
-    assert peaks.tobytes() == np.array([tracers.NO_PEAKS]).tobytes()
+    peaks = np.array([station_columns.NO_PEAKS])
+    tracers.keep_peaks(1.0, np.full((1, len(station_columns.QUANTITIES)), np.nan), peaks)
+    assert peaks.tobytes() == np.array([station_columns.NO_PEAKS]).tobytes()
 
 
 @pytest.mark.parametrize(
