@@ -8,14 +8,14 @@ from _pages.markdown import NOTE
 
 
 def page() -> str:
-    """A directive of autodoc for each public name, in the order of ``__all__``."""
+    """A directive of autodoc for each public name, in the order in which `hydro2d` lists their places."""
     import hydro2d
 
     lead = (
         f"{NOTE} These names are what programs can rely on: `import hydro2d` gives all of them. Arrays have their shapes, "
         "quantities their units; everything is in SI."
     )
-    directives = (directive(f"hydro2d.{name}", getattr(hydro2d, name)) for name in hydro2d.__all__)
+    directives = (directive(f"hydro2d.{name}", getattr(hydro2d, name)) for name in hydro2d._PLACES)  # the order of use
     return "\n\n".join(["# Python interface", lead, *directives])
 
 
