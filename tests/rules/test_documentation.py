@@ -297,13 +297,12 @@ FETCHED = re.compile(
 
 
 def test_what_is_fetched_is_told_from_links():
-    assert FETCHED.search('<script defer src="https://cdn.jsdelivr.net/npm/mathjax@4/tex-mml-chtml.js">')
+    assert FETCHED.search('<script defer src="https://cdn.example.org/mathjax/tex-mml-chtml.js">')
     assert FETCHED.search('<link rel="stylesheet" href="//fonts.example.org/a.css" />')
     assert FETCHED.search("@font-face { src: url(https://fonts.example.org/a.woff2) }")
     assert not FETCHED.search('<a href="https://www.sphinx-doc.org/">Sphinx</a> <script src="_static/doctools.js">')
 
 
-@pytest.mark.slow
 def test_pages_fetch_nothing_from_another_host(built):
     files = [*built.rglob("*.html"), *built.rglob("*.css")]
     assert [str(file) for file in files if FETCHED.search(file.read_text(encoding="utf-8"))] == []
@@ -312,7 +311,6 @@ def test_pages_fetch_nothing_from_another_host(built):
     assert (built / "explanation" / script).resolve().is_file()
 
 
-@pytest.mark.slow
 def test_search_knows_the_reference(built):
     text = (built / "searchindex.js").read_text(encoding="utf-8")
     index = json.loads(text[text.index("{") : text.rindex("}") + 1])
