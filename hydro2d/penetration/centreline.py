@@ -231,7 +231,7 @@ class Centreline:
 
         def counted(time: float, state: np.ndarray) -> list[float]:
             if next(count) == MOST_EVALUATIONS:
-                raise InputError(f"the Walker-Anderson equations have not come to an end after {MOST_EVALUATIONS} "
+                raise InputError(f"the Walker-Anderson equations are not at an end after {MOST_EVALUATIONS} "
                                  "evaluations: the rod is too slender, or the resistance too small, for them")
             return rates(time, state)
 
