@@ -1,7 +1,7 @@
-"""How the quantities that are written and drawn (`mesh/quantities.py`) follow from the state.
+"""Computes from the state the quantities that are written and drawn (`mesh/quantities.py`).
 
-A quantity of the mixture has shape (nz, nr) or, for a vector (r, z, 0), (nz, nr, 3); a quantity per body has shape (m, nz, nr)
-and is written once for every body. Where there is no material the value is zero.
+A quantity of the mixture has shape (nz, nr) or, for a vector (r, z, 0), (nz, nr, 3). A quantity per body has shape (m, nz, nr)
+and is written once for every body. Values are zero where there is no material.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ def _sum_of_products(weights: np.ndarray, values: np.ndarray) -> np.ndarray:
 
 
 class Cells:
-    """The state of a simulation cell by cell, without ghosts: arrays (m, nz, nr), zero where the body is not."""
+    """The state of a simulation cell by cell, without ghost cells: arrays (m, nz, nr), zero where a body is absent."""
 
     def __init__(self, sim):
         self._sim = sim
@@ -34,13 +34,13 @@ class Cells:
         self._there = self.vof > 0
 
     def __getattr__(self, name: str) -> np.ndarray:
-        """rho, e, srr, szz, srz, ep or dmg of the state; computed once."""
+        """rho, e, srr, szz, srz, ep or dmg of the state, computed once."""
         values = np.where(self._there, self._sim.grid.interior(getattr(self._sim.state, name)), 0.0)
         setattr(self, name, values)
         return values
 
     def internal(self, name: str) -> np.ndarray:
-        """An internal variable of strength models, by the name of its field; zero for bodies whose model has none such."""
+        """An internal variable of strength models, by the name of its field; zero for bodies whose model does not have it."""
         values = np.zeros_like(self.vof)
         for m, own in enumerate(self._sim.table.internal):
             for k, field in enumerate(own):
@@ -66,12 +66,12 @@ class Cells:
 
     @functools.cached_property
     def _mass(self) -> tuple[np.ndarray, np.ndarray]:
-        """Mass per volume of every body, and of all of them, which is nowhere zero."""
+        """Mass per volume of every body, and of all bodies together; the latter is nowhere zero."""
         mass = self.vof * self.rho
         return mass, np.maximum(np.sum(mass, axis=0), TINY)
 
     def by_volume(self, values: np.ndarray) -> np.ndarray:
-        """Sum over bodies of volume fraction times value, shape (nz, nr): a stress of the cell."""
+        """Sum over bodies of volume fraction times value, shape (nz, nr), as for a stress of the cell."""
         return _sum_of_products(self.vof, values)
 
     def by_mass(self, values: np.ndarray) -> np.ndarray:
@@ -85,7 +85,7 @@ class Cells:
         return np.sqrt(1.5 * (rr**2 + zz**2 + (rr + zz) ** 2 + 2 * rz**2))
 
     def velocity(self) -> np.ndarray:
-        """Mean of the four vertices, and with two body groups the mean of both weighted by mass; shape (nz, nr, 3)."""
+        """Mean of the four vertices; with two body groups, the mass-weighted mean of both. Shape (nz, nr, 3)."""
         rest = self._vertex_mean(0)
         if self._sim.state.groups == 1:
             return rest
@@ -94,24 +94,24 @@ class Cells:
         return np.where(share > 0, (1 - share) * rest + share * self._vertex_mean(1), rest)
 
     def group_velocity(self, b: int) -> np.ndarray:
-        """Mean of the four vertices of body group b, zero where nothing of the group is; shape (nz, nr, 3)."""
+        """Mean of the four vertices for body group b, zero where the group is absent; shape (nz, nr, 3)."""
         return np.where(self.group_share(b)[..., None] > 0, self._vertex_mean(b), 0.0)
 
     def group_share(self, b: int) -> np.ndarray:
-        """Share of the cell that the bodies of group b fill, shape (nz, nr)."""
+        """Volume fraction of the bodies of group b, shape (nz, nr)."""
         return np.sum(self.vof[self._sim.state.group == b], axis=0)
 
     def _vertex_mean(self, b: int) -> np.ndarray:
-        """Mean velocity of the four vertices in the field of body group b, shape (nz, nr, 3)."""
+        """Mean of the four vertices in the velocity field of body group b, shape (nz, nr, 3)."""
         u, v = self._sim.grid.vertex_mean(np.stack([self._sim.state.u[b], self._sim.state.v[b]]))
         return np.stack([u, v, np.zeros_like(u)], axis=-1)
 
     def contact_pressure(self) -> np.ndarray:
-        """Normal pressure at the interface of a contact in cells that hold it, else zero; Pa."""
+        """Normal pressure at the contact interface in the cells that contain it, and zero elsewhere; Pa."""
         return self._sim.grid.interior(self._sim.state.contact_pressure).copy()
 
     def material(self) -> np.ndarray:
-        """1 + index of the body with the largest volume fraction; 0 where there is more void than anything else."""
+        """1 + index of the body with the largest volume fraction; 0 where the void has the largest."""
         largest = 1 - np.sum(self.vof, axis=0)
         number = np.zeros(largest.shape, dtype=np.int32)
         for m, share in enumerate(self.vof):
@@ -120,7 +120,7 @@ class Cells:
         return number
 
 
-#: by key of a quantity, its values; internal variables of strength models are not here
+#: the function that computes each quantity, by its key; internal variables of strength models are not listed
 EVALUATE: dict[str, Callable[[Cells], np.ndarray]] = {
     "pressure": lambda c: c.by_volume(c.p),
     "density": lambda c: c.by_volume(c.rho),
@@ -150,9 +150,9 @@ EVALUATE: dict[str, Callable[[Cells], np.ndarray]] = {
 
 
 def evaluated(sim, keys=("all",)) -> Iterator[tuple[str, np.ndarray]]:
-    """File name and values, one after the other, of the quantities `keys` and of those that are always written.
+    """Name in the file and values of each quantity in `keys` and of those that are always written, one after the other.
 
-    Shapes (nz, nr) or (nz, nr, 3). Those of a contact are left out where there is none. Raises FieldError.
+    Shapes are (nz, nr) or (nz, nr, 3). Quantities of a contact are left out if there is none. Raises FieldError.
     """
     cells = Cells(sim)
     for quantity in (BY_KEY[key] for key in expand(keys)):
@@ -167,5 +167,5 @@ def evaluated(sim, keys=("all",)) -> Iterator[tuple[str, np.ndarray]]:
 
 
 def evaluate(sim, keys=("all",)) -> dict[str, np.ndarray]:
-    """The same, all at once, by file name."""
+    """The same quantities all at once, by their names in the file."""
     return dict(evaluated(sim, keys))

@@ -1,7 +1,7 @@
-"""Fields as VTK files that ParaView opens with one click: one .vtr per dump and a .pvd with their times.
+"""Fields as VTK files that ParaView opens with one click: one .vtr file per dump and a .pvd file with their times.
 
-x = r, y = z. Float32, appended raw, LZ4. Beside the fields, the outlines of the bodies and the tracers are series of
-.vtp files of their own. Names and units: derived.py.
+In the files x = r and y = z. Values are float32, appended raw and compressed with LZ4. The outlines of the bodies and the
+tracers are separate series of .vtp files. Names and units: derived.py.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from hydro2d.output.outlines import outlines
 FOLDER = "vtk"
 SERIES = {"dump": "series.pvd", "interfaces": "interfaces.pvd", "tracers": "tracers.pvd"}
 
-#: bytes that are compressed at a time
+#: size of a compressed block, bytes
 BLOCK = 1 << 18
 
 
@@ -58,7 +58,7 @@ def _write(dataset, path: Path, time: float, writer) -> None:
 
 
 def _write_error(code: int, path: Path) -> OSError:
-    """The reason why VTK could not write a file; numbers below VTK's own are errors of the operating system."""
+    """Why VTK could not write a file; codes below VTK's own are errors of the operating system."""
     from vtkmodules.vtkCommonMisc import vtkErrorCode
 
     if code == vtkErrorCode.OutOfDiskSpaceError:
@@ -79,7 +79,7 @@ def _array(values: np.ndarray, name: str):
 
 
 def _coordinates(values, name: str):
-    """A float64 VTK array. It has a name, because VTK would otherwise write a memory address, and no two files were equal."""
+    """A float64 VTK array. It has a name, because VTK would otherwise write a memory address and no two files would match."""
     from vtkmodules.util.numpy_support import numpy_to_vtk
 
     array = numpy_to_vtk(np.ascontiguousarray(values, dtype=float), deep=True)
@@ -134,7 +134,7 @@ def write_lines(path: Path, lines: list[tuple[int, np.ndarray]], time: float) ->
 
 
 def write_points(path: Path, positions: np.ndarray, time: float) -> None:
-    """Writes tracers as vertices, with their number; positions (n, 2) of r, z."""
+    """Writes tracers as vertices, each with its number; positions (n, 2) of r, z."""
     from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
     from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 
@@ -158,7 +158,7 @@ def _points(positions: np.ndarray):
 
 
 def write_series(path: Path, entries: list[tuple[float, str]]) -> None:
-    """Writes a .pvd: times in s and files relative to it."""
+    """Writes a .pvd file: times in s, and file names relative to it."""
     root = ElementTree.Element("VTKFile", type="Collection", version="0.1", byte_order="LittleEndian")
     collection = ElementTree.SubElement(root, "Collection")
     for time, file in entries:
@@ -168,7 +168,7 @@ def write_series(path: Path, entries: list[tuple[float, str]]) -> None:
 
 
 def read_series(path: Path) -> list[tuple[float, str]]:
-    """Times and files of a .pvd. Raises VtkError."""
+    """Times and file names of a .pvd file. Raises VtkError."""
     try:
         return [(float(e.get("timestep")), e.get("file")) for e in ElementTree.parse(path).getroot().iter("DataSet")]
     except (OSError, ElementTree.ParseError, TypeError, ValueError) as error:
@@ -186,7 +186,7 @@ class Series:
 
     Attributes
     ----------
-    repaired : what was wrong with the existing series, whose times were then read from the dumps; else empty
+    repaired : what was wrong with the existing series, whose times were then read from the dumps; empty if nothing was
     """
 
     def __init__(self, directory: Path, fields=("standard",), dumps: int = 0):
@@ -203,7 +203,7 @@ class Series:
             self._write_series()
 
     def _read(self, dumps: int) -> list[float]:
-        """Times of the first dumps, from the series or, if it is damaged, from the dumps up to the first damaged one."""
+        """Times of the first dumps, from the series or, if that is damaged, from the dumps up to the first damaged dump."""
         try:
             return [time for time, _ in read_series(self.directory / SERIES["dump"])][:dumps]
         except VtkError as error:
@@ -258,7 +258,7 @@ def _body_lines(sim) -> list[tuple[int, np.ndarray]]:
 
 @dataclass(frozen=True)
 class Dump:
-    """A dump read back: r_edges (nr + 1,), z_edges (nz + 1,), fields by name (nz, nr[, 3]), time in s."""
+    """A dump that was read: r_edges (nr + 1,), z_edges (nz + 1,), fields by name (nz, nr[, 3]), time in s."""
 
     r_edges: np.ndarray
     z_edges: np.ndarray
@@ -273,16 +273,16 @@ class Dump:
 
     @property
     def r_centres(self) -> np.ndarray:
-        """Radii of the cells' middles, m, shape (nr,)."""
+        """Radii of the cell centres, m, shape (nr,)."""
         return 0.5 * (self.r_edges[1:] + self.r_edges[:-1])
 
     @property
     def z_centres(self) -> np.ndarray:
-        """Axial positions of the cells' middles, m, shape (nz,)."""
+        """Axial positions of the cell centres, m, shape (nz,)."""
         return 0.5 * (self.z_edges[1:] + self.z_edges[:-1])
 
     def outlines(self, body: str) -> list[np.ndarray]:
-        """Lines round a body, each an array (n, 2) of r, z in m; see `outlines.outlines`. Raises VtkError."""
+        """Lines around a body, each an array (n, 2) of r, z in m; see `outlines.outlines`. Raises VtkError."""
         if body not in self.bodies:
             raise VtkError(unknown("body", body, self.bodies))
         share = quantities.BY_KEY["volume_fraction"].name(body)
@@ -290,7 +290,7 @@ class Dump:
 
     @classmethod
     def of(cls, sim, keys=("all",)) -> Dump:
-        """The state of a simulation as it would be written."""
+        """The state of a simulation as a dump would hold it."""
         return cls(sim.grid.r_edges, sim.grid.z_edges, derived.evaluate(sim, keys), sim.time)
 
 
@@ -300,7 +300,7 @@ def _read(reader, path: Path):
         raise VtkError(f"{path} is not a VTK file of a run")
     reader.SetFileName(str(path))
     shown = reader.GetGlobalWarningDisplay()
-    reader.GlobalWarningDisplayOff()  # what VTK has to say of a damaged file is said here, in one line
+    reader.GlobalWarningDisplayOff()  # the error below reports a damaged file in one line
     try:
         reader.Update()
     finally:
@@ -311,7 +311,7 @@ def _read(reader, path: Path):
 
 
 def read_grid(path: Path) -> Dump:
-    """Reads a .vtr. Raises VtkError."""
+    """Reads a .vtr file. Raises VtkError."""
     from vtkmodules.util.numpy_support import vtk_to_numpy
     from vtkmodules.vtkIOXML import vtkXMLRectilinearGridReader
 
@@ -331,7 +331,7 @@ def read_grid(path: Path) -> Dump:
 
 
 def read_lines(path: Path) -> list[tuple[int, np.ndarray]]:
-    """Reads a .vtp of polylines as ``write_lines`` takes them: number of the body, r and z (n, 2). Raises VtkError."""
+    """Reads polylines from a .vtp file, as ``write_lines`` takes them: number of the body, r and z (n, 2). Raises VtkError."""
     from vtkmodules.util.numpy_support import vtk_to_numpy
     from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 
@@ -360,7 +360,7 @@ def pyvista_of(r_edges, z_edges, fields: Iterable[tuple[str, np.ndarray]], time:
 
 
 def pyvista_grid(path: Path):
-    """A .vtr as a pyvista.RectilinearGrid."""
+    """A .vtr file as a pyvista.RectilinearGrid."""
     import pyvista
 
     return pyvista.read(path)

@@ -1,10 +1,10 @@
 """Anderson-Riegel: depths of eroding rods on one curve, by similitude, with an effective flow stress of the target.
 
-Normalised depths of long rods fall on one curve when plotted over a power of rho_p V^2 over the target's effective flow
-stress. That stress is close to the mean of the target's adiabatic stress-strain curve, here of Johnson and Cook. Anderson,
-Int. J. Impact Engng 108 (2017) 3, section 9.3, equations (64) and (65); Anderson & Riegel, Int. J. Impact Engng 80 (2015) 24.
-The coefficients of the published curve stand in a figure only. Those here are fitted to depths of ``walker_anderson`` for
-four pairs of materials of that figure, and are no fit to experiments. explanation/penetration/anderson-riegel.
+Normalised depths of long rods fall on one curve when plotted against a power of rho_p V^2 divided by the target's effective
+flow stress. That stress is close to the mean of the target's adiabatic stress-strain curve, here by the Johnson-Cook model.
+Anderson, Int. J. Impact Engng 108 (2017) 3, section 9.3, equations (64) and (65); Anderson & Riegel, Int. J. Impact Engng 80
+(2015) 24. The coefficients of the published curve are given only in a figure. Those used here are fitted to depths by
+``walker_anderson`` for four pairs of materials of that figure, not to experiments. explanation/penetration/anderson-riegel.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ import numpy as np
 from hydro2d.penetration import inputs
 from hydro2d.penetration.model import FRACTION, NON_NEGATIVE, Example, Input, InputError, Model, Output, non_negative, positive
 
-#: powers of the densities' ratio and of rho_p V^2/sigma in the nondimensional velocity
+#: powers of the density ratio and of rho_p V^2/sigma in the nondimensional velocity
 DENSITY_POWER, VELOCITY_POWER = -0.14, 0.2
 #: plastic strain over which the stress is averaged, and strain rate, 1/s
 STRAIN, STRAIN_RATE = 1.0, 1.0e3
@@ -136,7 +136,7 @@ JOHNSON_COOK = (
     Input("target.specific_heat", "J/(kg*K)", "specific heat of the target", "c_v", default=None),
     Input("target.reference_temperature", "K", "temperature of the target before impact", "T_room", default=298.0),
     Input("target.strain", "1", "plastic strain over which the stress is averaged", "eps", default=STRAIN),
-    Input("target.strain_rate", "1/s", "strain rate of the average; below 1/s it counts as 1/s", "rate", default=STRAIN_RATE),
+    Input("target.strain_rate", "1/s", "strain rate of the average; lower rates count as 1/s", "rate", default=STRAIN_RATE),
 )
 
 MODEL = Model(

@@ -20,7 +20,7 @@ from hydro2d.penetration.model import NON_NEGATIVE, Example, Input, InputError, 
 
 #: how far the solution is followed towards the wall: to exp(-DEEP) of the mass inside the plastic front
 DEEP = 32.0
-#: fronts that a curve is computed at, in units of the bulk sound speed: slow ones in a geometric series, then even steps
+#: front velocities at which a curve is computed, over the bulk sound speed: slow ones in a geometric series, then even steps
 SLOW, FAST = (1e-3, 0.04, 6), (0.08, 1.0, 40)
 #: the weakest solid, as yield stress over Young's modulus, and the slowest cavity, m/s, that the numbers can resolve
 WEAKEST, SLOWEST = 1e-6, 1.0
@@ -41,9 +41,9 @@ class Solid:
     def __post_init__(self) -> None:
         positive(density=self.density, youngs_modulus=self.youngs_modulus, strength=self.strength)
         if not 0.0 <= self.poisson_ratio < 0.5:
-            raise InputError(f"target.poisson_ratio = {self.poisson_ratio:g}: must be from 0 up to, but without, 0.5")
+            raise InputError(f"target.poisson_ratio = {self.poisson_ratio:g}: must be at least 0 and below 0.5")
         if not 0.0 <= self.hardening_exponent < 1.0:
-            raise InputError(f"target.hardening_exponent = {self.hardening_exponent:g}: must be from 0 up to, but without, 1")
+            raise InputError(f"target.hardening_exponent = {self.hardening_exponent:g}: must be at least 0 and below 1")
         if not self.strength < self.shear_modulus:
             raise InputError(f"target.strength = {self.strength:g}: must be below the shear modulus, {self.shear_modulus:g} Pa")
         if self.strength < WEAKEST * self.youngs_modulus:
@@ -119,7 +119,7 @@ def incompressible_power_law(
     static = incompressible_linear(velocity, density, youngs_modulus, strength)
     n, ratio = hardening_exponent, 2.0 * youngs_modulus / (3.0 * strength)
     if not 0.0 <= n < 1.0:
-        raise InputError(f"target.hardening_exponent = {n:g}: must be from 0 up to, but without, 1")
+        raise InputError(f"target.hardening_exponent = {n:g}: must be at least 0 and below 1")
     harder, _ = quad(lambda s: (-ratio * math.log1p(-math.exp(-s))) ** n - 1.0, 0.0, math.log(ratio), epsrel=1e-10)
     return static + 2.0 / 3.0 * strength * harder
 
@@ -182,10 +182,10 @@ def coefficients(solid: Solid, velocity: float) -> Coefficients:
 
     positive(velocity=velocity)
     if velocity < SLOWEST:
-        raise InputError(f"cavity.velocity = {velocity:g}: at least {SLOWEST:g} m/s, or the fit is to nothing but rounding")
+        raise InputError(f"cavity.velocity = {velocity:g}: at least {SLOWEST:g} m/s; below it a fit sees only rounding errors")
     slowest, (_, walls, stresses) = quasi_static(solid), _curve(solid)
     if velocity > walls[-1]:
-        raise InputError(f"cavity.velocity = {velocity:g}: the similarity solution reaches {walls[-1]:.0f} m/s")
+        raise InputError(f"cavity.velocity = {velocity:g}: at most {walls[-1]:.0f} m/s, where the similarity solution ends")
     v = velocity * np.arange(1, POINTS + 1) / POINTS
     x = v * math.sqrt(solid.density / solid.strength)
     above = CubicSpline(walls, stresses)(v) / solid.strength - slowest
@@ -230,7 +230,7 @@ def given_or_fitted(
     target_youngs_modulus: float | None, target_poisson_ratio: float | None, target_hardening_exponent: float,
     cavity_velocity: float,
 ) -> tuple[float, float]:  # fmt: skip
-    """A and B as they are, and what is None by ``coefficients``. InputError where the elastic constants are missing then."""
+    """A and B as given; one that is None comes from ``coefficients``. InputError if that needs elastic constants not given."""
     if cavity_a is not None and cavity_b is not None:
         return cavity_a, cavity_b
     if target_youngs_modulus is None or target_poisson_ratio is None:
@@ -266,11 +266,11 @@ def evaluate(
 
 CAVITY_VELOCITY = Input("cavity.velocity", "m/s", "largest wall velocity of the fits of A, B and C", "V_max", default=1200.0)
 SOLID = Input(
-    "cavity.solid", "", "what the solid is taken to be; the last has linear hardening, the others a power law",
+    "cavity.solid", "", "model of the solid; the last has linear hardening, the others a power law",
     default="compressible", choices=("compressible", "incompressible", "incompressible-linear"),
 )  # fmt: skip
 TANGENT = Input(
-    "target.tangent_modulus", "Pa", "slope of linear hardening, of incompressible-linear alone", "E_t", default=0.0,
+    "target.tangent_modulus", "Pa", "slope of linear hardening, for incompressible-linear only", "E_t", default=0.0,
     sign=NON_NEGATIVE,
 )  # fmt: skip
 

@@ -16,9 +16,9 @@ import numpy as np
 
 from hydro2d.penetration.model import NON_NEGATIVE, POSITIVE, InputError, complain, positive
 
-#: the penetration has ended where the interface moves no faster than this, m/s, or than this share of its first velocity
+#: the penetration ends when the interface moves no faster than this, m/s, or than this share of its first velocity
 LAST_SPEED, LAST_SHARE = 1.0, 0.01
-#: the rod is used up where no more than this share of its length is left
+#: the rod is used up when no more than this share of its length is left
 LAST_LENGTH = 1e-6
 #: relative tolerance of the integration; absolute ones for velocities and lengths are this times the impact's
 TOLERANCE = 1e-7
@@ -210,11 +210,11 @@ class Centreline:
         return 0.0 < u < 2.0 * self.velocity and length > 0.0
 
     def ends(self) -> list[Callable]:
-        """What ends the motion, each by falling through zero: the interface at rest; the rod used up."""
+        """What ends the motion, each by falling through zero: the interface comes to rest, or the rod is used up."""
         return [lambda time, state: state[1] - self.last, lambda time, state: state[2] - LAST_LENGTH * self.rod.length]
 
     def solve(self) -> Track:
-        """The motion from impact to its end: eroding, and rigid from where the tail is as slow as the interface."""
+        """The motion from impact to its end: first eroding, then rigid once the tail is as slow as the interface."""
         start = np.array([self.velocity, self.first, self.rod.length, 0.0, *self.more])
         first = self.integrate(self.eroding, 0.0, start, [*self.ends(), lambda time, state: state[0] - state[1]])
         times, states, depth = first.t, first.y, float(first.y[3, -1])
@@ -231,8 +231,8 @@ class Centreline:
 
         def counted(time: float, state: np.ndarray) -> list[float]:
             if next(count) == MOST_EVALUATIONS:
-                raise InputError(f"the Walker-Anderson equations are not at an end after {MOST_EVALUATIONS} evaluations: "
-                                 "a rod so slender, or resisted by so little, is beyond them")
+                raise InputError(f"the Walker-Anderson equations are not at an end after {MOST_EVALUATIONS} "
+                                 "evaluations: the rod is too slender, or the resistance too small, for them")
             return rates(time, state)
 
         for event in events:

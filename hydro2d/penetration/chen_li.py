@@ -1,8 +1,8 @@
 """Chen-Li: rigid penetration by two dimensionless numbers, and the velocity at which the rod stops being rigid.
 
-The impact function I weighs the rod's energy against the target's static resistance, the geometry function N the rod's
-slenderness against the bluntness of its nose; the depth with every nose is one curve of the two. Chen & Li, Int. J. Impact
-Engng 27 (2002) 619 and J. Engng Mech. 130 (2004) 123, both recalled: see explanation/penetration/chen-li.
+The impact function I weighs the rod's energy against the target's static resistance, and the geometry function N weighs the
+rod's slenderness against the bluntness of its nose. The depth for every nose is one function of the two. Chen & Li, Int. J.
+Impact Engng 27 (2002) 619 and J. Engng Mech. 130 (2004) 123, both recalled: see explanation/penetration/chen-li.
 """
 
 from __future__ import annotations

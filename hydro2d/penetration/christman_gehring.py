@@ -1,8 +1,8 @@
-"""Christman-Gehring: hydrodynamic penetration of all but one diameter of a rod, and the crater of that one.
+"""Christman-Gehring: hydrodynamic penetration by all but one diameter of a rod's length, and the crater of that last diameter.
 
-P = (L - D) sqrt(rho_p/rho_t) + P_c, where P_c is the depth that a rod as long as wide reaches at the same velocity: measured,
-or from a correlation with energy and hardness. Anderson, Int. J. Impact Engng 108 (2017) 3, equations (15) and (16);
-Christman & Gehring, J. Appl. Phys. 37 (1966) 1579. The units of the correlation's coefficient are not known:
+P = (L - D) sqrt(rho_p/rho_t) + P_c, where P_c is the depth that a rod as long as wide reaches at the same velocity. P_c is
+measured or comes from a correlation with energy and hardness. Anderson, Int. J. Impact Engng 108 (2017) 3, equations (15) and
+(16); Christman & Gehring, J. Appl. Phys. 37 (1966) 1579. The units of the correlation's coefficient are not known:
 explanation/penetration/christman-gehring.
 """
 

@@ -1,9 +1,9 @@
 """Forrestal's rigid rod: the force of a cavity-expansion pressure on the nose, integrated in closed form.
 
-On every element of the nose the normal stress is A Y + B rho Vn^2 with the normal component Vn of the rod's velocity, and
-sliding friction adds mu times it along the surface. The sum along the axis is pi a^2 (A Y N1 + B rho N2 V^2), from which
-deceleration, duration and depth follow. Forrestal, Okajima & Luk, J. Appl. Mech. 55 (1988) 755 [recalled]; Anderson,
-Int. J. Impact Engng 108 (2017) 3, equations (39) to (46). explanation/penetration/forrestal
+On every element of the nose the normal stress is A Y + B rho Vn^2, where Vn is the normal component of the rod's velocity, and
+sliding friction adds mu times this stress along the surface. The sum along the axis is pi a^2 (A Y N1 + B rho N2 V^2), from
+which deceleration, duration and depth follow. Forrestal, Okajima & Luk, J. Appl. Mech. 55 (1988) 755 [recalled]; Anderson, Int.
+J. Impact Engng 108 (2017) 3, equations (39) to (46). explanation/penetration/forrestal
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from hydro2d.penetration.surface import SHAPES, checked_half_angle, nose_length,
 
 @dataclass(frozen=True)
 class Nose:
-    """A nose with friction; ``crh`` counts for an ogive, ``half_angle`` (rad) for a cone. InputError for the impossible."""
+    """A nose with friction; ``crh`` counts for an ogive, ``half_angle`` (rad) for a cone. InputError for impossible values."""
 
     shape: str
     diameter: float
@@ -133,7 +133,7 @@ def of_inputs(
     *, rod_diameter, nose_shape, nose_crh, nose_half_angle, friction, target_density, target_strength, cavity_a, cavity_b,
     target_youngs_modulus, target_poisson_ratio, target_hardening_exponent, cavity_velocity,
 ) -> tuple[Nose, Target]:  # fmt: skip
-    """Nose and target of a model's inputs, SI. InputError for the impossible."""
+    """Nose and target of a model's inputs, SI. InputError for impossible values."""
     a, b = given_or_fitted(
         cavity_a, cavity_b, target_density=target_density, target_strength=target_strength,
         target_youngs_modulus=target_youngs_modulus, target_poisson_ratio=target_poisson_ratio,

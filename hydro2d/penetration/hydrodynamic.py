@@ -4,9 +4,9 @@ With the interface at rest the two streams stagnate at one pressure,
 
     rho_p (v - u)^2/2 = rho_t u^2/2 + sigma,
 
-sigma = 0 in the hydrodynamic theory. Eichelberger takes the difference of the two strengths, Allen and Rogers a dynamic yield
-strength of the target alone. All of the rod is consumed at one velocity: P = L u/(v - u). Anderson, Int. J. Impact Engng
-108 (2017) 3, equations (10) to (14). explanation/penetration/hydrodynamic.
+with sigma = 0 in the hydrodynamic theory. Eichelberger takes the difference of the two strengths for sigma, and Allen and
+Rogers a dynamic yield strength of the target alone. The whole rod is consumed at one velocity: P = L u/(v - u). Anderson, Int.
+J. Impact Engng 108 (2017) 3, equations (10) to (14). explanation/penetration/hydrodynamic.
 """
 
 from __future__ import annotations
@@ -39,9 +39,9 @@ def penetration_velocity(velocity: float, *, rod_density: float, target_density:
                          strength_difference: float = 0.0) -> float:
     """Velocity u of the interface, m/s: eq. (14) of Anderson (2017); for no difference eq. (11), v/(1 + sqrt(rho_t/rho_p)).
 
-    velocity v (m/s) of the rod; densities (kg/m^3); strength_difference sigma (Pa), positive where the target is the
-    stronger. 0 up to the velocity sqrt(2 sigma/rho_p), below which the jet does not enter. InputError where a rod stronger
-    than the target would not be consumed. explanation/penetration/hydrodynamic, equation 4
+    velocity v (m/s) of the rod; densities (kg/m^3); strength_difference sigma (Pa), positive if the target is the stronger. The
+    result is 0 up to the velocity sqrt(2 sigma/rho_p), below which the jet does not enter. InputError where a rod stronger than
+    the target would not be consumed. explanation/penetration/hydrodynamic, equation 4
     """
     positive(rod_density=rod_density, target_density=target_density)
     non_negative(velocity=velocity)
@@ -136,14 +136,14 @@ OUTPUTS = (
     Output("depth_over_length", "1", "depth over the rod's length", "P/L"),
     Output("penetration_velocity", "m/s", "velocity of the interface", "u"),
     Output("duration", "s", "time until the rod is consumed"),
-    Output("strength_difference", "Pa", "sigma, what the target resists more than the rod", "sigma"),
+    Output("strength_difference", "Pa", "sigma, by how much the target's resistance exceeds the rod's strength", "sigma"),
     Output("limit_velocity", "m/s", "impact velocity up to which nothing penetrates"),
     Output("regime", "", "eroding or no penetration"),
 )
 BASICS = (inputs.ROD_DENSITY, inputs.ROD_LENGTH, inputs.TARGET_DENSITY)
 ROD = MappingProxyType({"rod.length": 0.1})
 EXAMPLE = Example(rod="copper_OFHC", target="steel_4340", velocity=3000.0, velocities=(500.0, 8000.0), values=ROD)
-VALIDITY = "long rods or jets of steady velocity that are consumed; no shock at impact, nothing after the last particle"
+VALIDITY = "long rods or jets of steady velocity that are consumed; no shock at impact, no penetration after the last particle"
 
 HYDRODYNAMIC = Model(
     name="hydrodynamic",

@@ -1,4 +1,4 @@
-"""The vocabulary of inputs: what the models share, said once. A model changes a default with ``but``."""
+"""The vocabulary of inputs that the models share. A model changes a default with ``but``."""
 
 from __future__ import annotations
 

@@ -1,8 +1,8 @@
 """Lambert-Jonas: residual velocity behind a plate over impact velocity, with three constants fitted to shots.
 
-v_r = a (V^p - v_bl^p)^(1/p) above the ballistic limit v_bl, 0 below. With p = 2 it is an expression of energy, with a = 1 too
-the one for a bullet without plug. Lambert & Jonas, BRL-R-1852 (1976); Anderson, Int. J. Impact Engng 108 (2017) 3, equations
-(26) and (27). explanation/penetration/lambert-jonas.
+v_r = a (V^p - v_bl^p)^(1/p) above the ballistic limit v_bl, 0 below. With p = 2 it expresses conservation of energy; with a = 1
+as well it is the formula for a bullet without a plug. Lambert & Jonas, BRL-R-1852 (1976); Anderson, Int. J. Impact Engng 108
+(2017) 3, equations (26) and (27). explanation/penetration/lambert-jonas.
 """
 
 from __future__ import annotations
@@ -48,7 +48,7 @@ def residual_velocity(velocity: float, *, limit_velocity: float, a: float = 1.0,
 
 
 def fit(velocities: Sequence[float], residual_velocities: Sequence[float], *, p: float | None = None) -> Fit:
-    """Least-squares a, p and v_bl of shots: impact velocities and residual ones in m/s, 0 for a plate that held.
+    """Least-squares a, p and v_bl from impact and residual velocities of shots in m/s; the residual is 0 for a plate that held.
 
     a lies in 0 to 1, p in 1 to 20 unless it is given; v_bl below the slowest shot that perforated. InputError for fewer
     perforations than constants.

@@ -1,4 +1,4 @@
-"""A target of plane layers, each with its own cavity pressure and free faces between which alone it resists."""
+"""A target of plane layers; each has its own cavity pressure and resists only between its two free faces."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from hydro2d.penetration.model import InputError, non_negative, positive
 class Layer:
     """``thickness`` (m, math.inf for a half space) of a material that resists with a Y + b rho Vn^2.
 
-    ``density`` rho in kg/m^3, ``strength`` Y in Pa, ``a`` and ``b`` from the expansion of a cavity, without unit.
+    ``density`` rho in kg/m^3, ``strength`` Y in Pa, ``a`` and ``b`` from cavity expansion, dimensionless.
     """
 
     thickness: float
@@ -41,17 +41,17 @@ class Layer:
 
 
 def gap(thickness: float) -> Layer:
-    """An empty space of that width between two plates."""
+    """An empty space of this width between two plates."""
     positive(thickness=thickness)
     return Layer(thickness, 0.0, 0.0, 0.0, 0.0)
 
 
 @dataclass(frozen=True)
 class Target:
-    """Layers stacked from depth 0 on: ``faces`` (m) between them, and pressures by layer with nothing before and behind.
+    """Layers stacked from depth 0 on: ``faces`` (m) between them, and pressures by layer, zero outside the target.
 
-    Entry k of ``static`` (Pa) and ``dynamic`` (kg/m^3) belongs to what ``locate`` calls k: 0 lies in front of the
-    target, k the k-th layer, the last the space behind it.
+    Entry k of ``static`` (Pa) and ``dynamic`` (kg/m^3) belongs to the index k that ``locate`` returns: 0 is the space in front
+    of the target, k is the k-th layer, and the last is the space behind it.
     """
 
     faces: np.ndarray

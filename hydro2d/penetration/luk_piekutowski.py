@@ -3,8 +3,8 @@
 A rod mushrooms (transient stage), its head penetrates while the rod is turned into a tube of ejecta (primary stage), and
 what is left of rod and ejecta goes on as a rigid body (secondary stage). The head's area, the penetration velocity and
 the ejecta's area follow from an energy balance of the transient stage and from the conservation of mass, momentum and energy
-of the primary stage, with the pressure of cavity expansion on the head. The printed equations are damaged in places; the
-reading used here is on the page. explanation/penetration/luk-piekutowski
+of the primary stage, with the pressure of cavity expansion on the head. The printed equations are damaged in places; the page
+gives the reading used here. explanation/penetration/luk-piekutowski
 """
 
 from __future__ import annotations
@@ -163,13 +163,13 @@ MODEL = Model(
     outputs=(
         Output("depth", "m", "depth of all stages", "P"),
         Output("depth_over_length", "1", "depth over the rod's length", "P/L"),
-        Output("cavity_diameter", "m", "diameter of the head, and of the cavity, at impact", "D_m"),
+        Output("cavity_diameter", "m", "diameter of the head and of the cavity at impact", "D_m"),
         Output("penetration_velocity", "m/s", "velocity of the head just after impact", "u"),
         Output("ejecta_velocity", "m/s", "velocity of the ejecta just after impact, positive against the flight", "v_e"),
         Output("primary_depth", "m", "depth of the primary stage", "d_1"),
         Output("rod_depth", "m", "depth of what is left of the rod", "d_2"),
         Output("ejecta_depth", "m", "depth by the ejecta", "d_3"),
-        Output("growth_depth", "m", "depth by the cavity's growth under a rod that was used up", "d_4"),
+        Output("growth_depth", "m", "depth by which the cavity grows after the rod is used up", "d_4"),
         Output("duration", "s", "time of the primary stage", "t_1"),
         Output("residual_length", "m", "length of rod after the primary stage", "l_r"),
         Output("limit_velocity", "m/s", "least impact velocity with a solution", "v_cr"),

@@ -31,19 +31,19 @@ ANY, POSITIVE, NON_NEGATIVE, FRACTION = "any", "positive", "non-negative", "frac
 Value = float | str | None
 T = TypeVar("T")
 
-#: what an input may be, by its unit: that of decks, and of pure numbers
+#: allowed range of an input by its unit: the ranges of decks, and that of pure numbers
 REACH = {**units.REACH, "1": (1e-18, 1e18, "no pure number of an impact is so small or so large")}
-#: why a model that takes each of its inputs gives no number
-BEYOND = "these inputs, each possible, are together beyond what the model can compute"
+#: why a model gives no number although it accepts each of its inputs
+BEYOND = "each of these inputs is possible, but together they are beyond what the model can compute"
 
 
 @dataclass(frozen=True)
 class Input:
     """One quantity that a model needs.
 
-    ``name`` is that of the shared vocabulary (``inputs.py``); ``unit`` is in SI, "1" for a pure number. ``default`` is a
-    number, a word where ``choices`` are given, None where the model does without, or ``REQUIRED``. ``sign`` is ``ANY``,
-    ``POSITIVE``, ``NON_NEGATIVE`` or ``FRACTION`` (from 0 up to, but without, 1).
+    ``name`` comes from the shared vocabulary (``inputs.py``); ``unit`` is in SI, "1" for a pure number. ``default`` is a
+    number, a word if there are ``choices``, None if the model can do without the input, or ``REQUIRED``. ``sign`` is ``ANY``,
+    ``POSITIVE``, ``NON_NEGATIVE`` or ``FRACTION`` (at least 0 and below 1).
     """
 
     name: str
@@ -64,11 +64,11 @@ class Input:
         return self.name.replace(".", "_")
 
     def but(self, **changes) -> Input:
-        """This input with a default, symbol or description of a model's own."""
+        """This input with a different default, symbol or description for one model."""
         return replace(self, **changes)
 
     def check(self, value: Value) -> Value:
-        """The value as a float (or as the word it is); InputError where it is impossible."""
+        """The value as a float, or unchanged if it is a word; InputError if it is impossible."""
         if value is None and self.default is None:
             return None
         if self.choices:
@@ -96,7 +96,7 @@ class Output:
 
 @dataclass(frozen=True)
 class Example:
-    """A shot that shows the model: names of the material library, and what else its page's figure uses."""
+    """A shot that illustrates the model: names from the material library, and whatever else the figure on its page uses."""
 
     rod: str
     target: str
@@ -160,7 +160,7 @@ class Model:
         return self._computed(lambda: self.transition(**given))
 
     def _computed(self, evaluation: Callable[[], T]) -> T:
-        """What the equations give. What they cannot give is told: numbers that overflow end as an InputError, or as nan."""
+        """The result of the equations. Where they have none, as when numbers overflow, this is an InputError or nan."""
         try:
             with np.errstate(all="ignore"):
                 return evaluation()
@@ -188,7 +188,7 @@ def complain(name: str, number: float, sign: str = POSITIVE) -> None:
         ANY: False,
     }[sign]
     if bad:
-        allowed = "from 0 up to, but without, 1" if sign == FRACTION else sign
+        allowed = "at least 0 and below 1" if sign == FRACTION else sign
         raise InputError(f"{name} = {number:g}: must be {allowed}")
 
 

@@ -15,11 +15,11 @@ import numpy as np
 
 from hydro2d.penetration.model import FRACTION, InputError, complain, non_negative, positive
 
-#: areas of head over rod among which the fold is looked for, the largest that is tried, and the growth of the search
+#: ratios of head to rod area between which the fold is sought, the largest one tried, and the growth factor of the search
 SPREADS, LARGEST, GROWTH = np.geomspace(1.02, 50.0, 60), 400.0, 1.25
-#: eta - 1 at which the first root of the flow equation is looked for
+#: values of eta - 1 at which the first root of the flow equation is sought
 THINNING = np.geomspace(1e-5, 1e3, 1200)
-#: U/V at which the root of the hypervelocity form is looked for, the largest first
+#: values of U/V at which the root of the hypervelocity form is sought, the largest first
 RATIOS = np.linspace(0.999, 0.001, 999)
 
 
@@ -92,7 +92,7 @@ class Target:
 class Head:
     """A steady head: lambda = Am/Ap, eta = Ae/Ap, and the velocities (m/s) of rod, head and ejecta.
 
-    The ejecta's is counted against the direction of flight: negative where they follow the head.
+    The ejecta velocity is positive against the direction of flight, so it is negative if the ejecta follow the head.
     """
 
     spread: float
@@ -158,7 +158,7 @@ def fold(rod: Rod, target: Target) -> Head:
     speeds = np.array([math.inf, *(speed(spread) for spread in SPREADS), math.inf])
     slowest = int(np.argmin(speeds[1:-1]))
     if not np.all(np.isfinite(speeds[slowest : slowest + 3])):
-        raise InputError("this rod and target have no least velocity of erosion: the model does not apply")
+        raise InputError("this rod and target have no lowest velocity of erosion, so the model does not apply")
     around = SPREADS[slowest - 1], SPREADS[slowest + 1]
     found = minimize_scalar(speed, bounds=around, method="bounded", options={"xatol": 1e-8})
     return head(rod, target, float(found.x))

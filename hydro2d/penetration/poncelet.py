@@ -122,7 +122,7 @@ def fit(velocities: Sequence[float], depths_over_length: Sequence[float], *, rod
 def _shots(velocities: Sequence[float], depths: Sequence[float], fewest: int) -> tuple[np.ndarray, np.ndarray]:
     v, measured = np.asarray(velocities, float), np.asarray(depths, float)
     if v.ndim != 1 or v.shape != measured.shape or np.unique(v).size < fewest:
-        raise InputError(f"a fit needs as many depths as velocities, and shots at {fewest} velocities at least")
+        raise InputError(f"a fit needs as many depths as velocities, and shots at {fewest} or more different velocities")
     if not (np.all(np.isfinite(v)) and np.all(np.isfinite(measured)) and np.all(v > 0.0) and np.all(measured > 0.0)):
         raise InputError("a fit needs shots with a positive velocity and a positive depth")
     return v, measured

@@ -59,7 +59,7 @@ def rigid(surface: Surface, mass: float) -> Body:
         raise InputError(f"sectors = {sectors}: a rigid body needs an even number")
     section = surface.axial_area
     if abs(np.sum(section)) > OPEN * np.sum(np.abs(section)):
-        raise InputError("surface: not closed; a rigid body has nose, shank and tail")
+        raise InputError("surface: not closed; a rigid body needs a nose, a shank and a tail")
     volume = np.sum(surface.z * section)
     centre = np.sum(surface.z**2 * section) / (2.0 * volume)
     along = np.sum((surface.z - centre) ** 3 * section) / (3.0 * volume)
@@ -81,7 +81,7 @@ def projectile(shape: str, mass: float, diameter: float, length: float, crh: flo
                rings: int = 50, shank_rings: int = 50, sectors: int = 16) -> Body:
     """A nose of ``shape`` on a shank; ``length`` (m) is that of a cylinder of the same diameter and volume.
 
-    InputError where the nose alone has more volume than that.
+    InputError if the nose alone has more volume than that.
     """
     positive(length=length)
     nose = nose_surface(shape, diameter, crh, half_angle, rings)

@@ -1,8 +1,8 @@
 """Ravid-Bodner: the first stage of a rigid blunt rod's way through a plate, by an upper bound on the plastic work.
 
 Ravid & Bodner, Int. J. Engng Sci. 21 (1983) 577, divide perforation into penetration, bulge formation, bulge advancement,
-plug formation, and exit. Anderson, Int. J. Impact Engng 108 (2017) 3, section 8, tells what each stage assumes and prints
-no equation of any. Stage one can be built from what is told: three moving zones in a plate at rest, velocities that fit
+plug formation, and exit. Anderson, Int. J. Impact Engng 108 (2017) 3, section 8, says what each stage assumes but prints
+no equations. Stage one can be built from that description: three moving zones in a plate at rest, velocities that fit
 together and conserve volume, an extent of the zones that makes the plastic work least, and an energy balance for the rod.
 The velocity field here is ours and is the simplest that does so. The later stages need the shape of the bulge, the law by
 which its radius stops growing, and the failure criteria, none of which is printed: the model ends where the plastic flow
@@ -178,7 +178,7 @@ MODEL = Model(
     name="ravid-bodner",
     title="Ravid-Bodner, stage one: a rigid blunt rod until the plastic flow reaches the rear of the plate",
     source="Ravid & Bodner (1983), as told by Anderson, Int. J. Impact Engng 108 (2017) 3, section 8; velocity field: ours",
-    validity="rigid flat-nosed rods, ductile plates of a few calibres; no perforation: later stages are not printed",
+    validity="rigid flat-nosed rods, ductile plates of a few calibres; no perforation, as later stages are not printed",
     inputs=(
         inputs.ROD_DENSITY,
         inputs.ROD_DIAMETER,

@@ -140,7 +140,7 @@ def evaluate(
 
 
 CAVITY_C = Input(
-    "cavity.c", "1", "C of A Y + B sqrt(rho Y) V + C rho V^2, cavity.b is B then; the form without it where not given", "C",
+    "cavity.c", "1", "C of A Y + B sqrt(rho Y) V + C rho V^2, in which cavity.b is B; without it the two-term form holds", "C",
     default=None, sign=NON_NEGATIVE,
 )  # fmt: skip
 

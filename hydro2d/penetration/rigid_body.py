@@ -29,7 +29,7 @@ STRIDE = 0.04
 TOUCH, STIFFNESS = 0.005, 1.0
 #: a rod slower than this share of the impact velocity has stopped, and the number of steps that a shot may take
 REST, MOST_STEPS = 1e-6, 100_000
-#: how long a shot will still take is looked at once, when the rod has travelled so many of its lengths
+#: the remaining duration of a shot is checked once, when the rod has travelled this many of its lengths
 FORECAST = 2.0
 
 
@@ -49,7 +49,7 @@ class Motion:
 
 @dataclass(frozen=True)
 class Shot:
-    """What becomes of a rod. ``regime`` is "embedded", "perforated" or "ricochet"; SI, angles in rad.
+    """The outcome of a shot. ``regime`` is "embedded", "perforated" or "ricochet"; SI, angles in rad.
 
     ``depth`` is the deepest that any part of the rod has been in the target, ``drift`` the distance of the
     centre of mass from the line of flight before impact, ``pitch`` and ``yaw`` the angles of the rod's axis with that
@@ -184,12 +184,12 @@ def _refuse_a_long_way(body: Body, target: Target, friction: float, touch: float
         to_rest = body.mass * speed / static if static > 0.0 else math.inf
     to_leave = (target.back - motion.position[2]) / speed
     if min(to_rest, to_leave) > MOST_STEPS * dt:
-        raise InputError(f"the target hardly resists: the rod would be under way for {min(to_rest, to_leave):.3g} s, "
+        raise InputError(f"the target hardly resists: the rod would be in motion for {min(to_rest, to_leave):.3g} s, "
                          f"which is more than {MOST_STEPS} of this model's steps; a plate needs target.thickness")
 
 
 def _stopped(before: np.ndarray, after: np.ndarray, rest: float) -> bool:
-    """Whether the velocity has turned round within a step, or is as good as none."""
+    """Whether the velocity has reversed within a step, or is practically zero."""
     return before @ after <= 0.0 or after @ after < rest * rest
 
 

@@ -2,7 +2,7 @@
 
 The debris of an eroding rod leaves the interface at 2 u - v. Where that points into the target, and its stagnation pressure
 exceeds the resistance, it deepens the crater. Anderson, Int. J. Impact Engng 108 (2017) 3, equation (37), with u by ``tate``;
-Allen & Rogers, J. Franklin Inst. 272 (1961) 275. The criterion says whether, and not how much deeper.
+Allen & Rogers, J. Franklin Inst. 272 (1961) 275. The criterion says whether the crater deepens, not by how much.
 explanation/penetration/secondary-penetration.
 """
 

@@ -2,8 +2,8 @@
 
 Five closed forms for an elastic, perfectly plastic target: a spherical or a cylindrical cavity that opens slowly in an
 incompressible or a compressible solid, and the flow of Tate, shaped like the field of a solenoid. Anderson, Int. J. Impact
-Engng 108 (2017) 3, Table 1. All give 3 to 6 times the yield stress of a metal. No form knows the velocity, on which the
-resistance of experiments depends. explanation/penetration/target-resistance.
+Engng 108 (2017) 3, Table 1. All give 3 to 6 times the yield stress of a metal. No form contains the velocity, although
+the resistance found in experiments depends on it. explanation/penetration/target-resistance.
 """
 
 from __future__ import annotations
@@ -128,7 +128,7 @@ MODEL = Model(
     name="target-resistance",
     title="Resistance of a target by quasi-static cavity expansion and by Tate's solenoidal flow",
     source="Anderson, Int. J. Impact Engng 108 (2017) 3, Table 1; Hill (1950); Tate, Int. J. Mech. Sci. 28 (1986) 599",
-    validity="elastic, perfectly plastic metals with E/Y well above 1; no hardening, no rate, no velocity",
+    validity="elastic, perfectly plastic metals with E/Y well above 1; no effect of hardening, strain rate or velocity",
     inputs=(inputs.TARGET_STRENGTH, inputs.TARGET_YOUNGS_MODULUS, inputs.TARGET_POISSON_RATIO, DYNAMIC_FACTOR_INPUT),
     outputs=tuple(
         Output(name.replace("-", "_"), "Pa", f"resistance by the {name} form", "R_t") for name in FORMS

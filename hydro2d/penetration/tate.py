@@ -221,7 +221,7 @@ def transition(*, rod_length: float | None = None, **values: float | str | None)
 PAIR_INPUTS = (
     inputs.ROD_DENSITY,
     inputs.ROD_STRENGTH,
-    Input("rod.dynamic_factor", "1", "share of dynamic effects to add to rod.strength; 0.7 by Tate for a static yield stress",
+    Input("rod.dynamic_factor", "1", "share of dynamic effects to add to rod.strength; Tate: 0.7 for a static yield stress",
           "lambda_p", default=0.0, sign=NON_NEGATIVE),
     inputs.TARGET_DENSITY,
     *RESISTANCE_INPUTS,

@@ -70,7 +70,7 @@ def materials(values: Mapping[str, float]) -> tuple[Rod, Target, float | None]:
 
 
 def evaluate(velocity: float, **values: float) -> dict[str, float | str]:
-    """Depth and what leads to it at an impact velocity in m/s; keywords are those of ``MODEL.inputs``, in SI."""
+    """Depth and the quantities behind it at an impact velocity in m/s; keywords are those of ``MODEL.inputs``, in SI."""
     rod, target, radius = materials(values)
     motion = Centreline(velocity, rod, target, radius)
     track = motion.solve()

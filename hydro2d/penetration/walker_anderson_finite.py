@@ -167,7 +167,7 @@ MODEL = Model(
     name="walker-anderson-finite",
     title="Walker-Anderson through a plate, with a bulging rear surface and a strain to failure",
     source="Anderson, Int. J. Impact Engng 108 (2017) 3, eqs. (59)-(63), after Walker (1999) and Chocron et al. (1999)",
-    validity="as walker-anderson; ductile plates: hard ones fail by shear bands before. The failure strain is calibrated",
+    validity="as walker-anderson; ductile plates, as hard ones fail by shear bands first. The failure strain is calibrated",
     inputs=(
         *ROD_INPUTS,
         *TARGET_INPUTS,

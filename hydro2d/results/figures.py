@@ -1,8 +1,8 @@
-"""Figures of runs: mirrored sections, histories and craters by matplotlib, a cut-away in three dimensions by pyvista.
+"""Figures of runs: mirrored sections, histories and craters with matplotlib, and a three-dimensional cut-away with pyvista.
 
-Sections show z to the right and r upwards, mirrored at the axis; the lower half may show another field. Runs stand
-below one another with one colour scale, moments beside one another. The three-dimensional picture is rendered in a
-process of its own, so that a driver that fails takes nothing with it.
+Sections show z to the right and r upwards, mirrored at the axis; the lower half may show another field. Runs are arranged in
+rows and times in columns, with one colour scale. The three-dimensional picture is rendered in a separate process, so that a
+failing graphics driver cannot take anything else down with it.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from hydro2d.output import history
 from hydro2d.output.outlines import outlines
 from hydro2d.output.vtk import Dump
 
-#: what readers use: name of the unit and number of them in one SI unit
+#: the units that readers use: the name of each, and how many of them make one SI unit
 READER = {
     "Pa": ("GPa", 1e-9), "J/kg": ("MJ/kg", 1e-6), "kg/m3": ("g/cm$^3$", 1e-3), "m": ("mm", 1e3), "s": ("µs", 1e6),
     "kg": ("g", 1e3), "J": ("kJ", 1e-3),
@@ -32,9 +32,9 @@ BODY_COLOURS = ("#5b6770", "#c9a66b", "#7aa6c2", "#a3b18a", "#b57ba6", "#d08c60"
 HISTORIES = ("penetration_depth_m", "rod_tail_velocity_m_s", "rod_length_m", "rod_max_plastic_strain")
 COMPONENTS = {"r": 0, "z": 1}
 VECTORS = ("velocity", "velocity_hard", "velocity_soft")
-#: endings of films, which are no pictures
+#: file endings of films, which are not pictures
 FILMS = ("gif", "mp4", "avi", "mov", "webm")
-#: seconds before a rendering process is given up
+#: time limit of a rendering process, s
 RENDER_SECONDS = 180
 
 
@@ -44,7 +44,7 @@ class FigureError(Error):
 
 @dataclass(frozen=True)
 class Shown:
-    """A field ready to draw: values (nz, nr) in the reader's unit, label, colour map; NaN in void."""
+    """A field ready to draw: values (nz, nr) in the reader's unit (NaN in void), label and colour map."""
 
     values: np.ndarray
     label: str
@@ -52,12 +52,12 @@ class Shown:
 
 
 def reader_unit(unit: str) -> tuple[str, float]:
-    """The reader's name of a unit, and the factor to it."""
+    """The unit that readers use for an SI unit, and the factor that converts to it."""
     return READER.get(unit, (unit, 1.0))
 
 
 def chosen(dump: Dump, field: str) -> Shown:
-    """The field that a word names: a key of quantities.TABLE, with ":r" or ":z" for a component and ":body" for a body.
+    """The field that a word names: a key of quantities.TABLE, followed by ":r" or ":z" for a component or ":body" for a body.
 
     Raises FigureError.
     """
@@ -90,7 +90,7 @@ def _filled(dump: Dump) -> np.ndarray:
 
 
 def limits_of(shown: list[Shown]) -> tuple[float, float]:
-    """One range of colours for several panels: symmetric where negative values matter."""
+    """One colour range for several panels, symmetric about zero if there are negative values."""
     values = np.concatenate([each.values[np.isfinite(each.values)] for each in shown])
     if not values.size:
         return 0.0, 1.0
@@ -111,7 +111,7 @@ def _body_colours(count: int):
 
 
 def _draw_half(axes, dump: Dump, field: str, sign: int, limits: tuple[float, float]):
-    """Colours of one half, in mm; sign +1 above the axis, -1 below. Returns what a colour bar needs."""
+    """Draws the colours of one half, in mm; sign is +1 above the axis, -1 below. Returns what a colour bar needs."""
     z, r = dump.z_edges * 1e3, sign * dump.r_edges * 1e3
     if field == "material":
         numbers = np.ma.masked_equal(dump.fields["Material"], 0)
@@ -147,10 +147,10 @@ def section(axes, dump: Dump, field: str = "pressure", mirror: str | None = None
             depth_line: float | None = None, window: tuple[float, float, float] | None = None) -> list:  # fmt: skip
     """Draws one mirrored section into matplotlib axes.
 
-    field, mirror : words for the upper and the lower half, see `chosen` (mirror None: the same)
-    limits : (low, high) per word in the reader's unit; from the data where absent
+    field, mirror : words for the upper and the lower half, see `chosen` (mirror None: the same field)
+    limits : (low, high) per word in the reader's unit; by default from the data
     depth_line : axial position of the experiment's depth, m
-    window : (z0, z1, r1) in m, what is shown and what the limits are from; the whole mesh where absent
+    window : (z0, z1, r1) in m, the part that is shown and that sets the limits; by default the whole mesh
 
     Returns [(word, mappable)] for `colour_bars`. Raises FigureError.
     """
@@ -166,7 +166,7 @@ def section(axes, dump: Dump, field: str = "pressure", mirror: str | None = None
         axes.axvline(depth_line * 1e3, color="crimson", linestyle="--", linewidth=1.0)
         word = axes.text(depth_line * 1e3, 0.98, "experiment ", transform=axes.get_xaxis_transform(), color="crimson",
                          fontsize=7, rotation=90, ha="right", va="top", clip_on=True)  # fmt: skip
-        word.set_in_layout(False)  # a line outside of the window must not stretch the figure
+        word.set_in_layout(False)  # a line outside the window must not stretch the figure
     axes.axhline(0, color="black", linewidth=0.3, linestyle="-.")
     axes.set_aspect("equal")
     z0, z1, r1 = window or _whole(dump)
@@ -180,7 +180,7 @@ def section(axes, dump: Dump, field: str = "pressure", mirror: str | None = None
 
 
 def colour_bars(axes, dump: Dump, drawn: list) -> None:
-    """Adds a bar for every field of what `section` has drawn to axes, one or an array of them that share it."""
+    """Adds a colour bar for every field that `section` has drawn; ``axes`` is one or an array that share the bars."""
     figure = np.ravel(axes)[0].figure
     for word, mappable in dict(drawn).items():
         if mappable is not None:
@@ -190,18 +190,18 @@ def colour_bars(axes, dump: Dump, drawn: list) -> None:
 
 
 def _whole(dump: Dump) -> tuple[float, float, float]:
-    """The window that shows all of the mesh."""
+    """The window that shows the whole mesh."""
     return dump.z_edges[0], dump.z_edges[-1], dump.r_edges[-1]
 
 
 def _panel_height(width: float, window: tuple[float, float, float]) -> float:
-    """Height in inches of a panel with a title that shows a window at one scale."""
+    """Height in inches of a panel with a title that shows a window at equal scales."""
     z0, z1, r1 = window
     return min(max(width * 2 * r1 / (z1 - z0), 0.8), 9.0) + 0.6
 
 
 def own_axes(dump: Dump, window: tuple[float, float, float] | None = None, width: float = 8.0):
-    """Axes of a new figure of pyplot, which a notebook shows by itself, in the shape of a section; width in inches."""
+    """Axes of a new pyplot figure in the shape of a section, which a notebook shows by itself; width in inches."""
     from matplotlib import pyplot
 
     height = _panel_height(width, window or _whole(dump)) + 0.4
@@ -222,10 +222,10 @@ def draw_sections(panels: list[list[tuple[Dump, str, float | None]]], field: str
                   window=None, limits: dict[str, tuple[float, float]] | None = None, figure=None):  # fmt: skip
     """Sections with one colour scale. `panels` holds rows of (dump, title, depth line).
 
-    window : (z0, z1, r1) in m, or a function of a dump that gives it; without it each panel shows the whole mesh, where it was
-        at the time
-    limits : ranges of colours by field, in the reader's unit; from what is shown where absent
-    figure : one of this function's, to be drawn anew; a new one where absent
+    window : (z0, z1, r1) in m, or a function that returns it for a dump; by default each panel shows the whole mesh where it
+        was at that time
+    limits : colour ranges by field, in the reader's unit; by default from what is shown
+    figure : a figure that this function returned earlier, to be redrawn; by default a new one
     """
     seen = window if callable(window) else lambda _: window
     dumps = [dump for row in panels for dump, _, _ in row]
@@ -269,13 +269,13 @@ def cropped(dump: Dump, window) -> Dump:
 
 
 def sections(runs: list, field: str = "pressure", *, mirror: str | None = None, times=(None,), window=None):
-    """Sections of runs (results.Results), one row a run, one column a time in s (None: the last)."""
+    """Sections of runs (results.Results): one row for each run, one column for each time in s (None: the last)."""
     panels = [[(run.dump(time), run.label, run.measured_position) for time in times] for run in runs]
     return draw_sections(panels, field, mirror, window)
 
 
 def histories(runs: list, quantities=HISTORIES):
-    """Quantities against time, one panel each, all runs in it; the experiment's depth as a line."""
+    """Quantities against time, one panel for each with all runs in it; the experiment's depth is a line."""
     columns = 2 if len(quantities) > 1 else 1
     rows = -(-len(quantities) // columns)
     figure, axes = new_figure(5.0 * columns, 3.0 * rows, rows, columns)
@@ -302,10 +302,10 @@ def histories(runs: list, quantities=HISTORIES):
 
 
 def craters(runs: list):
-    """The holes in all targets of runs, mirrored at the axis: radius over the depth below the first one's surface, in mm.
+    """The holes in all targets of runs, mirrored at the axis: radius against depth below the first target's surface, in mm.
 
-    Holes are long and thin: radii have a scale of their own. The experiment's depth is a line. Raises
-    FigureError where no run has a hole.
+    Holes are long and thin, so radii have a separate scale. The experiment's depth is a line. Raises FigureError if no run
+    has a hole.
     """
     figure, ((axes,),) = new_figure(9.0, 4.0, 1, 1)
     for run in runs:
@@ -351,12 +351,12 @@ def save(figure, path: Path) -> None:
 
 
 def cutaway(dump_file: Path, path: Path, field: str = "pressure", window=None, size=(1400, 900)) -> None:
-    """Renders the bodies turned round the axis with a quarter cut out, the cut coloured by a field.
+    """Renders the bodies rotated about the axis with a quarter cut out and the cut coloured by a field.
 
     window = (z0, z1, r1) in m, size in pixels.
 
-    A process of its own does it: with the display where there is one, else with EGL, else with OSMesa. Raises
-    FigureError where none of them works.
+    A separate process renders the picture, on the display if there is one, else with EGL, else with OSMesa. Raises
+    FigureError if none of them works.
     """
     task = json.dumps({"dump": str(dump_file), "path": str(path), "field": field, "window": window, "size": size})
     windows = [None] if os.environ.get("DISPLAY") else ["vtkEGLRenderWindow", "vtkOSOpenGLRenderWindow"]
@@ -376,7 +376,7 @@ def cutaway(dump_file: Path, path: Path, field: str = "pressure", window=None, s
 
 
 def _render(dump: str, path: str, field: str, window, size) -> None:
-    """What the rendering process does."""
+    """The work of the rendering process."""
     import pyvista
 
     from hydro2d.output.vtk import read_grid
@@ -404,13 +404,13 @@ def _render(dump: str, path: str, field: str, window, size) -> None:
     plotter.add_text(f"t = {state.time * 1e6:.2f} us", font_size=10)
     plotter.view_vector((1.0, -1.0, -0.7), viewup=(0, 0, -1))  # into the cut, +z down
     with replacing(Path(path)) as temporary:
-        picture = temporary.with_suffix(".png")  # pyvista goes by the ending
+        picture = temporary.with_suffix(".png")  # pyvista chooses the format by the ending
         plotter.screenshot(str(picture))
         os.replace(picture, temporary)
 
 
 def _nearest_body(state: Dump, line: np.ndarray) -> np.ndarray:
-    """Number of the body that fills most of the 3 x 3 cells round each point of an outline, shape (n,)."""
+    """Number of the body that fills most of the 3 x 3 cells around each point of an outline, shape (n,)."""
     j = np.clip(np.searchsorted(state.z_edges, line[:, 1], "right") - 1, 0, len(state.z_edges) - 2)
     i = np.clip(np.searchsorted(state.r_edges, line[:, 0], "right") - 1, 0, len(state.r_edges) - 2)
     shares = np.stack([np.pad(state.fields[f"Volume Fraction for {body}"], 1) for body in state.bodies])

@@ -1,10 +1,11 @@
-"""Depth against velocity of the shots' rods, from studies of laws, meshes or plates: a table in Markdown, and a figure.
+"""Depth against velocity for the rods of the shots, from studies of strength models, meshes or plates: a table and a figure.
 
     python -m problems.cth_nose_shape.rigid_rod STUDY [STUDY ...] [--figure PATH] [--list]
 
-A row is a shot, a column what else the studies vary. Beside the runs stand the experiments and, in the figure, two analytic
-models: `forrestal`, a rod that stays rigid, and `tate`, one that erodes, on the runs' own decks. Cases that are not done are
-left out. `--list` prints another table: every case of the studies, done or not, with what became of it.
+The table is in Markdown. Each row is a shot, and each column a variant of whatever else the studies vary. The experiments stand
+beside the runs. The figure also shows two analytic models, evaluated on the runs' own decks: `forrestal` for a rod that stays
+rigid and `tate` for one that erodes. Cases that are not done are left out. `--list` prints another table instead: every case of
+the studies, done or not, with its outcome.
 """
 
 from __future__ import annotations
@@ -24,7 +25,7 @@ from hydro2d.results import figures
 from hydro2d.study import layout
 from hydro2d.study.layout import StudyError
 
-#: the label of a shot: nose, alloy and velocity; the nose is hemispherical where it is left out
+#: the label of a shot: nose, alloy and velocity; without a nose it means a hemispherical one
 SHOT = re.compile(r"(?:(hemi|ogive)[- ])?(5083|7039)[- ](\d+)")
 NOSES = {"hemi": "hemispherical", "ogive": "ogival"}
 #: velocities of the analytic models, m/s
@@ -34,7 +35,7 @@ COLOURS = ("#1f4e79", "#b5651d", "#4f7942", "#8b3a62", "#5b6770")
 
 @dataclass(frozen=True)
 class Shot:
-    """Nose, alloy and velocity (m/s): what a row of the table is."""
+    """A row of the table: nose, alloy and velocity (m/s)."""
 
     nose: str
     alloy: str
@@ -42,7 +43,7 @@ class Shot:
 
     @classmethod
     def named(cls, label: str) -> Shot | None:
-        """By the label of a case; None for one that names no shot."""
+        """The shot that the label of a case names; None if it names none."""
         found = SHOT.fullmatch(label)
         return found and cls(NOSES[found[1] or "hemi"], found[2], float(found[3]))
 
@@ -71,7 +72,7 @@ def experiments() -> dict[Shot, Experiment]:
 
 
 def runs(directories: list[Path]) -> dict[str, dict[Shot, layout.Case]]:
-    """The cases that are done by column and shot. Raises StudyError."""
+    """The finished cases, by column and shot. Raises StudyError."""
     found: dict[str, dict[Shot, layout.Case]] = {}
     for directory in directories:
         for case in layout.read(directory).cases:
@@ -83,7 +84,7 @@ def runs(directories: list[Path]) -> dict[str, dict[Shot, layout.Case]]:
 
 
 def cell(case: layout.Case) -> str:
-    """Depth, or residual velocity of a rod that perforated, and loss of length."""
+    """Depth (for a rod that perforated, its residual velocity) and loss of length."""
     told = case.summary
     loss = 100.0 * (1.0 - told["rod_length_m"] / told["rod_initial_length_m"])
     lost = f"{loss:.1f} %" if loss < 10.0 else f"{loss:.0f} %"
@@ -104,7 +105,7 @@ def table(found: dict[str, dict[Shot, layout.Case]]) -> list[str]:
 
 
 def listing(directories: list[Path]) -> list[str]:
-    """Lines of Markdown: a line for each case of the studies. Raises StudyError."""
+    """Lines of Markdown, one for each case of the studies. Raises StudyError."""
     lines = ["| study | case | depth | loss of length | regime | end | minutes |", "|---" * 7 + "|"]
     for directory in directories:
         study = layout.read(directory)
@@ -122,7 +123,7 @@ def listing(directories: list[Path]) -> list[str]:
 
 
 def draw(found: dict[str, dict[Shot, layout.Case]]):
-    """A matplotlib Figure: a panel for each alloy, hemispherical noses filled, ogival ones open."""
+    """A matplotlib Figure with a panel for each alloy; markers are filled for hemispherical noses and open for ogival ones."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
@@ -169,7 +170,7 @@ def main(arguments: list[str] | None = None) -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("studies", nargs="+", type=Path)
     parser.add_argument("--figure", type=Path)
-    parser.add_argument("--list", action="store_true", dest="every", help="every case instead")
+    parser.add_argument("--list", action="store_true", dest="every", help="list every case instead")
     given = parser.parse_args(arguments)
     try:
         if given.every:
@@ -177,7 +178,7 @@ def main(arguments: list[str] | None = None) -> int:
             return 0
         found = runs(given.studies)
         if not found:
-            print("no case of these studies is a shot that is done", file=sys.stderr)
+            print("these studies have no finished case of a shot", file=sys.stderr)
             return 2
         print("\n".join(table(found)))
         if given.figure:

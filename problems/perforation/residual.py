@@ -1,9 +1,9 @@
-"""Residual against striking velocity of the Weldox 460 E shots, beside the experiments: a table in Markdown, and a figure.
+"""Residual against striking velocity for the Weldox 460 E shots, with the experiments: a Markdown table and a figure.
 
     python -m problems.perforation.residual STUDY [STUDY ...] [--figure PATH]
 
-Cases that are not done are left out. The ballistic limits are those of Lambert and Jonas' formula, fitted to the shots and to
-the runs alike.
+Cases that are not done are left out. The ballistic limits come from the formula of Lambert and Jonas, fitted to the shots and
+to the runs.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ COLOURS = {"blunt": "#1f4e79", "hemispherical": "#b5651d"}
 
 @dataclass(frozen=True)
 class Run:
-    """A case: nose, striking and residual velocity (m/s; 0 where the rod was held), plug (kg, m/s), exit diameter (m)."""
+    """A case: nose, striking and residual velocity (m/s; 0 if the plate stopped the rod), plug (kg, m/s), exit diameter (m)."""
 
     nose: str
     striking: float
@@ -39,13 +39,13 @@ class Run:
 
 
 def experiments() -> dict[tuple[str, float], float]:
-    """Residual by nose and striking velocity, m/s, of weldox_460e.csv."""
+    """Residual velocities of weldox_460e.csv by nose and striking velocity, m/s."""
     with open(Path(__file__).with_name("weldox_460e.csv"), encoding="utf-8") as file:
         return {(row["nose"], float(row["striking_m_s"])): float(row["residual_m_s"]) for row in csv.DictReader(file)}
 
 
 def runs(directories: list[Path]) -> list[Run]:
-    """The cases that are done, by nose and velocity. Raises StudyError."""
+    """The finished cases, sorted by nose and velocity. Raises StudyError."""
     found = []
     for directory in directories:
         for case in layout.read(directory).cases:
@@ -60,7 +60,7 @@ def runs(directories: list[Path]) -> list[Run]:
 
 
 def limit(pairs: list[tuple[float, float]]) -> str:
-    """Ballistic limit by a fit to (striking, residual) velocities in m/s, with a and p; why not where there is none."""
+    """Ballistic limit fitted to (striking, residual) velocities in m/s, with a and p; if the fit fails, the reason."""
     try:
         fit = lambert_jonas.fit(*zip(*pairs, strict=True))
     except InputError as error:
@@ -88,7 +88,7 @@ def table(found: list[Run]) -> list[str]:
 
 
 def draw(found: list[Run]):
-    """A matplotlib Figure: runs filled, experiments open."""
+    """A matplotlib Figure: filled markers for runs, open ones for experiments."""
     figure, ((axes,),) = figures.new_figure(6.0, 4.4, 1, 1)
     measured = experiments()
     for nose, colour in COLOURS.items():
@@ -103,7 +103,7 @@ def draw(found: list[Run]):
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Prints the table and draws the figure; 2 where a directory is not a study."""
+    """Prints the table and draws the figure. Returns 2 if a directory is not a study."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("studies", nargs="+", type=Path)
     parser.add_argument("--figure", type=Path)

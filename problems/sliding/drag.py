@@ -1,10 +1,11 @@
-"""The force on a rod against its speed, from run directories, beside the resistance of cavity expansion.
+"""The force on a rod against its speed, from run directories, compared with the resistance of cavity expansion.
 
     python -m problems.sliding.drag RUN [RUN ...] [--window MICROSECONDS] [--json]
 
-The force is the deceleration of the rod's centre of mass, the slope of a line through the velocities of a window of time, times
-the rod's mass over its section. Cavity expansion is the model `forrestal` on the run's own deck: A Y N1 + B rho N2 V^2 on the
-whole nose, with A and B of the compressible cavity in the target's material. Runs need not have ended.
+The force is the deceleration of the rod's centre of mass times the rod's mass, divided by its cross-section. The deceleration
+is the slope of a line fitted to the velocities in a window of time. Cavity expansion is the model `forrestal` on the run's own
+deck: A Y N1 + B rho N2 V^2 on the whole nose, with A and B for a compressible cavity in the target's material. Runs need not
+have ended.
 """
 
 from __future__ import annotations
@@ -23,13 +24,13 @@ from hydro2d.errors import DeckError
 from hydro2d.output.history import HistoryError
 from hydro2d.results import reading
 
-#: rows of the history that a line is put through, at least
+#: smallest number of rows of the history to which a line is fitted
 ROWS = 4
 
 
 @dataclass(frozen=True)
 class Window:
-    """Means over a window: time (s) and depth (m) at its middle, speed (m/s) and deceleration (m/s^2) of the line there."""
+    """A window: time (s) and depth (m) at its middle, and speed (m/s) and deceleration (m/s^2) of the fitted line there."""
 
     time: float
     depth: float
@@ -38,7 +39,7 @@ class Window:
 
 
 def windows(time: np.ndarray, speed: np.ndarray, depth: np.ndarray, width: float) -> list[Window]:
-    """Windows of ``width`` (s) one after another, from the first time on; none that the history fills by less than half."""
+    """Consecutive windows of ``width`` (s) from the first time on, without those of which the history covers less than half."""
     found = []
     for k in range(math.ceil((time[-1] - time[0]) / width * (1.0 - 1e-9))):
         here = (time >= time[0] + (k - 1e-9) * width) & (time <= time[0] + (k + 1 + 1e-9) * width)
@@ -51,8 +52,10 @@ def windows(time: np.ndarray, speed: np.ndarray, depth: np.ndarray, width: float
 
 
 def measure(directory: Path | str, width: float = 10e-6) -> dict:
-    """Force (Pa, over the rod's section) by window and what theory and experiment have beside it; SI. Raises ResultsError,
-    HistoryError, DeckError."""
+    """Force (Pa, over the rod's cross-section) by window, with the values of theory and experiment; SI.
+
+    Raises ResultsError, HistoryError, DeckError.
+    """
     run = reading.Results(directory)
     if "rod_mean_velocity_m_s" not in run.history:
         raise reading.ResultsError(f"{directory} has no rod: its deck has no [penetration]")
@@ -68,7 +71,7 @@ def measure(directory: Path | str, width: float = 10e-6) -> dict:
     ]  # fmt: skip
 
     def mean(reached: float, left: float = 0.0) -> float | None:
-        """Mean resistance over a depth (m) at the end of which the rod has a speed left."""
+        """Mean resistance over a depth (m) at the end of which the rod's speed is ``left`` (m/s)."""
         return 0.5 * mass * (shot.velocity**2 - left**2) / (section * reached) if reached else None
 
     return {
@@ -80,7 +83,7 @@ def measure(directory: Path | str, width: float = 10e-6) -> dict:
 
 
 def table(found: dict) -> str:
-    """What was measured, as Markdown."""
+    """The measurements as Markdown."""
     lines = [f"**{found['run']}**, {found['velocity']:.0f} m/s{'' if found['ended'] else ', not ended'}", "",
              "| time, us | depth, cm | speed, m/s | force, GPa | cavity expansion, GPa | ratio |",
              "|---|---|---|---|---|---|"]  # fmt: skip
@@ -99,7 +102,7 @@ def table(found: dict) -> str:
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """The command; 2 where a directory holds no run with a rod."""
+    """The command. Returns 2 if a directory holds no run with a rod."""
     parser = argparse.ArgumentParser(prog="python -m problems.sliding.drag", description=__doc__.splitlines()[0])
     parser.add_argument("run", nargs="+", type=Path, help="a run directory, finished or not")
     parser.add_argument("--window", type=float, default=10.0, help="length of a window in microseconds (10)")

@@ -1,9 +1,9 @@
-"""Length, foot and plastic strain of a bar that hits a wall, from the dumps of run directories, beside Lagrangian solutions.
+"""Length, foot and plastic strain of a bar that hits a wall, from the dumps of run directories, against Lagrangian solutions.
 
     python -m problems.validation.bar RUN [RUN ...] [--body NAME] [--json]
 
-The length is what the bar fills of the axis. Its foot is the first row from the front whose cell on the axis it fills by half
-or more; the radius there is that of a disk with the area that the bar fills. Runs need not have ended.
+The length is the part of the axis that the bar fills. The foot is the first row from the front in which the bar fills at least
+half of the cell on the axis. Its radius is that of a disk with the same area as the bar has there. Runs need not have ended.
 """
 
 from __future__ import annotations
@@ -20,13 +20,13 @@ from hydro2d.mesh import quantities
 from hydro2d.output import vtk
 from hydro2d.results import reading
 
-#: a cell belongs to the bar from this share on
+#: volume fraction from which on a cell belongs to the bar
 HALF = 0.5
 
 
 @dataclass(frozen=True)
 class Bar:
-    """A bar at one time (s): length and radius of the foot in m, largest plastic strain (None where it is not known)."""
+    """A bar at one time (s): length and radius of the foot in m, and largest plastic strain (None if unknown)."""
 
     time: float
     length: float
@@ -34,8 +34,9 @@ class Bar:
     strain: float | None = None
 
 
-#: Lagrangian solutions by impact speed (m/s) and first length (m). The first: an axisymmetric code with 24 to 32 cells across
-#: the radius; at the end Carina.jl of Cthonios, TET15-P1, 190 727 elements. The second: the same code, 24 cells across.
+#: Lagrangian solutions by impact speed (m/s) and initial length (m). The first is by an axisymmetric code with 24 to 32 cells
+#: across the radius, and at the end by Carina.jl of Cthonios, TET15-P1, 190 727 elements. The second is by the same
+#: axisymmetric code, 24 cells across.
 REFERENCES = {
     (227.0, 32.4e-3): (
         Bar(20e-6, 28.063e-3, 6.195e-3), Bar(40e-6, 24.556e-3, 7.139e-3), Bar(80e-6, 21.42e-3, 7.226e-3, 3.18),
@@ -48,14 +49,14 @@ REFERENCES = {
 
 def shape(r_edges: np.ndarray, z_edges: np.ndarray, fraction: np.ndarray, strain: np.ndarray, direction: float,
           time: float) -> Bar:  # fmt: skip
-    """The bar at one time, from what it fills of every cell and its plastic strain there, arrays (nz, nr).
+    """The bar at one time, from its volume fraction and plastic strain in every cell, arrays (nz, nr).
 
-    direction : sign of the velocity that it came with, so that the foot is at its lower end where it is negative
+    direction : sign of the impact velocity; if it is negative, the foot is at the lower end
     """
     column = fraction[:, 0]
     inside = np.nonzero(column >= HALF)[0]
     if len(inside) == 0:
-        raise reading.ResultsError(f"there is nothing of the bar on the axis at {time * 1e6:.3g} us")
+        raise reading.ResultsError(f"the bar is nowhere on the axis at {time * 1e6:.3g} us")
     row = fraction[inside[0] if direction < 0 else inside[-1]]
     return Bar(
         time=time,
@@ -66,7 +67,7 @@ def shape(r_edges: np.ndarray, z_edges: np.ndarray, fraction: np.ndarray, strain
 
 
 def reference(speed: float, length: float) -> tuple[Bar, ...]:
-    """The Lagrangian solution for an impact speed (m/s) and first length (m); empty where there is none."""
+    """The Lagrangian solution for an impact speed (m/s) and initial length (m); empty if there is none."""
     for (v, l), bars in REFERENCES.items():
         if abs(speed - v) < 1e-3 * v and abs(length - l) < 5e-3 * l:
             return bars
@@ -74,7 +75,7 @@ def reference(speed: float, length: float) -> tuple[Bar, ...]:
 
 
 def measure(directory: Path | str, name: str | None = None) -> dict:
-    """The bar in every dump, and at the times of the reference what both have; SI. Raises ResultsError, VtkError."""
+    """The bar in every dump, and its comparison with the reference at its times; SI. Raises ResultsError, VtkError."""
     run = reading.Results(directory)
     bodies = {body["name"]: body for body in run.deck["body"]}
     name = name or next(iter(bodies))
@@ -101,19 +102,19 @@ def measure(directory: Path | str, name: str | None = None) -> dict:
 
 
 def last(bars: list[Bar]) -> float:
-    """Time that the dumps reach, s, and a little beyond: the last one of a run lies at its end or just short of it."""
+    """Time that the dumps reach, s, plus a margin, because the last dump of a run may lie just short of its end."""
     return bars[-1].time * (1.0 + 1e-3)
 
 
 def at(bars: list[Bar], time: float) -> Bar:
-    """The bar at a time (s), between the dumps."""
+    """The bar at a time (s), interpolated between the dumps."""
     times = [bar.time for bar in bars]
     values = (np.interp(time, times, [getattr(bar, key) for bar in bars]) for key in ("length", "foot", "strain"))
     return Bar(time, *map(float, values))
 
 
 def table(found: dict) -> str:
-    """What was measured, as Markdown: at the times of the reference, or every dump where there is none."""
+    """The measurements as Markdown, at the times of the reference, or for every dump if there is no reference."""
     lines = [f"**{found['run']}**, {found['body']} at {found['velocity']:.0f} m/s{'' if found['ended'] else ', not ended'}", "",
              "| time, us | length, mm | reference | error | foot, mm | reference | error | plastic strain | reference |",
              "|---|---|---|---|---|---|---|---|---|"]  # fmt: skip
@@ -129,10 +130,10 @@ def table(found: dict) -> str:
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """The command; 2 where a directory holds no run with such a body."""
+    """The command. Returns 2 if a directory holds no run with such a body."""
     parser = argparse.ArgumentParser(prog="python -m problems.validation.bar", description=__doc__.splitlines()[0])
     parser.add_argument("run", nargs="+", type=Path, help="a run directory, finished or not")
-    parser.add_argument("--body", help="the body to measure (the first of the deck)")
+    parser.add_argument("--body", help="the body to measure (default: the first of the deck)")
     parser.add_argument("--json", action="store_true", help="print JSON with every dump, SI units")
     given = parser.parse_args(arguments)
     try:

@@ -1,11 +1,11 @@
-"""Penetration velocity and stagnation pressure of a jet without strength, from run directories, beside compressible Bernoulli.
+"""Penetration velocity and stagnation pressure of a jet without strength, from run directories, against compressible Bernoulli.
 
     python -m problems.validation.jet RUN [RUN ...] [--first DIAMETERS] [--last DIAMETERS] [--json]
 
-All is read on the axis. The interface lies where the volume fractions put it between the last cell of jet alone and the first
-of target alone. On either side the pressure is p0 - a x^2 near a point of stagnation, x from the interface: p0 is that of least
-squares through cells of one material, within 0.6 radii of the jet. Velocities are slopes of lines and pressures means over
-windows of depth, counted in diameters of the jet. Runs need not have ended.
+Everything is read on the axis. The volume fractions locate the interface between the last cell that holds jet alone and the
+first that holds target alone. Near a stagnation point the pressure on either side is p0 - a x^2, where x is the distance from
+the interface; p0 comes from a least-squares fit through cells of one material within 0.6 jet radii. Velocities are slopes of
+fitted lines, and pressures are means, over windows of depth counted in jet diameters. Runs need not have ended.
 """
 
 from __future__ import annotations
@@ -27,20 +27,22 @@ from hydro2d.mesh import quantities
 from hydro2d.output import vtk
 from hydro2d.results import reading
 
-#: a cell is of one material from this share on
+#: volume fraction from which on a cell counts as one material
 PURE = 1.0 - 1e-4
-#: how far from the interface pressures are looked at: in radii of the jet, but at least so many cells
+#: distance from the interface within which pressures are used: in radii of the jet, but at least this many cells
 REACH, CELLS = 0.6, 4
-#: dumps that a window has, at least
+#: smallest number of dumps in a window
 ROWS = 4
-#: densest state of an isentrope over the reference density, and its steps
+#: density of an isentrope's densest state over the reference density, and number of steps
 DENSEST, STEPS = 1.7, 2000
 
 
 def isentrope(material) -> tuple[np.ndarray, np.ndarray]:
-    """Pressure (Pa) and enthalpy e + p/rho (J/kg), which is w^2/2 of the stream that stagnates there; de = p/rho^2 drho.
+    """Pressure (Pa) and enthalpy e + p/rho (J/kg) along an isentrope, de = p/rho^2 drho.
 
-    material : one of a deck; its isentrope begins at the reference density without energy
+    The enthalpy equals w^2/2 for a stream of speed w that stagnates at that pressure.
+
+    material : a material of a deck; its isentrope starts at the reference density with zero energy
     """
     model, start = eos.MODELS[material.eos.name], material.reference_density
     row = model.row(material.eos.values)
@@ -61,21 +63,21 @@ def isentrope(material) -> tuple[np.ndarray, np.ndarray]:
 def bernoulli(jet, target, velocity: float) -> tuple[float, float]:
     """Penetration velocity (m/s) and stagnation pressure (Pa) of a steady jet at an impact velocity in m/s.
 
-    Both streams stagnate at one pressure, and their speeds, v - u of the jet and u of the target, add up to v.
+    Both streams stagnate at the same pressure, and their speeds, v - u for the jet and u for the target, add up to v.
     """
     own, other = isentrope(jet), isentrope(target)
     p = np.linspace(0.0, 1.0, 20001) ** 2 * min(own[0][-1], other[0][-1])
     target_speed = np.sqrt(2.0 * np.interp(p, *other))
     sum_of_speeds = np.sqrt(2.0 * np.interp(p, *own)) + target_speed
     if velocity > sum_of_speeds[-1]:
-        raise reading.ResultsError(f"{velocity:g} m/s is beyond compressible Bernoulli as it is tabled here")
+        raise reading.ResultsError(f"{velocity:g} m/s is beyond the range of the compressible Bernoulli table")
     pressure = float(np.interp(velocity, sum_of_speeds, p))
     return float(np.interp(pressure, p, target_speed)), pressure
 
 
 @dataclass(frozen=True)
 class Point:
-    """The interface on the axis at one time (s): position (m), and the pressure (Pa) there on the side of jet and of target."""
+    """The interface on the axis at one time (s): its position (m) and the pressures (Pa) there on the jet and target sides."""
 
     time: float
     position: float
@@ -84,16 +86,17 @@ class Point:
 
 
 def stagnation(distance: np.ndarray, pressure: np.ndarray) -> float:
-    """p0 of p0 - a x^2 through pressures (Pa) at distances x (m) from the interface, by least squares."""
+    """p0 of a least-squares fit p0 - a x^2 to pressures (Pa) at distances x (m) from the interface."""
     return float(np.linalg.lstsq(np.column_stack([np.ones_like(distance), distance**2]), pressure, rcond=None)[0][0])
 
 
 def point(edges: np.ndarray, jet: np.ndarray, target: np.ndarray, pressures: tuple[np.ndarray, np.ndarray], reach: float,
           time: float) -> Point | None:  # fmt: skip
-    """The interface from what jet and target fill of the cells on the axis, the jet below; None with too little of either.
+    """The interface, from the volume fractions of jet and target in the cells on the axis; None with too little of either.
 
-    pressures : of both bodies in these cells, Pa;  reach : how far from the interface they are used, m. The cells next to a
-    mixed one are left out.
+    The jet lies below the target. Cells next to a mixed cell are left out.
+
+    pressures : of both bodies in these cells, Pa;  reach : distance from the interface within which they are used, m
     """
     beyond = np.nonzero(target >= PURE)[0]
     before = np.nonzero(jet[: beyond[0]] >= PURE)[0] if len(beyond) else beyond
@@ -125,7 +128,7 @@ def read(run: reading.Results, jet: str, target: str, reach: float) -> list[Poin
 
 
 def mean(points: list[Point], low: float, high: float) -> dict | None:
-    """Velocity (m/s) and mean pressures (Pa) with their scatter while the interface is between two positions (m)."""
+    """Velocity (m/s), and mean pressures (Pa) with their scatter, while the interface lies between two positions (m)."""
     inside = [at for at in points if low <= at.position < high]
     if len(inside) < ROWS:
         return None
@@ -137,14 +140,14 @@ def mean(points: list[Point], low: float, high: float) -> dict | None:
 
 
 def measure(directory: Path | str, first: float = 3.0, last: float = 10.0) -> dict:
-    """By windows of one diameter, and from the first to the last of those given; SI.
+    """Measurements over windows of one diameter, and over one window from ``first`` to ``last`` diameters; SI.
 
     Raises ResultsError, VtkError, DeckError.
     """
     run = reading.Results(directory)
     deck = decks.load(run.directory / reading.DECK)
     if deck.penetration is None or run.direction < 0:
-        raise reading.ResultsError(f"{directory} has no jet that flies towards +z: its deck has no [penetration] of that kind")
+        raise reading.ResultsError(f"{directory} has no jet that flies towards +z: its deck has no [penetration] for one")
     jet, target = (decks.body(deck, getattr(deck.penetration, key)) for key in ("rod", "target"))
     diameter = 2.0 * decks.body_radius(deck, jet.name)
     velocity = jet.velocity[1] - target.velocity[1]
@@ -177,7 +180,7 @@ def _cells(found: dict, exact: dict) -> str:
 
 
 def table(found: dict) -> str:
-    """What was measured, as Markdown."""
+    """The measurements as Markdown."""
     exact = found["exact"]
     ended = "" if found["ended"] else ", not ended"
     lines = [f"**{found['run']}**, {found['velocity']:.0f} m/s, `{found['advection']}`{ended}; compressible Bernoulli: "
@@ -191,7 +194,7 @@ def table(found: dict) -> str:
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """The command; 2 where a directory holds no run with a jet."""
+    """The command. Returns 2 if a directory holds no run with a jet."""
     parser = argparse.ArgumentParser(prog="python -m problems.validation.jet", description=__doc__.splitlines()[0])
     parser.add_argument("run", nargs="+", type=Path, help="a run directory, finished or not")
     parser.add_argument("--first", type=float, default=3.0, help="where the last row begins, in diameters (3)")
