@@ -52,12 +52,12 @@ def test_the_check_prints_what_the_page_shows(folder):
 def test_the_mistakes_of_the_page_are_found(folder):
     text = (folder / "my_model.py").read_text()
     (folder / "short.py").write_text(text.replace("(ep, rate, T, p, rho, par)", "(ep, rate)"))
-    said = re.search(r"such as `(my_model.py: flow_stress.*?)`", WALK, re.S)[1]
+    said = re.search(r"such as\s+`(my_model.py: flow_stress.*?)`", WALK, re.S)[1]
     assert typed("hydro2d check-model short.py", folder).stderr.split()[2:] == said.split()[1:]
     assert text.count("1.0 - math.exp") == 1
     (folder / "softens.py").write_text(text.replace("1.0 - math.exp", "math.exp"))
     done = typed("hydro2d check-model softens.py", folder)
-    assert "FAILED    strain and rate harden" in done.stdout
+    assert "FAILED    strain and strain rate harden" in done.stdout
     assert done.returncode == 2
 
 

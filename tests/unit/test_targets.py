@@ -89,11 +89,11 @@ def test_named_targets(keys, targets):
 
 @pytest.mark.parametrize(
     ("keys", "said"),
-    [('targets = ["rear", "front"]', 'the rod meets "front" before "rear"; name them in that order'),
+    [('targets = ["rear", "front"]', 'the rod reaches "front" before "rear"; name them in that order'),
      ('targets = ["front", "back"]', 'unknown body "back"'),
      ('targets = ["front", "ball"]', '"ball" is the rod'),
      ('targets = ["front", "front"]', "targets names a body twice"),
-     ('target = "rear"\ntargets = ["front", "rear"]', 'target is "rear" and the first of targets "front"'),
+     ('target = "rear"\ntargets = ["front", "rear"]', 'target is "rear" and the first of targets is "front"'),
      ("", "target or targets is missing")],
 )  # fmt: skip
 def test_targets_that_cannot_be(keys, said):
