@@ -68,7 +68,6 @@ def test_the_deck_is_in_order(folder):
     assert done.returncode == 0
 
 
-@pytest.mark.slow
 def test_the_walk(folder):
     """Runs, picture and lengths of the page; and Voce hardening that goes on for ever is the linear hardening of hydro2d."""
     for command in commands():
