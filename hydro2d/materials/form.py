@@ -115,6 +115,10 @@ def _variables(module: ModuleType, kind) -> Iterator[str]:
     elif given and kind.part != "strength":
         yield f"has internal variables, which a {kind.title} cannot"
     for entry in given:
+        kinds = entry.centring == "body", entry.remap in ("mass", "volume"), entry.parity in (1, -1), entry.name.isidentifier()
+        if not all(kinds):
+            yield (f'the internal variable {entry.name!r}: centring is "body", remap is "mass" or "volume", parity is 1 or -1, '
+                   "and the name is a word of letters, digits and underscores")
         known = quantities.BY_KEY.get(entry.name)
         if known is not None and not known.internal:
             yield f"the internal variable {entry.name} has the name of a field"

@@ -8,6 +8,7 @@ import os
 import signal
 import threading
 import time
+import uuid
 from collections.abc import Iterable
 
 import distributed
@@ -82,9 +83,9 @@ def _on_sigterm(_number, _frame) -> None:
 class Checkpoint(distributed.WorkerPlugin):
     """Lets the case of a worker that must end write a restart file. The sweep handles Ctrl-C, not its workers."""
 
-    name = "hydro2d-checkpoint"
-
     def __init__(self, silent: bool, models: Iterable[tuple[str, str, str]] = ()):
+        #: dask tears down a plugin of the same name, and this one would take the running cases of its sweep with it
+        self.name = f"hydro2d-{uuid.uuid4().hex[:12]}"
         self.models = list(models)  # of the whole study: kernels are loaded with the first case
         self.silent = silent  # messages about lost connections at the end are not for the user
 

@@ -47,6 +47,17 @@ def test_joins_a_running_cluster_and_leaves_it_running(tmp_path, others, capsys)
     assert all(file.stat().st_mtime_ns > then for file, then in zip(files, before, strict=True))
 
 
+def test_a_second_sweep_leaves_the_cases_of_the_first_alone(tmp_path, others):
+    out, address = tmp_path / "out", others(1)
+    process = tubes.start(tubes.write(tmp_path), "--scheduler", address, "--out", out, "--set", "stop.time=0.3")
+    tubes.wait_for(lambda: list(out.glob("cases/*/run.lock")))
+    with cluster.joined(address):
+        pass
+    said, _ = process.communicate(timeout=300)
+    assert process.returncode == 0, said
+    assert {case.status for case in hydro2d.open_study(out).cases} == {"done"}
+
+
 def test_workers_of_several_threads_are_refused(tmp_path, others, capsys):
     assert call(["sweep", str(tubes.write(tmp_path)), "--scheduler", others(2), "--out", str(tmp_path / "out")]) == 2
     assert "has 2 threads; start `dask worker` with --nthreads 1" in capsys.readouterr().err

@@ -132,6 +132,15 @@ def test_an_internal_variable_is_a_field_that_can_be_written(folder):
     assert "the internal variable damage has the name of a field" in python(WRITTEN, folder)
 
 
+@pytest.mark.parametrize(("right", "wrong"), [('"body"', '"vertex"'), ('"mass"', '"bogus"'), (', 1, "', ', 7, "'),
+                                              ('"softness"', '"soft ness"')])  # fmt: skip
+def test_an_internal_variable_that_no_body_can_have_is_refused(folder, right, wrong):
+    declared = INTERNAL[INTERNAL.index("INTERNAL = ") : INTERNAL.index("\nEXAMPLE")]
+    assert right in declared, declared
+    (folder / "my_model.py").write_text(INTERNAL.replace(declared, declared.replace(right, wrong)))
+    assert 'centring is "body", remap is "mass" or "volume", parity is 1 or -1' in python(WRITTEN, folder)
+
+
 # ------------------------------------------------------------------------------------------------ kernels
 
 LATE = """
