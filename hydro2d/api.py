@@ -13,7 +13,7 @@ from hydro2d import toml
 from hydro2d.deck import deck as decks
 from hydro2d.deck.deck import Deck
 from hydro2d.errors import UnphysicalState
-from hydro2d.files import write_text
+from hydro2d.files import plain, write_text
 from hydro2d.results.reading import Results
 from hydro2d.running import run as runs
 from hydro2d.running.run import deck_hash
@@ -45,8 +45,10 @@ def run(deck: Deck | str | Path, directory: str | Path | None = None, *, restart
 
     Raises
     ------
-    DeckError, RunError, LockError
-        The deck is wrong, the directory already holds a run, or another process uses it.
+    DeckError, RunError, LockError, SnapshotError
+        The deck is wrong, the directory already holds a run, another process uses it, or there is nothing to continue from.
+    ColumnError
+        A column has no name for a file, or fails; ``restart=True`` continues the run.
     UnphysicalState
         The state became unphysical; the directory has the last good one.
     KeyboardInterrupt
@@ -114,10 +116,11 @@ def sweep(study: str | Path | Deck, axes: Mapping[str, Sequence[Any]] | None = N
     Returns
     -------
     pandas.DataFrame
-        One row for each case, indexed by its name: the axes, ``status``, depths, lengths and the other columns that `hydro2d
-        report` lists, in SI units. For a case that failed, ``message`` has the reason.
+        One row for each case, indexed by its name: the axes as text, ``status``, depths, lengths and the other columns that
+        `hydro2d report` lists, in SI units. For a case that failed, or whose deck is wrong, ``message`` has the reason.
 
-    Raises StudyError, DeckError, LockError; KeyboardInterrupt if the sweep was interrupted, which ``resume=True`` continues.
+    Raises StudyError, also if no case has a valid deck, DeckError, LockError; KeyboardInterrupt if the sweep was interrupted,
+    which ``resume=True`` continues.
 
     Worker processes are spawned, so a script must call this below ``if __name__ == "__main__":``.
     """
@@ -126,7 +129,7 @@ def sweep(study: str | Path | Deck, axes: Mapping[str, Sequence[Any]] | None = N
             raise StudyError(f"{name} = {number}: at least one is needed")
     plan = _plan(study, axes, overrides, directory)
     place = Path(directory or plan.out)
-    connect = cluster.local(min(workers or cluster.default_workers(threads), len(plan.cases)), threads)
+    connect = cluster.local(cluster.needed(workers, threads, len(plan.cases)), threads)
     status = sweeps.sweep(Choice(plan), place, connect, threads=threads, resume=resume, overwrite=overwrite, quiet=quiet)
     if status not in (sweeps.ALL_DONE, sweeps.SOME_FAILED):
         raise KeyboardInterrupt(f"{place}: the sweep was interrupted")
@@ -136,9 +139,6 @@ def sweep(study: str | Path | Deck, axes: Mapping[str, Sequence[Any]] | None = N
 def _plan(study: str | Path | Deck, axes: Mapping[str, Sequence[Any]] | None, overrides: decks.Overrides,
           directory: str | Path | None) -> cases.Plan:  # fmt: skip
     """The cases of a study file, or of a deck and axes. Raises StudyError."""
-    if isinstance(overrides, str):
-        raise StudyError(f'overrides are a dict of values by key or a list of "key=value", not the text "{overrides}"')
-    overrides = decks.plain(overrides)
     if axes is None:
         if isinstance(study, Deck):
             raise StudyError("a deck alone is not a study: give `axes`, the keys to vary")
@@ -151,7 +151,7 @@ def _plan(study: str | Path | Deck, axes: Mapping[str, Sequence[Any]] | None, ov
     file = _base(study, directory) if isinstance(study, Deck) else decks.find(study)
     tables = {"deck": str(file.resolve()), "axis": [{"name": _name(key, axes), "key": key, "values": list(values)}
                                                     for key, values in axes.items()]}  # fmt: skip
-    plan = cases.plan_of(decks.plain(tables), file.stem, overrides)
+    plan = cases.plan_of(plain(tables), file.stem, overrides)
     if not any(case.text for case in plan.cases):
         raise StudyError(f"no case has a valid deck; {plan.cases[0].name}: {plan.cases[0].message}")
     return plan

@@ -8,7 +8,7 @@ import math
 import os
 import socket
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import NamedTuple, TextIO
@@ -52,6 +52,16 @@ def hdf5(path: Path) -> Iterator:
         file.flush()
         image = file.id.get_file_image()
     path.write_bytes(image)
+
+
+def read_text(path: Path, error: type[Error]) -> str:
+    """The text of a file that a user wrote. Raises `error` with one line if it cannot be read, or is not UTF-8 text."""
+    try:
+        return Path(path).read_text(encoding="utf-8-sig")
+    except OSError as problem:
+        raise error(f"{path}: cannot be read: {problem.strerror}") from None
+    except UnicodeDecodeError:
+        raise error(f"{path}: is not UTF-8 text") from None
 
 
 def write_text(path: Path, text: str) -> None:
@@ -146,21 +156,28 @@ def _is_at(file: TextIO, path: Path) -> bool:
         return False
 
 
-def _plain(value):
-    """Numpy numbers as Python numbers; values that are not finite as null, because JSON has no number for them."""
-    if isinstance(value, dict):
-        return {str(key): _plain(item) for key, item in value.items()}
+def plain(value):
+    """A copy with numpy numbers and arrays as Python numbers and lists, and paths as text: what TOML and JSON can hold."""
+    if isinstance(value, Mapping):
+        return {str(key): plain(item) for key, item in value.items()}
     if isinstance(value, (list, tuple)):
-        return [_plain(item) for item in value]
+        return [plain(item) for item in value]
     if hasattr(value, "tolist"):
-        return _plain(value.tolist())
-    if isinstance(value, float) and not math.isfinite(value):
-        return None
-    return value
+        return value.tolist()
+    return str(value) if isinstance(value, Path) else value
+
+
+def _finite(value):
+    """Plain data with null for what is not finite, which JSON cannot represent."""
+    if isinstance(value, dict):
+        return {key: _finite(item) for key, item in value.items()}
+    if isinstance(value, list):
+        return [_finite(item) for item in value]
+    return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
 def write_json(path: Path, value) -> None:
-    write_text(path, json.dumps(_plain(value), indent=2, allow_nan=False) + "\n")
+    write_text(path, json.dumps(_finite(plain(value)), indent=2, allow_nan=False) + "\n")
 
 
 @contextmanager

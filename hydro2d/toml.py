@@ -15,6 +15,7 @@ from typing import Any
 import tomli_w
 
 from hydro2d.errors import DeckError, Sources, entry_index
+from hydro2d.files import read_text
 
 #: the parts of a material that are described by a model
 PARTS = ("eos", "strength", "damage")
@@ -52,12 +53,7 @@ def read(path: Path, sources: Sources, chain: tuple[Path, ...] = ()) -> dict:
     if path.resolve() in chain:
         circle = " -> ".join(entry.name for entry in (*chain[chain.index(path.resolve()) :], path))
         raise DeckError(f"{chain[-1]}: include: the files include each other in a circle: {circle}")
-    try:
-        text = path.read_text(encoding="utf-8-sig")
-    except OSError as problem:
-        raise DeckError(f"{path}: cannot be read: {problem.strerror}") from None
-    except UnicodeDecodeError:
-        raise DeckError(f"{path}: is not UTF-8 text") from None
+    text = read_text(path, DeckError)
     return assemble(text, str(path), path.parent, sources, (*chain, path.resolve()))
 
 

@@ -149,7 +149,7 @@ def _workers(most: int, workers: int | None, threads: int, scheduler: str | None
         return cluster.joined(scheduler)
     if slurm is not None:
         return cluster.slurm(slurm, workers or 1, threads)
-    return cluster.local(min(workers or cluster.default_workers(threads), most), threads)
+    return cluster.local(cluster.needed(workers, threads, most), threads)
 
 
 def _fits(workers: int | None, scheduler: str | None, slurm: Path | None) -> None:

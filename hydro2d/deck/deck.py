@@ -23,6 +23,7 @@ from hydro2d.deck.checks import extent, faces, heading, inconsistencies, room, t
 from hydro2d.deck.mesh import axis_edges, body, body_radius
 from hydro2d.deck.warnings import warnings
 from hydro2d.errors import DeckError, Sources, entry_index, spelled, unknown
+from hydro2d.files import plain
 from hydro2d.materials import from_files, library
 
 __all__ = [
@@ -37,7 +38,6 @@ __all__ = [
     "load",
     "loads",
     "of_tables",
-    "plain",
     "room",
     "schema",
     "sliding_widths",
@@ -179,23 +179,11 @@ def of_tables(tables: Mapping[str, Any], overrides: Overrides = (), name: str = 
     return _resolve(data, name, overrides, sources, Path(folder))
 
 
-def plain(value):
-    """A copy of a program's values for a part of a deck, as TOML would give them: numpy numbers become Python numbers."""
-    if isinstance(value, Mapping):
-        return {str(key): plain(entry) for key, entry in value.items()}
-    if isinstance(value, (np.ndarray, np.generic)):
-        return value.tolist()
-    if isinstance(value, (list, tuple)):
-        return [plain(entry) for entry in value]
-    return str(value) if isinstance(value, Path) else value
-
-
 def _laid_over(data: dict, overrides: Overrides, sources: Sources) -> dict:
     if isinstance(overrides, str):
         raise DeckError(f'overrides must be a list of "key=value" or a dict of values by key, not the text "{overrides}"')
     if isinstance(overrides, Mapping):
-        given = {key: plain(value) for key, value in overrides.items()}
-        entries = [(key, value, f"override {key} = {value!r}") for key, value in given.items()]
+        entries = [(key, value, f"override {key} = {value!r}") for key, value in plain(overrides).items()]
     else:
         entries = [(*toml.assignment(text), f"--set {text}") for text in overrides]
     for entry in entries:
@@ -210,8 +198,7 @@ def _resolve(data: dict, name: str, overrides: Overrides, sources: Sources, fold
     def complaint(path: tuple, message: str) -> DeckError:
         return DeckError(f"{sources.where(path, data)}: {spelled(path)}: {message}")
 
-    tables = toml.placed(data, folder)
-    data = from_files.read(tables, complaint)
+    data = from_files.read(toml.placed(data, folder), complaint)
     try:
         deck = Deck.model_validate(data, context=_RESOLVING)
     except ValidationError as error:
@@ -228,7 +215,7 @@ def _resolve(data: dict, name: str, overrides: Overrides, sources: Sources, fold
     problems = [str(complaint(path, message)) for path, message in unsupported(deck)]
     if problems:
         raise DeckError("\n".join(problems))
-    deck._tables = tables
+    deck._tables = data
     return deck
 
 

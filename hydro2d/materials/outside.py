@@ -22,6 +22,7 @@ import strength.registry
 from eos.layout import ROW as EOS_ROW
 from hydro2d import jit
 from hydro2d.errors import DeckError
+from hydro2d.files import read_text
 from hydro2d.materials import form
 from hydro2d.mesh import quantities
 from strength.layout import DAMAGE_ROW
@@ -139,12 +140,7 @@ def register(*models: str | Path) -> None:
 def read(path: str | Path, part: str | None = None) -> Outside:
     """The model in a file; `part` is one of KINDS, or None to infer it from the functions. Raises ModelError."""
     path = Path(path)
-    try:
-        text = path.read_text(encoding="utf-8-sig")
-    except OSError as problem:
-        raise ModelError(f"{path}: cannot be read: {problem.strerror}") from None
-    except UnicodeDecodeError:
-        raise ModelError(f"{path}: is not UTF-8 text") from None
+    text = read_text(path, ModelError)
     part = part or form.part(text, {kind.part: kind.required for kind in KINDS.values()})
     if part is None:
         needed = "; ".join(f"{kind.title}: {' and '.join(kind.required)}" for kind in KINDS.values())

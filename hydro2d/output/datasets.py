@@ -31,13 +31,12 @@ def _names(quantity: Quantity, dump: Dump) -> list[str]:
 
 def _values(quantity: Quantity, dump: Dump) -> np.ndarray:
     """The values of a quantity, shape ([body,] nz, nr[, component]); NaN where a body, or the dump, has none."""
-    shape = len(dump.z_edges) - 1, len(dump.r_edges) - 1
     names = _names(quantity, dump)
-    like = next((dump.fields[name] for name in names if name in dump.fields), np.empty(shape, np.float32))
+    like = next((dump.fields[name] for name in names if name in dump.fields), np.empty(dump.shape, np.float32))
     found = [dump.fields[name] if name in dump.fields else np.full(like.shape, np.nan, np.float32) for name in names]
     if quantity.per_body:
         return np.stack(found)
-    return found[0][..., : len(COMPONENTS)] if like.ndim > len(shape) else found[0]
+    return found[0][..., : len(COMPONENTS)] if like.ndim > 2 else found[0]
 
 
 def _dimensions(quantity: Quantity, values: np.ndarray) -> tuple[str, ...]:
@@ -81,13 +80,9 @@ def of_state(dump: Dump) -> xarray.Dataset:
 def _read(path: Path, shape: tuple[int, ...]) -> Dump:
     """A dump whose mesh has this shape, (nz, nr). Raises VtkError."""
     dump = read_grid(path)
-    if (len(dump.z_edges) - 1, len(dump.r_edges) - 1) != shape:
+    if dump.shape != shape:
         raise VtkError(f"{path} has another mesh than the dumps that were opened: the run was begun anew")
     return dump
-
-
-def _values_of(dump: Dump, quantity: Quantity) -> np.ndarray:
-    return _values(quantity, dump)
 
 
 def _travel(dump: Dump, start: float) -> np.ndarray:
@@ -106,12 +101,11 @@ def of_dumps(dumps: Sequence[tuple[float, Path]]) -> xarray.Dataset:
     import xarray
 
     first, last = read_grid(dumps[0][1]), read_grid(dumps[-1][1])
-    shape = len(first.z_edges) - 1, len(first.r_edges) - 1
-    opened = [dask.delayed(_read)(path, shape) for _, path in dumps]  # all variables of a dump share one reading of it
+    opened = [dask.delayed(_read)(path, first.shape) for _, path in dumps]  # all variables of a dump share one reading of it
     variables = {}
     for quantity in _quantities(first, last):
         like = _values(quantity, last)
-        parts = [dask.array.from_delayed(dask.delayed(_values_of)(dump, quantity), like.shape, like.dtype) for dump in opened]
+        parts = [dask.array.from_delayed(dask.delayed(_values)(quantity, dump), like.shape, like.dtype) for dump in opened]
         variables[quantity.key] = (("time", *_dimensions(quantity, like)), dask.array.stack(parts), _attributes(quantity))
     start = first.z_edges[0]
     travelled = [dask.array.from_delayed(dask.delayed(_travel)(dump, start), (), float) for dump in opened]

@@ -272,6 +272,11 @@ class Dump:
         return [name.removeprefix(prefix) for name in self.fields if name.startswith(prefix)]
 
     @property
+    def shape(self) -> tuple[int, int]:
+        """Number of cells along z and r, (nz, nr)."""
+        return len(self.z_edges) - 1, len(self.r_edges) - 1
+
+    @property
     def r_centres(self) -> np.ndarray:
         """Radii of the cell centres, m, shape (nr,)."""
         return 0.5 * (self.r_edges[1:] + self.r_edges[:-1])

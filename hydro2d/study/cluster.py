@@ -69,6 +69,11 @@ def default_workers(threads: int) -> int:
     return max((os.cpu_count() or 1) // threads, 1)
 
 
+def needed(workers: int | None, threads: int, cases: int) -> int:
+    """Number of workers on this machine: as many as asked for, or as use all cores, but no more than there are cases."""
+    return min(workers or default_workers(threads), cases)
+
+
 def environment(threads: int) -> dict[str, str]:
     """Variables of a worker process."""
     found = {"NUMBA_NUM_THREADS": str(threads), "OMP_NUM_THREADS": str(threads)}

@@ -11,6 +11,7 @@ from pydantic import AfterValidator, Field, ValidationError, model_validator
 from hydro2d import toml
 from hydro2d.deck.base import PositiveSpeed, Section, Speed
 from hydro2d.errors import DeckError, Error, Sources, spelled, unknown
+from hydro2d.files import plain, read_text
 
 #: overrides of the decks of a study: "key=value" of a command line, or values by their dotted keys
 Overrides = Sequence[str] | Mapping[str, Any]
@@ -123,12 +124,7 @@ def read(path: Path, overrides: Overrides) -> tuple[Definition, str, dict, Sourc
 
     Raises StudyError with one line for each mistake.
     """
-    try:
-        text = Path(path).read_text(encoding="utf-8-sig")
-    except OSError as problem:
-        raise StudyError(f"{path}: cannot be read: {problem.strerror}") from None
-    except UnicodeDecodeError:
-        raise StudyError(f"{path}: is not UTF-8 text") from None
+    text = read_text(path, StudyError)
     sources = Sources()
     try:
         data = toml.parse(text, str(path))
@@ -153,7 +149,9 @@ def of_tables(data: dict, name: str, overrides: Overrides) -> tuple[Definition, 
 
 def _with(data: dict, overrides: Overrides) -> dict:
     """The study with overrides applied to [set]."""
-    given = dict(overrides) if isinstance(overrides, Mapping) else dict(_assigned(entry) for entry in overrides)
+    if isinstance(overrides, str):
+        raise StudyError(f'overrides are a dict of values by key or a list of "key=value", not the text "{overrides}"')
+    given = plain(overrides) if isinstance(overrides, Mapping) else dict(_assigned(entry) for entry in overrides)
     return {**data, "set": {**_settings(data), **given}}
 
 
