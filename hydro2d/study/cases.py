@@ -14,6 +14,7 @@ from typing import Any
 
 from hydro2d import toml
 from hydro2d.deck import deck as decks
+from hydro2d.deck import keys
 from hydro2d.errors import DeckError, Sources, unknown
 from hydro2d.running.progress import counted
 from hydro2d.running.run import deck_hash
@@ -288,7 +289,7 @@ class _Planner:
             except DeckError as error:
                 self.wrong.append(str(error))
         for place, key in self._keys():
-            problems = [decks.key_problem(table, key) for table in tables]
+            problems = [keys.key_problem(table, key) for table in tables]
             if problems and all(problems):
                 self._say(place, f"no deck has the key {key}: {problems[0]}")
 

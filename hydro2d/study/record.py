@@ -12,6 +12,7 @@ import numpy as np
 
 from hydro2d.analytic import model_deck
 from hydro2d.deck import deck as decks
+from hydro2d.deck import keys
 from hydro2d.errors import DeckError
 from hydro2d.output import history, vtk
 from hydro2d.running.run import DECK, HISTORY
@@ -222,7 +223,7 @@ def _read_deck(record: Record) -> Place | None:
     file = record.case.directory / DECK
     try:
         text = file.read_text(encoding="utf-8")
-        record.deck = decks.renewed(tomllib.loads(text))
+        record.deck = keys.renewed(tomllib.loads(text))
         deck = decks.loads(dumps(record.deck), name=record.case.name.replace("/", "_"))
     except (OSError, ValueError) as error:
         record.problems.append(f"{file} cannot be read: {error}")

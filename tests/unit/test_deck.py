@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from hydro2d.deck import deck
+from hydro2d.deck import deck, keys
 from hydro2d.deck.mesh import axis_edges
 from hydro2d.errors import key_lines, nearest
 
@@ -330,12 +330,12 @@ def test_wrong_overrides(override, fragment):
 def test_a_resolved_deck_of_an_older_version_gets_the_keys_of_today():
     now = tomllib.loads(deck.loads(TEXT).to_toml())
     old = copy.deepcopy(now)
-    for before, after in deck.RENAMED.items():
+    for before, after in keys.RENAMED.items():
         (section, key), (place, name) = before.split("."), after.split(".")
         old[section][key] = old[place].pop(name)
     assert old != now
-    assert deck.renewed(old) == now
-    assert deck.renewed({"numerics": 3}) == {"numerics": 3}
+    assert keys.renewed(old) == now
+    assert keys.renewed({"numerics": 3}) == {"numerics": 3}
 
 
 def test_the_resolved_deck_is_complete_and_loads_to_the_same():

@@ -1,0 +1,121 @@
+"""Keys of a deck: which exist, what those of older versions are called now, and the messages for wrong keys and values."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from hydro2d import toml
+from hydro2d.deck.base import Section
+from hydro2d.deck.bodies import SHAPES
+from hydro2d.deck.sections import Deck
+from hydro2d.errors import entry_index, spelled, unknown
+
+#: keys of decks of older versions, and what they are called now
+RENAMED = {"numerics.trace": "numerics.cutoff", "failure.loose": "failure.strength_cutoff"}
+
+
+def causes(found: list[dict]) -> list[dict]:
+    """Pydantic's errors, without "too few entries" for a list whose entries themselves are wrong."""
+    places = [entry["loc"] for entry in found]
+    return [entry for entry in found if entry["type"] != "too_short"
+            or not any(place[: len(entry["loc"])] == entry["loc"] and place != entry["loc"] for place in places)]
+
+
+def explained(entry: dict, data: dict) -> tuple[tuple, str]:
+    """The deck key and hydro2d's message for one of pydantic's errors."""
+    path, kind = _key_path(entry["loc"], data), entry["type"]
+    context = entry.get("ctx", {})
+    if kind == "extra_forbidden":
+        return path, _no_such_key(path, _allowed_keys(path[:-1], data))
+    if kind == "missing":
+        return path, "is missing"
+    if kind == "value_error":
+        return path, str(context["error"])
+    if kind == "literal_error":
+        words = [word.strip("' ") for word in context["expected"].replace(" or ", ", ").split(",")]
+        allowed = [{"False": "false", "True": "true"}.get(word, word) for word in words]
+        return path, unknown("value", str(entry["input"]), allowed)
+    if kind == "union_tag_not_found":
+        return (*path, "shape"), f"is missing (allowed: {', '.join(SHAPES)})"
+    if kind == "union_tag_invalid":
+        return (*path, "shape"), unknown("shape", str(context["tag"]), SHAPES)
+    message = entry["msg"][0].lower() + entry["msg"][1:]
+    return path, f"{message.replace('input ', '')}, is {entry['input']!r}"
+
+
+def _key_path(loc: tuple, data: Any) -> tuple:
+    """Pydantic's location without the tags of unions, as a path in the deck."""
+    path: tuple = ()
+    for depth, part in enumerate(loc):
+        last = depth == len(loc) - 1
+        if isinstance(data, dict) and part not in data and not last and part in SHAPES:
+            continue
+        path += (part,)
+        if isinstance(data, dict):
+            data = data.get(part)
+        elif isinstance(data, (list, tuple)) and isinstance(part, int) and part < len(data):
+            data = data[part]
+        else:
+            data = None
+    return path
+
+
+def renewed(data: dict) -> dict:
+    """The tables of a deck that an older version may have written, with the keys of today."""
+    for old, new in RENAMED.items():
+        (section, key), (place, name) = old.split("."), new.split(".")
+        if isinstance(data.get(section), dict) and key in data[section]:
+            data.setdefault(place, {})[name] = data[section].pop(key)
+    return data
+
+
+def _no_such_key(path: tuple, allowed: list[str]) -> str:
+    """What is said of a key that no deck has: its name of today, if it had another, else what is allowed in its place."""
+    now = RENAMED.get(spelled(path))
+    return f"is now called {now}" if now else unknown("key", str(path[-1]), allowed)
+
+
+def _allowed_keys(path: tuple, data: dict) -> list[str]:
+    """Keys of the table at ``path``."""
+    model: Any = Deck
+    for part in path:
+        if isinstance(part, int):
+            data = data[part]
+            model = model or SHAPES.get(data.get("shape"))
+        else:
+            data, model = (data or {}).get(part), section_of(model, part)
+    keys = list(model.model_fields) if model else []
+    return [*keys, "include"] if model is Deck else keys
+
+
+def key_problem(data: dict, key: str) -> str | None:
+    """What is wrong with the key of an override for a deck of these merged tables; None if the deck has such a key."""
+    path, place = (), data
+    for part in toml.key_parts(key):
+        if isinstance(place, list):
+            index = entry_index(place, part)
+            if index is None:
+                names = [str(entry.get("name", n)) for n, entry in enumerate(place) if isinstance(entry, dict)]
+                return f"{spelled(path)}: {unknown('entry', part, names)}"
+            path, place = (*path, index), place[index]
+            continue
+        allowed = _allowed_keys(path, data)
+        if allowed and part not in allowed:
+            problem = _no_such_key((*path, part), allowed)
+            return f"{spelled(path)}: {problem}" if path else problem
+        path, place = (*path, part), place.get(part) if isinstance(place, dict) else None
+    return None
+
+
+def section_of(model: Any, key: str) -> Any:
+    """The section under a key of a section; None for bodies, whose section depends on their shape."""
+    field = model.model_fields.get(key) if model else None
+    return _first_section(field.annotation) if field else None
+
+
+def _first_section(annotation: Any) -> Any:
+    if isinstance(annotation, type) and issubclass(annotation, Section):
+        return annotation
+    inner = [_first_section(part) for part in getattr(annotation, "__args__", ())]
+    found = [section for section in inner if section is not None]
+    return found[0] if len(found) == 1 else None
