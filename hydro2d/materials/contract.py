@@ -17,6 +17,7 @@ import numpy as np
 
 from eos.layout import RHO0
 from hydro2d.materials.outside import KINDS, Kind
+from hydro2d.parameters import NON_NEGATIVE, POSITIVE
 
 #: an ID that no model has
 NOBODY = 99
@@ -86,6 +87,13 @@ def wrong_parameters(case: Case) -> None:
         if parameter.required:
             rest = {name: value for name, value in case.values.items() if name != parameter.name}
             refused(case, rest, f"{parameter.name}' is missing")
+
+
+def ranges(case: Case) -> None:
+    """row refuses negative and zero values where the range of a parameter excludes them"""
+    for parameter in case.module.PARAMETERS:
+        for number in {POSITIVE: (-1.0, 0.0), NON_NEGATIVE: (-1.0,)}.get(parameter.sign, ()):
+            refused(case, {**case.values, parameter.name: number}, f"{parameter.name} = {number}")
 
 
 def refused(case: Case, values: Mapping[str, float], words: str) -> None:
@@ -317,6 +325,33 @@ def constant_yield(case: Case) -> str | None:
     return None
 
 
+def internal_variables(case: Case) -> str | None:
+    """internal variables change with plastic strain or spin alone, the back stress by kinematic_modulus"""
+    if not hasattr(case.module, "INTERNAL"):
+        return "the model has no INTERNAL"
+    from strength import dispatch
+
+    def evaluate(name: str, *values):
+        own = getattr(case.module, name, None)
+        return own(*values) if own else getattr(dispatch, name)(case.module.ID, *values)
+
+    par, third = case.row, 1.0 / 3.0
+    expected = 0.01 * evaluate("kinematic_modulus", par)
+    for direction in ((2 * third, -third, 0.0), (-third, 2 * third, 0.0), (0.0, 0.0, math.sqrt(third))):  # von Mises norm 1
+        internal = np.zeros(len(case.module.INTERNAL))
+        evaluate("harden", 0.0, *direction, par, internal)
+        evaluate("turn", 0.0, internal)
+        require(not internal.any(), f"without plastic strain or spin, zeros become {internal.tolist()}")
+        evaluate("harden", 0.01, *direction, par, internal)
+        moved = evaluate("back_stress", internal)
+        kept = all(near(component, expected * share, 1e-9) for component, share in zip(moved, direction, strict=True))
+        require(kept, f"a plastic strain of 0.01 along {direction} moves the back stress by {moved} Pa, and kinematic_modulus "
+                      f"says {expected:g} Pa")  # fmt: skip
+        evaluate("turn", 0.1, internal)
+        require(np.isfinite(internal).all(), f"after a plastic strain of 0.01 and a spin of 0.1 they are {internal.tolist()}")
+    return None
+
+
 # ------------------------------------------------------------------------------------------------ damage
 
 
@@ -335,10 +370,11 @@ def damage(case: Case) -> None:
     require(math.isnan(dispatch.damage_increment(NOBODY, 0.01, 0.0, 298.0, 0.0, 1.0, par)), "an ID of no model gives numbers")
 
 
-_ALL = (row, wrong_parameters)
+_ALL = (row, wrong_parameters, ranges)
 CHECKS: dict[str, tuple[Callable[[Case], str | None], ...]] = {
     "eos": (*_ALL, eos_is_chosen, derivatives, sound_speed, rest, finite, pressure_rises, temperature),
-    "strength": (*_ALL, strength_is_chosen, moduli, virgin, monotone, melt, yield_floor, constant_yield),
+    "strength": (*_ALL, strength_is_chosen, moduli, virgin, monotone, melt, yield_floor, constant_yield,
+                 internal_variables),
     "damage": (*_ALL, damage),
 }
 

@@ -9,6 +9,7 @@ import eos
 import strength
 from hydro2d.materials import contract
 from hydro2d.materials.outside import KINDS
+from hydro2d.parameters import POSITIVE, REQUIRED, Parameter
 from strength import dispatch, tensile_pressure
 
 SOLID = {
@@ -161,6 +162,11 @@ def metal(**functions):
     return spoilt("strength", "johnson-cook", **functions)
 
 
+def layered(**functions):
+    return spoilt("strength", "kinematic-hardening", **functions)
+
+
+POSITIVE_YIELD = (Parameter("yield_stress", "Pa", REQUIRED, "initial yield stress", sign=POSITIVE),)
 FLOW = strength.STRENGTH_MODELS["johnson-cook"].flow_stress
 
 
@@ -170,6 +176,7 @@ FLOW = strength.STRENGTH_MODELS["johnson-cook"].flow_stress
         (contract.row, metal(row=lambda values: np.zeros(3)), r"row gives float64 \(3,\), not float64 \(16,\)"),
         (contract.row, metal(row=lambda values: np.full(strength.ROW, np.nan)), "NaN in slot 0"),
         (contract.wrong_parameters, metal(row=lambda values: np.zeros(strength.ROW)), "unknown parameter 'colour'"),
+        (contract.ranges, metal(PARAMETERS=POSITIVE_YIELD), r"row takes a parameter that is wrong \(yield_stress = 0.0\)"),
         (contract.eos_is_chosen, gas(p=1.0), "by its ID"),
         (contract.derivatives, gas(slope=1.001), "dp/drho is"),
         (contract.sound_speed, gas(slope=-9.0), r"c\^2 is -"),
@@ -186,6 +193,9 @@ FLOW = strength.STRENGTH_MODELS["johnson-cook"].flow_stress
         (contract.melt, metal(flow_stress=lambda *state: 1.0), "is 1 Pa at 877 K"),
         (contract.yield_floor, metal(yield_floor=lambda par: 1e9), "the floor 1e[+]09"),
         (contract.constant_yield, metal(ID=99), "of elastic-plastic"),
+        (contract.internal_variables, layered(harden=lambda *state: state[-1].fill(1.0)), "or spin, zeros become"),
+        (contract.internal_variables, layered(kinematic_modulus=lambda par: 1e9), "kinematic_modulus says 1e[+]07 Pa"),
+        (contract.internal_variables, layered(turn=lambda spin, internal: internal.fill(spin and np.nan)), "a spin of 0.1"),
         (contract.damage, spoilt("damage", "johnson-cook", damage_increment=lambda *state: 0.1), "without plastic strain"),
         (contract.damage, spoilt("damage", "johnson-cook", damage_increment=lambda dep, *state: -dep), "with a plastic strain"),
         (contract.damage, spoilt("damage", "johnson-cook", damage_increment=lambda dep, *state: 3.0 * dep), "by its ID"),
