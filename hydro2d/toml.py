@@ -101,6 +101,18 @@ def placed(data: dict, folder: Path) -> dict:
     return data
 
 
+def placed_value(key: str, value, folder: Path):
+    """The value of an override, with full paths of model files, as `placed` gives them."""
+    parts = key_parts(key)
+    nested = value
+    for part in reversed(parts):
+        nested = {part: nested}
+    nested = placed(nested, folder) if parts else nested
+    for part in parts:
+        nested = nested[part]
+    return nested
+
+
 def _is_named(entries) -> bool:
     return isinstance(entries, list) and bool(entries) and all(isinstance(e, dict) and "name" in e for e in entries)
 

@@ -181,19 +181,19 @@ def _laid_over(data: dict, overrides: Overrides, sources: Sources) -> dict:
         entries = [(key, value, f"override {key} = {value!r}") for key, value in plain(overrides).items()]
     else:
         entries = [(*toml.assignment(text), f"--set {text}") for text in overrides]
-    for entry in entries:
-        data = toml.override(data, *entry, sources)
+    for key, value, said in entries:
+        data = toml.override(data, key, toml.placed_value(key, value, Path()), said, sources)
     return data
 
 
 def _resolve(data: dict, name: str, overrides: Overrides, sources: Sources, folder: Path) -> Deck:
-    data = {"name": name, **_laid_over(data, overrides, sources)}
+    data = {"name": name, **_laid_over(toml.placed(data, folder), overrides, sources)}
     problems: list[str] = []
 
     def complaint(path: tuple, message: str) -> DeckError:
         return DeckError(f"{sources.where(path, data)}: {spelled(path)}: {message}")
 
-    data = from_files.read(toml.placed(data, folder), complaint)
+    data = from_files.read(data, complaint)
     try:
         deck = Deck.model_validate(data, context=_RESOLVING)
     except ValidationError as error:

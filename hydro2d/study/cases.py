@@ -267,7 +267,8 @@ class _Planner:
             raise StudyError(f"{self.path}: deck: " + ("is missing" if base is None else f"expected a file name, is {base!r}"))
         names = [*(axis.name for axis in self.definition.axis), velocities.AXIS]
         labels = {name: choice.label for name, choice in zip(names, combination, strict=False)}
-        return labels, base, [f"{key}={toml.inline(value)}" for key, value in settings.items()]
+        placed = {key: toml.placed_value(key, value, self.path.parent) for key, value in settings.items()}
+        return labels, base, [f"{key}={toml.inline(value)}" for key, value in placed.items()]
 
     def _files(self, cases: list[tuple]) -> dict[str, Path]:
         """The file of every base deck."""

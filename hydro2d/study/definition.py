@@ -152,7 +152,7 @@ def _with(data: dict, overrides: Overrides) -> dict:
     if isinstance(overrides, str):
         raise StudyError(f'overrides are a dict of values by key or a list of "key=value", not the text "{overrides}"')
     given = plain(overrides) if isinstance(overrides, Mapping) else dict(_assigned(entry) for entry in overrides)
-    return {**data, "set": {**_settings(data), **given}}
+    return {**data, "set": {**_settings(data), **{key: toml.placed_value(key, value, Path()) for key, value in given.items()}}}
 
 
 def _settings(data: dict) -> dict:

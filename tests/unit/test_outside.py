@@ -10,6 +10,7 @@ from hydro2d.deck import deck
 from hydro2d.errors import DeckError
 from hydro2d.materials import outside
 from hydro2d.running import run
+from hydro2d.study import cases
 from tests.unit.made_models import DECK, VOCE, python
 
 
@@ -46,8 +47,10 @@ def test_the_file_of_an_included_deck_is_beside_that(folder):
     assert deck.load(folder / "below" / "shot.toml").materials["Al5083"].strength.name == "voce"
 
 
-def test_a_file_of_the_command_line_is_beside_the_deck_and_replaces_the_text(folder):
-    (folder / "other.py").write_text(VOCE.replace('"voce"', '"other"'))
+def test_a_file_of_the_command_line_is_in_the_working_folder_and_replaces_the_text(folder, tmp_path_factory, monkeypatch):
+    elsewhere = tmp_path_factory.mktemp("elsewhere")
+    (elsewhere / "other.py").write_text(VOCE.replace('"voce"', '"other"'))
+    monkeypatch.chdir(elsewhere)
     chosen = ["materials.Al5083.strength.file=other.py"]
     assert deck.load(folder / "shot.toml", chosen).materials["Al5083"].strength.name == "other"
     plain = DECK.replace('file = "my_model.py"', 'model = "elastic-plastic"')
@@ -55,6 +58,28 @@ def test_a_file_of_the_command_line_is_beside_the_deck_and_replaces_the_text(fol
     resolved = deck.load(folder / "shot.toml").to_toml()
     found = deck.loads(resolved, chosen, folder=folder).materials["Al5083"].strength
     assert (found.name, found.file) == ("other", "other.py")
+
+
+STUDY = """
+deck = "shot.toml"
+[[axis]]
+name = "law"
+[axis.variants.own]
+"materials.Al5083.strength" = { file = "law.py", shear_modulus = 1e10, yield_stress = 1e8 }
+"""
+
+
+def test_a_file_of_a_study_is_beside_the_study(folder, tmp_path_factory, monkeypatch):
+    """That of an override of the command line is in the working folder, for a study as for a deck."""
+    elsewhere = tmp_path_factory.mktemp("elsewhere")
+    for place, name in ((folder, "study"), (elsewhere, "command")):
+        (place / "law.py").write_text(VOCE.replace('"voce"', f'"{name}"'))
+    (folder / "laws.toml").write_text(STUDY)
+    monkeypatch.chdir(elsewhere)
+    assert 'model = "study"' in cases.plan(folder / "laws.toml", quiet=True).cases[0].text
+    (folder / "laws.toml").write_text(STUDY[: STUDY.index('"materials')] + '"stop.time" = "1 us"')
+    chosen = ["materials.Al5083.strength.file=law.py"]
+    assert 'model = "command"' in cases.plan(folder / "laws.toml", chosen, quiet=True).cases[0].text
 
 
 def test_a_model_replaces_the_whole_part_and_numbers_are_laid_over_it(folder):
@@ -219,7 +244,7 @@ def test_workers_take_over_the_models_of_a_study(folder):
         print("fine", len(strength.dispatch.STRENGTH_MODULES))
     """
     assert python(text, folder).split()[0] == "fine"
-    deck.load(folder / "shot.toml", ["materials.Al5083.strength.file=b.py"])
+    deck.load(folder / "shot.toml", [f"materials.Al5083.strength.file={folder}/b.py"])
     assert ((folder / "b.py").read_text(), "b.py", "strength") in outside.offered()
 
 
