@@ -12,6 +12,7 @@ from hydro2d.deck.base import (
     Length,
     Name,
     NotNegative,
+    NotNegativeSpeed,
     PositiveLength,
     PositiveNumber,
     PositiveSpeed,
@@ -373,9 +374,18 @@ class Experiment(Section):
     )
     penetration: PositiveLength | None = Field(None, description="depth below the original surface", examples=["44.8 cm"])
     qualifier: Literal["measured", "estimated", "at least"] = Field("measured", description="how the depth is known")
-    source: str = Field(
-        min_length=1, description="where the number comes from", examples=["Scheffler, CTH nose-shape study, Table 2"]
+    residual_velocity: NotNegativeSpeed | None = Field(
+        None, description="velocity of the projectile behind the last target; 0 if it did not perforate", examples=["199.7 m/s"]
     )
+    source: str = Field(
+        min_length=1, description="where the numbers come from", examples=["Scheffler, CTH nose-shape study, Table 2"]
+    )
+
+    @model_validator(mode="after")
+    def _belongs_to_a_velocity(self):
+        if self.residual_velocity is not None and self.velocity is None:
+            raise ValueError("residual_velocity needs velocity, the impact velocity of the shot")
+        return self
 
 
 class Penetration(Section):

@@ -275,6 +275,9 @@ def _rod(summary: dict) -> list[str]:
     if summary["rod_residual_mass_kg"] is not None:
         velocity, mass = (summary[f"rod_residual_{name}"] for name in ("velocity_m_s", "mass_kg"))
         lines.append(f"residual rod          {number(velocity, 1, '.1f', 'm/s')}, {number(mass, 1e3, '.2f', 'g')}")
+    if experiment and experiment["residual_velocity_m_s"] is not None:
+        measured = experiment["residual_velocity_m_s"]
+        lines.append(f"  experiment          residual velocity {measured:.1f} m/s  {experiment['source']}")
     for name, found in summary["targets"].items() if len(summary["targets"]) > 1 else ():
         if found["exit_time_s"] is not None:
             velocity, mass = number(found["exit_velocity_m_s"], 1, ".1f", "m/s"), number(found["exit_mass_kg"], 1e3, ".2f", "g")

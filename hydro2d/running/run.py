@@ -361,6 +361,7 @@ def experiment(deck) -> dict | None:
     return {
         "penetration_m": deck.experiment.penetration,
         "qualifier": deck.experiment.qualifier,
+        "residual_velocity_m_s": deck.experiment.residual_velocity,
         "source": deck.experiment.source,
     }
 

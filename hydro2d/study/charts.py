@@ -113,9 +113,11 @@ def response(setup: Setup | None, series: Sequence[Series], x: Variable, y: Resp
     _runs(figure, series, x, y)
     if y.name == DEPTH:
         _bounds(figure, series, x, y)
-        _experiments(figure, series, x, y, measured, shots)
+        _depths(figure, series, x, y, measured, shots)
         if setup and setup.thickness and x.order is None:
             _rear(figure, setup, y)
+    if y.name == RESIDUAL:
+        _residuals(figure, series, x, y)
     there = {x.value(record) for each in series for record in each.records if y.value(record) is not None}
     labels = _words_below(figure, [word for word in x.order if word in there]) if x.order is not None else 0
     figure.update_xaxes(title={"text": x.title})
@@ -171,8 +173,8 @@ def _bounds(figure, series: Sequence[Series], x: Variable, y: Response) -> None:
     _points(figure, through, x, y, how, "in a triangle: at least, perforated or left the mesh", mode="markers", meta="bound")
 
 
-def _experiments(figure, series: Sequence[Series], x: Variable, y: Response, measured: dict[str, Measurement],
-                 shots: Sequence[Measurement]) -> None:  # fmt: skip
+def _depths(figure, series: Sequence[Series], x: Variable, y: Response, measured: dict[str, Measurement],
+            shots: Sequence[Measurement]) -> None:  # fmt: skip
     """Measured depths, at their velocities or at those of their runs."""
     if x.impact:
         places = [(entry.velocity, entry) for entry in shots]
@@ -180,15 +182,29 @@ def _experiments(figure, series: Sequence[Series], x: Variable, y: Response, mea
         records = [record for each in series for record in each.records]
         places = [(x.value(each), measured[each.case.name]) for each in records if each.case.name in measured]
         places = list(dict.fromkeys(entry for entry in places if entry[0] is not None))
-    for qualifier, (marker, word) in MEASURED.items():
-        found = [(place, entry) for place, entry in places if entry.qualifier == qualifier]
-        if found:
-            told = [f"<b>{word}</b><br>{entry.source}<br>{entry.velocity:.0f} m/s: {entry.depth * y.factor:.4g} {y.unit}"
-                    for _, entry in found]  # fmt: skip
-            depths = [entry.depth * y.factor for _, entry in found]
-            figure.add_scatter(x=[place for place, _ in found], y=depths, mode="markers", name=word, text=told,
-                               hovertemplate="%{text}<extra></extra>", meta="experiment",
-                               marker={"symbol": marker, "size": SIZE + 4, "color": INK})  # fmt: skip
+    for qualifier in MEASURED:
+        found = [(place, entry.velocity, entry.depth, entry.source) for place, entry in places if entry.qualifier == qualifier]
+        _experiments(figure, qualifier, y, found)
+
+
+def _residuals(figure, series: Sequence[Series], x: Variable, y: Response) -> None:
+    """Measured residual velocities, at the places of the runs with these shots in their decks."""
+    records = [record for each in series for record in each.records]
+    found = [(x.value(each), each.velocity, each.measured_residual, each.deck["experiment"]["source"])
+             for each in records if each.measured_residual is not None]  # fmt: skip
+    _experiments(figure, "measured", y, [entry for entry in dict.fromkeys(found) if entry[0] is not None])
+
+
+def _experiments(figure, qualifier: str, y: Response, found: Sequence[tuple[float | str, float | None, float, str]]) -> None:
+    """Marks of experiments by place on the x axis, impact velocity in m/s, value in SI and source."""
+    if not found:
+        return
+    marker, word = MEASURED[qualifier]
+    told = [f"<b>{word}</b><br>{source}<br>" + (f"{speed:.0f} m/s: " if speed else "") + f"{value * y.factor:.4g} {y.unit}"
+            for _, speed, value, source in found]  # fmt: skip
+    figure.add_scatter(x=[place for place, *_ in found], y=[value * y.factor for _, _, value, _ in found], mode="markers",
+                       name=word, text=told, hovertemplate="%{text}<extra></extra>", meta="experiment",
+                       marker={"symbol": marker, "size": SIZE + 4, "color": INK})  # fmt: skip
 
 
 def _rear(figure, setup: Setup, y: Response) -> None:

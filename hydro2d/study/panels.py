@@ -138,6 +138,9 @@ def _response(contents: Contents, choice: Choice, y: Response, panel: Panel, nam
         measured = [f"{shot.velocity:.0f} m/s {'at least ' * (shot.qualifier == experiments.AT_LEAST)}{shot.depth * 100:.1f} cm"
                     for shot in panel.shots]  # fmt: skip
         alt += f" Experiments: {'; '.join(measured) or 'none known'}."
+    if y.name == RESIDUAL and (found := {each.velocity: each.measured_residual for each in members
+                                         if each.velocity is not None and each.measured_residual is not None}):  # fmt: skip
+        alt += f" Experiments: {'; '.join(f'{speed:.0f} m/s {left:.0f} m/s' for speed, left in sorted(found.items()))}."
     return Chart(name, charts.html(figure, name), f"{head}: {panel.heading}", caption, alt, tuple(notes))
 
 

@@ -168,6 +168,12 @@ class Record:
         return found if found.get("penetration") else {}
 
     @property
+    def measured_residual(self) -> float | None:
+        """Residual velocity of the experiment in the deck, m/s; 0 if the projectile did not perforate."""
+        found = (self.deck.get("experiment") or {}).get("residual_velocity")
+        return float(found) if is_number(found) else None
+
+    @property
     def perforated(self) -> bool:
         """Whether the rod perforated the target at any time, even if it has since left the mesh.
 

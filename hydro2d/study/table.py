@@ -67,13 +67,16 @@ def _compared(record: Record, measurement: Measurement | None) -> Row:
     """The experiment and the error; unfinished runs have no error."""
     names = ("experiment_depth_m", "experiment_is", "experiment_source", "depth_error_m", "depth_error_percent",
              "depth_error_is")  # fmt: skip
+    left, measured = raw(record, RESIDUAL), record.measured_residual
+    compared = not (record.unfinished or left is None or measured is None)
+    residual = {"experiment_residual_m_s": measured, "residual_error_m_s": left - measured if compared else None}
     if measurement is None:
-        return dict.fromkeys(names)
+        return dict.fromkeys(names) | residual
     told = not record.unfinished and record.depth is not None
     error, kind = measurement.error(record.depth, record.at_least) or (None, "none") if told else (None, None)
     per_cent = None if error is None else 100.0 * error / measurement.depth
     values = (measurement.depth, measurement.qualifier, measurement.source, error, per_cent, kind)
-    return dict(zip(names, values, strict=True))
+    return dict(zip(names, values, strict=True)) | residual
 
 
 def _audit(summary: dict) -> Row:
@@ -180,6 +183,8 @@ def columns_of_results(study: Study, table: Sequence[Row], choice: Choice) -> li
         Column("Length final / initial", "rod_length_ratio", _number("rod_length_ratio", "{:.3f}")),
         Column("Largest radius / initial", "rod_radius_ratio", _number("rod_radius_ratio", "{:.2f}")),
         Column("Residual velocity [m/s]", RESIDUAL, _number(RESIDUAL, "{:.0f}")),
+        Column("Experiment [m/s]", "experiment_residual_m_s", _number("experiment_residual_m_s", "{:.0f}")),
+        Column("Error [m/s]", "residual_error_m_s", _number("residual_error_m_s", "{:+.0f}")),
     ]
     shown = {DEPTH, *(column.name for column in rod)}
     drawn = [_of_response(y.name) for y in choice.y if y.name not in shown]

@@ -4,7 +4,7 @@ import shutil
 
 import pytest
 
-from hydro2d.study import layout, panels, residual, responses, series
+from hydro2d.study import charts, layout, panels, residual, responses, series, table
 from hydro2d.study.contents import collect
 from hydro2d.study.definition import StudyError
 from tests.study import fake
@@ -144,6 +144,29 @@ def test_models_of_the_residual_velocity_are_fitted_to_the_study(tmp_path):
     plug = 2660 * 3.14159265 / 4 * 0.016**2 * 0.004 / fake.MASS
     assert f"has {plug:.2g} of its mass" in notes[1]
     assert curves[1].residual[-1] == pytest.approx(curves[2].residual[-1] / (1 + plug), rel=0.02)
+
+
+def test_measured_residual_velocities_stand_beside_those_of_the_runs(tmp_path):
+    runs = tmp_path / "runs"
+    for velocity, left, measured in ((600, 500.0, 470.0), (900, 820.0, 835.0), (400, 0.0, 0.0), (700, 610.0, None)):
+        shot = [f"body.sphere.velocity={velocity} m/s", "body.plate.thickness=4 mm"]
+        if measured is not None:
+            shot += ["experiment.source=made up", f"experiment.velocity={velocity}", f"experiment.residual_velocity={measured}"]
+        through = {"rod_residual_velocity_m_s": left, "exit_time_s": 1e-5, "stop_reason": "perforation of plate"}
+        fake.write_run(runs / f"{velocity}", velocity, 0.003, text=fake.resolved(SPHERE, *shot), **(through if left else {}))
+    contents = collect(layout.load(runs))
+    rows = {row["velocity_m_s"]: (row["experiment_residual_m_s"], row["residual_error_m_s"]) for row in contents.rows}
+    assert rows == {600: (470.0, 30.0), 900: (835.0, -15.0), 400: (0.0, 0.0), 700: (None, None)}
+    choice = chosen(contents)
+    columns = table.columns_of_results(contents.study, contents.rows, choice)
+    heads = [column.head for column in columns]
+    assert heads[heads.index("Residual velocity [m/s]") :][1:3] == ["Experiment [m/s]", "Error [m/s]"]
+    chart = next(each for each in panels.draw(contents, choice) if each.heading.startswith("Residual"))
+    assert "Experiments: 400 m/s 0 m/s; 600 m/s 470 m/s; 900 m/s 835 m/s." in chart.alt
+    panel = panels.panels(contents, choice)[0]
+    figure = charts.response(panel.setup, panel.series, choice.x, choice.y[1], contents.belonging, panel.shots, (), ())
+    marks = next(trace for trace in figure.data if trace.meta == "experiment")
+    assert sorted(zip(marks.x, marks.y, strict=True)) == [(400, 0.0), (600, 470.0), (900, 835.0)]
 
 
 @pytest.mark.parametrize(

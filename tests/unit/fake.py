@@ -26,7 +26,8 @@ class FakeDeck:
                "fields": ("standard",)} | output
         )  # fmt: skip
         self.stop = SimpleNamespace(time=STOP, cycles=None)
-        self.experiment = SimpleNamespace(penetration=0.0121, qualifier="measured", source="a laboratory")
+        self.experiment = SimpleNamespace(penetration=0.0121, qualifier="measured", residual_velocity=None,
+                                          source="a laboratory")
         self.courant = 0.5
         r, z = Segment(to=12e-3, cells=12), Segment(to=30e-3, cells=55)
         self.mesh, self.body, self.materials = Mesh(r=(r,), z_start=-25e-3, z=(z,)), (), {}

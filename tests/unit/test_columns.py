@@ -43,7 +43,9 @@ z = "1 mm"
 z_end = "7 mm"
 points = 3
 [experiment]
+velocity = "1000 m/s"
 penetration = "1 cm"
+residual_velocity = "0 m/s"
 source = "none"
 [stop]
 cycles = 5

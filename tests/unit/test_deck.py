@@ -135,6 +135,7 @@ def test_a_deck_does_not_change():
         ("[stop]", '[failure]\ndamage = "yes"\n[stop]', 29, ['unknown value "yes"', "material, none"]),
         ("[stop]", '[[tracer]]\nname = "t"\nr = 1.0\nz = 0.0\n[stop]', 28, ['"t" at r = 1 m, z = 0 m lies outside']),
         ("[stop]", "[experiment]\npenetration = 0.4\n[stop]", 28, ["experiment.source: is missing"]),
+        ("[stop]", '[experiment]\nresidual_velocity = 0\nsource = "x"\n[stop]', 28, ["residual_velocity needs velocity"]),
         ("z_front = 0.0", "z_front = 0.0\nenergy = 1.0\npressure = 0.0", 18, ["only one of energy, pressure"]),
     ],
 )
