@@ -4,8 +4,8 @@
 
 The table is in Markdown. Each row is a shot, and each column a variant of whatever else the studies vary. The experiments stand
 beside the runs. The figure also shows two analytic models, evaluated on the runs' own decks: `forrestal` for a rod that stays
-rigid and `tate` for one that erodes. Cases that are not done are left out. `--list` prints another table instead: every case of
-the studies, done or not, with its outcome.
+rigid and `tate` for one that erodes. Cases that are not done are left out. `--list` prints other tables instead: every
+finished case of each study, with regime, time and duration.
 """
 
 from __future__ import annotations
@@ -105,21 +105,18 @@ def table(found: dict[str, dict[Shot, layout.Case]]) -> list[str]:
 
 
 def listing(directories: list[Path]) -> list[str]:
-    """Lines of Markdown, one for each case of the studies. Raises StudyError."""
-    lines = ["| study | case | depth | loss of length | regime | end | minutes |", "|---" * 7 + "|"]
+    """Lines of Markdown: a table for each study, with a row for each case that is done. Raises StudyError."""
+    lines = []
     for directory in directories:
         study = layout.read(directory)
-        for case in study.cases:
+        done = [case for case in study.cases if case.status == layout.DONE]
+        lines += ["", f"{study.name}: {len(done)} of {len(study.cases)} runs.", "",
+                  "| case | depth, loss of length | regime | time of flight, us | minutes |", "|---" * 5 + "|"]  # fmt: skip
+        for case in done:
             told = case.summary
-            words = [study.name, ", ".join(case.values.values())]
-            if told.get("penetration_depth_m") is None:
-                lines.append("| " + " | ".join([*words, "", "", "", case.status, ""]) + " |")
-                continue
-            loss = 100.0 * (1.0 - told["rod_length_m"] / told["rod_initial_length_m"])
-            words += [f"{1e2 * told['penetration_depth_m']:.1f} cm", f"{loss:.1f} %", told["regime"]]
-            end = told["stop_reason"] if case.status == layout.DONE else f"{case.status}: {told['stop_reason']}"
-            lines.append("| " + " | ".join([*words, end, f"{told['wall_s'] / 60:.1f}"]) + " |")
-    return lines
+            words = [f"`{case.name}`", cell(case), told["regime"], f"{told['time_s'] * 1e6:.0f}", f"{told['wall_s'] / 60:.1f}"]
+            lines.append("| " + " | ".join(words) + " |")
+    return lines[1:]
 
 
 def draw(found: dict[str, dict[Shot, layout.Case]]):
@@ -170,7 +167,7 @@ def main(arguments: list[str] | None = None) -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("studies", nargs="+", type=Path)
     parser.add_argument("--figure", type=Path)
-    parser.add_argument("--list", action="store_true", dest="every", help="list every case instead")
+    parser.add_argument("--list", action="store_true", dest="every", help="list every finished case instead")
     given = parser.parse_args(arguments)
     try:
         if given.every:

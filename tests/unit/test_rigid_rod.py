@@ -69,16 +69,15 @@ def test_nothing_to_show(tmp_path, monkeypatch, capsys):
     assert rigid_rod.main([str(tmp_path)]) == 2
 
 
-def test_the_list_has_every_case(tmp_path, monkeypatch, capsys):
+def test_the_list_has_every_case_that_is_done(tmp_path, monkeypatch, capsys):
     summary = {"penetration_depth_m": 0.4168, "rod_length_m": 0.05, "rod_initial_length_m": 0.1, "regime": "eroding",
-               "stop_reason": "speed of rod below 5 m/s", "wall_s": 150.0}  # fmt: skip
-    cases = (SimpleNamespace(values={"law": "A", "shot": "5083-1086"}, status="done", summary=summary),
-             SimpleNamespace(values={"law": "B", "shot": "x"}, status="waiting", summary={}),
-             SimpleNamespace(values={"law": "C", "shot": "x"}, status="interrupted", summary=summary))  # fmt: skip
+               "stop_reason": "speed of rod below 5 m/s", "wall_s": 150.0, "time_s": 3.2e-4}  # fmt: skip
+    cases = (SimpleNamespace(name="A_5083-1086", status="done", summary=summary),
+             SimpleNamespace(name="B_x", status="waiting", summary={}),
+             SimpleNamespace(name="C_x", status="interrupted", summary=summary))  # fmt: skip
     monkeypatch.setattr(rigid_rod.layout, "read", lambda directory: SimpleNamespace(name="laws", cases=cases))
     assert rigid_rod.main([str(tmp_path), "--list"]) == 0
-    assert capsys.readouterr().out.splitlines()[2:] == [
-        "| laws | A, 5083-1086 | 41.7 cm | 50.0 % | eroding | speed of rod below 5 m/s | 2.5 |",
-        "| laws | B, x |  |  |  | waiting |  |",
-        "| laws | C, x | 41.7 cm | 50.0 % | eroding | interrupted: speed of rod below 5 m/s | 2.5 |",
-    ]
+    assert capsys.readouterr().out.splitlines() == [
+        "laws: 1 of 3 runs.", "", "| case | depth, loss of length | regime | time of flight, us | minutes |", "|---|---|---|---|---|",
+        "| `A_5083-1086` | 41.7 cm, 50 % | eroding | 320 | 2.5 |",
+    ]  # fmt: skip
