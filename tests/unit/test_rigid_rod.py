@@ -78,6 +78,7 @@ def test_the_list_has_every_case_that_is_done(tmp_path, monkeypatch, capsys):
     monkeypatch.setattr(rigid_rod.layout, "read", lambda directory: SimpleNamespace(name="laws", cases=cases))
     assert rigid_rod.main([str(tmp_path), "--list"]) == 0
     assert capsys.readouterr().out.splitlines() == [
-        "laws: 1 of 3 runs.", "", "| case | depth, loss of length | regime | time of flight, us | minutes |", "|---|---|---|---|---|",
+        "laws: 1 of 3 runs.", "",
+        "| case | depth, loss of length | regime | time of flight, us | minutes |", "|---|---|---|---|---|",
         "| `A_5083-1086` | 41.7 cm, 50 % | eroding | 320 | 2.5 |",
     ]  # fmt: skip
