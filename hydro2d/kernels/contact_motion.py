@@ -2,7 +2,7 @@
 
 from math import sqrt
 
-from hydro2d.jit import apart, kernel, prange
+from hydro2d.jit import kernel, point, prange
 from hydro2d.kernels.column_ranges import mixed_row
 from hydro2d.kernels.contact_geometry import HARD_R, HARD_Z, SOFT_R, SOFT_Z
 from hydro2d.mesh.fields import RHO, SRR, SRZ, SZZ
@@ -101,7 +101,7 @@ def contact_stress(j0, j1, dt, contact_columns, group_ranges, line, hard, soft, 
                 contact_pressure[j, i] = normal_pressure(j, i, n_r, n_z, sig_rr, sig_zz, sig_rz) / steep
 
 
-@apart
+@point
 def group_stress(g, j, i, group, solid_mode, solid, vof, q):
     """Deviators that group g gives a cell: (rr, zz, rz), each body's by its share, as in total_stress."""
     scale = stress_scale(solid_mode, solid[j, i])
@@ -115,7 +115,7 @@ def group_stress(g, j, i, group, solid_mode, solid, vof, q):
     return rr, zz, rz
 
 
-@apart
+@point
 def corner_force(g, j, i, at_j, at_i, group, solid_mode, solid, vof, q, hg_coefficient, cell_mass, metrics, dz, u0, v0):
     """Force of the deviators of group g in cell (at_j, at_i), and of its hourglass filter, on vertex (j, i) (as accelerate)."""
     if cell_mass[g, at_j, at_i] == 0.0:

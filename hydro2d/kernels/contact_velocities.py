@@ -26,14 +26,20 @@ def extended_cell(j, i, code):
 
 
 @point
-def master(n, g, j, i, code, weights):
-    """(group, j, i, weight) of the n-th master of the slave (j, i) of group g; `weigh` has set the weights."""
+def first_master(g, j, i, code):
+    """(group, j, i) of the first master of the slave (j, i) of group g; `master` has the others."""
     if code >= EXTENDS:
         row, column = extended_cell(j, i, code)
-        return g, row + n // 2, column + n % 2, weights[n, g, j, i]
+        return g, row, column
     if code == TIED:
-        return 1 - g, j, i, 1.0
-    return g, j + code // 5 - 2, i + code % 5 - 2, 1.0
+        return 1 - g, j, i
+    return g, j + code // 5 - 2, i + code % 5 - 2
+
+
+@point
+def master(n, row, column, g, j, i, code, weights):
+    """(j, i, weight) of the n-th master of the slave (j, i) of group g, the first of which is (row, column)."""
+    return row + n // 2, column + n % 2, weights[n, g, j, i] if code >= EXTENDS else 1.0
 
 
 @point
@@ -72,8 +78,9 @@ def give(g, j, i, push_r, push_z, constrained, mass, u, v, transfer):
 def masters_mobility(g, j, i, code, constrained, weights, mass):
     """Sum of w^2/m over the masters of a slave, along r and z (1/kg): its velocity per impulse on them."""
     along_r, along_z = 0.0, 0.0
+    by, low, left = first_master(g, j, i, code)
     for n in range(number_of_masters(code)):
-        by, row, column, weight = master(n, g, j, i, code, weights)
+        row, column, weight = master(n, low, left, g, j, i, code, weights)
         held_r, held_z = held(row, column, constrained)
         part = weight * weight / mass[by, row, column]
         along_r += 0.0 if held_r else part
@@ -81,22 +88,24 @@ def masters_mobility(g, j, i, code, constrained, weights, mass):
     return along_r, along_z
 
 
-@apart
+@point
 def give_to_masters(g, j, i, code, push_r, push_z, constrained, weights, mass, u, v, taken, transfer):
     """Gives the masters, by weight, an impulse that their slave loses; `taken` counts it."""
     taken[0, g, j, i] += push_r
     taken[1, g, j, i] += push_z
+    by, low, left = first_master(g, j, i, code)
     for n in range(number_of_masters(code)):
-        by, row, column, weight = master(n, g, j, i, code, weights)
+        row, column, weight = master(n, low, left, g, j, i, code, weights)
         give(by, row, column, weight * push_r, weight * push_z, constrained, mass, u, v, transfer)
 
 
-@apart
+@point
 def tie_to_masters(g, j, i, code, constrained, weights, mass, u, v, ease, taken, transfer):
     """Brings a slave to the velocity of its masters, by the least impulse that does."""
     want_r, want_z = 0.0, 0.0
+    by, low, left = first_master(g, j, i, code)
     for n in range(number_of_masters(code)):
-        by, row, column, weight = master(n, g, j, i, code, weights)
+        row, column, weight = master(n, low, left, g, j, i, code, weights)
         held_r, held_z = held(row, column, constrained)
         want_r += 0.0 if held_r else weight * u[by, row, column]
         want_z += 0.0 if held_z else weight * v[by, row, column]
@@ -138,11 +147,12 @@ def warm_up(g, j, i, code, made, mass, weights, heat):
         heat[g, j, i] += made / mass[g, j, i]
         return
     total = mass[g, j, i] if code == TIED else 0.0
+    by, low, left = first_master(g, j, i, code)
     for n in range(number_of_masters(code)):
-        by, row, column, _ = master(n, g, j, i, code, weights)
+        row, column, _ = master(n, low, left, g, j, i, code, weights)
         total += mass[by, row, column]
     for n in range(number_of_masters(code)):
-        by, row, column, _ = master(n, g, j, i, code, weights)
+        row, column, _ = master(n, low, left, g, j, i, code, weights)
         heat[by, row, column] += made / total
     if code == TIED:
         heat[g, j, i] += made / total
@@ -176,12 +186,10 @@ def touch_and_rub(j, i, dt, friction, constrained, weights, metrics, dz, contact
 
     Where they close by every normal, the impulse along that by which they close least gives them one normal velocity, unless
     one is a slave: then the pressure between them is enough. Along the tangent there is at most friction times the normal
-    impulse, that one and that of the normal stress on the surface.
+    impulse, that one and that of the normal stress on the surface. So a slave has none without friction, and is not asked.
     """
     code_s, code_h = masters[0, j, i], masters[1, j, i]
     both = code_s == FREE and code_h == FREE
-    if not both and friction == 0.0:
-        return
     w_r, w_z = u[1, j, i] - u[0, j, i], v[1, j, i] - v[0, j, i]
     way, closing = 0, 1e300
     for other in range(3):
@@ -214,8 +222,9 @@ def touch_and_rub(j, i, dt, friction, constrained, weights, metrics, dz, contact
 def mismatch(g, j, i, code, constrained, weights, u0, v0, u, v):
     """Velocity of a slave less that of its masters, the mean over the step."""
     apart_r, apart_z = u0[g, j, i] + u[g, j, i], v0[g, j, i] + v[g, j, i]
+    by, low, left = first_master(g, j, i, code)
     for n in range(number_of_masters(code)):
-        by, row, column, weight = master(n, g, j, i, code, weights)
+        row, column, weight = master(n, low, left, g, j, i, code, weights)
         held_r, held_z = held(row, column, constrained)
         apart_r -= 0.0 if held_r else weight * (u0[by, row, column] + u[by, row, column])
         apart_z -= 0.0 if held_z else weight * (v0[by, row, column] + v[by, row, column])
@@ -261,7 +270,9 @@ def settle(j0, j1, dt, friction, constrained, r, z, metrics, dz, contact_columns
         for j in range(j0, j1 + 1):
             for k in range(count[j]):
                 i = contact_nodes[j, k]
-                if touch[j, i] > 0.0 and masters[0, j, i] != TIED and masters[1, j, i] != TIED:
+                code_s, code_h = masters[0, j, i], masters[1, j, i]
+                rubs = friction > 0.0 and code_s != TIED and code_h != TIED
+                if touch[j, i] > 0.0 and (rubs or (code_s == FREE and code_h == FREE)):
                     touch_and_rub(j, i, dt, friction, constrained, weights, metrics, dz, contact_columns, line, normal, masters,
                                   sig_rr, sig_zz, sig_rz, mass, u, v, ease, taken, impulse, transfer)
     for j in range(j0, j1 + 1):

@@ -8,6 +8,7 @@ from hydro2d.kernels.contact_geometry import EXTENDS, FREE, REACH, TIED
 from hydro2d.mesh.grid import Grid
 
 number_of_masters = contact_velocities.number_of_masters.py_func
+first_master = contact_velocities.first_master.py_func
 master = contact_velocities.master.py_func
 weigh = contact_velocities.weigh.py_func
 extended_cell = contact_velocities.extended_cell.py_func
@@ -28,6 +29,13 @@ def code_of(dj: int, di: int) -> int:
     return EXTENDS + 2 * REACH * (dj + REACH) + di + REACH
 
 
+def masters(g, j, i, code, weights):
+    """(group, j, i, weight) of every master of a slave."""
+    by, row, column = first_master(g, j, i, code)
+    return [(by, *master(n, row, column, g, j, i, code, weights)) for n in range(number_of_masters(code))]
+
+
+NO_WEIGHTS = np.full((4, 2, 12, 12), np.nan)
 CELLS = [(dj, di) for dj in range(-REACH, REACH) for di in range(-REACH, REACH)]
 
 
@@ -37,7 +45,7 @@ def test_a_slave_has_the_linear_field_of_its_cell(dj, di):
     weights = np.full((4, 2, 12, 12), np.nan)
     weigh(1, j, i, code, R, Z, weights)
     assert extended_cell(j, i, code) == (j + dj, i + di)
-    found = [master(n, 1, j, i, code, weights) for n in range(number_of_masters(code))]
+    found = masters(1, j, i, code, weights)
     assert {(row - j, column - i) for _, row, column, _ in found} == {(dj + a, di + b) for a in (0, 1) for b in (0, 1)}
     assert sum(weight for *_, weight in found) == pytest.approx(1.0)
     velocity = sum(weight * (3.0 - 2.0 * R[column] + 0.7 * Z[row]) for _, row, column, weight in found)
@@ -46,16 +54,15 @@ def test_a_slave_has_the_linear_field_of_its_cell(dj, di):
 
 
 def test_a_node_in_tied_contact_moves_with_the_other_group():
-    assert number_of_masters(TIED) == 1
-    assert master(0, 0, 5, 6, TIED, None) == (1, 5, 6, 1.0)
-    assert master(0, 1, 5, 6, TIED, None) == (0, 5, 6, 1.0)
+    assert masters(0, 5, 6, TIED, NO_WEIGHTS) == [(1, 5, 6, 1.0)]
+    assert masters(1, 5, 6, TIED, NO_WEIGHTS) == [(0, 5, 6, 1.0)]
 
 
 def test_a_vertex_that_is_linked_moves_with_one_of_its_group():
-    codes = range(25)
-    assert {number_of_masters(code) for code in codes} == {1}
-    found = {master(0, 1, 5, 6, code, None)[1:3] for code in codes}
-    assert found == {(5 + dj, 6 + di) for dj in range(-2, 3) for di in range(-2, 3)}
+    found = [masters(1, 5, 6, code, NO_WEIGHTS) for code in range(25)]
+    assert {len(each) for each in found} == {1}
+    assert {each[0][1:3] for each in found} == {(5 + dj, 6 + di) for dj in range(-2, 3) for di in range(-2, 3)}
+    assert {(each[0][0], each[0][3]) for each in found} == {(1, 1.0)}
 
 
 def test_codes_do_not_meet():
