@@ -96,8 +96,9 @@ def open_study(directory: str | Path) -> Study:
 
 
 def sweep(study: str | Path | Deck, axes: Mapping[str, Sequence[Any]] | None = None, *, directory: str | Path | None = None,
-          overrides: Mapping[str, Any] | Sequence[str] = (), workers: int | None = None, threads: int = 1, resume: bool = False,
-          overwrite: bool = False, quiet: bool = True) -> pandas.DataFrame:  # fmt: skip
+          overrides: Mapping[str, Any] | Sequence[str] = (), workers: int | None = None, threads: int = 1,
+          only: Sequence[str] = (), resume: bool = False, overwrite: bool = False,
+          quiet: bool = True) -> pandas.DataFrame:  # fmt: skip
     """Runs all cases of a study in worker processes and returns their table.
 
     Parameters
@@ -109,6 +110,7 @@ def sweep(study: str | Path | Deck, axes: Mapping[str, Sequence[Any]] | None = N
     overrides : values of the deck for all cases, as in `Deck.from_file`
     workers : number of processes; default: cores of this machine / threads
     threads : number of threads per worker; the results do not depend on it
+    only : patterns of names, such as ``["*ogive*"]``: runs the cases that match one, and leaves the others for later
     resume : continue the study in the directory; cases that have ended are not run again
     overwrite : start the study again from the beginning
     quiet : prints nothing; sweep.log is still written
@@ -129,8 +131,9 @@ def sweep(study: str | Path | Deck, axes: Mapping[str, Sequence[Any]] | None = N
             raise StudyError(f"{name} = {number}: at least one is needed")
     plan = _plan(study, axes, overrides, directory)
     place = Path(directory or plan.out)
-    connect = cluster.local(cluster.needed(workers, threads, len(plan.cases)), threads)
-    status = sweeps.sweep(Choice(plan), place, connect, threads=threads, resume=resume, overwrite=overwrite, quiet=quiet)
+    choice = Choice(plan, only)
+    connect = cluster.local(cluster.needed(workers, threads, len(plan.cases) - len(choice.left_out)), threads)
+    status = sweeps.sweep(choice, place, connect, threads=threads, resume=resume, overwrite=overwrite, quiet=quiet)
     if status not in (sweeps.ALL_DONE, sweeps.SOME_FAILED):
         raise KeyboardInterrupt(f"{place}: the sweep was interrupted")
     return open_study(place).table()

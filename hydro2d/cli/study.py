@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 from hydro2d.cli.base import Count, Overrides, UsageError
@@ -16,6 +17,7 @@ def sweep(
     threads: Count = 1,
     scheduler: str | None = None,
     slurm: Path | None = None,
+    only: list[str] | None = None,
     resume: bool = False,
     overwrite: bool = False,
     check: bool = False,
@@ -42,6 +44,8 @@ def sweep(
         Address of a running dask scheduler, such as tcp://host:8786; its workers must see the same files.
     slurm
         TOML file with arguments of dask_jobqueue.SLURMCluster, such as cores, memory, queue; SLURM then starts the workers.
+    only
+        Runs the cases whose names match this pattern, such as "*ogive*"; can be repeated. The others wait for a later --resume.
     resume
         Continues the study in the directory: finished cases are kept, unfinished cases continue from their restart files.
     overwrite
@@ -59,16 +63,19 @@ def sweep(
     from hydro2d.study import cases, cluster
 
     plan = cases.plan(study, set_, search=False, quiet=quiet)
+    from hydro2d.study.choice import Choice, matching
+
     if check:
         from hydro2d.study import estimate
 
-        return estimate.show(plan, workers or cluster.default_workers(threads))
+        chosen = replace(plan, cases=matching(plan, only or ()))
+        return estimate.show(chosen, workers or cluster.default_workers(threads))
     from hydro2d.study import sweep as sweeps
-    from hydro2d.study.choice import Choice
 
-    connect = _workers(len(plan.cases), workers, threads, scheduler, slurm)
+    choice = Choice(plan, only or ())
+    connect = _workers(len(plan.cases) - len(choice.left_out), workers, threads, scheduler, slurm)
     return sweeps.sweep(
-        Choice(plan), out or plan.out, connect, threads=threads, resume=resume, overwrite=overwrite, quiet=quiet
+        choice, out or plan.out, connect, threads=threads, resume=resume, overwrite=overwrite, quiet=quiet
     )
 
 

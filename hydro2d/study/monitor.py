@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 import time
 from collections import Counter
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator
 from contextlib import contextmanager, suppress
 from datetime import datetime
 from pathlib import Path
@@ -83,12 +83,14 @@ class Board:
     cases : as they were last read; those in `moving` are read again for every line and table
     workers : returns the number of workers
     further : number of cases expected to be added
+    left_out : names of cases that this sweep does not run
     """
 
     def __init__(self, study: Study, log, quiet: bool):
         self.watch(study)
         self.moving: set[str] = set()
         self.further = 0
+        self.left_out: Collection[str] = ()
         self.workers: Callable[[], int] = lambda: 0
         self._log, self._quiet, self._last = log, quiet, time.monotonic()
 
@@ -128,7 +130,7 @@ class Board:
     def summary(self) -> str:
         for name in self.moving:
             self.look(name)
-        seconds = left(self.cases, self.workers(), self.further)
+        seconds = left([case for case in self.cases if case.name not in self.left_out], self.workers(), self.further)
         coming = f", about {self.further} to come" if self.further else ""
         return counts(self.cases) + coming + ("" if seconds is None else f"; {duration(seconds)} left")
 

@@ -10,7 +10,7 @@ import queue
 import socket
 import time
 import uuid
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import AbstractContextManager, contextmanager
 from datetime import UTC, datetime
 from pathlib import Path
@@ -93,7 +93,7 @@ def sweep(choice: Choice, directory: Path, connect: AbstractContextManager, *, t
     layout.make(directory)
     with locked(directory / LOCK):
         if overwrite and not resume:
-            _clear(layout.of_plan(choice.plan, directory))
+            _clear(case for case in layout.of_plan(choice.plan, directory).cases if case.name not in choice.left_out)
         layout.write(choice.begin(directory), directory)
         return _sweep(choice, layout.read(directory), told, connect, interrupt, threads, overwrite, quiet)
 
@@ -110,9 +110,9 @@ def _sweep(choice: Choice, study: layout.Study, told: list[str], connect: Abstra
         return _end(board, interrupt, time.perf_counter() - started, spent)
 
 
-def _clear(study: layout.Study) -> None:
+def _clear(cases: Iterable[layout.Case]) -> None:
     """Removes the files of runs from the cases."""
-    for case in study.cases:
+    for case in cases:
         if case.directory.is_dir():
             clear(case.directory)
             (case.directory / FAILED).unlink(missing_ok=True)
@@ -131,7 +131,7 @@ class _Sweep:
         self.spent = 0.0
         self.ended: queue.Queue = queue.Queue()
         self.counted, self.count = -BEAT, 0
-        board.workers = self.workers
+        board.workers, board.left_out = self.workers, choice.left_out
 
     def workers(self) -> int:
         """Number of workers; the scheduler is asked once per beat."""
@@ -264,7 +264,8 @@ def _outcome(future) -> Outcome:
 def _end(board: monitor.Board, interrupt: Interrupt, seconds: float, spent: float) -> int:
     """Prints the final lines and returns the exit status."""
     cases = [board.look(case.name) for case in board.cases]
-    for case in cases:
+    chosen = [case for case in cases if case.name not in board.left_out]
+    for case in chosen:
         if case.status in (FAILED_STATUS, UNPHYSICAL, INVALID):
             for text in case.message.splitlines():
                 board.line(f"{case.name}: {case.status}: {text}")
@@ -274,7 +275,7 @@ def _end(board: monitor.Board, interrupt: Interrupt, seconds: float, spent: floa
         return status(interrupt.reason)
     if any(case.status in (WAITING, INTERRUPTED) for case in cases):
         board.line("--resume continues")
-    return ALL_DONE if all(case.status == DONE for case in cases) else SOME_FAILED
+    return ALL_DONE if all(case.status == DONE for case in chosen) else SOME_FAILED
 
 
 class _ToLog(logging.Handler):

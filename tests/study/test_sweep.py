@@ -169,6 +169,23 @@ def test_what_fails_does_not_sink_the_rest(tmp_path):
     assert not list(out.rglob("failed.json"))
 
 
+def test_some_cases_run_and_the_others_later(tmp_path):
+    file, out = tubes.write(tmp_path), tmp_path / "out"
+    status, said = tubes.sweep(file, "--check", "--only", "ke_*")
+    assert (status, "2 cases, about" in said, "momentum" in said) == (0, True, False)
+    status, said = tubes.sweep(file, "--out", out, "--only", "ke_*", "--workers", 1)
+    assert (status, "tubes: 2 of 4 cases" in said, "2 of 4 done" in said) == (0, True, True)
+    assert statuses(out) == {"ke_0.1": "done", "ke_0.2": "done", "momentum_0.1": "waiting", "momentum_0.2": "waiting"}
+    status, said = tubes.sweep(file, "--out", out, "--only", "*_0.3")
+    assert (status, "--only *_0.3: matches no case" in said) == (2, True)
+    status, said = tubes.sweep(file, "--out", out, "--only", "*_0.1", "--resume", "--workers", 1)
+    assert (status, statuses(out)["momentum_0.1"], statuses(out)["momentum_0.2"]) == (0, "done", "waiting")
+    before = (out / "cases" / "ke_0.1" / "summary.json").stat().st_mtime_ns
+    status, said = tubes.sweep(file, "--out", out, "--only", "ke_0.2", "--only", "momentum*", "--overwrite", "--workers", 1)
+    assert (status, set(statuses(out).values())) == (0, {"done"})
+    assert (out / "cases" / "ke_0.1" / "summary.json").stat().st_mtime_ns == before
+
+
 def _can_mount():
     probe = ["unshare", "--mount", "--map-root-user", "mount", "-t", "tmpfs", "none", "/mnt"]
     return shutil.which("unshare") is not None and subprocess.run(probe, capture_output=True, check=False).returncode == 0
