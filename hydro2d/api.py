@@ -132,7 +132,7 @@ def sweep(study: str | Path | Deck, axes: Mapping[str, Sequence[Any]] | None = N
     plan = _plan(study, axes, overrides, directory)
     place = Path(directory or plan.out)
     choice = Choice(plan, only)
-    connect = cluster.local(cluster.needed(workers, threads, len(plan.cases) - len(choice.left_out)), threads)
+    connect = cluster.local(cluster.needed(workers, threads, len(choice.selected)), threads)
     status = sweeps.sweep(choice, place, connect, threads=threads, resume=resume, overwrite=overwrite, quiet=quiet)
     if status not in (sweeps.ALL_DONE, sweeps.SOME_FAILED):
         raise KeyboardInterrupt(f"{place}: the sweep was interrupted")

@@ -61,19 +61,17 @@ def sweep(
     if status:
         return _status(study, out)
     from hydro2d.study import cases, cluster
+    from hydro2d.study.choice import Choice
 
     plan = cases.plan(study, set_, search=False, quiet=quiet)
-    from hydro2d.study.choice import Choice, matching
-
+    choice = Choice(plan, only or ())
     if check:
         from hydro2d.study import estimate
 
-        chosen = replace(plan, cases=matching(plan, only or ()))
-        return estimate.show(chosen, workers or cluster.default_workers(threads))
+        return estimate.show(replace(plan, cases=choice.selected), workers or cluster.default_workers(threads))
     from hydro2d.study import sweep as sweeps
 
-    choice = Choice(plan, only or ())
-    connect = _workers(len(plan.cases) - len(choice.left_out), workers, threads, scheduler, slurm)
+    connect = _workers(len(choice.selected), workers, threads, scheduler, slurm)
     return sweeps.sweep(
         choice, out or plan.out, connect, threads=threads, resume=resume, overwrite=overwrite, quiet=quiet
     )

@@ -156,14 +156,14 @@ def load(path: str | Path, overrides: Overrides = ()) -> Deck:
     data = toml.read(file, sources)
     if toml.is_study(data) and "mesh" not in data:
         raise DeckError(f"{file}: is a study, not a deck; run it with `hydro2d sweep` or `hydro2d transition`")
-    return _resolve(data, file.stem, overrides, sources, file.parent)
+    return _resolve(data, file.stem, overrides, sources)
 
 
 def loads(text: str, overrides: Overrides = (), name: str = "deck", folder: str | Path = ".") -> Deck:
     """Reads a deck from a string, whose includes and models are in ``folder``. Raises DeckError as ``load`` does."""
     sources = Sources()
     data = toml.assemble(text, f"{name}.toml", Path(folder), sources)
-    return _resolve(data, name, overrides, sources, Path(folder))
+    return _resolve(data, name, overrides, sources)
 
 
 def of_tables(tables: Mapping[str, Any], overrides: Overrides = (), name: str = "deck", folder: str | Path = ".") -> Deck:
@@ -171,7 +171,7 @@ def of_tables(tables: Mapping[str, Any], overrides: Overrides = (), name: str = 
     sources = Sources()
     sources.add(name, {}, "")
     data = toml.with_included(plain(tables), Path(folder), sources)
-    return _resolve(data, name, overrides, sources, Path(folder))
+    return _resolve(data, name, overrides, sources)
 
 
 def _laid_over(data: dict, overrides: Overrides, sources: Sources) -> dict:
@@ -186,8 +186,8 @@ def _laid_over(data: dict, overrides: Overrides, sources: Sources) -> dict:
     return data
 
 
-def _resolve(data: dict, name: str, overrides: Overrides, sources: Sources, folder: Path) -> Deck:
-    data = {"name": name, **_laid_over(toml.placed(data, folder), overrides, sources)}
+def _resolve(data: dict, name: str, overrides: Overrides, sources: Sources) -> Deck:
+    data = {"name": name, **_laid_over(data, overrides, sources)}
     problems: list[str] = []
 
     def complaint(path: tuple, message: str) -> DeckError:

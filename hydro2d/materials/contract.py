@@ -326,7 +326,7 @@ def constant_yield(case: Case) -> str | None:
 
 
 def internal_variables(case: Case) -> str | None:
-    """internal variables change with plastic strain or spin alone, the back stress by kinematic_modulus"""
+    """internal variables change only with plastic strain or spin, as kinematic_modulus says"""
     if not hasattr(case.module, "INTERNAL"):
         return "the model has no INTERNAL"
     from strength import dispatch

@@ -13,7 +13,7 @@ from hydro2d.study.definition import StudyError
 from hydro2d.study.layout import ENDED, Case, Study
 
 
-def matching(plan: Plan, patterns: Sequence[str]) -> list[Planned]:
+def _matching(plan: Plan, patterns: Sequence[str]) -> list[Planned]:
     """The cases whose names match one of the patterns, with ``*`` and ``?`` as wildcards; all cases without patterns.
 
     Raises StudyError for a pattern that no name matches.
@@ -35,7 +35,8 @@ class Choice:
     def __init__(self, plan: Plan, only: Sequence[str] = ()):
         self.plan = plan
         self.given: set[str] = set()
-        self.left_out = {case.name for case in plan.cases} - {case.name for case in matching(plan, only)}
+        self.selected = _matching(plan, only)
+        self.left_out = {case.name for case in plan.cases} - {case.name for case in self.selected}
 
     def compared(self, directory: Path) -> Plan:
         """The cases that are compared with those of the directory."""
@@ -47,13 +48,13 @@ class Choice:
 
     def heading(self, study: Study) -> str:
         """The first line."""
-        number = len(study.cases)
-        some = f"{number - len(self.left_out)} of {number}" if self.left_out else f"{number}"
-        return f"{study.name}: {some} cases in {study.directory}"
+        some = f"{len(self.selected)} of " if self.left_out else ""
+        return f"{study.name}: {some}{len(study.cases)} cases in {study.directory}"
 
     def wanted(self, cases: Sequence[Case], busy: Collection[str], room: int) -> list[str]:
         """Names of cases to run now, at most `room`, besides those in `busy`. They need not be in the study yet."""
-        left = (case.name for case in cases if case.status not in ENDED and case.name not in self.given | self.left_out)
+        passed = self.given | self.left_out
+        left = (case.name for case in cases if case.status not in ENDED and case.name not in passed)
         names = list(islice(left, room))
         self.given |= set(names)
         return names

@@ -1,11 +1,16 @@
 """The table and the figure of the perforations of Weldox 460 E."""
 
+from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
 
+from hydro2d import Deck
 from hydro2d.penetration import lambert_jonas
+from hydro2d.study import cases
 from problems.perforation import residual
+
+SHOTS = Path(residual.__file__).with_name("weldox_velocities.toml")
 
 
 def case(nose, velocity, left, status="done"):
@@ -20,9 +25,9 @@ def study(tmp_path, monkeypatch):
     """Runs on a known curve, one that is held and one that is not done."""
     speeds = (303.5, 285.4, 244.2, 224.7)
     left = [lambert_jonas.residual_velocity(v, limit_velocity=190.0, a=0.8, p=2.2) for v in speeds]
-    cases = [case("blunt", *pair) for pair in zip(speeds, left, strict=True)]
-    cases += [case("blunt", 177.3, 0.0), case("hemispherical", 452.0, 320.0), case("blunt", 200.4, 50.0, status="running")]
-    monkeypatch.setattr(residual.layout, "read", lambda directory: SimpleNamespace(cases=cases))
+    found = [case("blunt", *pair) for pair in zip(speeds, left, strict=True)]
+    found += [case("blunt", 177.3, 0.0), case("hemispherical", 452.0, 320.0), case("blunt", 200.4, 50.0, status="running")]
+    monkeypatch.setattr(residual.layout, "read", lambda directory: SimpleNamespace(cases=found))
     return tmp_path
 
 
@@ -49,3 +54,14 @@ def test_the_shots_have_the_published_limits():
 def test_what_is_no_study(tmp_path, capsys):
     assert residual.main([str(tmp_path / "nothing")]) == 2
     assert "nothing" in capsys.readouterr().err
+
+
+def test_the_decks_have_the_residual_velocities_of_the_table():
+    plan = cases.plan(SHOTS, quiet=True)
+    decks = [Deck.from_toml(case.text) for case in plan.cases]
+    found = {(deck.body[0].nose, deck.experiment.velocity): deck.experiment.residual_velocity for deck in decks}
+    nose = {"flat": "blunt"}
+    assert {(nose.get(shape, shape), velocity): left for (shape, velocity), left in found.items()} == residual.experiments()
+    for name in ("blunt", "hemispherical"):
+        shot = Deck.from_file(SHOTS.with_name(f"weldox_{name}.toml"))
+        assert shot.experiment.residual_velocity == residual.experiments()[name, shot.body[0].velocity[1]]
