@@ -211,7 +211,7 @@ def run(command: str) -> int:
     for name, value in FILLED.items():
         command = re.sub(rf"(?<!\w){re.escape(name)}(?![\w.])", value, command)
     program, *words = shlex.split(command)
-    words = [path for word in words for path in (sorted(glob.glob(word)) if "*" in word else [word])]
+    words = [path for word in words for path in sorted(glob.glob(word)) or [word]]
     if program == "hydro2d":
         return call(words)
     assert program in ("python", "python3"), f"{command}: it is neither run nor listed in NOT_RUN"
