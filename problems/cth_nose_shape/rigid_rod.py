@@ -1,11 +1,12 @@
-"""Depth against velocity for the rods of the shots, from studies of strength models, meshes or plates: a table and a figure.
+"""Depth against velocity for the rods of the shots: a table, a figure, and the results that are kept beside the studies.
 
-    python -m problems.cth_nose_shape.rigid_rod STUDY [STUDY ...] [--figure PATH] [--list]
+    python -m problems.cth_nose_shape.rigid_rod RESULTS [RESULTS ...] [--figure PATH] [--keep FILE]
 
-The table is in Markdown. Each row is a shot, and each column a variant of whatever else the studies vary. The experiments stand
-beside the runs. The figure also shows two analytic models, evaluated on the runs' own decks: `forrestal` for a rod that stays
-rigid and `tate` for one that erodes. Cases that are not done are left out. `--list` prints other tables instead: every
-finished case of each study, with regime, time and duration.
+RESULTS is the directory of a study, finished or not, or a file in `results`, which has the finished cases of a study that was
+run before; a case that is in several counts as in the last of them. The table is in Markdown: each row is a shot, each column
+a variant of whatever else the studies vary, and the experiments stand beside the runs. The figure has a panel for each nose
+and alloy, and shows two analytic models: `forrestal` for a rod that stays rigid and `tate` for one that erodes. `--keep`
+writes all cases into a CSV file, in the order in which they were given.
 """
 
 from __future__ import annotations
@@ -24,13 +25,24 @@ from hydro2d.errors import DeckError
 from hydro2d.results import figures
 from hydro2d.study import layout
 from hydro2d.study.layout import StudyError
+from hydro2d.study.velocities import speed
 
+HERE = Path(__file__).parent
 #: the label of a shot: nose, alloy and velocity; without a nose it means a hemispherical one
 SHOT = re.compile(r"(?:(hemi|ogive)[- ])?(5083|7039)[- ](\d+)")
 NOSES = {"hemi": "hemispherical", "ogive": "ogival"}
-#: velocities of the analytic models, m/s
-VELOCITIES = np.linspace(800.0, 1400.0, 61)
-COLOURS = ("#1f4e79", "#b5651d", "#4f7942", "#8b3a62", "#5b6770")
+#: the axis of the shots; those that make a shot in a search for a transition
+SHOTS, SEARCHED = "shot", ("plate", "velocity")
+#: decks of the analytic models
+DECKS = {
+    ("hemispherical", "5083"): "hemi_5083_1086.toml", ("hemispherical", "7039"): "hemi_7039_1038.toml",
+    ("ogival", "5083"): "ogive_5083_923.toml", ("ogival", "7039"): "ogive_7039_1075.toml",
+}  # fmt: skip
+#: the last columns of a file of results
+RESULTS = ("depth_cm", "loss_percent", "residual_m_s", "regime", "time_us", "minutes")
+#: velocities of the analytic models, m/s; thickness of the plates, cm
+VELOCITIES, PLATE = np.linspace(700.0, 2100.0, 57), 53.34
+COLOURS = ("#1f4e79", "#c26a1b", "#4f7942", "#8b3a62", "#5b6770")
 
 
 @dataclass(frozen=True)
@@ -63,121 +75,180 @@ class Experiment:
             self.kind, f"{self.depth * 1e2:.1f} cm")
 
 
+@dataclass(frozen=True)
+class Result:
+    """A finished case.
+
+    name, labels : of the case, and its label on every axis;  nose : of its rod
+    depth, residual : depth in cm if it came to rest, velocity in m/s if it left the plate; the other is None
+    loss : of length, per cent;  regime : of the summary;  time, minutes : time of flight in us, and of computing
+    """
+
+    name: str
+    labels: dict[str, str]
+    nose: str
+    depth: float | None
+    loss: float
+    residual: float | None
+    regime: str
+    time: float
+    minutes: float
+
+    @property
+    def shot(self) -> Shot | None:
+        """None for a case that is none of the shots' rods and plates."""
+        if SHOTS in self.labels:
+            return Shot.named(self.labels[SHOTS])
+        plate, velocity = (self.labels.get(axis, "") for axis in SEARCHED)
+        return Shot(self.nose, plate, speed(velocity)) if plate in ("5083", "7039") and velocity else None
+
+    @property
+    def column(self) -> str:
+        """What the case varies besides the shot."""
+        of_shot = (SHOTS,) if SHOTS in self.labels else SEARCHED
+        return ", ".join(label for axis, label in self.labels.items() if axis not in of_shot)
+
+    @property
+    def row(self) -> dict[str, str]:
+        """The case as it is kept."""
+        def number(value: float | None, digits: int) -> str:
+            return "" if value is None else f"{round(value, digits):.12g}"
+
+        told = (number(self.depth, 2), number(self.loss, 1), number(self.residual, 0), self.regime, number(self.time, 0),
+                number(self.minutes, 1))  # fmt: skip
+        return {"case": self.name, **self.labels, "nose": self.nose, **dict(zip(RESULTS, told, strict=True))}
+
+    def __str__(self) -> str:
+        lost = f"{self.loss:.1f} %" if self.loss < 10.0 else f"{self.loss:.0f} %"
+        return f"perforated at {self.residual:.0f} m/s, {lost}" if self.depth is None else f"{self.depth:.1f} cm, {lost}"
+
+
 def experiments() -> dict[Shot, Experiment]:
     """The twelve shots of experiments.csv."""
-    with open(Path(__file__).with_name("experiments.csv"), encoding="utf-8") as file:
-        rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
     return {Shot(row["nose"], row["target"].removeprefix("Al"), float(row["velocity_m_s"])):
-            Experiment(1e-2 * float(row["depth_cm"]), row["depth_is"]) for row in rows}
+            Experiment(1e-2 * float(row["depth_cm"]), row["depth_is"]) for row in _rows(HERE / "experiments.csv")}
 
 
-def runs(directories: list[Path]) -> dict[str, dict[Shot, layout.Case]]:
-    """The finished cases, by column and shot. Raises StudyError."""
-    found: dict[str, dict[Shot, layout.Case]] = {}
-    for directory in directories:
-        for case in layout.read(directory).cases:
-            shot = Shot.named(case.values.get("shot", ""))
-            if shot is not None and case.status == layout.DONE:
-                column = ", ".join(label for name, label in case.values.items() if name != "shot")
-                found.setdefault(column, {})[shot] = case
+def read(path: Path) -> list[Result]:
+    """The finished cases of the directory of a study, or of a file of results. Raises StudyError, OSError."""
+    if path.is_file():
+        return [_kept(row) for row in _rows(path)]
+    return [_of(case) for case in layout.read(path).cases if case.status == layout.DONE]
+
+
+def _rows(path: Path) -> list[dict[str, str]]:
+    with open(path, encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(line for line in file if not line.startswith("#")))
+
+
+def _kept(row: dict[str, str]) -> Result:
+    labels = {name: text for name, text in row.items() if text and name not in ("case", "nose", *RESULTS)}
+    depth, residual = (float(row[name]) if row[name] else None for name in ("depth_cm", "residual_m_s"))
+    loss, time, minutes = (float(row[name]) for name in ("loss_percent", "time_us", "minutes"))
+    return Result(row["case"], labels, row["nose"], depth, loss, residual, row["regime"], time, minutes)
+
+
+def _of(case: layout.Case) -> Result:
+    told = case.summary
+    loss = 100.0 * (1.0 - told["rod_length_m"] / told["rod_initial_length_m"])
+    through = told.get("stop_reason", "").startswith("perforation")
+    depth, residual = (None, told["rod_residual_velocity_m_s"]) if through else (1e2 * told["penetration_depth_m"], None)
+    nose = next(body["nose"] for body in case.deck["body"] if body.get("nose"))
+    time, minutes = 1e6 * told["time_s"], told["wall_s"] / 60
+    return Result(case.name, case.values, nose, depth, loss, residual, told["regime"], time, minutes)
+
+
+def keep(results: list[Result], path: Path) -> None:
+    """Writes a file of results. Raises OSError."""
+    with open(path, "w", encoding="utf-8", newline="") as file:
+        axes = dict.fromkeys(axis for result in results for axis in result.labels)
+        table = csv.DictWriter(file, ["case", *axes, "nose", *RESULTS], restval="", lineterminator="\n")
+        table.writeheader()
+        table.writerows(result.row for result in results)
+
+
+def columns(results: list[Result]) -> dict[str, dict[Shot, Result]]:
+    """The results of shots, by column and shot."""
+    found: dict[str, dict[Shot, Result]] = {}
+    for result in results:
+        if result.shot is not None:
+            found.setdefault(result.column, {})[result.shot] = result
     return found
 
 
-def cell(case: layout.Case) -> str:
-    """Depth (for a rod that perforated, its residual velocity) and loss of length."""
-    told = case.summary
-    loss = 100.0 * (1.0 - told["rod_length_m"] / told["rod_initial_length_m"])
-    lost = f"{loss:.1f} %" if loss < 10.0 else f"{loss:.0f} %"
-    if told.get("stop_reason", "").startswith("perforation"):
-        return f"perforated at {told['rod_residual_velocity_m_s']:.0f} m/s, {lost}"
-    return f"{told['penetration_depth_m'] * 1e2:.1f} cm, {lost}"
-
-
-def table(found: dict[str, dict[Shot, layout.Case]]) -> list[str]:
+def table(found: dict[str, dict[Shot, Result]]) -> list[str]:
     """Lines of Markdown."""
     measured = experiments()
     shots = sorted({shot for cases in found.values() for shot in cases}, key=lambda at: (at.nose, at.alloy, at.velocity))
     lines = ["| shot | experiment | " + " | ".join(found) + " |", "|---" * (len(found) + 2) + "|"]
     for shot in shots:
-        cells = [cell(cases[shot]) if shot in cases else "" for cases in found.values()]
+        cells = [str(cases.get(shot, "")) for cases in found.values()]
         lines.append(f"| {shot} | {measured.get(shot, '')} | " + " | ".join(cells) + " |")
     return lines
 
 
-def listing(directories: list[Path]) -> list[str]:
-    """Lines of Markdown: a table for each study, with a row for each case that is done. Raises StudyError."""
-    lines = []
-    for directory in directories:
-        study = layout.read(directory)
-        done = [case for case in study.cases if case.status == layout.DONE]
-        lines += ["", f"{study.name}: {len(done)} of {len(study.cases)} runs.", "",
-                  "| case | depth, loss of length | regime | time of flight, us | minutes |", "|---" * 5 + "|"]  # fmt: skip
-        for case in done:
-            told = case.summary
-            words = [f"`{case.name}`", cell(case), told["regime"], f"{told['time_s'] * 1e6:.0f}", f"{told['wall_s'] / 60:.1f}"]
-            lines.append("| " + " | ".join(words) + " |")
-    return lines[1:]
-
-
-def draw(found: dict[str, dict[Shot, layout.Case]]):
-    """A matplotlib Figure with a panel for each alloy; markers are filled for hemispherical noses and open for ogival ones."""
+def draw(found: dict[str, dict[Shot, Result]]):
+    """A matplotlib Figure with a panel for each nose and alloy; triangles are rods that perforate."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
-    figure = Figure(figsize=(9.6, 4.4), layout="constrained")
+    noses = [nose for nose in NOSES.values() if any(shot.nose == nose for cases in found.values() for shot in cases)]
+    figure = Figure(figsize=(9.6, 1.2 + 3.3 * len(noses)), layout="constrained")
     FigureCanvasAgg(figure)
-    for axes, alloy in zip(figure.subplots(1, 2, sharey=True), ("5083", "7039"), strict=True):
-        for number, (column, cases) in enumerate(found.items()):
-            for nose, style in (("hemispherical", {}), ("ogival", {"markerfacecolor": "none", "linestyle": ":"})):
-                there = sorted((shot for shot in cases if (shot.alloy, shot.nose) == (alloy, nose)), key=lambda at: at.velocity)
-                there = [shot for shot in there if shot.velocity <= VELOCITIES[-1]]
-                depths = [1e2 * cases[shot].summary["penetration_depth_m"] for shot in there]
-                if there:
-                    axes.plot([shot.velocity for shot in there], depths, marker="o", color=COLOURS[number % len(COLOURS)],
-                              linewidth=1.2, label=column if nose == "hemispherical" else None, **style)  # fmt: skip
-        for shot, experiment in experiments().items():
-            if shot.alloy == alloy:
-                axes.plot(shot.velocity, experiment.depth * 1e2, "^" if experiment.kind == "at least" else "s", markersize=9,
-                          color="black", markerfacecolor="none" if shot.nose == "ogival" else "black", label="_")
-        _theory(axes, alloy, found)
-        axes.set_title(f"{alloy} aluminium")
+    panels = figure.subplots(len(noses), 2, sharey=True, sharex="row", squeeze=False)
+    for nose, row in zip(noses, panels, strict=True):
+        for alloy, axes in zip(("5083", "7039"), row, strict=True):
+            _panel(axes, nose, alloy, found)
+            axes.set_title(f"{nose} nose, {alloy} aluminium", fontsize="medium")
+        row[0].set_ylabel("depth [cm]")
+    for axes in panels[-1]:
         axes.set_xlabel("impact velocity [m/s]")
-        axes.grid(alpha=0.3)
-        axes.set_ylim(0.0, 60.0)
-    axes.plot([], [], "ks", label="experiment (open: ogival)")
-    figure.axes[0].set_ylabel("depth [cm]")
-    axes.legend(fontsize=7, loc="upper left")
+    figure.legend(*panels[0][0].get_legend_handles_labels(), fontsize="small", loc="outside lower center", ncols=4)
     return figure
 
 
-def _theory(axes, alloy: str, found) -> None:
-    """A rigid rod by `forrestal` and an eroding one by `tate`, on the deck of a hemispherical case."""
-    cases = [case for column in found.values() for shot, case in column.items()
-             if (shot.nose, shot.alloy) == ("hemispherical", alloy)]
-    if not cases:
-        return
-    shot = model_deck.read(cases[0].directory / "deck.toml")
+def _panel(axes, nose: str, alloy: str, found: dict[str, dict[Shot, Result]]) -> None:
+    """One nose and alloy: models, runs and experiments."""
+    fastest = 0.0
+    for number, (column, cases) in enumerate(found.items()):
+        there = sorted((shot for shot in cases if (shot.nose, shot.alloy) == (nose, alloy)), key=lambda at: at.velocity)
+        speeds = np.array([shot.velocity for shot in there])
+        through = np.array([cases[shot].depth is None for shot in there], dtype=bool)
+        depths = np.array([PLATE if cases[shot].depth is None else cases[shot].depth for shot in there])
+        colour = COLOURS[number % len(COLOURS)]
+        axes.plot(speeds, depths, color=colour, linewidth=1.2, marker="o", markersize=4, label=column)
+        axes.plot(speeds[through], depths[through], "^", color=colour, markersize=7)
+        fastest = max(fastest, *speeds, 1400.0)
+    for marker, measured, label in (("s", True, "experiment"), ("^", False, "experiment, perforated")):
+        shots = [(shot.velocity, told.depth * 1e2) for shot, told in experiments().items()
+                 if (shot.nose, shot.alloy, told.kind != "at least") == (nose, alloy, measured)]  # fmt: skip
+        axes.plot(*zip(*shots, strict=True) if shots else ([], []), marker, color="black", markersize=8, label=label)
+    shot = model_deck.read(HERE / DECKS[nose, alloy])
+    speeds = VELOCITIES[VELOCITIES <= fastest]
     for name, style in (("forrestal", "k--"), ("tate", "k-.")):
         case = models.resolve(models.named(name), models.Request(shot.rod, shot.target, geometry=shot.values))
-        depths = [row["depth"] * 1e2 for row in case.rows(VELOCITIES.tolist())]
-        axes.plot(VELOCITIES, depths, style, linewidth=0.8, label=f"model {name}")
+        axes.plot(speeds, [row["depth"] * 1e2 for row in case.rows(speeds.tolist())], style, linewidth=0.8,
+                  label=f"model {name}")  # fmt: skip
+    axes.grid(alpha=0.3)
+    axes.set_ylim(0.0, 60.0)
 
 
 def main(arguments: list[str] | None = None) -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("studies", nargs="+", type=Path)
+    parser.add_argument("results", nargs="+", type=Path)
     parser.add_argument("--figure", type=Path)
-    parser.add_argument("--list", action="store_true", dest="every", help="list every finished case instead")
+    parser.add_argument("--keep", type=Path, metavar="FILE", help="write all cases to a CSV file")
     given = parser.parse_args(arguments)
     try:
-        if given.every:
-            print("\n".join(listing(given.studies)))
-            return 0
-        found = runs(given.studies)
-        if not found:
-            print("these studies have no finished case of a shot", file=sys.stderr)
+        results = list({(result.name, result.nose): result for path in given.results for result in read(path)}.values())
+        if given.keep:
+            keep(results, given.keep)
+        found = columns(results)
+        if not found and not given.keep:
+            print("there is no finished case of a shot", file=sys.stderr)
             return 2
-        print("\n".join(table(found)))
+        if found:
+            print("\n".join(table(found)))
         if given.figure:
             figures.save(draw(found), given.figure)
     except (StudyError, DeckError, OSError) as error:

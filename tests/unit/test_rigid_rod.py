@@ -1,32 +1,38 @@
-"""The table and the figure of what ends a rigid rod."""
+"""The table and the figure of what ends a rigid rod, and the results that are kept beside the studies."""
 
+import re
 from types import SimpleNamespace
 
 import pytest
 
+from hydro2d.study import cases
 from problems.cth_nose_shape import rigid_rod
-from problems.cth_nose_shape.rigid_rod import Shot
-from tests.unit.test_cli import DECK
+from problems.cth_nose_shape.rigid_rod import Result, Shot
+from tests.rules import source
+
+KEPT = sorted(source.PROBLEMS.glob("*/results/*.csv"))
+#: a result of a run on a page, as Result writes it
+CELL = re.compile(r"(?:\d+\.\d cm|perforated at \d+ m/s), [\d.]+ %")
 
 
-def case(folder, values, depth, length, status="done", reason="speed of rod below 5 m/s"):
-    folder.mkdir(exist_ok=True)
-    (folder / "deck.toml").write_text(DECK)
+def case(name, values, depth, length, status="done", reason="speed of rod below 5 m/s"):
     summary = {"penetration_depth_m": depth, "rod_length_m": length, "rod_initial_length_m": 0.1, "stop_reason": reason,
-               "rod_residual_velocity_m_s": 123.4}  # fmt: skip
-    return SimpleNamespace(values=values, status=status, summary=summary, directory=folder)
+               "rod_residual_velocity_m_s": 123.4, "regime": "rigid", "time_s": 3.2e-4, "wall_s": 150.0}  # fmt: skip
+    deck = {"body": [{"name": "plate"}, {"name": "rod", "nose": "ogival" if "ogive" in name else "hemispherical"}]}
+    return SimpleNamespace(name=name, values=values, status=status, summary=summary, deck=deck)
 
 
 @pytest.fixture
 def study(tmp_path, monkeypatch):
-    cases = (
-        case(tmp_path / "a", {"law": "A", "shot": "5083-1086"}, 0.4168, 0.0958),
-        case(tmp_path / "b", {"law": "A", "shot": "ogive-7039-1291"}, 0.537, 0.0995, reason="perforation of plate"),
-        case(tmp_path / "c", {"law": "B", "shot": "hemi 7039 1165"}, 0.156, 0.0384),
-        case(tmp_path / "d", {"law": "B", "shot": "5083-1200"}, 0.1, 0.09, status="running"),
-        case(tmp_path / "e", {"law": "B", "shot": "something else"}, 0.1, 0.09),
+    there = (
+        case("A_5083-1086", {"law": "A", "shot": "5083-1086"}, 0.4168, 0.0958),
+        case("A_ogive", {"law": "A", "shot": "ogive-7039-1291"}, 0.537, 0.0995, reason="perforation of plate"),
+        case("B_7039-1165", {"law": "B", "shot": "hemi 7039 1165"}, 0.156, 0.0384),
+        case("B_5083-1200", {"law": "B", "shot": "5083-1200"}, 0.1, 0.09, status="running"),
+        case("B_else", {"law": "B", "shot": "something else"}, 0.1, 0.09),
+        case("B_search", {"law": "B", "plate": "5083", "velocity": "700 m/s"}, 0.2, 0.09),
     )
-    monkeypatch.setattr(rigid_rod.layout, "read", lambda directory: SimpleNamespace(cases=cases))
+    monkeypatch.setattr(rigid_rod.layout, "read", lambda directory: SimpleNamespace(cases=there))
     return tmp_path
 
 
@@ -37,6 +43,16 @@ def test_labels(label, shot):
     assert Shot.named(label) == shot
 
 
+@pytest.mark.parametrize(("labels", "shot", "column"), [
+    ({"law": "A", "shot": "5083-1086"}, Shot("hemispherical", "5083", 1086.0), "A"),
+    ({"law": "A", "plate": "7039", "velocity": "875 m/s"}, Shot("ogival", "7039", 875.0), "A"),
+    ({"plate": "5083-H116", "shot": "5083-1086"}, Shot("hemispherical", "5083", 1086.0), "5083-H116"),
+    ({"plate": "6061", "velocity": "875 m/s"}, None, "")])  # fmt: skip
+def test_shots_of_studies_and_of_searches(labels, shot, column):
+    result = Result("name", labels, "ogival", 1.0, 0.0, None, "rigid", 1.0, 1.0)
+    assert (result.shot, result.column) == (shot, column)
+
+
 def test_all_twelve_shots_are_known():
     found = rigid_rod.experiments()
     assert len(found) == 12
@@ -45,40 +61,74 @@ def test_all_twelve_shots_are_known():
     assert str(found[Shot("hemispherical", "7039", 1165.0)]) == "11.4 cm (estimated)"
 
 
-def test_the_table(study):
-    assert rigid_rod.table(rigid_rod.runs([study])) == [
+def test_the_table(study, capsys):
+    assert rigid_rod.main([str(study)]) == 0
+    assert capsys.readouterr().out.splitlines() == [
         "| shot | experiment | A | B |", "|---|---|---|---|",
+        "| hemispherical, 5083, 700 m/s |  |  | 20.0 cm, 10 % |",
         "| hemispherical, 5083, 1086 m/s | 44.8 cm | 41.7 cm, 4.2 % |  |",
         "| hemispherical, 7039, 1165 m/s | 11.4 cm (estimated) |  | 15.6 cm, 62 % |",
         "| ogival, 7039, 1291 m/s | perforated | perforated at 123 m/s, 0.5 % |  |",
     ]  # fmt: skip
 
 
-def test_the_figure(study, capsys):
+def test_the_figure(study):
     assert rigid_rod.main([str(study), "--figure", str(study / "figure.png")]) == 0
     assert (study / "figure.png").read_bytes()[:4] == b"\x89PNG"
-    panels = rigid_rod.draw(rigid_rod.runs([study])).axes
-    lines = {line.get_label(): line for line in panels[0].lines}
-    assert lines["A"].get_xdata() == pytest.approx([1086.0])
-    assert lines["A"].get_ydata() == pytest.approx([41.68])
-    assert max(lines["model forrestal"].get_ydata()) > max(lines["model tate"].get_ydata()) > 0.0
+    panels = rigid_rod.draw(rigid_rod.columns(rigid_rod.read(study))).axes
+    assert [panel.get_title() for panel in panels[::3]] == ["hemispherical nose, 5083 aluminium", "ogival nose, 7039 aluminium"]
+    first, last = ({line.get_label(): line for line in panel.lines} for panel in panels[::3])
+    assert first["A"].get_xdata() == pytest.approx([1086.0])
+    assert first["A"].get_ydata() == pytest.approx([41.68])
+    assert last["A"].get_ydata() == pytest.approx([rigid_rod.PLATE])
+    assert max(first["model forrestal"].get_ydata()) > max(first["model tate"].get_ydata()) > 0.0
 
 
-def test_nothing_to_show(tmp_path, monkeypatch, capsys):
+def test_nothing_to_show(tmp_path, monkeypatch):
     monkeypatch.setattr(rigid_rod.layout, "read", lambda directory: SimpleNamespace(cases=()))
     assert rigid_rod.main([str(tmp_path)]) == 2
 
 
-def test_the_list_has_every_case_that_is_done(tmp_path, monkeypatch, capsys):
-    summary = {"penetration_depth_m": 0.4168, "rod_length_m": 0.05, "rod_initial_length_m": 0.1, "regime": "eroding",
-               "stop_reason": "speed of rod below 5 m/s", "wall_s": 150.0, "time_s": 3.2e-4}  # fmt: skip
-    cases = (SimpleNamespace(name="A_5083-1086", status="done", summary=summary),
-             SimpleNamespace(name="B_x", status="waiting", summary={}),
-             SimpleNamespace(name="C_x", status="interrupted", summary=summary))  # fmt: skip
-    monkeypatch.setattr(rigid_rod.layout, "read", lambda directory: SimpleNamespace(name="laws", cases=cases))
-    assert rigid_rod.main([str(tmp_path), "--list"]) == 0
-    assert capsys.readouterr().out.splitlines() == [
-        "laws: 1 of 3 runs.", "",
-        "| case | depth, loss of length | regime | time of flight, us | minutes |", "|---|---|---|---|---|",
-        "| `A_5083-1086` | 41.7 cm, 50 % | eroding | 320 | 2.5 |",
-    ]  # fmt: skip
+def test_kept_results_are_read_again(study, capsys):
+    file = study / "kept.csv"
+    assert rigid_rod.main([str(study), "--keep", str(file)]) == 0
+    assert file.read_text().splitlines()[:3] == [
+        "case,law,shot,plate,velocity,nose,depth_cm,loss_percent,residual_m_s,regime,time_us,minutes",
+        "A_5083-1086,A,5083-1086,,,hemispherical,41.68,4.2,,rigid,320,2.5",
+        "A_ogive,A,ogive-7039-1291,,,ogival,,0.5,123,rigid,320,2.5",
+    ]
+    from_runs = capsys.readouterr().out
+    assert rigid_rod.main([str(file)]) == 0
+    assert capsys.readouterr().out == from_runs
+    newer = study / "newer.csv"
+    newer.write_text(file.read_text().splitlines()[0] + "\nA_5083-1086,A,5083-1086,,,hemispherical,30,50,,eroding,320,2.5\n")
+    assert rigid_rod.main([str(file), str(newer), "--keep", str(file)]) == 0
+    assert len(file.read_text().splitlines()) == 6
+    assert "| 30.0 cm, 50 % |" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("file", KEPT, ids=lambda file: file.stem)
+def test_kept_results_are_those_of_their_study(file):
+    plan = cases.plan(file.parent.parent / f"{file.stem}.toml", quiet=True)
+    results = rigid_rod.read(file)
+    assert len({result.name for result in results}) == len(results) > 0
+    planned = {case.name: case.values for case in plan.cases}
+    for result in results:
+        if plan.search:
+            assert "velocity" in result.labels
+        else:
+            assert result.labels == planned[result.name]
+
+
+def test_results_on_the_page_are_kept_ones():
+    page = (source.ROOT / "docs/explanation/rigid-rod.md").read_text(encoding="utf-8")
+    told = set(CELL.findall(page))
+    assert len(told) > 100
+    assert sorted(told - {str(result) for file in KEPT for result in rigid_rod.read(file)}) == []
+
+
+def test_every_kept_result_is_on_the_page_of_all_runs():
+    page = (source.ROOT / "docs/explanation/rigid-rod-runs.md").read_text(encoding="utf-8")
+    shown = re.findall(r"^:file: ../../(.*)$", page, flags=re.M)
+    assert sorted(shown) == sorted(str(file.relative_to(source.ROOT)) for file in KEPT)
+    assert f"The {sum(len(rigid_rod.read(file)) for file in KEPT)} runs behind" in page
