@@ -38,8 +38,8 @@ DECKS = {
     ("hemispherical", "5083"): "hemi_5083_1086.toml", ("hemispherical", "7039"): "hemi_7039_1038.toml",
     ("ogival", "5083"): "ogive_5083_923.toml", ("ogival", "7039"): "ogive_7039_1075.toml",
 }  # fmt: skip
-#: the last columns of a file of results
-RESULTS = ("depth_cm", "loss_percent", "residual_m_s", "regime", "time_us", "minutes")
+#: what a case gave, in a file of results, after its labels
+RESULTS = ("depth_cm", "loss_percent", "regime", "residual_m_s", "time_us", "minutes")
 #: velocities of the analytic models, m/s; thickness of the plates, cm
 VELOCITIES, PLATE = np.linspace(700.0, 2100.0, 57), 53.34
 COLOURS = ("#1f4e79", "#c26a1b", "#4f7942", "#8b3a62", "#5b6770")
@@ -114,9 +114,9 @@ class Result:
         def number(value: float | None, digits: int) -> str:
             return "" if value is None else f"{round(value, digits):.12g}"
 
-        told = (number(self.depth, 2), number(self.loss, 1), number(self.residual, 0), self.regime, number(self.time, 0),
+        told = (number(self.depth, 2), number(self.loss, 1), self.regime, number(self.residual, 0), number(self.time, 0),
                 number(self.minutes, 1))  # fmt: skip
-        return {"case": self.name, **self.labels, "nose": self.nose, **dict(zip(RESULTS, told, strict=True))}
+        return {**self.labels, "nose": self.nose, **dict(zip(RESULTS, told, strict=True)), "case": self.name}
 
     def __str__(self) -> str:
         lost = f"{self.loss:.1f} %" if self.loss < 10.0 else f"{self.loss:.0f} %"
@@ -162,7 +162,7 @@ def keep(results: list[Result], path: Path) -> None:
     """Writes a file of results. Raises OSError."""
     with open(path, "w", encoding="utf-8", newline="") as file:
         axes = dict.fromkeys(axis for result in results for axis in result.labels)
-        table = csv.DictWriter(file, ["case", *axes, "nose", *RESULTS], restval="", lineterminator="\n")
+        table = csv.DictWriter(file, [*axes, "nose", *RESULTS, "case"], restval="", lineterminator="\n")
         table.writeheader()
         table.writerows(result.row for result in results)
 

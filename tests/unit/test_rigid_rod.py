@@ -93,15 +93,15 @@ def test_kept_results_are_read_again(study, capsys):
     file = study / "kept.csv"
     assert rigid_rod.main([str(study), "--keep", str(file)]) == 0
     assert file.read_text().splitlines()[:3] == [
-        "case,law,shot,plate,velocity,nose,depth_cm,loss_percent,residual_m_s,regime,time_us,minutes",
-        "A_5083-1086,A,5083-1086,,,hemispherical,41.68,4.2,,rigid,320,2.5",
-        "A_ogive,A,ogive-7039-1291,,,ogival,,0.5,123,rigid,320,2.5",
+        "law,shot,plate,velocity,nose,depth_cm,loss_percent,regime,residual_m_s,time_us,minutes,case",
+        "A,5083-1086,,,hemispherical,41.68,4.2,rigid,,320,2.5,A_5083-1086",
+        "A,ogive-7039-1291,,,ogival,,0.5,rigid,123,320,2.5,A_ogive",
     ]
     from_runs = capsys.readouterr().out
     assert rigid_rod.main([str(file)]) == 0
     assert capsys.readouterr().out == from_runs
     newer = study / "newer.csv"
-    newer.write_text(file.read_text().splitlines()[0] + "\nA_5083-1086,A,5083-1086,,,hemispherical,30,50,,eroding,320,2.5\n")
+    newer.write_text(file.read_text().splitlines()[0] + "\nA,5083-1086,,,hemispherical,30,50,eroding,,320,2.5,A_5083-1086\n")
     assert rigid_rod.main([str(file), str(newer), "--keep", str(file)]) == 0
     assert len(file.read_text().splitlines()) == 6
     assert "| 30.0 cm, 50 % |" in capsys.readouterr().out
