@@ -45,6 +45,20 @@ def unknown(what: str, name: str, allowed: Iterable[str]) -> str:
     return f'unknown {what} "{name}"{hint} (allowed: {", ".join(names) or "none"})'
 
 
+def in_words(entry: dict) -> str:
+    """What is said of one of pydantic's errors, without its place; unknown keys are left to those who know the table."""
+    kind = entry["type"]
+    if kind == "missing":
+        return "is missing"
+    if kind == "value_error":
+        return str(entry["ctx"]["error"])
+    if kind == "literal_error":
+        words = [word.strip("' ") for word in entry["ctx"]["expected"].replace(" or ", ", ").split(",")]
+        return unknown("value", str(entry["input"]), [{"False": "false", "True": "true"}.get(word, word) for word in words])
+    message = entry["msg"][0].lower() + entry["msg"][1:]
+    return f"{message.replace('input ', '')}, is {entry['input']!r}"
+
+
 class _Scanner:
     """Reads TOML that tomllib has accepted and notes the line of every key and of every array element."""
 

@@ -8,7 +8,7 @@ from hydro2d import toml
 from hydro2d.deck.base import Section
 from hydro2d.deck.bodies import SHAPES
 from hydro2d.deck.sections import Deck
-from hydro2d.errors import entry_index, spelled, unknown
+from hydro2d.errors import entry_index, in_words, spelled, unknown
 
 #: keys of decks of older versions, and what they are called now
 RENAMED = {"numerics.trace": "numerics.cutoff", "failure.loose": "failure.strength_cutoff"}
@@ -24,23 +24,13 @@ def causes(found: list[dict]) -> list[dict]:
 def explained(entry: dict, data: dict) -> tuple[tuple, str]:
     """The deck key and hydro2d's message for one of pydantic's errors."""
     path, kind = _key_path(entry["loc"], data), entry["type"]
-    context = entry.get("ctx", {})
     if kind == "extra_forbidden":
         return path, _no_such_key(path, _allowed_keys(path[:-1], data))
-    if kind == "missing":
-        return path, "is missing"
-    if kind == "value_error":
-        return path, str(context["error"])
-    if kind == "literal_error":
-        words = [word.strip("' ") for word in context["expected"].replace(" or ", ", ").split(",")]
-        allowed = [{"False": "false", "True": "true"}.get(word, word) for word in words]
-        return path, unknown("value", str(entry["input"]), allowed)
     if kind == "union_tag_not_found":
         return (*path, "shape"), f"is missing (allowed: {', '.join(SHAPES)})"
     if kind == "union_tag_invalid":
-        return (*path, "shape"), unknown("shape", str(context["tag"]), SHAPES)
-    message = entry["msg"][0].lower() + entry["msg"][1:]
-    return path, f"{message.replace('input ', '')}, is {entry['input']!r}"
+        return (*path, "shape"), unknown("shape", str(entry["ctx"]["tag"]), SHAPES)
+    return path, in_words(entry)
 
 
 def _key_path(loc: tuple, data: Any) -> tuple:

@@ -10,7 +10,7 @@ from pydantic import AfterValidator, Field, ValidationError, model_validator
 
 from hydro2d import toml
 from hydro2d.deck.base import PositiveSpeed, Section, Speed
-from hydro2d.errors import DeckError, Error, Sources, spelled, unknown
+from hydro2d.errors import DeckError, Error, Sources, in_words, spelled, unknown
 from hydro2d.files import plain, read_text
 
 #: overrides of the decks of a study: "key=value" of a command line, or values by their dotted keys
@@ -183,14 +183,9 @@ def explained(error: ValidationError, data: dict, sources: Sources, tables: dict
 
 
 def _explained(entry: dict, data: dict, sources: Sources, tables: dict[tuple, type[Section]]) -> str:
-    path, kind = tuple(entry["loc"]), entry["type"]
+    path = tuple(entry["loc"])
     where = f"{sources.where(path, data)}: {spelled(path)}: "
-    if kind == "extra_forbidden":
+    if entry["type"] == "extra_forbidden":
         table = tables[tuple(part for part in path[:-1] if isinstance(part, str))]
         return where + unknown("key", str(path[-1]), [f.alias or name for name, f in table.model_fields.items()])
-    if kind == "missing":
-        return where + "is missing"
-    if kind == "value_error":
-        return where + str(entry["ctx"]["error"])
-    message = entry["msg"][0].lower() + entry["msg"][1:]
-    return f"{where}{message.replace('input ', '')}, is {entry['input']!r}"
+    return where + in_words(entry)

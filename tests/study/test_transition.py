@@ -483,4 +483,5 @@ def test_a_rod_that_left_sideways_has_no_say_in_a_ballistic_limit(tmp_path):
 
 def test_what_a_search_is_of_must_be_known(tmp_path, capsys):
     assert call(["transition", str(write(tmp_path, LIMIT.replace('"perforation"', '"perforatoin"'))), "--check"]) == 2
-    assert "search.toml:5: transition.of: should be 'regime' or 'perforation', is 'perforatoin'" in capsys.readouterr().err
+    said = 'transition.of: unknown value "perforatoin"; did you mean "perforation"? (allowed: perforation, regime)'
+    assert f"search.toml:5: {said}" in capsys.readouterr().err
