@@ -91,8 +91,10 @@ class Transition(Section):
     )
     tolerance: PositiveSpeed = Field(25.0, description="largest width of a bracket; velocities are this far apart, from `from`")
     key: str | None = Field(None, description="deck key that is varied; default: the velocity of the deck's penetrating rod")
-    of: Literal["regime", "perforation"] = Field(
-        "regime", description="what changes: the regime of the rod, or whether it perforates the target (ballistic limit)"
+    of: Literal["regime", "length", "perforation"] = Field(
+        "regime",
+        description="what changes: the regime of the rod; whether it loses half of its length; or whether it perforates the "
+        "target (ballistic limit)",
     )
 
     @model_validator(mode="after")

@@ -29,27 +29,36 @@ class Scheme:
 
 
 STOPPED, PERFORATED = "stopped", "perforated"
+KEPT, USED_UP = "kept", "used up"
 SCHEMES = {
     "regime": Scheme(GROWING, {"deforming": "rigid to deforming", "eroding": "to eroding"}),
+    "length": Scheme((KEPT, USED_UP), {USED_UP: "half of the length lost"}),
     "perforation": Scheme((STOPPED, PERFORATED), {PERFORATED: "ballistic limit"}),
 }
 FALL, LIMIT = "depth falls", "hydrodynamic limit"
-CRITERIA = {
-    "rigid": f"less than {100 * penetrator.RIGID_LENGTH:g} % of the length lost, no section beyond "
-             f"{1 + penetrator.RIGID_RADIUS:g} of the radius",
-    "eroding": f"more than {100 * penetrator.ERODED_MASS:g} % of the mass has left the core; else it is deforming",
+_BY_DEPTH = {
     FALL: "between the deepest run and the next faster one, however far apart; it prompts no further runs",
     LIMIT: f"as for experiments: {model_transition.RULE}; also from the same runs",
-}  # fmt: skip
-OF_PERFORATION = {
-    PERFORATED: "the nose is at least one rod radius beyond the rear face of the target",
-    "ballistic limit": "between the fastest run that is stopped and the slowest that perforates",
 }
+#: what the terms of a search mean
+CRITERIA = {
+    "regime": {
+        "rigid": f"less than {100 * penetrator.RIGID_LENGTH:g} % of the length lost, no section beyond "
+                 f"{1 + penetrator.RIGID_RADIUS:g} of the radius",
+        "eroding": f"more than {100 * penetrator.ERODED_MASS:g} % of the mass has left the core; else it is deforming",
+        **_BY_DEPTH,
+    },
+    "length": {KEPT: "at least half of the rod's length is left at the end", USED_UP: "less is left", **_BY_DEPTH},
+    "perforation": {
+        PERFORATED: "the nose is at least one rod radius beyond the rear face of the target",
+        "ballistic limit": "between the fastest run that is stopped and the slowest that perforates",
+    },
+}  # fmt: skip
 
 
 def criteria(study: Study) -> dict[str, str]:
     """The definitions of the terms of a search."""
-    return OF_PERFORATION if study.search and study.search.of == "perforation" else CRITERIA
+    return CRITERIA[study.search.of if study.search else "regime"]
 
 
 @dataclass(frozen=True)
@@ -103,7 +112,7 @@ def _at_least(run: Run) -> str:
 
 
 def judge(found: Record, of: str = "regime") -> Run:
-    """The regime of a case at its end, or whether the rod perforated the target.
+    """The regime of a case at its end, whether half of the rod is used up, or whether it perforated the target.
 
     None for a case that is not done, and for a rod that left the mesh and was not followed to its end. In runs of versions
     without this regime, such a rod is recognised by the mass that it has lost.
@@ -121,6 +130,9 @@ def judge(found: Record, of: str = "regime") -> Run:
         return Run(found, velocity, None, why)
     if found.left:
         return Run(found, velocity, None, "the rod left the mesh before it came to rest")
+    if of == "length":
+        kept = found.value("rod_length_m") >= 0.5 * found.value("rod_initial_length_m")
+        return Run(found, velocity, KEPT if kept else USED_UP)
     return Run(found, velocity, case.summary.get("regime"))
 
 
@@ -214,13 +226,14 @@ def _transitions(study: Study, title: str, members: Sequence[Record]) -> Transit
         brackets.append(replace(bracket, source=_ends(bracket, found)))
         settled[name], why = _settled(bracket, study.search, runs)
         notes += [f"{name}: {why}"] if why else []
-    brackets += [*_fall(known), *_limit(known)] if of == "regime" else []
+    of_rod = of != "perforation"
+    brackets += [*_fall(known), *_limit(known)] if of_rod else []
     for slow, fast in bisection.disordered(found, scheme.order):
         notes.append(f"out of order: {found[slow]} at {slow:g} m/s, {found[fast]} at {fast:g} m/s; the slowest change is given")
     cut = [f"{run.velocity:g} m/s" for run in known if run.record.cut]
     if cut:
         notes.append(f"runs that did not end at rest, whose regime and depth are those at their end: {', '.join(cut)}")
-    comparison, problem = _compared(known, brackets[0]) if of == "regime" else (None, "")
+    comparison, problem = _compared(known, brackets[0]) if of_rod else (None, "")
     notes += [problem] if problem else []
     values = {name: value for name, value in members[0].case.values.items() if name != velocities.AXIS}
     return Transitions(title, values, brackets, settled, runs, notes, comparison)

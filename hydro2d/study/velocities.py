@@ -25,7 +25,7 @@ class Velocities:
     """The velocities that a search may try.
 
     key : deck key;  labels : velocities as in a deck, the slowest first;  tolerance : largest width of a bracket, m/s
-    of : what changes, "regime" or "perforation"
+    of : what changes, "regime", "length" or "perforation"
     """
 
     key: str

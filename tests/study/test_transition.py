@@ -362,7 +362,7 @@ def test_status_and_report_show_the_transitions(again, capsys):
     assert "Transitions" in page.text
     assert "advection = momentum 1150 to 1200 m/s 1400 to 1450 m/s" in page.text
     assert "experiment: 1086 to 1200 m/s" in page.text
-    assert regimes.CRITERIA["rigid"] in page.text
+    assert regimes.CRITERIA["regime"]["rigid"] in page.text
 
 
 # ------------------------------------------------------------------------------------------------ a real shot
@@ -483,5 +483,5 @@ def test_a_rod_that_left_sideways_has_no_say_in_a_ballistic_limit(tmp_path):
 
 def test_what_a_search_is_of_must_be_known(tmp_path, capsys):
     assert call(["transition", str(write(tmp_path, LIMIT.replace('"perforation"', '"perforatoin"'))), "--check"]) == 2
-    said = 'transition.of: unknown value "perforatoin"; did you mean "perforation"? (allowed: perforation, regime)'
+    said = 'transition.of: unknown value "perforatoin"; did you mean "perforation"? (allowed: length, perforation, regime)'
     assert f"search.toml:5: {said}" in capsys.readouterr().err
