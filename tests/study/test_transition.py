@@ -481,6 +481,29 @@ def test_a_rod_that_left_sideways_has_no_say_in_a_ballistic_limit(tmp_path):
     assert brackets(found) == [{"ballistic limit": (1150, 1200)}]
 
 
+# ------------------------------------------------------------------------------------------------ half of the length
+
+HALF = ALONE.replace("[transition]", '[transition]\nof = "length"')
+
+
+def test_the_velocity_at_which_half_of_the_rod_is_used_up(tmp_path, capsys):
+    """The regime, which is eroding from 1000 m/s on, has no say in this search."""
+    def rod(velocity, deck):
+        left = 0.0977 * (0.9 if velocity < 1185.0 else 0.49)
+        return {"regime": "eroding" if velocity > 1000.0 else "rigid", "depth": 4.0 * left, "rod_length_m": left}
+
+    client = made_up.Client(rod)
+    status, found = search(tmp_path, client, HALF)
+    assert (status, found["complete"], found["of"]) == (0, True, "length")
+    assert brackets(found)[0]["half of the length lost"] == (1150, 1200)
+    assert {*brackets(found)[0]} == {"half of the length lost", "depth falls", "hydrodynamic limit"}
+    assert len(client.submitted) <= 6
+    shown = capsys.readouterr().out
+    assert "half of the length lost  1150 to 1200 m/s  kept at 1150 m/s, used up at 1200 m/s" in shown
+    assert "at least half of the rod's length is left at the end" in shown
+    assert "rigid to deforming" not in shown
+
+
 def test_what_a_search_is_of_must_be_known(tmp_path, capsys):
     assert call(["transition", str(write(tmp_path, LIMIT.replace('"perforation"', '"perforatoin"'))), "--check"]) == 2
     said = 'transition.of: unknown value "perforatoin"; did you mean "perforation"? (allowed: length, perforation, regime)'
