@@ -4,9 +4,10 @@
 
 RESULTS is the directory of a study, finished or not, or a file in `results`, which has the finished cases of a study that was
 run before; a case that is in several counts as in the last of them. The table is in Markdown: each row is a shot, each column
-a variant of whatever else the studies vary, and the experiments stand beside the runs. The figure has a panel for each nose
-and alloy, and shows two analytic models: `forrestal` for a rod that stays rigid and `tate` for one that erodes. `--keep`
-writes all cases into a CSV file, in the order in which they were given.
+a variant of whatever else the studies vary, and the experiments stand beside the runs. A second table has the velocities
+between which rods begin to lose half of their length. The figure has a panel for each nose and alloy, and shows two analytic
+models: `forrestal` for a rod that stays rigid and `tate` for one that erodes. `--keep` writes all cases into a CSV file, in
+the order in which they were given.
 """
 
 from __future__ import annotations
@@ -20,11 +21,12 @@ from pathlib import Path
 
 import numpy as np
 
-from hydro2d.analytic import model_deck, models
+from hydro2d.analytic import model_deck, model_transition, models
 from hydro2d.errors import DeckError
 from hydro2d.results import figures
-from hydro2d.study import layout
+from hydro2d.study import bisection, layout
 from hydro2d.study.layout import StudyError
+from hydro2d.study.regimes import KEPT, USED_UP
 from hydro2d.study.velocities import speed
 
 HERE = Path(__file__).parent
@@ -187,6 +189,21 @@ def table(found: dict[str, dict[Shot, Result]]) -> list[str]:
     return lines
 
 
+def transitions(found: dict[str, dict[Shot, Result]]) -> list[str]:
+    """Lines of Markdown: by nose and alloy, the slowest runs that lost half of their length and the next slower ones."""
+    lines = ["| rod | " + " | ".join(found) + " |", "|---" * (len(found) + 1) + "|"]
+    for nose, alloy in DECKS:
+        cells = []
+        for cases in found.values():
+            ends = {shot.velocity: USED_UP if case.loss > 50.0 else KEPT for shot, case in cases.items()
+                    if (shot.nose, shot.alloy) == (nose, alloy)}  # fmt: skip
+            between = model_transition.Bracket("", *bisection.bracket(ends, USED_UP, (KEPT, USED_UP)), "")
+            cells.append(model_transition.extent(between) if ends else "")
+        if any(cells):
+            lines.append(f"| {nose}, {alloy} | " + " | ".join(cells) + " |")
+    return lines
+
+
 def draw(found: dict[str, dict[Shot, Result]]):
     """A matplotlib Figure with a panel for each nose and alloy; triangles are rods that perforate."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -248,7 +265,7 @@ def main(arguments: list[str] | None = None) -> int:
             print("there is no finished case of a shot", file=sys.stderr)
             return 2
         if found:
-            print("\n".join(table(found)))
+            print("\n".join([*table(found), "", *transitions(found)]))
         if given.figure:
             figures.save(draw(found), given.figure)
     except (StudyError, DeckError, OSError) as error:

@@ -68,7 +68,11 @@ def test_the_table(study, capsys):
         "| hemispherical, 5083, 700 m/s |  |  | 20.0 cm, 10 % |",
         "| hemispherical, 5083, 1086 m/s | 44.8 cm | 41.7 cm, 4.2 % |  |",
         "| hemispherical, 7039, 1165 m/s | 11.4 cm (estimated) |  | 15.6 cm, 62 % |",
-        "| ogival, 7039, 1291 m/s | perforated | perforated at 123 m/s, 0.5 % |  |",
+        "| ogival, 7039, 1291 m/s | perforated | perforated at 123 m/s, 0.5 % |  |", "",
+        "| rod | A | B |", "|---|---|---|",
+        "| hemispherical, 5083 | above 1086 m/s | above 700 m/s |",
+        "| hemispherical, 7039 |  | below 1165 m/s |",
+        "| ogival, 7039 | above 1291 m/s |  |",
     ]  # fmt: skip
 
 
