@@ -271,13 +271,14 @@ def _fall(known: Sequence[Run]) -> list[Bracket]:
 
 
 def _limit(known: Sequence[Run]) -> list[Bracket]:
-    """Where the depth is no longer above the hydrodynamic limit."""
+    """Where the depth is no longer above the hydrodynamic limit; slow rods, which stop before they reach it, do not count."""
     deep = [run for run in known if run.record.depth is not None and run.record.shot]
     if not deep:
         return []
     shot, setup = deep[0].record.shot, deep[0].record.setup
     limit = model_transition.hydrodynamic_limit(setup.length, shot.rod, shot.target)
     deeper, others = ([run.velocity for run in deep if (run.record.depth > limit) is word] for word in (True, False))
+    others = [velocity for velocity in others if not deeper or velocity > min(deeper)]
     return [model_transition.between(LIMIT, deeper, others, f"{100 * limit:.2f} cm")]
 
 

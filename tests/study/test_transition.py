@@ -481,6 +481,16 @@ def test_a_rod_that_left_sideways_has_no_say_in_a_ballistic_limit(tmp_path):
     assert brackets(found) == [{"ballistic limit": (1150, 1200)}]
 
 
+def test_slow_rods_have_no_say_in_the_hydrodynamic_limit(tmp_path):
+    """A rigid rod below 1035 m/s stops before it reaches 25.5 cm."""
+    def rod(velocity, deck):
+        return usual(velocity, deck) | {"depth": 0.2 if velocity < 1035.0 else 0.3 if velocity < 1235.0 else 0.15}
+
+    _, found = search(tmp_path, made_up.Client(rod), ALONE)
+    low, high = brackets(found)[0]["hydrodynamic limit"]
+    assert 1035 <= low < 1235 <= high
+
+
 # ------------------------------------------------------------------------------------------------ half of the length
 
 HALF = ALONE.replace("[transition]", '[transition]\nof = "length"')
