@@ -52,9 +52,14 @@ class Shot:
     depth_is: str = "measured"
 
     @property
+    def limit(self) -> float:
+        """The hydrodynamic limit of its depth, m."""
+        return hydrodynamic_limit(self.length, library.load(self.rod), library.load(self.target))
+
+    @property
     def stayed_rigid(self) -> bool:
         """Whether the rod stayed rigid, by ``RULE``."""
-        return self.depth > hydrodynamic_limit(self.length, library.load(self.rod), library.load(self.target))
+        return self.depth > self.limit
 
 
 @dataclass(frozen=True)

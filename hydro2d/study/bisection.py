@@ -1,9 +1,9 @@
 """Bisection for the velocities at which the regime of a rod changes, with any number of runs at a time, apart from any files.
 
-Regimes are ordered: rigid, deforming, eroding; or, for a ballistic limit, stopped, perforated. The transition to a regime lies
-between the slowest run that has reached it and the fastest slower run that has not. All transitions use all runs. If runs are
-under way inside a bracket, the next one is placed in the middle of the widest gap between them, so three at a time quarter a
-bracket.
+Regimes are ordered: rigid, deforming, eroding; for the loss of length kept, used up; for a ballistic limit stopped, perforated.
+The transition to a regime lies between the slowest run that has reached it and the fastest slower run that has not. All
+transitions use all runs. If runs are under way inside a bracket, the next one is placed in the middle of the widest gap between
+them, so three at a time quarter a bracket.
 """
 
 from __future__ import annotations

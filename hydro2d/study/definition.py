@@ -93,7 +93,7 @@ class Transition(Section):
     key: str | None = Field(None, description="deck key that is varied; default: the velocity of the deck's penetrating rod")
     of: Literal["regime", "length", "perforation"] = Field(
         "regime",
-        description="what changes: the regime of the rod; whether it loses half of its length; or whether it perforates the "
+        description="what changes: the regime of the rod; whether it loses a third of its length; or whether it perforates the "
         "target (ballistic limit)",
     )
 

@@ -30,15 +30,17 @@ class Scheme:
 
 STOPPED, PERFORATED = "stopped", "perforated"
 KEPT, USED_UP = "kept", "used up"
+#: smallest part of the length that is left of a rod that is kept; what erosion leaves, with a needle or two, is less
+LEAST_KEPT = 2.0 / 3.0
 SCHEMES = {
     "regime": Scheme(GROWING, {"deforming": "rigid to deforming", "eroding": "to eroding"}),
-    "length": Scheme((KEPT, USED_UP), {USED_UP: "half of the length lost"}),
+    "length": Scheme((KEPT, USED_UP), {USED_UP: "a third of the length lost"}),
     "perforation": Scheme((STOPPED, PERFORATED), {PERFORATED: "ballistic limit"}),
 }
 FALL, LIMIT = "depth falls", "hydrodynamic limit"
 _BY_DEPTH = {
     FALL: "between the deepest run and the next faster one, however far apart; it prompts no further runs",
-    LIMIT: f"as for experiments: {model_transition.RULE}; also from the same runs",
+    LIMIT: f"as for experiments: {model_transition.RULE}; also from the same runs, without those slower than every deeper one",
 }
 #: what the terms of a search mean
 CRITERIA = {
@@ -48,7 +50,7 @@ CRITERIA = {
         "eroding": f"more than {100 * penetrator.ERODED_MASS:g} % of the mass has left the core; else it is deforming",
         **_BY_DEPTH,
     },
-    "length": {KEPT: "at least half of the rod's length is left at the end", USED_UP: "less is left", **_BY_DEPTH},
+    "length": {KEPT: "at least two thirds of the rod's length are left at the end", USED_UP: "less is left", **_BY_DEPTH},
     "perforation": {
         PERFORATED: "the nose is at least one rod radius beyond the rear face of the target",
         "ballistic limit": "between the fastest run that is stopped and the slowest that perforates",
@@ -112,7 +114,7 @@ def _at_least(run: Run) -> str:
 
 
 def judge(found: Record, of: str = "regime") -> Run:
-    """The regime of a case at its end, whether half of the rod is used up, or whether it perforated the target.
+    """The regime of a case at its end, whether a third of its rod is used up, or whether it perforated the target.
 
     None for a case that is not done, and for a rod that left the mesh and was not followed to its end. In runs of versions
     without this regime, such a rod is recognised by the mass that it has lost.
@@ -131,7 +133,7 @@ def judge(found: Record, of: str = "regime") -> Run:
     if found.left:
         return Run(found, velocity, None, "the rod left the mesh before it came to rest")
     if of == "length":
-        kept = found.value("rod_length_m") >= 0.5 * found.value("rod_initial_length_m")
+        kept = found.value("rod_length_m") >= LEAST_KEPT * found.value("rod_initial_length_m")
         return Run(found, velocity, KEPT if kept else USED_UP)
     return Run(found, velocity, case.summary.get("regime"))
 
@@ -271,14 +273,19 @@ def _fall(known: Sequence[Run]) -> list[Bracket]:
 
 
 def _limit(known: Sequence[Run]) -> list[Bracket]:
-    """Where the depth is no longer above the hydrodynamic limit; slow rods, which stop before they reach it, do not count."""
+    """Where the depth is no longer above the hydrodynamic limit; slow rods, which stop before they reach it, do not count.
+
+    Nothing if no run is deeper: whether its rods were too slow or were used up is not told by their depth.
+    """
     deep = [run for run in known if run.record.depth is not None and run.record.shot]
     if not deep:
         return []
     shot, setup = deep[0].record.shot, deep[0].record.setup
     limit = model_transition.hydrodynamic_limit(setup.length, shot.rod, shot.target)
-    deeper, others = ([run.velocity for run in deep if (run.record.depth > limit) is word] for word in (True, False))
-    others = [velocity for velocity in others if not deeper or velocity > min(deeper)]
+    deeper = [run.velocity for run in deep if run.record.depth > limit]
+    if not deeper:
+        return []
+    others = [run.velocity for run in deep if run.record.depth <= limit and run.velocity > min(deeper)]
     return [model_transition.between(LIMIT, deeper, others, f"{100 * limit:.2f} cm")]
 
 

@@ -3,11 +3,11 @@
     python -m problems.cth_nose_shape.rigid_rod RESULTS [RESULTS ...] [--figure PATH] [--keep FILE]
 
 RESULTS is the directory of a study, finished or not, or a file in `results`, which has the finished cases of a study that was
-run before; a case that is in several counts as in the last of them. The table is in Markdown: each row is a shot, each column
-a variant of whatever else the studies vary, and the experiments stand beside the runs. A second table has the velocities
-between which rods begin to lose half of their length. The figure has a panel for each nose and alloy, and shows two analytic
-models: `forrestal` for a rod that stays rigid and `tate` for one that erodes. `--keep` writes all cases into a CSV file, in
-the order in which they were given.
+run before. If several have the same case, the last one counts. The table is in Markdown: each row is a shot, each column a
+variant of whatever else the studies vary, and the experiments stand beside the runs. A second table has the transitions, by
+the loss of length and by the depth. The figure has a panel for each nose and alloy, and shows two analytic models: `forrestal`
+for a rod that stays rigid and `tate` for one that erodes. `--keep` writes all cases into a CSV file, in the order in which
+they were given.
 """
 
 from __future__ import annotations
@@ -26,12 +26,13 @@ from hydro2d.errors import DeckError
 from hydro2d.results import figures
 from hydro2d.study import bisection, layout
 from hydro2d.study.layout import StudyError
-from hydro2d.study.regimes import KEPT, USED_UP
+from hydro2d.study.regimes import KEPT, LEAST_KEPT, USED_UP
 from hydro2d.study.velocities import speed
 
 HERE = Path(__file__).parent
 #: the label of a shot: nose, alloy and velocity; without a nose it means a hemispherical one
 SHOT = re.compile(r"(?:(hemi|ogive)[- ])?(5083|7039)[- ](\d+)")
+#: noses by what labels and decks call them
 NOSES = {"hemi": "hemispherical", "ogive": "ogival"}
 #: the axis of the shots; those that make a shot in a search for a transition
 SHOTS, SEARCHED = "shot", ("plate", "velocity")
@@ -41,7 +42,7 @@ DECKS = {
     ("ogival", "5083"): "ogive_5083_923.toml", ("ogival", "7039"): "ogive_7039_1075.toml",
 }  # fmt: skip
 #: what a case gave, in a file of results, after its labels
-RESULTS = ("depth_cm", "loss_percent", "regime", "residual_m_s", "time_us", "minutes")
+RESULTS = ("depth_cm", "loss_percent", "regime", "residual_m_s", "hole_cm3", "time_us", "minutes")
 #: velocities of the analytic models, m/s; thickness of the plates, cm
 VELOCITIES, PLATE = np.linspace(700.0, 2100.0, 57), 53.34
 COLOURS = ("#1f4e79", "#c26a1b", "#4f7942", "#8b3a62", "#5b6770")
@@ -83,7 +84,9 @@ class Result:
 
     name, labels : of the case, and its label on every axis;  nose : of its rod
     depth, residual : depth in cm if it came to rest, velocity in m/s if it left the plate; the other is None
-    loss : of length, per cent;  regime : of the summary;  time, minutes : time of flight in us, and of computing
+    loss : of length, per cent;  regime : of the summary
+    hole : volume of the hole in cm3, None for results that were kept without it
+    time, minutes : time of flight in us, and of computing
     """
 
     name: str
@@ -93,6 +96,7 @@ class Result:
     loss: float
     residual: float | None
     regime: str
+    hole: float | None
     time: float
     minutes: float
 
@@ -111,13 +115,23 @@ class Result:
         return ", ".join(label for axis, label in self.labels.items() if axis not in of_shot)
 
     @property
+    def held(self) -> bool:
+        """Whether two thirds of its length are left, as in a search for the loss of length."""
+        return self.loss <= 100.0 * (1.0 - LEAST_KEPT)
+
+    @property
+    def reach(self) -> float:
+        """Depth in cm, and the thickness of the plate for a rod that perforates."""
+        return PLATE if self.depth is None else self.depth
+
+    @property
     def row(self) -> dict[str, str]:
         """The case as it is kept."""
         def number(value: float | None, digits: int) -> str:
             return "" if value is None else f"{round(value, digits):.12g}"
 
-        told = (number(self.depth, 2), number(self.loss, 1), self.regime, number(self.residual, 0), number(self.time, 0),
-                number(self.minutes, 1))  # fmt: skip
+        told = (number(self.depth, 3), number(self.loss, 2), self.regime, number(self.residual, 0), number(self.hole, 2),
+                number(self.time, 0), number(self.minutes, 1))  # fmt: skip
         return {**self.labels, "nose": self.nose, **dict(zip(RESULTS, told, strict=True)), "case": self.name}
 
     def __str__(self) -> str:
@@ -126,9 +140,9 @@ class Result:
 
 
 def experiments() -> dict[Shot, Experiment]:
-    """The twelve shots of experiments.csv."""
-    return {Shot(row["nose"], row["target"].removeprefix("Al"), float(row["velocity_m_s"])):
-            Experiment(1e-2 * float(row["depth_cm"]), row["depth_is"]) for row in _rows(HERE / "experiments.csv")}
+    """The twelve shots."""
+    return {Shot(each.nose, each.target.removeprefix("Al"), each.velocity): Experiment(each.depth, each.depth_is)
+            for each in model_transition.experiments()}  # fmt: skip
 
 
 def read(path: Path) -> list[Result]:
@@ -140,14 +154,18 @@ def read(path: Path) -> list[Result]:
 
 def _rows(path: Path) -> list[dict[str, str]]:
     with open(path, encoding="utf-8", newline="") as file:
-        return list(csv.DictReader(line for line in file if not line.startswith("#")))
+        table = csv.DictReader(file)
+        missing = {"case", "nose", *RESULTS} - {*(table.fieldnames or ())}
+        if missing:
+            raise StudyError(f"{path}: no file of results: it has no column {', '.join(sorted(missing))}")
+        return list(table)
 
 
 def _kept(row: dict[str, str]) -> Result:
     labels = {name: text for name, text in row.items() if text and name not in ("case", "nose", *RESULTS)}
-    depth, residual = (float(row[name]) if row[name] else None for name in ("depth_cm", "residual_m_s"))
+    depth, residual, hole = (float(row[name]) if row[name] else None for name in ("depth_cm", "residual_m_s", "hole_cm3"))
     loss, time, minutes = (float(row[name]) for name in ("loss_percent", "time_us", "minutes"))
-    return Result(row["case"], labels, row["nose"], depth, loss, residual, row["regime"], time, minutes)
+    return Result(row["case"], labels, row["nose"], depth, loss, residual, row["regime"], hole, time, minutes)
 
 
 def _of(case: layout.Case) -> Result:
@@ -155,9 +173,12 @@ def _of(case: layout.Case) -> Result:
     loss = 100.0 * (1.0 - told["rod_length_m"] / told["rod_initial_length_m"])
     through = told.get("stop_reason", "").startswith("perforation")
     depth, residual = (None, told["rod_residual_velocity_m_s"]) if through else (1e2 * told["penetration_depth_m"], None)
-    nose = next(body["nose"] for body in case.deck["body"] if body.get("nose"))
+    nose = next((body["nose"] for body in case.deck["body"] if body.get("nose")), None)
+    if nose is None:
+        raise StudyError(f"{case.name}: no body of its deck has a nose")
+    hole = 1e6 * told["crater"]["volume_m3"] if told.get("crater") else None
     time, minutes = 1e6 * told["time_s"], told["wall_s"] / 60
-    return Result(case.name, case.values, nose, depth, loss, residual, told["regime"], time, minutes)
+    return Result(case.name, case.values, NOSES.get(nose, nose), depth, loss, residual, told["regime"], hole, time, minutes)
 
 
 def keep(results: list[Result], path: Path) -> None:
@@ -190,18 +211,36 @@ def table(found: dict[str, dict[Shot, Result]]) -> list[str]:
 
 
 def transitions(found: dict[str, dict[Shot, Result]]) -> list[str]:
-    """Lines of Markdown: by nose and alloy, the slowest runs that lost half of their length and the next slower ones."""
-    lines = ["| rod | " + " | ".join(found) + " |", "|---" * (len(found) + 1) + "|"]
-    for nose, alloy in DECKS:
-        cells = []
-        for cases in found.values():
-            ends = {shot.velocity: USED_UP if case.loss > 50.0 else KEPT for shot, case in cases.items()
-                    if (shot.nose, shot.alloy) == (nose, alloy)}  # fmt: skip
-            between = model_transition.Bracket("", *bisection.bracket(ends, USED_UP, (KEPT, USED_UP)), "")
-            cells.append(model_transition.extent(between) if ends else "")
-        if any(cells):
-            lines.append(f"| {nose}, {alloy} | " + " | ".join(cells) + " |")
+    """Lines of Markdown: the transitions of every rod, by the loss of a third of its length and by the hydrodynamic limit."""
+    limits = {(each.nose, each.target.removeprefix("Al")): 1e2 * each.limit for each in model_transition.experiments()}
+    measured = {shot: 1e2 * told.depth for shot, told in experiments().items()}
+    lines = ["| rod | transition | experiment | " + " | ".join(found) + " |", "|---" * (len(found) + 3) + "|"]
+    for rod in DECKS:
+        of_rod = [{shot.velocity: case for shot, case in cases.items() if (shot.nose, shot.alloy) == rod}
+                  for cases in found.values()]  # fmt: skip
+        if not any(of_rod):
+            continue
+        by_length = [_between({speed: case.held for speed, case in cases.items()}) for cases in of_rod]
+        depths = [{shot.velocity: depth for shot, depth in measured.items() if (shot.nose, shot.alloy) == rod}]
+        depths += [{speed: case.reach for speed, case in cases.items()} for cases in of_rod]
+        by_depth = [_deeper(each, limits[rod]) for each in depths]
+        lines += [f"| {', '.join(rod)} | a third of the length lost |  | " + " | ".join(by_length) + " |",
+                  f"| | depth no longer above {limits[rod]:.1f} cm | " + " | ".join(by_depth) + " |"]  # fmt: skip
     return lines
+
+
+def _deeper(depths: dict[float, float], limit: float) -> str:
+    """The transition by depth; slow rods that stop before they reach the limit do not count."""
+    first = min((speed for speed, depth in depths.items() if depth > limit), default=None)
+    return "none deeper" if depths and first is None else _between(
+        {speed: depth > limit for speed, depth in depths.items() if speed >= first})
+
+
+def _between(held: dict[float, bool]) -> str:
+    """From the fastest rod that held before the slowest that did not, to that one; empty without rods."""
+    words = {speed: KEPT if yes else USED_UP for speed, yes in held.items()}
+    ends = bisection.bracket(words, USED_UP, (KEPT, USED_UP))
+    return model_transition.extent(model_transition.Bracket("", *ends, "")) if held else ""
 
 
 def draw(found: dict[str, dict[Shot, Result]]):
@@ -231,7 +270,7 @@ def _panel(axes, nose: str, alloy: str, found: dict[str, dict[Shot, Result]]) ->
         there = sorted((shot for shot in cases if (shot.nose, shot.alloy) == (nose, alloy)), key=lambda at: at.velocity)
         speeds = np.array([shot.velocity for shot in there])
         through = np.array([cases[shot].depth is None for shot in there], dtype=bool)
-        depths = np.array([PLATE if cases[shot].depth is None else cases[shot].depth for shot in there])
+        depths = np.array([cases[shot].reach for shot in there])
         colour = COLOURS[number % len(COLOURS)]
         axes.plot(speeds, depths, color=colour, linewidth=1.2, marker="o", markersize=4, label=column)
         axes.plot(speeds[through], depths[through], "^", color=colour, markersize=7)
@@ -258,12 +297,12 @@ def main(arguments: list[str] | None = None) -> int:
     given = parser.parse_args(arguments)
     try:
         results = list({(result.name, result.nose): result for path in given.results for result in read(path)}.values())
-        if given.keep:
-            keep(results, given.keep)
         found = columns(results)
-        if not found and not given.keep:
+        if not (results if given.keep and not given.figure else found):
             print("there is no finished case of a shot", file=sys.stderr)
             return 2
+        if given.keep:
+            keep(results, given.keep)
         if found:
             print("\n".join([*table(found), "", *transitions(found)]))
         if given.figure:

@@ -491,26 +491,31 @@ def test_slow_rods_have_no_say_in_the_hydrodynamic_limit(tmp_path):
     assert 1035 <= low < 1235 <= high
 
 
-# ------------------------------------------------------------------------------------------------ half of the length
+def test_a_hydrodynamic_limit_that_no_rod_exceeds_gives_no_transition(tmp_path):
+    _, found = search(tmp_path, made_up.Client(lambda velocity, deck: usual(velocity, deck) | {"depth": 0.2}), ALONE)
+    assert "hydrodynamic limit" not in brackets(found)[0]
 
-HALF = ALONE.replace("[transition]", '[transition]\nof = "length"')
+
+# ------------------------------------------------------------------------------------------------ the loss of length
+
+LENGTH = ALONE.replace("[transition]", '[transition]\nof = "length"')
 
 
-def test_the_velocity_at_which_half_of_the_rod_is_used_up(tmp_path, capsys):
+def test_the_velocity_at_which_a_third_of_the_rod_is_used_up(tmp_path, capsys):
     """The regime, which is eroding from 1000 m/s on, has no say in this search."""
     def rod(velocity, deck):
-        left = 0.0977 * (0.9 if velocity < 1185.0 else 0.49)
+        left = 0.0977 * (0.68 if velocity < 1185.0 else 0.65)
         return {"regime": "eroding" if velocity > 1000.0 else "rigid", "depth": 4.0 * left, "rod_length_m": left}
 
     client = made_up.Client(rod)
-    status, found = search(tmp_path, client, HALF)
+    status, found = search(tmp_path, client, LENGTH)
     assert (status, found["complete"], found["of"]) == (0, True, "length")
-    assert brackets(found)[0]["half of the length lost"] == (1150, 1200)
-    assert {*brackets(found)[0]} == {"half of the length lost", "depth falls", "hydrodynamic limit"}
+    assert brackets(found)[0]["a third of the length lost"] == (1150, 1200)
+    assert {*brackets(found)[0]} == {"a third of the length lost", "depth falls", "hydrodynamic limit"}
     assert len(client.submitted) <= 6
     shown = capsys.readouterr().out
-    assert "half of the length lost  1150 to 1200 m/s  kept at 1150 m/s, used up at 1200 m/s" in shown
-    assert "at least half of the rod's length is left at the end" in shown
+    assert "a third of the length lost  1150 to 1200 m/s  kept at 1150 m/s, used up at 1200 m/s" in shown
+    assert "at least two thirds of the rod's length are left at the end" in shown
     assert "rigid to deforming" not in shown
 
 

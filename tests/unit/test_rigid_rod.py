@@ -17,8 +17,9 @@ CELL = re.compile(r"(?:\d+\.\d cm|perforated at \d+ m/s), [\d.]+ %")
 
 def case(name, values, depth, length, status="done", reason="speed of rod below 5 m/s"):
     summary = {"penetration_depth_m": depth, "rod_length_m": length, "rod_initial_length_m": 0.1, "stop_reason": reason,
-               "rod_residual_velocity_m_s": 123.4, "regime": "rigid", "time_s": 3.2e-4, "wall_s": 150.0}  # fmt: skip
-    deck = {"body": [{"name": "plate"}, {"name": "rod", "nose": "ogival" if "ogive" in name else "hemispherical"}]}
+               "rod_residual_velocity_m_s": 123.4, "regime": "rigid", "time_s": 3.2e-4, "wall_s": 150.0,
+               "crater": {"volume_m3": 1.6e-5}}  # fmt: skip
+    deck = {"body": [{"name": "plate"}, {"name": "rod", "nose": "ogive" if "ogive" in name else "hemispherical"}]}
     return SimpleNamespace(name=name, values=values, status=status, summary=summary, deck=deck)
 
 
@@ -49,7 +50,7 @@ def test_labels(label, shot):
     ({"plate": "5083-H116", "shot": "5083-1086"}, Shot("hemispherical", "5083", 1086.0), "5083-H116"),
     ({"plate": "6061", "velocity": "875 m/s"}, None, "")])  # fmt: skip
 def test_shots_of_studies_and_of_searches(labels, shot, column):
-    result = Result("name", labels, "ogival", 1.0, 0.0, None, "rigid", 1.0, 1.0)
+    result = Result("name", labels, "ogival", 1.0, 0.0, None, "rigid", None, 1.0, 1.0)
     assert (result.shot, result.column) == (shot, column)
 
 
@@ -69,10 +70,13 @@ def test_the_table(study, capsys):
         "| hemispherical, 5083, 1086 m/s | 44.8 cm | 41.7 cm, 4.2 % |  |",
         "| hemispherical, 7039, 1165 m/s | 11.4 cm (estimated) |  | 15.6 cm, 62 % |",
         "| ogival, 7039, 1291 m/s | perforated | perforated at 123 m/s, 0.5 % |  |", "",
-        "| rod | A | B |", "|---|---|---|",
-        "| hemispherical, 5083 | above 1086 m/s | above 700 m/s |",
-        "| hemispherical, 7039 |  | below 1165 m/s |",
-        "| ogival, 7039 | above 1291 m/s |  |",
+        "| rod | transition | experiment | A | B |", "|---|---|---|---|---|",
+        "| hemispherical, 5083 | a third of the length lost |  | above 1086 m/s | above 700 m/s |",
+        "| | depth no longer above 25.6 cm | 1086 to 1200 m/s | above 1086 m/s | none deeper |",
+        "| hemispherical, 7039 | a third of the length lost |  |  | below 1165 m/s |",
+        "| | depth no longer above 25.0 cm | 1038 to 1165 m/s |  | none deeper |",
+        "| ogival, 7039 | a third of the length lost |  | above 1291 m/s |  |",
+        "| | depth no longer above 25.9 cm | above 1291 m/s | above 1291 m/s |  |",
     ]  # fmt: skip
 
 
@@ -88,24 +92,48 @@ def test_the_figure(study):
     assert max(first["model forrestal"].get_ydata()) > max(first["model tate"].get_ydata()) > 0.0
 
 
-def test_nothing_to_show(tmp_path, monkeypatch):
+@pytest.mark.parametrize(("depths", "said"), [
+    ({700.0: 20.0, 1000.0: 40.0, 1100.0: 30.0, 1200.0: 15.0}, "1100 to 1200 m/s"), ({700.0: 20.0}, "none deeper"),
+    ({1000.0: 40.0, 1100.0: 15.0, 1200.0: 30.0}, "1000 to 1100 m/s"), ({1000.0: 40.0}, "above 1000 m/s"), ({}, "")])
+def test_the_transition_by_depth(depths, said):
+    assert rigid_rod._deeper(depths, 25.6) == said
+
+
+def test_nothing_to_show_or_to_keep(tmp_path, monkeypatch):
     monkeypatch.setattr(rigid_rod.layout, "read", lambda directory: SimpleNamespace(cases=()))
+    file = tmp_path / "kept.csv"
+    file.write_text("what was kept before")
     assert rigid_rod.main([str(tmp_path)]) == 2
+    assert rigid_rod.main([str(tmp_path), "--keep", str(file)]) == 2
+    assert file.read_text() == "what was kept before"
+
+
+def test_results_that_are_no_shots_have_no_figure(study, monkeypatch, capsys):
+    there = (case("elsewhere", {"law": "A", "shot": "steel-2120"}, 0.1, 0.02),)
+    monkeypatch.setattr(rigid_rod.layout, "read", lambda directory: SimpleNamespace(cases=there))
+    assert rigid_rod.main([str(study), "--keep", str(study / "kept.csv")]) == 0
+    assert rigid_rod.main([str(study / "kept.csv"), "--figure", str(study / "figure.png")]) == 2
+    assert capsys.readouterr().err == "there is no finished case of a shot\n"
+
+
+def test_another_table_is_no_file_of_results(capsys):
+    assert rigid_rod.main([str(source.PROBLEMS / "cth_nose_shape" / "experiments.csv")]) == 2
+    assert "experiments.csv: no file of results: it has no column case, " in capsys.readouterr().err
 
 
 def test_kept_results_are_read_again(study, capsys):
     file = study / "kept.csv"
     assert rigid_rod.main([str(study), "--keep", str(file)]) == 0
     assert file.read_text().splitlines()[:3] == [
-        "law,shot,plate,velocity,nose,depth_cm,loss_percent,regime,residual_m_s,time_us,minutes,case",
-        "A,5083-1086,,,hemispherical,41.68,4.2,rigid,,320,2.5,A_5083-1086",
-        "A,ogive-7039-1291,,,ogival,,0.5,rigid,123,320,2.5,A_ogive",
+        "law,shot,plate,velocity,nose,depth_cm,loss_percent,regime,residual_m_s,hole_cm3,time_us,minutes,case",
+        "A,5083-1086,,,hemispherical,41.68,4.2,rigid,,16,320,2.5,A_5083-1086",
+        "A,ogive-7039-1291,,,ogival,,0.5,rigid,123,16,320,2.5,A_ogive",
     ]
     from_runs = capsys.readouterr().out
     assert rigid_rod.main([str(file)]) == 0
     assert capsys.readouterr().out == from_runs
     newer = study / "newer.csv"
-    newer.write_text(file.read_text().splitlines()[0] + "\nA,5083-1086,,,hemispherical,30,50,eroding,,320,2.5,A_5083-1086\n")
+    newer.write_text(file.read_text().splitlines()[0] + "\nA,5083-1086,,,hemispherical,30,50,eroding,,,320,2.5,A_5083-1086\n")
     assert rigid_rod.main([str(file), str(newer), "--keep", str(file)]) == 0
     assert len(file.read_text().splitlines()) == 6
     assert "| 30.0 cm, 50 % |" in capsys.readouterr().out
@@ -117,11 +145,27 @@ def test_kept_results_are_those_of_their_study(file):
     results = rigid_rod.read(file)
     assert len({result.name for result in results}) == len(results) > 0
     planned = {case.name: case.values for case in plan.cases}
-    for result in results:
-        if plan.search:
-            assert "velocity" in result.labels
-        else:
-            assert result.labels == planned[result.name]
+    assert [(result.name, result.labels) for result in results] == [
+        (result.name, planned.get(result.name)) for result in results
+    ]
+
+
+def found(*names):
+    """The results that are kept of some studies, by column and shot."""
+    kept = [result for name in names for result in rigid_rod.read(source.PROBLEMS / "cth_nose_shape/results" / f"{name}.csv")]
+    return rigid_rod.columns(kept)
+
+
+def test_the_shots_and_the_transitions_of_the_page_are_those_of_the_kept_results():
+    """Cell by cell after the column of the experiment, to which the page adds what became of the rod."""
+    page = (source.ROOT / "docs/explanation/rigid-rod.md").read_text(encoding="utf-8").splitlines()
+    rows = rigid_rod.table(found("rigid_rod_laws"))[2:]
+    assert len(rows) == 18
+    for row in rows:
+        shot, cells = row.split(" | ")[0].split(", ", 1)[1], row.split("|", 3)[3]
+        assert [line for line in page if shot in line and line.endswith(cells)], row
+    searched = rigid_rod.transitions(found("rigid_rod_laws", "transition_rigid_rod_hemi"))
+    assert [row for row in searched[:6] if row not in page] == []
 
 
 def test_results_on_the_page_are_kept_ones():
