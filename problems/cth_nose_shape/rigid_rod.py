@@ -3,17 +3,18 @@
     python -m problems.cth_nose_shape.rigid_rod RESULTS [RESULTS ...] [--figure PATH] [--keep FILE]
 
 RESULTS is the directory of a study, finished or not, or a file in `results`, which has the finished cases of a study that was
-run before. If several have the same case, the last one counts. The table is in Markdown: each row is a shot, each column a
-variant of whatever else the studies vary, and the experiments stand beside the runs. A second table has the transitions, by
-the loss of length and by the depth. The figure has a panel for each nose and alloy, and shows two analytic models: `forrestal`
-for a rod that stays rigid and `tate` for one that erodes. `--keep` writes all cases into a CSV file, in the order in which
-they were given.
+run before. If several have the same case, the last one counts. Three tables are printed in Markdown. In the first each row is a
+shot, each column a variant of whatever else the studies vary, and the experiments stand beside the runs. The second has the
+transitions, by the loss of length and by the depth, and the third the kinetic energy over the volume of the hole. The figure
+has a panel for each nose and alloy, and shows two analytic models: `forrestal` for a rod that stays rigid and `tate` for one
+that erodes. `--keep` writes all cases into a CSV file, in the order in which they were given.
 """
 
 from __future__ import annotations
 
 import argparse
 import csv
+import itertools
 import re
 import sys
 from dataclasses import dataclass
@@ -43,8 +44,10 @@ DECKS = {
 }  # fmt: skip
 #: what a case gave, in a file of results, after its labels
 RESULTS = ("depth_cm", "loss_percent", "regime", "residual_m_s", "hole_cm3", "time_us", "minutes")
-#: velocities of the analytic models, m/s; thickness of the plates, cm
-VELOCITIES, PLATE = np.linspace(700.0, 2100.0, 57), 53.34
+#: velocities of the analytic models, m/s; thickness of the plates, cm; mass of the rods, kg
+VELOCITIES, PLATE, MASS = np.linspace(700.0, 2100.0, 57), 53.34, 0.063
+#: what rods lose of their length, by the largest loss in per cent
+LOSSES = {10.0: "up to a tenth of the length lost", 100.0 / 3.0: "up to a third", 100.0: "more"}
 COLOURS = ("#1f4e79", "#c26a1b", "#4f7942", "#8b3a62", "#5b6770")
 
 
@@ -243,6 +246,23 @@ def _between(held: dict[float, bool]) -> str:
     return model_transition.extent(model_transition.Bracket("", *ends, "")) if held else ""
 
 
+def holes(results: list[Result]) -> list[str]:
+    """Lines of Markdown: kinetic energy over the volume of the hole in GPa, by nose, loss of length and alloy."""
+    ratios: dict[tuple[str, str, str], list[float]] = {}
+    for result in results:
+        if result.shot is not None and result.hole and result.depth is not None:
+            lost = next(words for most, words in LOSSES.items() if result.loss <= most)
+            energy = 0.5 * MASS * result.shot.velocity**2
+            ratios.setdefault((result.shot.nose, lost, result.shot.alloy), []).append(1e-3 * energy / result.hole)
+    lines = ["| rods | runs in 5083 | energy over volume | runs in 7039 | energy over volume |", "|---|---|---|---|---|"]
+    for nose, lost in itertools.product(NOSES.values(), LOSSES.values()):
+        there = [ratios.get((nose, lost, alloy), []) for alloy in ("5083", "7039")]
+        cells = [f"{len(each)} | {min(each):.1f} to {max(each):.1f} GPa" if each else "0 |" for each in there]
+        if any(there):
+            lines.append(f"| {nose}, {lost} | " + " | ".join(cells) + " |")
+    return lines
+
+
 def draw(found: dict[str, dict[Shot, Result]]):
     """A matplotlib Figure with a panel for each nose and alloy; triangles are rods that perforate."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -304,7 +324,7 @@ def main(arguments: list[str] | None = None) -> int:
         if given.keep:
             keep(results, given.keep)
         if found:
-            print("\n".join([*table(found), "", *transitions(found)]))
+            print("\n".join([*table(found), "", *transitions(found), "", *holes(results)]))
         if given.figure:
             figures.save(draw(found), given.figure)
     except (StudyError, DeckError, OSError) as error:
