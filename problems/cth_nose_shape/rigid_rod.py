@@ -223,9 +223,9 @@ def transitions(found: dict[str, dict[Shot, Result]]) -> list[str]:
                   for cases in found.values()]  # fmt: skip
         if not any(of_rod):
             continue
-        by_length = [_between({speed: case.held for speed, case in cases.items()}) for cases in of_rod]
+        by_length = [_between({at: case.held for at, case in cases.items()}) for cases in of_rod]
         depths = [{shot.velocity: depth for shot, depth in measured.items() if (shot.nose, shot.alloy) == rod}]
-        depths += [{speed: case.reach for speed, case in cases.items()} for cases in of_rod]
+        depths += [{at: case.reach for at, case in cases.items()} for cases in of_rod]
         by_depth = [_deeper(each, limits[rod]) for each in depths]
         lines += [f"| {', '.join(rod)} | a third of the length lost |  | " + " | ".join(by_length) + " |",
                   f"| | depth no longer above {limits[rod]:.1f} cm | " + " | ".join(by_depth) + " |"]  # fmt: skip
@@ -234,14 +234,14 @@ def transitions(found: dict[str, dict[Shot, Result]]) -> list[str]:
 
 def _deeper(depths: dict[float, float], limit: float) -> str:
     """The transition by depth; slow rods that stop before they reach the limit do not count."""
-    first = min((speed for speed, depth in depths.items() if depth > limit), default=None)
+    first = min((at for at, depth in depths.items() if depth > limit), default=None)
     return "none deeper" if depths and first is None else _between(
-        {speed: depth > limit for speed, depth in depths.items() if speed >= first})
+        {at: depth > limit for at, depth in depths.items() if at >= first})
 
 
 def _between(held: dict[float, bool]) -> str:
     """From the fastest rod that held before the slowest that did not, to that one; empty without rods."""
-    words = {speed: KEPT if yes else USED_UP for speed, yes in held.items()}
+    words = {at: KEPT if yes else USED_UP for at, yes in held.items()}
     ends = bisection.bracket(words, USED_UP, (KEPT, USED_UP))
     return model_transition.extent(model_transition.Bracket("", *ends, "")) if held else ""
 
