@@ -238,13 +238,13 @@ def distance(off: float) -> str:
     return "inside" if off == 0.0 else f"{abs(off):.0f} m/s {'above' if off > 0.0 else 'below'}"
 
 
-def extent(bracket: Bracket, state: str = "rigid") -> str:
-    """A bracket in words; ``state`` is the state at its low end."""
+def extent(bracket: Bracket) -> str:
+    """A bracket in words."""
     if bracket.low is None or bracket.high is None:
         known = [f"{word} {end:g} m/s" for word, end in (("above", bracket.low), ("below", bracket.high)) if end is not None]
         return known[0] if known else "nothing known"
     if bracket.low > bracket.high:
-        return f"none: {state} at {bracket.low:g} m/s, not at {bracket.high:g} m/s"
+        return f"none: rigid at {bracket.low:g} m/s, not at {bracket.high:g} m/s"
     return f"{bracket.low:g} to {bracket.high:g} m/s"
 
 

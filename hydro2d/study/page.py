@@ -78,7 +78,7 @@ def _transitions(contents: Contents) -> dict:
 
 
 def _of_combination(each: regimes.Transitions, names: Sequence[str]) -> list[str]:
-    brackets = {bracket.name: regimes.in_words(bracket) for bracket in each.brackets}
+    brackets = {bracket.name: model_transition.extent(bracket) for bracket in each.brackets}
     known = [f"{bracket.name}: {model_transition.extent(bracket)}" for bracket in each.known]
     models = [f"{entry.model.name}: {entry.in_words}" for entry in each.predictions]
     return [each.title, *(brackets.get(name, "–") for name in names), "; ".join(known) or "–", "; ".join(models) or "–",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
@@ -38,6 +39,7 @@ SCHEMES = {
     "perforation": Scheme((STOPPED, PERFORATED), {PERFORATED: "ballistic limit"}),
 }
 FALL, LIMIT = "depth falls", "hydrodynamic limit"
+DEPTHS = DEEPER, NOT_DEEPER = "deeper than the hydrodynamic limit", "no deeper than the limit"
 _BY_DEPTH = {
     FALL: "between the deepest run and the next faster one, however far apart; it prompts no further runs",
     LIMIT: f"as for experiments: {model_transition.RULE}; also from the same runs, without those slower than every deeper one",
@@ -168,7 +170,7 @@ class Transitions:
 
     def lines(self) -> list[str]:
         """The results as lines of text."""
-        told = [self.title, *columns((each.name, in_words(each), each.source) for each in self.brackets)]
+        told = [self.title, *columns((each.name, extent(each), each.source) for each in self.brackets)]
         told += [f"  {note}" for note in self.notes]
         told += ["", *columns([HEADS, *(run.row() for run in self.runs)])]
         if self.comparison is not None:
@@ -187,11 +189,6 @@ class Transitions:
             "runs": [run.data() for run in self.runs],
             "comparison": self.comparison and self.comparison.data(),
         }  # fmt: skip
-
-
-def in_words(bracket: Bracket) -> str:
-    """The extent of a bracket of `Transitions`."""
-    return extent(bracket, "deeper" if bracket.name == LIMIT else "rigid")
 
 
 def label(values: Mapping[str, str]) -> str:
@@ -229,9 +226,11 @@ def _transitions(study: Study, title: str, members: Sequence[Record]) -> Transit
         settled[name], why = _settled(bracket, study.search, runs)
         notes += [f"{name}: {why}"] if why else []
     of_rod = of != "perforation"
-    brackets += [*_fall(known), *_limit(known)] if of_rod else []
-    for slow, fast in bisection.disordered(found, scheme.order):
-        notes.append(f"out of order: {found[slow]} at {slow:g} m/s, {found[fast]} at {fast:g} m/s; the slowest change is given")
+    notes += _disordered(found, scheme.order)
+    if of_rod:
+        limit, disordered = _limit(known)
+        brackets += [*_fall(known), *limit]
+        notes += disordered
     cut = [f"{run.velocity:g} m/s" for run in known if run.record.cut]
     if cut:
         notes.append(f"runs that did not end at rest, whose regime and depth are those at their end: {', '.join(cut)}")
@@ -272,21 +271,33 @@ def _fall(known: Sequence[Run]) -> list[Bracket]:
     return [Bracket(FALL, deepest.velocity, after.velocity if after else None, words)]
 
 
-def _limit(known: Sequence[Run]) -> list[Bracket]:
-    """Where the depth is no longer above the hydrodynamic limit; slow rods, which stop before they reach it, do not count.
+def by_depth(depths: Mapping[float, float], limit: float) -> Mapping[float, str]:
+    """Whether rods went deeper than the hydrodynamic limit, ``DEEPER`` or ``NOT_DEEPER``, by velocity.
 
-    Nothing if no run is deeper: whether its rods were too slow or were used up is not told by their depth.
+    Slow rods, which stop before they reach it, are left out; so are all if none is deeper, for whether those were too slow or
+    were used up is not told by their depth.
     """
+    first = min((speed for speed, depth in depths.items() if depth > limit), default=math.inf)
+    return {speed: DEEPER if depth > limit else NOT_DEEPER for speed, depth in depths.items() if speed >= first}
+
+
+def _limit(known: Sequence[Run]) -> tuple[list[Bracket], list[str]]:
+    """Where the depth is no longer above the hydrodynamic limit, if a run is deeper; and what is out of order."""
     deep = [run for run in known if run.record.depth is not None and run.record.shot]
     if not deep:
-        return []
+        return [], []
     shot, setup = deep[0].record.shot, deep[0].record.setup
     limit = model_transition.hydrodynamic_limit(setup.length, shot.rod, shot.target)
-    deeper = [run.velocity for run in deep if run.record.depth > limit]
-    if not deeper:
-        return []
-    others = [run.velocity for run in deep if run.record.depth <= limit and run.velocity > min(deeper)]
-    return [model_transition.between(LIMIT, deeper, others, f"{100 * limit:.2f} cm")]
+    found = by_depth({run.velocity: run.record.depth for run in deep}, limit)
+    if not found:
+        return [], []
+    return [Bracket(LIMIT, *bisection.bracket(found, NOT_DEEPER, DEPTHS), f"{100 * limit:.2f} cm")], _disordered(found, DEPTHS)
+
+
+def _disordered(found: Mapping[float, str], order: Sequence[str]) -> list[str]:
+    """What is out of order, in words."""
+    return [f"out of order: {found[slow]} at {slow:g} m/s, {found[fast]} at {fast:g} m/s; the slowest change is given"
+            for slow, fast in bisection.disordered(found, order)]  # fmt: skip
 
 
 def _compared(known: Sequence[Run], bracket: Bracket) -> tuple[Comparison | None, str]:

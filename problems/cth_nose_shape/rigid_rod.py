@@ -27,7 +27,7 @@ from hydro2d.errors import DeckError
 from hydro2d.results import figures
 from hydro2d.study import bisection, layout
 from hydro2d.study.layout import StudyError
-from hydro2d.study.regimes import KEPT, LEAST_KEPT, USED_UP
+from hydro2d.study.regimes import DEPTHS, KEPT, LEAST_KEPT, NOT_DEEPER, USED_UP, by_depth
 from hydro2d.study.velocities import speed
 
 HERE = Path(__file__).parent
@@ -223,7 +223,7 @@ def transitions(found: dict[str, dict[Shot, Result]]) -> list[str]:
                   for cases in found.values()]  # fmt: skip
         if not any(of_rod):
             continue
-        by_length = [_between({at: case.held for at, case in cases.items()}) for cases in of_rod]
+        by_length = [_length(cases) for cases in of_rod]
         depths = [{shot.velocity: depth for shot, depth in measured.items() if (shot.nose, shot.alloy) == rod}]
         depths += [{at: case.reach for at, case in cases.items()} for cases in of_rod]
         by_depth = [_deeper(each, limits[rod]) for each in depths]
@@ -232,18 +232,20 @@ def transitions(found: dict[str, dict[Shot, Result]]) -> list[str]:
     return lines
 
 
-def _deeper(depths: dict[float, float], limit: float) -> str:
-    """The transition by depth; slow rods that stop before they reach the limit do not count."""
-    first = min((at for at, depth in depths.items() if depth > limit), default=None)
-    return "none deeper" if depths and first is None else _between(
-        {at: depth > limit for at, depth in depths.items() if at >= first})
+def _extent(ends: tuple[float | None, float | None]) -> str:
+    return model_transition.extent(model_transition.Bracket("", *ends, ""))
 
 
-def _between(held: dict[float, bool]) -> str:
+def _length(cases: dict[float, Result]) -> str:
     """From the fastest rod that held before the slowest that did not, to that one; empty without rods."""
-    words = {at: KEPT if yes else USED_UP for at, yes in held.items()}
-    ends = bisection.bracket(words, USED_UP, (KEPT, USED_UP))
-    return model_transition.extent(model_transition.Bracket("", *ends, "")) if held else ""
+    words = {at: KEPT if case.held else USED_UP for at, case in cases.items()}
+    return _extent(bisection.bracket(words, USED_UP, (KEPT, USED_UP))) if words else ""
+
+
+def _deeper(depths: dict[float, float], limit: float) -> str:
+    """The transition by depth, as a search has it; empty without rods."""
+    found = by_depth(depths, limit)
+    return _extent(bisection.bracket(found, NOT_DEEPER, DEPTHS)) if found else "none deeper" if depths else ""
 
 
 def holes(results: list[Result]) -> list[str]:
@@ -257,10 +259,15 @@ def holes(results: list[Result]) -> list[str]:
     lines = ["| rods | runs in 5083 | energy over volume | runs in 7039 | energy over volume |", "|---|---|---|---|---|"]
     for nose, lost in itertools.product(NOSES.values(), LOSSES.values()):
         there = [ratios.get((nose, lost, alloy), []) for alloy in ("5083", "7039")]
-        cells = [f"{len(each)} | {min(each):.1f} to {max(each):.1f} GPa" if each else "0 |" for each in there]
+        cells = [f"{len(each)} | {_range(each)} GPa" if each else "0 |" for each in there]
         if any(there):
             lines.append(f"| {nose}, {lost} | " + " | ".join(cells) + " |")
     return lines
+
+
+def _range(values: list[float]) -> str:
+    least, most = f"{min(values):.1f}", f"{max(values):.1f}"
+    return least if least == most else f"{least} to {most}"
 
 
 def draw(found: dict[str, dict[Shot, Result]]):

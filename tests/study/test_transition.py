@@ -172,8 +172,11 @@ def test_a_free_worker_gets_its_next_case_before_the_last_one_is_told(finished):
 
 def test_the_hydrodynamic_limit_is_that_of_the_experiments(finished):
     """L sqrt(rho_p/rho_t) is 25 cm; rigid rods go 36 cm and deeper, others 22 cm at 1100 m/s and 27 cm at 1350 m/s."""
-    ke, _ = brackets(json.loads((finished[0] / "out" / "transition.json").read_text()))
-    assert ke["hydrodynamic limit"] == (1500, 1100)
+    found = json.loads((finished[0] / "out" / "transition.json").read_text())
+    assert brackets(found)[0]["hydrodynamic limit"] == (1050, 1100)
+    told = [note for note in found["combinations"][0]["notes"] if note.startswith("out of order")]
+    assert [note.partition("; ")[0] for note in told] == [
+        "out of order: no deeper than the limit at 1250 m/s, deeper than the hydrodynamic limit at 1300 m/s"]
 
 
 def test_what_is_printed(again, capsys):
@@ -182,7 +185,7 @@ def test_what_is_printed(again, capsys):
     shown = capsys.readouterr().out
     assert "advection = ke\n  rigid to deforming  1050 to 1100 m/s" in shown
     assert "rigid at 1050 m/s, deforming at 1100 m/s" in shown
-    assert "none: deeper at 1500 m/s, not at 1100 m/s" in shown
+    assert "hydrodynamic limit  1050 to 1100 m/s" in shown
     assert "  experiment  1086 to 1200 m/s  shots 4344, 4345, 4346" in shown
     assert "  hydro2d     1050 to 1100 m/s" in shown
     assert "walker-anderson" in shown
