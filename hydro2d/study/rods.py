@@ -57,8 +57,8 @@ def draw(records: Sequence[Record], measurements: Mapping[str, Measurement], sca
     measurements : by case; a dashed line at the depth, where rods are drawn at their depths
     scale : the records of all pages, which share limits and scale
     """
-    columns = min(COLUMNS, len(records))
-    rows = -(-len(records) // columns)
+    rows = -(-len(records) // COLUMNS)
+    columns = -(-len(records) // rows)
     at_depth = at_their_depths(scale, measurements)
     low, high = span(scale, measurements) if at_depth else (min(np.subtract(*extent(record)) for record in scale), 0.0)
     margin = 0.03 * (high - low)
@@ -75,7 +75,7 @@ def draw(records: Sequence[Record], measurements: Mapping[str, Measurement], sca
         _tidy(axes, first=axes in places[:, 0])
     for axes in places.flat[len(records) :]:
         axes.set_visible(False)
-    figure.supylabel("depth [cm]" if at_depth else "depth less that of the tip [cm]", fontsize=FONT)
+    figure.supylabel("depth [cm]" if at_depth else "depth relative to the tip [cm]", fontsize=FONT)
     return figure
 
 
