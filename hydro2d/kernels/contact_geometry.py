@@ -250,8 +250,7 @@ def cell_to_extend(g, j, i, rings, inward_r, inward_z, mesh_box, volume, metrics
 
     None of the cell's own vertices is under-filled. It is the one, among the nearest that there are, with the largest share of
     the group times the cosine between its direction and the normal inwards over the distance. In the last ring, where its
-    nearest vertex is two away, cells are left out from which the slave is shut in, and the corners: their vertices would have
-    the weights 2.75, 0.25, 0.25 and -2.25, so that what presses on the slave would move them more than it is moved.
+    nearest vertex is two away, cells from which the slave is shut in are left out.
     """
     most, code = 0.0, 0
     for ring in range(1, rings + 1):
@@ -270,7 +269,7 @@ def cell_to_extend(g, j, i, rings, inward_r, inward_z, mesh_box, volume, metrics
                 if along <= CLOSER * most:
                     continue
                 near_j, near_i = dj if dj >= 0 else dj + 1, di if di >= 0 else di + 1
-                if ring == REACH and (abs(z) == abs(r) or shut_in(g, j, i, near_j, near_i, mesh_box, volume, metrics, hard, soft)):
+                if ring == REACH and shut_in(g, j, i, near_j, near_i, mesh_box, volume, metrics, hard, soft):
                     continue
                 if (filled_share(g, row, column, mesh_box, volume, metrics, hard, soft, mass) > 0.0 and filled_share(g, row + 1,
                     column, mesh_box, volume, metrics, hard, soft, mass) > 0.0 and filled_share(g, row, column + 1, mesh_box,

@@ -156,9 +156,9 @@ def test_a_vertex_is_weighty_from_half_of_its_dual_cell_on():
     assert share(4, 4) == 0.0
 
 
-def links(vof: np.ndarray, damage: float = 0.0, normal: tuple[float, float] = (1.0, 0.0)) -> np.ndarray:
+def links(vof: np.ndarray, damage: float = 0.0) -> np.ndarray:
     """masters [b, j, i] of a mesh with this share of the soft body in its cells [10, 10] and the hard one, of this damage, in
-    the rest; the normal (r, z) from hard to soft is the same at all nodes."""
+    the rest; the normal from hard to soft is along r at all nodes."""
     grid = Grid(np.arange(11.0), np.arange(11.0), "planar")
     shares = np.zeros((2, *grid.shape))
     shares[0][grid.inside], shares[1][grid.inside] = vof, 1.0 - vof
@@ -172,10 +172,10 @@ def links(vof: np.ndarray, damage: float = 0.0, normal: tuple[float, float] = (1
     contact_nodes, count = np.zeros(both.shape, dtype=np.int64), both.sum(axis=1)
     for j in range(both.shape[0]):
         contact_nodes[j, : count[j]] = np.nonzero(both[j])[0]
-    normals = np.zeros((3, 2, *both.shape))
-    normals[:, 0], normals[:, 1] = normal
+    normal = np.zeros((3, 2, *both.shape))
+    normal[:, 0] = 1.0
     masters = np.full((2, *both.shape), FREE)
-    contact_geometry.find_masters(grid.g, grid.g + grid.nz, mesh_box, grid.volume, grid.metrics, count, contact_nodes, normals,
+    contact_geometry.find_masters(grid.g, grid.g + grid.nz, mesh_box, grid.volume, grid.metrics, count, contact_nodes, normal,
                                   shares[1], shares[0], mass, np.array([0, 1]), shares,
                                   np.stack([np.zeros(grid.shape), np.full(grid.shape, damage)]), masters)
     return masters[:, grid.g:, grid.g:]
@@ -197,13 +197,3 @@ def test_what_reaches_to_its_body_is_tied_in_debris_alone():
     assert failed[0, 6, 5] == TIED
     assert (failed[0, :, 7] == sound[0, :, 7]).all()
     assert (failed[1] == sound[1]).all()
-
-
-def test_no_field_is_extended_over_two_cells_and_a_half_in_both_directions():
-    """The soft body beyond a diagonal, and between it and the vertex (5, 5) more and more of it; only the cell (7, 7) is whole."""
-    rows, columns = np.indices((10, 10))
-    vof = np.where(rows + columns >= 13, 1.0, 0.0)
-    vof[4, 4], vof[5, 5], vof[5, 6], vof[6, 5] = 0.001, 0.01, 0.1, 0.1
-    found = links(vof, normal=(0.5**0.5, 0.5**0.5))[0]
-    assert extended_cell(6, 6, found[6, 6]) == (7, 7)
-    assert found[5, 5] == 5 * (2 + 2) + 2 + 2  # moves with vertex (7, 7)
