@@ -236,7 +236,7 @@ def one_step(vertices):
 
 @apart
 def shut_in(g, j, i, dj, di, mesh_box, volume, metrics, hard, soft):
-    """Whether the group fills no more of the dual cell half-way to the vertex (j + dj, i + di), two away, than of that of (j, i).
+    """Whether a group fills no more of the dual cell half-way to the vertex (j + dj, i + di), two away, than of its own.
 
     What there is of the group at (j, i) is then a crumb or a film of its own, and no part of the body at that vertex.
     """
