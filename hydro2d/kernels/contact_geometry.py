@@ -228,29 +228,12 @@ def filled_share(g, row, column, mesh_box, volume, metrics, hard, soft, mass):
     return share if share >= UNDERFILLED else 0.0
 
 
-@point
-def one_step(vertices):
-    """Vertices on the way to one so many away, which may be two: -1, 0 or 1."""
-    return 1 if vertices > 0 else -1 if vertices < 0 else 0
-
-
-@apart
-def shut_in(g, j, i, dj, di, mesh_box, volume, metrics, hard, soft):
-    """Whether a group fills no more of the dual cell half-way to the vertex (j + dj, i + di), two away, than of its own.
-
-    What there is of the group at (j, i) is then a crumb or a film of its own, and no part of the body at that vertex.
-    """
-    half_way = dual_share(g, j + one_step(dj), i + one_step(di), mesh_box, volume, metrics, hard, soft)
-    return half_way <= dual_share(g, j, i, mesh_box, volume, metrics, hard, soft)
-
-
 @apart
 def cell_to_extend(g, j, i, rings, inward_r, inward_z, mesh_box, volume, metrics, hard, soft, mass):
     """Code of the cell of group g, in so many rings around, whose linear field the slave (j, i) takes, else 0.
 
     None of the cell's own vertices is under-filled. It is the one, among the nearest that there are, with the largest share of
-    the group times the cosine between its direction and the normal inwards over the distance. In the last ring, where its
-    nearest vertex is two away, cells from which the slave is shut in are left out.
+    the group times the cosine between its direction and the normal inwards over the distance.
     """
     most, code = 0.0, 0
     for ring in range(1, rings + 1):
@@ -267,9 +250,6 @@ def cell_to_extend(g, j, i, rings, inward_r, inward_z, mesh_box, volume, metrics
                 z, r = dj + 0.5, di + 0.5
                 along = part * (inward_r * r + inward_z * z) / (r * r + z * z)
                 if along <= CLOSER * most:
-                    continue
-                near_j, near_i = dj if dj >= 0 else dj + 1, di if di >= 0 else di + 1
-                if ring == REACH and shut_in(g, j, i, near_j, near_i, mesh_box, volume, metrics, hard, soft):
                     continue
                 if (filled_share(g, row, column, mesh_box, volume, metrics, hard, soft, mass) > 0.0 and filled_share(g, row + 1,
                     column, mesh_box, volume, metrics, hard, soft, mass) > 0.0 and filled_share(g, row, column + 1, mesh_box,
@@ -299,8 +279,8 @@ def find_masters(j0, j1, mesh_box, volume, metrics, count, contact_nodes, normal
     """How each group moves at a contact node: by itself, or, where the node is under-filled, as its body does inward of there.
 
     That is the linear field of the velocities of a cell, or, where no cell has four vertices of the group, one vertex: among
-    its neighbours, or else among those two away, by the same measure. Where there is none the contact is tied: that of what
-    is shut in, and of a crumb within failed material of the other group, to which its body comes no nearer than two vertices.
+    its neighbours, or else among those two away, by the same measure. Where there is none the contact is tied; so is that of
+    a crumb within failed material of the other group, to which its body comes no nearer than two vertices.
 
     Reads    normal [3, 2, j, i], hard, soft [j, i], mass [b, j, i]; vof, dmg [m, j, i]
     Writes   masters [b, j, i]: FREE, EXTENDS + 6 (dj + 3) + (di + 3), 5 (dj + 2) + (di + 2), or TIED
@@ -328,8 +308,6 @@ def find_masters(j0, j1, mesh_box, volume, metrics, count, contact_nodes, normal
                             if max(abs(dj), abs(di)) < ring:
                                 continue
                             share = filled_share(g, row, column, mesh_box, volume, metrics, hard, soft, mass)
-                            if ring == 2 and share > 0.0 and shut_in(g, j, i, dj, di, mesh_box, volume, metrics, hard, soft):
-                                continue
                             along = inward * (normal[0, 0, j, i] * di + normal[0, 1, j, i] * dj) / (di * di + dj * dj)
                             if share * along > most * (1.0 + 1e-9):
                                 most = share * along
