@@ -226,9 +226,9 @@ def transitions(found: dict[str, dict[Shot, Result]]) -> list[str]:
         by_length = [_length(cases) for cases in of_rod]
         depths = [{shot.velocity: depth for shot, depth in measured.items() if (shot.nose, shot.alloy) == rod}]
         depths += [{at: case.reach for at, case in cases.items()} for cases in of_rod]
-        by_depth = [_deeper(each, limits[rod]) for each in depths]
+        by_limit = [_deeper(each, limits[rod]) for each in depths]
         lines += [f"| {', '.join(rod)} | a third of the length lost |  | " + " | ".join(by_length) + " |",
-                  f"| | depth no longer above {limits[rod]:.1f} cm | " + " | ".join(by_depth) + " |"]  # fmt: skip
+                  f"| | depth no longer above {limits[rod]:.1f} cm | " + " | ".join(by_limit) + " |"]  # fmt: skip
     return lines
 
 
