@@ -95,41 +95,53 @@ def ghost_vertices_z(i0, i1, nz, mirror_low, mirror_high, u, v):
 
 
 @point
-def held(dt, m, normal, shear, normal_velocity, velocity):
-    """Velocities (normal, along the edge) of a vertex of mass m that dashpots hold, in N s/m, taken at the end of the step."""
-    return normal_velocity * (m / (m + dt * normal)), velocity * (m / (m + dt * shear))
+def dashpots(along_r, j, i, metrics, dz, rhobar, cl, bulk):
+    """Dashpots of a vertex on an edge along the normal and along the edge, N s/m: the impedances of the cells around it."""
+    normal, shear = 0.0, 0.0
+    for row in range(j - 1, j + 1):
+        for column in range(i - 1, i + 1):
+            axial = metrics[AZ_OUT, column] if column < i else metrics[AZ_IN, column]
+            area = 0.5 * metrics[FACE_R, i] * dz[row] if along_r else axial
+            z_l, z_s = impedances(row, column, rhobar, cl, bulk)
+            normal += area * z_l
+            shear += area * z_s
+    return normal, shear
 
 
 @serial
-def transmit(along_r, at, first, last, dt, metrics, dz, rhobar, cl, bulk, mass, u0, v0, u, v, taken):
+def transmit(along_r, at, first, last, crossing, constrained, dt, metrics, dz, rhobar, cl, bulk, mass, u0, v0, u, v, taken):
     """Tractions -rho c_l v_n and -rho c_s v_t on the vertices first to last of an edge: what an endless plate would hold with.
 
     J. Lysmer & R. L. Kuhlemeyer, J. Engng Mech. Div. ASCE 95 (1969) 859: exact for plane waves that meet the edge squarely.
-    Vertices that two groups share are the contact's. The edge is column `at` where along_r, else row `at`; what is taken from
-    the vertices goes on beyond the edge.
+    The dashpots are taken at the end of the step. Vertices that two groups share are the contact's. At a corner of two
+    transmitting edges, the edge along z holds with the dashpots of both and the other one leaves the corner out; a velocity
+    that a wall or the axis gives is not held. The edge is column `at` where along_r, else row `at`; what is taken from the
+    vertices goes on beyond the edge.
 
-    Reads    rhobar, cl, bulk [j, i]; mass, u0, v0 [b, j, i]
+    Reads    crossing [2], places along the edge where another transmitting edge crosses it, -1 for none; constrained [4],
+             columns and rows whose normal velocity is given, -1 for none; rhobar, cl, bulk [j, i]; mass, u0, v0 [b, j, i]
     Updates  u, v [b, j, i]; adds to taken[0] axial momentum, to taken[1] energy
     """
     groups = mass.shape[0]
     for place in range(first, last):
         j, i = (place, at) if along_r else (at, place)
-        normal, shear = 0.0, 0.0
-        for row in range(j - 1, j + 1):
-            for column in range(i - 1, i + 1):
-                axial = metrics[AZ_OUT, column] if column < i else metrics[AZ_IN, column]
-                area = 0.5 * metrics[FACE_R, i] * dz[row] if along_r else axial
-                z_l, z_s = impedances(row, column, rhobar, cl, bulk)
-                normal += area * z_l
-                shear += area * z_s
+        corner = place == crossing[0] or place == crossing[1]
+        if corner and not along_r:
+            continue
+        normal, shear = dashpots(along_r, j, i, metrics, dz, rhobar, cl, bulk)
+        radial_drag, axial_drag = (normal, shear) if along_r else (shear, normal)
+        if corner:
+            normal, shear = dashpots(False, j, i, metrics, dz, rhobar, cl, bulk)
+            radial_drag += shear
+            axial_drag += normal
+        radial_drag = 0.0 if i == constrained[0] or i == constrained[1] else radial_drag
+        axial_drag = 0.0 if j == constrained[2] or j == constrained[3] else axial_drag
         for b in range(groups):
             m = mass[b, j, i]
             if m == 0.0 or (groups == 2 and mass[1 - b, j, i] > 0.0):
                 continue
-            if along_r:
-                radial, axial = held(dt, m, normal, shear, u[b, j, i], v[b, j, i])
-            else:
-                axial, radial = held(dt, m, normal, shear, v[b, j, i], u[b, j, i])
+            radial = u[b, j, i] * (m / (m + dt * radial_drag))
+            axial = v[b, j, i] * (m / (m + dt * axial_drag))
             lost_r, lost_z = m * (u[b, j, i] - radial), m * (v[b, j, i] - axial)
             taken[0] += lost_z
             taken[1] += 0.5 * (lost_r * (u0[b, j, i] + radial) + lost_z * (v0[b, j, i] + axial))

@@ -4,7 +4,7 @@ from eos.dispatch import evaluate, zero_pressure_density
 from hydro2d.jit import kernel, point, prange, rowwise
 from hydro2d.kernels.column_ranges import block_rows, mixed_row, number_of_blocks, spread
 from hydro2d.kernels.thermodynamics import pressures_row, viscosity_row
-from hydro2d.materials.rows import CUTOFF_DENSITY, DAMAGE, DAMAGE_AT, EOS, EOS_AT, FACTOR, STRENGTH, STRENGTH_AT, TENSILE
+from hydro2d.materials.rows import CUTOFF_DENSITY, DAMAGE, DAMAGE_AT, EOS, EOS_AT, FACTOR, GAS, STRENGTH, STRENGTH_AT, TENSILE
 from hydro2d.mesh.fields import DMG, EP, RHO, SRR, SRZ, SZZ, E
 from hydro2d.mesh.grid import VOL_R
 from hydro2d.physics.closure import NO_VOID, relaxation_bound, relaxation_strain, softness, split_volume
@@ -278,8 +278,66 @@ def share_plastic_heat(j, i, dominant, plastic, vof, mix):
 
 
 @point
-def fill_cell(j, i, change, volume, total, inverse, mean_p, work_p, work_q, relaxation, tipton, meet, group, motion, cell_mass,
-              pm, km, vof, q, mix):
+def filter_work(j, i, motion, cell_mass):
+    """Work of the hourglass filter on a cell, by the groups' shares of its mass."""
+    work, mass = 0.0, 0.0
+    for g in range(cell_mass.shape[0]):
+        if cell_mass[g, j, i] > 0.0:
+            mass += cell_mass[g, j, i]
+            work += cell_mass[g, j, i] * motion[j, g, HOURGLASS]
+    return work / mass
+
+
+@point
+def pressure_rise(j, i, void, middle, vof, pm):
+    """What the pressure of a cell without void rises by until the middle of the step, in which it is `middle`."""
+    before = 0.0
+    for m in range(vof.shape[0]):
+        before += vof[m, j, i] * pm[m, j, i] if vof[m, j, i] > 0.0 else 0.0
+    return middle - before if void <= NO_VOID else 0.0
+
+
+@point
+def is_beside_gas(j, i, materials, vof):
+    """Whether a gas is in a cell."""
+    found = False
+    for m in range(vof.shape[0]):
+        found = found or (vof[m, j, i] > 0.0 and materials[m, GAS] > 0.0)
+    return found
+
+
+@point
+def work_beside_gas(j, i, volume, opened, rest, inverse, work, rise, target, relaxed, void_stays, pm, km, vof, q, mix):
+    """Work in a cell that a gas shares with stiffer bodies: each body's own pressure on its own change of volume, the remainder
+    by mass (explanation/mixed-cells, equation 8).
+
+    opened and rest are the changes of volume of void and of the bodies, work that of pressure, viscosity and hourglass filter
+    on the cell, rise what its pressure rises by to the middle of the step, and relaxed the share of its pressure by which a body
+    relaxes towards the target.
+
+    Reads    mix [j, SOFT, m]
+    Updates  mix [j, HEAT, m], which then has all of the work on a body
+    """
+    bodies = vof.shape[0]
+    mass, left = 0.0, work
+    for m in range(bodies):
+        f = vof[m, j, i]
+        if f > 0.0:
+            mass += q[RHO, m, j, i] * f * volume
+            own = (pm[m, j, i] + rise) * mix[j, SOFT, m] * inverse * rest + f * pm[m, j, i] * opened
+            if not void_stays:
+                excess = pm[m, j, i] - target
+                own += (pm[m, j, i] - 0.5 * relaxed * excess) * relaxed * f * volume * excess / km[m, j, i]
+            mix[j, HEAT, m] -= own
+            left += own
+    for m in range(bodies):
+        if vof[m, j, i] > 0.0:
+            mix[j, HEAT, m] += q[RHO, m, j, i] * vof[m, j, i] * volume / mass * left
+
+
+@point
+def fill_cell(j, i, change, volume, total, inverse, mean_p, work_p, work_q, rise, relaxation, tipton, meet, group, motion,
+              cell_mass, materials, pm, km, vof, q, mix):
     """Volumes, densities and energies after the step: void first, then by compressibility, then relaxation of the pressures.
 
     Reads    mix [j, SOFT, m], mix [j, HEAT, m]
@@ -299,6 +357,11 @@ def fill_cell(j, i, change, volume, total, inverse, mean_p, work_p, work_q, rela
             bound = min(bound, relaxation_bound(shift))
     if void_stays and growth * volume * bound > void_left:
         bound = void_left / (growth * volume)
+    gas = is_beside_gas(j, i, materials, vof)
+    if gas:
+        relaxed = bound * relaxation if tipton else 0.0
+        work_beside_gas(j, i, volume, taken, rest, inverse, work_p + work_q + filter_work(j, i, motion, cell_mass), rise, target,
+                        relaxed, void_stays, pm, km, vof, q, mix)
     after = volume + change
     for m in range(bodies):
         f = vof[m, j, i]
@@ -311,6 +374,9 @@ def fill_cell(j, i, change, volume, total, inverse, mean_p, work_p, work_q, rela
         q[RHO, m, j, i] = mass / filled if filled != f * volume else q[RHO, m, j, i]
         vof[m, j, i] = filled / after if filled != f * volume or change != 0.0 else f
         filtered = motion[j, group[m], HOURGLASS]
+        if gas:
+            q[E, m, j, i] += mix[j, HEAT, m] / mass
+            continue
         if meet:  # the filter acts on each group by its share of the mass
             rubbed = f / total * work_q + mass / (cell_mass[0, j, i] + cell_mass[1, j, i]) * filtered
         else:
@@ -328,7 +394,7 @@ def deform_mixed(j0, j1, dt, relaxation, tipton, mode, hard, hard_threshold, met
     Volume: void first, then by compressibility, w_m = R_m/Rbar with R_m = f_m/K_m, then relaxation of the pressures,
     df_m = gamma R_m (p_m - pbar), with pbar = sum R_m p_m/Rbar, or 0 where void is left (explanation/mixed-cells).
     Energy: pressure work by w_m, viscous and hourglass work by volume fraction (the latter by mass where two groups meet),
-    deviatoric work by what each body's stress did.
+    deviatoric work by what each body's stress did; beside a gas as work_beside_gas has it.
     Strength: by mode, see STRENGTH_MODES; every body moves with its group. In contact-interface cells pressure and
     viscosity do the work of the one change of volume, and each body has its own strength where two groups meet.
 
@@ -365,5 +431,6 @@ def deform_mixed(j0, j1, dt, relaxation, tipton, mode, hard, hard_threshold, met
                                               mix, internal)
                 return_deviators(j, i, dt, mode == MATERIAL or dominant >= 0 or meet, cell_yield, dominant, volume, total,
                                  models, materials, pm, tm, vof, q, mix, internal)
-                fill_cell(j, i, change, volume, total, inverse, mean_p, work_p, work_q, relaxation, tipton, meet, group,
-                          motion, cell_mass, pm, km, vof, q, mix)
+                rise = 0.0 if meet else pressure_rise(j, i, 1.0 - total, ph[j, i], vof, pm)
+                fill_cell(j, i, change, volume, total, inverse, mean_p, work_p, work_q, rise, relaxation, tipton, meet, group,
+                          motion, cell_mass, materials, pm, km, vof, q, mix)

@@ -336,6 +336,10 @@ def _number(raw: dict, unit: str, path: tuple, fail: Fail) -> Number:
     return Number(value, unit, raw["source"], raw["confidence"], raw["note"])
 
 
+#: a body is a gas beside the stiffest one if its bulk modulus at rest is below this share of that one's
+GAS_MODULUS = 0.01
+
+
 @dataclass(frozen=True)
 class MaterialTable:
     """The numbers of the materials for kernels, one row per slot m (a body, with all bodies that join it).
@@ -360,6 +364,21 @@ class MaterialTable:
 
     def __len__(self) -> int:
         return len(self.names)
+
+    def sound_speeds(self, floor: float = 0.0) -> np.ndarray:
+        """Bulk sound speed of every material at rest, m/s, float64[m]; floor : least square of it, (m/s)^2."""
+        from eos.dispatch import evaluate, sound_speed_squared
+
+        squares = []
+        for m in range(len(self)):
+            p, dpdrho, dpde, _ = evaluate(self.eos_model[m], self.rho0[m], self.e0[m], self.eos_par[m])
+            squares.append(sound_speed_squared(self.rho0[m], p, dpdrho, dpde, floor))
+        return np.sqrt(squares)
+
+    def gases(self) -> np.ndarray:
+        """Which bodies are gases beside the others, bool[m]: bulk modulus at rest below GAS_MODULUS of the largest one."""
+        moduli = self.rho0 * self.sound_speeds() ** 2
+        return moduli < GAS_MODULUS * moduli.max()
 
 
 def _row(module: ModuleType, model: Model, material: Material) -> np.ndarray:

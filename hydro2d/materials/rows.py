@@ -7,6 +7,7 @@ and then
     TENSILE         the tension at which the body fractures, Pa, positive; inf where it never does
     CUTOFF_DENSITY  the density at and below which it is no solid any more, kg/m^3
     FACTOR          what multiplies its flow stress
+    GAS             1 for a gas beside the other bodies, else 0
 """
 
 from __future__ import annotations
@@ -22,11 +23,11 @@ EOS, STRENGTH, DAMAGE = range(3)
 EOS_AT, STRENGTH_AT = 0, EOS_ROW
 DAMAGE_AT = STRENGTH_AT + STRENGTH_ROW
 TENSILE = DAMAGE_AT + DAMAGE_ROW
-CUTOFF_DENSITY, FACTOR = TENSILE + 1, TENSILE + 2
+CUTOFF_DENSITY, FACTOR, GAS = range(TENSILE + 1, TENSILE + 4)
 
 
 def packed(table, cutoff_density, factor) -> tuple[np.ndarray, np.ndarray]:
     """(models, materials) of a MaterialTable; cutoff_density (kg/m^3) and factor are float64[m]."""
     models = np.stack([table.eos_model, table.strength_model, table.damage_model], axis=1)
-    numbers = table.fracture_pressure, cutoff_density, factor
+    numbers = table.fracture_pressure, cutoff_density, factor, table.gases().astype(float)
     return models, np.concatenate([table.eos_par, table.strength_par, table.damage_par, np.stack(numbers, axis=1)], axis=1)

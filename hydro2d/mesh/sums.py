@@ -59,24 +59,37 @@ def axis_run(g, nz, m, half, z, vof, dmg, run):
         first = j + 1
 
 
-@serial
-def core_sums(g, nr, first, last, m, half, volume, vof, dmg, rho, v, sums):
-    """Mass and axial momentum of what of body m is intact and hangs together from the axis outward, rows `first` to `last`.
+@point
+def mean_of_vertices(v, j, i):
+    """Mean of a quantity at the four vertices of cell (j, i)."""
+    return 0.25 * ((v[j, i] + v[j + 1, i]) + (v[j, i + 1] + v[j + 1, i + 1]))
 
-    The first cell that it does not fill to the share `half` ends a row and still counts, unless it is the one on the axis. A
-    cell moves with the mean of its vertices.
+
+@serial
+def core_sums(g, nr, first, last, m, half, direction, slack, volume, vof, dmg, rho, v, sums):
+    """Mass and axial momentum of the core of body m: what is intact and hangs together from the axis outward, row by row.
+
+    A row ends before the first cell that falls behind the one on the axis, along `direction`, by more than half of the speed
+    of that one and `slack`, m/s: what flies back beside a rod does not count. The first cell
+    that the body does not fill to the share `half` ends a row and still counts, unless it is the one on the axis. A cell moves
+    with the mean of its vertices.
 
     Reads    volume [j, i];  vof, dmg, rho [m, j, i];  v [j-1/2, i-1/2] of the body's group
     Writes   sums [2], per radian (per unit depth in planar geometry)
     """
     sums[0], sums[1] = 0.0, 0.0
     for j in range(first, last):
+        axis = mean_of_vertices(v, j, g)
+        least = direction * axis - 0.5 * abs(axis) - slack
         for i in range(g, g + nr):
             f = intact(m, j, i, vof, dmg)
+            speed = mean_of_vertices(v, j, i)
+            if i > g and direction * speed < least:
+                break
             if f > 0.0 and (f >= half or i > g):
                 mass = f * rho[m, j, i] * volume[j, i]
                 sums[0] += mass
-                sums[1] += mass * 0.25 * ((v[j, i] + v[j + 1, i]) + (v[j, i + 1] + v[j + 1, i + 1]))
+                sums[1] += mass * speed
             if f < half:
                 break
 

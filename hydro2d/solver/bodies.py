@@ -11,7 +11,7 @@ from hydro2d.mesh.sums import HALF
 QUANTITIES = {
     "mass_kg": "mass",
     "momentum_N_s": "axial momentum",
-    "velocity_m_s": "mean axial velocity, by mass",
+    "velocity_m_s": "mean axial velocity, by mass; null where nothing of it is in the mesh",
     "kinetic_energy_J": "kinetic energy, of the radial motion as well",
     "failed_mass_kg": "mass that has failed by damage",
     "outflow_kg": "mass that has left through open edges of the mesh since the start",
@@ -42,7 +42,7 @@ def measure(sim) -> dict[str, dict[str, float | None]]:
         went, came = (0.0 if flow is None else abs(float(flow[m])) * around for flow in flows.values())
         fraction = grid.interior(state.vof)[m]
         extent = (*_extent(fraction.T, grid.r_edges), *_extent(fraction, grid.z_edges))
-        values = (mass, momentum, momentum / mass if mass > 0.0 else 0.0, kinetic, failed, went, came, *extent)
+        values = (mass, momentum, momentum / mass if mass > 0.0 else None, kinetic, failed, went, came, *extent)
         found[name] = dict(zip(QUANTITIES, values, strict=True))
     return found
 

@@ -61,7 +61,7 @@ class Cycle:
         g = grid.g
         self.mesh_box = np.array([g, g + grid.nz, g, g + grid.nr], dtype=np.int64)
         at = np.array([g, g + grid.nr, g, g + grid.nz], dtype=np.int64)
-        self.constrained = np.where(method.boundaries.having("holds"), at, -1)
+        self.constrained, self.transmitting = (np.where(method.boundaries.having(flag), at, -1) for flag in ("holds", "transmits"))
         self.void_only = self._edges_with_void_beyond()
         self.carried = np.array([self._carried(m) for m in range(state.bodies)])
         self.contact = Contact(state, method, self.mesh_box, self.constrained) if state.groups > 1 else None
@@ -131,7 +131,7 @@ class Cycle:
         if self.audit is None:
             self.box = self._first_box() if self._skips_cells else list(self.mesh_box)
             self.audit = Audit.open(s)
-            sound = self._slowest_wave()
+            sound = float(self.table.sound_speeds(thermodynamics.SOUND_FLOOR).min())
             fastest = float(np.sqrt(np.max(s.u**2 + s.v**2)))
             self.speed_limit = SPEED_LIMIT_FACTOR * max(fastest, sound)
         else:
@@ -145,16 +145,6 @@ class Cycle:
     def _skips_cells(self) -> bool:
         """Whether quiet cells may be skipped: not where the mesh travels, and every cell hands on what it holds."""
         return self.method.active_region and self.mesh.leading is None
-
-    def _slowest_wave(self) -> float:
-        from eos.dispatch import evaluate, sound_speed_squared
-
-        t = self.table
-        speeds = []
-        for m in range(self.state.bodies):
-            p, dpdrho, dpde, _ = evaluate(t.eos_model[m], t.rho0[m], t.e0[m], t.eos_par[m])
-            speeds.append(sound_speed_squared(t.rho0[m], p, dpdrho, dpde, thermodynamics.SOUND_FLOOR) ** 0.5)
-        return min(speeds)
 
     def _first_box(self) -> list[int]:
         """Smallest box around everything that moves or is under pressure or stress, and the margin."""
@@ -243,9 +233,10 @@ class Cycle:
         for along_r in (True, False):
             j0, j1, i0, i1 = self.box
             first, last = (j0, j1 + 1) if along_r else (i0, i1 + 1)
+            crossing = self.transmitting[2:] if along_r else self.transmitting[:2]
             for at, _ in self._open_faces(along_r, "transmits"):
-                boundaries.transmit(along_r, at, first, last, self.dt, g.metrics, g.dz, s.rhobar, s.cl, s.bulk, s.mass, s.u0,
-                                    s.v0, s.u, s.v, taken)
+                boundaries.transmit(along_r, at, first, last, crossing, self.constrained, self.dt, g.metrics, g.dz, s.rhobar,
+                                    s.cl, s.bulk, s.mass, s.u0, s.v0, s.u, s.v, taken)
         if taken.any():
             self.audit.add("transmitted", momentum=float(taken[0]), energy=float(taken[1]))
 

@@ -93,7 +93,7 @@ class FollowingMesh:
     """A mesh that travels with the core of a body, forward only.
 
     The core is what of the body is intact and hangs together from the axis outward along its longest run on the axis, so that
-    debris does not drag the mesh along. A body that is not on the axis is followed as a whole.
+    debris does not drag the mesh along, unless it lies against the core. A body that is not on the axis is followed as a whole.
 
     Parameters
     ----------
@@ -129,7 +129,8 @@ class FollowingMesh:
         first, last = self._run
         if first < last:
             first, last = max(first - 1, g.g), min(last + 1, g.g + g.nz)
-        sums.core_sums(g.g, g.nr, first, last, m, HALF, g.volume, s.vof, s.dmg, s.rho, s.v[s.group[m]], self._sums)
+        sums.core_sums(g.g, g.nr, first, last, m, HALF, self.direction, np.inf, g.volume, s.vof, s.dmg, s.rho, s.v[s.group[m]],
+                       self._sums)
         if self._sums[0] == 0.0:
             rows = np.zeros((2, g.shape[0]))
             sums.body_sums(g.g, g.nz, g.nr, m, g.cm_in, g.cm_out, g.volume, s.vof, s.rho, s.v[s.group[m]], rows)

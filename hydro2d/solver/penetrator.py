@@ -18,6 +18,8 @@ RIGID_LENGTH, RIGID_RADIUS = 0.02, 0.10
 ERODED_MASS = 0.10
 #: it has left the mesh once more than this share of its mass has flowed out since its core reached an open edge
 LEFT_MASS = 0.01
+#: what falls behind the axis by more than half of its speed and this share of the first speed is debris and not of the core
+DEBRIS_SPEED = 0.05
 #: cycles between looks at whether it is through the target, at what ends a run, and at whether the state makes sense
 WATCH_EVERY = 10
 #: the regime of such a rod
@@ -30,7 +32,7 @@ QUANTITIES = {
     "rod_length_m": "of the longest run of intact rod on the axis",
     "rod_initial_length_m": "the same at the start",
     "rod_mass_kg": "mass of the rod in the mesh",
-    "rod_core_mass_kg": "mass of what is intact and hangs together from the axis outward",
+    "rod_core_mass_kg": "mass of what is intact, hangs together from the axis outward and keeps up with the axis",
     "rod_failed_mass_kg": "mass of the rod that has failed by damage",
     "target_failed_mass_kg": "mass of the target that has failed by damage",
     "rod_max_radius_m": "largest radius of a solid section with the area of the rod in a row of cells",
@@ -41,8 +43,9 @@ QUANTITIES = {
     "rod_nose_velocity_m_s": "axial velocity of the rod on the axis at its nose",
     "rod_tail_velocity_m_s": "the same at its tail",
     "rod_kinetic_energy_J": "mass of the rod times half of the square of its mean velocity",
-    "rod_residual_velocity_m_s": "axial velocity of the core of a rod that has perforated the target or left the mesh",
-    "rod_residual_mass_kg": "mass of that core",
+    "rod_residual_velocity_m_s": "axial velocity of the core of a rod that has perforated the target or left the mesh; of all "
+    "that was left of a rod in pieces",
+    "rod_residual_mass_kg": "mass of that",
     "rod_residual_length_m": "length of a rod that has perforated the target",
     "exit_time_s": "when the nose was the radius of the rod beyond the rear of the last target; null before",
     "regime": "rigid, deforming, eroding or left the mesh",
@@ -51,24 +54,26 @@ QUANTITIES = {
 #: what `passages` gives of each target, and its meaning; null while the rod is not through it
 PASSAGE = {
     "exit_time_s": "when the nose was the radius of the rod beyond the rear of this target",
-    "exit_velocity_m_s": "axial velocity of the rod's core then",
-    "exit_mass_kg": "mass of that core",
+    "exit_velocity_m_s": "axial velocity of the rod's core then, or of all that was left of a rod in pieces",
+    "exit_mass_kg": "mass of that",
     "exit_length_m": "of the longest run of intact rod on the axis then",
 }
 
 
 class Exit(NamedTuple):
-    """A rod as its core reached an open edge of the mesh: core's velocity in m/s and mass in kg, depth in m, and the mass of
-    the rod that had flowed out of the mesh before, kg."""
+    """A rod as its core, or the first of its pieces, reached an open edge of the mesh: velocity in m/s and mass in kg of the core
+    or the pieces, depth in m, and the mass of the rod that had flowed out of the mesh before, kg."""
 
     velocity: float
     mass: float
     depth: float
     outflow: float
+    pieces: bool = False
 
 
 class Passage(NamedTuple):
-    """A rod when it was found to be through a target: time in s, velocity in m/s and mass in kg of its core, length in m."""
+    """A rod when it was found to be through a target: time in s, velocity in m/s and mass in kg of its core or, if it has none,
+    of all of it, and length in m."""
 
     time: float
     velocity: float
@@ -114,6 +119,8 @@ class Penetrator:
         self.length = self._length()[0]
         self._rears = [self.direction * (target.rear - self.surface) for target in targets]
         self.mass = float(sim.body_sums(self.m)[0].sum()) * self._around
+        self._slack = DEBRIS_SPEED * abs(sim.mean_velocity(self.m) or 0.0)
+        self._ringing = _ringing(sim, self.m)
         self.exit: Exit | None = None
         self.passed: list[Passage] = []
         self._offset = grid.offset
@@ -161,7 +168,8 @@ class Penetrator:
     def depth(self) -> float:
         """Deepest rod material near the axis, from the original surface, m; 0 before impact.
 
-        Of a rod that has left the mesh, what it was when its core reached the edge.
+        Of a rod in pieces that fill no cell near the axis by half, the depth that a hundredth of their mass has reached. Of a
+        rod that has left the mesh, what it was when it reached the edge.
         """
         if self.left:
             return self.exit.depth
@@ -171,7 +179,20 @@ class Penetrator:
             for run in self._runs(column):
                 low, high = self._ends(column, run)
                 deepest = max(deepest, (high if self.direction > 0 else -low))
-        return float(max(deepest - self.direction * self.surface, 0.0)) if np.isfinite(deepest) else 0.0
+        found = deepest - self.direction * self.surface if np.isfinite(deepest) else self._front_of_pieces()
+        return float(max(found, 0.0))
+
+    def _masses(self) -> tuple[np.ndarray, np.ndarray]:
+        """Depth below the original surface of every row of cells, m, and the mass of the rod in it, kg; the deepest row first."""
+        depth = self.direction * (self.sim.grid.zc[self.sim.grid.inside[0]] - self.surface)
+        mass = self.sim.body_sums(self.m)[0] * self._around
+        return (depth[::-1], mass[::-1]) if self.direction > 0 else (depth, mass)
+
+    def _front_of_pieces(self) -> float:
+        """Depth that the share LEFT_MASS of what is left of the rod has reached, m; 0 where nothing is left."""
+        depth, mass = self._masses()
+        whole = float(mass.sum())
+        return float(depth[np.searchsorted(np.cumsum(mass), LEFT_MASS * whole)]) if whole > 0.0 else 0.0
 
     def _largest_radius(self, rows: slice) -> float:
         """Largest radius of a solid section with the rod's area in a row, m."""
@@ -192,13 +213,10 @@ class Penetrator:
         return float(np.max(strain, where=self._fraction()[rows] >= HALF, initial=0.0))
 
     def _core(self, rows: slice) -> tuple[float, float]:
-        """Mass in kg and axial momentum in N s of the cells that hang together from the axis outward in the given rows.
-
-        The first cell that the rod does not fill by half ends a row, and still counts, unless it is the one on the axis.
-        """
+        """Mass in kg and axial momentum in N s of the core in the given rows, see `sums.core_sums`."""
         g, s, found = self.sim.grid, self.sim.state, np.zeros(2)
-        sums.core_sums(g.g, g.nr, g.g + rows.start, g.g + rows.stop, self.m, HALF, g.volume, s.vof, s.dmg, s.rho,
-                       s.v[s.group[self.m]], found)
+        sums.core_sums(g.g, g.nr, g.g + rows.start, g.g + rows.stop, self.m, HALF, self.direction, self._slack, g.volume, s.vof,
+                       s.dmg, s.rho, s.v[s.group[self.m]], found)
         mass, momentum = (found * self._around).tolist()
         return mass, momentum
 
@@ -207,11 +225,32 @@ class Penetrator:
         first, last = np.searchsorted(self.sim.grid.z_edges, (low, high))
         return slice(max(int(first) - 1, 0), min(int(last) + 1, self.sim.grid.nz))
 
-    def velocity(self) -> float:
-        """Mean axial velocity of the core, m/s, so that what flies back from an eroding rod does not count; of all that is left
-        of the rod where nothing is left of its core."""
+    def velocity(self) -> float | None:
+        """Mean axial velocity of the core, m/s, so that what flies back from an eroding rod does not count; None where nothing
+        of the rod is left.
+
+        Without a core, only the pieces that fly on count, over the mass of all: debris that flies back pushes nothing.
+        """
         velocity, mass = self._whole_core()
-        return velocity if mass > 0.0 else self.sim.mean_velocity(self.m)
+        if mass > 0.0:
+            return velocity
+        mass_of_rows, momentum = self.sim.body_sums(self.m)
+        mass = float(mass_of_rows.sum())
+        if mass * self._around < LEFT_MASS * self.mass:
+            return None
+        return self.direction * float(np.maximum(self.direction * momentum, 0.0).sum()) / mass
+
+    def speed(self) -> float | None:
+        """Axial velocity, m/s, by which a run ends: of the core, or of the tail while it outruns the core.
+
+        A tail that is faster than its core by more than twice the velocity of a wave at the yield stress, 2 Y/(rho c), does not
+        ring: it still feeds the head, however slow that and the mean are. None where nothing of the rod is left.
+        """
+        velocity, (length, low, high) = self.velocity(), self._length()
+        if velocity is None or length == 0.0:
+            return velocity
+        tail = self._axis_velocity(low if self.direction > 0 else high)
+        return tail if self.direction * (tail - velocity) > self._ringing else velocity
 
     def _whole_core(self) -> tuple[float, float]:
         """Mean axial velocity in m/s and mass in kg of the core; zeros where nothing is left of it."""
@@ -219,23 +258,53 @@ class Penetrator:
         mass, momentum = self._core(self._rows(low, high))
         return (momentum / mass, mass) if mass > 0.0 else (0.0, mass)
 
+    def _whole(self) -> tuple[float, float]:
+        """The same of all that is left of the rod."""
+        mass, momentum = (float(rows.sum()) for rows in self.sim.body_sums(self.m))
+        return (momentum / mass if mass > 0.0 else 0.0), mass * self._around
+
+    def _in_pieces(self) -> bool:
+        """Whether no cell on the axis is filled by half with intact rod."""
+        return self._length()[0] == 0.0
+
+    def _share_beyond(self, rear: float) -> float:
+        """Share of what is left of the rod that is deeper than the rear of a target."""
+        depth, mass = self._masses()
+        whole = float(mass.sum())
+        return float(mass[depth > rear].sum()) / whole if whole > 0.0 else 0.0
+
+    def _pieces_through(self, number: int = -1) -> bool:
+        """Whether the rod is in pieces, has not left the mesh, and most of the pieces are beyond the rear of a target."""
+        return not self.left and self._in_pieces() and self._share_beyond(self._rears[number]) > HALF
+
     # ------------------------------------------------------------------------------------------------ leaving the mesh
 
     def watch(self) -> None:
         """After a cycle: remembers the rod as it is when its core reaches an open edge, and as it is through each target."""
-        while len(self.passed) < len(self.targets) and self.sim.cycle % WATCH_EVERY == 0 and self._near_exit():
-            if not self._through(self.depth(), len(self.passed)):
-                break
-            self.passed.append(Passage(self.sim.time, *self._whole_core(), self._length()[0]))
+        looks = self.sim.cycle % WATCH_EVERY == 0
+        while looks and len(self.passed) < len(self.targets) and self._is_through(len(self.passed)):
+            flying = self._whole() if self._in_pieces() else self._whole_core()
+            self.passed.append(Passage(self.sim.time, *flying, self._length()[0]))
         grid, dt = self.sim.grid, self.sim.dt
         drift = (grid.offset - self._offset) / dt if dt > 0.0 else 0.0
         self._offset = grid.offset
         if self.left:
             return
-        if not any(self._reaches(vertex, sign, drift) for vertex, sign in self._open):
+        if any(self._reaches(vertex, sign, drift) for vertex, sign in self._open):
+            self.exit = self.exit or Exit(*self._whole_core(), self.depth(), self._outflow())
+        elif self.exit and not self.exit.pieces:
             self.exit = None
-        elif self.exit is None:
-            self.exit = Exit(*self._whole_core(), self.depth(), self._outflow())
+        if looks and self._open and (self.exit is None or self.exit.pieces):
+            self._watch_pieces()
+
+    def _is_through(self, number: int) -> bool:
+        """Whether the rod, or most of its pieces, is through a target; quick where it is far from that."""
+        return (self._near_exit() and self._through(self.depth(), number)) or self._pieces_through(number)
+
+    def _watch_pieces(self) -> None:
+        """Remembers a rod in pieces behind the last target, until the first of it flows out."""
+        if self._pieces_through() and (self.exit is None or self.exit.outflow == self._outflow()):
+            self.exit = Exit(*self._whole(), self.depth(), self._outflow(), pieces=True)
 
     def _reaches(self, vertex: int, sign: float, drift: float) -> bool:
         """Whether the core fills half of the edge's cell on the axis and moves out of a mesh that drifts, m/s, along z."""
@@ -259,8 +328,10 @@ class Penetrator:
 
     @property
     def gone(self) -> bool:
-        """Whether nothing of the core of a rod that has left the mesh is in it any more."""
-        return self.left and self._length()[0] == 0.0
+        """Whether nothing of the core of a rod that has left the mesh is in it any more, or a tenth at most of its pieces."""
+        if not self.left or not self._in_pieces():
+            return False
+        return not self.exit.pieces or self._whole()[1] <= ERODED_MASS * self.mass
 
     def saved(self) -> dict:
         """What a restart file keeps of it."""
@@ -289,14 +360,16 @@ class Penetrator:
         return 0 <= j < g.nz and any(s.vof[self.m, g.g + j, g.g + i] >= HALF for i in range(self.columns))
 
     def perforates(self) -> bool:
-        """Whether the nose is the rod's radius beyond the rear of the last target."""
-        return self._through(self.depth())
+        """Whether the nose is the rod's radius beyond the rear of the last target, or most of a rod in pieces is behind it."""
+        return self._through(self.depth()) or len(self.passed) == len(self.targets)
 
     def cleared(self) -> bool:
-        """Whether the tail is beyond the original rear of the last target; false where no intact rod is on the axis."""
+        """Whether the tail is beyond the original rear of the last target; of a rod in pieces, nine tenths of them."""
         length, low, high = self._length()
+        if length == 0.0:
+            return self._share_beyond(self._rears[-1]) > 1.0 - ERODED_MASS
         tail = self.direction * ((low if self.direction > 0 else high) - self.surface)
-        return length > 0.0 and tail >= self._rears[-1]
+        return tail >= self._rears[-1]
 
     def _through(self, depth: float, number: int = -1) -> bool:
         return depth >= self._rears[number] + self.radius
@@ -308,11 +381,14 @@ class Penetrator:
 
     def _residual(self, depth: float, core: float, momentum: float) -> tuple[float | None, float | None]:
         """Velocity in m/s and mass in kg of what flies on, from the depth and the core's mass and momentum: of a rod that has
-        left the mesh, those at its edge; of one that has perforated the last target, those of now; else None."""
+        left the mesh, those at its edge; of one that has perforated the last target, those of now; else None. Of a rod in
+        pieces, those of all of it."""
         if self.left:
             return self.exit.velocity, self.exit.mass
         if core > 0.0 and self._through(depth):
             return momentum / core, core
+        if core == 0.0 and len(self.passed) == len(self.targets):
+            return self._whole()
         return None, None
 
     def regime(self, length: float, radius: float, core: float) -> str:
@@ -334,7 +410,7 @@ class Penetrator:
         core, core_momentum = self._core(rows)
         mass_of_rows, momentum_of_rows = self.sim.body_sums(self.m)
         mass = float(mass_of_rows.sum())
-        mean = float(momentum_of_rows.sum()) / mass if mass > 0.0 else 0.0
+        mean = float(momentum_of_rows.sum()) / mass if mass > 0.0 else None
         mass *= self._around
         depth = self.depth()
         residual_velocity, residual_mass = self._residual(depth, core, core_momentum)
@@ -350,13 +426,28 @@ class Penetrator:
             "rod_initial_radius_m": self.radius,
             "rod_max_plastic_strain": self._largest_strain(np.nonzero(mass_of_rows)[0]),
             "rod_mean_velocity_m_s": mean,
-            "rod_core_velocity_m_s": core_momentum / core if core > 0.0 else 0.0,
-            "rod_nose_velocity_m_s": self._axis_velocity(nose) if length else 0.0,
-            "rod_tail_velocity_m_s": self._axis_velocity(tail) if length else 0.0,
-            "rod_kinetic_energy_J": 0.5 * mass * mean * mean,
+            "rod_core_velocity_m_s": core_momentum / core if core > 0.0 else None,
+            "rod_nose_velocity_m_s": self._axis_velocity(nose) if length else None,
+            "rod_tail_velocity_m_s": self._axis_velocity(tail) if length else None,
+            "rod_kinetic_energy_J": 0.5 * mass * (mean or 0.0) ** 2,
             "rod_residual_velocity_m_s": residual_velocity,
             "rod_residual_mass_kg": residual_mass,
             "rod_residual_length_m": length if residual_mass is not None and not self.left else None,
             "exit_time_s": self.passages()[-1]["exit_time_s"],
             "regime": self.regime(length, radius, core),
         }
+
+
+def _ringing(sim, m: int) -> float:
+    """Twice the velocity of an elastic wave that brings body m to its first yield stress, 2 Y/(rho c), m/s."""
+    from eos.dispatch import evaluate
+    from strength.dispatch import flow_stress
+
+    t = sim.table
+    speed = t.sound_speeds()[m]
+    if not t.strength_model[m] or not speed > 0.0:
+        return 0.0
+    p, _, _, temperature = evaluate(t.eos_model[m], t.rho0[m], t.e0[m], t.eos_par[m])
+    stress = sim.engine.method.yield_factor[m] * flow_stress(t.strength_model[m], 0.0, 0.0, temperature, p, t.rho0[m],
+                                                             t.strength_par[m])
+    return float(2.0 * stress / (t.rho0[m] * speed))

@@ -21,7 +21,7 @@ from hydro2d.solver.audit import Audit
 from hydro2d.solver.crater import Crater
 from hydro2d.solver.following import FollowingMesh, StandingMesh, UndisturbedSpace
 from hydro2d.solver.memory import refuse_too_large
-from hydro2d.solver.penetrator import WATCH_EVERY, Penetrator
+from hydro2d.solver.penetrator import LEFT_MASS, WATCH_EVERY, Penetrator
 from hydro2d.solver.record import Recorder
 from hydro2d.solver.sanity import TRUSTED, faults
 from hydro2d.solver.targets import targets
@@ -83,7 +83,7 @@ class Simulation:
         if self.deck.penetration is None:
             return None, []
         rod = self.deck.penetration.rod
-        direction = 1.0 if self.mean_velocity(decks.slots(self.deck).index(rod)) >= 0.0 else -1.0
+        direction = 1.0 if (self.mean_velocity(decks.slots(self.deck).index(rod)) or 0.0) >= 0.0 else -1.0
         found = targets(self.deck, direction)
         return Penetrator(self, self.deck, found, direction), [Crater(self, target, direction) for target in found]
 
@@ -242,10 +242,16 @@ class Simulation:
         mass, momentum = self._rows[:, g.inside[0]]
         return mass, momentum
 
-    def mean_velocity(self, m: int) -> float:
-        """Axial velocity of the centre of mass of body m, m/s; 0 where there is nothing of it."""
+    def mean_velocity(self, m: int) -> float | None:
+        """Axial velocity of the centre of mass of body m, m/s; None where there is nothing of it."""
         mass, momentum = (float(rows.sum()) for rows in self.body_sums(m))
-        return momentum / mass if mass > 0.0 else 0.0
+        return momentum / mass if mass > 0.0 else None
+
+    def has_left(self, m: int) -> bool:
+        """Whether body m has gone out through open edges, but for a hundredth of its mass."""
+        sinks = self.audit.sinks
+        whole = self.audit.start.mass[m] - sinks["inflow"].mass[m]
+        return bool(sinks["outflow"].mass[m] > (1.0 - LEFT_MASS) * whole > 0.0)
 
     def stop_reason(self) -> str | None:
         """Why the run is over, or None."""
@@ -264,7 +270,11 @@ class Simulation:
             if (stop.perforation or (watches_rod and slows)) and penetrator.gone:
                 return f"{shot.rod} left the mesh"
         if self.watched is not None and slows:
-            v = penetrator.velocity() if penetrator is not None and watches_rod else self.mean_velocity(self.watched)
+            if self.has_left(self.watched):
+                return f"{stop.body} left the mesh"
+            v = penetrator.speed() if penetrator is not None and watches_rod else self.mean_velocity(self.watched)
+            if v is None:
+                return None
             if self._sign is None:
                 self._sign = 1.0 if v >= 0 else -1.0
             if stop.rebound and v * self._sign < 0:

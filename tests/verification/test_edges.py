@@ -161,6 +161,57 @@ def test_what_goes_through_transmitting_edges_is_recorded():
     assert abs(found["axial_momentum"]) < 1e-12
 
 
+CORNER = """
+[mesh]
+geometry = "GEOMETRY"
+r = [{ to = "10 mm", cells = 20 }]
+z_start = "-10 mm"
+z = [{ to = "10 mm", cells = 40 }]
+[boundaries]
+z_min = "Z_MIN"
+z_max = "transmit"
+r_max = "transmit"
+[[body]]
+name = "hot"
+material = "Al5083"
+shape = "box"
+r = ["7 mm", "9 mm"]
+z = ["6 mm", "8 mm"]
+velocity = ["40 m/s", "60 m/s"]
+[[body]]
+name = "other"
+join = "hot"
+material = "Al5083"
+shape = "box"
+r = ["7 mm", "9 mm"]
+z = ["-9 mm", "-7 mm"]
+velocity = ["40 m/s", "60 m/s"]
+[[body]]
+name = "plate"
+join = "hot"
+material = "Al5083"
+shape = "box"
+r = ["0 mm", "1 m"]
+z = ["-1 m", "1 m"]
+[stop]
+time = "4 us"
+"""
+
+
+@pytest.mark.parametrize("geometry", ["cylindrical", "planar"])
+@pytest.mark.parametrize("lower", ["transmit", "wall", "velocity", "outflow"])
+def test_the_corner_of_a_transmitting_edge_is_counted_once(lower, geometry):
+    """Waves reach every corner: of two transmitting edges, and of one with the axis, a wall, a piston and an open edge."""
+    options = ["boundaries.z_min_velocity=5.0"] if lower == "velocity" else []
+    simulation = Simulation(decks.loads(CORNER.replace("GEOMETRY", geometry).replace("Z_MIN", lower), options))
+    while simulation.stop_reason() is None:
+        simulation.step()
+    found = simulation.conservation()
+    assert found["sinks"]["transmitted"]["energy_J"] > 0.2 * found["start_energy_J"]
+    assert abs(found["total_energy"]) < 1e-12
+    assert abs(found["axial_momentum"]) < 1e-12
+
+
 DEBRIS = """
 [mesh]
 r = [{ to = "10 mm", cells = 12 }]
