@@ -22,7 +22,7 @@ CELLS_ACROSS = 4
 def warnings(deck: Deck) -> list[str]:
     """What is allowed but unwise, one sentence each, as `hydro2d check` and the start of a run show it."""
     return [*misfits(deck), *_coarse_rods(deck), *_coarse_bodies(deck), *_leaving(deck), *_jumps(deck), *_short_mesh(deck),
-            *_yielding_rods(deck), *_no_failure(deck), *_gas_in_contact(deck)]
+            *_yielding_rods(deck), *_no_failure(deck), *_gases(deck)]
 
 
 def _coarse_rods(deck: Deck) -> Iterator[str]:
@@ -97,12 +97,16 @@ def _yielding_rods(deck: Deck) -> Iterator[str]:
         yield 'sliding.yield_factor is "off": noise at the interface can make a rod yield that should stay rigid'
 
 
-def _gas_in_contact(deck: Deck) -> Iterator[str]:
-    if deck.sliding.method == "contact":
-        densities = {entry.name: deck.materials[entry.material].reference_density for entry in deck.body}
-        for name, density in densities.items():
-            if density < GAS * max(densities.values()):
-                yield f'body "{name}": a gas beside bodies in contact may explode; leave the space empty'
+def _gases(deck: Deck) -> Iterator[str]:
+    """Gases beside solids: bodies that are light, or have no cohesion where others have some."""
+    materials = {entry.name: deck.materials[entry.material] for entry in deck.body}
+    densest = max((material.reference_density for material in materials.values()), default=0.0)
+    ideal = [name for name, material in materials.items() if material.eos.name == "ideal-gas"]
+    told = ("a gas beside bodies in contact may explode" if deck.sliding.method == "contact" else
+            "a gas beside a solid gets too hot where it is crushed, which ends the run as unphysical")
+    for name, material in materials.items():
+        if material.reference_density < GAS * densest or (name in ideal and len(ideal) < len(materials)):
+            yield f'body "{name}": {told}; leave the space empty'
 
 
 def _no_failure(deck: Deck) -> Iterator[str]:

@@ -182,7 +182,7 @@ def work_of_deviators(j, i, dt, dominant, total, scale, group, motion, vof, q, m
 
 @point
 def strain_deviators(j, i, rate, mode, total, group, models, materials, pm, tm, motion, vof, q, mix, internal):
-    """Elastic trial of every body; returns the yield stress of the cell by mode (explanation/mixed-cells, equation 7).
+    """Elastic trial of every body; returns the yield stress of the cell by mode (explanation/mixed-cells, equation 8).
 
     rate is the time step over the volume of the cell. Internal variables that are tensors turn with the material.
 
@@ -309,7 +309,7 @@ def is_beside_gas(j, i, materials, vof):
 @point
 def work_beside_gas(j, i, volume, opened, rest, inverse, work, rise, target, relaxed, void_stays, pm, km, vof, q, mix):
     """Work in a cell that a gas shares with stiffer bodies: each body's own pressure on its own change of volume, the remainder
-    by mass (explanation/mixed-cells, equation 8).
+    by mass (explanation/mixed-cells, equation 6).
 
     opened and rest are the changes of volume of void and of the bodies, work that of pressure, viscosity and hourglass filter
     on the cell, rise what its pressure rises by to the middle of the step, and relaxed the share of its pressure by which a body

@@ -17,6 +17,8 @@ T = TypeVar("T")
 
 #: seconds between lines, and between refreshes of the table
 LINE_SECONDS, TABLE_SECONDS = 5.0, 0.5
+#: bodies with more than this share of the largest kinetic energy are told to move at the end, and this many of them
+SHOWN, MOST_SHOWN = 1e-3, 6
 #: seconds over which the pace is measured
 PACE_SECONDS = 60.0
 
@@ -254,11 +256,25 @@ def result(summary: dict) -> list[str]:
     ]
     if summary["penetration_depth_m"] is not None:
         lines += _rod(summary)
+    if moving := _moving(summary):
+        lines.append(f"moving at the end     {moving}")
     return [
         *lines,
         f"relative changes      mass {worst_mass(conserved):+.1e}, momentum {conserved['axial_momentum']:+.1e}, "
         f"energy {conserved['total_energy']:+.1e}",
     ]
+
+
+def _moving(summary: dict) -> str:
+    """Which bodies still move, the one with the most kinetic energy first, with mean velocity and that energy; and the tail of
+    a rod, which may outrun its mean."""
+    energies = {name: body["kinetic_energy_J"] for name, body in summary["bodies"].items()}
+    least = SHOWN * max(energies.values(), default=0.0)
+    names = [name for name in sorted(energies, key=lambda name: -energies[name]) if energies[name] > least][:MOST_SHOWN]
+    said = [f"{name} {number(summary['bodies'][name]['velocity_m_s'], 1, '.1f', 'm/s')}, {energies[name]:.3g} J" for name in names]
+    if summary["rod_tail_velocity_m_s"] is not None:
+        said.append(f"tail of the rod {number(summary['rod_tail_velocity_m_s'], 1, '.1f', 'm/s')}")
+    return "; ".join(said)
 
 
 def _rod(summary: dict) -> list[str]:

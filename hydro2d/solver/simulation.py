@@ -16,7 +16,7 @@ from hydro2d.mesh import fields, quantities, sums
 from hydro2d.mesh.boundary_conditions import BoundaryConditions
 from hydro2d.mesh.grid import Grid
 from hydro2d.mesh.state import State
-from hydro2d.solver import bodies, insertion
+from hydro2d.solver import bodies, insertion, reach
 from hydro2d.solver.audit import Audit
 from hydro2d.solver.crater import Crater
 from hydro2d.solver.following import FollowingMesh, StandingMesh, UndisturbedSpace
@@ -69,6 +69,7 @@ class Simulation:
         self._insert(method.boundaries)
         self.engine = Cycle(self.state, self.table, method, self._mesh(slots, method))
         self.engine.prepare()
+        self._reach = reach.of(deck, self.table, self.state, self.audit.start)
         self.stations = Stations(self, deck)
         self._rows = np.zeros((2, self.grid.shape[0]))
         self.penetrator, self.craters = self._penetration()
@@ -313,7 +314,7 @@ class Simulation:
 
     def faults(self, share: float = TRUSTED) -> list[str]:
         """Why the state is not to be trusted, see `sanity.faults`; empty where there is no reason."""
-        return faults(self.state, self.audit, self.table.names, share)
+        return faults(self.state, self.audit, self.table.names, self._reach, share)
 
     def refuse_nonsense(self) -> None:
         """Raises UnphysicalState with the first fault of the state, if it has any."""

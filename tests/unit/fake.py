@@ -114,7 +114,7 @@ class Simulation:
         }  # fmt: skip
 
     def of_bodies(self) -> dict:
-        return {ROD: {"mass_kg": 0.06, "velocity_m_s": SPEED}}
+        return {ROD: {"mass_kg": 0.06, "velocity_m_s": SPEED, "kinetic_energy_J": 3e4}}
 
     def faults(self, share: float = 0.02) -> list[str]:
         return []

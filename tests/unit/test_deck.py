@@ -419,10 +419,16 @@ def test_all_that_is_wrong_is_told_at_once():
     assert 'did you mean "W_alloy"' in told[2]
 
 
-def test_gas_beside_bodies_in_contact_is_warned_of():
+@pytest.mark.parametrize("density", ["1.2 kg/m^3", "1000 kg/m^3"])
+def test_gas_beside_solids_is_warned_of(density):
+    """With contact and without; a gas without solids is no matter."""
+    options = [f'materials.air.eos.reference_density="{density}"']
     warned = 'body "air": a gas beside bodies in contact may explode; leave the space empty'
-    assert warned in deck.warnings(deck.load("problems/sliding/rod_in_air.toml"))
-    assert warned not in deck.warnings(deck.load("problems/sliding/rod_in_air.toml", ['sliding.method="none"']))
+    assert warned in deck.warnings(deck.load("problems/sliding/rod_in_air.toml", options))
+    warned = 'body "air": a gas beside a solid gets too hot where it is crushed, which ends the run as unphysical; '
+    tied = deck.load("problems/sliding/rod_in_air.toml", [*options, 'sliding.method="none"', "sliding.hard=[]"])
+    assert [text for text in deck.warnings(tied) if text.startswith(warned)] == [warned + "leave the space empty"]
+    assert not any("a gas" in text for text in deck.warnings(deck.load("problems/verification/sod_z.toml")))
 
 
 DAMAGED = changed("W_alloy", "alloy") + """\
