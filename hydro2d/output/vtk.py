@@ -20,6 +20,7 @@ import numpy as np
 from hydro2d.errors import Error, unknown
 from hydro2d.files import replacing, write_text
 from hydro2d.mesh import quantities
+from hydro2d.mesh.boundary_conditions import halved
 from hydro2d.output import derived
 from hydro2d.output.outlines import outlines
 
@@ -258,12 +259,16 @@ def _body_lines(sim) -> list[tuple[int, np.ndarray]]:
 
 @dataclass(frozen=True)
 class Dump:
-    """A dump that was read: r_edges (nr + 1,), z_edges (nz + 1,), fields by name (nz, nr[, 3]), time in s."""
+    """A dump that was read: r_edges (nr + 1,), z_edges (nz + 1,), fields by name (nz, nr[, 3]), time in s.
+
+    mirrored : whether pictures show the mirror image as well, see `boundary_conditions.halved`; no file says this
+    """
 
     r_edges: np.ndarray
     z_edges: np.ndarray
     fields: dict[str, np.ndarray]
     time: float
+    mirrored: bool = True
 
     @property
     def bodies(self) -> list[str]:
@@ -296,7 +301,8 @@ class Dump:
     @classmethod
     def of(cls, sim, keys=("all",)) -> Dump:
         """The state of a simulation as a dump would hold it."""
-        return cls(sim.grid.r_edges, sim.grid.z_edges, derived.evaluate(sim, keys), sim.time)
+        half = halved(sim.grid.geometry, sim.grid.r_edges[0], sim.deck.boundaries.r_min)
+        return cls(sim.grid.r_edges, sim.grid.z_edges, derived.evaluate(sim, keys), sim.time, half)
 
 
 def _read(reader, path: Path):
