@@ -8,7 +8,7 @@ import pytest
 
 from hydro2d.cli.main import call
 from hydro2d.deck import deck
-from hydro2d.errors import DeckError
+from hydro2d.errors import DeckError, nearest, unknown
 from hydro2d.running import run
 from hydro2d.study import definition
 from tests.unit.test_sanity import TEXT
@@ -139,3 +139,17 @@ def test_an_end_that_misses_whole_cells_by_a_trifle_is_met_and_told():
     assert np.ptp(np.diff(edges)) < 1e-15
     with pytest.raises(DeckError, match="do not divide"):
         deck.loads(TEXT, ['mesh.z=[{to="20.0001 mm", size="0.5 mm"}]'])
+
+
+@pytest.mark.parametrize(
+    ("name", "allowed", "near"),
+    [
+        ("depth", ("dt", "time", "cycle"), None), ("taylor", ("to", "ratio", "cells"), None), ("length", ("left",), None),
+        ("velocity", ("density",), None), ("sl", ("slip-layer",), None), ("dept", ("depth", "dt"), "depth"),
+        ("rdo", ("rho", "rod"), "rod"), ("Tylor", ("to", "taylor"), "taylor"), ("slip", ("none", "slip-layer"), "slip-layer"),
+        ("steinberg", ("steinberg-guinan", "johnson-cook"), "steinberg-guinan"),
+    ],
+)  # fmt: skip
+def test_only_a_name_that_is_near_is_suggested(name, allowed, near):
+    assert nearest(name, allowed) == near
+    assert ("did you mean" in unknown("key", name, allowed)) == (near is not None)
