@@ -110,7 +110,7 @@ def run(
     overwrite
         Replaces the run that is in the directory.
     quiet
-        Prints nothing; log.txt is still written.
+        Prints nothing, unless the run ends as unphysical: then one line on the error output. log.txt is still written.
     """
     if restart and overwrite:
         raise UsageError("--restart continues a run and --overwrite removes it: give one of them")
@@ -121,7 +121,10 @@ def run(
 
         resolved = _load(deck, set_)
         found = runs.run(resolved, out, restart=restart, overwrite=overwrite, quiet=quiet, interrupt=interrupt)
-    return runs.exit_status(found)
+    status = runs.exit_status(found)
+    if quiet and status == runs.UNPHYSICAL:
+        return _told(f"{out or resolved.output.directory}: unphysical: {found['stop_reason']}", status)
+    return status
 
 
 @app.command
