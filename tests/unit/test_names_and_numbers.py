@@ -142,6 +142,22 @@ def test_an_end_that_misses_whole_cells_by_a_trifle_is_met_and_told():
 
 
 @pytest.mark.parametrize(
+    ("segment", "told"),
+    [
+        ('{to="2.3 cm", size="0.3 mm"}', "0.3 mm do not divide 2.3 cm; to = 2.28 cm or 2.31 cm would fit, or cells = "
+         "76 (of 0.3026 mm) or 77 (of 0.2987 mm)"),
+        ("{to=0.023, size=3e-4}", "0.0003 m do not divide 0.023 m; to = 0.0228 m or 0.0231 m"),
+        ('{to="1 in", size="2 mm"}', "2 mm do not divide 0.0254 m; to = 0.024 m or 0.026 m"),
+        ('{to="1 mm", size="3 cm"}', "3 cm do not divide 1 mm; to = 30 mm would fit, or cells = 1 (of 0.1 cm)"),
+    ],
+)  # fmt: skip
+def test_a_size_that_does_not_divide_is_told_in_the_units_of_the_deck(segment, told):
+    with pytest.raises(DeckError, match=r"mesh\.z\[0\]") as error:
+        deck.loads(TEXT, [f"mesh.z=[{segment}]"])
+    assert told in str(error.value)
+
+
+@pytest.mark.parametrize(
     ("name", "allowed", "near"),
     [
         ("depth", ("dt", "time", "cycle"), None), ("taylor", ("to", "ratio", "cells"), None), ("length", ("left",), None),
