@@ -22,11 +22,19 @@ class UnphysicalState(Error):
     """The state has become one that no material can have; the message gives the place, the body and the values."""
 
 
+#: a name is near another if they share this much of their letters, as difflib counts: of three letters two
+NEAR = 0.65
+#: a name of at least so many letters is near those that begin with it
+BEGINNING = 3
+
+
 def nearest(name: str, allowed: Iterable[str]) -> str | None:
-    """The allowed name that looks most like ``name``, or None."""
-    names = [str(entry) for entry in allowed]
+    """The allowed name that looks most like ``name``, or else begins with it; None if none is near."""
+    names, name = [str(entry) for entry in allowed], str(name).lower()
     lower = {entry.lower(): entry for entry in reversed(names)}
-    found = difflib.get_close_matches(str(name).lower(), list(lower), n=1, cutoff=0.5)
+    found = difflib.get_close_matches(name, list(lower), n=1, cutoff=NEAR)
+    if not found and len(name) >= BEGINNING:
+        found = sorted((entry for entry in lower if entry.startswith(name)), key=len)
     return lower[found[0]] if found else None
 
 

@@ -94,6 +94,14 @@ def _parsed(text: str, unit: str) -> float:
     return float(f"{si:.15g}")  # 18.16 g/cm^3 is 18160, not 18159.999999999996
 
 
+def written(value, unit: str) -> tuple[str, float]:
+    """The common unit in which a quantity is written, and its factor; the SI unit ``unit`` for numbers and other texts."""
+    match = _NUMBER.match(value) if isinstance(value, str) else None
+    name = match.group(2) if match else unit
+    known, factor = COMMON.get(name, ("", 1.0))
+    return (name, factor) if known == unit else (unit, 1.0)
+
+
 def _by_pint(text: str, number: float, name: str, unit: str) -> float:
     """The SI value for any unit that pint knows, before rounding."""
     import pint

@@ -14,7 +14,7 @@ check_model = App(name="check-model")
 
 @check_model.default
 def check(file: Path, *, as_: Annotated[Literal["strength", "eos", "damage"] | None, Parameter(name="--as")] = None) -> int:
-    """Runs the checks of hydro2d's own models on a model from outside: form, compilation, derivatives, limits.
+    """Runs the checks of hydro2d's own models on a model from outside: form, docstrings, compilation, derivatives, limits.
 
     Example: hydro2d check-model my_model.py
 
@@ -29,7 +29,7 @@ def check(file: Path, *, as_: Annotated[Literal["strength", "eos", "damage"] | N
 
     model = _model(file, as_)
     model.require()
-    print(f"{model.file}: the {model.kind.title} {model.name}\n  {'passed':<9} constants, functions, compilation")
+    print(f"{model.file}: the {model.kind.title} {model.name}\n  {'passed':<9} constants, functions and their docstrings, compilation")
     try:
         case = contract.case_of(model.kind.part, model.module)
     except contract.Broken as error:

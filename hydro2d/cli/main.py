@@ -110,7 +110,7 @@ def run(
     overwrite
         Replaces the run that is in the directory.
     quiet
-        Prints nothing; log.txt is still written.
+        Prints nothing, unless the run ends as unphysical: then one line on the error output. log.txt is still written.
     """
     if restart and overwrite:
         raise UsageError("--restart continues a run and --overwrite removes it: give one of them")
@@ -121,7 +121,10 @@ def run(
 
         resolved = _load(deck, set_)
         found = runs.run(resolved, out, restart=restart, overwrite=overwrite, quiet=quiet, interrupt=interrupt)
-    return runs.exit_status(found)
+    status = runs.exit_status(found)
+    if quiet and status == runs.UNPHYSICAL:
+        return _told(f"{out or resolved.output.directory}: unphysical: {found['stop_reason']}", status)
+    return status
 
 
 @app.command
@@ -201,7 +204,9 @@ def plot(
     window: Annotated[str | None, Parameter(allow_leading_hyphen=True)] = None,
     quantity: Annotated[list[str] | None, Parameter(negative="")] = None,
 ) -> int:
-    """Draws runs as mirrored sections, histories, holes in their targets, or a three-dimensional cut-away.
+    """Draws runs as sections, histories, holes in their targets, or a three-dimensional cut-away.
+
+    Sections are mirrored at the axis, and on a planar mesh at a wall that stands at r = 0; others are drawn as they are.
 
     Example: hydro2d plot runs/a runs/b -o both.png --field von_mises --mirror material --time "80 us"
 
@@ -214,9 +219,10 @@ def plot(
     kind
         What to draw.
     field
-        Field of the upper half: a field of `hydro2d info`; velocity:z for a component, body_temperature:rod for one body.
+        Field, or that of the upper half, as `hydro2d info` names it; velocity:z for a component, body_temperature:rod for one
+        body.
     mirror
-        Field of the lower half; default: the same.
+        Field of the lower half of a mirrored section; default: the same.
     time
         Time, such as "80 us", whose nearest dump is drawn; default: the last dump. Can be repeated, for sections side by side.
     window
@@ -231,6 +237,8 @@ def plot(
     if kind == "cutaway":
         if len(opened) != 1 or len(times) != 1 or output.suffix != ".png":
             raise UsageError("--kind cutaway draws one run at one time, as a .png")
+        if opened[0].planar:
+            raise UsageError(f"{opened[0].directory}: the mesh is planar, so there is no axis to turn a cut-away about")
         figures.cutaway(opened[0].dump_file(times[0]), output, field, _window(window))
     elif kind == "history":
         figures.save(figures.histories(opened, quantity or figures.HISTORIES), output)
@@ -266,9 +274,10 @@ def movie(
     output
         Film file: .gif, or .mp4 where ffmpeg is installed.
     field
-        Field of the upper half: a field of `hydro2d info`; velocity:z for a component, body_temperature:rod for one body.
+        Field, or that of the upper half, as `hydro2d info` names it; velocity:z for a component, body_temperature:rod for one
+        body.
     mirror
-        Field of the lower half; default: the same.
+        Field of the lower half of a mirrored section; default: the same.
     window
         Part of the mesh to show, z0,z1,r1, such as "-2 cm,8 cm,2 cm".
     follow

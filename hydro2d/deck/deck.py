@@ -196,6 +196,7 @@ def _resolve(data: dict, name: str, overrides: Overrides, sources: Sources) -> D
     data = from_files.read(data, complaint)
     try:
         deck = Deck.model_validate(data, context=_RESOLVING)
+        deck._tables = data
     except ValidationError as error:
         problems = [str(complaint(*keys.explained(entry, data))) for entry in keys.causes(error.errors())]
         problems += [str(complaint(path, message)) for path, message in _unknown_materials(data)]

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from hydro2d.deck.sections import Deck, Segment
+from hydro2d.units import written
 
 #: fraction of a cell by which a segment may miss a whole number of cells; beyond the second value there is a notice
 _FIT, _TOLD = 1e-4, 1e-6
@@ -68,7 +69,7 @@ def _laid(deck: Deck, axis: str) -> Iterator[tuple[int, Segment, float, np.ndarr
     start, previous = (deck.mesh.r_start if axis == "r" else deck.mesh.z_start), None
     for number, segment in enumerate(getattr(deck.mesh, axis)):
         try:
-            new = _segment(deck, segment, start, previous)
+            new = _segment(deck, segment, start, previous, _as_written(deck, axis, number))
         except ValueError as problem:
             raise SegmentError(("mesh", axis, number), str(problem)) from None
         yield number, segment, start, new
@@ -76,7 +77,13 @@ def _laid(deck: Deck, axis: str) -> Iterator[tuple[int, Segment, float, np.ndarr
         start = float(new[-1])
 
 
-def _segment(deck: Deck, segment: Segment, start: float, previous: float | None) -> np.ndarray:
+def _as_written(deck: Deck, axis: str, number: int) -> dict:
+    """A segment as the author of the deck wrote it, with units; empty for a deck that was not read."""
+    entries = getattr(deck, "_tables", {}).get("mesh", {}).get(axis)
+    return entries[number] if entries else {}
+
+
+def _segment(deck: Deck, segment: Segment, start: float, previous: float | None, entry: dict) -> np.ndarray:
     """Edges of one segment without its first."""
     size = _size(deck, segment)
     length = None if segment.to is None else segment.to - start
@@ -90,11 +97,21 @@ def _segment(deck: Deck, segment: Segment, start: float, previous: float | None)
             raise ValueError(f"would need {length / size:.3g} cells")
         cells = round(length / size)
         if cells < 1 or abs(cells * size - length) > _FIT * size:
-            fits = [start + max(1, cells + k) * size for k in (0, 1 if cells * size < length else -1)]
-            near = " or ".join(f"{value:.9g}" for value in dict.fromkeys(fits))
-            raise ValueError(f"cells of {size:.9g} m do not divide {length:.9g} m; to = {near} m would fit")
+            raise ValueError(_misfit(start, length, size, entry))
     end = segment.to if length is not None else start + cells * size
     return _checked(start, np.linspace(start, end, cells + 1)[1:])
+
+
+def _misfit(start: float, length: float, size: float, entry: dict) -> str:
+    """Cells that do not divide a segment, in the units of the deck, and the nearest ends and numbers of cells that do."""
+    def told(value: float, key: str, digits: int = 9) -> str:
+        unit, factor = written(entry.get(key, entry.get("to")), "m")
+        return f"{value / factor:.{digits}g} {unit}"
+
+    counts = sorted({max(1, math.floor(length / size)), math.ceil(length / size)})
+    ends = " or ".join(told(start + count * size, "to") for count in counts)
+    instead = " or ".join(f"{count} (of {told(length / count, 'size', 4)})" for count in counts)
+    return f"cells of {told(size, 'size')} do not divide {told(length, 'to')}; to = {ends} would fit, or cells = {instead}"
 
 
 def _size(deck: Deck, segment: Segment) -> float | None:

@@ -159,14 +159,13 @@ def accelerate_row(b, j, i0, i1, dt, speed_limit, underfilled_density, metrics, 
     contact (explanation/sliding).
 
     Reads    u0, v0, mass [b, j, i]; sig_rr, sig_zz, sig_tt, sig_rz, hg_coefficient (of the hourglass filter) [j, i]
-    Writes   u, v [b, j, i], of group 0 for whole rows
+    Writes   u, v [b, j, i] for whole rows
     Updates  limited [3, j]: momentum and energy taken by the speed limit, and its count
     """
     lo, hi = union(occupied[b], j - 1, j + 1)
     lo, n = columns(max(lo, i0), min(hi + 1, i1))
-    if b == 0:
-        copy_beside(u0[0, j], u[0, j], i0 - 2, lo, lo + n, i1 + 2)
-        copy_beside(v0[0, j], v[0, j], i0 - 2, lo, lo + n, i1 + 2)
+    copy_beside(u0[b, j], u[b, j], i0 - 2, lo, lo + n, i1 + 2)
+    copy_beside(v0[b, j], v[b, j], i0 - 2, lo, lo + n, i1 + 2)
     hb = dz[j - 1]
     ht = dz[j]
     rr_b = sig_rr[j - 1]

@@ -81,15 +81,14 @@ def vertex_row(g, dj, di, j, i0, i1, below, above, advection, bound, constrained
 
     Reads    cell_mass [b, j, i] after the sweep, dual [k, slot, i] in the slots `below` and `above`;
              w_old = (u, v) [c, b, j, i] and mass [b, j, i] before it
-    Writes   w = (u, v) [c, b, j, i], of group 0 for the whole row; deficit [b, j, i]
+    Writes   w = (u, v) [c, b, j, i] for the whole row; deficit [b, j, i]
     Updates  sums [5, j]: kinetic energy before and after; axial momentum after less P; kinetic energy cut by the bound;
              axial momentum given to walls
     """
     lo, hi = max(group_ranges[g, 1, j, 0], i0), min(group_ranges[g, 1, j, 1] + 1, i1)
     n = hi - lo
-    if g == 0:
-        for c in range(2):
-            copy_beside(w_old[c, 0, j], w[c, 0, j], i0 - GHOSTS, lo, hi, i1 + GHOSTS)
+    for c in range(2):
+        copy_beside(w_old[c, g, j], w[c, g, j], i0 - GHOSTS, lo, hi, i1 + GHOSTS)
     if n > 0:
         low = cell_mass[g, j - 1, lo - 1:hi]
         high = cell_mass[g, j, lo - 1:hi]

@@ -105,7 +105,9 @@ def _functions(module: ModuleType, kind) -> Iterator[str]:
         if ", ".join(str(parameter) for parameter in found) != arguments:
             yield f"{name} takes ({', '.join(str(parameter) for parameter in found)}), not ({arguments})"
         if not function.py_func.__doc__:
-            yield f"{name} has no docstring; it says what the function returns, in which unit"
+            line = function.py_func.__code__.co_firstlineno
+            yield (f'{name}, line {line}, has no docstring: write what the function returns and in which unit under its `def`, '
+                   'such as """Flow stress, Pa."""')
 
 
 def _variables(module: ModuleType, kind) -> Iterator[str]:

@@ -47,6 +47,11 @@ BOUNDARIES = (
 BY_NAME = {boundary.name: boundary for boundary in BOUNDARIES}
 
 
+def halved(geometry: str, r_start: float, r_min: str) -> bool:
+    """Whether a mesh is one half of a symmetric whole: it is cylindrical, or it starts at r = 0 with a plane of symmetry."""
+    return geometry == "cylindrical" or (r_start == 0.0 and r_min in BY_NAME and BY_NAME[r_min].mirrors)
+
+
 def words(edge: str) -> tuple[str, ...]:
     """Names of the boundary conditions that an edge can have."""
     return tuple(boundary.name for boundary in BOUNDARIES if edge in boundary.edges)

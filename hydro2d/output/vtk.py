@@ -9,8 +9,8 @@ from __future__ import annotations
 import errno
 import math
 import os
-from collections.abc import Iterable
-from contextlib import suppress
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 from xml.etree import ElementTree
@@ -20,6 +20,7 @@ import numpy as np
 from hydro2d.errors import Error, unknown
 from hydro2d.files import replacing, write_text
 from hydro2d.mesh import quantities
+from hydro2d.mesh.boundary_conditions import halved
 from hydro2d.output import derived
 from hydro2d.output.outlines import outlines
 
@@ -44,6 +45,19 @@ def _stamp(dataset, time: float) -> None:
     dataset.GetFieldData().AddArray(stamp)
 
 
+@contextmanager
+def _silence() -> Iterator[None]:
+    """Keeps VTK from printing what goes wrong, which is many coloured lines; an exception says it in one."""
+    from vtkmodules.vtkCommonCore import vtkObject
+
+    shown = vtkObject.GetGlobalWarningDisplay()
+    vtkObject.GlobalWarningDisplayOff()
+    try:
+        yield
+    finally:
+        vtkObject.SetGlobalWarningDisplay(shown)
+
+
 def _write(dataset, path: Path, time: float, writer) -> None:
     _stamp(dataset, time)
     writer.SetInputData(dataset)
@@ -51,7 +65,7 @@ def _write(dataset, path: Path, time: float, writer) -> None:
     writer.EncodeAppendedDataOff()
     writer.SetCompressorTypeToLZ4()
     writer.SetBlockSize(BLOCK)
-    with replacing(path) as temporary:
+    with replacing(path) as temporary, _silence():
         writer.SetFileName(str(temporary))
         if writer.Write() != 1:
             raise _write_error(writer.GetErrorCode(), path)
@@ -258,12 +272,16 @@ def _body_lines(sim) -> list[tuple[int, np.ndarray]]:
 
 @dataclass(frozen=True)
 class Dump:
-    """A dump that was read: r_edges (nr + 1,), z_edges (nz + 1,), fields by name (nz, nr[, 3]), time in s."""
+    """A dump that was read: r_edges (nr + 1,), z_edges (nz + 1,), fields by name (nz, nr[, 3]), time in s.
+
+    mirrored : whether pictures show the mirror image as well, see `boundary_conditions.halved`; no file says this
+    """
 
     r_edges: np.ndarray
     z_edges: np.ndarray
     fields: dict[str, np.ndarray]
     time: float
+    mirrored: bool = True
 
     @property
     def bodies(self) -> list[str]:
@@ -296,43 +314,47 @@ class Dump:
     @classmethod
     def of(cls, sim, keys=("all",)) -> Dump:
         """The state of a simulation as a dump would hold it."""
-        return cls(sim.grid.r_edges, sim.grid.z_edges, derived.evaluate(sim, keys), sim.time)
+        half = halved(sim.grid.geometry, sim.grid.r_edges[0], sim.deck.boundaries.r_min)
+        return cls(sim.grid.r_edges, sim.grid.z_edges, derived.evaluate(sim, keys), sim.time, half)
 
 
 def _read(reader, path: Path):
     """The data that a VTK reader reads from a file. Raises VtkError."""
-    if not Path(path).is_file() or not reader.CanReadFile(str(path)):
-        raise VtkError(f"{path} is not a VTK file of a run")
-    reader.SetFileName(str(path))
-    shown = reader.GetGlobalWarningDisplay()
-    reader.GlobalWarningDisplayOff()  # the error below reports a damaged file in one line
-    try:
+    with _silence():
+        if not Path(path).is_file() or not reader.CanReadFile(str(path)):
+            raise VtkError(f"{path} is not a VTK file of a run")
+        reader.SetFileName(str(path))
         reader.Update()
-    finally:
-        reader.SetGlobalWarningDisplay(shown)
     if reader.GetErrorCode():
         raise VtkError(f"{path} is damaged: VTK cannot read all of it")
     return reader.GetOutput()
 
 
-def read_grid(path: Path) -> Dump:
-    """Reads a .vtr file. Raises VtkError."""
-    from vtkmodules.util.numpy_support import vtk_to_numpy
+def _read_whole(path: Path):
+    """The vtkRectilinearGrid of a .vtr file, and its cell arrays. Raises VtkError."""
     from vtkmodules.vtkIOXML import vtkXMLRectilinearGridReader
 
     grid = _read(vtkXMLRectilinearGridReader(), path)
-    data, fields, time = grid.GetCellData(), {}, grid.GetFieldData().GetArray("TimeValue")
+    data, time = grid.GetCellData(), grid.GetFieldData().GetArray("TimeValue")
     arrays = [data.GetArray(number) for number in range(data.GetNumberOfArrays())]
     axes = [axis for axis in (grid.GetXCoordinates(), grid.GetYCoordinates()) if axis is not None]
     cells = math.prod(axis.GetNumberOfTuples() - 1 for axis in axes)
     whole = len(axes) == 2 and cells > 0 and all(each is not None and each.GetNumberOfTuples() == cells for each in arrays)
     if not whole or time is None or time.GetNumberOfTuples() < 1:
         raise VtkError(f"{path} is damaged: its time, its mesh or its cell values are incomplete")
-    r, z = map(vtk_to_numpy, axes)
+    return grid, arrays
+
+
+def read_grid(path: Path) -> Dump:
+    """Reads a .vtr file. Raises VtkError."""
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+
+    (grid, arrays), fields = _read_whole(path), {}
+    r, z = map(vtk_to_numpy, (grid.GetXCoordinates(), grid.GetYCoordinates()))
     for each in arrays:
         values = vtk_to_numpy(each)
         fields[each.GetName()] = values.reshape(len(z) - 1, len(r) - 1, *values.shape[1:]).copy()
-    return Dump(r.copy(), z.copy(), fields, time.GetValue(0))
+    return Dump(r.copy(), z.copy(), fields, grid.GetFieldData().GetArray("TimeValue").GetValue(0))
 
 
 def read_lines(path: Path) -> list[tuple[int, np.ndarray]]:
@@ -365,7 +387,7 @@ def pyvista_of(r_edges, z_edges, fields: Iterable[tuple[str, np.ndarray]], time:
 
 
 def pyvista_grid(path: Path):
-    """A .vtr file as a pyvista.RectilinearGrid."""
+    """A .vtr file as a pyvista.RectilinearGrid. Raises VtkError."""
     import pyvista
 
-    return pyvista.read(path)
+    return pyvista.wrap(_read_whole(path)[0])

@@ -1,7 +1,8 @@
 """Figures of runs: mirrored sections, histories and craters with matplotlib, and a three-dimensional cut-away with pyvista.
 
-Sections show z to the right and r upwards, mirrored at the axis; the lower half may show another field. Runs are arranged in
-rows and times in columns, with one colour scale. The three-dimensional picture is rendered in a separate process, so that a
+Sections show z to the right and r upwards, mirrored at the axis or plane of symmetry; the lower half may show another field.
+A planar mesh without a plane of symmetry at r = 0 is drawn as it is. Runs are arranged in rows and times in columns, with one
+colour scale. The three-dimensional picture is rendered in a separate process, so that a
 failing graphics driver cannot take anything else down with it.
 """
 
@@ -11,7 +12,7 @@ import json
 import os
 import subprocess
 import sys
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -131,7 +132,7 @@ def _draw_outlines(axes, dump: Dump) -> None:
         np.column_stack([line[:, 1], sign * line[:, 0]]) * 1e3
         for body in dump.bodies
         for line in dump.outlines(body)
-        for sign in (1, -1)
+        for sign in ((1, -1) if dump.mirrored else (1,))
     ]
     axes.add_collection(LineCollection(lines, colors="black", linewidths=0.6))
 
@@ -145,7 +146,7 @@ def _legend(axes, dump: Dump) -> None:
 
 def section(axes, dump: Dump, field: str = "pressure", mirror: str | None = None, limits=None, *, title: str = "",
             depth_line: float | None = None, window: tuple[float, float, float] | None = None) -> list:  # fmt: skip
-    """Draws one mirrored section into matplotlib axes.
+    """Draws one section into matplotlib axes, mirrored at the axis or plane of symmetry if there is one.
 
     field, mirror : words for the upper and the lower half, see `chosen` (mirror None: the same field)
     limits : (low, high) per word in the reader's unit; by default from the data
@@ -154,8 +155,10 @@ def section(axes, dump: Dump, field: str = "pressure", mirror: str | None = None
 
     Returns [(word, mappable)] for `colour_bars`. Raises FigureError.
     """
+    if mirror is not None and not dump.mirrored:
+        raise FigureError(f'mirror = "{mirror}": a planar mesh without a plane of symmetry at r = 0 has no second half to show')
     limits, drawn, seen = limits or {}, [], cropped(dump, window)
-    for word, sign in ((field, 1), (mirror or field, -1)):
+    for word, sign in ((field, 1), (mirror or field, -1)) if dump.mirrored else ((field, 1),):
         if word != "material" and word not in limits:
             limits = {**limits, word: limits_of([chosen(seen, word)])}
         drawn.append((word, _draw_half(axes, dump, word, sign, limits.get(word))))
@@ -167,11 +170,12 @@ def section(axes, dump: Dump, field: str = "pressure", mirror: str | None = None
         word = axes.text(depth_line * 1e3, 0.98, "experiment ", transform=axes.get_xaxis_transform(), color="crimson",
                          fontsize=7, rotation=90, ha="right", va="top", clip_on=True)  # fmt: skip
         word.set_in_layout(False)  # a line outside the window must not stretch the figure
-    axes.axhline(0, color="black", linewidth=0.3, linestyle="-.")
+    if dump.mirrored:
+        axes.axhline(0, color="black", linewidth=0.3, linestyle="-.")
     axes.set_aspect("equal")
-    z0, z1, r1 = window or _whole(dump)
-    axes.set_xlim(z0 * 1e3, z1 * 1e3)
-    axes.set_ylim(-r1 * 1e3, r1 * 1e3)
+    z0, z1, low, high = (1e3 * end for end in _ends(dump, window))
+    axes.set_xlim(z0, z1)
+    axes.set_ylim(low, high)
     axes.tick_params(labelsize=7)
     axes.set_xlabel("z [mm]", fontsize=8)
     axes.set_ylabel("r [mm]", fontsize=8)
@@ -189,22 +193,24 @@ def colour_bars(axes, dump: Dump, drawn: list) -> None:
             bar.ax.tick_params(labelsize=7)
 
 
-def _whole(dump: Dump) -> tuple[float, float, float]:
-    """The window that shows the whole mesh."""
-    return dump.z_edges[0], dump.z_edges[-1], dump.r_edges[-1]
+def _ends(dump: Dump, window: tuple[float, float, float] | None) -> tuple[float, float, float, float]:
+    """Lowest and highest z and r that a panel shows, m; without a window those of the whole mesh."""
+    inner, outer = dump.r_edges[0], dump.r_edges[-1]
+    z0, z1, r1 = window or (dump.z_edges[0], dump.z_edges[-1], max(-inner, outer))
+    return (z0, z1, -r1, r1) if dump.mirrored else (z0, z1, max(-r1, inner), min(r1, outer))
 
 
-def _panel_height(width: float, window: tuple[float, float, float]) -> float:
+def _panel_height(width: float, dump: Dump, window: tuple[float, float, float] | None) -> float:
     """Height in inches of a panel with a title that shows a window at equal scales."""
-    z0, z1, r1 = window
-    return min(max(width * 2 * r1 / (z1 - z0), 0.8), 9.0) + 0.6
+    z0, z1, low, high = _ends(dump, window)
+    return min(max(width * (high - low) / (z1 - z0), 0.8), 9.0) + 0.6
 
 
 def own_axes(dump: Dump, window: tuple[float, float, float] | None = None, width: float = 8.0):
     """Axes of a new pyplot figure in the shape of a section, which a notebook shows by itself; width in inches."""
     from matplotlib import pyplot
 
-    height = _panel_height(width, window or _whole(dump)) + 0.4
+    height = _panel_height(width, dump, window) + 0.4
     return pyplot.subplots(figsize=(width + 1.2, height), layout="constrained")[1]
 
 
@@ -234,7 +240,7 @@ def draw_sections(panels: list[list[tuple[Dump, str, float | None]]], field: str
         limits = {word: limits_of([chosen(cropped(dump, seen(dump)), word) for dump in dumps]) for word in words}
     rows, columns = len(panels), max(len(row) for row in panels)
     panel_width = min(11.0, max(4.0, 16.0 / columns))
-    panel_height = _panel_height(panel_width, seen(dumps[0]) or _whole(dumps[0]))
+    panel_height = _panel_height(panel_width, dumps[0], seen(dumps[0]))
     if figure is None:
         figure, axes = new_figure(panel_width * columns + 1.2, panel_height * rows + 0.4, rows, columns)
     else:
@@ -261,11 +267,12 @@ def cropped(dump: Dump, window) -> Dump:
     z0, z1, r1 = window
     low = max(int(np.searchsorted(dump.z_edges, z0, "right")) - 1, 0)
     high = min(int(np.searchsorted(dump.z_edges, z1, "left")), len(dump.z_edges) - 1)
+    inner = max(int(np.searchsorted(dump.r_edges, -r1, "right")) - 1, 0)
     outer = min(int(np.searchsorted(dump.r_edges, r1, "left")), len(dump.r_edges) - 1)
-    if low >= high or outer < 1:
+    if low >= high or inner >= outer:
         raise FigureError(f"the window z {z0:g} to {z1:g} m, r to {r1:g} m shows nothing of the mesh")
-    fields = {name: values[low:high, :outer] for name, values in dump.fields.items()}
-    return Dump(dump.r_edges[: outer + 1], dump.z_edges[low : high + 1], fields, dump.time)
+    fields = {name: values[low:high, inner:outer] for name, values in dump.fields.items()}
+    return replace(dump, r_edges=dump.r_edges[inner : outer + 1], z_edges=dump.z_edges[low : high + 1], fields=fields)
 
 
 def sections(runs: list, field: str = "pressure", *, mirror: str | None = None, times=(None,), window=None):

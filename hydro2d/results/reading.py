@@ -5,12 +5,14 @@ from __future__ import annotations
 import html
 import json
 import tomllib
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from hydro2d.errors import Error
+from hydro2d.mesh.boundary_conditions import halved
 from hydro2d.output import history, snapshot, vtk
 from hydro2d.results.summaries import plausible
 from hydro2d.running.run import DECK, HISTORY, SUMMARY
@@ -142,7 +144,7 @@ class Results:
 
     def dump(self, time: float | None = None) -> vtk.Dump:
         """The fields of the dump nearest to a time in s, or of the last dump, as arrays by their names in the file."""
-        return vtk.read_grid(self.dump_file(time))
+        return replace(vtk.read_grid(self.dump_file(time)), mirrored=mirrored(self.deck))
 
     def state(self) -> vtk.Dump:
         """All fields of the restart file, in full precision. Raises SnapshotError."""
@@ -172,7 +174,7 @@ class Results:
         """Draws a section of the dump nearest to a time in s, or of the last dump, in matplotlib axes and returns them.
 
         field, mirror : fields of the upper and the lower half, such as "pressure", "velocity:z", "body_temperature:plate"
-            or "material"; mirror None: the same field
+            or "material"; mirror None: the same field, and the only choice for a section that has no mirror image
         axes : the axes to draw in; None: a new figure
         limits : colour range (low, high) by field, in the unit of the colour bar; None: the range of the data
         window : (z0, z1, r1) in m, the part to show; None: the whole mesh
@@ -190,6 +192,11 @@ class Results:
         if colour_bar:
             figures.colour_bars(axes, dump, drawn)
         return axes
+
+    @property
+    def planar(self) -> bool:
+        """Whether the mesh has no axis."""
+        return _table(self.deck, "mesh").get("geometry") == "planar"
 
     @property
     def surface(self) -> float | None:
@@ -238,6 +245,17 @@ class Results:
     def _repr_html_(self) -> str:
         rows = "".join(f"<tr><th>{name}</th><td>{html.escape(said)}</td></tr>" for name, said in self._facts().items())
         return f"<table><caption>{html.escape(self.label)}</caption>{rows}</table>"
+
+
+def mirrored(deck: dict) -> bool:
+    """Whether pictures of a run complete the meshed half of it by its mirror image; deck: as resolved."""
+    mesh, edges = _table(deck, "mesh"), _table(deck, "boundaries")
+    return halved(mesh.get("geometry", "cylindrical"), mesh.get("r_start", 0.0), str(edges.get("r_min", "wall")))
+
+
+def _table(deck: dict, name: str) -> dict:
+    found = deck.get(name)
+    return found if isinstance(found, dict) else {}
 
 
 def _millimetres(length: float | None) -> str:

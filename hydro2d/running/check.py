@@ -11,7 +11,7 @@ from hydro2d.deck import deck as decks
 from hydro2d.errors import DeckError
 from hydro2d.materials import library
 from hydro2d.mesh import quantities
-from hydro2d.mesh.boundary_conditions import EDGES
+from hydro2d.mesh.boundary_conditions import EDGES, halved
 from hydro2d.mesh.grid import Grid
 from hydro2d.output.vtk import Dump
 from hydro2d.solver import insertion, memory
@@ -104,14 +104,14 @@ def check(deck) -> Check:
              if m == 0 and deck.mesh.follow is None]
     cycles = _cycles(deck, grid, table, start)
     return Check(
-        deck=deck, grid=grid, table=table, dump=_dump(grid, table, start),
+        deck=deck, grid=grid, table=table, dump=_dump(grid, table, start, deck.boundaries.r_min),
         masses=dict(zip(table.names, mass.tolist(), strict=True)),
         memory=memory.needed(deck), cycles=cycles,
         seconds=cycles * grid.cells * NANOSECONDS * 1e-9, warnings=empty + decks.warnings(deck),
     )  # fmt: skip
 
 
-def _dump(grid, table, start) -> Dump:
+def _dump(grid, table, start, r_min: str) -> Dump:
     vof = start["vof"]
     shares = np.concatenate([1 - vof.sum(axis=0, keepdims=True), vof])
     fields = {quantities.BY_KEY["volume_fraction"].name(body): vof[m] for m, body in enumerate(table.names)}
@@ -120,7 +120,7 @@ def _dump(grid, table, start) -> Dump:
         "Density [kg/m3]": np.sum(vof * start["rho"], axis=0),
         "Velocity [m/s]": np.stack([start["u_cell"][0], start["v_cell"][0], np.zeros(vof.shape[1:])], axis=-1),
     }
-    return Dump(grid.r_edges, grid.z_edges, fields, 0.0)
+    return Dump(grid.r_edges, grid.z_edges, fields, 0.0, halved(grid.geometry, grid.r_edges[0], r_min))
 
 
 def _cycles(deck, grid, table, start) -> int:

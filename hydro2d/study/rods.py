@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
+from hydro2d.results import reading
 from hydro2d.results.figures import new_figure
 from hydro2d.study.experiments import Measurement
 from hydro2d.study.record import Record
@@ -52,7 +53,7 @@ def pages(records: Sequence[Record]) -> list[Sequence[Record]]:
 
 
 def draw(records: Sequence[Record], measurements: Mapping[str, Measurement], scale: Sequence[Record]):
-    """One page of rods, mirrored about the axis; z points down, as the rods fly.
+    """One page of rods, each mirrored about its axis if its mesh has one; z points down, as the rods fly.
 
     measurements : by case; a dashed line at the depth, where rods are drawn at their depths
     scale : the records of all pages, which share limits and scale
@@ -91,9 +92,9 @@ def _tidy(axes, *, first: bool) -> None:
 
 
 def _radius(record: Record) -> float:
-    """Largest radius of what is shown of the rod, m."""
+    """Largest distance from r = 0 of what is shown of the rod, m."""
     points = np.concatenate(record.rod)
-    return float(points[points[:, 1] >= extent(record)[0], 0].max())
+    return float(np.abs(points[points[:, 1] >= extent(record)[0], 0]).max())
 
 
 def _label(record: Record) -> str:
@@ -113,21 +114,24 @@ def _rod(axes, record: Record, shift: float) -> None:
     """The rod at the end, and the initial rod as a thin line with its tip at the same place."""
     from matplotlib.patches import PathPatch
 
+    mirrored = reading.mirrored(record.deck)
     if record.start:
         tip = max(line[:, 1].max() for line in record.start)
         moved = [line - [0.0, tip - extent(record)[1]] for line in record.start]
-        axes.add_patch(PathPatch(_path(moved, shift), fill=False, edgecolor=START, linewidth=0.7, linestyle=":"))
-    axes.add_patch(PathPatch(_path(record.rod, shift), facecolor=FILLED, edgecolor="black", linewidth=0.5))
+        axes.add_patch(PathPatch(_path(moved, shift, mirrored), fill=False, edgecolor=START, linewidth=0.7, linestyle=":"))
+    axes.add_patch(PathPatch(_path(record.rod, shift, mirrored), facecolor=FILLED, edgecolor="black", linewidth=0.5))
 
 
-def _path(lines: Sequence[np.ndarray], shift: float):
-    """Outlines and their mirror images as one path in cm: lines that end on the axis are joined to their images."""
+def _path(lines: Sequence[np.ndarray], shift: float, mirrored: bool = True):
+    """Outlines, and if wanted their mirror images, as one path in cm: lines that end on the axis are joined to their images."""
     from matplotlib.path import Path
 
     parts = []
     for line in lines:
         points = (line - [0.0, shift]) * 100.0
-        mirrored = points[::-1] * [-1.0, 1.0]
-        closed = np.array_equal(line[0], line[-1])
-        parts += [points, mirrored] if closed else [np.concatenate([points, mirrored, points[:1]])]
+        image = points[::-1] * [-1.0, 1.0]
+        if np.array_equal(line[0], line[-1]):
+            parts += [points, image] if mirrored else [points]
+        else:
+            parts.append(np.concatenate([points, image, points[:1]] if mirrored else [points, points[:1]]))
     return Path.make_compound_path(*(Path(part, closed=True) for part in parts))

@@ -1,10 +1,13 @@
 """A run of the real solver that was interrupted continues to the same bits, and outputs change none of them."""
 
+import json
+
 import pytest
 
 from hydro2d.deck import deck as decks
 from hydro2d.output import history, snapshot
 from hydro2d.running.run import run
+from hydro2d.solver.simulation import Simulation
 
 SHOT = """
 [mesh]
@@ -40,6 +43,33 @@ vtk_interval = "0.5 us"
 SLIP = ['sliding.method="slip-layer"', 'sliding.hard=["rod"]', "sliding.yield_factor=1.0"]
 
 
+#: a rod that follows its mesh through three plates, apart from one another so that it is alone in between
+PLATES = SHOT.split("[[body]]")[0].replace("[mesh]", '[mesh]\nfollow = "rod"').replace("to = \"30 mm\"", "to = \"4 mm\"") + """
+[[body]]
+name = "rod"
+material = "W_alloy"
+shape = "rod"
+nose = "hemispherical"
+radius = "4 mm"
+length = "16 mm"
+tip = "-0.5 mm"
+velocity = "1500 m/s"
+[stop]
+time = "1 s"
+[output]
+history_interval = "1 us"
+vtk_interval = "1 us"
+""" + "".join(f"""
+[[body]]
+name = "plate {number}"
+material = "Al5083"
+shape = "plate"
+z_front = "{9 * number} mm"
+thickness = "2 mm"
+""" for number in range(3))
+CONTACT = ['sliding.method="contact"', 'sliding.hard=["rod"]']
+
+
 def final(directory):
     saved = snapshot.read(directory / "restart.h5")
     return {name: array.tobytes() for name, array in saved.arrays.items()}, saved.scalars
@@ -65,3 +95,28 @@ def test_outputs_change_no_bit(tmp_path):
     run(decks.loads(SHOT, ["stop.cycles=60"]), tmp_path / "rarely", quiet=True)
     run(decks.loads(SHOT, ["stop.cycles=60", *often]), tmp_path / "often", quiet=True)
     assert final(tmp_path / "rarely") == final(tmp_path / "often")
+
+
+def restarted(whole: Simulation) -> Simulation:
+    """A second simulation that goes on from what a restart file would hold of the first."""
+    arrays = {name: array.copy() for name, array in whole.restart_arrays().items()}
+    again = Simulation(whole.deck)
+    again.load_restart_arrays(arrays)
+    again.load_restart_scalars(json.loads(json.dumps(whole.restart_scalars())))
+    return again
+
+
+@pytest.mark.parametrize("options", [[], SLIP, CONTACT], ids=["sticking", "slip-layer", "contact"])
+def test_a_restart_on_a_travelling_mesh_gives_every_bit_of_every_array(options):
+    """Ghosts and vertices without mass as well, in every cycle, wherever the rod is as the run goes on."""
+    whole = Simulation(decks.loads(PLATES, options))
+    parts, last = [], whole.deck.body[-1].z_front + 9e-3
+    while whole.grid.z_edges[-1] < last:
+        if whole.cycle % 50 == 1:
+            parts = [*parts[-1:], restarted(whole)]
+        for each in (whole, *parts):
+            each.step()
+        for part in parts:
+            assert part.restart_scalars() == whole.restart_scalars()
+            for name, array in part.restart_arrays().items():
+                assert array.tobytes() == whole.restart_arrays()[name].tobytes(), f"{name} in cycle {whole.cycle}"

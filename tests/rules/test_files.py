@@ -1,6 +1,7 @@
 """What every file of the repository obeys, and what a wheel must carry."""
 
 import re
+import subprocess
 import tomllib
 from pathlib import Path
 
@@ -52,30 +53,34 @@ def project() -> dict:
     return tomllib.loads((source.ROOT / "pyproject.toml").read_text())
 
 
-def test_the_wheel_names_every_package():
-    setuptools = project()["tool"]["setuptools"]
-    folders = {
-        ".".join(file.parent.relative_to(source.ROOT).parts)
-        for package in source.PACKAGES
-        for file in (source.ROOT / package).rglob("__init__.py")
-    }
-    assert folders | {"hydro2d.problems"} == set(setuptools["packages"])
-    assert setuptools["package-dir"] == {"hydro2d.problems": "problems"}
+def built(target: str) -> dict:
+    """What is said of the wheel or the sdist."""
+    return project()["tool"]["hatch"]["build"]["targets"][target]
 
 
-def test_the_wheel_carries_every_deck():
-    patterns = project()["tool"]["setuptools"]["package-data"]["hydro2d.problems"]
-    problems = source.ROOT / "problems"
-    carried = {file for pattern in patterns for file in problems.glob(pattern)}
-    data = {file for file in source.tracked_files() if problems in file.parents and file.suffix != ".py"}
-    assert data - carried == set()
+def test_the_wheel_carries_every_package_and_every_file_of_problems_but_programs():
+    wheel = built("wheel")
+    assert set(wheel["only-include"]) == {*source.PACKAGES, "problems"}
+    assert wheel["sources"] == {"problems": "hydro2d/problems"}
+    assert wheel["exclude"] == ["/problems/**/*.py"]
 
 
-def test_the_wheel_carries_the_templates_of_reports():
-    study = source.ROOT / "hydro2d" / "study"
-    patterns = project()["tool"]["setuptools"]["package-data"]["hydro2d.study"]
-    carried = {file for pattern in patterns for file in study.glob(pattern)}
-    assert {file for file in source.tracked_files() if study in file.parents and file.suffix != ".py"} == carried
+def test_the_sdist_carries_every_folder_that_the_wheel_and_the_tests_need():
+    assert set(built("sdist")["only-include"]) >= {*source.PACKAGES, "problems", "tests", "docs"}
+
+
+def test_no_file_that_is_tracked_is_ignored():
+    """What .gitignore names, the wheel and the sdist leave out."""
+    names = "\n".join(str(file.relative_to(source.ROOT)) for file in source.tracked_files())
+    found = subprocess.run(["git", "check-ignore", "--no-index", "--stdin"], cwd=source.ROOT, input=names, text=True,
+                           capture_output=True, check=False)  # fmt: skip
+    assert (found.returncode, found.stdout) == (1, "")
+
+
+def test_the_installed_problems_are_the_shipped_ones():
+    from importlib import import_module
+
+    assert Path(next(iter(import_module("hydro2d.problems").__path__))) == source.PROBLEMS
 
 
 def test_versions_agree():

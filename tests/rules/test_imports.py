@@ -13,7 +13,7 @@ from tests.rules import source
 LAYERS = (
     ("hydro2d.jit", "hydro2d.units", "hydro2d.files", "hydro2d.parameters", "hydro2d.errors", "hydro2d.toml",
      "hydro2d.interrupt"),
-    ("hydro2d.mesh", "eos", "strength", "hydro2d.penetration"),
+    ("hydro2d.mesh", "eos", "strength", "hydro2d.penetration", "hydro2d.problems"),
     ("hydro2d.materials",),
     ("hydro2d.physics", "hydro2d.deck"),
     ("hydro2d.kernels",),

@@ -1,5 +1,7 @@
 """Figures show what they say."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -177,6 +179,15 @@ def test_rods_are_mirrored_at_their_depths_at_one_scale(contents):
     assert figure.axes[0].yaxis_inverted()
     assert figure.axes[0].get_title() == "1086 m/s\nke\n35.0 cm"
     assert figure.get_supylabel() == "depth [cm]"
+
+
+def test_a_rod_in_a_planar_mesh_with_both_sides_is_drawn_as_it_is(contents):
+    deck = {**contents.records[0].deck, "mesh": {"geometry": "planar", "r_start": -0.02}}
+    rod = [line + [-0.002, 0.0] for line in contents.records[0].rod]
+    record = replace(contents.records[0], deck=deck, rod=rod)
+    after = patches(rods.draw([record], {}, [record]).axes[0])[1]
+    radius = fake.RADIUS * 101.0
+    np.testing.assert_allclose(after[[0, 2]], [-0.2, radius - 0.2])
 
 
 def test_rods_far_apart_stand_tip_beside_tip(contents):

@@ -7,7 +7,7 @@ from types import SimpleNamespace
 import numpy as np
 
 import eos
-from hydro2d.deck.sections import Failure, Mesh, Segment, Sliding
+from hydro2d.deck.sections import Boundaries, Failure, Mesh, Segment, Sliding
 from hydro2d.errors import UnphysicalState
 from hydro2d.materials import library
 from hydro2d.mesh.grid import Grid
@@ -31,7 +31,7 @@ class FakeDeck:
         self.courant = 0.5
         r, z = Segment(to=12e-3, cells=12), Segment(to=30e-3, cells=55)
         self.mesh, self.body, self.materials = Mesh(r=(r,), z_start=-25e-3, z=(z,)), (), {}
-        self.sliding, self.failure = Sliding(), Failure()
+        self.sliding, self.failure, self.boundaries = Sliding(), Failure(), Boundaries(r_min="axis")
 
     def to_toml(self) -> str:
         return f"""\

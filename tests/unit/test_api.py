@@ -53,6 +53,26 @@ def test_another_package_called_eos_is_told(tmp_path, first):
     assert f"hydro2d has a package eos of its own, and Python finds another one at {tmp_path / 'eos.py'}" in found.stderr
 
 
+TYPED = """
+import hydro2d
+import hydro2d.problems
+
+deck: hydro2d.Deck = hydro2d.Deck.from_file("shot.toml", {"stop.time": "1 us"})
+reason: str = hydro2d.Simulation(deck).run(until=1e-6)
+wrong: int = hydro2d.Simulation(deck).run(until=1e-6)
+"""
+
+
+def test_a_type_checker_finds_hydro2d_from_any_folder(tmp_path):
+    """In an editable install as well: the mistake is found, and nothing is missing."""
+    (tmp_path / "program.py").write_text(TYPED)
+    (tmp_path / "mypy.ini").write_text("[mypy]\nfollow_imports = skip\n[mypy-hydro2d.*]\nfollow_imports = silent\n")
+    done = subprocess.run([sys.executable, "-m", "mypy", "--cache-dir", "cache", "program.py"], cwd=tmp_path, text=True,
+                          capture_output=True, timeout=300, env=os.environ | {"PYTHONPATH": "", "MYPYPATH": ""}, check=False)
+    assert "program.py:7: error: Incompatible types" in done.stdout
+    assert "Found 1 error in 1 file" in done.stdout
+
+
 def test_the_names_load_no_kernels():
     """Until the first simulation is made a deck can still bring a model of its own."""
     text = ("import sys, hydro2d; [getattr(hydro2d, name) for name in hydro2d.__all__];"

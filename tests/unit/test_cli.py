@@ -97,6 +97,19 @@ def test_restart_after_an_interruption(simulation, deck, tmp_path):
     assert json.loads(Path(out, "summary.json").read_text())["time_s"] >= fake.STOP
 
 
+def test_a_quiet_run_says_in_one_line_that_it_ended_unphysical(simulation, deck, tmp_path, capsys):
+    simulation.fail_at = 7
+    out = tmp_path / "out"
+    assert call(["run", str(deck), "--out", str(out), "--quiet"]) == 3
+    printed = capsys.readouterr()
+    reason = json.loads((out / "summary.json").read_text())["stop_reason"]
+    assert (printed.out, printed.err) == ("", f"hydro2d: {out}: unphysical: {reason}\n")
+    assert "unphysical" not in reason  # the word stands before it
+    simulation.fail_at = None
+    assert call(["run", str(deck), "--out", str(out), "--quiet", "--overwrite"]) == 0
+    assert capsys.readouterr() == ("", "")
+
+
 def test_unphysical_is_status_3(simulation, deck, tmp_path, capsys):
     simulation.fail_at = 7
     assert call(["run", deck, "--out", str(tmp_path / "out")]) == 3

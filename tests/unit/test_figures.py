@@ -1,13 +1,18 @@
 """Figures show what they say, or say why they cannot."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
+from hydro2d.cli.main import call
+from hydro2d.deck import deck as decks
 from hydro2d.output.outlines import outlines
 from hydro2d.output.vtk import Dump
 from hydro2d.results import figures
 from hydro2d.results.figures import FigureError
 from hydro2d.results.reading import Results
+from hydro2d.running.check import check
 from tests.unit import fake
 
 
@@ -30,6 +35,65 @@ def test_a_section_is_mirrored_and_in_readers_units(dump):
     filled = dump.fields["Material"] > 0
     np.testing.assert_allclose(shown[filled], dump.fields["Pressure [Pa]"][filled] * 1e-9)
     assert np.isnan(shown[~filled]).all()
+
+
+PLANAR = """
+[mesh]
+geometry = "planar"
+r_start = "{start}"
+r = [{{ to = "12 mm", size = "1 mm" }}]
+z = [{{ to = "30 mm", size = "1 mm" }}]
+[boundaries]
+r_min = "{inner}"
+[[body]]
+name = "bar"
+material = "Al5083"
+shape = "box"
+r = ["-3 mm", "4 mm"]
+z = ["5 mm", "20 mm"]
+[stop]
+time = "1 us"
+"""
+
+
+@pytest.mark.parametrize(
+    ("start", "inner", "mirrored"),
+    [("0 mm", "wall", True), ("0 mm", "outflow", False), ("-6 mm", "wall", False), ("2 mm", "wall", False)],
+)
+def test_a_planar_section_is_mirrored_at_a_plane_of_symmetry_alone(tmp_path, start, inner, mirrored):
+    found = check(decks.loads(PLANAR.format(start=start, inner=inner)))
+    axes = figures.draw_sections([[(found.dump, "", None)]], "material").axes[0]
+    low = -12.0 if mirrored else float(start.split()[0])
+    assert axes.get_ylim() == pytest.approx((low, 12.0))
+    *meshes, lines = axes.collections
+    assert len(meshes) == (2 if mirrored else 1)
+    assert len(lines.get_segments()) == (2 if mirrored else 1) * len(found.dump.outlines("bar"))
+    picture = tmp_path / "start.png"
+    (tmp_path / "deck.toml").write_text(PLANAR.format(start=start, inner=inner))
+    assert call(["check", str(tmp_path / "deck.toml"), "--picture", str(picture)]) == 0
+    assert picture.read_bytes()[:4] == b"\x89PNG"
+
+
+def test_both_sides_of_a_planar_mesh_are_seen_and_set_the_range(dump):
+    whole = replace(dump, r_edges=dump.r_edges - 6e-3, mirrored=False)
+    axes = figures.draw_sections([[(whole, "", None)]], "material", window=(0.0, 0.01, 4e-3)).axes[0]
+    assert axes.get_ylim() == pytest.approx((-4.0, 4.0))
+    part = figures.cropped(whole, (0.0, 0.01, 4e-3))
+    np.testing.assert_allclose(part.r_edges[[0, -1]], [-4e-3, 4e-3])
+    assert not part.mirrored
+    with pytest.raises(FigureError, match="no second half"):
+        figures.draw_sections([[(whole, "", None)]], "pressure", mirror="density")
+
+
+def test_a_run_says_whether_it_is_mirrored_and_has_an_axis(finished, tmp_path, capsys):
+    assert Results(finished).dump().mirrored
+    deck = finished / "deck.toml"
+    deck.write_text(deck.read_text() + '[mesh]\ngeometry = "planar"\nr_start = -0.01\n[boundaries]\nr_min = "wall"\n')
+    assert not Results(finished).dump().mirrored
+    assert call(["plot", str(finished), "-o", str(tmp_path / "x.png"), "--mirror", "density"]) == 2
+    assert call(["plot", str(finished), "-o", str(tmp_path / "x.png"), "--kind", "cutaway"]) == 2
+    assert "no axis" in capsys.readouterr().err
+    assert not (tmp_path / "x.png").exists()
 
 
 def test_the_experiment_is_a_line_at_its_depth(dump):

@@ -8,7 +8,7 @@ import pytest
 
 from hydro2d.cli.main import call
 from hydro2d.deck import deck
-from hydro2d.errors import DeckError
+from hydro2d.errors import DeckError, nearest, unknown
 from hydro2d.running import run
 from hydro2d.study import definition
 from tests.unit.test_sanity import TEXT
@@ -139,3 +139,33 @@ def test_an_end_that_misses_whole_cells_by_a_trifle_is_met_and_told():
     assert np.ptp(np.diff(edges)) < 1e-15
     with pytest.raises(DeckError, match="do not divide"):
         deck.loads(TEXT, ['mesh.z=[{to="20.0001 mm", size="0.5 mm"}]'])
+
+
+@pytest.mark.parametrize(
+    ("segment", "told"),
+    [
+        ('{to="2.3 cm", size="0.3 mm"}', "0.3 mm do not divide 2.3 cm; to = 2.28 cm or 2.31 cm would fit, or cells = "
+         "76 (of 0.3026 mm) or 77 (of 0.2987 mm)"),
+        ("{to=0.023, size=3e-4}", "0.0003 m do not divide 0.023 m; to = 0.0228 m or 0.0231 m"),
+        ('{to="1 in", size="2 mm"}', "2 mm do not divide 0.0254 m; to = 0.024 m or 0.026 m"),
+        ('{to="1 mm", size="3 cm"}', "3 cm do not divide 1 mm; to = 30 mm would fit, or cells = 1 (of 0.1 cm)"),
+    ],
+)  # fmt: skip
+def test_a_size_that_does_not_divide_is_told_in_the_units_of_the_deck(segment, told):
+    with pytest.raises(DeckError, match=r"mesh\.z\[0\]") as error:
+        deck.loads(TEXT, [f"mesh.z=[{segment}]"])
+    assert told in str(error.value)
+
+
+@pytest.mark.parametrize(
+    ("name", "allowed", "near"),
+    [
+        ("depth", ("dt", "time", "cycle"), None), ("taylor", ("to", "ratio", "cells"), None), ("length", ("left",), None),
+        ("velocity", ("density",), None), ("sl", ("slip-layer",), None), ("dept", ("depth", "dt"), "depth"),
+        ("rdo", ("rho", "rod"), "rod"), ("Tylor", ("to", "taylor"), "taylor"), ("slip", ("none", "slip-layer"), "slip-layer"),
+        ("steinberg", ("steinberg-guinan", "johnson-cook"), "steinberg-guinan"),
+    ],
+)  # fmt: skip
+def test_only_a_name_that_is_near_is_suggested(name, allowed, near):
+    assert nearest(name, allowed) == near
+    assert ("did you mean" in unknown("key", name, allowed)) == (near is not None)

@@ -1,6 +1,9 @@
 """VTK's own readers give back what the state holds."""
 
 import errno
+import os
+import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -139,6 +142,46 @@ def test_lines_are_read_as_they_were_written(tmp_path):
     (tmp_path / "b.vtp").write_text("not XML")
     with pytest.raises(vtk.VtkError, match="is not a VTK file"):
         vtk.read_lines(tmp_path / "b.vtp")
+
+
+FULL = """
+import resource, signal
+from pathlib import Path
+import numpy as np
+from hydro2d.output import vtk
+
+signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+resource.setrlimit(resource.RLIMIT_FSIZE, ({most}, {most}))
+values, edges = np.random.default_rng(1).random((100, 100)), np.linspace(0, 1, 101)
+for write in (lambda: vtk.write_grid(Path("a.vtr"), edges, edges, [("a", values)], 0.0),
+              lambda: vtk.write_lines(Path("a.vtp"), [(1, values.reshape(-1, 2))], 0.0),
+              lambda: vtk.write_points(Path("a.vtp"), values.reshape(-1, 2), 0.0)):
+    try:
+        write()
+    except OSError as error:
+        print(error)
+"""
+
+
+@pytest.mark.parametrize("most", [0, 10, 1000, 10_000])
+def test_no_room_is_told_in_one_line_and_not_by_vtk(tmp_path, most):
+    """A file may not grow beyond so many bytes, which is what a full disk does to it; what is printed goes through pipes."""
+    command = [sys.executable, "-c", FULL.format(most=most)]
+    done = subprocess.run(command, cwd=tmp_path, text=True, capture_output=True, timeout=120, check=False,
+                          env=os.environ | {"PYTHONDONTWRITEBYTECODE": "1"})  # fmt: skip
+    assert (done.returncode, done.stderr) == (0, "")
+    assert [line.split("'")[1] for line in done.stdout.splitlines()] == ["a.vtr", "a.vtp", "a.vtp"]
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("keep", [100, 1000])
+def test_a_damaged_file_is_told_in_one_line_and_not_by_vtk(tmp_path, moved, capfd, keep):
+    path = vtk.Series(tmp_path).dump(moved)
+    path.write_bytes(path.read_bytes()[:keep])
+    for read in (vtk.read_grid, vtk.pyvista_grid):
+        with pytest.raises(vtk.VtkError):
+            read(path)
+    assert "".join(capfd.readouterr()) == ""
 
 
 def test_a_full_disk_is_told_by_its_name():
