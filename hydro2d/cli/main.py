@@ -42,7 +42,7 @@ app.command(transition)
 
 #: modules, and their exceptions that tell the user what to correct
 USER_ERRORS = (
-    ("errors", "DeckError"), ("files", "LockError"), ("penetration.model", "InputError"),
+    ("errors", "DeckError"), ("files", "LockError"), ("files", "StrangeFile"), ("penetration.model", "InputError"),
     ("output.snapshot", "SnapshotError"), ("output.history", "HistoryError"), ("output.vtk", "VtkError"),
     ("mesh.quantities", "FieldError"), ("running.run", "RunError"), ("results.reading", "ResultsError"),
     ("results.figures", "FigureError"), ("study.definition", "StudyError"),
@@ -322,10 +322,11 @@ def export(
     fields
         Fields to write, as `hydro2d info` names them; default: all fields of the dumps.
     """
+    from hydro2d.files import own
     from hydro2d.results.export import export as write
     from hydro2d.results.reading import Results
 
-    for path in write(Results(run), output or run / "export", fields or ("all",)):
+    for path in write(Results(run), output or own(run / "export"), fields or ("all",)):
         print(f"wrote {path}")
     return 0
 

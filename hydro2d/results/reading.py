@@ -11,9 +11,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from hydro2d.errors import Error
+from hydro2d.files import opened, within
 from hydro2d.output import history, snapshot, vtk
 from hydro2d.results.summaries import plausible
-from hydro2d.running.run import DECK, HISTORY, SUMMARY
+from hydro2d.running.run import DECK, HISTORY, SUMMARY, check_own
 from hydro2d.toml import model_tables
 
 if TYPE_CHECKING:
@@ -46,15 +47,20 @@ class Results:
 
     def __init__(self, directory: Path | str):
         self.directory = Path(directory).absolute()
+        check_own(self.directory)
         try:
-            self.deck = tomllib.loads((self.directory / DECK).read_text(encoding="utf-8"))
+            with opened(self.directory / DECK) as text:
+                self.deck = tomllib.loads(text.read())
         except FileNotFoundError:
             raise ResultsError(_no_run(self.directory)) from None
         except (OSError, ValueError) as error:
             raise ResultsError(f"{self.directory / DECK} cannot be read: {error}") from None
         file = self.directory / SUMMARY
         try:
-            found = json.loads(file.read_text(encoding="utf-8")) if file.exists() else {}
+            with opened(file) as text:
+                found = json.load(text)
+        except FileNotFoundError:
+            found = {}
         except (OSError, ValueError) as error:
             raise ResultsError(f"{file} cannot be read: {error}") from None
         if not isinstance(found, dict):
@@ -131,7 +137,7 @@ class Results:
         series = self.directory / vtk.SERIES["dump"]
         if not series.exists():
             return []
-        return [(time, self.directory / file) for time, file in vtk.read_series(series)]
+        return [(time, within(self.directory, file)) for time, file in vtk.read_series(series)]
 
     def dump_file(self, time: float | None = None) -> Path:
         """The file of the dump nearest to a time in s, or of the last dump without a time. Raises ResultsError."""

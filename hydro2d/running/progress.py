@@ -11,6 +11,7 @@ from datetime import datetime
 from pathlib import Path
 from typing import TypeVar
 
+from hydro2d.files import opened
 from hydro2d.interrupt import lose_output
 
 T = TypeVar("T")
@@ -293,7 +294,7 @@ def _rod(summary: dict) -> list[str]:
 @contextmanager
 def reporter(log: Path, quiet: bool, gone: Callable[[], None] = lambda: None) -> Iterator[Report]:
     """The report for this kind of output; it appends to the log. ``gone`` is called when the reader of the output has gone."""
-    with open(log, "a", encoding="utf-8") as file:
+    with opened(log, "a") as file:
         kind = Live if not quiet and sys.stdout.isatty() else Report
         report = kind(file, quiet, gone)
         try:

@@ -10,6 +10,7 @@ from contextlib import contextmanager, suppress
 from datetime import datetime
 from pathlib import Path
 
+from hydro2d.files import opened
 from hydro2d.running.progress import duration, number
 from hydro2d.study.layout import DONE, LOG, RUNNING, STATUSES, WAITING, Case, Study
 
@@ -184,7 +185,7 @@ class Live(Board):
 @contextmanager
 def board(study: Study, quiet: bool) -> Iterator[Board]:
     """The board for this kind of output; it appends to the log of the study."""
-    file = open(Path(study.directory) / LOG, "a", encoding="utf-8")
+    file = opened(Path(study.directory) / LOG, "a")
     kind = Live if not quiet and sys.stdout.isatty() else Board
     shown = kind(study, file, quiet)
     try:

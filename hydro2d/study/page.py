@@ -10,7 +10,6 @@ from datetime import UTC, datetime
 
 from hydro2d import __version__
 from hydro2d.analytic import model_transition
-from hydro2d.running.run import DECK
 from hydro2d.study import differences, regimes
 from hydro2d.study.contents import Contents
 from hydro2d.study.panels import Chart
@@ -123,6 +122,6 @@ def _origin(each: Record) -> dict:
     return {
         "name": each.case.name,
         "file": re.sub(r"[^\w.-]+", "-", each.case.name) + ".toml",
-        "deck": (each.case.directory / DECK).read_text(encoding="utf-8") if each.deck else "",
+        "deck": each.text,
         "entries": {key: value for key, value in entries.items() if value not in (None, "")},
     }

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from hydro2d.files import write_text
+from hydro2d.files import own, write_text
 from hydro2d.study import layout, panels, pictures, responses, table
 from hydro2d.study.contents import collect
 from hydro2d.study.page import PAGE, TABLE, page
@@ -23,7 +23,7 @@ def report(directories: Sequence[Path], out: Path | None = None, say: Callable[[
     Returns the path of the page. Raises StudyError, FigureError, OSError.
     """
     study = layout.load(directories[0]) if len(directories) == 1 else layout.gather(directories)
-    folder = Path(out or Path(directories[0]) / "report")
+    folder = Path(out or own(Path(directories[0]) / "report"))
     if folder.exists() and not folder.is_dir():
         raise layout.StudyError(f"{folder} is a file; --out must name a folder")
     if movie:
