@@ -12,7 +12,7 @@ import cyclopts
 from cyclopts import App, Parameter, validators
 
 from hydro2d import __version__
-from hydro2d.cli.base import Count, Overrides, UsageError, quantity
+from hydro2d.cli.base import Count, Overrides, UsageError, import_matplotlib, quantity
 from hydro2d.cli.check_model import check_model
 from hydro2d.cli.curve import curve
 from hydro2d.cli.model import model
@@ -149,6 +149,7 @@ def check(
     for line in found.lines(threads or os.cpu_count() or 1):
         print(line)
     if picture is not None:
+        import_matplotlib()
         from hydro2d.results import figures
 
         figures.save(figures.draw_sections([[(found.dump, found.deck.name, None)]], "material"), picture)
@@ -224,6 +225,7 @@ def plot(
     quantity
         Column of the history; can be repeated.
     """
+    import_matplotlib()
     from hydro2d.results import figures
     from hydro2d.results.reading import Results
 
@@ -280,6 +282,7 @@ def movie(
     beside
         Shows several runs side by side.
     """
+    import_matplotlib()
     from hydro2d.results import movies
     from hydro2d.results.reading import Results
 

@@ -7,7 +7,7 @@ from typing import Annotated
 
 from cyclopts import App, Parameter
 
-from hydro2d.cli.base import Overrides, UsageError, quantity
+from hydro2d.cli.base import Overrides, UsageError, import_matplotlib, quantity
 
 #: the most rows that --velocity A:B:N makes
 MOST_ROWS = 100_000
@@ -140,6 +140,7 @@ def _write(case, rows, csv: Path | None, figure: Path | None) -> list[Path]:
 
         model_text.write_csv(case.model, rows, csv)
     if figure is not None:
+        import_matplotlib()
         from hydro2d.analytic import model_figures
         from hydro2d.results import figures
 

@@ -7,6 +7,8 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
+from hydro2d.cli.base import import_matplotlib
+
 
 def report(
     directories: Annotated[list[Path], Parameter(negative="")],
@@ -38,6 +40,7 @@ def report(
     movie
         Field to show in a small film of each run with dumps, as `hydro2d movie` makes; takes seconds to minutes per run.
     """
+    import_matplotlib()
     from hydro2d.study.report import report as write
 
     write(directories, out, x=x, y=y or (), by=by or (), movie=movie)

@@ -16,6 +16,7 @@ from pathlib import Path
 
 import numpy as np
 
+from hydro2d import children
 from hydro2d.errors import Error, unknown
 from hydro2d.files import replacing
 from hydro2d.mesh import quantities
@@ -364,7 +365,7 @@ def cutaway(dump_file: Path, path: Path, field: str = "pressure", window=None, s
     for window in windows:
         environment = os.environ | ({"VTK_DEFAULT_OPENGL_WINDOW": window} if window else {})
         try:
-            done = subprocess.run([sys.executable, "-m", "hydro2d.results.figures"], input=task, text=True, env=environment,
+            done = subprocess.run(children.python("hydro2d.results.figures"), input=task, text=True, env=environment,
                                   capture_output=True, timeout=RENDER_SECONDS, check=False)  # fmt: skip
         except subprocess.TimeoutExpired:
             said = f"no picture after {RENDER_SECONDS} s"
