@@ -12,6 +12,9 @@ from cyclopts import Parameter
 Overrides = Annotated[list[str] | None, Parameter(name="--set", negative="")]
 
 
+Trust = Annotated[bool, Parameter(negative="")]
+
+
 class UsageError(Exception):
     """Wrong arguments, or arguments that exclude each other; the message is for the user."""
 

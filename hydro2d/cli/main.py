@@ -12,7 +12,7 @@ import cyclopts
 from cyclopts import App, Parameter, validators
 
 from hydro2d import __version__
-from hydro2d.cli.base import Count, Overrides, UsageError, import_matplotlib, quantity
+from hydro2d.cli.base import Count, Overrides, Trust, UsageError, import_matplotlib, quantity
 from hydro2d.cli.check_model import check_model
 from hydro2d.cli.curve import curve
 from hydro2d.cli.model import model
@@ -311,6 +311,7 @@ def export(
     *,
     output: Annotated[Path | None, Parameter(name=["--output", "-o"])] = None,
     fields: Annotated[list[str] | None, Parameter(negative="", consume_multiple=True)] = None,
+    trust: Trust = False,
 ) -> int:
     """Writes a VTK series that ParaView opens with one click, and the history as CSV.
 
@@ -324,12 +325,15 @@ def export(
         Directory to write to; default: `export` in the run directory.
     fields
         Fields to write, as `hydro2d info` names them; default: all fields of the dumps.
+    trust
+        Runs the code of models from outside that the deck of the run carries; a run without dumps needs it. Only for a run
+        whose origin you know.
     """
     from hydro2d.files import own
     from hydro2d.results.export import export as write
     from hydro2d.results.reading import Results
 
-    for path in write(Results(run), output or own(run / "export"), fields or ("all",)):
+    for path in write(Results(run, trust=trust), output or own(run / "export"), fields or ("all",)):
         print(f"wrote {path}")
     return 0
 

@@ -15,7 +15,6 @@ from hydro2d.files import opened, within
 from hydro2d.output import history, snapshot, vtk
 from hydro2d.results.summaries import plausible
 from hydro2d.running.run import DECK, HISTORY, SUMMARY, check_own
-from hydro2d.toml import model_tables
 
 if TYPE_CHECKING:
     import pandas
@@ -43,10 +42,12 @@ class Results:
         The resolved deck, SI units.
     summary : dict
         The contents of summary.json; empty until the run has ended.
+    trust : bool
+        Whether the code of models from outside that the deck carries may be run, which only `simulation` and `state` need.
     """
 
-    def __init__(self, directory: Path | str):
-        self.directory = Path(directory).absolute()
+    def __init__(self, directory: Path | str, *, trust: bool = False):
+        self.directory, self.trust = Path(directory).absolute(), trust
         check_own(self.directory)
         try:
             with opened(self.directory / DECK) as text:
@@ -121,14 +122,10 @@ class Results:
 
         See `output/datasets.py`. Raises ResultsError if no dump was written, VtkError if one is damaged.
         """
-        from hydro2d.materials import outside
         from hydro2d.output import datasets
 
         if not self.dumps:
             raise ResultsError(f"{self.directory} has no fields: no dump was written yet")
-        for place, table in model_tables(self.deck):  # a model of the user's may have variables of its own
-            if "code" in table:
-                outside.from_text(table["code"], table["code_from"], place[-1])
         return datasets.of_dumps(self.dumps)
 
     @property
@@ -151,15 +148,17 @@ class Results:
         return vtk.read_grid(self.dump_file(time))
 
     def state(self) -> vtk.Dump:
-        """All fields of the restart file, in full precision. Raises SnapshotError."""
+        """All fields of the restart file, in full precision. Raises SnapshotError, and ModelError without trust in a model."""
         return vtk.Dump.of(self.simulation())
 
     def simulation(self) -> Simulation:
-        """The simulation in the state of the restart file. Raises SnapshotError."""
+        """The simulation in the state of the restart file. Raises SnapshotError, and ModelError without trust in a model."""
         from hydro2d.deck import deck as decks
 
         saved, _ = snapshot.read_latest(self.directory)
-        deck = decks.loads(saved.deck)  # before the kernels are loaded: it may have models from outside
+        deck = decks.loads(saved.deck, trust=self.trust)  # before the kernels are loaded: it may have models from outside
+        for material in deck.materials.values():
+            material.from_outside()  # refuses what is not trusted
         from hydro2d.solver.simulation import Simulation
 
         sim = Simulation(deck)

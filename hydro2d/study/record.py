@@ -92,6 +92,7 @@ class Record:
     shot : input of the analytic models; None if they do not apply to the deck, and ``without_models`` says why
     history : thinned columns, SI;  first, last : first and last row of all columns;  deepest : largest depth, m
     start, rod : outlines of the projectile at the start and at the end
+    unread : which models of the deck were not run, in words
     """
 
     case: Case
@@ -109,6 +110,7 @@ class Record:
     rod: list[np.ndarray] = field(default_factory=list)
     deepest: float = 0.0
     problems: list[str] = field(default_factory=list)
+    unread: list[str] = field(default_factory=list)
 
     @property
     def done(self) -> bool:
@@ -215,33 +217,37 @@ def is_number(value) -> bool:
     return isinstance(value, (int, float)) and not isinstance(value, bool)
 
 
-def read(case: Case) -> Record:
-    """Reads a case; what cannot be read is left out and listed in its problems. Raises StrangeFile."""
+def read(case: Case, trust: bool = False) -> Record:
+    """Reads a case; what cannot be read is left out and listed in its problems. Raises StrangeFile.
+
+    trust : whether the code of models from outside that its deck carries may be run
+    """
     record = Record(case)
     check_own(case.directory)
     if not (case.directory / DECK).is_file():
         return record
-    place = _read_deck(record)
+    place = _read_deck(record, trust)
     _read_history(record)
     if place is not None:
         _read_rod(record, place)
     return record
 
 
-def _read_deck(record: Record) -> Place | None:
+def _read_deck(record: Record, trust: bool) -> Place | None:
     """Fills in deck, velocity, shot and setup. Returns the place of the projectile, or None if there is none."""
     file = record.case.directory / DECK
     try:
         with opened(file) as text:
             record.text = text.read()
         record.deck = keys.renewed(tomllib.loads(record.text))
-        deck = decks.loads(dumps(record.deck), name=record.case.name.replace("/", "_"))
+        deck = decks.loads(dumps(record.deck), name=record.case.name.replace("/", "_"), trust=trust)
     except (OSError, ValueError) as error:
         record.problems.append(f"{file} cannot be read: {error}")
         return None
     except DeckError as error:
         record.problems.append(f"{file.name} is not a deck of this version: {str(error).splitlines()[0]}")
         return None
+    record.unread = [said for material in deck.materials.values() for said in material.unread()]
     if deck.penetration is None:
         return None
     try:

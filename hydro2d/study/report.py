@@ -12,13 +12,15 @@ from hydro2d.study.page import PAGE, TABLE, page
 
 
 def report(directories: Sequence[Path], out: Path | None = None, say: Callable[[str], None] = print, *, x: str | None = None,
-           y: Sequence[str] = (), by: Sequence[str] = (), movie: str | None = None) -> Path:  # fmt: skip
+           y: Sequence[str] = (), by: Sequence[str] = (), movie: str | None = None,
+           trust: bool = False) -> Path:  # fmt: skip
     """Writes the report of a study directory, or of run directories and folders of them.
 
     out : folder to write to; default: `report` in the first directory
     say : receives one line for everything that could not be read, and for every file written
     x, y, by : axes and series of the figures, see responses.choose
     movie : a field; a film of it is made for every run with dumps
+    trust : whether the code of models from outside that the decks of the runs carry may be run
 
     Returns the path of the page. Raises StudyError, FigureError, OSError.
     """
@@ -28,7 +30,7 @@ def report(directories: Sequence[Path], out: Path | None = None, say: Callable[[
         raise layout.StudyError(f"{folder} is a file; --out must name a folder")
     if movie:
         pictures.check_field(movie)
-    contents = collect(study)
+    contents = collect(study, trust)
     choice = responses.choose(study, contents.records, x, y, by)
     missing = [name for name in y if all(responses.raw(each, name) is None for each in contents.records)]
     contents.notes += [f"no run has {name}, so it is not drawn" for name in missing]
