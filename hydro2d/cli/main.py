@@ -19,6 +19,7 @@ from hydro2d.cli.model import model
 from hydro2d.cli.report import report
 from hydro2d.cli.study import sweep, transition
 from hydro2d.interrupt import STATUS, Interrupt, ended_by, lose_output, raise_between_imports, signals
+from hydro2d.terminal import say
 
 WRONG_INPUT, REFUSED = 2, 4
 
@@ -147,13 +148,13 @@ def check(
 
     found = checks.check(_load(deck, set_))
     for line in found.lines(threads or os.cpu_count() or 1):
-        print(line)
+        say(line)
     if picture is not None:
         import_matplotlib()
         from hydro2d.results import figures
 
         figures.save(figures.draw_sections([[(found.dump, found.deck.name, None)]], "material"), picture)
-        print(f"wrote     {picture}")
+        say(f"wrote     {picture}")
     return 0
 
 
@@ -170,7 +171,7 @@ def info(name: str | None = None) -> int:
     """
     from hydro2d.cli import info as pages
 
-    print(pages.page(name) if name else pages.overview())
+    say(pages.page(name) if name else pages.overview())
     return 0
 
 
@@ -240,7 +241,7 @@ def plot(
         figures.save(figures.craters(opened), output)
     else:
         figures.save(figures.sections(opened, field, mirror=mirror, times=times, window=_window(window)), output)
-    print(f"wrote {output}")
+    say(f"wrote {output}")
     return 0
 
 
@@ -289,7 +290,7 @@ def movie(
     opened = [Results(path) for path in runs]
     frames = movies.film(opened, output, field, mirror=mirror, window=_window(window), follow=follow, limits=_range(colours),
                          rate=rate, beside=beside)  # fmt: skip
-    print(f"wrote {output}, {frames} frames")
+    say(f"wrote {output}, {frames} frames")
     return 0
 
 
@@ -334,7 +335,7 @@ def export(
     from hydro2d.results.reading import Results
 
     for path in write(Results(run, trust=trust), output or own(run / "export"), fields or ("all",)):
-        print(f"wrote {path}")
+        say(f"wrote {path}")
     return 0
 
 
@@ -369,7 +370,7 @@ def schema() -> int:
 
     from hydro2d.deck import deck as decks
 
-    print(json.dumps(decks.schema(), indent=2))
+    say(json.dumps(decks.schema(), indent=2))
     return 0
 
 
@@ -415,5 +416,5 @@ def _no_directory(error: OSError) -> str:
 
 
 def _told(error: object, status: int) -> int:
-    print(f"hydro2d: {error}", file=sys.stderr)
+    say(f"hydro2d: {error}", file=sys.stderr)
     return status

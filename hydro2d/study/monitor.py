@@ -13,6 +13,7 @@ from pathlib import Path
 from hydro2d.files import opened
 from hydro2d.running.progress import duration, number
 from hydro2d.study.layout import DONE, LOG, RUNNING, STATUSES, WAITING, Case, Study
+from hydro2d.terminal import one_line, say, shown
 
 #: seconds between lines, and between refreshes of the table
 LINE_SECONDS, TABLE_SECONDS = 5.0, 1.0
@@ -55,12 +56,13 @@ def left(cases: list[Case], workers: int, further: int = 0) -> float | None:
 def grid(rows: list[tuple[str, ...]], heads: tuple[str, ...] = HEADS):
     """A rich table."""
     from rich.table import Table
+    from rich.text import Text
 
     table = Table(box=None, pad_edge=False, header_style="")
     for name in heads:
         table.add_column(name, no_wrap=True)
     for cells in rows:
-        table.add_row(*cells)
+        table.add_row(*(Text(one_line(cell)) for cell in cells))
     return table
 
 
@@ -74,7 +76,7 @@ def lines(rows: list[tuple[str, ...]], heads: tuple[str, ...] = HEADS) -> list[s
 def status(study: Study) -> list[str]:
     """The table of a study directory and its messages."""
     told = [f"{case.name}: {text}" for case in study.cases for text in case.message.splitlines()]
-    heading = f"{study.name}: {study.title}" if study.title else study.name
+    heading = one_line(f"{study.name}: {study.title}" if study.title else study.name)
     return [heading, "", *lines([row(case) for case in study.cases]), "", counts(study.cases), *told]
 
 
@@ -114,13 +116,13 @@ class Board:
 
     def _write(self, text: str) -> None:
         try:
-            self._log.write(f"{datetime.now().isoformat(timespec='seconds')}  {text}\n")
+            self._log.write(f"{datetime.now().isoformat(timespec='seconds')}  {one_line(text)}\n")
             self._log.flush()
         except OSError as error:  # the cases go on; the screen still has it
             self.show(f"warning: {LOG} cannot be written: {error.strerror}")
 
     def show(self, text: str) -> None:
-        print(text, flush=True)
+        say(text, flush=True)
 
     def look(self, name: str) -> Case:
         """Reads a case again."""
@@ -160,7 +162,7 @@ class Live(Board):
         self._live.start()
 
     def show(self, text: str) -> None:
-        self._live.console.print(text, highlight=False, markup=False)
+        self._live.console.print(shown(text), highlight=False, markup=False)
 
     def update(self) -> None:
         now = time.monotonic()

@@ -17,6 +17,7 @@ from hydro2d.study.pictures import Picture
 from hydro2d.study.record import Record
 from hydro2d.study.responses import Choice
 from hydro2d.study.table import columns_of_audit, columns_of_results, to_csv
+from hydro2d.terminal import shown
 
 PAGE, TABLE = "report.html", "cases.csv"
 #: where names may break across lines: after underscores and dots, except in numbers
@@ -31,6 +32,7 @@ def page(contents: Contents, choice: Choice, charts: Sequence[Chart], pictures: 
 
     env = Environment(loader=PackageLoader(__package__), autoescape=True, undefined=StrictUndefined, trim_blocks=True,
                       lstrip_blocks=True)  # fmt: skip
+    env.finalize = lambda value: shown(value) if type(value) is str else value
     env.filters |= {"breakable": breakable, "whole_words": whole_words, "download": download}
     states = Counter(each.case.status for each in contents.records)
     return env.get_template("report.html.j2").render(

@@ -9,9 +9,10 @@ from hydro2d.files import own, write_text
 from hydro2d.study import layout, panels, pictures, responses, table
 from hydro2d.study.contents import collect
 from hydro2d.study.page import PAGE, TABLE, page
+from hydro2d.terminal import say
 
 
-def report(directories: Sequence[Path], out: Path | None = None, say: Callable[[str], None] = print, *, x: str | None = None,
+def report(directories: Sequence[Path], out: Path | None = None, say: Callable[[str], None] = say, *, x: str | None = None,
            y: Sequence[str] = (), by: Sequence[str] = (), movie: str | None = None,
            trust: bool = False) -> Path:  # fmt: skip
     """Writes the report of a study directory, or of run directories and folders of them.
