@@ -18,7 +18,7 @@ from xml.etree import ElementTree
 import numpy as np
 
 from hydro2d.errors import Error, unknown
-from hydro2d.files import own, own_folder, read_text, replacing, write_text
+from hydro2d.files import opened, own, own_folder, replacing, write_text
 from hydro2d.mesh import quantities
 from hydro2d.output import derived, foreign
 from hydro2d.output.outlines import outlines
@@ -169,13 +169,14 @@ def write_series(path: Path, entries: list[tuple[float, str]]) -> None:
 
 def read_series(path: Path) -> list[tuple[float, str]]:
     """Times and file names of a .pvd file, all of them plain names in FOLDER. Raises VtkError, StrangeFile."""
-    text = read_text(own(path), VtkError)
     try:
+        with opened(path) as file:
+            text = file.read()
         foreign.check_xml(text.encode())
         found = [(float(e.get("timestep")), e.get("file")) for e in ElementTree.fromstring(text).iter("DataSet")]
         foreign.check_names((file for _, file in found), FOLDER)
         return found
-    except (ElementTree.ParseError, TypeError, ValueError) as error:
+    except (OSError, ElementTree.ParseError, TypeError, ValueError) as error:
         raise VtkError(f"{path} is not a series of VTK files: {error}") from None
 
 

@@ -342,7 +342,7 @@ def _tell(case: dict, result: dict, say: Callable[[str], None], *, phases: bool)
 
 def main(json: Path | None = None, *, shot: bool = False) -> int:
     """Runs every case on one thread and on all, prints a table, and writes it as JSON if a file is named."""
-    with announced(print):
+    with announced(say):
         result = collect(shot=shot)
     if json is not None:
         Path(json).write_text(json_format.dumps(result, indent=1))
