@@ -169,9 +169,8 @@ def _base(deck: Deck, directory: str | Path | None) -> Path:
         raise StudyError("a study of a Deck needs a directory")
     text = toml.dumps(deck._tables)
     file = Path(directory) / f"base_{deck_hash(text)[:8]}.toml"
-    if not file.exists():
-        file.parent.mkdir(parents=True, exist_ok=True)
-        write_text(file, text)
+    file.parent.mkdir(parents=True, exist_ok=True)
+    write_text(file, text)
     return file
 
 

@@ -125,6 +125,10 @@ def write_text(path: Path, text: str) -> None:
         temporary.write_text(text, encoding="utf-8")
 
 
+#: letters of a lock file that are read
+MOST_SAID = 1000
+
+
 class LockError(Error):
     """A directory in use by another process; the message is for the user."""
 
@@ -148,7 +152,7 @@ def holder(path: Path) -> Holder | None:
     """Who holds a lock; None if it does not exist, or was left behind by a process on this machine."""
     try:
         with opened(path) as file:
-            found = _said(file.read())
+            found = _said(file.read(MOST_SAID))
             left = found is not None and found.is_here and _taken(file)
     except (FileNotFoundError, NotADirectoryError):
         return None
@@ -184,7 +188,7 @@ def locked(path: Path) -> Iterator[None]:
                 time.sleep(0.02)
                 continue
             file.seek(0)
-            by = _said(file.read())
+            by = _said(file.read(MOST_SAID))
             if not free or (by is not None and not by.is_here):
                 who = by or "another process"
                 raise LockError(f"{path.parent} is in use by {who}; if that process no longer exists, remove {path}")

@@ -54,7 +54,7 @@ class Results:
                 self.deck = tomllib.loads(text.read())
         except FileNotFoundError:
             raise ResultsError(_no_run(self.directory)) from None
-        except (OSError, ValueError) as error:
+        except (OSError, ValueError, RecursionError) as error:
             raise ResultsError(f"{self.directory / DECK} cannot be read: {error}") from None
         file = self.directory / SUMMARY
         try:
@@ -62,7 +62,7 @@ class Results:
                 found = json.load(text)
         except FileNotFoundError:
             found = {}
-        except (OSError, ValueError) as error:
+        except (OSError, ValueError, RecursionError) as error:
             raise ResultsError(f"{file} cannot be read: {error}") from None
         if not isinstance(found, dict):
             raise ResultsError(f"{file} cannot be read: it holds no table")

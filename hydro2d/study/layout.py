@@ -249,7 +249,7 @@ def read_json(file: Path) -> dict:
     text = _text(file)
     try:
         found = json.loads(text) if text else {}
-    except ValueError as error:
+    except (ValueError, RecursionError) as error:
         raise StudyError(f"{file} cannot be read: {error}") from None
     if not isinstance(found, dict):
         raise StudyError(f"{file} cannot be read: it holds no table")

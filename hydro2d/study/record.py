@@ -241,7 +241,7 @@ def _read_deck(record: Record, trust: bool) -> Place | None:
             record.text = text.read()
         record.deck = keys.renewed(tomllib.loads(record.text))
         deck = decks.loads(dumps(record.deck), name=record.case.name.replace("/", "_"), trust=trust)
-    except (OSError, ValueError) as error:
+    except (OSError, ValueError, RecursionError) as error:
         record.problems.append(f"{file} cannot be read: {error}")
         return None
     except DeckError as error:

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 from hydro2d.cli.main import call
-from hydro2d.files import LockError, StrangeFile, locked, own, replacing, within
+from hydro2d.files import LockError, StrangeFile, holder, locked, own, replacing, within
 from hydro2d.output import history, snapshot, vtk
 from hydro2d.results.export import export
 from hydro2d.results.reading import Results
@@ -264,3 +264,27 @@ def test_names_with_commas_in_csv(tmp_path):
         head, *rows = csv.reader(file)
     assert head == ["time [s]", 'tracer_a,b "c"_r_m [m]', "tracer_Ω_r_m [m]"]
     assert [[float(word) for word in row] for row in rows] == [[0.0, 2.0, 4.0], [1.0, 3.0, 5.0]]
+
+
+@pytest.mark.parametrize("text", ["[" * 100_000, '{"a": ' * 100_000, '{"time_s": ' + "9" * 4000 + "}", '{"time_s": 1e999}'])
+def test_json_that_is_too_deep_or_too_large(finished, text, tmp_path, capsys):
+    (finished / "summary.json").write_text(text)
+    assert call(["plot", str(finished), "-o", str(tmp_path / "a.png")]) == (2 if "a" in text or text.startswith("[") else 0)
+    assert call(["report", str(finished)]) == 0
+    assert "Traceback" not in capsys.readouterr().err
+
+
+def test_a_deck_in_a_run_that_is_too_deep(finished, capsys):
+    (finished / "deck.toml").write_text("a = " + "[" * 100_000)
+    assert call(["export", str(finished)]) == 2
+    assert call(["report", str(finished)]) == 0
+    assert "deck.toml cannot be read" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(("text", "held"), [("there " + "9" * 10_000, True), ("x" * 10**6, False)])
+def test_a_lock_is_read_to_no_great_length(tmp_path, text, held):
+    lock = tmp_path / "run.lock"
+    lock.write_text(text)
+    assert len(str(holder(lock))) < 1100
+    with pytest.raises(LockError) if held else nullcontext(), locked(lock):
+        pass
