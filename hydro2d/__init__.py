@@ -9,10 +9,23 @@
 
 from __future__ import annotations
 
-import importlib.util
+import os
 import sys
-from pathlib import Path
-from typing import TYPE_CHECKING
+
+
+def _leave_current_directory() -> None:
+    """For `python -m hydro2d`, which looks for modules in the current directory first; a stranger's files may be there."""
+    beside = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+    asked = sys.argv[:1] == ["-m"] and any(word in ("hydro2d", "-mhydro2d") for word in sys.orig_argv)
+    if asked and not sys.flags.safe_path and sys.path[0] != beside:
+        del sys.path[0]
+
+
+_leave_current_directory()
+
+import importlib.util  # noqa: E402
+from pathlib import Path  # noqa: E402
+from typing import TYPE_CHECKING  # noqa: E402
 
 __version__ = "0.2.0"
 

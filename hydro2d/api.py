@@ -61,16 +61,19 @@ def run(deck: Deck | str | Path, directory: str | Path | None = None, *, restart
         raise KeyboardInterrupt(f"{directory}: {summary['stop_reason']}")
     if summary["status"] == "unphysical":
         raise UnphysicalState(f"{directory}: {summary['stop_reason']}")
-    return Results(directory)
+    return Results(directory, trust=True)
 
 
-def open_run(directory: str | Path) -> Results:
+def open_run(directory: str | Path, *, trust: bool = False) -> Results:
     """Opens the directory of a run that has ended or is still running.
 
     The result gives the deck, the summary, the history, the hole, the fields of all dumps and the figures; see `Results`.
+    trust : whether the code of models from outside that the deck of the run carries may be run. Only `Results.simulation` and
+        `Results.state` need it; give it for runs whose origin you know.
+
     Raises ResultsError if the directory holds no run.
     """
-    return Results(directory)
+    return Results(directory, trust=trust)
 
 
 class Study(layout.Study):
@@ -166,9 +169,8 @@ def _base(deck: Deck, directory: str | Path | None) -> Path:
         raise StudyError("a study of a Deck needs a directory")
     text = toml.dumps(deck._tables)
     file = Path(directory) / f"base_{deck_hash(text)[:8]}.toml"
-    if not file.exists():
-        file.parent.mkdir(parents=True, exist_ok=True)
-        write_text(file, text)
+    file.parent.mkdir(parents=True, exist_ok=True)
+    write_text(file, text)
     return file
 
 

@@ -6,11 +6,13 @@ import fcntl
 import json
 import math
 import os
+import secrets
 import socket
+import stat
 import time
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 from typing import NamedTuple, TextIO
 
 from hydro2d.errors import Error
@@ -29,7 +31,7 @@ def sync(path: Path) -> None:
 def replacing(path: Path) -> Iterator[Path]:
     """Gives a temporary name in the same folder, which is renamed to `path` on success and removed on an exception."""
     path = Path(path)
-    temporary = path.with_name(f".{path.name}.{os.getpid()}.tmp")
+    temporary = path.with_name(f".{path.name}.{os.getpid()}.{secrets.token_hex(4)}.tmp")  # no link can wait at a random name
     try:
         yield temporary
         sync(temporary)
@@ -54,10 +56,64 @@ def hdf5(path: Path) -> Iterator:
     path.write_bytes(image)
 
 
+class StrangeFile(Error):
+    """A pipe or a device in the place of a file, or a symbolic link inside a run or a study; the message is for the user."""
+
+
+def own(path: Path, *, links: bool = False) -> Path:
+    """The path, if nothing is there, or a file or a folder that is really there.
+
+    What someone else has put into a run or a study can make a command wait for ever (a pipe), or write and read elsewhere (a
+    symbolic link). `links` allows symbolic links, for files that the user names.
+
+    Raises StrangeFile.
+    """
+    try:
+        mode = os.stat(path, follow_symlinks=links).st_mode
+    except (FileNotFoundError, NotADirectoryError):
+        return path
+    if stat.S_ISLNK(mode):
+        raise StrangeFile(f"{path} is a symbolic link; hydro2d follows none inside a run or a study")
+    if not (stat.S_ISREG(mode) or stat.S_ISDIR(mode)):
+        raise StrangeFile(f"{path} is a pipe, a socket or a device, not a file")
+    return path
+
+
+def within(folder: Path, name: str) -> Path:
+    """What a file of a run or a study names in a folder, by a relative path that leads nowhere else. Raises StrangeFile."""
+    parts = PurePosixPath(name).parts
+    if not parts or parts[0] == "/" or ".." in parts or "\0" in name:
+        raise StrangeFile(f"{name!r} does not name a file in {folder}")
+    for number in range(1, len(parts) + 1):
+        own(folder.joinpath(*parts[:number]))
+    return folder / name
+
+
+def own_folder(path: Path) -> Path:
+    """Makes a folder of a run or a study where there is none. Raises StrangeFile if a symbolic link is there."""
+    own(path).mkdir(parents=True, exist_ok=True)
+    return path
+
+
+def opened(path: Path, mode: str = "r", *, encoding: str = "utf-8", links: bool = False) -> TextIO:
+    """Opens a text file, as `open` does, unless it is a pipe, a device or a symbolic link; `links` as in `own`.
+
+    Raises StrangeFile.
+    """
+
+    def opener(name: str, flags: int) -> int:
+        return os.open(name, flags | os.O_NONBLOCK | (0 if links else os.O_NOFOLLOW), 0o666)
+
+    return open(own(Path(path), links=links), mode, encoding=encoding, opener=opener)
+
+
 def read_text(path: Path, error: type[Error]) -> str:
     """The text of a file that a user wrote. Raises `error` with one line if it cannot be read, or is not UTF-8 text."""
     try:
-        return Path(path).read_text(encoding="utf-8-sig")
+        with opened(path, encoding="utf-8-sig", links=True) as file:
+            return file.read()
+    except StrangeFile as problem:
+        raise error(str(problem)) from None
     except OSError as problem:
         raise error(f"{path}: cannot be read: {problem.strerror}") from None
     except UnicodeDecodeError:
@@ -67,6 +123,10 @@ def read_text(path: Path, error: type[Error]) -> str:
 def write_text(path: Path, text: str) -> None:
     with replacing(path) as temporary:
         temporary.write_text(text, encoding="utf-8")
+
+
+#: letters of a lock file that are read
+MOST_SAID = 1000
 
 
 class LockError(Error):
@@ -91,8 +151,8 @@ class Holder(NamedTuple):
 def holder(path: Path) -> Holder | None:
     """Who holds a lock; None if it does not exist, or was left behind by a process on this machine."""
     try:
-        with open(path, encoding="utf-8") as file:
-            found = _said(file.read())
+        with opened(path) as file:
+            found = _said(file.read(MOST_SAID))
             left = found is not None and found.is_here and _taken(file)
     except (FileNotFoundError, NotADirectoryError):
         return None
@@ -119,7 +179,7 @@ def locked(path: Path) -> Iterator[None]:
     """
     path, tries = Path(path), 5
     while True:
-        with open(path, "a+", encoding="utf-8") as file:
+        with opened(path, "a+") as file:
             free = _taken(file)
             if free and not _is_at(file, path):
                 continue  # its former holder has removed it in the meantime
@@ -128,7 +188,7 @@ def locked(path: Path) -> Iterator[None]:
                 time.sleep(0.02)
                 continue
             file.seek(0)
-            by = _said(file.read())
+            by = _said(file.read(MOST_SAID))
             if not free or (by is not None and not by.is_here):
                 who = by or "another process"
                 raise LockError(f"{path.parent} is in use by {who}; if that process no longer exists, remove {path}")

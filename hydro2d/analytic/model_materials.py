@@ -34,6 +34,8 @@ def quantities(material: library.Material, strain: float = 0.0) -> dict[str, Giv
     """
     if not (math.isfinite(strain) and strain >= 0.0):
         raise InputError(f"strain = {strain:g}: must be non-negative")
+    if told := material.strength.unread("strength"):
+        raise InputError(f"{material.name}: {told}")
     return {**_equation_of_state(material), **_elastic(material), **_strength(material, strain)}
 
 

@@ -16,6 +16,7 @@ from pathlib import Path
 from hydro2d.analytic import model_deck, models
 from hydro2d.analytic.model_materials import Given
 from hydro2d.analytic.model_text import columns, given_data, shown
+from hydro2d.deck import deck as decks
 from hydro2d.materials import library
 from hydro2d.penetration import catalogue
 from hydro2d.penetration.model import InputError, Model
@@ -144,7 +145,8 @@ def of_runs(directories: Sequence[Path], nose: str) -> tuple[Bracket, list[tuple
         run = reading.Results(directory)
         if "regime" not in run.summary:
             raise reading.ResultsError(f"{directory}: the run has not ended and has no regime")
-        shot, regime = model_deck.read(run.directory / reading.DECK), run.summary["regime"]
+        shot = model_deck.shot(decks.load(run.directory / reading.DECK, trust=False))
+        regime = run.summary["regime"]
         counted = shot.nose == nose and regime != LEFT
         if counted:
             (rigid if regime == "rigid" else others).append(shot.velocity)

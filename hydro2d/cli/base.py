@@ -2,11 +2,17 @@
 
 from __future__ import annotations
 
+import os
+from importlib import import_module
+from pathlib import Path
 from typing import Annotated
 
 from cyclopts import Parameter
 
 Overrides = Annotated[list[str] | None, Parameter(name="--set", negative="")]
+
+
+Trust = Annotated[bool, Parameter(negative="")]
 
 
 class UsageError(Exception):
@@ -36,6 +42,17 @@ def quantity(text: str, unit: str, option: str) -> float:
         return units.to_si(float(text) if _is_number(text) else text, unit)
     except ValueError as error:
         raise UsageError(f"{option}: {error}") from None
+
+
+def import_matplotlib() -> None:
+    """Imports matplotlib without the `matplotlibrc` of the current directory, which may name programs to run as ffmpeg."""
+    here = os.open(".", os.O_RDONLY)
+    os.chdir(Path(__file__).parent)
+    try:
+        import_module("matplotlib")
+    finally:
+        os.fchdir(here)
+        os.close(here)
 
 
 def _is_number(text: str) -> bool:

@@ -7,6 +7,8 @@ from typing import Annotated, Literal
 
 from cyclopts import App, Parameter
 
+from hydro2d.terminal import say
+
 WRONG = 2
 
 check_model = App(name="check-model")
@@ -29,7 +31,7 @@ def check(file: Path, *, as_: Annotated[Literal["strength", "eos", "damage"] | N
 
     model = _model(file, as_)
     model.require()
-    print(f"{model.file}: the {model.kind.title} {model.name}\n  {'passed':<9} constants, functions and their docstrings, compilation")
+    say(f"{model.file}: the {model.kind.title} {model.name}\n  {'passed':<9} constants, functions and their docstrings, compilation")
     try:
         case = contract.case_of(model.kind.part, model.module)
     except contract.Broken as error:
@@ -38,12 +40,12 @@ def check(file: Path, *, as_: Annotated[Literal["strength", "eos", "damage"] | N
     for each in contract.CHECKS[model.kind.part]:
         try:
             skipped = each(case)
-            print(f"  {'skipped' if skipped else 'passed':<9} {each.__doc__}{f' ({skipped})' if skipped else ''}")
+            say(f"  {'skipped' if skipped else 'passed':<9} {each.__doc__}{f' ({skipped})' if skipped else ''}")
         except Exception as error:
             failed += 1
             what = str(error) if isinstance(error, contract.Broken) else f"{type(error).__name__}: {error}"
-            print(f"  {'FAILED':<9} {each.__doc__}\n  {'':<9} {' '.join(what.split())}")
-    print(f"{model.name}: {f'{failed} of the checks failed' if failed else 'all checks passed'}")
+            say(f"  {'FAILED':<9} {each.__doc__}\n  {'':<9} {' '.join(what.split())}")
+    say(f"{model.name}: {f'{failed} of the checks failed' if failed else 'all checks passed'}")
     return WRONG if failed else 0
 
 

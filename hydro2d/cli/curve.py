@@ -7,7 +7,8 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
-from hydro2d.cli.base import UsageError, quantity
+from hydro2d.cli.base import UsageError, import_matplotlib, quantity
+from hydro2d.terminal import say
 
 #: default strains of the table, and default rates
 STRAINS, RATES = (0.0, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 1.5), ("1e3 /s", "1e4 /s", "1e5 /s")
@@ -52,14 +53,15 @@ def curve(
     found = [flow_curves.Curve.of(material, each, strains, isothermal) for material in map(model_materials.load, materials)
              for each in rates]
     for line in flow_curves.lines(found):
-        print(line)
+        say(line)
     if csv is not None:
         flow_curves.write_csv(found, csv)
     if figure is not None:
+        import_matplotlib()
         from hydro2d.results import figures
 
         fine = [strains[-1] * n / 100 for n in range(101)] if strains[-1] > 0.0 else strains
         figures.save(flow_curves.draw([each.at(fine) for each in found]), figure)
     for path in filter(None, (csv, figure)):
-        print(f"wrote {path}")
+        say(f"wrote {path}")
     return 0

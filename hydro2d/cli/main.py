@@ -12,13 +12,14 @@ import cyclopts
 from cyclopts import App, Parameter, validators
 
 from hydro2d import __version__
-from hydro2d.cli.base import Count, Overrides, UsageError, quantity
+from hydro2d.cli.base import Count, Overrides, Trust, UsageError, import_matplotlib, quantity
 from hydro2d.cli.check_model import check_model
 from hydro2d.cli.curve import curve
 from hydro2d.cli.model import model
 from hydro2d.cli.report import report
 from hydro2d.cli.study import sweep, transition
 from hydro2d.interrupt import STATUS, Interrupt, ended_by, lose_output, raise_between_imports, signals
+from hydro2d.terminal import say
 
 WRONG_INPUT, REFUSED = 2, 4
 
@@ -42,7 +43,7 @@ app.command(transition)
 
 #: modules, and their exceptions that tell the user what to correct
 USER_ERRORS = (
-    ("errors", "DeckError"), ("files", "LockError"), ("penetration.model", "InputError"),
+    ("errors", "DeckError"), ("files", "LockError"), ("files", "StrangeFile"), ("penetration.model", "InputError"),
     ("output.snapshot", "SnapshotError"), ("output.history", "HistoryError"), ("output.vtk", "VtkError"),
     ("mesh.quantities", "FieldError"), ("running.run", "RunError"), ("results.reading", "ResultsError"),
     ("results.figures", "FigureError"), ("study.definition", "StudyError"),
@@ -150,12 +151,13 @@ def check(
 
     found = checks.check(_load(deck, set_))
     for line in found.lines(threads or os.cpu_count() or 1):
-        print(line)
+        say(line)
     if picture is not None:
+        import_matplotlib()
         from hydro2d.results import figures
 
         figures.save(figures.draw_sections([[(found.dump, found.deck.name, None)]], "material"), picture)
-        print(f"wrote     {picture}")
+        say(f"wrote     {picture}")
     return 0
 
 
@@ -172,7 +174,7 @@ def info(name: str | None = None) -> int:
     """
     from hydro2d.cli import info as pages
 
-    print(pages.page(name) if name else pages.overview())
+    say(pages.page(name) if name else pages.overview())
     return 0
 
 
@@ -230,6 +232,7 @@ def plot(
     quantity
         Column of the history; can be repeated.
     """
+    import_matplotlib()
     from hydro2d.results import figures
     from hydro2d.results.reading import Results
 
@@ -246,7 +249,7 @@ def plot(
         figures.save(figures.craters(opened), output)
     else:
         figures.save(figures.sections(opened, field, mirror=mirror, times=times, window=_window(window)), output)
-    print(f"wrote {output}")
+    say(f"wrote {output}")
     return 0
 
 
@@ -289,13 +292,14 @@ def movie(
     beside
         Shows several runs side by side.
     """
+    import_matplotlib()
     from hydro2d.results import movies
     from hydro2d.results.reading import Results
 
     opened = [Results(path) for path in runs]
     frames = movies.film(opened, output, field, mirror=mirror, window=_window(window), follow=follow, limits=_range(colours),
                          rate=rate, beside=beside)  # fmt: skip
-    print(f"wrote {output}, {frames} frames")
+    say(f"wrote {output}, {frames} frames")
     return 0
 
 
@@ -317,6 +321,7 @@ def export(
     *,
     output: Annotated[Path | None, Parameter(name=["--output", "-o"])] = None,
     fields: Annotated[list[str] | None, Parameter(negative="", consume_multiple=True)] = None,
+    trust: Trust = False,
 ) -> int:
     """Writes a VTK series that ParaView opens with one click, and the history as CSV.
 
@@ -330,12 +335,16 @@ def export(
         Directory to write to; default: `export` in the run directory.
     fields
         Fields to write, as `hydro2d info` names them; default: all fields of the dumps.
+    trust
+        Runs the code of models from outside that the deck of the run carries; a run without dumps needs it. Only for a run
+        whose origin you know.
     """
+    from hydro2d.files import own
     from hydro2d.results.export import export as write
     from hydro2d.results.reading import Results
 
-    for path in write(Results(run), output or run / "export", fields or ("all",)):
-        print(f"wrote {path}")
+    for path in write(Results(run, trust=trust), output or own(run / "export"), fields or ("all",)):
+        say(f"wrote {path}")
     return 0
 
 
@@ -370,7 +379,7 @@ def schema() -> int:
 
     from hydro2d.deck import deck as decks
 
-    print(json.dumps(decks.schema(), indent=2))
+    say(json.dumps(decks.schema(), indent=2))
     return 0
 
 
@@ -416,5 +425,5 @@ def _no_directory(error: OSError) -> str:
 
 
 def _told(error: object, status: int) -> int:
-    print(f"hydro2d: {error}", file=sys.stderr)
+    say(f"hydro2d: {error}", file=sys.stderr)
     return status

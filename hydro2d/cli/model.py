@@ -7,7 +7,8 @@ from typing import Annotated
 
 from cyclopts import App, Parameter
 
-from hydro2d.cli.base import Overrides, UsageError, quantity
+from hydro2d.cli.base import Overrides, UsageError, import_matplotlib, quantity
+from hydro2d.terminal import say
 
 #: the most rows that --velocity A:B:N makes
 MOST_ROWS = 100_000
@@ -67,7 +68,7 @@ def evaluate(
 
     chosen = models.named(name)
     if help_ or (velocity is None and deck is None):
-        print(model_text.page(chosen))
+        say(model_text.page(chosen))
         return 0
     request, at = _request([chosen], rod, target, set_, deck, strain)
     velocities = _velocities(velocity) if velocity is not None else [at]
@@ -78,7 +79,7 @@ def evaluate(
     written = _write(case, rows, csv, figure)
     _show(model_text.data(case, rows) if json else model_text.report(case, rows))
     if written and not json:
-        print("\n" + "\n".join(f"wrote {path}" for path in written))
+        say("\n" + "\n".join(f"wrote {path}" for path in written))
     return 0
 
 
@@ -91,7 +92,7 @@ def _without_name(help_: bool, *options) -> int:
         raise UsageError("model: the name of a model is missing; `hydro2d model` lists them")
     from hydro2d.analytic import model_text
 
-    print(model_text.overview())
+    say(model_text.overview())
     return 0
 
 
@@ -127,7 +128,7 @@ def _show(found) -> None:
     """Text as it is, data as JSON."""
     import json
 
-    print(found if isinstance(found, str) else json.dumps(found, indent=2, allow_nan=False))
+    say(found if isinstance(found, str) else json.dumps(found, indent=2, allow_nan=False))
 
 
 def _write(case, rows, csv: Path | None, figure: Path | None) -> list[Path]:
@@ -140,6 +141,7 @@ def _write(case, rows, csv: Path | None, figure: Path | None) -> list[Path]:
 
         model_text.write_csv(case.model, rows, csv)
     if figure is not None:
+        import_matplotlib()
         from hydro2d.analytic import model_figures
         from hydro2d.results import figures
 

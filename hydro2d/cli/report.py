@@ -7,6 +7,8 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
+from hydro2d.cli.base import Trust, import_matplotlib
+
 
 def report(
     directories: Annotated[list[Path], Parameter(negative="")],
@@ -16,6 +18,7 @@ def report(
     y: Annotated[list[str] | None, Parameter(negative="")] = None,
     by: Annotated[list[str] | None, Parameter(negative="")] = None,
     movie: str | None = None,
+    trust: Trust = False,
 ) -> int:
     """Writes a report of a study or of runs: one HTML page with figures that zoom, a table as CSV and pictures as PNG.
 
@@ -37,8 +40,12 @@ def report(
         What distinguishes the series of runs, named as for --x; can be repeated; default: everything else that is varied.
     movie
         Field to show in a small film of each run with dumps, as `hydro2d movie` makes; takes seconds to minutes per run.
+    trust
+        Runs the code of models from outside that the decks of the runs carry, for the analytic models. Only for runs whose
+        origin you know.
     """
+    import_matplotlib()
     from hydro2d.study.report import report as write
 
-    write(directories, out, x=x, y=y or (), by=by or (), movie=movie)
+    write(directories, out, x=x, y=y or (), by=by or (), movie=movie, trust=trust)
     return 0

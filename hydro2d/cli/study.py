@@ -6,6 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from hydro2d.cli.base import Count, Overrides, UsageError
+from hydro2d.terminal import say
 
 
 def sweep(
@@ -174,7 +175,7 @@ def _status(study: Path, out: Path | None) -> int:
 
         told += ["", *regimes.lines(found, regimes.of_study(found))]
     for line in told:
-        print(line)
+        say(line)
     return 0
 
 

@@ -136,7 +136,7 @@ def find(path: str | Path) -> Path:
     raise DeckError(f"{path}: there is no such file; {unknown('deck', path.name, decks)}")
 
 
-def load(path: str | Path, overrides: Overrides = ()) -> Deck:
+def load(path: str | Path, overrides: Overrides = (), *, trust: bool = True) -> Deck:
     """Reads a deck file.
 
     Parameters
@@ -145,6 +145,8 @@ def load(path: str | Path, overrides: Overrides = ()) -> Deck:
         A file, or the path of a shipped deck below ``problems``.
     overrides : list of str, or dict
         ``key=value`` with dotted keys, applied to the deck in order: ``body.rod.velocity=1200 m/s``; or values by such keys.
+    trust : bool
+        Whether the code of models that the deck carries or names may be run; a deck that is only read needs it in few cases.
 
     Raises
     ------
@@ -156,14 +158,14 @@ def load(path: str | Path, overrides: Overrides = ()) -> Deck:
     data = toml.read(file, sources)
     if toml.is_study(data) and "mesh" not in data:
         raise DeckError(f"{file}: is a study, not a deck; run it with `hydro2d sweep` or `hydro2d transition`")
-    return _resolve(data, file.stem, overrides, sources)
+    return _resolve(data, file.stem, overrides, sources, trust)
 
 
-def loads(text: str, overrides: Overrides = (), name: str = "deck", folder: str | Path = ".") -> Deck:
-    """Reads a deck from a string, whose includes and models are in ``folder``. Raises DeckError as ``load`` does."""
+def loads(text: str, overrides: Overrides = (), name: str = "deck", folder: str | Path = ".", *, trust: bool = True) -> Deck:
+    """Reads a deck from a string, whose includes and models are in ``folder``; ``trust`` and DeckError as of ``load``."""
     sources = Sources()
     data = toml.assemble(text, f"{name}.toml", Path(folder), sources)
-    return _resolve(data, name, overrides, sources)
+    return _resolve(data, name, overrides, sources, trust)
 
 
 def of_tables(tables: Mapping[str, Any], overrides: Overrides = (), name: str = "deck", folder: str | Path = ".") -> Deck:
@@ -171,7 +173,7 @@ def of_tables(tables: Mapping[str, Any], overrides: Overrides = (), name: str = 
     sources = Sources()
     sources.add(name, {}, "")
     data = toml.with_included(plain(tables), Path(folder), sources)
-    return _resolve(data, name, overrides, sources)
+    return _resolve(data, name, overrides, sources, True)
 
 
 def _laid_over(data: dict, overrides: Overrides, sources: Sources) -> dict:
@@ -186,14 +188,14 @@ def _laid_over(data: dict, overrides: Overrides, sources: Sources) -> dict:
     return data
 
 
-def _resolve(data: dict, name: str, overrides: Overrides, sources: Sources) -> Deck:
+def _resolve(data: dict, name: str, overrides: Overrides, sources: Sources, trust: bool) -> Deck:
     data = {"name": name, **_laid_over(data, overrides, sources)}
     problems: list[str] = []
 
     def complaint(path: tuple, message: str) -> DeckError:
         return DeckError(f"{sources.where(path, data)}: {spelled(path)}: {message}")
 
-    data = from_files.read(data, complaint)
+    data = from_files.read(data, complaint, trust)
     try:
         deck = Deck.model_validate(data, context=_RESOLVING)
         deck._tables = data
@@ -202,7 +204,7 @@ def _resolve(data: dict, name: str, overrides: Overrides, sources: Sources) -> D
         problems += [str(complaint(path, message)) for path, message in _unknown_materials(data)]
         raise DeckError("\n".join(dict.fromkeys(problems))) from None
     problems += [str(complaint(path, message)) for path, message in (*inconsistencies(deck), *_unknown_materials(data))]
-    own, wrong = _own_materials(deck, complaint)
+    own, wrong = _own_materials(deck, complaint, trust)
     problems += wrong
     if problems:
         raise DeckError("\n".join(problems))
@@ -215,7 +217,7 @@ def _resolve(data: dict, name: str, overrides: Overrides, sources: Sources) -> D
     return deck
 
 
-def _own_materials(deck: Deck, complaint) -> tuple[dict[str, library.Material], list[str]]:
+def _own_materials(deck: Deck, complaint, trust: bool) -> tuple[dict[str, library.Material], list[str]]:
     """The materials that the deck defines, and their mistakes."""
 
     def fail(path: tuple, message: str) -> DeckError:
@@ -224,7 +226,7 @@ def _own_materials(deck: Deck, complaint) -> tuple[dict[str, library.Material], 
     own, problems = {}, []
     for name in deck.materials:
         try:
-            own[name] = library.from_deck(name, deck.materials, fail)
+            own[name] = library.from_deck(name, deck.materials, fail, trust)
         except DeckError as error:
             problems.append(str(error))
     return own, list(dict.fromkeys(problems))

@@ -8,17 +8,19 @@ from hydro2d.errors import DeckError
 from hydro2d.toml import model_tables
 
 
-def read(data: dict, complaint: Callable[[tuple, str], DeckError]) -> dict:
+def read(data: dict, complaint: Callable[[tuple, str], DeckError], trust: bool = True) -> dict:
     """The deck, in which every ``file`` of a model has become its ``model``, the name, ``code``, the text, and ``code_from``.
 
     A file replaces a model of hydro2d in an included deck. ``data`` is changed. ``complaint(path, message)`` makes the
-    error for a key of the deck; it is raised here.
+    error for a key of the deck; it is raised here. Without ``trust`` no file is read.
     """
     for path, table in model_tables(data):
         if "file" not in table:
             continue
         from hydro2d.materials import outside
 
+        if not trust:
+            raise complaint((*path, "file"), "names a file of code, which only a deck that is run may do")
         if not isinstance(table["file"], str):
             raise complaint((*path, "file"), "must be the name of a Python file")
         try:

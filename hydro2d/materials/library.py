@@ -55,22 +55,38 @@ class Number:
 
 @dataclass(frozen=True)
 class Model:
-    """A model by name, with a number for every parameter; a model from outside also has the name and text of its file."""
+    """A model by name, with a number for every parameter; a model from outside also has the name and text of its file.
+
+    trusted : whether this text, which may be a stranger's, may be run
+    """
 
     name: str
     numbers: Mapping[str, Number] = field(default_factory=dict)
     file: str = ""
     code: str = ""
+    trusted: bool = True
 
     @property
     def values(self) -> dict[str, float]:
         return {name: number.value for name, number in self.numbers.items()}
 
     def outside(self, part: str) -> Outside | None:
-        """The model from outside, as a part of a material; None for a model of hydro2d."""
+        """The model from outside, as a part of a material; None for a model of hydro2d.
+
+        Raises ModelError if it is not trusted.
+        """
         from hydro2d.materials import outside
 
+        if not self.trusted:
+            raise outside.ModelError(f"{self.unread(part)}; --trust, in Python trust=True, runs it")
         return outside.from_text(self.code, self.file, part) if self.code else None
+
+    def unread(self, part: str) -> str:
+        """Says that its code is not run; empty for a trusted model."""
+        from hydro2d.materials import outside
+
+        what = f"the {outside.KINDS[part].title} {self.name} ({self.file})"
+        return "" if self.trusted else f"the code of {what}, which the deck of the run carries, is not run"
 
     def module(self, part: str) -> ModuleType:
         """Its functions and constants."""
@@ -118,8 +134,12 @@ class Material:
             data[part] = getattr(self, part).as_deck()
         return data
 
+    def unread(self) -> list[str]:
+        """Says of each model that is not trusted that its code is not run."""
+        return [said for part in PARTS if (said := getattr(self, part).unread(part))]
+
     def from_outside(self) -> list[Outside]:
-        """Its models from outside."""
+        """Its models from outside. Raises ModelError if one is not trusted."""
         return [found for part in PARTS if (found := getattr(self, part).outside(part))]
 
 
@@ -177,17 +197,18 @@ def load(name: str, variant: str | None = None) -> Material:
 
     if name not in tables:
         raise DeckError(unknown("material", name, tables))
-    return _build(name, _varied(tables[name], variant, fail), fail)
+    return _build(name, _varied(tables[name], variant, fail), fail, True)
 
 
-def from_deck(name: str, tables: Mapping[str, dict], fail: Fail) -> Material:
+def from_deck(name: str, tables: Mapping[str, dict], fail: Fail, trust: bool = True) -> Material:
     """The material ``name`` of a deck: one of its own tables, or one of the library.
 
-    ``fail(path, message)`` makes the error for a key of [materials]; it is raised here.
+    ``fail(path, message)`` makes the error for a key of [materials]; it is raised here. Without ``trust`` no code of the deck
+    is run, unless this process has run it before.
     """
     if name not in tables:
         return load(name)
-    return _build(name, _based(name, tables, fail, ()), lambda path, text: fail((name, *path), text))
+    return _build(name, _based(name, tables, fail, ()), lambda path, text: fail((name, *path), text), trust)
 
 
 def _based(name: str, tables: Mapping[str, dict], fail: Fail, chain: tuple[str, ...]) -> dict:
@@ -241,14 +262,14 @@ def _varied(raw: dict, variant, fail: Fail, own: dict | None = None) -> dict:
     return _overlaid(raw, own) if own and chosen else raw
 
 
-def _build(name: str, raw: dict, fail: Fail) -> Material:
+def _build(name: str, raw: dict, fail: Fail, trust: bool) -> Material:
     for key in raw:
         if key not in _KEYS:
             raise fail((key,), unknown("key", key, _KEYS))
-    eos = _model(raw.get("eos"), "eos", None, {}, fail)
+    eos = _model(raw.get("eos"), "eos", None, {}, fail, trust)
     own = eos.numbers
-    strength = _model(raw.get("strength"), "strength", "hydrodynamic", own, fail)
-    damage = _model(raw.get("damage"), "damage", "none", own, fail)
+    strength = _model(raw.get("strength"), "strength", "hydrodynamic", own, fail, trust)
+    damage = _model(raw.get("damage"), "damage", "none", own, fail, trust)
     fracture = None
     if "fracture_pressure" in raw:
         fracture = _number(raw["fracture_pressure"], "Pa", ("fracture_pressure",), fail)
@@ -284,12 +305,14 @@ def _chosen(raw, part: str, fail: Fail) -> tuple[ModuleType, str, str]:
     return found.module, found.file, found.text
 
 
-def _model(raw, part: str, default: str | None, eos: Mapping, fail: Fail) -> Model:
+def _model(raw, part: str, default: str | None, eos: Mapping, fail: Fail, trust: bool) -> Model:
     """A model with all its parameters: given, taken from the equation of state, or the model's default."""
     if raw is None:
         if default is None:
             raise fail((), f"has no {part}")
         raw = {"model": default}
+    if not trust and _has_strange_code(raw, part):
+        return _unread(raw, part, fail)
     module, file, code = _chosen(raw, part, fail)
     parameters = {parameter.name: parameter for parameter in module.PARAMETERS}
     numbers = {}
@@ -311,6 +334,23 @@ def _model(raw, part: str, default: str | None, eos: Mapping, fail: Fail) -> Mod
             number = Number(float(parameter.default), parameter.unit or "1", f"{module.NAME} model", "default")
         numbers[key] = number
     return Model(module.NAME, numbers, file, code)
+
+
+def _has_strange_code(raw, part: str) -> bool:
+    """Whether a part's table has code that this process has not run before."""
+    from hydro2d.materials import outside
+
+    return isinstance(raw, dict) and "code" in raw and not outside.is_known(str(raw["code"]), part)
+
+
+def _unread(raw: dict, part: str, fail: Fail) -> Model:
+    """A model from outside whose code is not run; its parameters are those that the table gives, in SI."""
+    if not isinstance(raw.get("model"), str):
+        raise fail((part, "model"), "is missing")
+    numbers = {key: _number(number, "1", (part, key), fail) for key, number in raw.items() if key not in _CHOICE}
+    if part == "eos" and "reference_density" not in numbers:
+        raise fail((part,), f"{raw['model']} needs reference_density")
+    return Model(raw["model"], numbers, str(raw.get("code_from", raw["model"])), str(raw["code"]), trusted=False)
 
 
 def _unknown_parameter(model: str, key: str, parameters: Mapping) -> str:

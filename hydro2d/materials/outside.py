@@ -117,6 +117,11 @@ def offered() -> list[tuple[str, str, str]]:
     return [(text, file, part) for (text, part), file in _offered.items()]
 
 
+def is_known(text: str, part: str) -> bool:
+    """Whether this process has run this text as a model, because the user asked for it."""
+    return (text, part) in _offered
+
+
 def take_over(models: Iterable[tuple[str, str, str]]) -> None:
     """Offers the models that another process has ``offered``. A model that comes too late is reported when it is used."""
     for text, file, part in models:

@@ -5,7 +5,7 @@ Names are for ever the same. All are cell values without ghosts, in SI units.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 from hydro2d.errors import Error, unknown
@@ -43,6 +43,20 @@ def _internal(field: Field) -> Quantity:
     """The row of an internal variable of a strength model: back_stress_rr is "Back Stress rr of ..."."""
     words = [word if len(word) < 3 else word.capitalize() for word in field.name.split("_")]
     return Quantity(field.name, f"{' '.join(words)} of {{body}}", unit(field), field.meaning, internal=True)
+
+
+def from_name(name: str, bodies: Iterable[str]) -> Iterator[Quantity]:
+    """The internal variable of a body that has this name in a file, if it is one whose model is not known here.
+
+    The key is the name of the field, as `_internal` has made the title of it, where that has no capital letters.
+    """
+    title, _, unit = name.removesuffix("]").partition(" [")
+    for body in sorted(bodies, key=len, reverse=True):
+        if title.endswith(f" of {body}"):
+            title = title.removesuffix(f" of {body}")
+            key = "_".join(word if len(word) < 3 else word.lower() for word in title.split(" "))
+            yield Quantity(key, f"{title} of {{body}}", unit, "a variable of the strength model", internal=True)
+            return
 
 
 def unit(field: Field) -> str:

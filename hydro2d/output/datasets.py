@@ -60,9 +60,14 @@ def _coordinates(dump: Dump) -> dict:
 
 
 def _quantities(*dumps: Dump) -> list[Quantity]:
-    """The quantities that one of the dumps holds."""
-    return [quantity for quantity in quantities.TABLE
-            if any(name in dump.fields for dump in dumps for name in _names(quantity, dump))]
+    """The quantities that one of the dumps holds, and internal variables of models from outside, which the table lacks."""
+    table = [quantity for quantity in quantities.TABLE
+             if any(name in dump.fields for dump in dumps for name in _names(quantity, dump))]
+    known = {name for dump in dumps for quantity in table for name in _names(quantity, dump)}
+    further = [found for dump in dumps for name in dump.fields if name not in known
+               for found in quantities.from_name(name, dump.bodies)]
+    keys = {quantity.key for quantity in table}
+    return table + list({each.key: each for each in further if each.key not in keys}.values())
 
 
 def of_state(dump: Dump) -> xarray.Dataset:

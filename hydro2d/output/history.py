@@ -7,6 +7,8 @@ whole file is written under a temporary name and renamed each time, so a run tha
 
 from __future__ import annotations
 
+import csv
+import io
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -14,7 +16,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from hydro2d.errors import Error
-from hydro2d.files import hdf5, replacing
+from hydro2d.files import hdf5, own, replacing
+from hydro2d.output import foreign
 
 if TYPE_CHECKING:
     import pandas
@@ -170,7 +173,8 @@ def _opened(path: Path):
     import h5py
 
     try:
-        with h5py.File(path, "r") as file:
+        with h5py.File(own(path), "r") as file:
+            foreign.check_hdf5(file)
             yield file
     except (OSError, KeyError, ValueError, RuntimeError, AttributeError, TypeError) as error:
         raise HistoryError(f"{path} is damaged, or not a history file: {error}") from None
@@ -206,7 +210,8 @@ def read_craters(path: Path) -> dict[str, tuple[np.ndarray, np.ndarray]]:
 
 def write_csv(columns: dict[str, np.ndarray], path: Path) -> None:
     """Writes the columns as CSV with 17 digits; the header names quantity and unit."""
-    header = ",".join(f"{name} [{unit(name)}]" for name in columns)
+    header = io.StringIO()
+    csv.writer(header, lineterminator="").writerow(f"{name} [{unit(name)}]" for name in columns)
     with replacing(path) as temporary:
         table = np.column_stack(list(columns.values()))
-        np.savetxt(temporary, table, fmt="%.17g", delimiter=",", header=header, comments="")
+        np.savetxt(temporary, table, fmt="%.17g", delimiter=",", header=header.getvalue(), comments="", encoding="utf-8")

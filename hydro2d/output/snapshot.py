@@ -17,7 +17,8 @@ from pathlib import Path
 import numpy as np
 
 from hydro2d.errors import Error
-from hydro2d.files import hdf5, replacing, sync
+from hydro2d.files import hdf5, own, replacing, sync
+from hydro2d.output import foreign
 
 FORMAT = "hydro2d restart 3"
 NAME, PREVIOUS = "restart.h5", "restart.previous.h5"
@@ -86,11 +87,12 @@ def read(path: Path) -> Snapshot:
     """Reads and verifies a restart file. Raises SnapshotError with one line for any wrong file."""
     import h5py
 
-    path = Path(path)
+    path = own(Path(path))
     if not path.is_file():
         raise SnapshotError(f"{path}: there is no such restart file")
     try:
         with h5py.File(path, "r") as file:
+            foreign.check_hdf5(file)
             if (found := file.attrs.get("format")) != FORMAT:
                 raise SnapshotError(f'{path}: a restart file of another version ("{found}"; this one reads "{FORMAT}")'
                                     if str(found).startswith(FORMAT[:-1]) else f"{path}: not a restart file of hydro2d")

@@ -18,10 +18,10 @@ from xml.etree import ElementTree
 import numpy as np
 
 from hydro2d.errors import Error, unknown
-from hydro2d.files import replacing, write_text
+from hydro2d.files import opened, own, own_folder, replacing, write_text
 from hydro2d.mesh import quantities
 from hydro2d.mesh.boundary_conditions import halved
-from hydro2d.output import derived
+from hydro2d.output import derived, foreign
 from hydro2d.output.outlines import outlines
 
 FOLDER = "vtk"
@@ -182,9 +182,14 @@ def write_series(path: Path, entries: list[tuple[float, str]]) -> None:
 
 
 def read_series(path: Path) -> list[tuple[float, str]]:
-    """Times and file names of a .pvd file. Raises VtkError."""
+    """Times and file names of a .pvd file, all of them plain names in FOLDER. Raises VtkError, StrangeFile."""
     try:
-        return [(float(e.get("timestep")), e.get("file")) for e in ElementTree.parse(path).getroot().iter("DataSet")]
+        with opened(path) as file:
+            text = file.read()
+        foreign.check_xml(text.encode())
+        found = [(float(e.get("timestep")), e.get("file")) for e in ElementTree.fromstring(text).iter("DataSet")]
+        foreign.check_names((file for _, file in found), FOLDER)
+        return found
     except (OSError, ElementTree.ParseError, TypeError, ValueError) as error:
         raise VtkError(f"{path} is not a series of VTK files: {error}") from None
 
@@ -239,7 +244,7 @@ class Series:
     def dump(self, sim) -> Path:
         """Writes fields, outlines and tracers of a simulation and lists them in the series."""
         number, time = len(self._times), sim.time
-        (self.directory / FOLDER).mkdir(exist_ok=True)
+        own_folder(self.directory / FOLDER)
         path = self._path("dump", number)
         write_grid(path, sim.grid.r_edges, sim.grid.z_edges, derived.evaluated(sim, self.fields), time)
         write_lines(self._path("interfaces", number), _body_lines(sim), time)
@@ -320,6 +325,7 @@ class Dump:
 
 def _read(reader, path: Path):
     """The data that a VTK reader reads from a file. Raises VtkError."""
+    foreign.check_vtk(own(Path(path)), VtkError)
     with _silence():
         if not Path(path).is_file() or not reader.CanReadFile(str(path)):
             raise VtkError(f"{path} is not a VTK file of a run")

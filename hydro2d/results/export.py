@@ -5,6 +5,7 @@ from __future__ import annotations
 import shutil
 from pathlib import Path
 
+from hydro2d.files import own, own_folder, replacing, within
 from hydro2d.mesh import quantities
 from hydro2d.output import history, vtk
 from hydro2d.results.reading import Results, ResultsError
@@ -25,13 +26,14 @@ def export(run: Results, out: Path, keys=("all",)) -> list[Path]:
 
     keys : quantities of quantities.TABLE to export. For a run without dumps, the state of its restart file is written.
 
-    Raises ResultsError, FieldError, SnapshotError.
+    Raises ResultsError, FieldError, SnapshotError, StrangeFile (a symbolic link in one of the two directories).
     """
     quantities.expand(keys)
     out = Path(out)
     if out.resolve() == run.directory.resolve():
         raise ResultsError(f"{out} is the run directory itself; export to another directory")
-    (out / vtk.FOLDER).mkdir(parents=True, exist_ok=True)
+    out.mkdir(parents=True, exist_ok=True)
+    own_folder(out / vtk.FOLDER)
     dumps = [vtk.read_grid(file) for _, file in run.dumps] or [run.state()]
     entries = []
     for number, dump in enumerate(dumps):
@@ -44,10 +46,15 @@ def export(run: Results, out: Path, keys=("all",)) -> list[Path]:
     for kind in ("interfaces", "tracers"):
         if (run.directory / vtk.SERIES[kind]).exists():
             for _, file in vtk.read_series(run.directory / vtk.SERIES[kind]):
-                shutil.copyfile(run.directory / file, out / file)
-            shutil.copyfile(run.directory / vtk.SERIES[kind], out / vtk.SERIES[kind])
+                _copy(within(run.directory, file), out / file)
+            _copy(own(run.directory / vtk.SERIES[kind]), out / vtk.SERIES[kind])
             written.append(out / vtk.SERIES[kind])
     if (run.directory / HISTORY).exists():
         written.append(out / "history.csv")
         history.write_csv(run.history, written[-1])
     return written
+
+
+def _copy(source: Path, path: Path) -> None:
+    with replacing(path) as temporary:
+        shutil.copyfile(source, temporary)

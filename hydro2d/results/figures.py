@@ -17,12 +17,14 @@ from pathlib import Path
 
 import numpy as np
 
+from hydro2d import children
 from hydro2d.errors import Error, unknown
 from hydro2d.files import replacing
 from hydro2d.mesh import quantities
 from hydro2d.output import history
 from hydro2d.output.outlines import outlines
 from hydro2d.output.vtk import Dump
+from hydro2d.terminal import shown
 
 #: the units that readers use: the name of each, and how many of them make one SI unit
 READER = {
@@ -77,7 +79,7 @@ def chosen(dump: Dump, field: str) -> Shown:
     if values.ndim == 3:
         values = values[..., COMPONENTS[part]] if part else np.linalg.norm(values, axis=-1)
     unit, scale = reader_unit(quantity.unit)
-    title = quantity.title.format(body=part) if quantity.per_body else quantity.title + (f" {part}" if part else "")
+    title = quantity.title.format(body=verbatim(part)) if quantity.per_body else quantity.title + (f" {part}" if part else "")
     solid = dump.fields[f"Volume Fraction for {part}"] if quantity.per_body else _filled(dump)
     if key == "volume_fraction":
         solid = np.ones_like(values)
@@ -103,6 +105,11 @@ def balanced(low: float, high: float) -> tuple[float, float]:
     """A colour range, symmetric about zero if it has negative values."""
     largest = max(-low, high)
     return (-largest, largest) if low < 0.0 else (low, high)
+
+
+def verbatim(text: str) -> str:
+    """A name from a file as matplotlib draws it letter by letter: a dollar sign begins no formula."""
+    return shown(text).replace("$", r"\$")
 
 
 def _body_colours(count: int):
@@ -140,7 +147,7 @@ def _draw_outlines(axes, dump: Dump) -> None:
 def _legend(axes, dump: Dump) -> None:
     from matplotlib.patches import Patch
 
-    patches = [Patch(color=BODY_COLOURS[m % len(BODY_COLOURS)], label=body) for m, body in enumerate(dump.bodies)]
+    patches = [Patch(color=BODY_COLOURS[m % len(BODY_COLOURS)], label=verbatim(body)) for m, body in enumerate(dump.bodies)]
     axes.legend(handles=patches, fontsize=7, loc="upper right", framealpha=0.7)
 
 
@@ -179,7 +186,7 @@ def section(axes, dump: Dump, field: str = "pressure", mirror: str | None = None
     axes.tick_params(labelsize=7)
     axes.set_xlabel("z [mm]", fontsize=8)
     axes.set_ylabel("r [mm]", fontsize=8)
-    axes.set_title(f"{title}  t = {dump.time * 1e6:.2f} µs".strip(), fontsize=9)
+    axes.set_title(f"{verbatim(title)}  t = {dump.time * 1e6:.2f} µs".strip(), fontsize=9)
     return drawn
 
 
@@ -291,15 +298,15 @@ def histories(runs: list, quantities=HISTORIES):
         for run in runs:
             if name not in run.history:
                 raise FigureError(f"{run.directory}: {unknown('quantity', name, run.history)}")
-            place.plot(run.history["time"] * 1e6, run.history[name] * scale, label=run.label, linewidth=1.2)
+            place.plot(run.history["time"] * 1e6, run.history[name] * scale, label=verbatim(run.label), linewidth=1.2)
         if name == "penetration_depth_m":
             for depth in dict.fromkeys(run.measured_depth for run in runs):
                 if depth is not None:
                     place.axhline(depth * scale, color="crimson", linestyle="--", linewidth=1.0, label="experiment")
         place.set_xlabel("t [µs]", fontsize=8)
         ending = "_" + history.unit(name).replace("/", "_").replace(" ", "_")
-        words = name.removesuffix(ending).replace("_", " ")
-        place.set_ylabel(words if unit == "1" else f"{words} [{unit}]", fontsize=8)
+        said = verbatim(name.removesuffix(ending).replace("_", " "))
+        place.set_ylabel(said if unit == "1" else f"{said} [{unit}]", fontsize=8)
         place.tick_params(labelsize=7)
         place.grid(alpha=0.3)
     for place in axes.flat[len(quantities) :]:
@@ -316,7 +323,7 @@ def craters(runs: list):
     """
     figure, ((axes,),) = new_figure(9.0, 4.0, 1, 1)
     for run in runs:
-        style = {"label": run.label}
+        style = {"label": verbatim(run.label)}
         for z, radius in run.craters.values():
             if not len(z):
                 continue
@@ -371,7 +378,7 @@ def cutaway(dump_file: Path, path: Path, field: str = "pressure", window=None, s
     for window in windows:
         environment = os.environ | ({"VTK_DEFAULT_OPENGL_WINDOW": window} if window else {})
         try:
-            done = subprocess.run([sys.executable, "-m", "hydro2d.results.figures"], input=task, text=True, env=environment,
+            done = subprocess.run(children.python("hydro2d.results.figures"), input=task, text=True, env=environment,
                                   capture_output=True, timeout=RENDER_SECONDS, check=False)  # fmt: skip
         except subprocess.TimeoutExpired:
             said = f"no picture after {RENDER_SECONDS} s"

@@ -12,11 +12,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from hydro2d.errors import Error
+from hydro2d.files import opened, within
 from hydro2d.mesh.boundary_conditions import halved
 from hydro2d.output import history, snapshot, vtk
 from hydro2d.results.summaries import plausible
-from hydro2d.running.run import DECK, HISTORY, SUMMARY
-from hydro2d.toml import model_tables
+from hydro2d.running.run import DECK, HISTORY, SUMMARY, check_own
 
 if TYPE_CHECKING:
     import pandas
@@ -44,20 +44,27 @@ class Results:
         The resolved deck, SI units.
     summary : dict
         The contents of summary.json; empty until the run has ended.
+    trust : bool
+        Whether the code of models from outside that the deck carries may be run, which only `simulation` and `state` need.
     """
 
-    def __init__(self, directory: Path | str):
-        self.directory = Path(directory).absolute()
+    def __init__(self, directory: Path | str, *, trust: bool = False):
+        self.directory, self.trust = Path(directory).absolute(), trust
+        check_own(self.directory)
         try:
-            self.deck = tomllib.loads((self.directory / DECK).read_text(encoding="utf-8"))
+            with opened(self.directory / DECK) as text:
+                self.deck = tomllib.loads(text.read())
         except FileNotFoundError:
             raise ResultsError(_no_run(self.directory)) from None
-        except (OSError, ValueError) as error:
+        except (OSError, ValueError, RecursionError) as error:
             raise ResultsError(f"{self.directory / DECK} cannot be read: {error}") from None
         file = self.directory / SUMMARY
         try:
-            found = json.loads(file.read_text(encoding="utf-8")) if file.exists() else {}
-        except (OSError, ValueError) as error:
+            with opened(file) as text:
+                found = json.load(text)
+        except FileNotFoundError:
+            found = {}
+        except (OSError, ValueError, RecursionError) as error:
             raise ResultsError(f"{file} cannot be read: {error}") from None
         if not isinstance(found, dict):
             raise ResultsError(f"{file} cannot be read: it holds no table")
@@ -117,14 +124,10 @@ class Results:
 
         See `output/datasets.py`. Raises ResultsError if no dump was written, VtkError if one is damaged.
         """
-        from hydro2d.materials import outside
         from hydro2d.output import datasets
 
         if not self.dumps:
             raise ResultsError(f"{self.directory} has no fields: no dump was written yet")
-        for place, table in model_tables(self.deck):  # a model of the user's may have variables of its own
-            if "code" in table:
-                outside.from_text(table["code"], table["code_from"], place[-1])
         return datasets.of_dumps(self.dumps)
 
     @property
@@ -133,7 +136,7 @@ class Results:
         series = self.directory / vtk.SERIES["dump"]
         if not series.exists():
             return []
-        return [(time, self.directory / file) for time, file in vtk.read_series(series)]
+        return [(time, within(self.directory, file)) for time, file in vtk.read_series(series)]
 
     def dump_file(self, time: float | None = None) -> Path:
         """The file of the dump nearest to a time in s, or of the last dump without a time. Raises ResultsError."""
@@ -147,15 +150,17 @@ class Results:
         return replace(vtk.read_grid(self.dump_file(time)), mirrored=mirrored(self.deck))
 
     def state(self) -> vtk.Dump:
-        """All fields of the restart file, in full precision. Raises SnapshotError."""
+        """All fields of the restart file, in full precision. Raises SnapshotError, and ModelError without trust in a model."""
         return vtk.Dump.of(self.simulation())
 
     def simulation(self) -> Simulation:
-        """The simulation in the state of the restart file. Raises SnapshotError."""
+        """The simulation in the state of the restart file. Raises SnapshotError, and ModelError without trust in a model."""
         from hydro2d.deck import deck as decks
 
         saved, _ = snapshot.read_latest(self.directory)
-        deck = decks.loads(saved.deck)  # before the kernels are loaded: it may have models from outside
+        deck = decks.loads(saved.deck, trust=self.trust)  # before the kernels are loaded: it may have models from outside
+        for material in deck.materials.values():
+            material.from_outside()  # refuses what is not trusted
         from hydro2d.solver.simulation import Simulation
 
         sim = Simulation(deck)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import math
+import sys
 
 #: keys that hold words, lists of words, tables, and yes or no
 WORDS = ("deck", "title", "deck_sha256", "version", "status", "stop_reason", "regime", "qualifier", "source")
@@ -39,7 +39,7 @@ def _fits(key: str, value, table: str) -> bool:
     if key in TABLES or table in OF_TABLES:
         return isinstance(value, dict)
     if table in OF_NUMBERS or key in NUMBERS or key.endswith(UNITS):
-        return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
+        return isinstance(value, (int, float)) and not isinstance(value, bool) and abs(value) <= sys.float_info.max
     if key in WORDS:
         return isinstance(value, str)
     if key == "faults":

@@ -26,6 +26,7 @@ from hydro2d.kernels.triad import triad
 from hydro2d.running import progress, provenance, run
 from hydro2d.running.compilation import announced
 from hydro2d.solver.simulation import Simulation
+from hydro2d.terminal import say
 
 DECK = "problems/cth_nose_shape/hemi_5083_1086_layer.toml"
 TRIAD_SHAPE, TRIAD_REPEATS = (2000, 4000), 7
@@ -300,7 +301,7 @@ def header(about: dict) -> list[str]:
 
 
 def collect(cases: Iterable[Case] = CASES, *, threads: Iterable[int] | None = None, cycles: int | None = None,
-            shot: bool = False, shot_overrides: tuple[str, ...] = (), say: Callable[[str], None] = print) -> dict:  # fmt: skip
+            shot: bool = False, shot_overrides: tuple[str, ...] = (), say: Callable[[str], None] = say) -> dict:  # fmt: skip
     """Measures cases on one thread and on all, and returns what `--json` writes.
 
     cases, threads : the cases, and the numbers of threads for each
@@ -341,9 +342,9 @@ def _tell(case: dict, result: dict, say: Callable[[str], None], *, phases: bool)
 
 def main(json: Path | None = None, *, shot: bool = False) -> int:
     """Runs every case on one thread and on all, prints a table, and writes it as JSON if a file is named."""
-    with announced(print):
+    with announced(say):
         result = collect(shot=shot)
     if json is not None:
         Path(json).write_text(json_format.dumps(result, indent=1))
-        print(f"wrote {json}")
+        say(f"wrote {json}")
     return 0

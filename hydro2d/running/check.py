@@ -15,6 +15,7 @@ from hydro2d.mesh.boundary_conditions import EDGES, halved
 from hydro2d.mesh.grid import Grid
 from hydro2d.output.vtk import Dump
 from hydro2d.solver import insertion, memory
+from hydro2d.terminal import one_line
 
 #: nanoseconds per cell and cycle on one thread, as a first estimate; `hydro2d bench` measures the machine
 NANOSECONDS = 250.0
@@ -43,7 +44,7 @@ class Check:
     def lines(self, threads: int) -> list[str]:
         """The report."""
         grid, deck = self.grid, self.deck
-        found = [f"{deck.name}: {deck.title}" if deck.title else deck.name, ""]
+        found = [f"{deck.name}: {one_line(deck.title)}" if deck.title else deck.name, ""]
         found += [f"mesh      {grid.nr} x {grid.nz} = {grid.cells} cells, {grid.geometry}; "
                   + ("the axis is r = 0" if grid.cylindrical and grid.r_edges[0] == 0 else "no axis")]  # fmt: skip
         found += [f"          {_axis(name, edges)}" for name, edges in (("r", grid.r_edges), ("z", grid.z_edges))]

@@ -5,13 +5,12 @@ from __future__ import annotations
 import hashlib
 import os
 import subprocess
-import sys
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from hydro2d import jit
+from hydro2d import children, jit
 from hydro2d.files import turn
 
 EVENT = "numba:compile"
@@ -71,7 +70,7 @@ class Second:
         cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
         if cores < 2 or self._process:
             return
-        command = [sys.executable, "-m", "hydro2d.running.compile_ahead"]
+        command = children.python("hydro2d.running.compile_ahead")
         self._process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.DEVNULL,
                                          stderr=subprocess.DEVNULL)
         self._process.stdin.write(self._deck.to_toml().encode())

@@ -11,7 +11,9 @@ from datetime import datetime
 from pathlib import Path
 from typing import TypeVar
 
+from hydro2d.files import opened
 from hydro2d.interrupt import lose_output
+from hydro2d.terminal import one_line, say
 
 T = TypeVar("T")
 
@@ -62,7 +64,7 @@ def counted(items: Sequence[T], what: str, quiet: bool = False) -> Iterator[T]:
     for number, item in enumerate(items):
         if not quiet and clock.monotonic() - last >= LINE_SECONDS:
             last = clock.monotonic()
-            print(f"{what}: {number} of {len(items)}", file=sys.stderr, flush=True)
+            say(f"{what}: {number} of {len(items)}", file=sys.stderr, flush=True)
         yield item
 
 
@@ -145,6 +147,7 @@ class Report:
 
     def line(self, text: str) -> None:
         """A line for the log and the screen."""
+        text = one_line(text)
         self._log.write(f"{datetime.now().isoformat(timespec='seconds')}  {text}\n")
         self._log.flush()
         if not self._quiet:
@@ -156,7 +159,7 @@ class Report:
                 self._gone()
 
     def show(self, text: str) -> None:
-        print(text, flush=True)
+        say(text, flush=True)
 
     def begin(self, run) -> None:
         grid, origin = run.sim.grid, run.provenance
@@ -230,10 +233,11 @@ class Live(Report):
         from rich.console import Group
         from rich.progress_bar import ProgressBar
         from rich.table import Table
+        from rich.text import Text
 
         table = Table.grid(padding=(0, 2))
         for name, value in values(run, run.clock).items():
-            table.add_row(name, value)
+            table.add_row(name, Text(one_line(value)))
         done = run.clock.done(run.sim)
         return Group(ProgressBar(total=1.0, completed=done or 0.0, width=60, pulse=done is None), table)
 
@@ -309,14 +313,14 @@ def _rod(summary: dict) -> list[str]:
 @contextmanager
 def reporter(log: Path, quiet: bool, gone: Callable[[], None] = lambda: None) -> Iterator[Report]:
     """The report for this kind of output; it appends to the log. ``gone`` is called when the reader of the output has gone."""
-    with open(log, "a", encoding="utf-8") as file:
+    with opened(log, "a") as file:
         kind = Live if not quiet and sys.stdout.isatty() else Report
         report = kind(file, quiet, gone)
         try:
             yield report
         except Exception as error:
             report.close()
-            file.write(f"stopped by {type(error).__name__}: {error}\n")
+            file.write(one_line(f"stopped by {type(error).__name__}: {error}") + "\n")
             raise
         finally:
             report.close()

@@ -28,7 +28,7 @@ from hydro2d import __version__
 from hydro2d import interrupt as interrupts
 from hydro2d.deck.warnings import warnings
 from hydro2d.errors import Error, UnphysicalState
-from hydro2d.files import locked, write_json, write_text
+from hydro2d.files import locked, own, write_json, write_text
 from hydro2d.interrupt import Interrupt, signals
 from hydro2d.output import snapshot
 from hydro2d.output.history import History, HistoryError
@@ -79,8 +79,15 @@ def check_free(directory: Path, *, restart: bool, overwrite: bool) -> None:
         raise RunError(f"{directory} already holds a run; --restart continues it, --overwrite removes it")
 
 
+def check_own(directory: Path) -> None:
+    """Raises StrangeFile if a file of a run, or its folder of dumps, is a symbolic link, a pipe or a device."""
+    for name in (*OWN_FILES, LOCK, FOLDER):
+        own(directory / name)
+
+
 def clear(directory: Path) -> None:
-    """Removes the files of a run from a directory, and nothing else."""
+    """Removes the files of a run from a directory, and nothing else. Raises StrangeFile."""
+    check_own(directory)
     for name in OWN_FILES:
         (directory / name).unlink(missing_ok=True)
     for file in (directory / FOLDER).glob("*_[0-9]*.vt?"):
@@ -377,7 +384,7 @@ def run(deck, directory: Path | None = None, *, restart=False, overwrite=False, 
     interrupt : may be called from anywhere to stop the run after the cycle, with a restart file
     columns : further columns of the history, functions of the simulation by name
 
-    Raises RunError, SnapshotError, LockError (another process uses the directory).
+    Raises RunError, SnapshotError, LockError (another process uses the directory), StrangeFile.
     """
     from hydro2d.running.compilation import announced
 
@@ -386,6 +393,7 @@ def run(deck, directory: Path | None = None, *, restart=False, overwrite=False, 
     check(columns or {})
     check_free(directory, restart=restart, overwrite=overwrite)
     directory.mkdir(parents=True, exist_ok=True)
+    check_own(directory)
     with locked(directory / LOCK):
         for left in (*directory.glob(".*.tmp"), *(directory / FOLDER).glob(".*.tmp")):  # of a process that was killed
             left.unlink(missing_ok=True)

@@ -13,7 +13,7 @@ from pathlib import Path
 from hydro2d import jit
 from hydro2d.deck import deck as decks
 from hydro2d.errors import DeckError
-from hydro2d.files import LockError, holder
+from hydro2d.files import LockError, StrangeFile, holder, opened
 from hydro2d.interrupt import Interrupt
 from hydro2d.mesh.quantities import FieldError
 from hydro2d.output import snapshot
@@ -23,7 +23,7 @@ from hydro2d.running import compilation, run
 from hydro2d.study.layout import DONE, FAILED, FAILED_STATUS, UNPHYSICAL, read_json
 
 #: exceptions that are reported in one line, without a traceback
-TOLD = (DeckError, FieldError, HistoryError, LockError, VtkError, run.RunError, snapshot.SnapshotError)
+TOLD = (DeckError, FieldError, HistoryError, LockError, StrangeFile, VtkError, run.RunError, snapshot.SnapshotError)
 FULL = "No space left on device"
 #: cycles that call every kernel: more than simulation.WATCH_EVERY
 CYCLES = 11
@@ -125,7 +125,9 @@ def _can_continue(directory: Path, deck_text: str, overwrite: bool) -> bool:
     file = directory / run.DECK
     if not file.is_file():
         return False
-    if file.read_text(encoding="utf-8") != deck_text:
+    with opened(file) as text:
+        same = text.read() == deck_text
+    if not same:
         if not overwrite:
             raise run.RunError(f"{directory} holds a run of another deck; --overwrite removes it")
         return False

@@ -6,6 +6,7 @@ saved pictures keep the stand-ins, which are those of paper.
 
 from __future__ import annotations
 
+import html
 import textwrap
 from collections.abc import Sequence
 
@@ -16,6 +17,7 @@ from hydro2d.study.experiments import AT_LEAST, Measurement
 from hydro2d.study.record import Record, Setup
 from hydro2d.study.responses import DEPTH, RESIDUAL, Response, Variable, readers, title
 from hydro2d.study.series import Series, style
+from hydro2d.terminal import shown
 
 #: stand-ins for text and experiments, for models and axes, for the grid and for the paper
 INK, MUTED, GRID, PAPER = "rgb(1, 2, 3)", "rgb(90, 91, 92)", "rgb(221, 222, 223)", "rgb(254, 254, 254)"
@@ -61,7 +63,7 @@ def _finished(figure, rows: int = 1, labels: int = 0):
             if len(shown) >= MOST_ENTRIES:
                 trace.showlegend = False
                 continue
-            trace.name = "<br>".join(textwrap.wrap(trace.name, LETTERS))
+            trace.name = "<br>".join(map(verbatim, textwrap.wrap(trace.name, LETTERS)))
             shown.append(trace)
     lines = sum(trace.name.count("<br>") + 1 for trace in shown)
     panel, below = rows * PANEL * (0.72 if rows > 1 else 1.0), LINE * lines + BELOW + labels
@@ -72,15 +74,21 @@ def _finished(figure, rows: int = 1, labels: int = 0):
     return figure
 
 
+def verbatim(text: object) -> str:
+    """A name from a file as Plotly shows it letter by letter: none of it is markup."""
+    return html.escape(shown(text), quote=False)
+
+
 def _hover(record: Record, x: Variable, y: Response) -> str:
     """The text that a pointer shows for a run."""
     there, value = x.value(record), y.value(record)
-    told = [f"<b>{record.case.name}</b>", f"{x.title}: {there if isinstance(there, str) else f'{there:.5g}'}",
-            f"{y.title}: {'≥ ' * (y.name == DEPTH and record.at_least)}{value:.5g}"]  # fmt: skip
+    told = [f"<b>{verbatim(record.case.name)}</b>",
+            f"{verbatim(x.title)}: {verbatim(there) if isinstance(there, str) else f'{there:.5g}'}",
+            f"{verbatim(y.title)}: {'≥ ' * (y.name == DEPTH and record.at_least)}{value:.5g}"]  # fmt: skip
     if record.value("regime"):
-        told.append(str(record.value("regime")))
+        told.append(verbatim(record.value("regime")))
     if record.unfinished:
-        told.append(f"unfinished: {record.unfinished}")
+        told.append(f"unfinished: {verbatim(record.unfinished)}")
     return "<br>".join(told)
 
 
@@ -120,8 +128,8 @@ def response(setup: Setup | None, series: Sequence[Series], x: Variable, y: Resp
         _residuals(figure, series, x, y)
     there = {x.value(record) for each in series for record in each.records if y.value(record) is not None}
     labels = _words_below(figure, [word for word in x.order if word in there]) if x.order is not None else 0
-    figure.update_xaxes(title={"text": x.title})
-    figure.update_yaxes(title={"text": y.title})
+    figure.update_xaxes(title={"text": verbatim(x.title)})
+    figure.update_yaxes(title={"text": verbatim(y.title)})
     if y.name in (DEPTH, RESIDUAL):
         figure.update_yaxes(range=[0.0, 1.1 * _highest(figure)])
     return _finished(figure, labels=labels)
@@ -132,7 +140,7 @@ def _words_below(figure, order: Sequence[str]) -> int:
     upright = len(order) > MOST_ACROSS
     wrapped = [textwrap.wrap(word, LETTERS // (2 if upright else len(order) + 1)) or [""] for word in order]
     figure.update_xaxes(type="category", categoryorder="array", categoryarray=order, tickmode="array", tickvals=order,
-                        ticktext=["<br>".join(lines) for lines in wrapped], tickangle=-90 if upright else 0,
+                        ticktext=["<br>".join(map(verbatim, lines)) for lines in wrapped], tickangle=-90 if upright else 0,
                         range=[-0.5, len(order) - 0.5])  # fmt: skip
     longest = max(len(line) for lines in wrapped for line in lines)
     return 8 * longest if upright else LINE * (max(map(len, wrapped)) - 1)
@@ -200,8 +208,8 @@ def _experiments(figure, qualifier: str, y: Response, found: Sequence[tuple[floa
     if not found:
         return
     marker, word = MEASURED[qualifier]
-    told = [f"<b>{word}</b><br>{source}<br>" + (f"{speed:.0f} m/s: " if speed else "") + f"{value * y.factor:.4g} {y.unit}"
-            for _, speed, value, source in found]  # fmt: skip
+    told = [f"<b>{word}</b><br>{verbatim(source)}<br>" + (f"{speed:.0f} m/s: " if speed else "")
+            + f"{value * y.factor:.4g} {y.unit}" for _, speed, value, source in found]  # fmt: skip
     figure.add_scatter(x=[place for place, *_ in found], y=[value * y.factor for _, _, value, _ in found], mode="markers",
                        name=word, text=told, hovertemplate="%{text}<extra></extra>", meta="experiment",
                        marker={"symbol": marker, "size": SIZE + 4, "color": INK})  # fmt: skip
@@ -237,16 +245,17 @@ def histories(series: Sequence[Series]):
                 x=times.astype(np.float32), y=values.astype(np.float32), mode="lines",
                 line={"color": how.colour, "width": 1.4, "dash": how.dash}, name=label, legendgroup=label,
                 showlegend=label not in told, row=row, col=1,
-                hovertemplate=f"<b>{record.case.name}</b><br>%{{x:.5g}} µs: %{{y:.5g}} {readers(name)[0]}<extra></extra>",
+                hovertemplate=f"<b>{verbatim(record.case.name)}</b><br>%{{x:.5g}} µs: %{{y:.5g}} {readers(name)[0]}"
+                              "<extra></extra>",
             )  # fmt: skip
             told.add(label)
     for row, name in enumerate(names, 1):
-        figure.update_yaxes(title={"text": f"{title(name)}<br>[{readers(name)[0] or '1'}]"}, row=row, col=1)
+        figure.update_yaxes(title={"text": f"{verbatim(title(name))}<br>[{readers(name)[0] or '1'}]"}, row=row, col=1)
     figure.update_xaxes(title={"text": "t [µs]"}, row=len(names), col=1)
     return _finished(figure, len(names))
 
 
-def html(figure, name: str) -> str:
+def markup(figure, name: str) -> str:
     """A figure as markup with its own id, for a page that contains the library once."""
     config = {
         "responsive": True, "displaylogo": False, "plotlyServerURL": "",

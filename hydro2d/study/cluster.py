@@ -10,7 +10,7 @@ from typing import Any
 
 from pydantic import Field, ValidationError
 
-from hydro2d import __version__, toml
+from hydro2d import __version__, children, toml
 from hydro2d.deck.base import Section
 from hydro2d.errors import DeckError, Sources
 from hydro2d.study.definition import StudyError, explained
@@ -76,7 +76,7 @@ def needed(workers: int | None, threads: int, cases: int) -> int:
 
 def environment(threads: int) -> dict[str, str]:
     """Variables of a worker process."""
-    found = {"NUMBA_NUM_THREADS": str(threads), "OMP_NUM_THREADS": str(threads)}
+    found = {"NUMBA_NUM_THREADS": str(threads), "OMP_NUM_THREADS": str(threads), children.SAFE: "1"}
     if "HYDRO2D_CACHE_DIR" in os.environ:
         found["HYDRO2D_CACHE_DIR"] = os.environ["HYDRO2D_CACHE_DIR"]
     return found
@@ -93,6 +93,7 @@ def local(workers: int, threads: int) -> Iterator:
     from distributed.security import Security
 
     with (
+        children.safe(),
         distributed.LocalCluster(
             n_workers=workers, threads_per_worker=1, processes=True, memory_limit=0, host=HERE, protocol="tls://",
             security=Security.temporary(), dashboard_address=None, worker_dashboard_address=None,

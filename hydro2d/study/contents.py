@@ -27,10 +27,12 @@ class Contents:
     notes: list[str]
 
 
-def collect(study: Study) -> Contents:
-    """Reads every case and finds its measurement."""
-    records = [record.read(case) for case in study.cases]
+def collect(study: Study, trust: bool = False) -> Contents:
+    """Reads every case and finds its measurement; trust : see record.read."""
+    records = [record.read(case, trust) for case in study.cases]
     notes = [f"{each.case.name}: {problem}" for each in records for problem in each.problems]
+    notes += [f"{said}, so that analytic models may be missing; --trust runs it"
+              for said in dict.fromkeys(said for each in records for said in each.unread)]
     groups: dict[Setup, list[Record]] = {}
     for each in records:
         if each.setup:

@@ -10,6 +10,7 @@ from hydro2d.running import check
 from hydro2d.running.progress import counted, duration
 from hydro2d.study.cases import Plan, Planned
 from hydro2d.study.monitor import lines
+from hydro2d.terminal import one_line, say
 
 HEADS = ("case", "deck", "cells", "cycles", "time")
 
@@ -18,7 +19,7 @@ def show(plan: Plan, workers: int) -> int:
     """Prints the table of the cases and their mistakes. Returns 0, or 2 if a case is invalid."""
     found = _table(plan, plan.cases)
     total = sum(seconds for _, seconds, _ in found)
-    print(f"\n{len(found)} cases, about {duration(total / min(workers, len(found)))} on {workers} workers (a guess)")
+    say(f"\n{len(found)} cases, about {duration(total / min(workers, len(found)))} on {workers} workers (a guess)")
     return _wrong(found)
 
 
@@ -30,17 +31,17 @@ def show_search(plan: Plan, workers: int) -> int:
     most = min(2 + 2 * (count - 2).bit_length(), count)
     seconds = sum(seconds for _, seconds, _ in found) / 2 * most / min(workers, combinations)
     of_axes = f"{combinations} combinations of the axes, " if combinations > 1 else ""
-    print(f"\n{of_axes}{count} velocities {plan.search.tolerance:g} m/s apart by {plan.search.key}")
-    print(f"at most about {most} runs{' each' if of_axes else ''}, {duration(seconds)} on {workers} workers (a guess)")
+    say(f"\n{of_axes}{count} velocities {plan.search.tolerance:g} m/s apart by {plan.search.key}")
+    say(f"at most about {most} runs{' each' if of_axes else ''}, {duration(seconds)} on {workers} workers (a guess)")
     return _wrong(found)
 
 
 def _table(plan: Plan, cases: Sequence[Planned]) -> list[tuple[tuple[str, ...], float, str]]:
     """Prints the title and the table of cases. Returns the result of `_row` for each."""
     found = [_row(case) for case in counted(cases, "cases estimated")]
-    print(f"{plan.name}: {plan.title}\n" if plan.title else f"{plan.name}\n")
-    for line in lines([cells for cells, _, _ in found], HEADS):
-        print(line)
+    say(f"{plan.name}: {one_line(plan.title)}\n" if plan.title else f"{plan.name}\n")
+    for told in lines([cells for cells, _, _ in found], HEADS):
+        say(told)
     return found
 
 
@@ -48,7 +49,7 @@ def _wrong(found: Sequence[tuple[tuple[str, ...], float, str]]) -> int:
     """Prints the mistakes of cases. Returns the exit status."""
     wrong = [(cells[0], message) for cells, _, message in found if message]
     for name, message in wrong:
-        print("\n".join(f"{name}: {text}" for text in message.splitlines()))
+        say("\n".join(f"{name}: {text}" for text in message.splitlines()))
     return 2 if wrong else 0
 
 

@@ -17,11 +17,11 @@ import os
 import tomllib
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 
 from hydro2d import __version__
 from hydro2d.errors import nearest
-from hydro2d.files import holder, write_json, write_text
+from hydro2d.files import holder, opened, own, own_folder, within, write_json, write_text
 from hydro2d.output import snapshot
 from hydro2d.results.reading import STUDY
 from hydro2d.results.summaries import plausible
@@ -117,8 +117,12 @@ class Study:
 
 
 def make(directory: Path) -> None:
-    """Makes the missing folders of a study. Raises OSError."""
-    (Path(directory) / CASES).mkdir(parents=True, exist_ok=True)
+    """Makes the missing folders of a study. Raises OSError, StrangeFile if a file of the study is no file."""
+    directory = Path(directory)
+    directory.mkdir(parents=True, exist_ok=True)
+    own_folder(directory / CASES)
+    for name in (TEXT, STUDY, LOG, LOCK):
+        own(directory / name)
 
 
 def write(plan, directory: Path) -> None:
@@ -173,7 +177,7 @@ def load(directory: Path | str) -> Study:
 def read(directory: Path | str) -> Study:
     """Reads a study directory. Raises StudyError."""
     directory = Path(directory)
-    if not (directory / STUDY).is_file():
+    if not own(directory / STUDY).is_file():
         raise StudyError(f"{directory} is not a study directory: it has no {STUDY}")
     data = read_json(directory / STUDY)
     try:
@@ -212,6 +216,8 @@ def gather(directories: Sequence[Path | str]) -> Study:
 
 def _runs(directory: Path) -> list[Path]:
     """The run directories of a directory: itself, the cases of a study, or the directories in it."""
+    for name in (STUDY, run.DECK):
+        own(directory / name)
     if (directory / STUDY).is_file():
         return [case.directory for case in read(directory).cases]
     if (directory / run.DECK).is_file():
@@ -228,9 +234,10 @@ def _runs(directory: Path) -> list[Path]:
 
 
 def _text(file: Path) -> str:
-    """The text of a file; empty if it does not exist, or if its folder is a file. Raises StudyError."""
+    """The text of a file; empty if it does not exist, or if its folder is a file. Raises StudyError, StrangeFile."""
     try:
-        return file.read_text(encoding="utf-8")
+        with opened(file) as text:
+            return text.read()
     except (FileNotFoundError, NotADirectoryError):
         return ""
     except (OSError, ValueError) as error:
@@ -242,7 +249,7 @@ def read_json(file: Path) -> dict:
     text = _text(file)
     try:
         found = json.loads(text) if text else {}
-    except ValueError as error:
+    except (ValueError, RecursionError) as error:
         raise StudyError(f"{file} cannot be read: {error}") from None
     if not isinstance(found, dict):
         raise StudyError(f"{file} cannot be read: it holds no table")
@@ -250,7 +257,7 @@ def read_json(file: Path) -> dict:
 
 
 def _case(directory: Path, entry: dict) -> Case:
-    place = directory / entry["directory"]
+    place = _place(directory, entry["directory"])
     sha256 = entry.get("deck_sha256")
     common = {
         "name": str(entry["name"]), "directory": place, "base": entry.get("deck", ""),
@@ -260,6 +267,13 @@ def _case(directory: Path, entry: dict) -> Case:
     if entry.get("status0") == INVALID:
         return Case(**common, status=INVALID, message=entry.get("message") or "")
     return Case(**common, **_state(place, sha256))
+
+
+def _place(directory: Path, name: str) -> Path:
+    """The directory of a case, which is one in the folder of cases. Raises StudyError, StrangeFile."""
+    if PurePosixPath(name).parts[:-1] != (CASES,):
+        raise StudyError(f"{directory / STUDY} names {name!r} as the directory of a case; it must be in {CASES}/")
+    return within(directory, name)
 
 
 def _state(place: Path, deck_sha256: str | None) -> dict:

@@ -10,8 +10,10 @@ from contextlib import contextmanager, suppress
 from datetime import datetime
 from pathlib import Path
 
+from hydro2d.files import opened
 from hydro2d.running.progress import duration, number
 from hydro2d.study.layout import DONE, LOG, RUNNING, STATUSES, WAITING, Case, Study
+from hydro2d.terminal import one_line, say, shown
 
 #: seconds between lines, and between refreshes of the table
 LINE_SECONDS, TABLE_SECONDS = 5.0, 1.0
@@ -54,12 +56,13 @@ def left(cases: list[Case], workers: int, further: int = 0) -> float | None:
 def grid(rows: list[tuple[str, ...]], heads: tuple[str, ...] = HEADS):
     """A rich table."""
     from rich.table import Table
+    from rich.text import Text
 
     table = Table(box=None, pad_edge=False, header_style="")
     for name in heads:
         table.add_column(name, no_wrap=True)
     for cells in rows:
-        table.add_row(*cells)
+        table.add_row(*(Text(one_line(cell)) for cell in cells))
     return table
 
 
@@ -73,7 +76,7 @@ def lines(rows: list[tuple[str, ...]], heads: tuple[str, ...] = HEADS) -> list[s
 def status(study: Study) -> list[str]:
     """The table of a study directory and its messages."""
     told = [f"{case.name}: {text}" for case in study.cases for text in case.message.splitlines()]
-    heading = f"{study.name}: {study.title}" if study.title else study.name
+    heading = one_line(f"{study.name}: {study.title}" if study.title else study.name)
     return [heading, "", *lines([row(case) for case in study.cases]), "", counts(study.cases), *told]
 
 
@@ -113,13 +116,13 @@ class Board:
 
     def _write(self, text: str) -> None:
         try:
-            self._log.write(f"{datetime.now().isoformat(timespec='seconds')}  {text}\n")
+            self._log.write(f"{datetime.now().isoformat(timespec='seconds')}  {one_line(text)}\n")
             self._log.flush()
         except OSError as error:  # the cases go on; the screen still has it
             self.show(f"warning: {LOG} cannot be written: {error.strerror}")
 
     def show(self, text: str) -> None:
-        print(text, flush=True)
+        say(text, flush=True)
 
     def look(self, name: str) -> Case:
         """Reads a case again."""
@@ -159,7 +162,7 @@ class Live(Board):
         self._live.start()
 
     def show(self, text: str) -> None:
-        self._live.console.print(text, highlight=False, markup=False)
+        self._live.console.print(shown(text), highlight=False, markup=False)
 
     def update(self) -> None:
         now = time.monotonic()
@@ -184,7 +187,7 @@ class Live(Board):
 @contextmanager
 def board(study: Study, quiet: bool) -> Iterator[Board]:
     """The board for this kind of output; it appends to the log of the study."""
-    file = open(Path(study.directory) / LOG, "a", encoding="utf-8")
+    file = opened(Path(study.directory) / LOG, "a")
     kind = Live if not quiet and sys.stdout.isatty() else Board
     shown = kind(study, file, quiet)
     try:

@@ -10,7 +10,6 @@ from datetime import UTC, datetime
 
 from hydro2d import __version__
 from hydro2d.analytic import model_transition
-from hydro2d.running.run import DECK
 from hydro2d.study import differences, regimes
 from hydro2d.study.contents import Contents
 from hydro2d.study.panels import Chart
@@ -18,6 +17,7 @@ from hydro2d.study.pictures import Picture
 from hydro2d.study.record import Record
 from hydro2d.study.responses import Choice
 from hydro2d.study.table import columns_of_audit, columns_of_results, to_csv
+from hydro2d.terminal import shown
 
 PAGE, TABLE = "report.html", "cases.csv"
 #: where names may break across lines: after underscores and dots, except in numbers
@@ -32,6 +32,7 @@ def page(contents: Contents, choice: Choice, charts: Sequence[Chart], pictures: 
 
     env = Environment(loader=PackageLoader(__package__), autoescape=True, undefined=StrictUndefined, trim_blocks=True,
                       lstrip_blocks=True)  # fmt: skip
+    env.finalize = lambda value: shown(value) if type(value) is str else value
     env.filters |= {"breakable": breakable, "whole_words": whole_words, "download": download}
     states = Counter(each.case.status for each in contents.records)
     return env.get_template("report.html.j2").render(
@@ -123,6 +124,6 @@ def _origin(each: Record) -> dict:
     return {
         "name": each.case.name,
         "file": re.sub(r"[^\w.-]+", "-", each.case.name) + ".toml",
-        "deck": (each.case.directory / DECK).read_text(encoding="utf-8") if each.deck else "",
+        "deck": each.text,
         "entries": {key: value for key, value in entries.items() if value not in (None, "")},
     }

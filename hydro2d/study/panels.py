@@ -141,7 +141,7 @@ def _response(contents: Contents, choice: Choice, y: Response, panel: Panel, nam
     if y.name == RESIDUAL and (found := {each.velocity: each.measured_residual for each in members
                                          if each.velocity is not None and each.measured_residual is not None}):  # fmt: skip
         alt += f" Experiments: {'; '.join(f'{speed:.0f} m/s {left:.0f} m/s' for speed, left in sorted(found.items()))}."
-    return Chart(name, charts.html(figure, name), f"{head}: {panel.heading}", caption, alt, tuple(notes))
+    return Chart(name, charts.markup(figure, name), f"{head}: {panel.heading}", caption, alt, tuple(notes))
 
 
 def _value(each: Record, y: Response) -> str:
@@ -191,4 +191,4 @@ def _histories(contents: Contents, choice: Choice, panel: Panel, name: str) -> C
     runs = f"{len(drawn)} runs, {panel.words}"
     caption = f"Histories of {columns}: {runs}; {told}, at most {record.POINTS} points of each history."
     alt = f"{columns} against time, {runs}. The runs end between {min(ends):.0f} and {max(ends):.0f} µs."
-    return Chart(name, charts.html(figure, name), f"Histories: {panel.heading}", caption, alt)
+    return Chart(name, charts.markup(figure, name), f"Histories: {panel.heading}", caption, alt)

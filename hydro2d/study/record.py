@@ -14,8 +14,9 @@ from hydro2d.analytic import model_deck
 from hydro2d.deck import deck as decks
 from hydro2d.deck import keys
 from hydro2d.errors import DeckError
+from hydro2d.files import opened, within
 from hydro2d.output import history, vtk
-from hydro2d.running.run import DECK, HISTORY
+from hydro2d.running.run import DECK, HISTORY, check_own
 from hydro2d.solver import penetrator, targets
 from hydro2d.study.differences import flatten
 from hydro2d.study.layout import DONE, Case
@@ -85,14 +86,17 @@ class Place(NamedTuple):
 class Record:
     """One case as read; ``problems`` lists what could not be. Outlines are radius and depth below the surface, (n, 2) in m.
 
-    deck : the resolved deck, SI;  setup, velocity : setup and impact velocity in m/s; None without a projectile and a target
+    text, deck : the resolved deck as its file has it, and as tables, SI
+    setup, velocity : setup and impact velocity in m/s; None without a projectile and a target
     target_density : initial density of a single target, kg/m^3
     shot : input of the analytic models; None if they do not apply to the deck, and ``without_models`` says why
     history : thinned columns, SI;  first, last : first and last row of all columns;  deepest : largest depth, m
     start, rod : outlines of the projectile at the start and at the end
+    unread : which models of the deck were not run, in words
     """
 
     case: Case
+    text: str = ""
     deck: dict = field(default_factory=dict)
     velocity: float | None = None
     shot: model_deck.Shot | None = None
@@ -106,6 +110,7 @@ class Record:
     rod: list[np.ndarray] = field(default_factory=list)
     deepest: float = 0.0
     problems: list[str] = field(default_factory=list)
+    unread: list[str] = field(default_factory=list)
 
     @property
     def done(self) -> bool:
@@ -212,31 +217,37 @@ def is_number(value) -> bool:
     return isinstance(value, (int, float)) and not isinstance(value, bool)
 
 
-def read(case: Case) -> Record:
-    """Reads a case; what cannot be read is left out and listed in its problems."""
+def read(case: Case, trust: bool = False) -> Record:
+    """Reads a case; what cannot be read is left out and listed in its problems. Raises StrangeFile.
+
+    trust : whether the code of models from outside that its deck carries may be run
+    """
     record = Record(case)
+    check_own(case.directory)
     if not (case.directory / DECK).is_file():
         return record
-    place = _read_deck(record)
+    place = _read_deck(record, trust)
     _read_history(record)
     if place is not None:
         _read_rod(record, place)
     return record
 
 
-def _read_deck(record: Record) -> Place | None:
+def _read_deck(record: Record, trust: bool) -> Place | None:
     """Fills in deck, velocity, shot and setup. Returns the place of the projectile, or None if there is none."""
     file = record.case.directory / DECK
     try:
-        text = file.read_text(encoding="utf-8")
-        record.deck = keys.renewed(tomllib.loads(text))
-        deck = decks.loads(dumps(record.deck), name=record.case.name.replace("/", "_"))
-    except (OSError, ValueError) as error:
+        with opened(file) as text:
+            record.text = text.read()
+        record.deck = keys.renewed(tomllib.loads(record.text))
+        deck = decks.loads(dumps(record.deck), name=record.case.name.replace("/", "_"), trust=trust)
+    except (OSError, ValueError, RecursionError) as error:
         record.problems.append(f"{file} cannot be read: {error}")
         return None
     except DeckError as error:
         record.problems.append(f"{file.name} is not a deck of this version: {str(error).splitlines()[0]}")
         return None
+    record.unread = [said for material in deck.materials.values() for said in material.unread()]
     if deck.penetration is None:
         return None
     try:
@@ -312,7 +323,7 @@ def _read_rod(record: Record, place: Place) -> None:
             record.problems.append(f"there is no {series.name}, so the shape of the rod is not shown")
         return
     try:
-        files = [directory / file for _, file in vtk.read_series(series)]
+        files = [within(directory, file) for _, file in vtk.read_series(series)]
         if files:
             record.start, record.rod = (place.outlines(file) for file in (files[0], files[-1]))
     except vtk.VtkError as error:

@@ -5,30 +5,33 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from hydro2d.files import write_text
+from hydro2d.files import own, write_text
 from hydro2d.study import layout, panels, pictures, responses, table
 from hydro2d.study.contents import collect
 from hydro2d.study.page import PAGE, TABLE, page
+from hydro2d.terminal import say
 
 
-def report(directories: Sequence[Path], out: Path | None = None, say: Callable[[str], None] = print, *, x: str | None = None,
-           y: Sequence[str] = (), by: Sequence[str] = (), movie: str | None = None) -> Path:  # fmt: skip
+def report(directories: Sequence[Path], out: Path | None = None, say: Callable[[str], None] = say, *, x: str | None = None,
+           y: Sequence[str] = (), by: Sequence[str] = (), movie: str | None = None,
+           trust: bool = False) -> Path:  # fmt: skip
     """Writes the report of a study directory, or of run directories and folders of them.
 
     out : folder to write to; default: `report` in the first directory
     say : receives one line for everything that could not be read, and for every file written
     x, y, by : axes and series of the figures, see responses.choose
     movie : a field; a film of it is made for every run with dumps
+    trust : whether the code of models from outside that the decks of the runs carry may be run
 
     Returns the path of the page. Raises StudyError, FigureError, OSError.
     """
     study = layout.load(directories[0]) if len(directories) == 1 else layout.gather(directories)
-    folder = Path(out or Path(directories[0]) / "report")
+    folder = Path(out or own(Path(directories[0]) / "report"))
     if folder.exists() and not folder.is_dir():
         raise layout.StudyError(f"{folder} is a file; --out must name a folder")
     if movie:
         pictures.check_field(movie)
-    contents = collect(study)
+    contents = collect(study, trust)
     choice = responses.choose(study, contents.records, x, y, by)
     missing = [name for name in y if all(responses.raw(each, name) is None for each in contents.records)]
     contents.notes += [f"no run has {name}, so it is not drawn" for name in missing]

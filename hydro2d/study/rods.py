@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from hydro2d.results import reading
-from hydro2d.results.figures import new_figure
+from hydro2d.results.figures import new_figure, verbatim
 from hydro2d.study.experiments import Measurement
 from hydro2d.study.record import Record
 
@@ -100,7 +100,7 @@ def _radius(record: Record) -> float:
 def _label(record: Record) -> str:
     """The axes' values or the name, the depth, and whether the run is unfinished."""
     words = list(record.case.values.values()) or [record.case.name]
-    lines = [line for word in words for line in textwrap.wrap(word.replace("_", " "), LETTERS)]
+    lines = [line for word in words for line in textwrap.wrap(verbatim(word.replace("_", " ")), LETTERS)]
     if len(lines) > LINES:
         lines = [*lines[: LINES - 1], "…"]
     if record.perforated:

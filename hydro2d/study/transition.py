@@ -12,6 +12,7 @@ from hydro2d.study.bisection import Search
 from hydro2d.study.cases import Plan, Planned
 from hydro2d.study.choice import Choice
 from hydro2d.study.layout import DONE, ENDED, INTERRUPTED, UNPHYSICAL, Case
+from hydro2d.terminal import say
 
 
 class Bisection(Choice):
@@ -135,6 +136,6 @@ def find(plan: Plan, directory: Path, connect: AbstractContextManager, *, thread
     study = layout.read(directory)
     found = regimes.of_study(study, [choice.record(case) for case in study.cases])
     if not quiet:
-        print("\n".join(("", *regimes.lines(study, found))))
+        say("\n".join(("", *regimes.lines(study, found))))
     regimes.write(study, found)
     return status

@@ -1,0 +1,79 @@
+"""What files of a run must not do when they come from someone else: lead to other files, or claim more than they hold."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterable
+from pathlib import Path
+
+from hydro2d.errors import Error
+
+#: largest ratio of a value to its compressed size: that of gzip is 1032, that of LZ4 255
+RATIO = 1100
+#: bytes that any file may claim
+FREE = 1 << 16
+#: bytes of a VTK file in which its description must end
+HEAD = 1 << 20
+_NAME = re.compile(r"[^/\\\0]+\.vt[rp]")
+_COUNTS = re.compile(rb"(?:NumberOf(?:Points|Lines|Verts|Strips|Polys|Tuples|Components))=\"([^\"]*)\"")
+_EXTENT = re.compile(rb"(?:WholeExtent|Extent)=\"([^\"]*)\"")
+
+
+def check_names(files: Iterable[str | None], folder: str) -> None:
+    """Raises ValueError if a series names a file that is not a VTK file in a folder beside it."""
+    for file in files:
+        place, slash, name = (file or "").partition("/")
+        if place != folder or not slash or not _NAME.fullmatch(name) or name.startswith("."):
+            raise ValueError(f"it names the file {file!r}; a series may name VTK files in {folder}/ alone")
+
+
+def check_xml(text: bytes) -> None:
+    """Raises ValueError for XML with declarations, which can name other files and grow without bound."""
+    if b"<!" in text.replace(b"<!--", b"") or b"\0" in text:
+        raise ValueError("it has declarations, which no file of hydro2d has")
+
+
+def check_vtk(path: Path, error: type[Error]) -> None:
+    """Raises `error` if a VTK file declares entities, or describes more values than its size can hold."""
+    with open(path, "rb") as file:
+        head, found, _ = file.read(HEAD).partition(b"<AppendedData")
+    try:
+        if not found:
+            raise ValueError("its values are not appended to its description")
+        check_xml(head)
+        extents = [[int(word) for word in text.split()] for text in _EXTENT.findall(head)]
+        sizes = [math.prod(high - low + 1 for low, high in zip(each[::2], each[1::2], strict=True)) for each in extents]
+        largest = max([*sizes, *(int(text) for text in _COUNTS.findall(head))], default=0)
+        if 4 * largest > FREE + RATIO * path.stat().st_size:
+            raise ValueError(f"it describes {largest} values, more than its size can hold")
+    except ValueError as problem:
+        raise error(f"{path} is damaged, or not a file of a run: {problem}") from None
+
+
+def check_hdf5(file) -> None:
+    """Raises ValueError if an h5py.File leads to other files, has groups in groups, or claims more than its size can hold."""
+    import h5py
+
+    for group in (file, *(file[name] for name in file if _is_hard(file, name) and isinstance(file[name], h5py.Group))):
+        for name in group:
+            if not _is_hard(group, name):
+                raise ValueError(f"{name!r} is a link")
+            entry = group[name]
+            if isinstance(entry, h5py.Group) and group is not file:
+                raise ValueError(f"{name!r} is a group in a group")
+            if isinstance(entry, h5py.Dataset):
+                _check_dataset(entry)
+
+
+def _is_hard(group, name: str) -> bool:
+    import h5py
+
+    return isinstance(group.get(name, getlink=True), h5py.HardLink)
+
+
+def _check_dataset(dataset) -> None:
+    if dataset.external or dataset.is_virtual:
+        raise ValueError(f"the values of {dataset.name!r} are in another file")
+    if dataset.nbytes > FREE + RATIO * dataset.id.get_storage_size():
+        raise ValueError(f"{dataset.name!r} claims {dataset.nbytes} bytes, more than the file can hold")

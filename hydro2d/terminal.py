@@ -1,0 +1,33 @@
+"""Text on its way to a terminal, a log or a figure: characters that could steer a terminal are spelled out.
+
+Titles, names and messages can come from someone else's files. Everything that hydro2d prints passes through `say`, and
+everything that it logs through `one_line`.
+"""
+
+from __future__ import annotations
+
+import sys
+import unicodedata
+from typing import TextIO
+
+#: categories of characters that are not shown but change what is: control, direction of writing, halves of characters, lines
+_STEERING = frozenset(("Cc", "Cf", "Cs", "Zl", "Zp"))
+
+
+def shown(text: object) -> str:
+    """A text in which only line feeds and tabs are not to be seen; other such characters are spelled out, as in \\x1b."""
+    text = str(text)
+    if text.isprintable():
+        return text
+    return "".join(each if each in "\n\t" or unicodedata.category(each) not in _STEERING
+                   else each.encode("unicode_escape").decode() for each in text)  # fmt: skip
+
+
+def one_line(text: object) -> str:
+    """The same on one line."""
+    return shown(text).replace("\n", "\\n")
+
+
+def say(text: object, file: TextIO | None = None, flush: bool = False) -> None:
+    """Prints a text; file : default: the standard output."""
+    print(shown(text), file=file or sys.stdout, flush=flush)
