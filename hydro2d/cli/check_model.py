@@ -31,7 +31,8 @@ def check(file: Path, *, as_: Annotated[Literal["strength", "eos", "damage"] | N
 
     model = _model(file, as_)
     model.require()
-    say(f"{model.file}: the {model.kind.title} {model.name}\n  {'passed':<9} constants, functions and their docstrings, compilation")
+    say(f"{model.file}: the {model.kind.title} {model.name}")
+    say(f"  {'passed':<9} constants, functions and their docstrings, compilation")
     try:
         case = contract.case_of(model.kind.part, model.module)
     except contract.Broken as error:

@@ -312,8 +312,8 @@ def work_beside_gas(j, i, volume, opened, rest, inverse, work, rise, target, rel
     by mass (explanation/mixed-cells, equation 6).
 
     opened and rest are the changes of volume of void and of the bodies, work that of pressure, viscosity and hourglass filter
-    on the cell, rise what its pressure rises by to the middle of the step, and relaxed the share of its pressure by which a body
-    relaxes towards the target.
+    on the cell, rise what its pressure rises by to the middle of the step, and relaxed the share of its excess of pressure over
+    the target that a body loses.
 
     Reads    mix [j, SOFT, m]
     Updates  mix [j, HEAT, m], which then has all of the work on a body
@@ -359,9 +359,9 @@ def fill_cell(j, i, change, volume, total, inverse, mean_p, work_p, work_q, rise
         bound = void_left / (growth * volume)
     gas = is_beside_gas(j, i, materials, vof)
     if gas:
+        work = work_p + work_q + filter_work(j, i, motion, cell_mass)
         relaxed = bound * relaxation if tipton else 0.0
-        work_beside_gas(j, i, volume, taken, rest, inverse, work_p + work_q + filter_work(j, i, motion, cell_mass), rise, target,
-                        relaxed, void_stays, pm, km, vof, q, mix)
+        work_beside_gas(j, i, volume, taken, rest, inverse, work, rise, target, relaxed, void_stays, pm, km, vof, q, mix)
     after = volume + change
     for m in range(bodies):
         f = vof[m, j, i]

@@ -325,10 +325,10 @@ class Dump:
 
 def _read(reader, path: Path):
     """The data that a VTK reader reads from a file. Raises VtkError."""
-    foreign.check_vtk(own(Path(path)), VtkError)
     with _silence():
-        if not Path(path).is_file() or not reader.CanReadFile(str(path)):
+        if not own(Path(path)).is_file() or not reader.CanReadFile(str(path)):
             raise VtkError(f"{path} is not a VTK file of a run")
+        foreign.check_vtk(Path(path), VtkError)
         reader.SetFileName(str(path))
         reader.Update()
     if reader.GetErrorCode():

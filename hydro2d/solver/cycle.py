@@ -61,7 +61,8 @@ class Cycle:
         g = grid.g
         self.mesh_box = np.array([g, g + grid.nz, g, g + grid.nr], dtype=np.int64)
         at = np.array([g, g + grid.nr, g, g + grid.nz], dtype=np.int64)
-        self.constrained, self.transmitting = (np.where(method.boundaries.having(flag), at, -1) for flag in ("holds", "transmits"))
+        self.constrained = np.where(method.boundaries.having("holds"), at, -1)
+        self.transmitting = np.where(method.boundaries.having("transmits"), at, -1)
         self.void_only = self._edges_with_void_beyond()
         self.carried = np.array([self._carried(m) for m in range(state.bodies)])
         self.contact = Contact(state, method, self.mesh_box, self.constrained) if state.groups > 1 else None

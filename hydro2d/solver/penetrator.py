@@ -61,8 +61,8 @@ PASSAGE = {
 
 
 class Exit(NamedTuple):
-    """A rod as its core, or the first of its pieces, reached an open edge of the mesh: velocity in m/s and mass in kg of the core
-    or the pieces, depth in m, and the mass of the rod that had flowed out of the mesh before, kg."""
+    """A rod as its core, or the first of its pieces, reached an open edge of the mesh: velocity in m/s and mass in kg of the
+    core or the pieces, depth in m, and the mass of the rod that had flowed out of the mesh before, kg."""
 
     velocity: float
     mass: float
@@ -183,7 +183,7 @@ class Penetrator:
         return float(max(found, 0.0))
 
     def _masses(self) -> tuple[np.ndarray, np.ndarray]:
-        """Depth below the original surface of every row of cells, m, and the mass of the rod in it, kg; the deepest row first."""
+        """Depth of every row of cells below the original surface, m, and mass of the rod in it, kg; the deepest row first."""
         depth = self.direction * (self.sim.grid.zc[self.sim.grid.inside[0]] - self.surface)
         mass = self.sim.body_sums(self.m)[0] * self._around
         return (depth[::-1], mass[::-1]) if self.direction > 0 else (depth, mass)

@@ -74,7 +74,7 @@ def of(deck, table, state, start) -> Reach:
 
 
 def _highest(deck, pressures: list[float]) -> float:
-    """Highest pressure of a shot, Pa, from those at which each body stops: where two meet, the lower of the two is not exceeded.
+    """Highest pressure of a shot, Pa, from those at which each body stops: two that meet do not exceed the lower of theirs.
 
     A body that meets a wall, or itself in a flow, reaches its own.
     """
@@ -94,8 +94,8 @@ def _hottest(deck, table) -> list[Material]:
 
 
 def closing_speed(deck, state) -> float:
-    """Largest difference of two velocities that a deck gives, of bodies, edges and what is at rest, m/s; with a flow, whose parts
-    may meet, at least twice the largest velocity."""
+    """Largest difference of two velocities that a deck gives, of bodies, edges and what is at rest, m/s; with a flow, whose
+    parts may meet, at least twice the largest velocity."""
     given = [(0.0, 0.0), *(body.velocity for body in deck.body)]
     for edge in EDGES:
         velocity = getattr(deck.boundaries, f"{edge}_velocity") or 0.0
@@ -133,7 +133,7 @@ def stagnation(material: Material, speed: float) -> tuple[float, float, float]:
 
 
 def compressed(material: Material, rho: float, e: float, pressure: float) -> float:
-    """Energy after an isentropic compression to a pressure: de = p/rho d(ln rho), J/kg; e where the pressure is reached already."""
+    """Energy after an isentropic compression to a pressure, de = p/rho d(ln rho), J/kg; e where that is reached already."""
     p = material.evaluate(rho, e)[0]
     for _ in range(round(FARTHEST / STEP)):
         if not p < pressure:

@@ -82,8 +82,8 @@ def _beyond_reach(state, m: int, name: str, now: Totals, came: float, reach: Rea
 
 
 def _why(reach: Reach, m: int) -> str:
-    return (f"it can reach {reach.lowest[m]:.3g} to {reach.highest[m]:.3g} J/kg, stopped from {reach.speed:.4g} m/s and compressed "
-            f"to {reach.pressure:.3g} Pa{GAS_REMEDY if reach.gas[m] else ''}")
+    return (f"it can reach {reach.lowest[m]:.3g} to {reach.highest[m]:.3g} J/kg, stopped from {reach.speed:.4g} m/s and "
+            f"compressed to {reach.pressure:.3g} Pa{GAS_REMEDY if reach.gas[m] else ''}")
 
 
 def _least_energy(state, m: int) -> str:

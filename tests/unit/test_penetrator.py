@@ -149,8 +149,9 @@ def ball(*options):
     return Simulation(deck.loads(text.replace("1500 m/s", "5 km/s"), options))
 
 
-@pytest.mark.parametrize(("options", "reason"), [([], "perforation of plate"), (["stop.perforation=false"], "ball left the mesh")],
-                         ids=["perforation", "speed"])
+@pytest.mark.parametrize(
+    ("options", "reason"), [([], "perforation of plate"), (["stop.perforation=false"], "ball left the mesh")],
+    ids=["perforation", "speed"])
 def test_a_ball_that_breaks_up_has_perforated_and_left(options, reason):
     """It goes through in pieces and flies out of the mesh: nothing that is left of it has a speed to end the run by."""
     sim = ball(*options)
