@@ -10,8 +10,8 @@ import sys
 import unicodedata
 from typing import TextIO
 
-#: categories of characters that are not shown but change what is: control, direction of writing, halves of characters, lines
-_STEERING = frozenset(("Cc", "Cf", "Cs", "Zl", "Zp"))
+#: categories of characters that are not shown but change what is: control, direction of writing, lines
+_STEERING = frozenset(("Cc", "Cf", "Zl", "Zp"))
 
 
 def shown(text: object) -> str:
@@ -19,8 +19,14 @@ def shown(text: object) -> str:
     text = str(text)
     if text.isprintable():
         return text
-    return "".join(each if each in "\n\t" or unicodedata.category(each) not in _STEERING
-                   else each.encode("unicode_escape").decode() for each in text)  # fmt: skip
+    return "".join(map(_shown, text))
+
+
+def _shown(character: str) -> str:
+    kind = unicodedata.category(character)
+    if kind == "Cs":  # a byte of a name that is no text
+        return "?"
+    return character if character in "\n\t" or kind not in _STEERING else character.encode("unicode_escape").decode()
 
 
 def one_line(text: object) -> str:

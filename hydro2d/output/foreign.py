@@ -17,6 +17,7 @@ FREE = 1 << 16
 HEAD = 1 << 20
 _NAME = re.compile(r"[^/\\\0]+\.vt[rp]")
 _COUNTS = re.compile(rb"(?:NumberOf(?:Points|Lines|Verts|Strips|Polys|Tuples|Components))=\"([^\"]*)\"")
+_OFFSET = re.compile(rb"offset=\"(\d+)\"")
 _EXTENT = re.compile(rb"(?:WholeExtent|Extent)=\"([^\"]*)\"")
 
 
@@ -45,10 +46,41 @@ def check_vtk(path: Path, error: type[Error]) -> None:
         extents = [[int(word) for word in text.split()] for text in _EXTENT.findall(head)]
         sizes = [math.prod(high - low + 1 for low, high in zip(each[::2], each[1::2], strict=True)) for each in extents]
         largest = max([*sizes, *(int(text) for text in _COUNTS.findall(head))], default=0)
+        _check_blocks(path, head)
         if 4 * largest > FREE + RATIO * path.stat().st_size:
             raise ValueError(f"it describes {largest} values, more than its size can hold")
     except ValueError as problem:
         raise error(f"{path} is damaged, or not a file of a run: {problem}") from None
+
+
+def _check_blocks(path: Path, head: bytes) -> None:
+    """Raises ValueError if a block of values is not where and as large as VTK expects, which it does not check itself.
+
+    Each array begins with the number of its blocks, their size, the size of the last one if it is smaller, and what each takes
+    up in the file.
+    """
+    if b'compressor="vtkLZ4DataCompressor"' not in head:
+        raise ValueError("it is not compressed with LZ4")
+    word = 8 if b'header_type="UInt64"' in head else 4
+    whole = path.stat().st_size
+    with open(path, "rb") as file:
+        start = file.read(HEAD + FREE).index(b"_", len(head)) + 1
+        for offset in sorted({int(text) for text in _OFFSET.findall(head)}):
+            file.seek(start + offset)
+            count, size, last = _numbers(file.read(3 * word), 3, word)
+            if count == 0 and b"RectilinearGrid" not in head:
+                continue
+            if not 0 < count <= whole // word or not 0 < size or last > size or count * size > FREE + RATIO * whole:
+                raise ValueError(f"it has {count} blocks of {size} bytes, which it cannot hold")
+            packed = sum(_numbers(file.read(count * word), count, word))
+            if start + offset + (3 + count) * word + packed > whole:
+                raise ValueError("its blocks end beyond its end")
+
+
+def _numbers(data: bytes, count: int, word: int) -> list[int]:
+    if len(data) < count * word:
+        raise ValueError("its blocks begin beyond its end")
+    return [int.from_bytes(data[at : at + word], "little") for at in range(0, count * word, word)]
 
 
 def check_hdf5(file) -> None:

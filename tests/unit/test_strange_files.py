@@ -288,3 +288,14 @@ def test_a_lock_is_read_to_no_great_length(tmp_path, text, held):
     assert len(str(holder(lock))) < 1100
     with pytest.raises(LockError) if held else nullcontext(), locked(lock):
         pass
+
+
+@pytest.mark.parametrize(("place", "number"), [(0, 0), (0, 2**32 - 1), (0, 2**31 - 1), (1, 0), (1, 2**32 - 1), (3, 2**31 - 1)])
+def test_a_dump_whose_blocks_would_end_the_process(finished, place, number):
+    dump = finished / "vtk" / "dump_000000.vtr"
+    data = bytearray(dump.read_bytes())
+    at = data.index(b"_", data.index(b"<AppendedData")) + 1 + 4 * place
+    data[at : at + 4] = number.to_bytes(4, "little")
+    dump.write_bytes(bytes(data))
+    with pytest.raises(vtk.VtkError, match="blocks"):
+        vtk.read_grid(dump)

@@ -25,7 +25,7 @@ def test_what_steers_a_terminal_is_spelled():
     assert one_line(NASTY) == SPELLED + r"\nd"
     for text in ("µ × 10⁻³ Größe 鋼", "two\nlines\tand a tab", ""):
         assert shown(text) == text
-    assert shown("\ud800\u2028\u200f") == r"\ud800\u2028\u200f"
+    assert shown("\udcff\u2028\u200f") == r"?\u2028\u200f"
     file = io.StringIO()
     say(NASTY, file=file)
     assert file.getvalue() == SPELLED + "\nd\n"
