@@ -11,6 +11,8 @@ from eos.dispatch import evaluate, sound_speed_squared
 
 #: steps in log density of a release, and the expansion at which it ends; largest compression of a step of a squeeze
 STEPS, THIN, SQUEEZE = 400, 1e3, 1.02
+#: density at which a cold gas, which has no pressure, is no longer squeezed, kg/m^3
+DENSEST = 1e9
 #: the compression 1 - rho0/rho1 that no shock exceeds, and what is left of the energy's factor where it is at its limit
 MOST_ETA, LIMIT = 0.999, 1e-6
 
@@ -59,9 +61,9 @@ class Material:
         return rho / (1.0 - low), self._behind(rho, e, low)[0]
 
     def squeezed(self, rho: float, e: float, pressure: float) -> tuple[float, float]:
-        """(rho, e) on the isentrope through (rho, e) where it reaches this pressure, if that is higher."""
+        """(rho, e) on the isentrope through (rho, e) where it reaches this pressure, if that is higher; or DENSEST."""
         step = math.log(SQUEEZE)
-        while self.pressure(rho, e) < pressure:
+        while self.pressure(rho, e) < pressure and rho < DENSEST:
             half, middle = e + self.pressure(rho, e) / rho * 0.5 * step, rho * math.exp(0.5 * step)
             e += self.pressure(middle, half) / middle * step
             rho *= SQUEEZE
