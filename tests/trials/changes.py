@@ -37,7 +37,8 @@ def _some(tables: dict, chance) -> dict:
 
 
 def _names(tables: dict) -> list[str]:
-    return [body["name"] for body in tables["body"] if "join" not in body]
+    """The bodies that others may join; all, where every one of them joins a body that is gone."""
+    return [body["name"] for body in tables["body"] if "join" not in body] or [body["name"] for body in tables["body"]]
 
 
 def _extent(tables: dict) -> tuple[float, float, float]:
