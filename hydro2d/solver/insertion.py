@@ -220,6 +220,18 @@ def _energy_for(body, table, m: int, rho: float, which: int, target: float) -> f
     return low
 
 
+def _refuse_unstable(body, table, m: int) -> None:
+    """Raises DeckError where the square of the speed of sound is negative at the start: such material is torn at once."""
+    from eos.dispatch import evaluate, sound_speed_squared
+
+    rho, e = body_state(body, table, m)
+    p, dpdrho, dpde, _ = evaluate(table.eos_model[m], rho, e, table.eos_par[m])
+    square = sound_speed_squared(rho, p, dpdrho, dpde, -math.inf)
+    if square < 0.0:
+        raise DeckError(f'body "{body.name}": cannot begin with a density of {rho:g} kg/m^3 and an energy of {e:g} J/kg; at '
+                        f"{p:.3g} Pa, its pressure there, {table.materials[m].name} has no speed of sound")
+
+
 def initial_state(deck, grid, table, group=None) -> dict[str, np.ndarray]:
     """The state at time zero, in interior cells.
 
@@ -233,6 +245,8 @@ def initial_state(deck, grid, table, group=None) -> dict[str, np.ndarray]:
     dict with float64 arrays
         ``vof``, ``rho`` (kg/m^3), ``e`` (J/kg), shape (m, nz, nr); density and energy also where a body is not.
         ``u_cell``, ``v_cell`` (m/s), shape (b, nz, nr): momentum over mass of the group, 0 where nothing of it is.
+
+    Raises DeckError where a body has no speed of sound.
     """
     shares, slots = _body_fractions(deck, grid), slot_of(deck, table)
     shape = (len(table), grid.nz, grid.nr)
@@ -243,6 +257,7 @@ def initial_state(deck, grid, table, group=None) -> dict[str, np.ndarray]:
     g = grid.g
     r, z = grid.rc[g : g + grid.nr][None, :], grid.zc[g : g + grid.nz][:, None]
     for body, m, share in reversed(list(zip(deck.body, slots, shares, strict=True))):
+        _refuse_unstable(body, table, m)
         density, heat = body_state(body, table, m)
         lone = vof[m] == 0
         both = ~lone & (share > 0)

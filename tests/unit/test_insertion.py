@@ -12,7 +12,9 @@ from eos.dispatch import evaluate
 from hydro2d.deck import deck, shapes
 from hydro2d.materials import library
 from hydro2d.mesh.grid import Grid
+from hydro2d.running.check import check
 from hydro2d.solver import insertion
+from hydro2d.solver.simulation import Simulation
 
 R_EDGES = np.concatenate([np.linspace(0, 0.012, 37), 0.012 + np.cumsum(0.0004 * 1.1 ** np.arange(12))])
 Z_EDGES = np.linspace(-0.021, 0.0307, 97)
@@ -297,21 +299,21 @@ def test_a_temperature_without_an_energy_is_an_error():
     text = deck_text_of("verification/noh_spherical.toml").replace("energy = 0.0", "pressure = -1.0")
     d = deck.loads(text)
     table = library.resolve(d)
-    assert insertion.body_state(d.body[0], table, 0)[1] < 0  # a gas under tension: the solver will refuse it
+    assert insertion.body_state(d.body[0], table, 0)[1] < 0  # a gas under tension
     cold = SimpleNamespace(name="x", density=1e-3, energy=None, pressure=None, temperature=-5.0)
     with pytest.raises(deck.DeckError, match='body "x": no energy gives a temperature of -5'):
         insertion.body_state(cold, table, 0)
 
 
 def test_joined_bodies_are_one():
-    text = TEXT.replace('material = "Al5083"\nshape', 'material = "W_alloy"\njoin = "rod"\ndensity = 9080\nshape')
+    text = TEXT.replace('material = "Al5083"\nshape', 'material = "W_alloy"\njoin = "rod"\ndensity = 17500\nshape')
     d, grid, table, state = start(text, ['body.rod.tip="0.25 mm"'])
     assert table.names == ("rod",)
     vof = insertion.fractions([shapes.outline(body, 0.0) for body in d.body], *deck.edges(d), True)
     assert np.array_equal(state["vof"][0], np.minimum(vof.sum(axis=0), 1.0))
     both = (vof[0] > 0) & (vof[1] > 0)
     assert both.any()
-    expected = (18160 * vof[0] + 9080 * vof[1])[both] / vof.sum(axis=0)[both]
+    expected = (18160 * vof[0] + 17500 * vof[1])[both] / vof.sum(axis=0)[both]
     assert state["rho"][0][both] == pytest.approx(expected, rel=1e-12)
 
 
@@ -329,3 +331,15 @@ def test_flows(flow, r, z, expected):
     fields = {"centre": 0.0, "radius": 1.0, "exponent": 0.0, **flow}
     body = SimpleNamespace(velocity=(0.0, 0.0), flow=SimpleNamespace(**fields))
     assert np.allclose(insertion.body_velocity(body, r, z), expected, rtol=1e-14, atol=0)
+
+
+@pytest.mark.parametrize(("name", "old", "new", "said"), [
+    ("verification/noh_spherical.toml", "energy = 0.0", "pressure = -1.0", 'body "gas": cannot begin with a density of 1 kg/m'),
+    ("validation/copper_bar.toml", 'name = "bar"', 'name = "bar"\ndensity = 950', 'body "bar": cannot begin with a den'),
+])  # fmt: skip
+def test_a_start_without_a_speed_of_sound_is_an_error(name, old, new, said):
+    d = deck.loads(deck_text_of(name).replace(old, new), name="torn")
+    with pytest.raises(deck.DeckError, match=said):
+        check(d)
+    with pytest.raises(deck.DeckError, match=said):
+        Simulation(d)
