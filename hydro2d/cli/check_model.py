@@ -29,7 +29,8 @@ def check(file: Path, *, as_: Annotated[Literal["strength", "eos", "damage"] | N
 
     model = _model(file, as_)
     model.require()
-    print(f"{model.file}: the {model.kind.title} {model.name}\n  {'passed':<9} constants, functions and their docstrings, compilation")
+    print(f"{model.file}: the {model.kind.title} {model.name}")
+    print(f"  {'passed':<9} constants, functions and their docstrings, compilation")
     try:
         case = contract.case_of(model.kind.part, model.module)
     except contract.Broken as error:

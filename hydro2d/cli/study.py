@@ -5,13 +5,13 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
-from hydro2d.cli.base import Count, Overrides, UsageError
+from hydro2d.cli.base import Count, Out, Overrides, UsageError
 
 
 def sweep(
     study: Path,
     *,
-    out: Path | None = None,
+    out: Out | None = None,
     set_: Overrides = None,
     workers: Count | None = None,
     threads: Count = 1,
@@ -80,7 +80,7 @@ def sweep(
 def transition(
     study: Path,
     *,
-    out: Path | None = None,
+    out: Out | None = None,
     set_: Overrides = None,
     workers: Count | None = None,
     threads: Count = 1,
