@@ -11,8 +11,10 @@ from cyclopts import Parameter
 
 Overrides = Annotated[list[str] | None, Parameter(name="--set", negative="")]
 
-
 Trust = Annotated[bool, Parameter(negative="")]
+
+#: the one name of what a command makes: a file or a folder
+Out = Annotated[Path, Parameter(name=["--out", "-o"])]
 
 
 class UsageError(Exception):
@@ -32,6 +34,13 @@ def _count(_type, tokens) -> int:
 
 
 Count = Annotated[int, Parameter(converter=_count)]
+
+
+def refuse_old_names(arguments: list[str]) -> None:
+    """Raises UsageError for the name that --out had in some commands."""
+    for word in arguments[: arguments.index("--")] if "--" in arguments else arguments:
+        if word.split("=")[0] == "--output":
+            raise UsageError("--output is called --out in every command, or -o in short")
 
 
 def quantity(text: str, unit: str, option: str) -> float:

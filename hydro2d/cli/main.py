@@ -12,7 +12,7 @@ import cyclopts
 from cyclopts import App, Parameter, validators
 
 from hydro2d import __version__
-from hydro2d.cli.base import Count, Overrides, Trust, UsageError, import_matplotlib, quantity
+from hydro2d.cli.base import Count, Out, Overrides, Trust, UsageError, import_matplotlib, quantity, refuse_old_names
 from hydro2d.cli.check_model import check_model
 from hydro2d.cli.curve import curve
 from hydro2d.cli.model import model
@@ -84,7 +84,7 @@ def _load(deck: Path, overrides: list[str] | None):
 def run(
     deck: Path,
     *,
-    out: Path | None = None,
+    out: Out | None = None,
     set_: Overrides = None,
     threads: Count | None = None,
     restart: bool = False,
@@ -198,7 +198,7 @@ def _window(text: str | None) -> tuple[float, float, float] | None:
 def plot(
     runs: list[Path],
     *,
-    output: Annotated[Path, Parameter(name=["--output", "-o"])],
+    out: Out,
     kind: Literal["section", "history", "cutaway", "crater"] = "section",
     field: str = "pressure",
     mirror: str | None = None,
@@ -216,7 +216,7 @@ def plot(
     ----------
     runs
         Run directories. Sections of several runs are drawn below one another, histories and craters in the same axes.
-    output
+    out
         Picture file; its suffix sets the format.
     kind
         What to draw.
@@ -238,18 +238,18 @@ def plot(
 
     opened, times = [Results(path) for path in runs], _times(time)
     if kind == "cutaway":
-        if len(opened) != 1 or len(times) != 1 or output.suffix != ".png":
+        if len(opened) != 1 or len(times) != 1 or out.suffix != ".png":
             raise UsageError("--kind cutaway draws one run at one time, as a .png")
         if opened[0].planar:
             raise UsageError(f"{opened[0].directory}: the mesh is planar, so there is no axis to turn a cut-away about")
-        figures.cutaway(opened[0].dump_file(times[0]), output, field, _window(window))
+        figures.cutaway(opened[0].dump_file(times[0]), out, field, _window(window))
     elif kind == "history":
-        figures.save(figures.histories(opened, quantity or figures.HISTORIES), output)
+        figures.save(figures.histories(opened, quantity or figures.HISTORIES), out)
     elif kind == "crater":
-        figures.save(figures.craters(opened), output)
+        figures.save(figures.craters(opened), out)
     else:
-        figures.save(figures.sections(opened, field, mirror=mirror, times=times, window=_window(window)), output)
-    say(f"wrote {output}")
+        figures.save(figures.sections(opened, field, mirror=mirror, times=times, window=_window(window)), out)
+    say(f"wrote {out}")
     return 0
 
 
@@ -257,7 +257,7 @@ def plot(
 def movie(
     runs: list[Path],
     *,
-    output: Annotated[Path, Parameter(name=["--output", "-o"])],
+    out: Out,
     field: str = "pressure",
     mirror: str | None = None,
     window: Annotated[str | None, Parameter(allow_leading_hyphen=True)] = None,
@@ -274,7 +274,7 @@ def movie(
     ----------
     runs
         Run directories; several are shown below one another.
-    output
+    out
         Film file: .gif, or .mp4 where ffmpeg is installed.
     field
         Field, or that of the upper half, as `hydro2d info` names it; velocity:z for a component, body_temperature:rod for one
@@ -297,9 +297,9 @@ def movie(
     from hydro2d.results.reading import Results
 
     opened = [Results(path) for path in runs]
-    frames = movies.film(opened, output, field, mirror=mirror, window=_window(window), follow=follow, limits=_range(colours),
+    frames = movies.film(opened, out, field, mirror=mirror, window=_window(window), follow=follow, limits=_range(colours),
                          rate=rate, beside=beside)  # fmt: skip
-    say(f"wrote {output}, {frames} frames")
+    say(f"wrote {out}, {frames} frames")
     return 0
 
 
@@ -319,7 +319,7 @@ def _range(text: str | None) -> tuple[float, float] | None:
 def export(
     run: Path,
     *,
-    output: Annotated[Path | None, Parameter(name=["--output", "-o"])] = None,
+    out: Out | None = None,
     fields: Annotated[list[str] | None, Parameter(negative="", consume_multiple=True)] = None,
     trust: Trust = False,
 ) -> int:
@@ -331,7 +331,7 @@ def export(
     ----------
     run
         Run directory. If it has no dumps, the state in its restart file is written, with all fields.
-    output
+    out
         Directory to write to; default: `export` in the run directory.
     fields
         Fields to write, as `hydro2d info` names them; default: all fields of the dumps.
@@ -343,7 +343,7 @@ def export(
     from hydro2d.results.export import export as write
     from hydro2d.results.reading import Results
 
-    for path in write(Results(run, trust=trust), output or own(run / "export"), fields or ("all",)):
+    for path in write(Results(run, trust=trust), out or own(run / "export"), fields or ("all",)):
         say(f"wrote {path}")
     return 0
 
@@ -395,6 +395,7 @@ def call(arguments: list[str]) -> int:
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(errors="replace")  # a terminal without UTF-8 gets question marks, not a traceback
     try:
+        refuse_old_names(arguments)
         status = app(arguments, exit_on_error=False, print_error=False, result_action="return_value")
         sys.stdout.flush()
         return status if isinstance(status, int) else 0

@@ -7,13 +7,13 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
-from hydro2d.cli.base import Trust, import_matplotlib
+from hydro2d.cli.base import Out, Trust, import_matplotlib
 
 
 def report(
     directories: Annotated[list[Path], Parameter(negative="")],
     *,
-    out: Path | None = None,
+    out: Out | None = None,
     x: str | None = None,
     y: Annotated[list[str] | None, Parameter(negative="")] = None,
     by: Annotated[list[str] | None, Parameter(negative="")] = None,

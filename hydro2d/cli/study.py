@@ -5,14 +5,14 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
-from hydro2d.cli.base import Count, Overrides, UsageError
+from hydro2d.cli.base import Count, Out, Overrides, UsageError
 from hydro2d.terminal import say
 
 
 def sweep(
     study: Path,
     *,
-    out: Path | None = None,
+    out: Out | None = None,
     set_: Overrides = None,
     workers: Count | None = None,
     threads: Count = 1,
@@ -81,7 +81,7 @@ def sweep(
 def transition(
     study: Path,
     *,
-    out: Path | None = None,
+    out: Out | None = None,
     set_: Overrides = None,
     workers: Count | None = None,
     threads: Count = 1,

@@ -108,8 +108,8 @@ def others(finished, folder):
     (folder / "study.toml").write_text(STUDY)
     run = str(finished / "run")
     return {
-        "plot": ["plot", run, "--output", str(folder / "picture.png")],
-        "export": ["export", run, "--output", str(folder / "export")],
+        "plot": ["plot", run, "--out", str(folder / "picture.png")],
+        "export": ["export", run, "--out", str(folder / "export")],
         "report": ["report", run, "--out", str(folder / "report")],
         "check": ["check", str(folder / "shot.toml")],
         "info": ["info"],

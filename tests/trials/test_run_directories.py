@@ -15,9 +15,9 @@ def commands(run, study, folder, chance):
     """A command that reads what is spoiled, and the statuses that it may end with."""
     picture = str(folder / "picture.png")
     return chance.choice((
-        (["plot", run, "--output", picture], (0, 2, 4)),
-        (["plot", run, "--output", picture, "--kind", "history", "--quantity", "penetration_depth_m"], (0, 2, 4)),
-        (["export", run, "--output", str(folder / "export")], (0, 2, 4)),
+        (["plot", run, "--out", picture], (0, 2, 4)),
+        (["plot", run, "--out", picture, "--kind", "history", "--quantity", "penetration_depth_m"], (0, 2, 4)),
+        (["export", run, "--out", str(folder / "export")], (0, 2, 4)),
         (["report", run, "--out", str(folder / "report")], (0, 2, 4)),
         (["report", study, "--out", str(folder / "report")], (0, 2, 4)),
         (["sweep", study, "--status"], (0, 2, 4)),

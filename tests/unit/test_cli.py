@@ -198,6 +198,16 @@ def test_every_command_has_an_example():
         assert f"Example: hydro2d {name}" in app[name].help
 
 
+@pytest.mark.parametrize("command", ["run", "plot", "movie", "export", "report", "sweep", "transition"])
+def test_what_a_command_makes_has_one_name(command, capsys):
+    assert call([command, "--help"]) == 0
+    said = capsys.readouterr().out
+    assert "--out" in said
+    assert "-o" in said.replace("--out", "")
+    assert call([command, "somewhere", "--output", "x.png"]) == 2
+    assert capsys.readouterr().err == "hydro2d: --output is called --out in every command, or -o in short\n"
+
+
 def test_help_is_light():
     """Nothing heavy is imported to say what the commands are."""
     code = """
@@ -266,7 +276,7 @@ def test_kill_leaves_whole_files(deck, tmp_path):
         vtk.read_grid(out / file)
 
 
-@pytest.mark.parametrize("command", [["run", "DECK", "--out"], ["export", "RUN", "--output"], ["report", "RUN", "--out"]])
+@pytest.mark.parametrize("command", [["run", "DECK", "--out"], ["export", "RUN", "--out"], ["report", "RUN", "--out"]])
 def test_a_directory_below_a_file_is_one_line(deck, finished, tmp_path, capsys, command):
     file = tmp_path / "file"
     file.write_text("")

@@ -55,7 +55,7 @@ WRONG = [
     (VOCE, "(ep, rate, T, p, rho, par)", "(ep, rate, p, T, rho, par)", "flow_stress takes (ep, rate, p, T, rho, par), not ("),
     (VOCE, "@point\ndef flow", "def flow", "flow_stress is not compiled: put @point before it"),
     (VOCE, '    """Flow stress, Pa."""\n', "",
-     "flow_stress, line " + str(VOCE[:VOCE.index("@point\ndef flow")].count("\n") + 1) + ", has no docstring: write what"),
+     f"flow_stress, line {VOCE.split('def flow')[0].count(chr(10))}, has no docstring: write what the function returns"),
     (VOCE, "math.exp(", "math.expo(", "flow_stress does not compile: module 'math' has no attribute 'expo'"),
     (VOCE, "math.exp(", "nothing(", "flow_stress does not compile: NameError: name 'nothing' is not defined"),
     (VOCE, "return par[SHEAR]", "return par", "shear_modulus returns array(float64, 1d, C), not one number"),
