@@ -20,7 +20,7 @@ from hydro2d.errors import Error
 from hydro2d.files import hdf5, own, replacing, sync
 from hydro2d.output import foreign
 
-FORMAT = "hydro2d restart 3"
+FORMAT = "hydro2d restart 4"
 NAME, PREVIOUS = "restart.h5", "restart.previous.h5"
 
 

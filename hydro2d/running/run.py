@@ -322,9 +322,7 @@ class Run:
     def summary(self, status: str, reason: str) -> dict:
         """What summary.json holds."""
         sim, cycles, targets = self.sim, self.stepped - 1, self.sim.of_targets()
-        faults = sim.faults()
-        if status == "unphysical" and not faults:
-            faults = [reason]
+        faults = (sim.faults() or [reason] * (status == "unphysical")) + sim.doubts()
         return {
             "deck": self.deck.name,
             "title": self.deck.title,

@@ -12,7 +12,7 @@ from hydro2d.solver.method import Method
 class Contact:
     """Two groups of bodies of a state that touch, press and slide.
 
-    Every method takes the rows j0 to j1 (past the end) that are active.
+    Most methods take the rows j0 to j1 (past the end) that are active.
 
     Parameters
     ----------
@@ -29,13 +29,16 @@ class Contact:
         self.soft_first, self.hard_first = (
             np.array([*order[own == b], *order[own != b]], dtype=np.int64) for b in range(2))
 
-    def find(self, j0: int, j1: int) -> None:
-        """Where the groups meet: face apertures, normals, slave nodes; volume rate and viscosity of contact-interface cells."""
-        s, g, method = self.state, self.grid, self.method
+    def find(self, box: list[int]) -> None:
+        """Where the groups meet: face apertures, normals, slave nodes; volume rate and viscosity of contact-interface cells.
+
+        box : [j0, j1, i0, i1] of the active cells; beyond them bodies that touch have no pressure to exchange yet
+        """
+        s, g, method, (j0, j1, i0, i1) = self.state, self.grid, self.method, box
         contact_geometry.find_contact_nodes(j0, j1, self.mesh_box, s.group_ranges, s.mass, s.group, s.vof, s.contact_node_count,
                                             s.contact_nodes, s.hard, s.soft, s.heat, s.warmed)
-        contact_geometry.contact_lines(j0, j1, self.mesh_box, g.dr, g.dz, s.contact_node_count, s.contact_nodes, s.hard,
-                                       s.soft, s.contact_columns, s.line)
+        contact_geometry.contact_lines(j0, j1, i0, i1, self.mesh_box, g.dr, g.dz, s.contact_node_count, s.contact_nodes,
+                                       s.hard, s.soft, s.contact_columns, s.line)
         contact_geometry.face_apertures(j0, j1, self.mesh_box, self.constrained, s.contact_columns, s.line, s.hard, s.soft,
                                         s.mass, s.contact_node_count, s.contact_nodes, s.aperture_r, s.aperture_z,
                                         s.contact_normal, s.touch)

@@ -260,7 +260,7 @@ class Cycle:
             s.active_range, s.mixed_count, s.mixed, s.group, self.models, self.materials, s.u, s.v, s.vof, s.q, s.pm, s.km,
             s.tm, s.p, s.bulk, s.rhobar, s.solid, s.cl, s.qr, s.qz, s.hg_coefficient, s.opened, s.row_step, s.bad, s.scratch)
         if self.contact:
-            self.contact.find(j0, j1)
+            self.contact.find(self.box)
         thermodynamics.least_step(j0, j1, s.row_step, s.bad, s.least_row)
         if s.least_row[1] >= 0:
             self._report_bad(s.least_row[1])

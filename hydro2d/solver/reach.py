@@ -15,9 +15,17 @@ from scipy.optimize import brentq
 
 from hydro2d.mesh.boundary_conditions import EDGES
 from hydro2d.solver.insertion import body_state, slot_of
+from strength import SHEAR
 
 #: edges that stop a body
 WALLS = ("wall", "velocity")
+#: times the heat of the hottest state that a cell may show, for reflections, convergence and the dissipation of the method, and
+#: share of it by which a cell may be colder than at the start
+CELL_HOTTER, CELL_COLDER = 3.0, 0.25
+#: plastic strain beyond which no more heat of plastic work is believed, and share of the shear modulus that no stress exceeds
+MOST_STRAIN, IDEAL_STRENGTH = 10.0, 0.1
+#: what a body may show that nothing meets: share of the specific kinetic energy of the closing speed, and of c^2
+AT_REST, OF_SOUND = 0.05, 1e-6
 #: step in the logarithm of the density along an isentrope, and the longest way
 STEP, FARTHEST = 0.02, 20.0
 #: rise of the energy over which a temperature is differenced, J/kg
@@ -27,14 +35,22 @@ MOST_COMPRESSION = 1e3
 
 
 class Reach(NamedTuple):
-    """Bounds of the specific internal energy of every body, J/kg, float64[m], and which bodies are gases, bool[m].
+    """Bounds of the specific internal energy of every body, J/kg, float64[m]: of its mean, and of a cell.
 
-    speed : the closing speed that they are for, m/s;  pressure : the highest pressure of the shot, Pa
+    lowest, highest : coldest and hottest state, which bound the mean;  cell_lowest, cell_highest : those of a cell
+    plastic : heat in a cell by plastic strain, J/kg;  rubbing : the same by time, of friction, W/kg
+    gas : which bodies are gases;  warm : which begin above a temperature of zero; bool[m]
+    speed : the closing speed, m/s;  pressure : the highest pressure of the shot, Pa
     """
 
     lowest: np.ndarray
     highest: np.ndarray
+    cell_lowest: np.ndarray
+    cell_highest: np.ndarray
+    plastic: np.ndarray
+    rubbing: np.ndarray
     gas: np.ndarray
+    warm: np.ndarray
     speed: float
     pressure: float
 
@@ -68,9 +84,19 @@ def of(deck, table, state, start) -> Reach:
     speed += math.sqrt(2.0 * float(np.maximum(start.internal_of, 0.0).sum()) / mass) if mass > 0.0 else 0.0
     shocked = [stagnation(material, speed) for material in materials]
     pressure = _highest(deck, [p for _, _, p in shocked])
-    highest = [compressed(material, rho, e, pressure) for material, (rho, e, _) in zip(materials, shocked, strict=True)]
-    lowest = [min(coldest(material), material.e) for material in materials]
-    return Reach(np.array(lowest), np.array(highest), table.gases(), speed, pressure)
+    highest = np.array([compressed(one, rho, e, pressure) for one, (rho, e, _) in zip(materials, shocked, strict=True)])
+    lowest = np.array([min(coldest(one), one.e) for one in materials])
+    first, density = (np.array([getattr(one, name) for one in materials]) for name in ("e", "rho"))
+    noise = AT_REST * 0.5 * speed**2 + OF_SOUND * table.sound_speeds() ** 2
+    shear = np.where(table.strength_model > 0, table.strength_par[:, SHEAR], 0.0)
+    finest = min(state.grid.dr[state.grid.inside[1]].min(), state.grid.dz[state.grid.inside[0]].min())
+    return Reach(
+        lowest=lowest, highest=highest,
+        cell_lowest=np.minimum(first, 0.0) - CELL_COLDER * (highest - first) - noise,
+        cell_highest=np.maximum(first, 0.0) + np.maximum(CELL_HOTTER * (highest - first), speed**2) + noise,
+        plastic=IDEAL_STRENGTH * shear / density, rubbing=deck.sliding.friction * pressure * speed / (finest * density),
+        gas=table.gases(), warm=np.array([one.evaluate(one.rho, one.e)[3] > 0.0 for one in materials]),
+        speed=speed, pressure=pressure)  # fmt: skip
 
 
 def _highest(deck, pressures: list[float]) -> float:

@@ -1,7 +1,8 @@
 """What no run may do, whatever its audit says: clips and sinks have names, so the totals close over nonsense as well.
 
-A state is refused where the energy does not add up, a body as a whole is hotter or colder than it can become, a gas is so
-anywhere, the kinetic energy has outgrown all that was put in, or a clip has taken a sizeable share of it (explanation/sanity).
+A state is refused where the energy does not add up, a body as a whole is hotter or colder than it can become, the kinetic
+energy has outgrown all that was put in, or a clip has taken a sizeable share of it. It is not trusted where a body is hotter or
+colder in some cell than it can become there (explanation/sanity).
 """
 
 from __future__ import annotations
@@ -11,13 +12,13 @@ from collections.abc import Iterator
 import numpy as np
 
 from hydro2d.solver.audit import CLIPS, Audit, Totals, totals
-from hydro2d.solver.reach import Reach
+from hydro2d.solver.reach import MOST_STRAIN, Reach
 
 #: relative change of mass, momentum or energy that no sink explains, from which the audit does not close
 CLOSES = 1e-6
 #: share of the energy that a clip may take, and that a total may be beyond what is possible, in a run to be trusted
 TRUSTED = 0.02
-#: cells with less of a gas than this share of them are not looked at one by one
+#: cells of which a body fills less than this share are not looked at one by one
 SLIVER = 0.01
 #: what to do about a gas that is too hot
 GAS_REMEDY = ". Leave the space empty: a gas in one cell with a solid is not computed well enough"
@@ -45,10 +46,10 @@ def faults(state, audit: Audit, names, reach: Reach, share: float = TRUSTED) -> 
         if not abs(error) <= CLOSES:
             found.append(f"the {kind} does not add up: {error:.2g} of it is explained by nothing in the audit")
     for m, internal in enumerate(now.internal_of):
-        if not internal >= -share * energy:
+        if not internal - min(start.internal_of[m], 0.0) >= -share * energy:
             found.append(f'body "{names[m]}" as a whole has {internal / energy:.2g} times the energy of the start as internal '
                          f"energy{_least_energy(state, m)}")
-        found += _beyond_reach(state, m, names[m], now, came, reach, share)
+        found += _mean_beyond_reach(m, names[m], now, came, reach, share)
     if not now.kinetic <= (1.0 + share) * energy:
         found.append(f"the kinetic energy is {now.kinetic / energy:.3g} times the energy that was ever put in"
                      f"{_fastest(state, names)}")
@@ -62,28 +63,57 @@ def faults(state, audit: Audit, names, reach: Reach, share: float = TRUSTED) -> 
     return found
 
 
-def _beyond_reach(state, m: int, name: str, now: Totals, came: float, reach: Reach, share: float) -> Iterator[str]:
-    """What is wrong with the energy of body m, as a whole and, of a gas, in a cell; came : energy that edges brought."""
+def _mean_beyond_reach(m: int, name: str, now: Totals, came: float, reach: Reach, share: float) -> Iterator[str]:
+    """What is wrong with the energy of body m as a whole; came : energy that edges brought."""
     if not now.mass[m] > 0.0:
         return
-    span = (1.0 + share / TRUSTED) * (reach.highest[m] - reach.lowest[m])
-    low = reach.lowest[m] - share * (reach.highest[m] - reach.lowest[m])
-    high = reach.lowest[m] + span + came / now.mass[m]
+    span = reach.highest[m] - reach.lowest[m]
+    low, high = reach.lowest[m] - share * span, reach.lowest[m] + (1.0 + share / TRUSTED) * span + came / now.mass[m]
     mean = now.internal_of[m] / now.mass[m]
     if not low <= mean <= high:
-        yield f'body "{name}" has {mean:.3g} J/kg as a whole; {_why(reach, m)}'
-    elif reach.gas[m]:
-        grid = state.grid
-        e, there = grid.interior(state.e)[m], grid.interior(state.vof)[m] >= SLIVER
-        beyond = np.where(there, np.maximum(e - high, low - e), -np.inf)
-        j, i = np.unravel_index(np.argmax(beyond), beyond.shape)
-        if not beyond[j, i] <= 0.0:
-            yield f'the gas "{name}" has {e[j, i]:.3g} J/kg in the cell {_place(grid, j, i)}; {_why(reach, m)}'
+        yield (f'body "{name}" has {mean:.3g} J/kg as a whole; it can reach {reach.lowest[m]:.3g} to {reach.highest[m]:.3g} '
+               f"J/kg, {_from(reach, m)}")
 
 
-def _why(reach: Reach, m: int) -> str:
-    return (f"it can reach {reach.lowest[m]:.3g} to {reach.highest[m]:.3g} J/kg, stopped from {reach.speed:.4g} m/s and "
-            f"compressed to {reach.pressure:.3g} Pa{GAS_REMEDY if reach.gas[m] else ''}")
+def _from(reach: Reach, m: int) -> str:
+    return (f"stopped from {reach.speed:.4g} m/s and compressed to {reach.pressure:.3g} Pa"
+            f"{GAS_REMEDY if reach.gas[m] else ''}")
+
+
+def doubts(state, table, time: float, reach: Reach) -> Iterator[tuple[str, str]]:
+    """(what, sentence) for each body that is hotter or colder in a cell than it can become.
+
+    Parameters
+    ----------
+    state : State
+    table : MaterialTable
+    time : since the start, s
+    reach : bounds of the energies
+    """
+    grid = state.grid
+    for m, name in enumerate(table.names):
+        there = grid.interior(state.vof)[m] >= SLIVER
+        rho, e, strain = (grid.interior(array)[m][there] for array in (state.rho, state.e, state.ep))
+        high = reach.cell_highest[m] + reach.plastic[m] * np.minimum(strain, MOST_STRAIN) + reach.rubbing[m] * time
+        cold = np.maximum(reach.cell_lowest[m] - e, np.where(_frozen(table, m, rho, e) & reach.warm[m], -e, -np.inf))
+        for what, beyond in (("hot", e - high), ("cold", cold)):
+            if not np.all(beyond <= 0.0):
+                k = int(np.argmax(beyond))
+                j, i = np.argwhere(there)[k]
+                yield f"{name} {what}", (f'body "{name}" is too {what} with {e[k]:.3g} J/kg in the cell {_place(grid, j, i)}, in '
+                                         f"which it can reach {reach.cell_lowest[m]:.3g} to {high[k]:.3g} J/kg and no "
+                                         f"temperature of zero, {_from(reach, m)}")
+
+
+def _frozen(table, m: int, rho: np.ndarray, e: np.ndarray) -> np.ndarray:
+    """Where the temperature of body m is zero, bool[n]; where the energy is not negative it is not looked up."""
+    from eos.dispatch import temperature_row
+
+    cold = np.flatnonzero(e < 0.0)
+    temperature, frozen = np.empty(len(cold)), np.zeros(len(e), dtype=bool)
+    temperature_row(table.eos_model[m], table.eos_par[m], 0, len(cold), np.ones(len(cold)), rho[cold], e[cold], temperature)
+    frozen[cold] = temperature <= 0.0
+    return frozen
 
 
 def _least_energy(state, m: int) -> str:

@@ -23,7 +23,7 @@ from hydro2d.solver.following import FollowingMesh, StandingMesh, UndisturbedSpa
 from hydro2d.solver.memory import refuse_too_large
 from hydro2d.solver.penetrator import LEFT_MASS, WATCH_EVERY, Penetrator
 from hydro2d.solver.record import Recorder
-from hydro2d.solver.sanity import TRUSTED, faults
+from hydro2d.solver.sanity import TRUSTED, doubts, faults
 from hydro2d.solver.targets import targets
 
 if TYPE_CHECKING:
@@ -70,6 +70,7 @@ class Simulation:
         self.engine = Cycle(self.state, self.table, method, self._mesh(slots, method))
         self.engine.prepare()
         self._reach = reach.of(deck, self.table, self.state, self.audit.start)
+        self._doubts: dict[str, str] = {}
         self.stations = Stations(self, deck)
         self._rows = np.zeros((2, self.grid.shape[0]))
         self.penetrator, self.craters = self._penetration()
@@ -316,8 +317,14 @@ class Simulation:
         """Why the state is not to be trusted, see `sanity.faults`; empty where there is no reason."""
         return faults(self.state, self.audit, self.table.names, self._reach, share)
 
+    def doubts(self) -> list[str]:
+        """Why what was run so far is not to be trusted: the first time that a body was too hot or too cold in some cell."""
+        return list(self._doubts.values())
+
     def refuse_nonsense(self) -> None:
-        """Raises UnphysicalState with the first fault of the state, if it has any."""
+        """Raises UnphysicalState with the first fault of the state, if it has any, and remembers what is doubtful."""
+        for what, sentence in doubts(self.state, self.table, self.time, self._reach):
+            self._doubts.setdefault(what, f"cycle {self.cycle}, time {self.time:.6g} s: {sentence}")
         if found := self.faults(self.deck.numerics.clip_limit):
             raise UnphysicalState(f"cycle {self.cycle}, time {self.time:.6g} s: {found[0]}")
 
@@ -392,7 +399,7 @@ class Simulation:
         """What a restart needs beside the arrays; JSON keeps every bit of it."""
         e = self.engine
         return {"time": e.time, "dt": e.dt, "cycle": e.number, "cause": e.cause, "box": [int(x) for x in e.box],
-                "mesh_offset": self.grid.offset, "speed_limit": e.speed_limit, "sign": self._sign,
+                "mesh_offset": self.grid.offset, "speed_limit": e.speed_limit, "sign": self._sign, "doubts": self._doubts,
                 "audit": self.audit.saved(), "penetrator": self.penetrator and self.penetrator.saved(),
                 "craters": [crater.saved() for crater in self.craters]}
 
@@ -402,6 +409,7 @@ class Simulation:
         e.time, e.dt, e.number, e.cause = (scalars[name] for name in ("time", "dt", "cycle", "cause"))
         e.box, e.speed_limit, self._sign = list(scalars["box"]), scalars["speed_limit"], scalars["sign"]
         self.grid.move(scalars["mesh_offset"])
+        self._doubts = dict(scalars["doubts"])
         e.audit = Audit.resume(scalars["audit"])
         if self.penetrator:
             self.penetrator.resume(scalars["penetrator"])

@@ -119,6 +119,9 @@ class Simulation:
     def faults(self, share: float = 0.02) -> list[str]:
         return []
 
+    def doubts(self) -> list[str]:
+        return []
+
     def refuse_nonsense(self) -> None:
         pass
 

@@ -212,3 +212,14 @@ def test_rod_leaves_its_hole_without_drag(choice):
 def test_rod_leaves_its_hole_as_it_was():
     simulation = run("rod_leaving_hole")
     assert simulation.mean_velocity(0) == pytest.approx(-200.0, rel=1e-9)
+
+
+def test_bodies_that_touch_beyond_the_active_cells_are_no_contact_yet():
+    """A ball on two plates that lie on one another: where nothing has arrived, no pressure can be shared. Once it was NaN."""
+    options = ['sliding.hard=["ball", "second"]', "body.plate.thickness=3e-3", "body.second.z_front=3e-3"]
+    simulation = Simulation(decks.load("problems/perforation/two_plates.toml", options))
+    assert simulation.engine.box != simulation.engine.mesh_box.tolist()
+    for _ in range(40):
+        simulation.step()
+    assert np.isfinite(simulation.state.velocity).all()
+    assert abs(simulation.conservation()["total_energy"]) < 1e-11
