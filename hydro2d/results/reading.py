@@ -238,7 +238,8 @@ class Results:
                 facts["not trustworthy"] = "; ".join(summary.get("faults") or ())
         if summary.get("penetration_depth_m") is not None:
             facts["depth"] = _millimetres(summary["penetration_depth_m"])
-            facts["rod"] = f"{_millimetres(summary.get('rod_length_m'))} long, {summary.get('regime')}"
+            body = _table(summary, "projectile").get("body", "rod")
+            facts[body] = f"{_millimetres(summary.get('rod_length_m'))} long, {summary.get('regime')}"
         if self.measured_depth is not None:
             facts["experiment's depth"] = _millimetres(self.measured_depth)
         facts["dumps"] = f"{len(dumps)}, the last at {dumps[-1][0] * 1e6:.2f} µs" if dumps else "none"
@@ -258,8 +259,8 @@ def mirrored(deck: dict) -> bool:
     return halved(mesh.get("geometry", "cylindrical"), mesh.get("r_start", 0.0), str(edges.get("r_min", "wall")))
 
 
-def _table(deck: dict, name: str) -> dict:
-    found = deck.get(name)
+def _table(tables: dict, name: str) -> dict:
+    found = tables.get(name)
     return found if isinstance(found, dict) else {}
 
 

@@ -5,12 +5,14 @@ from __future__ import annotations
 import sys
 
 #: keys that hold words, lists of words, tables, and yes or no
-WORDS = ("deck", "title", "deck_sha256", "version", "status", "stop_reason", "regime", "qualifier", "source")
+WORDS = ("deck", "title", "deck_sha256", "version", "status", "stop_reason", "regime", "qualifier", "source",
+         "body")
 TABLES = ("conservation", "experiment", "provenance", "packages", "crater", "mass", "sinks", "contact_transfers",
-          "bodies", "stations", "targets")
+          "bodies", "stations", "targets", "projectile")
 YES_OR_NO = ("trustworthy", "git_dirty")
 #: keys that hold numbers, and what the names of others end in that do
-NUMBERS = ("cycles", "cells", "ns_per_cell_cycle", "axial_momentum", "total_energy", "rod_max_plastic_strain")
+NUMBERS = ("cycles", "cells", "ns_per_cell_cycle", "axial_momentum", "total_energy", "rod_max_plastic_strain",
+           "max_plastic_strain")
 UNITS = ("_m", "_m_s", "_s", "_kg", "_J", "_N_s", "_m2", "_m3", "_K", "_Pa")
 #: tables that hold numbers alone, or tables alone, whatever their keys are
 OF_NUMBERS, OF_TABLES = ("mass",), ("sinks", "contact_transfers", "bodies", "stations", "targets")
@@ -36,10 +38,13 @@ def _checked(table: dict, path: tuple[str, ...], odd: list[str]) -> dict:
 
 def _fits(key: str, value, table: str) -> bool:
     """Whether a value is of the kind that its key, or its table, requires."""
+    is_number = isinstance(value, (int, float)) and not isinstance(value, bool) and abs(value) <= sys.float_info.max
+    if table in OF_NUMBERS:
+        return is_number
     if key in TABLES or table in OF_TABLES:
         return isinstance(value, dict)
-    if table in OF_NUMBERS or key in NUMBERS or key.endswith(UNITS):
-        return isinstance(value, (int, float)) and not isinstance(value, bool) and abs(value) <= sys.float_info.max
+    if key in NUMBERS or key.endswith(UNITS):
+        return is_number
     if key in WORDS:
         return isinstance(value, str)
     if key == "faults":

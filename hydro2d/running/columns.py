@@ -13,6 +13,13 @@ PLACES = {"r_m": "radial position", "z_m": "axial position"}
 #: amounts of a sink, and of a contact transfer
 AMOUNTS = {"mass_kg": "mass", "momentum_N_s": "axial momentum", "energy_J": "energy"}
 
+#: keys of a summary that call the projectile a rod, whatever its shape, and those that name it
+OLD: dict[str, str] = {
+    **{old: f"projectile.{new}" for old, new in penetrator.PROJECTILE.items()},
+    **{old: f"bodies.{'TARGET' if old.startswith('target') else 'BODY'}.{new}"
+       for old, new in penetrator.OF_EVERY_BODY.items()},
+}
+
 HISTORY: dict[str, str] = {
     "time": "time since the start",
     "cycle": "cycle number",
@@ -42,7 +49,10 @@ SUMMARY: dict[str, str] = {
     "wall_s": "wall-clock time of the run",
     "ns_per_cell_cycle": "nanoseconds per cell and cycle",
     "cells": "number of cells",
-    **penetrator.QUANTITIES,
+    **{key: meaning for key, meaning in penetrator.QUANTITIES.items() if key not in OLD},
+    "projectile.body": "name of the projectile, which `bodies` has as well",
+    **{f"projectile.{new}": penetrator.QUANTITIES[old] for old, new in penetrator.PROJECTILE.items()},
+    **{old: f"old name of {new}, which later versions will not write" for old, new in OLD.items()},
     **{f"crater.{key}": f"hole in the first target: {meaning}" for key, meaning in crater.QUANTITIES.items()},
     **{f"targets.TARGET.{key}": f"of each target: {meaning}" for key, meaning in penetrator.PASSAGE.items()},
     **{f"targets.TARGET.crater.{key}": f"of each target: {meaning}" for key, meaning in crater.QUANTITIES.items()},

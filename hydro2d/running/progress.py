@@ -284,7 +284,8 @@ def _moving(summary: dict) -> str:
 def _rod(summary: dict) -> list[str]:
     from hydro2d.solver.penetrator import LEFT
 
-    depth, experiment = summary["penetration_depth_m"], summary["experiment"]
+    depth, experiment, shape = summary["penetration_depth_m"], summary["experiment"], summary["projectile"]
+    body = shape["body"]
     bound = "at least " if summary["regime"] == LEFT else ""
     lines = [f"penetration depth     {bound}{number(depth, 1e2, '.2f', 'cm')}"]
     if experiment and experiment["penetration_m"]:
@@ -292,9 +293,9 @@ def _rod(summary: dict) -> list[str]:
         error = f" (error {(depth - measured) * 1e2:+.2f} cm, {100 * (depth / measured - 1):+.1f} %)"
         qualifier = "" if experiment["qualifier"] == "measured" else f"{experiment['qualifier']} "
         lines.append(f"  experiment          {qualifier}{measured * 1e2:.2f} cm{error}  {experiment['source']}")
-    if summary["rod_residual_mass_kg"] is not None:
-        velocity, mass = (summary[f"rod_residual_{name}"] for name in ("velocity_m_s", "mass_kg"))
-        lines.append(f"residual rod          {number(velocity, 1, '.1f', 'm/s')}, {number(mass, 1e3, '.2f', 'g')}")
+    if shape.get("residual_mass_kg") is not None:
+        velocity, mass = (shape[f"residual_{name}"] for name in ("velocity_m_s", "mass_kg"))
+        lines.append(f"{f'residual {body}':<21} {number(velocity, 1, '.1f', 'm/s')}, {number(mass, 1e3, '.2f', 'g')}")
     if experiment and experiment["residual_velocity_m_s"] is not None:
         measured = experiment["residual_velocity_m_s"]
         lines.append(f"  experiment          residual velocity {measured:.1f} m/s  {experiment['source']}")
@@ -304,8 +305,8 @@ def _rod(summary: dict) -> list[str]:
             lines.append(f"  through {name} at {moment(found['exit_time_s'])}: {velocity}, {mass}")
     return [
         *lines,
-        f"rod length            {number(summary['rod_length_m'], 1e2, '.2f', 'cm')}",
-        f"largest plastic strain of the rod {summary['rod_max_plastic_strain']:.3g}",
+        f"{f'{body} length':<21} {number(shape['length_m'], 1e2, '.2f', 'cm')}",
+        f"largest plastic strain of the {body} {shape['max_plastic_strain']:.3g}",
         f"regime                {summary['regime']}",
     ]
 

@@ -321,7 +321,7 @@ class Run:
 
     def summary(self, status: str, reason: str) -> dict:
         """What summary.json holds."""
-        sim, cycles, targets = self.sim, self.stepped - 1, self.sim.of_targets()
+        sim, cycles, targets, measured = self.sim, self.stepped - 1, self.sim.of_targets(), self.sim.diagnostics()
         faults = (sim.faults() or [reason] * (status == "unphysical")) + sim.doubts()
         return {
             "deck": self.deck.name,
@@ -338,7 +338,8 @@ class Run:
             "ns_per_cell_cycle": 1e9 * self.stepping / (sim.grid.cells * cycles) if cycles > 0 else None,
             "cells": sim.grid.cells,
             **dict.fromkeys(ROD_RESULTS),
-            **sim.diagnostics(),
+            **measured,
+            "projectile": projectile(sim.projectile, measured),
             "crater": next((found["crater"] for found in targets.values()), None),
             "targets": targets,
             "bodies": sim.of_bodies(),
@@ -369,6 +370,13 @@ def experiment(deck) -> dict | None:
         "residual_velocity_m_s": deck.experiment.residual_velocity,
         "source": deck.experiment.source,
     }
+
+
+def projectile(body: str | None, measured: dict) -> dict | None:
+    """What a summary says of the projectile beside what it says of every body; None without one."""
+    from hydro2d.solver.penetrator import PROJECTILE
+
+    return {"body": body, **{PROJECTILE[key]: value for key, value in measured.items() if key in PROJECTILE}} if body else None
 
 
 def run(deck, directory: Path | None = None, *, restart=False, overwrite=False, quiet=False,

@@ -33,18 +33,24 @@ def measure(sim) -> dict[str, dict[str, float | None]]:
     grid, state = sim.grid, sim.state
     around = 2 * np.pi if grid.cylindrical else 1.0
     flows = {name: sim.audit.sinks[name].mass if name in sim.audit.sinks else None for name in ("outflow", "inflow")}
-    found, sums_of_body = {}, np.zeros(4)
+    found = {}
     for m, name in enumerate(sim.table.names):
-        b = state.group[m]
-        sums.body_motion(grid.g, grid.nz, grid.nr, m, grid.cm_in, grid.cm_out, grid.volume, state.vof, state.dmg, state.rho,
-                         state.u[b], state.v[b], sums_of_body)
-        mass, momentum, kinetic, failed = (around * sums_of_body).tolist()
+        mass, momentum, kinetic, failed = motion(sim, m)
         went, came = (0.0 if flow is None else abs(float(flow[m])) * around for flow in flows.values())
         fraction = grid.interior(state.vof)[m]
         extent = (*_extent(fraction.T, grid.r_edges), *_extent(fraction, grid.z_edges))
         values = (mass, momentum, momentum / mass if mass > 0.0 else None, kinetic, failed, went, came, *extent)
         found[name] = dict(zip(QUANTITIES, values, strict=True))
     return found
+
+
+def motion(sim, m: int) -> list[float]:
+    """Mass, axial momentum, kinetic energy and failed mass of body m; SI, as in `measure`."""
+    grid, state, found = sim.grid, sim.state, np.zeros(4)
+    b = state.group[m]
+    sums.body_motion(grid.g, grid.nz, grid.nr, m, grid.cm_in, grid.cm_out, grid.volume, state.vof, state.dmg, state.rho,
+                     state.u[b], state.v[b], found)
+    return ((2 * np.pi if grid.cylindrical else 1.0) * found).tolist()
 
 
 def _extent(fraction: np.ndarray, edges: np.ndarray) -> tuple[float | None, float | None]:

@@ -10,6 +10,7 @@ from hydro2d.deck import deck as decks
 from hydro2d.mesh import sums
 from hydro2d.mesh.boundary_conditions import BY_NAME
 from hydro2d.mesh.sums import HALF
+from hydro2d.solver import bodies
 from hydro2d.solver.targets import Target
 
 #: the rod is rigid while it has lost less than this share of its length and its radius has grown by less than that
@@ -42,7 +43,7 @@ QUANTITIES = {
     "rod_core_velocity_m_s": "the same of its core",
     "rod_nose_velocity_m_s": "axial velocity of the rod on the axis at its nose",
     "rod_tail_velocity_m_s": "the same at its tail",
-    "rod_kinetic_energy_J": "mass of the rod times half of the square of its mean velocity",
+    "rod_kinetic_energy_J": "kinetic energy of the rod, of the radial motion as well",
     "rod_residual_velocity_m_s": "axial velocity of the core of a rod that has perforated the target or left the mesh; of all "
     "that was left of a rod in pieces",
     "rod_residual_mass_kg": "mass of that",
@@ -50,6 +51,14 @@ QUANTITIES = {
     "exit_time_s": "when the nose was the radius of the rod beyond the rear of the last target; null before",
     "regime": "rigid, deforming, eroding or left the mesh",
 }
+
+#: those that `bodies.QUANTITIES` has of every body: of the rod, and of the first target
+OF_EVERY_BODY = {
+    "rod_mass_kg": "mass_kg", "rod_mean_velocity_m_s": "velocity_m_s", "rod_kinetic_energy_J": "kinetic_energy_J",
+    "rod_failed_mass_kg": "failed_mass_kg", "target_failed_mass_kg": "failed_mass_kg",
+}  # fmt: skip
+#: those that a projectile of any shape has in a summary, by their key there
+PROJECTILE = {key: key.removeprefix("rod_") for key in QUANTITIES if key.startswith("rod_") and key not in OF_EVERY_BODY}
 
 #: what `passages` gives of each target, and its meaning; null while the rod is not through it
 PASSAGE = {
@@ -429,7 +438,7 @@ class Penetrator:
             "rod_core_velocity_m_s": core_momentum / core if core > 0.0 else None,
             "rod_nose_velocity_m_s": self._axis_velocity(nose) if length else None,
             "rod_tail_velocity_m_s": self._axis_velocity(tail) if length else None,
-            "rod_kinetic_energy_J": 0.5 * mass * (mean or 0.0) ** 2,
+            "rod_kinetic_energy_J": bodies.motion(self.sim, self.m)[2],
             "rod_residual_velocity_m_s": residual_velocity,
             "rod_residual_mass_kg": residual_mass,
             "rod_residual_length_m": length if residual_mass is not None and not self.left else None,

@@ -303,6 +303,11 @@ class Simulation:
         """Depth, rod length, speeds and strain of a penetrator; empty for a deck without one. SI."""
         return self.penetrator.measure() if self.penetrator else {}
 
+    @property
+    def projectile(self) -> str | None:
+        """Name of the body that is measured as the rod; None without one."""
+        return self.table.names[self.penetrator.m] if self.penetrator else None
+
     def of_bodies(self) -> dict[str, dict[str, float | None]]:
         """Mass, motion and extent of every body, see `bodies.measure`."""
         return bodies.measure(self)

@@ -113,6 +113,8 @@ class Simulation:
             "rod_max_radius_m": RADIUS, "regime": "rigid" if self.time < STOP / 2 else "deforming",
         }  # fmt: skip
 
+    projectile = ROD
+
     def of_bodies(self) -> dict:
         return {ROD: {"mass_kg": 0.06, "velocity_m_s": SPEED, "kinetic_energy_J": 3e4}}
 

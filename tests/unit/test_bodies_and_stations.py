@@ -1,6 +1,7 @@
 """What is measured of every body, and at tracers and gauges."""
 
 import math
+import re
 
 import numpy as np
 import pytest
@@ -9,7 +10,10 @@ from hydro2d.deck import deck as decks
 from hydro2d.errors import DeckError
 from hydro2d.mesh import quantities, sums
 from hydro2d.output import derived
-from hydro2d.solver import bodies, station_columns, tracers
+from hydro2d.results.reading import Results
+from hydro2d.results.summaries import plausible
+from hydro2d.running.run import run
+from hydro2d.solver import bodies, penetrator, station_columns, tracers
 from hydro2d.solver.simulation import Simulation
 
 DECK = """
@@ -74,6 +78,30 @@ def test_a_ball_before_the_impact():
     assert [found[key] for key in ("failed_mass_kg", "outflow_kg", "inflow_kg")] == [0.0, 0.0, 0.0]
     ends = [found[key] for key in ("r_min_m", "r_max_m", "z_min_m", "z_max_m")]
     assert ends == pytest.approx([0.0, 5e-3, -11.3e-3, -1.3e-3], abs=0.1e-3)
+
+
+def test_a_run_calls_the_ball_a_ball_and_gives_one_number_for_each_thing(tmp_path, capsys):
+    run(decks.loads(DECK, ["stop.cycles=160"]), tmp_path / "shot")
+    said = capsys.readouterr().out
+    assert re.search(r"^ball length  +\d", said, re.M)
+    assert "strain of the ball" in said
+    assert "rod" not in said.split("done:")[1]
+    summary = Results(tmp_path / "shot").summary
+    shape, ball = summary["projectile"], summary["bodies"]["ball"]
+    assert shape["body"] == "ball"
+    for old, new in penetrator.PROJECTILE.items():
+        assert summary[old] == shape[new], old
+    for old, new in penetrator.OF_EVERY_BODY.items():
+        assert summary[old] == pytest.approx((summary["bodies"]["plate"] if "target" in old else ball)[new], rel=1e-12), old
+    assert 0.0 < 0.5 * ball["mass_kg"] * ball["velocity_m_s"] ** 2 < ball["kinetic_energy_J"]
+    assert 0.0 < shape["length_m"] < 0.01
+
+
+def test_a_body_may_have_the_name_of_a_table():
+    tables = {"projectile": {"mass_kg": 1.0}, "body": {"z_max_m": 0.1}}
+    summary = {"conservation": {"mass": {"projectile": 1e-15}}, "bodies": tables}
+    assert plausible(summary) == (summary, [])
+    assert plausible({"projectile": {"body": 3, "length_m": "long"}})[1] == ["projectile.body", "projectile.length_m"]
 
 
 def test_the_extent_of_a_plate_between_faces():
