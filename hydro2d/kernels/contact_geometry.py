@@ -77,7 +77,8 @@ def find_contact_nodes(j0, j1, mesh_box, group_ranges, mass, group, vof, count, 
 
 @kernel
 def contact_lines(j0, j1, i0, i1, mesh_box, dr, dz, count, contact_nodes, hard, soft, contact_columns, line):
-    """The contact-interface columns of every row from i0 to i1, and the line in them that parts the hard side from the soft one.
+    """The contact-interface columns of every row, from i0 to i1, and in them the line that parts the hard side of a cell from
+    the soft one.
 
     The normal is Youngs' from f_hard - f_soft, the line encloses the hard share of what is solid. Near void, where one of the
     two surfaces has a corner, the steeper slope is that of the flat one: then the line is its own, and the void of the cell

@@ -100,9 +100,9 @@ def doubts(state, table, time: float, reach: Reach) -> Iterator[tuple[str, str]]
             if not np.all(beyond <= 0.0):
                 k = int(np.argmax(beyond))
                 j, i = np.argwhere(there)[k]
-                yield f"{name} {what}", (f'body "{name}" is too {what} with {e[k]:.3g} J/kg in the cell {_place(grid, j, i)}, in '
-                                         f"which it can reach {reach.cell_lowest[m]:.3g} to {high[k]:.3g} J/kg and no "
-                                         f"temperature of zero, {_from(reach, m)}")
+                yield f"{name} {what}", (
+                    f'body "{name}" is too {what} with {e[k]:.3g} J/kg in the cell {_place(grid, j, i)}, in which it can reach '
+                    f"{reach.cell_lowest[m]:.3g} to {high[k]:.3g} J/kg and no temperature of zero, {_from(reach, m)}")
 
 
 def _frozen(table, m: int, rho: np.ndarray, e: np.ndarray) -> np.ndarray:

@@ -59,7 +59,7 @@ def judged(text: str) -> dict:
         except UnphysicalState as error:
             return {"ended": "unphysical", "message": str(error), "beyond": beyond}
         _read(simulation)
-        faults = simulation.faults()
+        faults = simulation.faults() + simulation.doubts()
         ended = "untrusted" if faults else "beyond" if beyond else "trusted"
         return {"ended": ended, "message": "; ".join(faults) or reason, "beyond": beyond, "warnings": told.warnings}
     except Exception:
