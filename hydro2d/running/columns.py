@@ -5,7 +5,7 @@ In a name, BODY, TARGET, STATION, SINK and TRANSFER stand for the names of each;
 
 from __future__ import annotations
 
-from hydro2d.solver import bodies, crater, penetrator
+from hydro2d.solver import bodies, crater, rod_quantities
 from hydro2d.solver.station_columns import PEAKS, QUANTITIES
 
 PLACES = {"r_m": "radial position", "z_m": "axial position"}
@@ -15,16 +15,16 @@ AMOUNTS = {"mass_kg": "mass", "momentum_N_s": "axial momentum", "energy_J": "ene
 
 #: keys of a summary that call the projectile a rod, whatever its shape, and those that name it
 OLD: dict[str, str] = {
-    **{old: f"projectile.{new}" for old, new in penetrator.PROJECTILE.items()},
+    **{old: f"projectile.{new}" for old, new in rod_quantities.PROJECTILE.items()},
     **{old: f"bodies.{'TARGET' if old.startswith('target') else 'BODY'}.{new}"
-       for old, new in penetrator.OF_EVERY_BODY.items()},
+       for old, new in rod_quantities.OF_EVERY_BODY.items()},
 }
 
 HISTORY: dict[str, str] = {
     "time": "time since the start",
     "cycle": "cycle number",
     "dt": "time step",
-    **penetrator.QUANTITIES,
+    **rod_quantities.QUANTITIES,
     "internal_energy_J": "internal energy of all bodies",
     "kinetic_energy_J": "kinetic energy of all nodes",
     "mass_change_BODY": "relative change of the mass of a body that no sink accounts for",
@@ -49,12 +49,12 @@ SUMMARY: dict[str, str] = {
     "wall_s": "wall-clock time of the run",
     "ns_per_cell_cycle": "nanoseconds per cell and cycle",
     "cells": "number of cells",
-    **{key: meaning for key, meaning in penetrator.QUANTITIES.items() if key not in OLD},
+    **{key: meaning for key, meaning in rod_quantities.QUANTITIES.items() if key not in OLD},
     "projectile.body": "name of the projectile, which `bodies` has as well",
-    **{f"projectile.{new}": penetrator.QUANTITIES[old] for old, new in penetrator.PROJECTILE.items()},
+    **{f"projectile.{new}": rod_quantities.QUANTITIES[old] for old, new in rod_quantities.PROJECTILE.items()},
     **{old: f"old name of {new}, which later versions will not write" for old, new in OLD.items()},
     **{f"crater.{key}": f"hole in the first target: {meaning}" for key, meaning in crater.QUANTITIES.items()},
-    **{f"targets.TARGET.{key}": f"of each target: {meaning}" for key, meaning in penetrator.PASSAGE.items()},
+    **{f"targets.TARGET.{key}": f"of each target: {meaning}" for key, meaning in rod_quantities.PASSAGE.items()},
     **{f"targets.TARGET.crater.{key}": f"of each target: {meaning}" for key, meaning in crater.QUANTITIES.items()},
     **{f"bodies.BODY.{key}": f"of each body: {meaning}" for key, meaning in bodies.QUANTITIES.items()},
     **{f"stations.STATION.{key}": f"of each tracer and gauge: {meaning}"

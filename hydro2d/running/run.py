@@ -374,7 +374,7 @@ def experiment(deck) -> dict | None:
 
 def projectile(body: str | None, measured: dict) -> dict | None:
     """What a summary says of the projectile beside what it says of every body; None without one."""
-    from hydro2d.solver.penetrator import PROJECTILE
+    from hydro2d.solver.rod_quantities import PROJECTILE
 
     return {"body": body, **{PROJECTILE[key]: value for key, value in measured.items() if key in PROJECTILE}} if body else None
 

@@ -27,48 +27,6 @@ WATCH_EVERY = 10
 LEFT = "left the mesh"
 
 
-#: what `measure` gives, and its meaning
-QUANTITIES = {
-    "penetration_depth_m": "from the target's original surface to the deepest rod material on or near the axis",
-    "rod_length_m": "of the longest run of intact rod on the axis",
-    "rod_initial_length_m": "the same at the start",
-    "rod_mass_kg": "mass of the rod in the mesh",
-    "rod_core_mass_kg": "mass of what is intact, hangs together from the axis outward and keeps up with the axis",
-    "rod_failed_mass_kg": "mass of the rod that has failed by damage",
-    "target_failed_mass_kg": "mass of the target that has failed by damage",
-    "rod_max_radius_m": "largest radius of a solid section with the area of the rod in a row of cells",
-    "rod_initial_radius_m": "radius of the rod in the deck",
-    "rod_max_plastic_strain": "largest plastic strain of the cells that the rod fills by half",
-    "rod_mean_velocity_m_s": "mean axial velocity of all of the rod",
-    "rod_core_velocity_m_s": "the same of its core",
-    "rod_nose_velocity_m_s": "axial velocity of the rod on the axis at its nose",
-    "rod_tail_velocity_m_s": "the same at its tail",
-    "rod_kinetic_energy_J": "kinetic energy of the rod, of the radial motion as well",
-    "rod_residual_velocity_m_s": "axial velocity of the core of a rod that has perforated the target or left the mesh; of all "
-    "that was left of a rod in pieces",
-    "rod_residual_mass_kg": "mass of that",
-    "rod_residual_length_m": "length of a rod that has perforated the target",
-    "exit_time_s": "when the nose was the radius of the rod beyond the rear of the last target; null before",
-    "regime": "rigid, deforming, eroding or left the mesh",
-}
-
-#: those that `bodies.QUANTITIES` has of every body: of the rod, and of the first target
-OF_EVERY_BODY = {
-    "rod_mass_kg": "mass_kg", "rod_mean_velocity_m_s": "velocity_m_s", "rod_kinetic_energy_J": "kinetic_energy_J",
-    "rod_failed_mass_kg": "failed_mass_kg", "target_failed_mass_kg": "failed_mass_kg",
-}  # fmt: skip
-#: those that a projectile of any shape has in a summary, by their key there
-PROJECTILE = {key: key.removeprefix("rod_") for key in QUANTITIES if key.startswith("rod_") and key not in OF_EVERY_BODY}
-
-#: what `passages` gives of each target, and its meaning; null while the rod is not through it
-PASSAGE = {
-    "exit_time_s": "when the nose was the radius of the rod beyond the rear of this target",
-    "exit_velocity_m_s": "axial velocity of the rod's core then, or of all that was left of a rod in pieces",
-    "exit_mass_kg": "mass of that",
-    "exit_length_m": "of the longest run of intact rod on the axis then",
-}
-
-
 class Exit(NamedTuple):
     """A rod as its core, or the first of its pieces, reached an open edge of the mesh: velocity in m/s and mass in kg of the
     core or the pieces, depth in m, and the mass of the rod that had flowed out of the mesh before, kg."""
@@ -96,7 +54,8 @@ class Penetrator:
     Lengths are taken along the axis, from runs of cells that the rod fills by half or more, so that fragments behind the
     tail do not count: the depth from the deepest run in the columns within half a radius of the axis, failed or not, the rod's
     length from the longest run on the axis that has not failed. Its core is what has not failed and hangs together from the
-    axis outward, row by row, along that run: debris behind the tail and a skirt of turned-back material do not belong to it.
+    axis outward, row by row, along that run, as far as it keeps up with the axis: debris behind the tail, a skirt of
+    turned-back material and debris that flies back against the flank do not belong to it.
     The regime is "rigid" while the rod has lost less than 2 % of its length and no section has swollen beyond 1.1 of its
     radius, "eroding" once more than 10 % of its mass has left the core, else "deforming".
 
@@ -105,6 +64,8 @@ class Penetrator:
     regime is "left the mesh" for good, and the depth stays what it was when the core reached the edge. Debris that leaves
     through any edge changes nothing as long as the core is inside. The edge behind the rod of a mesh that follows it does not
     count: what flows out there is debris, even where it fills the hole up to the axis and so hangs together with the core.
+    A rod in pieces, with no cell on the axis half full, is through a target when most of it is beyond the rear; behind the last
+    target it has left the mesh by the same 1 %, and is gone when a tenth at most is left.
 
     Parameters
     ----------

@@ -288,7 +288,7 @@ class Simulation:
     # ------------------------------------------------------------------------------------------------ what is known
 
     def of_targets(self) -> dict[str, dict]:
-        """The rod as it went through each target, see `penetrator.PASSAGE`, and the hole in it, by the target's name."""
+        """The rod as it went through each target, see `rod_quantities.PASSAGE`, and the hole in it, by the target's name."""
         if not self.penetrator:
             return {}
         return {target.name: {**passage, "crater": crater.measure()} for target, passage, crater in

@@ -13,7 +13,7 @@ from hydro2d.output import derived
 from hydro2d.results.reading import Results
 from hydro2d.results.summaries import plausible
 from hydro2d.running.run import run
-from hydro2d.solver import bodies, penetrator, station_columns, tracers
+from hydro2d.solver import bodies, rod_quantities, station_columns, tracers
 from hydro2d.solver.simulation import Simulation
 
 DECK = """
@@ -89,9 +89,9 @@ def test_a_run_calls_the_ball_a_ball_and_gives_one_number_for_each_thing(tmp_pat
     summary = Results(tmp_path / "shot").summary
     shape, ball = summary["projectile"], summary["bodies"]["ball"]
     assert shape["body"] == "ball"
-    for old, new in penetrator.PROJECTILE.items():
+    for old, new in rod_quantities.PROJECTILE.items():
         assert summary[old] == shape[new], old
-    for old, new in penetrator.OF_EVERY_BODY.items():
+    for old, new in rod_quantities.OF_EVERY_BODY.items():
         assert summary[old] == pytest.approx((summary["bodies"]["plate"] if "target" in old else ball)[new], rel=1e-12), old
     assert 0.0 < 0.5 * ball["mass_kg"] * ball["velocity_m_s"] ** 2 < ball["kinetic_energy_J"]
     assert 0.0 < shape["length_m"] < 0.01

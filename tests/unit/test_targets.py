@@ -13,7 +13,7 @@ from hydro2d.output import history
 from hydro2d.results import figures
 from hydro2d.results.reading import Results
 from hydro2d.running.run import run
-from hydro2d.solver.penetrator import PASSAGE
+from hydro2d.solver.rod_quantities import PASSAGE
 from hydro2d.solver.simulation import Simulation
 
 TEXT = """
