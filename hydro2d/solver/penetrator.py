@@ -11,6 +11,7 @@ from hydro2d.mesh import sums
 from hydro2d.mesh.boundary_conditions import BY_NAME
 from hydro2d.mesh.sums import HALF
 from hydro2d.solver import bodies
+from hydro2d.solver.rod_quantities import PASSAGE
 from hydro2d.solver.targets import Target
 
 #: the rod is rigid while it has lost less than this share of its length and its radius has grown by less than that
