@@ -14,7 +14,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from hydro2d.mesh.boundary_conditions import EDGES
-from hydro2d.solver.insertion import body_state, slot_of
+from hydro2d.solver.insertion import body_state, body_velocity, slot_of
 from strength import SHEAR
 
 #: edges that stop a body
@@ -26,8 +26,8 @@ CELL_HOTTER, CELL_COLDER = 3.0, 0.25
 MOST_STRAIN, IDEAL_STRENGTH = 10.0, 0.1
 #: what a body may show that nothing meets: share of the specific kinetic energy of the closing speed, and of c^2
 AT_REST, OF_SOUND = 0.05, 1e-6
-#: step in the logarithm of the density along an isentrope, and the longest way
-STEP, FARTHEST = 0.02, 20.0
+#: step in the logarithm of the density along an isentrope, and the longest ways in compression and expansion
+STEP, FARTHEST, THINNEST = 0.005, 20.0, 6.9
 #: rise of the energy over which a temperature is differenced, J/kg
 DIFFERENCE = 1e4
 #: greatest compression in which a shock is sought
@@ -79,12 +79,10 @@ def of(deck, table, state, start) -> Reach:
     start : Totals of it
     """
     materials = _hottest(deck, table)
-    speed = closing_speed(deck, state)
-    mass = float(start.mass.sum())
-    speed += math.sqrt(2.0 * float(np.maximum(start.internal_of, 0.0).sum()) / mass) if mass > 0.0 else 0.0
-    shocked = [stagnation(material, speed) for material in materials]
-    pressure = _highest(deck, [p for _, _, p in shocked])
-    highest = np.array([compressed(one, rho, e, pressure) for one, (rho, e, _) in zip(materials, shocked, strict=True)])
+    mass, free = start.mass, np.array([released(one) for one in materials])
+    speed = closing_speed(deck, state.grid) + math.sqrt(2.0 * float(mass @ free) / max(float(mass.sum()), 1e-300))
+    pressure = _highest(deck, [stagnation(one, speed)[2] for one in materials])
+    highest = np.array([hottest(one, speed, pressure) for one in materials])
     lowest = np.array([min(coldest(one), one.e) for one in materials])
     first, density = (np.array([getattr(one, name) for one in materials]) for name in ("e", "rho"))
     noise = AT_REST * 0.5 * speed**2 + OF_SOUND * table.sound_speeds() ** 2
@@ -119,16 +117,33 @@ def _hottest(deck, table) -> list[Material]:
     return [found[m] for m in range(len(table))]
 
 
-def closing_speed(deck, state) -> float:
-    """Largest difference of two velocities that a deck gives, of bodies, edges and what is at rest, m/s; with a flow, whose
-    parts may meet, at least twice the largest velocity."""
-    given = [(0.0, 0.0), *(body.velocity for body in deck.body)]
+def closing_speed(deck, grid) -> float:
+    """Largest difference of two velocities that a deck gives, of parts of bodies, edges and what is at rest, m/s."""
+    rows, columns = grid.inside
+    r, z = np.meshgrid(grid.rc[columns], grid.zc[rows])
+    given = [(0.0, 0.0)]
+    for body in deck.body:
+        u, v = body_velocity(body, r, z) if body.flow else body.velocity
+        given += [(x, y) for x in (np.min(u), np.max(u)) for y in (np.min(v), np.max(v))]
     for edge in EDGES:
         velocity = getattr(deck.boundaries, f"{edge}_velocity") or 0.0
         given.append((velocity, 0.0) if edge.startswith("r") else (0.0, velocity))
-    largest = max(math.dist(one, other) for one, other in combinations(given, 2))
-    flows = any(body.flow for body in deck.body)
-    return max(largest, 2.0 * float(np.sqrt(np.max(state.u**2 + state.v**2)))) if flows else largest
+    return max(math.dist(one, other) for one, other in combinations(given, 2))
+
+
+def hottest(material: Material, speed: float, pressure: float) -> float:
+    """Energy of a material that is stopped from a speed and compressed to a pressure, J/kg; a slower stop may suffice."""
+    rho, e, p = stagnation(material, speed)
+    if p > pressure > stagnation(material, 0.0)[2]:
+        return stagnation(material, brentq(lambda slower: stagnation(material, slower)[2] - pressure, 0.0, speed))[1]
+    return e if p >= pressure else _along_isentrope(material, rho, e, STEP, lambda p: p >= pressure)
+
+
+def released(material: Material) -> float:
+    """Energy that a material gives away on its isentrope to no pressure, or to a thousandth of its density, J/kg."""
+    if not material.evaluate(material.rho, material.e)[0] > 0.0:
+        return 0.0
+    return material.e - _along_isentrope(material, material.rho, material.e, -STEP, lambda p: p <= 0.0)
 
 
 def stagnation(material: Material, speed: float) -> tuple[float, float, float]:
@@ -158,17 +173,16 @@ def stagnation(material: Material, speed: float) -> tuple[float, float, float]:
     return rho0, e0 + 0.5 * speed**2, p0 + rho0 * speed * (sound + 2.0 * speed)
 
 
-def compressed(material: Material, rho: float, e: float, pressure: float) -> float:
-    """Energy after an isentropic compression to a pressure, de = p/rho d(ln rho), J/kg; e where that is reached already."""
-    p = material.evaluate(rho, e)[0]
-    for _ in range(round(FARTHEST / STEP)):
-        if not p < pressure:
-            break
-        middle = e + 0.5 * STEP * p / rho
-        half = rho * math.exp(0.5 * STEP)
-        e += STEP * material.evaluate(half, middle)[0] / half
-        rho *= math.exp(STEP)
+def _along_isentrope(material: Material, rho: float, e: float, step: float, ends) -> float:
+    """Energy where the pressure on an isentrope, de = p/rho d(ln rho), ends a walk in the logarithm of density, J/kg."""
+    farthest = FARTHEST if step > 0.0 else THINNEST
+    for _ in range(round(farthest / abs(step))):
         p = material.evaluate(rho, e)[0]
+        if ends(p):
+            break
+        half = rho * math.exp(0.5 * step)
+        e += step * material.evaluate(half, e + 0.5 * step * p / rho)[0] / half
+        rho *= math.exp(step)
     return e
 
 
