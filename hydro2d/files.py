@@ -35,6 +35,10 @@ def replacing(path: Path) -> Iterator[Path]:
         sync(temporary)
         os.replace(temporary, path)
         sync(path.parent)
+    except OSError as error:
+        if error.errno is not None and error.filename in (None, str(temporary)):
+            error.filename = str(path)
+        raise
     finally:
         temporary.unlink(missing_ok=True)
 
@@ -43,11 +47,12 @@ def replacing(path: Path) -> Iterator[Path]:
 def hdf5(path: Path) -> Iterator:
     """Gives an h5py.File in memory and writes it to disk at the end, so that a full disk raises one OSError.
 
-    With a file on disk, h5py would print the error again for every object that is closed, and go on.
+    With a file on disk, h5py would print the error again for every object that is closed, and go on. The format is that of HDF5
+    1.8, in which an attribute may be larger than 64 KiB.
     """
     import h5py
 
-    with h5py.File(path.name, "w", driver="core", backing_store=False, libver=("earliest", "v110")) as file:
+    with h5py.File(path.name, "w", driver="core", backing_store=False, libver=("v108", "v110")) as file:
         yield file
         file.flush()
         image = file.id.get_file_image()
