@@ -13,6 +13,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import NamedTuple, TextIO
 
+from hydro2d.checksums import KEY, sealed, verified_text
 from hydro2d.errors import Error
 
 
@@ -56,7 +57,7 @@ def hdf5(path: Path) -> Iterator:
         yield file
         file.flush()
         image = file.id.get_file_image()
-    path.write_bytes(image)
+    path.write_bytes(sealed(image, ".h5"))
 
 
 def read_text(path: Path, error: type[Error]) -> str:
@@ -69,9 +70,11 @@ def read_text(path: Path, error: type[Error]) -> str:
         raise error(f"{path}: is not UTF-8 text") from None
 
 
-def write_text(path: Path, text: str) -> None:
+def write_text(path: Path, text: str, *, checksum: bool = False) -> None:
+    """Writes a text, with its checksum if that is wanted."""
+    data = text.encode("utf-8")
     with replacing(path) as temporary:
-        temporary.write_text(text, encoding="utf-8")
+        temporary.write_bytes(sealed(data, Path(path).suffix) if checksum else data)
 
 
 class LockError(Error):
@@ -181,8 +184,21 @@ def _finite(value):
     return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
+def read_json(path: Path, error: type[Error]) -> dict:
+    """The table in a JSON file whose checksum fits. Raises `error` with one line."""
+    text = verified_text(path, error)
+    try:
+        found = json.loads(text)
+    except (ValueError, RecursionError) as problem:
+        raise error(f"{path} cannot be read: {problem}") from None
+    if not isinstance(found, dict):
+        raise error(f"{path} cannot be read: it holds no table")
+    found.pop(KEY, None)
+    return found
+
+
 def write_json(path: Path, value) -> None:
-    write_text(path, json.dumps(_finite(plain(value)), indent=2, allow_nan=False) + "\n")
+    write_text(path, json.dumps(_finite(plain(value)), indent=2, allow_nan=False) + "\n", checksum=True)
 
 
 @contextmanager

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from hydro2d import checksums
 from hydro2d.errors import Error
 from hydro2d.files import hdf5, replacing
 from hydro2d.output.station_arrays import KEYS, KINDS, of_station, stations
@@ -190,6 +191,7 @@ def _opened(path: Path):
     """A history file opened for reading. Raises HistoryError."""
     import h5py
 
+    checksums.verified(path, HistoryError)
     try:
         with h5py.File(path, "r") as file:
             yield file

@@ -17,6 +17,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 
+from hydro2d import checksums
 from hydro2d.errors import Error, unknown
 from hydro2d.files import replacing, write_text
 from hydro2d.mesh import quantities
@@ -55,6 +56,7 @@ def _write(dataset, path: Path, time: float, writer) -> None:
         writer.SetFileName(str(temporary))
         if writer.Write() != 1:
             raise _write_error(writer.GetErrorCode(), path)
+        checksums.seal(temporary, path.suffix)
 
 
 def _write_error(code: int, path: Path) -> OSError:
@@ -164,14 +166,16 @@ def write_series(path: Path, entries: list[tuple[float, str]]) -> None:
     for time, file in entries:
         ElementTree.SubElement(collection, "DataSet", timestep=repr(float(time)), group="", part="0", file=file)
     ElementTree.indent(root)
-    write_text(path, '<?xml version="1.0"?>\n' + ElementTree.tostring(root, encoding="unicode") + "\n")
+    text = ElementTree.tostring(root, encoding="unicode")
+    write_text(path, f'<?xml version="1.0"?>\n{text}\n', checksum=True)
 
 
 def read_series(path: Path) -> list[tuple[float, str]]:
     """Times and file names of a .pvd file. Raises VtkError."""
+    data = checksums.verified(path, VtkError)
     try:
-        return [(float(e.get("timestep")), e.get("file")) for e in ElementTree.parse(path).getroot().iter("DataSet")]
-    except (OSError, ElementTree.ParseError, TypeError, ValueError) as error:
+        return [(float(e.get("timestep")), e.get("file")) for e in ElementTree.fromstring(data).iter("DataSet")]
+    except (ElementTree.ParseError, TypeError, ValueError) as error:
         raise VtkError(f"{path} is not a series of VTK files: {error}") from None
 
 
@@ -301,7 +305,8 @@ class Dump:
 
 def _read(reader, path: Path):
     """The data that a VTK reader reads from a file. Raises VtkError."""
-    if not Path(path).is_file() or not reader.CanReadFile(str(path)):
+    checksums.verified(path, VtkError)
+    if not reader.CanReadFile(str(path)):
         raise VtkError(f"{path} is not a VTK file of a run")
     reader.SetFileName(str(path))
     shown = reader.GetGlobalWarningDisplay()
@@ -335,6 +340,13 @@ def read_grid(path: Path) -> Dump:
     return Dump(r.copy(), z.copy(), fields, time.GetValue(0))
 
 
+def check_lines(path: Path) -> None:
+    """Raises VtkError for a .vtp file that is damaged."""
+    from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
+
+    _read(vtkXMLPolyDataReader(), path)
+
+
 def read_lines(path: Path) -> list[tuple[int, np.ndarray]]:
     """Reads polylines from a .vtp file, as ``write_lines`` takes them: number of the body, r and z (n, 2). Raises VtkError."""
     from vtkmodules.util.numpy_support import vtk_to_numpy
@@ -365,7 +377,8 @@ def pyvista_of(r_edges, z_edges, fields: Iterable[tuple[str, np.ndarray]], time:
 
 
 def pyvista_grid(path: Path):
-    """A .vtr file as a pyvista.RectilinearGrid."""
+    """A .vtr file as a pyvista.RectilinearGrid. Raises VtkError."""
     import pyvista
+    from vtkmodules.vtkIOXML import vtkXMLRectilinearGridReader
 
-    return pyvista.read(path)
+    return pyvista.wrap(_read(vtkXMLRectilinearGridReader(), path))

@@ -44,6 +44,7 @@ def export(run: Results, out: Path, keys=("all",)) -> list[Path]:
     for kind in ("interfaces", "tracers"):
         if (run.directory / vtk.SERIES[kind]).exists():
             for _, file in vtk.read_series(run.directory / vtk.SERIES[kind]):
+                vtk.check_lines(run.directory / file)
                 shutil.copyfile(run.directory / file, out / file)
             shutil.copyfile(run.directory / vtk.SERIES[kind], out / vtk.SERIES[kind])
             written.append(out / vtk.SERIES[kind])

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import html
-import json
 import tomllib
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from hydro2d import checksums
 from hydro2d.errors import Error
+from hydro2d.files import read_json
 from hydro2d.output import history, snapshot, vtk
 from hydro2d.results.summaries import plausible
 from hydro2d.running.run import DECK, HISTORY, SUMMARY
@@ -46,20 +47,14 @@ class Results:
 
     def __init__(self, directory: Path | str):
         self.directory = Path(directory).absolute()
+        if not (self.directory / DECK).exists():
+            raise ResultsError(_no_run(self.directory))
         try:
-            self.deck = tomllib.loads((self.directory / DECK).read_text(encoding="utf-8"))
-        except FileNotFoundError:
-            raise ResultsError(_no_run(self.directory)) from None
-        except (OSError, ValueError) as error:
+            self.deck = tomllib.loads(checksums.verified_text(self.directory / DECK, ResultsError))
+        except ValueError as error:
             raise ResultsError(f"{self.directory / DECK} cannot be read: {error}") from None
         file = self.directory / SUMMARY
-        try:
-            found = json.loads(file.read_text(encoding="utf-8")) if file.exists() else {}
-        except (OSError, ValueError) as error:
-            raise ResultsError(f"{file} cannot be read: {error}") from None
-        if not isinstance(found, dict):
-            raise ResultsError(f"{file} cannot be read: it holds no table")
-        self.summary, _ = plausible(found)
+        self.summary, _ = plausible(read_json(file, ResultsError) if file.exists() else {})
         self._history: tuple[int, dict[str, np.ndarray]] | None = None
 
     @property

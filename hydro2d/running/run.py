@@ -153,7 +153,7 @@ class Run:
         self.started = self.flushed = self.saved_at = self.published = clock.perf_counter()
         self.good, self.flush_every = None, FLUSH_SECONDS
         (self.directory / SUMMARY).unlink(missing_ok=True)
-        write_text(self.directory / DECK, self.deck_text)
+        write_text(self.directory / DECK, self.deck_text, checksum=True)
 
     def _history(self, rows: int) -> History:
         """The history to continue; a damaged file is renamed and a new history begun."""

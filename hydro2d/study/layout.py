@@ -12,14 +12,13 @@ from __future__ import annotations
 
 import functools
 import hashlib
-import json
 import os
 import tomllib
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from hydro2d import __version__
+from hydro2d import __version__, checksums, files
 from hydro2d.errors import nearest
 from hydro2d.files import holder, write_json, write_text
 from hydro2d.output import snapshot
@@ -80,9 +79,12 @@ class Case:
 
     @functools.cached_property
     def deck(self) -> dict | None:
-        """The resolved deck in SI units; None before the case has begun."""
+        """The resolved deck in SI units; None before the case has begun. Raises StudyError."""
         text = _text(self.directory / run.DECK)
-        return tomllib.loads(text) if text else None
+        try:
+            return tomllib.loads(text) if text else None
+        except ValueError as error:
+            raise StudyError(f"{self.directory / run.DECK} cannot be read: {error}") from None
 
 
 @dataclass(frozen=True)
@@ -228,25 +230,23 @@ def _runs(directory: Path) -> list[Path]:
 
 
 def _text(file: Path) -> str:
-    """The text of a file; empty if it does not exist, or if its folder is a file. Raises StudyError."""
+    """The text of a deck; empty if it does not exist, or if its folder is a file. Raises StudyError."""
     try:
-        return file.read_text(encoding="utf-8")
-    except (FileNotFoundError, NotADirectoryError):
-        return ""
-    except (OSError, ValueError) as error:
-        raise StudyError(f"{file} cannot be read: {error}") from None
+        return checksums.verified_text(file, StudyError)
+    except StudyError:
+        if not file.exists():
+            return ""
+        raise
 
 
 def read_json(file: Path) -> dict:
     """The table in a JSON file; empty if there is no such file. Raises StudyError."""
-    text = _text(file)
     try:
-        found = json.loads(text) if text else {}
-    except ValueError as error:
-        raise StudyError(f"{file} cannot be read: {error}") from None
-    if not isinstance(found, dict):
-        raise StudyError(f"{file} cannot be read: it holds no table")
-    return found
+        return files.read_json(file, StudyError)
+    except StudyError:
+        if not file.exists():
+            return {}
+        raise
 
 
 def _case(directory: Path, entry: dict) -> Case:

@@ -8,11 +8,12 @@ from collections import Counter
 from collections.abc import Sequence
 from datetime import UTC, datetime
 
-from hydro2d import __version__
+from hydro2d import __version__, checksums
 from hydro2d.analytic import model_transition
 from hydro2d.running.run import DECK
 from hydro2d.study import differences, regimes
 from hydro2d.study.contents import Contents
+from hydro2d.study.definition import StudyError
 from hydro2d.study.panels import Chart
 from hydro2d.study.pictures import Picture
 from hydro2d.study.record import Record
@@ -123,6 +124,6 @@ def _origin(each: Record) -> dict:
     return {
         "name": each.case.name,
         "file": re.sub(r"[^\w.-]+", "-", each.case.name) + ".toml",
-        "deck": (each.case.directory / DECK).read_text(encoding="utf-8") if each.deck else "",
+        "deck": checksums.verified_text(each.case.directory / DECK, StudyError) if each.deck else "",
         "entries": {key: value for key, value in entries.items() if value not in (None, "")},
     }
