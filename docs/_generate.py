@@ -151,7 +151,8 @@ def results_page() -> str:
         "for one of the [names below](#sinks-and-contact-transfers). All numbers are in SI units, of the whole "
         "circumference, and in planar geometry per metre of depth. A number that is not known is NaN in the history and "
         "`null` in the summary: that of a rod in a deck without rod and target, of a station outside of the mesh.",
-        "## Columns of `history.h5`", table(("column", "unit", "meaning"), rows(columns.HISTORY)),
+        "## Columns of `history.h5`", "Those of stations are kept [together](../files.md#numbers-of-a-run) in the file.",
+        table(("column", "unit", "meaning"), rows(columns.HISTORY)),
         "## Keys of `summary.json`", "A dot leads into a table.",
         table(("key", "unit", "meaning"), rows(columns.SUMMARY)),
         "## Sinks and contact transfers",

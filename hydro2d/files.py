@@ -15,6 +15,7 @@ from contextlib import contextmanager
 from pathlib import Path, PurePosixPath
 from typing import NamedTuple, TextIO
 
+from hydro2d.checksums import KEY, sealed, verified_text
 from hydro2d.errors import Error
 
 
@@ -37,6 +38,10 @@ def replacing(path: Path) -> Iterator[Path]:
         sync(temporary)
         os.replace(temporary, path)
         sync(path.parent)
+    except OSError as error:
+        if error.errno is not None and error.filename in (None, str(temporary)):
+            error.filename = str(path)
+        raise
     finally:
         temporary.unlink(missing_ok=True)
 
@@ -45,15 +50,16 @@ def replacing(path: Path) -> Iterator[Path]:
 def hdf5(path: Path) -> Iterator:
     """Gives an h5py.File in memory and writes it to disk at the end, so that a full disk raises one OSError.
 
-    With a file on disk, h5py would print the error again for every object that is closed, and go on.
+    With a file on disk, h5py would print the error again for every object that is closed, and go on. The format is that of HDF5
+    1.8, in which an attribute may be larger than 64 KiB.
     """
     import h5py
 
-    with h5py.File(path.name, "w", driver="core", backing_store=False, libver=("earliest", "v110")) as file:
+    with h5py.File(path.name, "w", driver="core", backing_store=False, libver=("v108", "v110")) as file:
         yield file
         file.flush()
         image = file.id.get_file_image()
-    path.write_bytes(image)
+    path.write_bytes(sealed(image, ".h5"))
 
 
 class StrangeFile(Error):
@@ -120,9 +126,11 @@ def read_text(path: Path, error: type[Error]) -> str:
         raise error(f"{path}: is not UTF-8 text") from None
 
 
-def write_text(path: Path, text: str) -> None:
+def write_text(path: Path, text: str, *, checksum: bool = False) -> None:
+    """Writes a text, with its checksum if that is wanted."""
+    data = text.encode("utf-8")
     with replacing(path) as temporary:
-        temporary.write_text(text, encoding="utf-8")
+        temporary.write_bytes(sealed(data, Path(path).suffix) if checksum else data)
 
 
 #: letters of a lock file that are read
@@ -236,8 +244,21 @@ def _finite(value):
     return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
+def read_json(path: Path, error: type[Error]) -> dict:
+    """The table in a JSON file whose checksum fits. Raises `error` with one line."""
+    text = verified_text(path, error)
+    try:
+        found = json.loads(text)
+    except (ValueError, RecursionError) as problem:
+        raise error(f"{path} cannot be read: {problem}") from None
+    if not isinstance(found, dict):
+        raise error(f"{path} cannot be read: it holds no table")
+    found.pop(KEY, None)
+    return found
+
+
 def write_json(path: Path, value) -> None:
-    write_text(path, json.dumps(_finite(plain(value)), indent=2, allow_nan=False) + "\n")
+    write_text(path, json.dumps(_finite(plain(value)), indent=2, allow_nan=False) + "\n", checksum=True)
 
 
 @contextmanager

@@ -1,23 +1,27 @@
-"""history.h5: one 1-D dataset per quantity against time and, at the end of a run, the holes in the targets.
+"""history.h5: one dataset per quantity against time and, at the end of a run, the holes in the targets.
 
-Every dataset has the attribute `units` and `time` as its dimension scale, so that xarray can open the file directly. The hole
-in the first target is the group `crater`: its radius over its axial positions. Those in further targets are `crater_NAME`. The
-whole file is written under a temporary name and renamed each time, so a run that is killed leaves the last complete file.
+Every dataset has the attribute `units` and `time` as its dimension scale, so that xarray can open the file directly. Those of
+tracers and gauges have the station as a second dimension, see station_arrays.py. The hole in the first target is the group
+`crater`: its radius over its axial positions. Those in further targets are `crater_NAME`. The whole file is written under a
+temporary name and renamed each time, so a run that is killed leaves the last complete file.
 """
 
 from __future__ import annotations
 
 import csv
 import io
+from array import array
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from hydro2d import checksums
 from hydro2d.errors import Error
 from hydro2d.files import hdf5, own, replacing
 from hydro2d.output import foreign
+from hydro2d.output.station_arrays import KEYS, KINDS, of_station, stations
 
 if TYPE_CHECKING:
     import pandas
@@ -66,7 +70,7 @@ class Columns:
     """Rows of named numbers, kept as columns."""
 
     def __init__(self) -> None:
-        self._columns: dict[str, list[float]] = {}
+        self._columns: dict[str, array[float]] = {}
         self._rows = 0
 
     def __len__(self) -> int:
@@ -81,7 +85,7 @@ class Columns:
         """Adds a row, which must contain `time`. Quantities missing from other rows are NaN there."""
         for name in row:
             if name not in self._columns:
-                self._columns[name] = [np.nan] * self._rows
+                self._columns[name] = array("d", [np.nan]) * self._rows
         for name, column in self._columns.items():
             column.append(_encode(row[name]) if name in row else np.nan)
         self._rows += 1
@@ -112,7 +116,7 @@ class History(Columns):
         self.craters: dict[str, tuple[np.ndarray, np.ndarray]] = {}
         if rows:
             for name, values in read(self.path).items():
-                self._columns[name] = list(values[:rows])
+                self._columns[name] = array("d", values[:rows].astype(float).tobytes())
             self._rows = min(rows, len(self._columns["time"]))
 
     def write(self) -> None:
@@ -120,15 +124,33 @@ class History(Columns):
         with replacing(self.path) as temporary, hdf5(temporary) as file:
             time = _dataset(file, "time", self._columns.get("time", []))
             time.make_scale("time")
+            kept = {kind: stations(self._columns, kind) for kind in KINDS}
+            apart = {column for kind, names in kept.items() for name in names for column in of_station(kind, name)}
             for name, values in self._columns.items():
-                if name != "time":
+                if name != "time" and name not in apart:
                     _dataset(file, name, values).dims[0].attach_scale(time)
+            for kind, names in kept.items():
+                if names:
+                    self._write_stations(file, kind, names)
             for number, (name, crater) in enumerate(self.craters.items()):
                 group = file.create_group(f"{CRATER}_{name}" if number else CRATER)
                 group.attrs.update(target=name, number=number)
                 z, radius = (_dataset(group, *column) for column in zip(CRATER_COLUMNS, crater, strict=True))
                 z.make_scale(CRATER_COLUMNS[0])
                 radius.dims[0].attach_scale(z)
+
+    def _write_stations(self, file, kind: str, names: list[str]) -> None:
+        """Writes the columns of tracers or gauges as arrays over time and station."""
+        import h5py
+
+        scale = file.create_dataset(kind, data=names, dtype=h5py.string_dtype())
+        scale.make_scale(kind)
+        for key in KEYS:
+            columns = [np.asarray(self._columns[f"{kind}_{name}_{key}"]) for name in names]
+            dataset = file.create_dataset(f"{kind}_{key}", data=np.column_stack(columns))
+            dataset.attrs.update(attributes(key))
+            for dimension, along in zip(dataset.dims, (file["time"], scale), strict=True):
+                dimension.attach_scale(along)
 
 
 def _numbers(name: str, values) -> np.ndarray:
@@ -172,6 +194,7 @@ def _opened(path: Path):
     """A history file opened for reading. Raises HistoryError."""
     import h5py
 
+    checksums.verified(path, HistoryError)
     try:
         with h5py.File(own(path), "r") as file:
             foreign.check_hdf5(file)
@@ -183,11 +206,22 @@ def _opened(path: Path):
 def read(path: Path) -> dict[str, np.ndarray]:
     """All columns by name, `time` first, shapes (rows,). Raises HistoryError."""
     with _opened(path) as file:
-        names = sorted(file.keys() - set(_craters(file)), key=lambda name: (name != "time", name))
-        columns = {name: file[name][...] for name in names}
+        found = {name: file[name][...] for name in file.keys() - set(_craters(file))}
+        for kind in KINDS:
+            if kind in found and found[kind].dtype == object:
+                found |= _taken_apart(found, kind)
+        columns = {name: found[name] for name in sorted(found, key=lambda name: (name != "time", name))}
         if any(column.shape != columns["time"].shape or column.dtype.kind not in "fi" for column in columns.values()):
             raise HistoryError(f"{path} is damaged: its columns differ in length")
         return columns
+
+
+def _taken_apart(found: dict[str, np.ndarray], kind: str) -> dict[str, np.ndarray]:
+    """The columns of tracers or gauges, shapes (rows,), from their arrays, shapes (rows, stations), which are taken out."""
+    names = [name.decode() for name in found.pop(kind)]
+    arrays = {key: np.ascontiguousarray(found.pop(f"{kind}_{key}").T) for key in KEYS}
+    return {f"{kind}_{name}_{key}": column for key, columns in arrays.items()
+            for name, column in zip(names, columns, strict=True)}  # fmt: skip
 
 
 def _craters(file) -> list[str]:

@@ -1,7 +1,8 @@
 """restart.h5: everything that a run needs to continue with bitwise the same results.
 
 The file holds every array of the state, the scalars of the simulation and of the run as JSON, and the text of the deck. A
-SHA-256 over all of them and the attribute `complete` are written last. The previous file is kept as restart.previous.h5.
+SHA-256 over all of them and the attribute `complete` are written last; that of the file itself follows its end. The previous
+file is kept as restart.previous.h5.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ from pathlib import Path
 
 import numpy as np
 
+from hydro2d import checksums
 from hydro2d.errors import Error
 from hydro2d.files import hdf5, own, replacing, sync
 from hydro2d.output import foreign
@@ -90,6 +92,7 @@ def read(path: Path) -> Snapshot:
     path = own(Path(path))
     if not path.is_file():
         raise SnapshotError(f"{path}: there is no such restart file")
+    checksums.verified(path, SnapshotError)
     try:
         with h5py.File(path, "r") as file:
             foreign.check_hdf5(file)

@@ -17,8 +17,9 @@ from xml.etree import ElementTree
 
 import numpy as np
 
+from hydro2d import checksums
 from hydro2d.errors import Error, unknown
-from hydro2d.files import opened, own, own_folder, replacing, write_text
+from hydro2d.files import own_folder, replacing, write_text
 from hydro2d.mesh import quantities
 from hydro2d.mesh.boundary_conditions import halved
 from hydro2d.output import derived, foreign
@@ -69,6 +70,7 @@ def _write(dataset, path: Path, time: float, writer) -> None:
         writer.SetFileName(str(temporary))
         if writer.Write() != 1:
             raise _write_error(writer.GetErrorCode(), path)
+        checksums.seal(temporary, path.suffix)
 
 
 def _write_error(code: int, path: Path) -> OSError:
@@ -178,19 +180,19 @@ def write_series(path: Path, entries: list[tuple[float, str]]) -> None:
     for time, file in entries:
         ElementTree.SubElement(collection, "DataSet", timestep=repr(float(time)), group="", part="0", file=file)
     ElementTree.indent(root)
-    write_text(path, '<?xml version="1.0"?>\n' + ElementTree.tostring(root, encoding="unicode") + "\n")
+    text = ElementTree.tostring(root, encoding="unicode")
+    write_text(path, f'<?xml version="1.0"?>\n{text}\n', checksum=True)
 
 
 def read_series(path: Path) -> list[tuple[float, str]]:
     """Times and file names of a .pvd file, all of them plain names in FOLDER. Raises VtkError, StrangeFile."""
+    data = checksums.verified(path, VtkError)
     try:
-        with opened(path) as file:
-            text = file.read()
-        foreign.check_xml(text.encode())
-        found = [(float(e.get("timestep")), e.get("file")) for e in ElementTree.fromstring(text).iter("DataSet")]
+        foreign.check_xml(data)
+        found = [(float(e.get("timestep")), e.get("file")) for e in ElementTree.fromstring(data).iter("DataSet")]
         foreign.check_names((file for _, file in found), FOLDER)
         return found
-    except (OSError, ElementTree.ParseError, TypeError, ValueError) as error:
+    except (ElementTree.ParseError, TypeError, ValueError) as error:
         raise VtkError(f"{path} is not a series of VTK files: {error}") from None
 
 
@@ -325,8 +327,9 @@ class Dump:
 
 def _read(reader, path: Path):
     """The data that a VTK reader reads from a file. Raises VtkError."""
+    checksums.verified(path, VtkError)
     with _silence():
-        if not own(Path(path)).is_file() or not reader.CanReadFile(str(path)):
+        if not reader.CanReadFile(str(path)):
             raise VtkError(f"{path} is not a VTK file of a run")
         foreign.check_vtk(Path(path), VtkError)
         reader.SetFileName(str(path))
@@ -361,6 +364,13 @@ def read_grid(path: Path) -> Dump:
         values = vtk_to_numpy(each)
         fields[each.GetName()] = values.reshape(len(z) - 1, len(r) - 1, *values.shape[1:]).copy()
     return Dump(r.copy(), z.copy(), fields, grid.GetFieldData().GetArray("TimeValue").GetValue(0))
+
+
+def check_lines(path: Path) -> None:
+    """Raises VtkError for a .vtp file that is damaged."""
+    from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
+
+    _read(vtkXMLPolyDataReader(), path)
 
 
 def read_lines(path: Path) -> list[tuple[int, np.ndarray]]:

@@ -46,6 +46,7 @@ def export(run: Results, out: Path, keys=("all",)) -> list[Path]:
     for kind in ("interfaces", "tracers"):
         if (run.directory / vtk.SERIES[kind]).exists():
             for _, file in vtk.read_series(run.directory / vtk.SERIES[kind]):
+                vtk.check_lines(within(run.directory, file))
                 _copy(within(run.directory, file), out / file)
             _copy(own(run.directory / vtk.SERIES[kind]), out / vtk.SERIES[kind])
             written.append(out / vtk.SERIES[kind])

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import html
-import json
 import tomllib
 from dataclasses import replace
 from pathlib import Path
@@ -11,8 +10,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from hydro2d import checksums
 from hydro2d.errors import Error
-from hydro2d.files import opened, within
+from hydro2d.files import read_json, within
 from hydro2d.mesh.boundary_conditions import halved
 from hydro2d.output import history, snapshot, vtk
 from hydro2d.results.summaries import plausible
@@ -51,24 +51,14 @@ class Results:
     def __init__(self, directory: Path | str, *, trust: bool = False):
         self.directory, self.trust = Path(directory).absolute(), trust
         check_own(self.directory)
+        if not (self.directory / DECK).exists():
+            raise ResultsError(_no_run(self.directory))
         try:
-            with opened(self.directory / DECK) as text:
-                self.deck = tomllib.loads(text.read())
-        except FileNotFoundError:
-            raise ResultsError(_no_run(self.directory)) from None
-        except (OSError, ValueError, RecursionError) as error:
+            self.deck = tomllib.loads(checksums.verified_text(self.directory / DECK, ResultsError))
+        except (ValueError, RecursionError) as error:
             raise ResultsError(f"{self.directory / DECK} cannot be read: {error}") from None
         file = self.directory / SUMMARY
-        try:
-            with opened(file) as text:
-                found = json.load(text)
-        except FileNotFoundError:
-            found = {}
-        except (OSError, ValueError, RecursionError) as error:
-            raise ResultsError(f"{file} cannot be read: {error}") from None
-        if not isinstance(found, dict):
-            raise ResultsError(f"{file} cannot be read: it holds no table")
-        self.summary, _ = plausible(found)
+        self.summary, _ = plausible(read_json(file, ResultsError) if file.exists() else {})
         self._history: tuple[int, dict[str, np.ndarray]] | None = None
 
     @property

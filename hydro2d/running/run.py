@@ -19,8 +19,8 @@ import os
 import time as clock
 import tomllib
 from collections.abc import Callable, Mapping
-from contextlib import suppress
 from pathlib import Path
+from typing import NoReturn
 
 import numpy as np
 
@@ -34,6 +34,7 @@ from hydro2d.output import snapshot
 from hydro2d.output.history import History, HistoryError
 from hydro2d.output.vtk import FOLDER, SERIES, Series
 from hydro2d.running import provenance
+from hydro2d.running.outputs import Attempts, writing
 from hydro2d.running.progress import Clock, reporter
 from hydro2d.running.team import Team
 from hydro2d.solver.callbacks import Due
@@ -46,8 +47,8 @@ OWN_FILES = (DECK, SUMMARY, HISTORY, LOG, PROGRESS, snapshot.NAME, snapshot.PREV
 
 #: cycles between copies of the state in memory, the last good one
 GOOD_EVERY = 100
-#: seconds between writes of the history
-FLUSH_SECONDS = 10.0
+#: seconds between writes of the history, and largest share of the wall time that they take
+FLUSH_SECONDS, FLUSH_SHARE = 10.0, 0.1
 #: seconds between writes of progress.json
 PROGRESS_SECONDS = 3.0
 
@@ -157,15 +158,18 @@ class Run:
             report.line(f"warning: {self.series.repaired}")
         self.clock, self.team = Clock(deck.stop), Team(threads())
         self.started = self.flushed = self.saved_at = self.published = clock.perf_counter()
-        self.good = None
+        self.good, self.flush_every = None, FLUSH_SECONDS
         (self.directory / SUMMARY).unlink(missing_ok=True)
-        write_text(self.directory / DECK, self.deck_text)
+        write_text(self.directory / DECK, self.deck_text, checksum=True)
 
     def _history(self, rows: int) -> History:
         """The history to continue; a damaged file is renamed and a new history begun."""
         path = self.directory / HISTORY
         try:
-            return History(path, rows)
+            found = History(path, rows)
+            if len(found) < rows:
+                self.report.line(f"warning: {path} lacks the last {rows - len(found)} of {rows} rows before the restart")
+            return found
         except HistoryError as error:
             aside = path.with_name(f"damaged-{HISTORY}")
             if path.exists():
@@ -196,16 +200,10 @@ class Run:
             self.sim.refuse_nonsense()
         except UnphysicalState as error:
             return self._finish("unphysical", str(error))
-        except OSError:  # in an output: the state is whole
-            self._save_if_possible(self._snapshot())
-            raise
-        except ColumnError:  # the state is whole
-            self._save_if_possible(self._snapshot())
-            (self.directory / PROGRESS).unlink(missing_ok=True)
-            raise
-        except MemoryError:
-            self._save_if_possible(self.good)
-            raise
+        except (OSError, ColumnError) as error:  # in an output: the state is whole
+            self._save_after(error, self._snapshot())
+        except MemoryError as error:
+            self._save_after(error, self.good)
         finally:
             self.team.all()
         if reason is None:
@@ -229,17 +227,22 @@ class Run:
         if self.due["history"](sim.time):
             self.history.append(row(sim))
         if self.due["vtk"](sim.time):
-            self.series.dump(sim)
+            with writing(self.directory / FOLDER):
+                self.series.dump(sim)
         if now - self.saved_at >= self.deck.output.restart_interval:
-            self._save(self._snapshot())
+            attempts = Attempts()
+            self._save(self._snapshot(), attempts)
+            attempts.conclude()
         if sim.cycle % GOOD_EVERY == 0:
             self.good = self._snapshot(self.good)
-        if now - self.flushed >= FLUSH_SECONDS:
-            self.history.write()
-            self.flushed = clock.perf_counter()
+        if now - self.flushed >= self.flush_every:
+            with writing(self.directory / HISTORY):
+                self._write_history()
         if now - self.published >= PROGRESS_SECONDS:
-            self._publish()
-        self.report.update(self)
+            with writing(self.directory / PROGRESS):
+                self._publish()
+        with writing(self.directory / LOG):
+            self.report.update(self)
 
     def _publish(self) -> None:
         """Writes progress.json, which other programs read."""
@@ -276,37 +279,59 @@ class Run:
             provenance=self.provenance,
         )
 
-    def _save(self, state: snapshot.Snapshot) -> None:
-        """Writes the history and then the restart file, which relies on its rows."""
+    def _write_history(self) -> None:
+        """Writes the history, which takes longer the more stations there are, and is then written less often."""
+        began = clock.perf_counter()
         self.history.write()
-        snapshot.write(self.directory / snapshot.NAME, state)
-        self.flushed = self.saved_at = clock.perf_counter()
+        self.flushed = clock.perf_counter()
+        self.flush_every = max(FLUSH_SECONDS, (self.flushed - began) / FLUSH_SHARE)
 
-    def _save_if_possible(self, state: snapshot.Snapshot | None) -> None:
-        """Writes a restart file after an error; if that fails too, the previous one is kept."""
-        with suppress(OSError, MemoryError):
-            if state is not None:
-                self._save(state)
+    def _save(self, state: snapshot.Snapshot, attempts: Attempts) -> None:
+        """Writes the history and the restart file, which relies on its rows but does without them where it must."""
+        with attempts.writing(self.directory / HISTORY):
+            self._write_history()
+        with attempts.writing(self.directory / snapshot.NAME):
+            snapshot.write(self.directory / snapshot.NAME, state)
+        self.saved_at = clock.perf_counter()
+
+    def _save_after(self, error: Exception, state: snapshot.Snapshot | None) -> NoReturn:
+        """Writes a restart file after an error, or keeps the one before, and raises the error."""
+        attempts = Attempts(error)
+        if state is not None:
+            self._save(state, attempts)
+        with attempts.writing(self.directory / PROGRESS):
+            (self.directory / PROGRESS).unlink(missing_ok=True)
+        attempts.conclude()
+        raise error
 
     def _finish(self, status: str, reason: str) -> dict:
-        """The last outputs. A restart file never counts the extra row and dump that are written after the end."""
-        self.history.craters = self.sim.holes()
-        if status == "unphysical":
-            if self.good is not None:
-                self._save(self.good)
-        else:
-            self._save(self._snapshot())
+        """The last outputs, of which one that fails does not keep the others from being written.
+
+        A restart file never counts the extra row and dump that are written after the end.
+        """
+        attempts = Attempts()
+        with attempts.writing(self.directory / HISTORY):
+            self.history.craters = self.sim.holes()
+        state = self.good if status == "unphysical" else self._snapshot()
+        if state is not None:
+            self._save(state, attempts)
         if status != "interrupted":
             if self.history.last_time != self.sim.time:
-                self._last_row(status)
+                with attempts.writing(self.directory / HISTORY):
+                    self._last_row(status)
             if self.series.last_time != self.sim.time:
-                self.series.dump(self.sim)
-        summary = self.summary(status, reason)
-        (self.directory / PROGRESS).unlink(missing_ok=True)
-        write_json(self.directory / SUMMARY, summary)
-        if text := self.team.told():
-            self.report.line(text)
-        self.report.end(self, summary)
+                with attempts.writing(self.directory / FOLDER):
+                    self.series.dump(self.sim)
+        with attempts.writing(self.directory / SUMMARY):
+            summary = self.summary(status, reason)
+            (self.directory / PROGRESS).unlink(missing_ok=True)
+            write_json(self.directory / SUMMARY, summary)
+        with attempts.writing(self.directory / LOG):
+            if text := self.team.told():
+                self.report.line(text)
+        attempts.conclude()
+        with writing(self.directory / LOG):
+            self.report.end(self, summary)
         return summary
 
     def _last_row(self, status: str) -> None:

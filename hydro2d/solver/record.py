@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from hydro2d.errors import Error
 from hydro2d.output.history import CRATER, Columns
+from hydro2d.output.station_arrays import RESERVED
 from hydro2d.solver.callbacks import Due
 from hydro2d.solver.station_columns import PEAKS
 
@@ -36,7 +37,7 @@ def row(sim: Simulation) -> dict[str, float | str | None]:
         values |= {f"sink_{sink}_{name}": amount for name, amount in amounts.items()}
     check(sim.columns)
     for name, of in sim.columns.items():
-        if name in values:
+        if name in values or name in RESERVED:
             raise ColumnError(f"the history has a column {name} of its own; give yours another name")
         try:
             values[name] = float(of(sim))

@@ -10,10 +10,10 @@ import traceback
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
-from hydro2d import jit
+from hydro2d import checksums, jit
 from hydro2d.deck import deck as decks
 from hydro2d.errors import DeckError
-from hydro2d.files import LockError, StrangeFile, holder, opened
+from hydro2d.files import LockError, StrangeFile, holder
 from hydro2d.interrupt import Interrupt
 from hydro2d.mesh.quantities import FieldError
 from hydro2d.output import snapshot
@@ -125,9 +125,7 @@ def _can_continue(directory: Path, deck_text: str, overwrite: bool) -> bool:
     file = directory / run.DECK
     if not file.is_file():
         return False
-    with opened(file) as text:
-        same = text.read() == deck_text
-    if not same:
+    if checksums.verified_text(file, run.RunError) != deck_text:
         if not overwrite:
             raise run.RunError(f"{directory} holds a run of another deck; --overwrite removes it")
         return False

@@ -12,16 +12,15 @@ from __future__ import annotations
 
 import functools
 import hashlib
-import json
 import os
 import tomllib
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path, PurePosixPath
 
-from hydro2d import __version__
+from hydro2d import __version__, checksums, files
 from hydro2d.errors import nearest
-from hydro2d.files import holder, opened, own, own_folder, within, write_json, write_text
+from hydro2d.files import holder, own, own_folder, within, write_json, write_text
 from hydro2d.output import snapshot
 from hydro2d.results.reading import STUDY
 from hydro2d.results.summaries import plausible
@@ -80,9 +79,12 @@ class Case:
 
     @functools.cached_property
     def deck(self) -> dict | None:
-        """The resolved deck in SI units; None before the case has begun."""
+        """The resolved deck in SI units; None before the case has begun. Raises StudyError."""
         text = _text(self.directory / run.DECK)
-        return tomllib.loads(text) if text else None
+        try:
+            return tomllib.loads(text) if text else None
+        except ValueError as error:
+            raise StudyError(f"{self.directory / run.DECK} cannot be read: {error}") from None
 
 
 @dataclass(frozen=True)
@@ -234,26 +236,23 @@ def _runs(directory: Path) -> list[Path]:
 
 
 def _text(file: Path) -> str:
-    """The text of a file; empty if it does not exist, or if its folder is a file. Raises StudyError, StrangeFile."""
+    """The text of a deck; empty if it does not exist, or if its folder is a file. Raises StudyError, StrangeFile."""
     try:
-        with opened(file) as text:
-            return text.read()
-    except (FileNotFoundError, NotADirectoryError):
-        return ""
-    except (OSError, ValueError) as error:
-        raise StudyError(f"{file} cannot be read: {error}") from None
+        return checksums.verified_text(file, StudyError)
+    except StudyError:
+        if not file.exists():
+            return ""
+        raise
 
 
 def read_json(file: Path) -> dict:
     """The table in a JSON file; empty if there is no such file. Raises StudyError."""
-    text = _text(file)
     try:
-        found = json.loads(text) if text else {}
-    except (ValueError, RecursionError) as error:
-        raise StudyError(f"{file} cannot be read: {error}") from None
-    if not isinstance(found, dict):
-        raise StudyError(f"{file} cannot be read: it holds no table")
-    return found
+        return files.read_json(file, StudyError)
+    except StudyError:
+        if not file.exists():
+            return {}
+        raise
 
 
 def _case(directory: Path, entry: dict) -> Case:

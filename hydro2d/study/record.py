@@ -10,14 +10,16 @@ from typing import NamedTuple
 
 import numpy as np
 
+from hydro2d import checksums
 from hydro2d.analytic import model_deck
 from hydro2d.deck import deck as decks
 from hydro2d.deck import keys
 from hydro2d.errors import DeckError
-from hydro2d.files import opened, within
+from hydro2d.files import within
 from hydro2d.output import history, vtk
 from hydro2d.running.run import DECK, HISTORY, check_own
 from hydro2d.solver import penetrator, targets
+from hydro2d.study.definition import StudyError
 from hydro2d.study.differences import flatten
 from hydro2d.study.layout import DONE, Case
 from hydro2d.toml import dumps
@@ -237,11 +239,13 @@ def _read_deck(record: Record, trust: bool) -> Place | None:
     """Fills in deck, velocity, shot and setup. Returns the place of the projectile, or None if there is none."""
     file = record.case.directory / DECK
     try:
-        with opened(file) as text:
-            record.text = text.read()
+        record.text = checksums.verified_text(file, StudyError)
         record.deck = keys.renewed(tomllib.loads(record.text))
         deck = decks.loads(dumps(record.deck), name=record.case.name.replace("/", "_"), trust=trust)
-    except (OSError, ValueError, RecursionError) as error:
+    except StudyError as error:
+        record.problems.append(str(error))
+        return None
+    except (ValueError, RecursionError) as error:
         record.problems.append(f"{file} cannot be read: {error}")
         return None
     except DeckError as error:

@@ -119,4 +119,6 @@ def velocities(*speeds: int) -> dict[str, tuple[str, ...]]:
 
 def edit_json(file: Path, **changes) -> None:
     """Replaces entries of a JSON file."""
-    file.write_text(json.dumps(json.loads(file.read_text()) | changes))
+    found = json.loads(file.read_text()) | changes
+    found.pop("sha256", None)
+    file.write_text(json.dumps(found))

@@ -157,7 +157,7 @@ def test_what_fails_does_not_sink_the_rest(tmp_path):
     assert "a state that cannot be" in found["momentum_0.3"].message
     assert "body[1].pressure" in found["ke_2mm"].message
     failed = json.loads((out / "cases" / "ke_0.2" / "failed.json").read_text())
-    assert set(failed) == {"reason", "kind", "host", "time"}
+    assert set(failed) == {"sha256", "reason", "kind", "host", "time"}
     for name, case in found.items():
         if case.status != "done":
             assert f"{name}: {case.status}: {case.message.splitlines()[0]}" in said

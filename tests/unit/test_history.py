@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 
 from hydro2d.output.history import History, HistoryError, read, unit, write_csv
+from hydro2d.output.station_arrays import KEYS, KINDS
 
 
 def filled(path, rows=5):
@@ -78,3 +79,53 @@ def test_csv(tmp_path):
     lines = (tmp_path / "history.csv").read_text().splitlines()
     assert lines[0].startswith("time [s],cycle [1],regime [1],rod_length_m [m]")
     assert float(lines[3].split(",")[3]) == 0.1 / 3 * 2
+
+
+def with_stations(path, number, rows=4):
+    """A history of so many gauges and tracers, in each of which a quantity is the number of its station and of its row."""
+    history = History(path)
+    names = [f"{kind}_p{n}_{key}" for n in range(number) for kind in KINDS for key in KEYS]
+    for row in range(rows):
+        history.append({"time": 1e-6 * row, "cycle": row, **{name: n + 0.25 * row for n, name in enumerate(names)}})
+    history.write()
+    return names
+
+
+def test_thousands_of_stations(tmp_path):
+    """As datasets of their own, 288 of them overflowed an attribute of the time."""
+    names = with_stations(tmp_path / "history.h5", 3000)
+    columns = read(tmp_path / "history.h5")
+    assert set(columns) == {"time", "cycle", *names}
+    assert [columns[names[n]].tolist() for n in (0, 40_000)] == [[n + 0.25 * row for row in range(4)] for n in (0, 40_000)]
+    again = History(tmp_path / "history.h5", rows=3)
+    again.append({"time": 1.0, **dict.fromkeys(names, 7.0)})
+    again.write()
+    assert read(tmp_path / "history.h5")[names[-1]].tolist()[2:] == [columns[names[-1]][2], 7.0]
+
+
+def test_xarray_opens_thousands_of_stations(tmp_path):
+    xarray = pytest.importorskip("xarray")
+    pytest.importorskip("h5netcdf")
+    names = with_stations(tmp_path / "history.h5", 3000)
+    with xarray.open_dataset(tmp_path / "history.h5", engine="h5netcdf") as data:
+        assert data["gauge_pressure_Pa"].dims == ("time", "gauge")
+        assert data["gauge_pressure_Pa"].attrs["units"] == "Pa"
+        found = data["gauge_pressure_Pa"].sel(gauge="p2999", time=1e-6)
+        assert float(found) == names.index("gauge_p2999_pressure_Pa") + 0.25
+
+
+def test_more_columns_than_an_attribute_of_64_kib_refers_to(tmp_path):
+    history = History(tmp_path / "history.h5")
+    history.append({"time": 0.0, **{f"mine_{n}": float(n) for n in range(4200)}})
+    history.write()
+    assert read(tmp_path / "history.h5")["mine_4199"].tolist() == [4199.0]
+
+
+def test_a_file_with_a_dataset_for_each_column_of_a_station(tmp_path):
+    """As files of earlier versions have them."""
+    names = [f"gauge_wall_{key}" for key in KEYS]
+    with h5py.File(tmp_path / "history.h5", "w") as file:
+        for name in ("time", *names):
+            file[name] = np.arange(3.0)
+    assert set(read(tmp_path / "history.h5")) == {"time", *names}
+    assert len(History(tmp_path / "history.h5", rows=2)) == 2

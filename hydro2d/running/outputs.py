@@ -1,0 +1,62 @@
+"""Outputs that fail: what cannot be written is named, and does not keep the others from being written."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from hydro2d.errors import Error
+
+
+@contextmanager
+def writing(path: Path) -> Iterator[None]:
+    """Turns whatever stops an output into an OSError that names the file; hydro2d's own errors remain what they are."""
+    try:
+        yield
+    except Error:
+        raise
+    except OSError as error:
+        if error.errno is None:
+            raise _unwritten(path, error) from error
+        error.filename = str(path) if error.filename is None else error.filename
+        raise
+    except Exception as error:
+        raise _unwritten(path, error) from error
+
+
+def _unwritten(path: Path, error: Exception) -> OSError:
+    return OSError(f"{path} could not be written: {type(error).__name__}: {' '.join(str(error).split())}")
+
+
+class Attempts:
+    """Outputs that are all tried.
+
+    first : an error that came before them
+    """
+
+    def __init__(self, first: Exception | None = None):
+        self._errors = [] if first is None else [first]
+
+    @contextmanager
+    def writing(self, path: Path) -> Iterator[None]:
+        """Keeps the error of an output, for the end."""
+        try:
+            with writing(path):
+                yield
+        except (OSError, Error) as error:
+            self._errors.append(error)
+
+    def conclude(self) -> None:
+        """Raises what was kept: one error as it is, several as an OSError that names all files."""
+        said = {_said(error): error for error in self._errors}
+        if len(said) > 1:
+            raise OSError("; ".join(said)) from self._errors[0]
+        for error in said.values():
+            raise error
+
+
+def _said(error: Exception) -> str:
+    """The message of an error, with the file but without the number of a system's error."""
+    named = isinstance(error, OSError) and error.filename is not None
+    return f"{error.filename}: {error.strerror}" if named else str(error)
