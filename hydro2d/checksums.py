@@ -18,6 +18,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from hydro2d.errors import Error
+from hydro2d.strange import own
 
 
 class Form(NamedTuple):
@@ -66,7 +67,6 @@ def verified(path: Path, error: type[Error]) -> bytes:
 
     Raises `error` with one line if the file cannot be read, and StrangeFile.
     """
-    from hydro2d.files import own  # which writes checksums, and is loaded before
 
     path = own(Path(path))
     try:

@@ -43,7 +43,7 @@ app.command(transition)
 
 #: modules, and their exceptions that tell the user what to correct
 USER_ERRORS = (
-    ("errors", "DeckError"), ("files", "LockError"), ("files", "StrangeFile"), ("penetration.model", "InputError"),
+    ("errors", "DeckError"), ("files", "LockError"), ("strange", "StrangeFile"), ("penetration.model", "InputError"),
     ("output.snapshot", "SnapshotError"), ("output.history", "HistoryError"), ("output.vtk", "VtkError"),
     ("mesh.quantities", "FieldError"), ("running.run", "RunError"), ("results.reading", "ResultsError"),
     ("results.figures", "FigureError"), ("study.definition", "StudyError"),
@@ -339,9 +339,9 @@ def export(
         Runs the code of models from outside that the deck of the run carries; a run without dumps needs it. Only for a run
         whose origin you know.
     """
-    from hydro2d.files import own
     from hydro2d.results.export import export as write
     from hydro2d.results.reading import Results
+    from hydro2d.strange import own
 
     for path in write(Results(run, trust=trust), out or own(run / "export"), fields or ("all",)):
         say(f"wrote {path}")

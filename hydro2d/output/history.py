@@ -19,9 +19,10 @@ import numpy as np
 
 from hydro2d import checksums
 from hydro2d.errors import Error
-from hydro2d.files import hdf5, own, replacing
+from hydro2d.files import hdf5, replacing
 from hydro2d.output import foreign
 from hydro2d.output.station_arrays import KEYS, KINDS, of_station, stations
+from hydro2d.strange import own
 
 if TYPE_CHECKING:
     import pandas

@@ -19,8 +19,9 @@ import numpy as np
 
 from hydro2d import checksums
 from hydro2d.errors import Error
-from hydro2d.files import hdf5, own, replacing, sync
+from hydro2d.files import hdf5, replacing, sync
 from hydro2d.output import foreign
+from hydro2d.strange import own
 
 FORMAT = "hydro2d restart 4"
 NAME, PREVIOUS = "restart.h5", "restart.previous.h5"

@@ -11,8 +11,8 @@ from datetime import datetime
 from pathlib import Path
 from typing import TypeVar
 
-from hydro2d.files import opened
 from hydro2d.interrupt import lose_output
+from hydro2d.strange import opened
 from hydro2d.terminal import one_line, say
 
 T = TypeVar("T")

@@ -28,7 +28,7 @@ from hydro2d import __version__
 from hydro2d import interrupt as interrupts
 from hydro2d.deck.warnings import warnings
 from hydro2d.errors import Error, UnphysicalState
-from hydro2d.files import locked, own, write_json, write_text
+from hydro2d.files import locked, write_json, write_text
 from hydro2d.interrupt import Interrupt, signals
 from hydro2d.output import snapshot
 from hydro2d.output.history import History, HistoryError
@@ -39,6 +39,7 @@ from hydro2d.running.progress import Clock, reporter
 from hydro2d.running.team import Team
 from hydro2d.solver.callbacks import Due
 from hydro2d.solver.record import ColumnError, check, row
+from hydro2d.strange import own
 from hydro2d.toml import model_tables
 
 DECK, SUMMARY, HISTORY, LOG, LOCK = "deck.toml", "summary.json", "history.h5", "log.txt", "run.lock"

@@ -13,13 +13,14 @@ from pathlib import Path
 from hydro2d import checksums, jit
 from hydro2d.deck import deck as decks
 from hydro2d.errors import DeckError
-from hydro2d.files import LockError, StrangeFile, holder
+from hydro2d.files import LockError, holder
 from hydro2d.interrupt import Interrupt
 from hydro2d.mesh.quantities import FieldError
 from hydro2d.output import snapshot
 from hydro2d.output.history import HistoryError
 from hydro2d.output.vtk import VtkError
 from hydro2d.running import compilation, run
+from hydro2d.strange import StrangeFile
 from hydro2d.study.layout import DONE, FAILED, FAILED_STATUS, UNPHYSICAL, read_json
 
 #: exceptions that are reported in one line, without a traceback

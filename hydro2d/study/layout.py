@@ -20,11 +20,12 @@ from pathlib import Path, PurePosixPath
 
 from hydro2d import __version__, checksums, files
 from hydro2d.errors import nearest
-from hydro2d.files import holder, own, own_folder, within, write_json, write_text
+from hydro2d.files import holder, write_json, write_text
 from hydro2d.output import snapshot
 from hydro2d.results.reading import STUDY
 from hydro2d.results.summaries import plausible
 from hydro2d.running import run
+from hydro2d.strange import own, own_folder, within
 from hydro2d.study import velocities
 from hydro2d.study.definition import StudyError
 

@@ -10,8 +10,8 @@ from contextlib import contextmanager, suppress
 from datetime import datetime
 from pathlib import Path
 
-from hydro2d.files import opened
 from hydro2d.running.progress import duration, number
+from hydro2d.strange import opened
 from hydro2d.study.layout import DONE, LOG, RUNNING, STATUSES, WAITING, Case, Study
 from hydro2d.terminal import one_line, say, shown
 

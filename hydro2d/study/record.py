@@ -15,10 +15,10 @@ from hydro2d.analytic import model_deck
 from hydro2d.deck import deck as decks
 from hydro2d.deck import keys
 from hydro2d.errors import DeckError
-from hydro2d.files import within
 from hydro2d.output import history, vtk
 from hydro2d.running.run import DECK, HISTORY, check_own
 from hydro2d.solver import penetrator, targets
+from hydro2d.strange import within
 from hydro2d.study.definition import StudyError
 from hydro2d.study.differences import flatten
 from hydro2d.study.layout import DONE, Case

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from hydro2d.files import own, write_text
+from hydro2d.files import write_text
+from hydro2d.strange import own
 from hydro2d.study import layout, panels, pictures, responses, table
 from hydro2d.study.contents import collect
 from hydro2d.study.page import PAGE, TABLE, page
