@@ -273,8 +273,9 @@ def test_names_with_commas_in_csv(tmp_path):
     assert [[float(word) for word in row] for row in rows] == [[0.0, 2.0, 4.0], [1.0, 3.0, 5.0]]
 
 
-@pytest.mark.parametrize("text", ["[" * 100_000, '{"a": ' * 100_000, '{"time_s": 1, "cycles": 2, "ns_per_cell_cycle": 3, "cells": ' + "9" * 4000 + "}",
-                                  '{"time_s": 1e999}'])
+@pytest.mark.parametrize("text", [
+    "[" * 100_000, '{"a": ' * 100_000, '{"time_s": 1, "cycles": 2, "ns_per_cell_cycle": 3, "cells": ' + "9" * 4000 + "}",
+    '{"time_s": 1e999}'])
 def test_json_that_is_too_deep_or_too_large(finished, text, tmp_path, capsys):
     (finished / "summary.json").write_text(text)
     assert call(["plot", str(finished), "-o", str(tmp_path / "a.png")]) == (2 if "a" in text or text.startswith("[") else 0)
