@@ -143,7 +143,7 @@ def released(material: Material) -> float:
     """Energy that a material gives away on its isentrope to no pressure, or to a thousandth of its density, J/kg."""
     if not material.evaluate(material.rho, material.e)[0] > 0.0:
         return 0.0
-    return material.e - _along_isentrope(material, material.rho, material.e, -STEP, lambda p: p <= 0.0)
+    return max(material.e - _along_isentrope(material, material.rho, material.e, -STEP, lambda p: p <= 0.0), 0.0)
 
 
 def stagnation(material: Material, speed: float) -> tuple[float, float, float]:

@@ -71,7 +71,7 @@ def test_a_solid_stops_on_its_hugoniot():
 
 
 @pytest.mark.parametrize(("option", "speed"), [
-    ("body.flyer.velocity=[0.0, 0.0]", 0.0), ("body.plate.velocity=[0.0, -500.0]", 1500.0),
+    ("body.flyer.velocity=[0.0, 0.0]", 0.0), ("body.flyer.pressure=1e8", 1000.0), ("body.plate.velocity=[0.0, -500.0]", 1500.0),
     ('body.flyer.flow={ pattern = "spherical", speed = -300.0 }', np.hypot(1300.0, 300.0))])
 def test_the_closing_speed_is_that_of_the_deck(option, speed):
     assert reach(option).speed == pytest.approx(speed, abs=5.0)
