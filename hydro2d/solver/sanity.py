@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from hydro2d.solver.audit import CLIPS, Audit, totals
+from hydro2d.solver.audit import CLIPS, REMEDIES, Audit, totals
 
 #: relative change of mass, momentum or energy that no sink explains, from which the audit does not close
 CLOSES = 1e-6
@@ -45,7 +45,8 @@ def faults(state, audit: Audit, names, share: float = TRUSTED) -> list[str]:
     for name in CLIPS:
         taken = audit.sinks[name].energy
         if not abs(taken) <= share * energy:
-            found.append(f"{taken / energy:.2g} of the energy went to {name} ({CLIPS[name]}), more than {share:g} of it")
+            remedy = f"; {REMEDIES[name]}" if name in REMEDIES else ""
+            found.append(f"{taken / energy:.2g} of the energy went to {name} ({CLIPS[name]}), more than {share:g} of it{remedy}")
     gained = -audit.sinks["advection"].energy
     if not gained <= share * energy:
         found.append(f"the remap of velocities has gained {gained / energy:.2g} of the energy, more than {share:g} of it")
