@@ -23,6 +23,9 @@ SINKS = {
 #: the sinks that are clips: what a limit of the method took from material that is still there
 CLIPS = {name: SINKS[name] for name in ("cutoff", "ke_bound", "speed_limit")}
 
+#: what keeps a clip from taking much, where runs have shown it (problems/classic/README.md)
+REMEDIES = {"ke_bound": 'numerics.advection = "both" or "momentum" has no such bound'}
+
 #: what a contact passes on within the balance: axial momentum from the hard bodies to the soft ones, and the heat that it makes
 CONTACT_TRANSFERS = {
     "contact": "the impulse along the normal, and along the tangent, at contact nodes, where hard and soft bodies meet",

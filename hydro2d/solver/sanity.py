@@ -11,7 +11,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from hydro2d.solver.audit import CLIPS, Audit, Totals, totals
+from hydro2d.solver.audit import CLIPS, REMEDIES, Audit, Totals, totals
 from hydro2d.solver.reach import MOST_STRAIN, Reach
 
 #: relative change of mass, momentum or energy that no sink explains, from which the audit does not close
@@ -56,7 +56,8 @@ def faults(state, audit: Audit, names, reach: Reach, share: float = TRUSTED) -> 
     for name in CLIPS:
         taken = audit.sinks[name].energy
         if not abs(taken) <= share * energy:
-            found.append(f"{taken / energy:.2g} of the energy went to {name} ({CLIPS[name]}), more than {share:g} of it")
+            remedy = f"; {REMEDIES[name]}" if name in REMEDIES else ""
+            found.append(f"{taken / energy:.2g} of the energy went to {name} ({CLIPS[name]}), more than {share:g} of it{remedy}")
     gained = -audit.sinks["advection"].energy
     if not gained <= share * energy:
         found.append(f"the remap of velocities has gained {gained / energy:.2g} of the energy, more than {share:g} of it")

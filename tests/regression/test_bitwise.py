@@ -36,6 +36,8 @@ thickness = "12 mm"
 name = "nose"
 r = "0.4 mm"
 z = "-1 mm"
+[numerics]
+advection = "ke"
 [failure]
 damage = "material"
 [stop]

@@ -16,6 +16,8 @@ TEXT = """
 r = [{ to = "12 mm", cells = 24 }]
 z_start = "-25 mm"
 z = [{ to = "25 mm", cells = 100 }]
+[numerics]
+advection = "ke"
 [[body]]
 name = "rod"
 material = "W_alloy"

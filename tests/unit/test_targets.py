@@ -40,6 +40,8 @@ material = "Al6061_T6"
 shape = "plate"
 z_front = 0.0
 thickness = "3 mm"
+[numerics]
+advection = "ke"
 [sliding]
 method = "contact"
 hard = ["ball"]

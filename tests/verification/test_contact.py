@@ -258,6 +258,7 @@ pressure = "100 MPa"
 method = "contact"
 hard = ["slider"]
 [stop]
+time = "1 us"
 cycles = 20
 """
 

@@ -138,6 +138,8 @@ r = [{ across = "rod", cells_across = 5.5, cells = 14 }, { cells = 8, ratio = 1.
 z_start = "-24 mm"
 z = [{ to = "16 mm", size = "0.4 mm" }, { cells = 6, ratio = 1.15 }]
 follow = "rod"
+[numerics]
+advection = "ke"
 [[body]]
 name = "rod"
 material = "W_rigid"

@@ -43,6 +43,7 @@ END = """
 [failure]
 damage = "material"
 [numerics]
+advection = "ke"
 ORDER
 [stop]
 cycles = 40

@@ -1,0 +1,183 @@
+"""The classic shots with every advection and every sliding: a table, and the results that are kept beside the studies.
+
+    python -m problems.classic.table RESULTS [RESULTS ...] [--keep FILE]
+
+RESULTS is the directory of a study, finished or not, or a file in `results`. A cell of the table has the number by which a shot
+is judged and, in per cent of the energy at the start, what the remap of velocities discarded or clipped. If a run became
+unphysical, it says when and by what. `--keep` writes all cases into a CSV file, in the order in which they were given.
+"""
+
+from __future__ import annotations
+
+import argparse
+import csv
+import sys
+from collections.abc import Callable
+from dataclasses import asdict, dataclass, fields
+from pathlib import Path
+
+from hydro2d.output.history import HistoryError
+from hydro2d.results.reading import Results, ResultsError
+from hydro2d.solver.audit import CLIPS
+from hydro2d.study import layout
+from hydro2d.study.layout import StudyError
+
+ADVECTION = ("ke", "momentum", "both")
+
+
+@dataclass(frozen=True)
+class Measure:
+    """The number by which a shot is judged: what it is, its unit, its digits, what is expected, and how a run gives it."""
+
+    name: str
+    unit: str
+    digits: int
+    expected: str
+    of: Callable[[Results], float | None]
+
+
+def _crater(run: Results) -> float:
+    return 1e3 * run.summary["crater"]["depth_m"]
+
+
+def _body(name: str, key: str, factor: float) -> Callable[[Results], float]:
+    return lambda run: factor * run.summary["bodies"][name][key]
+
+
+def _pull_back(run: Results) -> float:
+    """Fall of the rear's velocity from its peak to the least value in the microsecond after."""
+    time, velocity = run.history["time"], run.history["tracer_rear_velocity_z_m_s"]
+    peak = velocity.argmax()
+    after = (time >= time[peak]) & (time <= time[peak] + 1e-6)
+    return float(velocity[peak] - velocity[after].min())
+
+
+MEASURES = {
+    "crater": Measure("depth of the crater", "mm", 1, "13 or a little more", _crater),
+    "taylor_bar": Measure("length of the bar", "mm", 2, "17.38", _body("bar", "z_max_m", 1e3)),
+    "flyer_spall": Measure("pull-back of the rear", "m/s", 0, "169", _pull_back),
+    "bumper": Measure("mean velocity of the ball", "km/s", 2, "4.56 at least", _body("ball", "velocity_m_s", 1e-3)),
+    "two_plates": Measure("residual velocity", "m/s", 0, "a little less than 897",
+                          lambda run: run.summary["rod_residual_velocity_m_s"]),
+    "jacketed_rod": Measure("depth", "mm", 1, "somewhat less than 40 to 43", _crater),
+    "long_rod": Measure("depth", "mm", 1, "a little less than 40", _crater),
+    "block_in_hole": Measure("velocity of the block", "m/s", 1, "200", _body("block", "velocity_m_s", 1.0)),
+    "jet": Measure("depth", "mm", 1, "23.2 to 23.6", _crater),
+    "plate_on_wall": Measure("velocity of the disc", "m/s", 1, "a little less than 50", _body("disc", "velocity_m_s", 1.0)),
+}  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Result:
+    """A case that has ended.
+
+    shot, sliding, advection : its labels
+    status : "trusted", "not trusted" or "unphysical"
+    value : of its measure, in the measure's unit; None for an unphysical run
+    discarded, clipped : what the remap of velocities discarded and `ke_bound` clipped, per cent of the energy at the start
+    time, cycles : time of flight in us, number of cycles
+    fault : the clip that the first fault names, else its sentence; empty for a trusted run
+    """
+
+    shot: str
+    sliding: str
+    advection: str
+    status: str
+    value: float | None
+    discarded: float
+    clipped: float
+    time: float
+    cycles: int
+    fault: str
+
+    def __str__(self) -> str:
+        if self.status == "unphysical":
+            return f"**unphysical after {self.time:.1f} us: {self.fault}**"
+        measure = MEASURES[self.shot]
+        told = f"{self.value:.{measure.digits}f}, {abs(self.discarded + self.clipped):.1f} %"
+        return told if self.status == "trusted" else f"{told}, **not trusted: {self.fault}**"
+
+
+COLUMNS = tuple(field.name for field in fields(Result))
+
+
+def read(path: Path) -> list[Result]:
+    """The ended cases of a study directory, or of a file of results. Raises StudyError, OSError, ResultsError, HistoryError."""
+    if path.is_file():
+        return [_kept(row) for row in _rows(path)]
+    return [_of(case) for case in layout.read(path).cases if case.status in (layout.DONE, layout.UNPHYSICAL)]
+
+
+def _rows(path: Path) -> list[dict[str, str]]:
+    with open(path, encoding="utf-8", newline="") as file:
+        table = csv.DictReader(file)
+        if missing := {*COLUMNS} - {*(table.fieldnames or ())}:
+            raise StudyError(f"{path}: no file of results: it has no column {', '.join(sorted(missing))}")
+        return list(table)
+
+
+def _kept(row: dict[str, str]) -> Result:
+    value = float(row["value"]) if row["value"] else None
+    discarded, clipped, time = (float(row[name]) for name in ("discarded", "clipped", "time"))
+    labels = {name: row[name] for name in ("shot", "sliding", "advection", "status", "fault")}
+    return Result(**labels, value=value, discarded=discarded, clipped=clipped, time=time, cycles=int(row["cycles"]))
+
+
+def _of(case: layout.Case) -> Result:
+    told, shot = case.summary, case.values["shot"]
+    ended = case.status == layout.DONE
+    sinks, start = told["conservation"]["sinks"], told["conservation"]["start_energy_J"]
+    discarded, clipped = (round(100.0 * sinks[name]["energy_J"] / start, 2) for name in ("advection", "ke_bound"))
+    value = MEASURES[shot].of(Results(case.directory)) if ended else None
+    status = ("trusted" if told["trustworthy"] else "not trusted") if ended else "unphysical"
+    return Result(shot, case.values.get("sliding", "none"), case.values["advection"], status,
+                  None if value is None else round(value, 3), discarded, clipped, round(1e6 * told["time_s"], 2),
+                  told["cycles"], _short(next(iter(told["faults"]), "")))  # fmt: skip
+
+
+def _short(fault: str) -> str:
+    """The clip that a fault names, or the fault."""
+    return next((name for name in CLIPS if f" went to {name} " in fault), fault)
+
+
+def keep(results: list[Result], path: Path) -> None:
+    """Writes a file of results. Raises OSError."""
+    with open(path, "w", encoding="utf-8", newline="") as file:
+        table = csv.DictWriter(file, COLUMNS, lineterminator="\n")
+        table.writeheader()
+        table.writerows({**asdict(result), "value": "" if result.value is None else result.value} for result in results)
+
+
+def table(results: list[Result]) -> list[str]:
+    """Lines of Markdown: a row for each shot and sliding."""
+    found = {(result.shot, result.sliding, result.advection): result for result in results}
+    lines = ["| shot | number | expected | sliding | " + " | ".join(f"`{name}`" for name in ADVECTION) + " |",
+             "|---" * (4 + len(ADVECTION)) + "|"]  # fmt: skip
+    for shot, sliding in dict.fromkeys((result.shot, result.sliding) for result in results):
+        measure = MEASURES[shot]
+        cells = " | ".join(str(found.get((shot, sliding, name), "")) for name in ADVECTION)
+        lines.append(f"| {shot} | {measure.name}, {measure.unit} | {measure.expected} | {sliding} | {cells} |")
+    return lines
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Prints the table and keeps the results. Returns 2 if there is nothing to read."""
+    parser = argparse.ArgumentParser(prog="python -m problems.classic.table", description=__doc__.splitlines()[0])
+    parser.add_argument("results", nargs="+", type=Path, help="the directory of a study, or a file of results")
+    parser.add_argument("--keep", type=Path, help="a CSV file for all cases")
+    given = parser.parse_args(arguments)
+    try:
+        results = [result for path in given.results for result in read(path)]
+        if not results:
+            raise StudyError("there is no case that has ended")
+        if given.keep:
+            keep(results, given.keep)
+    except (StudyError, ResultsError, HistoryError, OSError) as error:
+        print(error, file=sys.stderr)
+        return 2
+    print("\n".join(table(results)))
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

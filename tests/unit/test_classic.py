@@ -1,0 +1,109 @@
+"""The classic shots: what was kept of them, the table that their page shows, and the defaults that follow from it."""
+
+import json
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from hydro2d.deck.sections import Numerics, Sliding
+from hydro2d.solver.audit import CLIPS, REMEDIES
+from hydro2d.study import cases
+from problems.classic import table
+from tests.rules import source
+
+FOLDER = source.PROBLEMS / "classic"
+KEPT = {name: table.read(FOLDER / "results" / f"{name}.csv") for name in ("methods", "methods_fine")}
+
+
+def of(shot, sliding, advection):
+    return next(result for result in KEPT["methods"] if (result.shot, result.sliding, result.advection) ==
+                (shot, sliding, advection))  # fmt: skip
+
+
+@pytest.mark.parametrize("name", KEPT)
+def test_every_case_of_the_study_is_kept(name):
+    planned = [(case.values["shot"], case.values.get("sliding", "none"), case.values["advection"])
+               for case in cases.plan(FOLDER / f"{name}.toml", quiet=True).cases]  # fmt: skip
+    assert [(result.shot, result.sliding, result.advection) for result in KEPT[name]] == planned
+
+
+@pytest.mark.parametrize("name", KEPT)
+def test_the_table_of_the_page_is_that_of_the_kept_results(name):
+    page = (FOLDER / "README.md").read_text(encoding="utf-8").splitlines()
+    rows = table.table(KEPT[name])
+    assert len(rows) > 7
+    assert [row for row in rows if row not in page] == []
+
+
+def test_the_shots_are_the_decks_of_the_folder():
+    decks, _ = source.problems()
+    assert {file.stem for file in decks if file.parent == FOLDER} == set(table.MEASURES) == {
+        result.shot for result in KEPT["methods"]}  # fmt: skip
+
+
+def test_the_defaults_carry_every_shot_and_lose_no_energy():
+    found = [result for results in KEPT.values() for result in results if result.advection == Numerics().advection]
+    assert {result.status for result in found} == {"trusted"}
+    assert max(abs(result.discarded) + result.clipped for result in found) < 0.2
+    assert of("block_in_hole", Sliding().method, Numerics().advection).value < 10.0, "the page says that it sticks"
+
+
+def test_the_remedies_are_those_that_the_table_bears_out():
+    """Each fault of the table has a remedy, no other clip has one, and the remedied shots are trusted."""
+    failed = [result for results in KEPT.values() for result in results if result.status != "trusted"]
+    assert {result.fault for result in failed} == set(REMEDIES) <= set(CLIPS)
+    assert len(failed) == 4
+    for result in failed:
+        for choice in ("both", "momentum"):
+            assert f'"{choice}"' in REMEDIES[result.fault]
+            assert of(result.shot, result.sliding, choice).status == "trusted"
+
+
+def case(directory, shot, advection, status="done", clipped=0.0, fault="", **summary):
+    directory.mkdir()
+    (directory / "deck.toml").write_text("")
+    sinks = {"advection": {"energy_J": -0.04}, "ke_bound": {"energy_J": clipped}}
+    told = {"conservation": {"sinks": sinks, "start_energy_J": 40.0}, "trustworthy": not fault, "faults": [fault] if fault else [],
+            "time_s": 9.004e-6, "cycles": 12, "status": status, **summary}  # fmt: skip
+    (directory / "summary.json").write_text(json.dumps(told))
+    return SimpleNamespace(values={"shot": shot, "sliding": "none", "advection": advection}, status=status, summary=told,
+                           directory=directory)  # fmt: skip
+
+
+@pytest.fixture
+def study(tmp_path, monkeypatch):
+    bodies = {"block": {"velocity_m_s": 151.26}}
+    found = [
+        case(tmp_path / "a", "block_in_hole", "both", bodies=bodies),
+        case(tmp_path / "b", "block_in_hole", "ke", bodies=bodies, clipped=1.2, fault="0.03 of the energy went to ke_bound (k)"),
+        case(tmp_path / "c", "crater", "ke", "unphysical", 0.9, "0.022 of the energy went to ke_bound (k), more; a remedy"),
+        case(tmp_path / "d", "crater", "both", "running"),
+    ]
+    monkeypatch.setattr(table.layout, "read", lambda directory: SimpleNamespace(cases=found))
+    return tmp_path
+
+
+def test_a_study_is_read_and_kept(study, capsys):
+    file = study / "kept.csv"
+    assert table.main([str(study), "--keep", str(file)]) == 0
+    told = capsys.readouterr().out
+    assert told.splitlines()[2:] == [
+        "| block_in_hole | velocity of the block, m/s | 200 | none | 151.3, 2.9 %, **not trusted: ke_bound** |  | 151.3, 0.1 % |",
+        "| crater | depth of the crater, mm | 13 or a little more | none | **unphysical after 9.0 us: ke_bound** |  |  |",
+    ]
+    assert table.main([str(file)]) == 0
+    assert capsys.readouterr().out == told
+
+
+def test_nothing_to_read(tmp_path, capsys):
+    assert table.main([str(tmp_path)]) == 2
+    assert table.main([str(FOLDER.parent / "validation" / "results" / "eroding_rods.csv")]) == 2
+    assert "no file of results: it has no column advection, " in capsys.readouterr().err
+
+
+def test_the_pull_back_is_from_the_peak_to_the_least_velocity_after_it():
+    time = np.linspace(0.0, 4e-6, 401)
+    velocity = np.interp(time, [0.0, 1e-6, 1.5e-6, 2.1e-6, 4e-6], [0.0, 490.0, 330.0, 400.0, 100.0])
+    run = SimpleNamespace(history={"time": time, "tracer_rear_velocity_z_m_s": velocity})
+    assert table.MEASURES["flyer_spall"].of(run) == pytest.approx(160.0)

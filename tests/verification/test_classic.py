@@ -1,0 +1,53 @@
+"""Classic shots run as they come: no deck of problems/classic sets a key of the method, and every run is trusted."""
+
+import tomllib
+
+import pytest
+
+import hydro2d
+from hydro2d.deck import deck as decks
+from hydro2d.deck.sections import Numerics
+from hydro2d.errors import UnphysicalState
+from hydro2d.solver.simulation import Simulation
+from problems.classic import table
+from tests.verification.running import advection
+
+FOLDER = "problems/classic"
+#: a little more than the cycles after which `ke` fails in crater and bumper
+SHORT = 150
+
+
+def shot(name: str, *overrides: str):
+    return decks.load(f"{FOLDER}/{name}.toml", list(overrides))
+
+
+def begin(name: str, *overrides: str) -> Simulation:
+    simulation = Simulation(shot(name, *overrides))
+    while simulation.cycle < SHORT and simulation.time < simulation.deck.stop.time:
+        simulation.step()
+    return simulation
+
+
+@pytest.mark.parametrize("name", table.MEASURES)
+def test_a_shot_begins_with_all_defaults(name):
+    text = decks.find(f"{FOLDER}/{name}.toml").read_text(encoding="utf-8")
+    assert {"include", "numerics", "sliding"}.isdisjoint(tomllib.loads(text))
+    simulation = begin(name)
+    assert simulation.faults() == []
+    assert abs(simulation.conservation()["total_energy"]) < 1e-11
+
+
+@pytest.mark.parametrize("name", ["crater", "bumper"])
+def test_the_scheme_that_clips_fails_and_the_message_names_the_remedy(name):
+    with pytest.raises(UnphysicalState, match='went to ke_bound .*; numerics.advection = "both" or "momentum" has no such'):
+        begin(name, advection("ke"))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", table.MEASURES)
+def test_a_whole_shot_is_trusted_and_gives_the_number_of_the_table(name, tmp_path):
+    run = hydro2d.run(shot(name), tmp_path / name, quiet=True)
+    assert run.summary["trustworthy"]
+    kept = next(result for result in table.read(decks.find(f"{FOLDER}/{name}.toml").parent / "results" / "methods.csv")
+                if (result.shot, result.sliding, result.advection) == (name, "none", Numerics().advection))  # fmt: skip
+    assert table.MEASURES[name].of(run) == pytest.approx(kept.value, rel=0.02)
