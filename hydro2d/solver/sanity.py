@@ -56,8 +56,8 @@ def faults(state, audit: Audit, names, reach: Reach, share: float = TRUSTED) -> 
     for name in CLIPS:
         taken = audit.sinks[name].energy
         if not abs(taken) <= share * energy:
-            remedy = f"; {REMEDIES[name]}" if name in REMEDIES else ""
-            found.append(f"{taken / energy:.2g} of the energy went to {name} ({CLIPS[name]}), more than {share:g} of it{remedy}")
+            told = f"{taken / energy:.2g} of the energy went to {name} ({CLIPS[name]}), more than {share:g} of it"
+            found.append(told + (f"; {REMEDIES[name]}" if name in REMEDIES else ""))
     gained = -audit.sinks["advection"].energy
     if not gained <= share * energy:
         found.append(f"the remap of velocities has gained {gained / energy:.2g} of the energy, more than {share:g} of it")

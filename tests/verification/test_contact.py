@@ -237,16 +237,18 @@ r_max = "wall"
 name = "block"
 shape = "box"
 material = "steel_4340_power_law"
-r = ["1.25 mm", "2.01 mm"]
+r = ["1.248 mm", "2.012 mm"]
 z = ["2.1 mm", "7.3 mm"]
-velocity = [500.0, 800.0]
+velocity = "2500 m/s"
 [[body]]
 name = "slider"
 shape = "box"
 material = "W_alloy"
 r = ["0 mm", "2.1 mm"]
 z = ["-1 mm", "11 mm"]
-velocity = [200.0, 50.0]
+velocity = "50 m/s"
+pressure = "100 MPa"
+flow = { pattern = "cylindrical", speed = -500.0, centre = "9.2 mm", radius = "1.8 mm", exponent = 1.0 }
 [[body]]
 name = "base"
 shape = "box"
@@ -254,12 +256,14 @@ material = "Al5083"
 r = ["2.1 mm", "6 mm"]
 z = ["-1 mm", "11 mm"]
 pressure = "100 MPa"
+[numerics]
+initial_dt_factor = 1.0
 [sliding]
 method = "contact"
 hard = ["slider"]
 [stop]
 time = "1 us"
-cycles = 20
+cycles = 5
 """
 
 
