@@ -157,7 +157,7 @@ def _plan(study: str | Path | Deck, axes: Mapping[str, Sequence[Any]] | None, ov
     file = _base(study, directory) if isinstance(study, Deck) else decks.find(study)
     tables = {"deck": str(file.resolve()), "axis": [{"name": _name(key, axes), "key": key, "values": list(values)}
                                                     for key, values in axes.items()]}  # fmt: skip
-    plan = cases.plan_of(plain(tables), file.stem, overrides)
+    plan = cases.plan_of(plain(toml.within_limits(tables, "axes")), file.stem, overrides)
     if not any(case.text for case in plan.cases):
         raise StudyError(f"no case has a valid deck; {plan.cases[0].name}: {plan.cases[0].message}")
     return plan

@@ -9,9 +9,23 @@ import difflib
 import functools
 from collections.abc import Iterable
 
+#: largest number of lines of a message, and of characters of a line
+MOST_LINES, LONGEST_LINE = 50, 2000
+
+
+def limited(message: str) -> str:
+    """A message that a reader can take in: its first lines, the middle of long ones left out."""
+    lines = message.split("\n")
+    kept = [line if len(line) <= LONGEST_LINE else f"{line[: LONGEST_LINE // 2]} ... {line[-LONGEST_LINE // 2 :]}"
+            for line in lines[:MOST_LINES]]  # fmt: skip
+    return "\n".join([*kept, f"and {len(lines) - MOST_LINES} more"] if len(lines) > MOST_LINES else kept)
+
 
 class Error(Exception):
     """The base of what hydro2d raises for its users; the message says what is wrong, and what is allowed."""
+
+    def __init__(self, *said: object):
+        super().__init__(*(limited(part) if isinstance(part, str) else part for part in said))
 
 
 class DeckError(Error):
@@ -30,7 +44,10 @@ BEGINNING = 3
 
 def nearest(name: str, allowed: Iterable[str]) -> str | None:
     """The allowed name that looks most like ``name``, or else begins with it; None if none is near."""
-    names, name = [str(entry) for entry in allowed], str(name).lower()
+    name = str(name).lower()
+    if len(name) > LONGEST_NAME:
+        return None
+    names = [str(entry) for entry in allowed]
     lower = {entry.lower(): entry for entry in reversed(names)}
     found = difflib.get_close_matches(name, list(lower), n=1, cutoff=NEAR)
     if not found and len(name) >= BEGINNING:
@@ -38,8 +55,8 @@ def nearest(name: str, allowed: Iterable[str]) -> str | None:
     return lower[found[0]] if found else None
 
 
-#: largest number of names that a message lists
-MOST_NAMES = 40
+#: largest number of names that a message lists, and of characters of a name that is compared with others
+MOST_NAMES, LONGEST_NAME = 40, 200
 
 
 def unknown(what: str, name: str, allowed: Iterable[str]) -> str:
@@ -48,7 +65,8 @@ def unknown(what: str, name: str, allowed: Iterable[str]) -> str:
     close = nearest(name, names)
     hint = f'; did you mean "{close}"?' if close else ""
     if len(names) > MOST_NAMES:
-        near = sorted(names, key=lambda each: -difflib.SequenceMatcher(None, name.lower(), each.lower()).ratio())[:MOST_NAMES]
+        word = name[:LONGEST_NAME].lower()
+        near = sorted(names, key=lambda each: -difflib.SequenceMatcher(None, word, each.lower()).ratio())[:MOST_NAMES]
         return f'unknown {what} "{name}"{hint} ({len(names)} are allowed, such as {", ".join(sorted(near))})'
     return f'unknown {what} "{name}"{hint} (allowed: {", ".join(names) or "none"})'
 
@@ -235,6 +253,11 @@ class Sources:
     def add(self, name: str, data: dict, text: str) -> None:
         """Registers a file, before the files that it includes. Its lines are only searched when one is needed."""
         self._files.append((name, data, text))
+
+    @property
+    def number(self) -> int:
+        """Number of files."""
+        return len(self._files)
 
     def add_override(self, path: tuple, said: str) -> None:
         """Registers an override under its name in messages; the path has names where arrays hold named entries."""

@@ -7,7 +7,7 @@ import json
 import os
 import re
 import tomllib
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from datetime import date, time
 from pathlib import Path
 from typing import Any
@@ -20,6 +20,14 @@ from hydro2d.files import read_text
 #: the parts of a material that are described by a model
 PARTS = ("eos", "strength", "damage")
 _BARE = re.compile(r"[A-Za-z0-9_-]+")
+#: what a deck can hold: characters, values, tables or lists within each other, and files
+MOST_TEXT, MOST_VALUES, DEEPEST, MOST_FILES = 4_000_000, 100_000, 30, 100
+#: characters of the key of an override
+LONGEST_KEY = 1000
+_TOO_DEEP = f"tables or lists stand within each other more than {DEEPEST} deep"
+_TOO_LONG = "an integer has more than 18 digits; give a number with a decimal point"
+#: a key of more parts, which tomllib takes long to read
+_DOTTED = re.compile(r"""(?<![\w-])(?:(?:[\w-]++|"[^"\n]*+"|'[^'\n]*+')[ \t]*+\.[ \t]*+){40}""")
 
 
 def problems_folder() -> Path:
@@ -37,14 +45,41 @@ def is_study(data: dict) -> bool:
 
 
 def parse(text: str, name: str) -> dict:
-    """TOML as a dict. Raises DeckError with file and line if the text is not valid TOML."""
+    """TOML as a dict. Raises DeckError with file and line if the text is not valid TOML, or holds more than a deck can."""
+    if len(text) > MOST_TEXT:
+        raise DeckError(f"{name}: has {len(text)} characters; at most {MOST_TEXT} are allowed")
+    if _DOTTED.search(text):
+        raise DeckError(f"{name}: {_TOO_DEEP}")
     try:
-        return tomllib.loads(text)
+        return within_limits(tomllib.loads(text), name)
+    except RecursionError:
+        raise DeckError(f"{name}: {_TOO_DEEP}") from None
     except tomllib.TOMLDecodeError as problem:
         message = str(problem)
         found = re.search(r"\(at line (\d+), column (\d+)\)", message)
         line = found.group(1) if found else str(text.count("\n") + 1)
         raise DeckError(f"{name}:{line}: not valid TOML: {message.split(' (at ')[0].lower()}") from None
+    except ValueError:
+        raise DeckError(f"{name}: {_TOO_LONG}") from None
+
+
+def within_limits(data, name: str):
+    """The same data. Raises DeckError if it holds more values, deeper tables or longer integers than a deck can."""
+    waiting, number = [(data, 0)], 0
+    while waiting:
+        value, depth = waiting.pop()
+        number += 1
+        if depth > DEEPEST:
+            raise DeckError(f"{name}: {_TOO_DEEP}")
+        if number + len(waiting) > MOST_VALUES:
+            raise DeckError(f"{name}: has more than {MOST_VALUES} values, which is the most that a deck can hold")
+        if isinstance(value, int) and abs(value) >= 1 << 63:
+            raise DeckError(f"{name}: {_TOO_LONG}")
+        if isinstance(value, Mapping):
+            waiting += [(entry, depth + 1) for entry in value.values()]
+        elif isinstance(value, (list, tuple)):
+            waiting += [(entry, depth + 1) for entry in value]
+    return data
 
 
 def read(path: Path, sources: Sources, chain: tuple[Path, ...] = ()) -> dict:
@@ -53,6 +88,8 @@ def read(path: Path, sources: Sources, chain: tuple[Path, ...] = ()) -> dict:
     if path.resolve() in chain:
         circle = " -> ".join(entry.name for entry in (*chain[chain.index(path.resolve()) :], path))
         raise DeckError(f"{chain[-1]}: include: the files include each other in a circle: {circle}")
+    if sources.number > MOST_FILES:
+        raise DeckError(f"{path}: include: the deck includes more than {MOST_FILES} files, those counted again that come again")
     text = read_text(path, DeckError)
     return assemble(text, str(path), path.parent, sources, (*chain, path.resolve()))
 
@@ -150,12 +187,18 @@ def key_parts(key: str) -> list[str]:
 def assignment(text: str) -> tuple[str, Any]:
     """Key and value of ``key=value``. The value is read as TOML, or as a plain string if it is not valid TOML."""
     key, equals, value_text = text.partition("=")
+    if len(text) > MOST_TEXT or len(key) > LONGEST_KEY or _DOTTED.search(value_text):
+        raise DeckError(f"--set {text}: has more characters or parts than an override can")
     if not equals or not key_parts(key):
         raise DeckError(f"--set {text}: expected key=value, such as numerics.advection=momentum")
     try:
-        return key.strip(), tomllib.loads(f"value = {value_text}")["value"]
+        return key.strip(), within_limits(tomllib.loads(f"value = {value_text}")["value"], f"--set {text}")
     except tomllib.TOMLDecodeError:
         return key.strip(), value_text.strip()
+    except RecursionError:
+        raise DeckError(f"--set {text}: {_TOO_DEEP}") from None
+    except ValueError:
+        raise DeckError(f"--set {text}: {_TOO_LONG}") from None
 
 
 def override(data: dict, key: str, value, said: str, sources: Sources) -> dict:
@@ -166,6 +209,8 @@ def override(data: dict, key: str, value, said: str, sources: Sources) -> dict:
     keys = key_parts(key)
     if not keys:
         raise DeckError(f"{said}: the key is empty")
+    if len(keys) > DEEPEST:
+        raise DeckError(f"{said}: {_TOO_DEEP}")
     result = copy.deepcopy(data)
     sources.add_override(_override_path(_put(result, keys, value, said), result), said)
     return result

@@ -54,6 +54,13 @@ REACH = {
     "rad/s": (1e-12, 1e9, "no body spins so fast"),
 }
 
+#: characters of a quantity
+LONGEST = 200
+#: a power of a unit; a power of a power, which may be a number without end; a digit other than the 1 of 1/s
+_POWER = re.compile(r"(?:\*\*|\^)\s*\(?\s*[+-]?\d{1,2}(?:\.\d{1,6})?(?:\s*/\s*\d{1,2})?(?![\d.])\s*\)?")
+_TOWER = re.compile(r"(?:\*\*|\^)[^*/]*(?:\*\*|\^)")
+_DIGIT = re.compile(r"[02-9]|1(?=[\d.])")
+
 _NUMBER = re.compile(r"\s*([+-]?(?:\d[\d_]*\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*$")
 
 
@@ -81,6 +88,8 @@ def _registry():
 @functools.lru_cache(maxsize=4096)
 def _parsed(text: str, unit: str) -> float:
     """SI value of a string with a unit. The ValueError for a wrong one says what was expected."""
+    if len(text) > LONGEST:
+        raise ValueError(f'"{text[:20]} ..." is too long for a number with a unit; {_expected(unit)}')
     match = _NUMBER.match(text)
     if match is None:
         raise ValueError(f'"{text}" is not a number with a unit; {_expected(unit)}')
@@ -108,6 +117,8 @@ def _by_pint(text: str, number: float, name: str, unit: str) -> float:
 
     registry = _registry()
     try:
+        if _TOWER.search(name) or _DIGIT.search(_POWER.sub("", _spelled(name))):
+            raise ValueError("a number that may take for ever")
         quantity = registry.Quantity(number, registry.parse_units(_spelled(name)))
     except Exception as problem:  # pint raises a dozen kinds for text that is no unit
         raise ValueError(f'"{name}" is not a unit; {_expected(unit)}') from problem

@@ -13,10 +13,16 @@ from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Wit
 from hydro2d import units
 
 
+#: characters of a name
+LONGEST_NAME = 200
+
+
 def _name(value: str) -> str:
     """A name that can be used in tables, file names and datasets."""
     if not value.strip():
         raise ValueError("is empty")
+    if len(value) > LONGEST_NAME:
+        raise ValueError(f"has {len(value)} characters; a name has at most {LONGEST_NAME}")
     bad = sorted({character for character in value if character in "/\\" or not character.isprintable()})
     if bad:
         raise ValueError(f"{value!r} has {', '.join(map(repr, bad))}, which names of fields and files cannot contain")

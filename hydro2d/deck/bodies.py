@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from typing import Annotated, Literal
 
+import numpy as np
 from pydantic import BeforeValidator, Field, WithJsonSchema, model_validator
 
 from hydro2d import units
@@ -25,6 +26,9 @@ from hydro2d.deck.base import (
     Temperature,
     Velocity,
 )
+
+#: most corners of a polygon
+MOST_CORNERS = 5000
 
 
 class Flow(Section):
@@ -199,6 +203,8 @@ class Sphere(Body):
 def _points(value):
     if not isinstance(value, (list, tuple)) or len(value) < 3:
         raise ValueError("a polygon needs at least three points [r, z]")
+    if len(value) > MOST_CORNERS:
+        raise ValueError(f"has {len(value)} corners; at most {MOST_CORNERS} are allowed")
     return value
 
 
@@ -212,24 +218,24 @@ class Polygon(Body):
 
     @model_validator(mode="after")
     def _simple(self):
-        corners = list(self.points)
-        edges = list(zip(corners, corners[1:] + corners[:1], strict=True))
-        for first in range(len(edges)):
-            if edges[first][0] == edges[first][1]:
+        begin = np.array(self.points)
+        end = np.roll(begin, -1, axis=0)
+        for first in range(len(begin)):
+            if (begin[first] == end[first]).all():
                 raise ValueError(f"corner {first} is given twice")
-            for second in range(first + 1, len(edges)):
-                if _cross(*edges[first], *edges[second]):
-                    raise ValueError(f"the edges from corner {first} and from corner {second} cross")
+            crossed = _cross(begin[first], end[first], begin[first + 1 :], end[first + 1 :])
+            if crossed.any():
+                raise ValueError(f"the edges from corner {first} and from corner {first + 1 + crossed.argmax()} cross")
         return self
 
 
-def _cross(a, b, c, d) -> bool:
-    """Whether the open segments ab and cd cross each other."""
+def _cross(a, b, c, d) -> np.ndarray:
+    """Whether the open segment ab and open segments cd cross each other: a, b (2,) and c, d (n, 2), result (n,)."""
 
     def side(p, q, x):
-        return (q[0] - p[0]) * (x[1] - p[1]) - (q[1] - p[1]) * (x[0] - p[0])
+        return (q[..., 0] - p[..., 0]) * (x[..., 1] - p[..., 1]) - (q[..., 1] - p[..., 1]) * (x[..., 0] - p[..., 0])
 
-    return side(a, b, c) * side(a, b, d) < 0 and side(c, d, a) * side(c, d, b) < 0
+    return (side(a, b, c) * side(a, b, d) < 0) & (side(c, d, a) * side(c, d, b) < 0)
 
 
 AnyBody = Annotated[Rod | Plate | Box | Sphere | Polygon, Field(discriminator="shape")]

@@ -18,10 +18,16 @@ AHEAD = 20
 #: keys of `sliding` that have no meaning in a contact
 OF_SLIP_LAYER = ("boundary_layer", "slip_layer", "threshold", "shear", "refresh")
 
+#: most bodies, and most tracers and points of gauges
+MOST_BODIES, MOST_STATIONS = 1000, 20_000
+
 
 def inconsistencies(deck: Deck) -> Iterator[tuple[tuple, str]]:
     """Key and message of each mistake that involves several keys: unknown names, bodies outside the mesh, missing ends."""
     names = [entry.name for entry in deck.body]
+    if too_many := list(_too_many(deck)):
+        yield from too_many
+        return
     for number, entry in enumerate(deck.body):
         if entry.name in names[:number]:
             yield ("body", number, "name"), f'the name "{entry.name}" is already used by an earlier body'
@@ -46,6 +52,13 @@ def inconsistencies(deck: Deck) -> Iterator[tuple[tuple, str]]:
         yield from _bad_contact(deck)
     elif deck.sliding.friction > 0 and deck.sliding.shear != "shear":
         yield ("sliding", "friction"), 'friction needs shear = "shear"; a fluid slip layer has no friction'
+
+
+def _too_many(deck: Deck) -> Iterator[tuple[tuple, str]]:
+    if len(deck.body) > MOST_BODIES:
+        yield ("body",), f"there are {len(deck.body)} bodies; at most {MOST_BODIES} are allowed"
+    if (stations := len(deck.tracer) + sum(entry.points for entry in deck.gauge)) > MOST_STATIONS:
+        yield ("gauge",), f"there are {stations} tracers and points of gauges; at most {MOST_STATIONS} are allowed"
 
 
 def _bad_join(deck: Deck, number: int) -> Iterator[tuple[tuple, str]]:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import copy
 from collections.abc import Iterator, Mapping, Sequence
+from itertools import chain, islice
 from pathlib import Path
 from typing import Any
 
@@ -20,7 +21,7 @@ from hydro2d.deck import keys, sections
 from hydro2d.deck.checks import extent, faces, heading, inconsistencies, room, travel, unsupported
 from hydro2d.deck.mesh import axis_edges, body, body_radius
 from hydro2d.deck.warnings import warnings
-from hydro2d.errors import DeckError, Sources, spelled, unknown
+from hydro2d.errors import MOST_LINES, DeckError, Sources, spelled, unknown
 from hydro2d.files import plain
 from hydro2d.materials import from_files, library
 
@@ -172,7 +173,7 @@ def of_tables(tables: Mapping[str, Any], overrides: Overrides = (), name: str = 
     """Makes a deck from nested dicts and lists, as a TOML file would give them. Raises DeckError as ``load`` does."""
     sources = Sources()
     sources.add(name, {}, "")
-    data = toml.with_included(plain(tables), Path(folder), sources)
+    data = toml.with_included(plain(toml.within_limits(tables, name)), Path(folder), sources)
     return _resolve(data, name, overrides, sources, True)
 
 
@@ -180,6 +181,7 @@ def _laid_over(data: dict, overrides: Overrides, sources: Sources) -> dict:
     if isinstance(overrides, str):
         raise DeckError(f'overrides must be a list of "key=value" or a dict of values by key, not the text "{overrides}"')
     if isinstance(overrides, Mapping):
+        toml.within_limits(overrides, "overrides")
         entries = [(key, value, f"override {key} = {value!r}") for key, value in plain(overrides).items()]
     else:
         entries = [(*toml.assignment(text), f"--set {text}") for text in overrides]
@@ -200,10 +202,13 @@ def _resolve(data: dict, name: str, overrides: Overrides, sources: Sources, trus
         deck = Deck.model_validate(data, context=_RESOLVING)
         deck._tables = data
     except ValidationError as error:
-        problems = [str(complaint(*keys.explained(entry, data))) for entry in keys.causes(error.errors())]
-        problems += [str(complaint(path, message)) for path, message in _unknown_materials(data)]
+        found = keys.causes(error.errors())
+        problems = [str(complaint(*keys.explained(entry, data))) for entry in found[:MOST_LINES]]
+        problems += [str(complaint(path, message)) for path, message in islice(_unknown_materials(data), MOST_LINES)]
+        problems += [f"{len(found) - MOST_LINES} further mistakes"] if len(found) > MOST_LINES else []
         raise DeckError("\n".join(dict.fromkeys(problems))) from None
-    problems += [str(complaint(path, message)) for path, message in (*inconsistencies(deck), *_unknown_materials(data))]
+    wrong_together = islice(chain(inconsistencies(deck), _unknown_materials(data)), MOST_LINES)
+    problems += [str(complaint(path, message)) for path, message in wrong_together]
     own, wrong = _own_materials(deck, complaint, trust)
     problems += wrong
     if problems:

@@ -11,6 +11,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+import numpy as np
+
 
 @dataclass(frozen=True)
 class Line:
@@ -130,11 +132,12 @@ def polygon(points) -> Outline:
     """A polygon with corners (r, z) whose edges do not cross, cut into slabs at its corners."""
     corners = list(points)
     sides = list(zip(corners, corners[1:] + corners[:1], strict=True))
+    bottom, top = (choice([[a[1], b[1]] for a, b in sides], axis=1) for choice in (np.min, np.max))
     levels = sorted({z for _, z in corners})
     slabs = []
     for low, high in zip(levels, levels[1:], strict=False):
         middle = 0.5 * (low + high)
-        spanning = [_side(a, b) for a, b in sides if min(a[1], b[1]) <= low and max(a[1], b[1]) >= high]
+        spanning = [_side(*sides[n]) for n in np.flatnonzero((bottom <= low) & (top >= high))]
         spanning.sort(key=lambda line: line.r(middle))
         slabs += [Slab(low, high, *pair) for pair in zip(spanning[::2], spanning[1::2], strict=True)]
     return Outline(tuple(slabs))

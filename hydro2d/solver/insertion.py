@@ -9,6 +9,8 @@ curve. In between the integrand is smooth, so that the result is exact to round-
 from __future__ import annotations
 
 import math
+from bisect import bisect_left, bisect_right
+from itertools import islice
 
 import numpy as np
 
@@ -104,8 +106,11 @@ def _breaks(rows: list[list[Slab]], low: float, high: float, r_edges: np.ndarray
                 curves.append((a, b, curve))
                 found.update(_crossings(curve, a, b, r_edges))
     levels = sorted(found)
+    curves.sort(key=lambda curve: curve[0])
     for n, (a1, b1, first) in enumerate(curves):
-        for a2, b2, second in curves[n + 1 :]:
+        for a2, b2, second in islice(curves, n + 1, None):
+            if a2 >= b1:
+                break
             if not (first.constant and second.constant):
                 found.update(_meetings(first, second, max(a1, a2), min(b1, b2), levels))
     return sorted(found)
@@ -123,7 +128,7 @@ def _crossings(curve, a: float, b: float, r_edges: np.ndarray) -> list[float]:
 def _meetings(first, second, a: float, b: float, levels: list[float]) -> list[float]:
     """Heights from a to b at which two curves cross, one at most between neighbouring levels."""
     found = []
-    inside = [z for z in levels if a <= z <= b]
+    inside = levels[bisect_left(levels, a) : bisect_right(levels, b)]
     for low, high in zip(inside, inside[1:], strict=False):
         left, right = first.r(low) - second.r(low), first.r(high) - second.r(high)
         if left * right < 0:
