@@ -7,8 +7,6 @@
     shot.summary["penetration_depth_m"]
 """
 
-from __future__ import annotations
-
 import os
 import sys
 

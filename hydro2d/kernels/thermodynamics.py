@@ -268,3 +268,32 @@ def step_cause(j, courant, advective, mesh_speed, dr, dz, metrics, active_range,
                     best = limits[k]
                     cause[0] = k
                     cause[1] = i
+
+
+@serial
+def worst_energies(g, nz, nr, m, sliver, lowest, highest, plastic, most_strain, warm, model, par, vof, q, found):
+    """The cells in which the energy of body m is farthest above and below what it can reach there, with those at 0 K.
+
+    Cells of which it fills less than `sliver` do not count; a body that does not begin `warm` may be at 0 K.
+
+    Reads    vof [m, j, i]; q [k, m, j, i]
+    Writes   found [2, 3], of the hottest and the coldest: by how much it is beyond, J/kg (not above 0 within reach), row, column
+    """
+    for side in range(2):
+        found[side, 0] = -1e300
+    for j in range(g, g + nz):
+        for i in range(g, g + nr):
+            if vof[m, j, i] < sliver:
+                continue
+            e = q[E, m, j, i]
+            cold = lowest - e
+            if warm and e < 0.0 and evaluate(model, q[RHO, m, j, i], e, par)[3] <= 0.0:
+                cold = max(cold, -e)
+            hot = e - (highest + plastic * min(q[EP, m, j, i], most_strain))
+            for side in range(2):
+                beyond = cold if side else hot
+                beyond = beyond if beyond == beyond else 1e300
+                if beyond > found[side, 0]:
+                    found[side, 0] = beyond
+                    found[side, 1] = j
+                    found[side, 2] = i

@@ -91,30 +91,21 @@ def doubts(state, table, time: float, reach: Reach) -> Iterator[tuple[str, str]]
     time : since the start, s
     reach : bounds of the energies
     """
-    grid = state.grid
+    from hydro2d.kernels.thermodynamics import worst_energies  # after which no model can join
+
+    grid, found = state.grid, np.zeros((2, 3))
     for m, name in enumerate(table.names):
-        there = grid.interior(state.vof)[m] >= SLIVER
-        rho, e, strain = (grid.interior(array)[m][there] for array in (state.rho, state.e, state.ep))
-        high = reach.cell_highest[m] + reach.plastic[m] * np.minimum(strain, MOST_STRAIN) + reach.rubbing[m] * time
-        cold = np.maximum(reach.cell_lowest[m] - e, np.where(_frozen(table, m, rho, e) & reach.warm[m], -e, -np.inf))
-        for what, beyond in (("hot", e - high), ("cold", cold)):
-            if not np.all(beyond <= 0.0):
-                k = int(np.argmax(beyond))
-                j, i = np.argwhere(there)[k]
+        high = reach.cell_highest[m] + reach.rubbing[m] * time
+        worst_energies(grid.g, grid.nz, grid.nr, m, SLIVER, reach.cell_lowest[m], high, reach.plastic[m], MOST_STRAIN,
+                       reach.warm[m], table.eos_model[m], table.eos_par[m], state.vof, state.q, found)
+        for what, (beyond, j, i) in zip(("hot", "cold"), found.tolist(), strict=True):
+            if beyond > 0.0:
+                j, i = int(j) - grid.g, int(i) - grid.g
+                e, strain = grid.interior(state.e)[m, j, i], grid.interior(state.ep)[m, j, i]
+                most = high + reach.plastic[m] * min(strain, MOST_STRAIN)
                 yield f"{name} {what}", (
-                    f'body "{name}" is too {what} with {e[k]:.3g} J/kg in the cell {_place(grid, j, i)}, in which it can reach '
-                    f"{reach.cell_lowest[m]:.3g} to {high[k]:.3g} J/kg and no temperature of zero, {_from(reach, m)}")
-
-
-def _frozen(table, m: int, rho: np.ndarray, e: np.ndarray) -> np.ndarray:
-    """Where the temperature of body m is zero, bool[n]; where the energy is not negative it is not looked up."""
-    from eos.dispatch import temperature_row
-
-    cold = np.flatnonzero(e < 0.0)
-    temperature, frozen = np.empty(len(cold)), np.zeros(len(e), dtype=bool)
-    temperature_row(table.eos_model[m], table.eos_par[m], 0, len(cold), np.ones(len(cold)), rho[cold], e[cold], temperature)
-    frozen[cold] = temperature <= 0.0
-    return frozen
+                    f'body "{name}" is too {what} with {e:.3g} J/kg in the cell {_place(grid, j, i)}, in which it can reach '
+                    f"{reach.cell_lowest[m]:.3g} to {most:.3g} J/kg and no temperature of zero, {_from(reach, m)}")
 
 
 def _least_energy(state, m: int) -> str:

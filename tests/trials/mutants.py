@@ -52,7 +52,7 @@ def _base(name: str) -> dict:
 def _cut(deck, tables: dict, z: np.ndarray) -> np.ndarray:
     """Shortens the rod of a deck, and what stands far from it on the mesh; returns the edges that are left."""
     rods = [number for number, body in enumerate(deck.body) if body.shape == "rod"]
-    if not rods:
+    if not rods or sum(body.velocity[1] != 0.0 for body in deck.body) > 1:  # what flies with a rod would be cut off
         return z
     rod = deck.body[rods[0]]
     length = min(rod.length, rod.resolved_nose_length + SHANK * rod.rod_radius)

@@ -16,6 +16,7 @@ from hydro2d.output import history, snapshot, vtk
 from hydro2d.results import export
 from hydro2d.results.reading import Results, ResultsError
 from hydro2d.running import run as runs
+from hydro2d.strange import StrangeFile
 from tests.unit import fake
 
 CHECKED = {"deck.toml", "summary.json", "history.h5", "restart.h5", "series.pvd", "interfaces.pvd", "tracers.pvd"}
@@ -128,7 +129,9 @@ def test_nothing_but_files_is_read(tmp_path):
     os.mkfifo(tmp_path / "history.h5")
     (tmp_path / "deck.toml").mkdir()
     (tmp_path / "series.pvd").touch()
-    for name, said in (("history.h5", "it is not a file"), ("deck.toml", "it is not a file"), ("series.pvd", "it is empty"),
+    with pytest.raises(StrangeFile, match=r"history\.h5 is a pipe"):
+        verified(tmp_path / "history.h5", Error)
+    for name, said in (("deck.toml", "it is not a file"), ("series.pvd", "it is empty"),
                        ("none.vtr", "No such file")):
         with pytest.raises(Error, match=f"{name} cannot be read: {said}"):
             verified(tmp_path / name, Error)
