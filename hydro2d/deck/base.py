@@ -12,7 +12,6 @@ from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Wit
 
 from hydro2d import units
 
-
 #: characters of a name
 LONGEST_NAME = 200
 
