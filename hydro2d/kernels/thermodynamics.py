@@ -277,7 +277,7 @@ def worst_energies(g, nz, nr, m, sliver, lowest, highest, plastic, most_strain, 
     Cells of which it fills less than `sliver` do not count; a body that does not begin `warm` may be at 0 K.
 
     Reads    vof [m, j, i]; q [k, m, j, i]
-    Writes   found [2, 3], of the hottest and the coldest: by how much it is beyond, J/kg (not above 0 within reach), row, column
+    Writes   found [2, 3], of the hottest and the coldest: J/kg that it is beyond (0 or less within reach), row, column
     """
     for side in range(2):
         found[side, 0] = -1e300

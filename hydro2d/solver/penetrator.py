@@ -90,6 +90,7 @@ class Penetrator:
         self.length = self._length()[0]
         self._rears = [self.direction * (target.rear - self.surface) for target in targets]
         self.mass = float(sim.body_sums(self.m)[0].sum()) * self._around
+        self._run = np.zeros(2, dtype=np.int64)
         self._slack = DEBRIS_SPEED * abs(sim.mean_velocity(self.m) or 0.0)
         self._ringing = _ringing(sim, self.m)
         self.exit: Exit | None = None
@@ -236,7 +237,9 @@ class Penetrator:
 
     def _in_pieces(self) -> bool:
         """Whether no cell on the axis is filled by half with intact rod."""
-        return self._length()[0] == 0.0
+        g, s = self.sim.grid, self.sim.state
+        sums.axis_run(g.g, g.nz, self.m, HALF, g.z, s.vof, s.dmg, self._run)
+        return bool(self._run[0] == self._run[1])
 
     def _share_beyond(self, rear: float) -> float:
         """Share of what is left of the rod that is deeper than the rear of a target."""
