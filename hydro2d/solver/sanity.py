@@ -46,7 +46,8 @@ def faults(state, audit: Audit, names, share: float = TRUSTED) -> list[str]:
         taken = audit.sinks[name].energy
         if not abs(taken) <= share * energy:
             remedy = f"; {REMEDIES[name]}" if name in REMEDIES else ""
-            found.append(f"{taken / energy:.2g} of the energy went to {name} ({CLIPS[name]}), more than {share:g} of it{remedy}")
+            found.append(f"{taken / energy:.2g} of the energy went to {name} ({CLIPS[name]}), more than {share:g} of it"
+                         f"{remedy}")
     gained = -audit.sinks["advection"].energy
     if not gained <= share * energy:
         found.append(f"the remap of velocities has gained {gained / energy:.2g} of the energy, more than {share:g} of it")
