@@ -64,8 +64,8 @@ def case(directory, shot, advection, status="done", clipped=0.0, fault="", **sum
     directory.mkdir()
     (directory / "deck.toml").write_text("")
     sinks = {"advection": {"energy_J": -0.04}, "ke_bound": {"energy_J": clipped}}
-    told = {"conservation": {"sinks": sinks, "start_energy_J": 40.0}, "trustworthy": not fault, "faults": [fault] if fault else [],
-            "time_s": 9.004e-6, "cycles": 12, "status": status, **summary}  # fmt: skip
+    told = {"conservation": {"sinks": sinks, "start_energy_J": 40.0}, "trustworthy": not fault,
+            "faults": [fault] if fault else [], "time_s": 9.004e-6, "cycles": 12, "status": status, **summary}  # fmt: skip
     (directory / "summary.json").write_text(json.dumps(told))
     return SimpleNamespace(values={"shot": shot, "sliding": "none", "advection": advection}, status=status, summary=told,
                            directory=directory)  # fmt: skip
@@ -76,7 +76,7 @@ def study(tmp_path, monkeypatch):
     bodies = {"block": {"velocity_m_s": 151.26}}
     found = [
         case(tmp_path / "a", "block_in_hole", "both", bodies=bodies),
-        case(tmp_path / "b", "block_in_hole", "ke", bodies=bodies, clipped=1.2, fault="0.03 of the energy went to ke_bound (k)"),
+        case(tmp_path / "b", "block_in_hole", "ke", bodies=bodies, clipped=1.2, fault="0.03 of the energy went to cutoff (k)"),
         case(tmp_path / "c", "crater", "ke", "unphysical", 0.9, "0.022 of the energy went to ke_bound (k), more; a remedy"),
         case(tmp_path / "d", "crater", "both", "running"),
     ]
@@ -89,7 +89,7 @@ def test_a_study_is_read_and_kept(study, capsys):
     assert table.main([str(study), "--keep", str(file)]) == 0
     told = capsys.readouterr().out
     assert told.splitlines()[2:] == [
-        "| block_in_hole | velocity of the block, m/s | 200 | none | 151.3, 2.9 %, **not trusted: ke_bound** |  | 151.3, 0.1 % |",
+        "| block_in_hole | velocity of the block, m/s | 200 | none | 151.3, 2.9 %, **not trusted: cutoff** |  | 151.3, 0.1 % |",
         "| crater | depth of the crater, mm | 13 or a little more | none | **unphysical after 9.0 us: ke_bound** |  |  |",
     ]
     assert table.main([str(file)]) == 0
