@@ -8,7 +8,7 @@ from hydro2d.kernels.column_ranges import union
 from hydro2d.kernels.contact_geometry import FIRST, PARTED
 from hydro2d.mesh.fields import E
 from hydro2d.mesh.grid import FACE_R
-from hydro2d.physics.contact import GAP, face_flow_r, face_flow_z, largest_giver, volume_rate
+from hydro2d.physics.contact import GAP, face_flow_r, face_flow_z, largest_giver, largest_of, share_behind, volume_rate
 from hydro2d.physics.interfaces import FULL, cumulative, share_in_strip, surface
 
 
@@ -112,9 +112,9 @@ def contact_fluxes(dj, di, j0, j1, mesh_box, dr, dz, hard_first, soft_first, gro
 
     In a cell the group with the flatter surface comes first among the nested interfaces, where void parts them each group for
     itself. What the bodies together are short of, or beyond, the volume that the face sweeps goes to the largest of the softer
-    bodies that are in the cell from which they then come, and to a hard one only if there is none. Where that cell has a gap, a
-    full cell into which volume flows is short of nothing as long as there is more of its body: no void enters a body from its
-    surface.
+    bodies in the cell that this comes from, and to the hard one only if there is none; never to a body that would then come
+    from a cell in which it is not. Where that cell has a gap, a full cell into which volume flows is short of nothing as long as
+    there is more of its body: no void enters a body from its surface.
 
     Reads    face [j, i], own [b, j, i], what contact_shares wrote, vof [m, j, i], group [m], line [9, j, i];
              hard_first, soft_first [m], the bodies in the order in which their interfaces are nested
@@ -128,7 +128,7 @@ def contact_fluxes(dj, di, j0, j1, mesh_box, dr, dz, hard_first, soft_first, gro
         for i in range(lo, hi + di):
             if (di == 1 and (i == mesh_box[2] or i == mesh_box[3])) or (dj == 1 and (j == mesh_box[0] or j == mesh_box[1])):
                 continue
-            total = 0.0
+            total, softer = 0.0, 0.0
             for m in range(bodies):
                 swept = own[group[m], j, i]
                 up = swept > 0.0
@@ -146,17 +146,24 @@ def contact_fluxes(dj, di, j0, j1, mesh_box, dr, dz, hard_first, soft_first, gro
                     volume = given * size[row, column] if up else -given * size[row, column]
                 flux_volume[m, j, i] = volume
                 total += volume
+                softer += volume if group[m] == 0 else 0.0
             rest = face[j, i] - total
             up = face[j, i] > 0.0
             row, column = (j - dj, i - di) if up else (j, i)
             to_row, to_column = (j, i) if up else (j - dj, i - di)
             filled = cumulative(row, column, bodies - 1, hard_first, vof)
             if rest != 0.0 and filled > 1.0 - FULL:
-                giver = largest_giver(0, dj, di, j, i, rest, group, vof, flux_volume)
-                if giver < 0:
-                    giver = largest_giver(1, dj, di, j, i, rest, group, vof, flux_volume)
-                if giver >= 0:
-                    flux_volume[giver, j, i] += rest
+                taker = largest_of(0, j - dj if softer + rest > 0.0 else j, i - di if softer + rest > 0.0 else i, group, vof)
+                if taker < 0:
+                    taker = largest_of(1, row, column, group, vof)
+                if taker < 0:
+                    taker = largest_of(0, row, column, group, vof)
+                if taker < 0 or not share_behind(taker, dj, di, j, i, rest, vof, flux_volume) > 0.0:
+                    taker = largest_giver(0, dj, di, j, i, rest, group, vof, flux_volume)
+                if taker < 0:
+                    taker = largest_giver(1, dj, di, j, i, rest, group, vof, flux_volume)
+                if taker >= 0:
+                    flux_volume[taker, j, i] += rest
             elif rest != 0.0 and (rest > 0.0) == up and filled < 1.0 - GAP:
                 for m in range(bodies):
                     if vof[m, to_row, to_column] == 1.0:

@@ -16,7 +16,7 @@ blend = contact.blend.py_func
 face_flow_r = contact.face_flow_r.py_func
 face_flow_z = contact.face_flow_z.py_func
 volume_rate = contact.volume_rate.py_func
-largest_giver = contact.largest_giver.py_func
+largest_giver, largest_of = contact.largest_giver.py_func, contact.largest_of.py_func
 
 HARD, SOFT, BOTH = 1, 0, -1
 LEVEL = st.integers(-1000, 1000).map(lambda number: number / 1000)
@@ -342,7 +342,8 @@ GROUP = np.array([0, 1, 1, 0, 1])
 def largest(group, *shares):
     vof = np.full((len(shares), 2, 2), np.nan)
     vof[:, 0, 1] = shares
-    return largest_giver(group, 0, 1, 0, 1, -1.0, GROUP, vof, np.zeros_like(vof))
+    assert largest_giver(group, 0, 1, 0, 1, -1.0, GROUP, vof, np.zeros_like(vof)) == largest_of(group, 0, 1, GROUP, vof)
+    return largest_of(group, 0, 1, GROUP, vof)
 
 
 def test_the_largest_body_is_looked_for_in_its_group_alone():
