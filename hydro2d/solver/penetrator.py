@@ -208,7 +208,7 @@ class Penetrator:
             return velocity
         mass_of_rows, momentum = self.sim.body_sums(self.m)
         mass = float(mass_of_rows.sum())
-        if mass * self._around < LEFT_MASS * self.mass:
+        if mass * self._around <= LEFT_MASS * self.mass:
             return None
         return self.direction * float(np.maximum(self.direction * momentum, 0.0).sum()) / mass
 

@@ -168,6 +168,15 @@ def test_a_ball_that_breaks_up_has_perforated_and_left(options, reason):
     assert (found["regime"] == LEFT) is (reason == "ball left the mesh")
 
 
+def test_a_rod_that_earlier_bodies_cover_has_no_speed():
+    """Where bodies overlap the earlier is there: of a rod inside a block that comes first nothing is."""
+    text = TEXT.replace("TIP", "-0.3").replace('[[body]]\nname = "rod"', '[[body]]\nname = "block"\nmaterial = "Al5083"\n'
+                        'shape = "box"\nz = ["-25 mm", "0 mm"]\n[[body]]\nname = "rod"')  # fmt: skip
+    sim = Simulation(deck.loads(text, ["stop.speed_below=1.0"]))
+    assert sim.diagnostics()["rod_mean_velocity_m_s"] is None
+    assert (sim.penetrator.speed(), sim.stop_reason()) == (None, None)
+
+
 def test_a_body_that_is_gone_has_no_speed():
     """Without [penetration]: a block flies out of an empty mesh, and the wake of 1e-6 of it does not end the run as slow."""
     text = TEXT[:TEXT.index('[[body]]\nname = "plate"')] + '[stop]\nbody = "rod"\nspeed_below = "5 m/s"\ntime = "100 us"\n'
