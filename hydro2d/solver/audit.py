@@ -24,7 +24,7 @@ SINKS = {
 CLIPS = {name: SINKS[name] for name in ("cutoff", "ke_bound", "speed_limit")}
 
 #: what keeps a clip from taking much, where runs have shown it (problems/classic/README.md)
-REMEDIES = {"ke_bound": 'numerics.advection = "both" or "momentum" has no such bound'}
+REMEDIES = {"ke_bound": 'numerics.advection = "momentum" or "both" has no such bound'}
 
 #: what a contact passes on within the balance: axial momentum from the hard bodies to the soft ones, and the heat that it makes
 CONTACT_TRANSFERS = {

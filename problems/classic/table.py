@@ -76,7 +76,7 @@ class Result:
     value : of its measure, in the measure's unit; None for an unphysical run
     discarded, clipped : what the remap of velocities discarded and `ke_bound` clipped, per cent of the energy at the start
     time, cycles : time of flight in us, number of cycles
-    fault : the clip that the first fault names, else its sentence; empty for a trusted run
+    fault : the clip that the first fault names, or the kind of cell that it doubts, else its sentence; empty for a trusted run
     """
 
     shot: str
@@ -136,8 +136,10 @@ def _of(case: layout.Case) -> Result:
 
 
 def _short(fault: str) -> str:
-    """The clip that a fault names, or the fault."""
-    return next((name for name in CLIPS if f" went to {name} " in fault), fault)
+    """The clip that a fault names; "a hot cell" or "a cold cell"; or the fault."""
+    doubts = {f"a {what} cell": f'" is too {what} with ' for what in ("hot", "cold")}
+    told = {**{name: f" went to {name} " for name in CLIPS}, **doubts}
+    return next((name for name, part in told.items() if part in fault), fault)
 
 
 def keep(results: list[Result], path: Path) -> None:

@@ -33,13 +33,14 @@ def test_a_shot_begins_with_all_defaults(name):
     text = decks.find(f"{FOLDER}/{name}.toml").read_text(encoding="utf-8")
     assert {"include", "numerics", "sliding"}.isdisjoint(tomllib.loads(text))
     simulation = begin(name)
-    assert simulation.faults() == []
+    simulation.refuse_nonsense()
+    assert simulation.faults() + simulation.doubts() == []
     assert abs(simulation.conservation()["total_energy"]) < 1e-11
 
 
 @pytest.mark.parametrize("name", ["crater", "bumper"])
 def test_the_scheme_that_clips_fails_and_the_message_names_the_remedy(name):
-    with pytest.raises(UnphysicalState, match='went to ke_bound .*; numerics.advection = "both" or "momentum" has no such'):
+    with pytest.raises(UnphysicalState, match='went to ke_bound .*; numerics.advection = "momentum" or "both" has no such'):
         begin(name, advection("ke"))
 
 
