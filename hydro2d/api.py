@@ -68,6 +68,10 @@ def open_run(directory: str | Path, *, trust: bool = False) -> Results:
     """Opens the directory of a run that has ended or is still running.
 
     The result gives the deck, the summary, the history, the hole, the fields of all dumps and the figures; see `Results`.
+
+    Parameters
+    ----------
+    directory : of the run
     trust : whether the code of models from outside that the deck of the run carries may be run. Only `Results.simulation` and
         `Results.state` need it; give it for runs whose origin you know.
 
