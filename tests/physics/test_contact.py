@@ -17,6 +17,7 @@ face_flow_r = contact.face_flow_r.py_func
 face_flow_z = contact.face_flow_z.py_func
 volume_rate = contact.volume_rate.py_func
 largest_giver, largest_of = contact.largest_giver.py_func, contact.largest_of.py_func
+share_behind = contact.share_behind.py_func
 
 HARD, SOFT, BOTH = 1, 0, -1
 LEVEL = st.integers(-1000, 1000).map(lambda number: number / 1000)
@@ -366,6 +367,8 @@ def test_no_body_gives_from_a_cell_in_which_it_is_not():
     vof, flux = np.zeros((5, 1, 2)), np.zeros((5, 1, 2))
     vof[0, 0], vof[3, 0] = [0.3, 0.1], [0.0, 0.9]
     flux[0, 0, 1] = -4.0
+    assert [share_behind(3, 0, 1, 0, 1, more, vof, flux) for more in (1.0, -1.0)] == [0.0, 0.9]
+    assert [share_behind(0, 0, 1, 0, 1, more, vof, flux) for more in (3.0, 5.0)] == [0.1, 0.3]
     assert largest_giver(SOFT, 0, 1, 0, 1, 1.0, GROUP, vof, flux) == 0
     assert largest_giver(SOFT, 0, 1, 0, 1, -1.0, GROUP, vof, flux) == 3
     vof[0, 0] = 0.0

@@ -77,7 +77,8 @@ def _read(simulation) -> None:
 
 
 def _serve(pipe) -> None:
-    """Judges texts until nobody sends any."""
+    """Judges texts until nobody sends any, on one thread."""
+    os.environ["NUMBA_NUM_THREADS"] = "1"
     with contextlib.suppress(EOFError):
         while True:
             pipe.send(judged(pipe.recv()))
@@ -106,7 +107,6 @@ class Watched:
         return ended
 
     def _begin(self) -> None:
-        os.environ["NUMBA_NUM_THREADS"] = "1"
         spawn = multiprocessing.get_context("spawn")
         self.pipe, other = spawn.Pipe()
         self.process = spawn.Process(target=_serve, args=(other,), daemon=True)

@@ -174,10 +174,16 @@ def through_air(speed, tip):
     assert np.abs(simulation.state.velocity).max() < 3.0 * speed
 
 
-@pytest.mark.parametrize(("speed", "tip"), [(300, -3), (320, -3), (300, 0), (1086, -3)])
+@pytest.mark.parametrize(("speed", "tip"), [(300, -3), (320, -3), (300, 0)])
 def test_a_rod_flies_through_air_and_meets_a_plate(speed, tip):
-    """The last two exploded while gas took the heat and the work of the metal in its cell."""
+    """The last one exploded while gas took the heat and the work of the metal in its cell."""
     through_air(speed, tip)
+
+
+@pytest.mark.xfail(reason="gas that is slow beside the rod explodes, by chance: explanation/sliding", raises=UnphysicalState,
+                   strict=True)
+def test_a_fast_rod_flies_through_air():
+    through_air(1086, -3)
 
 
 @pytest.mark.xfail(reason="a gas beside a surface on a mesh line: see explanation/sliding", raises=UnphysicalState, strict=True)
