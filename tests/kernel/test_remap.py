@@ -116,7 +116,7 @@ def test_remap_conserves(choice, geometry, text):
 
 def test_unbounded_ke_keeps_kinetic_energy():
     """Where nothing runs into a wall, `ke` without its bound keeps the kinetic energy."""
-    e = engine(WITH_VOID, 'mesh.geometry="planar"', "numerics.ke_bound=1e9")
+    e = engine(WITH_VOID, 'mesh.geometry="planar"', "numerics.ke_bound=1e9", 'numerics.advection="ke"')
     disturbed(e, 4)
     e.state.u[..., : e.grid.g + 3] = e.state.u[..., -e.grid.g - 3 :] = 0.0
     e.state.v[:, : e.grid.g + 3] = 0.0

@@ -188,5 +188,5 @@ def test_progress_is_published_while_it_runs(simulation, monkeypatch, text, plac
 def test_kernels_go_by_the_words_of_the_methods():
     base = kernels(decks.loads(DECK))
     assert kernels(decks.loads(DECK, ["numerics.courant=0.3", "body.rod.velocity=900 m/s"])) == base
-    assert kernels(decks.loads(DECK, ["numerics.advection=momentum"])) != base
+    assert kernels(decks.loads(DECK, ["numerics.advection=ke"])) != base
     assert kernels(decks.loads(DECK, ['sliding.method="contact"', 'sliding.hard=["rod"]'])) != base
