@@ -47,22 +47,22 @@ class Contact:
         contact_motion.contact_viscosity(
             j0, j1, self.mesh_box, method.viscosity_linear, method.viscosity_quadratic, method.courant, g.dr, g.dz, g.metrics,
             s.contact_columns, s.line, s.group_ranges, s.contact_normal, s.aperture_r, s.aperture_z, s.hard, s.soft, s.u, s.v,
-            s.cl, s.rhobar, s.vof, s.q, s.pm, s.km, s.p, s.solid, s.bulk, s.qr, s.qz, s.rate, s.row_step, s.mixed_count,
+            s.cl, s.rhobar, s.vof, s.q, s.km, s.skin, s.p, s.solid, s.bulk, s.qr, s.qz, s.rate, s.row_step, s.mixed_count,
             s.mixed, s.kinds)
 
     def stress(self, j0: int, j1: int, dt: float) -> None:
         """Total stress of the contact-interface cells, and the pressure of the contact."""
         s = self.state
-        contact_motion.contact_stress(j0, j1, dt, s.contact_columns, s.group_ranges, s.line, s.hard, s.soft, s.rate, s.p,
-                                      s.bulk, s.ph, s.sig_rr, s.sig_zz, s.sig_tt, s.sig_rz, s.contact_pressure)
+        contact_motion.contact_stress(j0, j1, dt, s.contact_columns, s.group_ranges, s.line, s.hard, s.soft, s.rate, s.skin,
+                                      s.p, s.bulk, s.solid, s.ph, s.sig_rr, s.sig_zz, s.sig_tt, s.sig_rz, s.contact_pressure)
 
     def meet(self, j0: int, j1: int, dt: float, audit: Audit) -> None:
         """Velocities of both groups at contact nodes: forces, slave nodes, contact and friction."""
         s, g, method = self.state, self.grid, self.method
         contact_motion.contact_node_forces(
             j0, j1, dt, s.group, method.mixed_strength == mixed.SOLID, g.metrics, g.dz, self.constrained, s.contact_node_count,
-            s.contact_nodes, s.aperture_r, s.aperture_z, s.ph, s.qr, s.solid, s.vof, s.q, s.hg_coefficient, s.cell_mass, s.mass,
-            s.u0, s.v0, s.u, s.v, s.transfer)
+            s.contact_nodes, s.aperture_r, s.aperture_z, s.ph, s.qr, s.solid, s.skin, s.vof, s.q, s.hg_coefficient, s.cell_mass,
+            s.mass, s.u0, s.v0, s.u, s.v, s.transfer)
         contact_velocities.settle(
             j0, j1, dt, method.friction, self.constrained, g.r, g.z, g.metrics, g.dz, s.contact_columns, s.line,
             s.contact_node_count, s.contact_nodes, s.contact_normal, s.touch, s.masters, s.sig_rr, s.sig_zz, s.sig_rz, s.mass,
