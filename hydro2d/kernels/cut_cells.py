@@ -10,7 +10,7 @@ from hydro2d.jit import apart, kernel, point, prange
 from hydro2d.mesh.fields import RHO, SRR, SRZ, SZZ, E
 from hydro2d.physics.closure import NO_VOID
 from hydro2d.physics.interfaces import youngs_gradient
-from hydro2d.physics.traction import STEEP, SURE, along_normal, half_pressure, smoothstep, strain_across
+from hydro2d.physics.traction import STEEP, along_normal, half_pressure, pull_left, smoothstep, strain_across
 
 #: kinds of cut cells, in row KIND of `skin`: bonded bodies without void, a surface against void, two groups
 BONDED, FREE_SURFACE, INTERFACE = 0.0, 1.0, 2.0
@@ -27,7 +27,7 @@ SOFT, HEAT, TRIAL_RR, TRIAL_ZZ, TRIAL_RZ, MODULUS, YIELD, FLOW, SIZE, ALONG, BES
 def find_surfaces(j0, j1, i0, i1, mesh_box, dr, dz, group, hard, hard_threshold, mixed_count, mixed, vof, skin):
     """Normals of the surfaces in mixed cells, with the square root of their weight as length.
 
-    The normal is Youngs', of the hard group's fraction less the soft one's where a cell holds both, else of what is solid. It
+    The normal is Youngs', of the hard group's fraction less the soft one's where a cell holds both, else of its one group. It
     counts in full from a fall of STEEP across the cell on, so that a bubble or a crumb has none, and in the hard zone of a slip
     layer it does not count. Where void or a group vanishes, a cut cell does what a full one does.
 
@@ -59,7 +59,8 @@ def find_surfaces(j0, j1, i0, i1, mesh_box, dr, dz, group, hard, hard_threshold,
                 continue
             sw, s, se, w, e, nw, n, ne = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
             for m in range(bodies):
-                sign = -1.0 if meet and group[m] != 1 else 1.0
+                of_hard = group[m] == 1
+                sign = 1.0 if of_hard == (own > 0.0) else (-1.0 if meet else 0.0)
                 sw += sign * vof[m, below, left]
                 s += sign * vof[m, below, i]
                 se += sign * vof[m, below, right]
@@ -106,9 +107,22 @@ def skin_deviator(j, i, skin, scale, vof, q):
 
 
 @point
+def surface_weight(j, i, skin):
+    """Weight of the surface in a cell, 0 to 1."""
+    return skin[NORMAL_R, j, i] * skin[NORMAL_R, j, i] + skin[NORMAL_Z, j, i] * skin[NORMAL_Z, j, i]
+
+
+@point
+def pull_of(j, i, void, skin):
+    """Share of a tension that a cut cell carries; none where two groups meet (`pull_left`)."""
+    return 0.0 if skin[KIND, j, i] == INTERFACE else pull_left(void, surface_weight(j, i, skin))
+
+
+@point
 def cut_pressure(j, i, dt, rate, skin, p, bulk, solid):
     """p_c of a cut cell at half the step, for a rate of volume of its own (1/s)."""
-    return half_pressure(p[j, i], bulk[j, i], 0.5 * dt * rate, max(1.0 - solid[j, i], 0.0), skin[KIND, j, i] == INTERFACE)
+    void = max(1.0 - solid[j, i], 0.0)
+    return half_pressure(p[j, i], bulk[j, i], 0.5 * dt * rate, void, pull_of(j, i, void, skin))
 
 
 @point
@@ -130,12 +144,6 @@ def grow(j, i, target, weight, vof, pm, km, mix):
     return total, give
 
 
-@point
-def surface_weight(j, i, skin):
-    """Weight of the surface in a cell, 0 to 1."""
-    return skin[NORMAL_R, j, i] * skin[NORMAL_R, j, i] + skin[NORMAL_Z, j, i] * skin[NORMAL_Z, j, i]
-
-
 @apart
 def fill_room(j, i, room, start, weight, vof, pm, km, mix):
     """Pressure (Pa) at which the bodies of a cell grow by `room`, a share of the cell: Newton's rule from `start`.
@@ -155,7 +163,7 @@ def fill_room(j, i, room, start, weight, vof, pm, km, mix):
 def meet_traction(j, i, change, void, skin, p, bulk, vof, pm, km, mix):
     """p_c of a cut cell at the end of the step (Pa), whose volume changes by `change`, as a share of it.
 
-    Void opens at p_c = 0 and is shut before p_c rises; a crack of less than SURE in one group pulls the less the wider it is
+    Void opens at p_c = 0 and is shut before p_c rises; a crack in the midst of a group pulls the less the wider it is
     (explanation/mixed-cells, equation 12).
 
     Writes   as `grow`
@@ -164,10 +172,11 @@ def meet_traction(j, i, change, void, skin, p, bulk, vof, pm, km, mix):
     total, _ = grow(j, i, 0.0, weight, vof, pm, km, mix)
     if total > change + void:
         return fill_room(j, i, change + void, max(p[j, i] - bulk[j, i] * (change + void), 0.0), weight, vof, pm, km, mix)
-    if skin[KIND, j, i] == INTERFACE or void >= SURE or total >= change:
+    pull = pull_of(j, i, void, skin)
+    if pull == 0.0 or total >= change:
         return 0.0
     target = fill_room(j, i, change, min(p[j, i] - bulk[j, i] * change, 0.0), weight, vof, pm, km, mix)
-    target *= 1.0 - smoothstep(void / SURE)
+    target *= pull
     grow(j, i, target, weight, vof, pm, km, mix)
     return target
 

@@ -8,7 +8,7 @@ from math import sqrt
 
 from hydro2d.jit import point
 
-#: share of void, or of the lesser group of a cell, from which the surface in the cell counts in full
+#: share of void from which a crack carries no tension
 SURE = 0.01
 #: the fall of a fraction across a cell from which the normal counts in full
 STEEP = 0.1
@@ -32,16 +32,24 @@ def along_normal(n_r, n_z, rr, zz, rz):
 
 
 @point
-def half_pressure(p, bulk, strain, void, parts):
-    """Pressure of a cut cell after a volumetric strain: void shuts first, and nothing pulls across it.
+def pull_left(void, weight):
+    """Share of a tension that a cell of one group with void still carries: all of a crack that closes up, none at a surface.
 
-    p is the pressure that the bodies have, bulk their modulus (Pa), void its share. Where two groups meet (``parts``) nothing
-    pulls at all; a body alone still does where its void is a crack of less than SURE. Continuous in all (explanation/
+    weight is that of the surface in the cell (`surface_weight`); a crack in the midst of a body has none.
+    """
+    return (1.0 - weight) * (1.0 - smoothstep(void / SURE))
+
+
+@point
+def half_pressure(p, bulk, strain, void, pull):
+    """Pressure of a cut cell after a volumetric strain: void shuts first, and of a tension `pull` is left.
+
+    p is the pressure that the bodies have, bulk their modulus (Pa), void its share. Continuous in all of them (explanation/
     mixed-cells, equation 9).
     """
     together = p - bulk * strain
     if together <= 0.0:
-        return 0.0 if parts else together * (1.0 - smoothstep(void / SURE))
+        return pull * together
     if void >= WIDE:
         return 0.0
     return max(together - bulk * void, 0.0)
