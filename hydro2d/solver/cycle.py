@@ -66,7 +66,7 @@ class Cycle:
         self.transmitting = np.where(method.boundaries.having("transmits"), at, -1)
         self.void_only = self._edges_with_void_beyond()
         self.carried = np.array([self._carried(m) for m in range(state.bodies)])
-        self.contact = Contact(state, method, self.mesh_box, self.constrained) if state.groups > 1 else None
+        self.contact = Contact(state, method, self.mesh_box, self.constrained, table) if state.groups > 1 else None
         self.box = list(self.mesh_box)
         self.audit: Audit | None = None
         self.speed_limit = 0.0
