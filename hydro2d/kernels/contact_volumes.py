@@ -107,7 +107,7 @@ def strip_of(m, j, i, along_z, width, high, order, part, dr, dz):
 
 @kernel
 def contact_fluxes(dj, di, j0, j1, mesh_box, dr, dz, hard_first, soft_first, group, contact_columns, line, face, own, part,
-                   size, vof, flux_volume):
+                   size, pre, vof, flux_volume):
     """Volume of every body through the faces of contact-interface cells, with the velocity of its group.
 
     In a cell the group with the flatter surface comes first among the nested interfaces, where void parts them each group for
@@ -152,7 +152,10 @@ def contact_fluxes(dj, di, j0, j1, mesh_box, dr, dz, hard_first, soft_first, gro
             row, column = (j - dj, i - di) if up else (j, i)
             to_row, to_column = (j, i) if up else (j - dj, i - di)
             filled = cumulative(row, column, bodies - 1, hard_first, vof)
-            if rest != 0.0 and filled > 1.0 - FULL:
+            void = min(max((1.0 - filled) * pre[row, column], 0.0), abs(face[j, i]))
+            kept = min(max(rest, 0.0), void) if up else max(min(rest, 0.0), -void)
+            rest -= kept
+            if rest != 0.0:
                 taker = largest_of(0, j - dj if softer + rest > 0.0 else j, i - di if softer + rest > 0.0 else i, group, vof)
                 if taker < 0:
                     taker = largest_of(1, row, column, group, vof)
@@ -164,12 +167,12 @@ def contact_fluxes(dj, di, j0, j1, mesh_box, dr, dz, hard_first, soft_first, gro
                     taker = largest_giver(1, dj, di, j, i, rest, group, vof, flux_volume)
                 if taker >= 0:
                     flux_volume[taker, j, i] += rest
-            elif rest != 0.0 and (rest > 0.0) == up and filled < 1.0 - GAP:
+            if kept != 0.0 and filled < 1.0 - GAP:
                 for m in range(bodies):
                     if vof[m, to_row, to_column] == 1.0:
                         swept = own[group[m], j, i] if up else -own[group[m], j, i]
                         most = min(swept, part[m, row, column] * size[row, column]) - abs(flux_volume[m, j, i])
-                        more = min(abs(rest), max(most, 0.0))
+                        more = min(abs(kept), max(most, 0.0))
                         flux_volume[m, j, i] += more if up else -more
 
 
