@@ -42,8 +42,8 @@ def find_contact_nodes(j0, j1, mesh_box, group_ranges, mass, group, vof, count, 
     """
     for j in prange(j0, j1 + 1):
         found = 0
-        lo, hi = union(group_ranges[1, 0], j - REACH - 1, j + REACH + 1)
-        for i in range(max(lo - REACH, mesh_box[2]), min(hi + REACH + 1, mesh_box[3] + 1)):
+        lo, hi = union(group_ranges[1, 0], j - REACH - 2, j + REACH + 2)
+        for i in range(max(lo - REACH - 1, mesh_box[2]), min(hi + REACH + 2, mesh_box[3] + 1)):
             for g in range(2):
                 heat[g, j, i] = 0.0
         for i in range(max(group_ranges[1, 1, j, 0], mesh_box[2]), min(group_ranges[1, 1, j, 1] + 1, mesh_box[3] + 1)):
@@ -51,9 +51,9 @@ def find_contact_nodes(j0, j1, mesh_box, group_ranges, mass, group, vof, count, 
                 contact_nodes[j, found] = i
                 found += 1
         count[j] = found
-        lo, hi = union(group_ranges[1, 0], j - REACH, j + REACH + 1)
-        warmed[j, 0] = max(lo - REACH, mesh_box[2])
-        warmed[j, 1] = min(hi + REACH, mesh_box[3])
+        lo, hi = union(group_ranges[1, 0], j - REACH - 1, j + REACH + 2)
+        warmed[j, 0] = max(lo - REACH - 1, mesh_box[2])
+        warmed[j, 1] = min(hi + REACH + 1, mesh_box[3])
         if j < j1:
             lo, hi = union(group_ranges[1, 0], j - 2, j + 3)
             lo, hi = max(lo - 2, mesh_box[2]), min(hi + 2, mesh_box[3])

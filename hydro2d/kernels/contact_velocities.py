@@ -58,8 +58,9 @@ def difference(g, j, i, x, constrained, number, where, weights, u, v):
     apart_r, apart_z = u[g, j, i], v[g, j, i]
     for n in range(number[x, g]):
         by, row, column = master(n, g, j, i, x, where)
-        apart_r -= weights[x, g, n] * u[by, row, column]
-        apart_z -= weights[x, g, n] * v[by, row, column]
+        still_r, still_z = held(row, column, constrained)  # what holds them has not set them to zero yet
+        apart_r -= 0.0 if still_r else weights[x, g, n] * u[by, row, column]
+        apart_z -= 0.0 if still_z else weights[x, g, n] * v[by, row, column]
     return 0.0 if held_r else apart_r, 0.0 if held_z else apart_z
 
 

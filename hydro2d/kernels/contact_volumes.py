@@ -3,17 +3,19 @@
 The faces are swept by both groups, each by its aperture (kernels/contact_geometry); a body flows with its group's velocity.
 """
 
-from hydro2d.jit import apart, kernel, prange
+from hydro2d.jit import apart, kernel, point, prange
 from hydro2d.kernels.column_ranges import union
 from hydro2d.kernels.contact_geometry import FIRST, PARTED
-from hydro2d.mesh.fields import E
+from hydro2d.kernels.cut_cells import INTERFACE, KIND
+from hydro2d.mesh.fields import RHO, E
 from hydro2d.mesh.grid import FACE_R
 from hydro2d.physics.contact import GAP, face_flow_r, face_flow_z, largest_giver, largest_of, share_behind, volume_rate
 from hydro2d.physics.interfaces import FULL, cumulative, share_in_strip, surface
 
 
 @kernel
-def contact_swept_volumes(j0, j1, dt, metrics, dz, contact_columns, aperture_r, aperture_z, u0, v0, u, v, fr, fz, own_r, own_z):
+def contact_swept_volumes(j0, j1, dt, metrics, dz, contact_columns, aperture_r, aperture_z, u0, v0, u, v, even_r, even_z, fr, fz,
+                          own_r, own_z):
     """Volumes swept in the step by the faces of contact-interface cells: by aperture, and by each group as if it were alone.
 
     Reads    u0, v0, u, v [b, j, i]
@@ -23,16 +25,83 @@ def contact_swept_volumes(j0, j1, dt, metrics, dz, contact_columns, aperture_r, 
         if j < j1:
             for i in range(contact_columns[j, 0], contact_columns[j, 1] + 1):
                 scale = 0.25 * dt * metrics[FACE_R, i] * dz[j]
-                fr[j, i] = scale * (face_flow_r(j, i, -1, aperture_r, u) + face_flow_r(j, i, -1, aperture_r, u0))
+                fr[j, i] = even_r[j, i] + scale * (face_flow_r(j, i, -1, aperture_r, u) + face_flow_r(j, i, -1, aperture_r, u0))
                 for g in range(2):
-                    own_r[g, j, i] = scale * (face_flow_r(j, i, g, aperture_r, u) + face_flow_r(j, i, g, aperture_r, u0))
+                    own_r[g, j, i] = even_r[j, i] + scale * (face_flow_r(j, i, g, aperture_r, u) + face_flow_r(
+                        j, i, g, aperture_r, u0))
         lo, hi = union(contact_columns, max(j - 1, j0), min(j + 1, j1))
         for i in range(lo, hi):
-            fz[j, i] = 0.5 * dt * (face_flow_z(j, i, -1, metrics, aperture_z, v) + face_flow_z(j, i, -1, metrics, aperture_z,
-                                   v0))
+            fz[j, i] = even_z[j, i] + 0.5 * dt * (face_flow_z(j, i, -1, metrics, aperture_z, v) + face_flow_z(
+                j, i, -1, metrics, aperture_z, v0))
             for g in range(2):
-                own_z[g, j, i] = 0.5 * dt * (face_flow_z(j, i, g, metrics, aperture_z, v) + face_flow_z(j, i, g, metrics,
-                                             aperture_z, v0))
+                own_z[g, j, i] = even_z[j, i] + 0.5 * dt * (face_flow_z(j, i, g, metrics, aperture_z, v) + face_flow_z(
+                    j, i, g, metrics, aperture_z, v0))
+
+
+#: share of a difference of p_c between two neighbouring cells of the surface that evens out in a step
+EVENING = 0.05
+
+
+@point
+def evening_volume(j, i, row, column, volume, skin, bulk, ph, qr):
+    """Volume that moves from cell (j, i) to its neighbour (row, column) because p_c (with viscosity) is higher there; 0 off the surface.
+
+    explanation/sliding, equation 8.
+    """
+    if skin[KIND, j, i] != INTERFACE or skin[KIND, row, column] != INTERFACE:
+        return 0.0
+    give = min(volume[j, i] / bulk[j, i], volume[row, column] / bulk[row, column])
+    return EVENING * give * ((ph[j, i] + qr[j, i]) - (ph[row, column] + qr[row, column]))
+
+
+@kernel
+def even_out(j0, j1, contact_columns, volume, skin, bulk, ph, qr, even_r, even_z):
+    """Volumes that even out p_c along the surface.
+
+    A pressure that is constant in every cell of the surface, while velocities are linear, has a pattern (up and down from cell
+    to cell) that pushes no vertex. The volumes that the faces between these cells sweep are corrected by the difference.
+
+    Reads    ph, qr, bulk, volume [j, i], skin [3, j, i]
+    Writes   even_r, even_z [j, i]
+    """
+    for j in prange(j0, j1 + 1):
+        if j < j1:
+            for i in range(contact_columns[j, 0], contact_columns[j, 1] + 1):
+                inside = contact_columns[j, 0] < i < contact_columns[j, 1]
+                even_r[j, i] = evening_volume(j, i - 1, j, i, volume, skin, bulk, ph, qr) if inside else 0.0
+        lo, hi = union(contact_columns, max(j - 1, j0), min(j + 1, j1))
+        for i in range(lo, hi):
+            inside = j0 < j < j1 and contact_columns[j - 1, 0] <= i < contact_columns[j - 1, 1] and (
+                contact_columns[j, 0] <= i < contact_columns[j, 1])
+            even_z[j, i] = evening_volume(j - 1, i, j, i, volume, skin, bulk, ph, qr) if inside else 0.0
+
+
+@kernel
+def warm_evened(j0, j1, contact_columns, volume, ph, qr, even_r, even_z, vof, q):
+    """Gives the work that is lost as p_c evens out, half to either cell, to the bodies by mass.
+
+    Updates  q (e) [k, m, j, i]
+    """
+    for j in prange(j0, j1):
+        for i in range(contact_columns[j, 0], contact_columns[j, 1]):
+            here = ph[j, i] + qr[j, i]
+            made = 0.0
+            if even_r[j, i] != 0.0:
+                made += even_r[j, i] * (ph[j, i - 1] + qr[j, i - 1] - here)
+            if even_r[j, i + 1] != 0.0:
+                made += even_r[j, i + 1] * (here - ph[j, i + 1] - qr[j, i + 1])
+            if even_z[j, i] != 0.0:
+                made += even_z[j, i] * (ph[j - 1, i] + qr[j - 1, i] - here)
+            if even_z[j + 1, i] != 0.0:
+                made += even_z[j + 1, i] * (here - ph[j + 1, i] - qr[j + 1, i])
+            if made == 0.0:
+                continue
+            mass = 0.0
+            for m in range(vof.shape[0]):
+                mass += vof[m, j, i] * q[RHO, m, j, i] * volume[j, i] if vof[m, j, i] > 0.0 else 0.0
+            for m in range(vof.shape[0]):
+                if vof[m, j, i] > 0.0:
+                    q[E, m, j, i] += 0.5 * made / mass
 
 
 @kernel

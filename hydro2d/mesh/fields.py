@@ -176,6 +176,8 @@ CONTACT_WORK = (
     Work("aperture_z", "2 J I", "aperture of a face along z, for the hard group, at either end"),
     Work("own_r", "2 J I", "volume that a face along r sweeps with each group's velocity"),
     Work("own_z", "2 J I", "volume that a face along z sweeps with each group's velocity"),
+    Work("even_r", "J I", "volume that evens out the pressure along a surface through a face along r"),
+    Work("even_z", "J I", "volume that evens out the pressure along a surface through a face along z"),
     Work("heat", "2 J I", "heat of the impulses at a vertex, for each group"),
     Work("contact_normal", "3 2 J I", "normal at a contact node"),
     Work("first_slot", "1+J", "slot of the first contact node of a row", int),

@@ -125,8 +125,10 @@ class Contact:
     def volumes(self, j0: int, j1: int, dt: float) -> None:
         """Volumes that faces of contact-interface cells sweep, and each group's own; the work that they do in pure cells."""
         s, g = self.state, self.grid
+        contact_volumes.even_out(j0, j1, s.contact_columns, g.volume, s.skin, s.bulk, s.ph, s.qr, s.even_r, s.even_z)
+        contact_volumes.warm_evened(j0, j1, s.contact_columns, g.volume, s.ph, s.qr, s.even_r, s.even_z, s.vof, s.q)
         contact_volumes.contact_swept_volumes(j0, j1, dt, g.metrics, g.dz, s.contact_columns, s.aperture_r, s.aperture_z, s.u0,
-                                              s.v0, s.u, s.v, s.fr, s.fz, s.own_r, s.own_z)
+                                              s.v0, s.u, s.v, s.even_r, s.even_z, s.fr, s.fz, s.own_r, s.own_z)
         contact_volumes.contact_work(j0, j1, dt, g.metrics, g.dz, s.contact_columns, s.group, s.aperture_r, s.aperture_z, s.ph,
                                      s.qr, s.u0, s.v0, s.u, s.v, s.fr, s.fz, s.cell_mass, s.vof, s.q)
 
