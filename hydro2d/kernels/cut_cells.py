@@ -109,7 +109,7 @@ def skin_deviator(j, i, skin, scale, vof, q):
 @point
 def surface_weight(j, i, skin):
     """Weight of the surface in a cell, 0 to 1."""
-    return skin[NORMAL_R, j, i] * skin[NORMAL_R, j, i] + skin[NORMAL_Z, j, i] * skin[NORMAL_Z, j, i]
+    return min(skin[NORMAL_R, j, i] * skin[NORMAL_R, j, i] + skin[NORMAL_Z, j, i] * skin[NORMAL_Z, j, i], 1.0)
 
 
 @point
