@@ -394,8 +394,8 @@ def rectangle(r, z, sizes=(DR, DZ)):
     return np.outer(overlap(*z, np.append(0.0, np.cumsum(sizes[1]))), overlap(*r, np.append(0.0, np.cumsum(sizes[0]))))
 
 
-def surface_of(f, dr=DR, dz=DZ):
-    return surface(2, 2, 0, np.arange(1), np.array([f]), dr, dz)
+def surface_of(f, dr=DR, dz=DZ, void=None):
+    return surface(2, 2, 0, np.arange(1), np.array([f]), dr, dz, 1.0 - f[2, 2] if void is None else void)
 
 
 #: beyond the cells on every side
@@ -410,10 +410,12 @@ def test_a_corner_along_the_mesh_is_found_as_it_is(width, height, to_r, to_z, fi
     r = (-FAR, start_r + width * DR[2]) if to_r > 0.0 else (start_r + (1.0 - width) * DR[2], FAR)
     z = (-FAR, start_z + height * DZ[2]) if to_z > 0.0 else (start_z + (1.0 - height) * DZ[2], FAR)
     f = rectangle(r, z) if filled else 1.0 - rectangle(r, z)
-    n_r, n_z, *size = surface_of(f)
+    n_r, n_z, *size, weight = surface_of(f)
     sign = 1.0 if filled else -1.0
     assert (np.sign(n_r), np.sign(n_z)) == (sign * to_r, sign * to_z)
     np.testing.assert_allclose(size, [sign * width, sign * height], rtol=1e-6)
+    if all(0.1 <= side <= 0.9 for side in (width, height)):  # not all but full, and no line of almost the same fractions
+        assert weight == 1.0
 
 
 @settings(deadline=None)
@@ -423,7 +425,7 @@ def test_a_slanted_line_stays_a_line(n1, to_r, to_z, place):
     level = min(n_r, 0.0) + min(n_z, 0.0) + place
     f = np.array([[area(cut([(x, y), (x + 1.0, y), (x + 1.0, y + 1.0), (x, y + 1.0)], n_r, n_z, level)[0] or [(0.0, 0.0)] * 3)
                    for x in range(-2, 3)] for y in range(-2, 3)])
-    assert surface_of(f, np.ones(5), np.ones(5))[2:] == (0.0, 0.0)
+    assert surface_of(f, np.ones(5), np.ones(5))[4] == 0.0
 
 
 @pytest.mark.parametrize("cells", [5.5, 6.5, 8.5, 12.5])
@@ -433,23 +435,24 @@ def test_a_round_nose_has_no_corners(cells):
     inside = fine[None, :] ** 2 + (fine[:, None] - 0.3) ** 2 < cells**2
     f = np.pad(inside.reshape(16, 20, 16, 20).mean(axis=(1, 3)), ((2, 2), (2, 2)), mode="edge")
     sizes = np.ones(20)
-    found = [surface(j, i, 0, np.arange(1), f[None], sizes, sizes)[2] for j in range(2, 18) for i in range(2, 18)]
+    found = [surface(j, i, 0, np.arange(1), f[None], sizes, sizes, 1.0 - f[j, i])[4] for j in range(2, 18)
+             for i in range(2, 18)]
     assert not any(found)
 
 
 def test_an_edge_that_is_not_straight_has_no_corner():
     f = rectangle((-FAR, DR[:2].sum() + 0.4 * DR[2]), (-FAR, DZ[:2].sum() + 0.5 * DZ[2]))
-    assert surface_of(f)[2] > 0.0
-    bent = f.copy()
-    bent[0, 2] += 1.1 * interfaces.STRAIGHT
-    assert surface_of(bent)[2:] == (0.0, 0.0)
+    assert surface_of(f)[4] == 1.0
+    for change, weight in ((0.45, 1.0), (0.75, 0.5), (1.1, 0.0)):
+        bent = f.copy()
+        bent[0, 2] += change * interfaces.STRAIGHT
+        assert surface_of(bent)[4] == pytest.approx(weight)
 
 
-def test_a_corner_is_not_looked_for_in_a_cell_without_void():
+def test_a_corner_has_no_weight_in_a_cell_without_void():
     f = rectangle((-FAR, DR[:2].sum() + 0.4 * DR[2]), (-FAR, DZ[:2].sum() + 0.5 * DZ[2]))
-    for rest, found in ((0.9 * (1.0 - f), True), (1.0 - f, False)):
-        width = surface(2, 2, 0, np.arange(2), np.array([f, rest]), DR, DZ)[2]
-        assert (width != 0.0) == found
+    for share, weight in ((2.0, 1.0), (1.0, 1.0), (0.5, 0.5), (0.0, 0.0)):
+        assert surface_of(f, void=share * interfaces.ROOM)[4] == pytest.approx(weight)
 
 
 def test_a_corner_keeps_the_fraction_and_the_proportion_of_the_cells_beside_it():
@@ -467,13 +470,15 @@ def test_a_strip_has_the_share_of_the_corner_that_lies_in_it(width, height, to_x
     ends = (1.0 - strip, 1.0) if high else (0.0, strip)
     common = height * max(min(x[1], ends[1]) - max(x[0], ends[0]), 0.0)
     size = (width, height) if filled else (-width, -height)
-    share = share_in_strip(to_x * 0.5, to_y * 0.5, *size, np.nan, strip, high)
+    share = share_in_strip(to_x * 0.5, to_y * 0.5, *size, 1.0, width * height, strip, high)
     assert share == pytest.approx(common if filled else strip - common, abs=1e-14)
     assert share == corner_strip(to_x * 0.5, *size, strip, high)
 
 
-def test_without_a_corner_a_strip_has_the_share_of_the_line():
-    assert share_in_strip(0.3, -0.7, 0.0, 0.0, 0.4, 0.2, True) == strip_share(0.3, -0.7, 0.4, 0.2, True)
+def test_a_strip_has_the_share_of_the_line_as_far_as_the_corner_has_no_weight():
+    line, whole = strip_share(0.3, -0.7, 0.4, 0.2, True), corner_strip(0.3, 0.8, 0.5, 0.2, True)
+    assert share_in_strip(0.3, -0.7, 0.0, 0.0, 0.0, 0.4, 0.2, True) == line
+    assert share_in_strip(0.3, -0.7, 0.8, 0.5, 0.25, 0.4, 0.2, True) == pytest.approx(0.25 * whole + 0.75 * line)
 
 
 def test_strips_of_a_square_cover_each_other():
@@ -500,9 +505,9 @@ def test_a_line_misses_its_own_fractions_by_nothing_also_where_sizes_differ(n1, 
 
 def test_a_cell_without_a_slant_or_of_one_kind_has_no_corner():
     f = tuple(rectangle((-FAR, 3.0), (-FAR, 3.0), (np.ones(5), np.ones(5)))[1:4, 1:4].ravel())
-    assert corner(0.5, 0.5, f, (1.0, 0.0, 1.0, 0.0), (1.0,) * 3, (1.0,) * 3) == (0.0, 0.0)
+    assert corner(0.5, 0.5, f, (1.0, 0.0, 1.0, 0.0), (1.0,) * 3, (1.0,) * 3) == (0.0, 0.0, 0.0)
     f = (1.0, 0.5, 0.0, 1.0, 0.25, 0.0, 0.0, 0.0, 0.0)
-    assert corner(1.0, 0.0, f, (1.0, 0.0, 0.5, 0.0), (1.0,) * 3, (1.0,) * 3) == (0.0, 0.0)
+    assert corner(1.0, 0.0, f, (1.0, 0.0, 0.5, 0.0), (1.0,) * 3, (1.0,) * 3) == (0.0, 0.0, 0.0)
 
 
 def test_sizes_are_relative_to_the_middle_one():
