@@ -243,7 +243,7 @@ def covered(strip, width, same):
 
 @point
 def share_in_strip(n_x, n_y, width, height, weight, fraction, strip, high):
-    """What lies in the strip of given width at the low or high x side of the unit square: of a corner by its weight, of a line."""
+    """What lies in the strip of given width at the low or high x side of the unit square: of a corner by weight, and a line."""
     line = strip_share(n_x, n_y, fraction, strip, high)
     if weight == 0.0:
         return line

@@ -6,6 +6,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from hydro2d.physics import interfaces
+from tests.physics.continuity import changes_in_proportion, largest_jump
 
 line_constant = interfaces.line_constant.py_func
 area_below = interfaces.area_below.py_func
@@ -414,7 +415,7 @@ def test_a_corner_along_the_mesh_is_found_as_it_is(width, height, to_r, to_z, fi
     sign = 1.0 if filled else -1.0
     assert (np.sign(n_r), np.sign(n_z)) == (sign * to_r, sign * to_z)
     np.testing.assert_allclose(size, [sign * width, sign * height], rtol=1e-6)
-    if all(0.1 <= side <= 0.9 for side in (width, height)):  # not all but full, and no line of almost the same fractions
+    if all(0.2 <= side <= 0.9 for side in (width, height)):  # not all but full, and no line of almost the same fractions
         assert weight == 1.0
 
 
@@ -512,3 +513,110 @@ def test_a_cell_without_a_slant_or_of_one_kind_has_no_corner():
 
 def test_sizes_are_relative_to_the_middle_one():
     assert relative_sizes(1, np.array([1.0, 2.0, 3.0])) == (0.5, 1.0, 1.5)
+
+
+# ------------------------------------------------------------------------------------------------------- continuity
+
+#: a corner in the middle of 5 x 5 cells of one size, of which 0.2 is filled
+ANGLE = rectangle((-FAR, 2.4), (-FAR, 2.5), (np.ones(5), np.ones(5)))
+
+
+def strips(f, void):
+    """What lies in strips of a tenth of the middle cell at all of its sides."""
+    n_r, n_z, width, height, weight = surface_of(f, np.ones(5), np.ones(5), void)
+    return [share_in_strip(*along, weight, f[2, 2], 0.1, high) for high in (False, True)
+            for along in ((n_r, n_z, width, height), (n_z, n_r, height, width))]
+
+
+@pytest.mark.parametrize("void", [0.0, 1e-12, interfaces.ROOM])
+def test_a_corner_comes_in_with_the_void(void):
+    """The strips of line and corner differ by 0.03; the smoothstep rises by at most 1.5 over ROOM."""
+    changes_in_proportion(lambda share: strips(ANGLE, share), void, 1.5 / interfaces.ROOM * 0.03)
+    assert largest_jump(lambda share: strips(ANGLE, share), -0.1, 0.5) < 1e-11
+
+
+@pytest.mark.parametrize("change", [0.5, 1.0])
+def test_a_corner_goes_as_its_edge_bends(change):
+    def bent(more):
+        f = ANGLE.copy()
+        f[0, 2] += more
+        return strips(f, 0.8)
+
+    changes_in_proportion(bent, change * interfaces.STRAIGHT, 2.0)
+    assert largest_jump(bent, 0.0, 0.3) < 1e-11
+
+
+def halfway(first, second, decision):
+    """The share of the second of two patterns from which on the decision is another."""
+    low, high = 0.0, 1.0
+    for _ in range(60):
+        middle = 0.5 * (low + high)
+        same = decision((1.0 - middle) * first + middle * second) == decision(first)
+        low, high = (middle, high) if same else (low, middle)
+    return high
+
+
+def fits_better(f):
+    """Whether the corner, as it is, misses fewer of the cells around than the line."""
+    around_it = tuple(f[1:4, 1:4].ravel())
+    n_r, n_z = youngs_normal(2, 2, around_it, np.ones(5), np.ones(5))
+    width, height = corner_size(f[2, 2], f[2, 1], f[1, 2])
+    misfit = (width - f[1, 2]) ** 2 + (height - f[2, 1]) ** 2 + (1.0 - f[1, 1]) ** 2
+    misfit += sum(f[place] ** 2 for place in ((1, 3), (2, 3), (3, 1), (3, 2), (3, 3)))
+    return line_misfit(n_r, n_z, around_it, (1.0,) * 3, (1.0,) * 3) > misfit
+
+
+def slanted(level):
+    """Fractions of 5 x 5 cells of one size below the line x + y = level."""
+    squares = [[[(x, y), (x + 1.0, y), (x + 1.0, y + 1.0), (x, y + 1.0)] for x in range(5)] for y in range(5)]
+    return np.array([[area(cut(square, 1.0, 1.0, level)[0] or [(0.0, 0.0)] * 3) for square in row] for row in squares])
+
+
+def test_a_line_becomes_a_corner_little_by_little():
+    line = slanted(4.6)
+    line[2, 0], line[0, 2] = line[2, 1], line[1, 2]  # the edges go on straight
+
+    def mixed(share):
+        return strips((1.0 - share) * ANGLE + share * line, 0.5)
+
+    place = halfway(ANGLE, line, fits_better)
+    assert 0.01 < place < 0.99
+    changes_in_proportion(mixed, place, 5.0)
+
+
+@pytest.mark.parametrize("beside", [0.0, interfaces.THIN])
+def test_a_corner_goes_where_nothing_of_it_is_beside(beside):
+    def thin(share):
+        f = np.zeros((5, 5))
+        f[:2, :2], f[2, 2], f[:2, 2], f[2, :2] = 1.0, 0.3, 0.005, max(share, 0.0)
+        return strips(f, 0.7)
+
+    changes_in_proportion(thin, beside, 1.5 / interfaces.THIN)
+    assert largest_jump(thin, 0.0, 0.04) < 1e-11
+
+
+@settings(deadline=None, max_examples=200)
+@given(st.integers(0, 10**6), st.sampled_from(["corners", "lines", "noise"]), st.sampled_from(["corners", "lines", "noise"]))
+def test_strips_do_not_jump_as_the_fractions_change(seed, first, second):
+    """Between two patterns, also of corners at other places, filled and empty ones."""
+    random = np.random.default_rng(seed)
+
+    def pattern(kind):
+        if kind == "noise":
+            return random.uniform(size=(5, 5))
+        if kind == "lines":
+            f = slanted(random.uniform(3.5, 6.5))
+        else:
+            ends = [(0.0, 2.0 + random.uniform()) if random.uniform() < 0.5 else (2.0 + random.uniform(), 5.0) for _ in "rz"]
+            f = rectangle(*ends, (np.ones(5), np.ones(5)))
+        f = f if random.uniform() < 0.5 else 1.0 - f
+        return 0.95 * f + 0.05 * random.uniform(size=(5, 5))  # no path leads through a cell without a gradient
+
+    one, other = pattern(first), pattern(second)
+    assert largest_jump(lambda share: strips((1.0 - share) * one + share * other, 0.5), 0.0, 1.0) < 1e-9
+
+
+@pytest.mark.parametrize("tilt", [0.0, 1e-12, 1e-7])
+def test_the_area_below_a_line_does_not_know_when_it_is_level(tilt):
+    for alpha in (0.5e-8, 0.3, 1.0 - 0.5e-8):
+        changes_in_proportion(lambda m1: area_below(abs(m1), 1.0 - abs(m1), alpha), tilt, 1.0)  # noqa: B023
