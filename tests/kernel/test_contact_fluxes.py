@@ -76,11 +76,11 @@ def test_without_void_all_that_is_swept_is_body():
 # ------------------------------------------------------------------------------------------- what must not jump
 
 
-@pytest.mark.parametrize("swept", [-0.01, 0.02])
+@pytest.mark.parametrize("swept", [-0.01, -0.02])
 def test_who_takes_the_rest_does_not_hang_on_a_sign(swept):
     """The soft body would come from where there is none as soon as the face sweeps more than the hard body does."""
-    vof = oblique(0.6, 0.4)
-    assert fluxes(vof, 0.01, (swept, 0.01))[1] == pytest.approx(0.0, abs=1e-15)
+    vof = oblique(0.1, 0.9)
+    assert fluxes(vof, 0.01, (swept, 0.01)) == pytest.approx((0.01, 0.0), abs=1e-15)
     changes_in_proportion(lambda face: fluxes(vof, face, (swept, 0.01)), 0.01, 1.0)
     for face in (0.008, 0.01, 0.012):
         assert sum(fluxes(vof, face, (swept, 0.01))) == pytest.approx(face, abs=1e-15)
@@ -90,7 +90,7 @@ def test_who_takes_the_rest_does_not_hang_on_a_sign(swept):
 def test_a_crumb_takes_no_more_than_it_is(face):
     """A crumb of the soft body in the cell from which the rest comes: the hard one gives the rest."""
     def with_crumb(share):
-        vof = oblique(0.6, 0.4)
+        vof = oblique(0.1, 0.9)
         vof[:, ROW, GIVER - 1] = 1.0 - share, share
         return fluxes(vof, face, (-0.01, 0.01))
 
@@ -156,8 +156,8 @@ def corner_of(scale: float, void: float) -> list[float]:
 
 def test_a_cell_without_void_has_no_corner_however_its_fractions_are_scaled():
     """Fractions that do not fill the cell on the mesh leave no void."""
-    assert corner_of(1.0, 0.0) != pytest.approx(corner_of(1.0, 0.3), abs=1e-3)
-    assert corner_of(0.99, 0.0) == pytest.approx(corner_of(1.0, 0.0), abs=0.02)
+    assert corner_of(1.0, 0.3)[0] == pytest.approx(0.05)  # the rectangle is as high as half of the cell
+    assert corner_of(0.9, 0.0)[0] > corner_of(1.0, 0.0)[0] > 0.06  # a line goes up beyond
     for scale in (1.0, 1.0 - 1e-12):
         changes_in_proportion(lambda scale: corner_of(scale, 0.0), scale, 2.0)
     assert largest_jump(lambda scale: corner_of(scale, 0.0), 0.9, 1.1) < 1e-11
