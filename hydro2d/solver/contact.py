@@ -143,5 +143,5 @@ class Contact:
         face, own = (s.fr, s.own_r) if di else (s.fz, s.own_z)
         contact_volumes.contact_shares(j0, j1, self.mesh_box, s.contact_columns, g.volume, s.pre, s.vof, s.part, s.size)
         contact_volumes.contact_fluxes(dj, di, j0, j1, self.mesh_box, g.dr, g.dz, self.hard_first, self.soft_first, s.group,
-                                       s.contact_columns, s.line, face, own, s.part, s.size, s.pre, s.vof, s.flux_volume)
+                                       s.contact_columns, s.line, face, own, s.part, s.size, s.vof, s.flux_volume)
         contact_volumes.limit_fluxes(dj, di, j0, j1, self.mesh_box, s.contact_columns, s.pre, s.vof, s.flux_volume)
