@@ -271,14 +271,12 @@ def rub(j, i, x, dt, friction, constrained, strength, number, where, weights, me
 
 @apart
 def warm_up(g, j, i, x, made, number, where, weights, mass, heat):
-    """Gives heat (J) to a vertex, or to the masters of a slave, by the sizes of their weights times their masses."""
-    if number[x, g] == 0:
-        heat[g, j, i] += made / mass[g, j, i]
-        return
-    total = 0.0
+    """Gives heat (J) to a vertex and the masters of it, if it is a slave, by their masses times the sizes of the weights."""
+    total = mass[g, j, i]
     for n in range(number[x, g]):
         by, row, column = master(n, g, j, i, x, where)
         total += abs(weights[x, g, n]) * mass[by, row, column]
+    heat[g, j, i] += made / total
     for n in range(number[x, g]):
         by, row, column = master(n, g, j, i, x, where)
         heat[by, row, column] += made * abs(weights[x, g, n]) / total
