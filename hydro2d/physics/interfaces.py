@@ -165,6 +165,22 @@ def corner_size(share, beside_r, beside_z):
 
 
 @point
+def turned(f, back, down):
+    """Fractions of 3 x 3 cells, row by row upwards, as a mirror shows them: with r turned around, with z turned around."""
+    if back:
+        f = (f[2], f[1], f[0], f[5], f[4], f[3], f[8], f[7], f[6])
+    if down:
+        f = (f[6], f[7], f[8], f[3], f[4], f[5], f[0], f[1], f[2])
+    return f
+
+
+@point
+def reversed_if(turn, sizes):
+    """Three sizes, from the last to the first where they are to be turned."""
+    return (sizes[2], sizes[1], sizes[0]) if turn else (sizes[0], sizes[1], sizes[2])
+
+
+@point
 def corner(n_r, n_z, f, beyond, widths, heights):
     """(width, height) of the corner of a rectangle along the mesh, and its weight, 0 to 1, against the line.
 
@@ -178,16 +194,17 @@ def corner(n_r, n_z, f, beyond, widths, heights):
     """
     if n_r == 0.0 or n_z == 0.0 or f[4] <= 0.0 or f[4] >= 1.0:
         return 0.0, 0.0, 0.0
+    back, down = n_r < 0.0, n_z < 0.0
+    f = turned(f, back, down)  # mirror images are added up in the same order: their weights have the same bits
     total = 0.0
     for k in range(9):
         total += f[k]
     empty = 0.0 if total < 4.5 else 1.0  # a rectangle fills at most four cells of the nine
-    low_r, low_z = (n_r > 0.0) == (empty == 0.0), (n_z > 0.0) == (empty == 0.0)
-    along_r, along_z = 3 if low_r else 5, 1 if low_z else 7
-    between = along_r + along_z - 4
+    low = empty == 0.0
+    along_r, along_z, between = (3, 1, 0) if low else (5, 7, 8)
     beside_r, beside_z = abs(empty - f[along_r]), abs(empty - f[along_z])
-    off_r = abs(empty - beyond[0 if low_r else 1]) - beside_r
-    off_z = abs(empty - beyond[2 if low_z else 3]) - beside_z
+    off_r = abs(empty - beyond[0 if low != back else 1]) - beside_r
+    off_z = abs(empty - beyond[2 if low != down else 3]) - beside_z
     weight = smoothstep(2.0 - 2.0 * abs(off_r) / STRAIGHT) * smoothstep(2.0 - 2.0 * abs(off_z) / STRAIGHT)
     weight *= smoothstep(beside_r / THIN) * smoothstep(beside_z / THIN)
     weight *= smoothstep(min(abs(n_r), abs(n_z)) / SLANT) * smoothstep(abs(2.0 * total - 9.0))
@@ -198,7 +215,7 @@ def corner(n_r, n_z, f, beyond, widths, heights):
     for k in range(9):
         if k != 4 and k != along_r and k != along_z and k != between:
             misfit += (empty - f[k]) ** 2
-    line = line_misfit(n_r, n_z, f, widths, heights)
+    line = line_misfit(abs(n_r), abs(n_z), f, reversed_if(back, widths), reversed_if(down, heights))
     weight *= smoothstep(4.0 * (line - misfit) / (line + misfit + ALIKE))
     return (width, height, weight) if empty == 0.0 else (-width, -height, weight)
 

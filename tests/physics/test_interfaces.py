@@ -25,6 +25,8 @@ surface = interfaces.surface.py_func
 covered = interfaces.covered.py_func
 corner_strip = interfaces.corner_strip.py_func
 share_in_strip = interfaces.share_in_strip.py_func
+turned = interfaces.turned.py_func
+reversed_if = interfaces.reversed_if.py_func
 
 #: components of a normal that are not too small for polygons to be a fair comparison, and those that are small
 COMPONENT = st.floats(0.01, 0.99)
@@ -509,6 +511,30 @@ def test_a_cell_without_a_slant_or_of_one_kind_has_no_corner():
     assert corner(0.5, 0.5, f, (1.0, 0.0, 1.0, 0.0), (1.0,) * 3, (1.0,) * 3) == (0.0, 0.0, 0.0)
     f = (1.0, 0.5, 0.0, 1.0, 0.25, 0.0, 0.0, 0.0, 0.0)
     assert corner(1.0, 0.0, f, (1.0, 0.0, 0.5, 0.0), (1.0,) * 3, (1.0,) * 3) == (0.0, 0.0, 0.0)
+
+
+def test_fractions_are_turned_as_in_a_mirror():
+    f = np.arange(9).reshape(3, 3)
+    for back in (False, True):
+        for down in (False, True):
+            seen = f[:: -1 if down else 1, :: -1 if back else 1]
+            assert turned(tuple(range(9)), back, down) == tuple(seen.ravel())
+    assert reversed_if(True, (0.5, 1.0, 1.5)) == (1.5, 1.0, 0.5)
+    assert reversed_if(False, (0.5, 1.0, 1.5)) == (0.5, 1.0, 1.5)
+
+
+def test_mirrored_corners_have_the_same_weight_to_the_bit():
+    random = np.random.default_rng(9)
+    weights, even = [], np.ones(5)
+    for _ in range(200):
+        ends = [(0.0, 2.0 + random.uniform()) for _ in "rz"]
+        f = 0.9 * rectangle(*ends, (even, even)) + 0.1 * random.uniform(size=(5, 5))
+        f = f if random.uniform() < 0.5 else 1.0 - f
+        n_r, n_z, *rest = surface_of(f, even, even)
+        assert surface_of(f[:, ::-1], even, even) == (-n_r, n_z, *rest)
+        assert surface_of(f[::-1], even, even) == (n_r, -n_z, *rest)
+        weights.append(rest[2])
+    assert sum(0.0 < weight < 1.0 for weight in weights) > 20
 
 
 def test_sizes_are_relative_to_the_middle_one():
