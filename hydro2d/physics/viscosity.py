@@ -3,8 +3,8 @@
 from hydro2d.jit import point
 from hydro2d.physics.traction import smoothstep
 
-#: share of solids in a cell up to which void takes all of a compression
-OPEN = 0.9
+#: share of solids in a cell up to which void takes the compression, and nothing is shocked
+OPEN = 0.99
 
 
 @point
@@ -27,5 +27,5 @@ def directional_viscosity(rho, c, du, psi, linear, quadratic):
 
 @point
 def shut(solids):
-    """Share of the viscosity that a cell with void has: all of it without, none below nine tenths of solids, which shut first."""
+    """Share of the viscosity that a cell with void has: all of it without, none from a hundredth of void on, which shuts first."""
     return smoothstep((solids - OPEN) / (1.0 - OPEN))
