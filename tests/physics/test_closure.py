@@ -9,7 +9,7 @@ from hydro2d.mesh.fields import INTERNAL, RHO
 from hydro2d.physics import closure
 
 split_volume = closure.split_volume.py_func
-common_pressure = closure.common_pressure.py_func
+stiff_density = closure.stiff_density.py_func
 softness = closure.softness.py_func
 relaxation_strain = closure.relaxation_strain.py_func
 relaxation_bound = closure.relaxation_bound.py_func
