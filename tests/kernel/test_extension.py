@@ -50,6 +50,8 @@ class Extensions:
         dmg[1] = damage
         find_extensions(g.g, g.g + N, mesh_box, most_squares, g.volume, g.metrics, g.r, g.z, count, nodes, first, directions,
                         vof[1], vof[0], mass, np.array([0, 1]), vof, dmg, strength, number, where, weights)
+        self.first, self.mass, self.normal, self.ties = first, mass, directions, (strength, number, where, weights)
+        self.count, self.nodes, self.hard = count, nodes, vof[1]
         #: by group, row and column: strength, and weights of all places of masters
         self.strength, self.weights = np.zeros((2, N + 1, N + 1)), np.zeros((2, N + 1, N + 1, MASTERS + 1))
         for j in range(g.g, g.g + N + 1):
