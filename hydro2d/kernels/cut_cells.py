@@ -136,11 +136,11 @@ def grow(j, i, target, weight, vof, pm, km, mix):
     for m in range(vof.shape[0]):
         if vof[m, j, i] == 0.0:
             continue
-        mix[j, ACROSS, m], mix[j, GROWTH, m] = strain_across(
+        mix[j, ACROSS, m], mix[j, GROWTH, m], softer = strain_across(
             pm[m, j, i], target, km[m, j, i], mix[j, MODULUS, m], mix[j, FLOW, m], mix[j, SIZE, m], mix[j, ALONG, m],
             mix[j, BESIDE, m], weight)
         total += vof[m, j, i] * mix[j, GROWTH, m]
-        give += vof[m, j, i] / (km[m, j, i] + weight * 4.0 / 3.0 * mix[j, MODULUS, m])
+        give += vof[m, j, i] * softer
     return total, give
 
 
@@ -151,7 +151,7 @@ def fill_room(j, i, room, start, weight, vof, pm, km, mix):
     Writes   as `grow`
     """
     target = start
-    for _ in range(5):
+    for _ in range(10):
         total, give = grow(j, i, target, weight, vof, pm, km, mix)
         if abs(total - room) < 1e-14:
             break
@@ -176,7 +176,7 @@ def meet_traction(j, i, change, void, skin, p, bulk, vof, pm, km, mix):
     if pull == 0.0 or total >= change:
         return 0.0
     target = fill_room(j, i, change, min(p[j, i] - bulk[j, i] * change, 0.0), weight, vof, pm, km, mix)
-    target *= pull
+    target = min(target * pull, 0.0)
     grow(j, i, target, weight, vof, pm, km, mix)
     return target
 

@@ -68,31 +68,38 @@ def cell_weight(g, j, i, row, column, inward_r, inward_z, mesh_box, volume, metr
 
 
 @apart
-def extend_cells(x, g, j, i, reach, inward_r, inward_z, mesh_box, most_squares, volume, metrics, r, z, hard, soft, mass, weights):
-    """Adds the linear fields of all cells inward, each by its weight; returns the sum of these.
+def extend_cells(x, g, j, i, reach, inward_r, inward_z, mesh_box, least_squares, most_squares, factor, volume, metrics, r, z,
+                 hard, soft, mass, weights):
+    """Adds the linear fields of the cells inward whose weights have squares that sum up to more than least_squares and to no
+    more than most_squares, together with the weight `factor`; returns the share of it that is used.
 
-    A field whose weights have squares that sum up to more than most_squares has its gradient reduced: the squares are what
-    the stiffness of the slave's cells has on the masters' mass, and the time step allows no more.
+    The squares are the stiffness that the slave's cells have for the masters' mass, and the time step bounds them: with a
+    least_squares above 0 the gradients are reduced to that sum.
 
     Updates  weights [x, g, n]
     """
     whole = 0.0
-    for dj in range(-reach, reach):
-        for di in range(-reach, reach):
-            row, column = j + dj, i + di
-            w = cell_weight(g, j, i, row, column, inward_r, inward_z, mesh_box, volume, metrics, hard, soft, mass)
-            if w == 0.0:
-                continue
-            a = (r[i] - 0.5 * (r[column] + r[column + 1])) / (r[column + 1] - r[column])
-            b = (z[j] - 0.5 * (z[row] + z[row + 1])) / (z[row + 1] - z[row])
-            shrink = min(1.0, sqrt((most_squares - 0.25) / (a * a + b * b)))
-            a *= shrink
-            b *= shrink
-            for n in range(4):
-                k = SPAN * (dj + REACH + n // 2) + di + REACH + n % 2
-                weights[x, g, k] += w * (0.25 + 0.5 * ((a if n % 2 == 1 else -a) + (b if n // 2 == 1 else -b)))
-            whole += w
-    return whole
+    for run in range(2):
+        scale = factor * smoothstep(whole / ENOUGH) / whole if whole > 0.0 else 0.0
+        for dj in range(-reach, reach):
+            for di in range(-reach, reach):
+                row, column = j + dj, i + di
+                w = cell_weight(g, j, i, row, column, inward_r, inward_z, mesh_box, volume, metrics, hard, soft, mass)
+                if w == 0.0:
+                    continue
+                a = (r[i] - 0.5 * (r[column] + r[column + 1])) / (r[column + 1] - r[column])
+                b = (z[j] - 0.5 * (z[row] + z[row + 1])) / (z[row + 1] - z[row])
+                squares = 0.25 + a * a + b * b
+                if squares <= least_squares or squares > most_squares:
+                    continue
+                whole += w if run == 0 else 0.0
+                if run == 1:
+                    shrink = sqrt((least_squares - 0.25) / (squares - 0.25)) if least_squares > 0.0 else 1.0
+                    for n in range(4):
+                        along = (a if n % 2 == 1 else -a) + (b if n // 2 == 1 else -b)
+                        weights[x, g, SPAN * (dj + REACH + n // 2) + di + REACH + n % 2] += scale * w * (
+                            0.25 + 0.5 * shrink * along)
+    return smoothstep(whole / ENOUGH)
 
 
 @apart
@@ -125,8 +132,9 @@ def find_extensions(j0, j1, mesh_box, most_squares, volume, metrics, r, z, count
                     mass, group, vof, dmg, strength, number, where, weights):
     """Which contact nodes are slaves, how firmly they are tied, and to what.
 
-    To the mean of the linear fields of cells; where there are none (or hardly any, ENOUGH), to vertices, and in the end to the
-    other group's velocity at the node. A crumb within failed material of the other group asks two vertices away, others three.
+    To the mean of the linear fields of cells that most_squares allows; where there are none (or hardly any, ENOUGH), of cells
+    with a reduced gradient, then to vertices, and in the end to the other group's velocity at the node. A crumb within failed
+    material of the other group asks two vertices away, others three.
 
     Reads    first [j], the slot of a row's first contact node; normal [3, 2, j, i]; hard, soft [j, i]; mass [b, j, i];
              vof, dmg [m, j, i]
@@ -146,12 +154,11 @@ def find_extensions(j0, j1, mesh_box, most_squares, volume, metrics, r, z, count
                 sign = 1.0 if g == 0 else -1.0
                 inward_r, inward_z = sign * normal[0, 0, j, i], sign * normal[0, 1, j, i]
                 reach = REACH - 1 if in_debris(g, j, i, mesh_box, group, vof, dmg) else REACH
-                whole = extend_cells(x, g, j, i, reach, inward_r, inward_z, mesh_box, most_squares, volume, metrics, r, z, hard,
-                                     soft, mass, weights)
-                left = 1.0 - smoothstep(whole / ENOUGH)
-                scale = (1.0 - left) / whole if whole > 0.0 else 0.0
-                for n in range(MASTERS):
-                    weights[x, g, n] *= scale
+                left = 1.0 - extend_cells(x, g, j, i, reach, inward_r, inward_z, mesh_box, 0.0, most_squares, 1.0, volume,
+                                          metrics, r, z, hard, soft, mass, weights)
+                if left > 0.0:
+                    left *= 1.0 - extend_cells(x, g, j, i, reach, inward_r, inward_z, mesh_box, most_squares, 1e300, left, volume,
+                                               metrics, r, z, hard, soft, mass, weights)
                 if left > 0.0:
                     used = extend_vertices(x, g, j, i, reach - 1, inward_r, inward_z, mesh_box, left, volume, metrics, hard,
                                            soft, mass, weights)

@@ -448,7 +448,7 @@ def deform_mixed(j0, j1, dt, relaxation, tipton, mode, hard, hard_threshold, met
     Reads    velocities, swept volumes, stresses as `deform`; ph, qr, qz, solid [j, i]; contact_columns [j, 2];
              cell_mass [b, j, i]; group, hard [m]
     Updates  vof [m, j, i] (share of the volume after the step), q [k, m, j, i]
-    Scratch  mix [j, 7, m] (rows SOFT to MODULUS), motion [j, b, 10], internal [j, k]
+    Scratch  mix [j, 14, m] (rows SOFT to NORMAL), motion [j, b, 10], internal [j, k]
     """
     groups = cell_mass.shape[0]
     blocks = number_of_blocks(j0, j1)

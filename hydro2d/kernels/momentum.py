@@ -13,7 +13,7 @@ from hydro2d.physics.traction import smoothstep
 ADVECTIONS = ("momentum", "ke", "both")
 MOMENTUM, KE, BOTH = range(3)
 #: mass of a vertex, over the largest beside it, below which its velocity shapes no slope
-SLIGHT = 0.02
+SLIGHT = 1e-4
 
 
 @rowwise

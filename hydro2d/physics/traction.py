@@ -14,7 +14,7 @@ SURE = 0.01
 STEEP = 0.1
 #: largest relative change of a body's volume in a step by the traction on it
 MOST_GROWTH = 0.1
-#: more void than this does not shut within half a step
+#: more void than this shuts less within half a step, and twice as much not at all
 WIDE = 0.05
 
 
@@ -50,14 +50,12 @@ def half_pressure(p, bulk, strain, void, pull):
     together = p - bulk * strain
     if together <= 0.0:
         return pull * together
-    if void >= WIDE:
-        return 0.0
-    return max(together - bulk * void, 0.0)
+    return max(together - bulk * void, 0.0) * (1.0 - smoothstep(void / WIDE - 1.0))
 
 
 @point
 def strain_across(p, target, modulus, shear, flow, size, along, beside, weight):
-    """(strain of a body across its surface, what its volume grows by) that brings its normal stress to -target.
+    """(strain of a body across its surface, what its volume grows by, how that falls with target), normal stress -target.
 
     p is the body's pressure, modulus its bulk modulus, shear its shear modulus, flow its yield stress (Pa); size is s : s and
     along n . s . n of its deviator, strained along the surface only, beside the trace of that strain; weight is that of the
@@ -66,6 +64,7 @@ def strain_across(p, target, modulus, shear, flow, size, along, beside, weight):
     """
     free = (p - target) / modulus
     e = (p - weight * along - target - modulus * beside) / (modulus + weight * 4.0 / 3.0 * shear)
+    stiffness = modulus
     for _ in range(4):
         x = 2.0 * shear * e
         norm = sqrt(max(1.5 * (size + 2.0 * x * along + 2.0 / 3.0 * x * x), 0.0))
@@ -74,7 +73,8 @@ def strain_across(p, target, modulus, shear, flow, size, along, beside, weight):
         slope = 2.0 / 3.0
         if held < 1.0:
             slope = max(held * (2.0 / 3.0 - 1.5 * (stress / flow) ** 2), 0.0) if flow > 0.0 else 0.0
-        e += (p - modulus * (beside + e) - weight * stress - target) / (modulus + weight * 2.0 * shear * slope)
+        stiffness = modulus + weight * 2.0 * shear * slope
+        e += (p - modulus * (beside + e) - weight * stress - target) / stiffness
     e = min(max(e, -MOST_GROWTH - beside), MOST_GROWTH - beside)
     grown = weight * (beside + e) + (1.0 - weight) * min(max(free, -MOST_GROWTH), MOST_GROWTH)
-    return e, grown
+    return e, grown, weight / stiffness + (1.0 - weight) / modulus
