@@ -9,7 +9,7 @@ from hydro2d.kernels.cut_cells import BONDED, FREE_SURFACE, INTERFACE, KIND, cut
 from hydro2d.mesh.fields import RHO, SRR, SRZ, SZZ
 from hydro2d.mesh.grid import AZ_IN, AZ_OUT, FACE_R, HOOP, MID_R, VOL_R
 from hydro2d.physics.closure import stiff_density
-from hydro2d.physics.contact import GAP, meeting, volume_rate
+from hydro2d.physics.contact import meeting, volume_rate
 from hydro2d.physics.kinematics import hourglass_mode
 from hydro2d.physics.stress import normal_pressure, stress_scale
 from hydro2d.physics.viscosity import directional_viscosity, shut

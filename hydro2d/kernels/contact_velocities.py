@@ -19,8 +19,8 @@ TOLERANCE, STEPS = 1e-11, 200
 ROUNDS = 3
 #: rows of `rubbing`: impulse that the soft group gets from the hard one, and its size
 RUB_R, RUB_Z, RUBBED = range(3)
-#: rows of `ties`, two for the components of each: impulse, residual, search direction, what the ties make of that, inverse of the
-#: diagonal
+#: rows of `ties`, two for the components of each: impulse, residual, search direction, what the ties make of that, inverse of
+#: the diagonal
 IMPULSE, RESIDUAL, SEARCH, IMAGE, DIAGONAL = 0, 2, 4, 6, 8
 
 
@@ -87,9 +87,9 @@ def give_tie(g, j, i, x, push_r, push_z, constrained, number, where, weights, ma
 
 
 @apart
-def image_of_search(j0, j1, constrained, count, contact_nodes, first, strength, number, where, weights, warmed, mass, ties,
-                    gain):
-    """What the search direction, as impulses, does to the mismatch: N M^-1 N^T p and the compliance; returns p . image, r and z.
+def image_of_search(j0, j1, constrained, count, contact_nodes, first, strength, number, where, weights, warmed, mass,
+                    ties, gain):
+    """What the search direction, as impulses, does to the mismatch: N M^-1 N^T p and the compliance; returns p . image.
 
     Reads    ties [SEARCH, x, b]
     Writes   ties [IMAGE, x, b];  scratch gain [c, b, j, i], velocities
@@ -134,8 +134,8 @@ def image_of_search(j0, j1, constrained, count, contact_nodes, first, strength, 
 
 
 @apart
-def meet_ties(j0, j1, constrained, count, contact_nodes, first, strength, number, where, weights, warmed, mass, u, v, ties, gain,
-              taken, transfer):
+def meet_ties(j0, j1, constrained, count, contact_nodes, first, strength, number, where, weights, warmed, mass, u, v, ties,
+              gain, taken, transfer):
     """Brings all slaves to the velocities of their masters at once, by conjugate gradients from nothing.
 
     Updates  u, v [b, j, i]; taken [c, x, b], impulses that slaves have given away;  scratch ties [10, x, b], gain [c, b, j, i]
@@ -240,8 +240,8 @@ def rub_on(g, j, i, x, push_r, push_z, constrained, strength, number, where, wei
 
 
 @apart
-def rub(j, i, x, dt, friction, constrained, strength, number, where, weights, metrics, dz, contact_columns, line, normal, sig_rr,
-        sig_zz, sig_rz, mass, u, v, taken, rubbing, transfer):
+def rub(j, i, x, dt, friction, constrained, strength, number, where, weights, metrics, dz, contact_columns, line, normal,
+        sig_rr, sig_zz, sig_rz, mass, u, v, taken, rubbing, transfer):
     """Friction between the two groups at a contact node at which they touch.
 
     Along the tangent to the normal by which they close least there is at most friction times the normal force on the surface.
@@ -284,8 +284,8 @@ def warm_up(g, j, i, x, made, number, where, weights, mass, heat):
 
 @serial
 def settle(j0, j1, dt, friction, constrained, metrics, dz, contact_columns, line, count, contact_nodes, first, normal, touch,
-           strength, number, where, weights, warmed, sig_rr, sig_zz, sig_rz, mass, u0, v0, u, v, ties, gain, taken, rubbing, heat,
-           transfer):
+           strength, number, where, weights, warmed, sig_rr, sig_zz, sig_rz, mass, u0, v0, u, v, ties, gain, taken, rubbing,
+           heat, transfer):
     """Velocities of both groups at contact nodes, from those that the forces alone would give.
 
     Slave nodes move with masters of their group, and groups that touch rub: impulses that keep the momentum. An impulse J
@@ -304,14 +304,15 @@ def settle(j0, j1, dt, friction, constrained, metrics, dz, contact_columns, line
                 taken[c, x, g] = 0.0
         for c in range(3):
             rubbing[c, x] = 0.0
-    meet_ties(j0, j1, constrained, count, contact_nodes, first, strength, number, where, weights, warmed, mass, u, v, ties, gain,
-              taken, transfer)
+    meet_ties(j0, j1, constrained, count, contact_nodes, first, strength, number, where, weights, warmed, mass, u, v, ties,
+              gain, taken, transfer)
     for _ in range(ROUNDS if friction > 0.0 else 0):
         for j in range(j0, j1 + 1):
             for k in range(count[j]):
                 if touch[j, contact_nodes[j, k]] > 0.0:
                     rub(j, contact_nodes[j, k], first[j] + k, dt, friction, constrained, strength, number, where, weights,
-                        metrics, dz, contact_columns, line, normal, sig_rr, sig_zz, sig_rz, mass, u, v, taken, rubbing, transfer)
+                        metrics, dz, contact_columns, line, normal, sig_rr, sig_zz, sig_rz, mass, u, v, taken, rubbing,
+                        transfer)
         meet_ties(j0, j1, constrained, count, contact_nodes, first, strength, number, where, weights, warmed, mass, u, v, ties,
                   gain, taken, transfer)
     for j in range(j0, j1 + 1):

@@ -18,8 +18,8 @@ OTHERS = 0.01
 
 
 @kernel
-def contact_swept_volumes(j0, j1, dt, metrics, dz, contact_columns, aperture_r, aperture_z, u0, v0, u, v, even_r, even_z, fr, fz,
-                          own_r, own_z):
+def contact_swept_volumes(j0, j1, dt, metrics, dz, contact_columns, aperture_r, aperture_z, u0, v0, u, v, even_r, even_z, fr,
+                          fz, own_r, own_z):
     """Volumes swept in the step by the faces of contact-interface cells: by aperture, and by each group as if it were alone.
 
     Reads    u0, v0, u, v [b, j, i]
@@ -48,7 +48,7 @@ EVENING = 0.05
 
 @point
 def evening_volume(j, i, row, column, volume, skin, bulk, ph, qr):
-    """Volume that moves from cell (j, i) to its neighbour (row, column) because p_c (with viscosity) is higher there; 0 off the surface.
+    """Volume that moves from cell (j, i) of a surface to its neighbour (row, column), also of it, by the difference of p_c + q.
 
     explanation/sliding, equation 8.
     """
@@ -214,8 +214,8 @@ def contact_fluxes(dj, di, j0, j1, mesh_box, dr, dz, hard_first, soft_first, gro
 
     In a cell the group with the flatter surface comes first among the nested interfaces, where void parts them each group for
     itself. What the bodies together are short of, or beyond, the volume that the face sweeps, and the void of the cell that
-    this comes from cannot make up for (void flows with the face, and no more than there is), the softer bodies take as far as they have it there, and the hard ones what is left
-    (`take`). Where that cell has a gap, a full cell into which volume flows is short of nothing as long as there is more of its
+    this comes from cannot make up for (void flows with the face, and no more than there is), the softer bodies take as far as
+    they have it there, and the hard ones what is left (`take`). Where that cell has a gap, a full cell into which volume flows is short of nothing as long as there is more of its
     body: no void enters a body from its surface.
 
     Reads    face [j, i], own [b, j, i], what contact_shares wrote, vof [m, j, i], group [m], line [9, j, i];

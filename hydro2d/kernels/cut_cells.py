@@ -17,8 +17,8 @@ BONDED, FREE_SURFACE, INTERFACE = 0.0, 1.0, 2.0
 #: rows of `skin`
 NORMAL_R, NORMAL_Z, KIND = range(3)
 #: rows of the scratch `mix`, one number for every body: its share in a change of volume, heat; elastic trial of the deviators;
-#: shear modulus, yield stress; and in a cut cell the stress at which it flows, s : s and n . s . n of what the strain along the surface makes of it, the trace
-#: of that strain, the strain across the surface, what its volume grows by, n . s . n before the step
+#: shear modulus, yield stress; and in a cut cell the stress at which it flows, s : s and n . s . n of what the strain along the
+#: surface makes of it, the trace of that strain, the strain across the surface, what its volume grows by, n . s . n before
 SOFT, HEAT, TRIAL_RR, TRIAL_ZZ, TRIAL_RZ, MODULUS, YIELD, FLOW, SIZE, ALONG, BESIDE, ACROSS, GROWTH, NORMAL = (
     range(14))
 

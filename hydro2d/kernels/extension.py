@@ -50,7 +50,7 @@ def in_debris(g, j, i, mesh_box, group, vof, dmg):
 
 @apart
 def cell_weight(g, j, i, row, column, inward_r, inward_z, mesh_box, volume, metrics, hard, soft, mass):
-    """Weight of cell (row, column) of group g for the slave (j, i): (share cos/distance)^4, as far as it and its vertices count.
+    """Weight of cell (row, column) of group g for the slave (j, i): (share cos/distance)^4, as far as all of it counts.
 
     The cosine is that between its direction and the normal inwards.
     """
@@ -157,8 +157,8 @@ def find_extensions(j0, j1, mesh_box, most_squares, volume, metrics, r, z, count
                 left = 1.0 - extend_cells(x, g, j, i, reach, inward_r, inward_z, mesh_box, 0.0, most_squares, 1.0, volume,
                                           metrics, r, z, hard, soft, mass, weights)
                 if left > 0.0:
-                    left *= 1.0 - extend_cells(x, g, j, i, reach, inward_r, inward_z, mesh_box, most_squares, 1e300, left, volume,
-                                               metrics, r, z, hard, soft, mass, weights)
+                    left *= 1.0 - extend_cells(x, g, j, i, reach, inward_r, inward_z, mesh_box, most_squares, 1e300, left,
+                                               volume, metrics, r, z, hard, soft, mass, weights)
                 if left > 0.0:
                     used = extend_vertices(x, g, j, i, reach - 1, inward_r, inward_z, mesh_box, left, volume, metrics, hard,
                                            soft, mass, weights)

@@ -4,8 +4,31 @@ from eos.dispatch import evaluate, zero_pressure_density
 from hydro2d.jit import kernel, point, prange, rowwise
 from hydro2d.kernels.column_ranges import block_rows, mixed_row, number_of_blocks, spread
 from hydro2d.kernels.cut_cells import (
-    ACROSS, ALONG, BESIDE, BONDED, FLOW, FREE_SURFACE, HEAT, INTERFACE, KIND, MODULUS, NORMAL, NORMAL_R, NORMAL_Z, SIZE, SOFT, TRIAL_RR,
-    TRIAL_RZ, TRIAL_ZZ, YIELD, common_traction, fill_cut_cell, meet_traction, normal_deviator, surface_weight)
+    ACROSS,
+    ALONG,
+    BESIDE,
+    BONDED,
+    FLOW,
+    FREE_SURFACE,
+    HEAT,
+    INTERFACE,
+    KIND,
+    MODULUS,
+    NORMAL,
+    NORMAL_R,
+    NORMAL_Z,
+    SIZE,
+    SOFT,
+    TRIAL_RR,
+    TRIAL_RZ,
+    TRIAL_ZZ,
+    YIELD,
+    common_traction,
+    fill_cut_cell,
+    meet_traction,
+    normal_deviator,
+    surface_weight,
+)
 from hydro2d.kernels.thermodynamics import pressures_row, viscosity_row
 from hydro2d.materials.rows import CUTOFF_DENSITY, DAMAGE, DAMAGE_AT, EOS, EOS_AT, FACTOR, GAS, STRENGTH, STRENGTH_AT, TENSILE
 from hydro2d.mesh.fields import DMG, EP, RHO, SRR, SRZ, SZZ, E
@@ -478,8 +501,8 @@ def deform_mixed(j0, j1, dt, relaxation, tipton, mode, hard, hard_threshold, met
                 cut, own = skin[KIND, j, i] != BONDED, mode == MATERIAL or dominant >= 0 or meet
                 target = 0.0
                 work_of_deviators(j, i, dt, dominant, total, stress_scale(mode == SOLID, total), group, motion, vof, q, mix)
-                cell_yield = strain_deviators(j, i, dt / volume, mode, total, skin, group, models, materials, pm, tm, motion, vof, q,
-                                              mix, internal)
+                cell_yield = strain_deviators(j, i, dt / volume, mode, total, skin, group, models, materials, pm, tm, motion,
+                                              vof, q, mix, internal)
                 if cut:
                     target = strain_bodies_across(j, i, own, cell_yield, change / volume, max(1.0 - total, 0.0), skin, p, bulk,
                                                   models, vof, pm, km, q, mix)

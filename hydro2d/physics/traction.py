@@ -1,7 +1,7 @@
 """Cells that a surface cuts: the traction across the surface is common to what is in the cell, not the pressure.
 
-Across the surface of a body the normal stress is continuous: n . sigma . n = -p_c for every body of the cell, with p_c = 0 beside
-void (explanation/mixed-cells, equations 9 to 12). The strain across the surface follows from that; it is not integrated.
+Across the surface of a body the normal stress is continuous: n . sigma . n = -p_c for every body of the cell, with p_c = 0
+beside void (explanation/mixed-cells, equations 9 to 12). The strain across the surface follows from that; it is not integrated.
 """
 
 from math import sqrt

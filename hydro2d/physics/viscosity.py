@@ -27,5 +27,5 @@ def directional_viscosity(rho, c, du, psi, linear, quadratic):
 
 @point
 def shut(solids):
-    """Share of the viscosity that a cell with void has: all of it without, none from a hundredth of void on, which shuts first."""
+    """Share of the viscosity that a cell with void has: all without, none from a hundredth of void on, which shuts first."""
     return smoothstep((solids - OPEN) / (1.0 - OPEN))

@@ -85,8 +85,8 @@ class Contact:
                                         s.mass, s.contact_node_count, s.contact_nodes, s.aperture_r, s.aperture_z,
                                         s.contact_normal, s.touch)
         extension.find_extensions(j0, j1, self.mesh_box, self.most_squares, g.volume, g.metrics, g.r, g.z, s.contact_node_count,
-                                  s.contact_nodes, s.first_slot, s.contact_normal, s.hard, s.soft, s.mass, s.group, s.vof, s.dmg,
-                                  *self.slots.ties())
+                                  s.contact_nodes, s.first_slot, s.contact_normal, s.hard, s.soft, s.mass, s.group, s.vof,
+                                  s.dmg, *self.slots.ties())
         contact_motion.contact_viscosity(
             j0, j1, self.mesh_box, method.viscosity_linear, method.viscosity_quadratic, method.courant, g.dr, g.dz, g.metrics,
             s.contact_columns, s.line, s.group_ranges, s.contact_normal, s.aperture_r, s.aperture_z, s.hard, s.soft, s.u, s.v,

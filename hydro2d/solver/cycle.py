@@ -12,8 +12,8 @@ from hydro2d.errors import UnphysicalState
 from hydro2d.kernels import (
     acceleration,
     boundaries,
-    cut_cells,
     column_ranges,
+    cut_cells,
     deformation,
     interfaces,
     mixed,
@@ -346,8 +346,8 @@ class Cycle:
         mixed.deform_mixed(
             j0, j1, self.dt, method.relaxation, method.tipton, method.mixed_strength, method.hard, method.threshold, g.metrics,
             g.dz, s.mixed_count, s.mixed, s.group, s.contact_columns, s.cell_mass, self.models, self.materials, s.u0, s.v0, s.u,
-            s.v, s.fr, s.fz, s.ph, s.qr, s.qz, s.hg_coefficient, s.skin, s.p, s.bulk, s.solid, s.pm, s.km, s.tm, s.vof, s.q, s.mix, s.motion,
-            s.internal)
+            s.v, s.fr, s.fz, s.ph, s.qr, s.qz, s.hg_coefficient, s.skin, s.p, s.bulk, s.solid, s.pm, s.km, s.tm, s.vof, s.q,
+            s.mix, s.motion, s.internal)
         if self.contact:
             self.contact.warm(j0, j1)
         if method.slip_widths is not None:
