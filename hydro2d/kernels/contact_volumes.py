@@ -215,8 +215,8 @@ def contact_fluxes(dj, di, j0, j1, mesh_box, dr, dz, hard_first, soft_first, gro
     In a cell the group with the flatter surface comes first among the nested interfaces, where void parts them each group for
     itself. What the bodies together are short of, or beyond, the volume that the face sweeps, and the void of the cell that
     this comes from cannot make up for (void flows with the face, and no more than there is), the softer bodies take as far as
-    they have it there, and the hard ones what is left (`take`). Where that cell has a gap, a full cell into which volume flows is short of nothing as long as there is more of its
-    body: no void enters a body from its surface.
+    they have it there, and the hard ones what is left (`take`). Where that cell has a gap, a full cell into which volume flows
+    is short of nothing as long as there is more of its body: no void enters a body from its surface.
 
     Reads    face [j, i], own [b, j, i], what contact_shares wrote, vof [m, j, i], group [m], line [9, j, i];
              hard_first, soft_first [m], the bodies in the order in which their interfaces are nested
