@@ -95,14 +95,17 @@ def test_a_slave_is_as_heavy_as_it_and_its_masters():
     assert mobility(1, 3, 3, 0, NOWHERE, strength, number, where, weights, mass) == pytest.approx(0.25 * tied + 0.75 / 4.0)
 
 
-def test_the_heat_of_a_slave_goes_to_its_masters():
+def test_the_heat_of_a_slave_goes_to_it_and_its_masters():
+    """By mass, times the size of the weight for a master: a tie of a heavy slave to a light node must not burn that."""
     number, where, weights = one_tie((place(0, -1), 0.75), (place(1, 1), -0.25), (TIED, 0.5))
     mass, heat = np.arange(1.0, 99.0).reshape(2, 7, 7), np.zeros((2, 7, 7))
     warm_up(1, 3, 3, 0, 6.0, number, where, weights, mass, heat)
+    assert heat[1, 3, 3] == pytest.approx(6.0 / (
+        mass[1, 3, 3] + 0.75 * mass[1, 3, 2] + 0.25 * mass[1, 4, 4] + 0.5 * mass[0, 3, 3]))
+    assert heat[0, 3, 3] == pytest.approx(0.5 * heat[1, 3, 3])
     warm_up(0, 3, 3, 0, 5.0, number, where, weights, mass, heat)
     assert np.sum(heat * mass) == pytest.approx(11.0)
     assert heat[1, 3, 2] == pytest.approx(3.0 * heat[1, 4, 4])
-    assert heat[1, 3, 3] == 0.0
 
 
 # ----------------------------------------------------------------------------------------------------------- all ties

@@ -624,7 +624,10 @@ def test_a_corner_goes_where_nothing_of_it_is_beside(beside):
 @settings(deadline=None, max_examples=200)
 @given(st.integers(0, 10**6), st.sampled_from(["corners", "lines", "noise"]), st.sampled_from(["corners", "lines", "noise"]))
 def test_strips_do_not_jump_as_the_fractions_change(seed, first, second):
-    """Between two patterns, also of corners at other places, filled and empty ones."""
+    """Between two patterns, also of corners at other places, filled and empty ones.
+
+    The steepest slope is that of the weight, 4/ALIKE, which makes 4e-9 of round-off.
+    """
     random = np.random.default_rng(seed)
 
     def pattern(kind):
@@ -639,7 +642,7 @@ def test_strips_do_not_jump_as_the_fractions_change(seed, first, second):
         return 0.95 * f + 0.05 * random.uniform(size=(5, 5))  # no path leads through a cell without a gradient
 
     one, other = pattern(first), pattern(second)
-    assert largest_jump(lambda share: strips((1.0 - share) * one + share * other, 0.5), 0.0, 1.0) < 1e-9
+    assert largest_jump(lambda share: strips((1.0 - share) * one + share * other, 0.5), 0.0, 1.0) < 1e-8
 
 
 @pytest.mark.parametrize("tilt", [0.0, 1e-12, 1e-7])
