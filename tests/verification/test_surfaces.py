@@ -20,24 +20,6 @@ CRUMB = 1e-3  # so much of the fluid may be in a full cell
 SHARES = (0.05, 0.25, 0.5, 0.75, 0.95)
 SLOW_BARS = {"elastic": (5e-4, 12e-6), "plastic": (6e-3, 30e-6)}  # strain and the time it takes, many periods of breathing
 
-#: what most cases fail by: `meet_traction` returns 1e-16 of a tension instead of 0 where the weight of the surface is 1 but for
-#: rounding; its sign is one of rounding too, and `fill_cut_cell` fills the cell where it is positive
-FILLS = "a body with less than 1 % of void in its cell fills it in one step: "
-#: what is left without that
-WARMS = "the outermost full row gains 2 to 3 thousandths of the elastic energy in every cycle, by steps of first order: "
-
-
-def cases(values, reason: str = "", failing=()) -> list:
-    """Parameters of a test, of which some fail for a reason."""
-    mark = pytest.mark.xfail(strict=True, reason=reason)
-    return [pytest.param(*value, marks=mark) if value in failing else value for value in values]
-
-
-def positions(reason: str = "", failing=SHARES) -> list:
-    """Positions of the surface, of which some fail for a reason."""
-    mark = pytest.mark.xfail(strict=True, reason=reason)
-    return [pytest.param(share, marks=mark) if reason and share in failing else share for share in SHARES]
-
 
 DECK = """
 title = "{title}"
@@ -219,48 +201,43 @@ def held(tube: bool, share: float, angle: int, law: str, cycles: int, force: flo
     assert found.cut == pytest.approx(found.inner, rel=stress)
 
 
-@pytest.mark.parametrize("share", positions(FILLS + "force off by 0.25 to 0.36 %", (0.05, 0.25, 0.75)))
+@pytest.mark.parametrize("share", SHARES)
 def test_elastic_bar(share):
-    """Along z in void: force E A eps and stress of the cut row and of the outermost full one, all within 1 %.
-
-    Where nothing fills, force within 0.03 %, stress within 0.25 %.
-    """
-    held(False, share, 0, "elastic", 10, 0.002, 0.005)
+    """Along z in void: force E A eps within 0.03 %, stress of the cut row and of the outermost full one within 0.25 %."""
+    held(False, share, 0, "elastic", 10, 0.001, 0.005)
 
 
-@pytest.mark.parametrize("share", positions(FILLS + "stress off by 1.2 %", (0.5, 0.75)))
+@pytest.mark.parametrize("share", SHARES)
 def test_elastic_bar_in_a_tube(share):
-    """Along z in a tube without friction: 0.1 % and 0.3 % where nothing fills."""
-    held(True, share, 0, "elastic", 10, 0.004, 0.008)
+    """Along z in a tube without friction: 0.04 % and 0.02 %, but 0.55 % in the cut row with a share of 0.05."""
+    held(True, share, 0, "elastic", 10, 0.001, 0.008 if share == 0.05 else 0.001)
 
 
 @pytest.mark.parametrize("share", SHARES)
 def test_plastic_bar(share):
-    """Along z in void: force Y A within 0.25 %, stress within 1.25 %, by what is left of the bar's breathing."""
-    held(False, share, 0, "plastic", 0, 0.006, 0.02)
+    """Along z in void: force Y A within 0.25 %, stress within 1.1 %, by what is left of the bar's breathing."""
+    held(False, share, 0, "plastic", 0, 0.005, 0.015)
 
 
 @pytest.mark.parametrize("share", SHARES)
 def test_plastic_bar_in_a_tube(share):
-    """Along z in a tube without friction: 0.1 % and 0.5 %."""
-    held(True, share, 0, "plastic", 0, 0.004, 0.01)
+    """Along z in a tube without friction: 0.11 % and 0.42 %, but 1.84 % in the cut row with a share of 0.05."""
+    held(True, share, 0, "plastic", 0, 0.002, 0.02 if share == 0.05 else 0.008)
 
 
 INCLINED = [(angle, law) for angle in (15, 30, 45) for law in ("elastic", "plastic")]
 
 
-@pytest.mark.parametrize(("angle", "law"), cases(INCLINED, FILLS + "single cells under tension, force 5 to 23 % short",
-                                                 [(15, "elastic"), (15, "plastic"), (30, "elastic")]))
+@pytest.mark.parametrize(("angle", "law"), INCLINED)
 def test_inclined_bar(angle, law):
-    """In void, by E/(1 - nu^2) and 2 Y/sqrt(3) of plane strain: force within 0.1 %, stress within 0.4 %."""
-    held(False, 0.25, angle, law, 3 if law == "elastic" else 0, 0.004, 0.01)
+    """In void, by E/(1 - nu^2) and 2 Y/sqrt(3) of plane strain: force within 0.1 %, stress within 0.43 %."""
+    held(False, 0.25, angle, law, 3 if law == "elastic" else 0, 0.002, 0.008)
 
 
-@pytest.mark.parametrize(("angle", "law"), cases(INCLINED, FILLS + "outermost full cells 1.4 and 3.3 % short",
-                                                 [(15, "elastic"), (45, "elastic")]))
+@pytest.mark.parametrize(("angle", "law"), INCLINED)
 def test_inclined_bar_in_a_tube(angle, law):
-    """In a tube without friction: force within 0.2 %, stress within 0.8 %."""
-    held(True, 0.25, angle, law, 3 if law == "elastic" else 0, 0.004, 0.01)
+    """In a tube without friction: force within 0.06 %, stress within 0.13 %."""
+    held(True, 0.25, angle, law, 3 if law == "elastic" else 0, 0.001, 0.004)
 
 
 def left_over(tube: bool, share: float, angle: int, cycles: int) -> float:
@@ -269,26 +246,27 @@ def left_over(tube: bool, share: float, angle: int, cycles: int) -> float:
     return max(abs(rest.energy) for rest in at_rest) / under_load.energy
 
 
-@pytest.mark.parametrize("share", positions(FILLS + "0.09 to 0.18 are left", (0.05, 0.25, 0.5, 0.75)))
+@pytest.mark.parametrize("share", SHARES)
 def test_energy_of_ten_cycles(share):
-    """Loaded and unloaded ten times in void: 2e-5 to 4e-5 of the elastic energy are left where nothing fills."""
+    """Loaded and unloaded ten times in void: 2.4e-5 to 4.8e-5 of the elastic energy are left."""
     assert left_over(False, share, 0, 10) < 1e-3
 
 
-@pytest.mark.parametrize("share", positions(WARMS + "6e-3 of the bar's are left, and 0.06 to 2.7 where a cell fills"))
+@pytest.mark.xfail(strict=True, reason="5.7e-3 to 7.5e-3 of the elastic energy are left, 6e-4 to 8e-4 more after every cycle, "
+                                       "nearly all in the outermost full row")
+@pytest.mark.parametrize("share", SHARES)
 def test_energy_of_ten_cycles_in_a_tube(share):
     """The same in a tube without friction."""
     assert left_over(True, share, 0, 10) < 1e-3
 
 
-@pytest.mark.xfail(strict=True, reason=FILLS + "0.67, 0.24 and 0.02 are left; 2.4e-3 at 45 degrees where nothing does")
-@pytest.mark.parametrize("angle", [15, 30, 45])
+@pytest.mark.parametrize("angle", [15, 30, pytest.param(45, marks=pytest.mark.xfail(strict=True, reason="2.4e-3 are left"))])
 def test_energy_of_three_cycles_inclined(angle):
-    """Inclined in void: where nothing fills, 2e-4 at 15 and 30 degrees, 2.4e-3 at 45 degrees."""
+    """Inclined in void: 1.4e-4 at 15 degrees, 1.7e-4 at 30."""
     assert left_over(False, 0.25, angle, 3) < 1e-3
 
 
-@pytest.mark.xfail(strict=True, reason=WARMS + "9e-3 are left, and 0.02 to 0.1 where a cell fills")
+@pytest.mark.xfail(strict=True, reason="9.8e-3, 1.3e-2 and 9.5e-3 are left, a third of it after every cycle")
 @pytest.mark.parametrize("angle", [15, 30, 45])
 def test_energy_of_three_cycles_inclined_in_a_tube(angle):
     """Inclined in a tube without friction."""
@@ -328,9 +306,10 @@ def braked(share: float, transits: int = 20, length: float = 20.0, strain: float
     return np.mean(sums[len(sums) // transits:], axis=0)
 
 
-@pytest.mark.parametrize("share", positions(FILLS + "2.0 to 3.3 % of the pressure, from the free end"))
+@pytest.mark.parametrize("share", [*SHARES[:-1], pytest.param(SHARES[-1], marks=pytest.mark.xfail(
+    strict=True, reason="1.33 % of the pressure"))])
 def test_no_checkerboard_in_a_braked_bar(share):
-    """Over 20 transits, with its free end on a line of the mesh: 0.16 to 0.27 % where nothing fills."""
+    """Over 20 transits, with its free end on a line of the mesh: 0.38, 0.91, 0.57 and 0.92 % of the pressure."""
     apart, size = braked(share)
     assert apart < 0.01 * size
 
@@ -358,7 +337,7 @@ def breathing(inner: float, outer: float) -> float:
 
 @pytest.mark.parametrize("share", SHARES)
 def test_period_of_a_ring(share):
-    """Two cells thick, both surfaces in void: five periods are 0.05 to 0.3 % short on average, single ones up to 0.6 %."""
+    """Two cells thick, both surfaces in void: five periods are 0.08 to 0.31 % short on average, single ones up to 0.6 %."""
     inner = 10.0 + 0.5 * share
     ring = simulation(f'shape = "box"\nr = ["{inner} mm", "{inner + 1.0} mm"]\nz = [0.0, "2 mm"]', 14.0, 2.0)
     period, state, inside = 2 * np.pi / breathing(1e-3 * inner, 1e-3 * (inner + 1.0)), ring.state, ring.grid.g + 1
@@ -373,6 +352,6 @@ def test_period_of_a_ring(share):
     k = np.nonzero(u[:-1] * u[1:] < 0.0)[0]
     crossings = t[k] - u[k] * (t[k + 1] - t[k]) / (u[k + 1] - u[k])
     assert len(crossings) >= 10
-    assert 2 * np.diff(crossings).mean() == pytest.approx(period, rel=0.006)
-    assert 2 * np.diff(crossings) == pytest.approx(period, rel=0.01)
+    assert 2 * np.diff(crossings).mean() == pytest.approx(period, rel=0.005)
+    assert 2 * np.diff(crossings) == pytest.approx(period, rel=0.008)
     assert np.abs(u[t > 4.3 * period]).max() > 0.97 * 2.0
