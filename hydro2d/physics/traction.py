@@ -9,7 +9,7 @@ from math import sqrt
 from hydro2d.jit import point
 
 #: share of void from which a crack carries no tension
-SURE = 0.01
+SURE = 1e-3
 #: the fall of a fraction across a cell from which the normal counts in full
 STEEP = 0.1
 #: largest relative change of a body's volume in a step by the traction on it
