@@ -4,6 +4,7 @@ from math import sqrt
 
 from hydro2d.jit import kernel, prange, rowwise
 from hydro2d.kernels.column_ranges import block_rows, columns, copy_beside, number_of_blocks, spread, union
+from hydro2d.kernels.cut_cells import BONDED, KIND, cut_pressure, skin_deviator
 from hydro2d.mesh.fields import SRR, SRZ, SZZ
 from hydro2d.mesh.grid import AZ_IN, AZ_OUT, CM_IN, CM_OUT, FACE_R, HOOP, MID_R, VOL_R
 from hydro2d.physics.advection import TINY
@@ -16,11 +17,12 @@ SILENCE = 1e-20
 
 @rowwise
 def total_stress_row(j, dt, metrics, dz, body_range, active_range, mixed_count, mixed, solid_mode, hard, hard_threshold, u, v,
-                     vof, q, p, bulk, solid, qr, qz, ph, sig_rr, sig_zz, sig_tt, sig_rz):
+                     vof, q, skin, p, bulk, solid, qr, qz, ph, sig_rr, sig_zz, sig_tt, sig_rz):
     """sigma = s - (p + q) I with the pressure at half the step, p^(n+1/2) = p - (dt/2) K div u^n.
 
     The cell's deviator is sum f_m s_m, in mode `solid` divided by the share of solids; in the hard zone of a slip layer it is
-    the hard body's own times the share of solids (explanation/mixed-cells, sliding).
+    the hard body's own times the share of solids (explanation/mixed-cells, sliding). A cut cell has p_c and, of each body,
+    s - (n . s . n) I.
 
     Reads    u, v [b, j, i]; vof [m, j, i]; q (deviators) [k, m, j, i]; p, bulk, solid, qr, qz [j, i]; hard [m]
     Writes   ph, sig_rr, sig_zz, sig_tt, sig_rz [j, i]
@@ -76,11 +78,20 @@ def total_stress_row(j, dt, metrics, dz, body_range, active_range, mixed_count, 
         tt[i] = -(rr[i] + zz[i]) - pressure - qr_j[i]
         rr[i] = rr[i] - pressure - qr_j[i]
         zz[i] = zz[i] - pressure - qz_j[i]
+    for k in range(mixed_count[j]):
+        i = mixed[j, k]
+        if skin[KIND, j, i] != BONDED:
+            pressure = cut_pressure(j, i, dt, divergence(i, ub, ut, vb, vt, metrics, h), skin, p, bulk, solid)
+            gain = pressure - ph_j[i] + skin_deviator(j, i, skin, stress_scale(solid_mode, solid[j, i]), vof, q)
+            ph_j[i] = pressure
+            rr[i] -= gain
+            zz[i] -= gain
+            tt[i] -= gain
 
 
 @kernel
 def total_stress(j0, j1, dt, metrics, dz, body_range, active_range, mixed_count, mixed, solid_mode, hard, hard_threshold, u, v,
-                 vof, q, p, bulk, solid, qr, qz, ph, sig_rr, sig_zz, sig_tt, sig_rz):
+                 vof, q, skin, p, bulk, solid, qr, qz, ph, sig_rr, sig_zz, sig_tt, sig_rz):
     """total_stress_row for rows j0 to j1."""
     blocks = number_of_blocks(j0, j1)
     for place in prange(blocks):
@@ -88,7 +99,7 @@ def total_stress(j0, j1, dt, metrics, dz, body_range, active_range, mixed_count,
         first_row, last_row = block_rows(b, blocks, j0, j1)
         for j in range(first_row, last_row):
             total_stress_row(j, dt, metrics, dz, body_range, active_range, mixed_count, mixed, solid_mode, hard, hard_threshold,
-                             u, v, vof, q, p, bulk, solid, qr, qz, ph, sig_rr, sig_zz, sig_tt, sig_rz)
+                             u, v, vof, q, skin, p, bulk, solid, qr, qz, ph, sig_rr, sig_zz, sig_tt, sig_rz)
 
 
 @kernel

@@ -11,13 +11,11 @@ equation 1; that of the soft group is what is missing to 1.
 
 from math import sqrt
 
-from hydro2d.jit import apart, kernel, point, prange
+from hydro2d.jit import kernel, point, prange
 from hydro2d.kernels.column_ranges import union
-from hydro2d.physics.contact import GAP, dual_share, end_apertures, known
+from hydro2d.physics.contact import GAP, end_apertures, known
 from hydro2d.physics.interfaces import line_constant, youngs_gradient
 
-#: share of its dual cell below which a node of a group is under-filled: a slave, it moves as its body inward of there does
-UNDERFILLED = 0.5
 #: square of the ratio of two slopes from which the steeper surface alone draws the line: more than round-off
 FLATTER = 1.0 + 1e-12
 
@@ -30,13 +28,8 @@ BETWEEN = 0.25
 #: in the place of a group: void lies between the two, and each has a surface of its own
 PARTED = 2.0
 
-#: the masters of a node, which is FREE where it has none: from EXTENDS on the vertices of a cell of its own group, by the
-#: cell's linear field, 0 to 24 a vertex of it up to two away, else TIED to the other group
-FREE, TIED, EXTENDS = -1, 25, 30
-#: the vertices of such a cell are up to so far away
+#: how many vertices away a node's body may be for the node to move with it
 REACH = 3
-#: a cell is taken in the place of another only if it lies better by so much: two that lie alike must not take turns
-CLOSER = 1.05
 
 
 @kernel
@@ -49,8 +42,8 @@ def find_contact_nodes(j0, j1, mesh_box, group_ranges, mass, group, vof, count, 
     """
     for j in prange(j0, j1 + 1):
         found = 0
-        lo, hi = union(group_ranges[1, 0], j - REACH - 1, j + REACH + 1)
-        for i in range(max(lo - REACH, mesh_box[2]), min(hi + REACH + 1, mesh_box[3] + 1)):
+        lo, hi = union(group_ranges[1, 0], j - REACH - 2, j + REACH + 2)
+        for i in range(max(lo - REACH - 1, mesh_box[2]), min(hi + REACH + 2, mesh_box[3] + 1)):
             for g in range(2):
                 heat[g, j, i] = 0.0
         for i in range(max(group_ranges[1, 1, j, 0], mesh_box[2]), min(group_ranges[1, 1, j, 1] + 1, mesh_box[3] + 1)):
@@ -58,9 +51,9 @@ def find_contact_nodes(j0, j1, mesh_box, group_ranges, mass, group, vof, count, 
                 contact_nodes[j, found] = i
                 found += 1
         count[j] = found
-        lo, hi = union(group_ranges[1, 0], j - REACH, j + REACH + 1)
-        warmed[j, 0] = max(lo - REACH, mesh_box[2])
-        warmed[j, 1] = min(hi + REACH, mesh_box[3])
+        lo, hi = union(group_ranges[1, 0], j - REACH - 1, j + REACH + 2)
+        warmed[j, 0] = max(lo - REACH - 1, mesh_box[2])
+        warmed[j, 1] = min(hi + REACH + 1, mesh_box[3])
         if j < j1:
             lo, hi = union(group_ranges[1, 0], j - 2, j + 3)
             lo, hi = max(lo - 2, mesh_box[2]), min(hi + 2, mesh_box[3])
@@ -218,100 +211,3 @@ def face_apertures(j0, j1, mesh_box, constrained, contact_columns, line, hard, s
                 normal[way, 0, j, i] = n_r / size if size > 0.0 else 0.0
                 normal[way, 1, j, i] = n_z / size if size > 0.0 else 0.0
             touch[j, i] = 1.0 if both <= GAP or (full_hard > 0 and full_soft > 0) else 0.0
-
-
-@point
-def filled_share(g, row, column, mesh_box, volume, metrics, hard, soft, mass):
-    """Share that group g fills of the dual cell of a vertex, 0 where the node is under-filled or none of the mesh."""
-    if row < mesh_box[0] or row > mesh_box[1] or column < mesh_box[2] or column > mesh_box[3] or mass[g, row, column] == 0.0:
-        return 0.0
-    share = dual_share(g, row, column, mesh_box, volume, metrics, hard, soft)
-    return share if share >= UNDERFILLED else 0.0
-
-
-@apart
-def cell_to_extend(g, j, i, rings, inward_r, inward_z, mesh_box, volume, metrics, hard, soft, mass):
-    """Code of the cell of group g, in so many rings around, whose linear field the slave (j, i) takes, else 0.
-
-    None of the cell's own vertices is under-filled. It is the one, among the nearest that there are, with the largest share of
-    the group times the cosine between its direction and the normal inwards over the distance.
-    """
-    most, code = 0.0, 0
-    for ring in range(1, rings + 1):
-        for dj in range(-ring, ring):
-            for di in range(-ring, ring):
-                if -ring < dj < ring - 1 and -ring < di < ring - 1:
-                    continue
-                row, column = j + dj, i + di
-                if row < mesh_box[0] or row >= mesh_box[1] or column < mesh_box[2] or column >= mesh_box[3]:
-                    continue
-                part = hard[row, column] if g == 1 else soft[row, column]
-                if part < UNDERFILLED:
-                    continue
-                z, r = dj + 0.5, di + 0.5
-                along = part * (inward_r * r + inward_z * z) / (r * r + z * z)
-                if along <= CLOSER * most:
-                    continue
-                if (filled_share(g, row, column, mesh_box, volume, metrics, hard, soft, mass) > 0.0 and filled_share(g, row + 1,
-                    column, mesh_box, volume, metrics, hard, soft, mass) > 0.0 and filled_share(g, row, column + 1, mesh_box,
-                    volume, metrics, hard, soft, mass) > 0.0 and filled_share(g, row + 1, column + 1, mesh_box, volume, metrics,
-                    hard, soft, mass) > 0.0):
-                    most = along
-                    code = EXTENDS + 2 * REACH * (dj + REACH) + di + REACH
-        if code > 0:
-            break
-    return code
-
-
-@point
-def in_debris(g, j, i, mesh_box, group, vof, dmg):
-    """Whether material of the group other than g that has failed fills a cell around vertex (j, i) by half or more."""
-    found = False
-    for m in range(group.shape[0]):
-        if group[m] != g:
-            for row in range(max(j - 1, mesh_box[0]), min(j + 1, mesh_box[1])):
-                for column in range(max(i - 1, mesh_box[2]), min(i + 1, mesh_box[3])):
-                    found = found or (vof[m, row, column] >= 0.5 and dmg[m, row, column] >= 1.0)
-    return found
-
-
-@kernel
-def find_masters(j0, j1, mesh_box, volume, metrics, count, contact_nodes, normal, hard, soft, mass, group, vof, dmg, masters):
-    """How each group moves at a contact node: by itself, or, where the node is under-filled, as its body does inward of there.
-
-    That is the linear field of the velocities of a cell, or, where no cell has four vertices of the group, one vertex: among
-    its neighbours, or else among those two away, by the same measure. Where there is none the contact is tied; so is that of
-    a crumb within failed material of the other group, to which its body comes no nearer than two vertices.
-
-    Reads    normal [3, 2, j, i], hard, soft [j, i], mass [b, j, i]; vof, dmg [m, j, i]
-    Writes   masters [b, j, i]: FREE, EXTENDS + 6 (dj + 3) + (di + 3), 5 (dj + 2) + (di + 2), or TIED
-    """
-    for j in prange(j0, j1 + 1):
-        for k in range(count[j]):
-            i = contact_nodes[j, k]
-            for g in range(2):
-                masters[g, j, i] = FREE
-                if filled_share(g, j, i, mesh_box, volume, metrics, hard, soft, mass) > 0.0:
-                    continue
-                inward = 1.0 if g == 0 else -1.0
-                far = 1 if in_debris(g, j, i, mesh_box, group, vof, dmg) else 2
-                code = cell_to_extend(g, j, i, 1 + far, inward * normal[0, 0, j, i], inward * normal[0, 1, j, i], mesh_box,
-                                      volume, metrics, hard, soft, mass)
-                if code > 0:
-                    masters[g, j, i] = code
-                    continue
-                masters[g, j, i] = TIED
-                most = 0.0
-                for ring in range(1, far + 1):
-                    for dj in range(-ring, ring + 1):
-                        for di in range(-ring, ring + 1):
-                            row, column = j + dj, i + di
-                            if max(abs(dj), abs(di)) < ring:
-                                continue
-                            share = filled_share(g, row, column, mesh_box, volume, metrics, hard, soft, mass)
-                            along = inward * (normal[0, 0, j, i] * di + normal[0, 1, j, i] * dj) / (di * di + dj * dj)
-                            if share * along > most * (1.0 + 1e-9):
-                                most = share * along
-                                masters[g, j, i] = 5 * (dj + 2) + (di + 2)
-                    if most > 0.0:
-                        break

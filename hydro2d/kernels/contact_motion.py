@@ -5,31 +5,45 @@ from math import sqrt
 from hydro2d.jit import kernel, point, prange
 from hydro2d.kernels.column_ranges import mixed_row
 from hydro2d.kernels.contact_geometry import HARD_R, HARD_Z, SOFT_R, SOFT_Z
+from hydro2d.kernels.cut_cells import BONDED, FREE_SURFACE, INTERFACE, KIND, cut_pressure, normal_deviator
 from hydro2d.mesh.fields import RHO, SRR, SRZ, SZZ
 from hydro2d.mesh.grid import AZ_IN, AZ_OUT, FACE_R, HOOP, MID_R, VOL_R
-from hydro2d.physics.closure import common_pressure
-from hydro2d.physics.contact import GAP, meeting, volume_rate
+from hydro2d.physics.closure import stiff_density
+from hydro2d.physics.contact import meeting, volume_rate
 from hydro2d.physics.kinematics import hourglass_mode
 from hydro2d.physics.stress import normal_pressure, stress_scale
-from hydro2d.physics.viscosity import directional_viscosity
+from hydro2d.physics.viscosity import directional_viscosity, shut
 
-#: void given to cells without pressure whose groups part, so that it takes the opening and nothing is stretched
+#: void given to full cells without pressure whose groups part, so that it takes the opening and nothing is stretched
 SEED = 1e-11
+
+
+@point
+def parts(j, i, normal, u, v):
+    """Whether the groups part along the normal at a vertex of cell (j, i)."""
+    opens = 0.0
+    for row in range(j, j + 2):
+        for column in range(i, i + 2):
+            w = (normal[0, 0, row, column] * (u[1, row, column] - u[0, row, column])
+                 + normal[0, 1, row, column] * (v[1, row, column] - v[0, row, column]))
+            opens = min(opens, w)
+    return opens < 0.0
 
 
 @kernel
 def contact_viscosity(j0, j1, mesh_box, linear, quadratic, courant, dr, dz, metrics, contact_columns, line, group_ranges,
-                      normal, aperture_r, aperture_z, hard, soft, u, v, cl, rhobar, vof, q, pm, km, p, solid, bulk, qr, qz,
-                      rate, row_step, mixed_count, mixed, scratch):
+                      normal, aperture_r, aperture_z, hard, soft, u, v, cl, rhobar, vof, q, km, skin, p, solid, bulk, qr,
+                      qz, rate, row_step, mixed_count, mixed, scratch):
     """Volume rate and viscosity of the contact-interface cells, the step they allow, and room where their groups part.
 
-    A cell of both groups has the pressure at which they would meet, the mean of theirs by compressibility, and the density of
-    that mean: the stiffer body's errors, or its mass, must not push the other. One q answers to the one rate of volume over the
-    cell's length along the normal, unless the cell has void to lose. Where
-    the groups part at a vertex of a cell without pressure where they meet, the cell is given a seed of void.
+    A cell of both groups has the density of its mean by compressibility: the stiffer body's mass must not push the other. One q
+    answers to the one rate of volume over the cell's length along the normal, the less the more void the cell has to lose.
+    Void beside the other group is a gap, across which nothing pulls. Where the groups part at a vertex of a full cell without
+    pressure, the cell is given a seed of it.
 
-    Reads    what face_apertures wrote; hard, soft [j, i]; u, v [b, j, i]; pm, km [m, j, i]; cl, rhobar [j, i]
-    Updates  vof [m, j, i], q (rho) [k, m, j, i], p, solid, bulk [j, i], row_step [j], mixed_count [j], mixed [j, k]
+    Reads    what face_apertures wrote; hard, soft, p, bulk [j, i]; u, v [b, j, i]; km [m, j, i]; cl, rhobar [j, i]
+    Updates  vof [m, j, i], q (rho) [k, m, j, i], solid [j, i], skin [3, j, i] (kind), row_step [j], mixed_count [j],
+             mixed [j, k]
     Writes   qr, qz, rate [j, i] (1/s)
     Scratch  scratch [row, i]
     """
@@ -38,21 +52,17 @@ def contact_viscosity(j0, j1, mesh_box, linear, quadratic, courant, dr, dz, metr
         for i in range(contact_columns[j, 0], contact_columns[j, 1]):
             rho = rhobar[j, i]
             if hard[j, i] > 0.0 and soft[j, i] > 0.0:
-                p[j, i], rho = common_pressure(j, i, vof, q, pm, km)
-                p[j, i] *= solid[j, i]
-            opens = 0.0
-            for row in range(j, j + 2):
-                for column in range(i, i + 2):
-                    w = (normal[0, 0, row, column] * (u[1, row, column] - u[0, row, column])
-                         + normal[0, 1, row, column] * (v[1, row, column] - v[0, row, column]))
-                    opens = min(opens, w)
-            if opens < 0.0 and p[j, i] <= 0.0 and solid[j, i] > 1.0 - SEED and meeting(j, i, mesh_box, hard, soft):
+                rho = stiff_density(j, i, vof, q, km)
+            elif skin[KIND, j, i] == FREE_SURFACE and meeting(j, i, mesh_box, hard, soft):
+                skin[KIND, j, i] = INTERFACE
+            elif solid[j, i] > 1.0 - SEED and p[j, i] <= 0.0 and meeting(j, i, mesh_box, hard, soft) and parts(
+                    j, i, normal, u, v):
                 for m in range(vof.shape[0]):
                     if vof[m, j, i] > 0.0:
                         vof[m, j, i] *= 1.0 - SEED
                         q[RHO, m, j, i] /= 1.0 - SEED
                 solid[j, i] *= 1.0 - SEED
-                bulk[j, i] = 0.0
+                skin[KIND, j, i] = INTERFACE
                 seeded = True
             h = dz[j]
             volume = metrics[VOL_R, i] * h
@@ -61,7 +71,7 @@ def contact_viscosity(j0, j1, mesh_box, linear, quadratic, courant, dr, dz, metr
             qr[j, i] = 0.0
             qz[j, i] = 0.0
             if rho > 0.0:
-                shock = 1.0 if solid[j, i] >= 1.0 - GAP else 0.0
+                shock = shut(solid[j, i])
                 c = bulk[j, i] / rho
                 c = sqrt(c) if c > 0.0 else cl[j, i]
                 slope_r = abs(line[HARD_R, j, i] + line[SOFT_R, j, i])
@@ -78,18 +88,21 @@ def contact_viscosity(j0, j1, mesh_box, linear, quadratic, courant, dr, dz, metr
 
 
 @kernel
-def contact_stress(j0, j1, dt, contact_columns, group_ranges, line, hard, soft, rate, p, bulk, ph, sig_rr, sig_zz, sig_tt,
-                   sig_rz, contact_pressure):
+def contact_stress(j0, j1, dt, contact_columns, group_ranges, line, hard, soft, rate, skin, p, bulk, solid, ph, sig_rr, sig_zz,
+                   sig_tt, sig_rz, contact_pressure):
     """Pressure of contact-interface cells at half the step by their one rate of volume, and normal pressure of the contact.
 
-    Reads    rate, p, bulk, hard, soft, sig_rz [j, i], line [9, j, i]
+    Reads    rate, p, bulk, solid, skin, hard, soft, sig_rz [j, i], line [9, j, i]
     Updates  ph, sig_rr, sig_zz, sig_tt [j, i];  writes contact_pressure [j, i], 0 where a cell does not hold both groups
     """
     for j in prange(j0, j1):
         for i in range(group_ranges[1, 0, j, 0], group_ranges[1, 0, j, 1]):
             contact_pressure[j, i] = 0.0
         for i in range(contact_columns[j, 0], contact_columns[j, 1]):
-            pressure = p[j, i] - 0.5 * dt * bulk[j, i] * rate[j, i]
+            if skin[KIND, j, i] == BONDED:
+                pressure = p[j, i] - 0.5 * dt * bulk[j, i] * rate[j, i]
+            else:
+                pressure = cut_pressure(j, i, dt, rate[j, i], skin, p, bulk, solid)
             gain = pressure - ph[j, i]
             ph[j, i] = pressure
             sig_rr[j, i] -= gain
@@ -102,26 +115,27 @@ def contact_stress(j0, j1, dt, contact_columns, group_ranges, line, hard, soft, 
 
 
 @point
-def group_stress(g, j, i, group, solid_mode, solid, vof, q):
-    """Deviators that group g gives a cell: (rr, zz, rz), each body's by its share, as in total_stress."""
+def group_stress(g, j, i, group, solid_mode, solid, skin, vof, q):
+    """What group g gives the stress of a cell beside p_c: (rr, zz, tt, rz), each body's by its share, as in total_stress."""
     scale = stress_scale(solid_mode, solid[j, i])
-    rr, zz, rz = 0.0, 0.0, 0.0
+    rr, zz, tt, rz = 0.0, 0.0, 0.0, 0.0
     for m in range(vof.shape[0]):
         if group[m] == g and vof[m, j, i] > 0.0:
             part = vof[m, j, i] * scale
-            rr += part * q[SRR, m, j, i]
-            zz += part * q[SZZ, m, j, i]
+            across = normal_deviator(m, j, i, skin, q)
+            rr += part * (q[SRR, m, j, i] - across)
+            zz += part * (q[SZZ, m, j, i] - across)
+            tt -= part * (q[SRR, m, j, i] + q[SZZ, m, j, i] + across)
             rz += part * q[SRZ, m, j, i]
-    return rr, zz, rz
+    return rr, zz, tt, rz
 
 
 @point
-def corner_force(g, j, i, at_j, at_i, group, solid_mode, solid, vof, q, hg_coefficient, cell_mass, metrics, dz, u0, v0):
+def corner_force(g, j, i, at_j, at_i, group, solid_mode, solid, skin, vof, q, hg_coefficient, cell_mass, metrics, dz, u0, v0):
     """Force of the deviators of group g in cell (at_j, at_i), and of its hourglass filter, on vertex (j, i) (as accelerate)."""
     if cell_mass[g, at_j, at_i] == 0.0:
         return 0.0, 0.0
-    rr, zz, rz = group_stress(g, at_j, at_i, group, solid_mode, solid, vof, q)
-    tt = -(rr + zz)
+    rr, zz, tt, rz = group_stress(g, at_j, at_i, group, solid_mode, solid, skin, vof, q)
     h = dz[at_j]
     left = at_i < i  # the cell lies left of the vertex, and below it
     low = at_j < j
@@ -141,13 +155,13 @@ def corner_force(g, j, i, at_j, at_i, group, solid_mode, solid, vof, q, hg_coeff
 
 @kernel
 def contact_node_forces(j0, j1, dt, group, solid_mode, metrics, dz, constrained, count, contact_nodes, aperture_r, aperture_z,
-                        ph, qr, solid, vof, q, hg_coefficient, cell_mass, mass, u0, v0, u, v, transfer):
+                        ph, qr, solid, skin, vof, q, hg_coefficient, cell_mass, mass, u0, v0, u, v, transfer):
     """Velocities that the forces alone would give both groups at contact nodes.
 
     The pressure of a cell acts on each group by the apertures of the cell's faces, the deviators of a group act on it alone
     (explanation/sliding, contact).
 
-    Reads    ph, qr, solid, hg_coefficient [j, i]; vof, q; cell_mass, mass, u0, v0 [b, j, i]
+    Reads    ph, qr, solid, hg_coefficient [j, i]; skin [3, j, i]; vof, q; cell_mass, mass, u0, v0 [b, j, i]
     Writes   u, v [b, j, i], without what walls and the axis take; transfer[4, j], axial momentum given to walls
     """
     for j in prange(j0, j1 + 1):
@@ -165,8 +179,8 @@ def contact_node_forces(j0, j1, dt, group, solid_mode, metrics, dz, constrained,
                 force_z = metrics[AZ_OUT, i - 1] * left * (ll - ul) + metrics[AZ_IN, i] * right * (lr - ur)
                 for row in range(j - 1, j + 1):
                     for column in range(i - 1, i + 1):
-                        more_r, more_z = corner_force(g, j, i, row, column, group, solid_mode, solid, vof, q, hg_coefficient,
-                                                      cell_mass, metrics, dz, u0, v0)
+                        more_r, more_z = corner_force(g, j, i, row, column, group, solid_mode, solid, skin, vof, q,
+                                                      hg_coefficient, cell_mass, metrics, dz, u0, v0)
                         force_r += more_r
                         force_z += more_z
                 u[g, j, i] = u0[g, j, i] + dt * force_r / mass[g, j, i]

@@ -1,59 +1,36 @@
-"""Velocities of two groups in contact: slave nodes move with their masters, groups that touch do not close, friction."""
+"""Velocities of two groups in contact: slave nodes move with their masters, and friction.
+
+The ties are linear and have one solution, the impulses that change the kinetic energy least: (E/M_s + N M^-1 N^T) J = mismatch,
+with the weights N of the masters and a compliance E for slaves that are hardly under-filled. Conjugate gradients find it to
+TOLERANCE, so that no order of nodes matters (explanation/sliding, equation 6).
+"""
 
 from math import sqrt
 
 from hydro2d.jit import apart, point, serial
-from hydro2d.kernels.contact_geometry import EXTENDS, FREE, REACH, SHARE, TIED
+from hydro2d.kernels.contact_geometry import REACH, SHARE
+from hydro2d.kernels.extension import SPAN, TIED
 from hydro2d.mesh.grid import AZ_IN, AZ_OUT, FACE_R, HOOP
 from hydro2d.physics.stress import normal_pressure
 
-#: rounds in which the constraints at contact nodes are met one after another
-PASSES = 6
-#: rows of `impulse`, what the soft group gets from the hard one: along the normal, along the tangent; their sizes
-PUSH_R, PUSH_Z, RUB_R, RUB_Z, PUSHED, RUBBED = range(6)
+#: to what share of the mismatch the ties are met, and in how many steps at most
+TOLERANCE, STEPS = 1e-11, 200
+#: how often friction and the ties are met in turn
+ROUNDS = 3
+#: rows of `rubbing`: impulse that the soft group gets from the hard one, and its size
+RUB_R, RUB_Z, RUBBED = range(3)
+#: rows of `ties`, two for the components of each: impulse, residual, search direction, what the ties make of that, inverse of
+#: the diagonal
+IMPULSE, RESIDUAL, SEARCH, IMAGE, DIAGONAL = 0, 2, 4, 6, 8
 
 
 @point
-def number_of_masters(code):
-    """How many masters a slave has."""
-    return 4 if code >= EXTENDS else 1
-
-
-@point
-def extended_cell(j, i, code):
-    """(j, i) of the cell whose linear field a slave (j, i) takes, by its code from EXTENDS on."""
-    return j + (code - EXTENDS) // (2 * REACH) - REACH, i + (code - EXTENDS) % (2 * REACH) - REACH
-
-
-@point
-def first_master(g, j, i, code):
-    """(group, j, i) of the first master of the slave (j, i) of group g; `master` has the others."""
-    if code >= EXTENDS:
-        row, column = extended_cell(j, i, code)
-        return g, row, column
-    if code == TIED:
+def master(n, g, j, i, x, where):
+    """(group, j, i) of the n-th master of the slave (j, i) of group g in slot x."""
+    place = where[x, g, n]
+    if place == TIED:
         return 1 - g, j, i
-    return g, j + code // 5 - 2, i + code % 5 - 2
-
-
-@point
-def master(n, row, column, g, j, i, code, weights):
-    """(j, i, weight) of the n-th master of the slave (j, i) of group g, the first of which is (row, column)."""
-    return row + n // 2, column + n % 2, weights[n, g, j, i] if code >= EXTENDS else 1.0
-
-
-@point
-def weigh(g, j, i, code, r, z, weights):
-    """Weights of the four vertices of the cell whose linear field a slave takes.
-
-    They carry the cell's mean velocity and gradient to the vertex, so that a linear field is met exactly, and add up to 1
-    (explanation/sliding, equation 5).
-    """
-    row, column = extended_cell(j, i, code)
-    x = (r[i] - 0.5 * (r[column] + r[column + 1])) / (r[column + 1] - r[column])
-    y = (z[j] - 0.5 * (z[row] + z[row + 1])) / (z[row + 1] - z[row])
-    for n in range(4):
-        weights[n, g, j, i] = 0.25 + 0.5 * ((x if n % 2 == 1 else -x) + (y if n // 2 == 1 else -y))
+    return g, j + place // SPAN - REACH, i + place % SPAN - REACH
 
 
 @point
@@ -74,88 +51,147 @@ def give(g, j, i, push_r, push_z, constrained, mass, u, v, transfer):
         v[g, j, i] += push_z / mass[g, j, i]
 
 
-@apart
-def masters_mobility(g, j, i, code, constrained, weights, mass):
-    """Sum of w^2/m over the masters of a slave, along r and z (1/kg): its velocity per impulse on them."""
+@point
+def difference(g, j, i, x, constrained, number, where, weights, u, v):
+    """Velocity of a slave less that of its masters, along r and z; 0 along what the axis or a wall holds."""
+    held_r, held_z = held(j, i, constrained)
+    apart_r, apart_z = u[g, j, i], v[g, j, i]
+    for n in range(number[x, g]):
+        by, row, column = master(n, g, j, i, x, where)
+        still_r, still_z = held(row, column, constrained)  # what holds them has not set them to zero yet
+        apart_r -= 0.0 if still_r else weights[x, g, n] * u[by, row, column]
+        apart_z -= 0.0 if still_z else weights[x, g, n] * v[by, row, column]
+    return 0.0 if held_r else apart_r, 0.0 if held_z else apart_z
+
+
+@point
+def masters_mobility(g, j, i, x, constrained, number, where, weights, mass):
+    """Sum of w^2/m over the masters of a slave, along r and z (1/kg): their velocity, as it feels it, per impulse on them."""
     along_r, along_z = 0.0, 0.0
-    by, low, left = first_master(g, j, i, code)
-    for n in range(number_of_masters(code)):
-        row, column, weight = master(n, low, left, g, j, i, code, weights)
+    for n in range(number[x, g]):
+        by, row, column = master(n, g, j, i, x, where)
         held_r, held_z = held(row, column, constrained)
-        part = weight * weight / mass[by, row, column]
+        part = weights[x, g, n] * weights[x, g, n] / mass[by, row, column]
         along_r += 0.0 if held_r else part
         along_z += 0.0 if held_z else part
     return along_r, along_z
 
 
 @point
-def give_to_masters(g, j, i, code, push_r, push_z, constrained, weights, mass, u, v, taken, transfer):
-    """Gives the masters, by weight, an impulse that their slave loses; `taken` counts it."""
-    taken[0, g, j, i] += push_r
-    taken[1, g, j, i] += push_z
-    by, low, left = first_master(g, j, i, code)
-    for n in range(number_of_masters(code)):
-        row, column, weight = master(n, low, left, g, j, i, code, weights)
-        give(by, row, column, weight * push_r, weight * push_z, constrained, mass, u, v, transfer)
-
-
-@point
-def tie_to_masters(g, j, i, code, constrained, weights, mass, u, v, ease, taken, transfer):
-    """Brings a slave to the velocity of its masters, by the least impulse that does."""
-    want_r, want_z = 0.0, 0.0
-    by, low, left = first_master(g, j, i, code)
-    for n in range(number_of_masters(code)):
-        row, column, weight = master(n, low, left, g, j, i, code, weights)
-        held_r, held_z = held(row, column, constrained)
-        want_r += 0.0 if held_r else weight * u[by, row, column]
-        want_z += 0.0 if held_z else weight * v[by, row, column]
-    m = mass[g, j, i]
-    held_r, held_z = held(j, i, constrained)
-    push_r = 0.0 if held_r else (u[g, j, i] - want_r) / (1.0 / m + ease[0, g, j, i])
-    push_z = 0.0 if held_z else (v[g, j, i] - want_z) / (1.0 / m + ease[1, g, j, i])
-    give_to_masters(g, j, i, code, push_r, push_z, constrained, weights, mass, u, v, taken, transfer)
-    u[g, j, i] -= push_r / m
-    v[g, j, i] -= push_z / m
+def give_tie(g, j, i, x, push_r, push_z, constrained, number, where, weights, mass, u, v, transfer):
+    """Takes an impulse from a slave and gives it to its masters, by weight."""
+    give(g, j, i, -push_r, -push_z, constrained, mass, u, v, transfer)
+    for n in range(number[x, g]):
+        by, row, column = master(n, g, j, i, x, where)
+        give(by, row, column, weights[x, g, n] * push_r, weights[x, g, n] * push_z, constrained, mass, u, v, transfer)
 
 
 @apart
-def push_on(g, j, i, code, push_r, push_z, constrained, weights, mass, u, v, ease, taken, transfer):
-    """An impulse on a vertex; a slave and its masters take it together, so that it goes on moving with them."""
-    if code == FREE:
-        give(g, j, i, push_r, push_z, constrained, mass, u, v, transfer)
-        return
-    m = mass[g, j, i]
-    pass_r, pass_z = push_r / (1.0 + m * ease[0, g, j, i]), push_z / (1.0 + m * ease[1, g, j, i])
-    give_to_masters(g, j, i, code, pass_r, pass_z, constrained, weights, mass, u, v, taken, transfer)
-    give(g, j, i, push_r - pass_r, push_z - pass_z, constrained, mass, u, v, transfer)
+def image_of_search(j0, j1, constrained, count, contact_nodes, first, strength, number, where, weights, warmed, mass,
+                    ties, gain):
+    """What the search direction, as impulses, does to the mismatch: N M^-1 N^T p and the compliance; returns p . image.
 
-
-@point
-def mobility(g, j, i, code, mass, ease):
-    """Velocity per impulse (1/kg) of a vertex, of a slave with its masters."""
-    m = mass[g, j, i]
-    if code == FREE:
-        return 1.0 / m
-    soft = max(ease[0, g, j, i], ease[1, g, j, i])
-    return soft / (1.0 + m * soft)
+    Reads    ties [SEARCH, x, b]
+    Writes   ties [IMAGE, x, b];  scratch gain [c, b, j, i], velocities
+    """
+    for j in range(max(j0 - REACH, 0), min(j1 + REACH + 1, mass.shape[1])):
+        near = min(max(j, j0), j1)
+        for g in range(2):
+            for i in range(warmed[near, 0], warmed[near, 1] + 1):
+                gain[0, g, j, i] = 0.0
+                gain[1, g, j, i] = 0.0
+    for j in range(j0, j1 + 1):
+        for k in range(count[j]):
+            i, x = contact_nodes[j, k], first[j] + k
+            for g in range(2):
+                if strength[x, g] == 0.0:
+                    continue
+                p_r, p_z = ties[SEARCH, x, g], ties[SEARCH + 1, x, g]
+                gain[0, g, j, i] += p_r / mass[g, j, i]
+                gain[1, g, j, i] += p_z / mass[g, j, i]
+                for n in range(number[x, g]):
+                    by, row, column = master(n, g, j, i, x, where)
+                    held_r, held_z = held(row, column, constrained)
+                    w = weights[x, g, n] / mass[by, row, column]
+                    gain[0, by, row, column] -= 0.0 if held_r else w * p_r
+                    gain[1, by, row, column] -= 0.0 if held_z else w * p_z
+    along_r, along_z = 0.0, 0.0
+    for j in range(j0, j1 + 1):
+        for k in range(count[j]):
+            i, x = contact_nodes[j, k], first[j] + k
+            for g in range(2):
+                if strength[x, g] == 0.0:
+                    continue
+                a_r, a_z = difference(g, j, i, x, constrained, number, where, weights, gain[0], gain[1])
+                give_way = (1.0 / strength[x, g] - 1.0) / mass[g, j, i]
+                a_r += give_way * ties[SEARCH, x, g]
+                a_z += give_way * ties[SEARCH + 1, x, g]
+                ties[IMAGE, x, g] = a_r
+                ties[IMAGE + 1, x, g] = a_z
+                along_r += ties[SEARCH, x, g] * a_r
+                along_z += ties[SEARCH + 1, x, g] * a_z
+    return along_r, along_z
 
 
 @apart
-def warm_up(g, j, i, code, made, mass, weights, heat):
-    """Gives heat (J) to a vertex, or to the masters of a slave; in tied contact, to both groups."""
-    if code == FREE:
-        heat[g, j, i] += made / mass[g, j, i]
-        return
-    total = mass[g, j, i] if code == TIED else 0.0
-    by, low, left = first_master(g, j, i, code)
-    for n in range(number_of_masters(code)):
-        row, column, _ = master(n, low, left, g, j, i, code, weights)
-        total += mass[by, row, column]
-    for n in range(number_of_masters(code)):
-        row, column, _ = master(n, low, left, g, j, i, code, weights)
-        heat[by, row, column] += made / total
-    if code == TIED:
-        heat[g, j, i] += made / total
+def meet_ties(j0, j1, constrained, count, contact_nodes, first, strength, number, where, weights, warmed, mass, u, v, ties,
+              gain, taken, transfer):
+    """Brings all slaves to the velocities of their masters at once, by conjugate gradients from nothing.
+
+    Updates  u, v [b, j, i]; taken [c, x, b], impulses that slaves have given away;  scratch ties [10, x, b], gain [c, b, j, i]
+    """
+    slots = first[j1 + 1]
+    old_r, old_z = 0.0, 0.0
+    for j in range(j0, j1 + 1):
+        for k in range(count[j]):
+            i, x = contact_nodes[j, k], first[j] + k
+            for g in range(2):
+                for c in range(10):
+                    ties[c, x, g] = 0.0
+                if strength[x, g] == 0.0:
+                    continue
+                ease_r, ease_z = masters_mobility(g, j, i, x, constrained, number, where, weights, mass)
+                own = 1.0 / (strength[x, g] * mass[g, j, i])
+                r_r, r_z = difference(g, j, i, x, constrained, number, where, weights, u, v)
+                for c in range(2):
+                    ties[DIAGONAL + c, x, g] = 1.0 / (own + (ease_r if c == 0 else ease_z))
+                    ties[RESIDUAL + c, x, g] = r_r if c == 0 else r_z
+                    ties[SEARCH + c, x, g] = ties[DIAGONAL + c, x, g] * ties[RESIDUAL + c, x, g]
+                old_r += ties[SEARCH, x, g] * r_r
+                old_z += ties[SEARCH + 1, x, g] * r_z
+    enough_r, enough_z = TOLERANCE * TOLERANCE * old_r, TOLERANCE * TOLERANCE * old_z
+    for _ in range(STEPS):
+        if old_r <= enough_r and old_z <= enough_z:
+            break
+        along_r, along_z = image_of_search(j0, j1, constrained, count, contact_nodes, first, strength, number, where, weights,
+                                           warmed, mass, ties, gain)
+        step_r = old_r / along_r if old_r > enough_r else 0.0
+        step_z = old_z / along_z if old_z > enough_z else 0.0
+        new_r, new_z = 0.0, 0.0
+        for x in range(slots):
+            for g in range(2):
+                ties[IMPULSE, x, g] += step_r * ties[SEARCH, x, g]
+                ties[IMPULSE + 1, x, g] += step_z * ties[SEARCH + 1, x, g]
+                ties[RESIDUAL, x, g] -= step_r * ties[IMAGE, x, g]
+                ties[RESIDUAL + 1, x, g] -= step_z * ties[IMAGE + 1, x, g]
+                new_r += ties[DIAGONAL, x, g] * ties[RESIDUAL, x, g] * ties[RESIDUAL, x, g]
+                new_z += ties[DIAGONAL + 1, x, g] * ties[RESIDUAL + 1, x, g] * ties[RESIDUAL + 1, x, g]
+        again_r = new_r / old_r if old_r > enough_r else 0.0
+        again_z = new_z / old_z if old_z > enough_z else 0.0
+        for x in range(slots):
+            for g in range(2):
+                ties[SEARCH, x, g] = ties[DIAGONAL, x, g] * ties[RESIDUAL, x, g] + again_r * ties[SEARCH, x, g]
+                ties[SEARCH + 1, x, g] = ties[DIAGONAL + 1, x, g] * ties[RESIDUAL + 1, x, g] + again_z * ties[SEARCH + 1, x, g]
+        old_r, old_z = new_r, new_z
+    for j in range(j0, j1 + 1):
+        for k in range(count[j]):
+            i, x = contact_nodes[j, k], first[j] + k
+            for g in range(2):
+                if strength[x, g] > 0.0:
+                    push_r, push_z = ties[IMPULSE, x, g], ties[IMPULSE + 1, x, g]
+                    give_tie(g, j, i, x, push_r, push_z, constrained, number, where, weights, mass, u, v, transfer)
+                    taken[0, x, g] += push_r
+                    taken[1, x, g] += push_z
 
 
 @point
@@ -179,17 +215,37 @@ def pressed(j, i, n_r, n_z, contact_columns, metrics, dz, line, sig_rr, sig_zz, 
     return max(pressure / cells, 0.0) * abs(n_r * area_r + n_z * area_z) if cells > 0.0 else 0.0
 
 
-@apart
-def touch_and_rub(j, i, dt, friction, constrained, weights, metrics, dz, contact_columns, line, normal, masters, sig_rr, sig_zz,
-                  sig_rz, mass, u, v, ease, taken, impulse, transfer):
-    """Impulses between the two groups at a contact node at which they touch.
+@point
+def mobility(g, j, i, x, constrained, strength, number, where, weights, mass):
+    """Velocity per impulse (1/kg) of a vertex, of a slave with its masters as far as it is tied to them."""
+    m = mass[g, j, i]
+    if strength[x, g] == 0.0:
+        return 1.0 / m
+    along_r, along_z = masters_mobility(g, j, i, x, constrained, number, where, weights, mass)
+    ease = max(along_r, along_z)
+    return strength[x, g] * ease / (1.0 + m * ease) + (1.0 - strength[x, g]) / m
 
-    Where they close by every normal, the impulse along that by which they close least gives them one normal velocity, unless
-    one is a slave: then the pressure between them is enough. Along the tangent there is at most friction times the normal
-    impulse, that one and that of the normal stress on the surface. So a slave has none without friction, and is not asked.
+
+@apart
+def rub_on(g, j, i, x, push_r, push_z, constrained, strength, number, where, weights, mass, u, v, taken, transfer):
+    """An impulse on a vertex; a slave passes on to its masters what keeps it moving with them."""
+    give(g, j, i, push_r, push_z, constrained, mass, u, v, transfer)
+    if strength[x, g] > 0.0:
+        m = mass[g, j, i]
+        along_r, along_z = masters_mobility(g, j, i, x, constrained, number, where, weights, mass)
+        pass_r, pass_z = strength[x, g] * push_r / (1.0 + m * along_r), strength[x, g] * push_z / (1.0 + m * along_z)
+        give_tie(g, j, i, x, pass_r, pass_z, constrained, number, where, weights, mass, u, v, transfer)
+        taken[0, x, g] += pass_r
+        taken[1, x, g] += pass_z
+
+
+@apart
+def rub(j, i, x, dt, friction, constrained, strength, number, where, weights, metrics, dz, contact_columns, line, normal,
+        sig_rr, sig_zz, sig_rz, mass, u, v, taken, rubbing, transfer):
+    """Friction between the two groups at a contact node at which they touch.
+
+    Along the tangent to the normal by which they close least there is at most friction times the normal force on the surface.
     """
-    code_s, code_h = masters[0, j, i], masters[1, j, i]
-    both = code_s == FREE and code_h == FREE
     w_r, w_z = u[1, j, i] - u[0, j, i], v[1, j, i] - v[0, j, i]
     way, closing = 0, 1e300
     for other in range(3):
@@ -199,103 +255,86 @@ def touch_and_rub(j, i, dt, friction, constrained, weights, metrics, dz, contact
     n_r, n_z = normal[way, 0, j, i], normal[way, 1, j, i]
     along_r, along_z = w_r - closing * n_r, w_z - closing * n_z
     slip = sqrt(along_r * along_r + along_z * along_z)
-    reduced = 1.0 / (mobility(0, j, i, code_s, mass, ease) + mobility(1, j, i, code_h, mass, ease))
-    push, drag = reduced * max(closing, 0.0) if both else 0.0, 0.0
-    impulse[PUSHED, j, i] += push
-    if friction > 0.0 and slip > 0.0:
-        force = pressed(j, i, n_r, n_z, contact_columns, metrics, dz, line, sig_rr, sig_zz, sig_rz)
-        limit = friction * (impulse[PUSHED, j, i] + force * dt) - impulse[RUBBED, j, i]
-        drag = min(reduced * slip, max(limit, 0.0))
-        impulse[RUBBED, j, i] += drag
-    t_r = along_r / slip if slip > 0.0 else 0.0
-    t_z = along_z / slip if slip > 0.0 else 0.0
-    impulse[PUSH_R, j, i] += push * n_r
-    impulse[PUSH_Z, j, i] += push * n_z
-    impulse[RUB_R, j, i] += drag * t_r
-    impulse[RUB_Z, j, i] += drag * t_z
-    give_r, give_z = push * n_r + drag * t_r, push * n_z + drag * t_z
-    push_on(0, j, i, code_s, give_r, give_z, constrained, weights, mass, u, v, ease, taken, transfer)
-    push_on(1, j, i, code_h, -give_r, -give_z, constrained, weights, mass, u, v, ease, taken, transfer)
+    if slip == 0.0:
+        return
+    reduced = 1.0 / (mobility(0, j, i, x, constrained, strength, number, where, weights, mass)
+                     + mobility(1, j, i, x, constrained, strength, number, where, weights, mass))
+    force = pressed(j, i, n_r, n_z, contact_columns, metrics, dz, line, sig_rr, sig_zz, sig_rz)
+    drag = min(reduced * slip, max(friction * force * dt - rubbing[RUBBED, x], 0.0))
+    drag_r, drag_z = drag * along_r / slip, drag * along_z / slip
+    rubbing[RUBBED, x] += drag
+    rubbing[RUB_R, x] += drag_r
+    rubbing[RUB_Z, x] += drag_z
+    rub_on(0, j, i, x, drag_r, drag_z, constrained, strength, number, where, weights, mass, u, v, taken, transfer)
+    rub_on(1, j, i, x, -drag_r, -drag_z, constrained, strength, number, where, weights, mass, u, v, taken, transfer)
 
 
 @apart
-def mismatch(g, j, i, code, constrained, weights, u0, v0, u, v):
-    """Velocity of a slave less that of its masters, the mean over the step."""
-    apart_r, apart_z = u0[g, j, i] + u[g, j, i], v0[g, j, i] + v[g, j, i]
-    by, low, left = first_master(g, j, i, code)
-    for n in range(number_of_masters(code)):
-        row, column, weight = master(n, low, left, g, j, i, code, weights)
-        held_r, held_z = held(row, column, constrained)
-        apart_r -= 0.0 if held_r else weight * (u0[by, row, column] + u[by, row, column])
-        apart_z -= 0.0 if held_z else weight * (v0[by, row, column] + v[by, row, column])
-    return 0.5 * apart_r, 0.5 * apart_z
+def warm_up(g, j, i, x, made, number, where, weights, mass, heat):
+    """Gives heat (J) to a vertex and the masters of it, if it is a slave, by their masses times the sizes of the weights."""
+    total = mass[g, j, i]
+    for n in range(number[x, g]):
+        by, row, column = master(n, g, j, i, x, where)
+        total += abs(weights[x, g, n]) * mass[by, row, column]
+    heat[g, j, i] += made / total
+    for n in range(number[x, g]):
+        by, row, column = master(n, g, j, i, x, where)
+        heat[by, row, column] += made * abs(weights[x, g, n]) / total
 
 
 @serial
-def settle(j0, j1, dt, friction, constrained, r, z, metrics, dz, contact_columns, line, count, contact_nodes, normal, touch,
-           masters, sig_rr, sig_zz, sig_rz, mass, u0, v0, u, v, weights, ease, taken, impulse, heat, transfer):
+def settle(j0, j1, dt, friction, constrained, metrics, dz, contact_columns, line, count, contact_nodes, first, normal, touch,
+           strength, number, where, weights, warmed, sig_rr, sig_zz, sig_rz, mass, u0, v0, u, v, ties, gain, taken, rubbing,
+           heat, transfer):
     """Velocities of both groups at contact nodes, from those that the forces alone would give.
 
-    Slave nodes move with masters of their group, and groups that touch do not close: each such condition is met by
-    impulses that keep the momentum, one after another, by rows, and all of them PASSES times over. An impulse J between two
-    velocities makes the heat J . (w0 + w1)/2, w their difference at either end of the step: that is what the work of the cells
-    and the kinetic energy differ by (explanation/sliding, contact).
+    Slave nodes move with masters of their group, and groups that touch rub: impulses that keep the momentum. An impulse J
+    between two velocities makes the heat J . (w0 + w1)/2, w their difference at either end of the step: that is what the work
+    of the cells and the kinetic energy differ by (explanation/sliding, contact).
 
-    Reads    masters, mass, u0, v0 [b, j, i]; normal [3, 2, j, i], touch; line, sig_.. [j, i]; r, z, the faces of the mesh
+    Reads    what find_extensions wrote; mass, u0, v0 [b, j, i]; normal [3, 2, j, i], touch; line, sig_.. [j, i]
     Updates  u, v [b, j, i]; heat [b, j, i], J per kg of the group's mass at a vertex; adds to transfer[4, j]
-    Writes   transfer[:4, j]: axial momentum that the soft group gains from the hard one, heat of contact, of friction and of
-             under-filled nodes
-    Scratch  weights [n, b, j, i], what `weigh` gives for slaves, and ease [c, b, j, i], what `masters_mobility` does; taken
-             [c, b, j, i], impulses that they have given away; impulse [6, j, i]
+    Writes   transfer[:4, j]: axial momentum that the soft group gains from the hard one, heat of the ties to the other group,
+             of friction, and of under-filled nodes
+    Scratch  ties [10, x, b], gain [c, b, j, i]; taken [c, x, b], impulses that slaves have given away; rubbing [3, x]
     """
-    for j in range(j0, j1 + 1):
-        for k in range(count[j]):
-            i = contact_nodes[j, k]
-            for part in range(6):
-                impulse[part, j, i] = 0.0
+    for x in range(first[j1 + 1]):
+        for c in range(2):
             for g in range(2):
-                taken[0, g, j, i] = 0.0
-                taken[1, g, j, i] = 0.0
-                if masters[g, j, i] >= EXTENDS:
-                    weigh(g, j, i, masters[g, j, i], r, z, weights)
-                if masters[g, j, i] != FREE:
-                    ease[0, g, j, i], ease[1, g, j, i] = masters_mobility(g, j, i, masters[g, j, i], constrained, weights, mass)
-    for _ in range(PASSES):
+                taken[c, x, g] = 0.0
+        for c in range(3):
+            rubbing[c, x] = 0.0
+    meet_ties(j0, j1, constrained, count, contact_nodes, first, strength, number, where, weights, warmed, mass, u, v, ties,
+              gain, taken, transfer)
+    for _ in range(ROUNDS if friction > 0.0 else 0):
         for j in range(j0, j1 + 1):
             for k in range(count[j]):
-                i = contact_nodes[j, k]
-                for g in range(2):
-                    if masters[g, j, i] != FREE:
-                        tie_to_masters(g, j, i, masters[g, j, i], constrained, weights, mass, u, v, ease, taken, transfer)
-        for j in range(j0, j1 + 1):
-            for k in range(count[j]):
-                i = contact_nodes[j, k]
-                code_s, code_h = masters[0, j, i], masters[1, j, i]
-                rubs = friction > 0.0 and code_s != TIED and code_h != TIED
-                if touch[j, i] > 0.0 and (rubs or (code_s == FREE and code_h == FREE)):
-                    touch_and_rub(j, i, dt, friction, constrained, weights, metrics, dz, contact_columns, line, normal, masters,
-                                  sig_rr, sig_zz, sig_rz, mass, u, v, ease, taken, impulse, transfer)
+                if touch[j, contact_nodes[j, k]] > 0.0:
+                    rub(j, contact_nodes[j, k], first[j] + k, dt, friction, constrained, strength, number, where, weights,
+                        metrics, dz, contact_columns, line, normal, sig_rr, sig_zz, sig_rz, mass, u, v, taken, rubbing,
+                        transfer)
+        meet_ties(j0, j1, constrained, count, contact_nodes, first, strength, number, where, weights, warmed, mass, u, v, ties,
+                  gain, taken, transfer)
     for j in range(j0, j1 + 1):
         for row in range(4):
             transfer[row, j] = 0.0
         for k in range(count[j]):
-            i = contact_nodes[j, k]
+            i, x = contact_nodes[j, k], first[j] + k
             w_r = 0.5 * ((u0[1, j, i] - u0[0, j, i]) + (u[1, j, i] - u[0, j, i]))
             w_z = 0.5 * ((v0[1, j, i] - v0[0, j, i]) + (v[1, j, i] - v[0, j, i]))
-            pushed = impulse[PUSH_R, j, i] * w_r + impulse[PUSH_Z, j, i] * w_z
-            rubbed = impulse[RUB_R, j, i] * w_r + impulse[RUB_Z, j, i] * w_z
-            if pushed != 0.0 or rubbed != 0.0:
-                warm_up(0, j, i, masters[0, j, i], pushed + rubbed, mass, weights, heat)
-            transfer[0, j] += impulse[PUSH_Z, j, i] + impulse[RUB_Z, j, i]
-            transfer[1, j] += pushed
-            transfer[2, j] += rubbed
+            made = rubbing[RUB_R, x] * w_r + rubbing[RUB_Z, x] * w_z
+            if made != 0.0:
+                warm_up(0, j, i, x, made, number, where, weights, mass, heat)
+            transfer[0, j] += rubbing[RUB_Z, x]
+            transfer[2, j] += made
             for g in range(2):
-                code = masters[g, j, i]
-                if code == FREE:
+                if strength[x, g] == 0.0:
                     continue
-                w_r, w_z = mismatch(g, j, i, code, constrained, weights, u0, v0, u, v)
-                made = taken[0, g, j, i] * w_r + taken[1, g, j, i] * w_z
-                warm_up(g, j, i, code, made, mass, weights, heat)
-                transfer[3, j] += made
-                if code == TIED:
-                    transfer[0, j] += taken[1, g, j, i] if g == 1 else -taken[1, g, j, i]
+                before_r, before_z = difference(g, j, i, x, constrained, number, where, weights, u0, v0)
+                after_r, after_z = difference(g, j, i, x, constrained, number, where, weights, u, v)
+                made = 0.5 * (taken[0, x, g] * (before_r + after_r) + taken[1, x, g] * (before_z + after_z))
+                warm_up(g, j, i, x, made, number, where, weights, mass, heat)
+                tied = weights[x, g, number[x, g] - 1] if where[x, g, number[x, g] - 1] == TIED else 0.0
+                transfer[0, j] += tied * (taken[1, x, g] if g == 1 else -taken[1, x, g])
+                transfer[1, j] += tied * made
+                transfer[3, j] += (1.0 - tied) * made

@@ -3,17 +3,23 @@
 The faces are swept by both groups, each by its aperture (kernels/contact_geometry); a body flows with its group's velocity.
 """
 
-from hydro2d.jit import apart, kernel, prange
+from hydro2d.jit import apart, kernel, point, prange
 from hydro2d.kernels.column_ranges import union
 from hydro2d.kernels.contact_geometry import FIRST, PARTED
-from hydro2d.mesh.fields import E
+from hydro2d.kernels.cut_cells import INTERFACE, KIND
+from hydro2d.mesh.fields import RHO, E
 from hydro2d.mesh.grid import FACE_R
-from hydro2d.physics.contact import GAP, face_flow_r, face_flow_z, largest_giver, largest_of, share_behind, volume_rate
-from hydro2d.physics.interfaces import FULL, cumulative, share_in_strip, surface
+from hydro2d.physics.contact import GAP, face_flow_r, face_flow_z, largest_of, volume_rate
+from hydro2d.physics.interfaces import cumulative, share_in_strip, surface
+from hydro2d.physics.traction import smoothstep
+
+#: share of a cell that other bodies and void leave free from which it is in full no longer one body's, and has void
+OTHERS = 0.01
 
 
 @kernel
-def contact_swept_volumes(j0, j1, dt, metrics, dz, contact_columns, aperture_r, aperture_z, u0, v0, u, v, fr, fz, own_r, own_z):
+def contact_swept_volumes(j0, j1, dt, metrics, dz, contact_columns, aperture_r, aperture_z, u0, v0, u, v, even_r, even_z, fr,
+                          fz, own_r, own_z):
     """Volumes swept in the step by the faces of contact-interface cells: by aperture, and by each group as if it were alone.
 
     Reads    u0, v0, u, v [b, j, i]
@@ -23,16 +29,83 @@ def contact_swept_volumes(j0, j1, dt, metrics, dz, contact_columns, aperture_r, 
         if j < j1:
             for i in range(contact_columns[j, 0], contact_columns[j, 1] + 1):
                 scale = 0.25 * dt * metrics[FACE_R, i] * dz[j]
-                fr[j, i] = scale * (face_flow_r(j, i, -1, aperture_r, u) + face_flow_r(j, i, -1, aperture_r, u0))
+                fr[j, i] = even_r[j, i] + scale * (face_flow_r(j, i, -1, aperture_r, u) + face_flow_r(j, i, -1, aperture_r, u0))
                 for g in range(2):
-                    own_r[g, j, i] = scale * (face_flow_r(j, i, g, aperture_r, u) + face_flow_r(j, i, g, aperture_r, u0))
+                    own_r[g, j, i] = even_r[j, i] + scale * (face_flow_r(j, i, g, aperture_r, u) + face_flow_r(
+                        j, i, g, aperture_r, u0))
         lo, hi = union(contact_columns, max(j - 1, j0), min(j + 1, j1))
         for i in range(lo, hi):
-            fz[j, i] = 0.5 * dt * (face_flow_z(j, i, -1, metrics, aperture_z, v) + face_flow_z(j, i, -1, metrics, aperture_z,
-                                   v0))
+            fz[j, i] = even_z[j, i] + 0.5 * dt * (face_flow_z(j, i, -1, metrics, aperture_z, v) + face_flow_z(
+                j, i, -1, metrics, aperture_z, v0))
             for g in range(2):
-                own_z[g, j, i] = 0.5 * dt * (face_flow_z(j, i, g, metrics, aperture_z, v) + face_flow_z(j, i, g, metrics,
-                                             aperture_z, v0))
+                own_z[g, j, i] = even_z[j, i] + 0.5 * dt * (face_flow_z(j, i, g, metrics, aperture_z, v) + face_flow_z(
+                    j, i, g, metrics, aperture_z, v0))
+
+
+#: share of a difference of p_c between two neighbouring cells of the surface that evens out in a step
+EVENING = 0.05
+
+
+@point
+def evening_volume(j, i, row, column, volume, skin, bulk, ph, qr):
+    """Volume that moves from cell (j, i) of a surface to its neighbour (row, column), also of it, by the difference of p_c + q.
+
+    explanation/sliding, equation 8.
+    """
+    if skin[KIND, j, i] != INTERFACE or skin[KIND, row, column] != INTERFACE:
+        return 0.0
+    give = min(volume[j, i] / bulk[j, i], volume[row, column] / bulk[row, column])
+    return EVENING * give * ((ph[j, i] + qr[j, i]) - (ph[row, column] + qr[row, column]))
+
+
+@kernel
+def even_out(j0, j1, contact_columns, volume, skin, bulk, ph, qr, even_r, even_z):
+    """Volumes that even out p_c along the surface.
+
+    A pressure that is constant in every cell of the surface, while velocities are linear, has a pattern (up and down from cell
+    to cell) that pushes no vertex. The volumes that the faces between these cells sweep are corrected by the difference.
+
+    Reads    ph, qr, bulk, volume [j, i], skin [3, j, i]
+    Writes   even_r, even_z [j, i]
+    """
+    for j in prange(j0, j1 + 1):
+        if j < j1:
+            for i in range(contact_columns[j, 0], contact_columns[j, 1] + 1):
+                inside = contact_columns[j, 0] < i < contact_columns[j, 1]
+                even_r[j, i] = evening_volume(j, i - 1, j, i, volume, skin, bulk, ph, qr) if inside else 0.0
+        lo, hi = union(contact_columns, max(j - 1, j0), min(j + 1, j1))
+        for i in range(lo, hi):
+            inside = j0 < j < j1 and contact_columns[j - 1, 0] <= i < contact_columns[j - 1, 1] and (
+                contact_columns[j, 0] <= i < contact_columns[j, 1])
+            even_z[j, i] = evening_volume(j - 1, i, j, i, volume, skin, bulk, ph, qr) if inside else 0.0
+
+
+@kernel
+def warm_evened(j0, j1, contact_columns, volume, ph, qr, even_r, even_z, vof, q):
+    """Gives the work that is lost as p_c evens out, half to either cell, to the bodies by mass.
+
+    Updates  q (e) [k, m, j, i]
+    """
+    for j in prange(j0, j1):
+        for i in range(contact_columns[j, 0], contact_columns[j, 1]):
+            here = ph[j, i] + qr[j, i]
+            made = 0.0
+            if even_r[j, i] != 0.0:
+                made += even_r[j, i] * (ph[j, i - 1] + qr[j, i - 1] - here)
+            if even_r[j, i + 1] != 0.0:
+                made += even_r[j, i + 1] * (here - ph[j, i + 1] - qr[j, i + 1])
+            if even_z[j, i] != 0.0:
+                made += even_z[j, i] * (ph[j - 1, i] + qr[j - 1, i] - here)
+            if even_z[j + 1, i] != 0.0:
+                made += even_z[j + 1, i] * (here - ph[j + 1, i] - qr[j + 1, i])
+            if made == 0.0:
+                continue
+            mass = 0.0
+            for m in range(vof.shape[0]):
+                mass += vof[m, j, i] * q[RHO, m, j, i] * volume[j, i] if vof[m, j, i] > 0.0 else 0.0
+            for m in range(vof.shape[0]):
+                if vof[m, j, i] > 0.0:
+                    q[E, m, j, i] += 0.5 * made / mass
 
 
 @kernel
@@ -61,7 +134,8 @@ def contact_shares(j0, j1, mesh_box, contact_columns, volume, pre, vof, part, si
     """Fractions of the cell as it stands on the mesh, in contact-interface cells and two around them.
 
     The volume before a sweep is what both groups leave of the cell. Neither is stretched by what the other does: a line that
-    follows that volume would move and turn without its body. In void the bodies fill no more than the cell.
+    follows that volume would move and turn without its body. In void the bodies fill no more than the cell. Both rules come in
+    with the first OTHERS of what is not the one body, and of void.
 
     Reads    volume, pre [j, i], vof [m, j, i]
     Writes   part [m, j, i], the fractions; size [j, i] (m^3), the volume that they are of
@@ -75,28 +149,30 @@ def contact_shares(j0, j1, mesh_box, contact_columns, volume, pre, vof, part, si
                 largest = max(largest, vof[m, j, i])
             scale = 1.0
             if mesh_box[0] <= j < mesh_box[1] and mesh_box[2] <= i < mesh_box[3] and 0.0 < total and largest < 1.0:
-                scale = pre[j, i] / volume[j, i]
-                if total < 1.0 - FULL:
-                    scale = min(scale, 1.0 / total)
+                scale += smoothstep((1.0 - largest) / OTHERS) * (pre[j, i] / volume[j, i] - 1.0)
+                scale -= smoothstep((1.0 - total) / OTHERS) * max(scale - 1.0 / total, 0.0)
             for m in range(vof.shape[0]):
                 part[m, j, i] = vof[m, j, i] * scale
             size[j, i] = pre[j, i] / scale
 
 
 @apart
-def strip_of(m, j, i, along_z, width, high, order, part, dr, dz):
-    """Volume of body m in a strip of cell (j, i), as a share of the cell; nested in the order, never more than there is."""
+def strip_of(m, j, i, along_z, width, high, order, part, vof, dr, dz):
+    """Volume of body m in a strip of cell (j, i), as a share of the cell; nested in the order, never more than there is.
+
+    The lines are those of part, the void is that of vof.
+    """
     below, total, given = 0.0, 0.0, 0.0
+    void = 1.0 - cumulative(j, i, order.shape[0] - 1, order, vof)
     for k in range(order.shape[0]):
         f = part[order[k], j, i]
-        total += f
-        total = total if total < 1.0 - FULL else 1.0
+        total = min(total + f, 1.0)
         if f == 0.0:
             continue
-        n_r, n_z, w, h = surface(j, i, k, order, part, dr, dz)
+        n_r, n_z, w, h, weight = surface(j, i, k, order, part, dr, dz, void)
         if along_z:
             n_r, n_z, w, h = n_z, n_r, h, w
-        filled = share_in_strip(n_r, n_z, w, h, total, width, high)
+        filled = share_in_strip(n_r, n_z, w, h, weight, total, width, high)
         filled = min(max(filled, max(below, width - (1.0 - total))), min(below + f, width))
         given = filled - below
         if order[k] == m:
@@ -105,16 +181,42 @@ def strip_of(m, j, i, along_z, width, high, order, part, dr, dz):
     return given
 
 
+@apart
+def take(g, more, dj, di, j, i, group, part, size, vof, flux_volume):
+    """Adds `more` to the volume of group g through face (j, i); what the group cannot take.
+
+    What flows the other way ends first, every body by the same share. Then the body that fills the most of the cell that the
+    volume comes from gives up to all that it has there.
+    """
+    swept = 0.0
+    for m in range(vof.shape[0]):
+        swept += flux_volume[m, j, i] if group[m] == g else 0.0
+    if swept * more < 0.0:
+        keep = max((swept + more) / swept, 0.0)
+        for m in range(vof.shape[0]):
+            if group[m] == g:
+                flux_volume[m, j, i] *= keep
+        more = more + swept if keep == 0.0 else 0.0
+    row, column = (j - dj, i - di) if more > 0.0 else (j, i)
+    m = largest_of(g, row, column, group, vof)
+    if m < 0 or more == 0.0:
+        return more
+    given = min(abs(more), max(part[m, row, column] * size[row, column] - abs(flux_volume[m, j, i]), 0.0))
+    given = given if more > 0.0 else -given
+    flux_volume[m, j, i] += given
+    return more - given
+
+
 @kernel
 def contact_fluxes(dj, di, j0, j1, mesh_box, dr, dz, hard_first, soft_first, group, contact_columns, line, face, own, part,
                    size, vof, flux_volume):
     """Volume of every body through the faces of contact-interface cells, with the velocity of its group.
 
     In a cell the group with the flatter surface comes first among the nested interfaces, where void parts them each group for
-    itself. What the bodies together are short of, or beyond, the volume that the face sweeps goes to the largest of the softer
-    bodies in the cell that this comes from, and to the hard one only if there is none; never to a body that would then come
-    from a cell in which it is not. Where that cell has a gap, a full cell into which volume flows is short of nothing as long
-    as there is more of its body: no void enters a body from its surface.
+    itself. What the bodies together are short of, or beyond, the volume that the face sweeps, and the void of the cell that
+    this comes from cannot make up for (void flows with the face, and no more than there is), the softer bodies take as far as
+    they have it there, and the hard ones what is left (`take`). Where that cell has a gap, a full cell into which volume flows
+    is short of nothing as long as there is more of its body: no void enters a body from its surface.
 
     Reads    face [j, i], own [b, j, i], what contact_shares wrote, vof [m, j, i], group [m], line [9, j, i];
              hard_first, soft_first [m], the bodies in the order in which their interfaces are nested
@@ -128,7 +230,7 @@ def contact_fluxes(dj, di, j0, j1, mesh_box, dr, dz, hard_first, soft_first, gro
         for i in range(lo, hi + di):
             if (di == 1 and (i == mesh_box[2] or i == mesh_box[3])) or (dj == 1 and (j == mesh_box[0] or j == mesh_box[1])):
                 continue
-            total, softer = 0.0, 0.0
+            total = 0.0
             for m in range(bodies):
                 swept = own[group[m], j, i]
                 up = swept > 0.0
@@ -140,37 +242,33 @@ def contact_fluxes(dj, di, j0, j1, mesh_box, dr, dz, hard_first, soft_first, gro
                     width = min(abs(swept) / size[row, column], 1.0)
                     first = line[FIRST, row, column] if contact_columns[row, 0] <= column < contact_columns[row, 1] else 1.0
                     if first == 0.0 or (first == PARTED and group[m] == 0):
-                        given = strip_of(m, row, column, dj == 1, width, up, soft_first, part, dr, dz)
+                        given = strip_of(m, row, column, dj == 1, width, up, soft_first, part, vof, dr, dz)
                     else:
-                        given = strip_of(m, row, column, dj == 1, width, up, hard_first, part, dr, dz)
+                        given = strip_of(m, row, column, dj == 1, width, up, hard_first, part, vof, dr, dz)
                     volume = given * size[row, column] if up else -given * size[row, column]
                 flux_volume[m, j, i] = volume
                 total += volume
-                softer += volume if group[m] == 0 else 0.0
             rest = face[j, i] - total
             up = face[j, i] > 0.0
             row, column = (j - dj, i - di) if up else (j, i)
             to_row, to_column = (j, i) if up else (j - dj, i - di)
-            filled = cumulative(row, column, bodies - 1, hard_first, vof)
-            if rest != 0.0 and filled > 1.0 - FULL:
-                taker = largest_of(0, j - dj if softer + rest > 0.0 else j, i - di if softer + rest > 0.0 else i, group, vof)
-                if taker < 0:
-                    taker = largest_of(1, row, column, group, vof)
-                if taker < 0:
-                    taker = largest_of(0, row, column, group, vof)
-                if taker < 0 or not share_behind(taker, dj, di, j, i, rest, vof, flux_volume) > 0.0:
-                    taker = largest_giver(0, dj, di, j, i, rest, group, vof, flux_volume)
-                if taker < 0:
-                    taker = largest_giver(1, dj, di, j, i, rest, group, vof, flux_volume)
-                if taker >= 0:
-                    flux_volume[taker, j, i] += rest
-            elif rest != 0.0 and (rest > 0.0) == up and filled < 1.0 - GAP:
+            void = 1.0 - cumulative(row, column, bodies - 1, hard_first, vof)
+            gap = smoothstep(void / GAP - 0.5)
+            if gap > 0.0 and (rest > 0.0) == up:
                 for m in range(bodies):
-                    if vof[m, to_row, to_column] == 1.0:
+                    full = smoothstep(1.0 - (1.0 - vof[m, to_row, to_column]) / OTHERS)
+                    if full > 0.0:
                         swept = own[group[m], j, i] if up else -own[group[m], j, i]
                         most = min(swept, part[m, row, column] * size[row, column]) - abs(flux_volume[m, j, i])
-                        more = min(abs(rest), max(most, 0.0))
-                        flux_volume[m, j, i] += more if up else -more
+                        more = gap * full * min(abs(rest), max(most, 0.0))
+                        more = more if up else -more
+                        flux_volume[m, j, i] += more
+                        rest -= more
+            room = min(void * size[row, column], abs(face[j, i])) if (rest > 0.0) == up else 0.0
+            beyond = max(abs(rest) - room, 0.0)
+            if beyond > 0.0:
+                left = take(0, beyond if rest > 0.0 else -beyond, dj, di, j, i, group, part, size, vof, flux_volume)
+                take(1, left, dj, di, j, i, group, part, size, vof, flux_volume)
 
 
 @kernel

@@ -8,7 +8,7 @@ stated order bounds their cumulative fraction, void comes last.
 
 from hydro2d.jit import kernel, point, prange, rowwise
 from hydro2d.kernels.column_ranges import columns
-from hydro2d.physics.interfaces import FULL, share_in_strip, surface
+from hydro2d.physics.interfaces import cumulative, share_in_strip, surface
 
 
 @rowwise
@@ -94,19 +94,19 @@ def interface_volumes_row(j, dj, di, dr, dz, order, mixed_count, mixed, f_face, 
         size = pre[j, i]
         w_low, w_high = out_low / size, out_high / size
         below_low, below_high, total = 0.0, 0.0, 0.0
+        void = 1.0 - cumulative(j, i, bodies - 1, order, vof)
         for n in range(bodies):
             f = vof[order[n], j, i]
-            total += f
-            total = total if total < 1.0 - FULL else 1.0
+            total = min(total + f, 1.0)
             if f == 0.0:
                 left[n] = 0.0
                 right[n] = 0.0
                 continue
-            n_r, n_z, w, h = surface(j, i, n, order, vof, dr, dz)
+            n_r, n_z, w, h, weight = surface(j, i, n, order, vof, dr, dz, void)
             if dj == 1:
                 n_r, n_z, w, h = n_z, n_r, h, w
-            low = share_in_strip(n_r, n_z, w, h, total, w_low, False) if w_low > 0.0 else 0.0
-            high = share_in_strip(n_r, n_z, w, h, total, w_high, True) if w_high > 0.0 else 0.0
+            low = share_in_strip(n_r, n_z, w, h, weight, total, w_low, False) if w_low > 0.0 else 0.0
+            high = share_in_strip(n_r, n_z, w, h, weight, total, w_high, True) if w_high > 0.0 else 0.0
             low = min(max(low, max(below_low, w_low - (1.0 - total))), min(below_low + f, w_low))
             high = min(max(high, max(below_high, w_high - (1.0 - total))), min(below_high + f, w_high))
             left[n] = low - below_low

@@ -3,6 +3,32 @@
 from eos.dispatch import evaluate, zero_pressure_density
 from hydro2d.jit import kernel, point, prange, rowwise
 from hydro2d.kernels.column_ranges import block_rows, mixed_row, number_of_blocks, spread
+from hydro2d.kernels.cut_cells import (
+    ACROSS,
+    ALONG,
+    BESIDE,
+    BONDED,
+    FLOW,
+    FREE_SURFACE,
+    HEAT,
+    INTERFACE,
+    KIND,
+    MODULUS,
+    NORMAL,
+    NORMAL_R,
+    NORMAL_Z,
+    SIZE,
+    SOFT,
+    TRIAL_RR,
+    TRIAL_RZ,
+    TRIAL_ZZ,
+    YIELD,
+    common_traction,
+    fill_cut_cell,
+    meet_traction,
+    normal_deviator,
+    surface_weight,
+)
 from hydro2d.kernels.thermodynamics import pressures_row, viscosity_row
 from hydro2d.materials.rows import CUTOFF_DENSITY, DAMAGE, DAMAGE_AT, EOS, EOS_AT, FACTOR, GAS, STRENGTH, STRENGTH_AT, TENSILE
 from hydro2d.mesh.fields import DMG, EP, RHO, SRR, SRZ, SZZ, E
@@ -12,6 +38,7 @@ from hydro2d.physics.fracture import damaged, share_that_stays, tension_limit
 from hydro2d.physics.kinematics import hourglass_mode, velocity_gradient
 from hydro2d.physics.plasticity import carries_no_stress, deviator_power, from_centre, keep_internal, returned, take_internal
 from hydro2d.physics.stress import stress_scale, turn_and_strain, von_mises
+from hydro2d.physics.traction import along_normal
 from strength.dispatch import damage_increment, flow_stress, kinematic_modulus, shear_modulus, turn
 from strength.radial_return import plastic_increment
 
@@ -24,40 +51,35 @@ CLOSURES = ("uniform", "tipton")
 TENSIONS = ("mean", "min")
 
 
-#: rows of the scratch `mix`, one number for every body: its share in a change of volume, yield stress, heat, elastic trial of
-#: the deviators, shear modulus
-SOFT, YIELD, HEAT, TRIAL_RR, TRIAL_ZZ, TRIAL_RZ, MODULUS = range(7)
 #: columns of the scratch `motion`: volume times the velocity gradient at the end of the step (du_r/dz, du_z/dr apart) and at
 #: its middle, and the work of the hourglass filter
 RR, TT, ZZ, RBZ, ZBR, MEAN_RR, MEAN_TT, MEAN_ZZ, MEAN_RZ, HOURGLASS = range(10)
 
 
 @rowwise
-def insert_void_mixed_row(j, smallest, max_opening, metrics, dz, mixed_count, mixed, group, models, materials, vof, q, pm, p,
+def insert_void_mixed_row(j, smallest, max_opening, metrics, dz, mixed_count, mixed, models, materials, skin, vof, q, pm, km, p,
                           solid, bulk, opened):
     """Opens void in mixed cells whose pressure falls below their fracture pressure, and frees them of stress.
 
     The threshold is the mean of the bodies' by volume fraction, or the smallest (explanation/fracture). Two groups hold
-    together by nothing: they part at zero pressure, and each keeps its stress.
+    together by nothing and part by themselves (`meet_traction`).
 
-    Reads    mixed [j, k], group [m]
+    Reads    mixed [j, k], skin [3, j, i]
     Updates  vof, pm [m, j, i]; q (rho, deviators); p, solid, bulk [j, i]; opened [j]
     """
     bodies = vof.shape[0]
     for k in range(mixed_count[j]):
         i = mixed[j, k]
         mean, least = 0.0, 1e300
-        low, high = 1, 0
+        if skin[KIND, j, i] == INTERFACE:
+            continue
         for m in range(bodies):
             f = vof[m, j, i]
             if f > 0.0:
-                low, high = min(low, group[m]), max(high, group[m])
                 limit = tension_limit(materials[m, TENSILE], q[DMG, m, j, i])
                 mean += f * limit
                 least = min(least, limit)
         threshold = least * solid[j, i] if smallest else mean
-        parts = low < high
-        threshold = 0.0 if parts else threshold
         if not p[j, i] < -threshold:
             continue
         total, pressure = 0.0, 0.0
@@ -75,21 +97,22 @@ def insert_void_mixed_row(j, smallest, max_opening, metrics, dz, mixed_count, mi
                 vof[m, j, i] = f
                 q[RHO, m, j, i] = rho / share
                 pm[m, j, i] = evaluate(model, rho / share, e, par)[0]
-            if not parts:
-                q[SRR, m, j, i] = 0.0
-                q[SZZ, m, j, i] = 0.0
-                q[SRZ, m, j, i] = 0.0
+            q[SRR, m, j, i] = 0.0
+            q[SZZ, m, j, i] = 0.0
+            q[SRZ, m, j, i] = 0.0
             total += f
             pressure += f * pm[m, j, i]
         p[j, i] = pressure
         solid[j, i] = total
-        if total < 1.0 - NO_VOID:
-            bulk[j, i] = 0.0
+        if total < 1.0 - NO_VOID and skin[KIND, j, i] == BONDED:
+            skin[KIND, j, i] = FREE_SURFACE
+        if skin[KIND, j, i] == FREE_SURFACE:
+            p[j, i], bulk[j, i] = common_traction(j, i, skin, vof, q, pm, km)
 
 
 @kernel
 def close_cells(j0, j1, max_opening, smallest_tension, linear, quadratic, courant, advective, mesh_speed, hourglass, metrics,
-                dr, dz, body_range, active_range, mixed_count, mixed, group, models, materials, u, v, vof, q, pm, km, tm, p,
+                dr, dz, body_range, active_range, mixed_count, mixed, models, materials, u, v, vof, q, pm, km, tm, skin, p,
                 bulk, rhobar, solid, cl, qr, qz, hg_coefficient, opened, row_step, bad, scratch):
     """Equation of state, void where a cell fractures, artificial viscosity and the time step that every cell allows.
 
@@ -105,10 +128,16 @@ def close_cells(j0, j1, max_opening, smallest_tension, linear, quadratic, couran
                           bulk, rhobar, solid, cl, scratch, opened, bad)
             if opened[j] > 0.0:
                 mixed_row(j, active_range, vof, scratch[0], b, mixed_count, mixed)
-            insert_void_mixed_row(j, smallest_tension, max_opening, metrics, dz, mixed_count, mixed, group, models, materials,
-                                  vof, q, pm, p, solid, bulk, opened)
+            for k in range(mixed_count[j]):
+                i = mixed[j, k]
+                if skin[KIND, j, i] == BONDED and 0.0 < solid[j, i] < 1.0 - NO_VOID:  # a pure cell that has fractured
+                    skin[KIND, j, i] = FREE_SURFACE
+                if skin[KIND, j, i] != BONDED:
+                    p[j, i], bulk[j, i] = common_traction(j, i, skin, vof, q, pm, km)
+            insert_void_mixed_row(j, smallest_tension, max_opening, metrics, dz, mixed_count, mixed, models, materials, skin,
+                                  vof, q, pm, km, p, solid, bulk, opened)
             viscosity_row(j, b, linear, quadratic, courant, advective, mesh_speed, hourglass, dr, dz, metrics, active_range, u,
-                          v, rhobar, bulk, cl, qr, qz, hg_coefficient, row_step, bad, scratch)
+                          v, rhobar, bulk, solid, cl, qr, qz, hg_coefficient, row_step, bad, scratch)
 
 
 @point
@@ -164,6 +193,8 @@ def soften(j, i, tipton, vof, pm, km, mix):
 def work_of_deviators(j, i, dt, dominant, total, scale, group, motion, vof, q, mix):
     """What the deviators of every body do in the step: its own, or in the hard zone the dominant body's alone.
 
+    In a cut cell the part across the surface is none of theirs: mix [j, NORMAL, m].
+
     Writes   mix [j, HEAT, m], J per radian
     """
     for m in range(vof.shape[0]):
@@ -177,22 +208,30 @@ def work_of_deviators(j, i, dt, dominant, total, scale, group, motion, vof, q, m
         g = group[m]
         power = deviator_power(q[SRR, m, j, i], q[SZZ, m, j, i], q[SRZ, m, j, i], motion[j, g, MEAN_RR],
                                motion[j, g, MEAN_ZZ], motion[j, g, MEAN_TT], motion[j, g, MEAN_RZ])
+        power -= mix[j, NORMAL, m] * (motion[j, g, MEAN_RR] + motion[j, g, MEAN_ZZ] + motion[j, g, MEAN_TT])
         mix[j, HEAT, m] = part * dt * power
 
 
 @point
-def strain_deviators(j, i, rate, mode, total, group, models, materials, pm, tm, motion, vof, q, mix, internal):
+def strain_deviators(j, i, rate, mode, total, skin, group, models, materials, pm, tm, motion, vof, q, mix, internal):
     """Elastic trial of every body; returns the yield stress of the cell by mode (explanation/mixed-cells, equation 8).
 
-    rate is the time step over the volume of the cell. Internal variables that are tensors turn with the material.
+    rate is the time step over the volume of the cell. Internal variables that are tensors turn with the material. In a cut cell
+    the strain across the surface is left out, by the weight of that: `meet_traction` finds it, `strain_across` adds it.
 
     Updates  q (internal variables) [k, m, j, i]; scratch internal [j, k]
     Writes   mix [j, TRIAL_RR to TRIAL_RZ, m], deviators; mix [j, MODULUS, m], mix [j, YIELD, m], 0 without strength, all in Pa
     """
     cell_yield, largest_yield = 0.0, 0.0
+    n_r, n_z, weight = skin[NORMAL_R, j, i], skin[NORMAL_Z, j, i], surface_weight(j, i, skin)
+    inverse = 1.0 / weight if weight > 0.0 else 0.0
     for m in range(vof.shape[0]):
         f = vof[m, j, i]
         mix[j, YIELD, m] = 0.0
+        mix[j, MODULUS, m] = 0.0
+        mix[j, SIZE, m] = 0.0
+        mix[j, ALONG, m] = 0.0
+        mix[j, BESIDE, m] = 0.0
         if f == 0.0 or models[m, STRENGTH] == 0:
             continue
         g, model, par, rho = group[m], models[m, STRENGTH], materials[m, STRENGTH_AT:DAMAGE_AT], q[RHO, m, j, i]
@@ -200,6 +239,11 @@ def strain_deviators(j, i, rate, mode, total, group, models, materials, pm, tm, 
         strain_r, strain_z, strain_t = motion[j, g, RR] * rate, motion[j, g, ZZ] * rate, motion[j, g, TT] * rate
         strain_s = 0.5 * (motion[j, g, RBZ] + motion[j, g, ZBR]) * rate
         spin = 0.5 * (motion[j, g, RBZ] - motion[j, g, ZBR]) * rate
+        across = along_normal(n_r, n_z, strain_r, strain_z, strain_s) * inverse
+        strain_r -= across * n_r * n_r
+        strain_z -= across * n_z * n_z
+        strain_s -= across * n_r * n_z
+        mix[j, BESIDE, m] = strain_r + strain_z + strain_t
         rr, zz, rz = turn_and_strain(q[SRR, m, j, i], q[SZZ, m, j, i], q[SRZ, m, j, i], spin, 2.0 * modulus, strain_r,
                                      strain_z, strain_t, strain_s)
         take_internal(m, j, i, model, q, internal[j])
@@ -209,6 +253,8 @@ def strain_deviators(j, i, rate, mode, total, group, models, materials, pm, tm, 
         mix[j, TRIAL_ZZ, m] = zz
         mix[j, TRIAL_RZ, m] = rz
         mix[j, MODULUS, m] = modulus
+        mix[j, SIZE, m] = 2.0 * (rr * rr + zz * zz + rr * zz + rz * rz)
+        mix[j, ALONG, m] = along_normal(n_r, n_z, rr, zz, rz) * inverse
         if not carries_no_stress(q[DMG, m, j, i], rho, materials[m, CUTOFF_DENSITY]):
             flow = flow_stress(model, q[EP, m, j, i], 0.0, tm[m, j, i], pm[m, j, i], rho, par)
             mix[j, YIELD, m] = materials[m, FACTOR] * flow
@@ -217,6 +263,30 @@ def strain_deviators(j, i, rate, mode, total, group, models, materials, pm, tm, 
     if mode == ZERO:
         return 0.0
     return largest_yield if mode == MAX else cell_yield / total
+
+
+@point
+def strain_bodies_across(j, i, own, cell_yield, change, void, skin, p, bulk, models, vof, pm, km, q, mix):
+    """Strains the bodies of a cut cell across its surface; returns p_c at the end of the step, Pa (`meet_traction`).
+
+    A body that flows does so at the stress that it has, which may be above its yield stress by its rate.
+
+    Updates  mix [j, TRIAL_RR to TRIAL_RZ, m]
+    """
+    for m in range(vof.shape[0]):
+        flow = mix[j, YIELD, m] if own else cell_yield
+        if flow > 0.0:
+            flow = max(flow, von_mises(q[SRR, m, j, i], q[SZZ, m, j, i], q[SRZ, m, j, i]))
+        mix[j, FLOW, m] = flow
+    target = meet_traction(j, i, change, void, skin, p, bulk, vof, pm, km, mix)
+    n_r, n_z, weight = skin[NORMAL_R, j, i], skin[NORMAL_Z, j, i], surface_weight(j, i, skin)
+    for m in range(vof.shape[0]):
+        if vof[m, j, i] > 0.0 and models[m, STRENGTH] != 0:
+            strained = 2.0 * mix[j, MODULUS, m] * mix[j, ACROSS, m]
+            mix[j, TRIAL_RR, m] += strained * (n_r * n_r - weight / 3.0)
+            mix[j, TRIAL_ZZ, m] += strained * (n_z * n_z - weight / 3.0)
+            mix[j, TRIAL_RZ, m] += strained * n_r * n_z
+    return target
 
 
 @point
@@ -387,8 +457,8 @@ def fill_cell(j, i, change, volume, total, inverse, mean_p, work_p, work_q, rise
 
 @kernel
 def deform_mixed(j0, j1, dt, relaxation, tipton, mode, hard, hard_threshold, metrics, dz, mixed_count, mixed, group,
-                 contact_columns, cell_mass, models, materials, u0, v0, u, v, fr, fz, ph, qr, qz, hg_coefficient, solid, pm, km,
-                 tm, vof, q, mix, motion, internal):
+                 contact_columns, cell_mass, models, materials, u0, v0, u, v, fr, fz, ph, qr, qz, hg_coefficient, skin, p, bulk,
+                 solid, pm, km, tm, vof, q, mix, motion, internal):
     """The Lagrangian step of the bodies in mixed cells.
 
     Volume: void first, then by compressibility, w_m = R_m/Rbar with R_m = f_m/K_m, then relaxation of the pressures,
@@ -401,7 +471,7 @@ def deform_mixed(j0, j1, dt, relaxation, tipton, mode, hard, hard_threshold, met
     Reads    velocities, swept volumes, stresses as `deform`; ph, qr, qz, solid [j, i]; contact_columns [j, 2];
              cell_mass [b, j, i]; group, hard [m]
     Updates  vof [m, j, i] (share of the volume after the step), q [k, m, j, i]
-    Scratch  mix [j, 7, m] (rows SOFT to MODULUS), motion [j, b, 10], internal [j, k]
+    Scratch  mix [j, 14, m] (rows SOFT to NORMAL), motion [j, b, 10], internal [j, k]
     """
     groups = cell_mass.shape[0]
     blocks = number_of_blocks(j0, j1)
@@ -426,11 +496,22 @@ def deform_mixed(j0, j1, dt, relaxation, tipton, mode, hard, hard_threshold, met
                 total, meet = solid[j, i], held > 1
                 dominant = dominant_body(j, i, hard, hard_threshold, vof)
                 inverse, mean_p = soften(j, i, tipton, vof, pm, km, mix)
+                for m in range(vof.shape[0]):
+                    mix[j, NORMAL, m] = normal_deviator(m, j, i, skin, q) if vof[m, j, i] > 0.0 else 0.0
+                cut, own = skin[KIND, j, i] != BONDED, mode == MATERIAL or dominant >= 0 or meet
+                target = 0.0
                 work_of_deviators(j, i, dt, dominant, total, stress_scale(mode == SOLID, total), group, motion, vof, q, mix)
-                cell_yield = strain_deviators(j, i, dt / volume, mode, total, group, models, materials, pm, tm, motion, vof, q,
-                                              mix, internal)
-                return_deviators(j, i, dt, mode == MATERIAL or dominant >= 0 or meet, cell_yield, dominant, volume, total,
-                                 models, materials, pm, tm, vof, q, mix, internal)
+                cell_yield = strain_deviators(j, i, dt / volume, mode, total, skin, group, models, materials, pm, tm, motion,
+                                              vof, q, mix, internal)
+                if cut:
+                    target = strain_bodies_across(j, i, own, cell_yield, change / volume, max(1.0 - total, 0.0), skin, p, bulk,
+                                                  models, vof, pm, km, q, mix)
+                return_deviators(j, i, dt, own, cell_yield, dominant, volume, total, models, materials, pm, tm, vof, q, mix,
+                                 internal)
+                if cut:
+                    fill_cut_cell(j, i, change, volume, target, work_p + work_q + filter_work(j, i, motion, cell_mass), vof,
+                                  pm, q, mix)
+                    continue
                 rise = 0.0 if meet else pressure_rise(j, i, 1.0 - total, ph[j, i], vof, pm)
                 fill_cell(j, i, change, volume, total, inverse, mean_p, work_p, work_q, rise, relaxation, tipton, meet, group,
                           motion, cell_mass, materials, pm, km, vof, q, mix)

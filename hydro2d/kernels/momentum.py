@@ -7,10 +7,13 @@ from hydro2d.kernels.column_ranges import block_rows, copy_beside, number_of_blo
 from hydro2d.mesh.fields import E
 from hydro2d.mesh.grid import CM_IN, CM_OUT, GHOSTS
 from hydro2d.physics.advection import TINY, upwind
+from hydro2d.physics.traction import smoothstep
 
 #: advection by name, in the order of the integer that the kernels take
 ADVECTIONS = ("momentum", "ke", "both")
 MOMENTUM, KE, BOTH = range(3)
+#: mass of a vertex, over the largest beside it, below which its velocity shapes no slope
+SLIGHT = 1e-4
 
 
 @rowwise
@@ -19,7 +22,7 @@ def dual_row(g, dj, di, j, i0, i1, slot, metrics, group_ranges, flux_mass, mass,
 
     r-sweep: Phi = cm_out (F_left) + cm_in (F_right) of the column between, summed over the two rows beside the vertex;
     z-sweep: the column's share of the vertex times (F_bottom + F_top). With these the dual masses after the sweep are again
-    the corner sums of the cell masses (explanation/remap, equation 6).
+    the corner sums of the cell masses (explanation/remap, equation 6). Of second order where no vertex is next to massless.
 
     Reads    flux_mass, mass [b, j, i], w = (u, v) [c, b, j, i]
     Writes   dual [k, slot, i]: mass, radial and axial momentum, and kinetic energy of each component
@@ -40,11 +43,17 @@ def dual_row(g, dj, di, j, i0, i1, slot, metrics, group_ranges, flux_mass, mass,
             above = flux_mass[g, j + 1, lo - 1:hi]
             for x in range(n):
                 flow[x] = inner[x] * (here[x + 1] + above[x + 1]) + outer[x] * (here[x] + above[x])
+        m_ll = mass[g, j - dj, lo - di:hi - di]
         m_l = mass[g, j, lo:hi]
         m_r = mass[g, j + dj, lo + di:hi + di]
+        m_rr = mass[g, j + 2 * dj, lo + 2 * di:hi + 2 * di]
         for x in range(n):
-            whole = max(m_l[x], TINY) if flow[x] > 0.0 else max(m_r[x], TINY)
-            half[x] = 0.5 * (1.0 - min(abs(flow[x]) / whole, 1.0))
+            up = flow[x] > 0.0
+            whole = max(m_l[x], TINY) if up else max(m_r[x], TINY)
+            behind = m_ll[x] if up else m_rr[x]
+            least, most = min(behind, min(m_l[x], m_r[x])), max(behind, max(m_l[x], m_r[x]))
+            there = smoothstep(least / (SLIGHT * max(most, TINY)))
+            half[x] = 0.5 * there * (1.0 - min(abs(flow[x]) / whole, 1.0))
         for c in range(2):
             a_ll = w[c, g, j - dj, lo - di:hi - di]
             a_l = w[c, g, j, lo:hi]

@@ -13,17 +13,22 @@ from hydro2d.kernels.interfaces import flux_range
 from hydro2d.mesh.fields import BLOCK, DMG, LEAST, MOST, PER_MASS, RHO, SRR, SRZ, E
 from hydro2d.mesh.grid import CM_IN, CM_OUT
 from hydro2d.physics.advection import TINY, upwind
+from hydro2d.physics.traction import smoothstep
 
 #: from this share of its upper bound on a field is at it: the mean of ones is one less round-off, which must heal nothing
 FULL = 1.0 - 1e-6
+#: a body's slopes count in full where it fills the cells around, not at all where one of them is filled by less than this
+FILLED = 0.9
 
 
 @rowwise
 def flux_row(dj, di, j, i0, i1, m, carried, rules, slot, b, body_ranges, pre, flux_volume, vof, q, scratch, flux):
     """Fluxes of what body m carries through the faces of row j.
 
-    Second order, monotone, in cells whose neighbours are full of the same body; the donor's own value in and next to mixed
-    cells. Specific quantities in the mass coordinate, deviators in the volume coordinate (explanation/remap, equation 4).
+    Second order, monotone, in cells whose neighbours are full of the same body; the donor's own value in and next to cells
+    filled by less than FILLED, and less and less of the slope towards that. Specific quantities in the mass coordinate,
+    deviators in the volume coordinate (explanation/remap, equation 4), both of the body alone: it leaves no cell with more than
+    it has there.
 
     Reads    pre (pre-sweep volume) [j, i]; flux_volume, vof [m, j, i]; q [k, m, j, i]
     Writes   flux [k, m, slot, i]
@@ -49,9 +54,9 @@ def flux_row(dj, di, j, i0, i1, m, carried, rules, slot, b, body_ranges, pre, fl
             up = swept[x] > 0.0
             both = min(f_l[x], f_r[x])
             least = min(both, f_ll[x]) if up else min(both, f_rr[x])
-            clean = 0.5 if least == 1.0 else 0.0
+            clean = 0.5 * smoothstep((least - FILLED) / (1.0 - FILLED))
             donor, slope = upwind(up, r_ll[x], r_l[x], r_r[x], r_rr[x])
-            volume = max(pre_l[x], TINY) if up else max(pre_r[x], TINY)
+            volume = max(f_l[x] * pre_l[x] if up else f_r[x] * pre_r[x], TINY)
             half_v[x] = clean * (1.0 - abs(swept[x]) / volume)
             flow = swept[x] * (donor + half_v[x] * slope)
             half_m[x] = clean * (1.0 - abs(flow) / max(volume * donor, TINY))

@@ -10,7 +10,7 @@ from hydro2d.mesh.fields import DMG, EP, RHO, SRR, SRZ, SZZ, E
 from hydro2d.mesh.grid import VOL_R
 from hydro2d.physics.fracture import share_that_stays, tension_limit
 from hydro2d.physics.kinematics import volume_loss
-from hydro2d.physics.viscosity import directional_viscosity, smoothness
+from hydro2d.physics.viscosity import directional_viscosity, shut, smoothness
 from hydro2d.physics.waves import step_limits
 from strength.dispatch import feels_temperature, modulus_row
 
@@ -179,15 +179,16 @@ def row_minimum(a, first, number):
 
 @rowwise
 def viscosity_row(j, b, linear, quadratic, courant, advective, mesh_speed, hourglass, dr, dz, metrics, active_range, u, v,
-                  rhobar, bulk, cl, qr, qz, hg_coefficient, row_step, bad, scratch):
+                  rhobar, bulk, solid, cl, qr, qz, hg_coefficient, row_step, bad, scratch):
     """Artificial viscosity direction by direction, and the time step that every cell allows.
 
     q_r answers only to the radial difference du, q_z only to the axial one (a shock along z must not see dr), and neither to
     more than the loss of volume, |div u| dx: at a stagnation point, where one direction gives what the other takes, there is
-    no shock and no q. Christensen's limiter switches both off where the velocity is smooth. dt <= courant min(dr,
+    no shock and no q. Christensen's limiter switches both off where the velocity is smooth, and void, which shuts before
+    anything is compressed, where there is more than a little of it (`shut`). dt <= courant min(dr,
     dz)/sqrt(c_l^2 + 2 q/rho), |u| dt <= advective dx, |div u| dt <= 0.2 in compression (explanation/lagrangian-step).
 
-    Reads    u, v [b, j, i]; rhobar, bulk, cl [j, i]
+    Reads    u, v [b, j, i]; rhobar, bulk, solid, cl [j, i]
     Writes   qr, qz [j, i]; hg_coefficient [j, i], coefficient of the hourglass filter, kg/s; row_step [j], the least of a row;
              bad [j, 3] velocities that are not finite
     Scratch  scratch [s, b, i]
@@ -204,6 +205,7 @@ def viscosity_row(j, b, linear, quadratic, courant, advective, mesh_speed, hourg
     rho_j = rhobar[j]
     cl_j = cl[j]
     bulk_j = bulk[j]
+    solid_j = solid[j]
     step_j = scratch[1, b]
     hg_j = hg_coefficient[j]
     h = dz[j]
@@ -223,8 +225,9 @@ def viscosity_row(j, b, linear, quadratic, courant, advective, mesh_speed, hourg
         loss = volume_loss(i, ub, ut, vb, vt, metrics, h)
         du_q = max(du, -max(loss, 0.0) * dr[i])
         dv_q = max(dv, -max(loss, 0.0) * h)
-        q_r = directional_viscosity(rho, c, du_q, smoothness(du_l, du, du_r), linear, quadratic)
-        q_z = directional_viscosity(rho, c, dv_q, smoothness(dv_b, dv, dv_t), linear, quadratic)
+        full = shut(solid_j[i])
+        q_r = full * directional_viscosity(rho, c, du_q, smoothness(du_l, du, du_r), linear, quadratic)
+        q_z = full * directional_viscosity(rho, c, dv_q, smoothness(dv_b, dv, dv_t), linear, quadratic)
         sound, radial, axial, volume = step_limits(
             i, ub, ut, vb, vt, courant, advective, mesh_speed, dr, h, rho, cl_j[i], max(q_r, q_z), loss)
         hg_j[i] = 0.25 * hourglass * rho_j[i] * cl_j[i] * metrics[VOL_R, i] * h / max(dr[i], h)

@@ -16,15 +16,14 @@ def split_volume(void, change, volume):
 
 
 @point
-def common_pressure(j, i, vof, q, pm, km):
-    """(pressure at which the bodies of a cell would meet, its volume given; density): means by compressibility f/K."""
-    compliance, pressure, density = 0.0, 0.0, 0.0
+def stiff_density(j, i, vof, q, km):
+    """Density of a cell as the mean by compressibility f/K, in which a stiff body counts less (kg/m^3)."""
+    compliance, density = 0.0, 0.0
     for m in range(vof.shape[0]):
         if vof[m, j, i] > 0.0:
             compliance += vof[m, j, i] / km[m, j, i]
-            pressure += vof[m, j, i] / km[m, j, i] * pm[m, j, i]
             density += vof[m, j, i] / km[m, j, i] * q[RHO, m, j, i]
-    return pressure / compliance, density / compliance
+    return density / compliance
 
 
 @point

@@ -98,20 +98,3 @@ def largest_of(g, j, i, group, vof):
         if group[m] == g and vof[m, j, i] > most:
             found, most = m, vof[m, j, i]
     return found
-
-
-@point
-def share_behind(m, dj, di, j, i, more, vof, flux_volume):
-    """Share of body m in the cell from which its volume comes through face (j, i), with `more` of it."""
-    return vof[m, j - dj, i - di] if flux_volume[m, j, i] + more > 0.0 else vof[m, j, i]
-
-
-@point
-def largest_giver(g, dj, di, j, i, more, group, vof, flux_volume):
-    """The body of group g that fills the most of the cell from which its volume comes, with `more` of it; -1 if none does."""
-    found, most = -1, 0.0
-    for m in range(vof.shape[0]):
-        there = share_behind(m, dj, di, j, i, more, vof, flux_volume)
-        if group[m] == g and there > most:
-            found, most = m, there
-    return found

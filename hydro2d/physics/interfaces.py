@@ -8,11 +8,16 @@ stated order bounds their cumulative fraction, void comes last.
 from math import sqrt
 
 from hydro2d.jit import point
+from hydro2d.physics.traction import smoothstep
 
-#: void below this share of a cell is round-off: its interface has no direction
-FULL = 1e-12
-#: an edge is straight along the mesh if its fraction changes by no more from one cell to the next
+#: an edge is straight along the mesh if its fraction changes by less from one cell to the next, in full up to half of it
 STRAIGHT = 0.1
+#: share of void from which a cell may have a corner in full
+ROOM = 0.02
+#: components of the normal, and fractions of the cells beside, from which a corner counts in full
+SLANT, THIN = 0.1, 0.01
+#: misfits that differ by less than this are alike
+ALIKE = 1e-6
 
 
 @point
@@ -32,13 +37,18 @@ def line_constant(m1, m2, fraction):
 
 @point
 def area_below(m1, m2, alpha):
-    """Share of the unit square with m1 x + m2 y <= alpha; m1, m2 >= 0, not both 0."""
+    """Share of the unit square with m1 x + m2 y <= alpha; m1, m2 >= 0, not both 0.
+
+    A triangle, a trapezium, or all but a triangle.
+    """
     small, large = min(m1, m2), max(m1, m2)
-    if small < 1e-7 * large:
-        return min(max((alpha - 0.5 * small) / large, 0.0), 1.0)
     a = min(max(alpha, 0.0), small + large)
-    b, c = max(a - small, 0.0), max(a - large, 0.0)
-    return (a * a - b * b - c * c) / (2.0 * small * large)
+    if a < small:
+        return 0.5 * (a / small) * (a / large)
+    if a <= large:
+        return (a - 0.5 * small) / large
+    rest = small + large - a
+    return 1.0 - 0.5 * (rest / small) * (rest / large)
 
 
 @point
@@ -155,36 +165,59 @@ def corner_size(share, beside_r, beside_z):
 
 
 @point
+def turned(f, back, down):
+    """Fractions of 3 x 3 cells, row by row upwards, as a mirror shows them: with r turned around, with z turned around."""
+    if back:
+        f = (f[2], f[1], f[0], f[5], f[4], f[3], f[8], f[7], f[6])
+    if down:
+        f = (f[6], f[7], f[8], f[3], f[4], f[5], f[0], f[1], f[2])
+    return f
+
+
+@point
+def reversed_if(turn, sizes):
+    """Three sizes, from the last to the first where they are to be turned."""
+    return (sizes[2], sizes[1], sizes[0]) if turn else (sizes[0], sizes[1], sizes[2])
+
+
+@point
 def corner(n_r, n_z, f, beyond, widths, heights):
-    """(width, height) of the corner of a rectangle along the mesh, where it fits the cells around better than a line; or 0, 0.
+    """(width, height) of the corner of a rectangle along the mesh, and its weight, 0 to 1, against the line.
+
+    The weight is above 0 where the corner fits the cells around better than the line does, and 0 wherever another corner would
+    take its place: it changes with all fractions without a jump.
 
     (n_r, n_z) is the line's normal, f, widths and heights are as in `line_misfit`; beyond has the fractions of the cells two
     away: at lower and higher r, at lower and higher z. Both edges of the corner go on straight up to these cells. The
     rectangle lies in the corner of the middle cell away from the signs of the normal. With width and height below 0 it is
     empty, lies towards those signs, and the bodies are what surrounds it.
     """
-    if n_r == 0.0 or n_z == 0.0 or f[4] <= FULL or f[4] >= 1.0 - FULL:
-        return 0.0, 0.0
+    if n_r == 0.0 or n_z == 0.0 or f[4] <= 0.0 or f[4] >= 1.0:
+        return 0.0, 0.0, 0.0
+    back, down = n_r < 0.0, n_z < 0.0
+    f = turned(f, back, down)  # mirror images are added up in the same order: their weights have the same bits
     total = 0.0
     for k in range(9):
         total += f[k]
     empty = 0.0 if total < 4.5 else 1.0  # a rectangle fills at most four cells of the nine
-    low_r, low_z = (n_r > 0.0) == (empty == 0.0), (n_z > 0.0) == (empty == 0.0)
-    along_r, along_z = 3 if low_r else 5, 1 if low_z else 7
-    between = along_r + along_z - 4
+    low = empty == 0.0
+    along_r, along_z, between = (3, 1, 0) if low else (5, 7, 8)
     beside_r, beside_z = abs(empty - f[along_r]), abs(empty - f[along_z])
-    off_r = abs(empty - beyond[0 if low_r else 1]) - beside_r
-    off_z = abs(empty - beyond[2 if low_z else 3]) - beside_z
-    if beside_r == 0.0 or beside_z == 0.0 or abs(off_r) > STRAIGHT or abs(off_z) > STRAIGHT:
-        return 0.0, 0.0
+    off_r = abs(empty - beyond[0 if low != back else 1]) - beside_r
+    off_z = abs(empty - beyond[2 if low != down else 3]) - beside_z
+    weight = smoothstep(2.0 - 2.0 * abs(off_r) / STRAIGHT) * smoothstep(2.0 - 2.0 * abs(off_z) / STRAIGHT)
+    weight *= smoothstep(beside_r / THIN) * smoothstep(beside_z / THIN)
+    weight *= smoothstep(min(abs(n_r), abs(n_z)) / SLANT) * smoothstep(abs(2.0 * total - 9.0))
+    if weight == 0.0:
+        return 0.0, 0.0, 0.0
     width, height = corner_size(abs(empty - f[4]), beside_r, beside_z)
     misfit = (width - beside_z) ** 2 + (height - beside_r) ** 2 + (1.0 - abs(empty - f[between])) ** 2
     for k in range(9):
         if k != 4 and k != along_r and k != along_z and k != between:
             misfit += (empty - f[k]) ** 2
-    if line_misfit(n_r, n_z, f, widths, heights) <= misfit:
-        return 0.0, 0.0
-    return (width, height) if empty == 0.0 else (-width, -height)
+    line = line_misfit(abs(n_r), abs(n_z), f, reversed_if(back, widths), reversed_if(down, heights))
+    weight *= smoothstep(4.0 * (line - misfit) / (line + misfit + ALIKE))
+    return (width, height, weight) if empty == 0.0 else (-width, -height, weight)
 
 
 @point
@@ -194,19 +227,21 @@ def relative_sizes(n, sizes):
 
 
 @point
-def surface(j, i, last, order, vof, dr, dz):
-    """(n_r, n_z, width, height): what bounds the first bodies of the order, up to and with position `last`, in a mixed cell.
+def surface(j, i, last, order, vof, dr, dz, void):
+    """(n_r, n_z, width, height, weight): what bounds the first bodies of the order, up to and with position `last`.
 
-    A line with Youngs' outward normal (n_r, n_z), and width and height are 0; or a `corner`, in cells that have void.
+    A line with Youngs' outward normal (n_r, n_z) and a `corner`, which has no weight in cells without void: void is the share
+    of a mixed cell that is none of the bodies.
     """
     f = fractions_around(j, i, last, order, vof)
     n_r, n_z = youngs_normal(j, i, f, dr, dz)
-    if n_r == 0.0 or n_z == 0.0 or cumulative(j, i, order.shape[0] - 1, order, vof) >= 1.0 - FULL:
-        return n_r, n_z, 0.0, 0.0
+    room = smoothstep(void / ROOM)
+    if room == 0.0:
+        return n_r, n_z, 0.0, 0.0, 0.0
     beyond = (cumulative(j, i - 2, last, order, vof), cumulative(j, i + 2, last, order, vof),
               cumulative(j - 2, i, last, order, vof), cumulative(j + 2, i, last, order, vof))
-    width, height = corner(n_r, n_z, f, beyond, relative_sizes(i, dr), relative_sizes(j, dz))
-    return n_r, n_z, width, height
+    width, height, weight = corner(n_r, n_z, f, beyond, relative_sizes(i, dr), relative_sizes(j, dz))
+    return n_r, n_z, width, height, weight * room
 
 
 @point
@@ -224,8 +259,9 @@ def covered(strip, width, same):
 
 
 @point
-def share_in_strip(n_x, n_y, width, height, fraction, strip, high):
-    """What lies in the strip of given width at the low or high x side of the unit square: of a line or of a corner."""
-    if width != 0.0:
-        return corner_strip(n_x, width, height, strip, high)
-    return strip_share(n_x, n_y, fraction, strip, high)
+def share_in_strip(n_x, n_y, width, height, weight, fraction, strip, high):
+    """What lies in the strip of given width at the low or high x side of the unit square: of a corner by weight, and a line."""
+    line = strip_share(n_x, n_y, fraction, strip, high)
+    if weight == 0.0:
+        return line
+    return weight * corner_strip(n_x, width, height, strip, high) + (1.0 - weight) * line

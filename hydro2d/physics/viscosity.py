@@ -1,6 +1,10 @@
 """Artificial viscosity."""
 
 from hydro2d.jit import point
+from hydro2d.physics.traction import smoothstep
+
+#: share of solids in a cell up to which void takes the compression, and nothing is shocked
+OPEN = 0.99
 
 
 @point
@@ -19,3 +23,9 @@ def directional_viscosity(rho, c, du, psi, linear, quadratic):
     """q = (1 - psi) rho (c2 du^2 + c1 c |du|) against a compression du < 0; von Neumann-Richtmyer with Landshoff's term."""
     jump = max(-du, 0.0)
     return (1.0 - psi) * rho * jump * (quadratic * jump + linear * c)
+
+
+@point
+def shut(solids):
+    """Share of the viscosity that a cell with void has: all without, none from a hundredth of void on, which shuts first."""
+    return smoothstep((solids - OPEN) / (1.0 - OPEN))

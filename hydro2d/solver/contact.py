@@ -4,9 +4,40 @@ from __future__ import annotations
 
 import numpy as np
 
-from hydro2d.kernels import contact_geometry, contact_motion, contact_velocities, contact_volumes, mixed, momentum
+from hydro2d.kernels import contact_geometry, contact_motion, contact_velocities, contact_volumes, extension, mixed, momentum
 from hydro2d.solver.audit import Audit
 from hydro2d.solver.method import Method
+
+
+class Slots:
+    """What contact keeps of every contact node, in slots: the nodes of row j have those from first_slot[j] on.
+
+    The arrays grow with the number of nodes, and nothing in them outlives a step.
+    """
+
+    def __init__(self, number: int = 0):
+        self.number = number
+        self.strength = np.zeros((number, 2))
+        self.masters = np.zeros((number, 2), dtype=np.int64)
+        self.where = np.zeros((number, 2, extension.MASTERS + 1), dtype=np.int64)
+        self.weights = np.zeros((number, 2, extension.MASTERS + 1))
+        self.scratch = np.zeros((10, number, 2))
+        self.taken = np.zeros((2, number, 2))
+        self.rubbing = np.zeros((3, number))
+
+    def ties(self) -> tuple[np.ndarray, ...]:
+        """How firmly nodes are tied, to how many masters, to which and with what weights (`find_extensions`)."""
+        return self.strength, self.masters, self.where, self.weights
+
+
+def most_squares(table, courant: float) -> float:
+    """Largest sum of the squares of an extension's weights that the time step allows (explanation/sliding, equation 7).
+
+    A cell with the modulus K of the stiffest body that pushes a slave whose masters have the density rho of the lightest
+    swings with omega^2 = (K/rho) sum N^2/h^2; omega dt <= 2 with dt = courant h/c of the fastest.
+    """
+    speeds = table.sound_speeds()
+    return max(4.0 * table.rho0.min() * speeds.max() ** 2 / ((table.rho0 * speeds**2).max() * courant**2), 1.0)
 
 
 class Contact:
@@ -18,16 +49,26 @@ class Contact:
     ----------
     state : State, with two groups
     method : Method
-    edges, still : int64 arrays [4]
+    mesh_box, constrained : int64 arrays [4]
         The cells of the mesh, and the vertices that walls and the axis hold, as `Cycle` has them.
+    table : MaterialTable
     """
 
-    def __init__(self, state, method: Method, mesh_box: np.ndarray, constrained: np.ndarray):
+    def __init__(self, state, method: Method, mesh_box: np.ndarray, constrained: np.ndarray, table):
         self.state, self.grid, self.method, self.mesh_box, self.constrained = state, state.grid, method, mesh_box, constrained
+        self.most_squares, self.slots = most_squares(table, method.courant), Slots()
         order = method.interface_order
         own = state.group[order]
         self.soft_first, self.hard_first = (
             np.array([*order[own == b], *order[own != b]], dtype=np.int64) for b in range(2))
+
+    def _number_nodes(self, j0: int, j1: int) -> None:
+        """The slot of every row's first contact node."""
+        s = self.state
+        np.cumsum(s.contact_node_count[j0:j1 + 1], out=s.first_slot[j0 + 1:j1 + 2])
+        s.first_slot[j0] = 0
+        if (needed := int(s.first_slot[j1 + 1])) > self.slots.number:
+            self.slots = Slots(2 * needed)
 
     def find(self, box: list[int]) -> None:
         """Where the groups meet: face apertures, normals, slave nodes; volume rate and viscosity of contact-interface cells.
@@ -37,36 +78,39 @@ class Contact:
         s, g, method, (j0, j1, i0, i1) = self.state, self.grid, self.method, box
         contact_geometry.find_contact_nodes(j0, j1, self.mesh_box, s.group_ranges, s.mass, s.group, s.vof, s.contact_node_count,
                                             s.contact_nodes, s.hard, s.soft, s.heat, s.warmed)
+        self._number_nodes(j0, j1)
         contact_geometry.contact_lines(j0, j1, i0, i1, self.mesh_box, g.dr, g.dz, s.contact_node_count, s.contact_nodes,
                                        s.hard, s.soft, s.contact_columns, s.line)
         contact_geometry.face_apertures(j0, j1, self.mesh_box, self.constrained, s.contact_columns, s.line, s.hard, s.soft,
                                         s.mass, s.contact_node_count, s.contact_nodes, s.aperture_r, s.aperture_z,
                                         s.contact_normal, s.touch)
-        contact_geometry.find_masters(j0, j1, self.mesh_box, g.volume, g.metrics, s.contact_node_count, s.contact_nodes,
-                                      s.contact_normal, s.hard, s.soft, s.mass, s.group, s.vof, s.dmg, s.masters)
+        extension.find_extensions(j0, j1, self.mesh_box, self.most_squares, g.volume, g.metrics, g.r, g.z, s.contact_node_count,
+                                  s.contact_nodes, s.first_slot, s.contact_normal, s.hard, s.soft, s.mass, s.group, s.vof,
+                                  s.dmg, *self.slots.ties())
         contact_motion.contact_viscosity(
             j0, j1, self.mesh_box, method.viscosity_linear, method.viscosity_quadratic, method.courant, g.dr, g.dz, g.metrics,
             s.contact_columns, s.line, s.group_ranges, s.contact_normal, s.aperture_r, s.aperture_z, s.hard, s.soft, s.u, s.v,
-            s.cl, s.rhobar, s.vof, s.q, s.pm, s.km, s.p, s.solid, s.bulk, s.qr, s.qz, s.rate, s.row_step, s.mixed_count,
+            s.cl, s.rhobar, s.vof, s.q, s.km, s.skin, s.p, s.solid, s.bulk, s.qr, s.qz, s.rate, s.row_step, s.mixed_count,
             s.mixed, s.kinds)
 
     def stress(self, j0: int, j1: int, dt: float) -> None:
         """Total stress of the contact-interface cells, and the pressure of the contact."""
         s = self.state
-        contact_motion.contact_stress(j0, j1, dt, s.contact_columns, s.group_ranges, s.line, s.hard, s.soft, s.rate, s.p,
-                                      s.bulk, s.ph, s.sig_rr, s.sig_zz, s.sig_tt, s.sig_rz, s.contact_pressure)
+        contact_motion.contact_stress(j0, j1, dt, s.contact_columns, s.group_ranges, s.line, s.hard, s.soft, s.rate, s.skin,
+                                      s.p, s.bulk, s.solid, s.ph, s.sig_rr, s.sig_zz, s.sig_tt, s.sig_rz, s.contact_pressure)
 
     def meet(self, j0: int, j1: int, dt: float, audit: Audit) -> None:
         """Velocities of both groups at contact nodes: forces, slave nodes, contact and friction."""
         s, g, method = self.state, self.grid, self.method
         contact_motion.contact_node_forces(
             j0, j1, dt, s.group, method.mixed_strength == mixed.SOLID, g.metrics, g.dz, self.constrained, s.contact_node_count,
-            s.contact_nodes, s.aperture_r, s.aperture_z, s.ph, s.qr, s.solid, s.vof, s.q, s.hg_coefficient, s.cell_mass, s.mass,
-            s.u0, s.v0, s.u, s.v, s.transfer)
+            s.contact_nodes, s.aperture_r, s.aperture_z, s.ph, s.qr, s.solid, s.skin, s.vof, s.q, s.hg_coefficient, s.cell_mass,
+            s.mass, s.u0, s.v0, s.u, s.v, s.transfer)
+        slots = self.slots
         contact_velocities.settle(
-            j0, j1, dt, method.friction, self.constrained, g.r, g.z, g.metrics, g.dz, s.contact_columns, s.line,
-            s.contact_node_count, s.contact_nodes, s.contact_normal, s.touch, s.masters, s.sig_rr, s.sig_zz, s.sig_rz, s.mass,
-            s.u0, s.v0, s.u, s.v, s.master_weights, s.ease, s.taken, s.impulse, s.heat, s.transfer)
+            j0, j1, dt, method.friction, self.constrained, g.metrics, g.dz, s.contact_columns, s.line, s.contact_node_count,
+            s.contact_nodes, s.first_slot, s.contact_normal, s.touch, *slots.ties(), s.warmed, s.sig_rr, s.sig_zz, s.sig_rz,
+            s.mass, s.u0, s.v0, s.u, s.v, slots.scratch, s.gain, slots.taken, slots.rubbing, s.heat, s.transfer)
         pushed, *heats, walls = s.transfer[:, j0:j1 + 1].sum(axis=1)
         audit.add("walls", momentum=float(walls))
         audit.transfer("contact", momentum=float(pushed), energy=float(heats[0]))
@@ -81,8 +125,10 @@ class Contact:
     def volumes(self, j0: int, j1: int, dt: float) -> None:
         """Volumes that faces of contact-interface cells sweep, and each group's own; the work that they do in pure cells."""
         s, g = self.state, self.grid
+        contact_volumes.even_out(j0, j1, s.contact_columns, g.volume, s.skin, s.bulk, s.ph, s.qr, s.even_r, s.even_z)
+        contact_volumes.warm_evened(j0, j1, s.contact_columns, g.volume, s.ph, s.qr, s.even_r, s.even_z, s.vof, s.q)
         contact_volumes.contact_swept_volumes(j0, j1, dt, g.metrics, g.dz, s.contact_columns, s.aperture_r, s.aperture_z, s.u0,
-                                              s.v0, s.u, s.v, s.fr, s.fz, s.own_r, s.own_z)
+                                              s.v0, s.u, s.v, s.even_r, s.even_z, s.fr, s.fz, s.own_r, s.own_z)
         contact_volumes.contact_work(j0, j1, dt, g.metrics, g.dz, s.contact_columns, s.group, s.aperture_r, s.aperture_z, s.ph,
                                      s.qr, s.u0, s.v0, s.u, s.v, s.fr, s.fz, s.cell_mass, s.vof, s.q)
 

@@ -13,6 +13,7 @@ from hydro2d.kernels import (
     acceleration,
     boundaries,
     column_ranges,
+    cut_cells,
     deformation,
     interfaces,
     mixed,
@@ -65,7 +66,7 @@ class Cycle:
         self.transmitting = np.where(method.boundaries.having("transmits"), at, -1)
         self.void_only = self._edges_with_void_beyond()
         self.carried = np.array([self._carried(m) for m in range(state.bodies)])
-        self.contact = Contact(state, method, self.mesh_box, self.constrained) if state.groups > 1 else None
+        self.contact = Contact(state, method, self.mesh_box, self.constrained, table) if state.groups > 1 else None
         self.box = list(self.mesh_box)
         self.audit: Audit | None = None
         self.speed_limit = 0.0
@@ -254,11 +255,13 @@ class Cycle:
     def close_cells(self) -> None:
         """Pressure and sound speed of every body, void where a cell fractures, artificial viscosity, the step a cell allows."""
         s, g, method, (j0, j1, _, _) = self.state, self.grid, self.method, self.box
+        cut_cells.find_surfaces(*self.box, self.mesh_box, g.dr, g.dz, s.group, method.hard, method.threshold, s.mixed_count,
+                                s.mixed, s.vof, s.skin)
         mixed.close_cells(
             j0, j1, method.max_opening, method.smallest_tension, method.viscosity_linear, method.viscosity_quadratic,
             method.courant, method.advective_courant, self.mesh.velocity, method.hourglass, g.metrics, g.dr, g.dz, s.body_range,
-            s.active_range, s.mixed_count, s.mixed, s.group, self.models, self.materials, s.u, s.v, s.vof, s.q, s.pm, s.km,
-            s.tm, s.p, s.bulk, s.rhobar, s.solid, s.cl, s.qr, s.qz, s.hg_coefficient, s.opened, s.row_step, s.bad, s.scratch)
+            s.active_range, s.mixed_count, s.mixed, self.models, self.materials, s.u, s.v, s.vof, s.q, s.pm, s.km, s.tm, s.skin,
+            s.p, s.bulk, s.rhobar, s.solid, s.cl, s.qr, s.qz, s.hg_coefficient, s.opened, s.row_step, s.bad, s.scratch)
         if self.contact:
             self.contact.find(self.box)
         thermodynamics.least_step(j0, j1, s.row_step, s.bad, s.least_row)
@@ -303,8 +306,8 @@ class Cycle:
         s, g, method, (j0, j1, _, _) = self.state, self.grid, self.method, self.box
         acceleration.total_stress(
             j0, j1, self.dt, g.metrics, g.dz, s.body_range, s.active_range, s.mixed_count, s.mixed,
-            method.mixed_strength == mixed.SOLID, method.hard, method.threshold, s.u, s.v, s.vof, s.q, s.p, s.bulk, s.solid,
-            s.qr, s.qz, s.ph, s.sig_rr, s.sig_zz, s.sig_tt, s.sig_rz)
+            method.mixed_strength == mixed.SOLID, method.hard, method.threshold, s.u, s.v, s.vof, s.q, s.skin, s.p, s.bulk,
+            s.solid, s.qr, s.qz, s.ph, s.sig_rr, s.sig_zz, s.sig_tt, s.sig_rz)
         if self.contact:
             self.contact.stress(j0, j1, self.dt)
 
@@ -343,8 +346,8 @@ class Cycle:
         mixed.deform_mixed(
             j0, j1, self.dt, method.relaxation, method.tipton, method.mixed_strength, method.hard, method.threshold, g.metrics,
             g.dz, s.mixed_count, s.mixed, s.group, s.contact_columns, s.cell_mass, self.models, self.materials, s.u0, s.v0, s.u,
-            s.v, s.fr, s.fz, s.ph, s.qr, s.qz, s.hg_coefficient, s.solid, s.pm, s.km, s.tm, s.vof, s.q, s.mix, s.motion,
-            s.internal)
+            s.v, s.fr, s.fz, s.ph, s.qr, s.qz, s.hg_coefficient, s.skin, s.p, s.bulk, s.solid, s.pm, s.km, s.tm, s.vof, s.q,
+            s.mix, s.motion, s.internal)
         if self.contact:
             self.contact.warm(j0, j1)
         if method.slip_widths is not None:

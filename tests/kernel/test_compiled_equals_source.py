@@ -101,9 +101,10 @@ def test_kernels_do_what_their_source_says(monkeypatch, advection, sliding):
     for _ in range(4):
         simulation.step()
     simulation.refuse_nonsense()
-    other = "sliding" if "contact" in sliding else "contact"  # the treatment that the deck does not have
-    unused = {name for module, name, _ in kernels if module.__name__.startswith(f"hydro2d.kernels.{other}")} | {"triad"}
-    if advection != "both" and other == "contact":
+    others = ("sliding",) if "contact" in sliding else ("contact", "extension")  # the treatment that the deck does not have
+    prefixes = tuple(f"hydro2d.kernels.{other}" for other in others)
+    unused = {name for module, name, _ in kernels if module.__name__.startswith(prefixes)} | {"triad"}
+    if advection != "both" and "contact" in others:
         unused.add("deposit")
     if follows:
         unused |= {"moving_columns", "moving_box"}  # a mesh that travels skips no cells

@@ -3,31 +3,60 @@
 import numpy as np
 import pytest
 
+from hydro2d.kernels import contact_volumes
 from hydro2d.kernels.contact_geometry import FIRST
-from hydro2d.kernels.contact_volumes import contact_fluxes
+from hydro2d.kernels.contact_volumes import OTHERS, contact_fluxes, contact_shares
+from hydro2d.physics.contact import GAP
+from tests.physics.continuity import changes_in_proportion, largest_jump
+
+strip_of, take = contact_volumes.strip_of.py_func, contact_volumes.take.py_func
 
 #: rows and columns, the row and the column of the cell that volume leaves to the left
 SHAPE, ROW, GIVER = (7, 10), 3, 5
 
 
-def flux(hard: float, soft: float, swept: float) -> tuple[float, float]:
+GROUP = np.array([1, 0], dtype=np.int64)
+MESH_BOX = np.array([2, SHAPE[0] - 2, 2, SHAPE[1] - 2], dtype=np.int64)
+COLUMNS = np.tile(np.array([GIVER - 1, GIVER + 2], dtype=np.int64), (SHAPE[0], 1))
+
+
+def fluxes(vof, face: float, own: tuple[float, float], part=None, size=None) -> tuple[float, float]:
     """Volumes of the hard and the soft body through the left face of the giver, per volume of a cell.
 
-    Left of the giver all is hard, right of it soft; the nested interfaces begin with the soft body.
+    own are the volumes that the face sweeps with the velocities of the soft and of the hard body; the nested interfaces begin
+    with the soft body.
     """
+    line, result = np.zeros((9, *SHAPE)), np.zeros((2, *SHAPE))
+    line[FIRST] = 0.0
+    first = [np.array(order, dtype=np.int64) for order in ((0, 1), (1, 0))]
+    swept = np.array(own)[:, None, None] * np.ones(SHAPE)
+    contact_fluxes(0, 1, ROW, ROW + 1, MESH_BOX, np.ones(SHAPE[1]), np.ones(SHAPE[0]), *first, GROUP, COLUMNS, line,
+                   np.full(SHAPE, face), swept, vof.copy() if part is None else part, np.ones(SHAPE) if size is None else size,
+                   vof, result)
+    return tuple(result[:, ROW, GIVER])
+
+
+def upright(hard: float, soft: float, beside: float = 1.0):
+    """Fractions: left of the giver all is hard, or as much as is beside the giver, right of it soft."""
     vof = np.zeros((2, *SHAPE))
     vof[0, :, :GIVER] = 1.0
+    vof[0, ROW, GIVER - 1] = beside
     vof[1, :, GIVER + 1:] = 1.0
     vof[:, :, GIVER] = np.array([hard, soft])[:, None]
-    line = np.zeros((9, *SHAPE))
-    line[FIRST] = 0.0
-    face, own, result = np.full(SHAPE, swept), np.full((2, *SHAPE), swept), np.zeros((2, *SHAPE))
-    first = [np.array(order, dtype=np.int64) for order in ((0, 1), (1, 0))]
-    contact_columns = np.tile(np.array([GIVER - 1, GIVER + 2], dtype=np.int64), (SHAPE[0], 1))
-    mesh_box = np.array([2, SHAPE[0] - 2, 2, SHAPE[1] - 2], dtype=np.int64)
-    contact_fluxes(0, 1, ROW, ROW + 1, mesh_box, np.ones(SHAPE[1]), np.ones(SHAPE[0]), *first, np.array([1, 0], dtype=np.int64),
-                   contact_columns, line, face, own, vof.copy(), np.ones(SHAPE), vof, result)
-    return tuple(result[:, ROW, GIVER])
+    return vof
+
+
+def oblique(hard: float, soft: float):
+    """As `upright`, but below the giver all is hard, and above it soft: both are at its left face."""
+    vof = upright(hard, soft)
+    vof[:, :ROW, GIVER] = np.array([1.0, 0.0])[:, None]
+    vof[:, ROW + 1:, GIVER] = np.array([0.0, 1.0])[:, None]
+    return vof
+
+
+def flux(hard: float, soft: float, swept: float) -> tuple[float, float]:
+    """`fluxes` of upright bodies that move alike."""
+    return fluxes(upright(hard, soft), swept, (swept, swept))
 
 
 def test_a_full_cell_takes_its_own_body_from_a_cell_with_a_gap():
@@ -42,3 +71,126 @@ def test_it_takes_no_more_than_there_is():
 
 def test_without_void_all_that_is_swept_is_body():
     assert sum(flux(0.4, 0.6, -0.01)) == pytest.approx(-0.01, abs=1e-15)
+
+
+# ------------------------------------------------------------------------------------------- what must not jump
+
+
+@pytest.mark.parametrize("swept", [-0.01, -0.02])
+def test_who_takes_the_rest_does_not_hang_on_a_sign(swept):
+    """The soft body would come from where there is none as soon as the face sweeps more than the hard body does."""
+    vof = oblique(0.1, 0.9)
+    assert fluxes(vof, 0.01, (swept, 0.01)) == pytest.approx((0.01, 0.0), abs=1e-15)
+    changes_in_proportion(lambda face: fluxes(vof, face, (swept, 0.01)), 0.01, 1.0)
+    for face in (0.008, 0.01, 0.012):
+        assert sum(fluxes(vof, face, (swept, 0.01))) == pytest.approx(face, abs=1e-15)
+
+
+@pytest.mark.parametrize("face", [0.008, 0.012])
+def test_a_crumb_takes_no_more_than_it_is(face):
+    """A crumb of the soft body in the cell from which the rest comes: the hard one gives the rest."""
+    def with_crumb(share):
+        vof = oblique(0.1, 0.9)
+        vof[:, ROW, GIVER - 1] = 1.0 - share, share
+        return fluxes(vof, face, (-0.01, 0.01))
+
+    changes_in_proportion(with_crumb, 0.0, 3.0, sides=(1.0,))
+    assert with_crumb(1e-4)[1] < 1.01e-4
+    assert sum(with_crumb(1e-4)) == pytest.approx(face, abs=1e-15)
+
+
+@pytest.mark.parametrize("own", [-0.008, -0.012])
+def test_bodies_make_up_for_what_the_void_cannot_give(own):
+    """A cell that is full and one with a little void give the same but for that void."""
+    def with_void(void):
+        return fluxes(upright(0.3, 0.7 - void), -0.01, (own, own))
+
+    assert sum(with_void(0.0)) == pytest.approx(-0.01, abs=1e-15)
+    assert abs(sum(with_void(1e-3)) + 0.01) < 1.001e-3
+    for void in (0.0, 1e-12):
+        changes_in_proportion(with_void, void, 3.0, sides=(1.0,))
+    assert largest_jump(with_void, 0.0, 0.05) < 1e-11
+
+
+@pytest.mark.parametrize("share", [0.5, 1.0, 1.5])
+def test_a_full_cell_takes_its_own_body_more_and_more_as_the_gap_opens(share):
+    def with_gap(void):
+        return fluxes(upright(0.3, 0.7 - void), -0.05, (-0.05, -0.05))
+
+    changes_in_proportion(with_gap, share * GAP, 10.0)
+
+
+@pytest.mark.parametrize("share", [1.0, 1.0 - OTHERS])
+def test_a_cell_is_full_by_degrees(share):
+    changes_in_proportion(lambda beside: fluxes(upright(0.3, 0.6, beside), -0.01, (-0.01, -0.01)), share, 5.0, sides=(-1.0,))
+
+
+def shares(hard: float, soft: float, stretch: float) -> tuple[float, float]:
+    """(scale of the fractions, size) of a cell of 1 m^3 whose volume before the sweep is stretch."""
+    vof, part, size = upright(hard, soft), np.zeros((2, *SHAPE)), np.zeros(SHAPE)
+    contact_shares(ROW, ROW + 1, MESH_BOX, COLUMNS, np.ones(SHAPE), np.full(SHAPE, stretch), vof, part, size)
+    return part[0, ROW, GIVER] / hard, size[ROW, GIVER]
+
+
+@pytest.mark.parametrize("stretch", [0.95, 1.05])
+def test_the_shares_of_a_cell_do_not_jump_as_it_becomes_one_body_s_or_full(stretch):
+    assert shares(1.0, 0.0, stretch) == (1.0, stretch)
+    assert shares(0.6, 0.4, stretch) == pytest.approx((stretch, 1.0))
+    assert shares(0.6, 0.3, stretch)[0] == pytest.approx(min(stretch, 1.0 / 0.9))
+    steepness = 1.5 / OTHERS * 0.06
+    for share in (1.0, 1.0 - OTHERS):
+        changes_in_proportion(lambda hard: shares(hard, 0.0, stretch), share, steepness, sides=(-1.0,))
+        changes_in_proportion(lambda hard: shares(hard, 1.0 - hard, stretch), share, steepness, sides=(-1.0,))
+        changes_in_proportion(lambda filled: shares(0.6, filled - 0.6, stretch), share, steepness + 2.0, sides=(-1.0,))
+    assert largest_jump(lambda filled: shares(0.6, filled - 0.6, stretch), 0.8, 1.0) < 1e-11
+
+
+def corner_of(scale: float, void: float) -> list[float]:
+    """What strips of a tenth of a cell hold of a body that has a corner there, its fractions scaled, beside another one."""
+    f = np.clip(2.5 - np.arange(5), 0.0, 1.0)
+    body = np.outer(f, f)
+    vof = np.array([body, (1.0 - body) * (1.0 - void / (1.0 - body[2, 2]))])
+    return [strip_of(m, 2, 2, along_z, 0.1, high, np.arange(2), vof * scale, vof, np.ones(5), np.ones(5)) / scale
+            for m in range(2) for along_z in (False, True) for high in (False, True)]
+
+
+def test_a_cell_without_void_has_no_corner_however_its_fractions_are_scaled():
+    """Fractions that do not fill the cell on the mesh leave no void."""
+    assert corner_of(1.0, 0.3)[0] == pytest.approx(0.05)  # the rectangle is as high as half of the cell
+    assert corner_of(0.9, 0.0)[0] > corner_of(1.0, 0.0)[0] > 0.06  # a line goes up beyond
+    for scale in (1.0, 1.0 - 1e-12):
+        changes_in_proportion(lambda scale: corner_of(scale, 0.0), scale, 2.0)
+    assert largest_jump(lambda scale: corner_of(scale, 0.0), 0.9, 1.1) < 1e-11
+    assert largest_jump(lambda void: corner_of(1.0, void), 0.0, 0.5) < 1e-11
+
+
+# ------------------------------------------------------------------------------------------------ who takes what
+
+
+def taken(g, more, vof, flux):
+    """(what group g of bodies soft, hard, soft cannot take, fluxes of all): cells of 2 m^3 left and right of the face."""
+    vof, result = np.array(vof)[:, None, :], np.zeros((3, 1, 2))
+    result[:, 0, 1] = flux
+    left = take(g, more, 0, 1, 0, 1, np.array([0, 1, 0]), vof, np.full((1, 2), 2.0), vof, result)
+    return left, list(result[:, 0, 1])
+
+
+def test_the_largest_body_of_the_group_takes_what_a_face_lacks():
+    assert taken(0, 0.1, [[0.2, 0.0], [0.5, 0.5], [0.3, 0.5]], [0.0, 0.0, 0.0]) == (0.0, [0.0, 0.0, 0.1])
+    assert taken(1, -0.1, [[0.2, 0.0], [0.5, 0.5], [0.3, 0.5]], [0.0, -0.2, 0.0]) == (0.0, [0.0, pytest.approx(-0.3), 0.0])
+
+
+def test_a_body_takes_no_more_than_it_has_there():
+    left, flux = taken(0, 0.5, [[0.0, 0.5], [0.9, 0.0], [0.1, 0.5]], [0.0, 0.0, 0.05])
+    assert left == pytest.approx(0.35)
+    assert flux == pytest.approx([0.0, 0.0, 0.2])
+    assert taken(0, 0.5, [[0.0, 0.5], [1.0, 0.0], [0.0, 0.5]], [0.0, 0.0, 0.0]) == (0.5, [0.0, 0.0, 0.0])
+
+
+def test_what_flows_the_other_way_ends_first():
+    """No body gives from a cell in which it is not: the third flows from the right, and is not on the left."""
+    vof = [[0.3, 0.1], [0.7, 0.0], [0.0, 0.9]]
+    assert taken(0, 0.2, vof, [-0.1, 0.0, -0.3]) == (0.0, pytest.approx([-0.05, 0.0, -0.15]))
+    assert taken(0, 0.5, vof, [-0.1, 0.0, -0.3]) == (0.0, pytest.approx([0.1, 0.0, 0.0]))
+    changes_in_proportion(lambda more: taken(0, more, vof, [-0.1, 0.0, -0.3])[1], 0.4, 1.0)
+    changes_in_proportion(lambda more: taken(0, more, vof, [0.1, 0.0, 0.0])[1], 0.0, 1.0)

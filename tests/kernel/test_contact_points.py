@@ -1,73 +1,55 @@
-"""What contact does at one vertex: the masters of a slave node, impulses, the force on a piece of surface."""
+"""What contact does at vertices: masters, impulses, the force on a piece of surface, ties, what evens out, what slopes see."""
 
 import numpy as np
 import pytest
 
-from hydro2d.kernels import contact_geometry, contact_velocities
-from hydro2d.kernels.contact_geometry import EXTENDS, FREE, REACH, TIED
+from hydro2d.kernels import contact_geometry, contact_velocities, momentum
+from hydro2d.kernels.contact_geometry import REACH
+from hydro2d.kernels.contact_velocities import settle
+from hydro2d.kernels.contact_volumes import EVENING, even_out, warm_evened
+from hydro2d.kernels.cut_cells import FREE_SURFACE, INTERFACE, KIND
+from hydro2d.kernels.extension import MASTERS, SPAN, TIED
+from hydro2d.mesh.fields import INTERNAL, RHO, E
 from hydro2d.mesh.grid import Grid
+from tests.kernel.test_extension import Extensions, N, half_plane, scattered
+from tests.physics.continuity import changes_in_proportion
 
-number_of_masters = contact_velocities.number_of_masters.py_func
-first_master = contact_velocities.first_master.py_func
 master = contact_velocities.master.py_func
-weigh = contact_velocities.weigh.py_func
-extended_cell = contact_velocities.extended_cell.py_func
 held = contact_velocities.held.py_func
 give = contact_velocities.give.py_func
+give_tie = contact_velocities.give_tie.py_func
+difference = contact_velocities.difference.py_func
+masters_mobility = contact_velocities.masters_mobility.py_func
 mobility = contact_velocities.mobility.py_func
+warm_up = contact_velocities.warm_up.py_func
 pressed = contact_velocities.pressed.py_func
 face_aperture = contact_geometry.face_aperture.py_func
-filled_share = contact_geometry.filled_share.py_func
 
-#: edges of the cells of a graded mesh, as kernels see them
-R, Z = np.cumsum(1.0 + 0.3 * np.sin(np.arange(12))), np.cumsum(0.8 + 0.2 * np.cos(np.arange(12)))
 NOWHERE = np.full(4, -1)
 
 
-def code_of(dj: int, di: int) -> int:
-    """What find_masters writes for a cell so far from the vertex."""
-    return EXTENDS + 2 * REACH * (dj + REACH) + di + REACH
+# ----------------------------------------------------------------------------------------------- one slave, its masters
 
 
-def masters(g, j, i, code, weights):
-    """(group, j, i, weight) of every master of a slave."""
-    by, row, column = first_master(g, j, i, code)
-    return [(by, *master(n, row, column, g, j, i, code, weights)) for n in range(number_of_masters(code))]
+def one_tie(*masters):
+    """(number, where, weights) of slot 0, whose node of group 1 has these masters (place, weight)."""
+    number, where = np.array([[0, len(masters)]]), np.zeros((1, 2, MASTERS + 1), dtype=np.int64)
+    weights = np.zeros((1, 2, MASTERS + 1))
+    for n, (place, weight) in enumerate(masters):
+        where[0, 1, n], weights[0, 1, n] = place, weight
+    return number, where, weights
 
 
-NO_WEIGHTS = np.full((4, 2, 12, 12), np.nan)
-CELLS = [(dj, di) for dj in range(-REACH, REACH) for di in range(-REACH, REACH)]
+def place(dj: int, di: int) -> int:
+    return SPAN * (dj + REACH) + di + REACH
 
 
-@pytest.mark.parametrize(("dj", "di"), CELLS)
-def test_a_slave_has_the_linear_field_of_its_cell(dj, di):
-    j, i, code = 5, 6, code_of(dj, di)
-    weights = np.full((4, 2, 12, 12), np.nan)
-    weigh(1, j, i, code, R, Z, weights)
-    assert extended_cell(j, i, code) == (j + dj, i + di)
-    found = masters(1, j, i, code, weights)
-    assert {(row - j, column - i) for _, row, column, _ in found} == {(dj + a, di + b) for a in (0, 1) for b in (0, 1)}
-    assert sum(weight for *_, weight in found) == pytest.approx(1.0)
-    velocity = sum(weight * (3.0 - 2.0 * R[column] + 0.7 * Z[row]) for _, row, column, weight in found)
-    assert velocity == pytest.approx(3.0 - 2.0 * R[i] + 0.7 * Z[j])
-    assert {group for group, *_ in found} == {1}
-
-
-def test_a_node_in_tied_contact_moves_with_the_other_group():
-    assert masters(0, 5, 6, TIED, NO_WEIGHTS) == [(1, 5, 6, 1.0)]
-    assert masters(1, 5, 6, TIED, NO_WEIGHTS) == [(0, 5, 6, 1.0)]
-
-
-def test_a_vertex_that_is_linked_moves_with_one_of_its_group():
-    found = [masters(1, 5, 6, code, NO_WEIGHTS) for code in range(25)]
-    assert {len(each) for each in found} == {1}
-    assert {each[0][1:3] for each in found} == {(5 + dj, 6 + di) for dj in range(-2, 3) for di in range(-2, 3)}
-    assert {(each[0][0], each[0][3]) for each in found} == {(1, 1.0)}
-
-
-def test_codes_do_not_meet():
-    assert len({FREE, TIED, *range(25), *(code_of(*cell) for cell in CELLS)}) == 2 + 25 + len(CELLS)
-    assert max(code_of(*cell) for cell in CELLS) < 128  # masters is an int8
+def test_places_of_masters_do_not_meet():
+    places = [(dj, di) for dj in range(-REACH, REACH + 1) for di in range(-REACH, REACH + 1)]
+    where = np.zeros((1, 2, MASTERS + 1), dtype=np.int64)
+    where[0, 1] = [*(place(*each) for each in places), TIED]
+    found = [master(n, 1, 5, 6, 0, where) for n in range(MASTERS + 1)]
+    assert found == [*((1, 5 + dj, 6 + di) for dj, di in places), (0, 5, 6)]
 
 
 def test_axis_and_walls_hold_one_component():
@@ -89,11 +71,160 @@ def test_an_impulse_moves_what_is_not_held(constrained, gained):
     assert mass[0, 1, 1] * v[0, 1, 1] + transfer[4, 1] == -4.0  # what moves and what a wall takes is the impulse
 
 
+def test_an_impulse_of_a_tie_goes_from_the_slave_to_its_masters():
+    number, where, weights = one_tie((place(0, -1), 0.75), (place(1, 1), -0.25), (TIED, 0.5))
+    mass, u, v, transfer = np.full((2, 7, 7), 2.0), np.zeros((2, 7, 7)), np.zeros((2, 7, 7)), np.zeros((5, 7))
+    give_tie(1, 3, 3, 0, 8.0, -4.0, NOWHERE, number, where, weights, mass, u, v, transfer)
+    assert (u[1, 3, 3], u[1, 3, 2], u[1, 4, 4], u[0, 3, 3]) == (-4.0, 3.0, -1.0, 2.0)
+    np.testing.assert_array_equal(v, -0.5 * u)
+    assert difference(1, 3, 3, 0, NOWHERE, number, where, weights, u, v) == (-7.5, 3.75)
+    assert difference(1, 3, 3, 0, np.array([2, -1, 3, -1]), number, where, weights, u, v) == (-4.0 - 0.25 - 1.0, 0.0)
+
+
 def test_a_slave_is_as_heavy_as_it_and_its_masters():
-    mass, ease = np.full((2, 2, 2), 4.0), np.zeros((2, 2, 2, 2))
-    assert mobility(0, 1, 1, FREE, mass, ease) == 0.25
-    ease[:, 0, 1, 1] = 1.0 / 6.0  # they yield like one mass of 6
-    assert mobility(0, 1, 1, 3, mass, ease) == pytest.approx(1.0 / (4.0 + 6.0))
+    number, where, weights = one_tie((place(0, -1), 0.75), (TIED, 0.25))
+    mass, strength = np.full((2, 7, 7), 4.0), np.array([[0.0, 1.0]])
+    mass[0, 3, 3] = 2.0
+    ease = 0.75**2 / 4.0 + 0.25**2 / 2.0
+    assert masters_mobility(1, 3, 3, 0, NOWHERE, number, where, weights, mass) == pytest.approx((ease, ease))
+    assert masters_mobility(1, 3, 3, 0, np.array([2, -1, -1, -1]), number, where, weights, mass)[0] == pytest.approx(0.03125)
+    assert mobility(0, 3, 3, 0, NOWHERE, strength, number, where, weights, mass) == 0.5
+    tied = 1.0 / (4.0 + 1.0 / ease)
+    assert mobility(1, 3, 3, 0, NOWHERE, strength, number, where, weights, mass) == pytest.approx(tied)
+    strength[0, 1] = 0.25
+    assert mobility(1, 3, 3, 0, NOWHERE, strength, number, where, weights, mass) == pytest.approx(0.25 * tied + 0.75 / 4.0)
+
+
+def test_the_heat_of_a_slave_goes_to_it_and_its_masters():
+    """By mass, times the size of the weight for a master: a tie of a heavy slave to a light node must not burn that."""
+    number, where, weights = one_tie((place(0, -1), 0.75), (place(1, 1), -0.25), (TIED, 0.5))
+    mass, heat = np.arange(1.0, 99.0).reshape(2, 7, 7), np.zeros((2, 7, 7))
+    warm_up(1, 3, 3, 0, 6.0, number, where, weights, mass, heat)
+    assert heat[1, 3, 3] == pytest.approx(6.0 / (
+        mass[1, 3, 3] + 0.75 * mass[1, 3, 2] + 0.25 * mass[1, 4, 4] + 0.5 * mass[0, 3, 3]))
+    assert heat[0, 3, 3] == pytest.approx(0.5 * heat[1, 3, 3])
+    warm_up(0, 3, 3, 0, 5.0, number, where, weights, mass, heat)
+    assert np.sum(heat * mass) == pytest.approx(11.0)
+    assert heat[1, 3, 2] == pytest.approx(3.0 * heat[1, 4, 4])
+
+
+# ----------------------------------------------------------------------------------------------------------- all ties
+
+
+class Settled:
+    """Random velocities of both groups at the vertices of a mesh, before and after `settle`."""
+
+    def __init__(self, found: Extensions, before, strength=None, friction=0.0, constrained=NOWHERE):
+        g, slots, vertices, cells = found.grid, int(found.first[-1]), found.grid.vertex_shape, found.grid.shape
+        ties = found.ties if strength is None else (np.where(found.ties[0] > 0.0, strength, 0.0), *found.ties[1:])
+        self.before, self.mass, self.heat = before, found.mass, np.zeros((2, *vertices))
+        self.transfer, w = np.zeros((5, vertices[0])), before.copy()
+        line, pressure = np.zeros((9, *cells)), np.full(cells, -1e3)
+        line[contact_geometry.SHARE] = found.hard
+        settle(g.g, g.g + N, 1e-3, friction, constrained, g.metrics, g.dz, np.tile([g.g, g.g + N], (cells[0], 1)), line,
+               found.count, found.nodes, found.first, found.normal, np.ones(vertices), *ties,
+               np.tile([0, vertices[1] - 1], (vertices[0], 1)), pressure, pressure.copy(), np.zeros(cells), self.mass,
+               before[0].copy(), before[1].copy(), w[0], w[1], np.full((10, slots, 2), np.nan),
+               np.full((2, 2, *vertices), np.nan), np.full((2, slots, 2), np.nan), np.full((3, slots), np.nan), self.heat,
+               self.transfer)
+        self.after = w
+        nodes = [(j, found.nodes[j, k], found.first[j] + k) for j in range(len(found.count)) for k in range(found.count[j])]
+        #: of every slave: its strength, and by what it differs from its masters before and after
+        self.slaves = [(ties[0][x, b], *(np.array(difference(b, j, i, x, constrained, *ties[1:], *u)) for u in (before, w)))
+                       for j, i, x in nodes for b in range(2) if ties[0][x, b] > 0.0]
+
+    def sums(self, w):
+        """(momentum along r and z, kinetic energy)"""
+        return np.array([*np.sum(self.mass * w, axis=(1, 2, 3)), 0.5 * np.sum(self.mass * w**2)])
+
+
+def velocities(found: Extensions, seed: int = 0):
+    return 100.0 * np.random.default_rng(seed).standard_normal((2, 2, *found.grid.vertex_shape)) * (found.mass > 0.0)
+
+
+BODIES = [(half_plane(0.4), (np.cos(0.4), np.sin(0.4))), *((scattered(seed), (0.76, 0.64)) for seed in range(3))]
+bodies = pytest.mark.parametrize(("hard", "normal"), BODIES)
+
+
+@bodies
+def test_ties_are_met_whatever_the_order_of_nodes(hard, normal):
+    """The mirrored problem, whose rows come the other way round, has the mirrored solution."""
+    found = Extensions(hard, normal, most_squares=2.0)
+    mirrored = Extensions(hard[::-1], (normal[0], -normal[1]), most_squares=2.0)
+    sign = np.array([1.0, -1.0])[:, None, None, None]
+    here = Settled(found, velocities(found))
+    there = Settled(mirrored, (sign * velocities(found))[:, :, ::-1].copy())
+    np.testing.assert_allclose(sign * there.after[:, :, ::-1], here.after, atol=1e-10 * np.abs(here.after).max())
+    assert np.abs(here.after - here.before).max() > 10.0
+
+
+@bodies
+def test_slaves_move_with_their_masters(hard, normal):
+    settled = Settled(found := Extensions(hard, normal, most_squares=2.0), velocities(found))
+    mismatch = max(np.abs(before).max() for _, before, _ in settled.slaves)
+    firm = [np.abs(after).max() for strength, _, after in settled.slaves if strength == 1.0]
+    assert len(firm) >= 8
+    assert max(firm) < 1e-9 * mismatch
+
+
+@bodies
+@pytest.mark.parametrize("friction", [0.0, 0.3])
+@pytest.mark.parametrize("strength", [None, 0.5])
+def test_momentum_stays_and_lost_energy_is_heat(hard, normal, friction, strength):
+    settled = Settled(found := Extensions(hard, normal, most_squares=2.0), velocities(found), strength, friction)
+    before, after = settled.sums(settled.before), settled.sums(settled.after)
+    scale = np.sum(settled.mass * np.abs(settled.before))
+    np.testing.assert_allclose(after[:2], before[:2], atol=1e-13 * scale)
+    lost = before[2] - after[2]
+    assert lost > 0.0
+    assert np.sum(settled.heat * settled.mass) == pytest.approx(lost, rel=1e-12, abs=1e-12 * before[2])
+    assert settled.transfer[1:4].sum() == pytest.approx(lost, rel=1e-11)
+    assert (settled.transfer[2].sum() > 0.0) == (friction > 0.0)
+    gained = np.sum(settled.mass[0] * (settled.after[1, 0] - settled.before[1, 0]))
+    assert settled.transfer[0].sum() == pytest.approx(gained, abs=1e-12 * scale)
+
+
+@pytest.mark.parametrize("strength", [0.1, 0.5, 0.9])
+def test_a_slave_that_is_loosely_tied_goes_part_of_the_way(strength):
+    """A single one: what is left of the mismatch follows from its mass, and from the mobility of its masters."""
+    hard = np.ones((N, N))
+    hard[5, 5] = 0.9  # a crumb of the soft body, whose four vertices are tied to the hard one
+    found = Extensions(hard, (1.0, 0.0))
+    settled = Settled(found, velocities(found), strength)
+    assert len(settled.slaves) == 4
+    m, ease = 0.25 * 0.1, 1.0 / (1.0 - 0.25 * 0.1)
+    met = (1.0 / m + ease) / (1.0 / (strength * m) + ease)
+    assert strength < met < 1.0
+    for _, before, after in settled.slaves:
+        assert after == pytest.approx((1.0 - met) * before, rel=1e-9)
+
+
+def test_ties_fade_in():
+    found = Extensions(scattered(1), (0.76, 0.64), most_squares=2.0)
+    w = velocities(found)
+    loose, half, firm = (np.sum([np.sum(after**2) for *_, after in Settled(found, w, s).slaves]) for s in (1e-9, 0.5, 1.0))
+    assert firm < 1e-15 * half < 1e-15 * loose
+    assert np.abs(Settled(found, w, 1e-12).after - w).max() < 1e-7
+
+
+@bodies
+def test_walls_and_the_axis_keep_what_they_hold(hard, normal):
+    found = Extensions(hard, normal, most_squares=2.0)
+    first = found.grid.g
+    constrained = np.array([first, -1, -1, first + N])
+    w = velocities(found)
+    w[0, :, :, first] = 0.0
+    w[1, :, first + N] = 0.0
+    settled = Settled(found, w, constrained=constrained)
+    assert (settled.after[0, :, :, first] == 0.0).all()
+    assert (settled.after[1, :, first + N] == 0.0).all()
+    before, after = settled.sums(w), settled.sums(settled.after)
+    assert after[1] + settled.transfer[4].sum() == pytest.approx(before[1], abs=1e-13 * np.sum(settled.mass * np.abs(w)))
+    assert np.sum(settled.heat * settled.mass) == pytest.approx(before[2] - after[2], rel=1e-12)
+    assert max(np.abs(left).max() for strength, _, left in settled.slaves if strength == 1.0) < 1e-7
+
+
+# ------------------------------------------------------------------------------------------------- force on a surface
 
 
 def test_pressure_on_a_flat_surface_is_force_over_its_area():
@@ -137,56 +268,78 @@ def test_an_edge_of_a_void_cell_has_no_weight():
         assert face_aperture(0, 0, 0.0, 0.0, 1.0, 0.0, inside, line, nothing, nothing) == (0.0, 0.0, 0.0)
 
 
-def test_a_vertex_is_weighty_from_half_of_its_dual_cell_on():
-    g = Grid(np.linspace(0.0, 4e-3, 5), np.linspace(0.0, 4e-3, 5), "planar")
-    mesh_box = np.array([2, 6, 2, 6])
-    hard, soft, mass = np.zeros(g.shape), np.zeros(g.shape), np.ones((2, *g.vertex_shape))
-
-    def share(j, i):
-        return filled_share(1, j, i, mesh_box, g.volume, g.metrics, hard, soft, mass)
-
-    hard[3, 3:5] = 1.0
-    assert share(4, 4) == pytest.approx(0.5)
-    hard[3, 4] = 0.98
-    assert share(4, 4) == 0.0
-    hard[3, 4], hard[4, 4] = 1.0, 0.4
-    assert share(4, 4) == pytest.approx(0.6)
-    assert share(1, 4) == 0.0  # beyond the mesh
-    mass[1, 4, 4] = 0.0
-    assert share(4, 4) == 0.0
+# ------------------------------------------------------------------------------- what evens out along the surface
 
 
-def links(damage: float) -> np.ndarray:
-    """masters [b, j, i] of a mesh with the hard body, of this damage, to the left and the soft one from column 7 on, and with a
-    crumb of the soft one in the hard cell (6, 4)."""
-    grid = Grid(np.arange(11.0), np.arange(11.0), "planar")
-    inside = (0, *grid.inside)
-    vof = np.zeros((2, *grid.shape))
-    vof[inside] = (np.arange(grid.shape[1]) < 7 + grid.g)[grid.inside[1]]
-    vof[0, 6 + grid.g, 4 + grid.g] = 0.999
-    vof[1][grid.inside] = 1.0 - vof[inside]
-    mass = np.zeros((2, *grid.vertex_shape))
-    for group, body in ((0, 1), (1, 0)):
-        for dj, di in ((0, 0), (0, 1), (1, 0), (1, 1)):
-            mass[group, dj:dj + grid.shape[0], di:di + grid.shape[1]] += 0.25 * vof[body]
-    mesh_box = np.array([grid.g, grid.g + grid.nz, grid.g, grid.g + grid.nr])
-    both = (mass > 0.0).all(axis=0)
-    both[:, [grid.g, grid.g + grid.nr]] = False
-    contact_nodes, count = np.zeros(both.shape, dtype=np.int64), both.sum(axis=1)
-    for j in range(both.shape[0]):
-        contact_nodes[j, : count[j]] = np.nonzero(both[j])[0]
-    normal = np.zeros((3, 2, *both.shape))
-    normal[:, 0] = 1.0
-    masters = np.full((2, *both.shape), FREE)
-    contact_geometry.find_masters(grid.g, grid.g + grid.nz, mesh_box, grid.volume, grid.metrics, count, contact_nodes, normal,
-                                  vof[0], vof[1], mass, np.array([1, 0]), vof,
-                                  np.stack([np.full(grid.shape, damage), np.zeros(grid.shape)]), masters)
-    return masters[:, grid.g:, grid.g:]
+def evened(pressure, kind=INTERFACE, viscosity=0.0):
+    """(volumes through faces along r and along z, heat of the two bodies of every cell (J)) of 6 x 6 cells of the surface."""
+    shape, vertices, columns = (6, 6), (7, 7), np.tile([0, 6], (6, 1))
+    volume, bulk, vof = 2.0 + np.add.outer(np.arange(6.0), np.arange(6.0)), np.full(shape, 5.0), np.full((2, *shape), 0.5)
+    qr, q, skin, r, z = np.full(shape, viscosity), np.zeros((INTERNAL, 2, *shape)), np.zeros((3, *shape)), *np.full(
+        (2, *vertices), np.nan)
+    q[RHO] = np.array([2.0, 6.0])[:, None, None]
+    skin[KIND] = kind
+    even_out(0, 6, columns, volume, skin, bulk, pressure, qr, r, z)
+    warm_evened(0, 6, columns, volume, pressure, qr, r, z, vof, q)
+    return r[:6], z[:, :6], volume, q[E] * q[RHO] * vof * volume
 
 
-def test_a_crumb_is_tied_in_debris_alone():
-    sound, failed = links(0.9), links(1.0)
-    assert extended_cell(6, 5, sound[0, 6, 5])[1] == 7
-    assert (failed[0, 6:8, 4:6] == TIED).all()
-    assert (failed[0, :, 7] == sound[0, :, 7]).all()
-    assert (failed[1] == sound[1]).all()
+def test_a_uniform_pressure_moves_nothing():
+    r, z, _, heat = evened(np.full((6, 6), 3.0), viscosity=0.7)
+    assert (r == 0.0).all()
+    assert (z == 0.0).all()
+    assert (heat == 0.0).all()
+
+
+def test_a_pattern_along_the_surface_decays_and_what_it_loses_is_heat():
+    """Every cell that is above its neighbours grows by EVENING of what would make the stiffer of a pair even."""
+    pattern = 3.0 + 0.2 * (-1.0) ** np.add.outer(np.arange(6), np.arange(6))
+    r, z, volume, heat = evened(pattern)
+    change = np.diff(r, axis=1) + np.diff(z, axis=0)
+    assert ((change > 0.0) == (pattern > 3.0)).all()
+    after = pattern - 5.0 * change / volume
+    assert np.ptp(after) < np.ptp(pattern)
+    assert after.mean() == pytest.approx(3.0, abs=0.05)
+    assert r[2, 3] == pytest.approx(EVENING * volume[2, 2] / 5.0 * (pattern[2, 2] - pattern[2, 3]))
+    assert change.sum() == pytest.approx(0.0, abs=1e-14)  # nothing leaves
+    lost = np.sum(change * pattern)
+    by_faces = np.sum(r[:, 1:6] * -np.diff(pattern, axis=1)) + np.sum(z[1:6] * -np.diff(pattern, axis=0))
+    assert lost == pytest.approx(by_faces)
+    assert heat.sum() == pytest.approx(lost, rel=1e-12)
+    np.testing.assert_allclose(heat[1], 3.0 * heat[0])  # by mass
+
+
+def test_nothing_evens_out_off_the_surface():
+    pressure = np.random.default_rng(0).random((6, 6))
+    kind = np.full((6, 6), INTERFACE)
+    kind[:, 3] = FREE_SURFACE
+    r, z, _, heat = evened(pressure, kind)
+    assert (r[:, 3:5] == 0.0).all()
+    assert (z[:, 3] == 0.0).all()
+    assert (heat[:, :, 3] == 0.0).all()
+    assert (r[:, [1, 2, 5]] != 0.0).all()
+
+
+# ------------------------------------------------------------------------------ slopes beside vertices without mass
+
+
+def carried(last_mass: float) -> list[float]:
+    """Mass, momentum and kinetic energy that flow past the vertices of a row, the left one of which has hardly any mass."""
+    columns, g = 10, Grid(np.linspace(0.0, 7.0, 7), np.linspace(0.0, 7.0, 7), "planar")
+    ranges = np.tile(np.array([0, columns]), (1, 4, columns, 1)).reshape(1, 4, columns, 2)
+    mass, flux = np.ones((1, columns, columns)), np.full((1, columns, columns), 0.1)
+    mass[0, :, :4], mass[0, :, 4] = 0.0, last_mass
+    w = np.zeros((2, 1, columns, columns))
+    w[0, 0], w[1, 0] = 3.0 * np.arange(columns) ** 2, -np.arange(columns) ** 2
+    w[:, :, :, :4] = 0.0
+    dual = np.zeros((6, 2, columns))
+    momentum.dual_row.py_func(0, 0, 1, 5, 4, 7, 0, g.metrics, ranges, flux, mass, w, dual)
+    return list(dual[:5, 0, 5:7].ravel())
+
+
+def test_a_vertex_is_not_changed_as_its_neighbour_loses_its_last_mass():
+    """Its velocity is 0 then: a slope to that would be another one than to what it was."""
+    np.testing.assert_allclose(carried(0.0), carried(1e-20), rtol=1e-14)
+    assert carried(0.0) != pytest.approx(carried(1.0), rel=1e-3)
+    for mass in (0.0, momentum.SLIGHT):
+        changes_in_proportion(carried, mass, 1e5, sides=(1.0,) if mass == 0.0 else (-1.0, 1.0))

@@ -6,7 +6,9 @@ import numpy as np
 import pytest
 
 from hydro2d.deck import deck
+from hydro2d.kernels import interfaces
 from hydro2d.solver.simulation import Simulation
+from tests.physics.continuity import changes_in_proportion, largest_jump
 
 #: E_geo = sum |f - f0| h^2 of Youngs' method with directionally split sweeps, a prototype's: flow, cells -> error
 YOUNGS = {
@@ -178,3 +180,25 @@ def test_sphere_moved_along_the_axis_and_back(n, error):
     assert change < error
     mass = np.sum(volume * g.interior(s.vof[0] * s.rho[0])) + engine.audit.sinks["cutoff"].mass[0]
     assert mass == pytest.approx(np.sum(volume * first), rel=1e-12)
+
+
+def given(dj: int, void: float, w_low: float = 0.1, w_high: float = 0.2) -> np.ndarray:
+    """What a cell gives of a body that has a corner there and of the one around it through both of its faces."""
+    edge = np.clip(2.5 - np.arange(5), 0.0, 1.0)
+    body = np.outer(edge, edge)
+    vof = np.array([body, (1.0 - body) * (1.0 - void / 0.75)])
+    mixed, face, flux = np.full((5, 5), 2, dtype=np.int64), np.zeros((5, 5)), np.zeros((2, 5, 5))
+    face[2, 2], face[2 + dj, 3 - dj] = -w_low, w_high
+    interfaces.interface_volumes_row.py_func(2, dj, 1 - dj, np.ones(5), np.ones(5), np.arange(2), np.ones(5, dtype=np.int64),
+                                             mixed, face, np.ones((5, 5)), vof, flux, np.zeros((5, 2, 2)))
+    return np.array([flux[:, 2, 2], flux[:, 2 + dj, 3 - dj]])
+
+
+@pytest.mark.parametrize("dj", [0, 1])
+def test_what_a_cell_gives_does_not_jump_as_its_void_opens(dj):
+    np.testing.assert_allclose(given(dj, 0.0).sum(axis=1), [-0.1, 0.2], rtol=1e-15)
+    np.testing.assert_allclose(given(dj, 0.3)[:, 0], [-0.05, 0.0], rtol=1e-15)
+    for void in (0.0, 1e-12):
+        changes_in_proportion(lambda share: given(dj, share), void, 5.0, sides=(1.0,))
+    assert largest_jump(lambda share: given(dj, share), 0.0, 0.5) < 1e-11
+    assert largest_jump(lambda share: given(dj, share), 0.5e-12, 1.5e-12) < 1e-14

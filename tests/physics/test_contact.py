@@ -16,8 +16,7 @@ blend = contact.blend.py_func
 face_flow_r = contact.face_flow_r.py_func
 face_flow_z = contact.face_flow_z.py_func
 volume_rate = contact.volume_rate.py_func
-largest_giver, largest_of = contact.largest_giver.py_func, contact.largest_of.py_func
-share_behind = contact.share_behind.py_func
+largest_of = contact.largest_of.py_func
 
 HARD, SOFT, BOTH = 1, 0, -1
 LEVEL = st.integers(-1000, 1000).map(lambda number: number / 1000)
@@ -343,7 +342,6 @@ GROUP = np.array([0, 1, 1, 0, 1])
 def largest(group, *shares):
     vof = np.full((len(shares), 2, 2), np.nan)
     vof[:, 0, 1] = shares
-    assert largest_giver(group, 0, 1, 0, 1, -1.0, GROUP, vof, np.zeros_like(vof)) == largest_of(group, 0, 1, GROUP, vof)
     return largest_of(group, 0, 1, GROUP, vof)
 
 
@@ -360,16 +358,3 @@ def test_of_a_group_that_is_not_there_no_body_is_the_largest():
 
 def test_of_bodies_as_large_as_each_other_the_first_counts():
     assert largest(HARD, 0.1, 0.3, 0.3, 0.0, 0.3) == 1
-
-
-def test_no_body_gives_from_a_cell_in_which_it_is_not():
-    """The second soft body fills more of the right cell, but would flow out of the left one, where it is not."""
-    vof, flux = np.zeros((5, 1, 2)), np.zeros((5, 1, 2))
-    vof[0, 0], vof[3, 0] = [0.3, 0.1], [0.0, 0.9]
-    flux[0, 0, 1] = -4.0
-    assert [share_behind(3, 0, 1, 0, 1, more, vof, flux) for more in (1.0, -1.0)] == [0.0, 0.9]
-    assert [share_behind(0, 0, 1, 0, 1, more, vof, flux) for more in (3.0, 5.0)] == [0.1, 0.3]
-    assert largest_giver(SOFT, 0, 1, 0, 1, 1.0, GROUP, vof, flux) == 0
-    assert largest_giver(SOFT, 0, 1, 0, 1, -1.0, GROUP, vof, flux) == 3
-    vof[0, 0] = 0.0
-    assert largest_giver(SOFT, 0, 1, 0, 1, 1.0, GROUP, vof, flux) == -1

@@ -6,6 +6,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from hydro2d.physics import interfaces
+from tests.physics.continuity import changes_in_proportion, largest_jump
 
 line_constant = interfaces.line_constant.py_func
 area_below = interfaces.area_below.py_func
@@ -24,6 +25,8 @@ surface = interfaces.surface.py_func
 covered = interfaces.covered.py_func
 corner_strip = interfaces.corner_strip.py_func
 share_in_strip = interfaces.share_in_strip.py_func
+turned = interfaces.turned.py_func
+reversed_if = interfaces.reversed_if.py_func
 
 #: components of a normal that are not too small for polygons to be a fair comparison, and those that are small
 COMPONENT = st.floats(0.01, 0.99)
@@ -394,8 +397,8 @@ def rectangle(r, z, sizes=(DR, DZ)):
     return np.outer(overlap(*z, np.append(0.0, np.cumsum(sizes[1]))), overlap(*r, np.append(0.0, np.cumsum(sizes[0]))))
 
 
-def surface_of(f, dr=DR, dz=DZ):
-    return surface(2, 2, 0, np.arange(1), np.array([f]), dr, dz)
+def surface_of(f, dr=DR, dz=DZ, void=None):
+    return surface(2, 2, 0, np.arange(1), np.array([f]), dr, dz, 1.0 - f[2, 2] if void is None else void)
 
 
 #: beyond the cells on every side
@@ -410,10 +413,12 @@ def test_a_corner_along_the_mesh_is_found_as_it_is(width, height, to_r, to_z, fi
     r = (-FAR, start_r + width * DR[2]) if to_r > 0.0 else (start_r + (1.0 - width) * DR[2], FAR)
     z = (-FAR, start_z + height * DZ[2]) if to_z > 0.0 else (start_z + (1.0 - height) * DZ[2], FAR)
     f = rectangle(r, z) if filled else 1.0 - rectangle(r, z)
-    n_r, n_z, *size = surface_of(f)
+    n_r, n_z, *size, weight = surface_of(f)
     sign = 1.0 if filled else -1.0
     assert (np.sign(n_r), np.sign(n_z)) == (sign * to_r, sign * to_z)
     np.testing.assert_allclose(size, [sign * width, sign * height], rtol=1e-6)
+    if all(0.2 <= side <= 0.9 for side in (width, height)):  # not all but full, and no line of almost the same fractions
+        assert weight == 1.0
 
 
 @settings(deadline=None)
@@ -423,7 +428,7 @@ def test_a_slanted_line_stays_a_line(n1, to_r, to_z, place):
     level = min(n_r, 0.0) + min(n_z, 0.0) + place
     f = np.array([[area(cut([(x, y), (x + 1.0, y), (x + 1.0, y + 1.0), (x, y + 1.0)], n_r, n_z, level)[0] or [(0.0, 0.0)] * 3)
                    for x in range(-2, 3)] for y in range(-2, 3)])
-    assert surface_of(f, np.ones(5), np.ones(5))[2:] == (0.0, 0.0)
+    assert surface_of(f, np.ones(5), np.ones(5))[4] == 0.0
 
 
 @pytest.mark.parametrize("cells", [5.5, 6.5, 8.5, 12.5])
@@ -433,23 +438,24 @@ def test_a_round_nose_has_no_corners(cells):
     inside = fine[None, :] ** 2 + (fine[:, None] - 0.3) ** 2 < cells**2
     f = np.pad(inside.reshape(16, 20, 16, 20).mean(axis=(1, 3)), ((2, 2), (2, 2)), mode="edge")
     sizes = np.ones(20)
-    found = [surface(j, i, 0, np.arange(1), f[None], sizes, sizes)[2] for j in range(2, 18) for i in range(2, 18)]
+    found = [surface(j, i, 0, np.arange(1), f[None], sizes, sizes, 1.0 - f[j, i])[4] for j in range(2, 18)
+             for i in range(2, 18)]
     assert not any(found)
 
 
 def test_an_edge_that_is_not_straight_has_no_corner():
     f = rectangle((-FAR, DR[:2].sum() + 0.4 * DR[2]), (-FAR, DZ[:2].sum() + 0.5 * DZ[2]))
-    assert surface_of(f)[2] > 0.0
-    bent = f.copy()
-    bent[0, 2] += 1.1 * interfaces.STRAIGHT
-    assert surface_of(bent)[2:] == (0.0, 0.0)
+    assert surface_of(f)[4] == 1.0
+    for change, weight in ((0.45, 1.0), (0.75, 0.5), (1.1, 0.0)):
+        bent = f.copy()
+        bent[0, 2] += change * interfaces.STRAIGHT
+        assert surface_of(bent)[4] == pytest.approx(weight)
 
 
-def test_a_corner_is_not_looked_for_in_a_cell_without_void():
+def test_a_corner_has_no_weight_in_a_cell_without_void():
     f = rectangle((-FAR, DR[:2].sum() + 0.4 * DR[2]), (-FAR, DZ[:2].sum() + 0.5 * DZ[2]))
-    for rest, found in ((0.9 * (1.0 - f), True), (1.0 - f, False)):
-        width = surface(2, 2, 0, np.arange(2), np.array([f, rest]), DR, DZ)[2]
-        assert (width != 0.0) == found
+    for share, weight in ((2.0, 1.0), (1.0, 1.0), (0.5, 0.5), (0.0, 0.0)):
+        assert surface_of(f, void=share * interfaces.ROOM)[4] == pytest.approx(weight)
 
 
 def test_a_corner_keeps_the_fraction_and_the_proportion_of_the_cells_beside_it():
@@ -467,13 +473,15 @@ def test_a_strip_has_the_share_of_the_corner_that_lies_in_it(width, height, to_x
     ends = (1.0 - strip, 1.0) if high else (0.0, strip)
     common = height * max(min(x[1], ends[1]) - max(x[0], ends[0]), 0.0)
     size = (width, height) if filled else (-width, -height)
-    share = share_in_strip(to_x * 0.5, to_y * 0.5, *size, np.nan, strip, high)
+    share = share_in_strip(to_x * 0.5, to_y * 0.5, *size, 1.0, width * height, strip, high)
     assert share == pytest.approx(common if filled else strip - common, abs=1e-14)
     assert share == corner_strip(to_x * 0.5, *size, strip, high)
 
 
-def test_without_a_corner_a_strip_has_the_share_of_the_line():
-    assert share_in_strip(0.3, -0.7, 0.0, 0.0, 0.4, 0.2, True) == strip_share(0.3, -0.7, 0.4, 0.2, True)
+def test_a_strip_has_the_share_of_the_line_as_far_as_the_corner_has_no_weight():
+    line, whole = strip_share(0.3, -0.7, 0.4, 0.2, True), corner_strip(0.3, 0.8, 0.5, 0.2, True)
+    assert share_in_strip(0.3, -0.7, 0.0, 0.0, 0.0, 0.4, 0.2, True) == line
+    assert share_in_strip(0.3, -0.7, 0.8, 0.5, 0.25, 0.4, 0.2, True) == pytest.approx(0.25 * whole + 0.75 * line)
 
 
 def test_strips_of_a_square_cover_each_other():
@@ -500,10 +508,144 @@ def test_a_line_misses_its_own_fractions_by_nothing_also_where_sizes_differ(n1, 
 
 def test_a_cell_without_a_slant_or_of_one_kind_has_no_corner():
     f = tuple(rectangle((-FAR, 3.0), (-FAR, 3.0), (np.ones(5), np.ones(5)))[1:4, 1:4].ravel())
-    assert corner(0.5, 0.5, f, (1.0, 0.0, 1.0, 0.0), (1.0,) * 3, (1.0,) * 3) == (0.0, 0.0)
+    assert corner(0.5, 0.5, f, (1.0, 0.0, 1.0, 0.0), (1.0,) * 3, (1.0,) * 3) == (0.0, 0.0, 0.0)
     f = (1.0, 0.5, 0.0, 1.0, 0.25, 0.0, 0.0, 0.0, 0.0)
-    assert corner(1.0, 0.0, f, (1.0, 0.0, 0.5, 0.0), (1.0,) * 3, (1.0,) * 3) == (0.0, 0.0)
+    assert corner(1.0, 0.0, f, (1.0, 0.0, 0.5, 0.0), (1.0,) * 3, (1.0,) * 3) == (0.0, 0.0, 0.0)
+
+
+def test_fractions_are_turned_as_in_a_mirror():
+    f = np.arange(9).reshape(3, 3)
+    for back in (False, True):
+        for down in (False, True):
+            seen = f[:: -1 if down else 1, :: -1 if back else 1]
+            assert turned(tuple(range(9)), back, down) == tuple(seen.ravel())
+    assert reversed_if(True, (0.5, 1.0, 1.5)) == (1.5, 1.0, 0.5)
+    assert reversed_if(False, (0.5, 1.0, 1.5)) == (0.5, 1.0, 1.5)
+
+
+def test_mirrored_corners_have_the_same_weight_to_the_bit():
+    random = np.random.default_rng(9)
+    weights, even = [], np.ones(5)
+    for _ in range(200):
+        ends = [(0.0, 2.0 + random.uniform()) for _ in "rz"]
+        f = 0.9 * rectangle(*ends, (even, even)) + 0.1 * random.uniform(size=(5, 5))
+        f = f if random.uniform() < 0.5 else 1.0 - f
+        n_r, n_z, *rest = surface_of(f, even, even)
+        assert surface_of(f[:, ::-1], even, even) == (-n_r, n_z, *rest)
+        assert surface_of(f[::-1], even, even) == (n_r, -n_z, *rest)
+        weights.append(rest[2])
+    assert sum(0.0 < weight < 1.0 for weight in weights) > 20
 
 
 def test_sizes_are_relative_to_the_middle_one():
     assert relative_sizes(1, np.array([1.0, 2.0, 3.0])) == (0.5, 1.0, 1.5)
+
+
+# ------------------------------------------------------------------------------------------------------- continuity
+
+#: a corner in the middle of 5 x 5 cells of one size, of which 0.2 is filled
+ANGLE = rectangle((-FAR, 2.4), (-FAR, 2.5), (np.ones(5), np.ones(5)))
+
+
+def strips(f, void):
+    """What lies in strips of a tenth of the middle cell at all of its sides."""
+    n_r, n_z, width, height, weight = surface_of(f, np.ones(5), np.ones(5), void)
+    return [share_in_strip(*along, weight, f[2, 2], 0.1, high) for high in (False, True)
+            for along in ((n_r, n_z, width, height), (n_z, n_r, height, width))]
+
+
+@pytest.mark.parametrize("void", [0.0, 1e-12, interfaces.ROOM])
+def test_a_corner_comes_in_with_the_void(void):
+    """The strips of line and corner differ by 0.03; the smoothstep rises by at most 1.5 over ROOM."""
+    changes_in_proportion(lambda share: strips(ANGLE, share), void, 1.5 / interfaces.ROOM * 0.03)
+    assert largest_jump(lambda share: strips(ANGLE, share), -0.1, 0.5) < 1e-11
+
+
+@pytest.mark.parametrize("change", [0.5, 1.0])
+def test_a_corner_goes_as_its_edge_bends(change):
+    def bent(more):
+        f = ANGLE.copy()
+        f[0, 2] += more
+        return strips(f, 0.8)
+
+    changes_in_proportion(bent, change * interfaces.STRAIGHT, 2.0)
+    assert largest_jump(bent, 0.0, 0.3) < 1e-11
+
+
+def halfway(first, second, decision):
+    """The share of the second of two patterns from which on the decision is another."""
+    low, high = 0.0, 1.0
+    for _ in range(60):
+        middle = 0.5 * (low + high)
+        same = decision((1.0 - middle) * first + middle * second) == decision(first)
+        low, high = (middle, high) if same else (low, middle)
+    return high
+
+
+def fits_better(f):
+    """Whether the corner, as it is, misses fewer of the cells around than the line."""
+    around_it = tuple(f[1:4, 1:4].ravel())
+    n_r, n_z = youngs_normal(2, 2, around_it, np.ones(5), np.ones(5))
+    width, height = corner_size(f[2, 2], f[2, 1], f[1, 2])
+    misfit = (width - f[1, 2]) ** 2 + (height - f[2, 1]) ** 2 + (1.0 - f[1, 1]) ** 2
+    misfit += sum(f[place] ** 2 for place in ((1, 3), (2, 3), (3, 1), (3, 2), (3, 3)))
+    return line_misfit(n_r, n_z, around_it, (1.0,) * 3, (1.0,) * 3) > misfit
+
+
+def slanted(level):
+    """Fractions of 5 x 5 cells of one size below the line x + y = level."""
+    squares = [[[(x, y), (x + 1.0, y), (x + 1.0, y + 1.0), (x, y + 1.0)] for x in range(5)] for y in range(5)]
+    return np.array([[area(cut(square, 1.0, 1.0, level)[0] or [(0.0, 0.0)] * 3) for square in row] for row in squares])
+
+
+def test_a_line_becomes_a_corner_little_by_little():
+    line = slanted(4.6)
+    line[2, 0], line[0, 2] = line[2, 1], line[1, 2]  # the edges go on straight
+
+    def mixed(share):
+        return strips((1.0 - share) * ANGLE + share * line, 0.5)
+
+    place = halfway(ANGLE, line, fits_better)
+    assert 0.01 < place < 0.99
+    changes_in_proportion(mixed, place, 5.0)
+
+
+@pytest.mark.parametrize("beside", [0.0, interfaces.THIN])
+def test_a_corner_goes_where_nothing_of_it_is_beside(beside):
+    def thin(share):
+        f = np.zeros((5, 5))
+        f[:2, :2], f[2, 2], f[:2, 2], f[2, :2] = 1.0, 0.3, 0.005, max(share, 0.0)
+        return strips(f, 0.7)
+
+    changes_in_proportion(thin, beside, 1.5 / interfaces.THIN)
+    assert largest_jump(thin, 0.0, 0.04) < 1e-11
+
+
+@settings(deadline=None, max_examples=200)
+@given(st.integers(0, 10**6), st.sampled_from(["corners", "lines", "noise"]), st.sampled_from(["corners", "lines", "noise"]))
+def test_strips_do_not_jump_as_the_fractions_change(seed, first, second):
+    """Between two patterns, also of corners at other places, filled and empty ones.
+
+    The steepest slope is that of the weight, 4/ALIKE, which makes 4e-9 of round-off.
+    """
+    random = np.random.default_rng(seed)
+
+    def pattern(kind):
+        if kind == "noise":
+            return random.uniform(size=(5, 5))
+        if kind == "lines":
+            f = slanted(random.uniform(3.5, 6.5))
+        else:
+            ends = [(0.0, 2.0 + random.uniform()) if random.uniform() < 0.5 else (2.0 + random.uniform(), 5.0) for _ in "rz"]
+            f = rectangle(*ends, (np.ones(5), np.ones(5)))
+        f = f if random.uniform() < 0.5 else 1.0 - f
+        return 0.95 * f + 0.05 * random.uniform(size=(5, 5))  # no path leads through a cell without a gradient
+
+    one, other = pattern(first), pattern(second)
+    assert largest_jump(lambda share: strips((1.0 - share) * one + share * other, 0.5), 0.0, 1.0) < 1e-8
+
+
+@pytest.mark.parametrize("tilt", [0.0, 1e-12, 1e-7])
+def test_the_area_below_a_line_does_not_know_when_it_is_level(tilt):
+    for alpha in (0.5e-8, 0.3, 1.0 - 0.5e-8):
+        changes_in_proportion(lambda m1: area_below(abs(m1), 1.0 - abs(m1), alpha), tilt, 1.0)  # noqa: B023

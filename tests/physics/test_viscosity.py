@@ -5,9 +5,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from hydro2d.physics import viscosity
+from hydro2d.physics.viscosity import OPEN
+from tests.physics.continuity import changes_in_proportion, largest_jump
 
 smoothness = viscosity.smoothness.py_func
 directional_viscosity = viscosity.directional_viscosity.py_func
+shut = viscosity.shut.py_func
 
 DIFFERENCE = st.floats(-1e3, 1e3)
 #: nothing so small that its inverse overflows
@@ -111,3 +114,19 @@ def test_smoothness_takes_its_share_of_the_viscosity():
     full, most, none = (directional_viscosity(8000.0, 5000.0, -100.0, psi, 0.5, 1.3) for psi in (0.0, 0.25, 1.0))
     assert most == pytest.approx(0.75 * full)
     assert none == 0.0
+
+
+# ------------------------------------------------------------------------------------------------------ with void
+
+
+def test_a_cell_has_the_more_viscosity_the_less_void_it_has():
+    assert shut(1.0) == 1.0
+    assert shut(0.5 * (1.0 + OPEN)) == pytest.approx(0.5)
+    assert shut(OPEN) == shut(0.5) == shut(0.0) == 0.0
+    assert shut(1.0 + 1e-15) == 1.0  # round-off in a sum of fractions
+
+
+def test_viscosity_does_not_jump_as_void_shuts():
+    for solids in (OPEN, 1.0):
+        changes_in_proportion(shut, solids, 1.5 / (1.0 - OPEN))
+    assert largest_jump(shut, 0.5, 1.0) < 1e-11

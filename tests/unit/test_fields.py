@@ -59,7 +59,7 @@ def test_axes_of_work_are_lengths():
     assert state.removed.shape == (6, 75)
     assert state.edge_dual.shape == (2, 2, 5, 75)
     assert state.body_ranges.shape == (3, 2, 74, 2)
-    assert (state.body_ranges.dtype, state.masters.dtype, state.fr.dtype) == (np.int64, np.int8, np.float64)
+    assert (state.body_ranges.dtype, state.zone.dtype, state.fr.dtype) == (np.int64, np.int8, np.float64)
 
 
 @pytest.mark.parametrize("field", fields.FIELDS, ids=lambda field: field.name)

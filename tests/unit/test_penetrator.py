@@ -203,18 +203,20 @@ def shot(*options):
 def test_a_rod_that_leaves_the_mesh(options):
     """Its velocity and mass are those of the moment when the nose reached the edge, and so is its depth."""
     sim = shot(*options)
-    before = {}
+    before, masses = {}, []
     while not sim.penetrator.left:
         sim.step()
         assert sim.time < 30e-6
         if sim.penetrator.exit is None:
             before = sim.diagnostics()
+            masses.append(before["rod_core_mass_kg"])
     found = sim.diagnostics()
     assert found["regime"] == LEFT
     assert before["regime"] != LEFT
     assert found["penetration_depth_m"] == pytest.approx(11e-3, abs=0.4e-3)
     assert found["rod_residual_velocity_m_s"] == pytest.approx(before["rod_core_velocity_m_s"], rel=0.01)
-    assert found["rod_residual_mass_kg"] == pytest.approx(before["rod_core_mass_kg"], rel=0.02)  # its ends cut cells
+    shortly = np.median(masses[-10:])  # the row of its tail is core in one cycle and debris in the next
+    assert found["rod_residual_mass_kg"] == pytest.approx(shortly, rel=0.02)  # its ends cut cells
     assert found["rod_mass_kg"] < 0.99 * sim.penetrator.mass
     names = ("regime", "penetration_depth_m", "rod_residual_velocity_m_s", "rod_residual_mass_kg")
     while sim.penetrator._length()[0] > 0.0:

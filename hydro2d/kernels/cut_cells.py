@@ -1,0 +1,215 @@
+"""Cells that a surface cuts, between the two groups of contact or between a body and void: traction instead of pressure.
+
+Every body of a cut cell has the normal stress -p_c, and the strain across the surface follows from that
+(explanation/mixed-cells, equations 9 to 12). What bodies of one group do that fill a cell together is in `mixed`.
+"""
+
+from math import sqrt
+
+from hydro2d.jit import apart, kernel, point, prange
+from hydro2d.mesh.fields import RHO, SRR, SRZ, SZZ, E
+from hydro2d.physics.closure import NO_VOID
+from hydro2d.physics.interfaces import youngs_gradient
+from hydro2d.physics.traction import STEEP, along_normal, half_pressure, pull_left, smoothstep, strain_across
+
+#: kinds of cut cells, in row KIND of `skin`: bonded bodies without void, a surface against void, two groups
+BONDED, FREE_SURFACE, INTERFACE = 0.0, 1.0, 2.0
+#: rows of `skin`
+NORMAL_R, NORMAL_Z, KIND = range(3)
+#: rows of the scratch `mix`, one number for every body: its share in a change of volume, heat; elastic trial of the deviators;
+#: shear modulus, yield stress; and in a cut cell the stress at which it flows, s : s and n . s . n of what the strain along the
+#: surface makes of it, the trace of that strain, the strain across the surface, what its volume grows by, n . s . n before
+SOFT, HEAT, TRIAL_RR, TRIAL_ZZ, TRIAL_RZ, MODULUS, YIELD, FLOW, SIZE, ALONG, BESIDE, ACROSS, GROWTH, NORMAL = (
+    range(14))
+
+
+@kernel
+def find_surfaces(j0, j1, i0, i1, mesh_box, dr, dz, group, hard, hard_threshold, mixed_count, mixed, vof, skin):
+    """Normals of the surfaces in mixed cells, with the square root of their weight as length.
+
+    The normal is Youngs', of the hard group's fraction less the soft one's where a cell holds both, else of its one group. It
+    counts in full from a fall of STEEP across the cell on, so that a bubble or a crumb has none, and in the hard zone of a slip
+    layer it does not count. Where void or a group vanishes, a cut cell does what a full one does.
+
+    Reads    vof [m, j, i], group, hard [m], the list of mixed cells
+    Writes   skin [3, j, i]
+    """
+    bodies = vof.shape[0]
+    for j in prange(j0, j1):
+        for i in range(i0, i1):
+            skin[NORMAL_R, j, i] = 0.0
+            skin[NORMAL_Z, j, i] = 0.0
+            skin[KIND, j, i] = BONDED
+        below, above = max(j - 1, mesh_box[0]), min(j + 1, mesh_box[1] - 1)
+        for k in range(mixed_count[j]):
+            i = mixed[j, k]
+            left, right = max(i - 1, mesh_box[2]), min(i + 1, mesh_box[3] - 1)
+            own, other, zone = 0.0, 0.0, False
+            for m in range(bodies):
+                if vof[m, j, i] > 0.0:
+                    own += vof[m, j, i] if group[m] == 1 else 0.0
+                    other += vof[m, j, i] if group[m] != 1 else 0.0
+                    zone = zone or (hard[m] and vof[m, j, i] >= hard_threshold)
+            void = 1.0 - (own + other)
+            if own + other == 0.0 or (void <= NO_VOID and not (own > 0.0 and other > 0.0)):
+                continue
+            meet = own > 0.0 and other > 0.0
+            skin[KIND, j, i] = INTERFACE if meet else FREE_SURFACE
+            if zone:
+                continue
+            sw, s, se, w, e, nw, n, ne = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+            for m in range(bodies):
+                of_hard = group[m] == 1
+                sign = 1.0 if of_hard == (own > 0.0) else (-1.0 if meet else 0.0)
+                sw += sign * vof[m, below, left]
+                s += sign * vof[m, below, i]
+                se += sign * vof[m, below, right]
+                w += sign * vof[m, j, left]
+                e += sign * vof[m, j, right]
+                nw += sign * vof[m, above, left]
+                n += sign * vof[m, above, i]
+                ne += sign * vof[m, above, right]
+            n_r, n_z = youngs_gradient(j, i, sw, s, se, w, e, nw, n, ne, dr, dz)
+            weight = smoothstep(0.25 * sqrt(n_r * n_r + n_z * n_z) / STEEP)
+            n_r /= dr[i]
+            n_z /= dz[j]
+            size = sqrt(n_r * n_r + n_z * n_z)
+            if size > 0.0:
+                skin[NORMAL_R, j, i] = n_r / size * sqrt(weight)
+                skin[NORMAL_Z, j, i] = n_z / size * sqrt(weight)
+
+
+@point
+def normal_deviator(m, j, i, skin, q):
+    """n . s . n of body m in cell (j, i), times the weight of its surface."""
+    return along_normal(skin[NORMAL_R, j, i], skin[NORMAL_Z, j, i], q[SRR, m, j, i], q[SZZ, m, j, i], q[SRZ, m, j, i])
+
+
+@point
+def common_traction(j, i, skin, vof, q, pm, km):
+    """(pressure at which the bodies of a cut cell would meet, their modulus): means by compressibility f/K, Pa."""
+    compliance, pressure = 0.0, 0.0
+    for m in range(vof.shape[0]):
+        if vof[m, j, i] > 0.0:
+            compliance += vof[m, j, i] / km[m, j, i]
+            pressure += vof[m, j, i] / km[m, j, i] * (pm[m, j, i] - normal_deviator(m, j, i, skin, q))
+    return pressure / compliance, 1.0 / compliance
+
+
+@point
+def skin_deviator(j, i, skin, scale, vof, q):
+    """Sum of f n . s . n in a cell: what its stress lacks beside its deviator and p_c."""
+    total = 0.0
+    for m in range(vof.shape[0]):
+        if vof[m, j, i] > 0.0:
+            total += vof[m, j, i] * normal_deviator(m, j, i, skin, q)
+    return scale * total
+
+
+@point
+def surface_weight(j, i, skin):
+    """Weight of the surface in a cell, 0 to 1."""
+    return min(skin[NORMAL_R, j, i] * skin[NORMAL_R, j, i] + skin[NORMAL_Z, j, i] * skin[NORMAL_Z, j, i], 1.0)
+
+
+@point
+def pull_of(j, i, void, skin):
+    """Share of a tension that a cut cell carries; none where two groups meet (`pull_left`)."""
+    return 0.0 if skin[KIND, j, i] == INTERFACE else pull_left(void, surface_weight(j, i, skin))
+
+
+@point
+def cut_pressure(j, i, dt, rate, skin, p, bulk, solid):
+    """p_c of a cut cell at half the step, for a rate of volume of its own (1/s)."""
+    void = max(1.0 - solid[j, i], 0.0)
+    return half_pressure(p[j, i], bulk[j, i], 0.5 * dt * rate, void, pull_of(j, i, void, skin))
+
+
+@point
+def grow(j, i, target, weight, vof, pm, km, mix):
+    """(what the bodies of a cut cell grow by at a common pressure, as a share of the cell; the fall of that with it, 1/Pa).
+
+    Reads    mix [j, MODULUS to BESIDE, m]
+    Writes   mix [j, ACROSS, m], the strain of a body across the surface; mix [j, GROWTH, m], what its volume grows by
+    """
+    total, give = 0.0, 0.0
+    for m in range(vof.shape[0]):
+        if vof[m, j, i] == 0.0:
+            continue
+        mix[j, ACROSS, m], mix[j, GROWTH, m], softer = strain_across(
+            pm[m, j, i], target, km[m, j, i], mix[j, MODULUS, m], mix[j, FLOW, m], mix[j, SIZE, m], mix[j, ALONG, m],
+            mix[j, BESIDE, m], weight)
+        total += vof[m, j, i] * mix[j, GROWTH, m]
+        give += vof[m, j, i] * softer
+    return total, give
+
+
+@apart
+def fill_room(j, i, room, start, weight, vof, pm, km, mix):
+    """Pressure (Pa) at which the bodies of a cell grow by `room`, a share of the cell: Newton's rule from `start`.
+
+    Writes   as `grow`
+    """
+    target = start
+    for _ in range(10):
+        total, give = grow(j, i, target, weight, vof, pm, km, mix)
+        if abs(total - room) < 1e-14:
+            break
+        target += (total - room) / give
+    return target
+
+
+@apart
+def meet_traction(j, i, change, void, skin, p, bulk, vof, pm, km, mix):
+    """p_c of a cut cell at the end of the step (Pa), whose volume changes by `change`, as a share of it.
+
+    Void opens at p_c = 0 and is shut before p_c rises; a crack in the midst of a group pulls the less the wider it is
+    (explanation/mixed-cells, equation 12).
+
+    Writes   as `grow`
+    """
+    weight = surface_weight(j, i, skin)
+    total, _ = grow(j, i, 0.0, weight, vof, pm, km, mix)
+    if total > change + void:
+        return fill_room(j, i, change + void, max(p[j, i] - bulk[j, i] * (change + void), 0.0), weight, vof, pm, km, mix)
+    pull = pull_of(j, i, void, skin)
+    if pull == 0.0 or total >= change:
+        return 0.0
+    target = fill_room(j, i, change, min(p[j, i] - bulk[j, i] * change, 0.0), weight, vof, pm, km, mix)
+    target = min(target * pull, 0.0)
+    grow(j, i, target, weight, vof, pm, km, mix)
+    return target
+
+
+@point
+def fill_cut_cell(j, i, change, volume, target, work, vof, pm, q, mix):
+    """Volumes, densities and energies of the bodies of a cut cell after the step.
+
+    Each body does the work of its own normal stress, the mean over the step, on what its volume grows by; what the cell's work
+    (pressure, viscosity and hourglass filter, J per radian) leaves is shared by mass.
+
+    Reads    mix [j, GROWTH, m]; mix [j, NORMAL, m], its normal deviator before the step; mix [j, HEAT, m], the deviators' work
+    Updates  vof [m, j, i] (share of the volume after the step), q (rho, e) [k, m, j, i]
+    """
+    after = volume + change
+    mass, left, filled = 0.0, work, 0.0
+    for m in range(vof.shape[0]):
+        f = vof[m, j, i]
+        if f == 0.0:
+            continue
+        grown = max(mix[j, GROWTH, m], -0.5) * f * volume
+        filled += f * volume + grown
+        mass += q[RHO, m, j, i] * f * volume
+        done = 0.5 * (pm[m, j, i] - mix[j, NORMAL, m] + target) * grown
+        mix[j, HEAT, m] -= done
+        left += done
+    squeeze = after / filled if target > 0.0 else min(1.0, after / filled)
+    for m in range(vof.shape[0]):
+        f = vof[m, j, i]
+        if f == 0.0:
+            continue
+        own = q[RHO, m, j, i] * f * volume
+        space = squeeze * (1.0 + max(mix[j, GROWTH, m], -0.5)) * f * volume
+        q[E, m, j, i] += mix[j, HEAT, m] / own + left / mass
+        q[RHO, m, j, i] = own / space
+        vof[m, j, i] = space / after

@@ -1,0 +1,173 @@
+"""How an under-filled node of a group moves: as its body inward of there does.
+
+A node whose group fills half of its dual cell or less is a slave: its velocity is the mean of the linear fields that the cells
+inward of it carry to its place. Every part of that is continuous in what fills the cells (explanation/sliding, equation 5): the
+tie fades in as the share falls from SURE to UNDERFILLED, and a cell counts by how much its least filled vertex is above that.
+"""
+
+from math import sqrt
+
+from hydro2d.jit import apart, kernel, point, prange
+from hydro2d.kernels.contact_geometry import REACH
+from hydro2d.physics.contact import dual_share
+from hydro2d.physics.traction import smoothstep
+
+#: share of its dual cell up to which a node of a group is under-filled, and from which it is not
+UNDERFILLED, SURE = 0.5, 0.6
+#: sum of the weights of cells, or of vertices, from which nothing further away is asked
+ENOUGH = 1e-3
+#: vertices along an edge of the square of possible masters, and how many there are; then the other group's own vertex
+SPAN = 2 * REACH + 1
+MASTERS = SPAN * SPAN
+TIED = MASTERS
+
+
+@point
+def filled_share(g, row, column, mesh_box, volume, metrics, hard, soft, mass):
+    """Share that group g fills of the dual cell of a vertex, 0 where it has no mass there or the mesh ends."""
+    if row < mesh_box[0] or row > mesh_box[1] or column < mesh_box[2] or column > mesh_box[3] or mass[g, row, column] == 0.0:
+        return 0.0
+    return dual_share(g, row, column, mesh_box, volume, metrics, hard, soft)
+
+
+@point
+def sureness(share):
+    """How much a node or a cell that is filled so far counts as filled: 0 up to UNDERFILLED, 1 from SURE on."""
+    return smoothstep((share - UNDERFILLED) / (SURE - UNDERFILLED))
+
+
+@point
+def in_debris(g, j, i, mesh_box, group, vof, dmg):
+    """Whether material of the group other than g that has failed fills a cell around vertex (j, i) by half or more."""
+    found = False
+    for m in range(group.shape[0]):
+        if group[m] != g:
+            for row in range(max(j - 1, mesh_box[0]), min(j + 1, mesh_box[1])):
+                for column in range(max(i - 1, mesh_box[2]), min(i + 1, mesh_box[3])):
+                    found = found or (vof[m, row, column] >= 0.5 and dmg[m, row, column] >= 1.0)
+    return found
+
+
+@apart
+def cell_weight(g, j, i, row, column, inward_r, inward_z, mesh_box, volume, metrics, hard, soft, mass):
+    """Weight of cell (row, column) of group g for the slave (j, i): (share cos/distance)^4, as far as all of it counts.
+
+    The cosine is that between its direction and the normal inwards.
+    """
+    if row < mesh_box[0] or row >= mesh_box[1] or column < mesh_box[2] or column >= mesh_box[3]:
+        return 0.0
+    part = hard[row, column] if g == 1 else soft[row, column]
+    y, x = row - j + 0.5, column - i + 0.5
+    along = part * (inward_r * x + inward_z * y) / (x * x + y * y)
+    if part <= UNDERFILLED or along <= 0.0:
+        return 0.0
+    least = 1.0
+    for corner in range(4):
+        least = min(least, filled_share(g, row + corner // 2, column + corner % 2, mesh_box, volume, metrics, hard, soft, mass))
+    return sureness(part) * sureness(least) * (along * along) * (along * along)
+
+
+@apart
+def extend_cells(x, g, j, i, reach, inward_r, inward_z, mesh_box, least_squares, most_squares, factor, volume, metrics, r, z,
+                 hard, soft, mass, weights):
+    """Adds the linear fields of the cells inward whose weights have squares that sum up to more than least_squares and to no
+    more than most_squares, together with the weight `factor`; returns the share of it that is used.
+
+    The squares are the stiffness that the slave's cells have for the masters' mass, and the time step bounds them: with a
+    least_squares above 0 the gradients are reduced to that sum.
+
+    Updates  weights [x, g, n]
+    """
+    whole = 0.0
+    for run in range(2):
+        scale = factor * smoothstep(whole / ENOUGH) / whole if whole > 0.0 else 0.0
+        for dj in range(-reach, reach):
+            for di in range(-reach, reach):
+                row, column = j + dj, i + di
+                w = cell_weight(g, j, i, row, column, inward_r, inward_z, mesh_box, volume, metrics, hard, soft, mass)
+                if w == 0.0:
+                    continue
+                a = (r[i] - 0.5 * (r[column] + r[column + 1])) / (r[column + 1] - r[column])
+                b = (z[j] - 0.5 * (z[row] + z[row + 1])) / (z[row + 1] - z[row])
+                squares = 0.25 + a * a + b * b
+                if squares <= least_squares or squares > most_squares:
+                    continue
+                whole += w if run == 0 else 0.0
+                if run == 1:
+                    shrink = sqrt((least_squares - 0.25) / (squares - 0.25)) if least_squares > 0.0 else 1.0
+                    for n in range(4):
+                        along = (a if n % 2 == 1 else -a) + (b if n // 2 == 1 else -b)
+                        weights[x, g, SPAN * (dj + REACH + n // 2) + di + REACH + n % 2] += scale * w * (
+                            0.25 + 0.5 * shrink * along)
+    return smoothstep(whole / ENOUGH)
+
+
+@apart
+def extend_vertices(x, g, j, i, reach, inward_r, inward_z, mesh_box, factor, volume, metrics, hard, soft, mass, weights):
+    """Adds the velocities of single vertices inward, which together have the weight `factor`; returns the share of it used.
+
+    Updates  weights [x, g, n]
+    """
+    whole = 0.0
+    for run in range(2):
+        scale = factor * smoothstep(whole / ENOUGH) / whole if whole > 0.0 else 0.0
+        for dj in range(-reach, reach + 1):
+            for di in range(-reach, reach + 1):
+                if dj == 0 and di == 0:
+                    continue
+                share = filled_share(g, j + dj, i + di, mesh_box, volume, metrics, hard, soft, mass)
+                along = share * (inward_r * di + inward_z * dj) / (di * di + dj * dj)
+                if share <= UNDERFILLED or along <= 0.0:
+                    continue
+                w = sureness(share) * (along * along) * (along * along)
+                if run == 0:
+                    whole += w
+                else:
+                    weights[x, g, SPAN * (dj + REACH) + di + REACH] += scale * w
+    return smoothstep(whole / ENOUGH)
+
+
+@kernel
+def find_extensions(j0, j1, mesh_box, most_squares, volume, metrics, r, z, count, contact_nodes, first, normal, hard, soft,
+                    mass, group, vof, dmg, strength, number, where, weights):
+    """Which contact nodes are slaves, how firmly they are tied, and to what.
+
+    To the mean of the linear fields of cells that most_squares allows; where there are none (or hardly any, ENOUGH), of cells
+    with a reduced gradient, then to vertices, and in the end to the other group's velocity at the node. A crumb within failed
+    material of the other group asks two vertices away, others three.
+
+    Reads    first [j], the slot of a row's first contact node; normal [3, 2, j, i]; hard, soft [j, i]; mass [b, j, i];
+             vof, dmg [m, j, i]
+    Writes   strength [x, b], 0 for a node that moves by itself to 1; number [x, b] of masters; where [x, b, n], their places
+             SPAN (dj + REACH) + (di + REACH), or TIED; weights [x, b, n], which add up to 1
+    """
+    for j in prange(j0, j1 + 1):
+        for k in range(count[j]):
+            i, x = contact_nodes[j, k], first[j] + k
+            for g in range(2):
+                number[x, g] = 0
+                strength[x, g] = 1.0 - sureness(filled_share(g, j, i, mesh_box, volume, metrics, hard, soft, mass))
+                if strength[x, g] == 0.0:
+                    continue
+                for n in range(MASTERS + 1):
+                    weights[x, g, n] = 0.0
+                sign = 1.0 if g == 0 else -1.0
+                inward_r, inward_z = sign * normal[0, 0, j, i], sign * normal[0, 1, j, i]
+                reach = REACH - 1 if in_debris(g, j, i, mesh_box, group, vof, dmg) else REACH
+                left = 1.0 - extend_cells(x, g, j, i, reach, inward_r, inward_z, mesh_box, 0.0, most_squares, 1.0, volume,
+                                          metrics, r, z, hard, soft, mass, weights)
+                if left > 0.0:
+                    left *= 1.0 - extend_cells(x, g, j, i, reach, inward_r, inward_z, mesh_box, most_squares, 1e300, left,
+                                               volume, metrics, r, z, hard, soft, mass, weights)
+                if left > 0.0:
+                    used = extend_vertices(x, g, j, i, reach - 1, inward_r, inward_z, mesh_box, left, volume, metrics, hard,
+                                           soft, mass, weights)
+                    weights[x, g, TIED] = left * (1.0 - used)
+                found = 0
+                for n in range(MASTERS + 1):
+                    w = weights[x, g, n]
+                    if w != 0.0:
+                        where[x, g, found] = n
+                        weights[x, g, found] = w
+                        found += 1
+                number[x, g] = found

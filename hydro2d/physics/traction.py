@@ -1,0 +1,80 @@
+"""Cells that a surface cuts: the traction across the surface is common to what is in the cell, not the pressure.
+
+Across the surface of a body the normal stress is continuous: n . sigma . n = -p_c for every body of the cell, with p_c = 0
+beside void (explanation/mixed-cells, equations 9 to 12). The strain across the surface follows from that; it is not integrated.
+"""
+
+from math import sqrt
+
+from hydro2d.jit import point
+
+#: share of void from which a crack carries no tension
+SURE = 1e-3
+#: the fall of a fraction across a cell from which the normal counts in full
+STEEP = 0.1
+#: largest relative change of a body's volume in a step by the traction on it
+MOST_GROWTH = 0.1
+#: more void than this shuts less within half a step, and twice as much not at all
+WIDE = 0.05
+
+
+@point
+def smoothstep(x):
+    """0 up to 0, 1 from 1 on, with no slope at either: S(x) = x^2 (3 - 2 x) between."""
+    y = min(max(x, 0.0), 1.0)
+    return y * y * (3.0 - 2.0 * y)
+
+
+@point
+def along_normal(n_r, n_z, rr, zz, rz):
+    """n . s . n of a deviator, for a normal whose square is the weight of the surface (`surface_weight`)."""
+    return n_r * n_r * rr + 2.0 * n_r * n_z * rz + n_z * n_z * zz
+
+
+@point
+def pull_left(void, weight):
+    """Share of a tension that a cell of one group with void still carries: all of a crack that closes up, none at a surface.
+
+    weight is that of the surface in the cell (`surface_weight`); a crack in the midst of a body has none.
+    """
+    return (1.0 - weight) * (1.0 - smoothstep(void / SURE))
+
+
+@point
+def half_pressure(p, bulk, strain, void, pull):
+    """Pressure of a cut cell after a volumetric strain: void shuts first, and of a tension `pull` is left.
+
+    p is the pressure that the bodies have, bulk their modulus (Pa), void its share. Continuous in all of them (explanation/
+    mixed-cells, equation 9).
+    """
+    together = p - bulk * strain
+    if together <= 0.0:
+        return pull * together
+    return max(together - bulk * void, 0.0) * (1.0 - smoothstep(void / WIDE - 1.0))
+
+
+@point
+def strain_across(p, target, modulus, shear, flow, size, along, beside, weight):
+    """(strain of a body across its surface, what its volume grows by, how that falls with target), normal stress -target.
+
+    p is the body's pressure, modulus its bulk modulus, shear its shear modulus, flow its yield stress (Pa); size is s : s and
+    along n . s . n of its deviator, strained along the surface only, beside the trace of that strain; weight is that of the
+    surface: at 0 the body is one of a mixture, and its pressure goes to the target. Newton's rule on
+    p - K (beside + e) - w s_nn(e) = target with s returned to the yield surface (explanation/mixed-cells, equation 11).
+    """
+    free = (p - target) / modulus
+    e = (p - weight * along - target - modulus * beside) / (modulus + weight * 4.0 / 3.0 * shear)
+    stiffness = modulus
+    for _ in range(4):
+        x = 2.0 * shear * e
+        norm = sqrt(max(1.5 * (size + 2.0 * x * along + 2.0 / 3.0 * x * x), 0.0))
+        held = min(1.0, flow / norm) if norm > 0.0 else 1.0
+        stress = held * (along + 2.0 / 3.0 * x)
+        slope = 2.0 / 3.0
+        if held < 1.0:
+            slope = max(held * (2.0 / 3.0 - 1.5 * (stress / flow) ** 2), 0.0) if flow > 0.0 else 0.0
+        stiffness = modulus + weight * 2.0 * shear * slope
+        e += (p - modulus * (beside + e) - weight * stress - target) / stiffness
+    e = min(max(e, -MOST_GROWTH - beside), MOST_GROWTH - beside)
+    grown = weight * (beside + e) + (1.0 - weight) * min(max(free, -MOST_GROWTH), MOST_GROWTH)
+    return e, grown, weight / stiffness + (1.0 - weight) / modulus

@@ -1,0 +1,349 @@
+"""Cells that a surface cuts: where their surfaces are, the traction at which bodies meet, volumes and energies after that."""
+
+import numpy as np
+import pytest
+
+from hydro2d.kernels import cut_cells
+from hydro2d.kernels.cut_cells import (
+    ACROSS,
+    ALONG,
+    BESIDE,
+    BONDED,
+    FLOW,
+    FREE_SURFACE,
+    GROWTH,
+    HEAT,
+    INTERFACE,
+    KIND,
+    MODULUS,
+    NORMAL,
+    NORMAL_R,
+    NORMAL_Z,
+    SIZE,
+)
+from hydro2d.mesh.fields import INTERNAL, RHO, SRR, SRZ, SZZ, E
+from hydro2d.physics.traction import SURE
+from tests.physics.continuity import changes_in_proportion, largest_jump
+
+common_traction = cut_cells.common_traction.py_func
+normal_deviator = cut_cells.normal_deviator.py_func
+skin_deviator = cut_cells.skin_deviator.py_func
+surface_weight = cut_cells.surface_weight.py_func
+pull_of = cut_cells.pull_of.py_func
+cut_pressure = cut_cells.cut_pressure.py_func
+grow = cut_cells.grow.py_func
+fill_room = cut_cells.fill_room.py_func
+meet_traction = cut_cells.meet_traction.py_func
+fill_cut_cell = cut_cells.fill_cut_cell.py_func
+
+RIGID = 1e6  # a yield stress, in units of the modulus, that nothing reaches
+
+
+class Cell:
+    """One cut cell with bodies (share, pressure, modulus, shear modulus), in units of a modulus; normal along r."""
+
+    def __init__(self, *bodies, kind=INTERFACE, weight=1.0, flow=RIGID):
+        f, p, bulk, shear = np.transpose(bodies)
+        self.number = len(f)
+        self.vof, self.pm, self.km = (x[:, None, None].copy() for x in (f, p, bulk))
+        self.q, self.skin = np.zeros((INTERNAL, self.number, 1, 1)), np.zeros((3, 1, 1))
+        self.mix = np.zeros((1, 14, self.number))
+        self.q[RHO, :, 0, 0] = 2.0 + np.arange(self.number)
+        self.mix[0, MODULUS], self.mix[0, FLOW] = shear, flow
+        self.skin[NORMAL_R], self.skin[KIND] = np.sqrt(weight), kind
+        self.void = max(1.0 - f.sum(), 0.0)
+
+    def strained(self, along, beside):
+        """The bodies after strain along the surface: n . s . n, of uniaxial deviators, and its trace."""
+        self.mix[0, ALONG], self.mix[0, BESIDE] = along, beside
+        self.mix[0, SIZE] = 1.5 * np.square(along)
+        return self
+
+    def common(self):
+        return common_traction(0, 0, self.skin, self.vof, self.q, self.pm, self.km)
+
+    def meet(self, change: float) -> float:
+        p, bulk = (np.full((1, 1), x) for x in self.common())
+        return meet_traction(0, 0, change, self.void, self.skin, p, bulk, self.vof, self.pm, self.km, self.mix)
+
+    @property
+    def grown(self) -> float:
+        """What the bodies grow by, as a share of the cell."""
+        return float(self.vof[:, 0, 0] @ self.mix[0, GROWTH])
+
+    def normal_pressures(self):
+        """Minus the normal stress of every body after the step, where nothing flows."""
+        s_nn = self.mix[0, ALONG] + 4.0 / 3.0 * self.mix[0, MODULUS] * self.mix[0, ACROSS]
+        return self.pm[:, 0, 0] - self.km[:, 0, 0] * self.mix[0, GROWTH] - s_nn
+
+
+STEEL, ALUMINIUM = (1.0, 0.5), (0.45, 0.17)  # bulk and shear modulus
+
+
+# ------------------------------------------------------------------------------------------------------- traction
+
+
+@pytest.mark.parametrize("change", [0.0, 0.01, -0.01])
+def test_a_body_beside_void_relaxes_and_void_takes_the_rest(change):
+    cell = Cell((0.7, 0.006, *STEEL), kind=FREE_SURFACE).strained(-0.001, 0.002)
+    assert cell.meet(change) == 0.0
+    e = (0.006 + 0.001 - 0.002) / (1.0 + 4.0 / 3.0 * 0.5)
+    assert cell.mix[0, ACROSS, 0] == pytest.approx(e, rel=1e-12)
+    assert cell.mix[0, GROWTH, 0] == pytest.approx(e + 0.002, rel=1e-12)
+    assert cell.normal_pressures() == pytest.approx([0.0], abs=1e-15)
+
+
+@pytest.mark.parametrize("change", [-0.02, -0.003, 0.0])
+def test_two_bodies_without_void_share_the_change_and_the_traction(change):
+    cell = Cell((0.3, 0.012, *STEEL), (0.7, 0.004, *ALUMINIUM)).strained([-0.002, 0.001], [0.003, -0.001])
+    target = cell.meet(change)
+    assert target > 0.0
+    assert cell.grown == pytest.approx(change, abs=1e-14)
+    assert cell.normal_pressures() == pytest.approx([target] * 2, abs=1e-14)
+
+
+def test_two_bodies_that_flow_share_the_change():
+    cell = Cell((0.5, 0.0, *STEEL), (0.5, 0.0, *ALUMINIUM), flow=np.array([0.002, 0.001]))
+    cell.meet(-0.01)
+    assert cell.grown == pytest.approx(-0.01, rel=1e-6)
+
+
+def test_a_body_that_flows_and_is_stiff_in_shear_fills_its_cell():
+    cell = Cell((1.0, 0.0, 1.0, 0.9), kind=FREE_SURFACE, flow=0.01)
+    cell.meet(-0.01)
+    assert cell.grown == pytest.approx(-0.01, rel=1e-6)
+
+
+def test_bodies_that_are_strained_apart_open_void_at_no_pressure():
+    cell = Cell((0.3, 0.002, *STEEL), (0.7, 0.001, *ALUMINIUM))
+    assert cell.meet(0.05) == 0.0
+    assert cell.grown < 0.05
+    assert cell.normal_pressures() == pytest.approx([0.0, 0.0], abs=1e-15)
+
+
+def test_a_crack_without_void_pulls_and_a_wider_one_the_less():
+    """Of one group, far from a surface: all of the tension while it is shut, half of it half open."""
+    shut = Cell((0.4, 0.0, *STEEL), (0.6, 0.0, *STEEL), kind=BONDED, weight=0.0)
+    assert shut.meet(0.01) == pytest.approx(-0.01, rel=1e-9)
+    assert shut.grown == pytest.approx(0.01, rel=1e-9)
+    opened = Cell((1.0 - 0.5 * SURE, -0.01 * (1.0 - 0.5 * SURE), *STEEL), kind=FREE_SURFACE, weight=0.0)
+    before = -0.01 / (1.0 - 0.5 * SURE) * (1.0 - 0.5 * SURE) ** 2
+    assert opened.meet(0.0) == pytest.approx(0.5 * before, rel=1e-6)
+    assert Cell((1.0 - SURE, -0.01, *STEEL), kind=FREE_SURFACE, weight=0.0).meet(0.0) == 0.0
+
+
+@pytest.mark.parametrize("weight", [0.0, 0.4, 1.0])
+@pytest.mark.parametrize(("kind", "bodies"), [(FREE_SURFACE, ((0.8, 0.0, *STEEL),)),
+                                              (INTERFACE, ((0.3, 0.0, *STEEL), (0.5, 0.0, *ALUMINIUM)))])
+def test_void_is_shut_before_the_traction_rises(kind, bodies, weight):
+    """And nothing jumps where it just shuts."""
+    def with_void(void):
+        scaled = [((1.0 - void) * f / sum(b[0] for b in bodies), *rest) for f, *rest in bodies]
+        cell = Cell(*scaled, kind=kind, weight=weight)
+        return cell.meet(-0.02), cell.grown, *cell.mix[0, GROWTH], *cell.mix[0, ACROSS]
+
+    assert with_void(0.0202)[0] == 0.0
+    assert with_void(0.0198)[0] > 0.0
+    assert with_void(0.01)[1] == pytest.approx(-0.01, abs=1e-12)
+    changes_in_proportion(with_void, 0.02, 10.0)
+    assert largest_jump(with_void, 0.0, 0.05) < 1e-11
+
+
+@pytest.mark.parametrize("weight", [0.0, 0.4, 1.0])
+@pytest.mark.parametrize("void", [0.0, 0.003])
+@pytest.mark.parametrize("kind", [FREE_SURFACE, INTERFACE])
+def test_the_traction_does_not_jump_as_a_cell_shuts_or_opens(kind, void, weight):
+    def after(change):
+        cell = Cell((0.4, 0.004, *STEEL), (0.6 - void, 0.004, *ALUMINIUM), kind=kind, weight=weight)
+        return cell.meet(change), *cell.mix[0, GROWTH], *cell.mix[0, ACROSS]
+
+    free = Cell((0.4, 0.004, *STEEL), (0.6 - void, 0.004, *ALUMINIUM), kind=kind, weight=weight)
+    total, _ = grow(0, 0, 0.0, weight, free.vof, free.pm, free.km, free.mix)
+    for change in (total, total - void):
+        changes_in_proportion(after, change, 10.0)
+    assert largest_jump(after, total - 0.02, total + 0.02) < 1e-11
+
+
+def test_what_bodies_grow_by_falls_with_the_pressure_as_stated():
+    cell = Cell((0.3, 0.012, *STEEL), (0.5, 0.004, *ALUMINIUM)).strained([-0.002, 0.001], [0.003, -0.001])
+    low, give = grow(0, 0, 0.0, 0.6, cell.vof, cell.pm, cell.km, cell.mix)
+    by_hand = sum(f * (0.6 / (k + 0.6 * 4.0 / 3.0 * g) + 0.4 / k) for f, (k, g) in ((0.3, STEEL), (0.5, ALUMINIUM)))
+    assert give == pytest.approx(by_hand, rel=1e-12)
+    high, _ = grow(0, 0, 1e-3, 0.6, cell.vof, cell.pm, cell.km, cell.mix)
+    assert (low - high) / 1e-3 == pytest.approx(give, rel=1e-9)  # no body flows, so that is exact
+    assert high == pytest.approx(cell.grown)
+
+
+@pytest.mark.parametrize("start", [-0.01, 0.0, 0.03])
+def test_a_room_is_filled_from_anywhere(start):
+    cell = Cell((0.3, 0.0, *STEEL), (0.5, 0.0, *ALUMINIUM))
+    target = fill_room(0, 0, -0.004, start, 1.0, cell.vof, cell.pm, cell.km, cell.mix)
+    assert cell.grown == pytest.approx(-0.004, rel=1e-9)
+    assert cell.normal_pressures() == pytest.approx([target] * 2, rel=1e-9)
+
+
+# ------------------------------------------------------------------------------------------------ before the step
+
+
+def test_bodies_meet_at_the_mean_of_their_normal_stresses_by_compressibility():
+    cell = Cell((0.25, 0.008, 1.0, 0.5), (0.5, 0.002, 0.5, 0.1), (0.0, np.nan, 0.0, 0.0))
+    cell.q[SRR, :, 0, 0] = 0.004, -0.003, np.nan
+    assert cell.common() == pytest.approx(((0.25 * 0.004 + 1.0 * 0.005) / 1.25, 1.0 / 1.25))
+    assert skin_deviator(0, 0, cell.skin, 2.0, cell.vof, cell.q) == pytest.approx(2.0 * (0.25 * 0.004 - 0.5 * 0.003))
+    cell.skin[NORMAL_R], cell.skin[NORMAL_Z] = 0.48, 0.64  # a weight of 0.64
+    cell.q[SZZ, 0], cell.q[SRZ, 0] = -0.003, 0.002
+    expected = 0.48**2 * 0.004 - 0.64**2 * 0.003 + 2.0 * 0.48 * 0.64 * 0.002
+    assert normal_deviator(0, 0, 0, cell.skin, cell.q) == pytest.approx(expected)
+    assert surface_weight(0, 0, cell.skin) == pytest.approx(0.64)
+
+
+def test_groups_do_not_pull_at_each_other():
+    for weight in (0.0, 0.5, 1.0):
+        groups, group = (Cell((1.0, 0.0, *STEEL), kind=kind, weight=weight).skin for kind in (INTERFACE, FREE_SURFACE))
+        assert pull_of(0, 0, 0.0, groups) == 0.0
+        assert pull_of(0, 0, 0.0, group) == pytest.approx(1.0 - weight)
+
+
+def test_at_half_the_step_half_of_the_strain_has_come():
+    cell, one = Cell((0.99, 0.0, *STEEL)), np.ones((1, 1))
+    assert cut_pressure(0, 0, 0.1, -0.4, cell.skin, 0.005 * one, one, 0.99 * one) == pytest.approx(0.005 + 0.02 - 0.01)
+    assert cut_pressure(0, 0, 0.1, 0.4, cell.skin, 0.005 * one, one, 0.99 * one) == 0.0
+    assert cut_pressure(0, 0, 0.1, -0.4, cell.skin, 0.005 * one, one, (1.0 + 1e-15) * one) == pytest.approx(0.025)
+
+
+# ------------------------------------------------------------------------------------------------- after the step
+
+
+def filled(change: float, target: float, void: float, growth):
+    """(cell before and after `fill_cut_cell`), of 3 m^3, with work and heat of its own."""
+    before, after = (Cell((0.3, 0.012, *STEEL), (0.7 - void, 0.004, *ALUMINIUM)) for _ in range(2))
+    for cell in (before, after):
+        cell.mix[0, GROWTH], cell.mix[0, NORMAL], cell.mix[0, HEAT] = growth, (0.001, -0.002), (0.02, 0.05)
+        cell.q[E, :, 0, 0] = 0.4, 0.9
+    fill_cut_cell(0, 0, 3.0 * change, 3.0, target, 0.07, after.vof, after.pm, after.q, after.mix)
+    return before, after
+
+
+CASES = [(-0.02, 0.01, 0.0, (-0.01, -0.0243)), (0.03, 0.0, 0.1, (0.002, 0.004)), (-0.03, 0.0, 0.1, (0.002, -0.004)),
+         (-0.2, 0.01, 0.1, (-0.7, -0.05)), (-0.2, 0.0, 0.05, (0.0, 0.0))]
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_a_cell_keeps_mass_and_gains_the_energy_of_the_work(case):
+    before, after = filled(*case)
+    masses = [c.vof[:, 0, 0] * c.q[RHO, :, 0, 0] * volume for c, volume in ((before, 3.0), (after, 3.0 * (1.0 + case[0])))]
+    assert masses[1] == pytest.approx(masses[0], rel=1e-14)
+    gained = masses[0] @ (after.q[E, :, 0, 0] - before.q[E, :, 0, 0])
+    assert gained == pytest.approx(0.07 + 0.02 + 0.05, rel=1e-14)
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_bodies_fill_a_cell_under_pressure_and_never_more_than_it(case):
+    _, after = filled(*case)
+    if case[1] > 0.0:
+        assert after.vof.sum() == pytest.approx(1.0, rel=1e-14)
+    else:
+        assert after.vof.sum() <= 1.0 + 1e-15
+
+
+def test_a_body_with_room_grows_by_what_it_grows():
+    _, after = filled(*CASES[1])
+    assert after.vof[:, 0, 0] * 1.03 == pytest.approx([0.3 * 1.002, 0.6 * 1.004], rel=1e-14)
+
+
+def test_each_body_does_the_work_of_its_own_normal_stress():
+    """What is left of the cell's work goes by mass."""
+    _, after = filled(*CASES[0])
+    mass = 3.0 * np.array([0.3, 0.7]) * (2.0, 3.0)
+    own = 3.0 * np.array([0.3 * -0.01 * 0.5 * (0.011 + 0.01), 0.7 * -0.0243 * 0.5 * (0.006 + 0.01)])
+    expected = (np.array([0.02, 0.05]) - own) / mass + (0.07 + own.sum()) / mass.sum()
+    assert after.q[E, :, 0, 0] - (0.4, 0.9) == pytest.approx(expected, rel=1e-12)
+
+
+# ------------------------------------------------------------------------------------------------ where surfaces are
+
+SIZE_OF_MESH = 9
+MESH_BOX = np.array([2, SIZE_OF_MESH - 2, 2, SIZE_OF_MESH - 2])
+
+
+def surfaces(vof, group=(1, 0), hard=(False, False), dr=1.0, dz=1.0):
+    """`skin` of a mesh of alike cells."""
+    vof = np.array(vof, dtype=float)
+    is_mixed = (vof > 0.0).any(axis=0) & (vof < 1.0).all(axis=0)
+    count, mixed, skin = np.zeros(SIZE_OF_MESH, dtype=np.int64), np.zeros((SIZE_OF_MESH,) * 2, dtype=np.int64), np.full(
+        (3, SIZE_OF_MESH, SIZE_OF_MESH), np.nan)
+    for j in range(SIZE_OF_MESH):
+        count[j] = is_mixed[j].sum()
+        mixed[j, : count[j]] = np.nonzero(is_mixed[j])[0]
+    cut_cells.find_surfaces(2, SIZE_OF_MESH - 2, 2, SIZE_OF_MESH - 2, MESH_BOX, np.full(SIZE_OF_MESH, dr),
+                            np.full(SIZE_OF_MESH, dz), np.array(group), np.array(hard), 0.5, count, mixed, vof, skin)
+    return skin
+
+
+def half_plane(angle: float, dr: float = 1.0, dz: float = 1.0):
+    """Fractions of what lies against (cos, sin) of a line through the middle of the mesh."""
+    inside = (np.arange(40) + 0.5) / 40
+    x = ((np.arange(SIZE_OF_MESH)[:, None] + inside).ravel() - 0.5 * SIZE_OF_MESH) * dr
+    below = x[None, :] * np.cos(angle) + x[:, None] * (dz / dr) * np.sin(angle) <= 0.0
+    return below.reshape(SIZE_OF_MESH, 40, SIZE_OF_MESH, 40).mean(axis=(1, 3))
+
+
+@pytest.mark.parametrize("degrees", [0, 20, 45, 70, 90, 160, 225, 300])
+@pytest.mark.parametrize("dz", [1.0, 1.5])
+def test_the_normal_of_a_flat_interface_is_found(degrees, dz):
+    angle = np.radians(degrees)
+    hard = half_plane(angle, dz=dz)
+    skin = surfaces([hard, 1.0 - hard], dz=dz)
+    middle = skin[:, SIZE_OF_MESH // 2, SIZE_OF_MESH // 2]
+    assert middle[KIND] == INTERFACE
+    assert middle[NORMAL_R] * np.cos(angle) + middle[NORMAL_Z] * np.sin(angle) > np.cos(np.radians(4.0))
+    assert middle[NORMAL_R] ** 2 + middle[NORMAL_Z] ** 2 == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize("degrees", [20, 45, 70])
+def test_a_surface_beside_void_has_the_normal_of_its_group(degrees):
+    body = half_plane(np.radians(degrees))
+    with_void = surfaces([np.zeros_like(body), body])[:, 4, 4]
+    with_other = surfaces([body, 1.0 - body])[:, 4, 4]
+    assert with_void[KIND] == FREE_SURFACE
+    assert with_void[:2] == pytest.approx(with_other[:2])
+
+
+def test_a_mirrored_interface_has_the_mirrored_normal():
+    random = np.random.default_rng(3)
+    fractions = random.random((2, SIZE_OF_MESH, SIZE_OF_MESH))
+    fractions /= fractions.sum(axis=0) * random.uniform(1.0, 2.0, fractions.shape[1:])
+    skin, along_r, along_z = surfaces(fractions), surfaces(fractions[:, :, ::-1]), surfaces(fractions[:, ::-1])
+    inside = np.s_[2:-2, 2:-2]
+    for k in range(3):
+        np.testing.assert_allclose(along_r[k][inside], (-1.0 if k == NORMAL_R else 1.0) * skin[k][inside][:, ::-1], atol=1e-14)
+        np.testing.assert_allclose(along_z[k][inside], (-1.0 if k == NORMAL_Z else 1.0) * skin[k][inside][::-1], atol=1e-14)
+    swapped = surfaces(fractions[::-1])
+    np.testing.assert_allclose(swapped[:2, 2:-2, 2:-2], -skin[:2, 2:-2, 2:-2], atol=1e-14)
+    assert np.abs(skin[:2, 2:-2, 2:-2]).max() > 0.5
+
+
+def test_a_bubble_and_a_weak_gradient_have_no_weight():
+    full = np.ones((SIZE_OF_MESH, SIZE_OF_MESH))
+    full[4, 4] = 0.7
+    skin = surfaces([np.zeros_like(full), full])
+    assert skin[KIND, 4, 4] == FREE_SURFACE
+    assert (skin[:2, 4, 4] == 0.0).all()
+    sloping = np.broadcast_to(0.5 + 0.05 * (np.arange(SIZE_OF_MESH) - 4.0), full.shape)  # half of STEEP across a cell
+    assert np.sum(surfaces([np.zeros_like(full), sloping])[:2, 4, 4] ** 2) == pytest.approx(0.5)
+
+
+def test_kinds_of_cut_cells():
+    half, none = np.full((SIZE_OF_MESH,) * 2, 0.5), np.zeros((SIZE_OF_MESH,) * 2)
+    assert (surfaces([half, half])[KIND, 2:-2, 2:-2] == INTERFACE).all()
+    assert (surfaces([half, half], group=(0, 0))[KIND, 2:-2, 2:-2] == BONDED).all()
+    assert (surfaces([half, none])[KIND, 2:-2, 2:-2] == FREE_SURFACE).all()
+    assert (surfaces([none, none])[KIND, 2:-2, 2:-2] == BONDED).all()
+
+
+def test_the_hard_zone_of_a_slip_layer_has_no_normals():
+    body = half_plane(0.3)
+    skin = surfaces([body, 0.2 * (1.0 - body)], group=(0, 0), hard=(True, False))
+    assert skin[KIND, 4, 4] == FREE_SURFACE
+    assert (skin[:2, 4, 4] == 0.0).all()
+    assert np.abs(surfaces([body, 0.2 * (1.0 - body)], group=(0, 0))[:2, 4, 4]).max() > 0.5

@@ -1,0 +1,300 @@
+"""Slave nodes: how firmly they are tied, and to what, all of it continuous in what fills the cells."""
+
+import numpy as np
+import pytest
+
+from hydro2d.kernels import extension
+from hydro2d.kernels.contact_geometry import REACH
+from hydro2d.kernels.extension import MASTERS, SPAN, SURE, TIED, UNDERFILLED, find_extensions
+from hydro2d.mesh.grid import Grid
+from tests.physics.continuity import changes_in_proportion, largest_jump
+
+filled_share = extension.filled_share.py_func
+sureness = extension.sureness.py_func
+in_debris = extension.in_debris.py_func
+cell_weight = extension.cell_weight.py_func
+
+#: cells of the mesh along either side, and those of a mesh whose cells differ
+N = 11
+LEVEL, GRADED = np.arange(N + 1.0), np.cumsum(1.0 + 0.2 * np.sin(np.arange(N + 1.0)))
+#: nothing is that steep that decides anything at once
+STEEPNESS = 2e4
+
+
+class Extensions:
+    """Slaves among all vertices that both groups have, where hard fills cells [j, i] and soft the rest of them.
+
+    Rows and columns are those of the mesh without ghosts. The normal, from hard to soft, is everywhere the same.
+    """
+
+    def __init__(self, hard, normal, soft=None, damage=0.0, most_squares=1e6, edges=LEVEL):
+        self.grid = g = Grid(edges, edges, "planar")
+        inside, mesh = g.inside, np.s_[g.g:g.g + N + 1, g.g:g.g + N + 1]
+        vof = np.zeros((2, *g.shape))
+        vof[1][inside] = hard
+        vof[0][inside] = 1.0 - np.asarray(hard) if soft is None else soft
+        mass = np.zeros((2, *g.vertex_shape))
+        for dj, di in ((0, 0), (0, 1), (1, 0), (1, 1)):
+            mass[:, dj:dj + g.shape[0], di:di + g.shape[1]] += 0.25 * vof
+        both = (mass > 0.0).all(axis=0)
+        count, nodes, first = both.sum(axis=1), np.zeros(both.shape, dtype=np.int64), np.zeros(len(both) + 1, dtype=np.int64)
+        for j in range(len(both)):
+            nodes[j, : count[j]] = np.nonzero(both[j])[0]
+        first[1:] = np.cumsum(count)
+        slots, directions = int(first[-1]), np.zeros((3, 2, *both.shape))
+        directions[:] = (np.array(normal) / np.hypot(*normal))[:, None, None]
+        strength, number = np.zeros((slots, 2)), np.zeros((slots, 2), dtype=np.int64)
+        where, weights = np.zeros((slots, 2, MASTERS + 1), dtype=np.int64), np.full((slots, 2, MASTERS + 1), np.nan)
+        mesh_box = np.array([g.g, g.g + N, g.g, g.g + N])
+        dmg = np.zeros_like(vof)
+        dmg[1] = damage
+        find_extensions(g.g, g.g + N, mesh_box, most_squares, g.volume, g.metrics, g.r, g.z, count, nodes, first, directions,
+                        vof[1], vof[0], mass, np.array([0, 1]), vof, dmg, strength, number, where, weights)
+        self.first, self.mass, self.normal, self.ties = first, mass, directions, (strength, number, where, weights)
+        self.count, self.nodes, self.hard = count, nodes, vof[1]
+        #: by group, row and column: strength, and weights of all places of masters
+        self.strength, self.weights = np.zeros((2, N + 1, N + 1)), np.zeros((2, N + 1, N + 1, MASTERS + 1))
+        for j in range(g.g, g.g + N + 1):
+            for k in range(count[j]):
+                at = (j - g.g, nodes[j, k] - g.g)
+                for b in range(2):
+                    self.strength[b][at] = strength[first[j] + k, b]
+                    n = number[first[j] + k, b]
+                    self.weights[b][at][where[first[j] + k, b, :n]] = weights[first[j] + k, b, :n]
+        self.slaves = np.argwhere(self.strength > 0.0)
+        self.r, self.z = g.r[mesh[1]], g.z[mesh[0]]
+
+    def of(self, b: int, j: int, i: int) -> dict[tuple[int, int], float]:
+        """Weights of the masters of a slave by how many rows and columns away they are."""
+        found = np.nonzero(self.weights[b, j, i, :MASTERS])[0]
+        return {(int(n) // SPAN - REACH, int(n) % SPAN - REACH): self.weights[b, j, i, n] for n in found}
+
+    def everything(self, b: int, j: int, i: int):
+        """Strength, and weights as far as they count."""
+        return [self.strength[b, j, i], *(self.strength[b, j, i] * self.weights[b, j, i])]
+
+
+def half_plane(angle: float) -> np.ndarray:
+    """Fractions of what lies against (cos, sin) of a line through the middle of cells of one size."""
+    inside = (np.arange(20) + 0.5) / 20
+    x = (np.arange(N)[:, None] + inside).ravel() - 0.5 * N + 0.1
+    below = x[None, :] * np.cos(angle) + x[:, None] * np.sin(angle) <= 0.0
+    return below.reshape(N, 20, N, 20).mean(axis=(1, 3))
+
+
+def scattered(seed: int) -> np.ndarray:
+    return np.clip(np.random.default_rng(seed).normal(half_plane(0.7), 0.3), 0.0, 1.0)
+
+
+def block(**cells: float) -> np.ndarray:
+    """A hard block of 3 x 3 cells from row and column 4 on, with other fractions in cells named as r5c4."""
+    hard = np.zeros((N, N))
+    hard[4:7, 4:7] = 1.0
+    for name, fraction in cells.items():
+        hard[int(name[1]), int(name[3])] = fraction
+    return hard
+
+
+# ---------------------------------------------------------------------------------------------------- small pieces
+
+
+def test_a_share_of_a_dual_cell_is_none_without_mass_or_beyond_the_mesh():
+    g = Grid(np.linspace(0.0, 4e-3, 5), np.linspace(0.0, 4e-3, 5), "planar")
+    mesh_box = np.array([2, 6, 2, 6])
+    hard, soft, mass = np.zeros(g.shape), np.zeros(g.shape), np.ones((2, *g.vertex_shape))
+
+    def share(j, i):
+        return filled_share(1, j, i, mesh_box, g.volume, g.metrics, hard, soft, mass)
+
+    hard[3, 3:5], hard[4, 4] = 1.0, 0.4
+    assert share(4, 4) == pytest.approx(0.6)
+    hard[3, 3] = 0.2
+    assert share(4, 4) == pytest.approx(0.4)
+    assert share(1, 4) == share(4, 7) == 0.0
+    mass[1, 4, 4] = 0.0
+    assert share(4, 4) == 0.0
+
+
+def test_a_node_counts_as_filled_by_degrees():
+    assert sureness(0.2) == sureness(UNDERFILLED) == 0.0
+    assert sureness(0.5 * (UNDERFILLED + SURE)) == pytest.approx(0.5)
+    assert sureness(SURE) == sureness(1.0) == 1.0
+
+
+def test_debris_is_failed_material_of_the_other_group_that_fills_half_of_a_cell():
+    vof, dmg = np.zeros((2, 6, 6)), np.zeros((2, 6, 6))
+    vof[1, 2, 3], dmg[1, 2, 3] = 0.5, 1.0
+    mesh_box, group = np.array([0, 6, 0, 6]), np.array([0, 1])
+    assert [(j, i) for j in range(7) for i in range(7) if in_debris(0, j, i, mesh_box, group, vof, dmg)] == [
+        (2, 3), (2, 4), (3, 3), (3, 4)]
+    assert not in_debris(1, 2, 3, mesh_box, group, vof, dmg)
+    vof[1, 2, 3] = 0.49
+    assert not in_debris(0, 2, 3, mesh_box, group, vof, dmg)
+    vof[1, 2, 3], dmg[1, 2, 3] = 1.0, 0.99
+    assert not in_debris(0, 2, 3, mesh_box, group, vof, dmg)
+
+
+@pytest.mark.parametrize(("row", "column", "expected"), [(5, 5, (0.5 / 0.5) ** 4), (5, 6, (1.5 / 2.5) ** 4), (5, 4, 0.0),
+                                                         (8, 6, (1.5 / 14.5) ** 4)])
+def test_a_cell_counts_by_its_distance_and_direction(row, column, expected):
+    """From a vertex at its lower left, along r; nothing behind it and nothing beyond the mesh."""
+    g = Grid(LEVEL, LEVEL, "planar")
+    hard, soft, mass = np.ones(g.shape), np.zeros(g.shape), np.ones((2, *g.vertex_shape))
+    for size in (9, 8, 6):
+        mesh_box = np.array([0, size, 0, size])
+        found = cell_weight(1, 5, 5, row, column, 1.0, 0.0, mesh_box, g.volume, g.metrics, hard, soft, mass)
+        assert found == pytest.approx(expected if row < size and column < size else 0.0)
+
+
+# ---------------------------------------------------------------------------------------------------- extensions
+
+MESHES = [*((scattered(seed), (0.76, 0.64)) for seed in range(3)), *((half_plane(a), (np.cos(a), np.sin(a))) for a in (
+    0.0, 0.4, np.pi / 4, 1.3, 2.5)), (block(), (1.0, 0.0)), (block(), (-0.6, 0.8))]
+
+
+@pytest.mark.parametrize(("hard", "normal"), MESHES)
+@pytest.mark.parametrize("most_squares", [1.0, 1e6])
+def test_weights_add_up_to_one(hard, normal, most_squares):
+    found = Extensions(hard, normal, most_squares=most_squares)
+    assert len(found.slaves) >= 8
+    for b, j, i in found.slaves:
+        assert found.weights[b, j, i].sum() == pytest.approx(1.0, abs=1e-13)
+    assert (found.weights[found.strength == 0.0] == 0.0).all()
+
+
+@pytest.mark.parametrize("angle", [0.0, 0.4, np.pi / 4, 1.3, 2.5])
+@pytest.mark.parametrize("edges", [LEVEL, GRADED], ids=["level", "graded"])
+def test_a_linear_field_is_met(angle, edges):
+    """As long as it is a mean of those of cells, and nothing is capped."""
+    found = Extensions(half_plane(angle), (np.cos(angle), np.sin(angle)), edges=edges)
+    field = 3.0 - 2.0 * found.r[None, :] + 0.7 * found.z[:, None]
+    extended = 0
+    for b, j, i in found.slaves:
+        if 3 <= j <= N - 3 and 3 <= i <= N - 3:
+            masters = found.of(b, j, i)
+            assert found.weights[b, j, i, TIED] == 0.0
+            assert sum(w * field[j + dj, i + di] for (dj, di), w in masters.items()) == pytest.approx(field[j, i], rel=1e-12)
+            extended += 1
+    assert extended >= 8
+
+
+@pytest.mark.parametrize("most_squares", [1.0, 1.6, 2.5])
+def test_squares_of_weights_are_bounded(most_squares):
+    """One cell alone has four full vertices: of those on the edges of the block some would need more."""
+    free, capped = (Extensions(block(), (1.0, 0.0), most_squares=most) for most in (1e6, most_squares))
+    squares = {most: [] for most in ("free", "capped")}
+    for b, j, i in free.slaves:
+        if b == 1 and set(free.of(b, j, i)) == {(dj - j, di - i) for dj in (5, 6) for di in (5, 6)}:
+            squares["free"].append(sum(w * w for w in free.of(b, j, i).values()))
+            squares["capped"].append(sum(w * w for w in capped.of(b, j, i).values()))
+    assert max(squares["free"]) > most_squares
+    np.testing.assert_allclose(squares["capped"], np.minimum(squares["free"], most_squares), rtol=1e-12)
+
+
+@pytest.mark.parametrize(("hard", "normal"), MESHES)
+def test_means_of_cells_are_bounded_too(hard, normal):
+    found = Extensions(hard, normal, most_squares=1.5)
+    assert max(np.sum(found.weights[b, j, i] ** 2) for b, j, i in found.slaves) <= 1.5 + 1e-12
+
+
+@pytest.mark.parametrize(("hard", "normal"), MESHES)
+def test_a_mirrored_slave_has_mirrored_masters(hard, normal):
+    here = Extensions(hard, normal, most_squares=2.0)
+    along_r = Extensions(hard[:, ::-1], (-normal[0], normal[1]), most_squares=2.0)
+    along_z = Extensions(hard[::-1], (normal[0], -normal[1]), most_squares=2.0)
+    square = (2, N + 1, N + 1, SPAN, SPAN)
+    for mirrored, axis in ((along_r, 2), (along_z, 1)):
+        np.testing.assert_allclose(np.flip(mirrored.strength, axis), here.strength, atol=1e-14)
+        turned = np.flip(mirrored.weights[..., :MASTERS].reshape(square), (axis, axis + 2))
+        np.testing.assert_allclose(turned, here.weights[..., :MASTERS].reshape(square), atol=1e-14)
+        np.testing.assert_allclose(np.flip(mirrored.weights[..., TIED], axis), here.weights[..., TIED], atol=1e-14)
+
+
+def test_groups_that_change_places_change_slaves():
+    hard = scattered(7)
+    here, swapped = Extensions(hard, (0.6, 0.8)), Extensions(1.0 - hard, (-0.6, -0.8))
+    np.testing.assert_allclose(swapped.strength[::-1], here.strength, atol=1e-14)
+    np.testing.assert_allclose(swapped.weights[::-1], here.weights, atol=1e-12)
+
+
+# ---------------------------------------------------------------------------------------------- what must not jump
+
+
+def walked(values, fill, b, j, i, normal=(1.0, 0.0)):
+    """Asserts that nothing of a slave jumps at these values of a fraction, nor anywhere between 0 and 1."""
+    def of(fraction):
+        return Extensions(fill(fraction), normal).everything(b, j, i)
+
+    for value in values:
+        changes_in_proportion(of, value, STEEPNESS)
+    assert largest_jump(of, 1e-3, 1.0 - 1e-3) < 1e-9
+    return of
+
+
+def test_a_node_becomes_a_slave_by_degrees():
+    """The share of a vertex goes through UNDERFILLED (0.1) and SURE (0.5)."""
+    def fill(fraction):
+        hard = np.zeros((N, N))
+        hard[:, :5], hard[:, 5], hard[4, 4], hard[5, 5] = 1.0, 0.1, 0.8, fraction
+        return hard
+
+    of = walked((0.1, 0.5), fill, 1, 5, 5)
+    assert [of(f)[0] for f in (0.05, 0.3, 0.9)] == pytest.approx([1.0, 0.5, 0.0])
+
+
+@pytest.mark.parametrize("j", [5, 6])
+def test_a_cell_is_a_master_by_degrees(j):
+    """The least filled vertex of the only cell that counts goes through UNDERFILLED (0.2) and SURE (0.6)."""
+    def fill(fraction):
+        return block(r4c5=0.4, r5c4=0.4, r4c4=fraction)
+
+    of = walked((0.2, 0.6), fill, 1, j, 7)
+    corners = [(dj - j, di - 7) for dj in (5, 6) for di in (5, 6)]
+    with_cell, without = (Extensions(fill(f), (1.0, 0.0)).of(1, j, 7) for f in (0.9, 0.1))
+    assert set(with_cell) == set(corners)
+    assert min(without.values()) > 0.0  # the mean of vertices
+    assert of(0.9) != of(0.1)
+
+
+def test_a_vertex_is_a_master_by_degrees_and_the_other_group_in_the_end():
+    """A block of two by two cells has one full vertex, which goes through UNDERFILLED (0) and SURE (0.4)."""
+    def fill(fraction):
+        hard = np.zeros((N, N))
+        hard[4:6, 4:6] = [[1.0, 0.6], [0.4, fraction]]
+        return hard
+
+    walked((0.4,), fill, 1, 5, 6)
+    assert Extensions(fill(0.9), (1.0, 0.0)).of(1, 5, 6) == {(0, -1): 1.0}
+    alone = Extensions(fill(1e-3), (1.0, 0.0))
+    assert alone.weights[1, 5, 6, TIED] > 0.9
+    changes_in_proportion(lambda f: Extensions(fill(f), (1.0, 0.0)).everything(1, 5, 6), 1e-12, STEEPNESS, sides=(1.0,))
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_nothing_jumps_as_any_cell_fills(seed):
+    """All slaves along a whole path from one scattered filling to another."""
+    first, last = 0.02 + 0.96 * scattered(seed), 0.02 + 0.96 * scattered(seed + 10)
+
+    def everything(way):
+        found = Extensions((1.0 - way) * first + way * last, (0.76, 0.64), most_squares=2.0)
+        return np.concatenate([found.strength.ravel(), (found.strength[..., None] * found.weights).ravel()])
+
+    assert largest_jump(everything, 0.0, 1.0) < 1e-9
+
+
+# ---------------------------------------------------------------------------------------------------------- debris
+
+
+def test_a_crumb_in_debris_asks_two_vertices_away_others_three():
+    hard = np.zeros((N, N))
+    hard[:, :7] = 1.0
+    hard[:, 6] = 0.7
+    hard[6, 4] = 0.999  # with a crumb of the soft body
+    sound, failed = (Extensions(hard, (1.0, 0.0), damage=damage) for damage in (0.9, 1.0))
+    for j in (6, 7):
+        assert min(di for _, di in sound.of(0, j, 5)) == 2
+        assert sound.weights[0, j, 5, TIED] == 0.0
+        assert failed.of(0, j, 5) == {}
+        assert failed.weights[0, j, 5, TIED] == 1.0
+    np.testing.assert_array_equal(failed.weights[1], sound.weights[1])
+    np.testing.assert_array_equal(failed.strength, sound.strength)

@@ -1,0 +1,357 @@
+"""Surfaces that cut cells: bars and rings of exact solutions, with the surface at any place between two lines of the mesh.
+
+Numbers in the docstrings are what was reached, with the worst position of the surface.
+"""
+
+import functools
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from scipy import optimize, special
+
+from hydro2d.deck import deck as decks
+from hydro2d.solver.simulation import Simulation
+
+DENSITY, BULK, SHEAR = 18160.0, 18160.0 * 4030.0**2, 145e9
+YOUNG, POISSON = 9 * BULK * SHEAR / (3 * BULK + SHEAR), (3 * BULK - 2 * SHEAR) / (6 * BULK + 2 * SHEAR)
+YIELD = 0.5e9
+CRUMB = 1e-3  # so much of the fluid may be in a full cell
+SHARES = (0.05, 0.25, 0.5, 0.75, 0.95)
+SLOW_BARS = {"elastic": (5e-4, 12e-6), "plastic": (6e-3, 30e-6)}  # strain and the time it takes, many periods of breathing
+
+
+DECK = """
+title = "{title}"
+[mesh]
+geometry = "{geometry}"
+r = [{{ to = "{wide} mm", size = "0.5 mm" }}]
+z = [{{ to = "{high} mm", size = "0.5 mm" }}]
+[boundaries]
+r_min = "{r_min}"
+r_max = "{r_max}"
+z_min = "{z_min}"
+z_max = "{z_max}"
+[materials.metal]
+based_on = "W_alloy"
+fracture_pressure = "100 GPa"
+strength = {{ model = "elastic-plastic", shear_modulus = "145 GPa", yield_stress = "{strong} GPa" }}
+[[body]]
+name = "bar"
+material = "metal"
+{shape}
+[stop]
+time = "1 s"
+"""
+
+TUBE = """
+[materials.fluid]
+based_on = "Al5083"
+strength = {{ model = "elastic-plastic", shear_modulus = "1 MPa", yield_stress = "1 Pa" }}
+[[body]]
+name = "tube"
+material = "fluid"
+shape = "box"
+r = [0.0, "{wide} mm"]
+z = [0.0, "{high} mm"]
+[sliding]
+method = "contact"
+hard = ["bar"]
+friction = 0.0
+"""
+
+
+def simulation(shape: str, wide: float, high: float, tube: bool = False, **others) -> Simulation:
+    """A body of the metal in void, or in a fluid in which it slides without friction; elastic if not told otherwise."""
+    words = {"title": "a surface", "geometry": "cylindrical", "r_min": "axis", "r_max": "wall", "z_min": "wall",
+             "z_max": "wall", "strong": 100.0, "shape": shape, "wide": wide, "high": high, **others}
+    return Simulation(decks.loads(DECK.format(**words) + (TUBE.format(**words) if tube else "")))
+
+
+# ---------------------------------------------------------------------------------------------------- bars, slowly strained
+
+
+class Bar:
+    """A bar of which the axial motion is given, uniform strain at the end of every step, and the motion across is free.
+
+    Along z it is a cylinder of 2.5 mm and a share of a cell; inclined it is a band in plane strain, with twice that width.
+    """
+
+    def __init__(self, tube: bool, share: float, angle: float, law: str):
+        half = 2.5 + 0.5 * share
+        strong = YIELD / 1e9 if law == "plastic" else 100.0
+        self.along = np.array([np.sin(angle), np.cos(angle)])
+        self.across = np.array([self.along[1], -self.along[0]])
+        if angle:  # long enough in the mesh for ends that give way, and nowhere near its corners
+            wide, high, centre, reach = 24.0, 16.0, np.array([12.0, 8.0]), 2.5e-3
+            corners = [centre + x * half * self.across + 40.0 * y * self.along for x, y in ((1, 1), (-1, 1), (-1, -1), (1, -1))]
+            points = ", ".join(f'["{r:.9f} mm", "{z:.9f} mm"]' for r, z in corners)
+            edges = {"geometry": "planar", "r_min": "outflow", "r_max": "outflow"}
+            shape = f'shape = "polygon"\npoints = [{points}]'
+        else:
+            wide, high, centre, reach = 6.0 if tube else 4.0, 16.0, np.array([0.0, 8.0]), 1.5e-3
+            edges, shape = {}, f'shape = "box"\nr = [0.0, "{half} mm"]\nz = [0.0, "{high} mm"]'
+        self.simulation = simulation(shape, wide, high, tube, z_min="outflow", z_max="outflow", strong=strong, **edges)
+        grid, self.planar, self.law = self.simulation.grid, bool(angle), law
+        self.place = self._along(grid.r, grid.z, 1e-3 * centre)
+        self.rows = np.abs(grid.interior(self._along(grid.rc, grid.zc, 1e-3 * centre))) < reach
+        self.strain, self.plan = 0.0, None
+        self.forces, self.simulation.engine.accelerate = self.simulation.engine.accelerate, self._accelerate
+
+    def _along(self, r, z, centre):
+        return self.along[0] * (r[None, :] - centre[0]) + self.along[1] * (z[:, None] - centre[1])
+
+    def _accelerate(self) -> None:
+        """Velocities by the forces, then the given axial ones: work and strain of the step are those of the plan."""
+        engine, state = self.simulation.engine, self.simulation.state
+        self.forces()
+        strain = self.plan(engine.time + engine.dt)
+        rate, self.strain, group = (strain - self.strain) / engine.dt, strain, state.groups - 1
+        lack = -rate * self.place - (state.u[group] * self.along[0] + state.v[group] * self.along[1])
+        lack[state.mass[group] == 0.0] = 0.0
+        state.u[group] += lack * self.along[0]
+        state.v[group] += lack * self.along[1]
+        engine._keep_one()  # of the other group where the bar is alone
+        engine.ghost_vertices()
+
+    def compress(self, strain: float, time: float) -> None:
+        """Goes on by a strain: softly to rest if elastic, at an even rate at the end if plastic."""
+        start, first, engine = self.simulation.time, self.strain, self.simulation.engine
+
+        def plan(now: float) -> float:
+            x = min((now - start) / time, 1.0)
+            if self.law == "plastic":
+                return first + strain * (2.5 * x * x if x < 0.2 else x - 0.1) / 0.9
+            return first + strain * (x - np.sin(2 * np.pi * x) / (2 * np.pi))
+
+        self.plan = plan
+        while self.simulation.time < start + time:
+            engine.advance()
+
+    def measured(self) -> SimpleNamespace:
+        """Means over the middle of the bar: stresses along and across, by kind of cell; force by what the cells exert."""
+        grid, state = self.simulation.grid, self.simulation.state
+        srr, szz, srz, p, f, rho, e = (grid.interior(x[0]) for x in (state.srr, state.szz, state.srz, state.pm, state.vof,
+                                                                      state.rho, state.e))
+        cell = [grid.interior(x) for x in (state.sig_rr, state.sig_zz, state.sig_rz)]
+        volume = grid.interior(grid.volume)
+
+        def component(n, rr, zz, rz):
+            return n[0] ** 2 * rr + n[1] ** 2 * zz + 2 * n[0] * n[1] * rz
+
+        along, across = (component(n, srr, szz, srz) - p for n in (self.along, self.across))
+        here = self.rows & (f > 0.0)
+        full = self.rows & (f > 1.0 - CRUMB)
+        cut = here & ~full
+        outer = full & beside(cut)
+        inner = full & ~outer
+        assert cut.sum() > 5
+        assert outer.sum() > 5
+        assert inner.sum() > 20
+
+        def mean(x, where):
+            return float((x * f * volume)[where].sum() / (f * volume)[where].sum())
+
+        exerted = (component(self.along, *cell) * volume)[here].sum() / (f * volume)[here].sum()
+        means = {name: mean(along, where) for name, where in (("inner", inner), ("outer", outer), ("cut", cut))}
+        return SimpleNamespace(force=mean(along, here), exerted=float(exerted), across=mean(across, here), **means,
+                               energy=mean(rho * e, here) / mean(rho, here), strain=self.strain)
+
+
+def beside(cells: np.ndarray) -> np.ndarray:
+    """The neighbours of cells."""
+    found = np.zeros_like(cells)
+    found[1:] |= cells[:-1]
+    found[:-1] |= cells[1:]
+    found[:, 1:] |= cells[:, :-1]
+    found[:, :-1] |= cells[:, 1:]
+    return found
+
+
+@functools.cache
+def loaded(tube: bool, share: float, angle: int, law: str, cycles: int = 0):
+    """What a bar measures under load, and the same again at rest after each cycle of unloading."""
+    bar = Bar(tube, share, np.radians(angle), law)
+    strain, time = SLOW_BARS[law]
+    bar.compress(strain, time)
+    under_load, at_rest = bar.measured(), []
+    for cycle in range(cycles):
+        if cycle:
+            bar.compress(strain, time)
+        bar.compress(-strain, time)
+        at_rest.append(bar.measured())
+    return under_load, at_rest
+
+
+def expected(found: SimpleNamespace, angle: int, law: str) -> float:
+    """Axial stress by the law under the lateral stress that was found, which the fluid of a tube gives."""
+    if law == "plastic":
+        return found.across - YIELD * (2 / np.sqrt(3) if angle else 1.0)
+    if angle:
+        return POISSON / (1 - POISSON) * found.across - YOUNG / (1 - POISSON**2) * found.strain
+    return 2 * POISSON * found.across - YOUNG * found.strain
+
+
+def held(tube: bool, share: float, angle: int, law: str, cycles: int, force: float, stress: float) -> None:
+    """Force of the section, and stress of the cut and of the outermost full cells, within shares of what they should be."""
+    found, _ = loaded(tube, share, angle, law, cycles)
+    assert found.force == pytest.approx(expected(found, angle, law), rel=force)
+    assert found.exerted == pytest.approx(expected(found, angle, law), rel=force)
+    assert found.outer == pytest.approx(found.inner, rel=stress)
+    assert found.cut == pytest.approx(found.inner, rel=stress)
+
+
+@pytest.mark.parametrize("share", SHARES)
+def test_elastic_bar(share):
+    """Along z in void: force E A eps within 0.03 %, stress of the cut row and of the outermost full one within 0.25 %."""
+    held(False, share, 0, "elastic", 10, 0.001, 0.005)
+
+
+@pytest.mark.parametrize("share", SHARES)
+def test_elastic_bar_in_a_tube(share):
+    """Along z in a tube without friction: 0.04 % and 0.02 %, but 0.55 % in the cut row with a share of 0.05."""
+    held(True, share, 0, "elastic", 10, 0.001, 0.008 if share == 0.05 else 0.001)
+
+
+@pytest.mark.parametrize("share", SHARES)
+def test_plastic_bar(share):
+    """Along z in void: force Y A within 0.25 %, stress within 1.1 %, by what is left of the bar's breathing."""
+    held(False, share, 0, "plastic", 0, 0.005, 0.015)
+
+
+@pytest.mark.parametrize("share", SHARES)
+def test_plastic_bar_in_a_tube(share):
+    """Along z in a tube without friction: 0.11 % and 0.42 %, but 1.84 % in the cut row with a share of 0.05."""
+    held(True, share, 0, "plastic", 0, 0.002, 0.02 if share == 0.05 else 0.008)
+
+
+INCLINED = [(angle, law) for angle in (15, 30, 45) for law in ("elastic", "plastic")]
+
+
+@pytest.mark.parametrize(("angle", "law"), INCLINED)
+def test_inclined_bar(angle, law):
+    """In void, by E/(1 - nu^2) and 2 Y/sqrt(3) of plane strain: force within 0.1 %, stress within 0.43 %."""
+    held(False, 0.25, angle, law, 3 if law == "elastic" else 0, 0.002, 0.008)
+
+
+@pytest.mark.parametrize(("angle", "law"), INCLINED)
+def test_inclined_bar_in_a_tube(angle, law):
+    """In a tube without friction: force within 0.06 %, stress within 0.13 %."""
+    held(True, 0.25, angle, law, 3 if law == "elastic" else 0, 0.001, 0.004)
+
+
+def left_over(tube: bool, share: float, angle: int, cycles: int) -> float:
+    """Largest energy per mass of the bar at rest after a cycle, as a share of what it has under load."""
+    under_load, at_rest = loaded(tube, share, angle, "elastic", cycles)
+    return max(abs(rest.energy) for rest in at_rest) / under_load.energy
+
+
+@pytest.mark.parametrize("share", SHARES)
+def test_energy_of_ten_cycles(share):
+    """Loaded and unloaded ten times in void: 2.4e-5 to 4.8e-5 of the elastic energy are left."""
+    assert left_over(False, share, 0, 10) < 1e-3
+
+
+@pytest.mark.xfail(strict=True, reason="5.7e-3 to 7.5e-3 of the elastic energy are left, 6e-4 to 8e-4 more after every cycle, "
+                                       "nearly all in the outermost full row")
+@pytest.mark.parametrize("share", SHARES)
+def test_energy_of_ten_cycles_in_a_tube(share):
+    """The same in a tube without friction."""
+    assert left_over(True, share, 0, 10) < 1e-3
+
+
+@pytest.mark.parametrize("angle", [15, 30, pytest.param(45, marks=pytest.mark.xfail(strict=True, reason="2.4e-3 are left"))])
+def test_energy_of_three_cycles_inclined(angle):
+    """Inclined in void: 1.4e-4 at 15 degrees, 1.7e-4 at 30."""
+    assert left_over(False, 0.25, angle, 3) < 1e-3
+
+
+@pytest.mark.xfail(strict=True, reason="9.8e-3, 1.3e-2 and 9.5e-3 are left, a third of it after every cycle")
+@pytest.mark.parametrize("angle", [15, 30, 45])
+def test_energy_of_three_cycles_inclined_in_a_tube(angle):
+    """Inclined in a tube without friction."""
+    assert left_over(True, 0.25, angle, 3) < 1e-3
+
+
+# ---------------------------------------------------------------------------------------------------- a bar that is braked
+
+
+@functools.cache
+def braked(share: float, transits: int = 20, length: float = 20.0, strain: float = 1e-3):
+    """(mean of the differences from the four neighbours, mean size) of the pressure of full cells, means over time, Pa.
+
+    The bar stands on a wall, seen from the wall: a body force per mass that comes up softly over a transit of the bar wave,
+    and would strain it by `strain` at the wall in the end; its waves then run to and fro.
+    """
+    bar = simulation(f'shape = "box"\nr = [0.0, "{2.5 + 0.5 * share} mm"]\nz = [0.0, "{length} mm"]', 4.0, length + 2.0)
+    engine, state, grid = bar.engine, bar.state, bar.grid
+    transit = 1e-3 * length / np.sqrt(YOUNG / DENSITY)
+    force, forces, sums = strain * YOUNG / DENSITY / (1e-3 * length), engine.accelerate, []
+
+    def accelerate() -> None:
+        forces()
+        x = min((engine.time + 0.5 * engine.dt) / transit, 1.0)
+        pushed = state.mass[0, grid.g + 1:] > 0.0
+        state.v[0, grid.g + 1:] -= force * engine.dt * (x - np.sin(2 * np.pi * x) / (2 * np.pi)) * pushed
+
+    engine.accelerate = accelerate
+    while bar.time < transits * transit:
+        engine.advance()
+        p, full = (np.pad(x, 1, mode="edge") for x in (grid.interior(state.pm[0]), grid.interior(state.vof[0]) == 1.0))
+        around = [(slice(2, None), slice(1, -1)), (slice(-2), slice(1, -1)), (slice(1, -1), slice(2, None)),
+                  (slice(1, -1), slice(-2))]
+        here = full[1:-1, 1:-1] & np.all([full[x] for x in around], axis=0)
+        apart = p[1:-1, 1:-1] - np.mean([p[x] for x in around], axis=0)
+        sums.append((np.abs(apart[here]).mean(), np.abs(p[1:-1, 1:-1][here]).mean()))
+    return np.mean(sums[len(sums) // transits:], axis=0)
+
+
+@pytest.mark.parametrize("share", [*SHARES[:-1], pytest.param(SHARES[-1], marks=pytest.mark.xfail(
+    strict=True, reason="1.33 % of the pressure"))])
+def test_no_checkerboard_in_a_braked_bar(share):
+    """Over 20 transits, with its free end on a line of the mesh: 0.38, 0.91, 0.57 and 0.92 % of the pressure."""
+    apart, size = braked(share)
+    assert apart < 0.01 * size
+
+
+# ---------------------------------------------------------------------------------------------------- a ring that breathes
+
+
+def breathing(inner: float, outer: float) -> float:
+    """Frequency of the breathing of a long elastic tube without axial strain, 1/s: both surfaces free of traction."""
+    stiff = BULK + 4 * SHEAR / 3
+    speed = np.sqrt(stiff / DENSITY)
+
+    def traction(zero, one, k, r):
+        return stiff * k * zero(k * r) - 2 * SHEAR * one(k * r) / r
+
+    def mismatch(omega):
+        k = omega / speed
+        (a, b), (c, d) = ([traction(zero, one, k, r) for zero, one in ((special.j0, special.j1), (special.y0, special.y1))]
+                          for r in (inner, outer))
+        return a * d - b * c
+
+    thin = np.sqrt(YOUNG / (1 - POISSON**2) / DENSITY) / (0.5 * (inner + outer))
+    return float(optimize.brentq(mismatch, 0.9 * thin, 1.1 * thin))
+
+
+@pytest.mark.parametrize("share", SHARES)
+def test_period_of_a_ring(share):
+    """Two cells thick, both surfaces in void: five periods are 0.08 to 0.31 % short on average, single ones up to 0.6 %."""
+    inner = 10.0 + 0.5 * share
+    ring = simulation(f'shape = "box"\nr = ["{inner} mm", "{inner + 1.0} mm"]\nz = [0.0, "2 mm"]', 14.0, 2.0)
+    period, state, inside = 2 * np.pi / breathing(1e-3 * inner, 1e-3 * (inner + 1.0)), ring.state, ring.grid.g + 1
+    state.u[0, :, inside:] = 2.0
+    times, speeds = [], []
+    while ring.time < 5.3 * period:
+        ring.step()
+        mass = state.mass[0, :, inside:]
+        times.append(ring.time)
+        speeds.append((mass * state.u[0, :, inside:]).sum() / mass.sum())
+    t, u = np.array(times), np.array(speeds)
+    k = np.nonzero(u[:-1] * u[1:] < 0.0)[0]
+    crossings = t[k] - u[k] * (t[k + 1] - t[k]) / (u[k + 1] - u[k])
+    assert len(crossings) >= 10
+    assert 2 * np.diff(crossings).mean() == pytest.approx(period, rel=0.005)
+    assert 2 * np.diff(crossings) == pytest.approx(period, rel=0.008)
+    assert np.abs(u[t > 4.3 * period]).max() > 0.97 * 2.0
