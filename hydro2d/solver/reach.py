@@ -24,6 +24,8 @@ WALLS = ("wall", "velocity")
 CELL_HOTTER, CELL_COLDER = 3.0, 0.25
 #: plastic strain beyond which no more heat of plastic work is believed, and share of the shear modulus that no stress exceeds
 MOST_STRAIN, IDEAL_STRENGTH = 10.0, 0.1
+#: rate of strain, 1/s, and temperature, K, at which the largest flow stress is looked up
+STRONGEST_RATE, ROOM = 1e6, 300.0
 #: what a body may show that nothing meets: share of the specific kinetic energy of the closing speed, and of c^2
 AT_REST, OF_SOUND = 0.05, 1e-6
 #: step in the logarithm of the density along an isentrope, and the longest ways in compression and expansion
@@ -38,7 +40,8 @@ class Reach(NamedTuple):
     """Bounds of the specific internal energy of every body, J/kg, float64[m]: of its mean, and of a cell.
 
     lowest, highest : coldest and hottest state, which bound the mean;  cell_lowest, cell_highest : those of a cell
-    plastic : heat in a cell by plastic strain, J/kg;  rubbing : the same by time, of friction, W/kg
+    worked : heat by plastic strain, J/kg, at the largest flow stress of the law;  plastic : what a cell may show instead
+    rubbing : heat of friction in a cell by time, W/kg
     gas : which bodies are gases;  warm : which begin above a temperature of zero; bool[m]
     speed : the closing speed, m/s;  pressure : the highest pressure of the shot, Pa
     """
@@ -47,6 +50,7 @@ class Reach(NamedTuple):
     highest: np.ndarray
     cell_lowest: np.ndarray
     cell_highest: np.ndarray
+    worked: np.ndarray
     plastic: np.ndarray
     rubbing: np.ndarray
     gas: np.ndarray
@@ -92,9 +96,21 @@ def of(deck, table, state, start) -> Reach:
         lowest=lowest, highest=highest,
         cell_lowest=np.minimum(first, 0.0) - CELL_COLDER * (highest - first) - noise,
         cell_highest=np.maximum(first, 0.0) + np.maximum(CELL_HOTTER * (highest - first), speed**2) + noise,
+        worked=np.array([strongest(table, m, pressure) for m in range(len(table))]) / density,
         plastic=IDEAL_STRENGTH * shear / density, rubbing=deck.sliding.friction * pressure * speed / (finest * density),
         gas=table.gases(), warm=np.array([one.evaluate(one.rho, one.e)[3] > 0.0 for one in materials]),
         speed=speed, pressure=pressure)  # fmt: skip
+
+
+def strongest(table, m: int, pressure: float) -> float:
+    """Largest flow stress of body m at a pressure in Pa and room temperature, over strains to MOST_STRAIN, Pa."""
+    from strength.dispatch import flow_stress
+
+    model, par, rho = table.strength_model[m], table.strength_par[m], table.rho0[m]
+    if not model:
+        return 0.0
+    strains = np.linspace(0.0, MOST_STRAIN, 101)
+    return max(flow_stress(model, strain, STRONGEST_RATE, ROOM, p, rho, par) for strain in strains for p in (0.0, pressure))
 
 
 def _highest(deck, pressures: list[float]) -> float:

@@ -49,7 +49,7 @@ def faults(state, audit: Audit, names, reach: Reach, share: float = TRUSTED) -> 
         if not internal - min(start.internal_of[m], 0.0) >= -share * energy:
             found.append(f'body "{names[m]}" as a whole has {internal / energy:.2g} times the energy of the start as internal '
                          f"energy{_least_energy(state, m)}")
-        found += _mean_beyond_reach(m, names[m], now, came, reach, share)
+        found += _mean_beyond_reach(m, names[m], state, now, came, reach, share)
     if not now.kinetic <= (1.0 + share) * energy:
         found.append(f"the kinetic energy is {now.kinetic / energy:.3g} times the energy that was ever put in"
                      f"{_fastest(state, names)}")
@@ -64,16 +64,25 @@ def faults(state, audit: Audit, names, reach: Reach, share: float = TRUSTED) -> 
     return found
 
 
-def _mean_beyond_reach(m: int, name: str, now: Totals, came: float, reach: Reach, share: float) -> Iterator[str]:
+def _mean_beyond_reach(m: int, name: str, state, now: Totals, came: float, reach: Reach, share: float) -> Iterator[str]:
     """What is wrong with the energy of body m as a whole; came : energy that edges brought."""
     if not now.mass[m] > 0.0:
         return
     span = reach.highest[m] - reach.lowest[m]
     low, high = reach.lowest[m] - share * span, reach.lowest[m] + (1.0 + share / TRUSTED) * span + came / now.mass[m]
     mean = now.internal_of[m] / now.mass[m]
-    if not low <= mean <= high:
+    if low <= mean <= high:
+        return
+    strain = _mean_strain(state, m)
+    if not low <= mean <= high + reach.worked[m] * strain:
         yield (f'body "{name}" has {mean:.3g} J/kg as a whole; it can reach {reach.lowest[m]:.3g} to {reach.highest[m]:.3g} '
-               f"J/kg, {_from(reach, m)}")
+               f"J/kg, {_from(reach, m)}, and its mean plastic strain of {strain:.3g} adds {reach.worked[m] * strain:.3g} J/kg")
+
+
+def _mean_strain(state, m: int) -> float:
+    """Mean plastic strain of a body by mass, of no more than MOST_STRAIN in a cell."""
+    mass = state.grid.interior(state.vof[m] * state.rho[m] * state.grid.volume)
+    return float(np.sum(mass * np.minimum(state.grid.interior(state.ep[m]), MOST_STRAIN)) / np.sum(mass))
 
 
 def _from(reach: Reach, m: int) -> str:

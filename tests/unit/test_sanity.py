@@ -73,6 +73,19 @@ def test_a_body_with_negative_energy_as_a_whole(shot):
     assert f"-5e+04 J/kg in the cell (r, z) = ({shot.grid.rc[3]:.6g}, {shot.grid.zc[25]:.6g}) m" in fault
 
 
+def test_the_heat_of_plastic_work_is_no_fault(shot):
+    """A body may be as hot as its plastic strain makes it: an eroded rod has a mean strain of 1.5."""
+    state, (rho, reach) = shot.state, (2703.0, shot._reach)
+    full = state.vof[0] > 0
+    state.e[0][full] = reach.lowest[0] + 2.1 * (reach.highest[0] - reach.lowest[0])
+    state.ep[0][full] = 0.0
+    close(shot)
+    (fault,) = (fault for fault in shot.faults() if fault.startswith('body "flyer" has'))
+    state.ep[0][full] = 1.5
+    assert 0.3e9 < reach.worked[0] * rho < 1e9
+    assert not [fault for fault in shot.faults() if fault.startswith('body "flyer" has')]
+
+
 def test_kinetic_energy_out_of_nothing(shot):
     shot.state.v *= 1.3
     close(shot)
