@@ -15,18 +15,18 @@ from hydro2d.jit import kernel, point, prange
 from hydro2d.kernels.column_ranges import union
 from hydro2d.physics.contact import GAP, end_apertures, known
 from hydro2d.physics.interfaces import line_constant, youngs_gradient
+from hydro2d.physics.traction import smoothstep
 
-#: square of the ratio of two slopes from which the steeper surface alone draws the line: more than round-off
-FLATTER = 1.0 + 1e-12
+#: excess over 1 of the square of the ratio of two slopes from which the steeper surface alone draws the line
+STEEPER = 1e-3
 
 #: rows of `line`: normal of the hard side in the unit square, its constant, share of the hard among the solids; slopes, down
-#: the hard bodies' fraction and up that of the soft ones; the group whose surface is the flatter, 1 where none is, or PARTED
-LINE_R, LINE_Z, CONSTANT, SHARE, HARD_R, HARD_Z, SOFT_R, SOFT_Z, FIRST = range(9)
+#: the hard bodies' fraction and up that of the soft ones; how much of what the soft and the hard group give is found with the
+#: interfaces of the hard bodies first, the rest with those of the soft ones first
+LINE_R, LINE_Z, CONSTANT, SHARE, HARD_R, HARD_Z, SOFT_R, SOFT_Z, SOFT_AFTER, HARD_FIRST = range(10)
 
 #: square of the ratio of the slope of all that is solid to those of the groups, below which void lies between them
 BETWEEN = 0.25
-#: in the place of a group: void lies between the two, and each has a surface of its own
-PARTED = 2.0
 
 #: how many vertices away a node's body may be for the node to move with it
 REACH = 3
@@ -68,6 +68,23 @@ def find_contact_nodes(j0, j1, mesh_box, group_ranges, mass, group, vof, count, 
                         soft[j, i] += vof[m, j, i]
 
 
+@point
+def steeper(one, other):
+    """Weight with which a surface alone draws the line, for the squares of its slope and of the other surface's."""
+    return smoothstep((one / other - 1.0) / STEEPER) if one > other > 0.0 else (1.0 if one > other else 0.0)
+
+
+@point
+def parted(void, whole, less):
+    """Weight with which void lies between the groups, each of which then has a surface of its own.
+
+    void is its share of the cell, whole the square of the slope of all that is solid, less the smaller one of the two groups'.
+    """
+    if less == 0.0:
+        return 0.0
+    return smoothstep(void / GAP - 1.0) * smoothstep(2.0 - 2.0 * whole / (BETWEEN * less))
+
+
 @kernel
 def contact_lines(j0, j1, i0, i1, mesh_box, dr, dz, count, contact_nodes, hard, soft, contact_columns, line):
     """The contact-interface columns of every row, from i0 to i1, and in them the line that parts the hard side of a cell from
@@ -76,10 +93,10 @@ def contact_lines(j0, j1, i0, i1, mesh_box, dr, dz, count, contact_nodes, hard, 
     The normal is Youngs' from f_hard - f_soft, the line encloses the hard share of what is solid. Near void, where one of the
     two surfaces has a corner, the steeper slope is that of the flat one: then the line is its own, and the void of the cell
     lies on the other side. Where there is more than GAP of void and the two slopes all but cancel, it lies between the groups.
-    Beyond the edges of the mesh the cells beside them are repeated.
+    Each of these comes in with a weight. Beyond the edges of the mesh the cells beside them are repeated.
 
     Reads    count [j], contact_nodes [j, k]; hard, soft [j, i]
-    Writes   contact_columns [j, 2]; line [9, j, i]
+    Writes   contact_columns [j, 2]; line [10, j, i]
     """
     for j in prange(j0, j1):
         lo, hi = 1 << 30, 0
@@ -111,18 +128,19 @@ def contact_lines(j0, j1, i0, i1, mesh_box, dr, dz, count, contact_nodes, hard, 
             line[SOFT_R, j, i] = -soft_r / dr[i]
             line[SOFT_Z, j, i] = -soft_z / dz[j]
             line[SHARE, j, i] = share
-            line[FIRST, j, i] = 0.0 if steep_s > FLATTER * steep_h else 1.0
+            by_soft, by_hard = steeper(steep_s, steep_h), steeper(steep_h, steep_s)
             open_r, open_z = hard_r + soft_r, hard_z + soft_z
-            if total < 1.0 - GAP and open_r * open_r + open_z * open_z < BETWEEN * min(steep_h, steep_s):
-                line[FIRST, j, i] = PARTED
+            apart = parted(1.0 - total, open_r * open_r + open_z * open_z, min(steep_h, steep_s))
+            line[SOFT_AFTER, j, i] = (1.0 - apart) * (1.0 - by_soft)
+            line[HARD_FIRST, j, i] = 1.0 - (1.0 - apart) * by_soft
             line[LINE_R, j, i] = 0.0
             line[LINE_Z, j, i] = 0.0
             line[CONSTANT, j, i] = 0.0
             if size > 1e-14 and 0.0 < share < 1.0:
-                if steep_s > FLATTER * steep_h:
-                    along_r, along_z, share = -soft_r, -soft_z, 1.0 - soft[j, i]
-                elif steep_h > FLATTER * steep_s:
-                    along_r, along_z, share = hard_r, hard_z, hard[j, i]
+                both = 1.0 - by_soft - by_hard
+                along_r = 0.5 * both * along_r + by_hard * hard_r - by_soft * soft_r
+                along_z = 0.5 * both * along_z + by_hard * hard_z - by_soft * soft_z
+                share = both * share + by_hard * hard[j, i] + by_soft * (1.0 - soft[j, i])
                 size = abs(along_r) + abs(along_z)
                 n_r, n_z = along_r / size, along_z / size
                 line[LINE_R, j, i] = n_r
@@ -157,7 +175,7 @@ def face_apertures(j0, j1, mesh_box, constrained, contact_columns, line, hard, s
     which differ where void is near. Groups touch where a cell holds both and no more than GAP of void, or where
     a full cell of one is a neighbour of a full cell of the other.
 
-    Reads    contact_columns [j, 2], line [9, j, i], hard, soft [j, i], mass [b, j, i], count [j], contact_nodes [j, k]
+    Reads    contact_columns [j, 2], line [10, j, i], hard, soft [j, i], mass [b, j, i], count [j], contact_nodes [j, k]
     Writes   aperture_r, aperture_z [end, j, i]; normal [3, 2, j, i], touch [j, i] at contact nodes
     """
     for j in prange(j0, j1 + 1):

@@ -92,7 +92,7 @@ def contact_stress(j0, j1, dt, contact_columns, group_ranges, line, hard, soft, 
                    sig_tt, sig_rz, contact_pressure):
     """Pressure of contact-interface cells at half the step by their one rate of volume, and normal pressure of the contact.
 
-    Reads    rate, p, bulk, solid, skin, hard, soft, sig_rz [j, i], line [9, j, i]
+    Reads    rate, p, bulk, solid, skin, hard, soft, sig_rz [j, i], line [10, j, i]
     Updates  ph, sig_rr, sig_zz, sig_tt [j, i];  writes contact_pressure [j, i], 0 where a cell does not hold both groups
     """
     for j in prange(j0, j1):

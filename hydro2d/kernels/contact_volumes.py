@@ -5,7 +5,7 @@ The faces are swept by both groups, each by its aperture (kernels/contact_geomet
 
 from hydro2d.jit import apart, kernel, point, prange
 from hydro2d.kernels.column_ranges import union
-from hydro2d.kernels.contact_geometry import FIRST, PARTED
+from hydro2d.kernels.contact_geometry import HARD_FIRST, SOFT_AFTER
 from hydro2d.kernels.cut_cells import INTERFACE, KIND
 from hydro2d.mesh.fields import RHO, E
 from hydro2d.mesh.grid import FACE_R
@@ -213,12 +213,13 @@ def contact_fluxes(dj, di, j0, j1, mesh_box, dr, dz, hard_first, soft_first, gro
     """Volume of every body through the faces of contact-interface cells, with the velocity of its group.
 
     In a cell the group with the flatter surface comes first among the nested interfaces, where void parts them each group for
-    itself. What the bodies together are short of, or beyond, the volume that the face sweeps, and the void of the cell that
-    this comes from cannot make up for (void flows with the face, and no more than there is), the softer bodies take as far as
-    they have it there, and the hard ones what is left (`take`). Where that cell has a gap, a full cell into which volume flows
-    is short of nothing as long as there is more of its body: no void enters a body from its surface.
+    itself, by the weights of `contact_lines`. What the bodies together are short of, or beyond, the volume that the face
+    sweeps, and the void of the cell that this comes from cannot make up for (void flows with the face, and no more than there
+    is), the softer bodies take as far as they have it there, and the hard ones what is left (`take`). Where that cell has a
+    gap, a full cell into which volume flows is short of nothing as long as there is more of its body: no void enters a body
+    from its surface.
 
-    Reads    face [j, i], own [b, j, i], what contact_shares wrote, vof [m, j, i], group [m], line [9, j, i];
+    Reads    face [j, i], own [b, j, i], what contact_shares wrote, vof [m, j, i], group [m], line [10, j, i];
              hard_first, soft_first [m], the bodies in the order in which their interfaces are nested
     Updates  flux_volume [m, j, i]
     """
@@ -240,11 +241,13 @@ def contact_fluxes(dj, di, j0, j1, mesh_box, dr, dz, hard_first, soft_first, gro
                     volume = swept
                 elif vof[m, row, column] > 0.0 and swept != 0.0:
                     width = min(abs(swept) / size[row, column], 1.0)
-                    first = line[FIRST, row, column] if contact_columns[row, 0] <= column < contact_columns[row, 1] else 1.0
-                    if first == 0.0 or (first == PARTED and group[m] == 0):
-                        given = strip_of(m, row, column, dj == 1, width, up, soft_first, part, vof, dr, dz)
-                    else:
-                        given = strip_of(m, row, column, dj == 1, width, up, hard_first, part, vof, dr, dz)
+                    w, given = 1.0, 0.0
+                    if contact_columns[row, 0] <= column < contact_columns[row, 1]:
+                        w = line[HARD_FIRST if group[m] == 1 else SOFT_AFTER, row, column]
+                    if w > 0.0:
+                        given += w * strip_of(m, row, column, dj == 1, width, up, hard_first, part, vof, dr, dz)
+                    if w < 1.0:
+                        given += (1.0 - w) * strip_of(m, row, column, dj == 1, width, up, soft_first, part, vof, dr, dz)
                     volume = given * size[row, column] if up else -given * size[row, column]
                 flux_volume[m, j, i] = volume
                 total += volume

@@ -7,6 +7,7 @@ Every body of a cut cell has the normal stress -p_c, and the strain across the s
 from math import sqrt
 
 from hydro2d.jit import apart, kernel, point, prange
+from hydro2d.kernels.mixed_scratch import ACROSS, ALONG, BESIDE, FLOW, GROWTH, HEAT, MODULUS, NORMAL, SIZE
 from hydro2d.mesh.fields import RHO, SRR, SRZ, SZZ, E
 from hydro2d.physics.closure import NO_VOID
 from hydro2d.physics.interfaces import youngs_gradient
@@ -16,11 +17,6 @@ from hydro2d.physics.traction import STEEP, along_normal, half_pressure, pull_le
 BONDED, FREE_SURFACE, INTERFACE = 0.0, 1.0, 2.0
 #: rows of `skin`
 NORMAL_R, NORMAL_Z, KIND = range(3)
-#: rows of the scratch `mix`, one number for every body: its share in a change of volume, heat; elastic trial of the deviators;
-#: shear modulus, yield stress; and in a cut cell the stress at which it flows, s : s and n . s . n of what the strain along the
-#: surface makes of it, the trace of that strain, the strain across the surface, what its volume grows by, n . s . n before
-SOFT, HEAT, TRIAL_RR, TRIAL_ZZ, TRIAL_RZ, MODULUS, YIELD, FLOW, SIZE, ALONG, BESIDE, ACROSS, GROWTH, NORMAL = (
-    range(14))
 
 
 @kernel

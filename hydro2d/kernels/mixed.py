@@ -3,57 +3,44 @@
 from eos.dispatch import evaluate, zero_pressure_density
 from hydro2d.jit import kernel, point, prange, rowwise
 from hydro2d.kernels.column_ranges import block_rows, mixed_row, number_of_blocks, spread
-from hydro2d.kernels.cut_cells import (
-    ACROSS,
-    ALONG,
-    BESIDE,
-    BONDED,
-    FLOW,
-    FREE_SURFACE,
+from hydro2d.kernels.cut_cells import BONDED, FREE_SURFACE, INTERFACE, KIND, common_traction, fill_cut_cell, normal_deviator
+from hydro2d.kernels.mixed_scratch import (
     HEAT,
-    INTERFACE,
-    KIND,
-    MODULUS,
+    HOURGLASS,
+    MEAN_RR,
+    MEAN_RZ,
+    MEAN_TT,
+    MEAN_ZZ,
     NORMAL,
-    NORMAL_R,
-    NORMAL_Z,
-    SIZE,
+    RBZ,
+    RR,
     SOFT,
-    TRIAL_RR,
-    TRIAL_RZ,
-    TRIAL_ZZ,
-    YIELD,
-    common_traction,
-    fill_cut_cell,
-    meet_traction,
-    normal_deviator,
-    surface_weight,
+    TT,
+    ZBR,
+    ZZ,
+)
+from hydro2d.kernels.mixed_strength import (
+    MATERIAL,
+    SOLID,
+    dominant_body,
+    return_deviators,
+    strain_bodies_across,
+    strain_deviators,
+    work_of_deviators,
 )
 from hydro2d.kernels.thermodynamics import pressures_row, viscosity_row
-from hydro2d.materials.rows import CUTOFF_DENSITY, DAMAGE, DAMAGE_AT, EOS, EOS_AT, FACTOR, GAS, STRENGTH, STRENGTH_AT, TENSILE
-from hydro2d.mesh.fields import DMG, EP, RHO, SRR, SRZ, SZZ, E
+from hydro2d.materials.rows import EOS, EOS_AT, GAS, STRENGTH_AT, TENSILE
+from hydro2d.mesh.fields import DMG, RHO, SRR, SRZ, SZZ, E
 from hydro2d.mesh.grid import VOL_R
-from hydro2d.physics.closure import NO_VOID, relaxation_bound, relaxation_strain, softness, split_volume
-from hydro2d.physics.fracture import damaged, share_that_stays, tension_limit
+from hydro2d.physics.closure import NO_VOID, relaxation_bound, relaxation_strain, softness
+from hydro2d.physics.fracture import share_that_stays, tension_limit
 from hydro2d.physics.kinematics import hourglass_mode, velocity_gradient
-from hydro2d.physics.plasticity import carries_no_stress, deviator_power, from_centre, keep_internal, returned, take_internal
-from hydro2d.physics.stress import stress_scale, turn_and_strain, von_mises
-from hydro2d.physics.traction import along_normal
-from strength.dispatch import damage_increment, flow_stress, kinematic_modulus, shear_modulus, turn
-from strength.radial_return import plastic_increment
+from hydro2d.physics.stress import stress_scale
 
-#: mixed-cell strength by name, in the order of the integer that the kernels take
-STRENGTH_MODES = ("volume", "solid", "zero", "max", "material")
-VOLUME, SOLID, ZERO, MAX, MATERIAL = range(5)
 #: mixed-cell closure by name
 CLOSURES = ("uniform", "tipton")
 #: tensile threshold of a mixed cell by name
 TENSIONS = ("mean", "min")
-
-
-#: columns of the scratch `motion`: volume times the velocity gradient at the end of the step (du_r/dz, du_z/dr apart) and at
-#: its middle, and the work of the hourglass filter
-RR, TT, ZZ, RBZ, ZBR, MEAN_RR, MEAN_TT, MEAN_ZZ, MEAN_RZ, HOURGLASS = range(10)
 
 
 @rowwise
@@ -165,16 +152,6 @@ def cell_motion(j, i, g, dt, h, metrics, hg_coefficient, u0, v0, u, v, motion):
 
 
 @point
-def dominant_body(j, i, hard, hard_threshold, vof):
-    """The body whose strength dominates in a cell of the hard zone, -1 outside of it."""
-    dominant = -1
-    for m in range(vof.shape[0]):
-        if hard[m] and vof[m, j, i] >= hard_threshold:
-            dominant = m
-    return dominant
-
-
-@point
 def soften(j, i, tipton, vof, pm, km, mix):
     """(1 over the sum of the bodies' shares in a change of volume, their mean pressure) (explanation/mixed-cells, equation 2).
 
@@ -190,164 +167,6 @@ def soften(j, i, tipton, vof, pm, km, mix):
 
 
 @point
-def work_of_deviators(j, i, dt, dominant, total, scale, group, motion, vof, q, mix):
-    """What the deviators of every body do in the step: its own, or in the hard zone the dominant body's alone.
-
-    In a cut cell the part across the surface is none of theirs: mix [j, NORMAL, m].
-
-    Writes   mix [j, HEAT, m], J per radian
-    """
-    for m in range(vof.shape[0]):
-        f = vof[m, j, i]
-        mix[j, HEAT, m] = 0.0
-        if f == 0.0:
-            continue
-        part = total if m == dominant else 0.0
-        if dominant < 0:
-            part = f * scale
-        g = group[m]
-        power = deviator_power(q[SRR, m, j, i], q[SZZ, m, j, i], q[SRZ, m, j, i], motion[j, g, MEAN_RR],
-                               motion[j, g, MEAN_ZZ], motion[j, g, MEAN_TT], motion[j, g, MEAN_RZ])
-        power -= mix[j, NORMAL, m] * (motion[j, g, MEAN_RR] + motion[j, g, MEAN_ZZ] + motion[j, g, MEAN_TT])
-        mix[j, HEAT, m] = part * dt * power
-
-
-@point
-def strain_deviators(j, i, rate, mode, total, skin, group, models, materials, pm, tm, motion, vof, q, mix, internal):
-    """Elastic trial of every body; returns the yield stress of the cell by mode (explanation/mixed-cells, equation 8).
-
-    rate is the time step over the volume of the cell. Internal variables that are tensors turn with the material. In a cut cell
-    the strain across the surface is left out, by the weight of that: `meet_traction` finds it, `strain_across` adds it.
-
-    Updates  q (internal variables) [k, m, j, i]; scratch internal [j, k]
-    Writes   mix [j, TRIAL_RR to TRIAL_RZ, m], deviators; mix [j, MODULUS, m], mix [j, YIELD, m], 0 without strength, all in Pa
-    """
-    cell_yield, largest_yield = 0.0, 0.0
-    n_r, n_z, weight = skin[NORMAL_R, j, i], skin[NORMAL_Z, j, i], surface_weight(j, i, skin)
-    inverse = 1.0 / weight if weight > 0.0 else 0.0
-    for m in range(vof.shape[0]):
-        f = vof[m, j, i]
-        mix[j, YIELD, m] = 0.0
-        mix[j, MODULUS, m] = 0.0
-        mix[j, SIZE, m] = 0.0
-        mix[j, ALONG, m] = 0.0
-        mix[j, BESIDE, m] = 0.0
-        if f == 0.0 or models[m, STRENGTH] == 0:
-            continue
-        g, model, par, rho = group[m], models[m, STRENGTH], materials[m, STRENGTH_AT:DAMAGE_AT], q[RHO, m, j, i]
-        modulus = shear_modulus(model, pm[m, j, i], rho, tm[m, j, i], par)
-        strain_r, strain_z, strain_t = motion[j, g, RR] * rate, motion[j, g, ZZ] * rate, motion[j, g, TT] * rate
-        strain_s = 0.5 * (motion[j, g, RBZ] + motion[j, g, ZBR]) * rate
-        spin = 0.5 * (motion[j, g, RBZ] - motion[j, g, ZBR]) * rate
-        across = along_normal(n_r, n_z, strain_r, strain_z, strain_s) * inverse
-        strain_r -= across * n_r * n_r
-        strain_z -= across * n_z * n_z
-        strain_s -= across * n_r * n_z
-        mix[j, BESIDE, m] = strain_r + strain_z + strain_t
-        rr, zz, rz = turn_and_strain(q[SRR, m, j, i], q[SZZ, m, j, i], q[SRZ, m, j, i], spin, 2.0 * modulus, strain_r,
-                                     strain_z, strain_t, strain_s)
-        take_internal(m, j, i, model, q, internal[j])
-        turn(model, spin, internal[j])
-        keep_internal(m, j, i, model, internal[j], q)
-        mix[j, TRIAL_RR, m] = rr
-        mix[j, TRIAL_ZZ, m] = zz
-        mix[j, TRIAL_RZ, m] = rz
-        mix[j, MODULUS, m] = modulus
-        mix[j, SIZE, m] = 2.0 * (rr * rr + zz * zz + rr * zz + rz * rz)
-        mix[j, ALONG, m] = along_normal(n_r, n_z, rr, zz, rz) * inverse
-        if not carries_no_stress(q[DMG, m, j, i], rho, materials[m, CUTOFF_DENSITY]):
-            flow = flow_stress(model, q[EP, m, j, i], 0.0, tm[m, j, i], pm[m, j, i], rho, par)
-            mix[j, YIELD, m] = materials[m, FACTOR] * flow
-        cell_yield += f * mix[j, YIELD, m]
-        largest_yield = max(largest_yield, mix[j, YIELD, m])
-    if mode == ZERO:
-        return 0.0
-    return largest_yield if mode == MAX else cell_yield / total
-
-
-@point
-def strain_bodies_across(j, i, own, cell_yield, change, void, skin, p, bulk, models, vof, pm, km, q, mix):
-    """Strains the bodies of a cut cell across its surface; returns p_c at the end of the step, Pa (`meet_traction`).
-
-    A body that flows does so at the stress that it has, which may be above its yield stress by its rate.
-
-    Updates  mix [j, TRIAL_RR to TRIAL_RZ, m]
-    """
-    for m in range(vof.shape[0]):
-        flow = mix[j, YIELD, m] if own else cell_yield
-        if flow > 0.0:
-            flow = max(flow, von_mises(q[SRR, m, j, i], q[SZZ, m, j, i], q[SRZ, m, j, i]))
-        mix[j, FLOW, m] = flow
-    target = meet_traction(j, i, change, void, skin, p, bulk, vof, pm, km, mix)
-    n_r, n_z, weight = skin[NORMAL_R, j, i], skin[NORMAL_Z, j, i], surface_weight(j, i, skin)
-    for m in range(vof.shape[0]):
-        if vof[m, j, i] > 0.0 and models[m, STRENGTH] != 0:
-            strained = 2.0 * mix[j, MODULUS, m] * mix[j, ACROSS, m]
-            mix[j, TRIAL_RR, m] += strained * (n_r * n_r - weight / 3.0)
-            mix[j, TRIAL_ZZ, m] += strained * (n_z * n_z - weight / 3.0)
-            mix[j, TRIAL_RZ, m] += strained * n_r * n_z
-    return target
-
-
-@point
-def return_deviators(j, i, dt, own, cell_yield, dominant, volume, total, models, materials, pm, tm, vof, q, mix, internal):
-    """Brings the trial deviators back to the yield surface: each body's own, or the one of the cell.
-
-    In the hard zone the plastic heat of the dominant body is shared by f_m/Y_m among what is solid, as in layers under one
-    stress.
-
-    Reads    what strain_deviators wrote
-    Updates  q (deviators, plastic strain, damage, internal variables) [k, m, j, i]; mix [j, HEAT, m]; scratch internal [j, k]
-    """
-    bodies = vof.shape[0]
-    for m in range(bodies):
-        model, par = models[m, STRENGTH], materials[m, STRENGTH_AT:DAMAGE_AT]
-        if vof[m, j, i] == 0.0 or model == 0:
-            continue
-        rr, zz, rz, modulus = mix[j, TRIAL_RR, m], mix[j, TRIAL_ZZ, m], mix[j, TRIAL_RZ, m], mix[j, MODULUS, m]
-        rho, p_m, t_m = q[RHO, m, j, i], pm[m, j, i], tm[m, j, i]
-        take_internal(m, j, i, model, q, internal[j])
-        x_rr, x_zz, x_rz = from_centre(rr, zz, rz, model, internal[j])
-        trial = von_mises(x_rr, x_zz, x_rz)
-        stiffness = modulus + kinematic_modulus(model, par) / 3.0
-        dep, final = 0.0, trial
-        if own:
-            dep, final = plastic_increment(model, trial, q[EP, m, j, i], dt, t_m, p_m, rho, stiffness, materials[m, FACTOR],
-                                           par)
-        elif trial > cell_yield:
-            final = cell_yield
-            dep = (trial - final) / (3.0 * stiffness) if modulus > 0.0 else 0.0
-        if dep > 0.0:
-            rr, zz, rz = returned(x_rr, x_zz, x_rz, trial, dep, final, model, par, internal[j])
-            keep_internal(m, j, i, model, internal[j], q)
-            q[EP, m, j, i] += dep
-            damage_par = materials[m, DAMAGE_AT:TENSILE]
-            increment = damage_increment(models[m, DAMAGE], dep, dep / dt, t_m, p_m, final, damage_par)
-            q[DMG, m, j, i] = damaged(q[DMG, m, j, i], increment)
-        gone = carries_no_stress(q[DMG, m, j, i], rho, materials[m, CUTOFF_DENSITY])
-        q[SRR, m, j, i] = 0.0 if gone else rr
-        q[SZZ, m, j, i] = 0.0 if gone else zz
-        q[SRZ, m, j, i] = 0.0 if gone else rz
-        if m == dominant and dep > 0.0 and mix[j, YIELD, m] > 0.0:
-            share_plastic_heat(j, i, m, dep * final * volume * total, vof, mix)
-
-
-@point
-def share_plastic_heat(j, i, dominant, plastic, vof, mix):
-    """Gives the plastic work of the dominant body to all that is solid, by f_m/Y_m.
-
-    Updates  mix [j, HEAT, m]
-    """
-    whole = 0.0
-    for m in range(vof.shape[0]):
-        whole += vof[m, j, i] / mix[j, YIELD, m] if mix[j, YIELD, m] > 0.0 else 0.0
-    for m in range(vof.shape[0]):
-        share = vof[m, j, i] / mix[j, YIELD, m] if mix[j, YIELD, m] > 0.0 else 0.0
-        mix[j, HEAT, m] += plastic * share / whole
-    mix[j, HEAT, dominant] -= plastic
-
-
-@point
 def filter_work(j, i, motion, cell_mass):
     """Work of the hourglass filter on a cell, by the groups' shares of its mass."""
     work, mass = 0.0, 0.0
@@ -359,12 +178,12 @@ def filter_work(j, i, motion, cell_mass):
 
 
 @point
-def pressure_rise(j, i, void, middle, vof, pm):
-    """What the pressure of a cell without void rises by until the middle of the step, in which it is `middle`."""
+def pressure_rise(j, i, middle, vof, pm):
+    """What the pressure of a cell rises by until the middle of the step, in which it is `middle`."""
     before = 0.0
     for m in range(vof.shape[0]):
         before += vof[m, j, i] * pm[m, j, i] if vof[m, j, i] > 0.0 else 0.0
-    return middle - before if void <= NO_VOID else 0.0
+    return middle - before
 
 
 @point
@@ -377,13 +196,12 @@ def is_beside_gas(j, i, materials, vof):
 
 
 @point
-def work_beside_gas(j, i, volume, opened, rest, inverse, work, rise, target, relaxed, void_stays, pm, km, vof, q, mix):
+def work_beside_gas(j, i, volume, change, inverse, work, rise, target, relaxed, pm, km, vof, q, mix):
     """Work in a cell that a gas shares with stiffer bodies: each body's own pressure on its own change of volume, the remainder
     by mass (explanation/mixed-cells, equation 6).
 
-    opened and rest are the changes of volume of void and of the bodies, work that of pressure, viscosity and hourglass filter
-    on the cell, rise what its pressure rises by to the middle of the step, and relaxed the share of its excess of pressure over
-    the target that a body loses.
+    change is that of the volume, work that of pressure, viscosity and hourglass filter on the cell, rise what its pressure
+    rises by to the middle of the step, and relaxed the share of its excess of pressure over the target that a body loses.
 
     Reads    mix [j, SOFT, m]
     Updates  mix [j, HEAT, m], which then has all of the work on a body
@@ -394,10 +212,9 @@ def work_beside_gas(j, i, volume, opened, rest, inverse, work, rise, target, rel
         f = vof[m, j, i]
         if f > 0.0:
             mass += q[RHO, m, j, i] * f * volume
-            own = (pm[m, j, i] + rise) * mix[j, SOFT, m] * inverse * rest + f * pm[m, j, i] * opened
-            if not void_stays:
-                excess = pm[m, j, i] - target
-                own += (pm[m, j, i] - 0.5 * relaxed * excess) * relaxed * f * volume * excess / km[m, j, i]
+            own = (pm[m, j, i] + rise) * mix[j, SOFT, m] * inverse * change
+            excess = pm[m, j, i] - target
+            own += (pm[m, j, i] - 0.5 * relaxed * excess) * relaxed * f * volume * excess / km[m, j, i]
             mix[j, HEAT, m] -= own
             left += own
     for m in range(bodies):
@@ -406,53 +223,44 @@ def work_beside_gas(j, i, volume, opened, rest, inverse, work, rise, target, rel
 
 
 @point
-def fill_cell(j, i, change, volume, total, inverse, mean_p, work_p, work_q, rise, relaxation, tipton, meet, group, motion,
+def fill_cell(j, i, change, volume, total, inverse, mean_p, work_p, work_q, middle, relaxation, tipton, group, motion,
               cell_mass, materials, pm, km, vof, q, mix):
-    """Volumes, densities and energies after the step: void first, then by compressibility, then relaxation of the pressures.
+    """Volumes, densities and energies after the step in a cell that bodies of one group fill: by compressibility, then
+    relaxation of the pressures.
+
+    middle is the pressure of the cell in the middle of the step, Pa.
 
     Reads    mix [j, SOFT, m], mix [j, HEAT, m]
     Updates  vof [m, j, i] (share of the volume after the step), q (rho, e) [k, m, j, i]
     """
     bodies = vof.shape[0]
-    void = max(1.0 - total, 0.0)
-    taken, rest = split_volume(void, change, volume)
-    void_left = void * volume + taken
-    void_stays = void_left > NO_VOID * volume
-    target = 0.0 if void_stays else mean_p
-    bound, growth = 1.0, 0.0
+    bound = 1.0
     for m in range(bodies):
         if vof[m, j, i] > 0.0 and tipton:
-            shift = relaxation_strain(relaxation, pm[m, j, i], target, km[m, j, i])
-            growth += vof[m, j, i] * shift
-            bound = min(bound, relaxation_bound(shift))
-    if void_stays and growth * volume * bound > void_left:
-        bound = void_left / (growth * volume)
+            bound = min(bound, relaxation_bound(relaxation_strain(relaxation, pm[m, j, i], mean_p, km[m, j, i])))
     gas = is_beside_gas(j, i, materials, vof)
     if gas:
         work = work_p + work_q + filter_work(j, i, motion, cell_mass)
         relaxed = bound * relaxation if tipton else 0.0
-        work_beside_gas(j, i, volume, taken, rest, inverse, work, rise, target, relaxed, void_stays, pm, km, vof, q, mix)
+        rise = pressure_rise(j, i, middle, vof, pm)
+        work_beside_gas(j, i, volume, change, inverse, work, rise, mean_p, relaxed, pm, km, vof, q, mix)
     after = volume + change
     for m in range(bodies):
         f = vof[m, j, i]
         if f == 0.0:
             continue
         mass = q[RHO, m, j, i] * f * volume
-        shift = bound * f * relaxation * (pm[m, j, i] - target) / km[m, j, i] * volume if tipton else 0.0
-        filled = f * volume + mix[j, SOFT, m] * inverse * rest + shift
+        shift = bound * f * relaxation * (pm[m, j, i] - mean_p) / km[m, j, i] * volume if tipton else 0.0
+        filled = f * volume + mix[j, SOFT, m] * inverse * change + shift
         filled = max(filled, 0.5 * f * volume)
         q[RHO, m, j, i] = mass / filled if filled != f * volume else q[RHO, m, j, i]
         vof[m, j, i] = filled / after if filled != f * volume or change != 0.0 else f
-        filtered = motion[j, group[m], HOURGLASS]
         if gas:
             q[E, m, j, i] += mix[j, HEAT, m] / mass
             continue
-        if meet:  # the filter acts on each group by its share of the mass
-            rubbed = f / total * work_q + mass / (cell_mass[0, j, i] + cell_mass[1, j, i]) * filtered
-        else:
-            rubbed = f / total * (work_q + filtered)
+        rubbed = f / total * (work_q + motion[j, group[m], HOURGLASS])
         gained = mix[j, SOFT, m] * inverse * work_p + rubbed + mix[j, HEAT, m]
-        q[E, m, j, i] += (gained - target * shift) / mass
+        q[E, m, j, i] += (gained - mean_p * shift) / mass
 
 
 @kernel
@@ -461,10 +269,10 @@ def deform_mixed(j0, j1, dt, relaxation, tipton, mode, hard, hard_threshold, met
                  solid, pm, km, tm, vof, q, mix, motion, internal):
     """The Lagrangian step of the bodies in mixed cells.
 
-    Volume: void first, then by compressibility, w_m = R_m/Rbar with R_m = f_m/K_m, then relaxation of the pressures,
-    df_m = gamma R_m (p_m - pbar), with pbar = sum R_m p_m/Rbar, or 0 where void is left (explanation/mixed-cells).
-    Energy: pressure work by w_m, viscous and hourglass work by volume fraction (the latter by mass where two groups meet),
-    deviatoric work by what each body's stress did; beside a gas as work_beside_gas has it.
+    Where bodies of one group fill a cell, by compressibility: w_m = R_m/Rbar with R_m = f_m/K_m, then relaxation of the
+    pressures, df_m = gamma R_m (p_m - pbar), with pbar = sum R_m p_m/Rbar; pressure work by w_m, viscous and hourglass work by
+    volume fraction, deviatoric work by what each body's stress did; beside a gas as work_beside_gas has it (explanation/
+    mixed-cells). In cut cells by the traction: `strain_bodies_across`, `fill_cut_cell`.
     Strength: by mode, see STRENGTH_MODES; every body moves with its group. In contact-interface cells pressure and
     viscosity do the work of the one change of volume, and each body has its own strength where two groups meet.
 
@@ -495,7 +303,6 @@ def deform_mixed(j0, j1, dt, relaxation, tipton, mode, hard, hard_threshold, met
                     work_p = -ph[j, i] * change
                 total, meet = solid[j, i], held > 1
                 dominant = dominant_body(j, i, hard, hard_threshold, vof)
-                inverse, mean_p = soften(j, i, tipton, vof, pm, km, mix)
                 for m in range(vof.shape[0]):
                     mix[j, NORMAL, m] = normal_deviator(m, j, i, skin, q) if vof[m, j, i] > 0.0 else 0.0
                 cut, own = skin[KIND, j, i] != BONDED, mode == MATERIAL or dominant >= 0 or meet
@@ -512,6 +319,6 @@ def deform_mixed(j0, j1, dt, relaxation, tipton, mode, hard, hard_threshold, met
                     fill_cut_cell(j, i, change, volume, target, work_p + work_q + filter_work(j, i, motion, cell_mass), vof,
                                   pm, q, mix)
                     continue
-                rise = 0.0 if meet else pressure_rise(j, i, 1.0 - total, ph[j, i], vof, pm)
-                fill_cell(j, i, change, volume, total, inverse, mean_p, work_p, work_q, rise, relaxation, tipton, meet, group,
+                inverse, mean_p = soften(j, i, tipton, vof, pm, km, mix)
+                fill_cell(j, i, change, volume, total, inverse, mean_p, work_p, work_q, ph[j, i], relaxation, tipton, group,
                           motion, cell_mass, materials, pm, km, vof, q, mix)

@@ -306,13 +306,28 @@ def sweep_z(j0, j1, i0, i1, carried, rules, group, mesh_box, body_ranges, group_
                           second, flux_volume, flux, scratch, vof, q, cell_mass, mixed_count, mixed)
 
 
+#: shares of a cell that are round-off
+ROUND_OFF = 1e-14
+
+
+@point
+def fade(share, cutoff):
+    """What is left of a small share of a cell: all of it from twice the cutoff on, none below the cutoff, and no ROUND_OFF.
+
+    A body beside less than that would seem to fill its cell.
+    """
+    left = share * smoothstep(share / cutoff - 1.0) if share > cutoff else 0.0
+    return left if left > ROUND_OFF else 0.0
+
+
 @kernel
 def tidy(j0, j1, cutoff, metrics, volume, group, mixed_count, mixed, pre, dj, di, fr, fz, second, u, v, vof, q, cell_mass,
          removed):
     """Removes sub-cutoff fractions of bodies and void, makes fractions that should be 1 exactly 1, and sums what was removed.
 
     A body below the cutoff is removed with its mass, internal energy, momentum and kinetic energy; void below it is
-    closed by scaling the bodies' volumes at constant mass. A negative density or volume counts as sub-cutoff.
+    closed by scaling the bodies' volumes at constant mass. Of up to twice the cutoff a part goes, so that no round-off decides
+    (`remap.fade`). A negative density or volume counts as sub-cutoff.
 
     Reads    group [m]; u, v [b, j, i]
     Updates  mixed_count [j], mixed [j, k], the list of cells that are not full of one body; vof [m, j, i], q [k, m, j, i],
@@ -333,8 +348,9 @@ def tidy(j0, j1, cutoff, metrics, volume, group, mixed_count, mixed, pre, dj, di
             for m in range(bodies):
                 f = vof[m, j, i]
                 rho = q[RHO, m, j, i]
-                if f > 0.0 and (f < cutoff or not rho > 0.0):
-                    mass = f * rho * post
+                if f > 0.0 and (f < 2.0 * cutoff or not rho > 0.0):
+                    left_over = fade(f, cutoff) if rho > 0.0 else 0.0
+                    mass = (f - left_over) * rho * post
                     inner, outer = metrics[CM_IN, i] * mass, metrics[CM_OUT, i] * mass
                     g = group[m]
                     v_in, v_out = v[g, j, i] + v[g, j + 1, i], v[g, j, i + 1] + v[g, j + 1, i + 1]
@@ -344,20 +360,21 @@ def tidy(j0, j1, cutoff, metrics, volume, group, mixed_count, mixed, pre, dj, di
                     removed[1, j] += 0.5 * (inner * k_in + outer * k_out)
                     removed[2, j] += inner * v_in + outer * v_out
                     removed[4 + m, j] += mass
-                    f = 0.0
-                    vof[m, j, i] = 0.0
+                    f = left_over
+                    vof[m, j, i] = f
                 if f == 0.0:
                     for field in range(q.shape[0]):
                         q[field, m, j, i] = 0.0
                 total += f
                 present += 1 if f > 0.0 else 0
-            if total > 1.0 - cutoff and total != 1.0:
-                removed[3, j] += max(1.0 - total, 0.0) * post
-                scale = 1.0 / total
+            if total > 1.0 - 2.0 * cutoff and total != 1.0:
+                void = fade(1.0 - total, cutoff)
+                removed[3, j] += (max(1.0 - total, 0.0) - void) * post
+                scale = (1.0 - void) / total
                 for m in range(bodies):
                     if vof[m, j, i] > 0.0:
                         f = vof[m, j, i] * scale
-                        f = 1.0 if present == 1 else f  # beside a second body, however little of it, it is not full
+                        f = 1.0 if present == 1 and void == 0.0 else f  # beside a second body, however little, it is not full
                         q[RHO, m, j, i] *= vof[m, j, i] / f
                         vof[m, j, i] = f
             for g in range(cell_mass.shape[0]):

@@ -171,7 +171,7 @@ CONTACT_WORK = (
     Work("size", "j i", "volume of a contact-interface cell that is not void"),
     Work("kinds", "j I", "how many bodies a cell holds, while mixed cells are listed anew"),
     Work("part", "m j i", "share of a body in the volume of its group in a contact-interface cell"),
-    Work("line", "9 j i", "lines of both groups in a contact-interface cell"),
+    Work("line", "10 j i", "lines of both groups in a contact-interface cell"),
     Work("aperture_r", "2 J I", "aperture of a face along r, for the hard group, at either end"),
     Work("aperture_z", "2 J I", "aperture of a face along z, for the hard group, at either end"),
     Work("own_r", "2 J I", "volume that a face along r sweeps with each group's velocity"),

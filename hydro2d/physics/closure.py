@@ -3,16 +3,8 @@
 from hydro2d.jit import point
 from hydro2d.mesh.fields import RHO
 
+#: share of void below which a cell counts as full
 NO_VOID = 1e-12
-
-
-@point
-def split_volume(void, change, volume):
-    """Volume change of void and of the bodies: void takes all of it, and in compression only as much as there is."""
-    if void <= NO_VOID:
-        return 0.0, change
-    taken = max(change, -void * volume)
-    return taken, change - taken
 
 
 @point

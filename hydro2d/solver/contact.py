@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from hydro2d.kernels import contact_geometry, contact_motion, contact_velocities, contact_volumes, extension, mixed, momentum
+from hydro2d.kernels import contact_geometry, contact_motion, contact_velocities, contact_volumes, extension, momentum
 from hydro2d.solver.audit import Audit
 from hydro2d.solver.method import Method
 
@@ -103,7 +103,7 @@ class Contact:
         """Velocities of both groups at contact nodes: forces, slave nodes, contact and friction."""
         s, g, method = self.state, self.grid, self.method
         contact_motion.contact_node_forces(
-            j0, j1, dt, s.group, method.mixed_strength == mixed.SOLID, g.metrics, g.dz, self.constrained, s.contact_node_count,
+            j0, j1, dt, s.group, method.by_what_is_solid, g.metrics, g.dz, self.constrained, s.contact_node_count,
             s.contact_nodes, s.aperture_r, s.aperture_z, s.ph, s.qr, s.solid, s.skin, s.vof, s.q, s.hg_coefficient, s.cell_mass,
             s.mass, s.u0, s.v0, s.u, s.v, s.transfer)
         slots = self.slots

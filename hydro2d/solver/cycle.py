@@ -306,7 +306,7 @@ class Cycle:
         s, g, method, (j0, j1, _, _) = self.state, self.grid, self.method, self.box
         acceleration.total_stress(
             j0, j1, self.dt, g.metrics, g.dz, s.body_range, s.active_range, s.mixed_count, s.mixed,
-            method.mixed_strength == mixed.SOLID, method.hard, method.threshold, s.u, s.v, s.vof, s.q, s.skin, s.p, s.bulk,
+            method.by_what_is_solid, method.hard, method.threshold, s.u, s.v, s.vof, s.q, s.skin, s.p, s.bulk,
             s.solid, s.qr, s.qz, s.ph, s.sig_rr, s.sig_zz, s.sig_tt, s.sig_rz)
         if self.contact:
             self.contact.stress(j0, j1, self.dt)

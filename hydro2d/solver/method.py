@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from hydro2d.deck import deck as decks
-from hydro2d.kernels import mixed, momentum, sliding
+from hydro2d.kernels import mixed_strength, momentum, sliding
 from hydro2d.mesh.boundary_conditions import BY_NAME, EDGES, BoundaryConditions
 
 
@@ -46,6 +46,11 @@ class Method:
     group: np.ndarray
     boundaries: BoundaryConditions
 
+    @property
+    def by_what_is_solid(self) -> bool:
+        """Whether the strength of a mixed cell is the mean over the volume of the materials, not over that of the cell."""
+        return self.mixed_strength == mixed_strength.SOLID
+
     @classmethod
     def from_deck(cls, deck, slots: list[str], widths: tuple[float, float], factor: float) -> Method:
         """Translates the words of a deck; slots are the bodies in their order in the arrays."""
@@ -70,7 +75,7 @@ class Method:
             hourglass=n.hourglass,
             tipton=n.mixed_cell == "tipton",
             relaxation=n.relaxation,
-            mixed_strength=mixed.STRENGTH_MODES.index(n.mixed_strength),
+            mixed_strength=mixed_strength.STRENGTH_MODES.index(n.mixed_strength),
             cutoff=n.cutoff,
             mass_floor=n.mass_floor,
             active_region=n.active_region,

@@ -20,6 +20,8 @@ CLOSES = 1e-6
 TRUSTED = 0.02
 #: cells of which a body fills less than this share are not looked at one by one
 SLIVER = 0.01
+#: a body of which less than this share of its mass is left, as the rest went out through an edge, is not looked at as a whole
+LEFT = 0.1
 #: what to do about a gas that is too hot
 GAS_REMEDY = ". Leave the space empty: a gas in one cell with a solid is not computed well enough"
 
@@ -49,7 +51,8 @@ def faults(state, audit: Audit, names, reach: Reach, share: float = TRUSTED) -> 
         if not internal - min(start.internal_of[m], 0.0) >= -share * energy:
             found.append(f'body "{names[m]}" as a whole has {internal / energy:.2g} times the energy of the start as internal '
                          f"energy{_least_energy(state, m)}")
-        found += _mean_beyond_reach(m, names[m], state, now, came, reach, share)
+        if now.mass[m] > LEFT * start.mass[m]:
+            found += _mean_beyond_reach(m, names[m], state, now, came, reach, share)
     if not now.kinetic <= (1.0 + share) * energy:
         found.append(f"the kinetic energy is {now.kinetic / energy:.3g} times the energy that was ever put in"
                      f"{_fastest(state, names)}")
@@ -66,8 +69,6 @@ def faults(state, audit: Audit, names, reach: Reach, share: float = TRUSTED) -> 
 
 def _mean_beyond_reach(m: int, name: str, state, now: Totals, came: float, reach: Reach, share: float) -> Iterator[str]:
     """What is wrong with the energy of body m as a whole; came : energy that edges brought."""
-    if not now.mass[m] > 0.0:
-        return
     span = reach.highest[m] - reach.lowest[m]
     low, high = reach.lowest[m] - share * span, reach.lowest[m] + (1.0 + share / TRUSTED) * span + came / now.mass[m]
     mean = now.internal_of[m] / now.mass[m]

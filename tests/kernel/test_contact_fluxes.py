@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from hydro2d.kernels import contact_volumes
-from hydro2d.kernels.contact_geometry import FIRST
 from hydro2d.kernels.contact_volumes import OTHERS, contact_fluxes, contact_shares
 from hydro2d.physics.contact import GAP
 from tests.physics.continuity import changes_in_proportion, largest_jump
@@ -26,8 +25,7 @@ def fluxes(vof, face: float, own: tuple[float, float], part=None, size=None) -> 
     own are the volumes that the face sweeps with the velocities of the soft and of the hard body; the nested interfaces begin
     with the soft body.
     """
-    line, result = np.zeros((9, *SHAPE)), np.zeros((2, *SHAPE))
-    line[FIRST] = 0.0
+    line, result = np.zeros((10, *SHAPE)), np.zeros((2, *SHAPE))
     first = [np.array(order, dtype=np.int64) for order in ((0, 1), (1, 0))]
     swept = np.array(own)[:, None, None] * np.ones(SHAPE)
     contact_fluxes(0, 1, ROW, ROW + 1, MESH_BOX, np.ones(SHAPE[1]), np.ones(SHAPE[0]), *first, GROUP, COLUMNS, line,

@@ -11,6 +11,7 @@ from hydro2d.kernels.cut_cells import FREE_SURFACE, INTERFACE, KIND
 from hydro2d.kernels.extension import MASTERS, SPAN, TIED
 from hydro2d.mesh.fields import INTERNAL, RHO, E
 from hydro2d.mesh.grid import Grid
+from hydro2d.physics.contact import GAP
 from tests.kernel.test_extension import Extensions, N, half_plane, scattered
 from tests.physics.continuity import changes_in_proportion
 
@@ -119,7 +120,7 @@ class Settled:
         ties = found.ties if strength is None else (np.where(found.ties[0] > 0.0, strength, 0.0), *found.ties[1:])
         self.before, self.mass, self.heat = before, found.mass, np.zeros((2, *vertices))
         self.transfer, w = np.zeros((5, vertices[0])), before.copy()
-        line, pressure = np.zeros((9, *cells)), np.full(cells, -1e3)
+        line, pressure = np.zeros((10, *cells)), np.full(cells, -1e3)
         line[contact_geometry.SHARE] = found.hard
         settle(g.g, g.g + N, 1e-3, friction, constrained, g.metrics, g.dz, np.tile([g.g, g.g + N], (cells[0], 1)), line,
                found.count, found.nodes, found.first, found.normal, np.ones(vertices), *ties,
@@ -232,7 +233,7 @@ def test_pressure_on_a_flat_surface_is_force_over_its_area():
     g = Grid(np.linspace(0.0, 8e-3, 9), np.linspace(0.0, 6e-3, 7))
     shape = g.shape
     contact_columns = np.tile([2, shape[1]], (shape[0], 1))
-    line = np.zeros((9, *shape))
+    line = np.zeros((10, *shape))
     j, i = 5, 7
     line[contact_geometry.SHARE, :j] = 1.0  # the hard body lies below
     zz = np.full(shape, -3e9)
@@ -245,7 +246,7 @@ def test_pressure_on_a_flat_surface_is_force_over_its_area():
 
 
 def test_the_line_of_a_cell_wets_its_edges():
-    line, hard, soft = np.zeros((9, 1, 1)), np.full((1, 1), 0.25), np.full((1, 1), 0.75)
+    line, hard, soft = np.zeros((10, 1, 1)), np.full((1, 1), 0.25), np.full((1, 1), 0.75)
     line[contact_geometry.SHARE], line[contact_geometry.LINE_R] = 0.25, 1.0
     line[contact_geometry.CONSTANT] = 0.25  # hard where x <= 1/4
     assert face_aperture(0, 0, 0.0, 0.0, 0.0, 1.0, True, line, hard, soft) == (1.0, 1.0, 1.0)
@@ -257,15 +258,37 @@ def test_the_line_of_a_cell_wets_its_edges():
 
 @pytest.mark.parametrize("inside", [True, False])
 def test_without_a_line_an_edge_has_the_share_of_its_cell(inside):
-    line, hard, soft = np.zeros((9, 1, 1)), np.full((1, 1), 0.3), np.full((1, 1), 0.3)
+    line, hard, soft = np.zeros((10, 1, 1)), np.full((1, 1), 0.3), np.full((1, 1), 0.3)
     line[contact_geometry.SHARE] = 0.5
     assert face_aperture(0, 0, 0.0, 0.0, 1.0, 0.0, inside, line, hard, soft) == (1.0, 0.5, 0.5)
 
 
 def test_an_edge_of_a_void_cell_has_no_weight():
-    line, nothing = np.full((9, 1, 1), -1.0), np.zeros((1, 1))
+    line, nothing = np.full((10, 1, 1), -1.0), np.zeros((1, 1))
     for inside in (True, False):
         assert face_aperture(0, 0, 0.0, 0.0, 1.0, 0.0, inside, line, nothing, nothing) == (0.0, 0.0, 0.0)
+
+
+# --------------------------------------------------------------------------------------- which surface draws the line
+
+
+@pytest.mark.parametrize("ratio", [1.0, 1.0 + contact_geometry.STEEPER])
+def test_the_steeper_surface_takes_over_without_a_jump(ratio):
+    steeper = contact_geometry.steeper.py_func
+    changes_in_proportion(lambda x: steeper(x, 1.0), ratio, 2.0 / contact_geometry.STEEPER)
+    assert steeper(1.0, 1.0) == 0.0
+    assert steeper(1.2, 1.0) == 1.0
+    assert steeper(1.0, 1.2) == 0.0
+
+
+@pytest.mark.parametrize("void", [GAP, 2.0 * GAP])
+@pytest.mark.parametrize("whole", [0.5 * contact_geometry.BETWEEN, contact_geometry.BETWEEN])
+def test_void_parts_the_groups_without_a_jump(void, whole):
+    parted = contact_geometry.parted.py_func
+    changes_in_proportion(lambda x: parted(x, 0.1 * whole, 1.0), void, 2.0 / GAP)
+    changes_in_proportion(lambda x: parted(0.1, x, 1.0), whole, 4.0 / contact_geometry.BETWEEN)
+    assert parted(0.1, 0.0, 1.0) == 1.0
+    assert parted(0.5 * GAP, 0.0, 1.0) == parted(0.1, 2.0 * contact_geometry.BETWEEN, 1.0) == parted(0.1, 0.0, 0.0) == 0.0
 
 
 # ------------------------------------------------------------------------------- what evens out along the surface

@@ -4,23 +4,8 @@ import numpy as np
 import pytest
 
 from hydro2d.kernels import cut_cells
-from hydro2d.kernels.cut_cells import (
-    ACROSS,
-    ALONG,
-    BESIDE,
-    BONDED,
-    FLOW,
-    FREE_SURFACE,
-    GROWTH,
-    HEAT,
-    INTERFACE,
-    KIND,
-    MODULUS,
-    NORMAL,
-    NORMAL_R,
-    NORMAL_Z,
-    SIZE,
-)
+from hydro2d.kernels.cut_cells import BONDED, FREE_SURFACE, INTERFACE, KIND, NORMAL_R, NORMAL_Z
+from hydro2d.kernels.mixed_scratch import ACROSS, ALONG, BESIDE, FLOW, GROWTH, HEAT, MODULUS, NORMAL, SIZE
 from hydro2d.mesh.fields import INTERNAL, RHO, SRR, SRZ, SZZ, E
 from hydro2d.physics.traction import SURE
 from tests.physics.continuity import changes_in_proportion, largest_jump

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from hydro2d.deck import deck
-from hydro2d.kernels import mixed
+from hydro2d.kernels import mixed_strength
 from hydro2d.mesh.grid import Grid
 from hydro2d.physics.stress import von_mises
 from hydro2d.solver.simulation import Simulation
@@ -110,7 +110,7 @@ z = [0.12, 0.77]
 r = [0.0, 0.83]
 """
 MIXED = BLOCK[:BLOCK.index("[[body]]")] + SECOND + BLOCK[BLOCK.index("[materials.metal]"):]
-MODES = [f'numerics.mixed_strength="{mode}"' for mode in mixed.STRENGTH_MODES]
+MODES = [f'numerics.mixed_strength="{mode}"' for mode in mixed_strength.STRENGTH_MODES]
 SLIDING = 'sliding.method="slip-layer"', 'sliding.hard=["tungsten"]', "sliding.yield_factor=1.3"
 
 
@@ -125,7 +125,7 @@ def energy(e) -> float:
 @pytest.mark.parametrize("geometry", GEOMETRIES)
 @pytest.mark.parametrize(("text", "options"), [
     (BLOCK, ()), *((MIXED, (mode,)) for mode in MODES), (MIXED, ('numerics.mixed_cell="uniform"',)), (MIXED, SLIDING)],
-    ids=["pure", *mixed.STRENGTH_MODES, "uniform closure", "slip-layer"])
+    ids=["pure", *mixed_strength.STRENGTH_MODES, "uniform closure", "slip-layer"])
 def test_lagrangian_step_conserves_energy_to_round_off(geometry, text, options):
     e = engine(text, f'mesh.geometry="{geometry}"', *options)
     s, g = e.state, e.grid

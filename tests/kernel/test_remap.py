@@ -221,13 +221,32 @@ def test_a_cell_with_a_little_of_another_body_is_not_full():
     s = e.state
     j, i = np.argwhere(s.vof[0] == 1.0)[0]
     limit = e.method.cutoff
-    s.vof[:, j, i], s.rho[1, j, i] = (1.0005, 1.0003 * limit), 2770.0
+    s.vof[:, j, i], s.rho[1, j, i] = (1.0005, 2.0003 * limit), 2770.0
     mass = s.vof[:, j, i] * s.rho[:, j, i]
     e._list_mixed()
     e.tidy(0, 1, 1)
-    assert s.vof[1, j, i] == pytest.approx(limit, rel=1e-3)
-    assert 1.0 - 2.0 * limit < s.vof[0, j, i] < 1.0
+    assert s.vof[1, j, i] == pytest.approx(2.0 * limit, rel=1e-3)
+    assert 1.0 - 3.0 * limit < s.vof[0, j, i] < 1.0
     assert s.vof[:, j, i] * s.rho[:, j, i] == pytest.approx(mass, rel=1e-12)
+
+
+@pytest.mark.parametrize("shares", [1.0, 2.0])
+def test_a_small_share_goes_without_a_jump(shares):
+    """None of it is left at the cutoff, all of it at twice that; masses and what was removed add up."""
+    fade = remap.fade.py_func
+    changes_in_proportion(lambda x: fade(x, 0.005), 0.005 * shares, 3.0)
+    assert fade(0.005, 0.005) == fade(-1.0, 0.005) == fade(-1.0, 0.0) == 0.0
+    assert fade(0.01, 0.005) == 0.01
+    e = engine(WITH_VOID)
+    s = e.state
+    j, i = np.argwhere(s.vof[0] == 1.0)[0]
+    small = 0.75 * shares * 2.0 * e.method.cutoff
+    s.vof[:, j, i], s.rho[1, j, i] = (1.0 - small, small), 2770.0
+    e._list_mixed()
+    e.tidy(0, 1, 1)
+    left = s.vof[1, j, i]
+    assert left == pytest.approx(fade(small, e.method.cutoff), rel=1e-7, abs=0.0)
+    assert s.removed[5, j] == pytest.approx((small - left) * 2770.0 * e.grid.volume[j, i], rel=1e-7, abs=0.0)
 
 
 def carried_along(share: float, swept: float = 0.2, steep: float = 1.0) -> np.ndarray:

@@ -8,7 +8,6 @@ from hypothesis import strategies as st
 from hydro2d.mesh.fields import INTERNAL, RHO
 from hydro2d.physics import closure
 
-split_volume = closure.split_volume.py_func
 stiff_density = closure.stiff_density.py_func
 softness = closure.softness.py_func
 relaxation_strain = closure.relaxation_strain.py_func
@@ -17,44 +16,6 @@ relaxation_bound = closure.relaxation_bound.py_func
 SHARE = st.floats(0.0, 1.0)
 #: share of the cell, pressure, bulk modulus
 BODY = st.tuples(st.floats(0.01, 1.0), st.floats(-1e9, 1e11), st.floats(1e9, 5e11))
-
-
-# ------------------------------------------------------------------------------------------------ void before bodies
-
-
-@settings(deadline=None)
-@given(SHARE, st.floats(-1.0, 1.0), st.floats(1e-9, 1e-3))
-def test_void_and_bodies_together_change_by_what_the_cell_does(void, change, volume):
-    assert sum(split_volume(void, change * volume, volume)) == pytest.approx(change * volume, rel=1e-12, abs=1e-25)
-
-
-@settings(deadline=None)
-@given(SHARE, st.floats(-1.0, 1.0), st.floats(1e-9, 1e-3))
-def test_no_more_void_is_closed_than_there_is(void, change, volume):
-    taken, _ = split_volume(void, change * volume, volume)
-    assert void * volume + taken >= 0.0
-
-
-def test_compression_that_the_void_can_take_leaves_the_bodies_alone():
-    assert split_volume(0.25, -0.5, 4.0) == (-0.5, 0.0)
-
-
-def test_compression_beyond_the_void_squeezes_the_bodies_by_the_rest():
-    assert split_volume(0.25, -1.5, 4.0) == (-1.0, -0.5)
-
-
-def test_expansion_opens_the_void_and_leaves_the_bodies_alone():
-    assert split_volume(0.25, 0.5, 4.0) == (0.5, 0.0)
-
-
-def test_a_little_void_is_void():
-    assert split_volume(1e-11, 0.5, 4.0) == (0.5, 0.0)
-
-
-@pytest.mark.parametrize("void", [0.0, -1e-16, 1e-13])
-@pytest.mark.parametrize("change", [-0.5, 0.5])
-def test_without_void_the_bodies_take_all_of_it(void, change):
-    assert split_volume(void, change, 4.0) == (0.0, change)
 
 
 # ------------------------------------------------------------------------------------------- density by compressibility

@@ -188,10 +188,7 @@ def through_air(speed, tip):
     assert np.abs(simulation.state.velocity).max() < 3.0 * speed
 
 
-FAST_AIR = pytest.mark.xfail(strict=True, reason="a node of the air that the plate has shut in reaches 949 m/s")
-
-
-@pytest.mark.parametrize(("speed", "tip"), [(300, -3), (320, -3), pytest.param(300, 0, marks=FAST_AIR)])
+@pytest.mark.parametrize(("speed", "tip"), [(300, -3), (320, -3), (300, 0)])
 def test_a_rod_flies_through_air_and_meets_a_plate(speed, tip):
     """The last one exploded while gas took the heat and the work of the metal in its cell."""
     through_air(speed, tip)
@@ -237,7 +234,6 @@ def test_an_undeformable_nose_keeps_its_shape():
     assert rigid().state.q[EP, 0].max() < 1e-3
 
 
-@pytest.mark.xfail(strict=True, reason="1.0058 at one place; 1.001 while the cut ring of the rod did not carry its load")
 def test_an_undeformable_shank_keeps_its_radius():
     _, radius = shape(rigid())
     assert radius == pytest.approx(1.0, abs=5e-3)
