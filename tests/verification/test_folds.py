@@ -1,0 +1,83 @@
+"""Films of a soft body in a slot of a hard one that moves, as the folds of a swollen rod hold them.
+
+Nodes of such a film have no cell of their body nearby. Their extension once had weights of 2.75 and -2.25, and grew four times
+in every step.
+"""
+
+import numpy as np
+import pytest
+
+from hydro2d.deck import deck as decks
+from hydro2d.solver.simulation import Simulation
+
+CELL = 0.5  # mm
+SPEED = 1000.0
+
+DECK = """
+[mesh]
+r = [{{ to = "8 mm", size = "{cell} mm" }}]
+z = [{{ to = "30 mm", size = "{cell} mm" }}]
+[boundaries]
+r_max = "wall"
+[materials.metal]
+based_on = "W_alloy"
+strength = {{ model = "elastic-plastic", shear_modulus = "145 GPa", yield_stress = "2 GPa" }}
+[[body]]
+name = "rod"
+material = "metal"
+shape = "polygon"
+points = [{points}]
+velocity = {speed}
+[[body]]
+name = "film"
+material = "Al5083"
+shape = "box"
+r = ["{root} mm", "{rim} mm"]
+z = ["{low} mm", "{high} mm"]
+velocity = {film}
+{tube}
+[sliding]
+method = "contact"
+hard = ["rod"]
+[stop]
+time = "1 s"
+"""
+TUBE = """
+[[body]]
+name = "tube"
+material = "Al5083"
+shape = "box"
+r = ["{rim} mm", "8 mm"]
+z = [0.0, "30 mm"]
+velocity = {around}
+"""
+
+
+def slotted_rod(thick: float, at: float, faster: float, around: float | None) -> Simulation:
+    """A rod with a ring-shaped slot of two and a half cells, and a film of `thick` cells in its midst.
+
+    at is a shift by a share of a cell, faster the velocity of the film against the rod, around that of a tube in which the rod
+    moves, None without one.
+    """
+    slot, root, rim = np.array([20.0 + at, 22.5 + at]) * CELL, 4 * CELL, 8.3 * CELL
+    middle, half = slot.mean(), 0.5 * thick * CELL
+    low, high, foot, end = *slot, 8 * CELL, 34 * CELL
+    outline = [(0, foot), (rim, foot), (rim, low), (root, low), (root, high), (rim, high), (rim, end), (0, end)]
+    words = {"cell": CELL, "speed": SPEED, "root": root, "rim": rim, "low": middle - half, "high": middle + half,
+             "film": SPEED + faster, "around": around}  # fmt: skip
+    words["points"] = ", ".join(f'["{r} mm", "{z} mm"]' for r, z in outline)
+    return Simulation(decks.loads(DECK.format(tube="" if around is None else TUBE.format(**words), **words)))
+
+
+@pytest.mark.parametrize("thick", [0.01, 0.03, 0.1, 0.3])
+@pytest.mark.parametrize(("faster", "around"), [(0.0, None), (100.0, None), (0.0, 800.0), (300.0, 0.0)],
+                         ids=["at rest", "meets a side", "in a slow tube", "in a tube at rest"])
+def test_a_film_in_a_fold_is_stable(thick, faster, around):
+    """In 500 cycles nothing is much faster than the rod and its film, and the energy is kept (at worst 3e-13)."""
+    simulation = slotted_rod(thick, 0.37, faster, around)
+    fastest = 0.0
+    for _ in range(500):
+        simulation.step()
+        fastest = max(fastest, float(np.abs(simulation.state.velocity).max()))
+    assert fastest < 1.5 * (SPEED + faster)
+    assert abs(simulation.conservation()["total_energy"]) < 1e-12
