@@ -14,7 +14,7 @@ from hydro2d import children, jit
 from hydro2d.files import turn
 
 EVENT = "numba:compile"
-events = jit.numba.core.event
+events = jit.compiler_events
 
 
 class Compilation(events.Listener):
@@ -107,8 +107,8 @@ def announced(say: Callable[[str], None], deck=None) -> Iterator[Compilation]:
 
 def _mark(key: str) -> Path:
     """The file that marks the kernels of a kind of deck as cached, for these sources and this processor."""
-    name = hashlib.sha256(f"{key} {jit.llvmlite.binding.get_host_cpu_name()}".encode()).hexdigest()[:16]
-    return Path(jit.CACHE_FOLDER) / f"{name}.compiled"
+    name = hashlib.sha256(f"{key} {jit.host_cpu()}".encode()).hexdigest()[:16]
+    return Path(jit.all_folder()) / f"{name}.compiled"
 
 
 def is_compiled(key: str) -> bool:

@@ -44,7 +44,7 @@ def test_silence_where_nothing_is_compiled():
 
 
 def test_kernels_are_compiled_once(tmp_path, monkeypatch):
-    monkeypatch.setattr(jit, "CACHE_FOLDER", str(tmp_path / "cache"))
+    monkeypatch.setattr(jit, "all_folder", lambda: str(tmp_path / "cache"))
     done = []
     assert not is_compiled("a")
     once("a", lambda: done.append("a"))
@@ -55,7 +55,7 @@ def test_kernels_are_compiled_once(tmp_path, monkeypatch):
 
 
 def test_a_compilation_that_fails_is_tried_again(tmp_path, monkeypatch):
-    monkeypatch.setattr(jit, "CACHE_FOLDER", str(tmp_path))
+    monkeypatch.setattr(jit, "all_folder", lambda: str(tmp_path))
     with pytest.raises(ZeroDivisionError):
         once("a", lambda: 1 / 0)
     assert not is_compiled("a")

@@ -193,11 +193,11 @@ def test_a_model_that_comes_after_the_kernels_is_told_when_it_is_used(folder):
 
 CHOSEN = """
     import sys
-    from hydro2d import jit
+    from hydro2d.jit import cache
     from hydro2d.deck import deck
     def folders():
         names = "deformation", "mixed", "remap", "acceleration"
-        return [jit._folder_of(f"{jit.__file__[:-6]}kernels/{name}.py") for name in names]
+        return [cache.folder_of(str(cache.ROOT / f"hydro2d/kernels/{name}.py")) for name in names]
     before = folders()
     loaded = deck.load("shot.toml")
     print(*(a == b for a, b in zip(before, folders(), strict=True)))
@@ -206,7 +206,7 @@ CHOSEN = """
     from strength import dispatch
     print(dispatch.STRENGTH_MODULES[-1].NAME, table.strength_model[0] == dispatch.STRENGTH_MODULES[-1].ID)
     print(dispatch.flow_stress(int(table.strength_model[0]), 0.0, 0.0, 300.0, 0.0, 2700.0, table.strength_par[0]))
-    print("eos.dispatch" in sys.modules, len(jit._added["eos"]))
+    print("eos.dispatch" in sys.modules, len(cache._added["eos"]))
 """
 
 

@@ -1,0 +1,104 @@
+"""The decorators of compiled functions, and functions that choose among models."""
+
+from __future__ import annotations
+
+import functools
+import importlib
+from types import ModuleType
+
+import numba
+
+from hydro2d.jit.cache import all_folder, folder_of, module_of
+from hydro2d.jit.options import OPTIONS
+from hydro2d.jit.recording import called
+
+
+def _compile(function, **options):
+    """numba's compilation, with the cache in the folder that belongs to the function's file."""
+    numba.config.CACHE_DIR = folder_of(function.__code__.co_filename)
+    return numba.njit(function, **{**OPTIONS, **options})
+
+
+def rowwise(function):
+    """A piece of kernels: one row of one phase. Its text becomes part of each kernel that calls it."""
+    return _compile(function, inline="always")
+
+
+def point(function):
+    """Compiles a scalar function of physics."""
+    return _compile(function, forceinline=True)
+
+
+def apart(function):
+    """Compiles a function that is called, not inlined: what runs rarely need not be compiled again at every place."""
+    return _compile(function)
+
+
+def modules(package: str, *names: str) -> tuple[ModuleType, ...]:
+    """The modules of a package, in order: a list of models."""
+    return tuple(importlib.import_module(f"{package}.{name}") for name in names)
+
+
+def by_id(models: tuple[ModuleType, ...], function: str, arguments: str, meaning: str, otherwise: str = 'float("nan")'):
+    """A ``@point`` function ``function(model, arguments)`` that calls the function of this name of the model with that ID.
+
+    A chain of comparisons, written to a file in the cache folder: numba caches neither functions that are put together at run
+    time nor those that are handed other functions. Models without the function, and unknown ids, give ``otherwise``.
+    """
+    ids = [model.ID for model in models]
+    for number in ids:
+        if ids.count(number) > 1:
+            raise ValueError(f"ID {number} belongs to {' and '.join(m.__name__ for m in models if m.ID == number)}")
+    models = tuple(model for model in models if hasattr(model, function))
+    lines = [f'"""{meaning}"""', "", "from hydro2d.jit import point"]
+    lines += [f"from {model.__name__} import {function} as _{k}" for k, model in enumerate(models)]
+    lines += ["", "", "@point", f"def {function}(model, {arguments}):", f'    """{meaning}"""']
+    for k, model in enumerate(models):
+        lines += [f"    if model == {model.ID}:", f"        return _{k}({arguments})"]
+    text = "\n".join([*lines, f"    return {otherwise}", ""])
+    return getattr(module_of(f"hydro2d_by_id_{function}", text, all_folder()), function)
+
+
+def returns(function, arguments: str) -> tuple[str, ...]:
+    """Compiles a ``@point`` function of a model; the types of the values that it returns, such as ("float64",)."""
+    arrays = ("par", "internal")
+    types = tuple(numba.float64[::1] if name in arrays else numba.float64 for name in arguments.split(", "))
+    function.compile(types)
+    found = function.overloads[types].signature.return_type
+    if isinstance(found, numba.types.BaseTuple):
+        return tuple(map(str, found))
+    return () if found == numba.types.none else (str(found),)
+
+
+@functools.partial(_compile, forceinline=True, fastmath={"reassoc"})
+def plus(total, term):
+    """total + term, the terms of a loop in any order: what lets the compiler sum in lanes. It hides no NaN."""
+    return total + term
+
+
+def kernel(function):
+    """Compiles loops over the mesh whose outermost ``prange`` runs over rows.
+
+    Array views inside the ``prange`` must be assigned one by one: through a tuple (``a, b = x[j], y[j]``) numba 0.68
+    loses writes to them, silently. A test holds every kernel against its own source, interpreted.
+    """
+    return called(function, _compile(function, parallel=True))
+
+
+def serial(function):
+    """Compiles loops that one thread runs: short lists, boundaries."""
+    return called(function, _compile(function))
+
+
+prange = numba.prange
+set_threads = numba.set_num_threads
+
+
+def threads() -> int:
+    """The number of threads that kernels run on."""
+    return numba.get_num_threads()
+
+
+def max_threads() -> int:
+    """The number of threads numba was started with; scratch memory is sized by it."""
+    return numba.config.NUMBA_NUM_THREADS

@@ -1,0 +1,69 @@
+"""What numba and LLVM are told, and what of numba's own insides is changed for it.
+
+What numba does not promise to keep is named in tests/unit/test_jit.py.
+"""
+
+from __future__ import annotations
+
+import functools
+import inspect
+from pathlib import Path
+
+import llvmlite.binding
+import numba
+from numba.core import caching
+from numba.parfors import parfor_lowering
+
+from hydro2d.files import turn
+
+numba.config.THREADING_LAYER = "omp"
+
+# rows are views into a dozen arrays: the loops are vectorised only if that many checks that they do not overlap are allowed
+llvmlite.binding.set_option("hydro2d", "-vectorize-memory-check-threshold=1024")
+
+#: without NRT numba counts no references to arrays. Nothing here makes or keeps one, and the counts, atomic operations around
+#: each call, took a third of the time of a shot with contact
+OPTIONS = {"cache": True, "error_model": "numpy", "fastmath": False, "nogil": True, "_nrt": False}
+
+
+def _arguments_apart() -> None:
+    """Tells numba that the arrays that a kernel is given do not overlap, as a test asserts of every call.
+
+    numba takes it for granted only where a kernel makes no view of a view. Without it every vector loop is preceded by
+    hundreds of comparisons of addresses, a tenth of the time of a cycle.
+    """
+    create = parfor_lowering._create_gufunc_for_parfor_body
+    signature = inspect.signature(create)
+
+    @functools.wraps(create)
+    def without_aliases(*arguments, **named):
+        bound = signature.bind(*arguments, **named)
+        bound.arguments["has_aliases"] = False
+        return create(*bound.args, **bound.kwargs)
+
+    parfor_lowering._create_gufunc_for_parfor_body = without_aliases
+
+
+_arguments_apart()
+
+
+def _one_writes_at_a_time() -> None:
+    """Lets one process at a time add to a folder of numba's cache: two at once can give one name to two functions."""
+    save = caching.IndexDataCacheFile.save
+
+    @functools.wraps(save)
+    def alone(self, key, data):
+        with turn(Path(self._cache_path) / "saving.lock"):
+            save(self, key, data)
+
+    caching.IndexDataCacheFile.save = alone
+
+
+_one_writes_at_a_time()
+
+compiler_events = numba.core.event
+
+
+def host_cpu() -> str:
+    """The processor that code is compiled for, as LLVM names it."""
+    return llvmlite.binding.get_host_cpu_name()

@@ -1,0 +1,84 @@
+"""What is known of the calls of kernels: what they took, and what a cycle would call."""
+
+from __future__ import annotations
+
+import functools
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+from hydro2d.files import turn
+from hydro2d.jit.cache import all_folder
+
+#: wall seconds and calls per kernel name, filled while `profiling(True)` is on
+timings: dict[str, list[float]] = {}
+_profiling = False
+
+
+def profiling(on: bool) -> None:
+    """Switches the timing of kernels on or off and forgets what was measured."""
+    global _profiling
+    _profiling = on
+    timings.clear()
+
+
+@dataclass(frozen=True)
+class Call:
+    """A kernel and the types of the arguments that it was called with."""
+
+    name: str
+    compiled: object
+    types: tuple
+
+    def compile(self) -> None:
+        """Compiles the kernel for these types, or takes it from the cache, while no other process does."""
+        with turn(_kernel_lock(self.name)):
+            self.compiled.compile(self.types)
+
+
+#: calls of kernels, while they are written down and not done
+_calls: list[Call] | None = None
+
+
+@contextmanager
+def recorded() -> Iterator[list[Call]]:
+    """Within the block kernels do nothing: their calls are written down."""
+    global _calls
+    _calls = found = []
+    try:
+        yield found
+    finally:
+        _calls = None
+
+
+def _kernel_lock(name: str) -> Path:
+    return Path(all_folder()) / f"{name}.lock"
+
+
+def called(function, compiled):
+    """What the rest of the code calls in a kernel's place: timed, written down, and the first time alone of all processes."""
+    name, known = f"{function.__module__}.{function.__name__}", False
+
+    @functools.wraps(function)
+    def call(*arguments):
+        nonlocal known
+        if _calls is not None:
+            _calls.append(Call(name, compiled, tuple(compiled.typeof_pyval(value) for value in arguments)))
+            return None
+        start = time.perf_counter()
+        if known:
+            result = compiled(*arguments)
+        else:
+            known = True
+            with turn(_kernel_lock(name)):
+                result = compiled(*arguments)
+        if _profiling:
+            entry = timings.setdefault(function.__name__, [0.0, 0])
+            entry[0] += time.perf_counter() - start
+            entry[1] += 1
+        return result
+
+    call.compiled = compiled
+    return call
