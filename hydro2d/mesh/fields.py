@@ -178,6 +178,7 @@ CONTACT_WORK = (
     Work("own_z", "2 J I", "volume that a face along z sweeps with each group's velocity"),
     Work("even_r", "J I", "volume that evens out the pressure along a surface through a face along r"),
     Work("even_z", "J I", "volume that evens out the pressure along a surface through a face along z"),
+    Work("checkerboard", "4 J I", "what fades of the checkerboards of stress around a vertex"),
     Work("heat", "2 J I", "heat of the impulses at a vertex, for each group"),
     Work("contact_normal", "3 2 J I", "normal at a contact node"),
     Work("first_slot", "1+J", "slot of the first contact node of a row", int),
