@@ -139,10 +139,17 @@ class Contact:
                                               s.v0, s.u, s.v, s.even_r, s.even_z, s.fr, s.fz, s.own_r, s.own_z)
         contact_volumes.contact_work(j0, j1, dt, g.metrics, g.dz, s.contact_columns, s.group, s.aperture_r, s.aperture_z, s.ph,
                                      s.qr, s.u0, s.v0, s.u, s.v, s.fr, s.fz, s.cell_mass, s.vof, s.q)
-        checkerboard.find_checkerboards(j0, j1, *self.mesh_box[2:], dt, s.group, s.group_ranges, g.volume, s.hg_coefficient,
-                                        s.cell_mass, s.vof, s.q, s.pm, s.km, s.checkerboard)
-        checkerboard.fade_checkerboards(j0, j1, s.group, s.group_ranges, s.contact_columns, s.cell_mass, s.checkerboard, s.vof,
-                                        s.pm, s.fr, s.fz, s.own_r, s.own_z, s.q)
+        self._fade_checkerboards(j0, j1, dt)
+
+    def _fade_checkerboards(self, j0: int, j1: int, dt: float) -> None:
+        """What no vertex feels of the stress in the hard bodies."""
+        s, g = self.state, self.grid
+        _, _, i0, i1 = self.mesh_box
+        checkerboard.find_checkerboards(j0, j1, i0, i1, dt, s.group, s.group_ranges, s.hg_coefficient, s.cell_mass, s.vof, s.q,
+                                        s.pm, s.checkerboard)
+        checkerboard.fade_deviators(j0, j1, s.group, s.group_ranges, g.volume, s.checkerboard, s.vof, s.km, s.q, s.room)
+        checkerboard.fade_pressures(j0, j1, i0, i1, s.group, s.group_ranges, s.contact_columns, s.cell_mass, s.room, s.vof,
+                                    s.pm, s.fr, s.fz, s.own_r, s.own_z, s.q)
 
     def warm(self, j0: int, j1: int) -> None:
         """Gives the heat of the impulses to the bodies around their vertices."""
