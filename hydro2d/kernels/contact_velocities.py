@@ -19,6 +19,8 @@ TOLERANCE, STEPS = 1e-11, 200
 ROUNDS = 3
 #: rows of `rubbing`: impulse that the soft group gets from the hard one, and its size
 RUB_R, RUB_Z, RUBBED = range(3)
+#: rows of `nodes`: slot, group, row and column of a slave, and what holds it
+SLOT, GROUP, ROW, COLUMN, HELD = range(5)
 #: rows of `ties`, two for the components of each: impulse, residual, search direction, what the ties make of that, inverse of
 #: the diagonal
 IMPULSE, RESIDUAL, SEARCH, IMAGE, DIAGONAL = 0, 2, 4, 6, 8
@@ -52,19 +54,6 @@ def give(g, j, i, push_r, push_z, constrained, mass, u, v, transfer):
 
 
 @point
-def difference(g, j, i, x, constrained, number, where, weights, u, v):
-    """Velocity of a slave less that of its masters, along r and z; 0 along what the axis or a wall holds."""
-    held_r, held_z = held(j, i, constrained)
-    apart_r, apart_z = u[g, j, i], v[g, j, i]
-    for n in range(number[x, g]):
-        by, row, column = master(n, g, j, i, x, where)
-        still_r, still_z = held(row, column, constrained)  # what holds them has not set them to zero yet
-        apart_r -= 0.0 if still_r else weights[x, g, n] * u[by, row, column]
-        apart_z -= 0.0 if still_z else weights[x, g, n] * v[by, row, column]
-    return 0.0 if held_r else apart_r, 0.0 if held_z else apart_z
-
-
-@point
 def masters_mobility(g, j, i, x, constrained, number, where, weights, mass):
     """Sum of w^2/m over the masters of a slave, along r and z (1/kg): their velocity, as it feels it, per impulse on them."""
     along_r, along_z = 0.0, 0.0
@@ -87,111 +76,136 @@ def give_tie(g, j, i, x, push_r, push_z, constrained, number, where, weights, ma
 
 
 @apart
-def image_of_search(j0, j1, constrained, count, contact_nodes, first, strength, number, where, weights, warmed, mass,
-                    ties, gain):
+def list_ties(j0, j1, constrained, count, contact_nodes, first, strength, number, where, weights, mass, nodes, starts, entries,
+              parts):
+    """Number of the tied slaves, which are listed with their masters one after another.
+
+    Writes   nodes [5, t]: slot, group, row and column of a slave, and what holds it (1 along r, 2 along z, 3 both);
+             starts [t + 1], its first master; entries [3, e]: group, row and column of a master; parts [4, e]: its weight along
+             r and z, 0 where it is held, and the same over its mass
+    """
+    tied, e = 0, 0
+    for j in range(j0, j1 + 1):
+        for k in range(count[j]):
+            i, x = contact_nodes[j, k], first[j] + k
+            for g in range(2):
+                if strength[x, g] == 0.0:
+                    continue
+                held_r, held_z = held(j, i, constrained)
+                nodes[SLOT, tied], nodes[GROUP, tied], nodes[ROW, tied], nodes[COLUMN, tied] = x, g, j, i
+                nodes[HELD, tied] = (1 if held_r else 0) + (2 if held_z else 0)
+                starts[tied] = e
+                for n in range(number[x, g]):
+                    by, row, column = master(n, g, j, i, x, where)
+                    held_r, held_z = held(row, column, constrained)
+                    w = weights[x, g, n]
+                    entries[0, e], entries[1, e], entries[2, e] = by, row, column
+                    parts[0, e] = 0.0 if held_r else w
+                    parts[1, e] = 0.0 if held_z else w
+                    parts[2, e] = 0.0 if held_r else w / mass[by, row, column]
+                    parts[3, e] = 0.0 if held_z else w / mass[by, row, column]
+                    e += 1
+                tied += 1
+                starts[tied] = e
+    return tied
+
+
+@point
+def mismatch(t, nodes, starts, entries, parts, u, v):
+    """Velocity of the t-th slave less that of its masters, along r and z; 0 along what the axis or a wall holds."""
+    g, j, i, still = nodes[GROUP, t], nodes[ROW, t], nodes[COLUMN, t], nodes[HELD, t]
+    apart_r, apart_z = u[g, j, i], v[g, j, i]
+    for e in range(starts[t], starts[t + 1]):
+        apart_r -= parts[0, e] * u[entries[0, e], entries[1, e], entries[2, e]]
+        apart_z -= parts[1, e] * v[entries[0, e], entries[1, e], entries[2, e]]
+    return 0.0 if still % 2 == 1 else apart_r, 0.0 if still >= 2 else apart_z
+
+
+@apart
+def image_of_search(tied, strength, nodes, starts, entries, parts, mass, ties, gain):
     """What the search direction, as impulses, does to the mismatch: N M^-1 N^T p and the compliance; returns p . image.
 
     Reads    ties [SEARCH, x, b]
     Writes   ties [IMAGE, x, b];  scratch gain [c, b, j, i], velocities
     """
-    for j in range(max(j0 - REACH, 0), min(j1 + REACH + 1, mass.shape[1])):
-        near = min(max(j, j0), j1)
-        for g in range(2):
-            for i in range(warmed[near, 0], warmed[near, 1] + 1):
-                gain[0, g, j, i] = 0.0
-                gain[1, g, j, i] = 0.0
-    for j in range(j0, j1 + 1):
-        for k in range(count[j]):
-            i, x = contact_nodes[j, k], first[j] + k
-            for g in range(2):
-                if strength[x, g] == 0.0:
-                    continue
-                p_r, p_z = ties[SEARCH, x, g], ties[SEARCH + 1, x, g]
-                gain[0, g, j, i] += p_r / mass[g, j, i]
-                gain[1, g, j, i] += p_z / mass[g, j, i]
-                for n in range(number[x, g]):
-                    by, row, column = master(n, g, j, i, x, where)
-                    held_r, held_z = held(row, column, constrained)
-                    w = weights[x, g, n] / mass[by, row, column]
-                    gain[0, by, row, column] -= 0.0 if held_r else w * p_r
-                    gain[1, by, row, column] -= 0.0 if held_z else w * p_z
+    for t in range(tied):
+        g, j, i = nodes[GROUP, t], nodes[ROW, t], nodes[COLUMN, t]
+        gain[0, g, j, i] = 0.0
+        gain[1, g, j, i] = 0.0
+        for e in range(starts[t], starts[t + 1]):
+            gain[0, entries[0, e], entries[1, e], entries[2, e]] = 0.0
+            gain[1, entries[0, e], entries[1, e], entries[2, e]] = 0.0
+    for t in range(tied):
+        x, g, j, i = nodes[SLOT, t], nodes[GROUP, t], nodes[ROW, t], nodes[COLUMN, t]
+        p_r, p_z = ties[SEARCH, x, g], ties[SEARCH + 1, x, g]
+        gain[0, g, j, i] += p_r / mass[g, j, i]
+        gain[1, g, j, i] += p_z / mass[g, j, i]
+        for e in range(starts[t], starts[t + 1]):
+            gain[0, entries[0, e], entries[1, e], entries[2, e]] -= parts[2, e] * p_r
+            gain[1, entries[0, e], entries[1, e], entries[2, e]] -= parts[3, e] * p_z
     along_r, along_z = 0.0, 0.0
-    for j in range(j0, j1 + 1):
-        for k in range(count[j]):
-            i, x = contact_nodes[j, k], first[j] + k
-            for g in range(2):
-                if strength[x, g] == 0.0:
-                    continue
-                a_r, a_z = difference(g, j, i, x, constrained, number, where, weights, gain[0], gain[1])
-                give_way = (1.0 / strength[x, g] - 1.0) / mass[g, j, i]
-                a_r += give_way * ties[SEARCH, x, g]
-                a_z += give_way * ties[SEARCH + 1, x, g]
-                ties[IMAGE, x, g] = a_r
-                ties[IMAGE + 1, x, g] = a_z
-                along_r += ties[SEARCH, x, g] * a_r
-                along_z += ties[SEARCH + 1, x, g] * a_z
+    for t in range(tied):
+        x, g, j, i = nodes[SLOT, t], nodes[GROUP, t], nodes[ROW, t], nodes[COLUMN, t]
+        a_r, a_z = mismatch(t, nodes, starts, entries, parts, gain[0], gain[1])
+        give_way = (1.0 / strength[x, g] - 1.0) / mass[g, j, i]
+        a_r += give_way * ties[SEARCH, x, g]
+        a_z += give_way * ties[SEARCH + 1, x, g]
+        ties[IMAGE, x, g] = a_r
+        ties[IMAGE + 1, x, g] = a_z
+        along_r += ties[SEARCH, x, g] * a_r
+        along_z += ties[SEARCH + 1, x, g] * a_z
     return along_r, along_z
 
 
 @apart
-def meet_ties(j0, j1, constrained, count, contact_nodes, first, strength, number, where, weights, warmed, mass, u, v, ties,
-              gain, taken, transfer):
+def meet_ties(tied, constrained, strength, number, where, weights, mass, u, v, nodes, starts, entries, parts, ties, gain, taken,
+              transfer):
     """Brings all slaves to the velocities of their masters at once, by conjugate gradients from nothing.
 
     Updates  u, v [b, j, i]; taken [c, x, b], impulses that slaves have given away;  scratch ties [10, x, b], gain [c, b, j, i]
     """
-    slots = first[j1 + 1]
     old_r, old_z = 0.0, 0.0
-    for j in range(j0, j1 + 1):
-        for k in range(count[j]):
-            i, x = contact_nodes[j, k], first[j] + k
-            for g in range(2):
-                for c in range(10):
-                    ties[c, x, g] = 0.0
-                if strength[x, g] == 0.0:
-                    continue
-                ease_r, ease_z = masters_mobility(g, j, i, x, constrained, number, where, weights, mass)
-                own = 1.0 / (strength[x, g] * mass[g, j, i])
-                r_r, r_z = difference(g, j, i, x, constrained, number, where, weights, u, v)
-                for c in range(2):
-                    ties[DIAGONAL + c, x, g] = 1.0 / (own + (ease_r if c == 0 else ease_z))
-                    ties[RESIDUAL + c, x, g] = r_r if c == 0 else r_z
-                    ties[SEARCH + c, x, g] = ties[DIAGONAL + c, x, g] * ties[RESIDUAL + c, x, g]
-                old_r += ties[SEARCH, x, g] * r_r
-                old_z += ties[SEARCH + 1, x, g] * r_z
+    for t in range(tied):
+        x, g, j, i = nodes[SLOT, t], nodes[GROUP, t], nodes[ROW, t], nodes[COLUMN, t]
+        ease_r, ease_z = masters_mobility(g, j, i, x, constrained, number, where, weights, mass)
+        own = 1.0 / (strength[x, g] * mass[g, j, i])
+        r_r, r_z = mismatch(t, nodes, starts, entries, parts, u, v)
+        for c in range(2):
+            ties[IMPULSE + c, x, g] = 0.0
+            ties[DIAGONAL + c, x, g] = 1.0 / (own + (ease_r if c == 0 else ease_z))
+            ties[RESIDUAL + c, x, g] = r_r if c == 0 else r_z
+            ties[SEARCH + c, x, g] = ties[DIAGONAL + c, x, g] * ties[RESIDUAL + c, x, g]
+        old_r += ties[SEARCH, x, g] * r_r
+        old_z += ties[SEARCH + 1, x, g] * r_z
     enough_r, enough_z = TOLERANCE * TOLERANCE * old_r, TOLERANCE * TOLERANCE * old_z
     for _ in range(STEPS):
         if old_r <= enough_r and old_z <= enough_z:
             break
-        along_r, along_z = image_of_search(j0, j1, constrained, count, contact_nodes, first, strength, number, where, weights,
-                                           warmed, mass, ties, gain)
+        along_r, along_z = image_of_search(tied, strength, nodes, starts, entries, parts, mass, ties, gain)
         step_r = old_r / along_r if old_r > enough_r else 0.0
         step_z = old_z / along_z if old_z > enough_z else 0.0
         new_r, new_z = 0.0, 0.0
-        for x in range(slots):
-            for g in range(2):
-                ties[IMPULSE, x, g] += step_r * ties[SEARCH, x, g]
-                ties[IMPULSE + 1, x, g] += step_z * ties[SEARCH + 1, x, g]
-                ties[RESIDUAL, x, g] -= step_r * ties[IMAGE, x, g]
-                ties[RESIDUAL + 1, x, g] -= step_z * ties[IMAGE + 1, x, g]
-                new_r += ties[DIAGONAL, x, g] * ties[RESIDUAL, x, g] * ties[RESIDUAL, x, g]
-                new_z += ties[DIAGONAL + 1, x, g] * ties[RESIDUAL + 1, x, g] * ties[RESIDUAL + 1, x, g]
+        for t in range(tied):
+            x, g = nodes[SLOT, t], nodes[GROUP, t]
+            ties[IMPULSE, x, g] += step_r * ties[SEARCH, x, g]
+            ties[IMPULSE + 1, x, g] += step_z * ties[SEARCH + 1, x, g]
+            ties[RESIDUAL, x, g] -= step_r * ties[IMAGE, x, g]
+            ties[RESIDUAL + 1, x, g] -= step_z * ties[IMAGE + 1, x, g]
+            new_r += ties[DIAGONAL, x, g] * ties[RESIDUAL, x, g] * ties[RESIDUAL, x, g]
+            new_z += ties[DIAGONAL + 1, x, g] * ties[RESIDUAL + 1, x, g] * ties[RESIDUAL + 1, x, g]
         again_r = new_r / old_r if old_r > enough_r else 0.0
         again_z = new_z / old_z if old_z > enough_z else 0.0
-        for x in range(slots):
-            for g in range(2):
-                ties[SEARCH, x, g] = ties[DIAGONAL, x, g] * ties[RESIDUAL, x, g] + again_r * ties[SEARCH, x, g]
-                ties[SEARCH + 1, x, g] = ties[DIAGONAL + 1, x, g] * ties[RESIDUAL + 1, x, g] + again_z * ties[SEARCH + 1, x, g]
+        for t in range(tied):
+            x, g = nodes[SLOT, t], nodes[GROUP, t]
+            ties[SEARCH, x, g] = ties[DIAGONAL, x, g] * ties[RESIDUAL, x, g] + again_r * ties[SEARCH, x, g]
+            ties[SEARCH + 1, x, g] = ties[DIAGONAL + 1, x, g] * ties[RESIDUAL + 1, x, g] + again_z * ties[SEARCH + 1, x, g]
         old_r, old_z = new_r, new_z
-    for j in range(j0, j1 + 1):
-        for k in range(count[j]):
-            i, x = contact_nodes[j, k], first[j] + k
-            for g in range(2):
-                if strength[x, g] > 0.0:
-                    push_r, push_z = ties[IMPULSE, x, g], ties[IMPULSE + 1, x, g]
-                    give_tie(g, j, i, x, push_r, push_z, constrained, number, where, weights, mass, u, v, transfer)
-                    taken[0, x, g] += push_r
-                    taken[1, x, g] += push_z
+    for t in range(tied):
+        x, g, j, i = nodes[SLOT, t], nodes[GROUP, t], nodes[ROW, t], nodes[COLUMN, t]
+        push_r, push_z = ties[IMPULSE, x, g], ties[IMPULSE + 1, x, g]
+        give_tie(g, j, i, x, push_r, push_z, constrained, number, where, weights, mass, u, v, transfer)
+        taken[0, x, g] += push_r
+        taken[1, x, g] += push_z
 
 
 @point
@@ -284,8 +298,8 @@ def warm_up(g, j, i, x, made, number, where, weights, mass, heat):
 
 @serial
 def settle(j0, j1, dt, friction, constrained, metrics, dz, contact_columns, line, count, contact_nodes, first, normal, touch,
-           strength, number, where, weights, warmed, sig_rr, sig_zz, sig_rz, mass, u0, v0, u, v, ties, gain, taken, rubbing,
-           heat, transfer):
+           strength, number, where, weights, sig_rr, sig_zz, sig_rz, mass, u0, v0, u, v, nodes, starts, entries, parts, ties,
+           gain, taken, rubbing, heat, transfer):
     """Velocities of both groups at contact nodes, from those that the forces alone would give.
 
     Slave nodes move with masters of their group, and groups that touch rub: impulses that keep the momentum. An impulse J
@@ -296,7 +310,8 @@ def settle(j0, j1, dt, friction, constrained, metrics, dz, contact_columns, line
     Updates  u, v [b, j, i]; heat [b, j, i], J per kg of the group's mass at a vertex; adds to transfer[4, j]
     Writes   transfer[:4, j]: axial momentum that the soft group gains from the hard one, heat of the ties to the other group,
              of friction, and of under-filled nodes
-    Scratch  ties [10, x, b], gain [c, b, j, i]; taken [c, x, b], impulses that slaves have given away; rubbing [3, x]
+    Scratch  what list_ties writes; ties [10, x, b], gain [c, b, j, i]; taken [c, x, b], impulses that slaves have given away;
+             rubbing [3, x]
     """
     for x in range(first[j1 + 1]):
         for c in range(2):
@@ -304,8 +319,10 @@ def settle(j0, j1, dt, friction, constrained, metrics, dz, contact_columns, line
                 taken[c, x, g] = 0.0
         for c in range(3):
             rubbing[c, x] = 0.0
-    meet_ties(j0, j1, constrained, count, contact_nodes, first, strength, number, where, weights, warmed, mass, u, v, ties,
-              gain, taken, transfer)
+    tied = list_ties(j0, j1, constrained, count, contact_nodes, first, strength, number, where, weights, mass, nodes, starts,
+                     entries, parts)
+    meet_ties(tied, constrained, strength, number, where, weights, mass, u, v, nodes, starts, entries, parts, ties, gain, taken,
+              transfer)
     for _ in range(ROUNDS if friction > 0.0 else 0):
         for j in range(j0, j1 + 1):
             for k in range(count[j]):
@@ -313,8 +330,9 @@ def settle(j0, j1, dt, friction, constrained, metrics, dz, contact_columns, line
                     rub(j, contact_nodes[j, k], first[j] + k, dt, friction, constrained, strength, number, where, weights,
                         metrics, dz, contact_columns, line, normal, sig_rr, sig_zz, sig_rz, mass, u, v, taken, rubbing,
                         transfer)
-        meet_ties(j0, j1, constrained, count, contact_nodes, first, strength, number, where, weights, warmed, mass, u, v, ties,
-                  gain, taken, transfer)
+        meet_ties(tied, constrained, strength, number, where, weights, mass, u, v, nodes, starts, entries, parts, ties, gain,
+                  taken, transfer)
+    t = 0
     for j in range(j0, j1 + 1):
         for row in range(4):
             transfer[row, j] = 0.0
@@ -330,8 +348,9 @@ def settle(j0, j1, dt, friction, constrained, metrics, dz, contact_columns, line
             for g in range(2):
                 if strength[x, g] == 0.0:
                     continue
-                before_r, before_z = difference(g, j, i, x, constrained, number, where, weights, u0, v0)
-                after_r, after_z = difference(g, j, i, x, constrained, number, where, weights, u, v)
+                before_r, before_z = mismatch(t, nodes, starts, entries, parts, u0, v0)
+                after_r, after_z = mismatch(t, nodes, starts, entries, parts, u, v)
+                t += 1
                 made = 0.5 * (taken[0, x, g] * (before_r + after_r) + taken[1, x, g] * (before_z + after_z))
                 warm_up(g, j, i, x, made, number, where, weights, mass, heat)
                 tied = weights[x, g, number[x, g] - 1] if where[x, g, number[x, g] - 1] == TIED else 0.0

@@ -8,6 +8,7 @@ tie fades in as the share falls from SURE to UNDERFILLED, and a cell counts by h
 from math import sqrt
 
 from hydro2d.jit import apart, kernel, point, prange
+from hydro2d.kernels.column_ranges import NOTHING
 from hydro2d.kernels.contact_geometry import REACH
 from hydro2d.physics.contact import dual_share
 from hydro2d.physics.traction import smoothstep
@@ -48,8 +49,26 @@ def in_debris(g, j, i, mesh_box, group, vof, dmg):
     return found
 
 
+@kernel
+def find_filled(j0, j1, mesh_box, volume, metrics, count, contact_nodes, hard, soft, mass, filled):
+    """filled_share of both groups at all vertices from which a contact node can be extended.
+
+    Reads    hard, soft [j, i]; mass [b, j, i]; the list of contact nodes of rows j0 to j1
+    Writes   filled [b, j, i] within REACH of contact nodes, in the mesh
+    """
+    for j in prange(max(j0 - REACH, mesh_box[0]), min(j1 + REACH, mesh_box[1]) + 1):
+        lo, hi = NOTHING, 0
+        for row in range(max(j - REACH, j0), min(j + REACH, j1) + 1):
+            if count[row] > 0:
+                lo = min(lo, contact_nodes[row, 0])
+                hi = max(hi, contact_nodes[row, count[row] - 1])
+        for i in range(max(lo - REACH, mesh_box[2]), min(hi + REACH, mesh_box[3]) + 1):
+            for g in range(2):
+                filled[g, j, i] = filled_share(g, j, i, mesh_box, volume, metrics, hard, soft, mass)
+
+
 @apart
-def cell_weight(g, j, i, row, column, inward_r, inward_z, mesh_box, volume, metrics, hard, soft, mass):
+def cell_weight(g, j, i, row, column, inward_r, inward_z, mesh_box, hard, soft, filled):
     """Weight of cell (row, column) of group g for the slave (j, i): (share cos/distance)^4, as far as all of it counts.
 
     The cosine is that between its direction and the normal inwards.
@@ -61,15 +80,15 @@ def cell_weight(g, j, i, row, column, inward_r, inward_z, mesh_box, volume, metr
     along = part * (inward_r * x + inward_z * y) / (x * x + y * y)
     if part <= UNDERFILLED or along <= 0.0:
         return 0.0
-    least = 1.0
-    for corner in range(4):
-        least = min(least, filled_share(g, row + corner // 2, column + corner % 2, mesh_box, volume, metrics, hard, soft, mass))
+    least = min(min(filled[g, row, column], filled[g, row, column + 1]),
+                min(filled[g, row + 1, column], filled[g, row + 1, column + 1]))
+    least = min(least, 1.0)
     return sureness(part) * sureness(least) * (along * along) * (along * along)
 
 
 @apart
-def extend_cells(x, g, j, i, reach, inward_r, inward_z, mesh_box, least_squares, most_squares, factor, volume, metrics, r, z,
-                 hard, soft, mass, weights):
+def extend_cells(x, g, j, i, reach, inward_r, inward_z, mesh_box, least_squares, most_squares, factor, r, z, hard, soft,
+                 filled, weights):
     """Adds the linear fields of the cells inward whose weights have squares that sum up to more than least_squares and to no
     more than most_squares, together with the weight `factor`; returns the share of it that is used.
 
@@ -84,7 +103,7 @@ def extend_cells(x, g, j, i, reach, inward_r, inward_z, mesh_box, least_squares,
         for dj in range(-reach, reach):
             for di in range(-reach, reach):
                 row, column = j + dj, i + di
-                w = cell_weight(g, j, i, row, column, inward_r, inward_z, mesh_box, volume, metrics, hard, soft, mass)
+                w = cell_weight(g, j, i, row, column, inward_r, inward_z, mesh_box, hard, soft, filled)
                 if w == 0.0:
                     continue
                 a = (r[i] - 0.5 * (r[column] + r[column + 1])) / (r[column + 1] - r[column])
@@ -103,7 +122,7 @@ def extend_cells(x, g, j, i, reach, inward_r, inward_z, mesh_box, least_squares,
 
 
 @apart
-def extend_vertices(x, g, j, i, reach, inward_r, inward_z, mesh_box, factor, volume, metrics, hard, soft, mass, weights):
+def extend_vertices(x, g, j, i, reach, inward_r, inward_z, mesh_box, factor, filled, weights):
     """Adds the velocities of single vertices inward, which together have the weight `factor`; returns the share of it used.
 
     Updates  weights [x, g, n]
@@ -113,9 +132,11 @@ def extend_vertices(x, g, j, i, reach, inward_r, inward_z, mesh_box, factor, vol
         scale = factor * smoothstep(whole / ENOUGH) / whole if whole > 0.0 else 0.0
         for dj in range(-reach, reach + 1):
             for di in range(-reach, reach + 1):
-                if dj == 0 and di == 0:
+                row, column = j + dj, i + di
+                if (dj == 0 and di == 0) or not (
+                        mesh_box[0] <= row <= mesh_box[1] and mesh_box[2] <= column <= mesh_box[3]):
                     continue
-                share = filled_share(g, j + dj, i + di, mesh_box, volume, metrics, hard, soft, mass)
+                share = filled[g, row, column]
                 along = share * (inward_r * di + inward_z * dj) / (di * di + dj * dj)
                 if share <= UNDERFILLED or along <= 0.0:
                     continue
@@ -128,15 +149,15 @@ def extend_vertices(x, g, j, i, reach, inward_r, inward_z, mesh_box, factor, vol
 
 
 @kernel
-def find_extensions(j0, j1, mesh_box, most_squares, volume, metrics, r, z, count, contact_nodes, first, normal, hard, soft,
-                    mass, group, vof, dmg, strength, number, where, weights):
+def find_extensions(j0, j1, mesh_box, most_squares, r, z, count, contact_nodes, first, normal, hard, soft, filled, group, vof,
+                    dmg, strength, number, where, weights):
     """Which contact nodes are slaves, how firmly they are tied, and to what.
 
     To the mean of the linear fields of cells that most_squares allows; where there are none (or hardly any, ENOUGH), of cells
     with a reduced gradient, then to vertices, and in the end to the other group's velocity at the node. A crumb within failed
     material of the other group asks two vertices away, others three.
 
-    Reads    first [j], the slot of a row's first contact node; normal [3, 2, j, i]; hard, soft [j, i]; mass [b, j, i];
+    Reads    first [j], the slot of a row's first contact node; normal [3, 2, j, i]; hard, soft [j, i]; filled [b, j, i];
              vof, dmg [m, j, i]
     Writes   strength [x, b], 0 for a node that moves by itself to 1; number [x, b] of masters; where [x, b, n], their places
              SPAN (dj + REACH) + (di + REACH), or TIED; weights [x, b, n], which add up to 1
@@ -146,7 +167,7 @@ def find_extensions(j0, j1, mesh_box, most_squares, volume, metrics, r, z, count
             i, x = contact_nodes[j, k], first[j] + k
             for g in range(2):
                 number[x, g] = 0
-                strength[x, g] = 1.0 - sureness(filled_share(g, j, i, mesh_box, volume, metrics, hard, soft, mass))
+                strength[x, g] = 1.0 - sureness(filled[g, j, i])
                 if strength[x, g] == 0.0:
                     continue
                 for n in range(MASTERS + 1):
@@ -154,14 +175,13 @@ def find_extensions(j0, j1, mesh_box, most_squares, volume, metrics, r, z, count
                 sign = 1.0 if g == 0 else -1.0
                 inward_r, inward_z = sign * normal[0, 0, j, i], sign * normal[0, 1, j, i]
                 reach = REACH - 1 if in_debris(g, j, i, mesh_box, group, vof, dmg) else REACH
-                left = 1.0 - extend_cells(x, g, j, i, reach, inward_r, inward_z, mesh_box, 0.0, most_squares, 1.0, volume,
-                                          metrics, r, z, hard, soft, mass, weights)
+                left = 1.0 - extend_cells(x, g, j, i, reach, inward_r, inward_z, mesh_box, 0.0, most_squares, 1.0, r, z, hard,
+                                          soft, filled, weights)
                 if left > 0.0:
-                    left *= 1.0 - extend_cells(x, g, j, i, reach, inward_r, inward_z, mesh_box, most_squares, 1e300, left,
-                                               volume, metrics, r, z, hard, soft, mass, weights)
+                    left *= 1.0 - extend_cells(x, g, j, i, reach, inward_r, inward_z, mesh_box, most_squares, 1e300, left, r,
+                                               z, hard, soft, filled, weights)
                 if left > 0.0:
-                    used = extend_vertices(x, g, j, i, reach - 1, inward_r, inward_z, mesh_box, left, volume, metrics, hard,
-                                           soft, mass, weights)
+                    used = extend_vertices(x, g, j, i, reach - 1, inward_r, inward_z, mesh_box, left, filled, weights)
                     weights[x, g, TIED] = left * (1.0 - used)
                 found = 0
                 for n in range(MASTERS + 1):

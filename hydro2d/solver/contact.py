@@ -29,13 +29,21 @@ class Slots:
         self.masters = np.zeros((number, 2), dtype=np.int64)
         self.where = np.zeros((number, 2, extension.MASTERS + 1), dtype=np.int64)
         self.weights = np.zeros((number, 2, extension.MASTERS + 1))
-        self.scratch = np.zeros((10, number, 2))
+        self.nodes = np.zeros((5, 2 * number), dtype=np.int64)
+        self.starts = np.zeros(2 * number + 1, dtype=np.int64)
+        self.entries = np.zeros((3, 2 * number * (extension.MASTERS + 1)), dtype=np.int64)
+        self.parts = np.zeros((4, 2 * number * (extension.MASTERS + 1)))
+        self.impulses = np.zeros((10, number, 2))
         self.taken = np.zeros((2, number, 2))
         self.rubbing = np.zeros((3, number))
 
     def ties(self) -> tuple[np.ndarray, ...]:
         """How firmly nodes are tied, to how many masters, to which and with what weights (`find_extensions`)."""
         return self.strength, self.masters, self.where, self.weights
+
+    def scratch(self) -> tuple[np.ndarray, ...]:
+        """What `settle` needs to solve for the impulses of the ties."""
+        return self.nodes, self.starts, self.entries, self.parts, self.impulses
 
 
 def most_squares(table, courant: float) -> float:
@@ -92,9 +100,11 @@ class Contact:
         contact_geometry.face_apertures(j0, j1, self.mesh_box, self.constrained, s.contact_columns, s.line, s.hard, s.soft,
                                         s.mass, s.contact_node_count, s.contact_nodes, s.aperture_r, s.aperture_z,
                                         s.contact_normal, s.touch)
-        extension.find_extensions(j0, j1, self.mesh_box, self.most_squares, g.volume, g.metrics, g.r, g.z, s.contact_node_count,
-                                  s.contact_nodes, s.first_slot, s.contact_normal, s.hard, s.soft, s.mass, s.group, s.vof,
-                                  s.dmg, *self.slots.ties())
+        extension.find_filled(j0, j1, self.mesh_box, g.volume, g.metrics, s.contact_node_count, s.contact_nodes, s.hard,
+                              s.soft, s.mass, s.filled)
+        extension.find_extensions(j0, j1, self.mesh_box, self.most_squares, g.r, g.z, s.contact_node_count, s.contact_nodes,
+                                  s.first_slot, s.contact_normal, s.hard, s.soft, s.filled, s.group, s.vof, s.dmg,
+                                  *self.slots.ties())
         contact_motion.contact_viscosity(
             j0, j1, self.mesh_box, method.viscosity_linear, method.viscosity_quadratic, method.courant, g.dr, g.dz, g.metrics,
             s.contact_columns, s.line, s.group_ranges, s.contact_normal, s.aperture_r, s.aperture_z, s.hard, s.soft, s.u, s.v,
@@ -117,8 +127,8 @@ class Contact:
         slots = self.slots
         contact_velocities.settle(
             j0, j1, dt, method.friction, self.constrained, g.metrics, g.dz, s.contact_columns, s.line, s.contact_node_count,
-            s.contact_nodes, s.first_slot, s.contact_normal, s.touch, *slots.ties(), s.warmed, s.sig_rr, s.sig_zz, s.sig_rz,
-            s.mass, s.u0, s.v0, s.u, s.v, slots.scratch, s.gain, slots.taken, slots.rubbing, s.heat, s.transfer)
+            s.contact_nodes, s.first_slot, s.contact_normal, s.touch, *slots.ties(), s.sig_rr, s.sig_zz, s.sig_rz,
+            s.mass, s.u0, s.v0, s.u, s.v, *slots.scratch(), s.gain, slots.taken, slots.rubbing, s.heat, s.transfer)
         pushed, *heats, walls = s.transfer[:, j0:j1 + 1].sum(axis=1)
         audit.add("walls", momentum=float(walls))
         audit.transfer("contact", momentum=float(pushed), energy=float(heats[0]))

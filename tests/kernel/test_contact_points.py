@@ -19,7 +19,8 @@ master = contact_velocities.master.py_func
 held = contact_velocities.held.py_func
 give = contact_velocities.give.py_func
 give_tie = contact_velocities.give_tie.py_func
-difference = contact_velocities.difference.py_func
+mismatch = contact_velocities.mismatch.py_func
+list_ties = contact_velocities.list_ties.py_func
 masters_mobility = contact_velocities.masters_mobility.py_func
 mobility = contact_velocities.mobility.py_func
 warm_up = contact_velocities.warm_up.py_func
@@ -72,14 +73,30 @@ def test_an_impulse_moves_what_is_not_held(constrained, gained):
     assert mass[0, 1, 1] * v[0, 1, 1] + transfer[4, 1] == -4.0  # what moves and what a wall takes is the impulse
 
 
+def room_for_ties(slots: int):
+    """nodes, starts, entries and parts as `list_ties` fills them."""
+    most = 2 * slots * (MASTERS + 1)
+    nodes, starts, entries = (np.zeros(shape, dtype=np.int64) for shape in ((5, 2 * slots), 2 * slots + 1, (3, most)))
+    return nodes, starts, entries, np.full((4, most), np.nan)
+
+
+def apart(number, where, weights, mass, u, v, constrained):
+    """By what the slave of `one_tie`, at (3, 3), differs from its masters."""
+    count, nodes, first = np.zeros(7, dtype=np.int64), np.full((7, 7), 3), np.zeros(8, dtype=np.int64)
+    count[3] = 1
+    listed, strength = room_for_ties(1), np.array([[0.0, 1.0]])
+    assert list_ties(0, 6, constrained, count, nodes, first, strength, number, where, weights, mass, *listed) == 1
+    return mismatch(0, *listed, u, v)
+
+
 def test_an_impulse_of_a_tie_goes_from_the_slave_to_its_masters():
     number, where, weights = one_tie((place(0, -1), 0.75), (place(1, 1), -0.25), (TIED, 0.5))
     mass, u, v, transfer = np.full((2, 7, 7), 2.0), np.zeros((2, 7, 7)), np.zeros((2, 7, 7)), np.zeros((5, 7))
     give_tie(1, 3, 3, 0, 8.0, -4.0, NOWHERE, number, where, weights, mass, u, v, transfer)
     assert (u[1, 3, 3], u[1, 3, 2], u[1, 4, 4], u[0, 3, 3]) == (-4.0, 3.0, -1.0, 2.0)
     np.testing.assert_array_equal(v, -0.5 * u)
-    assert difference(1, 3, 3, 0, NOWHERE, number, where, weights, u, v) == (-7.5, 3.75)
-    assert difference(1, 3, 3, 0, np.array([2, -1, 3, -1]), number, where, weights, u, v) == (-4.0 - 0.25 - 1.0, 0.0)
+    assert apart(number, where, weights, mass, u, v, NOWHERE) == (-7.5, 3.75)
+    assert apart(number, where, weights, mass, u, v, np.array([2, -1, 3, -1])) == (-4.0 - 0.25 - 1.0, 0.0)
 
 
 def test_a_slave_is_as_heavy_as_it_and_its_masters():
@@ -122,17 +139,18 @@ class Settled:
         self.transfer, w = np.zeros((5, vertices[0])), before.copy()
         line, pressure = np.zeros((10, *cells)), np.full(cells, -1e3)
         line[contact_geometry.SHARE] = found.hard
+        listed = room_for_ties(slots)
         settle(g.g, g.g + N, 1e-3, friction, constrained, g.metrics, g.dz, np.tile([g.g, g.g + N], (cells[0], 1)), line,
                found.count, found.nodes, found.first, found.normal, np.ones(vertices), *ties,
-               np.tile([0, vertices[1] - 1], (vertices[0], 1)), pressure, pressure.copy(), np.zeros(cells), self.mass,
-               before[0].copy(), before[1].copy(), w[0], w[1], np.full((10, slots, 2), np.nan),
+               pressure, pressure.copy(), np.zeros(cells), self.mass,
+               before[0].copy(), before[1].copy(), w[0], w[1], *listed, np.full((10, slots, 2), np.nan),
                np.full((2, 2, *vertices), np.nan), np.full((2, slots, 2), np.nan), np.full((3, slots), np.nan), self.heat,
                self.transfer)
         self.after = w
-        nodes = [(j, found.nodes[j, k], found.first[j] + k) for j in range(len(found.count)) for k in range(found.count[j])]
+        slot, group = listed[0][:2]
         #: of every slave: its strength, and by what it differs from its masters before and after
-        self.slaves = [(ties[0][x, b], *(np.array(difference(b, j, i, x, constrained, *ties[1:], *u)) for u in (before, w)))
-                       for j, i, x in nodes for b in range(2) if ties[0][x, b] > 0.0]
+        self.slaves = [(ties[0][slot[t], group[t]], *(np.array(mismatch(t, *listed, *u)) for u in (before, w)))
+                       for t in range(np.count_nonzero(ties[0]))]
 
     def sums(self, w):
         """(momentum along r and z, kinetic energy)"""

@@ -5,7 +5,7 @@ import pytest
 
 from hydro2d.kernels import extension
 from hydro2d.kernels.contact_geometry import REACH
-from hydro2d.kernels.extension import MASTERS, SPAN, SURE, TIED, UNDERFILLED, find_extensions
+from hydro2d.kernels.extension import MASTERS, SPAN, SURE, TIED, UNDERFILLED, find_extensions, find_filled
 from hydro2d.mesh.grid import Grid
 from tests.physics.continuity import changes_in_proportion, largest_jump
 
@@ -48,8 +48,10 @@ class Extensions:
         mesh_box = np.array([g.g, g.g + N, g.g, g.g + N])
         dmg = np.zeros_like(vof)
         dmg[1] = damage
-        find_extensions(g.g, g.g + N, mesh_box, most_squares, g.volume, g.metrics, g.r, g.z, count, nodes, first, directions,
-                        vof[1], vof[0], mass, np.array([0, 1]), vof, dmg, strength, number, where, weights)
+        filled = np.full((2, *g.vertex_shape), np.nan)
+        find_filled(g.g, g.g + N, mesh_box, g.volume, g.metrics, count, nodes, vof[1], vof[0], mass, filled)
+        find_extensions(g.g, g.g + N, mesh_box, most_squares, g.r, g.z, count, nodes, first, directions, vof[1], vof[0], filled,
+                        np.array([0, 1]), vof, dmg, strength, number, where, weights)
         self.first, self.mass, self.normal, self.ties = first, mass, directions, (strength, number, where, weights)
         self.count, self.nodes, self.hard = count, nodes, vof[1]
         #: by group, row and column: strength, and weights of all places of masters
@@ -139,10 +141,10 @@ def test_debris_is_failed_material_of_the_other_group_that_fills_half_of_a_cell(
 def test_a_cell_counts_by_its_distance_and_direction(row, column, expected):
     """From a vertex at its lower left, along r; nothing behind it and nothing beyond the mesh."""
     g = Grid(LEVEL, LEVEL, "planar")
-    hard, soft, mass = np.ones(g.shape), np.zeros(g.shape), np.ones((2, *g.vertex_shape))
+    hard, soft, filled = np.ones(g.shape), np.zeros(g.shape), np.ones((2, *g.vertex_shape))
     for size in (9, 8, 6):
         mesh_box = np.array([0, size, 0, size])
-        found = cell_weight(1, 5, 5, row, column, 1.0, 0.0, mesh_box, g.volume, g.metrics, hard, soft, mass)
+        found = cell_weight(1, 5, 5, row, column, 1.0, 0.0, mesh_box, hard, soft, filled)
         assert found == pytest.approx(expected if row < size and column < size else 0.0)
 
 
