@@ -19,8 +19,8 @@ TOLERANCE, STEPS = 1e-11, 200
 ROUNDS = 3
 #: rows of `rubbing`: impulse that the soft group gets from the hard one, and its size
 RUB_R, RUB_Z, RUBBED = range(3)
-#: rows of `nodes`: slot, group, row and column of a slave, and what holds it
-SLOT, GROUP, ROW, COLUMN, HELD = range(5)
+#: rows of `nodes`: slot, group, row and column of a slave, what holds it, and the number of its vertex
+SLOT, GROUP, ROW, COLUMN, HELD, VERTEX = range(6)
 #: rows of `ties`, two for the components of each: impulse, residual, search direction, what the ties make of that, inverse of
 #: the diagonal
 IMPULSE, RESIDUAL, SEARCH, IMAGE, DIAGONAL = 0, 2, 4, 6, 8
@@ -77,14 +77,15 @@ def give_tie(g, j, i, x, push_r, push_z, constrained, number, where, weights, ma
 
 @apart
 def list_ties(j0, j1, constrained, count, contact_nodes, first, strength, number, where, weights, mass, nodes, starts, entries,
-              parts):
+              parts, places):
     """Number of the tied slaves, which are listed with their masters one after another.
 
-    Writes   nodes [5, t]: slot, group, row and column of a slave, and what holds it (1 along r, 2 along z, 3 both);
-             starts [t + 1], its first master; entries [3, e]: group, row and column of a master; parts [4, e]: its weight along
-             r and z, 0 where it is held, and the same over its mass
+    Writes   nodes [6, t]: slot, group, row and column of a slave, what holds it (1 along r, 2 along z, 3 both), and the number
+             of its vertex in the list; starts [t + 1], its first master; entries [4, e]: group, row, column and number of a
+             master; parts [e, 4]: its weight along r and z, 0 where it is held, and the same over its mass
+    Scratch  places [b, j, i], 0 before and after
     """
-    tied, e = 0, 0
+    tied, e, vertices = 0, 0, 0
     for j in range(j0, j1 + 1):
         for k in range(count[j]):
             i, x = contact_nodes[j, k], first[j] + k
@@ -94,19 +95,31 @@ def list_ties(j0, j1, constrained, count, contact_nodes, first, strength, number
                 held_r, held_z = held(j, i, constrained)
                 nodes[SLOT, tied], nodes[GROUP, tied], nodes[ROW, tied], nodes[COLUMN, tied] = x, g, j, i
                 nodes[HELD, tied] = (1 if held_r else 0) + (2 if held_z else 0)
+                if places[g, j, i] == 0:
+                    vertices += 1
+                    places[g, j, i] = vertices
+                nodes[VERTEX, tied] = places[g, j, i] - 1
                 starts[tied] = e
                 for n in range(number[x, g]):
                     by, row, column = master(n, g, j, i, x, where)
                     held_r, held_z = held(row, column, constrained)
                     w = weights[x, g, n]
+                    if places[by, row, column] == 0:
+                        vertices += 1
+                        places[by, row, column] = vertices
                     entries[0, e], entries[1, e], entries[2, e] = by, row, column
-                    parts[0, e] = 0.0 if held_r else w
-                    parts[1, e] = 0.0 if held_z else w
-                    parts[2, e] = 0.0 if held_r else w / mass[by, row, column]
-                    parts[3, e] = 0.0 if held_z else w / mass[by, row, column]
+                    entries[3, e] = places[by, row, column] - 1
+                    parts[e, 0] = 0.0 if held_r else w
+                    parts[e, 1] = 0.0 if held_z else w
+                    parts[e, 2] = 0.0 if held_r else w / mass[by, row, column]
+                    parts[e, 3] = 0.0 if held_z else w / mass[by, row, column]
                     e += 1
                 tied += 1
                 starts[tied] = e
+    for t in range(tied):
+        places[nodes[GROUP, t], nodes[ROW, t], nodes[COLUMN, t]] = 0
+    for n in range(e):
+        places[entries[0, n], entries[1, n], entries[2, n]] = 0
     return tied
 
 
@@ -116,8 +129,8 @@ def mismatch(t, nodes, starts, entries, parts, u, v):
     g, j, i, still = nodes[GROUP, t], nodes[ROW, t], nodes[COLUMN, t], nodes[HELD, t]
     apart_r, apart_z = u[g, j, i], v[g, j, i]
     for e in range(starts[t], starts[t + 1]):
-        apart_r -= parts[0, e] * u[entries[0, e], entries[1, e], entries[2, e]]
-        apart_z -= parts[1, e] * v[entries[0, e], entries[1, e], entries[2, e]]
+        apart_r -= parts[e, 0] * u[entries[0, e], entries[1, e], entries[2, e]]
+        apart_z -= parts[e, 1] * v[entries[0, e], entries[1, e], entries[2, e]]
     return 0.0 if still % 2 == 1 else apart_r, 0.0 if still >= 2 else apart_z
 
 
@@ -126,28 +139,33 @@ def image_of_search(tied, strength, nodes, starts, entries, parts, mass, ties, g
     """What the search direction, as impulses, does to the mismatch: N M^-1 N^T p and the compliance; returns p . image.
 
     Reads    ties [SEARCH, x, b]
-    Writes   ties [IMAGE, x, b];  scratch gain [c, b, j, i], velocities
+    Writes   ties [IMAGE, x, b];  scratch gain [n, c], velocities of the listed vertices
     """
     for t in range(tied):
-        g, j, i = nodes[GROUP, t], nodes[ROW, t], nodes[COLUMN, t]
-        gain[0, g, j, i] = 0.0
-        gain[1, g, j, i] = 0.0
-        for e in range(starts[t], starts[t + 1]):
-            gain[0, entries[0, e], entries[1, e], entries[2, e]] = 0.0
-            gain[1, entries[0, e], entries[1, e], entries[2, e]] = 0.0
+        gain[nodes[VERTEX, t], 0] = 0.0
+        gain[nodes[VERTEX, t], 1] = 0.0
+    for e in range(starts[tied]):
+        gain[entries[3, e], 0] = 0.0
+        gain[entries[3, e], 1] = 0.0
     for t in range(tied):
-        x, g, j, i = nodes[SLOT, t], nodes[GROUP, t], nodes[ROW, t], nodes[COLUMN, t]
+        x, g, own = nodes[SLOT, t], nodes[GROUP, t], nodes[VERTEX, t]
+        m = mass[g, nodes[ROW, t], nodes[COLUMN, t]]
         p_r, p_z = ties[SEARCH, x, g], ties[SEARCH + 1, x, g]
-        gain[0, g, j, i] += p_r / mass[g, j, i]
-        gain[1, g, j, i] += p_z / mass[g, j, i]
+        gain[own, 0] += p_r / m
+        gain[own, 1] += p_z / m
         for e in range(starts[t], starts[t + 1]):
-            gain[0, entries[0, e], entries[1, e], entries[2, e]] -= parts[2, e] * p_r
-            gain[1, entries[0, e], entries[1, e], entries[2, e]] -= parts[3, e] * p_z
+            gain[entries[3, e], 0] -= parts[e, 2] * p_r
+            gain[entries[3, e], 1] -= parts[e, 3] * p_z
     along_r, along_z = 0.0, 0.0
     for t in range(tied):
-        x, g, j, i = nodes[SLOT, t], nodes[GROUP, t], nodes[ROW, t], nodes[COLUMN, t]
-        a_r, a_z = mismatch(t, nodes, starts, entries, parts, gain[0], gain[1])
-        give_way = (1.0 / strength[x, g] - 1.0) / mass[g, j, i]
+        x, g, own = nodes[SLOT, t], nodes[GROUP, t], nodes[VERTEX, t]
+        a_r, a_z = gain[own, 0], gain[own, 1]
+        for e in range(starts[t], starts[t + 1]):
+            a_r -= parts[e, 0] * gain[entries[3, e], 0]
+            a_z -= parts[e, 1] * gain[entries[3, e], 1]
+        a_r = 0.0 if nodes[HELD, t] % 2 == 1 else a_r
+        a_z = 0.0 if nodes[HELD, t] >= 2 else a_z
+        give_way = (1.0 / strength[x, g] - 1.0) / mass[g, nodes[ROW, t], nodes[COLUMN, t]]
         a_r += give_way * ties[SEARCH, x, g]
         a_z += give_way * ties[SEARCH + 1, x, g]
         ties[IMAGE, x, g] = a_r
@@ -162,7 +180,7 @@ def meet_ties(tied, constrained, strength, number, where, weights, mass, u, v, n
               transfer):
     """Brings all slaves to the velocities of their masters at once, by conjugate gradients from nothing.
 
-    Updates  u, v [b, j, i]; taken [c, x, b], impulses that slaves have given away;  scratch ties [10, x, b], gain [c, b, j, i]
+    Updates  u, v [b, j, i]; taken [c, x, b], impulses that slaves have given away;  scratch ties [10, x, b], gain [n, c]
     """
     old_r, old_z = 0.0, 0.0
     for t in range(tied):
@@ -298,8 +316,8 @@ def warm_up(g, j, i, x, made, number, where, weights, mass, heat):
 
 @serial
 def settle(j0, j1, dt, friction, constrained, metrics, dz, contact_columns, line, count, contact_nodes, first, normal, touch,
-           strength, number, where, weights, sig_rr, sig_zz, sig_rz, mass, u0, v0, u, v, nodes, starts, entries, parts, ties,
-           gain, taken, rubbing, heat, transfer):
+           strength, number, where, weights, sig_rr, sig_zz, sig_rz, mass, u0, v0, u, v, nodes, starts, entries, parts, places,
+           ties, gain, taken, rubbing, heat, transfer):
     """Velocities of both groups at contact nodes, from those that the forces alone would give.
 
     Slave nodes move with masters of their group, and groups that touch rub: impulses that keep the momentum. An impulse J
@@ -310,7 +328,7 @@ def settle(j0, j1, dt, friction, constrained, metrics, dz, contact_columns, line
     Updates  u, v [b, j, i]; heat [b, j, i], J per kg of the group's mass at a vertex; adds to transfer[4, j]
     Writes   transfer[:4, j]: axial momentum that the soft group gains from the hard one, heat of the ties to the other group,
              of friction, and of under-filled nodes
-    Scratch  what list_ties writes; ties [10, x, b], gain [c, b, j, i]; taken [c, x, b], impulses that slaves have given away;
+    Scratch  what list_ties writes; ties [10, x, b], gain [n, c]; taken [c, x, b], impulses that slaves have given away;
              rubbing [3, x]
     """
     for x in range(first[j1 + 1]):
@@ -320,7 +338,7 @@ def settle(j0, j1, dt, friction, constrained, metrics, dz, contact_columns, line
         for c in range(3):
             rubbing[c, x] = 0.0
     tied = list_ties(j0, j1, constrained, count, contact_nodes, first, strength, number, where, weights, mass, nodes, starts,
-                     entries, parts)
+                     entries, parts, places)
     meet_ties(tied, constrained, strength, number, where, weights, mass, u, v, nodes, starts, entries, parts, ties, gain, taken,
               transfer)
     for _ in range(ROUNDS if friction > 0.0 else 0):

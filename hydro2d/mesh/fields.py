@@ -184,7 +184,7 @@ CONTACT_WORK = (
     Work("heat", "2 J I", "heat of the impulses at a vertex, for each group"),
     Work("contact_normal", "3 2 J I", "normal at a contact node"),
     Work("first_slot", "1+J", "slot of the first contact node of a row", int),
-    Work("gain", "2 2 J I", "velocities that a direction of search gives to slaves and masters"),
+    Work("places", "2 J I", "number of a vertex in the list of slaves and masters, 0 between two lists", int),
     Work("touch", "J I", "whether the groups touch at a contact node"),
     Work("transfer", "5 J", "contact transfers in a row: momentum, three heats, wall's momentum"),
 )

@@ -29,11 +29,13 @@ class Slots:
         self.masters = np.zeros((number, 2), dtype=np.int64)
         self.where = np.zeros((number, 2, extension.MASTERS + 1), dtype=np.int64)
         self.weights = np.zeros((number, 2, extension.MASTERS + 1))
-        self.nodes = np.zeros((5, 2 * number), dtype=np.int64)
+        most = 2 * number * (extension.MASTERS + 1)
+        self.nodes = np.zeros((6, 2 * number), dtype=np.int64)
         self.starts = np.zeros(2 * number + 1, dtype=np.int64)
-        self.entries = np.zeros((3, 2 * number * (extension.MASTERS + 1)), dtype=np.int64)
-        self.parts = np.zeros((4, 2 * number * (extension.MASTERS + 1)))
+        self.entries = np.zeros((4, most), dtype=np.int64)
+        self.parts = np.zeros((most, 4))
         self.impulses = np.zeros((10, number, 2))
+        self.gain = np.zeros((most + 2 * number, 2))
         self.taken = np.zeros((2, number, 2))
         self.rubbing = np.zeros((3, number))
 
@@ -41,9 +43,9 @@ class Slots:
         """How firmly nodes are tied, to how many masters, to which and with what weights (`find_extensions`)."""
         return self.strength, self.masters, self.where, self.weights
 
-    def scratch(self) -> tuple[np.ndarray, ...]:
-        """What `settle` needs to solve for the impulses of the ties."""
-        return self.nodes, self.starts, self.entries, self.parts, self.impulses
+    def scratch(self, places: np.ndarray) -> tuple[np.ndarray, ...]:
+        """What `settle` needs to solve for the impulses of the ties; places [b, j, i] is 0."""
+        return self.nodes, self.starts, self.entries, self.parts, places, self.impulses, self.gain
 
 
 def most_squares(table, courant: float) -> float:
@@ -128,7 +130,7 @@ class Contact:
         contact_velocities.settle(
             j0, j1, dt, method.friction, self.constrained, g.metrics, g.dz, s.contact_columns, s.line, s.contact_node_count,
             s.contact_nodes, s.first_slot, s.contact_normal, s.touch, *slots.ties(), s.sig_rr, s.sig_zz, s.sig_rz,
-            s.mass, s.u0, s.v0, s.u, s.v, *slots.scratch(), s.gain, slots.taken, slots.rubbing, s.heat, s.transfer)
+            s.mass, s.u0, s.v0, s.u, s.v, *slots.scratch(s.places), slots.taken, slots.rubbing, s.heat, s.transfer)
         pushed, *heats, walls = s.transfer[:, j0:j1 + 1].sum(axis=1)
         audit.add("walls", momentum=float(walls))
         audit.transfer("contact", momentum=float(pushed), energy=float(heats[0]))

@@ -73,11 +73,12 @@ def test_an_impulse_moves_what_is_not_held(constrained, gained):
     assert mass[0, 1, 1] * v[0, 1, 1] + transfer[4, 1] == -4.0  # what moves and what a wall takes is the impulse
 
 
-def room_for_ties(slots: int):
-    """nodes, starts, entries and parts as `list_ties` fills them."""
+def room_for_ties(slots: int, vertices=(7, 7)):
+    """nodes, starts, entries, parts and places as `list_ties` fills them."""
     most = 2 * slots * (MASTERS + 1)
-    nodes, starts, entries = (np.zeros(shape, dtype=np.int64) for shape in ((5, 2 * slots), 2 * slots + 1, (3, most)))
-    return nodes, starts, entries, np.full((4, most), np.nan)
+    nodes, starts, entries, places = (np.zeros(shape, dtype=np.int64) for shape in (
+        (6, 2 * slots), 2 * slots + 1, (4, most), (2, *vertices)))
+    return nodes, starts, entries, np.full((most, 4), np.nan), places
 
 
 def apart(number, where, weights, mass, u, v, constrained):
@@ -86,7 +87,8 @@ def apart(number, where, weights, mass, u, v, constrained):
     count[3] = 1
     listed, strength = room_for_ties(1), np.array([[0.0, 1.0]])
     assert list_ties(0, 6, constrained, count, nodes, first, strength, number, where, weights, mass, *listed) == 1
-    return mismatch(0, *listed, u, v)
+    assert not listed[-1].any()
+    return mismatch(0, *listed[:-1], u, v)
 
 
 def test_an_impulse_of_a_tie_goes_from_the_slave_to_its_masters():
@@ -139,17 +141,17 @@ class Settled:
         self.transfer, w = np.zeros((5, vertices[0])), before.copy()
         line, pressure = np.zeros((10, *cells)), np.full(cells, -1e3)
         line[contact_geometry.SHARE] = found.hard
-        listed = room_for_ties(slots)
+        listed = room_for_ties(slots, vertices)
         settle(g.g, g.g + N, 1e-3, friction, constrained, g.metrics, g.dz, np.tile([g.g, g.g + N], (cells[0], 1)), line,
                found.count, found.nodes, found.first, found.normal, np.ones(vertices), *ties,
                pressure, pressure.copy(), np.zeros(cells), self.mass,
                before[0].copy(), before[1].copy(), w[0], w[1], *listed, np.full((10, slots, 2), np.nan),
-               np.full((2, 2, *vertices), np.nan), np.full((2, slots, 2), np.nan), np.full((3, slots), np.nan), self.heat,
-               self.transfer)
+               np.full((2 * slots * (MASTERS + 2), 2), np.nan), np.full((2, slots, 2), np.nan), np.full((3, slots), np.nan),
+               self.heat, self.transfer)
         self.after = w
         slot, group = listed[0][:2]
         #: of every slave: its strength, and by what it differs from its masters before and after
-        self.slaves = [(ties[0][slot[t], group[t]], *(np.array(mismatch(t, *listed, *u)) for u in (before, w)))
+        self.slaves = [(ties[0][slot[t], group[t]], *(np.array(mismatch(t, *listed[:-1], *u)) for u in (before, w)))
                        for t in range(np.count_nonzero(ties[0]))]
 
     def sums(self, w):

@@ -56,7 +56,7 @@ class Settled:
         contact_velocities.settle(
             j0, j1, 1e-9, 0.0, engine.constrained, g.metrics, g.dz, s.contact_columns, s.line, s.contact_node_count,
             s.contact_nodes, s.first_slot, s.contact_normal, np.zeros_like(s.touch), strength, number, where, weights,
-            s.sig_rr, s.sig_zz, s.sig_rz, s.mass, s.u0, s.v0, s.u, s.v, *slots.scratch(), s.gain, slots.taken, slots.rubbing,
+            s.sig_rr, s.sig_zz, s.sig_rz, s.mass, s.u0, s.v0, s.u, s.v, *slots.scratch(s.places), slots.taken, slots.rubbing,
             s.heat, s.transfer)
         self.after = s.velocity.copy()
 
