@@ -139,6 +139,8 @@ def fade_pressures(j0, j1, i0, i1, group, group_ranges, contact_columns, cell_ma
                 lower = lower_face(m, j, i, vof, room) if j > j0 else 0.0
                 right = left_face(m, j, i + 1, vof, room) if i + 1 < i1 else 0.0
                 upper = lower_face(m, j + 1, i, vof, room) if j + 1 < j1 else 0.0
+                if left == 0.0 and lower == 0.0 and right == 0.0 and upper == 0.0:
+                    continue
                 fr[j, i] += left
                 fz[j, i] += lower
                 for g in range(2):
