@@ -73,9 +73,12 @@ def sweep(
     from hydro2d.study import sweep as sweeps
 
     connect = _workers(len(choice.selected), workers, threads, scheduler, slurm)
-    return sweeps.sweep(
+    status = sweeps.sweep(
         choice, out or plan.out, connect, threads=threads, resume=resume, overwrite=overwrite, quiet=quiet
     )
+    if plan.ensemble and not quiet:
+        _show_ensembles(out or plan.out)
+    return status
 
 
 def transition(
@@ -147,6 +150,14 @@ def transition(
     )
 
 
+def _show_ensembles(directory: Path) -> None:
+    """Prints what the members of each case of a study say together."""
+    from hydro2d.study import contents, ensembles, layout
+
+    for line in ("", *ensembles.report(contents.collect(layout.read(directory)).ensembles)):
+        say(line)
+
+
 def _workers(most: int, workers: int | None, threads: int, scheduler: str | None, slurm: Path | None):
     """A dask client with the workers that the arguments request; on this machine at most `most`."""
     from hydro2d.study import cluster
@@ -174,6 +185,10 @@ def _status(study: Path, out: Path | None) -> int:
         from hydro2d.study import regimes
 
         told += ["", *regimes.lines(found, regimes.of_study(found))]
+    if found.ensemble is not None:
+        from hydro2d.study import contents, ensembles
+
+        told += ["", *ensembles.report(contents.collect(found).ensembles)]
     for line in told:
         say(line)
     return 0

@@ -65,7 +65,7 @@ class Case:
     message : why it failed, is invalid, unphysical or interrupted, or which process runs it
     summary : contents of summary.json; empty until the run has ended
     progress : contents of progress.json; empty while the case does not run
-    of, member, changed : in an ensemble the case that it repeats, its number, and what is changed, by name; else its name, 0, none
+    of, member, changed : in an ensemble the case that it repeats, its number, and what is changed, by name
     """
 
     name: str

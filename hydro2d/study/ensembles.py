@@ -1,0 +1,141 @@
+"""The results of ensembles: for each case the median and the spread of its members, and how often each regime came."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+from hydro2d.study import outcomes
+from hydro2d.study.chance import Share, Spread, spread, wilson
+from hydro2d.study.experiments import Measurement
+from hydro2d.study.layout import DONE, Study
+from hydro2d.study.monitor import lines
+from hydro2d.study.record import Record
+from hydro2d.study.responses import DEPTH, Choice, raw
+from hydro2d.study.table import LENGTH_RATIO, RESULTS, Row
+
+FILE = "ensembles.csv"
+#: columns of a run that are not those of its ensemble
+OF_RUNS = ("ensemble", "member", "seed", "time_s", "cycles", "wall_s", "directory", "depth_error_m", "depth_error_percent",
+           "depth_error_is", "residual_error_m_s", "unfinished", "mass_change_worst", "momentum_change", "energy_change",
+           "ns_per_cell_cycle")  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Ensemble:
+    """The members of one case. ``measurement`` is that of the experiment, if there is one."""
+
+    name: str
+    members: tuple[Record, ...]
+    measurement: Measurement | None = None
+
+    @property
+    def ended(self) -> tuple[Record, ...]:
+        """The members whose results are final."""
+        return tuple(each for each in self.members if not each.unfinished)
+
+    def spread(self, name: str) -> Spread | None:
+        """Median and 10 to 90 % of a number of the ended members, SI."""
+        return spread([value for each in self.ended if (value := raw(each, name)) is not None])
+
+    @cached_property
+    def bound(self) -> float | None:
+        """The smallest depth that is only a lower bound, because a member perforated or left the mesh, m."""
+        return min((each.depth for each in self.ended if each.at_least and each.depth is not None), default=None)
+
+    @cached_property
+    def regimes(self) -> dict[str, Share]:
+        """The share of each regime among the ended members, the most frequent first."""
+        found = Counter(str(regime) for each in self.ended if (regime := each.value("regime")))
+        return {regime: wilson(number, found.total()) for regime, number in found.most_common()}
+
+    @cached_property
+    def outcome(self) -> tuple[str, Share] | None:
+        """The outcome of the experiment, and the share of the members with it; None without an experiment."""
+        found = [pair for each in self.members if (pair := outcomes.pair(each, self.measurement))]
+        return (found[0][1], wilson(sum(run == shot for run, shot in found), len(found))) if found else None
+
+
+def grouped(records: Sequence[Record], measurements: Mapping[str, Measurement] | None = None) -> list[Ensemble]:
+    """The ensembles of runs, in their order; a run that is no member is one by itself. ``measurements`` by case."""
+    found: dict[str, list[Record]] = {}
+    for record in records:
+        found.setdefault(record.case.of or record.case.name, []).append(record)
+    known = measurements or {}
+    return [Ensemble(name, tuple(members), known.get(members[0].case.name)) for name, members in found.items()]
+
+
+def score(found: Sequence[Ensemble]) -> outcomes.Score | None:
+    """How probable the outcomes of the experiments are; None if no ensemble has one."""
+    return outcomes.score([each.outcome[1] for each in found if each.outcome])
+
+
+def rows(study: Study, found: Sequence[Ensemble], table: Sequence[Row], choice: Choice | None = None) -> list[Row]:
+    """One row for each ensemble: what its members share, then medians, ends of the spreads, shares of the regimes.
+
+    table : the rows of the runs;  choice : drawn responses, whose columns are added
+    """
+    runs = {row["case"]: row for row in table}
+    left_out = {*OF_RUNS, *(study.ensemble.by if study.ensemble else ())}
+    kept = [name for name in (table[0] if table else ()) if not (name in left_out or name.startswith("sink_"))]
+    names = [*RESULTS, *(y.name for y in choice.y if y.name not in (DEPTH, *RESULTS))] if choice else RESULTS
+    regimes = sorted({regime for each in found for regime in each.regimes})
+    return [_row(each, {name: runs[each.members[0].case.name][name] for name in kept}, names, regimes) for each in found]
+
+
+def _row(each: Ensemble, shared: Row, names: Sequence[str], regimes: Sequence[str]) -> Row:
+    statuses = Counter(record.case.status for record in each.members)
+    done = f"{statuses.pop(DONE, 0)} of {len(each.members)} done"
+    row = shared | {
+        "case": each.name, "status": ", ".join([done, *(f"{number} {status}" for status, number in statuses.items())]),
+        "message": "; ".join(dict.fromkeys(record.case.message for record in each.members if record.case.message)),
+        "members": len(each.members), "ended": len(each.ended), "regime": next(iter(each.regimes), None),
+    }  # fmt: skip
+    for name in names:
+        column, values = ("depth_m" if name == DEPTH else name), each.spread(name)
+        stem, unit = _stem(column)
+        row |= zip((column, f"{stem}_low{unit}", f"{stem}_high{unit}"), values[:3] if values else (None,) * 3, strict=True)
+    if row["depth_m"] is not None:
+        row["depth_is"] = "at least" if each.bound is not None and row["depth_m"] >= each.bound else "computed"
+    for regime in regimes:
+        none = wilson(0, len(each.ended)) if each.ended else None
+        row |= _share(regime.replace(" ", "_"), each.regimes.get(regime, none))
+    of, share = each.outcome or (None, None)
+    return row | {"experiment_outcome": of} | _share("as_experiment", share)
+
+
+def _stem(column: str) -> tuple[str, str]:
+    """A column without its unit, and the unit: depth_m is depth and _m."""
+    unit = next((end for end in ("_m_s", "_kg", "_m", "_s", "_J", "_K", "_Pa") if column.endswith(end)), "")
+    return column.removesuffix(unit), unit
+
+
+def _share(name: str, share: Share | None) -> Row:
+    return {f"{name}_fraction": share and share.fraction, f"{name}_fraction_low": share and share.low,
+            f"{name}_fraction_high": share and share.high}  # fmt: skip
+
+
+HEADS = ("case", "ended", "depth: median, 10 to 90 %", "length / initial", "regimes, with 90 % intervals", "as the experiment")
+
+
+def report(found: Sequence[Ensemble]) -> list[str]:
+    """The results as lines of text."""
+    columns = [_cells(each) for each in found]
+    used = [n for n in range(len(HEADS)) if n < 2 or any(cells[n] for cells in columns)]
+    told = lines([tuple(cells[n] for n in used) for cells in columns], tuple(HEADS[n] for n in used))
+    scored = score(found)
+    return told + (["", f"experiments: {scored.words}"] if scored else [])
+
+
+def _cells(each: Ensemble) -> tuple[str, ...]:
+    depth, length = each.spread(DEPTH), each.spread(LENGTH_RATIO)
+    at_least = "at least " * bool(depth and each.bound is not None and depth.median >= each.bound)
+    regimes = ", ".join(f"{regime} {share.words}" for regime, share in each.regimes.items())
+    outcome = f"{each.outcome[1].words}: {each.outcome[0]}" if each.outcome else ""
+    return (
+        each.name, f"{len(each.ended)} of {len(each.members)}",
+        f"{at_least}{100 * depth.median:.2f} cm, {100 * depth.low:.2f} to {100 * depth.high:.2f}" if depth else "",
+        f"{length.median:.3f}, {length.low:.3f} to {length.high:.3f}" if length else "", regimes, outcome,
+    )  # fmt: skip
