@@ -13,7 +13,7 @@ from hydro2d.study.experiments import Measurement
 from hydro2d.study.layout import DONE, Study
 from hydro2d.study.monitor import lines
 from hydro2d.study.record import Record
-from hydro2d.study.responses import DEPTH, Choice, raw
+from hydro2d.study.responses import DEPTH, Choice, Response, raw, response
 from hydro2d.study.table import LENGTH_RATIO, RESULTS, Row
 
 FILE = "ensembles.csv"
@@ -72,17 +72,17 @@ def score(found: Sequence[Ensemble]) -> outcomes.Score | None:
     return outcomes.score([each.outcome[1] for each in found if each.outcome])
 
 
-def rows(study: Study, found: Sequence[Ensemble], table: Sequence[Row], choice: Choice | None = None) -> list[Row]:
+def rows(study: Study, found: Sequence[Ensemble], runs: Sequence[Row], choice: Choice | None = None) -> list[Row]:
     """One row for each ensemble: what its members share, then medians, ends of the spreads, shares of the regimes.
 
-    table : the rows of the runs;  choice : drawn responses, whose columns are added
+    runs : the rows of the runs;  choice : drawn responses, whose columns are added
     """
-    runs = {row["case"]: row for row in table}
+    of_case = {row["case"]: row for row in runs}
     left_out = {*OF_RUNS, *(study.ensemble.by if study.ensemble else ())}
-    kept = [name for name in (table[0] if table else ()) if not (name in left_out or name.startswith("sink_"))]
+    kept = [name for name in (runs[0] if runs else ()) if not (name in left_out or name.startswith("sink_"))]
     names = [*RESULTS, *(y.name for y in choice.y if y.name not in (DEPTH, *RESULTS))] if choice else RESULTS
     regimes = sorted({regime for each in found for regime in each.regimes})
-    return [_row(each, {name: runs[each.members[0].case.name][name] for name in kept}, names, regimes) for each in found]
+    return [_row(each, {name: of_case[each.members[0].case.name][name] for name in kept}, names, regimes) for each in found]
 
 
 def _row(each: Ensemble, shared: Row, names: Sequence[str], regimes: Sequence[str]) -> Row:
@@ -117,25 +117,36 @@ def _share(name: str, share: Share | None) -> Row:
             f"{name}_fraction_high": share and share.high}  # fmt: skip
 
 
-HEADS = ("case", "ended", "depth: median, 10 to 90 %", "length / initial", "regimes, with 90 % intervals", "as the experiment")
+def table(found: Sequence[Ensemble], drawn: Sequence[Response] = ()) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
+    """Heads and rows of text, one row for each ensemble; columns without an entry are left out.
+
+    drawn : further numbers of which medians and spreads are given
+    """
+    others = [y for y in drawn if y.name not in (DEPTH, LENGTH_RATIO)]
+    shown = [*map(response, (DEPTH, LENGTH_RATIO)), *others]
+    heads = ("case", "ended", *(f"{y.title}: median, 10 to 90 %" for y in shown), "regimes, 90 % interval", "as the experiment")
+    rows = [_cells(each, shown) for each in found]
+    used = [n for n in range(len(heads)) if n < 2 or any(cells[n] for cells in rows)]
+    return tuple(heads[n] for n in used), [tuple(cells[n] for n in used) for cells in rows]
+
+
+def _cells(each: Ensemble, shown: Sequence[Response]) -> tuple[str, ...]:
+    regimes = ", ".join(f"{regime} {share.words}" for regime, share in each.regimes.items())
+    outcome = f"{each.outcome[1].words}: {each.outcome[0]}" if each.outcome else ""
+    return (each.name, f"{len(each.ended)} of {len(each.members)}", *(_in_words(each, y) for y in shown), regimes, outcome)
+
+
+def _in_words(each: Ensemble, y: Response) -> str:
+    values = each.spread(y.name)
+    if values is None:
+        return ""
+    at_least = "at least " * (y.name == DEPTH and each.bound is not None and values.median >= each.bound)
+    low, median, high = (f"{part * y.factor:.4g}" for part in (values.low, values.median, values.high))
+    return f"{at_least}{median}, {low} to {high}"
 
 
 def report(found: Sequence[Ensemble]) -> list[str]:
     """The results as lines of text."""
-    columns = [_cells(each) for each in found]
-    used = [n for n in range(len(HEADS)) if n < 2 or any(cells[n] for cells in columns)]
-    told = lines([tuple(cells[n] for n in used) for cells in columns], tuple(HEADS[n] for n in used))
+    heads, rows = table(found)
     scored = score(found)
-    return told + (["", f"experiments: {scored.words}"] if scored else [])
-
-
-def _cells(each: Ensemble) -> tuple[str, ...]:
-    depth, length = each.spread(DEPTH), each.spread(LENGTH_RATIO)
-    at_least = "at least " * bool(depth and each.bound is not None and depth.median >= each.bound)
-    regimes = ", ".join(f"{regime} {share.words}" for regime, share in each.regimes.items())
-    outcome = f"{each.outcome[1].words}: {each.outcome[0]}" if each.outcome else ""
-    return (
-        each.name, f"{len(each.ended)} of {len(each.members)}",
-        f"{at_least}{100 * depth.median:.2f} cm, {100 * depth.low:.2f} to {100 * depth.high:.2f}" if depth else "",
-        f"{length.median:.3f}, {length.low:.3f} to {length.high:.3f}" if length else "", regimes, outcome,
-    )  # fmt: skip
+    return lines(rows, heads) + (["", f"experiments: {scored.words}"] if scored else [])
