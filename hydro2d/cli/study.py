@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -62,22 +63,32 @@ def sweep(
     if status:
         return _status(study, out)
     from hydro2d.study import cases, cluster
-    from hydro2d.study.choice import Choice
 
     plan = cases.plan(study, set_, search=False, quiet=quiet)
-    choice = Choice(plan, only or ())
     if check:
         from hydro2d.study import estimate
+        from hydro2d.study.choice import Choice
 
+        choice = Choice(plan, only or ())
         return estimate.show(replace(plan, cases=choice.selected), workers or cluster.default_workers(threads))
-    from hydro2d.study import sweep as sweeps
-
-    connect = _workers(len(choice.selected), workers, threads, scheduler, slurm)
-    status = sweeps.sweep(
-        choice, out or plan.out, connect, threads=threads, resume=resume, overwrite=overwrite, quiet=quiet
+    return run_study(
+        plan, out or plan.out, workers=workers, threads=threads, scheduler=scheduler, slurm=slurm, only=only or (),
+        resume=resume, overwrite=overwrite, quiet=quiet,
     )
+
+
+def run_study(plan, out: Path, *, workers: int | None, threads: int, scheduler: str | None = None, slurm: Path | None = None,
+              only: Sequence[str] = (), resume: bool, overwrite: bool, quiet: bool) -> int:  # fmt: skip
+    """Runs the cases of a plan and prints what the members of ensembles say together. Returns the exit status."""
+    from hydro2d.study import sweep as sweeps
+    from hydro2d.study.choice import Choice
+
+    choice = Choice(plan, only)
+    connect = _workers(len(choice.selected), workers, threads, scheduler, slurm)
+    status = sweeps.sweep(choice, out, connect, threads=threads, resume=resume, overwrite=overwrite, quiet=quiet)
     if plan.ensemble and not quiet:
-        _show_ensembles(out or plan.out)
+        say("")
+        _show_ensembles(out)
     return status
 
 
@@ -154,7 +165,7 @@ def _show_ensembles(directory: Path) -> None:
     """Prints what the members of each case of a study say together."""
     from hydro2d.study import contents, ensembles, layout
 
-    for line in ("", *ensembles.report(contents.collect(layout.read(directory)).ensembles)):
+    for line in ensembles.report(contents.collect(layout.read(directory)).ensembles):
         say(line)
 
 
@@ -185,12 +196,11 @@ def _status(study: Path, out: Path | None) -> int:
         from hydro2d.study import regimes
 
         told += ["", *regimes.lines(found, regimes.of_study(found))]
-    if found.ensemble is not None:
-        from hydro2d.study import contents, ensembles
-
-        told += ["", *ensembles.report(contents.collect(found).ensembles)]
     for line in told:
         say(line)
+    if found.ensemble is not None:
+        say("")
+        _show_ensembles(found.directory)
     return 0
 
 

@@ -25,6 +25,8 @@ from hydro2d.study.definition import Ensemble
 SHIFT, FLANK, STEP = 0.5, 0.25, 0.004
 #: digits of the values, so that a record says all of them
 DIGITS = 6
+#: what to do where a deck does not allow a change
+OTHER = 'repeat it by another change, such as "first step"'
 #: keys of a segment of the mesh that are positions, and that are sizes
 POSITIONS, SIZES = ("to",), ("size", "first", "last")
 
@@ -56,17 +58,17 @@ def _segments(deck: decks.Deck, axis: str, changed: Callable[[str, float], float
     return found
 
 
-def _free(deck: decks.Deck, what: str, edges: tuple[str, ...], instead: str) -> None:
+def _free(deck: decks.Deck, what: str, edges: tuple[str, ...]) -> None:
     """Raises DeckError if an edge of the mesh is a boundary that must not move against the bodies."""
     for edge in edges:
         kind = getattr(deck.boundaries, edge)
         if BY_NAME[kind].holds:
-            raise DeckError(f'{what}: the edge {edge} = "{kind}" must not move against the bodies; use by = [{instead}]')
+            raise DeckError(f'{what}: the edge {edge} = "{kind}" must not move against the bodies; {OTHER}')
 
 
 def _shifted(deck: decks.Deck, fraction: float) -> list[str]:
     """The mesh shifted along z by a fraction of its smallest cell."""
-    _free(deck, "mesh offset", ("z_min", "z_max"), '"first step"')
+    _free(deck, "mesh offset", ("z_min", "z_max"))
     shift = fraction * float(np.min(np.diff(decks.edges(deck)[1])))
     start = f"mesh.z_start={toml.inline(deck.mesh.z_start + shift)}"
     return [start, *_segments(deck, "z", lambda key, value: value + shift if key in POSITIONS else value)]
@@ -88,10 +90,10 @@ def _stretched(deck: decks.Deck, fraction: float) -> list[str]:
     """The mesh stretched along r so that the flank of the projectile lies a fraction of a cell farther in, counted in cells."""
     radius = projectile_radius(deck)
     if radius is None:
-        raise DeckError('flank offset: the deck has no projectile with a radius; use by = ["mesh offset", "first step"]')
+        raise DeckError(f"flank offset: the deck has no projectile with a radius; {OTHER}")
     if deck.mesh.r_start != 0.0:
-        raise DeckError('flank offset: the mesh does not begin at r = 0; use by = ["mesh offset", "first step"]')
-    _free(deck, "flank offset", ("r_max",), '"mesh offset", "first step"')
+        raise DeckError(f"flank offset: the mesh does not begin at r = 0; {OTHER}")
+    _free(deck, "flank offset", ("r_max",))
     across = cells_across(deck, radius)
     factor = across / (across + fraction)
     return _segments(deck, "r", lambda key, value: value / factor if key == "cells_across" else value * factor)
