@@ -1,4 +1,4 @@
-"""Ensembles on the command line: `hydro2d run --repeats`, `hydro2d run --member`, and `hydro2d converge`."""
+"""Ensembles on the command line: `hydro2d run --repeats`, `hydro2d run --member` and `hydro2d converge`."""
 
 from __future__ import annotations
 
@@ -8,10 +8,13 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
-from hydro2d.cli.base import UsageError
+from hydro2d.cli.base import Count, Out, Overrides, UsageError
+from hydro2d.terminal import say
 
 #: largest number of members of an ensemble
 MOST = 1000
+#: most cells across a projectile, and most meshes
+FINEST, MOST_MESHES = 1000.0, 20
 
 
 def _whole(least: int, most: int):
@@ -80,3 +83,106 @@ def run_all(chosen: Chosen, deck: Path, overrides: list[str], out: Path | None, 
     plan = cases.plan_of(tables, file.stem, overrides)
     return run_study(plan, out or Path(f"runs/{file.stem}_ensemble"), workers=chosen.workers, threads=threads, resume=restart,
                      overwrite=overwrite, quiet=quiet)  # fmt: skip
+
+
+def _meshes(text: str) -> list[float]:
+    """Numbers of cells of --cells, from the coarsest to the finest."""
+    try:
+        found = [float(part) for part in text.split(",")]
+    except ValueError:
+        raise UsageError(f"--cells {text}: expected numbers with commas between them, such as 5.5,8.5,12.5") from None
+    if not all(0.5 <= cells <= FINEST for cells in found):
+        raise UsageError(f"--cells {text}: each must be from 0.5 to {FINEST:g} cells across the radius of the projectile")
+    if not 2 <= len({f"{cells:g}" for cells in found}) == len(found) <= MOST_MESHES:
+        raise UsageError(f"--cells {text}: give 2 to {MOST_MESHES} different numbers; three or more can show an order")
+    return sorted(found)
+
+
+def converge(
+    deck: Path,
+    *,
+    cells: str,
+    repeats: Repeats = 4,
+    by: By = None,
+    seed: Seed | None = None,
+    y: Annotated[list[str] | None, Parameter(negative="")] = None,
+    out: Out | None = None,
+    set_: Overrides = None,
+    workers: Count | None = None,
+    threads: Count = 1,
+    scheduler: str | None = None,
+    slurm: Path | None = None,
+    resume: bool = False,
+    overwrite: bool = False,
+    check: bool = False,
+    quiet: bool = False,
+) -> int:
+    """Runs an ensemble of a deck on several meshes, and tells change by the mesh from scatter within it.
+
+    Example: hydro2d converge problems/cth_nose_shape/hemi_5083_1086.toml --cells 5.5,8.5,12.5 --repeats 4
+
+    Where the sequence of meshes allows it, the value for cells of no size is given with a 90 % interval, else why it is not. The
+    file convergence.json in the study directory has the same results for programs, and `hydro2d report` draws them.
+
+    Parameters
+    ----------
+    deck
+        Input deck (TOML) with a projectile that has a radius.
+    cells
+        Numbers of cells across the radius of the projectile, such as 5.5,8.5,12.5. All cells of the mesh change by one factor.
+    repeats
+        Number of members on each mesh.
+    by
+        What the members differ in: "mesh offset", "flank offset" or "first step"; can be repeated; default: mesh offset and
+        first step. Offsets are fractions of a cell of each mesh.
+    seed
+        Which sequence of changes; default: 0.
+    y
+        A number in summary.json; can be repeated; default: depth, final over initial length, and the residual velocity where
+        something perforates.
+    out
+        Study directory; default: runs/<name of the deck>_converge.
+    set_
+        Overrides a value of the deck, as key=value; can be repeated.
+    workers
+        Number of worker processes; default: cores / threads. With --slurm, the number to request.
+    threads
+        Number of threads per worker. The results do not depend on it.
+    scheduler
+        Address of a running dask scheduler, such as tcp://host:8786; its workers must see the same files.
+    slurm
+        TOML file with arguments of dask_jobqueue.SLURMCluster, such as cores, memory, queue; SLURM then starts the workers.
+    resume
+        Continues in the directory: finished members are kept, unfinished ones continue from their restart files.
+    overwrite
+        Starts all members again from the beginning.
+    check
+        Prints the cells and the estimated time of every member; runs nothing.
+    quiet
+        Prints errors only; sweep.log and convergence.json are still written.
+    """
+    from hydro2d.cli import study
+    from hydro2d.study import convergence
+
+    study.check_fit(workers, scheduler, slurm)
+    chosen = Chosen(repeats, None, by, seed, workers)
+    plan = convergence.plan(deck, _meshes(cells), chosen.table(repeats), set_ or [])
+    if check:
+        from hydro2d.study import cluster, estimate
+
+        return estimate.show(plan, workers or cluster.default_workers(threads))
+    place = out or Path(f"runs/{plan.name}_converge")
+    status = study.run_study(plan, place, workers=workers, threads=threads, scheduler=scheduler, slurm=slurm, resume=resume,
+                             overwrite=overwrite, quiet=quiet)  # fmt: skip
+    _conclude(place, y or (), quiet)
+    return status
+
+
+def _conclude(directory: Path, y, quiet: bool) -> None:
+    """Writes and prints what the meshes say."""
+    from hydro2d.study import contents, convergence, layout
+
+    found = convergence.sequences(contents.collect(layout.read(directory)), y)
+    convergence.write(directory, found)
+    for line in [line for each in found for line in ("", *each.lines())] if not quiet else []:
+        say(line)

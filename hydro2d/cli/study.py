@@ -59,7 +59,7 @@ def sweep(
     quiet
         Prints errors only; sweep.log is still written.
     """
-    _fits(workers, scheduler, slurm)
+    check_fit(workers, scheduler, slurm)
     if status:
         return _status(study, out)
     from hydro2d.study import cases, cluster
@@ -143,7 +143,7 @@ def transition(
     quiet
         Prints errors only; sweep.log and transition.json are still written.
     """
-    _fits(workers, scheduler, slurm)
+    check_fit(workers, scheduler, slurm)
     if status:
         return _status(study, out)
     from hydro2d.study import cases, cluster
@@ -180,7 +180,8 @@ def _workers(most: int, workers: int | None, threads: int, scheduler: str | None
     return cluster.local(cluster.needed(workers, threads, most), threads)
 
 
-def _fits(workers: int | None, scheduler: str | None, slurm: Path | None) -> None:
+def check_fit(workers: int | None, scheduler: str | None, slurm: Path | None) -> None:
+    """Raises UsageError for ways to get workers that exclude each other."""
     if scheduler is not None and slurm is not None:
         raise UsageError("--scheduler joins workers and --slurm starts them: give one of them")
     if scheduler is not None and workers is not None:

@@ -74,10 +74,10 @@ def _shifted(deck: decks.Deck, fraction: float) -> list[str]:
     return [start, *_segments(deck, "z", lambda key, value: value + shift if key in POSITIONS else value)]
 
 
-def projectile_radius(deck: decks.Deck) -> float | None:
-    """Radius of the penetrating body, or of the first body that has one, m; None without such a body."""
+def projectile(deck: decks.Deck) -> tuple[str, float] | tuple[None, None]:
+    """Name and radius in m of the penetrating body, or of the first body that has a radius; None without such a body."""
     names = [deck.penetration.rod] if deck.penetration else [body.name for body in deck.body]
-    return next((radius for name in names if (radius := decks.body_radius(deck, name)) is not None), None)
+    return next(((name, radius) for name in names if (radius := decks.body_radius(deck, name)) is not None), (None, None))
 
 
 def cells_across(deck: decks.Deck, radius: float) -> float:
@@ -88,7 +88,7 @@ def cells_across(deck: decks.Deck, radius: float) -> float:
 
 def _stretched(deck: decks.Deck, fraction: float) -> list[str]:
     """The mesh stretched along r so that the flank of the projectile lies a fraction of a cell farther in, counted in cells."""
-    radius = projectile_radius(deck)
+    _, radius = projectile(deck)
     if radius is None:
         raise DeckError(f"flank offset: the deck has no projectile with a radius; {OTHER}")
     if deck.mesh.r_start != 0.0:

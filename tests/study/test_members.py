@@ -45,7 +45,7 @@ def test_the_mesh_is_shifted_by_a_fraction_of_its_smallest_cell():
 
 def test_the_flank_moves_within_its_cell_and_no_cell_is_lost():
     before = decks.load(SHOT)
-    radius = members.projectile_radius(before)
+    _, radius = members.projectile(before)
     for case in planned(by=["flank offset"])[1:]:
         after = decks.loads(case.text)
         assert members.cells_across(after, radius) == pytest.approx(5.5 + case.changed["flank offset"], abs=1e-9)
