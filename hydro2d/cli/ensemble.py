@@ -121,8 +121,8 @@ def converge(
 
     Example: hydro2d converge problems/cth_nose_shape/hemi_5083_1086.toml --cells 5.5,8.5,12.5 --repeats 4
 
-    Where the sequence of meshes allows it, the value for cells of no size is given with a 90 % interval, else why it is not. The
-    file convergence.json in the study directory has the same results for programs, and `hydro2d report` draws them.
+    Where the sequence of meshes allows it, the value for cells of no size is given with a 90 % interval, else why it is not.
+    The file convergence.json in the study directory has the same results for programs, and `hydro2d report` draws them.
 
     Parameters
     ----------

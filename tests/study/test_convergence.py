@@ -104,7 +104,8 @@ def test_a_mean_of_several_ends_is_not_extrapolated(tmp_path):
 
 @pytest.mark.parametrize(("options", "said"), [
     (["--cells", "5.5"], "2 to 20 different numbers"), (["--cells", "5,5"], "different"),
-    (["--cells", "a"], "expected numbers"), (["--cells", "5,inf"], "from 0.5 to 1000"), (["--cells", "3,4", "--repeats", "0"], "from 2 to 1000"),
+    (["--cells", "a"], "expected numbers"), (["--cells", "5,inf"], "from 0.5 to 1000"),
+    (["--cells", "3,4", "--repeats", "0"], "from 2 to 1000"),
     (["--cells", "3,4", "--set", "mesh.r=[{first=1e-3,ratio=1.1,to=0.08}]"], "not all of one size"),
 ])  # fmt: skip
 def test_wrong_options_are_one_message(options, said, capsys, tmp_path):
