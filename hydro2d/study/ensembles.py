@@ -33,8 +33,14 @@ class Ensemble:
 
     @property
     def ended(self) -> tuple[Record, ...]:
-        """The members whose results are final."""
-        return tuple(each for each in self.members if not each.unfinished)
+        """The members whose results are final; if there is none, those that were cut at the end time of the deck."""
+        final = tuple(each for each in self.members if not each.unfinished)
+        return final or tuple(each for each in self.members if each.cut)
+
+    @property
+    def cut(self) -> bool:
+        """Whether its numbers are those at the end time of the deck, while the projectile still moved."""
+        return any(each.cut for each in self.ended)
 
     def spread(self, name: str) -> Spread | None:
         """Median and 10 to 90 % of a number of the ended members, SI."""
@@ -91,7 +97,7 @@ def _row(each: Ensemble, shared: Row, names: Sequence[str], regimes: Sequence[st
     row = shared | {
         "case": each.name, "status": ", ".join([done, *(f"{number} {status}" for status, number in statuses.items())]),
         "message": "; ".join(dict.fromkeys(record.case.message for record in each.members if record.case.message)),
-        "members": len(each.members), "ended": len(each.ended), "regime": next(iter(each.regimes), None),
+        "members": len(each.members), "ended": len(each.ended), "cut": each.cut, "regime": next(iter(each.regimes), None),
     }  # fmt: skip
     for name in names:
         column, values = ("depth_m" if name == DEPTH else name), each.spread(name)
@@ -133,7 +139,8 @@ def table(found: Sequence[Ensemble], drawn: Sequence[Response] = ()) -> tuple[tu
 def _cells(each: Ensemble, shown: Sequence[Response]) -> tuple[str, ...]:
     regimes = ", ".join(f"{regime} {share.words}" for regime, share in each.regimes.items())
     outcome = f"{each.outcome[1].words}: {each.outcome[0]}" if each.outcome else ""
-    return (each.name, f"{len(each.ended)} of {len(each.members)}", *(_in_words(each, y) for y in shown), regimes, outcome)
+    ended = f"{len(each.ended)} of {len(each.members)}" + ", still moving" * each.cut
+    return (each.name, ended, *(_in_words(each, y) for y in shown), regimes, outcome)
 
 
 def _in_words(each: Ensemble, y: Response) -> str:

@@ -1,6 +1,7 @@
 """Ensembles in tables, figures and scores: what the members say together."""
 
 import csv
+import shutil
 
 import pytest
 
@@ -42,13 +43,24 @@ def test_median_and_spread_of_a_case(contents):
 
 
 def test_unfinished_members_do_not_count(study, tmp_path, contents):
-    import shutil
-
     shutil.copytree(study, tmp_path / "copy")
     (tmp_path / "copy" / "cases" / "1086m-s_m4" / "summary.json").unlink()
     first = collect(layout.load(tmp_path / "copy")).ensembles[0]
     assert first.spread("penetration_depth_m") == pytest.approx((0.365, 0.353, 0.377, 4))
     assert first.regimes["rigid"] == wilson(4, 4)
+
+
+def test_members_that_are_all_cut_are_compared_at_their_end_time(study, tmp_path):
+    """One that has ended is not mixed with those that still moved."""
+    shutil.copytree(study, tmp_path / "copy")
+    for member in ("", "_m1", "_m2", "_m3", "_m4"):
+        file = tmp_path / "copy" / "cases" / f"1086m-s{member}" / "summary.json"
+        fake.edit_json(file, stop_reason="end time", rod_core_velocity_m_s=500.0)
+    first = collect(layout.load(tmp_path / "copy")).ensembles[0]
+    assert (len(first.ended), first.cut) == (5, True)
+    fake.edit_json(file, stop_reason="speed of rod below 5 m/s", rod_core_velocity_m_s=4.0)
+    first = collect(layout.load(tmp_path / "copy")).ensembles[0]
+    assert (len(first.ended), first.cut) == (1, False)
 
 
 def test_the_table_has_a_row_for_each_case_or_for_each_member(study):
