@@ -163,9 +163,10 @@ def transition(
 
 def _show_ensembles(directory: Path) -> None:
     """Prints what the members of each case of a study say together."""
-    from hydro2d.study import contents, ensembles, layout
+    from hydro2d.study import contents, ensembles, layout, responses
 
-    for line in ensembles.report(contents.collect(layout.read(directory)).ensembles):
+    found = contents.collect(layout.read(directory))
+    for line in ensembles.report(found.ensembles, responses.choose(found.study, found.records).y):
         say(line)
 
 

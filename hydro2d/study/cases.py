@@ -334,7 +334,7 @@ class _Planner:
                 yield from ((_place(place, key, table), key) for key in settings if key != DECK)
 
     def _repeated(self, name: str, labels: dict, base: str, overrides: list[str], files: dict[str, Path]) -> list[Planned]:
-        """A case, or its members if there is an ensemble."""
+        """A case, or its members if there is an ensemble; of a wrong deck the first alone, so that it is reported once."""
         deck, message = _read(files[base], overrides)
         case = Planned(name, labels, base, overrides, deck.to_toml() if deck else "", message)
         ensemble = self.definition.ensemble
@@ -343,7 +343,7 @@ class _Planner:
         group = [replace(case, name=members.name(name, number), of=name or self.path.stem, member=number,
                          changed=members.amounts(ensemble, number)) for number in range(ensemble.repeats)]  # fmt: skip
         if deck is None:
-            return group
+            return group[:1]
         try:
             return [group[0], *(_changed(each, deck, files[base]) for each in group[1:])]
         except DeckError as error:

@@ -152,8 +152,8 @@ def _in_words(each: Ensemble, y: Response) -> str:
     return f"{at_least}{median}, {low} to {high}"
 
 
-def report(found: Sequence[Ensemble]) -> list[str]:
-    """The results as lines of text."""
-    heads, rows = table(found)
+def report(found: Sequence[Ensemble], drawn: Sequence[Response] = ()) -> list[str]:
+    """The results as lines of text; ``drawn`` as for `table`."""
+    heads, rows = table(found, drawn)
     scored = score(found)
     return lines(rows, heads) + (["", f"experiments: {scored.words}"] if scored else [])

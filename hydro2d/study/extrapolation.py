@@ -76,7 +76,7 @@ def limit(levels: Sequence[Level], samples: Sequence[Sequence[float]]) -> Limit:
     draws = _draws(levels)
     values, orders, good = _fitted(np.array([each.cells for each in levels]), draws, _errors(levels))
     if good.mean() < ENOUGH:
-        return Limit(None, None, None, None, _refused(levels, float(good.mean())))
+        return Limit(None, None, None, None, _refused(levels, orders, float(good.mean())))
     low, value, high = np.quantile(values[good], (0.05, 0.5, 0.95))
     order = float(np.median(orders[good]))
     return Limit(float(value), float(low), float(high), order, f"{100 * good.mean():.0f} % of the draws converge")
@@ -114,10 +114,13 @@ def _fitted(cells: np.ndarray, draws: np.ndarray, errors: np.ndarray) -> tuple[n
     return np.einsum("nk,kn->n", inverses[best, 0], wanted), ORDERS[best], good
 
 
-def _refused(levels: Sequence[Level], share: float) -> str:
-    """Why a sequence is not extrapolated."""
+def _refused(levels: Sequence[Level], orders: np.ndarray, share: float) -> str:
+    """Why a sequence is not extrapolated; ``orders``: of the best fits;  share : of the draws that converge."""
     steps = np.sign(np.diff([each.mean for each in levels]))
+    few = f"{100 * share:.0f} % of the draws of the means converge"
     if np.any(steps != steps[0]):
-        return f"the means go up and down from mesh to mesh; {100 * share:.0f} % of the draws converge"
-    return (f"with an order from {ORDERS[0]:g} to {ORDERS[-1]:g} only {100 * share:.0f} % of the draws of the means converge: "
-            "the change does not become smaller fast enough, or the scatter hides it")  # fmt: skip
+        return f"the means go up and down from mesh to mesh; {few}"
+    if np.mean(orders >= ORDERS[-1]) > 0.5:
+        return (f"the change falls faster than with the order {ORDERS[-1]:g}, so that the coarsest mesh does not belong to the "
+                f"sequence; {few}. A finer mesh in its place may")  # fmt: skip
+    return f"the change does not fall as fast as with the order {ORDERS[0]:g}, or scatter hides it; {few}"

@@ -6,6 +6,7 @@
     cases/<name>/failed.json   why the last attempt failed, if it did
     sweep.log           the log
     transition.json     the results of a search for a transition
+    convergence.json    the results of `hydro2d converge`
 """
 
 from __future__ import annotations

@@ -40,7 +40,8 @@ def test_without_scatter_it_is_richardson():
 
 
 @pytest.mark.parametrize(("means", "scatter", "said"), [
-    ((45, 47, 44), 0.02, "up and down"), ((45, 46, 47.5), 0.02, "not become smaller fast enough"),
+    ((45, 47, 44), 0.02, "up and down"), ((45, 46, 47.5), 0.02, "does not fall as fast"),
+    ((42, 45, 45.2), 0.02, "coarsest mesh does not belong"),
     ((45, 45, 45), 1.0, "chance"),
 ])  # fmt: skip
 def test_where_it_does_not_it_says_why(means, scatter, said):
