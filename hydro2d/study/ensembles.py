@@ -139,8 +139,10 @@ def table(found: Sequence[Ensemble], drawn: Sequence[Response] = ()) -> tuple[tu
 def _cells(each: Ensemble, shown: Sequence[Response]) -> tuple[str, ...]:
     regimes = ", ".join(f"{regime} {share.words}" for regime, share in each.regimes.items())
     outcome = f"{each.outcome[1].words}: {each.outcome[0]}" if each.outcome else ""
-    ended = f"{len(each.ended)} of {len(each.members)}" + ", still moving" * each.cut
-    return (each.name, ended, *(_in_words(each, y) for y in shown), regimes, outcome)
+    others = Counter(record.case.status for record in each.members if not record.done)
+    ended = [f"{len(each.ended)} of {len(each.members)}{', still moving' * each.cut}"]
+    ended += [f"{number} {status}" for status, number in others.items()]
+    return (each.name, ", ".join(ended), *(_in_words(each, y) for y in shown), regimes, outcome)
 
 
 def _in_words(each: Ensemble, y: Response) -> str:

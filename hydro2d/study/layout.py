@@ -203,7 +203,7 @@ def read(directory: Path | str) -> Study:
     data = read_json(directory / STUDY)
     try:
         found = _study(directory, data)
-    except (KeyError, TypeError, AttributeError) as error:
+    except (KeyError, TypeError, ValueError, AttributeError) as error:
         raise StudyError(f"{directory / STUDY} is not a valid study file: {error!r}") from None
     if not found.cases:
         raise StudyError(f"{directory / STUDY}: the study has no cases")

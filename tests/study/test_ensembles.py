@@ -1,13 +1,14 @@
 """Ensembles in tables, figures and scores: what the members say together."""
 
 import csv
+import json
 import shutil
 
 import pytest
 
 import hydro2d
 from hydro2d.cli.main import call
-from hydro2d.study import charts, ensembles, layout, outcomes, panels, responses
+from hydro2d.study import charts, ensembles, layout, outcomes, panels, responses, rods
 from hydro2d.study.chance import wilson
 from hydro2d.study.contents import collect
 from hydro2d.study.report import report
@@ -127,6 +128,34 @@ def test_the_page_and_the_files_have_the_ensembles(study, tmp_path):
     assert [row["case"] for row in rows] == ["1086m-s", "1150m-s", "1200m-s"]
     assert float(rows[0]["depth_m"]) == pytest.approx(0.36)
     assert any(line.endswith("ensembles.csv") for line in said)
+
+
+def test_histories_and_outlines_of_members_are_thin(contents):
+    choice = responses.choose(contents.study, contents.records)
+    lines = charts.histories(panels.panels(contents, choice)[0].series).data
+    assert {(trace.line.width, trace.opacity) for trace in lines} == {(1.4, 1.0), (0.9, 0.4)}
+    first = [group.members[0] for group in contents.ensembles]
+    others = {group.members[0].case.name: group.members[1:] for group in contents.ensembles}
+    with_others, alone = (rods.draw(first, {}, contents.records, each) for each in (others, {}))
+    assert [len(axes.patches) for axes in alone.axes] == [2, 2, 2]
+    assert [len(axes.patches) for axes in with_others.axes] == [6, 6, 6]
+
+
+@pytest.mark.parametrize("entry", [{"ensemble": {"repeats": 5}}, {"ensemble": {"repeats": 5, "by": 1, "seed": 0}}])
+def test_a_damaged_ensemble_is_one_message(study, tmp_path, entry):
+    shutil.copytree(study, tmp_path / "copy")
+    fake.edit_json(tmp_path / "copy" / "study.json", **entry)
+    with pytest.raises(layout.StudyError, match="is not a valid study file"):
+        layout.load(tmp_path / "copy")
+
+
+def test_a_damaged_change_of_a_member_is_one_message(study, tmp_path):
+    shutil.copytree(study, tmp_path / "copy")
+    file = tmp_path / "copy" / "study.json"
+    entries = json.loads(file.read_text())["cases"]
+    fake.edit_json(file, cases=[{**entries[0], "changed": {"first step": "much"}}, *entries[1:]])
+    with pytest.raises(layout.StudyError, match="is not a valid study file"):
+        layout.load(tmp_path / "copy")
 
 
 def test_the_status_has_the_ensembles(study, capsys):
