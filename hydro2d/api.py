@@ -90,11 +90,19 @@ class Study(layout.Study):
     cases : the cases, each with name, values on the axes, status, directory, and the summary once it has ended
     """
 
-    def table(self) -> pandas.DataFrame:
-        """One row for each case, indexed by its name: axes, status, results, experiment, conservation, cost; SI units."""
+    def table(self, *, members: bool = False) -> pandas.DataFrame:
+        """One row for each case, indexed by its name: axes, status, results, experiment, conservation, cost; SI units.
+
+        members : of a study with an ensemble, one row for each run; without it, one for each case with the medians of its
+            members under the names that single runs have, the 10 and 90 % quantiles beside them (``depth_low_m``,
+            ``depth_high_m``), and for each regime its fraction with a 90 % Wilson interval (``rigid_fraction``,
+            ``rigid_fraction_low``, ``rigid_fraction_high``); ``as_experiment_fraction`` is that of the experiment's outcome
+        """
         import pandas
 
-        return pandas.DataFrame(contents.collect(self).rows).set_index("case")
+        found = contents.collect(self)
+        repeated = self.ensemble is not None and not members
+        return pandas.DataFrame(found.rows_of_ensembles() if repeated else found.rows).set_index("case")
 
 
 def open_study(directory: str | Path) -> Study:

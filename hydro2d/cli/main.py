@@ -15,6 +15,7 @@ from hydro2d import __version__
 from hydro2d.cli.base import Count, Out, Overrides, Trust, UsageError, import_matplotlib, quantity, refuse_old_names
 from hydro2d.cli.check_model import check_model
 from hydro2d.cli.curve import curve
+from hydro2d.cli.ensemble import By, Chosen, Member, Repeats, Seed, converge, run_all
 from hydro2d.cli.model import model
 from hydro2d.cli.report import report
 from hydro2d.cli.study import sweep, transition
@@ -34,6 +35,7 @@ app = App(
 )
 
 app.command(check_model)
+app.command(converge)
 app.command(curve)
 app.command(model)
 app.command(report)
@@ -90,10 +92,17 @@ def run(
     restart: bool = False,
     overwrite: bool = False,
     quiet: bool = False,
+    repeats: Repeats | None = None,
+    member: Member | None = None,
+    by: By = None,
+    seed: Seed | None = None,
+    workers: Count | None = None,
 ) -> int:
-    """Runs a deck.
+    """Runs a deck, or an ensemble of it that shows how sure the result is.
 
     Example: hydro2d run problems/cth_nose_shape/hemi_5083_1086.toml --out runs/a --set mesh.r.0.cells=40 --threads 4
+
+    Example: hydro2d run problems/cth_nose_shape/hemi_5083_1086_quick.toml --repeats 8
 
     Parameters
     ----------
@@ -112,15 +121,31 @@ def run(
         Replaces the run that is in the directory.
     quiet
         Prints nothing, unless the run ends as unphysical: then one line on the error output. log.txt is still written.
+    repeats
+        Runs an ensemble of so many members, which differ in what should not matter, as a study: its directory is --out, else
+        runs/<name of the deck>_ensemble, its workers are processes, and --threads is that of each, by default 1.
+    member
+        Runs this one member of the ensemble, numbered from 0, as a single run. Member 0 is the deck as it stands.
+    by
+        What the members differ in: "mesh offset", "flank offset" or "first step"; can be repeated; default: mesh offset and
+        first step.
+    seed
+        Which sequence of changes; default: 0.
+    workers
+        Number of worker processes of --repeats; default: cores / threads.
     """
+    chosen = Chosen(repeats, member, by, seed, workers)
+    chosen.check()
     if restart and overwrite:
         raise UsageError("--restart continues a run and --overwrite removes it: give one of them")
+    if repeats is not None:
+        return run_all(chosen, deck, set_ or [], out, threads=threads or 1, restart=restart, overwrite=overwrite, quiet=quiet)
     _set_threads(threads)
     interrupt = Interrupt()
     with signals(interrupt):  # from here on, through all that is imported
         from hydro2d.running import run as runs
 
-        resolved = _load(deck, set_)
+        resolved = _load(deck, set_ if member is None else chosen.overrides(deck, set_ or []))
         found = runs.run(resolved, out, restart=restart, overwrite=overwrite, quiet=quiet, interrupt=interrupt)
     status = runs.exit_status(found)
     if quiet and status == runs.UNPHYSICAL:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -58,24 +59,37 @@ def sweep(
     quiet
         Prints errors only; sweep.log is still written.
     """
-    _fits(workers, scheduler, slurm)
+    check_fit(workers, scheduler, slurm)
     if status:
         return _status(study, out)
     from hydro2d.study import cases, cluster
-    from hydro2d.study.choice import Choice
 
     plan = cases.plan(study, set_, search=False, quiet=quiet)
-    choice = Choice(plan, only or ())
     if check:
         from hydro2d.study import estimate
+        from hydro2d.study.choice import Choice
 
+        choice = Choice(plan, only or ())
         return estimate.show(replace(plan, cases=choice.selected), workers or cluster.default_workers(threads))
-    from hydro2d.study import sweep as sweeps
-
-    connect = _workers(len(choice.selected), workers, threads, scheduler, slurm)
-    return sweeps.sweep(
-        choice, out or plan.out, connect, threads=threads, resume=resume, overwrite=overwrite, quiet=quiet
+    return run_study(
+        plan, out or plan.out, workers=workers, threads=threads, scheduler=scheduler, slurm=slurm, only=only or (),
+        resume=resume, overwrite=overwrite, quiet=quiet,
     )
+
+
+def run_study(plan, out: Path, *, workers: int | None, threads: int, scheduler: str | None = None, slurm: Path | None = None,
+              only: Sequence[str] = (), resume: bool, overwrite: bool, quiet: bool) -> int:  # fmt: skip
+    """Runs the cases of a plan and prints what the members of ensembles say together. Returns the exit status."""
+    from hydro2d.study import sweep as sweeps
+    from hydro2d.study.choice import Choice
+
+    choice = Choice(plan, only)
+    connect = _workers(len(choice.selected), workers, threads, scheduler, slurm)
+    status = sweeps.sweep(choice, out, connect, threads=threads, resume=resume, overwrite=overwrite, quiet=quiet)
+    if plan.ensemble and not quiet:
+        say("")
+        _show_ensembles(out)
+    return status
 
 
 def transition(
@@ -129,7 +143,7 @@ def transition(
     quiet
         Prints errors only; sweep.log and transition.json are still written.
     """
-    _fits(workers, scheduler, slurm)
+    check_fit(workers, scheduler, slurm)
     if status:
         return _status(study, out)
     from hydro2d.study import cases, cluster
@@ -147,6 +161,15 @@ def transition(
     )
 
 
+def _show_ensembles(directory: Path) -> None:
+    """Prints what the members of each case of a study say together."""
+    from hydro2d.study import contents, ensembles, layout, responses
+
+    found = contents.collect(layout.read(directory))
+    for line in ensembles.report(found.ensembles, responses.choose(found.study, found.records).y):
+        say(line)
+
+
 def _workers(most: int, workers: int | None, threads: int, scheduler: str | None, slurm: Path | None):
     """A dask client with the workers that the arguments request; on this machine at most `most`."""
     from hydro2d.study import cluster
@@ -158,7 +181,8 @@ def _workers(most: int, workers: int | None, threads: int, scheduler: str | None
     return cluster.local(cluster.needed(workers, threads, most), threads)
 
 
-def _fits(workers: int | None, scheduler: str | None, slurm: Path | None) -> None:
+def check_fit(workers: int | None, scheduler: str | None, slurm: Path | None) -> None:
+    """Raises UsageError for ways to get workers that exclude each other."""
     if scheduler is not None and slurm is not None:
         raise UsageError("--scheduler joins workers and --slurm starts them: give one of them")
     if scheduler is not None and workers is not None:
@@ -176,6 +200,9 @@ def _status(study: Path, out: Path | None) -> int:
         told += ["", *regimes.lines(found, regimes.of_study(found))]
     for line in told:
         say(line)
+    if found.ensemble is not None:
+        say("")
+        _show_ensembles(found.directory)
     return 0
 
 

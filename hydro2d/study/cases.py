@@ -8,7 +8,7 @@ from __future__ import annotations
 import itertools
 import math
 import re
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -18,8 +18,8 @@ from hydro2d.deck import keys
 from hydro2d.errors import DeckError, Sources, unknown
 from hydro2d.running.progress import counted
 from hydro2d.running.run import deck_hash
-from hydro2d.study import ranges, velocities
-from hydro2d.study.definition import DECK, Axis, Definition, Overrides, StudyError, of_tables, read
+from hydro2d.study import members, ranges, velocities
+from hydro2d.study.definition import DECK, Axis, Definition, Ensemble, Overrides, StudyError, of_tables, read
 
 #: longest part of the name of a case that comes from one axis
 LONGEST = 40
@@ -36,7 +36,10 @@ class Option:
 
 @dataclass(frozen=True)
 class Planned:
-    """A case before it runs. `text` is its resolved deck, or empty if the deck is wrong, and `message` then says why."""
+    """A case before it runs. `text` is its resolved deck, or empty if the deck is wrong, and `message` then says why.
+
+    of, member, changed : in an ensemble the case that it repeats, its number, and what is changed, by name
+    """
 
     name: str
     values: dict[str, str]
@@ -44,6 +47,9 @@ class Planned:
     overrides: list[str]
     text: str
     message: str
+    of: str = ""
+    member: int = 0
+    changed: dict[str, float] = field(default_factory=dict)
 
     @property
     def sha256(self) -> str | None:
@@ -61,6 +67,7 @@ class Plan:
     axes: list[dict]
     cases: list[Planned]
     search: velocities.Velocities | None = None
+    ensemble: Ensemble | None = None
 
 
 def plan(path: Path, overrides: Overrides | None = None, *, search: bool | None = None, quiet: bool = False) -> Plan:
@@ -101,6 +108,7 @@ class _Planner:
         self._of_the_kind(search)
         axes = [self._choices(n, axis) for n, axis in enumerate(self.definition.axis)]
         self._distinct_axes()
+        self._free_of_axes(axes)
         speeds = self._labels()
         self._raise()
         self._number([*axes, speeds or [""]])
@@ -116,13 +124,18 @@ class _Planner:
         if found is not None:
             combinations = self._at_velocities(combinations, found)
             described.append({"name": velocities.AXIS, "key": found.key, "values": list(found.labels)})
-        resolved = [self._resolved(*self._case(each), files) for each in counted(combinations, "decks read", quiet)]
-        cases = self._named(resolved, combinations)
+        names = distinct(["_".join(choice.short for choice in combination) for combination in combinations])
+        planned = [self._repeated(name, *self._case(each), files)
+                   for name, each in zip(names, counted(combinations, "decks read", quiet), strict=True)]
+        self.wrong = list(dict.fromkeys(self.wrong))
+        self._raise()
+        cases = [case for group in planned for case in group]
         if found is not None:
             self._check_impacts(cases, found)
         return Plan(
             name=self.path.stem, title=self.definition.title, text=self.text,
             out=Path(self.definition.out or f"runs/{self.path.stem}"), axes=described, cases=cases, search=found,
+            ensemble=self.definition.ensemble,
         )  # fmt: skip
 
     def _of_the_kind(self, search: bool | None) -> None:
@@ -176,9 +189,22 @@ class _Planner:
                 keys[parts] = axis.name
 
     def _number(self, axes: list[list[Option]]) -> None:
-        count = math.prod(len(choices) for choices in axes)
+        ensemble = self.definition.ensemble
+        count, of = math.prod(len(choices) for choices in axes), "the axes make"
+        if ensemble:
+            count, of = count * ensemble.repeats, f"the axes and {ensemble.repeats} repeats make"
         if count > ranges.MOST:
-            raise StudyError(f"{self.path}: the axes make {count} cases; at most {ranges.MOST} are allowed")
+            raise StudyError(f"{self.path}: {of} {count} cases; at most {ranges.MOST} are allowed")
+
+    def _free_of_axes(self, axes: list[list[Option]]) -> None:
+        """Checks that no axis sets what the members of an ensemble change."""
+        for number, (axis, choices) in enumerate(zip(self.definition.axis, axes, strict=True)):
+            for choice in choices:
+                found = self.definition.ensemble and members.conflict(self.definition.ensemble.by, choice.settings)
+                if found:
+                    self._say(("axis", number), f'axis "{axis.name}" sets {found[1]}, and the ensemble changes it by '
+                                                f'"{found[0]}"; leave out one of them')  # fmt: skip
+                    break
 
     # ------------------------------------------------------------------------------------------------ velocities of a search
 
@@ -307,17 +333,37 @@ class _Planner:
                 place = ("axis", number, "variants", name)
                 yield from ((_place(place, key, table), key) for key in settings if key != DECK)
 
-    def _resolved(self, labels: dict, base: str, overrides: list[str], files: dict[str, Path]) -> Planned:
-        text = message = ""
+    def _repeated(self, name: str, labels: dict, base: str, overrides: list[str], files: dict[str, Path]) -> list[Planned]:
+        """A case, or its members if there is an ensemble; of a wrong deck the first alone, so that it is reported once."""
+        deck, message = _read(files[base], overrides)
+        case = Planned(name, labels, base, overrides, deck.to_toml() if deck else "", message)
+        ensemble = self.definition.ensemble
+        if ensemble is None:
+            return [case]
+        group = [replace(case, name=members.name(name, number), of=name or self.path.stem, member=number,
+                         changed=members.amounts(ensemble, number)) for number in range(ensemble.repeats)]  # fmt: skip
+        if deck is None:
+            return group[:1]
         try:
-            text = decks.load(files[base], overrides).to_toml()
+            return [group[0], *(_changed(each, deck, files[base]) for each in group[1:])]
         except DeckError as error:
-            message = str(error)
-        return Planned("", labels, base, overrides, text, message)
+            self._say(("ensemble", "by"), f"ensemble.by: {base}: {error}")
+            return []
 
-    def _named(self, cases: list[Planned], combinations: list[tuple[Option, ...]]) -> list[Planned]:
-        names = distinct(["_".join(choice.short for choice in combination) for combination in combinations])
-        return [replace(case, name=name) for name, case in zip(names, cases, strict=True)]
+
+def _read(file: Path, overrides: list[str]) -> tuple[decks.Deck | None, str]:
+    """A deck, or None and why there is none."""
+    try:
+        return decks.load(file, overrides), ""
+    except DeckError as error:
+        return None, str(error)
+
+
+def _changed(case: Planned, deck: decks.Deck, file: Path) -> Planned:
+    """A member with its own deck; ``deck`` is that of its case, which must allow the changes, else DeckError."""
+    overrides = [*case.overrides, *members.overrides(deck, case.changed)]
+    found, message = _read(file, overrides)
+    return replace(case, overrides=overrides, text=found.to_toml() if found else "", message=message)
 
 
 def _place(table: tuple, key: str, given: dict) -> tuple:

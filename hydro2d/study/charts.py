@@ -6,7 +6,6 @@ saved pictures keep the stand-ins, which are those of paper.
 
 from __future__ import annotations
 
-import html
 import textwrap
 from collections.abc import Sequence
 
@@ -14,10 +13,10 @@ import numpy as np
 
 from hydro2d.study import residual, theory
 from hydro2d.study.experiments import AT_LEAST, Measurement
+from hydro2d.study.marks import SIZE, ensembles, points, verbatim
 from hydro2d.study.record import Record, Setup
 from hydro2d.study.responses import DEPTH, RESIDUAL, Response, Variable, readers, title
 from hydro2d.study.series import Series, style
-from hydro2d.terminal import shown
 
 #: stand-ins for text and experiments, for models and axes, for the grid and for the paper
 INK, MUTED, GRID, PAPER = "rgb(1, 2, 3)", "rgb(90, 91, 92)", "rgb(221, 222, 223)", "rgb(254, 254, 254)"
@@ -29,7 +28,6 @@ MOST_ENTRIES = 24
 MOST_LINES = 12
 #: words on an x axis beyond which they stand upright
 MOST_ACROSS = 4
-SIZE = 9
 #: markers of measurements: qualifier -> marker and word
 MEASURED = {"measured": ("diamond-tall", "experiment"), "estimated": ("diamond-tall-open", "experiment, estimated"),
             AT_LEAST: ("star-triangle-up", "experiment, at least (plate perforated)")}  # fmt: skip
@@ -72,37 +70,6 @@ def _finished(figure, rows: int = 1, labels: int = 0):
     figure.update_layout(height=int(panel + below + 34), legend=legend, showlegend=bool(shown),
                          margin={"l": 62, "r": 14, "t": 34, "b": below})  # fmt: skip
     return figure
-
-
-def verbatim(text: object) -> str:
-    """A name from a file as Plotly shows it letter by letter: none of it is markup."""
-    return html.escape(shown(text), quote=False)
-
-
-def _hover(record: Record, x: Variable, y: Response) -> str:
-    """The text that a pointer shows for a run."""
-    there, value = x.value(record), y.value(record)
-    told = [f"<b>{verbatim(record.case.name)}</b>",
-            f"{verbatim(x.title)}: {verbatim(there) if isinstance(there, str) else f'{there:.5g}'}",
-            f"{verbatim(y.title)}: {'≥ ' * (y.name == DEPTH and record.at_least)}{value:.5g}"]  # fmt: skip
-    if record.value("regime"):
-        told.append(verbatim(record.value("regime")))
-    if record.unfinished:
-        told.append(f"unfinished: {verbatim(record.unfinished)}")
-    return "<br>".join(told)
-
-
-def _points(figure, records: Sequence[Record], x: Variable, y: Response, how, name: str = "", **options) -> None:
-    """A trace of runs, in the order of x."""
-    known = [record for record in records if x.value(record) is not None and y.value(record) is not None]
-    if x.order is None:
-        known.sort(key=x.value)
-    if known:
-        figure.add_scatter(
-            x=[x.value(record) for record in known], y=[y.value(record) for record in known], name=name, marker=how,
-            text=[_hover(record, x, y) for record in known], hovertemplate="%{text}<extra></extra>",
-            showlegend=bool(name), **options,
-        )  # fmt: skip
 
 
 def response(setup: Setup | None, series: Sequence[Series], x: Variable, y: Response, measured: dict[str, Measurement],
@@ -156,19 +123,25 @@ def _models(figure, lines: Sequence[tuple[str, str, np.ndarray, np.ndarray]], y:
 
 
 def _runs(figure, series: Sequence[Series], x: Variable, y: Response) -> None:
-    """Ended runs, with a thin line if x distinguishes all of them; unfinished runs with open marks and no line."""
+    """Ended runs, with a thin line if x distinguishes all of them; unfinished runs with open marks and no line.
+
+    The members of ensembles are dots behind the mark of their median.
+    """
     unfinished = False
     for each in series:
+        if each.repeated:
+            unfinished = ensembles(figure, each, x, y) or unfinished
+            continue
         ended = [record for record in each.records if not record.unfinished]
         rest = [record for record in each.records if record.unfinished and y.value(record) is not None]
         places = [x.value(record) for record in ended]
         mode = "lines+markers" if x.order is None and len(set(places)) == len(places) else "markers"
         colour, marker = each.style.colour, each.style.marker
         how = {"symbol": marker, "size": SIZE, "color": colour}
-        _points(figure, ended, x, y, how, each.label, mode=mode, legendgroup=each.label,
+        points(figure, ended, x, y, how, each.label, mode=mode, legendgroup=each.label,
                 line={"color": colour, "width": 1.0, "dash": each.style.dash})  # fmt: skip
         unfinished = unfinished or bool(rest)
-        _points(figure, rest, x, y, how | {"symbol": f"{marker}-open", "line": {"width": 1.8, "color": colour}},
+        points(figure, rest, x, y, how | {"symbol": f"{marker}-open", "line": {"width": 1.8, "color": colour}},
                 "" if ended else each.label, mode="markers", legendgroup=each.label, meta="unfinished")  # fmt: skip
     if unfinished:
         figure.add_scatter(x=[None], y=[None], mode="markers", name="open: unfinished, as far as it went",
@@ -176,9 +149,9 @@ def _runs(figure, series: Sequence[Series], x: Variable, y: Response) -> None:
 
 
 def _bounds(figure, series: Sequence[Series], x: Variable, y: Response) -> None:
-    through = [record for each in series for record in each.records if record.at_least]
+    through = [record for each in series if not each.repeated for record in each.records if record.at_least]
     how = {"symbol": "triangle-up-open", "size": 2.2 * SIZE, "color": INK, "line": {"width": 1.5, "color": INK}}
-    _points(figure, through, x, y, how, "in a triangle: at least, perforated or left the mesh", mode="markers", meta="bound")
+    points(figure, through, x, y, how, "in a triangle: at least, perforated or left the mesh", mode="markers", meta="bound")
 
 
 def _depths(figure, series: Sequence[Series], x: Variable, y: Response, measured: dict[str, Measurement],
@@ -228,11 +201,19 @@ def _highest(figure) -> float:
     return max(shown, default=0.0) or 1.0
 
 
+def few_lines(drawn: Sequence[tuple[Series, Record]]) -> bool:
+    """Whether each history has a line style of its own."""
+    return len(drawn) <= MOST_LINES and not any(each.repeated for each, _ in drawn)
+
+
 def histories(series: Sequence[Series]):
-    """Columns of the history against time, one panel each. Few runs each have a line style; many have that of their series."""
+    """Columns of the history against time, one panel each. Few runs each have a line style; many have that of their series.
+
+    So have members of ensembles; all but the first are thin.
+    """
     drawn = [(each, record) for each in series for record in each.records if record.history]
     names = list(dict.fromkeys(name for _, record in drawn for name in record.history if name != "time"))
-    few, told = len(drawn) <= MOST_LINES, set()
+    few, told = few_lines(drawn), set()
     figure = _figure(len(names))
     for number, (each, record) in enumerate(drawn):
         how = style(number) if few else each.style
@@ -243,7 +224,9 @@ def histories(series: Sequence[Series]):
             times, values = record.history["time"] * 1e6, record.history[name] * readers(name)[1]
             figure.add_scatter(
                 x=times.astype(np.float32), y=values.astype(np.float32), mode="lines",
-                line={"color": how.colour, "width": 1.4, "dash": how.dash}, name=label, legendgroup=label,
+                opacity=0.4 if record.case.member else 1.0,
+                line={"color": how.colour, "width": 0.9 if record.case.member else 1.4, "dash": how.dash},
+                name=label, legendgroup=label,
                 showlegend=label not in told, row=row, col=1,
                 hovertemplate=f"<b>{verbatim(record.case.name)}</b><br>%{{x:.5g}} µs: %{{y:.5g}} {readers(name)[0]}"
                               "<extra></extra>",

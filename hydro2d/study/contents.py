@@ -5,9 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from hydro2d.study import experiments, record, table
+from hydro2d.study.ensembles import Ensemble, grouped, rows
 from hydro2d.study.experiments import Measurement
 from hydro2d.study.layout import Study
 from hydro2d.study.record import Record, Setup
+from hydro2d.study.responses import Choice
 
 
 @dataclass
@@ -25,6 +27,15 @@ class Contents:
     belonging: dict[str, Measurement]
     rows: list[table.Row]
     notes: list[str]
+
+    @property
+    def ensembles(self) -> list[Ensemble]:
+        """The ensembles of the study; a run that is no member is one by itself."""
+        return grouped(self.records, self.belonging)
+
+    def rows_of_ensembles(self, choice: Choice | None = None) -> list[table.Row]:
+        """One row for each ensemble; ``choice``: drawn responses, whose columns are added."""
+        return rows(self.study, self.ensembles, self.rows, choice)
 
 
 def collect(study: Study, trust: bool = False) -> Contents:

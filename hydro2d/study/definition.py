@@ -104,8 +104,26 @@ class Transition(Section):
         return self
 
 
+def _different(values: tuple) -> tuple:
+    if len(set(values)) < len(values):
+        raise ValueError("names a change twice")
+    return _filled(values)
+
+
+class Ensemble(Section):
+    """Repeats of every case that differ in what should not matter, so that they show how sure its result is."""
+
+    repeats: int = Field(ge=2, le=1000, description="number of members of each case; the first is its deck as it stands")
+    by: Annotated[tuple[Literal["mesh offset", "flank offset", "first step"], ...], AfterValidator(_different)] = Field(
+        ("mesh offset", "first step"),
+        description="what the members differ in: the mesh shifted along z by up to half a cell; the flank of the projectile "
+        "moved by up to a quarter of a cell; the first time step reduced by up to four thousandths",
+    )
+    seed: int = Field(0, ge=0, le=2**32, description="which sequence of changes; another seed makes other members")
+
+
 class Definition(Section):
-    """A study file: a sweep with axes, or a search for a transition, with or without axes."""
+    """A study file: a sweep with axes, an ensemble, or both; or a search for a transition, with or without axes."""
 
     title: str = Field("", description="title for tables and reports")
     deck: str | None = Field(None, description="base deck: beside the study file, or as `hydro2d run` finds decks")
@@ -113,11 +131,13 @@ class Definition(Section):
     set: Keys = Field({}, description="deck keys and values for every case")
     axis: Annotated[tuple[Axis, ...], AfterValidator(_filled)] = Field((), description="what is varied, the first axis slowest")
     transition: Transition | None = Field(None, description="the search of `hydro2d transition`")
+    ensemble: Ensemble | None = Field(None, description="repeats of every case")
     exclude: tuple[dict[str, Any], ...] = Field((), description="combinations to leave out")
 
 
 _TABLES: dict[tuple, type[Section]] = {
     (): Definition, ("axis",): Axis, ("axis", "range"): Range, ("transition",): Transition,
+    ("ensemble",): Ensemble,
 }  # fmt: skip
 
 
@@ -174,8 +194,11 @@ def _validated(data: dict, sources: Sources) -> Definition:
         found = Definition.model_validate(data)
     except ValidationError as error:
         raise StudyError(explained(error, data, sources, _TABLES)) from None
-    if not (found.axis or found.transition):
+    if not (found.axis or found.transition or found.ensemble):
         raise StudyError(f"{sources.where(('axis',), data)}: axis: is missing")
+    if found.transition and found.ensemble:
+        raise StudyError(f"{sources.where(('ensemble',), data)}: ensemble: a search with [transition] takes no ensemble; "
+                         "give the velocities as an [[axis]] to repeat each of them")
     return found
 
 

@@ -6,6 +6,7 @@
     cases/<name>/failed.json   why the last attempt failed, if it did
     sweep.log           the log
     transition.json     the results of a search for a transition
+    convergence.json    the results of `hydro2d converge`
 """
 
 from __future__ import annotations
@@ -65,6 +66,7 @@ class Case:
     message : why it failed, is invalid, unphysical or interrupted, or which process runs it
     summary : contents of summary.json; empty until the run has ended
     progress : contents of progress.json; empty while the case does not run
+    of, member, changed : in an ensemble the case that it repeats, its number, and what is changed, by name
     """
 
     name: str
@@ -77,6 +79,9 @@ class Case:
     message: str = ""
     summary: dict = field(default_factory=dict)
     progress: dict = field(default_factory=dict)
+    of: str = ""
+    member: int = 0
+    changed: dict[str, float] = field(default_factory=dict)
 
     @functools.cached_property
     def deck(self) -> dict | None:
@@ -99,11 +104,21 @@ class Interval:
 
 
 @dataclass(frozen=True)
+class Ensemble:
+    """The repeats of every case: their number, what they differ in, and the seed."""
+
+    repeats: int
+    by: tuple[str, ...]
+    seed: int
+
+
+@dataclass(frozen=True)
 class Study:
     """A study directory, or several runs treated as a study; without axes, the decks show what varies.
 
     title, name : of the study;  axes, cases : in the order of the file;  entries : the cases in study.json
     search : for a search for a transition, whose last axis is the velocity and whose cases are those that were run
+    ensemble : if every case has repeats, which are then cases of their own
     """
 
     directory: Path
@@ -113,6 +128,7 @@ class Study:
     cases: tuple[Case, ...]
     entries: tuple[dict, ...] = ()
     search: Interval | None = None
+    ensemble: Ensemble | None = None
 
     def case(self, number: int) -> Case:
         """One case of a study directory, read again."""
@@ -155,6 +171,7 @@ def _data(plan) -> dict:
         "axes": plan.axes,
         "cases": [_entry(case) for case in plan.cases],
         "search": search,
+        "ensemble": plan.ensemble and plan.ensemble.model_dump(mode="json"),
     }
 
 
@@ -168,6 +185,7 @@ def _entry(case) -> dict:
         "deck_sha256": case.sha256,
         "status0": None if case.text else INVALID,
         "message": case.message,
+        **({"of": case.of, "member": case.member, "changed": case.changed} if case.of else {}),
     }
 
 
@@ -185,7 +203,7 @@ def read(directory: Path | str) -> Study:
     data = read_json(directory / STUDY)
     try:
         found = _study(directory, data)
-    except (KeyError, TypeError, AttributeError) as error:
+    except (KeyError, TypeError, ValueError, AttributeError) as error:
         raise StudyError(f"{directory / STUDY} is not a valid study file: {error!r}") from None
     if not found.cases:
         raise StudyError(f"{directory / STUDY}: the study has no cases")
@@ -199,7 +217,9 @@ def _study(directory: Path, data: dict) -> Study:
     cases = tuple(_case(directory, entry) for entry in entries)
     found = data.get("search")
     search = found and Interval(found["key"], tuple(found["speeds_m_s"]), found["tolerance_m_s"], found.get("of", "regime"))
-    return Study(directory, data.get("title") or data["name"], data["name"], axes, cases, entries, search)
+    repeated = data.get("ensemble")
+    ensemble = repeated and Ensemble(repeated["repeats"], tuple(repeated["by"]), repeated["seed"])
+    return Study(directory, data.get("title") or data["name"], data["name"], axes, cases, entries, search, ensemble)
 
 
 def gather(directories: Sequence[Path | str]) -> Study:
@@ -263,6 +283,8 @@ def _case(directory: Path, entry: dict) -> Case:
         "name": str(entry["name"]), "directory": place, "base": entry.get("deck", ""),
         "values": {name: str(value) for name, value in entry["values"].items()},
         "overrides": tuple(entry.get("overrides", ())), "deck_sha256": sha256,
+        "of": str(entry.get("of", entry["name"])), "member": int(entry.get("member", 0)),
+        "changed": {name: float(amount) for name, amount in entry.get("changed", {}).items()},
     }  # fmt: skip
     if entry.get("status0") == INVALID:
         return Case(**common, status=INVALID, message=entry.get("message") or "")

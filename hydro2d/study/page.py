@@ -10,7 +10,7 @@ from datetime import UTC, datetime
 
 from hydro2d import __version__
 from hydro2d.analytic import model_transition
-from hydro2d.study import differences, regimes
+from hydro2d.study import differences, ensembles, regimes
 from hydro2d.study.contents import Contents
 from hydro2d.study.panels import Chart
 from hydro2d.study.pictures import Picture
@@ -41,6 +41,7 @@ def page(contents: Contents, choice: Choice, charts: Sequence[Chart], pictures: 
         made=f"hydro2d {__version__}, {datetime.now(UTC):%Y-%m-%d %H:%M} UTC",
         states=", ".join(f"{number} {status}" for status, number in states.items()),
         transitions=_transitions(contents) if contents.study.search else None,
+        ensembles=_ensembles(contents, choice) if contents.study.ensemble else None,
         results=columns_of_results(contents.study, contents.rows, choice), audit=columns_of_audit(),
         decks=_decks(contents), origins=[_origin(each) for each in contents.records],
     )  # fmt: skip
@@ -76,6 +77,18 @@ def _transitions(contents: Contents) -> dict:
         "criteria": regimes.criteria(contents.study),
         "file": regimes.FILE,
     }
+
+
+def _ensembles(contents: Contents, choice: Choice) -> dict:
+    """Medians, spreads and shares of regimes, one row for each case; the score; what the members differ in; the file."""
+    found, ensemble = contents.ensembles, contents.study.ensemble
+    heads, rows = ensembles.table(found, choice.y)
+    scored = ensembles.score(found)
+    return {
+        "heads": [head[0].upper() + head[1:] for head in heads], "rows": rows, "score": scored and scored.words,
+        "made": f"{ensemble.repeats} members of each case, by {', '.join(ensemble.by)}, seed {ensemble.seed}",
+        "file": ensembles.FILE, "csv": to_csv(contents.rows_of_ensembles(choice)),
+    }  # fmt: skip
 
 
 def _of_combination(each: regimes.Transitions, names: Sequence[str]) -> list[str]:

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from hydro2d.study import charts, experiments, record, residual, series, theory
 from hydro2d.study.contents import Contents
+from hydro2d.study.ensembles import grouped
 from hydro2d.study.experiments import Measurement
 from hydro2d.study.record import Record, Setup
 from hydro2d.study.responses import DEPTH, RESIDUAL, Choice, Response
@@ -122,18 +123,22 @@ def _response(contents: Contents, choice: Choice, y: Response, panel: Panel, nam
     figure = charts.response(panel.setup, panel.series, x, y, contents.belonging, panel.shots, curves, left)
     about, against = y.title.split(" [")[0], x.title.split(" [")[0]
     shown = [each for each in members if _drawn(each, choice, y)]
+    repeated = any(each.repeated for each in panel.series)
     ended = [each for each in shown if not each.unfinished]
     head = about[0].upper() + about[1:]
     caption = f"{head} against {against}: {panel.words}. {len(ended)} of {len(members)} runs have ended"
     caption += f"; open marks: {len(shown) - len(ended)} unfinished." if len(shown) > len(ended) else "."
+    if repeated:
+        caption += " A mark is the median of the members of an ensemble, its bar reaches from 10 to 90 %, dots are the members."
     if any(curve.drawable for curve in curves):
         drawn = ", ".join(curve.title for curve in curves if curve.drawable)
         caption += f" Grey lines: {drawn}, with the deck of {_modelled(panel).case.name}."
     elif left:
         caption += f" Lines without marks: {'; '.join(curve.title for curve in left)}."
-    said = [f"{each.case.name} {_value(each, y)}" for each in shown[:MOST_WORDS]]
-    more = f" and {len(shown) - MOST_WORDS} more" if len(shown) > MOST_WORDS else ""
-    alt = f"{about} against {against}, {panel.words}. Runs: {'; '.join(said)}{more}."
+    said = _ensembles(shown, y) if repeated else [f"{each.case.name} {_value(each, y)}" for each in shown]
+    more = f" and {len(said) - MOST_WORDS} more" if len(said) > MOST_WORDS else ""
+    alt = f"{about} against {against}, {panel.words}. {'Ensembles' if repeated else 'Runs'}: "
+    alt += f"{'; '.join(said[:MOST_WORDS])}{more}."
     if y.name == DEPTH:
         measured = [f"{shot.velocity:.0f} m/s {'at least ' * (shot.qualifier == experiments.AT_LEAST)}{shot.depth * 100:.1f} cm"
                     for shot in panel.shots]  # fmt: skip
@@ -142,6 +147,13 @@ def _response(contents: Contents, choice: Choice, y: Response, panel: Panel, nam
                                          if each.velocity is not None and each.measured_residual is not None}):  # fmt: skip
         alt += f" Experiments: {'; '.join(f'{speed:.0f} m/s {left:.0f} m/s' for speed, left in sorted(found.items()))}."
     return Chart(name, charts.markup(figure, name), f"{head}: {panel.heading}", caption, alt, tuple(notes))
+
+
+def _ensembles(shown: Sequence[Record], y: Response) -> list[str]:
+    """A response of ensembles in words."""
+    found = [(each, values) for each in grouped(shown) if (values := each.spread(y.name))]
+    return [f"{each.name} {values.median * y.factor:.4g} {y.unit} ({values.low * y.factor:.4g} to {values.high * y.factor:.4g})"
+            for each, values in found]  # fmt: skip
 
 
 def _value(each: Record, y: Response) -> str:
@@ -184,9 +196,12 @@ def _models(velocities: bool, y: Response, panel: Panel):
 
 def _histories(contents: Contents, choice: Choice, panel: Panel, name: str) -> Chart:
     drawn = [each for each in panel.members if each.history]
-    figure = charts.histories(series.grouped(drawn, contents.study.axes, choice))
+    lines = series.grouped(drawn, contents.study.axes, choice)
+    figure = charts.histories(lines)
     ends = [each.history["time"][-1] * 1e6 for each in drawn]
-    told = "one line style a run" if len(drawn) <= charts.MOST_LINES else "one line style a series of runs"
+    few = charts.few_lines([(each, record) for each in lines for record in each.records])
+    told = "one line style a run" if few else "one line style a series of runs"
+    told += "; thin: members of ensembles but the first" if any(each.repeated for each in lines) else ""
     columns = ", ".join(axis.title.text.split("<br>")[0] for axis in figure.select_yaxes())
     runs = f"{len(drawn)} runs, {panel.words}"
     caption = f"Histories of {columns}: {runs}; {told}, at most {record.POINTS} points of each history."

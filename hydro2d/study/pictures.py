@@ -48,24 +48,33 @@ class Picture:
 
 def draw(contents: Contents, folder: Path) -> Iterator[Picture]:
     """Pages of rods, all at one scale."""
-    with_rod = [each for each in contents.records if each.rod]
+    with_rod, others = _first_members(contents)
     shown = rods.pages(with_rod)[:MOST_PAGES]
     scale = [each for part in shown for each in part]
-    at_depth = bool(scale) and rods.at_their_depths(scale, contents.belonging)
+    whole = [record for each in scale for record in (each, *others.get(each.case.name, ()))]
+    at_depth = bool(scale) and rods.at_their_depths(whole, contents.belonging)
     where = "at their depths below the target's original surface" if at_depth else "tip beside tip"
     measured = at_depth and any(each.case.name in contents.belonging for each in scale)
     left_out = f" {len(with_rod) - len(scale)} further runs are not drawn." if len(with_rod) > len(scale) else ""
     word = "Rods" if all(each.setup.shape == "rod" for each in scale) else "Projectiles"
     for number, part in enumerate(shown, 1):
         file = folder / f"rods_{number:02d}.png"
-        figures.save(rods.draw(part, contents.belonging, scale), file)
+        figures.save(rods.draw(part, contents.belonging, whole, others), file)
         caption = (
             f"{word} at the end of their runs, {where}, at one scale; dotted: before impact, the tip at the same place"
-            + ("; dashed: the experiment's depth." if measured else ".")
+            + ("; dashed: the experiment's depth" if measured else "")
+            + ("; thin: the other members of the ensemble." if others else ".")
             + (f" Page {number} of {len(shown)}.{left_out}" if len(shown) > 1 else "")
         )
         alt = "Final shapes: " + "; ".join(map(_shape_in_words, part)) + "."
         yield Picture(file, f"{word} {number} of {len(shown)}" if len(shown) > 1 else word, caption, alt)
+
+
+def _first_members(contents: Contents) -> tuple[list[Record], dict[str, list[Record]]]:
+    """The first member with an outline of each ensemble, and the others by the name of the first."""
+    groups = [[record for record in each.members if record.rod] for each in contents.ensembles]
+    groups = [group for group in groups if group]
+    return [group[0] for group in groups], {group[0].case.name: group[1:] for group in groups if group[1:]}
 
 
 def _shape_in_words(each: Record) -> str:

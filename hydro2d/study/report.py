@@ -7,7 +7,7 @@ from pathlib import Path
 
 from hydro2d.files import write_text
 from hydro2d.strange import own
-from hydro2d.study import layout, panels, pictures, responses, table
+from hydro2d.study import ensembles, layout, panels, pictures, responses, table
 from hydro2d.study.contents import collect
 from hydro2d.study.page import PAGE, TABLE, page
 from hydro2d.terminal import say
@@ -48,6 +48,10 @@ def report(directories: Sequence[Path], out: Path | None = None, say: Callable[[
             old.unlink()
     write_text(folder / TABLE, table.to_csv(contents.rows))
     write_text(folder / PAGE, page(contents, choice, list(panels.draw(contents, choice)), drawn, films))
-    for path in (folder / PAGE, folder / TABLE, *sorted(files)):
+    written = [folder / PAGE, folder / TABLE, *sorted(files)]
+    if study.ensemble:
+        write_text(folder / ensembles.FILE, table.to_csv(contents.rows_of_ensembles(choice)))
+        written.insert(2, folder / ensembles.FILE)
+    for path in written:
         say(f"wrote {path}")
     return folder / PAGE

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import textwrap
 from collections.abc import Mapping, Sequence
+from types import MappingProxyType
 
 import numpy as np
 
@@ -24,7 +25,7 @@ MOST_LENGTHS = 2.5
 SLOT = 0.1
 #: letters in a line of a label, and lines
 LETTERS, LINES = 12, 4
-FILLED, START = "#5b6770", "#8a8a8a"
+FILLED, START, OTHER = "#5b6770", "#8a8a8a", "#d55e00"
 
 
 def extent(record: Record) -> tuple[float, float]:
@@ -52,11 +53,13 @@ def pages(records: Sequence[Record]) -> list[Sequence[Record]]:
     return [records[first : first + PER_PAGE] for first in range(0, len(records), PER_PAGE)]
 
 
-def draw(records: Sequence[Record], measurements: Mapping[str, Measurement], scale: Sequence[Record]):
+def draw(records: Sequence[Record], measurements: Mapping[str, Measurement], scale: Sequence[Record],
+         others: Mapping[str, Sequence[Record]] = MappingProxyType({})):  # fmt: skip
     """One page of rods, each mirrored about its axis if its mesh has one; z points down, as the rods fly.
 
     measurements : by case; a dashed line at the depth, where rods are drawn at their depths
-    scale : the records of all pages, which share limits and scale
+    scale : everything that is drawn on all pages, which share limits and scale
+    others : by case, further members of its ensemble, drawn as thin outlines
     """
     rows = -(-len(records) // COLUMNS)
     columns = -(-len(records) // rows)
@@ -68,6 +71,8 @@ def draw(records: Sequence[Record], measurements: Mapping[str, Measurement], sca
     figure, places = new_figure(WIDTH, rows * max(min(5.0, 9.5 / rows, needed), LOWEST), rows, columns)
     for axes, record in zip(places.flat, records, strict=False):
         _rod(axes, record, 0.0 if at_depth else extent(record)[1])
+        for other in others.get(record.case.name, ()):
+            _outline(axes, other, 0.0 if at_depth else extent(other)[1])
         if at_depth and record.case.name in measurements:
             axes.axhline(measurements[record.case.name].depth * 100, color="black", linestyle="--", linewidth=1.2)
         axes.set_title(_label(record), fontsize=FONT - 2)
@@ -120,6 +125,14 @@ def _rod(axes, record: Record, shift: float) -> None:
         moved = [line - [0.0, tip - extent(record)[1]] for line in record.start]
         axes.add_patch(PathPatch(_path(moved, shift, mirrored), fill=False, edgecolor=START, linewidth=0.7, linestyle=":"))
     axes.add_patch(PathPatch(_path(record.rod, shift, mirrored), facecolor=FILLED, edgecolor="black", linewidth=0.5))
+
+
+def _outline(axes, record: Record, shift: float) -> None:
+    """Another member of an ensemble at the end, as a thin line."""
+    from matplotlib.patches import PathPatch
+
+    path = _path(record.rod, shift, reading.mirrored(record.deck))
+    axes.add_patch(PathPatch(path, fill=False, edgecolor=OTHER, linewidth=0.6, alpha=0.7))
 
 
 def _path(lines: Sequence[np.ndarray], shift: float, mirrored: bool = True):

@@ -37,6 +37,11 @@ class Series:
     style: Style
     records: tuple[Record, ...]
 
+    @property
+    def repeated(self) -> bool:
+        """Whether its runs are members of ensembles."""
+        return any(record.case.member for record in self.records)
+
 
 def style(number: int) -> Style:
     """The style of the n-th series: the first thirty all differ, and neighbours also differ in black and white."""
@@ -47,7 +52,7 @@ def grouped(records: Sequence[Record], axes: Sequence[Axis], choice: Choice) -> 
     """The series of runs of one panel, in the order of the study."""
     if choice.by is not None:
         labels = [", ".join(_said(variable, record) for variable in choice.by) for record in records]
-    elif axes:
+    elif axes or any(record.case.member for record in records):
         kept = [axis for axis in axes if _tells_apart(axis, records, choice.x)]
         labels = [", ".join(axis.said(record.case.values.get(axis.name, "")) for axis in kept) for record in records]
     else:

@@ -13,6 +13,11 @@ from hydro2d.study.responses import DEPTH, RESIDUAL, Choice, is_velocity, raw, r
 #: largest number of sinks named on the page, and the smallest fraction of the start energy of one that is named
 NAMED_SINKS, SMALLEST_SHARE = 3, 1e-6
 
+#: numbers of a run of which an ensemble has a median and a spread; all but the ratios are names of summary.json
+LENGTH_RATIO, RADIUS_RATIO = "rod_length_ratio", "rod_radius_ratio"
+RESULTS = (DEPTH, "rod_length_m", LENGTH_RATIO, "rod_max_radius_m", RADIUS_RATIO, "rod_tail_velocity_m_s", "rod_mass_kg",
+           RESIDUAL)  # fmt: skip
+
 Row = dict[str, object]
 
 
@@ -31,7 +36,16 @@ def _row(study: Study, record: Record, measurement: Measurement | None) -> Row:
     row |= zip(("projectile", "rod", "target", "nose", "target_thickness_m"), what, strict=True)
     row |= _results(record) | _compared(record, measurement) | _audit(case.summary) | _cost(record)
     axes = {_name_of(axis, row): case.values.get(axis.name) for axis in study.axes}
-    return {"case": case.name, **axes, **row}
+    return {"case": case.name, **axes, **_member(study, record), **row}
+
+
+def _member(study: Study, record: Record) -> Row:
+    """In an ensemble, the case that a run repeats, its number, the seed and what is changed."""
+    if study.ensemble is None:
+        return {}
+    case = record.case
+    changed = {name: case.changed.get(name) for name in study.ensemble.by}
+    return {"ensemble": case.of, "member": case.member, "seed": study.ensemble.seed, **changed}
 
 
 def _name_of(axis: Axis, row: Row) -> str:
@@ -49,9 +63,9 @@ def _results(record: Record) -> Row:
         "depth_is": "at least" if record.at_least else "computed",
         "rod_length_m": length,
         "rod_initial_length_m": first["length"],
-        "rod_length_ratio": _ratio(length, first["length"]),
+        LENGTH_RATIO: _ratio(length, first["length"]),
         "rod_max_radius_m": radius,
-        "rod_radius_ratio": _ratio(radius, first["radius"]),
+        RADIUS_RATIO: _ratio(radius, first["radius"]),
         "rod_tail_velocity_m_s": record.value("rod_tail_velocity_m_s"),
         "rod_mass_kg": record.value("rod_mass_kg"),
         RESIDUAL: raw(record, RESIDUAL),

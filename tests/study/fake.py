@@ -13,6 +13,7 @@ from hydro2d.files import write_json
 from hydro2d.output import vtk
 from hydro2d.output.history import History
 from hydro2d.running.run import deck_hash
+from hydro2d.study import members
 
 BASE = "problems/cth_nose_shape/hemi_5083_1086_quick.toml"
 LENGTH, RADIUS, MASS, TIME = 0.09779, 0.0033784, 0.063, 6e-4
@@ -86,10 +87,12 @@ def _summary(depth: float, shortened: float) -> dict:
     }  # fmt: skip
 
 
-def write_study(directory: Path, axes: dict[str, dict[str, tuple[str, ...]]], title: str = "A study") -> Path:
+def write_study(directory: Path, axes: dict[str, dict[str, tuple[str, ...]]], title: str = "A study",
+                repeats: int = 1) -> Path:  # fmt: skip
     """A study as `hydro2d sweep` leaves it, without its cases: axes -> label -> overrides. Every case is done.
 
-    The depth falls and the rod is shortened from case to case, so that no two rows are the same.
+    The depth falls and the rod is shortened from case to case, so that no two rows are the same. Members of an ensemble of
+    ``repeats`` go 1 cm deeper each, and the last one is eroded.
     """
     cases = [{}]
     for axis, labels in axes.items():
@@ -100,14 +103,22 @@ def write_study(directory: Path, axes: dict[str, dict[str, tuple[str, ...]]], ti
         overrides = [text for axis, label in values.items() for text in axes[axis][label]]
         speed = next((float(label.split()[0]) for label in values.values() if label.endswith("m/s")), 1086.0)
         others = tuple(text for text in overrides if "velocity" not in text)
-        place = write_run(directory / "cases" / name, speed, 0.35 - 1e-3 * number, 0.01 + 1e-3 * number, overrides=others)
-        sha256 = deck_hash((place / "deck.toml").read_text())
-        entries.append({"name": name, "directory": f"cases/{name}", "values": values, "deck": BASE, "overrides": overrides,
-                        "deck_sha256": sha256, "status0": None, "message": ""})  # fmt: skip
+        for member in range(repeats):
+            own, last = members.name(name, member) if repeats > 1 else name, repeats > 1 and member == repeats - 1
+            factor = (f"numerics.initial_dt_factor={0.1 - 1e-4 * member}",) if member else ()
+            depth, shortened = 0.35 - 1e-3 * number + 0.01 * member, 0.01 + 1e-3 * number
+            place = write_run(directory / "cases" / own, speed, 0.14 if last else depth, 0.7 if last else shortened,
+                              overrides=others + factor, **({"regime": "eroding"} if last else {}))  # fmt: skip
+            entry = {"name": own, "directory": f"cases/{own}", "values": values, "deck": BASE, "overrides": overrides,
+                     "deck_sha256": deck_hash((place / "deck.toml").read_text()), "status0": None, "message": ""}  # fmt: skip
+            if repeats > 1:
+                entry |= {"of": name or directory.name, "member": member, "changed": {"first step": 1.0 - 1e-3 * member}}
+            entries.append(entry)
     keys = {"velocity": "body.rod.velocity"}
     described = [{"name": axis, "key": keys.get(axis), "values": list(labels)} for axis, labels in axes.items()]
     data = {"title": title, "name": directory.name, "version": "0.1.0", "study_sha256": "cd" * 32, "axes": described,
             "cases": entries}  # fmt: skip
+    data |= {"ensemble": {"repeats": repeats, "by": ["first step"], "seed": 0}} if repeats > 1 else {}
     (directory / "study.json").write_text(json.dumps(data))
     return directory
 

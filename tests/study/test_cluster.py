@@ -47,6 +47,18 @@ def test_joins_a_running_cluster_and_leaves_it_running(tmp_path, others, capsys)
     assert all(file.stat().st_mtime_ns > then for file, then in zip(files, before, strict=True))
 
 
+def test_members_on_a_cluster_have_the_bits_of_those_on_this_machine(tmp_path, others):
+    ensemble = '[ensemble]\nrepeats = 2\nby = ["first step"]\n'
+    file = tubes.write(tmp_path, tubes.STUDY + ensemble)
+    only = ["--only", "ke_0.1*"]
+    assert call(["sweep", str(file), "--scheduler", others(1), "--out", str(tmp_path / "cluster"), *only]) == 0
+    assert call(["sweep", str(file), "--workers", "2", "--out", str(tmp_path / "here"), *only]) == 0
+    names = ["ke_0.1", "ke_0.1_m1"]
+    there, here = ([tubes.bits(tmp_path / place / "cases" / name) for name in names] for place in ("cluster", "here"))
+    assert there == here
+    assert here[0] != here[1]
+
+
 def test_a_second_sweep_leaves_the_cases_of_the_first_alone(tmp_path, others):
     out, address = tmp_path / "out", others(1)
     process = tubes.start(tubes.write(tmp_path), "--scheduler", address, "--out", out, "--set", "stop.time=0.3")

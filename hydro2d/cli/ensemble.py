@@ -1,0 +1,188 @@
+"""Ensembles on the command line: `hydro2d run --repeats`, `hydro2d run --member` and `hydro2d converge`."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated
+
+from cyclopts import Parameter
+
+from hydro2d.cli.base import Count, Out, Overrides, UsageError
+from hydro2d.terminal import say
+
+#: largest number of members of an ensemble
+MOST = 1000
+#: most cells across a projectile, and most meshes
+FINEST, MOST_MESHES = 1000.0, 20
+
+
+def _whole(least: int, most: int):
+    """A converter to a whole number within bounds."""
+    def convert(_type, tokens) -> int:
+        text = tokens[0].value
+        if not text.isdecimal() or not least <= int(text) <= most:
+            raise UsageError(f"{tokens[0].keyword} {text}: must be a whole number from {least} to {most}")
+        return int(text)
+
+    return Parameter(converter=convert)
+
+
+Repeats = Annotated[int, _whole(2, MOST)]
+Member = Annotated[int, _whole(0, MOST - 1)]
+Seed = Annotated[int, _whole(0, 2**32)]
+By = Annotated[list[str] | None, Parameter(negative="")]
+
+
+@dataclass(frozen=True)
+class Chosen:
+    """The options of `hydro2d run` for ensembles, as given."""
+
+    repeats: int | None
+    member: int | None
+    by: list[str] | None
+    seed: int | None
+    workers: int | None
+
+    def check(self) -> None:
+        """Raises UsageError for options that exclude or need each other."""
+        if self.repeats is not None and self.member is not None:
+            raise UsageError("--repeats runs all members of an ensemble and --member one of them: give one of them")
+        if self.repeats is None and self.workers is not None:
+            raise UsageError("--workers needs --repeats; a single run takes --threads")
+        for name, given in (("--by", self.by), ("--seed", self.seed)):
+            if given is not None and self.repeats is None and self.member is None:
+                raise UsageError(f"{name} needs --repeats or --member")
+
+    def table(self, repeats: int) -> dict:
+        """As [ensemble] of a study file."""
+        given = {"by": self.by, "seed": self.seed}
+        return {"repeats": repeats, **{name: value for name, value in given.items() if value is not None}}
+
+    def overrides(self, deck: Path, overrides: list[str]) -> list[str]:
+        """The overrides that make the chosen member, after those of the user. Raises StudyError, DeckError."""
+        from hydro2d.deck import deck as decks
+        from hydro2d.study import definition, members
+
+        tables = {"deck": str(deck), "ensemble": self.table(2)}
+        found, *_ = definition.of_tables(tables, f"--member {self.member}", ())
+        changed = members.amounts(found.ensemble, self.member)
+        return [*overrides, *members.overrides(decks.load(deck, overrides), changed)]
+
+
+def run_all(chosen: Chosen, deck: Path, overrides: list[str], out: Path | None, *, threads: int, restart: bool, overwrite: bool,
+            quiet: bool) -> int:  # fmt: skip
+    """Runs all members of an ensemble of a deck as a study, and prints what they say together."""
+    from hydro2d.cli.study import run_study
+    from hydro2d.deck import deck as decks
+    from hydro2d.study import cases
+
+    file = decks.find(deck)
+    tables = {"title": f"{file.stem}, {chosen.repeats} members", "deck": str(file.resolve()),
+              "ensemble": chosen.table(chosen.repeats)}  # fmt: skip
+    plan = cases.plan_of(tables, file.stem, overrides)
+    return run_study(plan, out or Path(f"runs/{file.stem}_ensemble"), workers=chosen.workers, threads=threads, resume=restart,
+                     overwrite=overwrite, quiet=quiet)  # fmt: skip
+
+
+def _meshes(text: str) -> list[float]:
+    """Numbers of cells of --cells, from the coarsest to the finest."""
+    try:
+        found = [float(part) for part in text.split(",")]
+    except ValueError:
+        raise UsageError(f"--cells {text}: expected numbers with commas between them, such as 5.5,8.5,12.5") from None
+    if not all(0.5 <= cells <= FINEST for cells in found):
+        raise UsageError(f"--cells {text}: each must be from 0.5 to {FINEST:g} cells across the radius of the projectile")
+    if not 2 <= len({f"{cells:g}" for cells in found}) == len(found) <= MOST_MESHES:
+        raise UsageError(f"--cells {text}: give 2 to {MOST_MESHES} different numbers; three or more can show an order")
+    return sorted(found)
+
+
+def converge(
+    deck: Path,
+    *,
+    cells: str,
+    repeats: Repeats = 4,
+    by: By = None,
+    seed: Seed | None = None,
+    y: Annotated[list[str] | None, Parameter(negative="")] = None,
+    out: Out | None = None,
+    set_: Overrides = None,
+    workers: Count | None = None,
+    threads: Count = 1,
+    scheduler: str | None = None,
+    slurm: Path | None = None,
+    resume: bool = False,
+    overwrite: bool = False,
+    check: bool = False,
+    quiet: bool = False,
+) -> int:
+    """Runs an ensemble of a deck on several meshes, and tells change by the mesh from scatter within it.
+
+    Example: hydro2d converge problems/cth_nose_shape/hemi_5083_1086.toml --cells 5.5,8.5,12.5 --repeats 4
+
+    Where the sequence of meshes allows it, the value for cells of no size is given with a 90 % interval, else why it is not.
+    The file convergence.json in the study directory has the same results for programs, and `hydro2d report` draws them.
+
+    Parameters
+    ----------
+    deck
+        Input deck (TOML) with a projectile that has a radius.
+    cells
+        Numbers of cells across the radius of the projectile, such as 5.5,8.5,12.5. All cells of the mesh change by one factor.
+    repeats
+        Number of members on each mesh.
+    by
+        What the members differ in: "mesh offset", "flank offset" or "first step"; can be repeated; default: mesh offset and
+        first step. Offsets are fractions of a cell of each mesh.
+    seed
+        Which sequence of changes; default: 0.
+    y
+        A number in summary.json; can be repeated; default: depth, final over initial length, and the residual velocity where
+        something perforates.
+    out
+        Study directory; default: runs/<name of the deck>_converge.
+    set_
+        Overrides a value of the deck, as key=value; can be repeated.
+    workers
+        Number of worker processes; default: cores / threads. With --slurm, the number to request.
+    threads
+        Number of threads per worker. The results do not depend on it.
+    scheduler
+        Address of a running dask scheduler, such as tcp://host:8786; its workers must see the same files.
+    slurm
+        TOML file with arguments of dask_jobqueue.SLURMCluster, such as cores, memory, queue; SLURM then starts the workers.
+    resume
+        Continues in the directory: finished members are kept, unfinished ones continue from their restart files.
+    overwrite
+        Starts all members again from the beginning.
+    check
+        Prints the cells and the estimated time of every member; runs nothing.
+    quiet
+        Prints errors only; sweep.log and convergence.json are still written.
+    """
+    from hydro2d.cli import study
+    from hydro2d.study import convergence
+
+    study.check_fit(workers, scheduler, slurm)
+    chosen = Chosen(repeats, None, by, seed, workers)
+    plan = convergence.plan(deck, _meshes(cells), chosen.table(repeats), set_ or [])
+    if check:
+        from hydro2d.study import cluster, estimate
+
+        return estimate.show(plan, workers or cluster.default_workers(threads))
+    place = out or Path(f"runs/{plan.name}_converge")
+    status = study.run_study(plan, place, workers=workers, threads=threads, scheduler=scheduler, slurm=slurm, resume=resume,
+                             overwrite=overwrite, quiet=quiet)  # fmt: skip
+    _conclude(place, y or (), quiet)
+    return status
+
+
+def _conclude(directory: Path, y, quiet: bool) -> None:
+    """Writes and prints what the meshes say."""
+    from hydro2d.study import contents, convergence, layout
+
+    found = convergence.sequences(contents.collect(layout.read(directory)), y)
+    convergence.write(directory, found)
+    for line in [line for each in found for line in ("", *each.lines())] if not quiet else []:
+        say(line)
