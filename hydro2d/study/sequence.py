@@ -7,6 +7,9 @@ their information matrix becomes largest, at the estimate from all shots of earl
 shot of a round the width is the geometric mean of the estimate and of the largest that the shots allow, since otherwise a
 width that is too small by chance would be believed for long. Without a change of outcomes, a round goes into the widest gap.
 
+Shots at the best velocity would nearly all be repeats of two velocities. Each therefore lies a little beside it, at random:
+where the outcome depends on the velocity in a rough manner, shots then sample that roughness, which repeats would not.
+
 The shots of a round are chosen one after another without waiting for outcomes, so that they can run at the same time. Which
 velocities are chosen depends on the outcomes of earlier rounds alone, not on which run of a round ends first.
 
@@ -26,6 +29,8 @@ from hydro2d.study import logit
 
 #: by how much of its width a gap is widened at both ends, so that shots can show an overlap
 WIDER = 0.5
+#: how far a shot may lie from the best velocity, relative to s of the fit
+SCATTER = 0.3
 #: number of velocities of the interval that a shot may have
 CANDIDATES = 1001
 
@@ -35,11 +40,12 @@ def begin_of_round(number: int, size: int) -> int:
     return number // size * size
 
 
-def next_speed(speeds: Sequence[float], outcomes: Sequence[bool | None], ends: tuple[float, float], size: int) -> float:
+def next_speed(speeds: Sequence[float], outcomes: Sequence[bool | None], ends: tuple[float, float], size: int,
+               seed: int = 0) -> float:  # fmt: skip
     """The velocity of the next shot, m/s.
 
     speeds, outcomes : of all shots so far, None for those without a known outcome; outcomes of the round under way are not used
-    ends : slowest and fastest velocity;  size : shots of a round
+    ends : slowest and fastest velocity;  size : shots of a round;  seed : of the part of the choice that is random
     """
     begin = begin_of_round(len(speeds), size)
     place = len(speeds) - begin
@@ -49,7 +55,9 @@ def next_speed(speeds: Sequence[float], outcomes: Sequence[bool | None], ends: t
     found = logit.fit(*zip(*before, strict=True)) if before else None
     if found is not None and found.overlap:
         scale = found.scale if place < size - 1 else _wide(found, ends)
-        return _most_telling(found.v50, scale, np.array(speeds), np.linspace(*ends, CANDIDATES))
+        best = _most_telling(found.v50, scale, np.array(speeds), np.linspace(*ends, CANDIDATES))
+        beside = SCATTER * scale * np.random.default_rng([seed, len(speeds)]).uniform(-1.0, 1.0)
+        return float(np.clip(best + beside, *ends))
     low, high = _gap(before, ends, speeds[:begin])
     return low + (high - low) * ((1.0 + 2.0 * WIDER) * (place + 1) / (size + 1) - WIDER)
 

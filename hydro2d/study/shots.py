@@ -147,7 +147,7 @@ class Shots(Searching):
         if sequence.alike(outcomes, size):
             return None
         speeds = [velocities.speed(shot.values[velocities.AXIS]) for shot in group.shots]
-        return self._add(group, sequence.next_speed(speeds, outcomes, self.interval, size)).name
+        return self._add(group, sequence.next_speed(speeds, outcomes, self.interval, size, self.search.budget.seed)).name
 
     def _ended(self, shot: Planned, cases: dict[str, Case], under_way: Collection[str]) -> bool:
         """Whether a shot has ended, in whatever way."""
