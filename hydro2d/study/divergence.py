@@ -1,10 +1,10 @@
 """`hydro2d diverge`: where and when two runs of nearly the same deck part, and how fast their difference grows.
 
-The difference of a column of the history is its absolute value; that of a field is the largest over all cells. Each is divided
-by the largest magnitude that the quantity has in either run. Columns of the second run are interpolated to the times of the
-first. Fields are compared cell by cell, in dumps of nearly the same time, while the meshes lie within a tenth of a cell of
-each other. What the small difference of the times makes by itself is estimated from the change since the dump before, and
-told.
+The difference of a column of the history is its absolute value; that of a field is the largest over all cells that are at
+least half filled. Each is divided by the largest magnitude that the quantity has in either run. Columns of the second run are
+interpolated to the times of the first. Fields are compared cell by cell, in dumps of nearly the same time, while the meshes
+lie within a tenth of a cell of each other. What the small difference of the times makes by itself is estimated from the change
+since the dump before, and told.
 
 A difference that grows by chance grows like exp(t / T): T, the growth time, is the time in which it becomes e times as large.
 It is fitted to the largest difference so far, from a thousandth of the stated size up to that size. Source of the measure:
@@ -28,6 +28,7 @@ from hydro2d.errors import unknown
 from hydro2d.files import write_text
 from hydro2d.mesh import quantities
 from hydro2d.output import vtk
+from hydro2d.results.figures import filled
 from hydro2d.results.reading import Results, ResultsError
 from hydro2d.study import differences
 from hydro2d.study.table import to_csv
@@ -229,7 +230,7 @@ def _fields(one: Results, other: Results, fields: Sequence[str]) -> tuple[list[C
         if why:
             return _curves(rows, scales), [f"the fields are compared before {time * 1e6:.4g} us: {why}"]
         for name in [name for key in fields for name in _names(key, a) if name in a.fields and name in b.fields]:
-            largest, place = _apart(a, a.fields[name], b.fields[name])
+            largest, place = _apart(a, b, name)
             rows.setdefault(name, []).append((time, largest, place, _by_time(a, b, before, name)))
             scales[name] = max(scales.get(name, 0.0), *(float(np.abs(each.fields[name]).max()) for each in (a, b)))
         before = a
@@ -284,11 +285,12 @@ def _meshes_apart(a: vtk.Dump, b: vtk.Dump) -> str:
     return ""
 
 
-def _apart(dump: vtk.Dump, a: np.ndarray, b: np.ndarray) -> tuple[float, Place]:
-    """The largest difference of a field, and its cell; the magnitude of the difference for a vector."""
-    apart = np.nan_to_num(np.abs(a.astype(float) - b.astype(float)))
+def _apart(dump: vtk.Dump, other: vtk.Dump, name: str) -> tuple[float, Place]:
+    """The largest difference of a field in cells that are half filled in both dumps, and its cell; a vector's magnitude."""
+    apart = np.nan_to_num(np.abs(dump.fields[name].astype(float) - other.fields[name].astype(float)))
     if apart.ndim == 3:
         apart = np.sqrt((apart**2).sum(axis=-1))
+    apart[(filled(dump) < 0.5) | (filled(other) < 0.5)] = 0.0
     j, i = (int(n) for n in np.unravel_index(np.argmax(apart), apart.shape))
     share = quantities.BY_KEY["volume_fraction"]
     body = max(dump.bodies, key=lambda name: dump.fields[share.name(name)][j, i])
@@ -306,10 +308,10 @@ def figure(found: Divergence, size: float):
         place.axhline(size, color="black", linestyle=":", linewidth=1.0, label=f"{size:g} of the largest value")
         place.set_yscale("log")
         place.set_xlabel("t [us]", fontsize=8)
-        place.set_title({"history": "histories", "field": "fields, largest over all cells"}[kind], fontsize=8)
+        place.set_title({"history": "histories", "field": "fields, largest over the cells"}[kind], fontsize=8)
         place.tick_params(labelsize=7)
         place.grid(alpha=0.3)
-        place.legend(fontsize=6, loc="lower right")
+        place.legend(fontsize=6, loc="best")
     axes[0].set_ylabel("difference / largest value", fontsize=8)
     return drawn
 

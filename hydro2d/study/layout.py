@@ -6,6 +6,7 @@
     cases/<name>/failed.json   why the last attempt failed, if it did
     sweep.log           the log
     transition.json     the results of a search for a transition
+    transition.csv, transition.png   the shots of a search with a budget, and the fitted curve
 """
 
 from __future__ import annotations
