@@ -44,6 +44,8 @@ APART, SAME_TIME = 0.1, 0.05
 FROM = 1e-3
 #: fewest points of a fit, and the smallest growth, in powers of e, that counts as one
 FEWEST, GROWTH = 4, 2.0
+#: smallest share of the scatter of the logarithm that a straight line must explain
+STRAIGHT = 0.9
 
 
 class Place(NamedTuple):
@@ -87,6 +89,8 @@ class Curve:
             return None
         time, log = self.time[kept], np.log(largest[kept])
         slope, offset = np.polyfit(time, log, 1)
+        if np.corrcoef(time, log)[0, 1] ** 2 < STRAIGHT:
+            return None
         spread = math.sqrt(np.sum((log - offset - slope * time) ** 2) / (len(time) - 2) / np.sum((time - time.mean()) ** 2))
         return Growth(float(1.0 / slope), float(spread / slope**2), float(time[0]), float(time[-1]), float(offset))
 

@@ -59,7 +59,8 @@ def next_speed(speeds: Sequence[float], outcomes: Sequence[bool | None], ends: t
         beside = SCATTER * scale * np.random.default_rng([seed, len(speeds)]).uniform(-1.0, 1.0)
         return float(np.clip(best + beside, *ends))
     low, high = _gap(before, ends, speeds[:begin])
-    return low + (high - low) * ((1.0 + 2.0 * WIDER) * (place + 1) / (size + 1) - WIDER)
+    share = (1.0 + 2.0 * WIDER) * (place + 1) / (size + 1) - WIDER
+    return float(np.clip(low + (high - low) * share, *ends))
 
 
 def _gap(before: Sequence[tuple[float, bool]], ends: tuple[float, float], speeds: Sequence[float]) -> tuple[float, float]:

@@ -10,7 +10,7 @@ import pytest
 from hydro2d.cli.main import call
 from hydro2d.study import cases, draws, transition
 from hydro2d.study.case import Outcome
-from tests.study import fake, made_up
+from tests.study import fake, made_up, test_transition, tubes
 from tests.study.html import Page
 
 BASE = "problems/cth_nose_shape/hemi_5083_1086_layer.toml"
@@ -279,3 +279,20 @@ def test_bad_input_gets_one_message(tmp_path, capsys, old, new, said):
     shown = capsys.readouterr().err
     assert said in shown
     assert shown.count("\n") == 1
+
+
+# ------------------------------------------------------------------------------------------------ a real shot
+
+
+def test_a_real_shot_whose_outcome_is_rough_in_velocity(tmp_path):
+    """The short rod of test_transition.py: rigid at 1000 m/s and below, eroding at 1400 m/s and above; 1180, 1240: either."""
+    (tmp_path / "shot.toml").write_text(test_transition.SHOT)
+    text = STUDY.replace(BASE, "shot.toml").replace("900", "1000").replace("1500", "1400").replace("budget = 16", "budget = 8")
+    out = tmp_path / "out"
+    process = tubes.start(write(tmp_path, text), "--workers", 1, "--out", out, command="transition")
+    said, _ = process.communicate(timeout=300)
+    assert process.returncode == 0, said
+    found = json.loads((out / "transition.json").read_text())["combinations"][0]
+    assert 1000.0 < found["estimate"]["v50_m_s"] < 1400.0
+    assert "bought with 8 of 8 runs" in said
+    assert {run["regime"] for run in found["runs"]} == {"eroding", "not eroding"}

@@ -117,6 +117,16 @@ def test_the_first_round_is_spread_from_end_to_end():
     assert speeds == [900, 1100, 1300, 1500]
 
 
+@pytest.mark.parametrize("change", [905.0, 1495.0])
+def test_no_shot_lies_outside_the_interval(change):
+    speeds, outcomes = [], []
+    while len(speeds) < 24:
+        speeds.append(sequence.next_speed(speeds, outcomes, ENDS, 4))
+        outcomes.append(speeds[-1] > change)
+    assert min(speeds) == 900.0
+    assert max(speeds) == 1500.0
+
+
 def test_a_round_does_not_wait_for_its_own_outcomes():
     speeds, outcomes = searched(1210.0, 60.0, 6, runs=18)
     unknown = [*outcomes[:16], None, None]
