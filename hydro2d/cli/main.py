@@ -15,6 +15,7 @@ from hydro2d import __version__
 from hydro2d.cli.base import Count, Out, Overrides, Trust, UsageError, import_matplotlib, quantity, refuse_old_names
 from hydro2d.cli.check_model import check_model
 from hydro2d.cli.curve import curve
+from hydro2d.cli.diverge import diverge
 from hydro2d.cli.ensemble import By, Chosen, Member, Repeats, Seed, converge, run_all
 from hydro2d.cli.model import model
 from hydro2d.cli.report import report
@@ -37,6 +38,7 @@ app = App(
 app.command(check_model)
 app.command(converge)
 app.command(curve)
+app.command(diverge)
 app.command(model)
 app.command(report)
 app.command(sweep)

@@ -107,11 +107,12 @@ def transition(
     status: bool = False,
     quiet: bool = False,
 ) -> int:
-    """Searches by bisection for the impact velocities at which a rod stops being rigid and at which it erodes.
+    """Searches for the impact velocities at which a rod stops being rigid, erodes or perforates; v50 where chance decides.
 
     Example: hydro2d transition problems/cth_nose_shape/transition_hemi_5083.toml --workers 2 --out runs/transition
 
-    The brackets are printed beside the criteria, the runs, the experiments and the predictions of the analytic models. The file
+    The search is a bisection, or with a budget of runs in the study a sequence that gives v50, its 90 % interval and the width.
+    The results are printed beside the criteria, the runs, the experiments and the predictions of the analytic models. The file
     transition.json in the study directory has the same results for programs, and `hydro2d report` shows them.
 
     Parameters

@@ -80,7 +80,7 @@ def chosen(dump: Dump, field: str) -> Shown:
         values = values[..., COMPONENTS[part]] if part else np.linalg.norm(values, axis=-1)
     unit, scale = reader_unit(quantity.unit)
     title = quantity.title.format(body=verbatim(part)) if quantity.per_body else quantity.title + (f" {part}" if part else "")
-    solid = dump.fields[f"Volume Fraction for {part}"] if quantity.per_body else _filled(dump)
+    solid = dump.fields[f"Volume Fraction for {part}"] if quantity.per_body else filled(dump)
     if key == "volume_fraction":
         solid = np.ones_like(values)
     values = np.where(solid >= 0.5, values * scale, np.nan)
@@ -88,7 +88,8 @@ def chosen(dump: Dump, field: str) -> Shown:
     return Shown(values, f"{title} [{unit}]" if unit else title, "RdBu_r" if diverging else "viridis")
 
 
-def _filled(dump: Dump) -> np.ndarray:
+def filled(dump: Dump) -> np.ndarray:
+    """Volume fraction of all bodies together, shape (nz, nr)."""
     return sum(dump.fields[f"Volume Fraction for {body}"] for body in dump.bodies)
 
 
@@ -399,7 +400,7 @@ def _render(dump: str, path: str, field: str, window, size) -> None:
     shown = chosen(state, field)
     plotter = pyvista.Plotter(off_screen=True, window_size=list(size))
     count = len(state.bodies)
-    for line in outlines(state.r_edges, state.z_edges, _filled(state), closed=True):
+    for line in outlines(state.r_edges, state.z_edges, filled(state), closed=True):
         points = np.column_stack([line[:, 0], np.zeros(len(line)), line[:, 1]]) * 1e3
         curve = pyvista.lines_from_points(points)
         curve["body"] = _nearest_body(state, line)

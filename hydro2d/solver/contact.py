@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from hydro2d.kernels import (
-    checkerboard,
+    contact_checkerboard,
     contact_geometry,
     contact_motion,
     contact_velocities,
@@ -157,11 +157,12 @@ class Contact:
         """What no vertex feels of the stress in the hard bodies."""
         s, g = self.state, self.grid
         _, _, i0, i1 = self.mesh_box
-        checkerboard.find_checkerboards(j0, j1, i0, i1, dt, s.group, s.group_ranges, s.hg_coefficient, s.cell_mass, s.vof, s.q,
-                                        s.pm, s.checkerboard)
-        checkerboard.fade_deviators(j0, j1, s.group, s.group_ranges, g.volume, s.checkerboard, s.vof, s.km, s.q, s.room)
-        checkerboard.fade_pressures(j0, j1, i0, i1, s.group, s.group_ranges, s.contact_columns, s.cell_mass, s.room, s.vof,
-                                    s.pm, s.fr, s.fz, s.own_r, s.own_z, s.q)
+        contact_checkerboard.find_checkerboards(j0, j1, i0, i1, dt, s.group, s.group_ranges, s.hg_coefficient, s.cell_mass,
+                                                s.vof, s.q, s.pm, s.checkerboard)
+        contact_checkerboard.fade_deviators(j0, j1, s.group, s.group_ranges, g.volume, s.checkerboard, s.vof, s.km, s.q,
+                                            s.room)
+        contact_checkerboard.fade_pressures(j0, j1, i0, i1, s.group, s.group_ranges, s.contact_columns, s.cell_mass, s.room,
+                                            s.vof, s.pm, s.fr, s.fz, s.own_r, s.own_z, s.q)
 
     def warm(self, j0: int, j1: int) -> None:
         """Gives the heat of the impulses to the bodies around their vertices."""

@@ -237,7 +237,7 @@ class _Planner:
                     self._say(("axis", number), f'axis "{axis.name}" sets {own}, and the search varies {key}')
         self._raise()
         given = self.definition.transition
-        return velocities.Velocities(key, tuple(labels), given.tolerance, given.of)
+        return velocities.Velocities.of_study(key, given, tuple(labels))
 
     def _at_velocities(self, combinations: list[tuple], found: velocities.Velocities) -> list[tuple]:
         """Every combination at every velocity."""

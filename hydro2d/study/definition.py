@@ -9,7 +9,7 @@ from typing import Annotated, Any, Literal
 from pydantic import AfterValidator, Field, ValidationError, model_validator
 
 from hydro2d import toml
-from hydro2d.deck.base import PositiveSpeed, Section, Speed
+from hydro2d.deck.base import PositiveLength, PositiveSpeed, Section, Speed
 from hydro2d.errors import DeckError, Error, Sources, in_words, spelled, unknown
 from hydro2d.files import plain, read_text
 
@@ -82,6 +82,12 @@ class Axis(Section):
         return self
 
 
+#: runs of a round of a search with a budget where the study does not say, and fewest runs
+ROUND, FEWEST = 4, 3
+#: largest width of a bracket, where the study does not say, m/s
+TOLERANCE = 25.0
+
+
 class Transition(Section):
     """The impact velocities between which `hydro2d transition` searches, for every combination of the axes."""
 
@@ -89,18 +95,51 @@ class Transition(Section):
     to: Speed = Field(
         description="highest velocity: the rod should erode, or perforate; negative, as `from`, for a body that flies to -z"
     )
-    tolerance: PositiveSpeed = Field(25.0, description="largest width of a bracket; velocities are this far apart, from `from`")
+    tolerance: PositiveSpeed | None = Field(
+        None, description="largest width of a bracket; velocities are this far apart, from `from`; default 25 m/s"
+    )
     key: str | None = Field(None, description="deck key that is varied; default: the velocity of the deck's penetrating rod")
-    of: Literal["regime", "length", "perforation"] = Field(
+    of: Literal["regime", "erosion", "length", "perforation", "deeper", "shallower"] = Field(
         "regime",
-        description="what changes: the regime of the rod; whether it loses a third of its length; or whether it perforates the "
-        "target (ballistic limit)",
+        description="what changes: the regime of the rod; whether it erodes; whether it loses a third of its length; whether "
+        "it perforates the target (ballistic limit); or whether fast shots go deeper, or less deep, than `depth`",
+    )
+    depth: PositiveLength | None = Field(None, description='threshold of `of = "deeper"` and `of = "shallower"`')
+    budget: int | None = Field(
+        None, ge=1, le=10_000,
+        description="number of runs for each combination of the axes, to find v50 of an outcome that is partly chance; "
+        "without it the search is a bisection",
+    )
+    round: int | None = Field(
+        None, ge=FEWEST, le=1000, description="with `budget`: runs that are chosen at a time; default 4"
+    )
+    seed: int | None = Field(
+        None, ge=0, le=2**63, description="with `budget`: seed of what is changed from run to run; default 0"
     )
 
     @model_validator(mode="after")
     def _growing(self):
         if not abs(self.from_) < abs(self.to) or self.from_ * self.to <= 0:
             raise ValueError(f"from = {self.from_:g} m/s, to = {self.to:g} m/s: to must be faster, in the same direction")
+        if (self.depth is not None) != (self.of in ("deeper", "shallower")):
+            raise ValueError('depth is the threshold of of = "deeper" and of = "shallower"; give both or neither')
+        return self
+
+    @model_validator(mode="after")
+    def _with_budget(self):
+        if self.budget is None:
+            alone = [name for name in ("round", "seed") if getattr(self, name) is not None]
+            if alone:
+                raise ValueError(f"{' and '.join(alone)}: belongs to a search with a budget; give budget, or leave it out")
+            return self
+        if self.of == "regime":
+            raise ValueError('with a budget the outcome must be one of two, and of = "regime" has three; give of = "erosion"')
+        if self.tolerance is not None:
+            raise ValueError("tolerance belongs to a bisection, which ends there; with a budget, the budget ends the search")
+        size = self.round or ROUND
+        if self.budget < size:
+            raise ValueError(f"budget = {self.budget}: the first round takes {size} runs; give a budget of at least {size}"
+                             + (f", or round = {max(self.budget, FEWEST)}" if self.budget >= FEWEST else ""))
         return self
 
 

@@ -27,12 +27,16 @@ def show_search(plan: Plan, workers: int) -> int:
     """The same for a search: the two ends of every combination, and the number of runs needed."""
     count = len(plan.search.labels)
     found = _table(plan, [case for number, case in enumerate(plan.cases) if number % count in (0, count - 1)])
-    combinations = len(plan.cases) // count
-    most = min(2 + 2 * (count - 2).bit_length(), count)
+    combinations, budget = len(plan.cases) // count, plan.search.budget
+    most = budget.runs if budget else min(2 + 2 * (count - 2).bit_length(), count)
     seconds = sum(seconds for _, seconds, _ in found) / 2 * most / min(workers, combinations)
     of_axes = f"{combinations} combinations of the axes, " if combinations > 1 else ""
-    say(f"\n{of_axes}{count} velocities {plan.search.tolerance:g} m/s apart by {plan.search.key}")
-    say(f"at most about {most} runs{' each' if of_axes else ''}, {duration(seconds)} on {workers} workers (a guess)")
+    tried = f"{count} velocities {plan.search.tolerance:g} m/s apart"
+    if budget:
+        tried = f"velocities from {plan.search.labels[0]} to {plan.search.labels[-1]}, {budget.round} at a time"
+    say(f"\n{of_axes}{tried} by {plan.search.key}")
+    about = "" if budget else "about "
+    say(f"at most {about}{most} runs{' each' if of_axes else ''}, {duration(seconds)} on {workers} workers (a guess)")
     return _wrong(found)
 
 

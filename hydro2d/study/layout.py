@@ -6,6 +6,7 @@
     cases/<name>/failed.json   why the last attempt failed, if it did
     sweep.log           the log
     transition.json     the results of a search for a transition
+    transition.csv, transition.png   the shots of a search with a budget, and the fitted curve
     convergence.json    the results of `hydro2d converge`
 """
 
@@ -16,7 +17,7 @@ import hashlib
 import os
 import tomllib
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from pathlib import Path, PurePosixPath
 
 from hydro2d import __version__, checksums, files
@@ -95,12 +96,17 @@ class Case:
 
 @dataclass(frozen=True)
 class Interval:
-    """The velocities of a search for a transition: deck key, velocities and largest width of a bracket in m/s, what changes."""
+    """The velocities of a search for a transition: deck key, velocities and largest width of a bracket in m/s, what changes.
+
+    depth : threshold of a depth, m;  budget : of a search for an outcome that is partly chance, else None
+    """
 
     key: str
     speeds: tuple[float, ...]
     tolerance: float
     of: str = "regime"
+    depth: float | None = None
+    budget: velocities.Budget | None = None
 
 
 @dataclass(frozen=True)
@@ -161,7 +167,7 @@ def _data(plan) -> dict:
     found = plan.search
     search = found and {
         "key": found.key, "speeds_m_s": [velocities.speed(label) for label in found.labels], "tolerance_m_s": found.tolerance,
-        "of": found.of,
+        "of": found.of, "depth_m": found.depth, "budget": found.budget and asdict(found.budget),
     }  # fmt: skip
     return {
         "title": plan.title,
@@ -216,10 +222,17 @@ def _study(directory: Path, data: dict) -> Study:
     entries = tuple(data["cases"])
     cases = tuple(_case(directory, entry) for entry in entries)
     found = data.get("search")
-    search = found and Interval(found["key"], tuple(found["speeds_m_s"]), found["tolerance_m_s"], found.get("of", "regime"))
+    search = _interval(found) if found else None
     repeated = data.get("ensemble")
     ensemble = repeated and Ensemble(repeated["repeats"], tuple(repeated["by"]), repeated["seed"])
     return Study(directory, data.get("title") or data["name"], data["name"], axes, cases, entries, search, ensemble)
+
+
+def _interval(found: dict) -> Interval:
+    """The search in study.json; one of an earlier version has neither depth nor budget."""
+    budget = found.get("budget")
+    return Interval(found["key"], tuple(found["speeds_m_s"]), found["tolerance_m_s"], found.get("of", "regime"),
+                    found.get("depth_m"), velocities.Budget(**budget) if budget else None)  # fmt: skip
 
 
 def gather(directories: Sequence[Path | str]) -> Study:

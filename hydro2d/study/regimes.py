@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 
 from hydro2d import __version__
 from hydro2d.analytic import model_transition, models
@@ -14,7 +14,7 @@ from hydro2d.files import write_json
 from hydro2d.output.history import GROWING
 from hydro2d.penetration.model import InputError
 from hydro2d.solver import penetrator
-from hydro2d.study import bisection, experiments, record, velocities
+from hydro2d.study import bisection, experiments, record, v50, velocities
 from hydro2d.study.layout import Interval, Study
 from hydro2d.study.record import Record
 
@@ -31,25 +31,34 @@ class Scheme:
 
 STOPPED, PERFORATED = "stopped", "perforated"
 KEPT, USED_UP = "kept", "used up"
+HOLDS, ERODES = "not eroding", "eroding"
+SHALLOW, DEEP = "shallower", "deeper"
 #: smallest part of the length that is left of a rod that is kept; what erosion leaves, with a needle or two, is less
 LEAST_KEPT = 2.0 / 3.0
 SCHEMES = {
     "regime": Scheme(GROWING, {"deforming": "rigid to deforming", "eroding": "to eroding"}),
     "length": Scheme((KEPT, USED_UP), {USED_UP: "a third of the length lost"}),
     "perforation": Scheme((STOPPED, PERFORATED), {PERFORATED: "ballistic limit"}),
+    "erosion": Scheme((HOLDS, ERODES), {ERODES: "to eroding"}),
+    "deeper": Scheme((SHALLOW, DEEP), {DEEP: "depth reached"}),
+    "shallower": Scheme((DEEP, SHALLOW), {SHALLOW: "depth no longer reached"}),
 }
+#: searches whose transitions the analytic models and the experiments have as well
+OF_ROD = ("regime", "erosion", "length")
 FALL, LIMIT = "depth falls", "hydrodynamic limit"
 DEPTHS = DEEPER, NOT_DEEPER = "deeper than the hydrodynamic limit", "no deeper than the limit"
 _BY_DEPTH = {
     FALL: "between the deepest run and the next faster one, however far apart; it prompts no further runs",
     LIMIT: f"as for experiments: {model_transition.RULE}; also from the same runs, without those slower than every deeper one",
 }
+_ERODING = f"more than {100 * penetrator.ERODED_MASS:g} % of the mass has left the core"
+_OF_DEPTH = {DEEP: "the depth at the end is at least `depth` of the study", SHALLOW: "it is less"}
 #: what the terms of a search mean
 CRITERIA = {
     "regime": {
         "rigid": f"less than {100 * penetrator.RIGID_LENGTH:g} % of the length lost, no section beyond "
                  f"{1 + penetrator.RIGID_RADIUS:g} of the radius",
-        "eroding": f"more than {100 * penetrator.ERODED_MASS:g} % of the mass has left the core; else it is deforming",
+        "eroding": f"{_ERODING}; else it is deforming",
         **_BY_DEPTH,
     },
     "length": {KEPT: "at least two thirds of the rod's length are left at the end", USED_UP: "less is left", **_BY_DEPTH},
@@ -57,12 +66,21 @@ CRITERIA = {
         PERFORATED: "the nose is at least one rod radius beyond the rear face of the target",
         "ballistic limit": "between the fastest run that is stopped and the slowest that perforates",
     },
+    "erosion": {ERODES: _ERODING, HOLDS: "less has, whether the rod is rigid or deforming", **_BY_DEPTH},
+    "deeper": _OF_DEPTH,
+    "shallower": _OF_DEPTH,
 }  # fmt: skip
 
 
 def criteria(study: Study) -> dict[str, str]:
     """The definitions of the terms of a search."""
-    return CRITERIA[study.search.of if study.search else "regime"]
+    if study.search is None:
+        return CRITERIA["regime"]
+    found = CRITERIA[study.search.of]
+    if study.search.budget is None:
+        return found
+    kept = {name: words for name, words in found.items() if name not in (FALL, LIMIT, "ballistic limit")}
+    return kept | v50.CRITERIA | (v50.MILITARY_CRITERION if study.search.of == "perforation" else {})
 
 
 @dataclass(frozen=True)
@@ -115,8 +133,8 @@ def _at_least(run: Run) -> str:
     return "at least " if run.record.at_least else ""
 
 
-def judge(found: Record, of: str = "regime") -> Run:
-    """The regime of a case at its end, whether a third of its rod is used up, or whether it perforated the target.
+def judge(found: Record, of: str = "regime", depth: float | None = None) -> Run:
+    """The outcome of a case: its regime at the end, or what `of` of a study file names; depth : threshold in m.
 
     None for a case that is not done, and for a rod that left the mesh and was not followed to its end. In runs of versions
     without this regime, such a rod is recognised by the mass that it has lost.
@@ -128,6 +146,8 @@ def judge(found: Record, of: str = "regime") -> Run:
         return Run(found, velocity, None, f"{case.status}: {reason}" if reason else case.status)
     if of == "perforation" and (found.perforated or not found.left):
         return Run(found, velocity, PERFORATED if found.perforated else STOPPED)
+    if depth is not None:
+        return _by_threshold(found, velocity, depth)
     first, mass = found.first.get("rod_mass_kg"), found.value("rod_mass_kg")
     if found.perforated and (found.left or (first and mass < (1.0 - penetrator.ERODED_MASS) * first)):
         why = "the rod went through the target and left the mesh; stop.perforation = true ends a run before that"
@@ -137,7 +157,19 @@ def judge(found: Record, of: str = "regime") -> Run:
     if of == "length":
         kept = found.value("rod_length_m") >= LEAST_KEPT * found.value("rod_initial_length_m")
         return Run(found, velocity, KEPT if kept else USED_UP)
-    return Run(found, velocity, case.summary.get("regime"))
+    regime = case.summary.get("regime")
+    if of == "erosion":
+        return Run(found, velocity, ERODES if regime == GROWING[-1] else HOLDS)
+    return Run(found, velocity, regime)
+
+
+def _by_threshold(found: Record, velocity: float, depth: float) -> Run:
+    """Whether a case reached a depth in m; not known for a rod that left the mesh, or the target, before it."""
+    if found.depth is None:
+        return Run(found, velocity, None, "it has no depth")
+    if found.depth < depth and found.at_least:
+        return Run(found, velocity, None, f"the rod left the target or the mesh before a depth of {100 * depth:g} cm")
+    return Run(found, velocity, DEEP if found.depth >= depth else SHALLOW)
 
 
 @dataclass(frozen=True)
@@ -148,6 +180,7 @@ class Transitions:
     settled : by name of a bracket of regimes, whether no further run could narrow it
     notes : what is open and why, what is out of order, which runs did not end at rest
     comparison : models, experiments, the CTH study and, last, these runs; None if there is nothing to compare, as a note says
+    estimate : of a search with a budget, whose bracket is the interval of v50
     """
 
     title: str
@@ -157,6 +190,7 @@ class Transitions:
     runs: list[Run]
     notes: list[str]
     comparison: Comparison | None
+    estimate: v50.Estimate | None = None
 
     @property
     def known(self) -> list[Bracket]:
@@ -185,6 +219,7 @@ class Transitions:
             "values": self.values,
             "transitions": [{"name": each.name, "low_m_s": each.low, "high_m_s": each.high, "in_words": each.source,
                              "settled": self.settled.get(each.name)} for each in self.brackets],
+            "estimate": self.estimate and self.estimate.data(),
             "notes": self.notes,
             "runs": [run.data() for run in self.runs],
             "comparison": self.comparison and self.comparison.data(),
@@ -215,29 +250,41 @@ def of_study(study: Study, records: Sequence[Record] | None = None) -> list[Tran
 
 def _transitions(study: Study, title: str, members: Sequence[Record]) -> Transitions:
     of = study.search.of
-    scheme = SCHEMES[of]
-    runs = sorted((judge(each, of) for each in members), key=lambda run: run.velocity)
+    in_turn = [judge(each, of, study.search.depth) for each in members]
+    runs = sorted(in_turn, key=lambda run: run.velocity)
     known = [run for run in runs if run.regime is not None]
+    values = {name: value for name, value in members[0].case.values.items() if name != velocities.AXIS}
+    cut = [f"{run.velocity:g} m/s" for run in known if run.record.cut]
+    moving = [f"runs that did not end at rest, whose regime and depth are those at their end: {', '.join(cut)}"] if cut else []
+    if study.search.budget is None:
+        brackets, settled, notes = _by_bisection(study.search, runs, known)
+        estimate = None
+    else:
+        shots = [v50.Shot(run.record.case.name, run.velocity, run.regime, run.record.done) for run in in_turn]
+        estimate = v50.estimate(study.search, SCHEMES[of], shots)
+        brackets, settled, notes = [estimate.bracket], {estimate.name: estimate.spent}, estimate.notes
+    comparison, problem = _compared(known, brackets[0]) if of in OF_ROD else (None, "")
+    notes += [*moving, *([problem] if problem else [])]
+    return Transitions(title, values, brackets, settled, runs, notes, comparison, estimate)
+
+
+def _by_bisection(search: Interval, runs: Sequence[Run],
+                  known: Sequence[Run]) -> tuple[list[Bracket], dict[str, bool], list[str]]:  # fmt: skip
+    """Brackets, which of them are settled, and notes."""
+    scheme = SCHEMES[search.of]
     found = {run.velocity: run.regime for run in known}
     brackets, settled, notes = [], {}, []
     for regime, name in scheme.names.items():
         bracket = Bracket(name, *bisection.bracket(found, regime, scheme.order), "")
         brackets.append(replace(bracket, source=_ends(bracket, found)))
-        settled[name], why = _settled(bracket, study.search, runs)
+        settled[name], why = _settled(bracket, search, runs)
         notes += [f"{name}: {why}"] if why else []
-    of_rod = of != "perforation"
     notes += _disordered(found, scheme.order)
-    if of_rod:
+    if search.of in OF_ROD:
         limit, disordered = _limit(known)
         brackets += [*_fall(known), *limit]
         notes += disordered
-    cut = [f"{run.velocity:g} m/s" for run in known if run.record.cut]
-    if cut:
-        notes.append(f"runs that did not end at rest, whose regime and depth are those at their end: {', '.join(cut)}")
-    comparison, problem = _compared(known, brackets[0]) if of_rod else (None, "")
-    notes += [problem] if problem else []
-    values = {name: value for name, value in members[0].case.values.items() if name != velocities.AXIS}
-    return Transitions(title, values, brackets, settled, runs, notes, comparison)
+    return brackets, settled, notes
 
 
 def _ends(bracket: Bracket, found: Mapping[float, str]) -> str:
@@ -323,7 +370,7 @@ def write(study: Study, found: Sequence[Transitions]) -> None:
     data = {
         "title": study.title, "version": __version__, "key": interval.key, "from_m_s": interval.speeds[0],
         "to_m_s": interval.speeds[-1], "tolerance_m_s": interval.tolerance, "of": interval.of,
-        "criteria": criteria(study),
+        "depth_m": interval.depth, "budget": interval.budget and asdict(interval.budget), "criteria": criteria(study),
         "complete": all(all(each.settled.values()) for each in found), "combinations": [each.data() for each in found],
     }  # fmt: skip
     write_json(study.directory / FILE, data)

@@ -180,6 +180,7 @@ class _Sweep:
     def _enlarge(self, names: Sequence[str]) -> None:
         """Adds further cases to the study. If its file cannot be written, the cases still run and the log has the reason."""
         plan = self.choice.enlarged(names)
+        self.texts |= {case.name: case.text for case in plan.cases}
         try:
             layout.write(plan, self.board.study.directory)
         except OSError as error:

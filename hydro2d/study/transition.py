@@ -7,15 +7,16 @@ from contextlib import AbstractContextManager
 from dataclasses import replace
 from pathlib import Path
 
-from hydro2d.study import layout, record, regimes, sweep, velocities
+from hydro2d.study import chance_figure, layout, regimes, sweep, velocities
 from hydro2d.study.bisection import Search
 from hydro2d.study.cases import Plan, Planned
-from hydro2d.study.choice import Choice
 from hydro2d.study.layout import DONE, ENDED, INTERRUPTED, UNPHYSICAL, Case
+from hydro2d.study.searching import Searching
+from hydro2d.study.shots import Shots
 from hydro2d.terminal import say
 
 
-class Bisection(Choice):
+class Bisection(Searching):
     """The cases that a search needs: one search for each combination of the axes, all of them in turn.
 
     A combination is a sequence of neighbouring cases of the plan that differ only in velocity, the slowest first.
@@ -27,7 +28,6 @@ class Bisection(Choice):
         self.groups = [plan.cases[first : first + count] for first in range(0, len(plan.cases), count)]
         self.chosen: set[str] = set()
         self.begun: set[str] = set()
-        self.records: dict[str, record.Record] = {}
 
     # ------------------------------------------------------------------------------------------------ cases of the study
 
@@ -93,23 +93,12 @@ class Bisection(Choice):
             case = cases.get(planned.name)
             if case is None or planned.name in busy:
                 continue
-            regime = self._regime(case)
+            regime = self.outcome(case)
             if regime is not None:
                 search.found[position] = regime
             elif case.status in ENDED or case.name in self.given:
                 search.failed.add(position)
         return search
-
-    def record(self, case: Case) -> record.Record:
-        """The record of a case; a finished case is read only once."""
-        if case.status != DONE:
-            return record.read(case)
-        if case.name not in self.records:
-            self.records[case.name] = record.read(case)
-        return self.records[case.name]
-
-    def _regime(self, case: Case) -> str | None:
-        return regimes.judge(self.record(case), self.plan.search.of).regime if case.status == DONE else None
 
     def further(self, cases: Sequence[Case], busy: Collection[str]) -> int:
         by_name = {case.name: case for case in cases}
@@ -120,7 +109,7 @@ class Bisection(Choice):
         group = next(group for group in self.groups if any(case.name == name for case in group))
         names = {case.name for case in group}
         found = {velocities.speed(case.values[velocities.AXIS]): regime for case in cases
-                 if case.name in names and (regime := self._regime(case))}  # fmt: skip
+                 if case.name in names and (regime := self.outcome(case))}  # fmt: skip
         label = regimes.label(group[0].values)
         return "  " + (f"{label}: " if label else "") + "; ".join(regimes.so_far(found, self.plan.search.of))
 
@@ -129,13 +118,19 @@ def find(plan: Plan, directory: Path, connect: AbstractContextManager, *, thread
          overwrite: bool = False, quiet: bool = False) -> int:  # fmt: skip
     """Searches, writes transition.json and prints the transitions. Returns the exit status. Arguments as for sweep.sweep.
 
+    A search with a budget also writes transition.csv and transition.png.
+
     Raises StudyError, LockError (another sweep uses the directory).
     """
-    choice = Bisection(plan)
+    choice = Shots(plan) if plan.search.budget else Bisection(plan)
     status = sweep.sweep(choice, directory, connect, threads=threads, resume=resume, overwrite=overwrite, quiet=quiet)
     study = layout.read(directory)
     found = regimes.of_study(study, [choice.record(case) for case in study.cases])
     if not quiet:
         say("\n".join(("", *regimes.lines(study, found))))
     regimes.write(study, found)
+    if study.search.budget:
+        for file in chance_figure.write(study, found):
+            if not quiet:
+                say(f"wrote {file}")
     return status

@@ -12,7 +12,7 @@ from hydro2d.analytic import model_deck
 from hydro2d.deck import deck as decks
 from hydro2d.errors import DeckError
 from hydro2d.study import ranges
-from hydro2d.study.definition import Range, Transition
+from hydro2d.study.definition import ROUND, TOLERANCE, Range, Transition
 
 #: name of the axis of a search
 AXIS = "velocity"
@@ -21,23 +21,46 @@ SAME = 1e-9
 
 
 @dataclass(frozen=True)
+class Budget:
+    """Of a search with chance: runs for each combination of the axes, runs of a round, seed of what changes between runs."""
+
+    runs: int
+    round: int
+    seed: int
+
+
+@dataclass(frozen=True)
 class Velocities:
     """The velocities that a search may try.
 
-    key : deck key;  labels : velocities as in a deck, the slowest first;  tolerance : largest width of a bracket, m/s
-    of : what changes, "regime", "length" or "perforation"
+    key : deck key;  labels : velocities as in a deck, the slowest first; with a budget only the two ends
+    tolerance : largest width of a bracket, m/s;  of : what changes, as in a study file;  depth : threshold, m
+    budget : None for a bisection
     """
 
     key: str
     labels: tuple[str, ...]
-    tolerance: float
+    tolerance: float = TOLERANCE
     of: str = "regime"
+    depth: float | None = None
+    budget: Budget | None = None
+
+    @classmethod
+    def of_study(cls, key: str, given: Transition, names: tuple[str, ...]) -> Velocities:
+        """Those of a study file, with its defaults."""
+        budget = Budget(given.budget, given.round or ROUND, given.seed or 0) if given.budget is not None else None
+        return cls(key, names, given.tolerance or TOLERANCE, given.of, given.depth, budget)
 
 
 def labels(given: Transition) -> tuple[str, ...]:
-    """Velocities one tolerance apart, from the slowest; the last step may be shorter. Raises ValueError for too many."""
+    """Velocities one tolerance apart, from the slowest; the last step may be shorter. With a budget, only both ends.
+
+    Raises ValueError for too many.
+    """
     first, last = (f"{speed:.12g} m/s" for speed in (given.from_, given.to))
-    step = f"{math.copysign(given.tolerance, given.to):.12g} m/s"
+    if given.budget is not None:
+        return first, last
+    step = f"{math.copysign(given.tolerance or TOLERANCE, given.to):.12g} m/s"
     found = ranges.values(Range.model_validate({"from": first, "to": last, "step": step}))
     return (*found, *([] if found[-1] == last else [last]))
 

@@ -524,5 +524,5 @@ def test_the_velocity_at_which_a_third_of_the_rod_is_used_up(tmp_path, capsys):
 
 def test_what_a_search_is_of_must_be_known(tmp_path, capsys):
     assert call(["transition", str(write(tmp_path, LIMIT.replace('"perforation"', '"perforatoin"'))), "--check"]) == 2
-    said = 'transition.of: unknown value "perforatoin"; did you mean "perforation"? (allowed: length, perforation, regime)'
+    said = 'transition.of: unknown value "perforatoin"; did you mean "perforation"? (allowed: deeper, erosion, '
     assert f"search.toml:5: {said}" in capsys.readouterr().err

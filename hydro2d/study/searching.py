@@ -1,0 +1,30 @@
+"""What the searches of `hydro2d transition` share: the record and the outcome of a case."""
+
+from __future__ import annotations
+
+from hydro2d.study import record, regimes
+from hydro2d.study.cases import Plan
+from hydro2d.study.choice import Choice
+from hydro2d.study.layout import DONE, Case
+
+
+class Searching(Choice):
+    """A choice of cases that looks at what has become of earlier ones."""
+
+    def __init__(self, plan: Plan):
+        super().__init__(plan)
+        self.records: dict[str, record.Record] = {}
+
+    def record(self, case: Case) -> record.Record:
+        """The record of a case; a finished case is read only once."""
+        if case.status != DONE:
+            return record.read(case)
+        if case.name not in self.records:
+            self.records[case.name] = record.read(case)
+        return self.records[case.name]
+
+    def outcome(self, case: Case) -> str | None:
+        """The regime of a case, or what the search distinguishes in its place; None where it has none."""
+        if case.status != DONE:
+            return None
+        return regimes.judge(self.record(case), self.plan.search.of, self.plan.search.depth).regime

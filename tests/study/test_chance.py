@@ -1,0 +1,298 @@
+"""Searches with a budget: which shots run, what is told of them, interruptions, bad input, and a real shot."""
+
+import csv
+import json
+import math
+
+import numpy as np
+import pytest
+
+from hydro2d.cli.main import call
+from hydro2d.study import cases, draws, transition
+from hydro2d.study.case import Outcome
+from tests.study import fake, made_up, test_transition, tubes
+from tests.study.html import Page
+
+BASE = "problems/cth_nose_shape/hemi_5083_1086_layer.toml"
+STUDY = f"""
+title = "A search"
+deck = "{BASE}"
+[transition]
+from = "900 m/s"
+to = "1500 m/s"
+of = "erosion"
+budget = 16
+seed = 3
+"""
+
+
+def write(folder, text=STUDY):
+    file = folder / "search.toml"
+    file.write_text(text)
+    return file
+
+
+def search(folder, client, text=STUDY, **options):
+    """A search with a made-up client: exit status and the only combination of transition.json."""
+    status = transition.find(cases.plan(write(folder, text)), folder / "out", client.connect(), **options)
+    return status, json.loads((folder / "out" / "transition.json").read_text())["combinations"][0]
+
+
+def erodes(velocity, deck, scale=25.0):
+    """Whether a rod erodes: chance, with v50 = 1180 m/s; the draw of the deck decides."""
+    number = np.random.default_rng(int(deck["numerics"]["initial_dt_factor"] * 1e15)).random()
+    return number < 1.0 / (1.0 + math.exp(-(velocity - 1180.0) / scale))
+
+
+def chancy(velocity, deck):
+    return {"regime": "eroding" if erodes(velocity, deck) else "rigid", "depth": 0.2 if erodes(velocity, deck) else 0.4}
+
+
+def names(folder):
+    return [entry["name"] for entry in json.loads((folder / "out" / "study.json").read_text())["cases"]]
+
+
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory):
+    """A search of one worker that nobody disturbed: folder, client, exit status, result."""
+    folder, client = tmp_path_factory.mktemp("chance"), made_up.Client(chancy)
+    return folder, client, *search(folder, client)
+
+
+# ------------------------------------------------------------------------------------------------ what runs
+
+
+def test_the_budget_is_spent_and_v50_found(whole):
+    _, client, status, found = whole
+    assert (status, len(client.submitted)) == (0, 16)
+    assert found["estimate"]["v50_low_m_s"] < 1180.0 < found["estimate"]["v50_high_m_s"]
+    assert found["transitions"][0]["settled"]
+    assert (found["estimate"]["runs"], found["estimate"]["budget"]) == (16, 16)
+
+
+def test_every_shot_is_another_draw(whole):
+    folder = whole[0]
+    with open(folder / "out" / "transition.csv", newline="") as file:
+        rows = list(csv.DictReader(file))
+    factors = [float(row["first_step_factor"]) for row in rows]
+    assert len(set(factors)) == 16
+    assert all(0.0999 <= factor <= 0.1 for factor in factors)
+    assert [row["case"] for row in rows] == names(folder)
+    assert {row["outcome"] for row in rows} == {"eroding", "not eroding"}
+
+
+@pytest.mark.parametrize("workers", [2, 3, 7])
+def test_the_same_seed_gives_the_same_search_with_any_number_of_workers(tmp_path, whole, workers):
+    client = made_up.Client(chancy, workers=workers)
+    found = search(tmp_path, client)[1]
+    assert names(tmp_path) == names(whole[0])
+    assert found["estimate"] == whole[3]["estimate"]
+
+
+def test_another_seed_gives_other_draws(tmp_path, whole):
+    search(tmp_path, made_up.Client(chancy), STUDY.replace("seed = 3", "seed = 4"))
+    decks = [json.loads((folder / "out" / "study.json").read_text())["cases"][0] for folder in (tmp_path, whole[0])]
+    assert decks[0]["name"] == decks[1]["name"]
+    assert decks[0]["deck_sha256"] != decks[1]["deck_sha256"]
+
+
+def test_a_draw_changes_the_first_step_by_up_to_a_thousandth_and_nothing_else():
+    text = fake.deck_text()
+    drawn = [draws.overrides(text, 3, number) for number in (1, 1, 2)]
+    assert drawn[0] == drawn[1] != drawn[2]
+    ((key, value),) = [entry.split("=") for entry in drawn[2]]
+    assert key == "numerics.initial_dt_factor"
+    assert 0.999 <= float(value) / 0.1 <= 1.0
+
+
+@pytest.mark.parametrize("workers", [1, 3])
+def test_an_interrupted_search_goes_on_to_the_same_end(tmp_path, whole, workers):
+    first = made_up.Client(chancy, workers=workers, interrupt_at=7)
+    status, found = search(tmp_path, first)
+    assert status == 130
+    assert not found["transitions"][0]["settled"]
+    assert "the budget is not spent; --resume continues" in found["notes"]
+    again = made_up.Client(chancy, workers=workers)
+    status, found = search(tmp_path, again, resume=True)
+    assert status == 0
+    assert found["estimate"] == whole[3]["estimate"]
+    assert names(tmp_path) == names(whole[0])
+    assert set(first.submitted) & set(again.submitted) == {first.submitted[6]}
+
+
+def test_a_larger_budget_goes_on_with_the_shots_that_are_there(tmp_path, whole):
+    search(tmp_path, made_up.Client(chancy), STUDY.replace("16", "8"))
+    client = made_up.Client(chancy)
+    status, found = search(tmp_path, client, resume=True)
+    assert (status, len(client.submitted)) == (0, 8)
+    assert found["estimate"] == whole[3]["estimate"]
+
+
+def test_another_seed_is_not_mixed_with_the_shots_that_are_there(tmp_path, capsys):
+    search(tmp_path, made_up.Client(chancy), STUDY.replace("16", "4"))
+    file = write(tmp_path, STUDY.replace("seed = 3", "seed = 5"))
+    assert call(["transition", str(file), "--out", str(tmp_path / "out"), "--resume"]) == 2
+    assert "had a different deck when the study was begun; --overwrite runs them again" in capsys.readouterr().err
+
+
+def test_outcomes_that_are_all_alike_end_the_search(tmp_path, capsys):
+    client = made_up.Client(lambda velocity, deck: {"regime": "rigid"})
+    status, found = search(tmp_path, client)
+    assert (status, len(client.submitted)) == (0, 8)
+    assert "8 of 8 shots not eroding; it lies above 1500 m/s, or chance hid it" in capsys.readouterr().out
+    assert found["estimate"]["v50_m_s"] is None
+    assert found["transitions"][0]["settled"]
+
+
+def test_shots_that_fail_cost_their_part_of_the_budget(tmp_path, capsys):
+    client = made_up.Client(lambda v, deck: Outcome("failed", "a fault") if v == 1300.0 else chancy(v, deck))
+    status, found = search(tmp_path, client)
+    assert (status, len(client.submitted), found["estimate"]["runs"]) == (3, 16, 15)
+    assert "bought with 15 of 16 runs" in capsys.readouterr().out
+
+
+def test_a_search_whose_shots_all_fail_ends(tmp_path):
+    client = made_up.Client(lambda velocity, deck: Outcome("failed", "the disk is full"))
+    status, found = search(tmp_path, client)
+    assert (status, len(client.submitted)) == (3, 4)
+    assert found["notes"][0] == "v50 is not known: no run has an outcome"
+
+
+AXIS = """[[axis]]
+name = "advection"
+key = "numerics.advection"
+values = ["ke", "momentum"]
+"""
+
+
+def test_every_combination_has_its_budget_and_its_v50(tmp_path):
+    client = made_up.Client(chancy, workers=2)
+    search(tmp_path, client, STUDY + AXIS)
+    assert sum(name.startswith("ke_") for name in client.submitted) == 16
+    found = json.loads((tmp_path / "out" / "transition.json").read_text())
+    assert [each["title"] for each in found["combinations"]] == ["advection = ke", "advection = momentum"]
+    assert all(each["estimate"]["v50_m_s"] for each in found["combinations"])
+
+
+def test_a_combination_whose_deck_is_wrong_does_not_sink_the_rest(tmp_path):
+    client = made_up.Client(chancy)
+    status, found = search(tmp_path, client, STUDY + AXIS.replace('"momentum"', '"kinetic"'))
+    assert (status, len(client.submitted)) == (3, 16)
+    assert found["estimate"]["v50_m_s"] is not None
+
+
+# ------------------------------------------------------------------------------------------------ other outcomes
+
+
+def plate(velocity, deck):
+    if not erodes(velocity, deck, 4.0):
+        return {"regime": "rigid", "depth": 0.3}
+    return {"regime": "eroding", "depth": 0.54, "exit_time_s": 4e-4, "rod_residual_velocity_m_s": 100.0,
+            "stop_reason": "perforation of plate"}  # fmt: skip
+
+
+def test_a_ballistic_limit_has_the_estimate_of_the_military_standard_as_well(tmp_path, capsys):
+    text = STUDY.replace("erosion", "perforation").replace("16", "40")
+    status, found = search(tmp_path, made_up.Client(plate), text)
+    assert status == 0
+    shown = capsys.readouterr().out
+    assert f"V50 of MIL-STD-662F: {found['estimate']['mil_std_662f_m_s']:.1f} m/s from" in shown
+    assert found["estimate"]["mil_std_662f_m_s"] == pytest.approx(1180.0, abs=40.0)
+    assert found["estimate"]["outcome"] == "perforated"
+
+
+@pytest.mark.parametrize(("of", "slow", "fast"), [("deeper", "shallower", "deeper"), ("shallower", "deeper", "shallower")])
+def test_a_threshold_of_depth(tmp_path, of, slow, fast):
+    """Fast shots go less deep here, so that only the search for that finds a transition."""
+    text = STUDY.replace('"erosion"', f'"{of}"\ndepth = "30 cm"')
+    found = search(tmp_path, made_up.Client(chancy), text)[1]
+    assert {run["regime"] for run in found["runs"]} == {slow, fast}
+    assert (found["estimate"]["v50_m_s"] is None) == (of == "deeper")
+
+
+def test_a_rod_that_left_the_mesh_before_the_depth_has_no_outcome(tmp_path):
+    gone = {"depth": 0.1, "regime": "left the mesh", "rod_mass_kg": 0.0}
+    text = STUDY.replace('"erosion"', '"shallower"\ndepth = "30 cm"')
+    found = search(tmp_path, made_up.Client(lambda v, deck: gone if v == 1300.0 else chancy(v, deck)), text)[1]
+    assert [run["regime"] for run in found["runs"] if run["velocity_m_s"] == 1300.0] == [None]
+
+
+def test_erosion_is_found_by_bisection_too(tmp_path):
+    text = STUDY.replace("budget = 16\nseed = 3", 'tolerance = "50 m/s"')
+    outcome = {False: {"regime": "deforming"}, True: {"regime": "eroding"}}
+    client = made_up.Client(lambda velocity, deck: outcome[velocity > 1185.0])
+    found = search(tmp_path, client, text)[1]
+    assert (found["transitions"][0]["low_m_s"], found["transitions"][0]["high_m_s"]) == (1150, 1200)
+    assert found["estimate"] is None
+
+
+# ------------------------------------------------------------------------------------------------ what is told
+
+
+def test_what_is_printed_and_drawn(tmp_path, capsys):
+    search(tmp_path, made_up.Client(chancy))
+    shown = capsys.readouterr().out
+    for words in ("v50 = ", "90 % interval", "width, 10 to 90 %", "bought with 16 of 16 runs", "wrote ", "velocity "):
+        assert words in shown
+    assert (tmp_path / "out" / "transition.png").read_bytes()[:4] == b"\x89PNG"
+
+
+def test_status_and_report_show_v50(whole, capsys):
+    out = whole[0] / "out"
+    assert call(["transition", str(out), "--status"]) == 0
+    assert "bought with 16 of 16 runs" in capsys.readouterr().out
+    assert call(["report", str(out)]) == 0
+    page = Page((out / "report" / "report.html").read_text(encoding="utf-8"))
+    assert page.faults == []
+    assert "v50 = " in page.text
+
+
+def test_check_tells_the_budget(tmp_path, capsys):
+    assert call(["transition", str(write(tmp_path)), "--check"]) == 0
+    shown = capsys.readouterr().out
+    assert "velocities from 900 m/s to 1500 m/s, 4 at a time by body.rod.velocity" in shown
+    assert "at most 16 runs" in shown
+
+
+WRONG = [
+    ("budget = 16", "budget = 3", "budget = 3: the first round takes 4 runs; give a budget of at least 4, or round = 3"),
+    ("budget = 16", "budget = 2", "budget = 2: the first round takes 4 runs; give a budget of at least 4"),
+    ("budget = 16", "budget = 16\nround = 20", "budget = 16: the first round takes 20 runs"),
+    ("budget = 16", "budget = 0", "search.toml:8: transition.budget: should be greater than or equal to 1"),
+    ("budget = 16", "budget = 1e9", "search.toml:8: transition.budget: "),
+    ("budget = 16", "budget = 1000000000", "search.toml:8: transition.budget: should be less than or equal to 10000"),
+    ("budget = 16", "budget = 16\nround = 1", "transition.round: should be greater than or equal to 3"),
+    ("budget = 16", 'budget = 16\ntolerance = "5 m/s"', "tolerance belongs to a bisection"),
+    ("budget = 16", "", "seed: belongs to a search with a budget; give budget, or leave it out"),
+    ("seed = 3", "seed = -1", "transition.seed: should be greater than or equal to 0"),
+    ('"erosion"', '"regime"', 'the outcome must be one of two, and of = "regime" has three; give of = "erosion"'),
+    ('"erosion"', '"deeper"', 'depth is the threshold of of = "deeper" and of = "shallower"; give both or neither'),
+    ('"erosion"', '"erosion"\ndepth = "30 cm"', "give both or neither"),
+    ('"erosion"', '"deeper"\ndepth = "-30 cm"', "transition.depth: must be positive"),
+    ('"erosion"', '"deeper"\ndepth = "30 kg"', '"30 kg" is a mass; expected a length'),
+]
+
+
+@pytest.mark.parametrize(("old", "new", "said"), WRONG)
+def test_bad_input_gets_one_message(tmp_path, capsys, old, new, said):
+    assert call(["transition", str(write(tmp_path, STUDY.replace(old, new))), "--check"]) == 2
+    shown = capsys.readouterr().err
+    assert said in shown
+    assert shown.count("\n") == 1
+
+
+# ------------------------------------------------------------------------------------------------ a real shot
+
+
+def test_a_real_shot_whose_outcome_is_rough_in_velocity(tmp_path):
+    """The short rod of test_transition.py: rigid at 1000 m/s and below, eroding at 1400 m/s and above; 1180, 1240: either."""
+    (tmp_path / "shot.toml").write_text(test_transition.SHOT)
+    text = STUDY.replace(BASE, "shot.toml").replace("900", "1000").replace("1500", "1400").replace("budget = 16", "budget = 8")
+    out = tmp_path / "out"
+    process = tubes.start(write(tmp_path, text), "--workers", 1, "--out", out, command="transition")
+    said, _ = process.communicate(timeout=300)
+    assert process.returncode == 0, said
+    found = json.loads((out / "transition.json").read_text())["combinations"][0]
+    assert 1000.0 < found["estimate"]["v50_m_s"] < 1400.0
+    assert "bought with 8 of 8 runs" in said
+    assert {run["regime"] for run in found["runs"]} == {"eroding", "not eroding"}
