@@ -8,12 +8,14 @@ equation 9).
 from hydro2d.jit import kernel, point, prange
 from hydro2d.kernels.column_ranges import union
 from hydro2d.mesh.fields import SRR, SRZ, SZZ, E
+from hydro2d.physics.traction import smoothstep
 
-#: rows of `checkerboard`: share that fades in the step, 0 for a vertex that is not between four full cells of one body;
-#: checkerboards of the pressure and the deviators around it, Pa
-FADES, OF_P, OF_RR, OF_ZZ, OF_RZ = range(5)
+#: rows of `checkerboard`: how much a vertex counts, and the checkerboards of the pressure and the deviators around it, Pa
+COUNTS, OF_P, OF_RR, OF_ZZ, OF_RZ = range(5)
 #: largest share of a checkerboard that fades in a step
 MOST = 0.5
+#: how much of a body the eight neighbours of a cell hold at least, where it counts as one inside of it
+INSIDE = 0.02
 
 
 @point
@@ -28,18 +30,35 @@ def checkerboard_of(j, i, a):
     return 0.25 * ((a[j - 1, i - 1] + a[j, i]) - (a[j - 1, i] + a[j, i - 1]))
 
 
-@point
-def filled_around(m, j, i, vof):
-    """Whether body m fills the four cells around vertex (j, i)."""
-    return vof[m, j - 1, i - 1] == 1.0 and vof[m, j - 1, i] == 1.0 and vof[m, j, i - 1] == 1.0 and vof[m, j, i] == 1.0
+@kernel
+def find_insides(j0, j1, i0, i1, group, group_ranges, vof, inside):
+    """How much cells lie inside of a body of the hard group: those that it fills, by what the least of their neighbours holds.
+
+    A cell that has just filled has a neighbour without any of the body, so that it comes in without a jump. Beyond the edges
+    of the mesh everything is as it is within.
+
+    Reads    group [m]; vof [m, j, i]
+    Writes   inside [j, i], 0 to 1
+    """
+    for j in prange(j0, j1):
+        for i in range(group_ranges[1, 0, j, 0], group_ranges[1, 0, j, 1]):
+            inside[j, i] = 0.0
+            for m in range(vof.shape[0]):
+                if group[m] != 1 or vof[m, j, i] != 1.0:
+                    continue
+                least = 1.0
+                for row in range(max(j - 1, j0), min(j + 2, j1)):
+                    for column in range(max(i - 1, i0), min(i + 2, i1)):
+                        least = min(least, vof[m, row, column])
+                inside[j, i] = smoothstep(least / INSIDE)
 
 
 @kernel
-def find_checkerboards(j0, j1, i0, i1, dt, group, group_ranges, hg_coefficient, cell_mass, vof, q, pm, checkerboard):
+def find_checkerboards(j0, j1, i0, i1, group, group_ranges, vof, q, pm, inside, checkerboard):
     """Checkerboards around the vertices between four cells that one body of the hard group fills.
 
-    Reads    group [m]; vof, pm [m, j, i]; q (deviators) [k, m, j, i]; hg_coefficient [j, i]; cell_mass [b, j, i]
-    Writes   checkerboard [5, j, i], rows FADES to OF_RZ, 0 at all other vertices
+    Reads    group [m]; vof, pm [m, j, i]; q (deviators) [k, m, j, i]; inside [j, i]
+    Writes   checkerboard [5, j, i], rows COUNTS to OF_RZ, 0 at all other vertices
     """
     for j in prange(j0, j1 + 1):
         lo, hi = group_ranges[1, 1, j, 0], group_ranges[1, 1, j, 1]
@@ -48,57 +67,60 @@ def find_checkerboards(j0, j1, i0, i1, dt, group, group_ranges, hg_coefficient, 
                 checkerboard[row, j, i] = 0.0
             if j == j0 or j == j1 or i <= i0 or i >= i1:
                 continue
+            least = min(min(inside[j - 1, i - 1], inside[j - 1, i]), min(inside[j, i - 1], inside[j, i]))
             for m in range(vof.shape[0]):
-                if group[m] != 1 or not filled_around(m, j, i, vof):
-                    continue
-                share = MOST
-                for row in range(j - 1, j + 1):
-                    for column in range(i - 1, i + 1):
-                        share = min(share, fading(row, column, dt, hg_coefficient, cell_mass))
-                checkerboard[FADES, j, i] = share
-                checkerboard[OF_P, j, i] = checkerboard_of(j, i, pm[m])
-                checkerboard[OF_RR, j, i] = checkerboard_of(j, i, q[SRR, m])
-                checkerboard[OF_ZZ, j, i] = checkerboard_of(j, i, q[SZZ, m])
-                checkerboard[OF_RZ, j, i] = checkerboard_of(j, i, q[SRZ, m])
+                if least > 0.0 and vof[m, j, i] == 1.0 and vof[m, j - 1, i - 1] == 1.0:
+                    checkerboard[COUNTS, j, i] = least
+                    checkerboard[OF_P, j, i] = checkerboard_of(j, i, pm[m])
+                    checkerboard[OF_RR, j, i] = checkerboard_of(j, i, q[SRR, m])
+                    checkerboard[OF_ZZ, j, i] = checkerboard_of(j, i, q[SZZ, m])
+                    checkerboard[OF_RZ, j, i] = checkerboard_of(j, i, q[SRZ, m])
+
+
+@point
+def least_of(a, b, c, d, of_a, of_b, of_c, of_d):
+    """Least of four numbers that are not negative, of which each counts by its weight; one without weight does not count."""
+    most = max(max(of_a * a, of_b * b), max(of_c * c, of_d * d))
+    a, b = of_a * a + (1.0 - of_a) * most, of_b * b + (1.0 - of_b) * most
+    c, d = of_c * c + (1.0 - of_c) * most, of_d * d + (1.0 - of_d) * most
+    return min(min(a, b), min(c, d))
 
 
 @point
 def stands_out(of, j, i, checkerboard):
     """By how much a cell stands out of the cells around it (Pa): the least of the checkerboards at its vertices.
 
-    0 where they are not of one sign, as in every field that the mesh resolves, or fewer than two are known.
+    0 where they are not of one sign, as in every field that the mesh resolves. Vertices count by their weights, and at least
+    two must.
     """
-    known, least, most = 0, 1e300, -1e300
-    for n in range(4):
-        row, column = j + n // 2, i + n % 2
-        if checkerboard[FADES, row, column] > 0.0:
-            value = checkerboard[of, row, column]
-            value = value if n == 0 or n == 3 else -value
-            known += 1
-            least = min(least, value)
-            most = max(most, value)
-    if known < 2:
+    of_a, of_b = checkerboard[COUNTS, j, i], checkerboard[COUNTS, j, i + 1]
+    of_c, of_d = checkerboard[COUNTS, j + 1, i], checkerboard[COUNTS, j + 1, i + 1]
+    second = max(min(max(of_a, of_b), max(of_c, of_d)), max(min(of_a, of_b), min(of_c, of_d)))
+    if second == 0.0:
         return 0.0
-    return max(least, 0.0) + min(most, 0.0)
+    a, b = checkerboard[of, j, i], -checkerboard[of, j, i + 1]
+    c, d = -checkerboard[of, j + 1, i], checkerboard[of, j + 1, i + 1]
+    above = least_of(max(a, 0.0), max(b, 0.0), max(c, 0.0), max(d, 0.0), of_a, of_b, of_c, of_d)
+    below = least_of(max(-a, 0.0), max(-b, 0.0), max(-c, 0.0), max(-d, 0.0), of_a, of_b, of_c, of_d)
+    return second * (above - below)
 
 
 @kernel
-def fade_deviators(j0, j1, group, group_ranges, volume, checkerboard, vof, km, q, room):
+def fade_deviators(j0, j1, dt, group, group_ranges, volume, hg_coefficient, cell_mass, inside, checkerboard, vof, km, q, room):
     """Takes from the deviators of every cell its share of what stands out, and finds the volume it would have to gain.
 
     The elastic energy that goes with it stays as heat.
 
-    Reads    checkerboard [5, j, i]; group [m]; vof, km [m, j, i]; volume [j, i]
+    Reads    checkerboard [5, j, i]; group [m]; vof, km [m, j, i]; volume, hg_coefficient, inside [j, i]; cell_mass [b, j, i]
     Updates  q (deviators) [k, m, j, i]
     Writes   room [j, i], volume that makes the pressure that stands out fade, m^3 per radian
     """
     for j in prange(j0, j1):
         for i in range(group_ranges[1, 0, j, 0], group_ranges[1, 0, j, 1]):
             room[j, i] = 0.0
-            share = max(max(checkerboard[FADES, j, i], checkerboard[FADES, j, i + 1]),
-                        max(checkerboard[FADES, j + 1, i], checkerboard[FADES, j + 1, i + 1]))
-            if share == 0.0:
+            if inside[j, i] == 0.0:
                 continue
+            share = min(fading(j, i, dt, hg_coefficient, cell_mass), MOST)
             for m in range(vof.shape[0]):
                 if group[m] == 1 and vof[m, j, i] == 1.0:
                     room[j, i] = share * stands_out(OF_P, j, i, checkerboard) * volume[j, i] / km[m, j, i]

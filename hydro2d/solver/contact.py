@@ -157,10 +157,11 @@ class Contact:
         """What no vertex feels of the stress in the hard bodies."""
         s, g = self.state, self.grid
         _, _, i0, i1 = self.mesh_box
-        contact_checkerboard.find_checkerboards(j0, j1, i0, i1, dt, s.group, s.group_ranges, s.hg_coefficient, s.cell_mass,
-                                                s.vof, s.q, s.pm, s.checkerboard)
-        contact_checkerboard.fade_deviators(j0, j1, s.group, s.group_ranges, g.volume, s.checkerboard, s.vof, s.km, s.q,
-                                            s.room)
+        contact_checkerboard.find_insides(j0, j1, i0, i1, s.group, s.group_ranges, s.vof, s.inside)
+        contact_checkerboard.find_checkerboards(j0, j1, i0, i1, s.group, s.group_ranges, s.vof, s.q, s.pm, s.inside,
+                                                s.checkerboard)
+        contact_checkerboard.fade_deviators(j0, j1, dt, s.group, s.group_ranges, g.volume, s.hg_coefficient, s.cell_mass,
+                                            s.inside, s.checkerboard, s.vof, s.km, s.q, s.room)
         contact_checkerboard.fade_pressures(j0, j1, i0, i1, s.group, s.group_ranges, s.contact_columns, s.cell_mass, s.room,
                                             s.vof, s.pm, s.fr, s.fz, s.own_r, s.own_z, s.q)
 

@@ -39,12 +39,14 @@ class Block:
         columns = np.zeros((g.shape[0] + 1, 2), dtype=np.int64)
         if contact_columns:
             columns[:] = contact_columns
-        found, room = np.full((5, *g.vertex_shape), np.nan), np.full(g.shape, np.nan)
+        found, room, inside = np.full((5, *g.vertex_shape), np.nan), np.full(g.shape, np.nan), np.full(g.shape, np.nan)
         self.fr, self.fz = np.zeros(g.vertex_shape), np.zeros(g.vertex_shape)
         self.own_r, self.own_z = np.zeros((2, *g.vertex_shape)), np.zeros((2, *g.vertex_shape))
         group = np.array([0, 1])
-        kernels.find_checkerboards(j0, j1, j0, j1, STEP, group, ranges, hg, cell_mass, self.vof, self.q, self.pm, found)
-        kernels.fade_deviators(j0, j1, group, ranges, g.volume, found, self.vof, self.km, self.q, room)
+        kernels.find_insides(j0, j1, j0, j1, group, ranges, self.vof, inside)
+        kernels.find_checkerboards(j0, j1, j0, j1, group, ranges, self.vof, self.q, self.pm, inside, found)
+        kernels.fade_deviators(j0, j1, STEP, group, ranges, g.volume, hg, cell_mass, inside, found, self.vof, self.km, self.q,
+                               room)
         kernels.fade_pressures(j0, j1, j0, j1, group, ranges, columns, cell_mass, room, self.vof, self.pm, self.fr, self.fz,
                                self.own_r, self.own_z, self.q)
         return self
@@ -132,6 +134,32 @@ def test_a_cell_that_stands_out_alone_leaves_nothing_in_its_row_and_column():
     assert abs(block.q[SZZ, 1, 6, 5]) < 0.02e9
     block.q[SZZ, 1, 6, 5] = 0.0
     assert abs(block.q[SZZ, 1]).max() == 0.0
+
+
+def test_a_cell_comes_in_by_degrees():
+    """As its emptiest neighbour fills: nothing at none of it, all of it from INSIDE on."""
+    lost = []
+    for share in (0.0, 1e-9, 0.5 * kernels.INSIDE, kernels.INSIDE, 1.0):
+        block = Block()
+        block.vof[1, :, 9:] = 0.0
+        block.vof[1][2:12, 9] = share
+        block.q[SRR, 1] = 1e9 * block.sign
+        block.fade()
+        lost.append(abs(block.q[SRR, 1, 6, 8] / block.sign[6, 8] - 1e9))
+    assert lost[0] == 0.0
+    assert lost[1] < 1e-3
+    assert lost[2] == pytest.approx(0.25 * lost[3], rel=1e-6)
+    assert lost[3] == pytest.approx(SHARE * 1e9, rel=1e-9)
+    assert lost[4] == pytest.approx(lost[3], rel=1e-9)
+
+
+def test_the_least_of_four_numbers_is_of_those_that_count():
+    least_of = kernels.least_of.py_func
+    assert least_of(3.0, 2.0, 4.0, 5.0, 1.0, 1.0, 1.0, 1.0) == 2.0
+    assert least_of(3.0, 2.0, 4.0, 5.0, 1.0, 0.0, 1.0, 1.0) == 3.0
+    assert least_of(3.0, 2.0, 4.0, 5.0, 0.0, 0.0, 0.0, 1.0) == 5.0
+    assert least_of(3.0, 0.0, 4.0, 5.0, 1.0, 1e-9, 1.0, 1.0) == 3.0
+    assert least_of(3.0, 0.0, 4.0, 5.0, 1.0, 0.5, 1.0, 1.0) == 2.5
 
 
 def test_the_soft_body_and_cells_that_are_not_full_are_left_alone():
