@@ -30,11 +30,11 @@ def write(study: Study, found: Sequence[Transitions]) -> list[Path]:
     return files
 
 
-def _draws(study: Study, found: Transitions) -> list[float | None]:
-    """The factor of the first time step of every shot; None for one that has not begun."""
+def _draws(study: Study, found: Transitions) -> list[dict]:
+    """What every shot differs in, by column; None in those of one that has not begun."""
     cases = {case.name: case for case in study.cases}
-    section, name = draws.KEY.split(".")
-    return [(cases[shot.case].deck or {}).get(section, {}).get(name) for shot in found.estimate.shots]
+    begun = [cases[shot.case].deck or {} for shot in found.estimate.shots]
+    return [{column: deck.get(section, {}).get(key) for column, (section, key) in draws.KEYS.items()} for deck in begun]
 
 
 def draw(found: Sequence[Transitions]):

@@ -114,7 +114,7 @@ class Transition(Section):
         None, ge=FEWEST, le=1000, description="with `budget`: runs that are chosen at a time; default 4"
     )
     seed: int | None = Field(
-        None, ge=0, le=2**63, description="with `budget`: seed of what is changed from run to run; default 0"
+        None, ge=0, le=2**32, description="with `budget`: seed of what is changed from run to run; default 0"
     )
 
     @model_validator(mode="after")

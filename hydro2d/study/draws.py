@@ -1,17 +1,16 @@
-"""A draw: what makes one run at a velocity another sample of chance than the next, and nothing else.
+"""A draw: what makes one run of a search another sample of chance than the next, and nothing else.
 
-The first time step of each draw is shorter by a factor of its own, by up to a thousandth. That changes nothing but rounding,
-and what rounding decides.
+It changes what the members of an ensemble differ in by default, as far as the deck allows it (explanation/how-sure).
 """
 
 from __future__ import annotations
 
-import tomllib
+from hydro2d.deck import deck as decks
+from hydro2d.study import members
+from hydro2d.study.definition import Ensemble
 
-import numpy as np
-
-#: deck key that a draw changes; largest relative change
-KEY, LARGEST = "numerics.initial_dt_factor", 1e-3
+#: deck keys that a draw changes, by the column that has them in the table of shots
+KEYS = {"first_step_factor": ("numerics", "initial_dt_factor"), "z_start_m": ("mesh", "z_start")}
 
 
 def overrides(text: str, seed: int, number: int) -> list[str]:
@@ -21,6 +20,6 @@ def overrides(text: str, seed: int, number: int) -> list[str]:
 
     The same seed and number give the same draw of a deck, on any machine.
     """
-    section, name = KEY.split(".")
-    before = tomllib.loads(text)[section][name]
-    return [f"{KEY}={before * (1.0 - LARGEST * np.random.default_rng([seed, number]).random())!r}"]
+    deck = decks.loads(text)
+    ensemble = Ensemble(repeats=2, by=members.allowed(deck), seed=seed)
+    return members.overrides(deck, members.amounts(ensemble, number))

@@ -123,6 +123,18 @@ def amounts(ensemble: Ensemble, number: int) -> dict[str, float]:
     return {name: round(KNOBS[name].value(point), DIGITS) for name, point in zip(ensemble.by, points, strict=True)}
 
 
+def allowed(deck: decks.Deck) -> tuple[str, ...]:
+    """The default changes, without those that a deck does not allow."""
+    found = []
+    for each in Ensemble.model_fields["by"].default:
+        try:
+            KNOBS[each].overrides(deck, KNOBS[each].value(1.0))
+        except DeckError:
+            continue
+        found.append(each)
+    return tuple(found)
+
+
 def overrides(deck: decks.Deck, changed: Mapping[str, float]) -> list[str]:
     """The overrides that make a member of a deck. Raises DeckError if the deck does not allow a change."""
     return [text for name, amount in changed.items() for text in KNOBS[name].overrides(deck, amount)]

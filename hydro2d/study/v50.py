@@ -155,11 +155,11 @@ def military(speeds: Sequence[float], perforated: Sequence[bool]) -> tuple[float
     return None
 
 
-def rows(values: dict[str, str], found: Estimate, draws: Sequence[float | None]) -> list[dict]:
-    """Rows of the CSV: one for each shot of a combination, with the factor of its first time step."""
+def rows(values: dict[str, str], found: Estimate, draws: Sequence[dict]) -> list[dict]:
+    """Rows of the CSV: one for each shot of a combination, with what it differs in from the others."""
     return [
         {**values, "transition": found.name, "shot": number, "case": shot.case, "velocity_m_s": shot.velocity,
-         "outcome": shot.outcome, "first_step_factor": draw,
+         "outcome": shot.outcome, **draw,
          "fitted_probability": float(found.fit.probability([shot.velocity])[0]) if found.fit else None}
         for number, (shot, draw) in enumerate(zip(found.shots, draws, strict=True), 1)
     ]  # fmt: skip

@@ -8,8 +8,10 @@ import numpy as np
 import pytest
 
 from hydro2d.cli.main import call
-from hydro2d.study import cases, draws, transition
+from hydro2d.deck import deck as decks
+from hydro2d.study import cases, draws, members, transition
 from hydro2d.study.case import Outcome
+from hydro2d.study.definition import Ensemble
 from tests.study import fake, made_up, test_transition, tubes
 from tests.study.html import Page
 
@@ -74,9 +76,13 @@ def test_every_shot_is_another_draw(whole):
     folder = whole[0]
     with open(folder / "out" / "transition.csv", newline="") as file:
         rows = list(csv.DictReader(file))
-    factors = [float(row["first_step_factor"]) for row in rows]
-    assert len(set(factors)) == 16
-    assert all(0.0999 <= factor <= 0.1 for factor in factors)
+    deck = decks.load(BASE)
+    half = 0.5 * np.diff(decks.edges(deck)[1]).min()
+    for column, low, high in (("first_step_factor", 0.0996, 0.1),
+                              ("z_start_m", deck.mesh.z_start - half, deck.mesh.z_start + half)):
+        drawn = [float(row[column]) for row in rows]
+        assert len(set(drawn)) == 16
+        assert all(low <= each <= high for each in drawn)
     assert [row["case"] for row in rows] == names(folder)
     assert {row["outcome"] for row in rows} == {"eroding", "not eroding"}
 
@@ -91,18 +97,24 @@ def test_the_same_seed_gives_the_same_search_with_any_number_of_workers(tmp_path
 
 def test_another_seed_gives_other_draws(tmp_path, whole):
     search(tmp_path, made_up.Client(chancy), STUDY.replace("seed = 3", "seed = 4"))
-    decks = [json.loads((folder / "out" / "study.json").read_text())["cases"][0] for folder in (tmp_path, whole[0])]
-    assert decks[0]["name"] == decks[1]["name"]
-    assert decks[0]["deck_sha256"] != decks[1]["deck_sha256"]
+    first = [json.loads((folder / "out" / "study.json").read_text())["cases"][0] for folder in (tmp_path, whole[0])]
+    assert first[0]["name"] == first[1]["name"]
+    assert first[0]["deck_sha256"] != first[1]["deck_sha256"]
 
 
-def test_a_draw_changes_the_first_step_by_up_to_a_thousandth_and_nothing_else():
+def test_a_draw_is_a_member_of_an_ensemble():
     text = fake.deck_text()
     drawn = [draws.overrides(text, 3, number) for number in (1, 1, 2)]
     assert drawn[0] == drawn[1] != drawn[2]
-    ((key, value),) = [entry.split("=") for entry in drawn[2]]
-    assert key == "numerics.initial_dt_factor"
-    assert 0.999 <= float(value) / 0.1 <= 1.0
+    deck = decks.loads(text)
+    assert drawn[2] == members.overrides(deck, members.amounts(Ensemble(repeats=2, seed=3), 2))
+    keys = {entry.split("=")[0] for entry in drawn[2]}
+    assert keys >= {"numerics.initial_dt_factor", "mesh.z_start"}
+
+
+def test_a_deck_whose_mesh_must_not_move_is_drawn_by_its_first_step_alone():
+    walled = decks.load(BASE, ['boundaries.z_max="wall"']).to_toml()
+    assert {entry.split("=")[0] for entry in draws.overrides(walled, 3, 1)} == {"numerics.initial_dt_factor"}
 
 
 @pytest.mark.parametrize("workers", [1, 3])
