@@ -26,15 +26,15 @@ def flatten(value, prefix: str = "") -> dict[str, object]:
     return found
 
 
-def text(value) -> str:
-    """A value of a deck as readable text, in SI."""
+def text(value, exact: bool = False) -> str:
+    """A value of a deck as readable text, in SI, with six digits or exactly."""
     if value is None:
         return "not set"
     if isinstance(value, bool):
         return str(value).lower()
     if isinstance(value, float):
-        return f"{value:.6g}"
-    return f"[{', '.join(map(text, value))}]" if isinstance(value, tuple) else str(value)
+        return repr(value) if exact else f"{value:.6g}"
+    return f"[{', '.join(text(each, exact) for each in value)}]" if isinstance(value, tuple) else str(value)
 
 
 @dataclass(frozen=True)
@@ -45,8 +45,8 @@ class Differences:
     common: dict[str, str]
 
 
-def compare(decks: Mapping[str, dict]) -> Differences:
-    """Compares resolved decks, given by the names of their cases.
+def compare(decks: Mapping[str, dict], exact: bool = False) -> Differences:
+    """Compares resolved decks, given by the names of their cases: their numbers to six digits, or exactly.
 
     A body, material or tracer that some decks lack is one key, "there" or "not there"; its own keys are compared among the
     decks that have it.
@@ -62,7 +62,7 @@ def compare(decks: Mapping[str, dict]) -> Differences:
             lacking = [name for name in flat if name not in having]
             varying[table] = {"there": tuple(having), "not there": tuple(lacking)}
         for key in dict.fromkeys(key for name in having for key in flat[name] if _table(key) == table and key not in OWN):
-            users = _users(key, {name: flat[name] for name in having})
+            users = _users(key, {name: flat[name] for name in having}, exact)
             if len(users) > 1:
                 varying[key] = users
             elif len(having) == len(flat):
@@ -76,11 +76,11 @@ def _table(key: str) -> str:
     return ".".join(parts[:2]) if parts[0] in NAMED and len(parts) > 2 else ""
 
 
-def _users(key: str, flat: Mapping[str, dict]) -> dict[str, tuple[str, ...]]:
+def _users(key: str, flat: Mapping[str, dict], exact: bool) -> dict[str, tuple[str, ...]]:
     """The cases with each value of a key."""
     users: dict[str, list[str]] = {}
     for name, deck in flat.items():
-        users.setdefault(text(deck.get(key)), []).append(name)
+        users.setdefault(text(deck.get(key), exact), []).append(name)
     return {value: tuple(names) for value, names in users.items()}
 
 

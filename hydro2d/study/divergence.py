@@ -176,7 +176,7 @@ def compare(one: Results, other: Results, fields: Sequence[str] = ()) -> Diverge
     for name in fields:
         if name not in quantities.BY_KEY:
             raise ResultsError(f"--field: {unknown('field', name, quantities.BY_KEY)}")
-    found = differences.compare({"one": one.deck, "other": other.deck})
+    found = differences.compare({"one": one.deck, "other": other.deck}, exact=True)
     keys = {key: _both(users) for key, users in found.varying.items()}
     if alone := [key for key, values in keys.items() if key.startswith("body.") and "not there" in values]:
         raise ResultsError(f"{one.directory} and {other.directory} are not of one shot: only one has {', '.join(alone)}")
