@@ -41,7 +41,7 @@ class Meshes:
     def lines(self) -> list[str]:
         """The table of the meshes, and what follows from it."""
         means = [each.mean for each in self.levels]
-        changes = ["", *(f"{fine - coarse:+.3g}" for coarse, fine in itertools.pairwise(means))]
+        changes = ["", *(f"{fine - coarse:+.3g}" for coarse, fine in itertools.pairwise(means))][: len(means)]
         rows = [(f"{each.cells:g}", str(each.count), f"{each.mean:.4g}", f"{each.scatter:.2g}", f"{each.error:.2g}", change,
                  regime)
                 for each, change, regime in zip(self.levels, changes, self.regimes, strict=True)]  # fmt: skip

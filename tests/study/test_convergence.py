@@ -1,5 +1,6 @@
 """Meshes with scatter: what is extrapolated, what is not and why, and how the mesh of a deck is refined."""
 
+import dataclasses
 import json
 
 import numpy as np
@@ -101,6 +102,13 @@ def test_a_mean_of_several_ends_is_not_extrapolated(tmp_path):
     found = convergence.sequences(collect(layout.load(study(tmp_path, ("rigid", "rigid", "eroding")))))[0]
     assert found.limit.value is None
     assert "end in 2 ways (eroding, rigid)" in found.limit.words
+
+
+def test_meshes_without_a_value_are_one_line(tmp_path):
+    found = convergence.sequences(collect(layout.load(study(tmp_path, ("rigid", "rigid", "eroding")))))[0]
+    title, _, said = dataclasses.replace(found, levels=[], regimes=[]).lines()
+    assert title == found.response.title
+    assert "does not extrapolate" in said
 
 
 @pytest.mark.parametrize(("options", "said"), [
