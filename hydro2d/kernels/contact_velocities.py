@@ -78,7 +78,7 @@ def give_tie(g, j, i, x, push_r, push_z, constrained, number, where, weights, ma
 @apart
 def list_ties(j0, j1, constrained, count, contact_nodes, first, strength, number, where, weights, mass, nodes, starts, entries,
               parts, places):
-    """Number of the tied slaves, which are listed with their masters one after another.
+    """(number of tied slaves, number of vertices), all slaves listed with their masters one after another.
 
     Writes   nodes [6, t]: slot, group, row and column of a slave, what holds it (1 along r, 2 along z, 3 both), and the number
              of its vertex in the list; starts [t + 1], its first master; entries [4, e]: group, row, column and number of a
@@ -120,7 +120,7 @@ def list_ties(j0, j1, constrained, count, contact_nodes, first, strength, number
         places[nodes[GROUP, t], nodes[ROW, t], nodes[COLUMN, t]] = 0
     for n in range(e):
         places[entries[0, n], entries[1, n], entries[2, n]] = 0
-    return tied
+    return tied, vertices
 
 
 @point
@@ -135,18 +135,15 @@ def mismatch(t, nodes, starts, entries, parts, u, v):
 
 
 @apart
-def image_of_search(tied, strength, nodes, starts, entries, parts, mass, ties, gain):
+def image_of_search(tied, vertices, strength, nodes, starts, entries, parts, mass, ties, gain):
     """What the search direction, as impulses, does to the mismatch: N M^-1 N^T p and the compliance; returns p . image.
 
     Reads    ties [SEARCH, x, b]
     Writes   ties [IMAGE, x, b];  scratch gain [n, c], velocities of the listed vertices
     """
-    for t in range(tied):
-        gain[nodes[VERTEX, t], 0] = 0.0
-        gain[nodes[VERTEX, t], 1] = 0.0
-    for e in range(starts[tied]):
-        gain[entries[3, e], 0] = 0.0
-        gain[entries[3, e], 1] = 0.0
+    for n in range(vertices):
+        gain[n, 0] = 0.0
+        gain[n, 1] = 0.0
     for t in range(tied):
         x, g, own = nodes[SLOT, t], nodes[GROUP, t], nodes[VERTEX, t]
         m = mass[g, nodes[ROW, t], nodes[COLUMN, t]]
@@ -176,8 +173,8 @@ def image_of_search(tied, strength, nodes, starts, entries, parts, mass, ties, g
 
 
 @apart
-def meet_ties(tied, constrained, strength, number, where, weights, mass, u, v, nodes, starts, entries, parts, ties, gain, taken,
-              transfer):
+def meet_ties(tied, vertices, constrained, strength, number, where, weights, mass, u, v, nodes, starts, entries, parts, ties,
+              gain, taken, transfer):
     """Brings all slaves to the velocities of their masters at once, by conjugate gradients from nothing.
 
     Updates  u, v [b, j, i]; taken [c, x, b], impulses that slaves have given away;  scratch ties [10, x, b], gain [n, c]
@@ -199,7 +196,7 @@ def meet_ties(tied, constrained, strength, number, where, weights, mass, u, v, n
     for _ in range(STEPS):
         if old_r <= enough_r and old_z <= enough_z:
             break
-        along_r, along_z = image_of_search(tied, strength, nodes, starts, entries, parts, mass, ties, gain)
+        along_r, along_z = image_of_search(tied, vertices, strength, nodes, starts, entries, parts, mass, ties, gain)
         step_r = old_r / along_r if old_r > enough_r else 0.0
         step_z = old_z / along_z if old_z > enough_z else 0.0
         new_r, new_z = 0.0, 0.0
@@ -337,10 +334,10 @@ def settle(j0, j1, dt, friction, constrained, metrics, dz, contact_columns, line
                 taken[c, x, g] = 0.0
         for c in range(3):
             rubbing[c, x] = 0.0
-    tied = list_ties(j0, j1, constrained, count, contact_nodes, first, strength, number, where, weights, mass, nodes, starts,
-                     entries, parts, places)
-    meet_ties(tied, constrained, strength, number, where, weights, mass, u, v, nodes, starts, entries, parts, ties, gain, taken,
-              transfer)
+    tied, vertices = list_ties(j0, j1, constrained, count, contact_nodes, first, strength, number, where, weights, mass, nodes,
+                               starts, entries, parts, places)
+    meet_ties(tied, vertices, constrained, strength, number, where, weights, mass, u, v, nodes, starts, entries, parts, ties,
+              gain, taken, transfer)
     for _ in range(ROUNDS if friction > 0.0 else 0):
         for j in range(j0, j1 + 1):
             for k in range(count[j]):
@@ -348,8 +345,8 @@ def settle(j0, j1, dt, friction, constrained, metrics, dz, contact_columns, line
                     rub(j, contact_nodes[j, k], first[j] + k, dt, friction, constrained, strength, number, where, weights,
                         metrics, dz, contact_columns, line, normal, sig_rr, sig_zz, sig_rz, mass, u, v, taken, rubbing,
                         transfer)
-        meet_ties(tied, constrained, strength, number, where, weights, mass, u, v, nodes, starts, entries, parts, ties, gain,
-                  taken, transfer)
+        meet_ties(tied, vertices, constrained, strength, number, where, weights, mass, u, v, nodes, starts, entries, parts,
+                  ties, gain, taken, transfer)
     t = 0
     for j in range(j0, j1 + 1):
         for row in range(4):

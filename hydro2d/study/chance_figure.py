@@ -34,7 +34,8 @@ def _draws(study: Study, found: Transitions) -> list[dict]:
     """What every shot differs in, by column; None in those of one that has not begun."""
     cases = {case.name: case for case in study.cases}
     begun = [cases[shot.case].deck or {} for shot in found.estimate.shots]
-    return [{column: deck.get(section, {}).get(key) for column, (section, key) in draws.KEYS.items()} for deck in begun]
+    keys = {column: key.split(".") for column, key in draws.KEYS.items()}
+    return [{column: deck.get(section, {}).get(name) for column, (section, name) in keys.items()} for deck in begun]
 
 
 def draw(found: Sequence[Transitions]):

@@ -10,7 +10,7 @@ from hydro2d.study import members
 from hydro2d.study.definition import Ensemble
 
 #: deck keys that a draw changes, by the column that has them in the table of shots
-KEYS = {"first_step_factor": ("numerics", "initial_dt_factor"), "z_start_m": ("mesh", "z_start")}
+KEYS = {"first_step_factor": members.KNOBS["first step"].key, "z_start_m": members.KNOBS["mesh offset"].key}
 
 
 def overrides(text: str, seed: int, number: int) -> list[str]:

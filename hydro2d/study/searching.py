@@ -1,6 +1,9 @@
-"""What the searches of `hydro2d transition` share: the record and the outcome of a case."""
+"""What the searches of `hydro2d transition` share: the record and the outcome of a case, and how idle workers are served."""
 
 from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Collection, Sequence
 
 from hydro2d.study import record, regimes
 from hydro2d.study.cases import Plan
@@ -8,7 +11,7 @@ from hydro2d.study.choice import Choice
 from hydro2d.study.layout import DONE, Case
 
 
-class Searching(Choice):
+class Searching(Choice, ABC):
     """A choice of cases that looks at what has become of earlier ones."""
 
     def __init__(self, plan: Plan):
@@ -28,3 +31,15 @@ class Searching(Choice):
         if case.status != DONE:
             return None
         return regimes.judge(self.record(case), self.plan.search.of, self.plan.search.depth).regime
+
+    def wanted(self, cases: Sequence[Case], busy: Collection[str], room: int) -> list[str]:
+        """As many cases as there are idle workers."""
+        names: list[str] = []
+        while len(names) < room and (found := self._next(cases, {*busy, *names})) is not None:
+            names.append(found)
+            self.given.add(found)
+        return names
+
+    @abstractmethod
+    def _next(self, cases: Sequence[Case], under_way: Collection[str]) -> str | None:
+        """The next case to run, if one can be chosen before others end."""

@@ -117,21 +117,13 @@ class Shots(Searching):
             f"{budget.round}{combined}, seed {budget.seed}, in {study.directory}"
         )
 
-    def wanted(self, cases: Sequence[Case], busy: Collection[str], room: int) -> list[str]:
-        """As many shots as there are idle workers; combinations with the fewest shots under way come first."""
+    def _next(self, cases: Sequence[Case], under_way: Collection[str]) -> str | None:
+        """That of the combination with the fewest shots under way."""
         by_name = {case.name: case for case in cases}
-        names: list[str] = []
-        while len(names) < room:
-            under_way = {*busy, *names}
-            groups = sorted(self.groups, key=lambda group: sum(shot.name in under_way for shot in group.shots))
-            found = next((name for group in groups if (name := self._next(group, by_name, under_way))), None)
-            if found is None:
-                break
-            names.append(found)
-            self.given.add(found)
-        return names
+        groups = sorted(self.groups, key=lambda group: sum(shot.name in under_way for shot in group.shots))
+        return next((name for group in groups if (name := self._next_of(group, by_name, under_way))), None)
 
-    def _next(self, group: Combination, cases: dict[str, Case], under_way: Collection[str]) -> str | None:
+    def _next_of(self, group: Combination, cases: dict[str, Case], under_way: Collection[str]) -> str | None:
         """The next shot of a combination, if one can be chosen before others end."""
         if not group.valid or self._given_up(group, cases, under_way):
             return None

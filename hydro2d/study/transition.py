@@ -65,22 +65,12 @@ class Bisection(Searching):
             f"{combined}, in {study.directory}"
         )
 
-    def wanted(self, cases: Sequence[Case], busy: Collection[str], room: int) -> list[str]:
-        """As many cases as there are idle workers; combinations with the fewest cases under way come first."""
-        names: list[str] = []
-        while len(names) < room:
-            found = self._next(cases, {*busy, *names})
-            if found is None:
-                break
-            names.append(found)
-        self.given |= set(names)
-        return names
-
-    def _next(self, cases: Sequence[Case], busy: Collection[str]) -> str | None:
+    def _next(self, cases: Sequence[Case], under_way: Collection[str]) -> str | None:
+        """That of the combination with the fewest cases under way."""
         by_name = {case.name: case for case in cases}
-        for group in sorted(self.groups, key=lambda group: sum(case.name in busy for case in group)):
-            under_way = {position for position, case in enumerate(group) if case.name in busy}
-            position = self._search(group, by_name, busy).next(under_way)
+        for group in sorted(self.groups, key=lambda group: sum(case.name in under_way for case in group)):
+            taken = {position for position, case in enumerate(group) if case.name in under_way}
+            position = self._search(group, by_name, under_way).next(taken)
             if position is not None:
                 return group[position].name
         return None

@@ -86,7 +86,8 @@ def apart(number, where, weights, mass, u, v, constrained):
     count, nodes, first = np.zeros(7, dtype=np.int64), np.full((7, 7), 3), np.zeros(8, dtype=np.int64)
     count[3] = 1
     listed, strength = room_for_ties(1), np.array([[0.0, 1.0]])
-    assert list_ties(0, 6, constrained, count, nodes, first, strength, number, where, weights, mass, *listed) == 1
+    tied, vertices = list_ties(0, 6, constrained, count, nodes, first, strength, number, where, weights, mass, *listed)
+    assert (tied, vertices) == (1, 1 + number[0, 1])
     assert not listed[-1].any()
     return mismatch(0, *listed[:-1], u, v)
 

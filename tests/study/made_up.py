@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import json
 import os
 import shutil
 import signal
@@ -11,6 +12,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from hydro2d.running.run import deck_hash
+from hydro2d.study import cases, transition
 from hydro2d.study.case import Outcome
 from tests.study import fake
 
@@ -93,3 +95,16 @@ def write(place: Path, text: str, regime: str = "rigid", depth: float = 0.3, **s
     fake.write_run(place, velocity, depth, REGIMES[regime], rows=3, text=text, **{
         "deck_sha256": deck_hash(text), "regime": regime, "rod_core_mass_kg": fake.MASS * (1.0 - REGIMES[regime]), **summary,
     })  # fmt: skip
+
+
+def study_file(folder: Path, text: str) -> Path:
+    """A study file with this text."""
+    file = folder / "search.toml"
+    file.write_text(text)
+    return file
+
+
+def search(folder: Path, client: Client, text: str, **options) -> tuple[int, dict]:
+    """A search of `hydro2d transition` with a made-up client: exit status and transition.json."""
+    status = transition.find(cases.plan(study_file(folder, text)), folder / "out", client.connect(), **options)
+    return status, json.loads((folder / "out" / "transition.json").read_text())

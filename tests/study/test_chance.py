@@ -9,7 +9,7 @@ import pytest
 
 from hydro2d.cli.main import call
 from hydro2d.deck import deck as decks
-from hydro2d.study import cases, draws, members, transition
+from hydro2d.study import draws, members
 from hydro2d.study.case import Outcome
 from hydro2d.study.definition import Ensemble
 from tests.study import fake, made_up, test_transition, tubes
@@ -29,15 +29,13 @@ seed = 3
 
 
 def write(folder, text=STUDY):
-    file = folder / "search.toml"
-    file.write_text(text)
-    return file
+    return made_up.study_file(folder, text)
 
 
 def search(folder, client, text=STUDY, **options):
     """A search with a made-up client: exit status and the only combination of transition.json."""
-    status = transition.find(cases.plan(write(folder, text)), folder / "out", client.connect(), **options)
-    return status, json.loads((folder / "out" / "transition.json").read_text())["combinations"][0]
+    status, found = made_up.search(folder, client, text, **options)
+    return status, found["combinations"][0]
 
 
 def erodes(velocity, deck, scale=25.0):

@@ -10,7 +10,7 @@ import pytest
 
 import hydro2d
 from hydro2d.cli.main import call
-from hydro2d.study import cases, regimes, transition
+from hydro2d.study import cases, regimes
 from hydro2d.study.case import Outcome
 from hydro2d.study.definition import StudyError
 from tests.study import made_up, tubes
@@ -34,15 +34,11 @@ ALONE = STUDY.partition("[[axis]]")[0]
 
 
 def write(folder, text=STUDY):
-    file = folder / "search.toml"
-    file.write_text(text)
-    return file
+    return made_up.study_file(folder, text)
 
 
 def search(folder, client, text=STUDY, **options):
-    """A search with a made-up client: exit status and transition.json."""
-    status = transition.find(cases.plan(write(folder, text)), folder / "out", client.connect(), **options)
-    return status, json.loads((folder / "out" / "transition.json").read_text())
+    return made_up.search(folder, client, text, **options)
 
 
 def brackets(found):
