@@ -3,7 +3,8 @@
 ``@point``   a scalar function of physics, inlined by the compiler into the loops that call it
 ``@apart``   a function that kernels call for what is rare
 ``@rowwise`` one row of one phase, a piece of kernels
-``@kernel``  loops over the mesh, threaded over rows by one outermost ``prange``
+``@kernel``  loops over the rows of one part of the mesh
+``@threaded`` a function with one outermost ``prange`` over the parts, which calls kernels
 ``@serial``  loops over a short list, one thread
 
 What numba is told is in `options`, where compiled code is kept in `cache`, the decorators are in `calls`, and what is known of
@@ -12,11 +13,13 @@ the calls of kernels in `recording`. Other files import from here.
 
 from hydro2d.jit.cache import add_model, all_folder, module_of
 from hydro2d.jit.calls import (
+    GATE,
     apart,
     by_id,
     kernel,
     max_threads,
     modules,
+    parts_at_once,
     plus,
     point,
     prange,
@@ -24,13 +27,15 @@ from hydro2d.jit.calls import (
     rowwise,
     serial,
     set_threads,
+    threaded,
     threads,
+    wait,
 )
 from hydro2d.jit.options import compiler_events, host_cpu
 from hydro2d.jit.recording import Call, profiling, recorded, timings
 
 __all__ = [
-    "Call", "add_model", "all_folder", "apart", "by_id", "compiler_events", "host_cpu", "kernel", "max_threads", "module_of",
-    "modules", "plus", "point", "prange", "profiling", "recorded", "returns", "rowwise", "serial", "set_threads", "threads",
-    "timings",
+    "Call", "GATE", "add_model", "all_folder", "apart", "by_id", "compiler_events", "host_cpu", "kernel", "max_threads", "module_of",
+    "modules", "parts_at_once", "plus", "point", "prange", "profiling", "recorded", "returns", "rowwise", "serial", "set_threads", "threaded",
+    "threads", "timings", "wait",
 ]  # fmt: skip

@@ -7,7 +7,9 @@ import importlib
 from types import ModuleType
 
 import numba
+import numpy as np
 
+from hydro2d.jit import barrier, recording
 from hydro2d.jit.cache import all_folder, folder_of, module_of
 from hydro2d.jit.options import OPTIONS
 from hydro2d.jit.recording import called
@@ -77,12 +79,19 @@ def plus(total, term):
 
 
 def kernel(function):
-    """Compiles loops over the mesh whose outermost ``prange`` runs over rows.
+    """Compiles loops over the rows of one part of the mesh: what threaded functions call, each thread with a part of its own.
 
-    Array views inside the ``prange`` must be assigned one by one: through a tuple (``a, b = x[j], y[j]``) numba 0.68
-    loses writes to them, silently. A test holds every kernel against its own source, interpreted.
+    The compiler takes for granted that no two of its arrays overlap, as a test asserts of every call.
     """
-    return called(function, _compile(function, parallel=True))
+    return called(function, _compile(function, noalias=True))
+
+
+def threaded(function):
+    """Compiles a function whose outermost ``prange`` runs over the parts of the mesh, a thread for each.
+
+    While kernels are timed it runs as Python, with one part, so that the clock sees each of them.
+    """
+    return called(function, _compile(function, parallel=True), of_kernels=True)
 
 
 def serial(function):
@@ -90,7 +99,19 @@ def serial(function):
     return called(function, _compile(function))
 
 
+@point
+def wait(gate, parts):
+    """Where the threads of a threaded function, one for each part, wait for one another.
+
+    gate : int64[GATE], the same for all;  parts : int64[number of parts + 1]
+    """
+    if parts.shape[0] > 2:
+        barrier.meet(gate, parts.shape[0] - 1, 0)
+
+
 prange = numba.prange
+#: words of a gate
+GATE = barrier.WORDS
 set_threads = numba.set_num_threads
 
 
@@ -102,3 +123,27 @@ def threads() -> int:
 def max_threads() -> int:
     """The number of threads numba was started with; scratch memory is sized by it."""
     return numba.config.NUMBA_NUM_THREADS
+
+
+@functools.partial(_compile, parallel=True)
+def _all_meet(gate, number, rounds, met):
+    for part in numba.prange(number):
+        met[part] = barrier.meet(gate, number, rounds)
+
+
+@functools.cache
+def _threads_meet(number: int) -> bool:
+    """Whether the turns of a parallel loop run at the same time on this number of threads, as a `threaded` function needs."""
+    met = np.zeros(number, dtype=np.bool_)
+    _all_meet(np.zeros(GATE, dtype=np.int64), number, 100_000, met)
+    return bool(met.all())
+
+
+def parts_at_once() -> int:
+    """How many parts a `threaded` function can have: as many as kernels have threads; one while they are timed.
+
+    One as well where threads that wait for one another are not given to a loop: OpenMP may have been told so
+    (OMP_THREAD_LIMIT).
+    """
+    number = 1 if recording.is_profiling() else threads()
+    return number if number == 1 or _threads_meet(number) else 1

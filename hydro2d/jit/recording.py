@@ -24,6 +24,11 @@ def profiling(on: bool) -> None:
     timings.clear()
 
 
+def is_profiling() -> bool:
+    """Whether kernels are timed."""
+    return _profiling
+
+
 @dataclass(frozen=True)
 class Call:
     """A kernel and the types of the arguments that it was called with."""
@@ -57,8 +62,11 @@ def _kernel_lock(name: str) -> Path:
     return Path(all_folder()) / f"{name}.lock"
 
 
-def called(function, compiled):
-    """What the rest of the code calls in a kernel's place: timed, written down, and the first time alone of all processes."""
+def called(function, compiled, of_kernels=False):
+    """What the rest of the code calls in a kernel's place: timed, written down, and the first time alone of all processes.
+
+    of_kernels : it is a function that calls kernels, and runs as Python while these are timed
+    """
     name, known = f"{function.__module__}.{function.__name__}", False
 
     @functools.wraps(function)
@@ -67,6 +75,8 @@ def called(function, compiled):
         if _calls is not None:
             _calls.append(Call(name, compiled, tuple(compiled.typeof_pyval(value) for value in arguments)))
             return None
+        if of_kernels and _profiling:
+            return function(*arguments)
         start = time.perf_counter()
         if known:
             result = compiled(*arguments)
@@ -80,5 +90,5 @@ def called(function, compiled):
             entry[1] += 1
         return result
 
-    call.compiled = compiled
+    call.compiled, call._numba_type_ = compiled, compiled._numba_type_  # which lets compiled functions call it
     return call

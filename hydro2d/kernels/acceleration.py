@@ -2,8 +2,8 @@
 
 from math import sqrt
 
-from hydro2d.jit import kernel, prange, rowwise
-from hydro2d.kernels.column_ranges import block_rows, columns, copy_beside, number_of_blocks, spread, union
+from hydro2d.jit import kernel, rowwise
+from hydro2d.kernels.column_ranges import columns, copy_beside, past_row, union
 from hydro2d.kernels.cut_cells import BONDED, KIND, cut_pressure, skin_deviator
 from hydro2d.mesh.fields import SRR, SRZ, SZZ
 from hydro2d.mesh.grid import AZ_IN, AZ_OUT, CM_IN, CM_OUT, FACE_R, HOOP, MID_R, VOL_R
@@ -90,26 +90,22 @@ def total_stress_row(j, dt, metrics, dz, body_range, active_range, mixed_count, 
 
 
 @kernel
-def total_stress(j0, j1, dt, metrics, dz, body_range, active_range, mixed_count, mixed, solid_mode, hard, hard_threshold, u, v,
-                 vof, q, skin, p, bulk, solid, qr, qz, ph, sig_rr, sig_zz, sig_tt, sig_rz):
+def total_stress(part, parts, dt, metrics, dz, body_range, active_range, mixed_count, mixed, solid_mode, hard, hard_threshold,
+                 u, v, vof, q, skin, p, bulk, solid, qr, qz, ph, sig_rr, sig_zz, sig_tt, sig_rz):
     """total_stress_row for rows j0 to j1."""
-    blocks = number_of_blocks(j0, j1)
-    for place in prange(blocks):
-        b = spread(place, blocks)
-        first_row, last_row = block_rows(b, blocks, j0, j1)
-        for j in range(first_row, last_row):
-            total_stress_row(j, dt, metrics, dz, body_range, active_range, mixed_count, mixed, solid_mode, hard, hard_threshold,
-                             u, v, vof, q, skin, p, bulk, solid, qr, qz, ph, sig_rr, sig_zz, sig_tt, sig_rz)
+    for j in range(parts[part], parts[part + 1]):
+        total_stress_row(j, dt, metrics, dz, body_range, active_range, mixed_count, mixed, solid_mode, hard, hard_threshold,
+                         u, v, vof, q, skin, p, bulk, solid, qr, qz, ph, sig_rr, sig_zz, sig_tt, sig_rz)
 
 
 @kernel
-def vertex_masses(j0, j1, i0, i1, metrics, group_ranges, cell_mass, mass):
+def vertex_masses(part, parts, i0, i1, metrics, group_ranges, cell_mass, mass):
     """Mass of the dual cells: corner shares of the four cells around a vertex, weighted by radius.
 
     Reads    cell_mass [b, j, i]
     Writes   mass [b, j, i]
     """
-    for j in prange(j0, j1):
+    for j in range(parts[part], past_row(part, parts, 1)):
         for b in range(mass.shape[0]):
             lo, hi = group_ranges[b, 1, j, 0], group_ranges[b, 1, j, 1]
             lo, n = columns(max(lo, i0), min(hi + 1, i1))
@@ -231,22 +227,19 @@ def accelerate_row(b, j, i0, i1, dt, speed_limit, underfilled_density, metrics, 
 
 
 @kernel
-def accelerate(j0, j1, i0, i1, dt, speed_limit, underfilled_density, metrics, dz, occupied, mass, hg_coefficient, sig_rr,
+def accelerate(part, parts, i0, i1, dt, speed_limit, underfilled_density, metrics, dz, occupied, mass, hg_coefficient, sig_rr,
                sig_zz, sig_tt, sig_rz, u0, v0, u, v, limited):
     """accelerate_row for rows j0 to j1."""
-    blocks = number_of_blocks(j0, j1)
-    for place in prange(blocks):
-        first_row, last_row = block_rows(spread(place, blocks), blocks, j0, j1)
-        for j in range(first_row, last_row):
-            for row in range(3):
-                limited[row, j] = 0.0
-            for b in range(mass.shape[0]):
-                accelerate_row(b, j, i0, i1, dt, speed_limit, underfilled_density, metrics, dz, occupied, mass, hg_coefficient,
-                               sig_rr, sig_zz, sig_tt, sig_rz, u0, v0, u, v, limited)
+    for j in range(parts[part], past_row(part, parts, 1)):
+        for row in range(3):
+            limited[row, j] = 0.0
+        for b in range(mass.shape[0]):
+            accelerate_row(b, j, i0, i1, dt, speed_limit, underfilled_density, metrics, dz, occupied, mass, hg_coefficient,
+                           sig_rr, sig_zz, sig_tt, sig_rz, u0, v0, u, v, limited)
 
 
 @kernel
-def swept_volumes(j0, j1, i0, i1, dt, metrics, dz, group_ranges, u0, v0, u, v, fr, fz):
+def swept_volumes(part, parts, i0, i1, dt, metrics, dz, group_ranges, u0, v0, u, v, fr, fz):
     """Volumes swept by the faces in the step, from the velocity at mid-step (explanation/remap, equation 1).
 
     F_r = dt r h <u>,  F_z = dt (a v_inner + b v_outer), with the areas of the cell vectors, so that their sum over a cell is
@@ -255,7 +248,7 @@ def swept_volumes(j0, j1, i0, i1, dt, metrics, dz, group_ranges, u0, v0, u, v, f
     Reads    u0, v0, u, v [b, j, i]
     Writes   fr, fz [j, i]
     """
-    for j in prange(j0, j1):
+    for j in range(parts[part], past_row(part, parts, 1)):
         lo, hi = group_ranges[0, 1, j, 0], group_ranges[0, 1, j, 1]
         lo, n = columns(max(lo, i0), min(hi, i1))
         ub = u[0, j]

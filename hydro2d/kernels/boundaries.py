@@ -5,7 +5,8 @@ travels, what the deck has placed there (hydro2d/following). A transmitting edge
 """
 
 
-from hydro2d.jit import apart, kernel, point, prange, serial
+from hydro2d.jit import apart, kernel, point, serial
+from hydro2d.kernels.column_ranges import outer_rows, past_row
 from hydro2d.mesh.fields import PARITY
 from hydro2d.mesh.grid import AZ_IN, AZ_OUT, FACE_R, GHOSTS
 from hydro2d.physics.waves import impedances
@@ -20,14 +21,14 @@ def fill(m, j, i, from_j, from_i, mirror, fields, rules, vof, q):
 
 
 @kernel
-def ghost_columns(j0, j1, nr, mirror_low, mirror_high, fields, rules, body_range, vof, q):
+def ghost_columns(part, parts, nr, mirror_low, mirror_high, fields, rules, body_range, vof, q):
     """Ghost cells left and right of rows j0 to j1, of bodies that are near or were: fractions and the first `fields` of q.
 
     Reads    rules [m, k, 4]; body_range [m, j, 2]
     Updates  vof [m, j, i], q [k, m, j, i]
     """
     g = GHOSTS
-    for j in prange(j0, j1):
+    for j in range(parts[part], parts[part + 1]):
         for m in range(vof.shape[0]):
             for side in range(2):
                 edge = g + nr - 1 if side else g  # the last cell of the mesh
@@ -43,33 +44,37 @@ def ghost_columns(j0, j1, nr, mirror_low, mirror_high, fields, rules, body_range
 
 
 @kernel
-def ghost_rows(i0, i1, nz, mirror_low, mirror_high, fields, rules, vof, q):
-    """Ghost cells below and above the mesh, columns i0 to i1 (threaded over columns: there are only two rows); likewise.
+def ghost_rows(part, parts, i0, i1, nz, mirror_low, mirror_high, leading, fields, rules, vof, q):
+    """Ghost cells below and above the mesh, columns i0 to i1, likewise; the first and the last part have one side each.
+
+    The side `leading` of a mesh that travels (0 low, 1 high, -1 none) is left as it is: what flows in has been placed there.
 
     Reads    rules [m, k, 4]
     Updates  vof [m, j, i], q [k, m, j, i]
     """
     g = GHOSTS
-    for i in prange(i0, i1):
+    for side in range(2):
+        if side == leading or part != (parts.shape[0] - 2 if side else 0):
+            continue
+        edge = g + nz - 1 if side else g
+        out = 1 if side else -1
+        mirror = mirror_high if side else mirror_low
         for m in range(vof.shape[0]):
-            for side in range(2):
-                edge = g + nz - 1 if side else g
-                out = 1 if side else -1
-                mirror = mirror_high if side else mirror_low
-                for n in range(g):
-                    ghost = edge + (n + 1) * out
-                    source = edge - n * out if mirror else edge
+            for n in range(g):
+                ghost = edge + (n + 1) * out
+                source = edge - n * out if mirror else edge
+                for i in range(i0, i1):
                     fill(m, ghost, i, source, i, mirror, fields, rules, vof, q)
 
 
 @kernel
-def ghost_vertices_r(j0, j1, nr, mirror_low, mirror_high, u, v):
+def ghost_vertices_r(part, parts, nr, mirror_low, mirror_high, u, v):
     """Ghost vertices left and right of rows j0 to j1; u changes its sign in a mirror.
 
     Updates  u, v [b, j, i]
     """
     g = GHOSTS
-    for j in prange(j0, j1):
+    for j in range(parts[part], past_row(part, parts, 1)):
         for b in range(u.shape[0]):
             for n in range(1, g + 1):
                 u[b, j, g - n] = -u[b, j, g + n] if mirror_low else u[b, j, g]
@@ -79,19 +84,21 @@ def ghost_vertices_r(j0, j1, nr, mirror_low, mirror_high, u, v):
 
 
 @kernel
-def ghost_vertices_z(i0, i1, nz, mirror_low, mirror_high, u, v):
-    """Ghost vertices below and above the mesh; v changes its sign in a mirror.
+def ghost_vertices_z(part, parts, i0, i1, nz, mirror_low, mirror_high, u, v):
+    """Ghost vertices below and above the mesh, by the first and the last part; v changes its sign in a mirror.
 
     Updates  u, v [b, j, i]
     """
     g = GHOSTS
-    for i in prange(i0, i1):
-        for b in range(u.shape[0]):
-            for n in range(1, g + 1):
-                u[b, g - n, i] = u[b, g + n, i] if mirror_low else u[b, g, i]
-                v[b, g - n, i] = -v[b, g + n, i] if mirror_low else v[b, g, i]
-                u[b, g + nz + n, i] = u[b, g + nz - n, i] if mirror_high else u[b, g + nz, i]
-                v[b, g + nz + n, i] = -v[b, g + nz - n, i] if mirror_high else v[b, g + nz, i]
+    for b in range(u.shape[0]):
+        for n in range(1, g + 1):
+            for i in range(i0, i1):
+                if part == 0:
+                    u[b, g - n, i] = u[b, g + n, i] if mirror_low else u[b, g, i]
+                    v[b, g - n, i] = -v[b, g + n, i] if mirror_low else v[b, g, i]
+                if part == parts.shape[0] - 2:
+                    u[b, g + nz + n, i] = u[b, g + nz - n, i] if mirror_high else u[b, g + nz, i]
+                    v[b, g + nz + n, i] = -v[b, g + nz - n, i] if mirror_high else v[b, g + nz, i]
 
 
 @point
@@ -108,7 +115,7 @@ def dashpots(along_r, j, i, metrics, dz, rhobar, cl, bulk):
     return normal, shear
 
 
-@serial
+@apart
 def transmit(along_r, at, first, last, crossing, constrained, dt, metrics, dz, rhobar, cl, bulk, mass, u0, v0, u, v, taken):
     """Tractions -rho c_l v_n and -rho c_s v_t on the vertices first to last of an edge: what an endless plate would hold with.
 
@@ -147,3 +154,95 @@ def transmit(along_r, at, first, last, crossing, constrained, dt, metrics, dz, r
             taken[1] += 0.5 * (lost_r * (u0[b, j, i] + radial) + lost_z * (v0[b, j, i] + axial))
             u[b, j, i] = radial
             v[b, j, i] = axial
+
+
+@serial
+def transmit_edges(parts, i0, i1, transmitting, constrained, dt, metrics, dz, rhobar, cl, bulk, mass, u0, v0, u, v, taken):
+    """`transmit` for every transmitting edge that the active box has reached.
+
+    Reads    transmitting, constrained [4], columns (2) and rows (2), -1 for none; the rest as `transmit`
+    Updates  u, v [b, j, i];  writes taken [2], axial momentum and energy
+    """
+    j0, j1 = outer_rows(parts)
+    taken[0], taken[1] = 0.0, 0.0
+    for edge in range(4):
+        at, along_r = transmitting[edge], edge < 2
+        if along_r and (at == i0 or at == i1):
+            transmit(along_r, at, j0, j1 + 1, transmitting[2:4], constrained, dt, metrics, dz, rhobar, cl, bulk, mass, u0, v0,
+                     u, v, taken)
+        elif not along_r and (at == j0 or at == j1):
+            transmit(along_r, at, i0, i1 + 1, transmitting[0:2], constrained, dt, metrics, dz, rhobar, cl, bulk, mass, u0, v0,
+                     u, v, taken)
+
+
+@point
+def own_rows(part, parts, rows):
+    """First row and one past the last of a part, with all rows of the mesh beyond the active box: 0 to `rows`."""
+    return 0 if part == 0 else parts[part], rows if part == parts.shape[0] - 2 else parts[part + 1]
+
+
+@kernel
+def constrain(part, parts, constrained, velocity, mass, u0, v0, u, v, walls):
+    """The given normal velocity of constrained vertices: axis, walls, edges with a velocity.
+
+    The axis and walls along z take no axial momentum and do no work.
+
+    Reads    constrained [4], columns (2) and rows (2), -1 for none; velocity [4], m/s; mass, u0, v0 [b, j, i]
+    Updates  u, v [b, j, i]
+    Writes   walls [2, j]: axial momentum and energy that the edges take in a row
+    """
+    first, last = own_rows(part, parts, u.shape[1])
+    for j in range(first, last):
+        walls[0, j], walls[1, j] = 0.0, 0.0
+        for b in range(u.shape[0]):
+            for edge in range(2):
+                at, given = constrained[edge], velocity[edge]
+                if at < 0:
+                    continue
+                if given != 0.0:
+                    impulse = mass[b, j, at] * (u[b, j, at] - given)
+                    walls[1, j] += 0.5 * impulse * (u0[b, j, at] + given)
+                u[b, j, at] = given
+            for edge in range(2, 4):
+                if constrained[edge] != j:
+                    continue
+                given = velocity[edge]
+                for i in range(u.shape[2]):
+                    impulse = mass[b, j, i] * (v[b, j, i] - given)
+                    walls[0, j] += impulse
+                    walls[1, j] += 0.5 * impulse * (v0[b, j, i] + given) if given != 0.0 else 0.0
+                    v[b, j, i] = given
+
+
+@kernel
+def close_mass_flux(part, parts, di, mesh_box, opens_low, opens_high, flow):
+    """Mass flux beyond the edges of the mesh, where the sweep along the other direction has left its own: there is none.
+
+    Beyond an open edge of this direction it goes on as it was.
+
+    Reads    mesh_box [4], rows j0, j1 and columns i0, i1 of the mesh
+    Updates  flow [b, j, i]
+    """
+    first, last = own_rows(part, parts, flow.shape[1])
+    j0, j1, i0, i1 = mesh_box[0], mesh_box[1], mesh_box[2], mesh_box[3]
+    for b in range(flow.shape[0]):
+        if di == 1:
+            for i in range(flow.shape[2]):
+                if part == 0:
+                    flow[b, j0 - 1, i] = 0.0
+                if part == parts.shape[0] - 2:
+                    flow[b, j1, i] = 0.0
+            for j in range(first, last):
+                if opens_low:
+                    flow[b, j, i0 - 1] = flow[b, j, i0]
+                if opens_high:
+                    flow[b, j, i1 + 1] = flow[b, j, i1]
+        else:
+            for j in range(first, last):
+                flow[b, j, i0 - 1] = 0.0
+                flow[b, j, i1] = 0.0
+            for i in range(flow.shape[2]):
+                if opens_low and part == 0:
+                    flow[b, j0 - 1, i] = flow[b, j0, i]
+                if opens_high and part == parts.shape[0] - 2:
+                    flow[b, j1 + 1, i] = flow[b, j1, i]

@@ -4,8 +4,7 @@ A range (lo, hi) means lo <= i < hi; an empty range is (2**30, 0), so that the u
 other kernel loops over these ranges: a row of void costs nothing, and a pure cell pays for the one body in it.
 """
 
-from hydro2d.jit import kernel, point, prange, rowwise, serial
-from hydro2d.mesh.fields import BLOCK
+from hydro2d.jit import kernel, point, rowwise, serial
 
 NOTHING = 1 << 30
 
@@ -32,22 +31,21 @@ def columns(lo, hi):
 
 
 @point
-def number_of_blocks(j0, j1):
-    """Number of blocks of rows between j0 and j1; the last has the rest, fewer than 2 BLOCK rows."""
-    return max((j1 - j0) // BLOCK, 1)
+def outer_rows(parts):
+    """First row and one past the last of all parts: those of the active box."""
+    return parts[0], parts[parts.shape[0] - 1]
 
 
 @point
-def block_rows(b, blocks, j0, j1):
-    """First row and one past the last of block b."""
-    return j0 + b * BLOCK, j1 if b == blocks - 1 else j0 + (b + 1) * BLOCK
+def first_row(part, parts, more):
+    """First row of a part; the first part has some more rows below the active box."""
+    return parts[part] - (more if part == 0 else 0)
 
 
 @point
-def spread(place, blocks):
-    """Block at a place of the loop: the even ones, then the odd ones, so that two threads share cheap and dear rows."""
-    even = (blocks + 1) // 2
-    return 2 * place if place < even else 2 * (place - even) + 1
+def past_row(part, parts, more):
+    """One past the last row of a part; the last part has some more rows above the active box, such as its last vertices."""
+    return parts[part + 1] + (more if part == parts.shape[0] - 2 else 0)
 
 
 @point
@@ -60,7 +58,7 @@ def copy_beside(old, new, first, lo, hi, last):
 
 
 @kernel
-def find_body_ranges(j0, j1, i0, i1, anew, group, vof, body_ranges, occupied):
+def find_body_ranges(part, parts, i0, i1, anew, group, vof, body_ranges, occupied):
     """First column and one past the last in which each body lies, for the rows and columns of the active box.
 
     A body moves by no more than a cell: unless `anew`, it is looked for around the columns body_ranges[1] that it was in.
@@ -70,7 +68,7 @@ def find_body_ranges(j0, j1, i0, i1, anew, group, vof, body_ranges, occupied):
     Writes   occupied [b, j, 2], the union over the bodies: for b = 0 all of them, for b = 1 those of group 1
     """
     bodies = vof.shape[0]
-    for j in prange(j0, j1):
+    for j in range(parts[part], parts[part + 1]):
         for b in range(occupied.shape[0]):
             occupied[b, j, 0] = NOTHING
             occupied[b, j, 1] = 0
@@ -93,13 +91,13 @@ def find_body_ranges(j0, j1, i0, i1, anew, group, vof, body_ranges, occupied):
 
 
 @kernel
-def find_active_ranges(j0, j1, i0, i1, occupied, group_ranges):
+def find_active_ranges(part, parts, i0, i1, occupied, group_ranges):
     """Columns that a body can touch within one cycle: those occupied in rows j-2 to j+2, and two more on either side.
 
     Reads    occupied [b, j, 2]
     Writes   group_ranges[b, 0], the active range [j, 2]
     """
-    for j in prange(j0, j1):
+    for j in range(parts[part], parts[part + 1]):
         for b in range(occupied.shape[0]):
             lo, hi = union(occupied[b], j - 2, j + 3)
             if lo < hi:
@@ -110,7 +108,7 @@ def find_active_ranges(j0, j1, i0, i1, occupied, group_ranges):
 
 
 @kernel
-def widen_ranges(j0, j1, body_ranges, group_ranges):
+def widen_ranges(part, parts, body_ranges, group_ranges):
     """The ranges of a row joined with those of its neighbours, for rows j0 - 1 to j1.
 
     Reads    body_ranges[0], the range of each body, group_ranges[b, 0], the active range
@@ -118,7 +116,7 @@ def widen_ranges(j0, j1, body_ranges, group_ranges):
              body_ranges[2, m, j] over j-2 to j+1, the faces through which it flows;
              group_ranges[b, n, j] over the n rows below face or vertex j and the n above
     """
-    for j in prange(j0 - 1, j1 + 1):
+    for j in range(first_row(part, parts, 1), past_row(part, parts, 1)):
         for m in range(body_ranges.shape[1]):
             for n in range(1, 3):
                 lo, hi = union(body_ranges[0, m], j - n, j + 2)
@@ -158,27 +156,23 @@ def mixed_row(j, active_range, vof, scratch, row, count, mixed):
 
 
 @kernel
-def list_mixed(j0, j1, active_range, vof, count, mixed, scratch):
+def list_mixed(part, parts, active_range, vof, count, mixed, scratch):
     """mixed_row for rows j0 to j1.
 
-    Scratch  scratch [s, block, i]
+    Scratch  scratch [s, part, i]
     """
-    blocks = number_of_blocks(j0, j1)
-    for place in prange(blocks):
-        b = spread(place, blocks)
-        first_row, last_row = block_rows(b, blocks, j0, j1)
-        for j in range(first_row, last_row):
-            mixed_row(j, active_range, vof, scratch[0], b, count, mixed)
+    for j in range(parts[part], parts[part + 1]):
+        mixed_row(j, active_range, vof, scratch[0], part, count, mixed)
 
 
 @kernel
-def moving_columns(j0, j1, i0, i1, u, v, limits):
+def moving_columns(part, parts, i0, i1, u, v, limits):
     """First and one past the last vertex of each row that moves; what a second group has next to the first follows it.
 
     Reads    u, v [b, j, i]
     Writes   limits [j, 2]
     """
-    for j in prange(j0, j1):
+    for j in range(parts[part], past_row(part, parts, 1)):
         first = i0
         while first < i1 and u[0, j, first] == 0.0 and v[0, j, first] == 0.0:
             first += 1

@@ -5,8 +5,8 @@ cell, the forces on every vertex cancel. On a mesh that follows the body nothing
 equation 9).
 """
 
-from hydro2d.jit import kernel, point, prange
-from hydro2d.kernels.column_ranges import union
+from hydro2d.jit import kernel, point
+from hydro2d.kernels.column_ranges import outer_rows, past_row, union
 from hydro2d.mesh.fields import SRR, SRZ, SZZ, E
 from hydro2d.physics.traction import smoothstep
 
@@ -31,7 +31,7 @@ def checkerboard_of(j, i, a):
 
 
 @kernel
-def find_insides(j0, j1, i0, i1, group, group_ranges, vof, inside):
+def find_insides(part, parts, i0, i1, group, group_ranges, vof, inside):
     """How much cells lie inside of a body of the hard group: those that it fills, by what the least of their neighbours holds.
 
     A cell that has just filled has a neighbour without any of the body, so that it comes in without a jump. Beyond the edges
@@ -40,7 +40,8 @@ def find_insides(j0, j1, i0, i1, group, group_ranges, vof, inside):
     Reads    group [m]; vof [m, j, i]
     Writes   inside [j, i], 0 to 1
     """
-    for j in prange(j0, j1):
+    j0, j1 = outer_rows(parts)
+    for j in range(parts[part], parts[part + 1]):
         for i in range(group_ranges[1, 0, j, 0], group_ranges[1, 0, j, 1]):
             inside[j, i] = 0.0
             for m in range(vof.shape[0]):
@@ -54,13 +55,14 @@ def find_insides(j0, j1, i0, i1, group, group_ranges, vof, inside):
 
 
 @kernel
-def find_checkerboards(j0, j1, i0, i1, group, group_ranges, vof, q, pm, inside, checkerboard):
+def find_checkerboards(part, parts, i0, i1, group, group_ranges, vof, q, pm, inside, checkerboard):
     """Checkerboards around the vertices between four cells that one body of the hard group fills.
 
     Reads    group [m]; vof, pm [m, j, i]; q (deviators) [k, m, j, i]; inside [j, i]
     Writes   checkerboard [5, j, i], rows COUNTS to OF_RZ, 0 at all other vertices
     """
-    for j in prange(j0, j1 + 1):
+    j0, j1 = outer_rows(parts)
+    for j in range(parts[part], past_row(part, parts, 1)):
         lo, hi = group_ranges[1, 1, j, 0], group_ranges[1, 1, j, 1]
         for i in range(lo, hi + 1):
             for row in range(5):
@@ -106,7 +108,8 @@ def stands_out(of, j, i, checkerboard):
 
 
 @kernel
-def fade_deviators(j0, j1, dt, group, group_ranges, volume, hg_coefficient, cell_mass, inside, checkerboard, vof, km, q, room):
+def fade_deviators(part, parts, dt, group, group_ranges, volume, hg_coefficient, cell_mass, inside, checkerboard, vof, km, q,
+                   room):
     """Takes from the deviators of every cell its share of what stands out, and finds the volume it would have to gain.
 
     The elastic energy that goes with it stays as heat.
@@ -115,7 +118,7 @@ def fade_deviators(j0, j1, dt, group, group_ranges, volume, hg_coefficient, cell
     Updates  q (deviators) [k, m, j, i]
     Writes   room [j, i], volume that makes the pressure that stands out fade, m^3 per radian
     """
-    for j in prange(j0, j1):
+    for j in range(parts[part], parts[part + 1]):
         for i in range(group_ranges[1, 0, j, 0], group_ranges[1, 0, j, 1]):
             room[j, i] = 0.0
             if inside[j, i] == 0.0:
@@ -142,7 +145,8 @@ def lower_face(m, j, i, vof, room):
 
 
 @kernel
-def fade_pressures(j0, j1, i0, i1, group, group_ranges, contact_columns, cell_mass, room, vof, pm, fr, fz, own_r, own_z, q):
+def fade_pressures(part, parts, i0, i1, group, group_ranges, contact_columns, cell_mass, room, vof, pm, fr, fz, own_r, own_z,
+                   q):
     """Lets faces sweep volume from cells whose pressure stands out to their neighbours.
 
     Two cells do work on one another by their mean pressure, so that their sum of energy stays.
@@ -150,7 +154,8 @@ def fade_pressures(j0, j1, i0, i1, group, group_ranges, contact_columns, cell_ma
     Reads    room [j, i]; group [m]; vof, pm [m, j, i]; cell_mass [b, j, i]; contact_columns [j, 2]
     Updates  fr, fz [j, i]; own_r, own_z [b, j, i] where they are in use; q (e) [k, m, j, i]
     """
-    for j in prange(j0, j1):
+    j0, j1 = outer_rows(parts)
+    for j in range(parts[part], parts[part + 1]):
         first, last = contact_columns[j, 0], contact_columns[j, 1]
         low, high = union(contact_columns, max(j - 1, j0), j + 1)
         for i in range(group_ranges[1, 0, j, 0], group_ranges[1, 0, j, 1]):

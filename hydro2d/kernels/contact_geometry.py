@@ -11,8 +11,8 @@ equation 1; that of the soft group is what is missing to 1.
 
 from math import sqrt
 
-from hydro2d.jit import kernel, point, prange
-from hydro2d.kernels.column_ranges import union
+from hydro2d.jit import kernel, point, serial
+from hydro2d.kernels.column_ranges import outer_rows, past_row, union
 from hydro2d.physics.contact import GAP, end_apertures, known
 from hydro2d.physics.interfaces import line_constant, youngs_gradient
 from hydro2d.physics.traction import smoothstep
@@ -33,14 +33,15 @@ REACH = 3
 
 
 @kernel
-def find_contact_nodes(j0, j1, mesh_box, group_ranges, mass, group, vof, count, contact_nodes, hard, soft, heat, warmed):
+def find_contact_nodes(part, parts, mesh_box, group_ranges, mass, group, vof, count, contact_nodes, hard, soft, heat, warmed):
     """Contact nodes of rows j0 to j1, and what hard and soft bodies fill of the cells near hard ones.
 
     Reads    group_ranges[1] [n, j, 2], the columns near hard bodies; mass [b, j, i]; vof [m, j, i]; group [m]
     Writes   count [j], contact_nodes [j, k] (columns, ascending); hard, soft [j, i]; zero in heat [b, j, i];
              warmed [j, 2], the cells around vertices that can be masters of a contact node
     """
-    for j in prange(j0, j1 + 1):
+    j0, j1 = outer_rows(parts)
+    for j in range(parts[part], past_row(part, parts, 1)):
         found = 0
         lo, hi = union(group_ranges[1, 0], j - REACH - 2, j + REACH + 2)
         for i in range(max(lo - REACH - 1, mesh_box[2]), min(hi + REACH + 2, mesh_box[3] + 1)):
@@ -85,8 +86,21 @@ def parted(void, whole, less):
     return smoothstep(void / GAP - 1.0) * smoothstep(2.0 - 2.0 * whole / (BETWEEN * less))
 
 
+@serial
+def number_nodes(parts, count, first_slot):
+    """The slot of every row's first contact node, and behind the last row how many slots there are.
+
+    Reads    count [j], contact nodes
+    Writes   first_slot [j]
+    """
+    j0, j1 = outer_rows(parts)
+    first_slot[j0] = 0
+    for j in range(j0, j1 + 1):
+        first_slot[j + 1] = first_slot[j] + count[j]
+
+
 @kernel
-def contact_lines(j0, j1, i0, i1, mesh_box, dr, dz, count, contact_nodes, hard, soft, contact_columns, line):
+def contact_lines(part, parts, i0, i1, mesh_box, dr, dz, count, contact_nodes, hard, soft, contact_columns, line):
     """The contact-interface columns of every row, from i0 to i1, and in them the line that parts the hard side of a cell from
     the soft one.
 
@@ -98,7 +112,7 @@ def contact_lines(j0, j1, i0, i1, mesh_box, dr, dz, count, contact_nodes, hard, 
     Reads    count [j], contact_nodes [j, k]; hard, soft [j, i]
     Writes   contact_columns [j, 2]; line [10, j, i]
     """
-    for j in prange(j0, j1):
+    for j in range(parts[part], parts[part + 1]):
         lo, hi = 1 << 30, 0
         for row in range(j, j + 2):
             if count[row] > 0:
@@ -166,8 +180,8 @@ def face_aperture(j, i, x0, y0, x1, y1, inside, line, hard, soft):
 
 
 @kernel
-def face_apertures(j0, j1, mesh_box, constrained, contact_columns, line, hard, soft, mass, count, contact_nodes, aperture_r,
-                   aperture_z, normal, touch):
+def face_apertures(part, parts, mesh_box, constrained, contact_columns, line, hard, soft, mass, count, contact_nodes,
+                   aperture_r, aperture_z, normal, touch):
     """Apertures of the hard group on the faces around contact nodes, and normals and contact at these.
 
     The aperture of a face is the mean of what the lines of both neighbours leave open of it. A normal is the mean of the
@@ -178,7 +192,8 @@ def face_apertures(j0, j1, mesh_box, constrained, contact_columns, line, hard, s
     Reads    contact_columns [j, 2], line [10, j, i], hard, soft [j, i], mass [b, j, i], count [j], contact_nodes [j, k]
     Writes   aperture_r, aperture_z [end, j, i]; normal [3, 2, j, i], touch [j, i] at contact nodes
     """
-    for j in prange(j0, j1 + 1):
+    j0, j1 = outer_rows(parts)
+    for j in range(parts[part], past_row(part, parts, 1)):
         if j < j1:
             for i in range(contact_columns[j, 0], contact_columns[j, 1] + 1):
                 solid_l, low_l, high_l = 0.0, 0.0, 0.0

@@ -2,8 +2,8 @@
 
 from math import sqrt
 
-from hydro2d.jit import kernel, point, prange
-from hydro2d.kernels.column_ranges import mixed_row
+from hydro2d.jit import kernel, point
+from hydro2d.kernels.column_ranges import mixed_row, past_row
 from hydro2d.kernels.contact_geometry import HARD_R, HARD_Z, SOFT_R, SOFT_Z
 from hydro2d.kernels.cut_cells import BONDED, FREE_SURFACE, INTERFACE, KIND, cut_pressure, normal_deviator
 from hydro2d.mesh.fields import RHO, SRR, SRZ, SZZ
@@ -19,7 +19,7 @@ SEED = 1e-11
 
 
 @point
-def parts(j, i, normal, u, v):
+def come_apart(j, i, normal, u, v):
     """Whether the groups part along the normal at a vertex of cell (j, i)."""
     opens = 0.0
     for row in range(j, j + 2):
@@ -31,7 +31,7 @@ def parts(j, i, normal, u, v):
 
 
 @kernel
-def contact_viscosity(j0, j1, mesh_box, linear, quadratic, courant, dr, dz, metrics, contact_columns, line, group_ranges,
+def contact_viscosity(part, parts, mesh_box, linear, quadratic, courant, dr, dz, metrics, contact_columns, line, group_ranges,
                       normal, aperture_r, aperture_z, hard, soft, u, v, cl, rhobar, vof, q, km, skin, p, solid, bulk, qr,
                       qz, rate, row_step, mixed_count, mixed, scratch):
     """Volume rate and viscosity of the contact-interface cells, the step they allow, and room where their groups part.
@@ -47,7 +47,7 @@ def contact_viscosity(j0, j1, mesh_box, linear, quadratic, courant, dr, dz, metr
     Writes   qr, qz, rate [j, i] (1/s)
     Scratch  scratch [row, i]
     """
-    for j in prange(j0, j1):
+    for j in range(parts[part], parts[part + 1]):
         seeded = False
         for i in range(contact_columns[j, 0], contact_columns[j, 1]):
             rho = rhobar[j, i]
@@ -55,7 +55,7 @@ def contact_viscosity(j0, j1, mesh_box, linear, quadratic, courant, dr, dz, metr
                 rho = stiff_density(j, i, vof, q, km)
             elif skin[KIND, j, i] == FREE_SURFACE and meeting(j, i, mesh_box, hard, soft):
                 skin[KIND, j, i] = INTERFACE
-            elif solid[j, i] > 1.0 - SEED and p[j, i] <= 0.0 and meeting(j, i, mesh_box, hard, soft) and parts(
+            elif solid[j, i] > 1.0 - SEED and p[j, i] <= 0.0 and meeting(j, i, mesh_box, hard, soft) and come_apart(
                     j, i, normal, u, v):
                 for m in range(vof.shape[0]):
                     if vof[m, j, i] > 0.0:
@@ -88,14 +88,14 @@ def contact_viscosity(j0, j1, mesh_box, linear, quadratic, courant, dr, dz, metr
 
 
 @kernel
-def contact_stress(j0, j1, dt, contact_columns, group_ranges, line, hard, soft, rate, skin, p, bulk, solid, ph, sig_rr, sig_zz,
-                   sig_tt, sig_rz, contact_pressure):
+def contact_stress(part, parts, dt, contact_columns, group_ranges, line, hard, soft, rate, skin, p, bulk, solid, ph, sig_rr,
+                   sig_zz, sig_tt, sig_rz, contact_pressure):
     """Pressure of contact-interface cells at half the step by their one rate of volume, and normal pressure of the contact.
 
     Reads    rate, p, bulk, solid, skin, hard, soft, sig_rz [j, i], line [10, j, i]
     Updates  ph, sig_rr, sig_zz, sig_tt [j, i];  writes contact_pressure [j, i], 0 where a cell does not hold both groups
     """
-    for j in prange(j0, j1):
+    for j in range(parts[part], parts[part + 1]):
         for i in range(group_ranges[1, 0, j, 0], group_ranges[1, 0, j, 1]):
             contact_pressure[j, i] = 0.0
         for i in range(contact_columns[j, 0], contact_columns[j, 1]):
@@ -154,8 +154,8 @@ def corner_force(g, j, i, at_j, at_i, group, solid_mode, solid, skin, vof, q, hg
 
 
 @kernel
-def contact_node_forces(j0, j1, dt, group, solid_mode, metrics, dz, constrained, count, contact_nodes, aperture_r, aperture_z,
-                        ph, qr, solid, skin, vof, q, hg_coefficient, cell_mass, mass, u0, v0, u, v, transfer):
+def contact_node_forces(part, parts, dt, group, solid_mode, metrics, dz, constrained, count, contact_nodes, aperture_r,
+                        aperture_z, ph, qr, solid, skin, vof, q, hg_coefficient, cell_mass, mass, u0, v0, u, v, transfer):
     """Velocities that the forces alone would give both groups at contact nodes.
 
     The pressure of a cell acts on each group by the apertures of the cell's faces, the deviators of a group act on it alone
@@ -164,7 +164,7 @@ def contact_node_forces(j0, j1, dt, group, solid_mode, metrics, dz, constrained,
     Reads    ph, qr, solid, hg_coefficient [j, i]; skin [3, j, i]; vof, q; cell_mass, mass, u0, v0 [b, j, i]
     Writes   u, v [b, j, i], without what walls and the axis take; transfer[4, j], axial momentum given to walls
     """
-    for j in prange(j0, j1 + 1):
+    for j in range(parts[part], past_row(part, parts, 1)):
         transfer[4, j] = 0.0
         for k in range(count[j]):
             i = contact_nodes[j, k]
@@ -193,12 +193,12 @@ def contact_node_forces(j0, j1, dt, group, solid_mode, metrics, dz, constrained,
 
 
 @kernel
-def keep_one(j0, j1, i0, i1, group_ranges, mass, u, v):
+def keep_one(part, parts, i0, i1, group_ranges, mass, u, v):
     """Where one group has no mass its velocity is the other's, so that a vertex of one group has one velocity.
 
     Updates  u, v [b, j, i] around hard bodies
     """
-    for j in prange(j0, j1 + 1):
+    for j in range(parts[part], past_row(part, parts, 1)):
         for i in range(max(group_ranges[1, 1, j, 0], i0), min(group_ranges[1, 1, j, 1] + 1, i1 + 1)):
             if mass[1, j, i] == 0.0:
                 u[1, j, i] = u[0, j, i]

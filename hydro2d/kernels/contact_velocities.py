@@ -8,6 +8,7 @@ TOLERANCE, so that no order of nodes matters (explanation/sliding, equation 6).
 from math import sqrt
 
 from hydro2d.jit import apart, point, serial
+from hydro2d.kernels.column_ranges import outer_rows
 from hydro2d.kernels.contact_geometry import REACH, SHARE
 from hydro2d.kernels.extension import SPAN, TIED
 from hydro2d.mesh.grid import AZ_IN, AZ_OUT, FACE_R, HOOP
@@ -77,12 +78,12 @@ def give_tie(g, j, i, x, push_r, push_z, constrained, number, where, weights, ma
 
 @apart
 def list_ties(j0, j1, constrained, count, contact_nodes, first, strength, number, where, weights, mass, nodes, starts, entries,
-              parts, places):
+              portions, places):
     """(number of tied slaves, number of vertices), all slaves listed with their masters one after another.
 
     Writes   nodes [6, t]: slot, group, row and column of a slave, what holds it (1 along r, 2 along z, 3 both), and the number
              of its vertex in the list; starts [t + 1], its first master; entries [4, e]: group, row, column and number of a
-             master; parts [e, 4]: its weight along r and z, 0 where it is held, and the same over its mass
+             master; portions [e, 4]: its weight along r and z, 0 where it is held, and the same over its mass
     Scratch  places [b, j, i], 0 before and after
     """
     tied, e, vertices = 0, 0, 0
@@ -109,10 +110,10 @@ def list_ties(j0, j1, constrained, count, contact_nodes, first, strength, number
                         places[by, row, column] = vertices
                     entries[0, e], entries[1, e], entries[2, e] = by, row, column
                     entries[3, e] = places[by, row, column] - 1
-                    parts[e, 0] = 0.0 if held_r else w
-                    parts[e, 1] = 0.0 if held_z else w
-                    parts[e, 2] = 0.0 if held_r else w / mass[by, row, column]
-                    parts[e, 3] = 0.0 if held_z else w / mass[by, row, column]
+                    portions[e, 0] = 0.0 if held_r else w
+                    portions[e, 1] = 0.0 if held_z else w
+                    portions[e, 2] = 0.0 if held_r else w / mass[by, row, column]
+                    portions[e, 3] = 0.0 if held_z else w / mass[by, row, column]
                     e += 1
                 tied += 1
                 starts[tied] = e
@@ -124,18 +125,18 @@ def list_ties(j0, j1, constrained, count, contact_nodes, first, strength, number
 
 
 @point
-def mismatch(t, nodes, starts, entries, parts, u, v):
+def mismatch(t, nodes, starts, entries, portions, u, v):
     """Velocity of the t-th slave less that of its masters, along r and z; 0 along what the axis or a wall holds."""
     g, j, i, still = nodes[GROUP, t], nodes[ROW, t], nodes[COLUMN, t], nodes[HELD, t]
     apart_r, apart_z = u[g, j, i], v[g, j, i]
     for e in range(starts[t], starts[t + 1]):
-        apart_r -= parts[e, 0] * u[entries[0, e], entries[1, e], entries[2, e]]
-        apart_z -= parts[e, 1] * v[entries[0, e], entries[1, e], entries[2, e]]
+        apart_r -= portions[e, 0] * u[entries[0, e], entries[1, e], entries[2, e]]
+        apart_z -= portions[e, 1] * v[entries[0, e], entries[1, e], entries[2, e]]
     return 0.0 if still % 2 == 1 else apart_r, 0.0 if still >= 2 else apart_z
 
 
 @apart
-def image_of_search(tied, vertices, strength, nodes, starts, entries, parts, mass, ties, gain):
+def image_of_search(tied, vertices, strength, nodes, starts, entries, portions, mass, ties, gain):
     """What the search direction, as impulses, does to the mismatch: N M^-1 N^T p and the compliance; returns p . image.
 
     Reads    ties [SEARCH, x, b]
@@ -151,15 +152,15 @@ def image_of_search(tied, vertices, strength, nodes, starts, entries, parts, mas
         gain[own, 0] += p_r / m
         gain[own, 1] += p_z / m
         for e in range(starts[t], starts[t + 1]):
-            gain[entries[3, e], 0] -= parts[e, 2] * p_r
-            gain[entries[3, e], 1] -= parts[e, 3] * p_z
+            gain[entries[3, e], 0] -= portions[e, 2] * p_r
+            gain[entries[3, e], 1] -= portions[e, 3] * p_z
     along_r, along_z = 0.0, 0.0
     for t in range(tied):
         x, g, own = nodes[SLOT, t], nodes[GROUP, t], nodes[VERTEX, t]
         a_r, a_z = gain[own, 0], gain[own, 1]
         for e in range(starts[t], starts[t + 1]):
-            a_r -= parts[e, 0] * gain[entries[3, e], 0]
-            a_z -= parts[e, 1] * gain[entries[3, e], 1]
+            a_r -= portions[e, 0] * gain[entries[3, e], 0]
+            a_z -= portions[e, 1] * gain[entries[3, e], 1]
         a_r = 0.0 if nodes[HELD, t] % 2 == 1 else a_r
         a_z = 0.0 if nodes[HELD, t] >= 2 else a_z
         give_way = (1.0 / strength[x, g] - 1.0) / mass[g, nodes[ROW, t], nodes[COLUMN, t]]
@@ -173,7 +174,7 @@ def image_of_search(tied, vertices, strength, nodes, starts, entries, parts, mas
 
 
 @apart
-def meet_ties(tied, vertices, constrained, strength, number, where, weights, mass, u, v, nodes, starts, entries, parts, ties,
+def meet_ties(tied, vertices, constrained, strength, number, where, weights, mass, u, v, nodes, starts, entries, portions, ties,
               gain, taken, transfer):
     """Brings all slaves to the velocities of their masters at once, by conjugate gradients from nothing.
 
@@ -184,7 +185,7 @@ def meet_ties(tied, vertices, constrained, strength, number, where, weights, mas
         x, g, j, i = nodes[SLOT, t], nodes[GROUP, t], nodes[ROW, t], nodes[COLUMN, t]
         ease_r, ease_z = masters_mobility(g, j, i, x, constrained, number, where, weights, mass)
         own = 1.0 / (strength[x, g] * mass[g, j, i])
-        r_r, r_z = mismatch(t, nodes, starts, entries, parts, u, v)
+        r_r, r_z = mismatch(t, nodes, starts, entries, portions, u, v)
         for c in range(2):
             ties[IMPULSE + c, x, g] = 0.0
             ties[DIAGONAL + c, x, g] = 1.0 / (own + (ease_r if c == 0 else ease_z))
@@ -196,7 +197,7 @@ def meet_ties(tied, vertices, constrained, strength, number, where, weights, mas
     for _ in range(STEPS):
         if old_r <= enough_r and old_z <= enough_z:
             break
-        along_r, along_z = image_of_search(tied, vertices, strength, nodes, starts, entries, parts, mass, ties, gain)
+        along_r, along_z = image_of_search(tied, vertices, strength, nodes, starts, entries, portions, mass, ties, gain)
         step_r = old_r / along_r if old_r > enough_r else 0.0
         step_z = old_z / along_z if old_z > enough_z else 0.0
         new_r, new_z = 0.0, 0.0
@@ -312,8 +313,8 @@ def warm_up(g, j, i, x, made, number, where, weights, mass, heat):
 
 
 @serial
-def settle(j0, j1, dt, friction, constrained, metrics, dz, contact_columns, line, count, contact_nodes, first, normal, touch,
-           strength, number, where, weights, sig_rr, sig_zz, sig_rz, mass, u0, v0, u, v, nodes, starts, entries, parts, places,
+def settle(parts, dt, friction, constrained, metrics, dz, contact_columns, line, count, contact_nodes, first, normal, touch,
+           strength, number, where, weights, sig_rr, sig_zz, sig_rz, mass, u0, v0, u, v, nodes, starts, entries, portions, places,
            ties, gain, taken, rubbing, heat, transfer):
     """Velocities of both groups at contact nodes, from those that the forces alone would give.
 
@@ -328,6 +329,7 @@ def settle(j0, j1, dt, friction, constrained, metrics, dz, contact_columns, line
     Scratch  what list_ties writes; ties [10, x, b], gain [n, c]; taken [c, x, b], impulses that slaves have given away;
              rubbing [3, x]
     """
+    j0, j1 = outer_rows(parts)
     for x in range(first[j1 + 1]):
         for c in range(2):
             for g in range(2):
@@ -335,8 +337,8 @@ def settle(j0, j1, dt, friction, constrained, metrics, dz, contact_columns, line
         for c in range(3):
             rubbing[c, x] = 0.0
     tied, vertices = list_ties(j0, j1, constrained, count, contact_nodes, first, strength, number, where, weights, mass, nodes,
-                               starts, entries, parts, places)
-    meet_ties(tied, vertices, constrained, strength, number, where, weights, mass, u, v, nodes, starts, entries, parts, ties,
+                               starts, entries, portions, places)
+    meet_ties(tied, vertices, constrained, strength, number, where, weights, mass, u, v, nodes, starts, entries, portions, ties,
               gain, taken, transfer)
     for _ in range(ROUNDS if friction > 0.0 else 0):
         for j in range(j0, j1 + 1):
@@ -345,7 +347,7 @@ def settle(j0, j1, dt, friction, constrained, metrics, dz, contact_columns, line
                     rub(j, contact_nodes[j, k], first[j] + k, dt, friction, constrained, strength, number, where, weights,
                         metrics, dz, contact_columns, line, normal, sig_rr, sig_zz, sig_rz, mass, u, v, taken, rubbing,
                         transfer)
-        meet_ties(tied, vertices, constrained, strength, number, where, weights, mass, u, v, nodes, starts, entries, parts,
+        meet_ties(tied, vertices, constrained, strength, number, where, weights, mass, u, v, nodes, starts, entries, portions,
                   ties, gain, taken, transfer)
     t = 0
     for j in range(j0, j1 + 1):
@@ -363,8 +365,8 @@ def settle(j0, j1, dt, friction, constrained, metrics, dz, contact_columns, line
             for g in range(2):
                 if strength[x, g] == 0.0:
                     continue
-                before_r, before_z = mismatch(t, nodes, starts, entries, parts, u0, v0)
-                after_r, after_z = mismatch(t, nodes, starts, entries, parts, u, v)
+                before_r, before_z = mismatch(t, nodes, starts, entries, portions, u0, v0)
+                after_r, after_z = mismatch(t, nodes, starts, entries, portions, u, v)
                 t += 1
                 made = 0.5 * (taken[0, x, g] * (before_r + after_r) + taken[1, x, g] * (before_z + after_z))
                 warm_up(g, j, i, x, made, number, where, weights, mass, heat)

@@ -3,8 +3,8 @@
 The faces are swept by both groups, each by its aperture (kernels/contact_geometry); a body flows with its group's velocity.
 """
 
-from hydro2d.jit import apart, kernel, point, prange
-from hydro2d.kernels.column_ranges import union
+from hydro2d.jit import apart, kernel, point
+from hydro2d.kernels.column_ranges import first_row, outer_rows, past_row, union
 from hydro2d.kernels.contact_geometry import HARD_FIRST, SOFT_AFTER
 from hydro2d.kernels.cut_cells import INTERFACE, KIND
 from hydro2d.mesh.fields import RHO, E
@@ -18,14 +18,15 @@ OTHERS = 0.01
 
 
 @kernel
-def contact_swept_volumes(j0, j1, dt, metrics, dz, contact_columns, aperture_r, aperture_z, u0, v0, u, v, even_r, even_z, fr,
-                          fz, own_r, own_z):
+def contact_swept_volumes(part, parts, dt, metrics, dz, contact_columns, aperture_r, aperture_z, u0, v0, u, v, even_r, even_z,
+                          fr, fz, own_r, own_z):
     """Volumes swept in the step by the faces of contact-interface cells: by aperture, and by each group as if it were alone.
 
     Reads    u0, v0, u, v [b, j, i]
     Writes   fr, fz [j, i]; own_r, own_z [b, j, i]
     """
-    for j in prange(j0, j1 + 1):
+    j0, j1 = outer_rows(parts)
+    for j in range(parts[part], past_row(part, parts, 1)):
         if j < j1:
             for i in range(contact_columns[j, 0], contact_columns[j, 1] + 1):
                 scale = 0.25 * dt * metrics[FACE_R, i] * dz[j]
@@ -59,7 +60,7 @@ def evening_volume(j, i, row, column, volume, skin, bulk, ph, qr):
 
 
 @kernel
-def even_out(j0, j1, contact_columns, volume, skin, bulk, ph, qr, even_r, even_z):
+def even_out(part, parts, contact_columns, volume, skin, bulk, ph, qr, even_r, even_z):
     """Volumes that even out p_c along the surface.
 
     A pressure that is constant in every cell of the surface, while velocities are linear, has a pattern (up and down from cell
@@ -68,7 +69,8 @@ def even_out(j0, j1, contact_columns, volume, skin, bulk, ph, qr, even_r, even_z
     Reads    ph, qr, bulk, volume [j, i], skin [3, j, i]
     Writes   even_r, even_z [j, i]
     """
-    for j in prange(j0, j1 + 1):
+    j0, j1 = outer_rows(parts)
+    for j in range(parts[part], past_row(part, parts, 1)):
         if j < j1:
             for i in range(contact_columns[j, 0], contact_columns[j, 1] + 1):
                 inside = contact_columns[j, 0] < i < contact_columns[j, 1]
@@ -81,12 +83,12 @@ def even_out(j0, j1, contact_columns, volume, skin, bulk, ph, qr, even_r, even_z
 
 
 @kernel
-def warm_evened(j0, j1, contact_columns, volume, ph, qr, even_r, even_z, vof, q):
+def warm_evened(part, parts, contact_columns, volume, ph, qr, even_r, even_z, vof, q):
     """Gives the work that is lost as p_c evens out, half to either cell, to the bodies by mass.
 
     Updates  q (e) [k, m, j, i]
     """
-    for j in prange(j0, j1):
+    for j in range(parts[part], parts[part + 1]):
         for i in range(contact_columns[j, 0], contact_columns[j, 1]):
             here = ph[j, i] + qr[j, i]
             made = 0.0
@@ -109,7 +111,7 @@ def warm_evened(j0, j1, contact_columns, volume, ph, qr, even_r, even_z, vof, q)
 
 
 @kernel
-def contact_work(j0, j1, dt, metrics, dz, contact_columns, group, aperture_r, aperture_z, ph, qr, u0, v0, u, v, fr, fz,
+def contact_work(part, parts, dt, metrics, dz, contact_columns, group, aperture_r, aperture_z, ph, qr, u0, v0, u, v, fr, fz,
                  cell_mass, vof, q):
     """Pressure work in the pure ones among contact-interface cells: by the volume that they lose, not by their group's own.
 
@@ -118,7 +120,7 @@ def contact_work(j0, j1, dt, metrics, dz, contact_columns, group, aperture_r, ap
     Reads    ph, qr [j, i], velocities, fr, fz [j, i], cell_mass [b, j, i]
     Updates  q (e) [k, m, j, i]
     """
-    for j in prange(j0, j1):
+    for j in range(parts[part], parts[part + 1]):
         for i in range(contact_columns[j, 0], contact_columns[j, 1]):
             for m in range(vof.shape[0]):
                 if vof[m, j, i] == 1.0:
@@ -130,7 +132,7 @@ def contact_work(j0, j1, dt, metrics, dz, contact_columns, group, aperture_r, ap
 
 
 @kernel
-def contact_shares(j0, j1, mesh_box, contact_columns, volume, pre, vof, part, size):
+def contact_shares(part, parts, mesh_box, contact_columns, volume, pre, vof, own_share, size):
     """Fractions of the cell as it stands on the mesh, in contact-interface cells and two around them.
 
     The volume before a sweep is what both groups leave of the cell. Neither is stretched by what the other does: a line that
@@ -138,9 +140,10 @@ def contact_shares(j0, j1, mesh_box, contact_columns, volume, pre, vof, part, si
     with the first OTHERS of what is not the one body, and of void.
 
     Reads    volume, pre [j, i], vof [m, j, i]
-    Writes   part [m, j, i], the fractions; size [j, i] (m^3), the volume that they are of
+    Writes   own_share [m, j, i], the fractions; size [j, i] (m^3), the volume that they are of
     """
-    for j in prange(j0 - 2, j1 + 2):
+    j0, j1 = outer_rows(parts)
+    for j in range(first_row(part, parts, 2), past_row(part, parts, 2)):
         lo, hi = union(contact_columns, max(j - 2, j0), min(j + 3, j1))
         for i in range(max(lo - 3, 0), min(hi + 3, vof.shape[2])):
             total, largest = 0.0, 0.0
@@ -152,24 +155,24 @@ def contact_shares(j0, j1, mesh_box, contact_columns, volume, pre, vof, part, si
                 scale += smoothstep((1.0 - largest) / OTHERS) * (pre[j, i] / volume[j, i] - 1.0)
                 scale -= smoothstep((1.0 - total) / OTHERS) * max(scale - 1.0 / total, 0.0)
             for m in range(vof.shape[0]):
-                part[m, j, i] = vof[m, j, i] * scale
+                own_share[m, j, i] = vof[m, j, i] * scale
             size[j, i] = pre[j, i] / scale
 
 
 @apart
-def strip_of(m, j, i, along_z, width, high, order, part, vof, dr, dz):
+def strip_of(m, j, i, along_z, width, high, order, own_share, vof, dr, dz):
     """Volume of body m in a strip of cell (j, i), as a share of the cell; nested in the order, never more than there is.
 
-    The lines are those of part, the void is that of vof.
+    The lines are those of own_share, the void is that of vof.
     """
     below, total, given = 0.0, 0.0, 0.0
     void = 1.0 - cumulative(j, i, order.shape[0] - 1, order, vof)
     for k in range(order.shape[0]):
-        f = part[order[k], j, i]
+        f = own_share[order[k], j, i]
         total = min(total + f, 1.0)
         if f == 0.0:
             continue
-        n_r, n_z, w, h, weight = surface(j, i, k, order, part, dr, dz, void)
+        n_r, n_z, w, h, weight = surface(j, i, k, order, own_share, dr, dz, void)
         if along_z:
             n_r, n_z, w, h = n_z, n_r, h, w
         filled = share_in_strip(n_r, n_z, w, h, weight, total, width, high)
@@ -182,7 +185,7 @@ def strip_of(m, j, i, along_z, width, high, order, part, vof, dr, dz):
 
 
 @apart
-def take(g, more, dj, di, j, i, group, part, size, vof, flux_volume):
+def take(g, more, dj, di, j, i, group, own_share, size, vof, flux_volume):
     """Adds `more` to the volume of group g through face (j, i); what the group cannot take.
 
     What flows the other way ends first, every body by the same share. Then the body that fills the most of the cell that the
@@ -201,15 +204,15 @@ def take(g, more, dj, di, j, i, group, part, size, vof, flux_volume):
     m = largest_of(g, row, column, group, vof)
     if m < 0 or more == 0.0:
         return more
-    given = min(abs(more), max(part[m, row, column] * size[row, column] - abs(flux_volume[m, j, i]), 0.0))
+    given = min(abs(more), max(own_share[m, row, column] * size[row, column] - abs(flux_volume[m, j, i]), 0.0))
     given = given if more > 0.0 else -given
     flux_volume[m, j, i] += given
     return more - given
 
 
 @kernel
-def contact_fluxes(dj, di, j0, j1, mesh_box, dr, dz, hard_first, soft_first, group, contact_columns, line, face, own, part,
-                   size, vof, flux_volume):
+def contact_fluxes(dj, di, part, parts, mesh_box, dr, dz, hard_first, soft_first, group, contact_columns, line, face, own,
+                   own_share, size, vof, flux_volume):
     """Volume of every body through the faces of contact-interface cells, with the velocity of its group.
 
     In a cell the group with the flatter surface comes first among the nested interfaces, where void parts them each group for
@@ -223,8 +226,9 @@ def contact_fluxes(dj, di, j0, j1, mesh_box, dr, dz, hard_first, soft_first, gro
              hard_first, soft_first [m], the bodies in the order in which their interfaces are nested
     Updates  flux_volume [m, j, i]
     """
+    j0, j1 = outer_rows(parts)
     bodies = group.shape[0]
-    for j in prange(j0, j1 + dj):
+    for j in range(parts[part], past_row(part, parts, dj)):
         lo, hi = union(contact_columns, max(j - dj, j0), min(j + 1, j1))
         if lo >= hi:
             continue
@@ -245,9 +249,9 @@ def contact_fluxes(dj, di, j0, j1, mesh_box, dr, dz, hard_first, soft_first, gro
                     if contact_columns[row, 0] <= column < contact_columns[row, 1]:
                         w = line[HARD_FIRST if group[m] == 1 else SOFT_AFTER, row, column]
                     if w > 0.0:
-                        given += w * strip_of(m, row, column, dj == 1, width, up, hard_first, part, vof, dr, dz)
+                        given += w * strip_of(m, row, column, dj == 1, width, up, hard_first, own_share, vof, dr, dz)
                     if w < 1.0:
-                        given += (1.0 - w) * strip_of(m, row, column, dj == 1, width, up, soft_first, part, vof, dr, dz)
+                        given += (1.0 - w) * strip_of(m, row, column, dj == 1, width, up, soft_first, own_share, vof, dr, dz)
                     volume = given * size[row, column] if up else -given * size[row, column]
                 flux_volume[m, j, i] = volume
                 total += volume
@@ -262,7 +266,7 @@ def contact_fluxes(dj, di, j0, j1, mesh_box, dr, dz, hard_first, soft_first, gro
                     full = smoothstep(1.0 - (1.0 - vof[m, to_row, to_column]) / OTHERS)
                     if full > 0.0:
                         swept = own[group[m], j, i] if up else -own[group[m], j, i]
-                        most = min(swept, part[m, row, column] * size[row, column]) - abs(flux_volume[m, j, i])
+                        most = min(swept, own_share[m, row, column] * size[row, column]) - abs(flux_volume[m, j, i])
                         more = gap * full * min(abs(rest), max(most, 0.0))
                         more = more if up else -more
                         flux_volume[m, j, i] += more
@@ -270,18 +274,19 @@ def contact_fluxes(dj, di, j0, j1, mesh_box, dr, dz, hard_first, soft_first, gro
             room = min(void * size[row, column], abs(face[j, i])) if (rest > 0.0) == up else 0.0
             beyond = max(abs(rest) - room, 0.0)
             if beyond > 0.0:
-                left = take(0, beyond if rest > 0.0 else -beyond, dj, di, j, i, group, part, size, vof, flux_volume)
-                take(1, left, dj, di, j, i, group, part, size, vof, flux_volume)
+                left = take(0, beyond if rest > 0.0 else -beyond, dj, di, j, i, group, own_share, size, vof, flux_volume)
+                take(1, left, dj, di, j, i, group, own_share, size, vof, flux_volume)
 
 
 @kernel
-def limit_fluxes(dj, di, j0, j1, mesh_box, contact_columns, pre, vof, flux_volume):
+def limit_fluxes(dj, di, part, parts, mesh_box, contact_columns, pre, vof, flux_volume):
     """No cell gives more of a body through both of its faces than it has.
 
     Reads    pre [j, i], vof [m, j, i]
     Updates  flux_volume [m, j, i] of the faces around contact-interface cells
     """
-    for j in prange(j0, j1):
+    j0, j1 = outer_rows(parts)
+    for j in range(parts[part], parts[part + 1]):
         lo, hi = union(contact_columns, max(j - dj, j0), min(j + dj + 1, j1))
         for i in range(max(lo - di, mesh_box[2]), min(hi + di, mesh_box[3])):
             for m in range(vof.shape[0]):

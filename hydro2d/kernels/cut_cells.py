@@ -6,7 +6,7 @@ Every body of a cut cell has the normal stress -p_c, and the strain across the s
 
 from math import sqrt
 
-from hydro2d.jit import apart, kernel, point, prange
+from hydro2d.jit import apart, kernel, point
 from hydro2d.kernels.mixed_scratch import ACROSS, ALONG, BESIDE, FLOW, GROWTH, HEAT, MODULUS, NORMAL, SIZE
 from hydro2d.mesh.fields import RHO, SRR, SRZ, SZZ, E
 from hydro2d.physics.closure import NO_VOID
@@ -20,7 +20,7 @@ NORMAL_R, NORMAL_Z, KIND = range(3)
 
 
 @kernel
-def find_surfaces(j0, j1, i0, i1, mesh_box, dr, dz, group, hard, hard_threshold, mixed_count, mixed, vof, skin):
+def find_surfaces(part, parts, i0, i1, mesh_box, dr, dz, group, hard, hard_threshold, mixed_count, mixed, vof, skin):
     """Normals of the surfaces in mixed cells, with the square root of their weight as length.
 
     The normal is Youngs', of the hard group's fraction less the soft one's where a cell holds both, else of its one group. It
@@ -31,7 +31,7 @@ def find_surfaces(j0, j1, i0, i1, mesh_box, dr, dz, group, hard, hard_threshold,
     Writes   skin [3, j, i]
     """
     bodies = vof.shape[0]
-    for j in prange(j0, j1):
+    for j in range(parts[part], parts[part + 1]):
         for i in range(i0, i1):
             skin[NORMAL_R, j, i] = 0.0
             skin[NORMAL_Z, j, i] = 0.0

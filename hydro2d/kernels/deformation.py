@@ -1,8 +1,8 @@
 """The rest of the Lagrangian step in pure cells: work, volume, rotation and strain of the deviators, radial return."""
 
 
-from hydro2d.jit import kernel, prange, rowwise
-from hydro2d.kernels.column_ranges import block_rows, columns, number_of_blocks, spread
+from hydro2d.jit import kernel, rowwise
+from hydro2d.kernels.column_ranges import columns
 from hydro2d.materials.rows import CUTOFF_DENSITY, DAMAGE, DAMAGE_AT, FACTOR, STRENGTH, STRENGTH_AT, TENSILE
 from hydro2d.mesh.fields import DMG, EP, RHO, SRR, SRZ, SZZ, E
 from hydro2d.mesh.grid import VOL_R
@@ -179,8 +179,8 @@ def expand_row(m, j, b, first, n, metrics, h, fr, fz, vof, scratch, q):
 
 
 @kernel
-def deform(j0, j1, dt, metrics, dz, body_range, group, models, materials, u0, v0, u, v, fr, fz, sig_rr, sig_zz, sig_tt, sig_rz,
-           hg_coefficient, vof, pm, tm, scratch, q, internal):
+def deform(part, parts, dt, metrics, dz, body_range, group, models, materials, u0, v0, u, v, fr, fz, sig_rr, sig_zz, sig_tt,
+           sig_rz, hg_coefficient, vof, pm, tm, scratch, q, internal):
     """Energy, density, deviator, plastic strain and damage of every body in the cells that it fills, over one Lagrangian step.
 
     de = V dt sigma : D(u mid-step) / m, the work of the same corner forces that moved the vertices; rho V is constant;
@@ -189,23 +189,19 @@ def deform(j0, j1, dt, metrics, dz, body_range, group, models, materials, u0, v0
 
     Reads    group [m]; u0, v0, u, v [b, j, i]; fr, fz, sig_.., hg_coefficient [j, i]; vof, pm, tm [m, j, i]
     Updates  q [k, m, j, i]
-    Scratch  scratch [s, block, i], shear modulus, trial stress and spin; internal [j, k]
+    Scratch  scratch [s, part, i], shear modulus, trial stress and spin; internal [j, k]
     """
-    blocks = number_of_blocks(j0, j1)
-    for place in prange(blocks):
-        b = spread(place, blocks)
-        first_row, last_row = block_rows(b, blocks, j0, j1)
-        for j in range(first_row, last_row):
-            h = dz[j]
-            for m in range(vof.shape[0]):
-                model = models[m, STRENGTH]
-                par = materials[m, STRENGTH_AT:DAMAGE_AT]
-                first, n = columns(body_range[m, j, 0], body_range[m, j, 1])
-                modulus_row(model, par, first, n, pm[m, j], q[RHO, m, j], tm[m, j], scratch[0, b])
-                strain_row(m, j, b, group[m], first, n, dt, metrics, h, materials[m, CUTOFF_DENSITY], u0, v0, u, v, sig_rr,
-                           sig_zz, sig_tt, sig_rz, hg_coefficient, vof, scratch, q)
-                if model in WITH_INTERNAL:
-                    internal_row(m, j, b, first, n, dt, models, materials, vof, pm, tm, scratch, q, internal)
-                elif model > 0:
-                    yield_row(m, j, b, first, n, dt, models, materials, pm, tm, scratch, q)
-                expand_row(m, j, b, first, n, metrics, h, fr, fz, vof, scratch, q)
+    for j in range(parts[part], parts[part + 1]):
+        h = dz[j]
+        for m in range(vof.shape[0]):
+            model = models[m, STRENGTH]
+            par = materials[m, STRENGTH_AT:DAMAGE_AT]
+            first, n = columns(body_range[m, j, 0], body_range[m, j, 1])
+            modulus_row(model, par, first, n, pm[m, j], q[RHO, m, j], tm[m, j], scratch[0, part])
+            strain_row(m, j, part, group[m], first, n, dt, metrics, h, materials[m, CUTOFF_DENSITY], u0, v0, u, v, sig_rr,
+                       sig_zz, sig_tt, sig_rz, hg_coefficient, vof, scratch, q)
+            if model in WITH_INTERNAL:
+                internal_row(m, j, part, first, n, dt, models, materials, vof, pm, tm, scratch, q, internal)
+            elif model > 0:
+                yield_row(m, j, part, first, n, dt, models, materials, pm, tm, scratch, q)
+            expand_row(m, j, part, first, n, metrics, h, fr, fz, vof, scratch, q)

@@ -7,8 +7,8 @@ tie fades in as the share falls from SURE to UNDERFILLED, and a cell counts by h
 
 from math import sqrt
 
-from hydro2d.jit import apart, kernel, point, prange
-from hydro2d.kernels.column_ranges import NOTHING
+from hydro2d.jit import apart, kernel, point
+from hydro2d.kernels.column_ranges import NOTHING, first_row, outer_rows, past_row
 from hydro2d.kernels.contact_geometry import REACH
 from hydro2d.physics.contact import dual_share
 from hydro2d.physics.traction import smoothstep
@@ -50,13 +50,14 @@ def in_debris(g, j, i, mesh_box, group, vof, dmg):
 
 
 @kernel
-def find_filled(j0, j1, mesh_box, volume, metrics, count, contact_nodes, hard, soft, mass, filled):
+def find_filled(part, parts, mesh_box, volume, metrics, count, contact_nodes, hard, soft, mass, filled):
     """filled_share of both groups at all vertices from which a contact node can be extended.
 
     Reads    hard, soft [j, i]; mass [b, j, i]; the list of contact nodes of rows j0 to j1
     Writes   filled [b, j, i] within REACH of contact nodes, in the mesh
     """
-    for j in prange(max(j0 - REACH, mesh_box[0]), min(j1 + REACH, mesh_box[1]) + 1):
+    j0, j1 = outer_rows(parts)
+    for j in range(max(first_row(part, parts, REACH), mesh_box[0]), min(past_row(part, parts, REACH + 1), mesh_box[1] + 1)):
         lo, hi = NOTHING, 0
         for row in range(max(j - REACH, j0), min(j + REACH, j1) + 1):
             if count[row] > 0:
@@ -149,8 +150,8 @@ def extend_vertices(x, g, j, i, reach, inward_r, inward_z, mesh_box, factor, fil
 
 
 @kernel
-def find_extensions(j0, j1, mesh_box, most_squares, r, z, count, contact_nodes, first, normal, hard, soft, filled, group, vof,
-                    dmg, strength, number, where, weights):
+def find_extensions(part, parts, mesh_box, most_squares, r, z, count, contact_nodes, first, normal, hard, soft, filled, group,
+                    vof, dmg, strength, number, where, weights):
     """Which contact nodes are slaves, how firmly they are tied, and to what.
 
     To the mean of the linear fields of cells that most_squares allows; where there are none (or hardly any, ENOUGH), of cells
@@ -162,7 +163,7 @@ def find_extensions(j0, j1, mesh_box, most_squares, r, z, count, contact_nodes, 
     Writes   strength [x, b], 0 for a node that moves by itself to 1; number [x, b] of masters; where [x, b, n], their places
              SPAN (dj + REACH) + (di + REACH), or TIED; weights [x, b, n], which add up to 1
     """
-    for j in prange(j0, j1 + 1):
+    for j in range(parts[part], past_row(part, parts, 1)):
         for k in range(count[j]):
             i, x = contact_nodes[j, k], first[j] + k
             for g in range(2):

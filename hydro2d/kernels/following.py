@@ -1,45 +1,48 @@
 """A mesh that travels along z: volumes swept relative to it, and an end to what fades ahead of waves."""
 
-from hydro2d.jit import kernel, prange
-from hydro2d.kernels.column_ranges import columns, union
+from hydro2d.jit import kernel
+from hydro2d.kernels.column_ranges import columns, outer_rows, past_row, union
 from hydro2d.mesh.fields import E
+from hydro2d.mesh.grid import VOL_R
 
 #: stresses (Pa), energies (J/kg) and strains below this are nothing; a mesh that travels would carry them on, ever smaller
 FADED = 1e-30
 
 
 @kernel
-def leave(j0, j1, advance, vol_r, group_ranges, fz):
+def leave(part, parts, advance, metrics, group_ranges, fz):
     """F_z - d A for the faces j0 to j1 along z: what they sweep relative to a mesh that advances by d in the step.
 
-    A is the axial area of the column, vol_r (explanation/following-mesh, equation 1).
+    A is the axial area of the column (explanation/following-mesh, equation 1).
 
     Reads    group_ranges [n, j, 2]
     Updates  fz [j, i]
     """
-    for j in prange(j0, j1):
+    for j in range(parts[part], past_row(part, parts, 1)):
         lo, n = columns(group_ranges[1, j, 0], group_ranges[1, j, 1])
         face = fz[j]
+        area = metrics[VOL_R]
         for x in range(n):
-            face[lo + x] -= advance * vol_r[lo + x]
+            face[lo + x] -= advance * area[lo + x]
 
 
 @kernel
-def leave_contact(j0, j1, advance, vol_r, contact_columns, own_z):
+def leave_contact(part, parts, advance, metrics, contact_columns, own_z):
     """The same for what each group of a contact sweeps of the faces around contact-interface cells.
 
     Reads    contact_columns [j, 2]
     Updates  own_z [b, j, i]
     """
-    for j in prange(j0, j1 + 1):
+    j0, j1 = outer_rows(parts)
+    for j in range(parts[part], past_row(part, parts, 1)):
         lo, hi = union(contact_columns, max(j - 1, j0), min(j + 1, j1))
         for i in range(lo, hi):
             for g in range(2):
-                own_z[g, j, i] -= advance * vol_r[i]
+                own_z[g, j, i] -= advance * metrics[VOL_R, i]
 
 
 @kernel
-def silence(j0, j1, carried, body_ranges, q):
+def silence(part, parts, carried, body_ranges, q):
     """Sets what has faded to nothing to zero: numbers too small to be normal cost the processor a hundred times as much.
 
     Material that flows through a travelling mesh takes a share of its neighbours' stress along in every step, also ahead of
@@ -48,7 +51,7 @@ def silence(j0, j1, carried, body_ranges, q):
     Reads    carried [m], body_ranges [m, j, 2]
     Updates  q (all but the density) [k, m, j, i]
     """
-    for j in prange(j0, j1):
+    for j in range(parts[part], parts[part + 1]):
         for m in range(body_ranges.shape[0]):
             lo, n = columns(body_ranges[m, j, 0], body_ranges[m, j, 1])
             for k in range(E, carried[m]):

@@ -6,8 +6,8 @@ stated order bounds their cumulative fraction, void comes last.
 """
 
 
-from hydro2d.jit import kernel, point, prange, rowwise
-from hydro2d.kernels.column_ranges import columns
+from hydro2d.jit import kernel, point, rowwise
+from hydro2d.kernels.column_ranges import columns, outer_rows, past_row
 from hydro2d.physics.interfaces import cumulative, share_in_strip, surface
 
 
@@ -130,9 +130,11 @@ def interface_volumes_row(j, dj, di, dr, dz, order, mixed_count, mixed, f_face, 
 
 
 @kernel
-def donor_volumes(dj, di, j0, j1, i0, i1, first, open_faces, volume, body_ranges, active_range, fr, fz, vof, pre, flux_volume):
+def donor_volumes(dj, di, part, parts, i0, i1, first, open_faces, volume, body_ranges, active_range, fr, fz, vof, pre,
+                  flux_volume):
     """Rows j0 to j1 before a sweep: sweep_volumes_row, and donor_volumes_row, which has one more row of faces along z."""
-    for j in prange(j0, j1 + dj):
+    j0, j1 = outer_rows(parts)
+    for j in range(parts[part], past_row(part, parts, dj)):
         if j < j1:
             sweep_volumes_row(j, dj, di, first, volume, active_range, fr, fz, pre)
         if di == 1:
@@ -142,7 +144,7 @@ def donor_volumes(dj, di, j0, j1, i0, i1, first, open_faces, volume, body_ranges
 
 
 @kernel
-def interface_volumes(dj, di, j0, j1, dr, dz, order, mixed_count, mixed, face, pre, vof, flux_volume, strips):
+def interface_volumes(dj, di, part, parts, dr, dz, order, mixed_count, mixed, face, pre, vof, flux_volume, strips):
     """interface_volumes_row for rows j0 to j1."""
-    for j in prange(j0, j1):
+    for j in range(parts[part], parts[part + 1]):
         interface_volumes_row(j, dj, di, dr, dz, order, mixed_count, mixed, face, pre, vof, flux_volume, strips)

@@ -1,8 +1,8 @@
 """Cells in which bodies meet each other or void: void insertion, closure of pressure and volume, shared strength."""
 
 from eos.dispatch import evaluate, zero_pressure_density
-from hydro2d.jit import kernel, point, prange, rowwise
-from hydro2d.kernels.column_ranges import block_rows, mixed_row, number_of_blocks, spread
+from hydro2d.jit import kernel, point, rowwise
+from hydro2d.kernels.column_ranges import mixed_row
 from hydro2d.kernels.cut_cells import BONDED, FREE_SURFACE, INTERFACE, KIND, common_traction, fill_cut_cell, normal_deviator
 from hydro2d.kernels.mixed_scratch import (
     HEAT,
@@ -98,33 +98,29 @@ def insert_void_mixed_row(j, smallest, max_opening, metrics, dz, mixed_count, mi
 
 
 @kernel
-def close_cells(j0, j1, max_opening, smallest_tension, linear, quadratic, courant, advective, mesh_speed, hourglass, metrics,
-                dr, dz, body_range, active_range, mixed_count, mixed, models, materials, u, v, vof, q, pm, km, tm, skin, p,
-                bulk, rhobar, solid, cl, qr, qz, hg_coefficient, opened, row_step, bad, scratch):
+def close_cells(part, parts, max_opening, smallest_tension, linear, quadratic, courant, advective, mesh_speed, hourglass,
+                metrics, dr, dz, body_range, active_range, mixed_count, mixed, models, materials, u, v, vof, q, pm, km, tm,
+                skin, p, bulk, rhobar, solid, cl, qr, qz, hg_coefficient, opened, row_step, bad, scratch):
     """Equation of state, void where a cell fractures, artificial viscosity and the time step that every cell allows.
 
     Reads, updates and writes what pressures_row, insert_void_mixed_row and viscosity_row do, and the list of mixed cells
-    Scratch  scratch [s, block, i]
+    Scratch  scratch [s, part, i]
     """
-    blocks = number_of_blocks(j0, j1)
-    for place in prange(blocks):
-        b = spread(place, blocks)
-        first_row, last_row = block_rows(b, blocks, j0, j1)
-        for j in range(first_row, last_row):
-            pressures_row(j, b, max_opening, metrics, dz, body_range, active_range, models, materials, vof, q, pm, km, tm, p,
-                          bulk, rhobar, solid, cl, scratch, opened, bad)
-            if opened[j] > 0.0:
-                mixed_row(j, active_range, vof, scratch[0], b, mixed_count, mixed)
-            for k in range(mixed_count[j]):
-                i = mixed[j, k]
-                if skin[KIND, j, i] == BONDED and 0.0 < solid[j, i] < 1.0 - NO_VOID:  # a pure cell that has fractured
-                    skin[KIND, j, i] = FREE_SURFACE
-                if skin[KIND, j, i] != BONDED:
-                    p[j, i], bulk[j, i] = common_traction(j, i, skin, vof, q, pm, km)
-            insert_void_mixed_row(j, smallest_tension, max_opening, metrics, dz, mixed_count, mixed, models, materials, skin,
-                                  vof, q, pm, km, p, solid, bulk, opened)
-            viscosity_row(j, b, linear, quadratic, courant, advective, mesh_speed, hourglass, dr, dz, metrics, active_range, u,
-                          v, rhobar, bulk, solid, cl, qr, qz, hg_coefficient, row_step, bad, scratch)
+    for j in range(parts[part], parts[part + 1]):
+        pressures_row(j, part, max_opening, metrics, dz, body_range, active_range, models, materials, vof, q, pm, km, tm, p,
+                      bulk, rhobar, solid, cl, scratch, opened, bad)
+        if opened[j] > 0.0:
+            mixed_row(j, active_range, vof, scratch[0], part, mixed_count, mixed)
+        for k in range(mixed_count[j]):
+            i = mixed[j, k]
+            if skin[KIND, j, i] == BONDED and 0.0 < solid[j, i] < 1.0 - NO_VOID:  # a pure cell that has fractured
+                skin[KIND, j, i] = FREE_SURFACE
+            if skin[KIND, j, i] != BONDED:
+                p[j, i], bulk[j, i] = common_traction(j, i, skin, vof, q, pm, km)
+        insert_void_mixed_row(j, smallest_tension, max_opening, metrics, dz, mixed_count, mixed, models, materials, skin,
+                              vof, q, pm, km, p, solid, bulk, opened)
+        viscosity_row(j, part, linear, quadratic, courant, advective, mesh_speed, hourglass, dr, dz, metrics, active_range, u,
+                      v, rhobar, bulk, solid, cl, qr, qz, hg_coefficient, row_step, bad, scratch)
 
 
 @point
@@ -264,7 +260,7 @@ def fill_cell(j, i, change, volume, total, inverse, mean_p, work_p, work_q, midd
 
 
 @kernel
-def deform_mixed(j0, j1, dt, relaxation, tipton, mode, hard, hard_threshold, metrics, dz, mixed_count, mixed, group,
+def deform_mixed(part, parts, dt, relaxation, tipton, mode, hard, hard_threshold, metrics, dz, mixed_count, mixed, group,
                  contact_columns, cell_mass, models, materials, u0, v0, u, v, fr, fz, ph, qr, qz, hg_coefficient, skin, p, bulk,
                  solid, pm, km, tm, vof, q, mix, motion, internal):
     """The Lagrangian step of the bodies in mixed cells.
@@ -282,43 +278,40 @@ def deform_mixed(j0, j1, dt, relaxation, tipton, mode, hard, hard_threshold, met
     Scratch  mix [j, 14, m] (rows SOFT to NORMAL), motion [j, b, 10], internal [j, k]
     """
     groups = cell_mass.shape[0]
-    blocks = number_of_blocks(j0, j1)
-    for place in prange(blocks):
-        first_row, last_row = block_rows(spread(place, blocks), blocks, j0, j1)
-        for j in range(first_row, last_row):
-            for k in range(mixed_count[j]):
-                i = mixed[j, k]
-                volume = metrics[VOL_R, i] * dz[j]
-                change = (fr[j, i + 1] - fr[j, i]) + (fz[j + 1, i] - fz[j, i])
-                work_q, work_p, held = 0.0, 0.0, 0
-                for g in range(groups):
-                    if cell_mass[g, j, i] > 0.0:
-                        held += 1
-                        cell_motion(j, i, g, dt, dz[j], metrics, hg_coefficient, u0, v0, u, v, motion)
-                        across = motion[j, g, MEAN_RR] + motion[j, g, MEAN_TT]
-                        work_q = -dt * (qr[j, i] * across + qz[j, i] * motion[j, g, MEAN_ZZ])
-                        work_p = -ph[j, i] * dt * (across + motion[j, g, MEAN_ZZ])
-                if groups > 1 and contact_columns[j, 0] <= i < contact_columns[j, 1]:
-                    work_q = -qr[j, i] * change
-                    work_p = -ph[j, i] * change
-                total, meet = solid[j, i], held > 1
-                dominant = dominant_body(j, i, hard, hard_threshold, vof)
-                for m in range(vof.shape[0]):
-                    mix[j, NORMAL, m] = normal_deviator(m, j, i, skin, q) if vof[m, j, i] > 0.0 else 0.0
-                cut, own = skin[KIND, j, i] != BONDED, mode == MATERIAL or dominant >= 0 or meet
-                target = 0.0
-                work_of_deviators(j, i, dt, dominant, total, stress_scale(mode == SOLID, total), group, motion, vof, q, mix)
-                cell_yield = strain_deviators(j, i, dt / volume, mode, total, skin, group, models, materials, pm, tm, motion,
-                                              vof, q, mix, internal)
-                if cut:
-                    target = strain_bodies_across(j, i, own, cell_yield, change / volume, max(1.0 - total, 0.0), skin, p, bulk,
-                                                  models, vof, pm, km, q, mix)
-                return_deviators(j, i, dt, own, cell_yield, dominant, volume, total, models, materials, pm, tm, vof, q, mix,
-                                 internal)
-                if cut:
-                    fill_cut_cell(j, i, change, volume, target, work_p + work_q + filter_work(j, i, motion, cell_mass), vof,
-                                  pm, q, mix)
-                    continue
-                inverse, mean_p = soften(j, i, tipton, vof, pm, km, mix)
-                fill_cell(j, i, change, volume, total, inverse, mean_p, work_p, work_q, ph[j, i], relaxation, tipton, group,
-                          motion, cell_mass, materials, pm, km, vof, q, mix)
+    for j in range(parts[part], parts[part + 1]):
+        for k in range(mixed_count[j]):
+            i = mixed[j, k]
+            volume = metrics[VOL_R, i] * dz[j]
+            change = (fr[j, i + 1] - fr[j, i]) + (fz[j + 1, i] - fz[j, i])
+            work_q, work_p, held = 0.0, 0.0, 0
+            for g in range(groups):
+                if cell_mass[g, j, i] > 0.0:
+                    held += 1
+                    cell_motion(j, i, g, dt, dz[j], metrics, hg_coefficient, u0, v0, u, v, motion)
+                    across = motion[j, g, MEAN_RR] + motion[j, g, MEAN_TT]
+                    work_q = -dt * (qr[j, i] * across + qz[j, i] * motion[j, g, MEAN_ZZ])
+                    work_p = -ph[j, i] * dt * (across + motion[j, g, MEAN_ZZ])
+            if groups > 1 and contact_columns[j, 0] <= i < contact_columns[j, 1]:
+                work_q = -qr[j, i] * change
+                work_p = -ph[j, i] * change
+            total, meet = solid[j, i], held > 1
+            dominant = dominant_body(j, i, hard, hard_threshold, vof)
+            for m in range(vof.shape[0]):
+                mix[j, NORMAL, m] = normal_deviator(m, j, i, skin, q) if vof[m, j, i] > 0.0 else 0.0
+            cut, own = skin[KIND, j, i] != BONDED, mode == MATERIAL or dominant >= 0 or meet
+            target = 0.0
+            work_of_deviators(j, i, dt, dominant, total, stress_scale(mode == SOLID, total), group, motion, vof, q, mix)
+            cell_yield = strain_deviators(j, i, dt / volume, mode, total, skin, group, models, materials, pm, tm, motion,
+                                          vof, q, mix, internal)
+            if cut:
+                target = strain_bodies_across(j, i, own, cell_yield, change / volume, max(1.0 - total, 0.0), skin, p, bulk,
+                                              models, vof, pm, km, q, mix)
+            return_deviators(j, i, dt, own, cell_yield, dominant, volume, total, models, materials, pm, tm, vof, q, mix,
+                             internal)
+            if cut:
+                fill_cut_cell(j, i, change, volume, target, work_p + work_q + filter_work(j, i, motion, cell_mass), vof,
+                              pm, q, mix)
+                continue
+            inverse, mean_p = soften(j, i, tipton, vof, pm, km, mix)
+            fill_cell(j, i, change, volume, total, inverse, mean_p, work_p, work_q, ph[j, i], relaxation, tipton, group,
+                      motion, cell_mass, materials, pm, km, vof, q, mix)

@@ -2,8 +2,8 @@
 
 from math import sqrt
 
-from hydro2d.jit import kernel, plus, point, prange, rowwise
-from hydro2d.kernels.column_ranges import block_rows, copy_beside, number_of_blocks, spread
+from hydro2d.jit import kernel, plus, point, rowwise
+from hydro2d.kernels.column_ranges import copy_beside, past_row
 from hydro2d.mesh.fields import E
 from hydro2d.mesh.grid import CM_IN, CM_OUT, GHOSTS
 from hydro2d.physics.advection import TINY, upwind
@@ -161,49 +161,46 @@ def vertex_row(g, dj, di, j, i0, i1, below, above, advection, bound, constrained
 
 
 @kernel
-def sweep_momentum(dj, di, j0, j1, i0, i1, advection, bound, constrained, held, mesh_box, metrics, group_ranges, cell_mass,
+def sweep_momentum(dj, di, part, parts, i0, i1, advection, bound, constrained, held, mesh_box, metrics, group_ranges, cell_mass,
                    flux_mass, mass, w_old, w, dual, edge_dual, deficit, sums):
     """Carries the momentum of the vertices j0 to j1 along one direction.
 
     Reads    what dual_row and vertex_row read; mesh_box (j0, j1, i0, i1 of the mesh)
     Writes   w = (u, v) [c, b, j, i]; deficit [b, j, i], sums [5, j]; edge_dual [b, side, k, j or i],
              what flows over the mesh's edges
-    Scratch  dual [k, slot, i], two slots to a block of rows; in z they take turns
+    Scratch  dual [k, slot, i], two slots to a part; in z they take turns
     """
-    blocks = number_of_blocks(j0, j1 + 1)
-    for place in prange(blocks):
-        b = spread(place, blocks)
-        first, last = block_rows(b, blocks, j0, j1 + 1)
-        for g in range(mass.shape[0]):
-            for j in range(first - dj, last):
-                slot = 2 * b + dj * (j % 2)
-                dual_row(g, dj, di, j, i0, i1, slot, metrics, group_ranges, flux_mass, mass, w_old, dual)
-                lo, hi = dual_range(dj, di, i0, i1, j, group_ranges[g])
-                for side in range(2):
-                    at = mesh_box[2 * di + side] + side - 1  # the edge from a ghost vertex to the mesh, or from the mesh to one
-                    for k in range(5):
-                        if di == 1:
-                            edge_dual[g, side, k, j] = dual[k, slot, at] if lo <= at < hi else 0.0
-                        elif j == at and (j >= first or b == 0):
-                            for i in range(i0, i1 + 1):
-                                edge_dual[g, side, k, i] = dual[k, slot, i] if lo <= i < hi else 0.0
-                if j >= first:
-                    below = 2 * b + dj * ((j - 1) % 2)
-                    for row in range(5):
-                        sums[row, j] = 0.0 if g == 0 else sums[row, j]
-                    vertex_row(g, dj, di, j, i0, i1 + 1, below, slot, advection, bound, constrained, held, metrics,
-                               group_ranges, cell_mass, dual, w_old, w, mass, deficit, sums)
+    first, last = parts[part], past_row(part, parts, 1)
+    for g in range(mass.shape[0]):
+        for j in range(first - dj, last):
+            slot = 2 * part + dj * (j % 2)
+            dual_row(g, dj, di, j, i0, i1, slot, metrics, group_ranges, flux_mass, mass, w_old, dual)
+            lo, hi = dual_range(dj, di, i0, i1, j, group_ranges[g])
+            for side in range(2):
+                at = mesh_box[2 * di + side] + side - 1  # the edge from a ghost vertex to the mesh, or from the mesh to one
+                for k in range(5):
+                    if di == 1:
+                        edge_dual[g, side, k, j] = dual[k, slot, at] if lo <= at < hi else 0.0
+                    elif j == at and (j >= first or part == 0):
+                        for i in range(i0, i1 + 1):
+                            edge_dual[g, side, k, i] = dual[k, slot, i] if lo <= i < hi else 0.0
+            if j >= first:
+                below = 2 * part + dj * ((j - 1) % 2)
+                for row in range(5):
+                    sums[row, j] = 0.0 if g == 0 else sums[row, j]
+                vertex_row(g, dj, di, j, i0, i1 + 1, below, slot, advection, bound, constrained, held, metrics,
+                           group_ranges, cell_mass, dual, w_old, w, mass, deficit, sums)
 
 
 @kernel
-def deposit(j0, j1, metrics, ranges, group, deficit, cell_mass, vof, q, sums):
+def deposit(part, parts, metrics, ranges, group, deficit, cell_mass, vof, q, sums):
     """Gives energy found at vertices (what `both` misses, the heat of a contact) to the cells around, by the group's mass.
 
     Reads    ranges [j, 2], columns; deficit [b, j, i] per vertex mass, cell_mass [b, j, i], vof [m, j, i], group [m]
     Updates  q (e) [k, m, j, i];  writes sums [j], the energy given
     """
     bodies = vof.shape[0]
-    for j in prange(j0, j1):
+    for j in range(parts[part], parts[part + 1]):
         given = 0.0
         for g in range(deficit.shape[0]):
             low = deficit[g, j]

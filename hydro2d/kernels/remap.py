@@ -2,15 +2,15 @@
 
 One body of code serves both directions by the offsets (dj, di): (0, 1) along r, (1, 0) along z. Fluxes live in a few
 rows of a buffer, ``flux[k, m, slot, i]``: a cell is updated as soon as nothing needs its old values any more, while they are
-still in the processor's cache (explanation/remap, blocks of rows).
+still in the processor's cache (explanation/remap, parts of the rows).
 """
 
 from math import inf
 
-from hydro2d.jit import kernel, point, prange, rowwise
-from hydro2d.kernels.column_ranges import block_rows, columns, mixed_row, number_of_blocks, spread
+from hydro2d.jit import kernel, point, rowwise
+from hydro2d.kernels.column_ranges import columns, mixed_row, outer_rows
 from hydro2d.kernels.interfaces import flux_range
-from hydro2d.mesh.fields import BLOCK, DMG, LEAST, MOST, PER_MASS, RHO, SRR, SRZ, E
+from hydro2d.mesh.fields import DMG, LEAST, MOST, PER_MASS, RHO, SRR, SRZ, E
 from hydro2d.mesh.grid import CM_IN, CM_OUT
 from hydro2d.physics.advection import TINY, upwind
 from hydro2d.physics.traction import smoothstep
@@ -192,13 +192,13 @@ def cell_mass_row(dj, di, j, group_ranges, group, pre, face, volume, second, vof
 
 
 @kernel
-def sum_cell_mass(j0, j1, group_ranges, group, volume, vof, q, cell_mass):
+def sum_cell_mass(part, parts, group_ranges, group, volume, vof, q, cell_mass):
     """Mass of each group in every cell, without a sweep.
 
     Reads    group [m]; volume [j, i]; vof [m, j, i]; q [k, m, j, i]
     Writes   cell_mass [b, j, i]
     """
-    for j in prange(j0, j1):
+    for j in range(parts[part], parts[part + 1]):
         cell_mass_row(0, 0, j, group_ranges, group, volume, volume, volume, True, vof, q, cell_mass)
 
 
@@ -214,96 +214,95 @@ def sweep_row(dj, di, j, i0, i1, below, above, b, carried, rules, group, body_ra
 
 
 @kernel
-def sweep_r(j0, j1, i0, i1, carried, rules, group, mesh_box, body_ranges, group_ranges, face, pre, volume, second, flux_volume,
-            scratch, flux, flux_mass, edge_flux, vof, q, cell_mass, mixed_count, mixed):
+def sweep_r(part, parts, i0, i1, carried, rules, group, mesh_box, body_ranges, group_ranges, face, pre, volume, second,
+            flux_volume, scratch, flux, flux_mass, edge_flux, vof, q, cell_mass, mixed_count, mixed):
     """Carries every body along r: fluxes and update row by row.
 
     Reads    carried, group [m]; rules [m, k, 4]; mesh_box (j0, j1, i0, i1 of the mesh), body_ranges, group_ranges; face,
              pre (pre-sweep volume), volume [j, i]; flux_volume [m, j, i]
     Updates  vof [m, j, i], q [k, m, j, i]
     Writes   flux_mass, cell_mass [b, j, i]; edge_flux [side, k, m, j] of mass and energy; mixed_count [j], mixed [j, k]
-    Scratch  scratch [s, block, i], flux [k, m, slot, i]
+    Scratch  scratch [s, part, i], flux [k, m, slot, i]
     """
-    blocks = number_of_blocks(j0, j1)
-    for place in prange(blocks):
-        b = spread(place, blocks)
-        slot = 6 * b + 3
-        first, last = block_rows(b, blocks, j0, j1)
-        for j in range(first, last):
-            for m in range(body_ranges.shape[1]):
-                flux_row(0, 1, j, i0, i1, m, carried[m], rules, slot, b, body_ranges, pre, flux_volume, vof, q, scratch, flux)
-                lo, hi = flux_range(0, 1, i0, i1, m, j, body_ranges)
-                for side in range(2):
-                    i = mesh_box[2 + side]
-                    edge_flux[side, RHO, m, j] = flux[RHO, m, slot, i] if lo <= i < hi else 0.0
-                    edge_flux[side, E, m, j] = flux[E, m, slot, i] if lo <= i < hi else 0.0
-            mass_flux_row(0, 1, j, i0, i1, slot, group_ranges, body_ranges, group, flux, flux_mass)
-            sweep_row(0, 1, j, i0, i1, slot, slot, b, carried, rules, group, body_ranges, group_ranges, face, pre, volume,
-                      second, flux_volume, flux, scratch, vof, q, cell_mass, mixed_count, mixed)
+    slot = 6 * part + 3
+    for j in range(parts[part], parts[part + 1]):
+        for m in range(body_ranges.shape[1]):
+            flux_row(0, 1, j, i0, i1, m, carried[m], rules, slot, part, body_ranges, pre, flux_volume, vof, q, scratch, flux)
+            lo, hi = flux_range(0, 1, i0, i1, m, j, body_ranges)
+            for side in range(2):
+                i = mesh_box[2 + side]
+                edge_flux[side, RHO, m, j] = flux[RHO, m, slot, i] if lo <= i < hi else 0.0
+                edge_flux[side, E, m, j] = flux[E, m, slot, i] if lo <= i < hi else 0.0
+        mass_flux_row(0, 1, j, i0, i1, slot, group_ranges, body_ranges, group, flux, flux_mass)
+        sweep_row(0, 1, j, i0, i1, slot, slot, part, carried, rules, group, body_ranges, group_ranges, face, pre, volume,
+                  second, flux_volume, flux, scratch, vof, q, cell_mass, mixed_count, mixed)
 
 
 @point
-def at_block_edge(f, j0, blocks):
-    """Whether the flux through face f needs rows of two blocks, where a row is updated two faces after it was below one."""
-    k = f - j0 + 1
-    return k % BLOCK < 3 and 1 <= k // BLOCK < blocks
+def shared_slot(f, part, parts):
+    """Slot of face f if its flux needs rows of two parts: it belongs to the part above; -1 for the other faces.
+
+    A row is updated two faces after it was below one, so three faces are shared.
+    """
+    if part > 0 and f <= parts[part] + 1:
+        return 6 * part + f - parts[part] + 1
+    if part < parts.shape[0] - 2 and f >= parts[part + 1] - 1:
+        return 6 * (part + 1) + f - parts[part + 1] + 1
+    return -1
 
 
 @point
-def slot_of(f, b, j0, blocks):
-    """Slot of face f of block b: its own for a face at the edge of a block, one of three that take turns for the others."""
-    k = f - j0 + 1
-    return 6 * (k // BLOCK) + k % BLOCK if at_block_edge(f, j0, blocks) else 6 * b + 3 + f % 3
+def slot_of(f, part, parts):
+    """Slot of face f of a part: its own for a face that two parts share, one of three that take turns for the others."""
+    shared = shared_slot(f, part, parts)
+    return shared if shared >= 0 else 6 * part + 3 + f % 3
 
 
 @kernel
-def block_edge_fluxes(j0, j1, i0, i1, carried, rules, body_ranges, pre, flux_volume, vof, q, scratch, flux):
-    """Fluxes along z through the faces that two blocks of rows share, before either changes.
+def shared_fluxes(part, parts, i0, i1, carried, rules, body_ranges, pre, flux_volume, vof, q, scratch, flux):
+    """Fluxes along z through the faces that a part shares with the part below, before either changes.
 
-    Reads    as sweep_z;  writes flux [k, m, slot, i];  scratch [s, block, i]
+    Reads    as sweep_z;  writes flux [k, m, slot, i];  scratch [s, part, i]
     """
-    blocks = number_of_blocks(j0, j1)
-    for b in prange(1, blocks):
-        for f in range(j0 + b * BLOCK - 1, j0 + b * BLOCK + 2):
+    if part > 0:
+        for f in range(parts[part] - 1, parts[part] + 2):
             for m in range(body_ranges.shape[1]):
-                flux_row(1, 0, f, i0, i1, m, carried[m], rules, slot_of(f, b, j0, blocks), b, body_ranges, pre, flux_volume,
+                flux_row(1, 0, f, i0, i1, m, carried[m], rules, slot_of(f, part, parts), part, body_ranges, pre, flux_volume,
                          vof, q, scratch, flux)
 
 
 @kernel
-def sweep_z(j0, j1, i0, i1, carried, rules, group, mesh_box, body_ranges, group_ranges, face, pre, volume, second, flux_volume,
-            scratch, flux, flux_mass, edge_flux, vof, q, cell_mass, mixed_count, mixed):
+def sweep_z(part, parts, i0, i1, carried, rules, group, mesh_box, body_ranges, group_ranges, face, pre, volume, second,
+            flux_volume, scratch, flux, flux_mass, edge_flux, vof, q, cell_mass, mixed_count, mixed):
     """Carries every body along z: a row is updated as soon as the fluxes of the faces that need it are known.
 
-    Reads    flux of the faces at the edges of blocks (block_edge_fluxes), and what sweep_r reads
+    Reads    flux of the faces that two parts share (shared_fluxes), and what sweep_r reads
     Updates, writes and scratch as sweep_r; edge_flux [side, k, m, i]
     """
-    blocks = number_of_blocks(j0, j1)
-    for place in prange(blocks):
-        b = spread(place, blocks)
-        first, last = block_rows(b, blocks, j0, j1)
-        for f in range(first, last + 2):
-            if f <= last:
-                slot = slot_of(f, b, j0, blocks)
-                if not at_block_edge(f, j0, blocks):
+    _, end = outer_rows(parts)
+    first, last = parts[part], parts[part + 1]
+    for f in range(first, last + 2):
+        if f <= last:
+            slot = slot_of(f, part, parts)
+            if shared_slot(f, part, parts) < 0:
+                for m in range(body_ranges.shape[1]):
+                    flux_row(1, 0, f, i0, i1, m, carried[m], rules, slot, part, body_ranges, pre, flux_volume, vof, q, scratch,
+                             flux)
+            if f < last or last == end:
+                mass_flux_row(1, 0, f, i0, i1, slot, group_ranges, body_ranges, group, flux, flux_mass)
+            for side in range(2):
+                if f == mesh_box[side]:
                     for m in range(body_ranges.shape[1]):
-                        flux_row(1, 0, f, i0, i1, m, carried[m], rules, slot, b, body_ranges, pre, flux_volume, vof, q,
-                                 scratch, flux)
-                if f < last or last == j1:
-                    mass_flux_row(1, 0, f, i0, i1, slot, group_ranges, body_ranges, group, flux, flux_mass)
-                for side in range(2):
-                    if f == mesh_box[side]:
-                        for m in range(body_ranges.shape[1]):
-                            lo, hi = flux_range(1, 0, i0, i1, m, f, body_ranges)
-                            for k in range(2):
-                                for i in range(i0, i1):
-                                    edge_flux[side, k, m, i] = flux[k, m, slot, i] if lo <= i < hi else 0.0
-            j = f - 2 if f <= last else last - 1
-            if j >= first and (f > last or j < last - 1):
-                below = slot_of(j, b, j0, blocks)
-                above = slot_of(j + 1, b, j0, blocks)
-                sweep_row(1, 0, j, i0, i1, below, above, b, carried, rules, group, body_ranges, group_ranges, face, pre, volume,
-                          second, flux_volume, flux, scratch, vof, q, cell_mass, mixed_count, mixed)
+                        lo, hi = flux_range(1, 0, i0, i1, m, f, body_ranges)
+                        for k in range(2):
+                            for i in range(i0, i1):
+                                edge_flux[side, k, m, i] = flux[k, m, slot, i] if lo <= i < hi else 0.0
+        j = f - 2 if f <= last else last - 1
+        if j >= first and (f > last or j < last - 1):
+            below = slot_of(j, part, parts)
+            above = slot_of(j + 1, part, parts)
+            sweep_row(1, 0, j, i0, i1, below, above, part, carried, rules, group, body_ranges, group_ranges, face, pre, volume,
+                      second, flux_volume, flux, scratch, vof, q, cell_mass, mixed_count, mixed)
 
 
 #: shares of a cell that are round-off
@@ -321,7 +320,7 @@ def fade(share, cutoff):
 
 
 @kernel
-def tidy(j0, j1, cutoff, metrics, volume, group, mixed_count, mixed, pre, dj, di, fr, fz, second, u, v, vof, q, cell_mass,
+def tidy(part, parts, cutoff, metrics, volume, group, mixed_count, mixed, pre, dj, di, fr, fz, second, u, v, vof, q, cell_mass,
          removed):
     """Removes sub-cutoff fractions of bodies and void, makes fractions that should be 1 exactly 1, and sums what was removed.
 
@@ -335,7 +334,7 @@ def tidy(j0, j1, cutoff, metrics, volume, group, mixed_count, mixed, pre, dj, di
     Writes   removed [4 + m, j]: internal energy, kinetic energy, axial momentum, volume closed; then mass of each body
     """
     bodies = vof.shape[0]
-    for j in prange(j0, j1):
+    for j in range(parts[part], parts[part + 1]):
         for row in range(4 + bodies):
             removed[row, j] = 0.0
         left = 0

@@ -2,7 +2,7 @@
 
 from math import sqrt
 
-from hydro2d.jit import kernel, point, prange, serial
+from hydro2d.jit import kernel, point, serial
 from hydro2d.mesh.fields import SRR, SRZ, SZZ
 from hydro2d.physics.interfaces import line_centre, youngs_difference
 
@@ -120,7 +120,7 @@ def slip_zones(j0, j1, i0, i1, width_bl, width_sl, threshold, rc, zc, dr, dz, ha
 
 
 @kernel
-def cut_shear(j0, j1, treatment, friction, occupied, zone, normal, hard_body, vof, pm, q):
+def cut_shear(part, parts, treatment, friction, occupied, zone, normal, hard_body, vof, pm, q):
     """Takes the shear from soft material in the slip layer: all of the deviator, or what the surface carries beyond friction.
 
     `shear`: with s turned to (n, t), |s_nt| <= friction max(-sigma_nn, 0).
@@ -128,7 +128,7 @@ def cut_shear(j0, j1, treatment, friction, occupied, zone, normal, hard_body, vo
     Reads    zone [j, i], normal [2, j, i]; vof, pm [m, j, i]
     Updates  q (deviators) [k, m, j, i]
     """
-    for j in prange(j0, j1):
+    for j in range(parts[part], parts[part + 1]):
         for i in range(occupied[j, 0], occupied[j, 1]):
             if zone[j, i] != SLIP_LAYER:
                 continue

@@ -4,7 +4,7 @@ from math import sqrt
 
 from eos.dispatch import evaluate, pressure_row, temperature_row, zero_pressure_density
 from hydro2d.jit import apart, point, rowwise, serial
-from hydro2d.kernels.column_ranges import columns
+from hydro2d.kernels.column_ranges import columns, outer_rows
 from hydro2d.materials.rows import CUTOFF_DENSITY, DAMAGE, DAMAGE_AT, EOS, EOS_AT, STRENGTH, STRENGTH_AT, TENSILE
 from hydro2d.mesh.fields import DMG, EP, RHO, SRR, SRZ, SZZ, E
 from hydro2d.mesh.grid import VOL_R
@@ -240,12 +240,13 @@ def viscosity_row(j, b, linear, quadratic, courant, advective, mesh_speed, hourg
 
 
 @serial
-def least_step(j0, j1, row_step, bad, found):
+def least_step(parts, row_step, bad, found):
     """Row of the least time step, and the first rows with cells and with velocities that are not finite, -1 for none.
 
     Reads    row_step [j], bad [j, 4]
     Writes   found [3]
     """
+    j0, j1 = outer_rows(parts)
     found[0], found[1], found[2] = j0, -1, -1
     for j in range(j1 - 1, j0 - 1, -1):
         found[0] = j if row_step[j] <= row_step[found[0]] else found[0]

@@ -1,9 +1,9 @@
 """The triad a = b + s c: the memory bandwidth that every other kernel is measured against."""
 
-from hydro2d.jit import kernel, prange
+from hydro2d.jit import prange, threaded
 
 
-@kernel
+@threaded
 def triad(j0, j1, scale, b, c, a):
     """a = b + scale c, over rows j0 to j1.
 

@@ -8,10 +8,10 @@ from __future__ import annotations
 import numpy as np
 
 from eos.dispatch import evaluate
-from hydro2d.jit import kernel, prange
+from hydro2d.jit import prange, threaded
 
 
-@kernel
+@threaded
 def pressures_and_temperatures(eos_model, eos_par, vof, rho, e, damage, pressure, temperature):
     """Equation of state of every body; a body that has failed bears no tension (explanation/fracture).
 

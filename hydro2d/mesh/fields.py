@@ -23,9 +23,6 @@ CARRIED_FLUID, CARRIED_SOLID, CARRIED_DAMAGE = 2, 6, 7
 #: remap has mixed both counts as failed, which is from 1 on, where about half of its mass has
 FAILED = 2.0
 
-#: rows that a thread carries through a phase at a time: few enough to stay in its cache
-BLOCK = 32
-
 
 @dataclass(frozen=True)
 class Field:
@@ -114,7 +111,7 @@ class Work:
     """An array in which the kernels of a cycle leave something for one another.
 
     ``axes`` are letters for the lengths of its axes: m bodies, b body groups, j and i cells with ghosts, J and I vertices, k
-    rows of State.q, n internal variables, B blocks of rows, L vertices along the longer direction; 6B is six for every block.
+    rows of State.q, n internal variables, B parts of the rows, L vertices along the longer direction; 6B is six for every part.
     """
 
     symbol: str
@@ -157,6 +154,9 @@ WORK = (
     Work("momentum_sums", "5 J", "in a row: kinetic energy before and after, momentum gained, energy cut, wall's momentum"),
     Work("deposited", "J", "energy that a row of cells is given from its vertices"),
     Work("removed", "4+m J", "what the tidying of a row removes: energies, momentum, void, mass of every body"),
+    Work("walls", "2 J", "axial momentum and energy that edges with a given velocity take in a row"),
+    Work("held_back", "2", "axial momentum and energy that the transmitting edges take"),
+    Work("gate", "32", "where the threads of a phase wait for one another", int),
     Work("row_moving", "J 2", "columns of the moving vertices of a row", int),
     Work("moving", "4", "rows and columns of all moving vertices", int),
 )
@@ -171,7 +171,7 @@ CONTACT_WORK = (
     Work("rate", "j i", "rate of volume of a contact-interface cell"),
     Work("size", "j i", "volume of a contact-interface cell that is not void"),
     Work("kinds", "j I", "how many bodies a cell holds, while mixed cells are listed anew"),
-    Work("part", "m j i", "share of a body in the volume of its group in a contact-interface cell"),
+    Work("own_share", "m j i", "share of a body in the volume of its group in a contact-interface cell"),
     Work("line", "10 j i", "lines of both groups in a contact-interface cell"),
     Work("aperture_r", "2 J I", "aperture of a face along r, for the hard group, at either end"),
     Work("aperture_z", "2 J I", "aperture of a face along z, for the hard group, at either end"),

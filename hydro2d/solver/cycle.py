@@ -11,24 +11,23 @@ import numpy as np
 from hydro2d.errors import UnphysicalState
 from hydro2d.kernels import (
     acceleration,
-    boundaries,
     column_ranges,
-    cut_cells,
-    deformation,
-    interfaces,
-    mixed,
+    contact_motion,
+    lagrangian_step,
     momentum,
     remap,
+    remap_step,
     sliding,
     thermodynamics,
 )
-from hydro2d.materials import rows
 from hydro2d.mesh import fields
 from hydro2d.physics import waves
 from hydro2d.solver.audit import Audit
-from hydro2d.solver.contact import Contact
+from hydro2d.solver.contact import Contact, NoContact
 from hydro2d.solver.following import StandingMesh
 from hydro2d.solver.method import Method
+from hydro2d.solver.parts import Parts
+from hydro2d.solver.views import Views
 
 #: cells that the active box leads the moving vertices by; one cycle spreads a signal by fewer
 MARGIN = 6
@@ -62,18 +61,17 @@ class Cycle:
         g = grid.g
         self.mesh_box = np.array([g, g + grid.nz, g, g + grid.nr], dtype=np.int64)
         at = np.array([g, g + grid.nr, g, g + grid.nz], dtype=np.int64)
+        self.edge_lines = at
         self.constrained = np.where(method.boundaries.having("holds"), at, -1)
-        self.transmitting = np.where(method.boundaries.having("transmits"), at, -1)
-        self.void_only = self._edges_with_void_beyond()
         self.carried = np.array([self._carried(m) for m in range(state.bodies)])
-        self.contact = Contact(state, method, self.mesh_box, self.constrained, table) if state.groups > 1 else None
+        self.contact = Contact(state) if state.groups > 1 else NoContact()
         self.box = list(self.mesh_box)
+        self.parts = Parts(state)
         self.audit: Audit | None = None
         self.speed_limit = 0.0
-        self.models, self.materials = rows.packed(table, method.strength_cutoff * table.rho0, method.yield_factor)
-        self.underfilled_density = method.mass_floor * float(np.max(table.rho0))
+        self.views = Views(self, table)
 
-    def _edges_with_void_beyond(self) -> np.ndarray:
+    def edges_with_void_beyond(self) -> np.ndarray:
         """The edges of the mesh (rows j0, j1, columns i0, i1) through which nothing but void comes in, -1 for the others."""
         found = self.mesh_box.copy()
         found[np.roll(self.method.boundaries.having("supplies"), 2)] = -1
@@ -93,24 +91,18 @@ class Cycle:
     def advance(self) -> None:
         """One step: time n to n + 1."""
         self.activate()
-        self.ghost_vertices()
         self.find_slip_zones()
         self.mesh.follow()
         self.close_cells()
         self.choose_step()
 
-        self.stress()
         self.accelerate()
-        self.sweep_faces()
         self.deform()
-        self.mesh.leave(self.box, self.carried, self.dt)
 
         directions = ((0, 1), (1, 0)) if self.number % 2 == 0 else ((1, 0), (0, 1))
         for second, (dj, di) in enumerate(directions):
-            self.interface_fluxes(dj, di, second)
             self.remap_bodies(dj, di, second)
-            self.remap_momentum(dj, di)
-            self.tidy(dj, di, second)
+            self.remap_momentum(dj, di, second)
 
         self.mesh.move(self.dt)
         self.time += self.dt
@@ -124,12 +116,10 @@ class Cycle:
         every = self.box
         self.box = list(self.mesh_box)
         self.mesh.announce()
-        self._find_ranges(anew=True)
+        self._find_ranges()
         s.cell_mass[...], s.mass[...] = 0.0, 0.0
-        j0, j1, _, _ = self.box
-        remap.sum_cell_mass(j0, j1, s.group_ranges, s.group, self.grid.volume, s.vof, s.q, s.cell_mass)
+        remap.sum_cell_mass(0, self._one_part, s.group_ranges, s.group, self.grid.volume, s.vof, s.q, s.cell_mass)
         self._vertex_mass()
-        self._keep_one()
         if self.audit is None:
             self.box = self._first_box() if self._skips_cells else list(self.mesh_box)
             self.audit = Audit.open(s)
@@ -138,9 +128,10 @@ class Cycle:
             self.speed_limit = SPEED_LIMIT_FACTOR * max(fastest, sound)
         else:
             self.box = every
+        self.views.limit_speed(self.speed_limit)
         if self.box != list(self.mesh_box):  # beyond the box nothing has a range yet
             s.empty_ranges()
-            self._find_ranges(anew=True)
+            self._find_ranges()
         self._list_mixed()
 
     @property
@@ -177,7 +168,7 @@ class Cycle:
         if self.box == list(self.mesh_box):
             return
         s, (j0, j1, i0, i1) = self.state, self.box
-        column_ranges.moving_columns(j0, j1 + 1, i0, i1 + 1, s.u, s.v, s.row_moving)
+        column_ranges.moving_columns(0, self._one_part, i0, i1 + 1, s.u, s.v, s.row_moving)
         column_ranges.moving_box(j0, j1 + 1, s.row_moving, s.moving)
         first, last, low, high = s.moving
         if first == last:
@@ -186,61 +177,30 @@ class Cycle:
         box = [min(j0, grown[0]), max(j1, grown[1]), min(i0, grown[2]), max(i1, grown[3])]
         if box != self.box:
             self.box = box
-            self._find_ranges(anew=True)
+            self._find_ranges()
             self._list_mixed()
 
-    def _find_ranges(self, anew: bool) -> None:
-        s, box = self.state, self.box
-        column_ranges.find_body_ranges(*box, anew, s.group, s.vof, s.body_ranges, s.occupied)
-        column_ranges.find_active_ranges(*box, s.occupied, s.group_ranges)
-        column_ranges.widen_ranges(box[0], box[1], s.body_ranges, s.group_ranges)
+    @property
+    def _one_part(self) -> np.ndarray:
+        """The rows of the active box as one part."""
+        return np.array(self.box[:2], dtype=np.int64)
+
+    def _find_ranges(self) -> None:
+        """Looks for every body in the whole of the active box."""
+        s, rows, (_, _, i0, i1) = self.state, self._one_part, self.box
+        column_ranges.find_body_ranges(0, rows, i0, i1, True, s.group, s.vof, s.body_ranges, s.occupied)
+        column_ranges.find_active_ranges(0, rows, i0, i1, s.occupied, s.group_ranges)
+        column_ranges.widen_ranges(0, rows, s.body_ranges, s.group_ranges)
 
     def _list_mixed(self) -> None:
-        s, (j0, j1, _, _) = self.state, self.box
-        column_ranges.list_mixed(j0, j1, s.active_range, s.vof, s.mixed_count, s.mixed, s.scratch)
+        s = self.state
+        column_ranges.list_mixed(0, self._one_part, s.active_range, s.vof, s.mixed_count, s.mixed, s.scratch)
 
     def _vertex_mass(self) -> None:
-        s, g, (j0, j1, i0, i1) = self.state, self.grid, self.box
-        acceleration.vertex_masses(j0, j1 + 1, i0, i1 + 1, g.metrics, s.group_ranges, s.cell_mass, s.mass)
-
-    def _keep_one(self) -> None:
-        if self.contact:
-            self.contact.keep_one(self.box)
-
-    def ghost_vertices(self) -> None:
-        """Mirrors or copies velocities beyond the edges of the mesh."""
-        s, g, (low_r, high_r, low_z, high_z) = self.state, self.grid, self.method.boundaries.having("mirrors")
-        j0, j1, i0, i1 = self.box
-        boundaries.ghost_vertices_r(j0, j1 + 1, g.nr, low_r, high_r, s.u, s.v)
-        boundaries.ghost_vertices_z(i0 - 2, i1 + 3, g.nz, low_z, high_z, s.u, s.v)
-
-    def _constrain(self) -> None:
-        """The given normal velocity of constrained nodes: axis, walls, edges with a velocity; impulse and work are audited."""
-        s = self.state
-        for edge, (at, velocity) in enumerate(zip(self.constrained, self.method.boundaries.velocity, strict=True)):
-            if at < 0:
-                continue
-            along_r = edge < 2
-            normal = s.u[..., at] if along_r else s.v[:, at]
-            if velocity or not along_r:  # the axis and walls along z take no axial momentum and do no work
-                before, mass = (s.u0[..., at], s.mass[..., at]) if along_r else (s.v0[:, at], s.mass[:, at])
-                impulse = mass * (normal - velocity)
-                work = float(np.sum(0.5 * impulse * (before + velocity))) if velocity else 0.0
-                self.audit.add("walls", momentum=0.0 if along_r else float(np.sum(impulse)), energy=work)
-            normal[...] = velocity
-
-    def _transmit(self) -> None:
-        """What an endless plate would hold the transmitting edges with; what it takes goes into the audit."""
-        s, g, taken = self.state, self.grid, np.zeros(2)
-        for along_r in (True, False):
-            j0, j1, i0, i1 = self.box
-            first, last = (j0, j1 + 1) if along_r else (i0, i1 + 1)
-            crossing = self.transmitting[2:] if along_r else self.transmitting[:2]
-            for at, _ in self._open_faces(along_r, "transmits"):
-                boundaries.transmit(along_r, at, first, last, crossing, self.constrained, self.dt, g.metrics, g.dz, s.rhobar,
-                                    s.cl, s.bulk, s.mass, s.u0, s.v0, s.u, s.v, taken)
-        if taken.any():
-            self.audit.add("transmitted", momentum=float(taken[0]), energy=float(taken[1]))
+        s, rows, (_, _, i0, i1) = self.state, self._one_part, self.box
+        acceleration.vertex_masses(0, rows, i0, i1 + 1, self.grid.metrics, s.group_ranges, s.cell_mass, s.mass)
+        if s.groups > 1:
+            contact_motion.keep_one(0, rows, i0, i1, s.group_ranges, s.mass, s.u, s.v)
 
     # ------------------------------------------------------------------------------------------------ Lagrangian step
 
@@ -253,18 +213,11 @@ class Cycle:
                            s.distance, s.zone, s.normal)
 
     def close_cells(self) -> None:
-        """Pressure and sound speed of every body, void where a cell fractures, artificial viscosity, the step a cell allows."""
-        s, g, method, (j0, j1, _, _) = self.state, self.grid, self.method, self.box
-        cut_cells.find_surfaces(*self.box, self.mesh_box, g.dr, g.dz, s.group, method.hard, method.threshold, s.mixed_count,
-                                s.mixed, s.vof, s.skin)
-        mixed.close_cells(
-            j0, j1, method.max_opening, method.smallest_tension, method.viscosity_linear, method.viscosity_quadratic,
-            method.courant, method.advective_courant, self.mesh.velocity, method.hourglass, g.metrics, g.dr, g.dz, s.body_range,
-            s.active_range, s.mixed_count, s.mixed, self.models, self.materials, s.u, s.v, s.vof, s.q, s.pm, s.km, s.tm, s.skin,
-            s.p, s.bulk, s.rhobar, s.solid, s.cl, s.qr, s.qz, s.hg_coefficient, s.opened, s.row_step, s.bad, s.scratch)
-        if self.contact:
-            self.contact.find(self.box)
-        thermodynamics.least_step(j0, j1, s.row_step, s.bad, s.least_row)
+        """Pressure and sound speed of every body, void where a cell fractures, viscosity, contact, the step a cell allows."""
+        s, g, v, parts, (_, _, i0, i1) = self.state, self.grid, self.views, self.parts.of(self.box), self.box
+        lagrangian_step.close_cells(parts, i0, i1, float(self.mesh.velocity), v.geometry, v.edges, v.bodies, v.choices,
+                                    v.fields, v.work, v.contact)
+        self.contact.find(parts, i0, i1, v)
         if s.least_row[1] >= 0:
             self._report_bad(s.least_row[1])
         if s.least_row[2] >= 0:
@@ -301,96 +254,41 @@ class Cycle:
                                   f'{method.dt_min:.3g} s, set by {self.cause}, in body "{self.table.names[m]}"')
         self.dt = dt
 
-    def stress(self) -> None:
-        """Total stress of every cell at half the step."""
-        s, g, method, (j0, j1, _, _) = self.state, self.grid, self.method, self.box
-        acceleration.total_stress(
-            j0, j1, self.dt, g.metrics, g.dz, s.body_range, s.active_range, s.mixed_count, s.mixed,
-            method.by_what_is_solid, method.hard, method.threshold, s.u, s.v, s.vof, s.q, s.skin, s.p, s.bulk,
-            s.solid, s.qr, s.qz, s.ph, s.sig_rr, s.sig_zz, s.sig_tt, s.sig_rz)
-        if self.contact:
-            self.contact.stress(j0, j1, self.dt)
-
     def accelerate(self) -> None:
-        """Velocities at the end of the step."""
-        s, g, (j0, j1, i0, i1) = self.state, self.grid, self.box
+        """Total stress of every cell at half the step, and the velocities at its end."""
+        s, v, parts, (j0, j1, i0, i1) = self.state, self.views, self.parts.of(self.box), self.box
         s.swap_velocities()
-        limited = s.limited
-        acceleration.accelerate(
-            j0, j1 + 1, i0, i1 + 1, self.dt, self.speed_limit, self.underfilled_density, g.metrics, g.dz, s.occupied, s.mass,
-            s.hg_coefficient, s.sig_rr, s.sig_zz, s.sig_tt, s.sig_rz, s.u0, s.v0, s.u, s.v, limited)
-        if limited[2, j0:j1 + 1].any():
-            self.audit.add("speed_limit", momentum=float(limited[0, j0:j1 + 1].sum()),
-                           energy=float(limited[1, j0:j1 + 1].sum()))
-        if self.contact:
-            self.contact.meet(j0, j1, self.dt, self.audit)
-        self._transmit()
-        self._constrain()
-        self._keep_one()
-        self.ghost_vertices()
-
-    def sweep_faces(self) -> None:
-        """Volumes that the faces sweep in the step; they are the change of volume, and later the remap's fluxes."""
-        s, g, (j0, j1, i0, i1) = self.state, self.grid, self.box
-        acceleration.swept_volumes(j0, j1 + 1, i0, i1, self.dt, g.metrics, g.dz, s.group_ranges, s.u0, s.v0, s.u, s.v, s.fr,
-                                   s.fz)
-        if self.contact:
-            self.contact.volumes(j0, j1, self.dt)
+        lagrangian_step.accelerate(parts, i0, i1, self.dt, v.geometry, v.edges, v.bodies, v.choices, v.fields, v.work,
+                                   v.contact, self.contact.ties)
+        if s.limited[2, j0:j1 + 1].any():
+            self.audit.add("speed_limit", momentum=float(s.limited[0, j0:j1 + 1].sum()),
+                           energy=float(s.limited[1, j0:j1 + 1].sum()))
+        self.contact.account(j0, j1, self.audit)
+        if s.held_back.any():
+            self.audit.add("transmitted", momentum=float(s.held_back[0]), energy=float(s.held_back[1]))
+        momentum_taken, energy_taken = s.walls.sum(axis=1)
+        self.audit.add("walls", momentum=float(momentum_taken), energy=float(energy_taken))
 
     def deform(self) -> None:
-        """Work, volume, strain: body by body in pure cells, then the mixed cells; no shear in the slip layer."""
-        s, g, method, (j0, j1, _, _) = self.state, self.grid, self.method, self.box
-        deformation.deform(
-            j0, j1, self.dt, g.metrics, g.dz, s.body_range, s.group, self.models, self.materials, s.u0, s.v0, s.u, s.v, s.fr,
-            s.fz, s.sig_rr, s.sig_zz, s.sig_tt, s.sig_rz, s.hg_coefficient, s.vof, s.pm, s.tm, s.scratch, s.q, s.internal)
-        mixed.deform_mixed(
-            j0, j1, self.dt, method.relaxation, method.tipton, method.mixed_strength, method.hard, method.threshold, g.metrics,
-            g.dz, s.mixed_count, s.mixed, s.group, s.contact_columns, s.cell_mass, self.models, self.materials, s.u0, s.v0, s.u,
-            s.v, s.fr, s.fz, s.ph, s.qr, s.qz, s.hg_coefficient, s.skin, s.p, s.bulk, s.solid, s.pm, s.km, s.tm, s.vof, s.q,
-            s.mix, s.motion, s.internal)
-        if self.contact:
-            self.contact.warm(j0, j1)
-        if method.slip_widths is not None:
-            sliding.cut_shear(j0, j1, method.shear, method.friction, s.occupied[0], s.zone, s.normal, method.hard, s.vof, s.pm,
-                              s.q)
+        """Volumes that the faces sweep; work, volume, strain: body by body in pure cells, then the mixed cells."""
+        v, (_, _, i0, i1), travels = self.views, self.box, self.mesh.leading is not None
+        lagrangian_step.deform(self.parts.of(self.box), i0, i1, self.dt, travels, float(self.mesh.velocity * self.dt),
+                               v.geometry, v.bodies, v.choices, v.fields, v.work, v.contact)
 
     # ------------------------------------------------------------------------------------------------ remap
 
-    def interface_fluxes(self, dj: int, di: int, second: int) -> None:
-        """Volume of every body through every face of one direction."""
-        s, g, box = self.state, self.grid, self.box
-        j0, j1, i0, i1 = box
-        low_r, high_r, low_z, high_z = self.method.boundaries.having("mirrors")
-        along_r, along_z = di * len(s.q), dj * len(s.q)  # the other direction's interfaces need fractions
-        boundaries.ghost_columns(j0, j1, g.nr, low_r, high_r, along_r, s.rules, s.body_range, s.vof, s.q)
-        boundaries.ghost_rows(i0 - 2, i1 + 2, g.nz, low_z, high_z, along_z, s.rules, s.vof, s.q)
-        self.mesh.fill_ghosts(self.dt)
-        if not second:  # cells may have been filled by the Lagrangian step
-            self._list_mixed()
-        face = s.fr if di else s.fz
-        interfaces.donor_volumes(dj, di, *box, second == 0, self.void_only, g.volume, s.body_ranges, s.active_range, s.fr, s.fz,
-                                 s.vof, s.pre, s.flux_volume)
-        interfaces.interface_volumes(dj, di, j0, j1, g.dr, g.dz, self.method.interface_order, s.mixed_count, s.mixed, face,
-                                     s.pre, s.vof, s.flux_volume, s.strips)
-        if self.contact:
-            self.contact.fluxes(dj, di, j0, j1)
-
     def remap_bodies(self, dj: int, di: int, second: int) -> None:
-        """Fluxes and update of every body's fields; the cells' masses, and which of them are mixed."""
-        s, g, box = self.state, self.grid, self.box
-        if dj:
-            remap.block_edge_fluxes(*box, self.carried, s.rules, s.body_ranges, s.pre, s.flux_volume, s.vof, s.q, s.scratch,
-                                    s.flux)
-        sweep = remap.sweep_r if di else remap.sweep_z
-        sweep(*box, self.carried, s.rules, s.group, self.mesh_box, s.body_ranges, s.group_ranges, s.fr if di else s.fz, s.pre,
-              g.volume, bool(second), s.flux_volume, s.scratch, s.flux, s.flux_mass, s.edge_flux, s.vof, s.q, s.cell_mass,
-              s.mixed_count, s.mixed)
+        """Volume of every body through every face of one direction, what it carries with it, and the cells after the sweep."""
+        v, (_, _, i0, i1), leading = self.views, self.box, self.mesh.leading
+        self.mesh.fill_ghosts(self.dt)
+        remap_step.carry_bodies(self.parts.of(self.box), dj, di, bool(second), i0, i1, -1 if leading is None else leading,
+                                v.geometry, v.edges, v.bodies, v.fields, v.work, v.contact)
         self._audit_outflow(di)
 
-    def _open_faces(self, di: int, flag: str = "opens"):
-        """(index of the face, outward sign) of the edges of a direction that have a flag of the table of boundary conditions,
-        where the active box has reached them."""
-        having = self.method.boundaries.having(flag)
+    def _open_faces(self, di: int):
+        """(index of the face, outward sign) of the edges of a direction through which bodies flow, where the active box has
+        reached them."""
+        having = self.method.boundaries.having("opens")
         low, high = having[0:2] if di else having[2:4]
         box, ends = (self.box[2:4], self.mesh_box[2:4]) if di else (self.box[0:2], self.mesh_box[0:2])
         if low and box[0] == ends[0]:
@@ -418,37 +316,22 @@ class Cycle:
                 part = np.where(way * sign * flow[0] > 0.0, flow, 0.0) if both else flow
                 yield name, sign * part.sum(axis=-1)
 
-    def remap_momentum(self, dj: int, di: int) -> None:
-        """Velocities after the sweep, by the advection choice; what it discards goes into the audit."""
-        s, g, method = self.state, self.grid, self.method
-        flow = s.flux_mass
-        j0, j1, i0, i1 = self.mesh_box
-        if di:  # the sweep along the other direction has left its fluxes beyond the mesh, where nothing flows along this one
-            flow[:, [j0 - 1, j1]] = 0.0
-        else:
-            flow[:, :, [i0 - 1, i1]] = 0.0
-        for face, sign in self._open_faces(di):  # beyond an open edge the flux goes on as it was
-            beyond = face + int(sign)
-            for of_group in flow:
-                if di:
-                    of_group[:, beyond] = of_group[:, face]
-                else:
-                    of_group[beyond] = of_group[face]
+    def remap_momentum(self, dj: int, di: int, second: int) -> None:
+        """Velocities after the sweep, by the advection choice; what it discards, and what is tidied away, goes into the audit."""
+        s, v, (j0, j1, i0, i1) = self.state, self.views, self.box
+        opened = {sign for _, sign in self._open_faces(di)}
         s.swap_velocities()
-        sums = s.momentum_sums
-        momentum.sweep_momentum(
-            dj, di, *self.box, method.advection, method.ke_bound, self.constrained, method.boundaries.velocity, self.mesh_box,
-            g.metrics, s.group_ranges, s.cell_mass, flow, s.mass, s.velocity0, s.velocity, s.dual, s.edge_dual, s.deficit, sums)
-        j0, j1, _, _ = self.box
-        before, after, p_gained, k_cut, p_wall = sums[:, j0:j1 + 1].sum(axis=1)
+        remap_step.carry_momentum(self.parts.of(self.box), dj, di, bool(second), i0, i1, -1.0 in opened, 1.0 in opened,
+                                  v.geometry, v.edges, v.bodies, v.choices, v.fields, v.work)
+        before, after, p_gained, k_cut, p_wall = s.momentum_sums[:, j0:j1 + 1].sum(axis=1)
         lost = before - after - self._kinetic_outflow(di)
-        if method.advection == momentum.BOTH:
-            momentum.deposit(j0, j1, g.metrics, s.active_range, s.group, s.deficit, s.cell_mass, s.vof, s.q, s.deposited)
+        if self.method.advection == momentum.BOTH:
             lost -= s.deposited[j0:j1].sum()
         self.audit.add("advection", momentum=-float(p_gained), energy=float(lost - k_cut))
         self.audit.add("ke_bound", energy=float(k_cut))
         self.audit.add("walls", momentum=float(p_wall))
-        self.ghost_vertices()
+        internal, kinetic, axial, _, *mass = s.removed[:, j0:j1].sum(axis=1)
+        self.audit.add("cutoff", mass=np.array(mass), momentum=float(axial), energy=float(internal + kinetic))
 
     def _kinetic_outflow(self, di: int) -> float:
         """Audits the momentum that went through open edges and returns the kinetic energy that left with it."""
@@ -463,14 +346,3 @@ class Cycle:
                     self.audit.add(name, momentum=float(axial), energy=energy)
                 total += energy
         return total
-
-    def tidy(self, dj: int, di: int, second: int) -> None:
-        """Removes sub-cutoff volume fractions, makes full cells full, and finds the bodies anew."""
-        s, g, (j0, j1, _, _) = self.state, self.grid, self.box
-        remap.tidy(j0, j1, self.method.cutoff, g.metrics, g.volume, s.group, s.mixed_count, s.mixed, s.pre, dj, di, s.fr, s.fz,
-                   bool(second), s.u, s.v, s.vof, s.q, s.cell_mass, s.removed)
-        internal, kinetic, axial, _, *mass = s.removed[:, j0:j1].sum(axis=1)
-        self.audit.add("cutoff", mass=np.array(mass), momentum=float(axial), energy=float(internal + kinetic))
-        self._vertex_mass()  # by the ranges before: where nothing is left there is no mass either
-        self._find_ranges(anew=False)
-        self._keep_one()

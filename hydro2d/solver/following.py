@@ -11,7 +11,6 @@ from __future__ import annotations
 import numpy as np
 
 from hydro2d.deck.shapes import outline
-from hydro2d.kernels import following
 from hydro2d.mesh import sums
 from hydro2d.mesh.fields import RHO, E
 from hydro2d.mesh.grid import Grid
@@ -37,9 +36,6 @@ class StandingMesh:
 
     def follow(self) -> None:
         """Chooses the velocity of the mesh for the step."""
-
-    def leave(self, box, carried, dt: float) -> None:
-        """Makes the volumes that the faces sweep relative to the mesh."""
 
     def fill_ghosts(self, dt: float) -> None:
         """Places in the ghost cells ahead of the mesh what flows in."""
@@ -138,18 +134,6 @@ class FollowingMesh:
         mass, momentum = self._sums
         velocity = momentum / mass if mass > 0.0 else 0.0
         self.velocity = velocity if velocity * self.direction > 0.0 else 0.0
-
-    def leave(self, box, carried, dt: float) -> None:
-        """F_z - w dt A for every face along z, and for each group of a contact; forgets what has faded.
-
-        box : [j0, j1, i0, i1] of the active cells;  carried : int64[m], fields that each body carries
-        """
-        s, vol_r, (j0, j1, _, _) = self.state, self.grid.vol_r, box
-        advance = self.velocity * dt
-        following.leave(j0, j1 + 1, advance, vol_r, s.group_ranges[0], s.fz)
-        if s.groups > 1:
-            following.leave_contact(j0, j1, advance, vol_r, s.contact_columns, s.own_z)
-        following.silence(j0, j1, carried, s.body_range, s.q)
 
     def fill_ghosts(self, dt: float) -> None:
         """What the deck has placed in the strip that the leading edge crosses in the step, at rest and without stress."""

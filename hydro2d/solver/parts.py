@@ -1,0 +1,56 @@
+"""The parts into which the rows of the active box are cut, one for each thread: every kernel of the step uses the same ones.
+
+What a thread has written stays in its processor's cache until it reads it again. No result depends on the parts.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from hydro2d import jit
+
+#: fewest rows of a part: the sweep along z shares three faces with each neighbour
+FEWEST = 4
+#: cycles between two cuts: what is dear moves by less than a cell in as many
+RECUT = 10
+#: what a mixed cell costs, in cells that are full of one body, and what a cell of a row costs that holds nothing
+MIXED, EMPTY = 20.0, 0.1
+
+
+def cut(costs: np.ndarray, number: int, first: int = 0) -> np.ndarray:
+    """First row of each part and one past the last, int64[n + 1], with about equal sums of costs; n <= number, at least 1.
+
+    costs : float[rows], positive;  first : number of the first row
+    """
+    rows = len(costs)
+    number = max(min(number, rows // FEWEST), 1)
+    total = np.cumsum(costs)
+    bounds = np.zeros(number + 1, dtype=np.int64)
+    bounds[1:-1] = np.searchsorted(total, total[-1] * np.arange(1, number) / number, side="right")
+    bounds[-1] = rows
+    for k in range(1, number):  # each part has rows enough, and leaves enough for those after it
+        bounds[k] = min(max(bounds[k], bounds[k - 1] + FEWEST), rows - FEWEST * (number - k))
+    return bounds + first
+
+
+class Parts:
+    """The parts of a state's active box, cut anew every few cycles by what its rows cost."""
+
+    def __init__(self, state):
+        self.state = state
+        self._parts, self._key, self._age = np.zeros(2, dtype=np.int64), None, 0
+
+    def of(self, box: list[int]) -> np.ndarray:
+        """First row of each part and one past the last row of the box [j0, j1, i0, i1], int64[n + 1]."""
+        threads = jit.parts_at_once()
+        key = (threads, *box)
+        self._age += 1
+        if key != self._key or self._age >= RECUT:
+            self._parts, self._key, self._age = cut(self._costs(*box), threads, box[0]), key, 0
+        return self._parts
+
+    def _costs(self, j0: int, j1: int, i0: int, i1: int) -> np.ndarray:
+        """What a cycle costs in every row, in cells that are full of one body."""
+        s = self.state
+        filled = np.maximum(s.active_range[j0:j1, 1] - s.active_range[j0:j1, 0], 0)
+        return EMPTY * (i1 - i0) + filled + MIXED * s.mixed_count[j0:j1]
