@@ -4,7 +4,8 @@
 ``@apart``   a function that kernels call for what is rare
 ``@rowwise`` one row of one phase, a piece of kernels
 ``@kernel``  loops over the rows of one part of the mesh
-``@threaded`` a function with one outermost ``prange`` over the parts, which calls kernels
+``@phase``   a phase of the step: kernels, one after another, for all parts at the same time
+``@threaded`` loops over the mesh outside of the step, threaded over rows by one outermost ``prange``
 ``@serial``  loops over a short list, one thread
 
 What numba is told is in `options`, where compiled code is kept in `cache`, the decorators are in `calls`, and what is known of
@@ -20,6 +21,7 @@ from hydro2d.jit.calls import (
     max_threads,
     modules,
     parts_at_once,
+    phase,
     plus,
     point,
     prange,
@@ -36,6 +38,6 @@ from hydro2d.jit.recording import Call, profiling, recorded, timings
 
 __all__ = [
     "Call", "GATE", "add_model", "all_folder", "apart", "by_id", "compiler_events", "host_cpu", "kernel", "max_threads", "module_of",
-    "modules", "parts_at_once", "plus", "point", "prange", "profiling", "recorded", "returns", "rowwise", "serial", "set_threads", "threaded",
+    "modules", "parts_at_once", "phase", "plus", "point", "prange", "profiling", "recorded", "returns", "rowwise", "serial", "set_threads", "threaded",
     "threads", "timings", "wait",
 ]  # fmt: skip

@@ -11,7 +11,7 @@ import numpy as np
 
 from hydro2d.jit import barrier, recording
 from hydro2d.jit.cache import all_folder, folder_of, module_of
-from hydro2d.jit.options import OPTIONS
+from hydro2d.jit.options import ONLY_CALLS, OPTIONS
 from hydro2d.jit.recording import called
 
 
@@ -87,10 +87,16 @@ def kernel(function):
 
 
 def threaded(function):
-    """Compiles a function whose outermost ``prange`` runs over the parts of the mesh, a thread for each.
+    """Compiles loops over the mesh that no phase of the step contains, whose outermost ``prange`` runs over rows."""
+    return called(function, _compile(function, parallel=True))
+
+
+def phase(function):
+    """Compiles a phase of the step: its outermost ``prange`` runs over the parts of the mesh, and in it are calls of kernels.
 
     While kernels are timed it runs as Python, with one part, so that the clock sees each of them.
     """
+    ONLY_CALLS.add(function)
     return called(function, _compile(function, parallel=True), of_kernels=True)
 
 
@@ -101,7 +107,7 @@ def serial(function):
 
 @point
 def wait(gate, parts):
-    """Where the threads of a threaded function, one for each part, wait for one another.
+    """Where the threads of a phase, one for each part, wait for one another.
 
     gate : int64[GATE], the same for all;  parts : int64[number of parts + 1]
     """
@@ -133,14 +139,14 @@ def _all_meet(gate, number, rounds, met):
 
 @functools.cache
 def _threads_meet(number: int) -> bool:
-    """Whether the turns of a parallel loop run at the same time on this number of threads, as a `threaded` function needs."""
+    """Whether the turns of a parallel loop run at the same time on this number of threads, as a `phase` needs."""
     met = np.zeros(number, dtype=np.bool_)
     _all_meet(np.zeros(GATE, dtype=np.int64), number, 100_000, met)
     return bool(met.all())
 
 
 def parts_at_once() -> int:
-    """How many parts a `threaded` function can have: as many as kernels have threads; one while they are timed.
+    """How many parts a `phase` can have: as many as kernels have threads; one while they are timed.
 
     One as well where threads that wait for one another are not given to a loop: OpenMP may have been told so
     (OMP_THREAD_LIMIT).

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import llvmlite.binding
 import numba
-from numba.core import caching, cpu
+from numba.core import caching, codegen, cpu
 from numba.core.options import TargetOptions
 
 from hydro2d.files import turn
@@ -28,6 +28,35 @@ OPTIONS = {"cache": True, "error_model": "numpy", "fastmath": False, "nogil": Tr
 # an option that numba has for its own functions only: no two arrays that a function is given overlap. Without it every vector
 # loop is preceded by hundreds of comparisons of addresses, a tenth of the time of a cycle
 cpu.CPUTargetOptions.noalias = TargetOptions.Mapping("noalias")
+
+
+#: the functions that do nothing but call kernels: a compiler has nothing to gain in them
+ONLY_CALLS: set = set()
+
+
+def _kernels_are_optimised_once() -> None:
+    """Keeps LLVM from optimising kernels again, several times over, in what only calls them."""
+    compiling: list = []
+
+    class Compiling(numba.core.event.Listener):
+        def on_start(self, event):
+            compiling.append(event.data["dispatcher"].py_func)
+
+        def on_end(self, event):
+            compiling.pop()
+
+    numba.core.event.register("numba:compile", Compiling())
+    optimise = codegen.CPUCodeLibrary._optimize_final_module
+
+    @functools.wraps(optimise)
+    def unless_it_only_calls(self):
+        if not (compiling and compiling[-1] in ONLY_CALLS):
+            optimise(self)
+
+    codegen.CPUCodeLibrary._optimize_final_module = unless_it_only_calls
+
+
+_kernels_are_optimised_once()
 
 
 def _one_writes_at_a_time() -> None:

@@ -3,7 +3,9 @@
 (dj, di) is (0, 1) along r and (1, 0) along z; `second` says whether it is the second sweep of the step.
 """
 
-from hydro2d.jit import prange, threaded, wait
+from numpy import int64
+
+from hydro2d.jit import phase, prange, wait
 from hydro2d.kernels import (
     acceleration,
     boundaries,
@@ -16,35 +18,30 @@ from hydro2d.kernels import (
 )
 
 
-@threaded
-def carry_bodies(parts, dj, di, second, i0, i1, leading, geometry, edges, bodies, fields, work, contact):
+@phase
+def carry_bodies(parts, i0, i1, dj, di, second, leading, fr, own_r, fz, own_z, q, nr, mirror_r_min, mirror_r_max, rules,
+                 body_range, vof, nz, mirror_z_min, mirror_z_max, active_range, mixed_count, mixed_columns, scratch, gate,
+                 void_only, volume, body_ranges, pre, flux_volume, dr, dz, interface_order, strips, cell_mass, mesh_box,
+                 contact_columns, own_share, size, hard_first, soft_first, group, line, carried, flux, group_ranges, flux_mass,
+                 edge_flux):
     """Volume of every body through every face, fluxes of what it carries, and the cells after the sweep.
 
     leading : the edge along z that goes ahead with a mesh that travels, 0 low, 1 high, -1 none: its ghost cells are filled
     """
-    nr, nz, dr, dz, volume, mesh_box = geometry.nr, geometry.nz, geometry.dr, geometry.dz, geometry.volume, geometry.mesh_box
-    low_r, high_r, low_z, high_z = edges.mirrors
-    void_only, group, carried, rules, order = edges.void_only, bodies.group, bodies.carried, bodies.rules, bodies.order
-    hard_first, soft_first = bodies.hard_first, bodies.soft_first
-    vof, q, pre = fields.vof, fields.q, fields.pre
-    body_range, body_ranges, active_range, group_ranges = work.body_range, work.body_ranges, work.active_range, work.group_ranges
-    mixed_count, columns, scratch, gate, strips = work.mixed_count, work.mixed, work.scratch, work.gate, work.strips
-    fr, fz, flux_volume, flux, flux_mass = work.fr, work.fz, work.flux_volume, work.flux, work.flux_mass
-    edge_flux, cell_mass, contact_columns = work.edge_flux, work.cell_mass, work.contact_columns
-    line, own_r, own_z, own_share, size = contact.line, contact.own_r, contact.own_z, contact.own_share, contact.size
     face, own = (fr, own_r) if di == 1 else (fz, own_z)
     along_r, along_z = di * q.shape[0], dj * q.shape[0]  # the other direction's interfaces need fractions
-    for part in prange(parts.shape[0] - 1):
-        boundaries.ghost_columns(part, parts, nr, low_r, high_r, along_r, rules, body_range, vof, q)
-        boundaries.ghost_rows(part, parts, i0 - 2, i1 + 2, nz, low_z, high_z, leading, along_z, rules, vof, q)
+    for place in prange(parts.shape[0] - 1):
+        part = int64(place)  # numba counts without a sign, for which every kernel would be compiled a second time
+        boundaries.ghost_columns(part, parts, nr, mirror_r_min, mirror_r_max, along_r, rules, body_range, vof, q)
+        boundaries.ghost_rows(part, parts, i0 - 2, i1 + 2, nz, mirror_z_min, mirror_z_max, leading, along_z, rules, vof, q)
         if not second:  # cells may have been filled by the Lagrangian step
-            column_ranges.list_mixed(part, parts, active_range, vof, mixed_count, columns, scratch)
+            column_ranges.list_mixed(part, parts, active_range, vof, mixed_count, mixed_columns, scratch)
         wait(gate, parts)
         interfaces.donor_volumes(dj, di, part, parts, i0, i1, not second, void_only, volume, body_ranges, active_range, fr, fz,
                                  vof, pre, flux_volume)
         wait(gate, parts)
-        interfaces.interface_volumes(dj, di, part, parts, dr, dz, order, mixed_count, columns, face, pre, vof, flux_volume,
-                                     strips)
+        interfaces.interface_volumes(dj, di, part, parts, dr, dz, interface_order, mixed_count, mixed_columns, face, pre, vof,
+                                     flux_volume, strips)
         if cell_mass.shape[0] > 1:
             contact_volumes.contact_shares(part, parts, mesh_box, contact_columns, volume, pre, vof, own_share, size)
             wait(gate, parts)
@@ -57,40 +54,35 @@ def carry_bodies(parts, dj, di, second, i0, i1, leading, geometry, edges, bodies
             remap.shared_fluxes(part, parts, i0, i1, carried, rules, body_ranges, pre, flux_volume, vof, q, scratch, flux)
             wait(gate, parts)
             remap.sweep_z(part, parts, i0, i1, carried, rules, group, mesh_box, body_ranges, group_ranges, face, pre, volume,
-                          second, flux_volume, scratch, flux, flux_mass, edge_flux, vof, q, cell_mass, mixed_count, columns)
+                          second, flux_volume, scratch, flux, flux_mass, edge_flux, vof, q, cell_mass, mixed_count, mixed_columns)
         else:
             remap.sweep_r(part, parts, i0, i1, carried, rules, group, mesh_box, body_ranges, group_ranges, face, pre, volume,
-                          second, flux_volume, scratch, flux, flux_mass, edge_flux, vof, q, cell_mass, mixed_count, columns)
+                          second, flux_volume, scratch, flux, flux_mass, edge_flux, vof, q, cell_mass, mixed_count, mixed_columns)
 
 
-@threaded
-def carry_momentum(parts, dj, di, second, i0, i1, opens_low, opens_high, geometry, edges, bodies, choices, fields, work):
+@phase
+def carry_momentum(parts, i0, i1, dj, di, second, opens_low, opens_high, mesh_box, flux_mass, gate, advection, ke_bound,
+                   constrained, edge_velocity, metrics, group_ranges, cell_mass, mass, velocity0, velocity, dual, edge_dual,
+                   deficit, momentum_sums, nr, mirror_r_min, mirror_r_max, u, v, nz, mirror_z_min, mirror_z_max, active_range,
+                   group, vof, q, deposited, cutoff, volume, mixed_count, mixed_columns, pre, fr, fz, removed, body_ranges,
+                   occupied):
     """Velocities after the sweep; then what is left over is tidied away, and the bodies are found anew.
 
     opens_low, opens_high : whether bodies flow through the edges of this direction that the active box has reached
     """
-    nr, nz, metrics, volume, mesh_box = geometry.nr, geometry.nz, geometry.metrics, geometry.volume, geometry.mesh_box
-    low_r, high_r, low_z, high_z = edges.mirrors
-    constrained, held, group = edges.constrained, edges.velocity, bodies.group
-    advection, ke_bound, cutoff = choices.advection, choices.ke_bound, choices.cutoff
-    vof, q, pre, u, v, mass = fields.vof, fields.q, fields.pre, fields.u, fields.v, fields.mass
-    velocity, velocity0 = fields.velocity, fields.velocity0
-    body_ranges, active_range, group_ranges = work.body_ranges, work.active_range, work.group_ranges
-    occupied, mixed_count, columns, gate = work.occupied, work.mixed_count, work.mixed, work.gate
-    fr, fz, flux_mass, cell_mass, dual, edge_dual = work.fr, work.fz, work.flux_mass, work.cell_mass, work.dual, work.edge_dual
-    deficit, sums, deposited, removed = work.deficit, work.momentum_sums, work.deposited, work.removed
-    for part in prange(parts.shape[0] - 1):
+    for place in prange(parts.shape[0] - 1):
+        part = int64(place)  # numba counts without a sign, for which every kernel would be compiled a second time
         boundaries.close_mass_flux(part, parts, di, mesh_box, opens_low, opens_high, flux_mass)
         wait(gate, parts)
-        momentum.sweep_momentum(dj, di, part, parts, i0, i1, advection, ke_bound, constrained, held, mesh_box, metrics,
-                                group_ranges, cell_mass, flux_mass, mass, velocity0, velocity, dual, edge_dual, deficit, sums)
-        boundaries.ghost_vertices_r(part, parts, nr, low_r, high_r, u, v)
-        boundaries.ghost_vertices_z(part, parts, i0 - 2, i1 + 3, nz, low_z, high_z, u, v)
+        momentum.sweep_momentum(dj, di, part, parts, i0, i1, advection, ke_bound, constrained, edge_velocity, mesh_box, metrics,
+                                group_ranges, cell_mass, flux_mass, mass, velocity0, velocity, dual, edge_dual, deficit, momentum_sums)
+        boundaries.ghost_vertices_r(part, parts, nr, mirror_r_min, mirror_r_max, u, v)
+        boundaries.ghost_vertices_z(part, parts, i0 - 2, i1 + 3, nz, mirror_z_min, mirror_z_max, u, v)
         wait(gate, parts)
         if advection == momentum.BOTH:
             momentum.deposit(part, parts, metrics, active_range, group, deficit, cell_mass, vof, q, deposited)
-        remap.tidy(part, parts, cutoff, metrics, volume, group, mixed_count, columns, pre, dj, di, fr, fz, second, u, v, vof, q,
-                   cell_mass, removed)
+        remap.tidy(part, parts, cutoff, metrics, volume, group, mixed_count, mixed_columns, pre, dj, di, fr, fz, second, u, v,
+                   vof, q, cell_mass, removed)
         wait(gate, parts)
         # by the ranges before: where nothing is left there is no mass either
         acceleration.vertex_masses(part, parts, i0, i1 + 1, metrics, group_ranges, cell_mass, mass)

@@ -2,18 +2,37 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 
 from hydro2d.kernels import extension, lagrangian_step
-from hydro2d.kernels.views import Ties
 from hydro2d.solver.audit import Audit
 
 
-def slots(number: int = 0) -> Ties:
+class Ties(NamedTuple):
     """What contact keeps of every contact node, in slots: the nodes of row j have those from first_slot[j] on.
 
-    Nothing in the arrays outlives a step.
+    How firmly nodes are tied, to how many masters, to which and with what weights (`find_extensions`); then what `settle` needs
+    to solve for the impulses of the ties. Nothing in the arrays outlives a step.
     """
+
+    strength: np.ndarray
+    masters: np.ndarray
+    where: np.ndarray
+    weights: np.ndarray
+    nodes: np.ndarray
+    starts: np.ndarray
+    entries: np.ndarray
+    portions: np.ndarray
+    impulses: np.ndarray
+    gain: np.ndarray
+    taken: np.ndarray
+    rubbing: np.ndarray
+
+
+def slots(number: int = 0) -> Ties:
+    """Ties with slots for a number of contact nodes."""
     most = 2 * number * (extension.MASTERS + 1)
     return Ties(
         strength=np.zeros((number, 2)),
@@ -38,7 +57,7 @@ def most_squares(table, courant: float) -> float:
     swings with omega^2 = (K/rho) sum N^2/h^2; omega dt <= 2 with dt = courant h/c of the fastest.
     """
     speeds = table.sound_speeds()
-    return max(4.0 * table.rho0.min() * speeds.max() ** 2 / ((table.rho0 * speeds**2).max() * courant**2), 1.0)
+    return float(max(4.0 * table.rho0.min() * speeds.max() ** 2 / ((table.rho0 * speeds**2).max() * courant**2), 1.0))
 
 
 class NoContact:
@@ -50,8 +69,8 @@ class NoContact:
     def __init__(self):
         self.ties = slots()
 
-    def find(self, parts, i0: int, i1: int, views) -> None:
-        """Where the groups meet; parts : int64[n + 1], rows;  i0, i1 : columns of the active box;  views : Views."""
+    def find(self, parts, i0: int, i1: int, arguments) -> None:
+        """Where the groups meet; parts : int64[n + 1], rows;  i0, i1 : columns of the active box;  arguments : Arguments."""
 
     def account(self, j0: int, j1: int, audit: Audit) -> None:
         """What contact moved between groups and walls in the rows j0 to j1 of the step goes into the audit."""
@@ -64,15 +83,14 @@ class Contact(NoContact):
         super().__init__()
         self.state = state
 
-    def find(self, parts, i0: int, i1: int, views) -> None:
+    def find(self, parts, i0: int, i1: int, arguments) -> None:
         """Where the groups meet: face apertures, normals, slave nodes; volume rate and viscosity of contact-interface cells.
 
         Beyond the active box bodies that touch have no pressure to exchange yet.
         """
         if (needed := int(self.state.first_slot[parts[-1] + 1])) > len(self.ties.strength):
             self.ties = slots(2 * needed)
-        lagrangian_step.find_contact(parts, i0, i1, views.geometry, views.edges, views.bodies, views.choices, views.fields,
-                                     views.work, views.contact, self.ties)
+        lagrangian_step.find_contact(parts, i0, i1, *arguments.of(lagrangian_step.find_contact))
 
     def account(self, j0: int, j1: int, audit: Audit) -> None:
         """What contact moved between groups and walls in the rows j0 to j1 of the step goes into the audit."""

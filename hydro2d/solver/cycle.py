@@ -22,12 +22,12 @@ from hydro2d.kernels import (
 )
 from hydro2d.mesh import fields
 from hydro2d.physics import waves
+from hydro2d.solver.arguments import Arguments
 from hydro2d.solver.audit import Audit
 from hydro2d.solver.contact import Contact, NoContact
 from hydro2d.solver.following import StandingMesh
 from hydro2d.solver.method import Method
 from hydro2d.solver.parts import Parts
-from hydro2d.solver.views import Views
 
 #: cells that the active box leads the moving vertices by; one cycle spreads a signal by fewer
 MARGIN = 6
@@ -61,15 +61,15 @@ class Cycle:
         g = grid.g
         self.mesh_box = np.array([g, g + grid.nz, g, g + grid.nr], dtype=np.int64)
         at = np.array([g, g + grid.nr, g, g + grid.nz], dtype=np.int64)
-        self.edge_lines = at
         self.constrained = np.where(method.boundaries.having("holds"), at, -1)
+        self.transmitting = np.where(method.boundaries.having("transmits"), at, -1)
         self.carried = np.array([self._carried(m) for m in range(state.bodies)])
         self.contact = Contact(state) if state.groups > 1 else NoContact()
         self.box = list(self.mesh_box)
         self.parts = Parts(state)
         self.audit: Audit | None = None
         self.speed_limit = 0.0
-        self.views = Views(self, table)
+        self.arguments = Arguments(self, table)
 
     def edges_with_void_beyond(self) -> np.ndarray:
         """The edges of the mesh (rows j0, j1, columns i0, i1) through which nothing but void comes in, -1 for the others."""
@@ -128,7 +128,7 @@ class Cycle:
             self.speed_limit = SPEED_LIMIT_FACTOR * max(fastest, sound)
         else:
             self.box = every
-        self.views.limit_speed(self.speed_limit)
+        self.arguments.limit_speed(self.speed_limit)
         if self.box != list(self.mesh_box):  # beyond the box nothing has a range yet
             s.empty_ranges()
             self._find_ranges()
@@ -214,10 +214,10 @@ class Cycle:
 
     def close_cells(self) -> None:
         """Pressure and sound speed of every body, void where a cell fractures, viscosity, contact, the step a cell allows."""
-        s, g, v, parts, (_, _, i0, i1) = self.state, self.grid, self.views, self.parts.of(self.box), self.box
-        lagrangian_step.close_cells(parts, i0, i1, float(self.mesh.velocity), v.geometry, v.edges, v.bodies, v.choices,
-                                    v.fields, v.work, v.contact)
-        self.contact.find(parts, i0, i1, v)
+        s, g, parts, (_, _, i0, i1) = self.state, self.grid, self.parts.of(self.box), self.box
+        phase = lagrangian_step.close_cells
+        phase(parts, i0, i1, float(self.mesh.velocity), *self.arguments.of(phase))
+        self.contact.find(parts, i0, i1, self.arguments)
         if s.least_row[1] >= 0:
             self._report_bad(s.least_row[1])
         if s.least_row[2] >= 0:
@@ -256,10 +256,9 @@ class Cycle:
 
     def accelerate(self) -> None:
         """Total stress of every cell at half the step, and the velocities at its end."""
-        s, v, parts, (j0, j1, i0, i1) = self.state, self.views, self.parts.of(self.box), self.box
+        s, (j0, j1, i0, i1), phase = self.state, self.box, lagrangian_step.accelerate
         s.swap_velocities()
-        lagrangian_step.accelerate(parts, i0, i1, self.dt, v.geometry, v.edges, v.bodies, v.choices, v.fields, v.work,
-                                   v.contact, self.contact.ties)
+        phase(self.parts.of(self.box), i0, i1, self.dt, *self.arguments.of(phase))
         if s.limited[2, j0:j1 + 1].any():
             self.audit.add("speed_limit", momentum=float(s.limited[0, j0:j1 + 1].sum()),
                            energy=float(s.limited[1, j0:j1 + 1].sum()))
@@ -271,18 +270,17 @@ class Cycle:
 
     def deform(self) -> None:
         """Volumes that the faces sweep; work, volume, strain: body by body in pure cells, then the mixed cells."""
-        v, (_, _, i0, i1), travels = self.views, self.box, self.mesh.leading is not None
-        lagrangian_step.deform(self.parts.of(self.box), i0, i1, self.dt, travels, float(self.mesh.velocity * self.dt),
-                               v.geometry, v.bodies, v.choices, v.fields, v.work, v.contact)
+        (_, _, i0, i1), travels, phase = self.box, self.mesh.leading is not None, lagrangian_step.deform
+        phase(self.parts.of(self.box), i0, i1, self.dt, travels, float(self.mesh.velocity * self.dt), *self.arguments.of(phase))
 
     # ------------------------------------------------------------------------------------------------ remap
 
     def remap_bodies(self, dj: int, di: int, second: int) -> None:
         """Volume of every body through every face of one direction, what it carries with it, and the cells after the sweep."""
-        v, (_, _, i0, i1), leading = self.views, self.box, self.mesh.leading
+        (_, _, i0, i1), leading, phase = self.box, self.mesh.leading, remap_step.carry_bodies
         self.mesh.fill_ghosts(self.dt)
-        remap_step.carry_bodies(self.parts.of(self.box), dj, di, bool(second), i0, i1, -1 if leading is None else leading,
-                                v.geometry, v.edges, v.bodies, v.fields, v.work, v.contact)
+        phase(self.parts.of(self.box), i0, i1, dj, di, bool(second), -1 if leading is None else leading,
+              *self.arguments.of(phase))
         self._audit_outflow(di)
 
     def _open_faces(self, di: int):
@@ -318,11 +316,10 @@ class Cycle:
 
     def remap_momentum(self, dj: int, di: int, second: int) -> None:
         """Velocities after the sweep, by the advection choice; what it discards, and what is tidied away, goes into the audit."""
-        s, v, (j0, j1, i0, i1) = self.state, self.views, self.box
+        s, (j0, j1, i0, i1), phase = self.state, self.box, remap_step.carry_momentum
         opened = {sign for _, sign in self._open_faces(di)}
         s.swap_velocities()
-        remap_step.carry_momentum(self.parts.of(self.box), dj, di, bool(second), i0, i1, -1.0 in opened, 1.0 in opened,
-                                  v.geometry, v.edges, v.bodies, v.choices, v.fields, v.work)
+        phase(self.parts.of(self.box), i0, i1, dj, di, bool(second), -1.0 in opened, 1.0 in opened, *self.arguments.of(phase))
         before, after, p_gained, k_cut, p_wall = s.momentum_sums[:, j0:j1 + 1].sum(axis=1)
         lost = before - after - self._kinetic_outflow(di)
         if self.method.advection == momentum.BOTH:
