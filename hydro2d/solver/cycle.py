@@ -50,6 +50,7 @@ class Cycle:
     time, dt, number : time reached (s), last time step (s), cycles done
     cause : str, what set the last time step, and where
     box : [j0, j1, i0, i1] of the cells that are active
+    rows : int64[n + 1], first row of each part of the box and one past the last (`parts`)
     audit : Audit
     """
 
@@ -66,7 +67,7 @@ class Cycle:
         self.carried = np.array([self._carried(m) for m in range(state.bodies)])
         self.contact = Contact(state) if state.groups > 1 else NoContact()
         self.box = list(self.mesh_box)
-        self.parts = Parts(state)
+        self.parts, self.rows = Parts(state), self._one_part
         self.audit: Audit | None = None
         self.speed_limit = 0.0
         self.arguments = Arguments(self, table)
@@ -91,6 +92,7 @@ class Cycle:
     def advance(self) -> None:
         """One step: time n to n + 1."""
         self.activate()
+        self.rows = self.parts.of(self.box)
         self.find_slip_zones()
         self.mesh.follow()
         self.close_cells()
@@ -214,10 +216,10 @@ class Cycle:
 
     def close_cells(self) -> None:
         """Pressure and sound speed of every body, void where a cell fractures, viscosity, contact, the step a cell allows."""
-        s, g, parts, (_, _, i0, i1) = self.state, self.grid, self.parts.of(self.box), self.box
+        s, g, (_, _, i0, i1) = self.state, self.grid, self.box
         phase = lagrangian_step.close_cells
-        phase(parts, i0, i1, float(self.mesh.velocity), *self.arguments.of(phase))
-        self.contact.find(parts, i0, i1, self.arguments)
+        phase(self.rows, i0, i1, float(self.mesh.velocity), *self.arguments.of(phase))
+        self.contact.find(self.rows, i0, i1, self.arguments)
         if s.least_row[1] >= 0:
             self._report_bad(s.least_row[1])
         if s.least_row[2] >= 0:
@@ -258,7 +260,7 @@ class Cycle:
         """Total stress of every cell at half the step, and the velocities at its end."""
         s, (j0, j1, i0, i1), phase = self.state, self.box, lagrangian_step.accelerate
         s.swap_velocities()
-        phase(self.parts.of(self.box), i0, i1, self.dt, *self.arguments.of(phase))
+        phase(self.rows, i0, i1, self.dt, *self.arguments.of(phase))
         if s.limited[2, j0:j1 + 1].any():
             self.audit.add("speed_limit", momentum=float(s.limited[0, j0:j1 + 1].sum()),
                            energy=float(s.limited[1, j0:j1 + 1].sum()))
@@ -271,7 +273,7 @@ class Cycle:
     def deform(self) -> None:
         """Volumes that the faces sweep; work, volume, strain: body by body in pure cells, then the mixed cells."""
         (_, _, i0, i1), travels, phase = self.box, self.mesh.leading is not None, lagrangian_step.deform
-        phase(self.parts.of(self.box), i0, i1, self.dt, travels, float(self.mesh.velocity * self.dt), *self.arguments.of(phase))
+        phase(self.rows, i0, i1, self.dt, travels, float(self.mesh.velocity * self.dt), *self.arguments.of(phase))
 
     # ------------------------------------------------------------------------------------------------ remap
 
@@ -279,7 +281,7 @@ class Cycle:
         """Volume of every body through every face of one direction, what it carries with it, and the cells after the sweep."""
         (_, _, i0, i1), leading, phase = self.box, self.mesh.leading, remap_step.carry_bodies
         self.mesh.fill_ghosts(self.dt)
-        phase(self.parts.of(self.box), i0, i1, dj, di, bool(second), -1 if leading is None else leading,
+        phase(self.rows, i0, i1, dj, di, bool(second), -1 if leading is None else leading,
               *self.arguments.of(phase))
         self._audit_outflow(di)
 
@@ -319,7 +321,7 @@ class Cycle:
         s, (j0, j1, i0, i1), phase = self.state, self.box, remap_step.carry_momentum
         opened = {sign for _, sign in self._open_faces(di)}
         s.swap_velocities()
-        phase(self.parts.of(self.box), i0, i1, dj, di, bool(second), -1.0 in opened, 1.0 in opened, *self.arguments.of(phase))
+        phase(self.rows, i0, i1, dj, di, bool(second), -1.0 in opened, 1.0 in opened, *self.arguments.of(phase))
         before, after, p_gained, k_cut, p_wall = s.momentum_sums[:, j0:j1 + 1].sum(axis=1)
         lost = before - after - self._kinetic_outflow(di)
         if self.method.advection == momentum.BOTH:

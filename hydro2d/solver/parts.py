@@ -41,7 +41,7 @@ class Parts:
         self._parts, self._key, self._age = np.zeros(2, dtype=np.int64), None, 0
 
     def of(self, box: list[int]) -> np.ndarray:
-        """First row of each part and one past the last row of the box [j0, j1, i0, i1], int64[n + 1]."""
+        """First row of each part and one past the last row of the box [j0, j1, i0, i1], int64[n + 1]; asked once a cycle."""
         threads = jit.parts_at_once()
         key = (threads, *box)
         self._age += 1
