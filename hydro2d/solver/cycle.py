@@ -342,7 +342,8 @@ class Cycle:
         s, g, method, (j0, j1, _, _) = self.state, self.grid, self.method, self.box
         deformation.deform(
             j0, j1, self.dt, g.metrics, g.dz, s.body_range, s.group, self.models, self.materials, s.u0, s.v0, s.u, s.v, s.fr,
-            s.fz, s.sig_rr, s.sig_zz, s.sig_tt, s.sig_rz, s.hg_coefficient, s.vof, s.pm, s.tm, s.scratch, s.q, s.internal)
+            s.fz, s.sig_rr, s.sig_zz, s.sig_tt, s.sig_rz, s.hg_coefficient, s.vof, s.pm, s.tm, s.scratch, s.q, s.internal,
+            s.lanes)
         mixed.deform_mixed(
             j0, j1, self.dt, method.relaxation, method.tipton, method.mixed_strength, method.hard, method.threshold, g.metrics,
             g.dz, s.mixed_count, s.mixed, s.group, s.contact_columns, s.cell_mass, self.models, self.materials, s.u0, s.v0, s.u,
