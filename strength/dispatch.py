@@ -5,8 +5,9 @@ The models are those of ``registry`` when this module is imported, which is when
 
 from __future__ import annotations
 
-from hydro2d.jit import by_id, point
+from hydro2d.jit import by_id, point, rows_by_id
 from strength import registry
+from strength.lanes import DENSITY, FLOW, HARDENED, HEAT, PRESSURE, RATE
 from strength.layout import SHEAR
 
 STRENGTH_MODULES = registry.chosen()
@@ -27,6 +28,11 @@ shear_modulus = by_id(
 flow_stress = by_id(
     STRENGTH_MODULES, "flow_stress", registry.STRENGTH_FUNCTIONS["flow_stress"][0],
     "Flow stress of a strength model, Pa: ep plastic strain, rate (1/s), T (K), p (compression positive, Pa), rho (kg/m^3).")
+
+flow_row = rows_by_id(
+    STRENGTH_MODULES, "flow_stress", "flow_row", "number, par, lanes", "k in range(number)",
+    ", ".join([*(f"lanes[{row} + k]" for row in (HARDENED, RATE, HEAT, PRESSURE, DENSITY)), "par"]), f"lanes[{FLOW} + k]",
+    "Flow stresses of the first number cells in lanes (strength/lanes.py), Pa, at HARDENED and RATE.")
 
 yield_floor = by_id(
     STRENGTH_MODULES, "yield_floor", registry.STRENGTH_FUNCTIONS["yield_floor"][0],

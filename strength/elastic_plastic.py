@@ -40,7 +40,8 @@ def shear_modulus(p, rho, T, par):
 def flow_stress(ep, rate, T, p, rho, par):
     """Yield stress at plastic strain ``ep`` and temperature ``T``, Pa: explanation/strength, (10)."""
     softening = 1.0 - thermal.homologous_temperature(T, par[REFERENCE_T], par[INVERSE_RANGE])
-    return min(par[YIELD] + par[HARDENING] * ep, par[LARGEST]) * softening
+    hardened, largest = par[YIELD] + par[HARDENING] * ep, par[LARGEST]
+    return (largest if hardened > largest else hardened) * softening
 
 
 @point

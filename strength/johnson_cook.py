@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 
-from hydro2d.jit import point
+from hydro2d.jit import log, point, power
 from hydro2d.parameters import POSITIVE, REQUIRED, Parameter, collect
 from strength import thermal
 from strength.layout import ROW, SHEAR, YIELD
@@ -44,16 +42,11 @@ def shear_modulus(p, rho, T, par):
 def flow_stress(ep, rate, T, p, rho, par):
     """Flow stress at plastic strain ``ep``, its ``rate`` (1/s) and temperature ``T``, Pa: explanation/strength, (5)."""
     hot = thermal.homologous_temperature(T, par[REFERENCE_T], par[INVERSE_RANGE])
-    Y = par[YIELD]
-    if ep > 0.0 and par[HARDENING] > 0.0:
-        Y += par[HARDENING] * ep ** par[EXPONENT]
+    exponent = par[THERMAL_EXPONENT]
     fast = rate * par[INVERSE_RATE0]
-    if fast > 1.0 and par[RATE] > 0.0:
-        Y *= 1.0 + par[RATE] * math.log(fast)
-    if hot > 0.0:
-        softening = hot if par[THERMAL_EXPONENT] == 1.0 else hot ** par[THERMAL_EXPONENT]
-        Y *= 1.0 - softening
-    return Y
+    Y = par[YIELD] + par[HARDENING] * power(0.0 if ep < 0.0 else ep, par[EXPONENT])
+    Y *= 1.0 + par[RATE] * log(1.0 if fast < 1.0 else fast)
+    return Y * (1.0 - (hot if exponent == 1.0 else power(hot, exponent)))
 
 
 def row(values) -> np.ndarray:

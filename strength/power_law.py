@@ -1,14 +1,15 @@
 """Power-law hardening in the total strain, as in cavity-expansion theory.
 
 sigma = Y0 (E eps/Y0)^n with eps = ep + sigma/E. With x = sigma/Y0 and a = E ep/Y0 this is x = (a + x)^n. Its root lies
-at x >= 1, where f = x - (a + x)^n is convex and increasing; Halley's method from x = 1 converges cubically.
+at x >= 1, where f = x - (a + x)^n is convex and increasing. The number of steps towards it is fixed and nothing branches, so
+that rows of cells are evaluated together.
 """
 
 from __future__ import annotations
 
 import numpy as np
 
-from hydro2d.jit import point
+from hydro2d.jit import point, power
 from hydro2d.parameters import POSITIVE, REQUIRED, Parameter, collect
 from strength.layout import ROW, SHEAR, YIELD
 
@@ -29,27 +30,46 @@ PARAMETERS = (
 #: slots of the row; the common ones are SHEAR and YIELD
 EXPONENT, STIFFNESS = 2, 3
 
-_ITERATIONS = 8
-_SMALL = 1e-5
+
+@point
+def binomial(d, n):
+    """(1 + d)^n by its series to d^10, for |d| below about a third."""
+    a2, a3, a4 = (n - 1.0) * (1 / 2) * d, (n - 2.0) * (1 / 3) * d, (n - 3.0) * (1 / 4) * d
+    a5, a6, a7 = (n - 4.0) * (1 / 5) * d, (n - 5.0) * (1 / 6) * d, (n - 6.0) * (1 / 7) * d
+    a8, a9, a10 = (n - 7.0) * (1 / 8) * d, (n - 8.0) * (1 / 9) * d, (n - 9.0) * (1 / 10) * d
+    low = 1.0 + a2 * (1.0 + a3 * (1.0 + a4))
+    high = 1.0 + a6 * (1.0 + a7 * (1.0 + a8 * (1.0 + a9 * (1.0 + a10))))
+    return 1.0 + n * d * (low + (a2 * a3) * (a4 * a5) * high)
+
+
+@point
+def halley_step(f, w, value, n):
+    """Step of Halley's method for f = x - w^n, relative to w = a + x, with ``value`` = w^n."""
+    slope = w - n * value  # of f, times w
+    return -f * slope / (slope * slope - 0.5 * (1.0 - n) * n * value * f)
 
 
 @point
 def hardening(a, n):
-    """The root x >= 1 of x = (a + x)^n, for a >= 0 and 0 <= n < 1, to round-off."""
-    x = 1.0
-    if not a > 0.0 or n == 0.0:
-        return x
-    for _ in range(_ITERATIONS):
-        w = a + x
-        power = w**n
-        f = x - power
-        slope = 1.0 - n * power / w
-        curvature = n * (1.0 - n) * power / (w * w)
-        step = f * slope / (slope * slope - 0.5 * f * curvature)
-        x -= step
-        if abs(step) < _SMALL:
-            return x
-    return x
+    """The root x >= 1 of x = (a + x)^n, for 0 <= n < 1, to round-off; a below 0 counts as 0.
+
+    With b = a/(1 - n) the tangent at a = 0 is (1 + b)^n, and x = r (1 + b)^n where r = (m + y (r - 1))^n, y = (1 + b)^(n - 1)
+    and m = y + (1 - n) b/(1 + b), between 1 - n and 1: the first trial is a step of Newton's method from r = 1. Two steps of
+    Halley's method follow, and in the second (a + x)^n is that of the first times a binomial series.
+    """
+    a = 0.0 if a < 0.0 else a
+    b = a * (1.0 / (1.0 - n))
+    tangent, inverse = power(1.0 + b, n), 1.0 / (1.0 + b)
+    y = tangent * inverse
+    m = y + (1.0 - n) * (b * inverse)
+    started = binomial(m - 1.0, n)  # m^n
+    x = tangent * started * (m - n * y) / (m - n * y * started)
+    w = a + x
+    value = power(w, n)
+    f = x - value
+    d = halley_step(f, w, value, n)
+    series = binomial(d, n)
+    return x + w * (d + (1.0 + d) * halley_step(f + w * d + value * (1.0 - series), w * (1.0 + d), value * series, n))
 
 
 @point

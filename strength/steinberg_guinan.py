@@ -2,7 +2,8 @@
 
 The melting temperature needs an exponential and a power. Since ln(eta) >= 1 - 1/eta, ln(eta) <= eta - 1 and
 exp(y) >= 1 + y, it is never below Tm0 (1 + y) with y = 2a(1 - 1/eta) + k (1 - 1/eta) for k >= 0 or + k (eta - 1) for
-k < 0, k = 2(Gamma0 - a - 1/3): only a material hotter than that is asked for its exact melting point.
+k < 0, k = 2(Gamma0 - a - 1/3): only a material hotter than that is asked for its exact melting point. In a row of cells the
+compiler evaluates both sides of every choice, for several cells at once.
 """
 
 from __future__ import annotations
@@ -11,7 +12,7 @@ import math
 
 import numpy as np
 
-from hydro2d.jit import point
+from hydro2d.jit import exp, log, point, power
 from hydro2d.parameters import POSITIVE, REQUIRED, Parameter, collect
 from strength.layout import ROW, SHEAR, YIELD
 
@@ -49,7 +50,7 @@ BETA, EXPONENT, STRAIN0, CAP, PRESSURE, TEMPERATURE, T0, MELT, TWO_A, K, INVERSE
 def cube_root(x):
     """x^(1/3) of a positive number: near 1 two steps of Halley from the tangent there, which are exact to round-off."""
     if x < 0.7 or x > 1.5:
-        return x ** (1.0 / 3.0)
+        return power(x, 1.0 / 3.0)
     y = (2.0 + x) / 3.0
     for _ in range(2):
         cube = y * y * y
@@ -60,7 +61,7 @@ def cube_root(x):
 @point
 def melt_temperature(eta, par):
     """Tm at the compression ``eta`` = rho/rho0, K: explanation/strength, (8)."""
-    return par[MELT] * math.exp(par[TWO_A] * (1.0 - 1.0 / eta)) * eta ** par[K]
+    return par[MELT] * exp(par[TWO_A] * (1.0 - 1.0 / eta) + par[K] * log(eta))
 
 
 @point
@@ -79,7 +80,8 @@ def relative_modulus(p, rho, T, par):
     eta = rho * par[INVERSE_RHO0]
     if not is_solid(T, eta, par):
         return 0.0
-    return max(1.0 + par[PRESSURE] * p / cube_root(eta) - par[TEMPERATURE] * (T - par[T0]), 0.0)
+    relative = 1.0 + par[PRESSURE] * p / cube_root(eta) - par[TEMPERATURE] * (T - par[T0])
+    return 0.0 if relative < 0.0 else relative  # a NaN stays one
 
 
 @point
@@ -94,9 +96,9 @@ def flow_stress(ep, rate, T, p, rho, par):
 
     explanation/strength, (7)
     """
-    base = 1.0 + par[BETA] * (ep + par[STRAIN0])
-    hardened = base ** par[EXPONENT] if base > 1.0 else 1.0
-    return par[YIELD] * min(hardened, par[CAP]) * relative_modulus(p, rho, T, par)
+    base, cap = 1.0 + par[BETA] * (ep + par[STRAIN0]), par[CAP]
+    hardened = power(1.0 if base < 1.0 else base, par[EXPONENT])
+    return par[YIELD] * (cap if hardened > cap else hardened) * relative_modulus(p, rho, T, par)
 
 
 def row(values) -> np.ndarray:

@@ -16,7 +16,9 @@ PARAMETERS = (
 @point
 def homologous_temperature(T, reference, inverse_range):
     """T* = (T - Tr)/(Tm - Tr), clamped to [0, 1]; ``inverse_range`` is 1/(Tm - Tr), 0 where nothing melts."""
-    return min(max((T - reference) * inverse_range, 0.0), 1.0)
+    share = (T - reference) * inverse_range
+    share = 0.0 if share < 0.0 else share  # a NaN stays one
+    return 1.0 if share > 1.0 else share
 
 
 def inverse_range(model: str, given: dict[str, float]) -> float:

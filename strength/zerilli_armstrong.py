@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from hydro2d.jit import point
+from hydro2d.jit import exp, log, point, power
 from hydro2d.parameters import POSITIVE, REQUIRED, Parameter, collect
 from strength.layout import ROW, SHEAR, YIELD
 
@@ -45,13 +45,12 @@ def shear_modulus(p, rho, T, par):
 @point
 def flow_stress(ep, rate, T, p, rho, par):
     """Flow stress at plastic strain ``ep``, its ``rate`` (1/s) and temperature ``T``, Pa: explanation/strength, (13)."""
-    if T >= par[MELT]:
-        return 0.0
-    softening = par[SOFTENING] - par[RATE] * math.log(max(rate, par[LOWEST_RATE]))
-    Y = par[ATHERMAL] + par[THERMAL_STRESS] * math.exp(min(-softening * T, 0.0))
-    if ep > 0.0 and par[HARDENING] > 0.0:
-        Y += par[HARDENING] * ep ** par[EXPONENT]
-    return Y
+    lowest = par[LOWEST_RATE]
+    softening = par[SOFTENING] - par[RATE] * log(lowest if rate < lowest else rate)
+    exponent = -softening * T
+    Y = par[ATHERMAL] + par[THERMAL_STRESS] * exp(0.0 if exponent > 0.0 else exponent)
+    Y += par[HARDENING] * power(0.0 if ep < 0.0 else ep, par[EXPONENT])
+    return 0.0 if T >= par[MELT] else Y
 
 
 def row(values) -> np.ndarray:
@@ -62,6 +61,5 @@ def row(values) -> np.ndarray:
     par[SOFTENING], par[RATE] = given["thermal_softening"], given["rate_hardening"]
     par[HARDENING], par[EXPONENT] = given["hardening"], given["hardening_exponent"]
     par[LOWEST_RATE], par[MELT] = given["lowest_rate"], given["melt_temperature"]
-    softening = par[SOFTENING] - par[RATE] * math.log(par[LOWEST_RATE])
-    par[YIELD] = par[ATHERMAL] + par[THERMAL_STRESS] * math.exp(min(-softening * given["yield_temperature"], 0.0))
+    par[YIELD] = flow_stress(0.0, 0.0, given["yield_temperature"], 0.0, 0.0, par)
     return par

@@ -1,4 +1,4 @@
-"""Every numba option of the code, in one place.
+"""Every numba option of the code, in one place, and the functions that compiled code computes with.
 
 ``@point``   a scalar function of physics, inlined by the compiler into the loops that call it
 ``@apart``   a function that kernels call for what is rare
@@ -8,8 +8,8 @@
 ``@threaded`` loops over the mesh outside of the step, threaded over rows by one outermost ``prange``
 ``@serial``  loops over a short list, one thread
 
-What numba is told is in `options`, where compiled code is kept in `cache`, the decorators are in `calls`, and what is known of
-the calls of kernels in `recording`. Other files import from here.
+What numba is told is in `options`, where compiled code is kept in `cache`, the decorators are in `calls`, exp, log and x^y for
+several cells at once in `elementary`, and what is known of the calls of kernels in `recording`. Other files import from here.
 """
 
 from hydro2d.jit.cache import add_model, all_folder, module_of
@@ -26,6 +26,7 @@ from hydro2d.jit.calls import (
     point,
     prange,
     returns,
+    rows_by_id,
     rowwise,
     serial,
     set_threads,
@@ -33,11 +34,12 @@ from hydro2d.jit.calls import (
     threads,
     wait,
 )
+from hydro2d.jit.elementary import exp, log, power
 from hydro2d.jit.options import compiler_events, host_cpu
 from hydro2d.jit.recording import Call, profiling, recorded, timings
 
 __all__ = [
-    "Call", "GATE", "add_model", "all_folder", "apart", "by_id", "compiler_events", "host_cpu", "kernel", "max_threads", "module_of",
-    "modules", "parts_at_once", "phase", "plus", "point", "prange", "profiling", "recorded", "returns", "rowwise", "serial", "set_threads", "threaded",
-    "threads", "timings", "wait",
+    "Call", "GATE", "add_model", "all_folder", "apart", "by_id", "compiler_events", "exp", "host_cpu", "kernel", "log",
+    "max_threads", "module_of", "modules", "parts_at_once", "phase", "plus", "point", "power", "prange", "profiling", "recorded",
+    "returns", "rows_by_id", "rowwise", "serial", "set_threads", "threaded", "threads", "timings", "wait",
 ]  # fmt: skip

@@ -47,18 +47,44 @@ def by_id(models: tuple[ModuleType, ...], function: str, arguments: str, meaning
     A chain of comparisons, written to a file in the cache folder: numba caches neither functions that are put together at run
     time nor those that are handed other functions. Models without the function, and unknown ids, give ``otherwise``.
     """
+    models, lines = _chain(models, function, f"@point\ndef {function}(model, {arguments}):", "point", meaning)
+    for k, model in enumerate(models):
+        lines += [f"    if model == {model.ID}:", f"        return _{k}({arguments})"]
+    text = "\n".join([*lines, f"    return {otherwise}", ""])
+    return getattr(module_of(f"hydro2d_by_id_{function}", text, all_folder()), function)
+
+
+def rows_by_id(models: tuple[ModuleType, ...], function: str, name: str, arguments: str, cells: str, values: str, into: str,
+               meaning: str):
+    """A ``@rowwise`` function ``name(model, arguments)`` that evaluates a function of the model with that ID in many cells.
+
+    The chain of comparisons stands outside of the loop over the cells, which the compiler can therefore vectorise.
+
+    cells : the loop, such as "x in range(number)";  values : the arguments of the model's function in a cell;  into : the
+    place for its value. Unknown ids give NaN.
+    """
+    models, lines = _chain(models, function, f"@rowwise\ndef {name}(model, {arguments}):", "rowwise", meaning)
+    word = "if"
+    for k, model in enumerate(models):
+        lines += [f"    {word} model == {model.ID}:", f"        for {cells}:", f"            {into} = _{k}({values})"]
+        word = "elif"
+    lines += ["    else:", f"        for {cells}:", f'            {into} = float("nan")', ""]
+    return getattr(module_of(f"hydro2d_rows_by_id_{name}", "\n".join(lines), all_folder()), name)
+
+
+def _chain(models: tuple[ModuleType, ...], function: str, head: str, mark: str, meaning: str):
+    """The models that have the function, and the first lines of a text that calls them as _0, _1 and so on.
+
+    Raises ValueError for two models with one ID.
+    """
     ids = [model.ID for model in models]
     for number in ids:
         if ids.count(number) > 1:
             raise ValueError(f"ID {number} belongs to {' and '.join(m.__name__ for m in models if m.ID == number)}")
     models = tuple(model for model in models if hasattr(model, function))
-    lines = [f'"""{meaning}"""', "", "from hydro2d.jit import point"]
+    lines = [f'"""{meaning}"""', "", f"from hydro2d.jit import {mark}"]
     lines += [f"from {model.__name__} import {function} as _{k}" for k, model in enumerate(models)]
-    lines += ["", "", "@point", f"def {function}(model, {arguments}):", f'    """{meaning}"""']
-    for k, model in enumerate(models):
-        lines += [f"    if model == {model.ID}:", f"        return _{k}({arguments})"]
-    text = "\n".join([*lines, f"    return {otherwise}", ""])
-    return getattr(module_of(f"hydro2d_by_id_{function}", text, all_folder()), function)
+    return models, [*lines, "", "", head, f'    """{meaning}"""']
 
 
 def returns(function, arguments: str) -> tuple[str, ...]:

@@ -4,14 +4,15 @@
 from hydro2d.jit import kernel, rowwise
 from hydro2d.kernels.column_ranges import columns
 from hydro2d.materials.rows import CUTOFF_DENSITY, DAMAGE, DAMAGE_AT, FACTOR, STRENGTH, STRENGTH_AT, TENSILE
-from hydro2d.mesh.fields import DMG, EP, RHO, SRR, SRZ, SZZ, E
+from hydro2d.mesh.fields import DMG, EP, LANES, RHO, SRR, SRZ, SZZ, E
 from hydro2d.mesh.grid import VOL_R
 from hydro2d.physics.fracture import damaged
 from hydro2d.physics.kinematics import hourglass_mode, velocity_gradient
 from hydro2d.physics.plasticity import from_centre, keep_internal, returned, take_internal
 from hydro2d.physics.stress import turn_and_strain, von_mises
 from strength.dispatch import WITH_INTERNAL, damage_increment, kinematic_modulus, modulus_row, turn, yield_floor
-from strength.radial_return import plastic_increment
+from strength.lanes import COLUMN, DENSITY, HEAT, INCREMENT, PRESSURE, STIFFNESS, STRAIN, STRESS, TRIAL, WIDTH
+from strength.radial_return import plastic_increment, return_together
 
 
 @rowwise
@@ -77,15 +78,19 @@ def strain_row(m, j, b, g, first, n, dt, metrics, h, cutoff_density, u0, v0, u, 
 
 
 @rowwise
-def yield_row(m, j, b, first, n, dt, models, materials, pm, tm, scratch, q):
+def yield_row(m, j, b, first, n, dt, models, materials, pm, tm, scratch, q, lanes):
     """Return of body m's deviators to its yield surface in row j, where their elastic trial lies outside of it.
+
+    Cells that may yield are gathered and solved together, up to `LANES` at a time (strength/radial_return.py).
 
     Reads    scratch [0 and 1, b, i], shear modulus and trial stress; pm, tm [m, j, i]
     Updates  q (deviators, plastic strain, damage) [k, m, j, i]
+    Scratch  lanes [b, k]
     """
     model = models[m, STRENGTH]
     par = materials[m, STRENGTH_AT:DAMAGE_AT]
     damage_par = materials[m, DAMAGE_AT:TENSILE]
+    damage_model = models[m, DAMAGE]
     scale = materials[m, FACTOR]
     floor = scale * yield_floor(model, par)  # below it no flow stress need be evaluated
     p_j = pm[m, j]
@@ -98,19 +103,40 @@ def yield_row(m, j, b, first, n, dt, models, materials, pm, tm, scratch, q):
     srr_j = q[SRR, m, j]
     szz_j = q[SZZ, m, j]
     srz_j = q[SRZ, m, j]
+    lane = lanes[b]
+    candidates = 0
     for x in range(n):
-        i = first + x
-        size = abs(trial_j[i])
-        if size > floor:
-            dep, yield_stress = plastic_increment(
-                model, size, ep_j[i], dt, t_j[i], p_j[i], rho_j[i], shear_j[i], scale, par)
-            if dep > 0.0:
-                shrink = yield_stress / size
+        candidates += 0 if abs(trial_j[first + x]) <= floor else 1  # a NaN is one
+    x = 0 if candidates > 0 else n
+    while x < n:
+        found = 0
+        while x < n and found < LANES:
+            i = first + x
+            lane[COLUMN + found] = i
+            found += 0 if abs(trial_j[i]) <= floor else 1
+            x += 1
+        number = (found + WIDTH - 1) // WIDTH * WIDTH
+        for k in range(number):
+            i = int(lane[COLUMN + min(k, found - 1)])  # the rest are copies of the last
+            lane[TRIAL + k] = abs(trial_j[i])
+            lane[STRAIN + k] = ep_j[i]
+            lane[HEAT + k] = t_j[i]
+            lane[PRESSURE + k] = p_j[i]
+            lane[DENSITY + k] = rho_j[i]
+            lane[STIFFNESS + k] = 3.0 * shear_j[i]
+        if number > 0:
+            return_together(model, number, dt, scale, par, lane)
+        for k in range(found):
+            dep = lane[INCREMENT + k]
+            if dep != 0.0:
+                i = int(lane[COLUMN + k])
+                yield_stress = lane[STRESS + k]
+                shrink = yield_stress / lane[TRIAL + k]
                 srr_j[i] *= shrink
                 szz_j[i] *= shrink
                 srz_j[i] *= shrink
                 ep_j[i] += dep
-                increment = damage_increment(models[m, DAMAGE], dep, dep / dt, t_j[i], p_j[i], yield_stress, damage_par)
+                increment = damage_increment(damage_model, dep, dep / dt, t_j[i], p_j[i], yield_stress, damage_par)
                 d_j[i] = damaged(d_j[i], increment)
 
 
@@ -180,7 +206,7 @@ def expand_row(m, j, b, first, n, metrics, h, fr, fz, vof, scratch, q):
 
 @kernel
 def deform(part, parts, dt, metrics, dz, body_range, group, models, materials, u0, v0, u, v, fr, fz, sig_rr, sig_zz, sig_tt,
-           sig_rz, hg_coefficient, vof, pm, tm, scratch, q, internal):
+           sig_rz, hg_coefficient, vof, pm, tm, scratch, q, internal, lanes):
     """Energy, density, deviator, plastic strain and damage of every body in the cells that it fills, over one Lagrangian step.
 
     de = V dt sigma : D(u mid-step) / m, the work of the same corner forces that moved the vertices; rho V is constant;
@@ -189,7 +215,7 @@ def deform(part, parts, dt, metrics, dz, body_range, group, models, materials, u
 
     Reads    group [m]; u0, v0, u, v [b, j, i]; fr, fz, sig_.., hg_coefficient [j, i]; vof, pm, tm [m, j, i]
     Updates  q [k, m, j, i]
-    Scratch  scratch [s, part, i], shear modulus, trial stress and spin; internal [j, k]
+    Scratch  scratch [s, part, i], shear modulus, trial stress and spin; internal [j, k]; lanes [part, k]
     """
     for j in range(parts[part], parts[part + 1]):
         h = dz[j]
@@ -203,5 +229,5 @@ def deform(part, parts, dt, metrics, dz, body_range, group, models, materials, u
             if model in WITH_INTERNAL:
                 internal_row(m, j, part, first, n, dt, models, materials, vof, pm, tm, scratch, q, internal)
             elif model > 0:
-                yield_row(m, j, part, first, n, dt, models, materials, pm, tm, scratch, q)
+                yield_row(m, j, part, first, n, dt, models, materials, pm, tm, scratch, q, lanes)
             expand_row(m, j, part, first, n, metrics, h, fr, fz, vof, scratch, q)

@@ -137,7 +137,7 @@ def deform(parts, i0, i1, dt, travels, advance, metrics, dz, group_ranges, u0, v
            volume, skin, bulk, ph, qr, even_r, even_z, mesh_box, group, vof, inside, gate, q, aperture_r, aperture_z, own_r,
            own_z, pm, checkerboard, hg_coefficient, km, room, body_range, models, materials, sig_rr, sig_zz, sig_tt, sig_rz, tm,
            scratch, internal, relaxation, tipton, mixed_strength, hard_bodies, threshold, mixed_count, mixed_columns, qz, p,
-           solid, mix, motion, warmed, heat, deposited, slip_layer, shear, friction, occupied, zone, normal, carried):
+           solid, mix, motion, warmed, heat, deposited, slip_layer, shear, friction, occupied, zone, normal, carried, lanes):
     """Volumes that faces sweep, work, and strain of every body; what faces sweep relative to a mesh that advances.
 
     travels, advance : whether the mesh does, and by how much in the step, m
@@ -164,7 +164,7 @@ def deform(parts, i0, i1, dt, travels, advance, metrics, dz, group_ranges, u0, v
                                                 cell_mass, room, vof, pm, fr, fz, own_r, own_z, q)
         wait(gate, parts)
         deformation.deform(part, parts, dt, metrics, dz, body_range, group, models, materials, u0, v0, u, v, fr, fz, sig_rr,
-                           sig_zz, sig_tt, sig_rz, hg_coefficient, vof, pm, tm, scratch, q, internal)
+                           sig_zz, sig_tt, sig_rz, hg_coefficient, vof, pm, tm, scratch, q, internal, lanes)
         mixed.deform_mixed(part, parts, dt, relaxation, tipton, mixed_strength, hard_bodies, threshold, metrics, dz,
                            mixed_count, mixed_columns, group, contact_columns, cell_mass, models, materials, u0, v0, u, v, fr, fz, ph,
                            qr, qz, hg_coefficient, skin, p, bulk, solid, pm, km, tm, vof, q, mix, motion, internal)

@@ -23,6 +23,9 @@ CARRIED_FLUID, CARRIED_SOLID, CARRIED_DAMAGE = 2, 6, 7
 #: remap has mixed both counts as failed, which is from 1 on, where about half of its mass has
 FAILED = 2.0
 
+#: cells whose return to the yield surface is solved together, and how many numbers each has there (strength/lanes.py)
+LANES, LANE_ROWS = 32, 17
+
 
 @dataclass(frozen=True)
 class Field:
@@ -131,6 +134,7 @@ WORK = (
     Work("edge_flux", "2 2 m L", "mass and energy of a body through either edge of a sweep"),
     Work("edge_dual", "b 2 5 L", "mass, momentum and kinetic energy of a group through either edge of a sweep"),
     Work("deficit", "b J I", "kinetic energy that `both` takes from a vertex"),
+    Work("lanes", f"B {LANE_ROWS * LANES}", "cells of a row that may yield, a few at a time, while they return"),
     Work("scratch", "4 B I", "rows that a phase needs for itself"),
     Work("body_ranges", "3 m j 2", "columns of a body, of the cells that a sweep along z can change, and of the faces", int),
     Work("group_ranges", "b 4 j 2", "active range of columns of a group, within 0, 1, 2 and 3 rows", int),

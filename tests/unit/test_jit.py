@@ -19,7 +19,8 @@ from numba.parfors import parfor_lowering
 
 from hydro2d import jit
 from hydro2d.jit import cache
-from strength import dispatch
+from hydro2d.mesh.fields import LANE_ROWS, LANES
+from strength import dispatch, lanes
 from strength.layout import ROW
 
 
@@ -36,6 +37,10 @@ def test_the_model_with_the_id_is_called():
 def test_an_unknown_id_gives_what_was_said():
     assert math.isnan(dispatch.flow_stress(99, 0.0, 0.0, 300.0, 0.0, 1.0, dispatch.STRENGTH_MODULES[0].row({})))
     assert dispatch.yield_floor(99, dispatch.STRENGTH_MODULES[0].row({})) == 0.0
+    lane = np.zeros(LANE_ROWS * LANES)
+    dispatch.flow_row(99, 8, np.zeros(ROW), lane)
+    assert np.isnan(lane[lanes.FLOW:][:8]).all()
+    assert np.isnan(lane).sum() == 8
 
 
 def test_models_without_the_function_are_left_out():

@@ -1,0 +1,34 @@
+"""The bits of a float64 as an int64, and back: what `elementary` takes exponents apart with.
+
+It is the one place where LLVM's own instructions are written. Python cannot call the two functions; compiled code can.
+"""
+
+from __future__ import annotations
+
+from llvmlite import ir
+from numba import types
+from numba.extending import intrinsic
+
+
+@intrinsic
+def bits_of(typingctx, x):
+    """int64 with the bits of a float64."""
+    if x != types.float64:
+        return None
+
+    def cast(context, builder, signature, values):
+        return builder.bitcast(values[0], ir.IntType(64))
+
+    return types.int64(types.float64), cast
+
+
+@intrinsic
+def from_bits(typingctx, n):
+    """float64 with the bits of an int64."""
+    if n != types.int64:
+        return None
+
+    def cast(context, builder, signature, values):
+        return builder.bitcast(values[0], ir.DoubleType())
+
+    return types.float64(types.int64), cast
