@@ -40,6 +40,6 @@ from hydro2d.jit.recording import Call, profiling, recorded, timings
 
 __all__ = [
     "Call", "GATE", "add_model", "all_folder", "apart", "by_id", "compiler_events", "exp", "host_cpu", "kernel", "log",
-    "max_threads", "module_of", "modules", "parts_at_once", "phase", "plus", "point", "power", "prange", "profiling", "recorded",
-    "returns", "rows_by_id", "rowwise", "serial", "set_threads", "threaded", "threads", "timings", "wait",
+    "max_threads", "module_of", "modules", "parts_at_once", "phase", "plus", "point", "power", "prange", "profiling",
+    "recorded", "returns", "rows_by_id", "rowwise", "serial", "set_threads", "threaded", "threads", "timings", "wait",
 ]  # fmt: skip

@@ -314,8 +314,8 @@ def warm_up(g, j, i, x, made, number, where, weights, mass, heat):
 
 @serial
 def settle(parts, dt, friction, constrained, metrics, dz, contact_columns, line, count, contact_nodes, first, normal, touch,
-           strength, number, where, weights, sig_rr, sig_zz, sig_rz, mass, u0, v0, u, v, nodes, starts, entries, portions, places,
-           ties, gain, taken, rubbing, heat, transfer):
+           strength, number, where, weights, sig_rr, sig_zz, sig_rz, mass, u0, v0, u, v, nodes, starts, entries, portions,
+           places, ties, gain, taken, rubbing, heat, transfer):
     """Velocities of both groups at contact nodes, from those that the forces alone would give.
 
     Slave nodes move with masters of their group, and groups that touch rub: impulses that keep the momentum. An impulse J

@@ -82,9 +82,9 @@ def find_contact(parts, i0, i1, mesh_box, dr, dz, contact_node_count, contact_no
                                   contact_normal, hard, soft, filled, group, vof, dmg, strength, masters, where, weights)
         wait(gate, parts)
         contact_motion.contact_viscosity(
-            part, parts, mesh_box, viscosity_linear, viscosity_quadratic, courant, dr, dz, metrics, contact_columns, line, group_ranges, contact_normal,
-            aperture_r, aperture_z, hard, soft, u, v, cl, rhobar, vof, q, km, skin, p, solid, bulk, qr, qz, rate, row_step,
-            mixed_count, mixed_columns, kinds)
+            part, parts, mesh_box, viscosity_linear, viscosity_quadratic, courant, dr, dz, metrics, contact_columns, line,
+            group_ranges, contact_normal, aperture_r, aperture_z, hard, soft, u, v, cl, rhobar, vof, q, km, skin, p, solid,
+            bulk, qr, qz, rate, row_step, mixed_count, mixed_columns, kinds)
         wait(gate, parts)
         if part == 0:
             thermodynamics.least_step(parts, row_step, bad, least_row)
@@ -112,14 +112,14 @@ def accelerate(parts, i0, i1, dt, metrics, dz, body_range, active_range, mixed_c
                                 hg_coefficient, sig_rr, sig_zz, sig_tt, sig_rz, u0, v0, u, v, limited)
         if mass.shape[0] > 1:
             contact_motion.contact_node_forces(
-                part, parts, dt, group, by_what_is_solid, metrics, dz, constrained, contact_node_count, contact_nodes, aperture_r, aperture_z,
-                ph, qr, solid, skin, vof, q, hg_coefficient, cell_mass, mass, u0, v0, u, v, transfer)
+                part, parts, dt, group, by_what_is_solid, metrics, dz, constrained, contact_node_count, contact_nodes,
+                aperture_r, aperture_z, ph, qr, solid, skin, vof, q, hg_coefficient, cell_mass, mass, u0, v0, u, v, transfer)
             wait(gate, parts)
             if part == 0:
                 contact_velocities.settle(
-                    parts, dt, friction, constrained, metrics, dz, contact_columns, line, contact_node_count, contact_nodes, first_slot, contact_normal,
-                    touch, strength, masters, where, weights, sig_rr, sig_zz, sig_rz, mass, u0, v0, u, v, nodes, starts, entries,
-                    portions, places, impulses, gain, taken, rubbing, heat, transfer)
+                    parts, dt, friction, constrained, metrics, dz, contact_columns, line, contact_node_count, contact_nodes,
+                    first_slot, contact_normal, touch, strength, masters, where, weights, sig_rr, sig_zz, sig_rz, mass, u0, v0,
+                    u, v, nodes, starts, entries, portions, places, impulses, gain, taken, rubbing, heat, transfer)
         wait(gate, parts)
         if part == 0:
             boundaries.transmit_edges(parts, i0, i1, transmitting, constrained, dt, metrics, dz, rhobar, cl, bulk, mass, u0, v0,
@@ -166,8 +166,8 @@ def deform(parts, i0, i1, dt, travels, advance, metrics, dz, group_ranges, u0, v
         deformation.deform(part, parts, dt, metrics, dz, body_range, group, models, materials, u0, v0, u, v, fr, fz, sig_rr,
                            sig_zz, sig_tt, sig_rz, hg_coefficient, vof, pm, tm, scratch, q, internal, lanes)
         mixed.deform_mixed(part, parts, dt, relaxation, tipton, mixed_strength, hard_bodies, threshold, metrics, dz,
-                           mixed_count, mixed_columns, group, contact_columns, cell_mass, models, materials, u0, v0, u, v, fr, fz, ph,
-                           qr, qz, hg_coefficient, skin, p, bulk, solid, pm, km, tm, vof, q, mix, motion, internal)
+                           mixed_count, mixed_columns, group, contact_columns, cell_mass, models, materials, u0, v0, u, v, fr,
+                           fz, ph, qr, qz, hg_coefficient, skin, p, bulk, solid, pm, km, tm, vof, q, mix, motion, internal)
         if cell_mass.shape[0] > 1:
             momentum.deposit(part, parts, metrics, warmed, group, heat, cell_mass, vof, q, deposited)
         if slip_layer:

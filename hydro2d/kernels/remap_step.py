@@ -54,10 +54,12 @@ def carry_bodies(parts, i0, i1, dj, di, second, leading, fr, own_r, fz, own_z, q
             remap.shared_fluxes(part, parts, i0, i1, carried, rules, body_ranges, pre, flux_volume, vof, q, scratch, flux)
             wait(gate, parts)
             remap.sweep_z(part, parts, i0, i1, carried, rules, group, mesh_box, body_ranges, group_ranges, face, pre, volume,
-                          second, flux_volume, scratch, flux, flux_mass, edge_flux, vof, q, cell_mass, mixed_count, mixed_columns)
+                          second, flux_volume, scratch, flux, flux_mass, edge_flux, vof, q, cell_mass, mixed_count,
+                          mixed_columns)
         else:
             remap.sweep_r(part, parts, i0, i1, carried, rules, group, mesh_box, body_ranges, group_ranges, face, pre, volume,
-                          second, flux_volume, scratch, flux, flux_mass, edge_flux, vof, q, cell_mass, mixed_count, mixed_columns)
+                          second, flux_volume, scratch, flux, flux_mass, edge_flux, vof, q, cell_mass, mixed_count,
+                          mixed_columns)
 
 
 @phase
@@ -75,7 +77,8 @@ def carry_momentum(parts, i0, i1, dj, di, second, opens_low, opens_high, mesh_bo
         boundaries.close_mass_flux(part, parts, di, mesh_box, opens_low, opens_high, flux_mass)
         wait(gate, parts)
         momentum.sweep_momentum(dj, di, part, parts, i0, i1, advection, ke_bound, constrained, edge_velocity, mesh_box, metrics,
-                                group_ranges, cell_mass, flux_mass, mass, velocity0, velocity, dual, edge_dual, deficit, momentum_sums)
+                                group_ranges, cell_mass, flux_mass, mass, velocity0, velocity, dual, edge_dual, deficit,
+                                momentum_sums)
         boundaries.ghost_vertices_r(part, parts, nr, mirror_r_min, mirror_r_max, u, v)
         boundaries.ghost_vertices_z(part, parts, i0 - 2, i1 + 3, nz, mirror_z_min, mirror_z_max, u, v)
         wait(gate, parts)

@@ -317,7 +317,7 @@ class Cycle:
                 yield name, sign * part.sum(axis=-1)
 
     def remap_momentum(self, dj: int, di: int, second: int) -> None:
-        """Velocities after the sweep, by the advection choice; what it discards, and what is tidied away, goes into the audit."""
+        """Velocities after the sweep, by the advection choice; what it discards and what is tidied away is audited."""
         s, (j0, j1, i0, i1), phase = self.state, self.box, remap_step.carry_momentum
         opened = {sign for _, sign in self._open_faces(di)}
         s.swap_velocities()
