@@ -51,7 +51,7 @@ class Arguments:
             "materials": materials, "carried": cycle.carried, "hard_bodies": method.hard, "hard_first": hard_first,
             "soft_first": soft_first, "slip_layer": method.slip_widths is not None, "mixed_columns": state.mixed,
             "underfilled_density": method.mass_floor * float(np.max(table.rho0)),
-            "most_squares": most_squares(table, method.courant),
+            "most_squares": most_squares(table, method.courant) if state.groups > 1 else 1.0,
         }
         if state.groups == 1:  # arrays of the same types without entries
             self._own |= {work.symbol: np.zeros((0,) * len(work.axes.split()), dtype=work.kind)
