@@ -20,7 +20,7 @@ class Block:
     def __init__(self, geometry="planar", edges=None):
         edges = 1e-3 * np.arange(N + 1.0) if edges is None else edges
         self.grid = g = Grid(edges, edges, geometry)
-        self.box = g.g, g.g + N
+        self.rows = np.array([g.g, g.g + N])
         self.vof, self.pm, self.q = np.zeros((2, *g.shape)), np.zeros((2, *g.shape)), np.zeros((7, 2, *g.shape))
         self.vof[1][FILLED] = 1.0
         self.vof[0][g.inside] = 1.0 - self.vof[1][g.inside]
@@ -30,7 +30,7 @@ class Block:
 
     def fade(self, contact_columns=None):
         """One step; leaves the swept volumes in fr, fz and own_r, own_z."""
-        g, (j0, j1) = self.grid, self.box
+        g, rows, (j0, j1) = self.grid, self.rows, self.rows
         ranges = np.zeros((2, 4, g.vertex_shape[0], 2), dtype=np.int64)
         ranges[..., 0], ranges[..., 1] = j0, j1
         cell_mass = DENSITY * self.vof * g.volume
@@ -43,11 +43,11 @@ class Block:
         self.fr, self.fz = np.zeros(g.vertex_shape), np.zeros(g.vertex_shape)
         self.own_r, self.own_z = np.zeros((2, *g.vertex_shape)), np.zeros((2, *g.vertex_shape))
         group = np.array([0, 1])
-        kernels.find_insides(j0, j1, j0, j1, group, ranges, self.vof, inside)
-        kernels.find_checkerboards(j0, j1, j0, j1, group, ranges, self.vof, self.q, self.pm, inside, found)
-        kernels.fade_deviators(j0, j1, STEP, group, ranges, g.volume, hg, cell_mass, inside, found, self.vof, self.km, self.q,
+        kernels.find_insides(0, rows, j0, j1, group, ranges, self.vof, inside)
+        kernels.find_checkerboards(0, rows, j0, j1, group, ranges, self.vof, self.q, self.pm, inside, found)
+        kernels.fade_deviators(0, rows, STEP, group, ranges, g.volume, hg, cell_mass, inside, found, self.vof, self.km, self.q,
                                room)
-        kernels.fade_pressures(j0, j1, j0, j1, group, ranges, columns, cell_mass, room, self.vof, self.pm, self.fr, self.fz,
+        kernels.fade_pressures(0, rows, j0, j1, group, ranges, columns, cell_mass, room, self.vof, self.pm, self.fr, self.fz,
                                self.own_r, self.own_z, self.q)
         return self
 

@@ -16,6 +16,8 @@ SHAPE, ROW, GIVER = (7, 10), 3, 5
 
 GROUP = np.array([1, 0], dtype=np.int64)
 MESH_BOX = np.array([2, SHAPE[0] - 2, 2, SHAPE[1] - 2], dtype=np.int64)
+#: one part, of the giver's row alone
+ROWS = np.array([ROW, ROW + 1])
 COLUMNS = np.tile(np.array([GIVER - 1, GIVER + 2], dtype=np.int64), (SHAPE[0], 1))
 
 
@@ -28,7 +30,7 @@ def fluxes(vof, face: float, own: tuple[float, float], part=None, size=None) -> 
     line, result = np.zeros((10, *SHAPE)), np.zeros((2, *SHAPE))
     first = [np.array(order, dtype=np.int64) for order in ((0, 1), (1, 0))]
     swept = np.array(own)[:, None, None] * np.ones(SHAPE)
-    contact_fluxes(0, 1, ROW, ROW + 1, MESH_BOX, np.ones(SHAPE[1]), np.ones(SHAPE[0]), *first, GROUP, COLUMNS, line,
+    contact_fluxes(0, 1, 0, ROWS, MESH_BOX, np.ones(SHAPE[1]), np.ones(SHAPE[0]), *first, GROUP, COLUMNS, line,
                    np.full(SHAPE, face), swept, vof.copy() if part is None else part, np.ones(SHAPE) if size is None else size,
                    vof, result)
     return tuple(result[:, ROW, GIVER])
@@ -126,7 +128,7 @@ def test_a_cell_is_full_by_degrees(share):
 def shares(hard: float, soft: float, stretch: float) -> tuple[float, float]:
     """(scale of the fractions, size) of a cell of 1 m^3 whose volume before the sweep is stretch."""
     vof, part, size = upright(hard, soft), np.zeros((2, *SHAPE)), np.zeros(SHAPE)
-    contact_shares(ROW, ROW + 1, MESH_BOX, COLUMNS, np.ones(SHAPE), np.full(SHAPE, stretch), vof, part, size)
+    contact_shares(0, ROWS, MESH_BOX, COLUMNS, np.ones(SHAPE), np.full(SHAPE, stretch), vof, part, size)
     return part[0, ROW, GIVER] / hard, size[ROW, GIVER]
 
 

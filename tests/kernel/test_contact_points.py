@@ -74,7 +74,7 @@ def test_an_impulse_moves_what_is_not_held(constrained, gained):
 
 
 def room_for_ties(slots: int, vertices=(7, 7)):
-    """nodes, starts, entries, parts and places as `list_ties` fills them."""
+    """nodes, starts, entries, portions and places as `list_ties` fills them."""
     most = 2 * slots * (MASTERS + 1)
     nodes, starts, entries, places = (np.zeros(shape, dtype=np.int64) for shape in (
         (6, 2 * slots), 2 * slots + 1, (4, most), (2, *vertices)))
@@ -143,7 +143,7 @@ class Settled:
         line, pressure = np.zeros((10, *cells)), np.full(cells, -1e3)
         line[contact_geometry.SHARE] = found.hard
         listed = room_for_ties(slots, vertices)
-        settle(g.g, g.g + N, 1e-3, friction, constrained, g.metrics, g.dz, np.tile([g.g, g.g + N], (cells[0], 1)), line,
+        settle(np.array([g.g, g.g + N]), 1e-3, friction, constrained, g.metrics, g.dz, np.tile([g.g, g.g + N], (cells[0], 1)), line,
                found.count, found.nodes, found.first, found.normal, np.ones(vertices), *ties,
                pressure, pressure.copy(), np.zeros(cells), self.mass,
                before[0].copy(), before[1].copy(), w[0], w[1], *listed, np.full((10, slots, 2), np.nan),
@@ -323,8 +323,8 @@ def evened(pressure, kind=INTERFACE, viscosity=0.0):
         (2, *vertices), np.nan)
     q[RHO] = np.array([2.0, 6.0])[:, None, None]
     skin[KIND] = kind
-    even_out(0, 6, columns, volume, skin, bulk, pressure, qr, r, z)
-    warm_evened(0, 6, columns, volume, pressure, qr, r, z, vof, q)
+    even_out(0, np.array([0, 6]), columns, volume, skin, bulk, pressure, qr, r, z)
+    warm_evened(0, np.array([0, 6]), columns, volume, pressure, qr, r, z, vof, q)
     return r[:6], z[:, :6], volume, q[E] * q[RHO] * vof * volume
 
 

@@ -46,11 +46,11 @@ class Extensions:
         strength, number = np.zeros((slots, 2)), np.zeros((slots, 2), dtype=np.int64)
         where, weights = np.zeros((slots, 2, MASTERS + 1), dtype=np.int64), np.full((slots, 2, MASTERS + 1), np.nan)
         mesh_box = np.array([g.g, g.g + N, g.g, g.g + N])
-        dmg = np.zeros_like(vof)
+        rows, dmg = mesh_box[:2], np.zeros_like(vof)
         dmg[1] = damage
         filled = np.full((2, *g.vertex_shape), np.nan)
-        find_filled(g.g, g.g + N, mesh_box, g.volume, g.metrics, count, nodes, vof[1], vof[0], mass, filled)
-        find_extensions(g.g, g.g + N, mesh_box, most_squares, g.r, g.z, count, nodes, first, directions, vof[1], vof[0], filled,
+        find_filled(0, rows, mesh_box, g.volume, g.metrics, count, nodes, vof[1], vof[0], mass, filled)
+        find_extensions(0, rows, mesh_box, most_squares, g.r, g.z, count, nodes, first, directions, vof[1], vof[0], filled,
                         np.array([0, 1]), vof, dmg, strength, number, where, weights)
         self.first, self.mass, self.normal, self.ties = first, mass, directions, (strength, number, where, weights)
         self.count, self.nodes, self.hard = count, nodes, vof[1]

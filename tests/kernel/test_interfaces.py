@@ -60,13 +60,15 @@ FLOWS = {"vortex 2": (partial(vortex, period=2.0), 2.0, 1.0), "vortex 8": (parti
 
 
 def carry(engine, flow, steps: int) -> None:
-    """Carries the bodies of an engine by the program's own interfaces and remap: flow(step) sets the swept volumes."""
+    """Carries the bodies of an engine by the program's own interfaces and remap: flow(step) sets the swept volumes.
+
+    Nothing has a velocity.
+    """
     for step in range(steps):
         flow(step)
         for second, (dj, di) in enumerate(((0, 1), (1, 0)) if step % 2 == 0 else ((1, 0), (0, 1))):
-            engine.interface_fluxes(dj, di, second)
             engine.remap_bodies(dj, di, second)
-            engine.tidy(dj, di, second)
+            engine.remap_momentum(dj, di, second)
         vof = engine.state.vof
         assert vof.min() >= 0.0
         assert np.sum(vof, axis=0).max() <= 1.0 + 1e-12

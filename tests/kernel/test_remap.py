@@ -6,6 +6,7 @@ import pytest
 from hydro2d.deck import deck
 from hydro2d.kernels import momentum, remap
 from hydro2d.solver.simulation import Simulation
+from tests.kernel.pieces import constrain, ghost_vertices, sweep_faces, tidy
 from tests.kernel.test_interfaces import CIRCLE, by_stream_function, carry, vortex
 from tests.physics.continuity import changes_in_proportion, largest_jump
 
@@ -60,7 +61,7 @@ def disturbed(e, seed: int, size: float = 1.0):
     for w in (s.u, s.v):
         w[0][g.inside_vertices] = np.where(moving, 100.0 * random.normal(size=moving.shape), 0.0)
     e.prepare()
-    e._constrain()
+    constrain(e)
     e.audit = None
     e.prepare()
 
@@ -71,10 +72,10 @@ def remap_only(e, share: float = 0.3):
     The Lagrangian step that the remap undoes changes the volumes: densities and fractions follow the swept volumes.
     """
     s, g = e.state, e.grid
-    e.ghost_vertices()
+    ghost_vertices(e)
     s.u0[...], s.v0[...] = s.u, s.v
     e.dt = share * min(g.dr.min(), g.dz.min()) / np.hypot(s.u, s.v).max()
-    e.sweep_faces()
+    sweep_faces(e)
     change = (s.fr[:-1, 1:] - s.fr[:-1, :-1]) + (s.fz[1:, :-1] - s.fz[:-1, :-1])
     stretch = np.ones(g.shape)
     stretch[g.inside] += change[g.inside] / g.volume[g.inside]
@@ -83,10 +84,8 @@ def remap_only(e, share: float = 0.3):
     s.vof[...] = np.where(s.vof == 1.0, 1.0, s.vof * filled / stretch)
     s.rho[...] /= filled
     for second, (dj, di) in enumerate(((0, 1), (1, 0)) if e.number % 2 == 0 else ((1, 0), (0, 1))):
-        e.interface_fluxes(dj, di, second)
         e.remap_bodies(dj, di, second)
-        e.remap_momentum(dj, di)
-        e.tidy(dj, di, second)
+        e.remap_momentum(dj, di, second)
     e.number += 1
 
 
@@ -170,10 +169,8 @@ def carried(choice: str, profile, share: float, steps: int, bound: float = 1e9):
         s.u[...] = s.u[:, :, g.g + 1:g.g + 2]  # the mirror at the sides turns the sign
         for w, w0 in ((s.u, s.u0), (s.v, s.v0)):
             w0[...] = w
-        e.interface_fluxes(1, 0, 1)
         e.remap_bodies(1, 0, 1)
-        e.remap_momentum(1, 0)
-        e.tidy(1, 0, 1)
+        e.remap_momentum(1, 0, 1)
     moved = share * steps
     exact = np.clip(250.0 + moved - g.z_edges[:-1], 0.0, 1.0) * np.clip(g.z_edges[1:] - moved, 0.0, 1.0)
     np.testing.assert_allclose(g.interior(s.vof[0])[:, 0], exact, atol=1e-7)
@@ -223,8 +220,7 @@ def test_a_cell_with_a_little_of_another_body_is_not_full():
     limit = e.method.cutoff
     s.vof[:, j, i], s.rho[1, j, i] = (1.0005, 2.0003 * limit), 2770.0
     mass = s.vof[:, j, i] * s.rho[:, j, i]
-    e._list_mixed()
-    e.tidy(0, 1, 1)
+    tidy(e)
     assert s.vof[1, j, i] == pytest.approx(2.0 * limit, rel=1e-3)
     assert 1.0 - 3.0 * limit < s.vof[0, j, i] < 1.0
     assert s.vof[:, j, i] * s.rho[:, j, i] == pytest.approx(mass, rel=1e-12)
@@ -242,8 +238,7 @@ def test_a_small_share_goes_without_a_jump(shares):
     j, i = np.argwhere(s.vof[0] == 1.0)[0]
     small = 0.75 * shares * 2.0 * e.method.cutoff
     s.vof[:, j, i], s.rho[1, j, i] = (1.0 - small, small), 2770.0
-    e._list_mixed()
-    e.tidy(0, 1, 1)
+    tidy(e)
     left = s.vof[1, j, i]
     assert left == pytest.approx(fade(small, e.method.cutoff), rel=1e-7, abs=0.0)
     assert s.removed[5, j] == pytest.approx((small - left) * 2770.0 * e.grid.volume[j, i], rel=1e-7, abs=0.0)
