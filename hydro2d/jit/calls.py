@@ -120,7 +120,7 @@ def threaded(function):
 def phase(function):
     """Compiles a phase of the step: its outermost ``prange`` runs over the parts of the mesh, and in it are calls of kernels.
 
-    While kernels are timed it runs as Python, with one part, so that the clock sees each of them.
+    While each kernel is timed it runs as Python, with one part.
     """
     ONLY_CALLS.add(function)
     return called(function, _compile(function, parallel=True), of_kernels=True)
@@ -172,10 +172,10 @@ def _threads_meet(number: int) -> bool:
 
 
 def parts_at_once() -> int:
-    """How many parts a `phase` can have: as many as kernels have threads; one while they are timed.
+    """How many parts a `phase` can have: as many as there are threads; one while each kernel is timed.
 
     One as well where threads that wait for one another are not given to a loop: OpenMP may have been told so
     (OMP_THREAD_LIMIT).
     """
-    number = 1 if recording.is_profiling() else threads()
+    number = 1 if recording.sees_each_kernel() else threads()
     return number if number == 1 or _threads_meet(number) else 1

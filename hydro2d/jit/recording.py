@@ -12,21 +12,24 @@ from pathlib import Path
 from hydro2d.files import turn
 from hydro2d.jit.cache import all_folder
 
-#: wall seconds and calls per kernel name, filled while `profiling(True)` is on
+#: wall seconds and calls by the name of a phase, or of a kernel that Python calls, filled while `profiling(True)` is on
 timings: dict[str, list[float]] = {}
-_profiling = False
+_profiling, _each_kernel = False, False
 
 
-def profiling(on: bool) -> None:
-    """Switches the timing of kernels on or off and forgets what was measured."""
-    global _profiling
-    _profiling = on
+def profiling(on: bool, each_kernel: bool = False) -> None:
+    """Switches the timing of phases on or off and forgets what was measured.
+
+    each_kernel : phases run as Python, on one part of the mesh, so that the clock sees every kernel in them
+    """
+    global _profiling, _each_kernel
+    _profiling, _each_kernel = on, on and each_kernel
     timings.clear()
 
 
-def is_profiling() -> bool:
-    """Whether kernels are timed."""
-    return _profiling
+def sees_each_kernel() -> bool:
+    """Whether phases run as Python."""
+    return _each_kernel
 
 
 @dataclass(frozen=True)
@@ -65,7 +68,7 @@ def _kernel_lock(name: str) -> Path:
 def called(function, compiled, of_kernels=False):
     """What the rest of the code calls in a kernel's place: timed, written down, and the first time alone of all processes.
 
-    of_kernels : it is a function that calls kernels, and runs as Python while these are timed
+    of_kernels : it is a phase, which runs as Python while each kernel is timed
     """
     name, known = f"{function.__module__}.{function.__name__}", False
 
@@ -75,7 +78,7 @@ def called(function, compiled, of_kernels=False):
         if _calls is not None:
             _calls.append(Call(name, compiled, tuple(compiled.typeof_pyval(value) for value in arguments)))
             return None
-        if of_kernels and _profiling:
+        if of_kernels and _each_kernel:
             return function(*arguments)
         start = time.perf_counter()
         if known:
