@@ -15,7 +15,7 @@ COMPILED = [
     (file, function)
     for name, file in sorted(source.modules().items())
     if not name.startswith("hydro2d.jit")
-    for function in source.functions(source.tree(file), "kernel", "serial")
+    for function in source.functions(source.tree(file), "kernel", "serial", "threaded", "phase")
 ]
 
 

@@ -1,18 +1,29 @@
 """How kernels and scalar physics are written."""
 
 import ast
+import importlib
 
 import pytest
 
+from hydro2d.jit import options
 from tests.rules import source
 
+#: decorators of functions that are compiled; those of which a loop is parallel
+MARKS = ("phase", "threaded", "kernel", "serial", "rowwise", "apart", "point")
+PARALLEL = {"phase", "threaded"}
 ALLOCATIONS = ("zeros", "empty", "ones", "full", "array", "zeros_like", "empty_like", "copy", "concatenate")
 COMPILED = [
     (file, function)
     for name, file in sorted(source.modules().items())
     if not name.startswith("hydro2d.jit")
-    for function in source.functions(source.tree(file), "kernel", "serial", "rowwise", "apart", "point")
+    for function in source.functions(source.tree(file), *MARKS)
 ]
+
+#: names of what a phase may call
+CALLED = {
+    function.name for file in sorted((source.ROOT / "hydro2d/kernels").glob("*.py"))
+    for function in source.functions(source.tree(file), "kernel", "serial")
+}
 
 
 def name_of(case) -> str:
@@ -35,13 +46,19 @@ def faults(function: ast.FunctionDef) -> list[str]:
     if arguments.vararg or arguments.kwarg:
         found.append("takes * or ** arguments")
     loops = parallel_loops(function)
-    if "kernel" in marks:
-        if len(loops) != 1:
-            found.append(f"has {len(loops)} prange loops, not one")
+    if marks & PARALLEL:
+        if len(loops) != 1 or len(source.calls(function, "prange")) != 1:
+            found.append(f"has {len(source.calls(function, 'prange'))} prange loops, not one")
         elif loops[0] not in function.body:
             found.append("has its prange loop inside another statement")
-    elif loops or source.calls(function, "prange"):
-        found.append("uses prange without being a kernel")
+        elif "phase" in marks:
+            found += faults_of_places(loops[0]) + faults_beside(loops[0], function)
+    elif source.calls(function, "prange"):
+        found.append("uses prange without being a phase or threaded")
+    if "phase" not in marks and source.calls(function, "wait"):
+        found.append("waits without being a phase")
+    if any(isinstance(node, ast.Attribute) and isinstance(node.ctx, ast.Store) for node in ast.walk(function)):
+        found.append("stores in an attribute")
     if source.calls(function, *ALLOCATIONS):
         found.append("allocates")
     if source.calls(function, "print") or any(isinstance(node, (ast.Raise, ast.Assert)) for node in ast.walk(function)):
@@ -50,6 +67,48 @@ def faults(function: ast.FunctionDef) -> list[str]:
         if isinstance(node, ast.Subscript) and any(is_negative(index) for index in indices(node)):
             found.append(f"has a negative index in line {node.lineno}")
     return found
+
+
+def faults_of_places(loop: ast.For) -> list[str]:
+    """What is wrong with the loop of a phase: it runs over all parts, and does nothing but call, wait and choose."""
+    if ast.unparse(loop.target) != "place" or ast.unparse(loop.iter) != "prange(parts.shape[0] - 1)":
+        return ["does not loop over the places of all parts"]
+    first, *rest = loop.body
+    if ast.unparse(first) != "part = int64(place)":
+        return ["does not make the place a part first"]
+    return [fault for statement in rest for fault in faults_of_statement(statement)]
+
+
+def faults_of_statement(statement: ast.stmt) -> list[str]:
+    """What a statement of a phase is but the call of a kernel or of a serial function of this module or of another, the call
+    of `wait`, and an `if` around such; a serial function is called by one part alone."""
+    where = f"in line {statement.lineno}"
+    if isinstance(statement, ast.If):
+        found = [f"calls a function {where} to choose" for _ in calls_in(statement.test)]
+        return found + [fault for inner in (*statement.body, *statement.orelse) for fault in faults_of_statement(inner)]
+    if not (isinstance(statement, ast.Expr) and isinstance(statement.value, ast.Call)):
+        return [f"does something other than to call {where}"]
+    call = statement.value
+    name = ast.unparse(call.func)
+    if call.keywords or any(calls_in(argument) for argument in call.args):
+        return [f"calls by keyword or within a call {where}"]
+    if name == "wait":
+        return [] if ast.unparse(call) == "wait(gate, parts)" else [f"waits elsewhere {where}"]
+    if name.split(".")[-1] not in CALLED:
+        return [f"calls {name} {where}, which is neither a kernel nor serial"]
+    return []
+
+
+def faults_beside(loop: ast.For, function: ast.FunctionDef) -> list[str]:
+    """What is wrong with the statements of a phase beside its loop: they may give names to arrays and numbers."""
+    beside = [statement for statement in function.body[1:] if statement is not loop]
+    return [f"does something other than to name in line {statement.lineno}" for statement in beside
+            if not isinstance(statement, ast.Assign) or calls_in(statement)
+            or any(isinstance(node, ast.Subscript) for target in statement.targets for node in ast.walk(target))]
+
+
+def calls_in(node: ast.AST) -> list[ast.AST]:
+    return [part for part in ast.walk(node) if isinstance(part, ast.Call)]
 
 
 def indices(node: ast.Subscript) -> list[ast.AST]:
@@ -62,8 +121,19 @@ def is_negative(index: ast.AST) -> bool:
     return isinstance(index, ast.UnaryOp) and isinstance(index.op, ast.USub) and isinstance(index.operand, ast.Constant)
 
 
-def test_there_are_kernels_to_look_at():
-    assert any("kernel" in {getattr(mark, "id", "") for mark in function.decorator_list} for _, function in COMPILED)
+@pytest.mark.parametrize("mark", MARKS)
+def test_there_are_functions_to_look_at(mark):
+    assert any(mark in {getattr(name, "id", "") for name in function.decorator_list} for _, function in COMPILED)
+
+
+def test_what_is_not_optimised_does_nothing_but_call():
+    """Every function that LLVM is kept from optimising is a phase, and every phase is kept from it."""
+    phases = {(file.stem, function.name) for file, function in COMPILED
+              if any(getattr(mark, "id", "") == "phase" for mark in function.decorator_list)}
+    for file, _ in phases:
+        importlib.import_module(f"hydro2d.kernels.{file}")
+    only_calls = {function for function in options.ONLY_CALLS if function.__module__.startswith("hydro2d.kernels.")}
+    assert {(function.__module__.split(".")[-1], function.__name__) for function in only_calls} == phases
 
 
 @pytest.mark.parametrize("case", COMPILED, ids=name_of)
@@ -92,36 +162,96 @@ GOOD = '''
 def fill(n, a):
     """Sets a."""
     scale = 2.0
-    for j in prange(0, n):
+    for j in range(0, n):
         row = a[j]
         for i in range(n):
             row[i] = scale
 '''
+GOOD_THREADED = GOOD.replace("@kernel", "@threaded").replace("j in range", "j in prange")
+GOOD_PHASE = '''
+@phase
+def close(parts, n, u, v, gate):
+    """Closes cells."""
+    low, high = (u, v) if n == 1 else (v, u)
+    for place in prange(parts.shape[0] - 1):
+        part = int64(place)
+        remap.tidy(part, parts, n + 1, low, high[0])
+        wait(gate, parts)
+        if u.shape[0] > 1 and part == 0:
+            contact_velocities.settle(parts, u, v)
+        elif n == 3:
+            wait(gate, parts)
+'''
 BAD = {
     "no docstring": ('    """Sets a."""\n', ""),
     "default argument": ("(n, a)", "(n, a, b=1)"),
-    "no prange": ("prange", "range"),
-    "two prange": ("        for i in range(n):", "        for i in prange(n):"),
-    "not outermost": ("    for j in prange(0, n):", "    if n > 0:\n     for j in prange(0, n):"),
+    "prange": ("j in range", "j in prange"),
+    "prange of the package": ("j in range", "j in jit.prange"),
+    "prange inside": ("i in range", "i in prange"),
     "allocation": ("scale = 2.0", "scale = np.zeros(3)"),
     "print": ("scale = 2.0", "print(n)"),
     "negative index": ("row[i] = scale", "row[-1] = scale"),
-    "prange without kernel": ("@kernel", "@serial"),
-    "prange in a row": ("@kernel", "@rowwise"),
-    "prange in what is called": ("@kernel", "@apart"),
+    "store in an attribute": ("row[i] = scale", "a.last = scale"),
+    "store in an attribute, added": ("row[i] = scale", "a.last += scale"),
+    "store in an attribute, in a tuple": ("row[i] = scale", "a.last, scale = 1.0, 2.0"),
 }
+BAD_THREADED = {
+    "no prange": ("prange", "range"),
+    "two prange": ("        for i in range(n):", "        for i in prange(n):"),
+    "not outermost": ("    for j in prange(0, n):", "    if n > 0:\n     for j in prange(0, n):"),
+    "serial": ("@threaded", "@serial"),
+    "a row": ("@threaded", "@rowwise"),
+    "what is called": ("@threaded", "@apart"),
+    "a kernel": ("@threaded", "@kernel"),
+}
+BAD_PHASE = {
+    "no prange": ("in prange", "in range"),
+    "two prange": ("        wait(gate, parts)\n        if", "        for j in prange(n):\n            wait(gate, parts)\n        if"),
+    "another prange before": ("    low, high", "    for j in prange(n):\n        wait(gate, parts)\n    low, high"),
+    "not outermost": ("    for place in prange", "    if n > 0:\n     for place in prange"),
+    "not over the parts": ("parts.shape[0] - 1", "parts.shape[0]"),
+    "over rows": ("for place in", "for row in"),
+    "the number of the place": ("part = int64(place)", "part = place"),
+    "stores in an array": ("        wait(gate, parts)\n        if", "        u[0] = 1.0\n        if"),
+    "adds to an array": ("        wait(gate, parts)\n        if", "        u[0] += 1.0\n        if"),
+    "stores before the loop": ("    low, high =", "    u[0], high ="),
+    "calls before the loop": ("    low, high =", "    remap.tidy(0, parts, n, u, v)\n    low, high ="),
+    "calls for a name": ("(u, v) if n == 1 else (v, u)", "remap.fade(u, v)"),
+    "names something": ("        wait(gate, parts)\n        if", "        low = u\n        if"),
+    "allocates": ("high[0])", "np.zeros(3))"),
+    "makes a loop": ("        wait(gate, parts)\n        if", "        for k in range(3):\n            wait(gate, parts)\n        if"),
+    "calls a point": ("remap.tidy(", "remap.fade("),
+    "calls what numpy has": ("remap.tidy(", "np.copyto("),
+    "calls within a call": ("n + 1", "max(n, 1)"),
+    "calls by keyword": ("high[0])", "vof=high[0])"),
+    "calls to choose": ("n == 3", "max(n, 3) == 3"),
+    "waits for others": ("wait(gate, parts)\n        if", "wait(gate, rows)\n        if"),
+    "stores in an attribute": ("        wait(gate, parts)\n        if", "        parts.last = 1\n        if"),
+    "stores in an attribute before": ("    low, high =", "    parts.last, high ="),
+    "another loop's else": ("            wait(gate, parts)\n", "            u[0] = 1.0\n"),
+    "returns": ("            wait(gate, parts)\n", "            return\n"),
+    "a kernel": ("@phase", "@kernel"),
+}
+WRONG = [pytest.param(good, *change, id=f"{what}: {name}")
+         for what, good, bad in (("kernel", GOOD, BAD), ("threaded", GOOD_THREADED, BAD_THREADED), ("phase", GOOD_PHASE, BAD_PHASE))
+         for name, change in bad.items()]
 
 
 def only_function(text: str) -> ast.FunctionDef:
-    return next(source.functions(ast.parse(text), "kernel", "serial", "rowwise", "apart"))
+    return next(source.functions(ast.parse(text), *MARKS))
 
 
-def test_a_good_kernel_passes():
-    assert faults(only_function(GOOD)) == []
+@pytest.mark.parametrize("good", [GOOD, GOOD_THREADED, GOOD_PHASE], ids=["kernel", "threaded", "phase"])
+def test_a_good_function_passes(good):
+    assert faults(only_function(good)) == []
 
 
-@pytest.mark.parametrize("name", BAD)
-def test_a_bad_kernel_is_found(name):
-    old, new = BAD[name]
-    assert old in GOOD
-    assert faults(only_function(GOOD.replace(old, new))) != []
+@pytest.mark.parametrize(("good", "old", "new"), WRONG)
+def test_a_bad_function_is_found(good, old, new):
+    assert old in good
+    assert faults(only_function(good.replace(old, new))) != []
+
+
+def test_a_kernel_that_waits_is_found():
+    """All parts must come to it: only a phase knows that they do."""
+    assert faults(only_function(GOOD.replace("scale = 2.0", "wait(a, n)"))) != []

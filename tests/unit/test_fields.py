@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from hydro2d import jit
 from hydro2d.mesh import fields
 from hydro2d.mesh.grid import Grid
 from hydro2d.mesh.state import State
@@ -55,7 +56,8 @@ def test_every_array_of_the_state_is_in_a_table(groups):
 
 def test_axes_of_work_are_lengths():
     state = State(Grid(np.linspace(0.0, 1.0, 4), np.linspace(0.0, 1.0, 71)), 2, [0, 1])
-    assert state.flux.shape == (7, 2, 18, 8)
+    assert state.flux.shape == (7, 2, 6 * jit.max_threads(), 8)
+    assert state.scratch.shape == (4, jit.max_threads(), 8)
     assert state.removed.shape == (6, 75)
     assert state.edge_dual.shape == (2, 2, 5, 75)
     assert state.body_ranges.shape == (3, 2, 74, 2)

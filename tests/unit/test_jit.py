@@ -14,8 +14,7 @@ import llvmlite.binding
 import numba
 import numpy as np
 import pytest
-from numba.core import caching
-from numba.parfors import parfor_lowering
+from numba.core import caching, codegen, cpu
 
 from hydro2d import jit
 from hydro2d.jit import cache
@@ -96,7 +95,11 @@ def test_constants_of_any_folder_are_among_the_sources():
 
 #: what numba does not promise to keep: (object, attribute, words that its signature must have)
 RELIED_ON = [
-    (parfor_lowering, "_create_gufunc_for_parfor_body", ("has_aliases",)),
+    (codegen.CPUCodeLibrary, "_optimize_final_module", ("self",)),
+    (cpu, "CPUTargetOptions", ()),
+    (numba.core.options, "TargetOptions", ()),
+    (numba.core.options.TargetOptions, "Mapping", ("flag_name",)),
+    (numba.core.compiler.Flags(), "noalias", ()),
     (caching.IndexDataCacheFile, "save", ("key", "data")),
     (numba.core, "event", ()),
     (numba.core.event, "Listener", ()),
