@@ -23,7 +23,7 @@ def carry_bodies(parts, i0, i1, dj, di, second, leading, fr, own_r, fz, own_z, q
                  body_range, vof, nz, mirror_z_min, mirror_z_max, active_range, mixed_count, mixed_columns, scratch, gate,
                  void_only, volume, body_ranges, pre, flux_volume, dr, dz, interface_order, strips, cell_mass, mesh_box,
                  contact_columns, own_share, size, hard_first, soft_first, group, line, carried, flux, group_ranges, flux_mass,
-                 edge_flux):
+                 edge_flux, outflow):
     """Volume of every body through every face, fluxes of what it carries, and the cells after the sweep.
 
     leading : the edge along z that goes ahead with a mesh that travels, 0 low, 1 high, -1 none: its ghost cells are filled
@@ -60,6 +60,9 @@ def carry_bodies(parts, i0, i1, dj, di, second, leading, fr, own_r, fz, own_z, q
             remap.sweep_r(part, parts, i0, i1, carried, rules, group, mesh_box, body_ranges, group_ranges, face, pre, volume,
                           second, flux_volume, scratch, flux, flux_mass, edge_flux, vof, q, cell_mass, mixed_count,
                           mixed_columns)
+        wait(gate, parts)
+        if part == 0:
+            remap.sum_outflow(di, parts, i0, i1, edge_flux, outflow)
 
 
 @phase
@@ -67,7 +70,7 @@ def carry_momentum(parts, i0, i1, dj, di, second, opens_low, opens_high, mesh_bo
                    constrained, edge_velocity, metrics, group_ranges, cell_mass, mass, velocity0, velocity, dual, edge_dual,
                    deficit, momentum_sums, nr, mirror_r_min, mirror_r_max, u, v, nz, mirror_z_min, mirror_z_max, active_range,
                    group, vof, q, deposited, cutoff, volume, mixed_count, mixed_columns, pre, fr, fz, removed, body_ranges,
-                   occupied):
+                   occupied, kinetic_outflow):
     """Velocities after the sweep; then what is left over is tidied away, and the bodies are found anew.
 
     opens_low, opens_high : whether bodies flow through the edges of this direction that the active box has reached
@@ -87,6 +90,8 @@ def carry_momentum(parts, i0, i1, dj, di, second, opens_low, opens_high, mesh_bo
         remap.tidy(part, parts, cutoff, metrics, volume, group, mixed_count, mixed_columns, pre, dj, di, fr, fz, second, u, v,
                    vof, q, cell_mass, removed)
         wait(gate, parts)
+        if part == 0:
+            momentum.sum_kinetic_outflow(di, parts, i0, i1, edge_dual, kinetic_outflow)
         # by the ranges before: where nothing is left there is no mass either
         acceleration.vertex_masses(part, parts, i0, i1 + 1, metrics, group_ranges, cell_mass, mass)
         column_ranges.find_body_ranges(part, parts, i0, i1, False, group, vof, body_ranges, occupied)

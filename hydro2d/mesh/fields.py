@@ -133,6 +133,8 @@ WORK = (
     Work("dual", "6 2B I", "what a group's momentum carries through the dual faces of a few rows"),
     Work("edge_flux", "2 2 m L", "mass and energy of a body through either edge of a sweep"),
     Work("edge_dual", "b 2 5 L", "mass, momentum and kinetic energy of a group through either edge of a sweep"),
+    Work("outflow", "2 2 1+m", "through either edge of a sweep, out and in: energy, and mass of every body"),
+    Work("kinetic_outflow", "2 2 2", "through either edge of a sweep, out and in: axial momentum and kinetic energy"),
     Work("deficit", "b J I", "kinetic energy that `both` takes from a vertex"),
     Work("lanes", f"B {LANE_ROWS * LANES}", "cells of a row that may yield, a few at a time, while they return"),
     Work("scratch", "4 B I", "rows that a phase needs for itself"),

@@ -285,43 +285,24 @@ class Cycle:
               *self.arguments.of(phase))
         self._audit_outflow(di)
 
-    def _open_faces(self, di: int):
-        """(index of the face, outward sign) of the edges of a direction through which bodies flow, where the active box has
-        reached them."""
-        having = self.method.boundaries.having("opens")
-        low, high = having[0:2] if di else having[2:4]
-        box, ends = (self.box[2:4], self.mesh_box[2:4]) if di else (self.box[0:2], self.mesh_box[0:2])
-        if low and box[0] == ends[0]:
-            yield int(ends[0]), -1.0
-        if high and box[1] == ends[1]:
-            yield int(ends[1]), 1.0
+    def _open_edges(self, di: int) -> tuple[bool, bool]:
+        """Whether bodies flow through the low and the high edge of a direction, where the active box has reached them."""
+        opens = self.method.boundaries.having("opens")
+        (low, high), n = (opens[0:2], 2) if di else (opens[2:4], 0)
+        return (bool(low) and self.box[n] == self.mesh_box[n], bool(high) and self.box[n + 1] == self.mesh_box[n + 1])
 
     def _audit_outflow(self, di: int) -> None:
-        s, (j0, j1, i0, i1) = self.state, self.box
-        for _, sign in self._open_faces(di):
-            side, along = int(sign > 0), slice(j0, j1) if di else slice(i0, i1)
-            for name, (mass, energy) in self._out_and_in(sign, s.edge_flux[side, ..., along]):
-                self.audit.add(name, mass=mass, energy=float(energy.sum()))
-
-    @staticmethod
-    def _out_and_in(sign: float, flow: np.ndarray):
-        """(name of the sink, sum over the edge) for what goes out through an edge and for what comes in, if anything does.
-
-        flow : [k, ..., i] towards higher r or z, the first k the mass, which says which of the two it is; sign : of outward
-        """
-        ends = sign * flow[0].min(axis=-1).min(), sign * flow[0].max(axis=-1).max()  # all at once would copy the rows
-        both = min(ends) < 0.0 < max(ends)
-        for name, way, there in (("outflow", 1.0, max(ends) > 0.0), ("inflow", -1.0, min(ends) < 0.0)):
-            if there:
-                part = np.where(way * sign * flow[0] > 0.0, flow, 0.0) if both else flow
-                yield name, sign * part.sum(axis=-1)
+        for opened, (out, back) in zip(self._open_edges(di), self.state.outflow, strict=True):
+            if opened and out.any():
+                self.audit.add("outflow", mass=out[1:].copy(), energy=float(out[0]))
+            if opened and back.any():
+                self.audit.add("inflow", mass=back[1:].copy(), energy=float(back[0]))
 
     def remap_momentum(self, dj: int, di: int, second: int) -> None:
         """Velocities after the sweep, by the advection choice; what it discards and what is tidied away is audited."""
         s, (j0, j1, i0, i1), phase = self.state, self.box, remap_step.carry_momentum
-        opened = {sign for _, sign in self._open_faces(di)}
         s.swap_velocities()
-        phase(self.rows, i0, i1, dj, di, bool(second), -1.0 in opened, 1.0 in opened, *self.arguments.of(phase))
+        phase(self.rows, i0, i1, dj, di, bool(second), *self._open_edges(di), *self.arguments.of(phase))
         before, after, p_gained, k_cut, p_wall = s.momentum_sums[:, j0:j1 + 1].sum(axis=1)
         lost = before - after - self._kinetic_outflow(di)
         if self.method.advection == momentum.BOTH:
@@ -334,14 +315,10 @@ class Cycle:
 
     def _kinetic_outflow(self, di: int) -> float:
         """Audits the momentum that went through open edges and returns the kinetic energy that left with it."""
-        s, (j0, j1, i0, i1) = self.state, self.box
         total = 0.0
-        for _, sign in self._open_faces(di):
-            flow = s.edge_dual[:, int(sign > 0), :, j0:j1 + 1] if di else s.edge_dual[:, int(sign > 0), :, i0:i1 + 1]
-            for name, part in self._out_and_in(sign, flow.swapaxes(0, 1)):
-                _, _, axial, *kinetic = part.sum(axis=-1)
-                energy = float(sum(kinetic))
-                if energy != 0.0:
-                    self.audit.add(name, momentum=float(axial), energy=energy)
-                total += energy
+        for opened, ways in zip(self._open_edges(di), self.state.kinetic_outflow.tolist(), strict=True):
+            for name, (axial, energy) in zip(("outflow", "inflow"), ways, strict=True):
+                if opened and energy != 0.0:
+                    self.audit.add(name, momentum=axial, energy=energy)
+                    total += energy
         return total

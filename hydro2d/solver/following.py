@@ -106,7 +106,7 @@ class FollowingMesh:
         self._pads = tuple("symmetric" if mirror else "edge" for mirror in mirrors)
         self._run = np.zeros(2, dtype=np.int64)
         self._sums = np.zeros(2)
-        self._last: tuple = (None, [])
+        self._placed: dict | None = None
 
     def announce(self) -> None:
         """Gives bodies that may enter the whole of the ghost rows ahead as their range of columns."""
@@ -136,14 +136,18 @@ class FollowingMesh:
         self.velocity = velocity if velocity * self.direction > 0.0 else 0.0
 
     def fill_ghosts(self, dt: float) -> None:
-        """What the deck has placed in the strip that the leading edge crosses in the step, at rest and without stress."""
+        """What the deck has placed in the strip that the leading edge crosses in the step, at rest and without stress.
+
+        Nothing else writes there: what was placed stays until something else comes.
+        """
         s, g, z = self.state, self.grid, self._edge
         row = self._ghost_rows[0]
         height = max(abs(self.velocity) * dt, THINNEST * g.dz[row])
         found = self.space.strip(*((z, z + height) if self.leading else (z - height, z)))
-        if found is not self._last[0]:
-            self._last = found, [self._padded(found[name]) for name in ("vof", "rho", "e")]
-        vof, rho, e = self._last[1]
+        if found is self._placed:
+            return
+        self._placed = found
+        vof, rho, e = (self._padded(found[name]) for name in ("vof", "rho", "e"))
         for row in self._ghost_rows:
             s.vof[:, row], s.q[:, :, row] = vof, 0.0
             s.q[RHO, :, row], s.q[E, :, row] = rho, e
