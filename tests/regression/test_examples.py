@@ -62,6 +62,7 @@ FILLED = {
 }
 #: what a page takes for granted in its folder: a deck or a study that has run, or a file that it gives as its first toml block
 PRESUMED = {
+    "README.md": {"runs/shot": DECK},
     "docs/tutorials/first-study.md": {"first_study.toml": ""},
     "docs/how-to/make-a-film.md": {"runs/shot": DECK},
     "docs/how-to/paraview.md": {"runs/shot": DECK},
@@ -69,6 +70,7 @@ PRESUMED = {
     "docs/how-to/report.md": {"runs/rigid_rod_laws": LAWS, "runs/a": DECK, "runs/b": DECK},
     "docs/how-to/restart.md": {"runs/shot": DECK},
     "docs/how-to/use-a-model.md": {"runs/a": DECK, "runs/b": DECK},
+    "docs/how-to/view-a-run.md": {"runs/shot": DECK, "runs/other": DECK},
     "docs/reference/files.md": {"runs/shot": DECK},
     "docs/explanation/penetration/transition.md": {"runs/a": DECK, "runs/b": DECK},
     "docs/explanation/rigid-rod.md": {"runs/rigid_rod_laws": LAWS},

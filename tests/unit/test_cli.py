@@ -198,7 +198,7 @@ def test_every_command_has_an_example():
         assert f"Example: hydro2d {name}" in app[name].help
 
 
-@pytest.mark.parametrize("command", ["run", "plot", "movie", "export", "report", "sweep", "transition"])
+@pytest.mark.parametrize("command", ["run", "plot", "movie", "view", "export", "report", "sweep", "transition"])
 def test_what_a_command_makes_has_one_name(command, capsys):
     assert call([command, "--help"]) == 0
     said = capsys.readouterr().out
