@@ -19,6 +19,7 @@ from hydro2d.cli.diverge import diverge
 from hydro2d.cli.ensemble import By, Chosen, Member, Repeats, Seed, converge, run_all
 from hydro2d.cli.model import model
 from hydro2d.cli.report import report
+from hydro2d.cli.status import status
 from hydro2d.cli.study import sweep, transition
 from hydro2d.cli.view import view
 from hydro2d.interrupt import STATUS, Interrupt, ended_by, lose_output, raise_between_imports, signals
@@ -42,6 +43,7 @@ app.command(curve)
 app.command(diverge)
 app.command(model)
 app.command(report)
+app.command(status)
 app.command(sweep)
 app.command(transition)
 app.command(view)
