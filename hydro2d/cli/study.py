@@ -201,7 +201,7 @@ def _status(study: Path, out: Path | None) -> int:
         told += ["", *regimes.lines(found, regimes.of_study(found))]
     for line in told:
         say(line)
-    if found.ensemble is not None:
+    if found.ensembles:
         say("")
         _show_ensembles(found.directory)
     return 0

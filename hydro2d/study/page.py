@@ -41,7 +41,7 @@ def page(contents: Contents, choice: Choice, charts: Sequence[Chart], pictures: 
         made=f"hydro2d {__version__}, {datetime.now(UTC):%Y-%m-%d %H:%M} UTC",
         states=", ".join(f"{number} {status}" for status, number in states.items()),
         transitions=_transitions(contents) if contents.study.search else None,
-        ensembles=_ensembles(contents, choice) if contents.study.ensemble else None,
+        ensembles=_ensembles(contents, choice) if contents.study.ensembles else None,
         results=columns_of_results(contents.study, contents.rows, choice), audit=columns_of_audit(),
         decks=_decks(contents), origins=[_origin(each) for each in contents.records],
     )  # fmt: skip
@@ -81,14 +81,24 @@ def _transitions(contents: Contents) -> dict:
 
 def _ensembles(contents: Contents, choice: Choice) -> dict:
     """Medians, spreads and shares of regimes, one row for each case; the score; what the members differ in; the file."""
-    found, ensemble = contents.ensembles, contents.study.ensemble
+    found = contents.ensembles
     heads, rows = ensembles.table(found, choice.y)
     scored = ensembles.score(found)
     return {
         "heads": [head[0].upper() + head[1:] for head in heads], "rows": rows, "score": scored and scored.words,
-        "made": f"{ensemble.repeats} members of each case, by {', '.join(ensemble.by)}, seed {ensemble.seed}",
+        "made": _made(found),
         "file": ensembles.FILE, "csv": to_csv(contents.rows_of_ensembles(choice)),
     }  # fmt: skip
+
+
+def _made(found: Sequence[ensembles.Ensemble]) -> str:
+    """How many members the cases have, and what these differ in."""
+    said = []
+    for made, number in Counter(each.members[0].case.ensemble for each in found).items():
+        cases, apiece = ("1 case", "") if number == 1 else (f"{number} cases", " each")
+        what = f"{made.repeats} members{apiece}, by {', '.join(made.by)}, seed {made.seed}" if made else "one run" + apiece
+        said.append(f"{cases} with {what}")
+    return "; ".join(said)
 
 
 def _of_combination(each: regimes.Transitions, names: Sequence[str]) -> list[str]:

@@ -49,7 +49,7 @@ def report(directories: Sequence[Path], out: Path | None = None, say: Callable[[
     write_text(folder / TABLE, table.to_csv(contents.rows))
     write_text(folder / PAGE, page(contents, choice, list(panels.draw(contents, choice)), drawn, films))
     written = [folder / PAGE, folder / TABLE, *sorted(files)]
-    if study.ensemble:
+    if study.ensembles:
         write_text(folder / ensembles.FILE, table.to_csv(contents.rows_of_ensembles(choice)))
         written.insert(2, folder / ensembles.FILE)
     for path in written:
