@@ -39,6 +39,7 @@ NOT_RUN = {
     "python -m pytest": "it is what runs this",
     "python -m sphinx": "tests/rules/test_documentation.py builds the pages",
     "python -m tests.study.overhead": "a hundred runs: minutes",
+    "python -m tests.study.coverage": "1200 made-up searches: minutes",
     "python -m tests.trials.campaign": "5000 runs: an hour; tests/trials/test_mutants.py has some of them",
     "hydro2d bench": "minutes",
     "hydro2d diverge": "runs of a few cycles have no time in common; tests/study/test_divergence.py has made-up ones",
