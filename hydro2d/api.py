@@ -101,7 +101,7 @@ class Study(layout.Study):
         import pandas
 
         found = contents.collect(self)
-        repeated = self.ensemble is not None and not members
+        repeated = self.ensembles and not members
         return pandas.DataFrame(found.rows_of_ensembles() if repeated else found.rows).set_index("case")
 
 

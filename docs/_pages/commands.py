@@ -52,7 +52,7 @@ def _paragraphs(command) -> list[str]:
 
 def _command(name: str, command) -> str:
     parts = [f"## `{name}`"]
-    arguments = command.assemble_argument_collection(parse_docstring=True)
+    arguments = command.assemble_argument_collection(parse_docstring=True).filter_by(show=True)  # without names of groups
     examples = [part.removeprefix("Example: ") for part in _paragraphs(command) if part.startswith("Example: ")]
     parts += [prose(part) for part in _paragraphs(command) if not part.startswith("Example: ")]
     parts.append(code(_usage(name, command, arguments)))

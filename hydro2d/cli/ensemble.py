@@ -8,7 +8,8 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
-from hydro2d.cli.base import Count, Out, Overrides, UsageError
+from hydro2d.cli.base import Out, Overrides, UsageError
+from hydro2d.cli.workers import DEFAULT, Workers
 from hydro2d.terminal import say
 
 #: largest number of members of an ensemble
@@ -81,8 +82,8 @@ def run_all(chosen: Chosen, deck: Path, overrides: list[str], out: Path | None, 
     tables = {"title": f"{file.stem}, {chosen.repeats} members", "deck": str(file.resolve()),
               "ensemble": chosen.table(chosen.repeats)}  # fmt: skip
     plan = cases.plan_of(tables, file.stem, overrides)
-    return run_study(plan, out or Path(f"runs/{file.stem}_ensemble"), workers=chosen.workers, threads=threads, resume=restart,
-                     overwrite=overwrite, quiet=quiet)  # fmt: skip
+    workers = Workers(workers=chosen.workers, threads=threads, resume=restart, overwrite=overwrite)
+    return run_study(plan, out or Path(f"runs/{file.stem}_ensemble"), workers, quiet=quiet)
 
 
 def _meshes(text: str) -> list[float]:
@@ -108,12 +109,7 @@ def converge(
     y: Annotated[list[str] | None, Parameter(negative="")] = None,
     out: Out | None = None,
     set_: Overrides = None,
-    workers: Count | None = None,
-    threads: Count = 1,
-    scheduler: str | None = None,
-    slurm: Path | None = None,
-    resume: bool = False,
-    overwrite: bool = False,
+    workers: Workers = DEFAULT,
     check: bool = False,
     quiet: bool = False,
 ) -> int:
@@ -144,18 +140,6 @@ def converge(
         Study directory; default: runs/<name of the deck>_converge.
     set_
         Overrides a value of the deck, as key=value; can be repeated.
-    workers
-        Number of worker processes; default: cores / threads. With --slurm, the number to request.
-    threads
-        Number of threads per worker. The results do not depend on it.
-    scheduler
-        Address of a running dask scheduler, such as tcp://host:8786; its workers must see the same files.
-    slurm
-        TOML file with arguments of dask_jobqueue.SLURMCluster, such as cores, memory, queue; SLURM then starts the workers.
-    resume
-        Continues in the directory: finished members are kept, unfinished ones continue from their restart files.
-    overwrite
-        Starts all members again from the beginning.
     check
         Prints the cells and the estimated time of every member; runs nothing.
     quiet
@@ -164,16 +148,15 @@ def converge(
     from hydro2d.cli import study
     from hydro2d.study import convergence
 
-    study.check_fit(workers, scheduler, slurm)
-    chosen = Chosen(repeats, None, by, seed, workers)
+    workers.check()
+    chosen = Chosen(repeats, None, by, seed, None)
     plan = convergence.plan(deck, _meshes(cells), chosen.table(repeats), set_ or [])
     if check:
-        from hydro2d.study import cluster, estimate
+        from hydro2d.study import estimate
 
-        return estimate.show(plan, workers or cluster.default_workers(threads))
+        return estimate.show(plan, workers.number)
     place = out or Path(f"runs/{plan.name}_converge")
-    status = study.run_study(plan, place, workers=workers, threads=threads, scheduler=scheduler, slurm=slurm, resume=resume,
-                             overwrite=overwrite, quiet=quiet)  # fmt: skip
+    status = study.run_study(plan, place, workers, quiet=quiet)
     _conclude(place, y or (), quiet)
     return status
 

@@ -19,7 +19,9 @@ from hydro2d.cli.diverge import diverge
 from hydro2d.cli.ensemble import By, Chosen, Member, Repeats, Seed, converge, run_all
 from hydro2d.cli.model import model
 from hydro2d.cli.report import report
+from hydro2d.cli.status import status
 from hydro2d.cli.study import sweep, transition
+from hydro2d.cli.view import view
 from hydro2d.interrupt import STATUS, Interrupt, ended_by, lose_output, raise_between_imports, signals
 from hydro2d.terminal import say
 
@@ -41,8 +43,10 @@ app.command(curve)
 app.command(diverge)
 app.command(model)
 app.command(report)
+app.command(status)
 app.command(sweep)
 app.command(transition)
+app.command(view)
 
 
 #: modules, and their exceptions that tell the user what to correct
@@ -50,7 +54,8 @@ USER_ERRORS = (
     ("errors", "DeckError"), ("files", "LockError"), ("strange", "StrangeFile"), ("penetration.model", "InputError"),
     ("output.snapshot", "SnapshotError"), ("output.history", "HistoryError"), ("output.vtk", "VtkError"),
     ("mesh.quantities", "FieldError"), ("running.run", "RunError"), ("results.reading", "ResultsError"),
-    ("results.figures", "FigureError"), ("study.definition", "StudyError"),
+    ("results.figures", "FigureError"), ("results.viewer.fields", "ViewError"),
+    ("study.definition", "StudyError"),
 )
 
 

@@ -6,7 +6,8 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from hydro2d.cli.base import Count, Out, Overrides, UsageError
+from hydro2d.cli.base import Out, Overrides
+from hydro2d.cli.workers import DEFAULT, Workers
 from hydro2d.terminal import say
 
 
@@ -15,13 +16,8 @@ def sweep(
     *,
     out: Out | None = None,
     set_: Overrides = None,
-    workers: Count | None = None,
-    threads: Count = 1,
-    scheduler: str | None = None,
-    slurm: Path | None = None,
+    workers: Workers = DEFAULT,
     only: list[str] | None = None,
-    resume: bool = False,
-    overwrite: bool = False,
     check: bool = False,
     status: bool = False,
     quiet: bool = False,
@@ -38,20 +34,8 @@ def sweep(
         Study directory; default: `out` of the study file, else runs/<name of the study file>.
     set_
         Overrides a value of the deck in all cases, as key=value; can be repeated.
-    workers
-        Number of worker processes; default: cores / threads. With --slurm, the number to request.
-    threads
-        Number of threads per worker. The results do not depend on it.
-    scheduler
-        Address of a running dask scheduler, such as tcp://host:8786; its workers must see the same files.
-    slurm
-        TOML file with arguments of dask_jobqueue.SLURMCluster, such as cores, memory, queue; SLURM then starts the workers.
     only
         Runs the cases whose names match this pattern, such as "*ogive*"; can be repeated. The others wait for a later --resume.
-    resume
-        Continues the study in the directory: finished cases are kept, unfinished cases continue from their restart files.
-    overwrite
-        Restarts cases from the beginning: all cases, or with --resume only those whose deck has changed.
     check
         Resolves all decks and prints the cases with their cells and estimated times; runs nothing.
     status
@@ -59,10 +43,10 @@ def sweep(
     quiet
         Prints errors only; sweep.log is still written.
     """
-    check_fit(workers, scheduler, slurm)
+    workers.check()
     if status:
         return _status(study, out)
-    from hydro2d.study import cases, cluster
+    from hydro2d.study import cases
 
     plan = cases.plan(study, set_, search=False, quiet=quiet)
     if check:
@@ -70,22 +54,18 @@ def sweep(
         from hydro2d.study.choice import Choice
 
         choice = Choice(plan, only or ())
-        return estimate.show(replace(plan, cases=choice.selected), workers or cluster.default_workers(threads))
-    return run_study(
-        plan, out or plan.out, workers=workers, threads=threads, scheduler=scheduler, slurm=slurm, only=only or (),
-        resume=resume, overwrite=overwrite, quiet=quiet,
-    )
+        return estimate.show(replace(plan, cases=choice.selected), workers.number)
+    return run_study(plan, out or plan.out, workers, only=only or (), quiet=quiet)
 
 
-def run_study(plan, out: Path, *, workers: int | None, threads: int, scheduler: str | None = None, slurm: Path | None = None,
-              only: Sequence[str] = (), resume: bool, overwrite: bool, quiet: bool) -> int:  # fmt: skip
+def run_study(plan, out: Path, workers: Workers, *, only: Sequence[str] = (), quiet: bool) -> int:
     """Runs the cases of a plan and prints what the members of ensembles say together. Returns the exit status."""
     from hydro2d.study import sweep as sweeps
     from hydro2d.study.choice import Choice
 
     choice = Choice(plan, only)
-    connect = _workers(len(choice.selected), workers, threads, scheduler, slurm)
-    status = sweeps.sweep(choice, out, connect, threads=threads, resume=resume, overwrite=overwrite, quiet=quiet)
+    status = sweeps.sweep(choice, out, workers.connect(len(choice.selected)), threads=workers.threads, resume=workers.resume,
+                          overwrite=workers.overwrite, quiet=quiet)  # fmt: skip
     if plan.ensemble and not quiet:
         say("")
         _show_ensembles(out)
@@ -97,12 +77,7 @@ def transition(
     *,
     out: Out | None = None,
     set_: Overrides = None,
-    workers: Count | None = None,
-    threads: Count = 1,
-    scheduler: str | None = None,
-    slurm: Path | None = None,
-    resume: bool = False,
-    overwrite: bool = False,
+    workers: Workers = DEFAULT,
     check: bool = False,
     status: bool = False,
     quiet: bool = False,
@@ -113,7 +88,9 @@ def transition(
 
     The search is a bisection, or with a budget of runs in the study a sequence that gives v50, its 90 % interval and the width.
     The results are printed beside the criteria, the runs, the experiments and the predictions of the analytic models. The file
-    transition.json in the study directory has the same results for programs, and `hydro2d report` shows them.
+    transition.json in the study directory has the same results for programs, and `hydro2d report` shows them. Workers beyond
+    the number of combinations of the axes try several velocities of one combination at a time. --resume continues unfinished
+    cases where the search still needs them.
 
     Parameters
     ----------
@@ -124,19 +101,6 @@ def transition(
         Study directory; default: `out` of the study file, else runs/<name of the study file>.
     set_
         Overrides a value of the deck in all cases, as key=value; can be repeated.
-    workers
-        Number of worker processes; default: cores / threads. Workers beyond the number of combinations of the axes try several
-        velocities of one combination at a time. With --slurm, the number to request.
-    threads
-        Number of threads per worker. The results do not depend on it.
-    scheduler
-        Address of a running dask scheduler, such as tcp://host:8786; its workers must see the same files.
-    slurm
-        TOML file with arguments of dask_jobqueue.SLURMCluster, such as cores, memory, queue; SLURM then starts the workers.
-    resume
-        Continues the search in the directory: finished cases are kept, unfinished cases continue where they are still needed.
-    overwrite
-        Restarts cases from the beginning: all cases, or with --resume only those whose deck has changed.
     check
         Resolves the decks of all velocities and prints the number of runs needed and their time; runs nothing.
     status
@@ -144,22 +108,22 @@ def transition(
     quiet
         Prints errors only; sweep.log and transition.json are still written.
     """
-    check_fit(workers, scheduler, slurm)
+    workers.check()
     if status:
         return _status(study, out)
-    from hydro2d.study import cases, cluster
+    from hydro2d.study import cases
 
     plan = cases.plan(study, set_, search=True, quiet=quiet)
     if check:
         from hydro2d.study import estimate
 
-        return estimate.show_search(plan, workers or cluster.default_workers(threads))
+        return estimate.show_search(plan, workers.number)
     from hydro2d.study import transition as transitions
 
-    connect = _workers(len(plan.cases), workers, threads, scheduler, slurm)
     return transitions.find(
-        plan, out or plan.out, connect, threads=threads, resume=resume, overwrite=overwrite, quiet=quiet
-    )
+        plan, out or plan.out, workers.connect(len(plan.cases)), threads=workers.threads, resume=workers.resume,
+        overwrite=workers.overwrite, quiet=quiet,
+    )  # fmt: skip
 
 
 def _show_ensembles(directory: Path) -> None:
@@ -169,25 +133,6 @@ def _show_ensembles(directory: Path) -> None:
     found = contents.collect(layout.read(directory))
     for line in ensembles.report(found.ensembles, responses.choose(found.study, found.records).y):
         say(line)
-
-
-def _workers(most: int, workers: int | None, threads: int, scheduler: str | None, slurm: Path | None):
-    """A dask client with the workers that the arguments request; on this machine at most `most`."""
-    from hydro2d.study import cluster
-
-    if scheduler is not None:
-        return cluster.joined(scheduler)
-    if slurm is not None:
-        return cluster.slurm(slurm, workers or 1, threads)
-    return cluster.local(cluster.needed(workers, threads, most), threads)
-
-
-def check_fit(workers: int | None, scheduler: str | None, slurm: Path | None) -> None:
-    """Raises UsageError for ways to get workers that exclude each other."""
-    if scheduler is not None and slurm is not None:
-        raise UsageError("--scheduler joins workers and --slurm starts them: give one of them")
-    if scheduler is not None and workers is not None:
-        raise UsageError("--workers starts workers and --scheduler joins running ones: give one of them")
 
 
 def _status(study: Path, out: Path | None) -> int:
@@ -201,7 +146,7 @@ def _status(study: Path, out: Path | None) -> int:
         told += ["", *regimes.lines(found, regimes.of_study(found))]
     for line in told:
         say(line)
-    if found.ensemble is not None:
+    if found.ensembles:
         say("")
         _show_ensembles(found.directory)
     return 0

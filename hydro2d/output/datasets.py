@@ -59,7 +59,7 @@ def _coordinates(dump: Dump) -> dict:
     }
 
 
-def _quantities(*dumps: Dump) -> list[Quantity]:
+def quantities_of(*dumps: Dump) -> list[Quantity]:
     """The quantities that one of the dumps holds, and internal variables of models from outside, which the table lacks."""
     table = [quantity for quantity in quantities.TABLE
              if any(name in dump.fields for dump in dumps for name in _names(quantity, dump))]
@@ -75,7 +75,7 @@ def of_state(dump: Dump) -> xarray.Dataset:
     import xarray
 
     variables = {}
-    for quantity in _quantities(dump):
+    for quantity in quantities_of(dump):
         values = _values(quantity, dump)
         variables[quantity.key] = (_dimensions(quantity, values), values, _attributes(quantity))
     time = ((), dump.time, {"units": "s"})
@@ -108,7 +108,7 @@ def of_dumps(dumps: Sequence[tuple[float, Path]]) -> xarray.Dataset:
     first, last = read_grid(dumps[0][1]), read_grid(dumps[-1][1])
     opened = [dask.delayed(_read)(path, first.shape) for _, path in dumps]  # all variables of a dump share one reading of it
     variables = {}
-    for quantity in _quantities(first, last):
+    for quantity in quantities_of(first, last):
         like = _values(quantity, last)
         parts = [dask.array.from_delayed(dask.delayed(_values)(quantity, dump), like.shape, like.dtype) for dump in opened]
         variables[quantity.key] = (("time", *_dimensions(quantity, like)), dask.array.stack(parts), _attributes(quantity))

@@ -53,6 +53,11 @@ def unit(name: str) -> str:
     return next((unit for ending, unit in _UNITS if name.endswith(ending)), "1")
 
 
+def spoken(name: str) -> str:
+    """A quantity in words, without its unit: "penetration depth" for penetration_depth_m."""
+    return name.removesuffix("_" + unit(name).replace("/", "_").replace(" ", "_")).replace("_", " ")
+
+
 def attributes(name: str) -> dict:
     """Attributes of a quantity: its unit, and for the regime the meaning of its numbers."""
     if name == "regime":

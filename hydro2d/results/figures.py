@@ -305,8 +305,7 @@ def histories(runs: list, quantities=HISTORIES):
                 if depth is not None:
                     place.axhline(depth * scale, color="crimson", linestyle="--", linewidth=1.0, label="experiment")
         place.set_xlabel("t [µs]", fontsize=8)
-        ending = "_" + history.unit(name).replace("/", "_").replace(" ", "_")
-        said = verbatim(name.removesuffix(ending).replace("_", " "))
+        said = verbatim(history.spoken(name))
         place.set_ylabel(said if unit == "1" else f"{said} [{unit}]", fontsize=8)
         place.tick_params(labelsize=7)
         place.grid(alpha=0.3)

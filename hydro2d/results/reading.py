@@ -16,15 +16,19 @@ from hydro2d.files import read_json
 from hydro2d.mesh.boundary_conditions import halved
 from hydro2d.output import history, snapshot, vtk
 from hydro2d.results.summaries import plausible
+from hydro2d.results.viewer.packing import DEFAULT_BITS
 from hydro2d.running.run import DECK, HISTORY, SUMMARY, check_own
 from hydro2d.strange import within
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     import pandas
     import pyvista
     import xarray
     from matplotlib.axes import Axes
 
+    from hydro2d.results.viewer.page import View
     from hydro2d.solver.simulation import Simulation
 
 #: the file of a study directory that lists its cases
@@ -188,6 +192,19 @@ class Results:
         if colour_bar:
             figures.colour_bars(axes, dump, drawn)
         return axes
+
+    def view(self, beside: Results | None = None, *, fields: Sequence[str] = ("all",), bits: int = DEFAULT_BITS) -> View:
+        """The page of `hydro2d view`, which a notebook shows where a cell ends with it and which `save` writes to a file.
+
+        beside : another run, to be shown beside this one
+        fields : the fields in the page, beside material and volume fractions, as `hydro2d info` names them
+        bits : of each value in the page, 8, 10, 12, 14 or 16
+
+        Raises ViewError if there are no dumps, or none has a field, FieldError, VtkError and HistoryError.
+        """
+        from hydro2d.results.viewer import page
+
+        return page.view([self] if beside is None else [self, beside], fields, bits)
 
     @property
     def planar(self) -> bool:

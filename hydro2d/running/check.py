@@ -19,6 +19,10 @@ from hydro2d.terminal import one_line
 
 #: nanoseconds per cell and cycle on one thread, as a first estimate; `hydro2d bench` measures the machine
 NANOSECONDS = 250.0
+#: seconds to start the program and to load kernels that are compiled
+START = 2.5
+#: number of cells at which threads share half of the work of a cycle (explanation/speed, Measured)
+HALF_SHARED = 150e3
 #: a deck that needs more cycles is a mistake
 MOST_CYCLES = 1e10
 
@@ -28,7 +32,7 @@ class Check:
     """A deck on its mesh.
 
     dump : the part of the initial state that pictures need;  masses : kg by body, full circle;  memory : bytes;
-    cycles, seconds : estimates
+    cycles, seconds : estimates; the seconds are those of the cycles on one thread
     """
 
     deck: object
@@ -57,9 +61,14 @@ class Check:
         found += self._follow()
         found += ["", f"sliding   {_sliding(deck)}"]
         found += [f"stop      {_stop(deck.stop)}"]
-        found += [f"cost      about {self.cycles} cycles, {_duration(self.seconds / threads)} on {threads} threads "
+        found += [f"cost      about {self.cycles} cycles, {_duration(self.wall(threads))} on {threads} threads "
                   f"(a guess), {self.memory / 2**20:.0f} MiB of memory, {_disk(self)}"]  # fmt: skip
         return found + [f"warning   {text}" for text in self.warnings]
+
+    def wall(self, threads: int) -> float:
+        """Estimated seconds of a run by itself. Threads share the cells and not the calls of kernels (Amdahl's law)."""
+        shared = self.grid.cells / (self.grid.cells + HALF_SHARED)
+        return START + self.seconds * (1.0 - shared + shared / threads)
 
     def _edge(self, key: str) -> str:
         """The boundary condition at an edge, with its velocity if it has one."""

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
-from hydro2d.study import experiments, record, table
+from hydro2d.study import experiments, record, regimes, table
 from hydro2d.study.ensembles import Ensemble, grouped, rows
 from hydro2d.study.experiments import Measurement
 from hydro2d.study.layout import Study
@@ -32,6 +33,11 @@ class Contents:
     def ensembles(self) -> list[Ensemble]:
         """The ensembles of the study; a run that is no member is one by itself."""
         return grouped(self.records, self.belonging)
+
+    @cached_property
+    def transitions(self) -> list[regimes.Transitions]:
+        """The results of a search, one for each combination of the axes; empty for any other study."""
+        return regimes.of_study(self.study, self.records) if self.study.search else []
 
     def rows_of_ensembles(self, choice: Choice | None = None) -> list[table.Row]:
         """One row for each ensemble; ``choice``: drawn responses, whose columns are added."""

@@ -236,9 +236,18 @@ def _validated(data: dict, sources: Sources) -> Definition:
     if not (found.axis or found.transition or found.ensemble):
         raise StudyError(f"{sources.where(('axis',), data)}: axis: is missing")
     if found.transition and found.ensemble:
-        raise StudyError(f"{sources.where(('ensemble',), data)}: ensemble: a search with [transition] takes no ensemble; "
-                         "give the velocities as an [[axis]] to repeat each of them")
+        raise StudyError(f"{sources.where(('ensemble',), data)}: ensemble: {_instead(found.transition)}")
     return found
+
+
+def _instead(search: Transition) -> str:
+    """Why a search takes no ensemble, and what to do instead."""
+    if search.budget is not None:
+        return ("a search with a budget takes no [ensemble], since every run is another draw already; leave it out. `seed` in "
+                "[transition] makes other draws, and a larger `budget` more of them")
+    return ("a bisection takes no [ensemble], since it needs one outcome for each velocity. Where chance decides, give "
+            "[transition] a `budget` of runs instead, for the velocity at which half of the shots end either way; or give the "
+            "velocities as an [[axis]], without [transition], to repeat each of them")
 
 
 def explained(error: ValidationError, data: dict, sources: Sources, tables: dict[tuple, type[Section]]) -> str:

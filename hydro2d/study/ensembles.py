@@ -68,7 +68,7 @@ def grouped(records: Sequence[Record], measurements: Mapping[str, Measurement] |
     """The ensembles of runs, in their order; a run that is no member is one by itself. ``measurements`` by case."""
     found: dict[str, list[Record]] = {}
     for record in records:
-        found.setdefault(record.case.of or record.case.name, []).append(record)
+        found.setdefault(record.case.group, []).append(record)
     known = measurements or {}
     return [Ensemble(name, tuple(members), known.get(members[0].case.name)) for name, members in found.items()]
 
@@ -84,7 +84,7 @@ def rows(study: Study, found: Sequence[Ensemble], runs: Sequence[Row], choice: C
     runs : the rows of the runs;  choice : drawn responses, whose columns are added
     """
     of_case = {row["case"]: row for row in runs}
-    left_out = {*OF_RUNS, *(study.ensemble.by if study.ensemble else ())}
+    left_out = {*OF_RUNS, *(name for each in study.ensembles for name in each.by)}
     kept = [name for name in (runs[0] if runs else ()) if not (name in left_out or name.startswith("sink_"))]
     names = [*RESULTS, *(y.name for y in choice.y if y.name not in (DEPTH, *RESULTS))] if choice else RESULTS
     regimes = sorted({regime for each in found for regime in each.regimes})

@@ -17,7 +17,7 @@ import hashlib
 import os
 import tomllib
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path, PurePosixPath
 
 from hydro2d import __version__, checksums, files
@@ -55,6 +55,15 @@ class Axis:
 
 
 @dataclass(frozen=True)
+class Ensemble:
+    """How the members of every case of a study are made: their number, what they differ in, and the seed."""
+
+    repeats: int
+    by: tuple[str, ...]
+    seed: int
+
+
+@dataclass(frozen=True)
 class Case:
     """A case, as read from its directory.
 
@@ -67,7 +76,8 @@ class Case:
     message : why it failed, is invalid, unphysical or interrupted, or which process runs it
     summary : contents of summary.json; empty until the run has ended
     progress : contents of progress.json; empty while the case does not run
-    of, member, changed : in an ensemble the case that it repeats, its number, and what is changed, by name
+    of, member, changed, ensemble : in an ensemble the case that it repeats, its number, what is changed, by name, and how its
+        members are made
     """
 
     name: str
@@ -83,6 +93,12 @@ class Case:
     of: str = ""
     member: int = 0
     changed: dict[str, float] = field(default_factory=dict)
+    ensemble: Ensemble | None = None
+
+    @property
+    def group(self) -> str:
+        """The name of the case that it repeats, else its own."""
+        return self.of or self.name
 
     @functools.cached_property
     def deck(self) -> dict | None:
@@ -110,21 +126,11 @@ class Interval:
 
 
 @dataclass(frozen=True)
-class Ensemble:
-    """The repeats of every case: their number, what they differ in, and the seed."""
-
-    repeats: int
-    by: tuple[str, ...]
-    seed: int
-
-
-@dataclass(frozen=True)
 class Study:
     """A study directory, or several runs treated as a study; without axes, the decks show what varies.
 
     title, name : of the study;  axes, cases : in the order of the file;  entries : the cases in study.json
     search : for a search for a transition, whose last axis is the velocity and whose cases are those that were run
-    ensemble : if every case has repeats, which are then cases of their own
     """
 
     directory: Path
@@ -134,11 +140,15 @@ class Study:
     cases: tuple[Case, ...]
     entries: tuple[dict, ...] = ()
     search: Interval | None = None
-    ensemble: Ensemble | None = None
+
+    @property
+    def ensembles(self) -> tuple[Ensemble, ...]:
+        """How the members of ensembles are made, each way once; more than one only where several studies are combined."""
+        return tuple(dict.fromkeys(case.ensemble for case in self.cases if case.ensemble))
 
     def case(self, number: int) -> Case:
         """One case of a study directory, read again."""
-        return _case(self.directory, self.entries[number])
+        return _case(self.directory, self.entries[number], self.cases[number].ensemble)
 
 
 def make(directory: Path) -> None:
@@ -220,12 +230,12 @@ def _study(directory: Path, data: dict) -> Study:
     """The study in study.json, with the state of every case."""
     axes = tuple(Axis(entry["name"], entry["key"], tuple(map(str, entry["values"]))) for entry in data["axes"])
     entries = tuple(data["cases"])
-    cases = tuple(_case(directory, entry) for entry in entries)
+    repeated = data.get("ensemble")
+    ensemble = Ensemble(repeated["repeats"], tuple(repeated["by"]), repeated["seed"]) if repeated else None
+    cases = tuple(_case(directory, entry, ensemble) for entry in entries)
     found = data.get("search")
     search = _interval(found) if found else None
-    repeated = data.get("ensemble")
-    ensemble = repeated and Ensemble(repeated["repeats"], tuple(repeated["by"]), repeated["seed"])
-    return Study(directory, data.get("title") or data["name"], data["name"], axes, cases, entries, search, ensemble)
+    return Study(directory, data.get("title") or data["name"], data["name"], axes, cases, entries, search)
 
 
 def _interval(found: dict) -> Interval:
@@ -238,26 +248,33 @@ def _interval(found: dict) -> Interval:
 def gather(directories: Sequence[Path | str]) -> Study:
     """Combines the runs of several directories, without axes, with the differing parts of their paths as names.
 
-    Raises StudyError if one of them holds no run.
+    The members of the ensembles of a study directory stay members. Raises StudyError if one of them holds no run.
     """
-    found: list[Path] = []
+    found: dict[Path, Case] = {}
     for directory in map(Path, directories):
-        found += [path for path in _runs(directory) if path.resolve() not in {each.resolve() for each in found}]
+        for case in _runs(directory):
+            found.setdefault(case.directory.resolve(), case)
     first = Path(directories[0])
-    base = os.path.commonpath([path.resolve().parent for path in found])
-    cases = tuple(Case(os.path.relpath(path.resolve(), base), path, **_state(path, None)) for path in found)
+    base = os.path.commonpath([place.parent for place in found])
+    cases = tuple(_combined(case, place, base) for place, case in found.items())
     name = first.resolve().name if len(directories) == 1 else f"{len(cases)} runs"
     return Study(first, name, name, (), cases)
 
 
-def _runs(directory: Path) -> list[Path]:
-    """The run directories of a directory: itself, the cases of a study, or the directories in it."""
+def _combined(case: Case, place: Path, base: str) -> Case:
+    """A case among those of other directories: named by its place relative to their common folder, without its axes."""
+    of = os.path.relpath(place.parent / case.of, base) if case.ensemble else ""
+    return replace(case, name=os.path.relpath(place, base), of=of, values={})
+
+
+def _runs(directory: Path) -> list[Case]:
+    """The runs of a directory: itself, the cases of a study, or the directories in it."""
     for name in (STUDY, run.DECK):
         own(directory / name)
     if (directory / STUDY).is_file():
-        return [case.directory for case in read(directory).cases]
+        return list(read(directory).cases)
     if (directory / run.DECK).is_file():
-        return [directory]
+        return [_alone(directory)]
     if directory.is_file():
         raise StudyError(f"{directory} is a file, not a directory of a study or a run")
     if not directory.is_dir():
@@ -266,7 +283,12 @@ def _runs(directory: Path) -> list[Path]:
     found = sorted(path.parent for name in (run.DECK, run.SUMMARY) for path in directory.glob(f"*/{name}"))
     if not found:
         raise StudyError(f"{directory} holds no runs: it has no {STUDY}, no {run.DECK}, and no directory with one")
-    return list(dict.fromkeys(found))
+    return [_alone(place) for place in dict.fromkeys(found)]
+
+
+def _alone(place: Path) -> Case:
+    """A run directory that no study names."""
+    return Case(place.name, place, **_state(place, None))
 
 
 def _text(file: Path) -> str:
@@ -289,7 +311,7 @@ def read_json(file: Path) -> dict:
         raise
 
 
-def _case(directory: Path, entry: dict) -> Case:
+def _case(directory: Path, entry: dict, ensemble: Ensemble | None) -> Case:
     place = _place(directory, entry["directory"])
     sha256 = entry.get("deck_sha256")
     common = {
@@ -297,7 +319,7 @@ def _case(directory: Path, entry: dict) -> Case:
         "values": {name: str(value) for name, value in entry["values"].items()},
         "overrides": tuple(entry.get("overrides", ())), "deck_sha256": sha256,
         "of": str(entry.get("of", entry["name"])), "member": int(entry.get("member", 0)),
-        "changed": {name: float(amount) for name, amount in entry.get("changed", {}).items()},
+        "changed": {name: float(amount) for name, amount in entry.get("changed", {}).items()}, "ensemble": ensemble,
     }  # fmt: skip
     if entry.get("status0") == INVALID:
         return Case(**common, status=INVALID, message=entry.get("message") or "")

@@ -13,7 +13,7 @@ from hydro2d.analytic import model_transition
 from hydro2d.study import differences, ensembles, regimes
 from hydro2d.study.contents import Contents
 from hydro2d.study.panels import Chart
-from hydro2d.study.pictures import Picture
+from hydro2d.study.pictures import Picture, is_drawn
 from hydro2d.study.record import Record
 from hydro2d.study.responses import Choice
 from hydro2d.study.table import columns_of_audit, columns_of_results, to_csv
@@ -25,8 +25,8 @@ BREAKS = re.compile(r"(?<=_)(?=[^\s._])|(?<=\.)(?=[^\s._\d])")
 
 
 def page(contents: Contents, choice: Choice, charts: Sequence[Chart], pictures: Sequence[Picture],
-         films: Sequence[Picture] = ()) -> str:  # fmt: skip
-    """The whole file."""
+         films: Sequence[Picture] = (), fitted: Sequence[Picture] = ()) -> str:  # fmt: skip
+    """The whole file; ``fitted``: curves of a search with a budget."""
     from jinja2 import Environment, PackageLoader, StrictUndefined
     from plotly.offline import get_plotlyjs
 
@@ -37,11 +37,11 @@ def page(contents: Contents, choice: Choice, charts: Sequence[Chart], pictures: 
     states = Counter(each.case.status for each in contents.records)
     return env.get_template("report.html.j2").render(
         contents=contents, study=contents.study, table=TABLE, csv=to_csv(contents.rows), charts=charts, pictures=pictures,
-        films=films, plotly=get_plotlyjs() if charts else "",
+        films=films, fitted=fitted, plotly=get_plotlyjs() if charts else "",
         made=f"hydro2d {__version__}, {datetime.now(UTC):%Y-%m-%d %H:%M} UTC",
         states=", ".join(f"{number} {status}" for status, number in states.items()),
         transitions=_transitions(contents) if contents.study.search else None,
-        ensembles=_ensembles(contents, choice) if contents.study.ensemble else None,
+        ensembles=_ensembles(contents, choice) if contents.study.ensembles else None,
         results=columns_of_results(contents.study, contents.rows, choice), audit=columns_of_audit(),
         decks=_decks(contents), origins=[_origin(each) for each in contents.records],
     )  # fmt: skip
@@ -67,13 +67,19 @@ def download(text: str, kind: str) -> str:
 
 
 def _transitions(contents: Contents) -> dict:
-    """The brackets of a search, one row for each combination of the axes; what is open; the criteria."""
-    found = regimes.of_study(contents.study, contents.records)
+    """The brackets of a search, one row for each combination of the axes; what is open; the criteria.
+
+    What a picture says of the estimate from a budget is not among the notes.
+    """
+    found, chance = contents.transitions, contents.study.search.budget is not None
     names = list(dict.fromkeys(bracket.name for each in found for bracket in each.brackets))
+    told = [(each, each.estimate.notes if is_drawn(each) else ()) for each in found]
     return {
-        "heads": ["Combination", *names, "Known", "Models", "Runs"],
+        "caption": ("90 % intervals of the impact velocity at which half of the shots end either way" if chance else
+                    "Impact velocities between which the regime changes"),
+        "heads": ["Combination", *(f"{name}: v50" if chance else name for name in names), "Known", "Models", "Runs"],
         "rows": [_of_combination(each, names) for each in found],
-        "notes": [f"{each.title}: {note}" for each in found for note in each.notes],
+        "notes": [f"{each.title}: {note}" for each, known in told for note in each.notes if note not in known],
         "criteria": regimes.criteria(contents.study),
         "file": regimes.FILE,
     }
@@ -81,14 +87,24 @@ def _transitions(contents: Contents) -> dict:
 
 def _ensembles(contents: Contents, choice: Choice) -> dict:
     """Medians, spreads and shares of regimes, one row for each case; the score; what the members differ in; the file."""
-    found, ensemble = contents.ensembles, contents.study.ensemble
+    found = contents.ensembles
     heads, rows = ensembles.table(found, choice.y)
     scored = ensembles.score(found)
     return {
         "heads": [head[0].upper() + head[1:] for head in heads], "rows": rows, "score": scored and scored.words,
-        "made": f"{ensemble.repeats} members of each case, by {', '.join(ensemble.by)}, seed {ensemble.seed}",
+        "made": _made(found),
         "file": ensembles.FILE, "csv": to_csv(contents.rows_of_ensembles(choice)),
     }  # fmt: skip
+
+
+def _made(found: Sequence[ensembles.Ensemble]) -> str:
+    """How many members the cases have, and what these differ in."""
+    said = []
+    for made, number in Counter(each.members[0].case.ensemble for each in found).items():
+        cases, apiece = ("1 case", "") if number == 1 else (f"{number} cases", " each")
+        what = f"{made.repeats} members{apiece}, by {', '.join(made.by)}, seed {made.seed}" if made else "one run" + apiece
+        said.append(f"{cases} with {what}")
+    return "; ".join(said)
 
 
 def _of_combination(each: regimes.Transitions, names: Sequence[str]) -> list[str]:

@@ -1,4 +1,4 @@
-"""The pictures and films of a report as files: rods at the end of their runs, and a film of each run that has dumps."""
+"""The pictures and films of a report as files: rods at the end of their runs, fitted curves of searches, films of runs."""
 
 from __future__ import annotations
 
@@ -13,12 +13,13 @@ from hydro2d.mesh import quantities
 from hydro2d.output.vtk import VtkError
 from hydro2d.results import figures, movies, reading
 from hydro2d.results.figures import FigureError
-from hydro2d.study import rods
+from hydro2d.study import chance_figure, rods
 from hydro2d.study.contents import Contents
 from hydro2d.study.record import Record
+from hydro2d.study.regimes import Transitions
 
 #: names of pictures and films, to remove those of earlier reports and versions
-NAMES = re.compile(r"(rods|film|depth|histories)_[\w-]+\.(png|gif|mp4)")
+NAMES = re.compile(r"(rods|transition|film|depth|histories)_[\w-]+\.(png|gif|mp4)")
 #: largest number of pages of rods; the caption says how many runs are left out
 MOST_PAGES = 8
 #: dots per inch of films, fewer than in those of `hydro2d movie`
@@ -80,6 +81,27 @@ def _first_members(contents: Contents) -> tuple[list[Record], dict[str, list[Rec
 def _shape_in_words(each: Record) -> str:
     length, first = each.value("rod_length_m"), each.value("rod_initial_length_m")
     return f"{each.case.name}, {length / first * 100:.0f} % of its length" if length and first else each.case.name
+
+
+def is_drawn(found: Transitions) -> bool:
+    """Whether a combination of a search has a picture: the search has a budget, and some shot has an outcome."""
+    return found.estimate is not None and bool(found.estimate.known)
+
+
+def fitted(contents: Contents, folder: Path) -> Iterator[Picture]:
+    """For each combination of a search with a budget, its shots with the fitted curve and its band; v50 in the caption."""
+    for number, each in enumerate(contents.transitions, 1):
+        if not is_drawn(each):
+            continue
+        file = folder / f"transition_{number:02d}.png"
+        figures.save(chance_figure.draw([each]), file)
+        found, fast = each.estimate, each.estimate.outcomes[1]
+        drawn = "Dots: shots"
+        if found.fit:
+            drawn += f"; line: fitted probability of \"{fast}\" with its 90 % band; bar at one half: 90 % interval of v50"
+        said = "; ".join(found.notes)
+        yield Picture(file, f"{each.title}: {found.name}", f"{drawn}. {said[0].upper()}{said[1:]}.",
+                      f"Outcome of {len(found.known)} shots against impact velocity. {said}.")  # fmt: skip
 
 
 def check_field(field: str) -> None:

@@ -41,15 +41,16 @@ def report(directories: Sequence[Path], out: Path | None = None, say: Callable[[
         say(f"warning: {note}")
     folder.mkdir(parents=True, exist_ok=True)
     drawn = list(pictures.draw(contents, folder))
+    fitted = list(pictures.fitted(contents, folder))
     films = list(pictures.films(contents, movie, folder, say)) if movie else []
-    files = {picture.file for picture in (*drawn, *films)}
+    files = {picture.file for picture in (*drawn, *fitted, *films)}
     for old in folder.iterdir():
         if pictures.NAMES.fullmatch(old.name) and old not in files:
             old.unlink()
     write_text(folder / TABLE, table.to_csv(contents.rows))
-    write_text(folder / PAGE, page(contents, choice, list(panels.draw(contents, choice)), drawn, films))
+    write_text(folder / PAGE, page(contents, choice, list(panels.draw(contents, choice)), drawn, films, fitted))
     written = [folder / PAGE, folder / TABLE, *sorted(files)]
-    if study.ensemble:
+    if study.ensembles:
         write_text(folder / ensembles.FILE, table.to_csv(contents.rows_of_ensembles(choice)))
         written.insert(2, folder / ensembles.FILE)
     for path in written:

@@ -180,8 +180,8 @@ def impact(records: Sequence[Record]) -> Variable:
 
 
 def _cases(records: Sequence[Record]) -> Variable:
-    names = tuple(record.case.name for record in records)
-    return Variable(CASE, CASE, dict(zip(names, names, strict=True)), names)
+    names = {record.case.name: record.case.group for record in records}
+    return Variable(CASE, CASE, names, tuple(dict.fromkeys(names.values())))
 
 
 def of_axis(axis: Axis, study: Study) -> Variable:

@@ -52,7 +52,7 @@ def grouped(records: Sequence[Record], axes: Sequence[Axis], choice: Choice) -> 
     """The series of runs of one panel, in the order of the study."""
     if choice.by is not None:
         labels = [", ".join(_said(variable, record) for variable in choice.by) for record in records]
-    elif axes or any(record.case.member for record in records):
+    elif axes:
         kept = [axis for axis in axes if _tells_apart(axis, records, choice.x)]
         labels = [", ".join(axis.said(record.case.values.get(axis.name, "")) for axis in kept) for record in records]
     else:
@@ -81,12 +81,18 @@ def _tells_apart(axis: Axis, records: Sequence[Record], x: Variable) -> bool:
 
 
 def _labels_from_decks(records: Sequence[Record]) -> list[str]:
-    """The keys in which the decks of a setup differ, with their values; the name of the run if there are many."""
-    varying = compare({record.case.name: record.deck for record in records}).varying
+    """The keys in which the decks of a setup differ, with their values; the name of the run if there are many.
+
+    The members of an ensemble have the label of the first of them, since what they differ in does not matter.
+    """
+    decks: dict[str, dict] = {}
+    for record in records:
+        decks.setdefault(record.case.group, record.deck)
+    varying = compare(decks).varying
     keys = [key for key in varying if key.split(".")[0] not in ASIDE and not key.endswith(".velocity")]
     if len({key.rsplit(".", 1)[-1] for key in keys}) > MOST_KEYS:
-        return [record.case.name for record in records]
-    return [", ".join(dict.fromkeys(_words(key, varying[key], record.case.name) for key in keys)) for record in records]
+        return [record.case.group for record in records]
+    return [", ".join(dict.fromkeys(_words(key, varying[key], record.case.group) for key in keys)) for record in records]
 
 
 def _words(key: str, values: dict[str, tuple[str, ...]], name: str) -> str:

@@ -40,12 +40,12 @@ def _row(study: Study, record: Record, measurement: Measurement | None) -> Row:
 
 
 def _member(study: Study, record: Record) -> Row:
-    """In an ensemble, the case that a run repeats, its number, the seed and what is changed."""
-    if study.ensemble is None:
-        return {}
+    """In an ensemble, the case that a run repeats, its number, the seed and what is changed; None for any other run."""
     case = record.case
-    changed = {name: case.changed.get(name) for name in study.ensemble.by}
-    return {"ensemble": case.of, "member": case.member, "seed": study.ensemble.seed, **changed}
+    changed = {name: case.changed.get(name) for each in study.ensembles for name in each.by}
+    if case.ensemble is None:
+        return dict.fromkeys(("ensemble", "member", "seed", *changed)) if study.ensembles else {}
+    return {"ensemble": case.of, "member": case.member, "seed": case.ensemble.seed, **changed}
 
 
 def _name_of(axis: Axis, row: Row) -> str:

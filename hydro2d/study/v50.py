@@ -14,7 +14,8 @@ from hydro2d.study import logit, sequence
 from hydro2d.study.layout import Interval
 from hydro2d.study.velocities import Velocities
 
-#: of MIL-STD-662F: shots with each outcome, and the largest difference of their velocities, m/s
+#: of MIL-STD-662F: shots with each outcome, and the largest difference of their velocities, m/s: 60, 90 and 125 ft/s. They
+#: are from memory, not checked against the text of the standard, which was not at hand
 MILITARY = ((5, 38.0), (3, 27.0), (2, 18.0))
 CRITERIA = {
     "v50": "the velocity at which both outcomes are equally frequent, by logistic regression with Firth's correction",
@@ -24,6 +25,7 @@ CRITERIA = {
 MILITARY_CRITERION = {
     "V50 of MIL-STD-662F": "mean velocity of the fastest stopped shots and as many of the slowest perforating ones: "
     + ", or ".join(f"{count} of each within {spread:g} m/s" for count, spread in MILITARY)
+    + "; the spreads are not checked against the text of the standard"
 }
 
 
@@ -144,7 +146,7 @@ def military(speeds: Sequence[float], perforated: Sequence[bool]) -> tuple[float
     """V50 by MIL-STD-662F in m/s and the number of shots in it; None if no shots lie close enough together.
 
     It is the mean of the highest velocities that were held and of as many of the lowest that perforated; the largest number of
-    shots whose velocities differ by no more than the standard allows is taken.
+    shots whose velocities differ by no more than MILITARY allows is taken.
     """
     v, y = np.asarray(speeds, float), np.asarray(perforated, bool)
     held, through = np.sort(v[~y])[::-1], np.sort(v[y])

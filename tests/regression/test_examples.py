@@ -39,6 +39,7 @@ NOT_RUN = {
     "python -m pytest": "it is what runs this",
     "python -m sphinx": "tests/rules/test_documentation.py builds the pages",
     "python -m tests.study.overhead": "a hundred runs: minutes",
+    "python -m tests.study.coverage": "1200 made-up searches: minutes",
     "python -m tests.trials.campaign": "5000 runs: an hour; tests/trials/test_mutants.py has some of them",
     "hydro2d bench": "minutes",
     "hydro2d diverge": "runs of a few cycles have no time in common; tests/study/test_divergence.py has made-up ones",
@@ -62,6 +63,7 @@ FILLED = {
 }
 #: what a page takes for granted in its folder: a deck or a study that has run, or a file that it gives as its first toml block
 PRESUMED = {
+    "README.md": {"runs/shot": DECK},
     "docs/tutorials/first-study.md": {"first_study.toml": ""},
     "docs/how-to/make-a-film.md": {"runs/shot": DECK},
     "docs/how-to/paraview.md": {"runs/shot": DECK},
@@ -69,6 +71,7 @@ PRESUMED = {
     "docs/how-to/report.md": {"runs/rigid_rod_laws": LAWS, "runs/a": DECK, "runs/b": DECK},
     "docs/how-to/restart.md": {"runs/shot": DECK},
     "docs/how-to/use-a-model.md": {"runs/a": DECK, "runs/b": DECK},
+    "docs/how-to/view-a-run.md": {"runs/shot": DECK, "runs/other": DECK},
     "docs/reference/files.md": {"runs/shot": DECK},
     "docs/explanation/penetration/transition.md": {"runs/a": DECK, "runs/b": DECK},
     "docs/explanation/rigid-rod.md": {"runs/rigid_rod_laws": LAWS},

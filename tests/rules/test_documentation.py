@@ -183,9 +183,10 @@ def test_the_page_of_commands_has_every_command_and_argument():
     assert [name for name in [*names, "model transition"] if f"## `hydro2d {name}`\n" not in page] == []
     for name in names:
         text = page.split(f"## `hydro2d {name}`\n")[1].split("\n## ")[0]
-        arguments = main.app[name].assemble_argument_collection(parse_docstring=True)
+        arguments = main.app[name].assemble_argument_collection(parse_docstring=True).filter_by(show=True)
         shown = [entry.names[0].lstrip("-").upper() if entry.index is not None else entry.names[0] for entry in arguments]
         assert [word for word in shown if f"| `{word}" not in text] == []
+        assert len(re.findall("^[|] `", text, re.MULTILINE)) == len(shown)
     assert "| `--set` | text, several |" in page
     assert "| `--kind` | `section`, `history`, `cutaway`, `crater` | `section` |" in page
 

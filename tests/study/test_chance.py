@@ -1,5 +1,6 @@
 """Searches with a budget: which shots run, what is told of them, interruptions, bad input, and a real shot."""
 
+import base64
 import csv
 import json
 import math
@@ -12,6 +13,7 @@ from hydro2d.deck import deck as decks
 from hydro2d.study import draws, members
 from hydro2d.study.case import Outcome
 from hydro2d.study.definition import Ensemble
+from hydro2d.study.report import report
 from tests.study import fake, made_up, test_transition, tubes
 from tests.study.html import Page
 
@@ -254,7 +256,22 @@ def test_status_and_report_show_v50(whole, capsys):
     assert call(["report", str(out)]) == 0
     page = Page((out / "report" / "report.html").read_text(encoding="utf-8"))
     assert page.faults == []
-    assert "v50 = " in page.text
+    found = whole[3]["estimate"]
+    for words in (f"V50 = {found['v50_m_s']:.1f} m/s, 90 % interval {found['v50_low_m_s']:.1f} to {found['v50_high_m_s']:.1f}",
+                  f"width, 10 to 90 %: {found['width_m_s']:.3g} m/s", "bought with 16 of 16 runs"):
+        assert page.text.count(words) == 1
+    (shots,) = [each for each in page.all("img") if each["alt"].startswith("Outcome of 16 shots against impact velocity")]
+    picture = (out / "report" / "transition_01.png").read_bytes()
+    assert base64.b64decode(shots["src"].partition(",")[2]) == picture
+
+
+def test_the_report_has_a_picture_of_every_combination_with_an_outcome(tmp_path):
+    search(tmp_path, made_up.Client(chancy), STUDY + AXIS.replace('"momentum"', '"kinetic"'))
+    page = Page(report([tmp_path / "out"], say=lambda line: None).read_text(encoding="utf-8"))
+    assert page.faults == []
+    assert [path.name for path in (tmp_path / "out" / "report").glob("transition_*")] == ["transition_01.png"]
+    assert "advection = kinetic: v50 is not known: no run has an outcome" in page.text
+    assert "advection = ke: v50" not in page.text
 
 
 def test_check_tells_the_budget(tmp_path, capsys):

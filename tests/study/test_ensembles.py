@@ -163,3 +163,69 @@ def test_the_status_has_the_ensembles(study, capsys):
     said = capsys.readouterr().out
     assert "36, 22.4 to 37.6" in said
     assert "5 of 10 members end as the experiment" in said
+
+
+# ------------------------------------------------------------------------------------------------ several studies
+
+
+@pytest.fixture(scope="module")
+def several(tmp_path_factory):
+    """Two studies with ensembles and another scheme of advection each, one without ensembles, and a run by itself."""
+    folder = tmp_path_factory.mktemp("several")
+    for name, repeats in (("ke", 5), ("momentum", 3), ("both", 1)):
+        advection = {"advection": {name: (f"numerics.advection={name}",)}}
+        fake.write_study(folder / name, {"velocity": fake.velocities(1086, 1200), **advection}, repeats=repeats)
+    fake.write_run(folder / "alone", 1150.0, overrides=("numerics.advection=ke",))
+    return [folder / name for name in ("ke", "momentum", "both", "alone")]
+
+
+def test_the_ensembles_of_several_studies_are_kept(several):
+    contents = collect(layout.gather(several))
+    assert [(each.name, len(each.members)) for each in contents.ensembles] == [
+        ("ke/cases/1086m-s_ke", 5), ("ke/cases/1200m-s_ke", 5),
+        ("momentum/cases/1086m-s_momentum", 3), ("momentum/cases/1200m-s_momentum", 3),
+        ("both/cases/1086m-s_both", 1), ("both/cases/1200m-s_both", 1), ("alone", 1),
+    ]  # fmt: skip
+    assert contents.ensembles[0].spread("penetration_depth_m") == pytest.approx((0.36, 0.224, 0.376, 5))
+
+
+def test_members_of_several_studies_are_dots_of_the_series_of_their_case(several):
+    """Series are told apart by what the studies differ in, not by what the members do."""
+    contents = collect(layout.gather(several))
+    choice = responses.choose(contents.study, contents.records)
+    panel = panels.panels(contents, choice)[0]
+    assert [(each.label, len(each.records)) for each in panel.series] == [
+        ("advection ke", 11), ("advection momentum", 6), ("advection both", 2)]  # fmt: skip
+    figure = charts.response(panel.setup, panel.series, choice.x, choice.y[0], contents.belonging, panel.shots, (), ())
+    assert [len(trace.y) for trace in figure.data if trace.meta == "member"] == [11, 6]
+    first = next(trace for trace in figure.data if "median" in (trace.name or ""))
+    assert list(first.x) == [1086, 1150, 1200]
+    assert first.y[0] == pytest.approx(36.0)
+
+
+def test_the_page_of_several_studies_has_their_ensembles(several, tmp_path):
+    page = Page(report(several, tmp_path / "out", lambda line: None).read_text(encoding="utf-8"))
+    assert page.faults == []
+    assert "36, 22.4 to 37.6" in page.text
+    assert "rigid 4 of 5" in page.text
+    assert ("2 cases with 5 members each, by first step, seed 0; 2 cases with 3 members each, by first step, seed 0; "
+            "3 cases with one run each.") in page.text  # fmt: skip
+    for name, count in (("ensembles.csv", 7), ("cases.csv", 19)):
+        with open(tmp_path / "out" / name, newline="", encoding="utf-8") as file:
+            rows = {row["case"]: row for row in csv.DictReader(file)}
+        assert len(rows) == count
+    member, single = rows["momentum/cases/1086m-s_momentum_m2"], rows["alone"]
+    assert (member["ensemble"], member["member"], member["first step"]) == ("momentum/cases/1086m-s_momentum", "2", "0.998")
+    assert (single["ensemble"], single["member"]) == ("", "")
+
+
+def test_ensembles_of_bodies_without_a_projectile_are_not_told_apart_by_member(tmp_path):
+    """Without a velocity that varies, each case has one place on the x axis."""
+    for name in ("one", "other"):
+        fake.write_study(tmp_path / name, {}, repeats=3)
+    found = collect(layout.gather([tmp_path / "one", tmp_path / "other"]))
+    for record in found.records:
+        record.velocity = None
+    cases = responses.choose(found.study, found.records).x
+    assert cases.order == ("one/cases/one", "other/cases/other")
+    assert {cases.value(each) for each in found.records} == set(cases.order)

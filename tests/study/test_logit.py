@@ -1,27 +1,18 @@
 """v50 and width by logistic regression, the sequential choice of velocities, and V50 of MIL-STD-662F; without any run."""
 
-import math
-
 import numpy as np
 import pytest
 
-from hydro2d.study import logit, sequence, v50
+from hydro2d.study import chance, logit, sequence, v50
+from tests.study import coverage
+from tests.study.coverage import within
 
 ENDS = (900.0, 1500.0)
 
 
-def searched(v50, width, seed, runs=40, size=4):
+def searched(v50, width, seed, runs=40):
     """A search for a made-up outcome that is logistic in velocity: velocities and outcomes."""
-    rng = np.random.default_rng(seed)
-    speeds, outcomes = [], []
-    while len(speeds) < runs:
-        speeds.append(sequence.next_speed(speeds, outcomes, ENDS, size, seed))
-        outcomes.append(bool(rng.random() < 1.0 / (1.0 + math.exp(-(speeds[-1] - v50) * logit.WIDTHS / width))))
-    return speeds, outcomes
-
-
-def within(value, low, high):
-    return (low is None or low <= value) and (high is None or value <= high)
+    return coverage.searched(coverage.Transition(v50, width, ENDS), seed, runs)
 
 
 @pytest.mark.parametrize(("v50", "width"), [(1210.0, 60.0), (1065.0, 15.0)])
@@ -31,6 +22,15 @@ def test_a_known_transition_is_within_its_interval_in_nine_of_ten_searches(v50, 
     assert sum(within(width, each.width_low, each.width_high) for each in found) >= 8
     assert np.median([each.v50_high - each.v50_low for each in found]) < 0.6 * width
     assert np.median([each.v50 for each in found]) == pytest.approx(v50, abs=0.15 * width)
+
+
+@pytest.mark.slow
+def test_the_intervals_hold_their_values_as_often_as_the_page_says():
+    held = coverage.measure(40, 40)
+    told = sum(each.told for each in held)
+    for number in (sum(each.v50 for each in held), sum(each.width for each in held)):
+        assert chance.wilson(number, told).high >= 0.9
+        assert number >= 0.86 * told
 
 
 def test_shots_are_near_the_transition():

@@ -121,9 +121,16 @@ def test_too_many_members_of_too_many_cases():
     assert "101000 cases" in refused(axes=[axis], repeats=1000)
 
 
-def test_a_search_takes_no_ensemble():
-    with pytest.raises(StudyError, match="takes no ensemble"):
-        cases.plan_of({"deck": SHOT, "ensemble": {"repeats": 2}, "transition": {"from": 900, "to": 1000}}, "shot")
+@pytest.mark.parametrize(("search", "said"), [
+    ({}, "give [transition] a `budget` of runs instead"),
+    ({"of": "erosion", "budget": 8}, "every run is another draw already; leave it out. `seed` in [transition]"),
+])  # fmt: skip
+def test_a_search_takes_no_ensemble_and_says_what_to_do_instead(search, said):
+    with pytest.raises(StudyError) as caught:
+        cases.plan_of({"deck": SHOT, "ensemble": {"repeats": 2}, "transition": {"from": 900, "to": 1000, **search}}, "shot")
+    assert str(caught.value).startswith("shot: ensemble: ")
+    assert said in str(caught.value)
+    assert "\n" not in str(caught.value)
 
 
 def test_wilson_is_that_of_the_literature():

@@ -5,6 +5,7 @@ from types import SimpleNamespace
 
 import pytest
 
+from tests.study.browser import browser  # noqa: F401
 from tests.unit import fake
 
 

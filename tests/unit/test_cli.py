@@ -198,7 +198,7 @@ def test_every_command_has_an_example():
         assert f"Example: hydro2d {name}" in app[name].help
 
 
-@pytest.mark.parametrize("command", ["run", "plot", "movie", "export", "report", "sweep", "transition"])
+@pytest.mark.parametrize("command", ["run", "plot", "movie", "view", "export", "report", "sweep", "transition"])
 def test_what_a_command_makes_has_one_name(command, capsys):
     assert call([command, "--help"]) == 0
     said = capsys.readouterr().out
@@ -288,3 +288,27 @@ def test_a_directory_below_a_file_is_one_line(deck, finished, tmp_path, capsys, 
 @pytest.mark.parametrize(("module", "name"), USER_ERRORS)
 def test_errors_of_users_are_where_the_command_looks(module, name):
     assert issubclass(getattr(importlib.import_module(f"hydro2d.{module}"), name), Exception)
+
+
+def test_the_options_of_workers_are_the_same_in_all_commands_that_run_many_cases():
+    """They are options of the command itself, in one order and with the same words."""
+    found = [
+        [(entry.names[0], entry.parameter.help, entry.field_info.default) for entry in arguments
+         if entry.names[0][2:] in ("workers", "threads", "scheduler", "slurm", "resume", "overwrite")]
+        for arguments in (app[name].assemble_argument_collection(parse_docstring=True)
+                          for name in ("sweep", "transition", "converge"))
+    ]  # fmt: skip
+    assert found[0] == found[1] == found[2]
+    assert [name for name, _, _ in found[0]] == ["--workers", "--threads", "--scheduler", "--slurm", "--resume", "--overwrite"]
+    assert all(words for _, words, _ in found[0])
+
+
+@pytest.mark.parametrize("command", ["sweep", "transition", "converge"])
+def test_ways_to_get_workers_that_exclude_each_other(command, capsys):
+    cells = ["--cells", "4,6"] if command == "converge" else []
+    for more, said in ((["--slurm", "job.toml"], "--scheduler joins workers and --slurm starts them"),
+                       (["--workers", "2"], "--workers starts workers and --scheduler joins running ones")):
+        assert call([command, "file.toml", *cells, "--scheduler", "tcp://host:1", *more]) == 2
+        assert said in capsys.readouterr().err
+    assert call([command, "file.toml", *cells, "--workers", "none"]) == 2
+    assert capsys.readouterr().err == "hydro2d: --workers none: must be a whole number from 1 to 1024\n"

@@ -114,8 +114,10 @@ def test_no_link_can_wait_where_a_file_is_written_first(tmp_path, secret):
 
 COMMANDS = {
     "deck.toml": ["report {}", "plot {} -o {}.png"], "summary.json": ["report {}", "export {} -o {}.out"],
-    "history.h5": ["plot {} --kind history -o {}.png", "report {}"], "series.pvd": ["movie {} -o {}.gif"],
+    "history.h5": ["plot {} --kind history -o {}.png", "report {}", "view {} --no-open"],
+    "series.pvd": ["movie {} -o {}.gif", "view {} --no-open"],
     "interfaces.pvd": ["report {}", "export {} -o {}.out"], "vtk/dump_000000.vtr": ["movie {} -o {}.gif"],
+    "view.html": ["view {} --no-open"],
     "vtk/interfaces_000000.vtp": ["export {} -o {}.out"], "failed.json": ["report {}"], "run.lock": ["report {}"],
     "restart.h5": ["run problems/perforation/sphere.toml --restart --out {}"],
     "log.txt": ["run problems/perforation/sphere.toml --restart --out {}"],

@@ -1,0 +1,67 @@
+"""The options of all commands that run many cases: who works, and what becomes of runs that are already there."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from cyclopts import Parameter
+
+from hydro2d.cli.base import Count, UsageError
+
+
+@Parameter(name="*")
+@dataclass(frozen=True)
+class Workers:
+    """The options as given; their order is that of --help.
+
+    Parameters
+    ----------
+    workers
+        Number of worker processes; default: cores / threads. With --slurm, the number to request.
+    threads
+        Number of threads per worker. The results do not depend on it.
+    scheduler
+        Address of a running dask scheduler, such as tcp://host:8786; its workers must see the same files.
+    slurm
+        TOML file with arguments of dask_jobqueue.SLURMCluster, such as cores, memory, queue; SLURM then starts the workers.
+    resume
+        Continues in the directory: finished cases are kept, unfinished cases continue from their restart files.
+    overwrite
+        Restarts cases from the beginning: all cases, or with --resume only those whose deck has changed.
+    """
+
+    workers: Count | None = None
+    threads: Count = 1
+    scheduler: str | None = None
+    slurm: Path | None = None
+    resume: bool = False
+    overwrite: bool = False
+
+    def check(self) -> None:
+        """Raises UsageError for ways to get workers that exclude each other."""
+        if self.scheduler is not None and self.slurm is not None:
+            raise UsageError("--scheduler joins workers and --slurm starts them: give one of them")
+        if self.scheduler is not None and self.workers is not None:
+            raise UsageError("--workers starts workers and --scheduler joins running ones: give one of them")
+
+    @property
+    def number(self) -> int:
+        """The number of workers on this machine."""
+        from hydro2d.study import cluster
+
+        return self.workers or cluster.default_workers(self.threads)
+
+    def connect(self, most: int):
+        """A dask client with these workers; on this machine at most `most`."""
+        from hydro2d.study import cluster
+
+        if self.scheduler is not None:
+            return cluster.joined(self.scheduler)
+        if self.slurm is not None:
+            return cluster.slurm(self.slurm, self.workers or 1, self.threads)
+        return cluster.local(cluster.needed(self.workers, self.threads, most), self.threads)
+
+
+#: the options where none is given
+DEFAULT = Workers()

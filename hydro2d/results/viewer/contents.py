@@ -1,0 +1,161 @@
+"""What a page has of a run: mesh, dumps, ranges of fields, history and stations, as a table for JSON and packed numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import asdict
+
+import numpy as np
+
+from hydro2d.mesh import quantities
+from hydro2d.output import history, station_arrays
+from hydro2d.output.vtk import Dump, read_grid
+from hydro2d.results import figures
+from hydro2d.results.viewer import packing
+from hydro2d.results.viewer.fields import Ranges, Stored, ViewError, arrays, asked, short, unit_of
+from hydro2d.running.run import HISTORY
+from hydro2d.terminal import shown
+
+#: largest number of rows of the history in a page
+ROWS = 4000
+#: how far the edges of a dump's mesh may be from those of the first dump that have travelled, as a share of the mesh
+ROUNDING = 1e-9
+
+
+def contents(run, words: Iterable[str], bits: int) -> tuple[dict, str]:
+    """The table of a run (results.Results) and its packed numbers in base64.
+
+    words : fields, as `fields.asked` takes them
+    bits : of a value, one of packing.BITS
+
+    Raises ViewError, FieldError, VtkError, HistoryError.
+    """
+    files = run.dumps
+    if not files:
+        raise ViewError(f"{run.directory} has no dumps to show; output.vtk_interval of the deck sets when they are written")
+    ends = [read_grid(path) for _, path in (files[0], files[-1])]
+    stored = arrays(asked([*words, *quantities.ALWAYS], ends, run), ends)
+    store, frames = packing.Store(), _Frames(stored, bits)
+    for time, path in files:
+        frames.add(time, read_grid(path), store)
+    state = run.dump(files[-1][0])
+    table = {
+        "label": shown(run.label),
+        "title": shown(run.deck.get("title", "")),
+        "ended": shown(run.summary.get("stop_reason") or "") if run.summary else None,
+        "mirrored": state.mirrored,
+        "bodies": [shown(body) for body in state.bodies],
+        "measured": {"z": run.measured_position, "depth": run.measured_depth},
+        **frames.table(),
+        **_history(run, store),
+    }
+    return table, store.text
+
+
+class _Frames:
+    """The dumps of a run, packed one after the other."""
+
+    def __init__(self, stored: list[Stored], bits: int):
+        self.stored, self.bits = stored, bits
+        self.ranges = {each.word: Ranges() for each in _shown(stored)}
+        self.times: list[float] = []
+        self.shifts: list[float] = []
+        self.pieces: list[list] = []
+        self.first: Dump | None = None
+
+    def add(self, time: float, dump: Dump, store: packing.Store) -> None:
+        """Packs the fields of a dump. Raises ViewError if it has another mesh than the first."""
+        self.first = self.first or dump
+        shift = dump.z_edges[0] - self.first.z_edges[0]
+        if not (_same(dump.r_edges, self.first.r_edges) and _same(dump.z_edges - shift, self.first.z_edges)):
+            raise ViewError("the dumps have different meshes: the run was begun anew while it was read; read it again")
+        self.times.append(time)
+        self.shifts.append(shift)
+        values = {each.word: each.values(dump) for each in self.stored}
+        self.pieces.append([_piece(values[each.word], each, self.bits, store) for each in self.stored])
+        filled = figures.filled(dump)
+        for each in _shown(self.stored):
+            found = _magnitude(values, each) if each.is_magnitude else values[each.word]
+            if found is not None:
+                self.ranges[each.word].add(found, _solid(dump, each, filled))
+
+    def table(self) -> dict:
+        """Times in s, how far the mesh has travelled and its first edges in m, fields, and the pieces of each dump."""
+        assert self.first is not None
+        return {
+            "times": self.times, "shifts": self.shifts, "r_edges": self.first.r_edges.tolist(),
+            "z_edges": self.first.z_edges.tolist(), "bits": self.bits,
+            "stored": [shown(each.word) for each in self.stored], "pieces": self.pieces,
+            "fields": [_described(each, self.ranges[each.word]) for each in _shown(self.stored)],
+        }  # fmt: skip
+
+
+def _same(edges: np.ndarray, others: np.ndarray) -> bool:
+    return edges.shape == others.shape and np.allclose(edges, others, rtol=0.0, atol=ROUNDING * np.ptp(others))
+
+
+def _shown(stored: list[Stored]) -> list[Stored]:
+    """The fields that can be drawn: what is stored, and before the components of a vector their magnitude."""
+    found = []
+    for each in stored:
+        if each.component == 0:
+            found.append(each.magnitude())
+        found.append(each)
+    return found
+
+
+def _magnitude(values: dict, each: Stored) -> np.ndarray | None:
+    """Length of a vector whose components were packed."""
+    parts = [values[word] for word in each.parts]
+    return None if parts[0] is None else np.hypot(*parts)
+
+
+def _solid(dump: Dump, each: Stored, filled: np.ndarray) -> np.ndarray:
+    """Where a field is drawn, (nz, nr): in cells that its body, or all bodies together, fill by half; see figures.chosen."""
+    if each.is_share:
+        return np.ones_like(filled, dtype=bool)
+    return (dump.fields[f"Volume Fraction for {each.body}"] if each.body else filled) >= 0.5
+
+
+def _piece(values: np.ndarray | None, each: Stored, bits: int, store: packing.Store) -> list | None:
+    """[low, high], and where the levels are in the store if the values differ; None for a field that a dump has not."""
+    if values is None:
+        return None
+    finite = values[np.isfinite(values)]
+    low, high = (short(float(end)) for end in ((finite.min(), finite.max()) if finite.size else (0.0, 0.0)))
+    if each.is_share:
+        low, high = 0.0, 1.0
+    if each.word == "material":
+        low, high = 0.0, float(packing.last_level(bits))  # each number is a level
+    if low == high and finite.size == values.size:
+        return [low, high]
+    high = high if high > low else low + 1.0
+    return [low, high, *store.add(packing.packed(packing.levels_of(values, low, high, bits)))]
+
+
+def _described(each: Stored, ranges: Ranges) -> dict:
+    """What the page says of a field, and its colour ranges for each of fields.CLIPS."""
+    known = asdict(each)
+    said = {key: shown(known[key]) for key in ("word", "title", "unit", "body")}
+    return said | {"ranges": ranges.clipped(), "parts": each.parts}
+
+
+def _history(run, store: packing.Store) -> dict:
+    """Columns of the history, each as numbers of 32 bits, and its times as numbers of 64; stations by kind and name."""
+    columns = run.history if (run.directory / HISTORY).exists() else {}
+    if not len(columns.get("time", ())):
+        return {"history": None, "stations": []}
+    step = -(-len(columns["time"]) // ROWS)
+    rows = np.unique(np.append(np.arange(0, len(columns["time"]), step), len(columns["time"]) - 1))
+    stations = [{"kind": kind, "name": shown(name), "r": f"{kind}_{name}_r_m", "z": f"{kind}_{name}_z_m"}
+                for kind in station_arrays.KINDS for name in station_arrays.stations(columns, kind)]  # fmt: skip
+    kept = [_column(name, column[rows], store) for name, column in columns.items() if name != "time"]
+    table = {"rows": len(rows), "step": step, "time": store.add(packing.packed_column(columns["time"][rows], "<f8")),
+             "columns": kept, "regimes": list(history.REGIMES)}  # fmt: skip
+    return {"history": table, "stations": stations}
+
+
+def _column(name: str, values: np.ndarray, store: packing.Store) -> dict:
+    unit, scale = unit_of(history.unit(name))
+    return {"name": name, "label": shown(history.spoken(name)), "unit": "" if unit == "1" else unit,
+            "piece": store.add(packing.packed_column(values * scale, "<f4"))}  # fmt: skip

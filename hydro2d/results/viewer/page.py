@@ -1,0 +1,104 @@
+"""The page of one or two runs: the files of `assets` and the contents of the runs, put together into one HTML file."""
+
+from __future__ import annotations
+
+import html
+import json
+import re
+from collections.abc import Iterable, Sequence
+from datetime import UTC, datetime
+from importlib import resources
+from pathlib import Path
+
+from hydro2d import __version__
+from hydro2d.files import write_text
+from hydro2d.results.figures import BODY_COLOURS
+from hydro2d.results.viewer.contents import contents
+from hydro2d.results.viewer.fields import CLIPS, ViewError
+from hydro2d.results.viewer.packing import BITS, DEFAULT_BITS
+from hydro2d.terminal import shown
+
+PAGE = "view.html"
+#: the parts of the program in their order
+SCRIPTS = (
+    "data.js", "colours.js", "axes.js", "outlines.js", "section.js", "gestures.js", "panels.js", "controls.js", "main.js",
+)  # fmt: skip
+#: colour maps that the page offers, by the names that matplotlib gives them; the last is for fields with negative values
+MAPS = ("viridis", "cividis", "inferno", "gray", "RdBu_r")
+COLOURS = 256
+#: height of the page in a notebook, pixels
+HEIGHT = 820
+
+
+class View:
+    """The page of one or two runs; a notebook shows it. `save` writes it to a file.
+
+    Attributes
+    ----------
+    html : str
+        The page, which needs no other file and no network.
+    """
+
+    def __init__(self, html: str):
+        self.html = html
+
+    def save(self, path: Path | str) -> Path:
+        """Writes the page to a file and returns its path."""
+        write_text(Path(path), self.html)
+        return Path(path)
+
+    def _repr_html_(self) -> str:
+        style = f"width: 100%; height: {HEIGHT}px; border: 0"
+        return f'<iframe title="hydro2d view" style="{style}" srcdoc="{html.escape(self.html)}"></iframe>'
+
+
+def view(runs: Sequence, words: Iterable[str] = ("all",), bits: int = DEFAULT_BITS) -> View:
+    """The page of one run, or of two side by side (results.Results).
+
+    words : fields as `hydro2d info` names them, or groups of them, which are stored beside material and volume fractions
+    bits : of each value, one of packing.BITS
+
+    Raises ViewError, FieldError, VtkError, HistoryError.
+    """
+    if not 1 <= len(runs) <= 2:
+        raise ViewError(f"a page shows one run, or two side by side: {len(runs)} are given")
+    if bits not in BITS:
+        raise ViewError(f"{bits} bits for a value: must be {', '.join(map(str, BITS))}")
+    words = list(words)
+    found = [contents(run, words, bits) for run in runs]
+    about = {
+        "made": f"hydro2d {__version__}, {datetime.now(UTC):%Y-%m-%d %H:%M} UTC",
+        "clips": CLIPS,
+        "body_colours": [[int(colour[place : place + 2], 16) for place in (1, 3, 5)] for colour in BODY_COLOURS],
+        "maps": {name: _colours(name) for name in MAPS},
+        "runs": [table for table, _ in found],
+    }
+    parts = {
+        "title": html.escape(" and ".join(shown(run.label) for run in runs)),
+        "style": _asset("page.css"),
+        "contents": _json(about),
+        "numbers": "\n".join(f'<script type="text/plain" class="numbers">{text}</script>' for _, text in found),
+        "program": "\n".join(map(_asset, SCRIPTS)),
+    }
+    return View(re.sub(r"\{\{(\w+)\}\}", lambda place: parts[place[1]], _asset("page.html")))
+
+
+def _asset(name: str) -> str:
+    return resources.files(__package__).joinpath("assets", name).read_text(encoding="utf-8")
+
+
+def _json(value) -> str:
+    """JSON that cannot end the element of the page that holds it. Raises ViewError for what is not finite."""
+    try:
+        text = json.dumps(value, ensure_ascii=False, separators=(",", ":"), allow_nan=False)
+    except ValueError:
+        raise ViewError("a run has times, edges of its mesh or a deck that are not finite numbers") from None
+    return text.replace("<", "\\u003c")
+
+
+def _colours(name: str) -> str:
+    """The colours of a map as hexadecimal numbers of six digits, one after the other."""
+    from matplotlib import colormaps
+
+    table = colormaps[name].resampled(COLOURS)
+    return "".join(f"{round(255 * part):02x}" for number in range(COLOURS) for part in table(number)[:3])

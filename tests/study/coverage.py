@@ -1,0 +1,98 @@
+"""How often the 90 % intervals of searches with a budget hold the truth: `python -m tests.study.coverage [SEARCHES] [RUNS]`.
+
+Every outcome is made up: it is logistic in velocity, with known v50 and width. The searches begin on several intervals, with
+seeds that no test uses. A search ends as `hydro2d transition` ends it: with its budget, or after two rounds of one outcome.
+"""
+
+from __future__ import annotations
+
+import math
+import sys
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from hydro2d.study import chance, logit, sequence
+
+#: the first seed; tests use those from 0 on
+FIRST = 500_000
+#: shots of a round
+ROUND = 4
+
+
+class Transition(NamedTuple):
+    """A made-up transition and the interval in which it is searched, m/s."""
+
+    v50: float
+    width: float
+    ends: tuple[float, float]
+
+
+#: narrow, usual and wide changes of the outcome; short and long intervals; a transition near an end
+TRANSITIONS = (
+    Transition(1210.0, 15.0, (900.0, 1500.0)),
+    Transition(1210.0, 60.0, (900.0, 1500.0)),
+    Transition(1210.0, 200.0, (900.0, 1500.0)),
+    Transition(1210.0, 60.0, (1150.0, 1300.0)),
+    Transition(1210.0, 60.0, (600.0, 2400.0)),
+    Transition(935.0, 60.0, (900.0, 1500.0)),
+)
+
+
+class Held(NamedTuple):
+    """Of searches for one transition, those with an estimate, and of these those whose intervals hold v50 and the width."""
+
+    told: int
+    v50: int
+    width: int
+
+
+def searched(true: Transition, seed: int, runs: int = 40) -> tuple[list[float], list[bool]]:
+    """A search for a made-up transition: velocities in m/s and outcomes of its shots."""
+    rng = np.random.default_rng(seed)
+    speeds, outcomes = [], []
+    while len(speeds) < runs and not (len(speeds) % ROUND == 0 and sequence.alike(outcomes, ROUND)):
+        speeds.append(sequence.next_speed(speeds, outcomes, true.ends, ROUND, seed))
+        fast = 1.0 / (1.0 + math.exp(-(speeds[-1] - true.v50) * logit.WIDTHS / true.width))
+        outcomes.append(bool(rng.random() < fast))
+    return speeds, outcomes
+
+
+def within(value: float, low: float | None, high: float | None) -> bool:
+    """Whether an interval holds a value; an end that is None is open."""
+    return (low is None or low <= value) and (high is None or value <= high)
+
+
+def measure(searches: int, runs: int) -> list[Held]:
+    """Searches so many times for each transition with so many runs, prints how often the intervals hold, and returns it."""
+    print(f"{'v50':>6} {'width':>6}  {'interval':<12} {'told':>5} {'v50 held':>9} {'width held':>11}  "
+          "median size of the interval of v50 and median estimate of the width, both over the width")  # fmt: skip
+    held = []
+    for number, true in enumerate(TRANSITIONS):
+        first = FIRST + number * searches
+        fits = [logit.fit(*searched(true, seed, runs)) for seed in range(first, first + searches)]
+        found = [each for each in fits if each is not None]
+        held.append(Held(len(found), sum(within(true.v50, each.v50_low, each.v50_high) for each in found),
+                         sum(within(true.width, each.width_low, each.width_high) for each in found)))  # fmt: skip
+        size = _median([_size(each.v50_low, each.v50_high) for each in found]) / true.width
+        estimate = _median([each.width for each in found]) / true.width
+        print(f"{true.v50:6g} {true.width:6g}  {true.ends[0]:4g} to {true.ends[1]:4g} {held[-1].told:5} {held[-1].v50:9} "
+              f"{held[-1].width:11}  {size:.2f}, {estimate:.2f}", flush=True)  # fmt: skip
+    told = sum(each.told for each in held)
+    for what, number in (("v50", sum(each.v50 for each in held)), ("width", sum(each.width for each in held))):
+        share = chance.wilson(number, told)
+        print(f"{runs} runs: the 90 % interval of {what} holds it in {100 * share.fraction:.1f} %: {share.words}")
+    return held
+
+
+def _size(low: float | None, high: float | None) -> float:
+    return math.inf if low is None or high is None else high - low
+
+
+def _median(values: Sequence[float]) -> float:
+    return float(np.median(values)) if values else math.nan
+
+
+if __name__ == "__main__":
+    measure(*map(int, sys.argv[1:] or (200, 40)))
