@@ -19,7 +19,11 @@ from hydro2d.solver.simulation import Simulation
 from tests.kernel.test_compiled_equals_source import CASES, text_of
 from tests.rules.source import ROOT
 
-CASES = {**CASES, "both, contact": ("both", 'method = "contact"')}
+BOTH, ALONE = text_of("both", 'method = "contact"'), text_of("ke", 'method = "none"').replace("friction = 0.1", "")
+#: a rod that begins deep within the plate, on a mesh that stands: contact nodes in most rows
+DEEP = BOTH.replace('tip = "0.2 mm"', 'tip = "5 mm"').replace('follow = "rod"', "").replace("transmit", "outflow")
+DECKS = {**{name: text_of(*case) for name, case in CASES.items()}, "both, contact": BOTH, "both, deep contact": DEEP,
+         "ke, following": ALONE.replace("[mesh]", '[mesh]\nfollow = "rod"').replace("outflow", "transmit")}  # fmt: skip
 #: two cuts into parts, and contact for most of them
 CYCLES = 20
 PHASES = [(module, name) for module in (lagrangian_step, remap_step) for name, value in vars(module).items()
@@ -28,7 +32,7 @@ PHASES = [(module, name) for module in (lagrangian_step, remap_step) for name, v
 
 def bits(case: str, *parts: int) -> str:
     """A hash of what a restart file would hold after some cycles, in which there are so many parts in turn."""
-    simulation = Simulation(deck.loads(text_of(*CASES[case])))
+    simulation = Simulation(deck.loads(DECKS[case]))
     counted = jit.parts_at_once
     try:
         for cycle in range(CYCLES):
@@ -53,7 +57,7 @@ def bits_as_python(case: str) -> str:
         jit.profiling(False)
 
 
-@pytest.mark.parametrize("case", CASES)
+@pytest.mark.parametrize("case", DECKS)
 def test_phases_do_what_their_source_says_with_any_number_of_parts(case):
     code = ("from tests.kernel.test_phases import bits, bits_as_python\n"
             f"case = {case!r}\n"
@@ -117,7 +121,7 @@ ORDERS = {"upward": range, "downward": lambda number: range(number)[::-1],
           "at random": lambda number, random=np.random.default_rng(0): random.permutation(number)}  # fmt: skip
 
 
-@pytest.mark.parametrize("case", CASES)
+@pytest.mark.parametrize("case", DECKS)
 @pytest.mark.parametrize("order", ORDERS)
 def test_parts_run_in_any_order_between_barriers(monkeypatch, case, order):
     """What a part reads of another one, or writes for it, is parted from that by a barrier."""
