@@ -5,6 +5,7 @@ import importlib
 import inspect
 import math
 import os
+import re
 import stat
 import tempfile
 import types
@@ -17,7 +18,7 @@ import pytest
 from numba.core import caching, codegen, cpu
 
 from hydro2d import jit
-from hydro2d.jit import cache
+from hydro2d.jit import cache, options
 from hydro2d.mesh.fields import LANE_ROWS, LANES
 from strength import dispatch, lanes
 from strength.layout import ROW
@@ -175,3 +176,18 @@ def test_a_home_that_cannot_be_written_to_has_a_private_cache(tmp_path, monkeypa
     monkeypatch.setenv("XDG_CACHE_HOME", "/proc/none/cache")
     monkeypatch.setattr(tempfile, "gettempdir", lambda: str(tmp_path))
     assert cache._cache_root.__wrapped__() == str(tmp_path / f"hydro2d-{os.getuid()}")
+
+
+@pytest.mark.parametrize("apart", [True, False])
+def test_arrays_of_kernels_are_promised_to_be_apart(apart):
+    """The option is numba's own; a compiler that is not told compares addresses before every loop."""
+    def add(n, a, b):
+        for i in range(n):
+            a[i] += b[i]
+
+    assert jit.kernel(add).compiled.targetoptions["noalias"]
+    made = numba.njit(**{**options.OPTIONS, "cache": False}, noalias=apart)(add)
+    made.compile((numba.int64, numba.float64[::1], numba.float64[::1]))
+    (text,) = made.inspect_llvm().values()
+    (head,) = [line for line in text.splitlines() if line.startswith("define ") and "%arg.a.4" in line]
+    assert len(re.findall(r"noalias[^,]*%arg\.[ab]\.4", head)) == (2 if apart else 0), head
