@@ -13,6 +13,7 @@ from hydro2d.physics.contact import meeting, volume_rate
 from hydro2d.physics.kinematics import hourglass_mode
 from hydro2d.physics.stress import normal_pressure, stress_scale
 from hydro2d.physics.viscosity import directional_viscosity, shut
+from hydro2d.physics.waves import sound_step, volume_step
 
 #: void given to full cells without pressure whose groups part, so that it takes the opening and nothing is stretched
 SEED = 1e-11
@@ -81,8 +82,8 @@ def contact_viscosity(part, parts, mesh_box, linear, quadratic, courant, dr, dz,
                 viscosity = shock * directional_viscosity(rho, c, -max(loss, 0.0) * length, 0.0, linear, quadratic)
                 qr[j, i] = viscosity
                 qz[j, i] = viscosity
-                sound = courant * min(dr[i], h) / sqrt(cl[j, i] * cl[j, i] + 2.0 * viscosity / rho)
-                row_step[j] = min(row_step[j], min(sound, 0.2 / loss if loss > 0.0 else 1e300))
+                sound = sound_step(courant, min(dr[i], h), rho, cl[j, i], viscosity)
+                row_step[j] = min(row_step[j], min(sound, volume_step(loss)))
         if seeded:
             mixed_row(j, group_ranges[0, 0], vof, scratch, j, mixed_count, mixed)
 

@@ -3,16 +3,15 @@
 
 from hydro2d.jit import kernel, rowwise
 from hydro2d.kernels.column_ranges import columns
-from hydro2d.materials.rows import CUTOFF_DENSITY, DAMAGE, DAMAGE_AT, FACTOR, STRENGTH, STRENGTH_AT, TENSILE
+from hydro2d.materials.rows import CUTOFF_DENSITY, DAMAGE_AT, FACTOR, STRENGTH, STRENGTH_AT
 from hydro2d.mesh.fields import DMG, EP, LANES, RHO, SRR, SRZ, SZZ, E
 from hydro2d.mesh.grid import VOL_R
-from hydro2d.physics.fracture import damaged
 from hydro2d.physics.kinematics import hourglass_mode, velocity_gradient
-from hydro2d.physics.plasticity import from_centre, keep_internal, returned, take_internal
+from hydro2d.physics.plasticity import flow, keep_internal, return_to_surface, take_internal
 from hydro2d.physics.stress import turn_and_strain, von_mises
-from strength.dispatch import WITH_INTERNAL, damage_increment, kinematic_modulus, modulus_row, turn, yield_floor
+from strength.dispatch import WITH_INTERNAL, modulus_row, turn, yield_floor
 from strength.lanes import COLUMN, DENSITY, HEAT, INCREMENT, PRESSURE, STIFFNESS, STRAIN, STRESS, TRIAL, WIDTH
-from strength.radial_return import plastic_increment, return_together
+from strength.radial_return import return_together
 
 
 @rowwise
@@ -89,8 +88,6 @@ def yield_row(m, j, b, first, n, dt, models, materials, pm, tm, scratch, q, lane
     """
     model = models[m, STRENGTH]
     par = materials[m, STRENGTH_AT:DAMAGE_AT]
-    damage_par = materials[m, DAMAGE_AT:TENSILE]
-    damage_model = models[m, DAMAGE]
     scale = materials[m, FACTOR]
     floor = scale * yield_floor(model, par)  # below it no flow stress need be evaluated
     p_j = pm[m, j]
@@ -99,7 +96,6 @@ def yield_row(m, j, b, first, n, dt, models, materials, pm, tm, scratch, q, lane
     trial_j = scratch[1, b]
     rho_j = q[RHO, m, j]
     ep_j = q[EP, m, j]
-    d_j = q[DMG, m, j]
     srr_j = q[SRR, m, j]
     szz_j = q[SZZ, m, j]
     srz_j = q[SRZ, m, j]
@@ -135,9 +131,7 @@ def yield_row(m, j, b, first, n, dt, models, materials, pm, tm, scratch, q, lane
                 srr_j[i] *= shrink
                 szz_j[i] *= shrink
                 srz_j[i] *= shrink
-                ep_j[i] += dep
-                increment = damage_increment(damage_model, dep, dep / dt, t_j[i], p_j[i], yield_stress, damage_par)
-                d_j[i] = damaged(d_j[i], increment)
+                flow(m, j, i, dep, dt, yield_stress, models, materials, pm, tm, q)
 
 
 @rowwise
@@ -148,29 +142,19 @@ def internal_row(m, j, b, first, n, dt, models, materials, vof, pm, tm, scratch,
     Updates  q (deviators, plastic strain, damage, internal variables) [k, m, j, i]; scratch internal [j, k]
     """
     model = models[m, STRENGTH]
-    par = materials[m, STRENGTH_AT:DAMAGE_AT]
-    damage_par = materials[m, DAMAGE_AT:TENSILE]
     for x in range(n):
         i = first + x
         if vof[m, j, i] != 1.0 or scratch[1, b, i] < 0.0:
             continue
         take_internal(m, j, i, model, q, internal[j])
         turn(model, scratch[2, b, i], internal[j])
-        rr, zz, rz = from_centre(q[SRR, m, j, i], q[SZZ, m, j, i], q[SRZ, m, j, i], model, internal[j])
-        trial = von_mises(rr, zz, rz)
-        stiffness = scratch[0, b, i] + kinematic_modulus(model, par) / 3.0
-        dep, yield_stress = plastic_increment(
-            model, trial, q[EP, m, j, i], dt, tm[m, j, i], pm[m, j, i], q[RHO, m, j, i], stiffness,
-            materials[m, FACTOR], par)
-        if dep > 0.0:
-            rr, zz, rz = returned(rr, zz, rz, trial, dep, yield_stress, model, par, internal[j])
-            q[SRR, m, j, i] = rr
-            q[SZZ, m, j, i] = zz
-            q[SRZ, m, j, i] = rz
-            q[EP, m, j, i] += dep
-            increment = damage_increment(models[m, DAMAGE], dep, dep / dt, tm[m, j, i], pm[m, j, i], yield_stress, damage_par)
-            q[DMG, m, j, i] = damaged(q[DMG, m, j, i], increment)
         keep_internal(m, j, i, model, internal[j], q)
+        rr, zz, rz, _, _ = return_to_surface(
+            m, j, i, dt, q[SRR, m, j, i], q[SZZ, m, j, i], q[SRZ, m, j, i], scratch[0, b, i], True, 0.0, models, materials, pm,
+            tm, q, internal[j])
+        q[SRR, m, j, i] = rr
+        q[SZZ, m, j, i] = zz
+        q[SRZ, m, j, i] = rz
 
 
 @rowwise

@@ -25,14 +25,12 @@ from hydro2d.kernels.mixed_scratch import (
     ZBR,
     ZZ,
 )
-from hydro2d.materials.rows import CUTOFF_DENSITY, DAMAGE, DAMAGE_AT, FACTOR, STRENGTH, STRENGTH_AT, TENSILE
+from hydro2d.materials.rows import CUTOFF_DENSITY, DAMAGE_AT, FACTOR, STRENGTH, STRENGTH_AT
 from hydro2d.mesh.fields import DMG, EP, RHO, SRR, SRZ, SZZ
-from hydro2d.physics.fracture import damaged
-from hydro2d.physics.plasticity import carries_no_stress, deviator_power, from_centre, keep_internal, returned, take_internal
+from hydro2d.physics.plasticity import carries_no_stress, deviator_power, keep_internal, return_to_surface, take_internal
 from hydro2d.physics.stress import turn_and_strain, von_mises
 from hydro2d.physics.traction import along_normal
-from strength.dispatch import damage_increment, flow_stress, kinematic_modulus, shear_modulus, turn
-from strength.radial_return import plastic_increment
+from strength.dispatch import flow_stress, shear_modulus, turn
 
 #: mixed-cell strength by name, in the order of the integer that the kernels take
 STRENGTH_MODES = ("volume", "solid", "zero", "max", "material")
@@ -161,30 +159,12 @@ def return_deviators(j, i, dt, own, cell_yield, dominant, volume, total, models,
     """
     bodies = vof.shape[0]
     for m in range(bodies):
-        model, par = models[m, STRENGTH], materials[m, STRENGTH_AT:DAMAGE_AT]
-        if vof[m, j, i] == 0.0 or model == 0:
+        if vof[m, j, i] == 0.0 or models[m, STRENGTH] == 0:
             continue
-        rr, zz, rz, modulus = mix[j, TRIAL_RR, m], mix[j, TRIAL_ZZ, m], mix[j, TRIAL_RZ, m], mix[j, MODULUS, m]
-        rho, p_m, t_m = q[RHO, m, j, i], pm[m, j, i], tm[m, j, i]
-        take_internal(m, j, i, model, q, internal[j])
-        x_rr, x_zz, x_rz = from_centre(rr, zz, rz, model, internal[j])
-        trial = von_mises(x_rr, x_zz, x_rz)
-        stiffness = modulus + kinematic_modulus(model, par) / 3.0
-        dep, final = 0.0, trial
-        if own:
-            dep, final = plastic_increment(model, trial, q[EP, m, j, i], dt, t_m, p_m, rho, stiffness, materials[m, FACTOR],
-                                           par)
-        elif trial > cell_yield:
-            final = cell_yield
-            dep = (trial - final) / (3.0 * stiffness) if modulus > 0.0 else 0.0
-        if dep > 0.0:
-            rr, zz, rz = returned(x_rr, x_zz, x_rz, trial, dep, final, model, par, internal[j])
-            keep_internal(m, j, i, model, internal[j], q)
-            q[EP, m, j, i] += dep
-            damage_par = materials[m, DAMAGE_AT:TENSILE]
-            increment = damage_increment(models[m, DAMAGE], dep, dep / dt, t_m, p_m, final, damage_par)
-            q[DMG, m, j, i] = damaged(q[DMG, m, j, i], increment)
-        gone = carries_no_stress(q[DMG, m, j, i], rho, materials[m, CUTOFF_DENSITY])
+        rr, zz, rz, dep, final = return_to_surface(
+            m, j, i, dt, mix[j, TRIAL_RR, m], mix[j, TRIAL_ZZ, m], mix[j, TRIAL_RZ, m], mix[j, MODULUS, m], own, cell_yield,
+            models, materials, pm, tm, q, internal[j])
+        gone = carries_no_stress(q[DMG, m, j, i], q[RHO, m, j, i], materials[m, CUTOFF_DENSITY])
         q[SRR, m, j, i] = 0.0 if gone else rr
         q[SZZ, m, j, i] = 0.0 if gone else zz
         q[SRZ, m, j, i] = 0.0 if gone else rz

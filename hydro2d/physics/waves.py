@@ -9,16 +9,28 @@ CAUSES = ("sound", "radial velocity", "axial velocity", "volume change")
 
 
 @point
+def sound_step(courant, length, rho, cl, q):
+    """Time step in which sound, and a shock with the viscosity q (Pa), crosses a share `courant` of a length, s."""
+    return courant * length / sqrt(cl * cl + 2.0 * q / rho)
+
+
+@point
+def volume_step(loss):
+    """Time step in which a cell loses a fifth of its volume, s; loss : the rate, 1/s."""
+    return 0.2 / loss if loss > 0.0 else 1e300
+
+
+@point
 def step_limits(i, ub, ut, vb, vt, courant, advective, mesh_speed, dr, h, rho, cl, q, loss):
     """The four bounds of the time step in cell i, s, in the order of CAUSES (explanation/lagrangian-step).
 
     What crosses a cell along z does so relative to the mesh, which travels at mesh_speed (explanation/following-mesh).
     """
-    sound = courant * min(dr[i], h) / sqrt(cl * cl + 2.0 * q / rho)
+    sound = sound_step(courant, min(dr[i], h), rho, cl, q)
     radial = max(max(abs(ub[i]), abs(ub[i + 1])), max(abs(ut[i]), abs(ut[i + 1])))
     axial = max(max(abs(vb[i] - mesh_speed), abs(vb[i + 1] - mesh_speed)),
                 max(abs(vt[i] - mesh_speed), abs(vt[i + 1] - mesh_speed)))
-    return sound, advective * dr[i] / radial, advective * h / axial, 0.2 / loss if loss > 0.0 else 1e300
+    return sound, advective * dr[i] / radial, advective * h / axial, volume_step(loss)
 
 
 @point
