@@ -143,8 +143,9 @@ class Settled:
         line, pressure = np.zeros((10, *cells)), np.full(cells, -1e3)
         line[contact_geometry.SHARE] = found.hard
         listed = room_for_ties(slots, vertices)
-        settle(np.array([g.g, g.g + N]), 1e-3, friction, constrained, g.metrics, g.dz, np.tile([g.g, g.g + N], (cells[0], 1)), line,
-               found.count, found.nodes, found.first, found.normal, np.ones(vertices), *ties,
+        rows = np.array([g.g, g.g + N])
+        settle(rows, 1e-3, friction, constrained, g.metrics, g.dz, np.tile(rows, (cells[0], 1)), line, found.count,
+               found.nodes, found.first, found.normal, np.ones(vertices), *ties,
                pressure, pressure.copy(), np.zeros(cells), self.mass,
                before[0].copy(), before[1].copy(), w[0], w[1], *listed, np.full((10, slots, 2), np.nan),
                np.full((2 * slots * (MASTERS + 2), 2), np.nan), np.full((2, slots, 2), np.nan), np.full((3, slots), np.nan),

@@ -36,7 +36,7 @@ def bits(case: str, *parts: int) -> str:
     counted = jit.parts_at_once
     try:
         for cycle in range(CYCLES):
-            jit.parts_at_once = lambda number=parts[cycle % len(parts)]: number
+            jit.parts_at_once = functools.partial(int, parts[cycle % len(parts)])
             simulation.step()
             assert len(simulation.engine.rows) == parts[cycle % len(parts)] + 1
     finally:
@@ -117,8 +117,7 @@ class Turns:
         assert {len(each) for each in waits} == {barriers - 1}, "a part has not come to a barrier"
 
 
-ORDERS = {"upward": range, "downward": lambda number: range(number)[::-1],
-          "at random": lambda number, random=np.random.default_rng(0): random.permutation(number)}  # fmt: skip
+ORDERS = {"upward": range, "downward": lambda number: range(number)[::-1], "at random": np.random.default_rng(0).permutation}
 
 
 @pytest.mark.parametrize("case", DECKS)

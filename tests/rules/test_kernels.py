@@ -19,11 +19,9 @@ COMPILED = [
     for function in source.functions(source.tree(file), *MARKS)
 ]
 
-#: names of what a phase may call
-CALLED = {
-    function.name for file in sorted((source.ROOT / "hydro2d/kernels").glob("*.py"))
-    for function in source.functions(source.tree(file), "kernel", "serial")
-}
+#: names of what a phase may call: by all parts, and by one
+KERNELS, SERIAL = ({function.name for file in sorted((source.ROOT / "hydro2d/kernels").glob("*.py"))
+                    for function in source.functions(source.tree(file), mark)} for mark in ("kernel", "serial"))
 
 
 def name_of(case) -> str:
@@ -79,24 +77,32 @@ def faults_of_places(loop: ast.For) -> list[str]:
     return [fault for statement in rest for fault in faults_of_statement(statement)]
 
 
-def faults_of_statement(statement: ast.stmt) -> list[str]:
-    """What a statement of a phase is but the call of a kernel or of a serial function of this module or of another, the call
-    of `wait`, and an `if` around such; a serial function is called by one part alone."""
+def faults_of_statement(statement: ast.stmt, some: bool = False, one: bool = False) -> list[str]:
+    """What a statement of a phase is but the call of a kernel by all parts, that of a serial function by one, that of `wait` by
+    all, and an `if` around such.
+
+    some, one : whether it is for some parts only, and for the first part alone
+    """
     where = f"in line {statement.lineno}"
     if isinstance(statement, ast.If):
         found = [f"calls a function {where} to choose" for _ in calls_in(statement.test)]
-        return found + [fault for inner in (*statement.body, *statement.orelse) for fault in faults_of_statement(inner)]
+        some = some or any(getattr(node, "id", "") == "part" for node in ast.walk(statement.test))
+        first = one or ast.unparse(statement.test).split(" and ")[-1] == "part == 0"
+        return (found + [fault for inner in statement.body for fault in faults_of_statement(inner, some, first)]
+                + [fault for inner in statement.orelse for fault in faults_of_statement(inner, some, one)])
     if not (isinstance(statement, ast.Expr) and isinstance(statement.value, ast.Call)):
         return [f"does something other than to call {where}"]
     call = statement.value
-    name = ast.unparse(call.func)
+    name, arguments = ast.unparse(call.func), [ast.unparse(argument) for argument in call.args]
     if call.keywords or any(calls_in(argument) for argument in call.args):
         return [f"calls by keyword or within a call {where}"]
     if name == "wait":
-        return [] if ast.unparse(call) == "wait(gate, parts)" else [f"waits elsewhere {where}"]
-    if name.split(".")[-1] not in CALLED:
-        return [f"calls {name} {where}, which is neither a kernel nor serial"]
-    return []
+        return [f"waits elsewhere or not with all parts {where}"] if some or arguments != ["gate", "parts"] else []
+    if name.split(".")[-1] in KERNELS:
+        return [f"calls {name} for some parts or not for the part {where}"] if some or arguments.count("part") != 1 else []
+    if name.split(".")[-1] in SERIAL:
+        return [f"calls {name} {where} by more than one part"] if not one or "part" in arguments else []
+    return [f"calls {name} {where}, which is neither a kernel nor serial"]
 
 
 def faults_beside(loop: ast.For, function: ast.FunctionDef) -> list[str]:
@@ -179,8 +185,10 @@ def close(parts, n, u, v, gate):
         wait(gate, parts)
         if u.shape[0] > 1 and part == 0:
             contact_velocities.settle(parts, u, v)
-        elif n == 3:
+        if n == 3:
             wait(gate, parts)
+        elif part == 0:
+            contact_velocities.settle(parts, v, u)
 '''
 BAD = {
     "no docstring": ('    """Sets a."""\n', ""),
@@ -204,36 +212,47 @@ BAD_THREADED = {
     "what is called": ("@threaded", "@apart"),
     "a kernel": ("@threaded", "@kernel"),
 }
+#: a statement of the loop of GOOD_PHASE, with what follows it
+STATEMENT = "        wait(gate, parts)\n        if"
 BAD_PHASE = {
     "no prange": ("in prange", "in range"),
-    "two prange": ("        wait(gate, parts)\n        if", "        for j in prange(n):\n            wait(gate, parts)\n        if"),
+    "two prange": (STATEMENT, f"        for j in prange(n):\n    {STATEMENT}"),
     "another prange before": ("    low, high", "    for j in prange(n):\n        wait(gate, parts)\n    low, high"),
     "not outermost": ("    for place in prange", "    if n > 0:\n     for place in prange"),
     "not over the parts": ("parts.shape[0] - 1", "parts.shape[0]"),
     "over rows": ("for place in", "for row in"),
     "the number of the place": ("part = int64(place)", "part = place"),
-    "stores in an array": ("        wait(gate, parts)\n        if", "        u[0] = 1.0\n        if"),
-    "adds to an array": ("        wait(gate, parts)\n        if", "        u[0] += 1.0\n        if"),
+    "stores in an array": (STATEMENT, f"        u[0] = 1.0\n{STATEMENT}"),
+    "adds to an array": (STATEMENT, f"        u[0] += 1.0\n{STATEMENT}"),
     "stores before the loop": ("    low, high =", "    u[0], high ="),
     "calls before the loop": ("    low, high =", "    remap.tidy(0, parts, n, u, v)\n    low, high ="),
     "calls for a name": ("(u, v) if n == 1 else (v, u)", "remap.fade(u, v)"),
-    "names something": ("        wait(gate, parts)\n        if", "        low = u\n        if"),
+    "names something": (STATEMENT, f"        low = u\n{STATEMENT}"),
     "allocates": ("high[0])", "np.zeros(3))"),
-    "makes a loop": ("        wait(gate, parts)\n        if", "        for k in range(3):\n            wait(gate, parts)\n        if"),
+    "makes a loop": (STATEMENT, f"        for k in range(3):\n    {STATEMENT}"),
     "calls a point": ("remap.tidy(", "remap.fade("),
     "calls what numpy has": ("remap.tidy(", "np.copyto("),
     "calls within a call": ("n + 1", "max(n, 1)"),
     "calls by keyword": ("high[0])", "vof=high[0])"),
     "calls to choose": ("n == 3", "max(n, 3) == 3"),
-    "waits for others": ("wait(gate, parts)\n        if", "wait(gate, rows)\n        if"),
-    "stores in an attribute": ("        wait(gate, parts)\n        if", "        parts.last = 1\n        if"),
+    "a kernel for the first part": ("remap.tidy(part, parts", "remap.tidy(0, parts"),
+    "a kernel for some parts": ("contact_velocities.settle(parts, u, v)", "remap.tidy(part, parts, n, low, high)"),
+    "all parts call what is serial": (" and part == 0", ""),
+    "another part calls what is serial": ("elif part == 0", "elif part > 0"),
+    "others call what is serial": ("elif part == 0", "else"),
+    "waits for others": ("wait(gate, parts)\n        if u", "wait(gate, rows)\n        if u"),
+    "one part waits": ("contact_velocities.settle(parts, u, v)", "wait(gate, parts)"),
+    "the other parts wait": ("        if n == 3:", "        elif n == 3:"),
+    "some parts wait": ("if n == 3", "if part < n"),
+    "stores in an attribute": (STATEMENT, f"        parts.last = 1\n{STATEMENT}"),
     "stores in an attribute before": ("    low, high =", "    parts.last, high ="),
-    "another loop's else": ("            wait(gate, parts)\n", "            u[0] = 1.0\n"),
+    "stores where it chooses": ("            wait(gate, parts)\n", "            u[0] = 1.0\n"),
     "returns": ("            wait(gate, parts)\n", "            return\n"),
     "a kernel": ("@phase", "@kernel"),
 }
 WRONG = [pytest.param(good, *change, id=f"{what}: {name}")
-         for what, good, bad in (("kernel", GOOD, BAD), ("threaded", GOOD_THREADED, BAD_THREADED), ("phase", GOOD_PHASE, BAD_PHASE))
+         for what, good, bad in (
+             ("kernel", GOOD, BAD), ("threaded", GOOD_THREADED, BAD_THREADED), ("phase", GOOD_PHASE, BAD_PHASE))
          for name, change in bad.items()]
 
 
