@@ -10,7 +10,7 @@ from hydro2d.kernels.cut_cells import INTERFACE, KIND
 from hydro2d.mesh.fields import RHO, E
 from hydro2d.mesh.grid import FACE_R
 from hydro2d.physics.contact import GAP, face_flow_r, face_flow_z, largest_of, volume_rate
-from hydro2d.physics.interfaces import cumulative, share_in_strip, surface
+from hydro2d.physics.interfaces import cumulative, nested, share_in_strip, surface
 from hydro2d.physics.traction import smoothstep
 
 #: share of a cell that other bodies and void leave free from which it is in full no longer one body's, and has void
@@ -176,7 +176,7 @@ def strip_of(m, j, i, along_z, width, high, order, own_share, vof, dr, dz):
         if along_z:
             n_r, n_z, w, h = n_z, n_r, h, w
         filled = share_in_strip(n_r, n_z, w, h, weight, total, width, high)
-        filled = min(max(filled, max(below, width - (1.0 - total))), min(below + f, width))
+        filled = nested(filled, below, f, total, width)
         given = filled - below
         if order[k] == m:
             break

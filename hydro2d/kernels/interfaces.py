@@ -8,7 +8,7 @@ stated order bounds their cumulative fraction, void comes last.
 
 from hydro2d.jit import kernel, point, rowwise
 from hydro2d.kernels.column_ranges import columns, outer_rows, past_row
-from hydro2d.physics.interfaces import cumulative, share_in_strip, surface
+from hydro2d.physics.interfaces import cumulative, nested, share_in_strip, surface
 
 
 @rowwise
@@ -107,8 +107,8 @@ def interface_volumes_row(j, dj, di, dr, dz, order, mixed_count, mixed, f_face, 
                 n_r, n_z, w, h = n_z, n_r, h, w
             low = share_in_strip(n_r, n_z, w, h, weight, total, w_low, False) if w_low > 0.0 else 0.0
             high = share_in_strip(n_r, n_z, w, h, weight, total, w_high, True) if w_high > 0.0 else 0.0
-            low = min(max(low, max(below_low, w_low - (1.0 - total))), min(below_low + f, w_low))
-            high = min(max(high, max(below_high, w_high - (1.0 - total))), min(below_high + f, w_high))
+            low = nested(low, below_low, f, total, w_low)
+            high = nested(high, below_high, f, total, w_high)
             left[n] = low - below_low
             right[n] = high - below_high
             below_low = low

@@ -82,6 +82,16 @@ def line_centre(n1, n2, fraction):
 
 
 @point
+def nested(share, below, fraction, total, width):
+    """Share of a strip that the first bodies fill, kept within what there is; the bodies before fill ``below`` of it.
+
+    It holds no less than they do, no more than they and this body (``fraction`` of the cell), and leaves room in the strip of
+    ``width`` for no more than what is left of the cell beyond ``total``. All are shares of the cell.
+    """
+    return min(max(share, max(below, width - (1.0 - total))), min(below + fraction, width))
+
+
+@point
 def cumulative(j, i, last, order, vof):
     """Fraction of a cell filled by the first bodies of the order, up to and with position `last`."""
     total = 0.0
