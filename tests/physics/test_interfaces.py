@@ -649,3 +649,13 @@ def test_strips_do_not_jump_as_the_fractions_change(seed, first, second):
 def test_the_area_below_a_line_does_not_know_when_it_is_level(tilt):
     for alpha in (0.5e-8, 0.3, 1.0 - 0.5e-8):
         changes_in_proportion(lambda m1: area_below(abs(m1), 1.0 - abs(m1), alpha), tilt, 1.0)  # noqa: B023
+
+
+def test_nested_interfaces_keep_within_what_there_is():
+    """Below stand the bodies before, above what is left of the strip and of the cell."""
+    nested = interfaces.nested.py_func
+    assert nested(0.15, 0.1, 0.2, 0.5, 0.4) == 0.15  # nothing stands in its way
+    assert nested(0.05, 0.1, 0.2, 0.5, 0.4) == 0.1  # no less than the bodies before
+    assert nested(0.39, 0.1, 0.2, 0.5, 0.4) == pytest.approx(0.3)  # no more than they and this body
+    assert nested(0.45, 0.1, 0.9, 1.0, 0.4) == 0.4  # no more than the strip
+    assert nested(0.1, 0.1, 0.5, 0.9, 0.4) == pytest.approx(0.3)  # only a tenth of the cell is left for what comes after

@@ -151,3 +151,16 @@ def test_a_modulus_below_zero_by_round_off_is_none():
 def test_a_cell_with_void_has_a_longitudinal_impedance_alone():
     """Its bulk modulus is 0, which must not be taken for a solid that is all shear."""
     assert impedances_of(RHO, C_LONG, 0.0) == (pytest.approx(RHO * C_LONG), 0.0)
+
+
+def test_sound_and_a_shock_cross_a_length():
+    """The viscosity counts as twice its stress over the density: (3, 4, 5) in km/s."""
+    sound_step = waves.sound_step.py_func
+    assert sound_step(0.5, 1e-3, 8000.0, 5000.0, 0.0) == pytest.approx(1e-7)
+    assert sound_step(0.5, 1e-3, 8000.0, 3000.0, 0.5 * 8000.0 * 4000.0**2) == pytest.approx(1e-7)
+
+
+def test_a_cell_loses_no_more_than_a_fifth_of_its_volume():
+    volume_step = waves.volume_step.py_func
+    assert volume_step(1e6) == pytest.approx(2e-7)
+    assert volume_step(0.0) == volume_step(-1e6) == 1e300
