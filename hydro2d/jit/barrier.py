@@ -1,7 +1,7 @@
 """A barrier for the threads of one parallel loop: what lets one loop run a whole phase of the step.
 
 Starting a parallel loop costs two or three microseconds, a barrier a tenth of one. It is only for loops of which every turn has
-a thread of its own, all at the same time (`calls.threads_together` sees to that).
+a thread of its own, all at the same time (`calls.parts_at_once` sees to that).
 """
 
 from __future__ import annotations

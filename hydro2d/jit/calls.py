@@ -105,7 +105,7 @@ def plus(total, term):
 
 
 def kernel(function):
-    """Compiles loops over the rows of one part of the mesh: what threaded functions call, each thread with a part of its own.
+    """Compiles loops over the rows of one part of the mesh: what phases call, each thread with a part of its own.
 
     The compiler takes for granted that no two of its arrays overlap, as a test asserts of every call.
     """
@@ -167,7 +167,7 @@ def _all_meet(gate, number, rounds, met):
 def _threads_meet(number: int) -> bool:
     """Whether the turns of a parallel loop run at the same time on this number of threads, as a `phase` needs."""
     met = np.zeros(number, dtype=np.bool_)
-    _all_meet(np.zeros(GATE, dtype=np.int64), number, 100_000, met)
+    _all_meet(np.zeros(GATE, dtype=np.int64), number, 500, met)
     return bool(met.all())
 
 

@@ -6,6 +6,7 @@ What numba does not promise to keep is named in tests/unit/test_jit.py.
 from __future__ import annotations
 
 import functools
+import os
 from pathlib import Path
 
 import llvmlite.binding
@@ -16,6 +17,9 @@ from numba.core.options import TargetOptions
 from hydro2d.files import turn
 
 numba.config.THREADING_LAYER = "omp"
+
+# OpenMP must not give a loop fewer threads than it asks for: those of a phase wait for one another
+os.environ["OMP_DYNAMIC"] = "false"
 
 # rows are views into a dozen arrays: the loops are vectorised only if that many checks that they do not overlap are allowed
 llvmlite.binding.set_option("hydro2d", "-vectorize-memory-check-threshold=1024")

@@ -3,11 +3,12 @@
 
 from hydro2d.jit import kernel, rowwise
 from hydro2d.kernels.column_ranges import columns
+from hydro2d.kernels.plastic_return import flow, return_to_surface
 from hydro2d.materials.rows import CUTOFF_DENSITY, DAMAGE_AT, FACTOR, STRENGTH, STRENGTH_AT
 from hydro2d.mesh.fields import DMG, EP, LANES, RHO, SRR, SRZ, SZZ, E
 from hydro2d.mesh.grid import VOL_R
 from hydro2d.physics.kinematics import hourglass_mode, velocity_gradient
-from hydro2d.physics.plasticity import flow, keep_internal, return_to_surface, take_internal
+from hydro2d.physics.plasticity import keep_internal, take_internal
 from hydro2d.physics.stress import turn_and_strain, von_mises
 from strength.dispatch import WITH_INTERNAL, modulus_row, turn, yield_floor
 from strength.lanes import COLUMN, DENSITY, HEAT, INCREMENT, PRESSURE, STIFFNESS, STRAIN, STRESS, TRIAL, WIDTH

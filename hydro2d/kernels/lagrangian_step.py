@@ -114,14 +114,13 @@ def accelerate(parts, i0, i1, dt, metrics, dz, body_range, active_range, mixed_c
             contact_motion.contact_node_forces(
                 part, parts, dt, group, by_what_is_solid, metrics, dz, constrained, contact_node_count, contact_nodes,
                 aperture_r, aperture_z, ph, qr, solid, skin, vof, q, hg_coefficient, cell_mass, mass, u0, v0, u, v, transfer)
-            wait(gate, parts)
-            if part == 0:
+        wait(gate, parts)
+        if part == 0:
+            if mass.shape[0] > 1:
                 contact_velocities.settle(
                     parts, dt, friction, constrained, metrics, dz, contact_columns, line, contact_node_count, contact_nodes,
                     first_slot, contact_normal, touch, strength, masters, where, weights, sig_rr, sig_zz, sig_rz, mass, u0, v0,
                     u, v, nodes, starts, entries, portions, places, impulses, gain, taken, rubbing, heat, transfer)
-        wait(gate, parts)
-        if part == 0:
             boundaries.transmit_edges(parts, i0, i1, transmitting, constrained, dt, metrics, dz, rhobar, cl, bulk, mass, u0, v0,
                                       u, v, held_back)
         wait(gate, parts)

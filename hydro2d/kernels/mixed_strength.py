@@ -25,9 +25,10 @@ from hydro2d.kernels.mixed_scratch import (
     ZBR,
     ZZ,
 )
+from hydro2d.kernels.plastic_return import return_to_surface
 from hydro2d.materials.rows import CUTOFF_DENSITY, DAMAGE_AT, FACTOR, STRENGTH, STRENGTH_AT
 from hydro2d.mesh.fields import DMG, EP, RHO, SRR, SRZ, SZZ
-from hydro2d.physics.plasticity import carries_no_stress, deviator_power, keep_internal, return_to_surface, take_internal
+from hydro2d.physics.plasticity import carries_no_stress, deviator_power, keep_internal, take_internal
 from hydro2d.physics.stress import turn_and_strain, von_mises
 from hydro2d.physics.traction import along_normal
 from strength.dispatch import flow_stress, shear_modulus, turn

@@ -1,12 +1,8 @@
 """What deviators do, how they return to the yield surface, and when there are none."""
 
 from hydro2d.jit import point
-from hydro2d.materials.rows import DAMAGE, DAMAGE_AT, FACTOR, STRENGTH, STRENGTH_AT, TENSILE
-from hydro2d.mesh.fields import DMG, EP, INTERNAL, RHO
-from hydro2d.physics.fracture import damaged
-from hydro2d.physics.stress import von_mises
-from strength.dispatch import WITH_INTERNAL, back_stress, damage_increment, harden, kinematic_modulus
-from strength.radial_return import plastic_increment
+from hydro2d.mesh.fields import INTERNAL
+from strength.dispatch import WITH_INTERNAL, back_stress, harden, kinematic_modulus
 
 
 @point
@@ -61,43 +57,3 @@ def returned(rr, zz, rz, trial, dep, final, model, par, internal):
     share = (final + kinematic_modulus(model, par) * dep) / trial
     harden(model, dep, rr / trial, zz / trial, rz / trial, par, internal)
     return b_rr + share * rr, b_zz + share * zz, b_rz + share * rz
-
-
-@point
-def flow(m, j, i, dep, dt, final, models, materials, pm, tm, q):
-    """Adds the plastic strain ``dep`` of the step to body m in cell (j, i), at the flow stress ``final`` (Pa), and its damage.
-
-    Updates  q (plastic strain, damage) [k, m, j, i]
-    """
-    q[EP, m, j, i] += dep
-    increment = damage_increment(models[m, DAMAGE], dep, dep / dt, tm[m, j, i], pm[m, j, i], final,
-                                 materials[m, DAMAGE_AT:TENSILE])
-    q[DMG, m, j, i] = damaged(q[DMG, m, j, i], increment)
-
-
-@point
-def return_to_surface(m, j, i, dt, rr, zz, rz, modulus, own, cell_yield, models, materials, pm, tm, q, internal):
-    """(rr, zz, rz, dep, final): deviator of body m in cell (j, i) after its return, plastic strain, flow stress (Pa).
-
-    ``own``: to the body's own yield surface; else to the flow stress ``cell_yield`` of its cell (Pa). The arguments rr, zz and
-    rz are the elastic trial, ``modulus`` is its shear modulus, Pa (explanation/strength, equations 4 and 12).
-
-    Updates  q (plastic strain, damage, internal variables) [k, m, j, i];  scratch internal [k]
-    """
-    model, par = models[m, STRENGTH], materials[m, STRENGTH_AT:DAMAGE_AT]
-    take_internal(m, j, i, model, q, internal)
-    x_rr, x_zz, x_rz = from_centre(rr, zz, rz, model, internal)
-    trial = von_mises(x_rr, x_zz, x_rz)
-    stiffness = modulus + kinematic_modulus(model, par) / 3.0
-    dep, final = 0.0, trial
-    if own:
-        dep, final = plastic_increment(model, trial, q[EP, m, j, i], dt, tm[m, j, i], pm[m, j, i], q[RHO, m, j, i], stiffness,
-                                       materials[m, FACTOR], par)
-    elif trial > cell_yield:
-        final = cell_yield
-        dep = (trial - final) / (3.0 * stiffness) if modulus > 0.0 else 0.0
-    if dep != 0.0:
-        rr, zz, rz = returned(x_rr, x_zz, x_rz, trial, dep, final, model, par, internal)
-        keep_internal(m, j, i, model, internal, q)
-        flow(m, j, i, dep, dt, final, models, materials, pm, tm, q)
-    return rr, zz, rz, dep, final
