@@ -17,14 +17,14 @@ RECUT = 10
 MIXED, EMPTY = 20.0, 0.1
 
 
-def cut(costs: np.ndarray, number: int, first: int = 0) -> np.ndarray:
+def cut(costs: np.ndarray, number: int, first: int = 0, sums: np.ndarray | None = None) -> np.ndarray:
     """First row of each part and one past the last, int64[n + 1], with about equal sums of costs; n <= number, at least 1.
 
-    costs : float[rows], positive; overwritten by their sums;  first : number of the first row
+    costs : float[rows], positive;  first : number of the first row;  sums : float[rows], room for their sums, if there is any
     """
     rows = len(costs)
     number = max(min(number, rows // FEWEST), 1)
-    total = np.cumsum(costs, out=costs)
+    total = np.cumsum(costs, out=sums)
     bounds = np.zeros(number + 1, dtype=np.int64)
     bounds[1:-1] = np.searchsorted(total, total[-1] * np.arange(1, number) / number, side="right")
     bounds[-1] = rows
@@ -39,7 +39,7 @@ class Parts:
     def __init__(self, state):
         self.state = state
         self._parts, self._key, self._age = np.zeros(2, dtype=np.int64), None, 0
-        self._cost, self._mixed = np.zeros((2, len(state.mixed_count)))
+        self._cost, self._room = np.zeros((2, len(state.mixed_count)))
 
     def of(self, box: list[int]) -> np.ndarray:
         """First row of each part and one past the last row of the box [j0, j1, i0, i1], int64[n + 1]; asked once a cycle."""
@@ -47,14 +47,14 @@ class Parts:
         key = (threads, *box)
         self._age += 1
         if key != self._key or (threads > 1 and self._age >= RECUT):
-            self._parts, self._key, self._age = cut(self._costs(*box), threads, box[0]), key, 0
+            self._parts, self._key, self._age = cut(self._costs(*box), threads, box[0], self._room[box[0]:box[1]]), key, 0
         return self._parts
 
     def _costs(self, j0: int, j1: int, i0: int, i1: int) -> np.ndarray:
         """What a cycle costs in every row, in cells that are full of one body; in an array that is used again."""
-        s, cost, mixed = self.state, self._cost[j0:j1], self._mixed[j0:j1]
+        s, cost, room = self.state, self._cost[j0:j1], self._room[j0:j1]
         np.subtract(s.active_range[j0:j1, 1], s.active_range[j0:j1, 0], out=cost)
         np.maximum(cost, 0.0, out=cost)
-        cost += np.multiply(s.mixed_count[j0:j1], MIXED, out=mixed)
+        cost += np.multiply(s.mixed_count[j0:j1], MIXED, out=room)
         cost += EMPTY * (i1 - i0)
         return cost
