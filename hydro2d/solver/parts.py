@@ -13,20 +13,21 @@ from hydro2d import jit
 FEWEST = 4
 #: cycles between two cuts: what is dear moves by less than a cell in as many
 RECUT = 10
-#: what a mixed cell costs, in cells that are full of one body, and what a cell of a row costs that holds nothing
-MIXED, EMPTY = 20.0, 0.1
+#: what a cell costs that is full of one body, one that is mixed, and one that holds nothing
+FULL, MIXED, EMPTY = 10, 200, 1
 
 
 def cut(costs: np.ndarray, number: int, first: int = 0, sums: np.ndarray | None = None) -> np.ndarray:
     """First row of each part and one past the last, int64[n + 1], with about equal sums of costs; n <= number, at least 1.
 
-    costs : float[rows], positive;  first : number of the first row;  sums : float[rows], room for their sums, if there is any
+    costs : [rows], positive;  first : number of the first row;  sums : [rows], room for their sums, if there is any
     """
     rows = len(costs)
     number = max(min(number, rows // FEWEST), 1)
     total = np.cumsum(costs, out=sums)
     bounds = np.zeros(number + 1, dtype=np.int64)
-    bounds[1:-1] = np.searchsorted(total, total[-1] * np.arange(1, number) / number, side="right")
+    shares = (total[-1] * np.arange(1, number) / number).astype(total.dtype)
+    bounds[1:-1] = np.searchsorted(total, shares, side="right")
     bounds[-1] = rows
     for k in range(1, number):  # each part has rows enough, and leaves enough for those after it
         bounds[k] = min(max(bounds[k], bounds[k - 1] + FEWEST), rows - FEWEST * (number - k))
@@ -39,7 +40,7 @@ class Parts:
     def __init__(self, state):
         self.state = state
         self._parts, self._key, self._age = np.zeros(2, dtype=np.int64), None, 0
-        self._cost, self._room = np.zeros((2, len(state.mixed_count)))
+        self._cost, self._room = np.zeros((2, len(state.mixed_count)), dtype=np.int64)
 
     def of(self, box: list[int]) -> np.ndarray:
         """First row of each part and one past the last row of the box [j0, j1, i0, i1], int64[n + 1]; asked once a cycle."""
@@ -51,10 +52,11 @@ class Parts:
         return self._parts
 
     def _costs(self, j0: int, j1: int, i0: int, i1: int) -> np.ndarray:
-        """What a cycle costs in every row, in cells that are full of one body; in an array that is used again."""
+        """What a cycle costs in every row; in an array that is used again, since a cycle takes no memory by the mesh."""
         s, cost, room = self.state, self._cost[j0:j1], self._room[j0:j1]
         np.subtract(s.active_range[j0:j1, 1], s.active_range[j0:j1, 0], out=cost)
-        np.maximum(cost, 0.0, out=cost)
+        np.maximum(cost, 0, out=cost)
+        cost *= FULL
         cost += np.multiply(s.mixed_count[j0:j1], MIXED, out=room)
         cost += EMPTY * (i1 - i0)
         return cost

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from hydro2d import jit
-from hydro2d.solver.parts import EMPTY, FEWEST, MIXED, RECUT, Parts, cut
+from hydro2d.solver.parts import EMPTY, FEWEST, FULL, MIXED, RECUT, Parts, cut
 
 
 def shares(costs: np.ndarray, bounds: np.ndarray) -> np.ndarray:
@@ -65,7 +65,7 @@ def test_rows_cost_what_their_cells_do(active):
     assert parts.of([2, 62, 2, 52]).tolist() == [2, 32, 62]
     active.active_range[2:22] = 1 << 30, 0  # empty rows
     parts = Parts(active).of([2, 62, 2, 52])
-    costs = np.full(60, 50.0 * (1.0 + EMPTY))
+    costs = np.full(60, 50.0 * (FULL + EMPTY))
     costs[:20] = 50.0 * EMPTY
     assert np.abs(np.diff(shares(costs, parts - 2))) <= 2 * costs.max()
     assert parts[1] > 38
