@@ -40,7 +40,7 @@ def holders(directory):
         try:
             pid = int(lock.read_text().split()[1])
             os.kill(pid, 0)
-        except (FileNotFoundError, ProcessLookupError):
+        except (FileNotFoundError, ProcessLookupError, IndexError):  # gone, or not written yet
             continue
         found[lock.parent.name] = pid
     return found
