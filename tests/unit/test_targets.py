@@ -170,7 +170,7 @@ def test_a_restart_keeps_what_was_passed():
 
 
 def test_a_mirrored_shot_does_the_same(tmp_path, shot):
-    """Its exits differ by 3e-7: in cells with crumbs of a body round-off decides, by up to 250 m/s there and for a few cycles."""
+    """Its exits differ by 3e-7: round-off decides in cells with crumbs of a body, by up to 250 m/s there."""
     run(decks.loads(TEXT, [*BACK, "output.history_interval=1e-6"]), tmp_path / "run", quiet=True)
     found = Results(tmp_path / "run").summary["targets"]
     for name, one in shot.summary["targets"].items():
