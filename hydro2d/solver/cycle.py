@@ -117,7 +117,7 @@ class Cycle:
         s = self.state
         every = self.box
         self.box = list(self.mesh_box)
-        self.mesh.announce()
+        self.mesh.prepare()
         self._find_ranges()
         s.cell_mass[...], s.mass[...] = 0.0, 0.0
         remap.sum_cell_mass(0, self._one_part, s.group_ranges, s.group, self.grid.volume, s.vof, s.q, s.cell_mass)

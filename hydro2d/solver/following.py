@@ -31,8 +31,8 @@ class StandingMesh:
     velocity = 0.0
     leading = None
 
-    def announce(self) -> None:
-        """Tells the ranges of columns which bodies may enter."""
+    def prepare(self) -> None:
+        """Begins with the state as it is, at the start or after a restart."""
 
     def follow(self) -> None:
         """Chooses the velocity of the mesh for the step."""
@@ -108,7 +108,12 @@ class FollowingMesh:
         self._sums = np.zeros(2)
         self._placed: dict | None = None
 
-    def announce(self) -> None:
+    def prepare(self) -> None:
+        """Begins with the state as it is, at the start or after a restart: nothing is placed beyond the leading edge yet."""
+        self._placed = None
+        self._announce()
+
+    def _announce(self) -> None:
         """Gives bodies that may enter the whole of the ghost rows ahead as their range of columns."""
         s, g = self.state, self.grid
         coming = self.space.beyond(self._edge, self.direction)
@@ -155,7 +160,7 @@ class FollowingMesh:
     def move(self, dt: float) -> None:
         """Advances the mesh by w dt, and forgets bodies that are inside as a whole."""
         self.grid.move(self.grid.offset + self.velocity * dt)
-        self.announce()
+        self._announce()
 
     @property
     def _edge(self) -> float:

@@ -135,3 +135,16 @@ def test_impedances_of_an_elastic_cell():
     found = impedances.py_func(0, 0, rho, cl, bulk)
     assert found == pytest.approx((np.sqrt(2700.0 * (70e9 + 4 / 3 * shear)), np.sqrt(2700.0 * shear)))
     assert impedances.py_func(0, 0, rho, cl, np.zeros((1, 1)))[1] == 0.0
+
+
+def test_a_restart_places_anew_what_stands_ahead():
+    simulation = Simulation(decks.loads(TEXT, ['body.plate.thickness="12 mm"']))
+    simulation.step()
+    mesh, state = simulation.engine.mesh, simulation.state
+    stood = state.vof[:, mesh._ghost_rows].copy()
+    assert stood.any()
+    state.vof[:, mesh._ghost_rows] = 0.0
+    simulation.load_restart_arrays(simulation.restart_arrays())
+    simulation.load_restart_scalars(simulation.restart_scalars())
+    mesh.fill_ghosts(simulation.engine.dt)
+    np.testing.assert_array_equal(state.vof[:, mesh._ghost_rows], stood)
