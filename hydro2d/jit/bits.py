@@ -1,6 +1,6 @@
 """The bits of a float64 as an int64, and back: what `elementary` takes exponents apart with.
 
-It is the one place where LLVM's own instructions are written. Python cannot call the two functions; compiled code can.
+Like `barrier`, it writes LLVM's own instructions. Python cannot call the two functions; compiled code can.
 """
 
 from __future__ import annotations

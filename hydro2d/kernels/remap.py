@@ -7,7 +7,7 @@ still in the processor's cache (explanation/remap, parts of the rows).
 
 from math import inf
 
-from hydro2d.jit import kernel, point, rowwise, serial
+from hydro2d.jit import kernel, point, rowwise
 from hydro2d.kernels.column_ranges import columns, mixed_row, outer_rows
 from hydro2d.kernels.interfaces import flux_range
 from hydro2d.mesh.fields import DMG, LEAST, MOST, PER_MASS, RHO, SRR, SRZ, E
@@ -303,27 +303,6 @@ def sweep_z(part, parts, i0, i1, carried, rules, group, mesh_box, body_ranges, g
             above = slot_of(j + 1, part, parts)
             sweep_row(1, 0, j, i0, i1, below, above, part, carried, rules, group, body_ranges, group_ranges, face, pre, volume,
                       second, flux_volume, flux, scratch, vof, q, cell_mass, mixed_count, mixed)
-
-
-@serial
-def sum_outflow(di, parts, i0, i1, edge_flux, outflow):
-    """What went through either edge of a sweep, out and in.
-
-    Reads    edge_flux [side, k, m, j or i], towards higher r or z
-    Writes   outflow [side, way, 1 + m]: energy, and mass of every body; way 0 out, 1 in
-    """
-    j0, j1 = outer_rows(parts)
-    first, last = (j0, j1) if di == 1 else (i0, i1)
-    for side in range(2):
-        for k in range(outflow.shape[2]):
-            outflow[side, 0, k], outflow[side, 1, k] = 0.0, 0.0
-        for m in range(edge_flux.shape[2]):
-            for place in range(first, last):
-                mass = edge_flux[side, 0, m, place] if side == 1 else -edge_flux[side, 0, m, place]
-                if mass != 0.0:
-                    way = 0 if mass > 0.0 else 1
-                    outflow[side, way, 1 + m] += mass
-                    outflow[side, way, 0] += edge_flux[side, 1, m, place] if side == 1 else -edge_flux[side, 1, m, place]
 
 
 #: shares of a cell that are round-off

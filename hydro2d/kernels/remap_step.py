@@ -12,6 +12,7 @@ from hydro2d.kernels import (
     column_ranges,
     contact_motion,
     contact_volumes,
+    edge_sums,
     interfaces,
     momentum,
     remap,
@@ -62,7 +63,7 @@ def carry_bodies(parts, i0, i1, dj, di, second, leading, fr, own_r, fz, own_z, q
                           mixed_columns)
         wait(gate, parts)
         if part == 0:
-            remap.sum_outflow(di, parts, i0, i1, edge_flux, outflow)
+            edge_sums.sum_outflow(di, parts, i0, i1, edge_flux, outflow)
 
 
 @phase
@@ -91,7 +92,7 @@ def carry_momentum(parts, i0, i1, dj, di, second, opens_low, opens_high, mesh_bo
                    vof, q, cell_mass, removed)
         wait(gate, parts)
         if part == 0:
-            momentum.sum_kinetic_outflow(di, parts, i0, i1, edge_dual, kinetic_outflow)
+            edge_sums.sum_kinetic_outflow(di, parts, i0, i1, edge_dual, kinetic_outflow)
         # by the ranges before: where nothing is left there is no mass either
         acceleration.vertex_masses(part, parts, i0, i1 + 1, metrics, group_ranges, cell_mass, mass)
         column_ranges.find_body_ranges(part, parts, i0, i1, False, group, vof, body_ranges, occupied)

@@ -13,6 +13,8 @@ from math import inf
 
 import numpy as np
 
+from hydro2d.jit import GATE
+
 RHO, E, SRR, SZZ, SRZ, EP, DMG = range(7)
 
 #: how many of the body fields a body carries: without strength, with strength, with strength and damage; with internal
@@ -162,7 +164,7 @@ WORK = (
     Work("removed", "4+m J", "what the tidying of a row removes: energies, momentum, void, mass of every body"),
     Work("walls", "2 J", "axial momentum and energy that edges with a given velocity take in a row"),
     Work("held_back", "2", "axial momentum and energy that the transmitting edges take"),
-    Work("gate", "32", "where the threads of a phase wait for one another", int),
+    Work("gate", f"{GATE}", "where the threads of a phase wait for one another", int),
     Work("row_moving", "J 2", "columns of the moving vertices of a row", int),
     Work("moving", "4", "rows and columns of all moving vertices", int),
 )

@@ -9,32 +9,8 @@ from hydro2d.running.compile_ahead import calls_of_a_cycle
 from hydro2d.solver.arguments import OF_THE_CALL, Arguments, names
 from hydro2d.solver.contact import slots
 from hydro2d.solver.simulation import Simulation
+from tests.regression.test_bitwise import CONTACT, FOLLOWING, SHOT
 
-DECK = """
-[mesh]
-r = [{ to = "4 mm", cells = 8 }]
-z_start = "-8 mm"
-z = [{ to = "8 mm", cells = 32 }]
-[[body]]
-name = "rod"
-material = "W_alloy"
-shape = "rod"
-nose = "flat"
-radius = "1.3 mm"
-length = "5 mm"
-tip = "-0.2 mm"
-velocity = "1200 m/s"
-[[body]]
-name = "plate"
-material = "Al7039"
-shape = "plate"
-z_front = 0.0
-thickness = "6 mm"
-[stop]
-time = "1 us"
-"""
-CONTACT = 'sliding.method="contact"', 'sliding.hard=["rod"]'
-FOLLOWING = 'mesh.follow="rod"', 'boundaries.z_max="transmit"'
 INTERNAL = ('materials.hardening={based_on="Al7039", strength={model="kinematic-hardening", shear_modulus="27.6 GPa", '
             'yield_stress="0.3 GPa", hardening_modulus="2 GPa", isotropic_share=0.5}}', "body.plate.material=hardening")
 DECKS = {
@@ -55,7 +31,7 @@ every_deck = pytest.mark.parametrize("options", DECKS.values(), ids=DECKS)
 
 
 def started(options) -> Simulation:
-    return Simulation(deck.loads(DECK, options))
+    return Simulation(deck.loads(SHOT, options))
 
 
 def given(engine, phase) -> dict:
@@ -88,7 +64,7 @@ def test_one_compiled_phase_serves_all_decks():
     """What is written down for compilation ahead of time has one tuple of types for each phase, whatever the deck."""
     types: dict[str, set] = {name: set() for name in PHASES}
     for options in DECKS.values():
-        for call in calls_of_a_cycle(deck.loads(DECK, options)):
+        for call in calls_of_a_cycle(deck.loads(SHOT, options)):
             name = call.name.split(".")[-1]
             if call.compiled is getattr(PHASES.get(name), "compiled", None):
                 types[name].add(call.types)

@@ -1,0 +1,47 @@
+"""What goes through the edges of the mesh in a sweep, summed along each edge for the audit."""
+
+from hydro2d.jit import serial
+from hydro2d.kernels.column_ranges import outer_rows
+
+
+@serial
+def sum_outflow(di, parts, i0, i1, edge_flux, outflow):
+    """What went through either edge of a sweep, out and in.
+
+    Reads    edge_flux [side, k, m, j or i], towards higher r or z
+    Writes   outflow [side, way, 1 + m]: energy, and mass of every body; way 0 out, 1 in
+    """
+    j0, j1 = outer_rows(parts)
+    first, last = (j0, j1) if di == 1 else (i0, i1)
+    for side in range(2):
+        for k in range(outflow.shape[2]):
+            outflow[side, 0, k], outflow[side, 1, k] = 0.0, 0.0
+        for m in range(edge_flux.shape[2]):
+            for place in range(first, last):
+                mass = edge_flux[side, 0, m, place] if side == 1 else -edge_flux[side, 0, m, place]
+                if mass != 0.0:
+                    way = 0 if mass > 0.0 else 1
+                    outflow[side, way, 1 + m] += mass
+                    outflow[side, way, 0] += edge_flux[side, 1, m, place] if side == 1 else -edge_flux[side, 1, m, place]
+
+
+@serial
+def sum_kinetic_outflow(di, parts, i0, i1, edge_dual, outflow):
+    """Momentum and kinetic energy that went through either edge of a sweep, out and in.
+
+    Reads    edge_dual [b, side, k, j or i], towards higher r or z
+    Writes   outflow [side, way, 2]: axial momentum and kinetic energy; way 0 out, 1 in
+    """
+    j0, j1 = outer_rows(parts)
+    first, last = (j0, j1 + 1) if di == 1 else (i0, i1 + 1)
+    for side in range(2):
+        sign = 1.0 if side == 1 else -1.0
+        for way in range(2):
+            outflow[side, way, 0], outflow[side, way, 1] = 0.0, 0.0
+        for g in range(edge_dual.shape[0]):
+            for place in range(first, last):
+                mass = sign * edge_dual[g, side, 0, place]
+                if mass != 0.0:
+                    way = 0 if mass > 0.0 else 1
+                    outflow[side, way, 0] += sign * edge_dual[g, side, 2, place]
+                    outflow[side, way, 1] += sign * (edge_dual[g, side, 3, place] + edge_dual[g, side, 4, place])
