@@ -13,8 +13,6 @@ from math import inf
 
 import numpy as np
 
-from hydro2d.jit import GATE
-
 RHO, E, SRR, SZZ, SRZ, EP, DMG = range(7)
 
 #: how many of the body fields a body carries: without strength, with strength, with strength and damage; with internal
@@ -116,7 +114,8 @@ class Work:
     """An array in which the kernels of a cycle leave something for one another.
 
     ``axes`` are letters for the lengths of its axes: m bodies, b body groups, j and i cells with ghosts, J and I vertices, k
-    rows of State.q, n internal variables, B parts of the rows, L vertices along the longer direction; 6B is six for every part.
+    rows of State.q, n internal variables, B parts of the rows, L vertices along the longer direction, G words of a gate; 6B is
+    six for every part.
     """
 
     symbol: str
@@ -164,7 +163,7 @@ WORK = (
     Work("removed", "4+m J", "what the tidying of a row removes: energies, momentum, void, mass of every body"),
     Work("walls", "2 J", "axial momentum and energy that edges with a given velocity take in a row"),
     Work("held_back", "2", "axial momentum and energy that the transmitting edges take"),
-    Work("gate", f"{GATE}", "where the threads of a phase wait for one another", int),
+    Work("gate", "G", "where the threads of a phase wait for one another", int),
     Work("row_moving", "J 2", "columns of the moving vertices of a row", int),
     Work("moving", "4", "rows and columns of all moving vertices", int),
 )

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from hydro2d.jit import max_threads
+from hydro2d.jit import GATE, max_threads
 from hydro2d.mesh import fields
 from hydro2d.mesh.grid import Grid
 
@@ -19,13 +19,13 @@ EMPTY = (1 << 30, 0)
 def _lengths(nj: int, ni: int, bodies: int, groups: int, rows: int) -> dict[str, int]:
     """What the letters of `fields.Work.axes` stand for."""
     return {"m": bodies, "b": groups, "j": nj, "i": ni, "J": nj + 1, "I": ni + 1, "k": rows, "n": rows - fields.INTERNAL,
-            "B": max_threads(), "L": max(nj, ni) + 1}
+            "B": max_threads(), "L": max(nj, ni) + 1, "G": GATE}
 
 
 def _shape(axes: str, lengths: dict[str, int]) -> list[int]:
     """The shape of an array with axes as in `fields.Work`."""
     def length(part: str) -> int:
-        number = part.rstrip("mbjiJIknBL")
+        number = part.rstrip("mbjiJIknBLG")
         return int(number or 1) * lengths.get(part[len(number):], 1)
 
     return [sum(length(part) for part in axis.split("+")) for axis in axes.split()]

@@ -12,8 +12,8 @@ from hydro2d import jit
 from hydro2d.deck import deck
 from hydro2d.jit import GATE, prange, threaded, wait
 from hydro2d.solver.simulation import Simulation
+from tests.regression.test_bitwise import SHOT
 from tests.rules.source import ROOT
-from tests.unit.test_arguments import DECK
 
 #: how often threads meet
 TIMES = 500
@@ -62,7 +62,7 @@ def parts_and_bits(cycles: int = 12) -> tuple[int, int, str, float]:
     start = time.perf_counter()
     jit.parts_at_once()
     waited = time.perf_counter() - start
-    simulation = Simulation(deck.loads(DECK, ["numerics.active_region=false"]))
+    simulation = Simulation(deck.loads(SHOT, ["numerics.active_region=false"]))
     for _ in range(cycles):
         simulation.step()
     inside = simulation.grid.interior(simulation.state.q)
