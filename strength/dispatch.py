@@ -19,6 +19,8 @@ CONSTANT_MODULUS = tuple(module.ID for module in STRENGTH_MODULES if module.CONS
 THERMAL = tuple(module.ID for module in STRENGTH_MODULES if module.THERMAL)
 #: ids of the models that have internal variables
 WITH_INTERNAL = tuple(module.ID for module in STRENGTH_MODULES if hasattr(module, "INTERNAL"))
+#: ids of the models whose flow stress falls with damage, down to a strength that crushed material keeps
+WEAKENS = tuple(module.ID for module in STRENGTH_MODULES if hasattr(module, "weakened"))
 DAMAGE_THERMAL = tuple(module.ID for module in DAMAGE_MODULES if module.THERMAL)
 
 shear_modulus = by_id(
@@ -33,6 +35,11 @@ flow_row = rows_by_id(
     STRENGTH_MODULES, "flow_stress", "flow_row", "number, par, lanes", "k in range(number)",
     ", ".join([*(f"lanes[{row} + k]" for row in (HARDENED, RATE, HEAT, PRESSURE, DENSITY)), "par"]), f"lanes[{FLOW} + k]",
     "Flow stresses of the first number cells in lanes (strength/lanes.py), Pa, at HARDENED and RATE.")
+
+weakened = by_id(
+    STRENGTH_MODULES, "weakened", registry.STRENGTH_FUNCTIONS["weakened"][0],
+    "Flow stress of a strength model, Pa, of damaged material: from that of intact material, rate (1/s), p (Pa) and damage.",
+    "flow")
 
 yield_floor = by_id(
     STRENGTH_MODULES, "yield_floor", registry.STRENGTH_FUNCTIONS["yield_floor"][0],

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 
 from hydro2d.jit import exp, log, point, rowwise
-from strength.dispatch import flow_row, flow_stress
+from strength.dispatch import flow_row, flow_stress, weakened
 from strength.lanes import (
     BEFORE,
     FLOW,
@@ -88,12 +88,12 @@ def next_trial(first, seq, stiffness, x, u, Y, low, high, u_before, Y_before, be
 
 
 @point
-def plastic_increment(model, seq, ep, dt, T, p, rho, G, factor, par):
+def plastic_increment(model, seq, ep, dt, T, p, rho, G, factor, par, damage=0.0):
     """(dep, Y): increment of plastic strain over ``dt``, and the flow stress it ends on, Pa.
 
     ``seq`` von Mises stress of the elastic trial, ``ep`` plastic strain, ``T``, ``p`` and ``rho`` temperature, pressure
     and density, ``G`` shear modulus, ``factor`` multiplies every flow stress, ``par`` row of the strength model
-    ``model``.
+    ``model``, ``damage`` what weakens it, if it is a model that damage weakens.
 
     Where seq <= Y(ep, rate 0) the step is elastic and Y that flow stress. Otherwise x = dep >= 0 solves
     (explanation/strength, (4))
@@ -106,13 +106,14 @@ def plastic_increment(model, seq, ep, dt, T, p, rho, G, factor, par):
     if not G > 0.0:
         return 0.0, 0.0
     stiffness, per_dt, log_dt = 3.0 * G, 1.0 / dt, log(dt)
-    Y_before = factor * flow_stress(model, ep, 0.0, T, p, rho, par)
+    Y_before = factor * weakened(model, flow_stress(model, ep, 0.0, T, p, rho, par), 0.0, p, damage, par)
     plastic, x, u, high = first_trial(seq, stiffness, Y_before)
     if not plastic:
         return 0.0, Y_before
     low, u_before, before, first = high - _SPAN, u, math.inf, True
     for _ in range(_ITERATIONS):
-        Y = factor * flow_stress(model, ep + x, x * per_dt, T, p, rho, par)
+        intact = flow_stress(model, ep + x, x * per_dt, T, p, rho, par)
+        Y = factor * weakened(model, intact, x * per_dt, p, damage, par)
         ended, dep, stress, trial, low, high, before = next_trial(
             first, seq, stiffness, x, u, Y, low, high, u_before, Y_before, before, log_dt)
         if ended:

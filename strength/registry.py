@@ -11,8 +11,8 @@ from hydro2d.jit import modules
 
 STRENGTH_MODULES = modules(
     "strength", "hydrodynamic", "elastic_plastic", "johnson_cook", "steinberg_guinan", "power_law",
-    "kinematic_hardening", "zerilli_armstrong")
-DAMAGE_MODULES = modules("strength", "no_damage", "johnson_cook_damage")
+    "kinematic_hardening", "zerilli_armstrong", "johnson_holmquist")
+DAMAGE_MODULES = modules("strength", "no_damage", "johnson_cook_damage", "johnson_holmquist_damage")
 STRENGTH_MODELS = {module.NAME: module for module in STRENGTH_MODULES}
 DAMAGE_MODELS = {module.NAME: module for module in DAMAGE_MODULES}
 
@@ -20,6 +20,7 @@ DAMAGE_MODELS = {module.NAME: module for module in DAMAGE_MODULES}
 STRENGTH_FUNCTIONS = {
     "shear_modulus": ("p, rho, T, par", 1),
     "flow_stress": ("ep, rate, T, p, rho, par", 1),
+    "weakened": ("flow, rate, p, damage, par", 1),
     "yield_floor": ("par", 1),
     "turn": ("spin, internal", 0),
     "back_stress": ("internal", 3),

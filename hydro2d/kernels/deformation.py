@@ -10,7 +10,7 @@ from hydro2d.mesh.grid import VOL_R
 from hydro2d.physics.kinematics import hourglass_mode, velocity_gradient
 from hydro2d.physics.plasticity import keep_internal, take_internal
 from hydro2d.physics.stress import turn_and_strain, von_mises
-from strength.dispatch import WITH_INTERNAL, modulus_row, turn, yield_floor
+from strength.dispatch import WEAKENS, WITH_INTERNAL, modulus_row, turn, yield_floor
 from strength.lanes import COLUMN, DENSITY, HEAT, INCREMENT, PRESSURE, STIFFNESS, STRAIN, STRESS, TRIAL, WIDTH
 from strength.radial_return import return_together
 
@@ -137,7 +137,7 @@ def yield_row(m, j, b, first, n, dt, models, materials, pm, tm, scratch, q, lane
 
 @rowwise
 def internal_row(m, j, b, first, n, dt, models, materials, vof, pm, tm, scratch, q, internal):
-    """The same for a model with internal variables, which turn with the material and harden.
+    """The same, cell by cell, for a model that damage weakens or that has internal variables, which turn and harden.
 
     Reads    vof, pm, tm [m, j, i]; scratch [0 to 2, b, i], shear modulus, trial stress and spin
     Updates  q (deviators, plastic strain, damage, internal variables) [k, m, j, i]; scratch internal [j, k]
@@ -211,7 +211,7 @@ def deform(part, parts, dt, metrics, dz, body_range, group, models, materials, u
             modulus_row(model, par, first, n, pm[m, j], q[RHO, m, j], tm[m, j], scratch[0, part])
             strain_row(m, j, part, group[m], first, n, dt, metrics, h, materials[m, CUTOFF_DENSITY], u0, v0, u, v, sig_rr,
                        sig_zz, sig_tt, sig_rz, hg_coefficient, vof, scratch, q)
-            if model in WITH_INTERNAL:
+            if model in WITH_INTERNAL or model in WEAKENS:
                 internal_row(m, j, part, first, n, dt, models, materials, vof, pm, tm, scratch, q, internal)
             elif model > 0:
                 yield_row(m, j, part, first, n, dt, models, materials, pm, tm, scratch, q, lanes)

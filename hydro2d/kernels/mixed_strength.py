@@ -31,7 +31,7 @@ from hydro2d.mesh.fields import DMG, EP, RHO, SRR, SRZ, SZZ
 from hydro2d.physics.plasticity import carries_no_stress, deviator_power, keep_internal, take_internal
 from hydro2d.physics.stress import turn_and_strain, von_mises
 from hydro2d.physics.traction import along_normal
-from strength.dispatch import flow_stress, shear_modulus, turn
+from strength.dispatch import flow_stress, shear_modulus, turn, weakened
 
 #: mixed-cell strength by name, in the order of the integer that the kernels take
 STRENGTH_MODES = ("volume", "solid", "zero", "max", "material")
@@ -116,7 +116,7 @@ def strain_deviators(j, i, rate, mode, total, skin, group, models, materials, pm
         mix[j, ALONG, m] = along_normal(n_r, n_z, rr, zz, rz) * inverse
         if not carries_no_stress(q[DMG, m, j, i], rho, materials[m, CUTOFF_DENSITY]):
             flow = flow_stress(model, q[EP, m, j, i], 0.0, tm[m, j, i], pm[m, j, i], rho, par)
-            mix[j, YIELD, m] = materials[m, FACTOR] * flow
+            mix[j, YIELD, m] = materials[m, FACTOR] * weakened(model, flow, 0.0, pm[m, j, i], q[DMG, m, j, i], par)
         cell_yield += f * mix[j, YIELD, m]
         largest_yield = max(largest_yield, mix[j, YIELD, m])
     if mode == ZERO:

@@ -3,10 +3,10 @@
 from hydro2d.jit import point
 from hydro2d.materials.rows import DAMAGE, DAMAGE_AT, FACTOR, STRENGTH, STRENGTH_AT, TENSILE
 from hydro2d.mesh.fields import DMG, EP, RHO
-from hydro2d.physics.fracture import damaged
+from hydro2d.physics.fracture import crushed, damaged
 from hydro2d.physics.plasticity import from_centre, keep_internal, returned, take_internal
 from hydro2d.physics.stress import von_mises
-from strength.dispatch import damage_increment, kinematic_modulus
+from strength.dispatch import WEAKENS, damage_increment, flow_stress, kinematic_modulus, weakened
 from strength.radial_return import plastic_increment
 
 
@@ -19,7 +19,28 @@ def flow(m, j, i, dep, dt, final, models, materials, pm, tm, q):
     q[EP, m, j, i] += dep
     increment = damage_increment(models[m, DAMAGE], dep, dep / dt, tm[m, j, i], pm[m, j, i], final,
                                  materials[m, DAMAGE_AT:TENSILE])
-    q[DMG, m, j, i] = damaged(q[DMG, m, j, i], increment)
+    if models[m, STRENGTH] in WEAKENS:
+        q[DMG, m, j, i] = crushed(q[DMG, m, j, i], increment)
+    else:
+        q[DMG, m, j, i] = damaged(q[DMG, m, j, i], increment)
+
+
+@point
+def weaken(m, j, i, dep, dt, final, stiffness, models, materials, pm, tm, q):
+    """(dep, final) of `plastic_increment` for body m in cell (j, i), once the damage of the step has weakened it as well.
+
+    The stress falls to the flow stress at the damage that the strain ``dep`` makes: what is lost in elastic energy is lost in
+    the step in which damage grows (explanation/strength, equation 15).
+
+    Updates  q (plastic strain, damage) [k, m, j, i]
+    """
+    model, par = models[m, STRENGTH], materials[m, STRENGTH_AT:DAMAGE_AT]
+    flow(m, j, i, dep, dt, final, models, materials, pm, tm, q)
+    intact = flow_stress(model, q[EP, m, j, i], dep / dt, tm[m, j, i], pm[m, j, i], q[RHO, m, j, i], par)
+    weak = materials[m, FACTOR] * weakened(model, intact, dep / dt, pm[m, j, i], q[DMG, m, j, i], par)
+    further = max(final - weak, 0.0) / (3.0 * stiffness)
+    q[EP, m, j, i] += further
+    return dep + further, min(final, weak)
 
 
 @point
@@ -39,11 +60,15 @@ def return_to_surface(m, j, i, dt, rr, zz, rz, modulus, own, cell_yield, models,
     dep, final = 0.0, trial
     if own:
         dep, final = plastic_increment(model, trial, q[EP, m, j, i], dt, tm[m, j, i], pm[m, j, i], q[RHO, m, j, i], stiffness,
-                                       materials[m, FACTOR], par)
+                                       materials[m, FACTOR], par, q[DMG, m, j, i])
     elif trial > cell_yield:
         final = cell_yield
         dep = (trial - final) / (3.0 * stiffness) if modulus > 0.0 else 0.0
-    if dep != 0.0:
+    if dep != 0.0 and own and model in WEAKENS:
+        dep, final = weaken(m, j, i, dep, dt, final, stiffness, models, materials, pm, tm, q)
+        rr, zz, rz = returned(x_rr, x_zz, x_rz, trial, dep, final, model, par, internal)
+        keep_internal(m, j, i, model, internal, q)
+    elif dep != 0.0:
         rr, zz, rz = returned(x_rr, x_zz, x_rz, trial, dep, final, model, par, internal)
         keep_internal(m, j, i, model, internal, q)
         flow(m, j, i, dep, dt, final, models, materials, pm, tm, q)

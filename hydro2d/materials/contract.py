@@ -299,6 +299,25 @@ def yield_floor(case: Case) -> str | None:
     return None
 
 
+def weakening(case: Case) -> str | None:
+    """damage weakens, and undamaged material has its flow stress to the last bit; compiled with the others, it is the same"""
+    if not hasattr(case.module, "weakened"):
+        return "the model has no weakened"
+    from strength import dispatch
+
+    par, shares = case.row, np.linspace(0.0, 1.0, 11)
+    for rate, (p, rho, T) in itertools.product((0.0, 1e5), states().T):
+        intact = case.module.flow_stress(0.1, rate, T, p, rho, par)
+        found = [case.module.weakened(intact, rate, p, damage, par) for damage in shares]
+        at = f"at rate {rate:g} 1/s and p = {p:g} Pa"
+        require(found[0] == intact, f"{at} the flow stress without damage is {found[0]:g} Pa, not {intact:g}")
+        in_order(-np.diff(found), shares, "damage", f"flow stress rises {at}")
+        require(found[-1] >= 0.0, f"{at} the flow stress of crushed material is {found[-1]:g} Pa")
+        through = dispatch.weakened(case.module.ID, intact, rate, p, 0.5, par)
+        require(through == found[5], f"{at} the flow stress is {found[5]:g} Pa, and {through:g} by its ID")
+    return None
+
+
 def constant_yield(case: Case) -> str | None:
     """with a constant yield stress the model is elastic-plastic to the last bit, including the return to the yield surface"""
     if case.constant is None:
@@ -373,7 +392,7 @@ def damage(case: Case) -> None:
 _ALL = (row, wrong_parameters, ranges)
 CHECKS: dict[str, tuple[Callable[[Case], str | None], ...]] = {
     "eos": (*_ALL, eos_is_chosen, derivatives, sound_speed, rest, finite, pressure_rises, temperature),
-    "strength": (*_ALL, strength_is_chosen, moduli, virgin, monotone, melt, yield_floor, constant_yield,
+    "strength": (*_ALL, strength_is_chosen, moduli, virgin, monotone, melt, yield_floor, weakening, constant_yield,
                  internal_variables),
     "damage": (*_ALL, damage),
 }

@@ -22,6 +22,8 @@ CARRIED_FLUID, CARRIED_SOLID, CARRIED_DAMAGE = 2, 6, 7
 #: what is stored as the damage of failed material: as far beyond 1 as sound material is below it, so that a cell in which the
 #: remap has mixed both counts as failed, which is from 1 on, where about half of its mass has
 FAILED = 2.0
+#: damage of crushed material, which keeps a strength under pressure: just below that of failed material
+CRUSHED = 1.0 - 1e-9
 
 #: cells whose return to the yield surface is solved together, and how many numbers each has there (strength/lanes.py)
 LANES, LANE_ROWS = 32, 17

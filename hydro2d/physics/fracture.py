@@ -1,7 +1,7 @@
 """Where material fractures, and how much void is inserted (explanation/fracture)."""
 
 from hydro2d.jit import point
-from hydro2d.mesh.fields import FAILED
+from hydro2d.mesh.fields import CRUSHED, FAILED
 
 
 @point
@@ -10,6 +10,12 @@ def damaged(before, increment):
     if before >= 1.0:
         return before
     return before + increment if before + increment < 1.0 else FAILED
+
+
+@point
+def crushed(before, increment):
+    """Damage after an increment of plastic strain, of material that keeps a strength: `CRUSHED` at most, never failed."""
+    return min(before + increment, CRUSHED)
 
 
 @point

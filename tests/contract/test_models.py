@@ -68,6 +68,10 @@ STRENGTH_CASES = {
         "shear_modulus": G, "athermal_stress": 65e6, "thermal_stress": 1033e6, "thermal_softening": 6.98e-3,
         "rate_hardening": 4.15e-4, "hardening": 266e6, "hardening_exponent": 0.289, "melt_temperature": 1809.0,
     },
+    "johnson-holmquist": {
+        "shear_modulus": 90.16e9, "A": 0.93, "B": 0.31, "C": 0.007, "M": 0.6, "N": 0.6, "T": 0.2e9, "HEL": 2.79e9,
+        "P_HEL": 1.46e9, "crushed_limit": 0.2,
+    },
 }  # fmt: skip
 
 #: the same constant yield stress in every model that has one, some of the special terms switched off by their values
@@ -91,6 +95,7 @@ CONSTANT_YIELD = {
 DAMAGE_CASES = {
     "none": {},
     "johnson-cook": {"D1": 0.14, "D2": 0.14, "D3": -1.5, "D4": 0.018, "D5": 0.5, "melt_temperature": 877.0},
+    "johnson-holmquist": {"D1": 0.005, "D2": 1.0, "T": 0.2e9, "P_HEL": 1.46e9},
 }
 
 def cases_of(part):
@@ -126,12 +131,12 @@ def test_ids_differ(part):
 
 def test_the_yield_stress_of_the_row_is_the_parameter():
     for name, values in STRENGTH_CASES.items():
-        if name != "zerilli-armstrong":  # whose yield stress is a sum
+        if name not in ("zerilli-armstrong", "johnson-holmquist"):  # whose yield stress is computed
             assert strength.STRENGTH_MODELS[name].row(values)[strength.YIELD] == values.get("yield_stress", 0.0)
 
 
 def test_constant_yield_has_the_same_numbers_in_every_model():
-    assert set(CONSTANT_YIELD) == set(strength.STRENGTH_MODELS) - {"hydrodynamic"}
+    assert set(CONSTANT_YIELD) == set(strength.STRENGTH_MODELS) - {"hydrodynamic", "johnson-holmquist"}
     for name, values in CONSTANT_YIELD.items():
         row = strength.STRENGTH_MODELS[name].row(values)
         assert (row[strength.SHEAR], row[strength.YIELD]) == (G, Y)
