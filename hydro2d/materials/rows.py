@@ -1,6 +1,7 @@
 """The materials of a run as two blocks that kernels read.
 
-``models[m, k]``, int64: the ids of the models of body m, in the columns EOS, STRENGTH and DAMAGE.
+``models[m, k]``, int64: the ids of the models of body m, in the columns EOS, STRENGTH and DAMAGE, and in MEMORY the row of
+State.q in which the internal variables of its equation of state begin.
 ``materials[m, k]``, float64: the parameter rows of these models one after another, from EOS_AT, STRENGTH_AT and DAMAGE_AT on,
 and then
 
@@ -14,13 +15,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from eos.layout import ROW as EOS_ROW
+from eos.layout import LONG_ROW
 from strength.layout import DAMAGE_ROW
 from strength.layout import ROW as STRENGTH_ROW
 
-EOS, STRENGTH, DAMAGE = range(3)
+EOS, STRENGTH, DAMAGE, MEMORY = range(4)
 
-EOS_AT, STRENGTH_AT = 0, EOS_ROW
+EOS_AT, STRENGTH_AT = 0, LONG_ROW
 DAMAGE_AT = STRENGTH_AT + STRENGTH_ROW
 TENSILE = DAMAGE_AT + DAMAGE_ROW
 CUTOFF_DENSITY, FACTOR, GAS = range(TENSILE + 1, TENSILE + 4)
@@ -28,6 +29,6 @@ CUTOFF_DENSITY, FACTOR, GAS = range(TENSILE + 1, TENSILE + 4)
 
 def packed(table, cutoff_density, factor) -> tuple[np.ndarray, np.ndarray]:
     """(models, materials) of a MaterialTable; cutoff_density (kg/m^3) and factor are float64[m]."""
-    models = np.stack([table.eos_model, table.strength_model, table.damage_model], axis=1)
+    models = np.stack([table.eos_model, table.strength_model, table.damage_model, table.memory], axis=1)
     numbers = table.fracture_pressure, cutoff_density, factor, table.gases().astype(float)
     return models, np.concatenate([table.eos_par, table.strength_par, table.damage_par, np.stack(numbers, axis=1)], axis=1)
