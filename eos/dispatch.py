@@ -44,7 +44,7 @@ def evaluate_with_memory(model, rho, e, internal, par):
 def evaluate(model, rho, e, internal, par):
     """(p, dp/drho, dp/de, T) of an equation of state, each derivative with the internal variables and the other one held; SI.
 
-    par : the material's row, float64[LONG_ROW];  internal : float64[n], one cell's; of no avail without memory
+    par : the material's row, float64[k];  internal : float64[n], one cell's; of no avail without memory
     """
     if model in WITH_MEMORY:
         return evaluate_with_memory(model, rho, e, internal, par)

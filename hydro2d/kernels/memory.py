@@ -55,7 +55,7 @@ def update_memory(part, parts, time, dt, body_range, models, materials, pm, tm, 
     for j in range(parts[part], parts[part + 1]):
         for m in range(before.shape[1]):
             model, first_row = models[m, EOS], models[m, MEMORY]
-            par = materials[m, EOS_AT:STRENGTH_AT]
+            par = materials[m, EOS_AT:]
             if model not in WITH_MEMORY:
                 continue
             first, n = columns(body_range[m, j, 0], body_range[m, j, 1])

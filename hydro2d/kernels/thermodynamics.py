@@ -135,7 +135,7 @@ def pressures_row(j, b, max_opening, metrics, dz, body_range, active_range, mode
     for m in range(bodies):
         model = models[m, EOS]
         memory = models[m, MEMORY]
-        par = materials[m, EOS_AT:STRENGTH_AT]
+        par = materials[m, EOS_AT:]
         tensile = materials[m, TENSILE]
         cutoff_density = materials[m, CUTOFF_DENSITY]
         f_j = vof[m, j]

@@ -14,7 +14,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from eos.layout import LONG_ROW
 from hydro2d import units
 from hydro2d.errors import DeckError, Sources, unknown
 from hydro2d.mesh.fields import INTERNAL, Field
@@ -435,10 +434,11 @@ GAS_MODULUS = 0.01
 class MaterialTable:
     """The numbers of the materials for kernels, one row per slot m (a body, with all bodies that join it).
 
-    ``eos_par`` is float64[m, eos.LONG_ROW], ``strength_par`` float64[m, strength.ROW], ``damage_par`` float64[m,
-    strength.DAMAGE_ROW]; the model ids are int64[m]; ``internal`` holds the internal variables of every strength model and then
-    those of its equation of state, ``initial`` what virgin material has of them, ``memory`` the row of State.q in which those
-    of the equation of state begin, int64[m]; ``fracture_pressure`` is a positive tension, inf where never.
+    ``eos_par`` is float64[m, k] as long as the longest row of the run, at least eos.ROW, ``strength_par`` float64[m,
+    strength.ROW], ``damage_par`` float64[m, strength.DAMAGE_ROW]; the model ids are int64[m]; ``internal`` holds the internal
+    variables of every strength model and then those of its equation of state, ``initial`` what virgin material has of them,
+    ``memory`` the row of State.q in which those of the equation of state begin, int64[m]; ``fracture_pressure`` is a positive
+    tension, inf where never.
     """
 
     names: tuple[str, ...]
@@ -525,10 +525,10 @@ def resolve(deck) -> MaterialTable:
     strength_modules = [material.strength.module("strength") for material in chosen]
     damages = [material.damage if deck.failure.damage == "material" else Model("none") for material in chosen]
     damage_modules = [damage.module("damage") for damage in damages]
-    eos_par = np.zeros((len(chosen), LONG_ROW))
-    for long, module, material in zip(eos_par, eos_modules, chosen, strict=True):
-        row = _row(module, material.eos, material)
-        long[: row.size] = row
+    eos_rows = [_row(module, material.eos, material) for module, material in zip(eos_modules, chosen, strict=True)]
+    eos_par = np.zeros((len(chosen), max(row.size for row in eos_rows)))
+    for row, own in zip(eos_par, eos_rows, strict=True):
+        row[: own.size] = own
     strength_par = np.stack([_row(m, c.strength, c) for m, c in zip(strength_modules, chosen, strict=True)])
     damage_par = np.stack([_row(m, d, c) for m, d, c in zip(damage_modules, damages, chosen, strict=True)])
     tensile = [c.fracture_pressure.value if c.fracture_pressure else np.inf for c in chosen]

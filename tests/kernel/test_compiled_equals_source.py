@@ -87,7 +87,7 @@ def text_of(advection: str, sliding: str) -> str:
     follows = "contact" in sliding
     text = DECK.replace("ADVECTION", f'advection = "{advection}"').replace("SLIDING", sliding)
     text = text.replace("MESH", 'follow = "rod"' if follows else "").replace("EDGE", "transmit" if follows else "outflow")
-    return text.replace("PLATE", "hardening" if advection == "both" else "Al7039")  # one deck with internal variables, of both models
+    return text.replace("PLATE", "hardening" if advection == "both" else "Al7039")  # both models with variables
 
 
 @pytest.mark.parametrize(("advection", "sliding"), CASES.values(), ids=CASES)

@@ -84,12 +84,11 @@ def test_a_model_is_told_what_has_happened(monkeypatch):
     scratch, part, parts = s.scratch, 0, np.array([j, j + 1])
     s.body_range[0, j] = i, i + 1
     s.rho[0, j, i], s.q[SRR, 0, j, i], s.q[SZZ, 0, j, i] = 2000.0, 1e8, -2e8
-    memory.remember.compiled.py_func(part, parts, s.body_range, arguments("models"), arguments("materials"), s.pm, s.tm, s.q, scratch,
-                            s.before)
+    materials = arguments("models"), arguments("materials"), s.pm, s.tm
+    memory.remember.compiled.py_func(part, parts, s.body_range, *materials, s.q, scratch, s.before)
     s.rho[0, j, i], s.e[0, j, i], s.q[EP, 0, j, i], s.q[DMG, 0, j, i] = 2100.0, 7e3, 0.02, 0.3
     s.q[SRR, 0, j, i], s.q[SZZ, 0, j, i] = 0.5e8, -1e8
-    memory.update_memory.compiled.py_func(part, parts, 3e-6, 1e-8, s.body_range, arguments("models"), arguments("materials"), s.pm, s.tm,
-                                 s.before, s.vof, s.q, scratch)
+    memory.update_memory.compiled.py_func(part, parts, 3e-6, 1e-8, s.body_range, *materials, s.before, s.vof, s.q, scratch)
     stress = np.sqrt(3.0 * (1.0 - 2.0 + 4.0)) * 1e8
     expected = (2000.0, 2100.0, 7e3, 0.02, 0.5 * stress * 0.02, 0.0, 0.3, stress**2 / (6 * modulus),
                 0.25 * stress**2 / (6 * modulus), 3e-6, 1e-8)

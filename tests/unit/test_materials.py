@@ -7,7 +7,6 @@ import pytest
 
 import eos
 import strength
-from eos.layout import LONG_ROW
 from hydro2d.deck import deck
 from hydro2d.materials import library
 from strength.layout import SHEAR, YIELD
@@ -211,7 +210,7 @@ def test_the_table():
     assert len(table) == 2
     assert list(table.rho0) == [2770.0, 2660.0]
     assert list(table.e0) == [0.0, 0.0]
-    assert table.eos_par.shape == (2, LONG_ROW)
+    assert table.eos_par.shape == (2, eos.ROW)
     assert table.strength_par.shape == (2, strength.ROW)
     assert table.damage_par.shape == (2, strength.DAMAGE_ROW)
     assert list(table.eos_model) == [eos.MODELS["mie-grueneisen"].ID] * 2
