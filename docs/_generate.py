@@ -26,6 +26,7 @@ def bounds(field) -> str:
 
 def fields_page() -> str:
     """The field table and the quantities of output files."""
+    from eos.registry import MODULES
     from hydro2d.mesh import fields, quantities
     from strength.registry import STRENGTH_MODULES
 
@@ -41,12 +42,12 @@ def fields_page() -> str:
         ("variable", "model", "unit", "sign in a mirror", "remapped by", "bounds", "meaning"),
         (
             (f"`{f.name}`", f"`{module.NAME}`", f.unit, f"{f.parity:+d}", f.remap, bounds(f), f.meaning)
-            for module in STRENGTH_MODULES for f in getattr(module, "INTERNAL", ())
+            for module in (*STRENGTH_MODULES, *MODULES) for f in getattr(module, "INTERNAL", ())
         ),
     )
     work = table(
         ("array", "axes", "meaning"),
-        ((f"`{w.symbol}`", w.axes, w.meaning) for w in (*fields.WORK, *fields.CONTACT_WORK)),
+        ((f"`{w.symbol}`", w.axes, w.meaning) for w in (*fields.WORK, *fields.MEMORY_WORK, *fields.CONTACT_WORK)),
     )
     written = table(
         ("key", "name in files", "meaning"),
@@ -55,7 +56,7 @@ def fields_page() -> str:
     groups = "\n".join(f"* `{word}`: {', '.join(keys)}" for word, keys in quantities.GROUPS.items())
     return (
         f"# Fields\n\n{NOTE}\n\n## Fields of the state\n\n{state}\n\n"
-        f"## Internal variables of strength models\n\n{internal}\n\n"
+        f"## Internal variables of models\n\n{internal}\n\n"
         f"## What kernels leave for one another\n\nThe letters of the axes are lengths: m bodies, b body groups, j and i cells "
         f"with ghosts, J and I vertices, k rows of `State.q`, n internal variables, B blocks of rows, L vertices along the "
         f"longer direction. From `{fields.CONTACT_WORK[0].symbol}` on, only contact has them.\n\n{work}\n\n"
@@ -137,6 +138,7 @@ def draw_models(folder: Path) -> None:
 
 def results_page() -> str:
     """Columns of the history and keys of the summary."""
+    from hydro2d.mesh.sinks import SINKS
     from hydro2d.output.history import unit
     from hydro2d.running import columns
     from hydro2d.solver import audit
@@ -156,7 +158,7 @@ def results_page() -> str:
         "## Keys of `summary.json`", "A dot leads into a table.",
         table(("key", "unit", "meaning"), rows(columns.SUMMARY)),
         "## Sinks and contact transfers",
-        table(("sink", "what it is"), ((f"`{name}`", meaning) for name, meaning in audit.SINKS.items())),
+        table(("sink", "what it is"), ((f"`{name}`", meaning) for name, meaning in SINKS.items())),
         table(("contact transfer", "what it is"),
               ((f"`{name}`", meaning) for name, meaning in audit.CONTACT_TRANSFERS.items())),
     ])  # fmt: skip

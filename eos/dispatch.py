@@ -6,19 +6,62 @@ The models are those of ``registry`` when this module is imported, which is when
 from __future__ import annotations
 
 from eos import mie_grueneisen, registry
-from hydro2d.jit import by_id, point
+from hydro2d.jit import apart, by_id, point
+from hydro2d.mesh.fields import DMG, RHO, E
 
 MODULES = registry.chosen()
+#: ids of the models that have internal variables
+WITH_MEMORY = tuple(module.ID for module in MODULES if hasattr(module, "INTERNAL"))
 
 _ITERATIONS = 60
 _TOLERANCE = 1e-13
 _FARTHEST = 16.0
 
 
-evaluate = by_id(
-    MODULES, "evaluate", registry.FUNCTIONS["evaluate"][0],
-    "(p, dp/drho at constant e, dp/de at constant rho, T) of an equation of state; SI. par: the material's row, float64[ROW].",
-    'float("nan"), float("nan"), float("nan"), float("nan")')
+_NAN = 'float("nan"), float("nan"), float("nan"), float("nan")'
+
+evaluate_without_memory = by_id(
+    tuple(module for module in MODULES if module.ID not in WITH_MEMORY), "evaluate", registry.FUNCTIONS["evaluate"][0],
+    "(p, dp/drho at constant e, dp/de at constant rho, T) of a model without internal variables; SI. par: the material's row.",
+    _NAN)
+
+_evaluate_with_memory = by_id(
+    tuple(module for module in MODULES if module.ID in WITH_MEMORY), "evaluate", registry.MEMORY_FUNCTIONS["evaluate"][0],
+    "The same of a model with internal variables, at which they are held; internal: float64[n], one cell's.", _NAN)
+
+_update = by_id(
+    tuple(module for module in MODULES if module.ID in WITH_MEMORY), "update", registry.MEMORY_FUNCTIONS["update"][0],
+    "Internal variables of an equation of state after a step: see `update`.", "None")
+
+
+@apart
+def evaluate_with_memory(model, rho, e, internal, par):
+    """`evaluate` of a model with internal variables. Called, not inlined: kernels of bodies without memory stay as they are."""
+    return _evaluate_with_memory(model, rho, e, internal, par)
+
+
+@point
+def evaluate(model, rho, e, internal, par):
+    """(p, dp/drho, dp/de, T) of an equation of state, each derivative with the internal variables and the other one held; SI.
+
+    par : the material's row, float64[k];  internal : float64[n], one cell's; of no avail without memory
+    """
+    if model in WITH_MEMORY:
+        return evaluate_with_memory(model, rho, e, internal, par)
+    return evaluate_without_memory(model, rho, e, par)
+
+
+@apart
+def update(model, rho0, rho, e, dep, work, damage0, damage, elastic0, elastic, time, dt, par, internal):
+    """Internal variables of an equation of state at the end of a Lagrangian step, from what has happened in it.
+
+    rho0, rho : density before and after, kg/m^3;  e : energy after, J/kg;  dep, work : plastic strain and plastic work of the
+    step, J/m^3;  damage0, damage : before and after;  elastic0, elastic : elastic energy of the deviator before and after,
+    J/m^3;  time : at the end of the step, s
+
+    Updates  internal [n]
+    """
+    _update(model, rho0, rho, e, dep, work, damage0, damage, elastic0, elastic, time, dt, par, internal)
 
 
 @point
@@ -34,7 +77,7 @@ def pressure_row(model, par, floor, first, number, f, rho, e, damage, p, c2):
     else:
         for x in range(number):
             i = first + x
-            p[i], c2[i] = _state(f[i], damage[i], rho[i], floor, evaluate(model, rho[i], e[i], par))
+            p[i], c2[i] = _state(f[i], damage[i], rho[i], floor, evaluate_without_memory(model, rho[i], e[i], par))
 
 
 @point
@@ -42,7 +85,33 @@ def temperature_row(model, par, first, number, f, rho, e, T):
     """Fills a row of temperature, 0 where the body is not. Apart from the pressure: a table cannot be read in lanes."""
     for x in range(number):
         i = first + x
-        T[i] = evaluate(model, rho[i], e[i], par)[3] if f[i] > 0.0 else 0.0
+        T[i] = evaluate_without_memory(model, rho[i], e[i], par)[3] if f[i] > 0.0 else 0.0
+
+
+@apart
+def pressure_row_with_memory(model, par, floor, m, j, first, at, number, vof, q, pm, c2):
+    """`pressure_row` of body m in row j, from its column `at` on, whose model has internal variables from row `first` of q on.
+
+    Reads    vof [m, j, i], q [k, m, j, i]
+    Writes   pm, c2 [m, j, i]
+    """
+    for x in range(number):
+        i = at + x
+        state = evaluate_with_memory(model, q[RHO, m, j, i], q[E, m, j, i], q[first:, m, j, i], par)
+        pm[m, j, i], c2[m, j, i] = _state(vof[m, j, i], q[DMG, m, j, i], q[RHO, m, j, i], floor, state)
+
+
+@apart
+def temperature_row_with_memory(model, par, m, j, first, at, number, vof, q, tm):
+    """`temperature_row` likewise.
+
+    Reads    vof [m, j, i], q [k, m, j, i]
+    Writes   tm [m, j, i]
+    """
+    for x in range(number):
+        i = at + x
+        T = evaluate_with_memory(model, q[RHO, m, j, i], q[E, m, j, i], q[first:, m, j, i], par)[3]
+        tm[m, j, i] = T if vof[m, j, i] > 0.0 else 0.0
 
 
 @point
@@ -64,30 +133,30 @@ def sound_speed_squared(rho, p, dpdrho, dpde, floor):
 
 
 @point
-def zero_pressure_density(model, rho, e, par):
+def zero_pressure_density(model, rho, e, internal, par):
     """The density rho* with p(rho*, e) = 0 at constant energy: above ``rho`` in tension, below it otherwise; kg/m^3.
 
     explanation/fracture, (2), by a bracketed Newton iteration. Where no such density lies within a factor of 16, as in
     a gas, the answer is ``rho`` itself.
     """
-    p, dpdrho, dpde, T = evaluate(model, rho, e, par)
+    p, dpdrho, dpde, T = evaluate(model, rho, e, internal, par)
     if p == 0.0:
         return rho
     tension = p < 0.0
     factor = 1.25 if tension else 0.8
     near, far = rho, rho * factor
-    pressure = evaluate(model, far, e, par)[0]
+    pressure = evaluate(model, far, e, internal, par)[0]
     while (pressure < 0.0) == tension and pressure != 0.0:
         near, far = far, far * factor
         if not rho < far * _FARTHEST or not far < rho * _FARTHEST:
             return rho
-        pressure = evaluate(model, far, e, par)[0]
+        pressure = evaluate(model, far, e, internal, par)[0]
     low, high = (near, far) if tension else (far, near)
     x = rho - p / dpdrho if dpdrho > 0.0 else low
     for _ in range(_ITERATIONS):
         if not (low < x and x < high):
             x = 0.5 * (low + high)
-        p, dpdrho, dpde, T = evaluate(model, x, e, par)
+        p, dpdrho, dpde, T = evaluate(model, x, e, internal, par)
         if p < 0.0:
             low = x
         elif p > 0.0:

@@ -9,12 +9,18 @@ from types import ModuleType
 
 from hydro2d.jit import modules
 
-MODULES = modules("eos", "mie_grueneisen", "ideal_gas", "stiffened_gas")
+MODULES = modules("eos", "mie_grueneisen", "ideal_gas", "stiffened_gas", "p_alpha")
 MODELS = {module.NAME: module for module in MODULES}
 
 #: what a model computes: the arguments of its functions and the number of values that they return
 FUNCTIONS = {"evaluate": ("rho, e, par", 4)}
 REQUIRED = ("evaluate",)
+#: and a model with internal variables, which `update` changes by what has happened in a step
+MEMORY_FUNCTIONS = {
+    "evaluate": ("rho, e, internal, par", 4),
+    "update": ("rho0, rho, e, dep, work, damage0, damage, elastic0, elastic, time, dt, par, internal", 0),
+}
+MEMORY_REQUIRED = ("evaluate", "update")
 
 #: models from outside, as ``hydro2d/materials/outside.py`` adds them
 ADDED: list[ModuleType] = []

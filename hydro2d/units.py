@@ -26,6 +26,7 @@ KINDS = {
     "J": "an energy",
     "J/kg": "a specific energy",
     "J/(kg*K)": "a specific heat",
+    "W/kg": "a power per mass",
     "rad": "an angle",
 }
 

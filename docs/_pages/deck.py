@@ -163,12 +163,14 @@ def page() -> str:
 
 def boundary_conditions() -> str:
     """The table of boundary conditions."""
-    from hydro2d.mesh.boundary_conditions import BOUNDARIES, EDGES
+    from hydro2d.mesh.edges.base import EDGES
+    from hydro2d.mesh.edges.registry import KINDS
 
     rows = (
         (f"`{b.name}`", "every edge" if b.edges == EDGES else ", ".join(f"`{edge}`" for edge in b.edges),
-         "images" if b.mirrors else "copies", "given" if b.holds else "free", prose(b.meaning))
-        for b in BOUNDARIES
+         b.ghost(), "given" if b.holds() else "free", ", ".join(f"`EDGE_{key.name}`" for key in b.keys) or "none",
+         f"`{b.sink}`", prose(b.meaning))
+        for b in KINDS
     )
-    heads = ("condition", "where", "cells beyond", "normal velocity", "meaning")
+    heads = ("condition", "where", "cells beyond", "normal velocity", "keys of its own", "sink", "meaning")
     return "## Boundary conditions\n\n" + table(heads, rows)

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+import functools
+import operator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import partial
 from typing import Annotated, Any
 
 from annotated_types import GroupedMetadata
-from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, WithJsonSchema
+from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, WithJsonSchema
 
 from hydro2d import units
 
@@ -38,6 +40,12 @@ class Section(BaseModel):
     """A table of the deck: undeclared keys are errors, and values never change after loading."""
 
     model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
+
+
+def one_of(kinds: Mapping[str, type[Section]], key: str) -> Any:
+    """The type of a table that is one of several kinds of sections, which the word of a key tells apart."""
+    union = functools.reduce(operator.or_, kinds.values())
+    return Annotated.__class_getitem__((union, Field(discriminator=key))) if len(kinds) > 1 else union
 
 
 def _positive(value: float) -> float:

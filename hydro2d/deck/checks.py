@@ -10,7 +10,9 @@ from hydro2d.deck.mesh import SegmentError, axis_edges, body, body_radius
 from hydro2d.deck.sections import Deck, Sliding
 from hydro2d.deck.shapes import outline
 from hydro2d.errors import unknown
-from hydro2d.mesh.boundary_conditions import BY_NAME, EDGES
+from hydro2d.mesh.edges.base import EDGES
+from hydro2d.mesh.edges.registry import BY_NAME, KINDS
+from hydro2d.mesh.sinks import SINKS
 
 #: rod radii that a mesh should reach ahead of the rod that it follows; at this distance its edge no longer affects the rod
 AHEAD = 20
@@ -34,7 +36,8 @@ def inconsistencies(deck: Deck) -> Iterator[tuple[tuple, str]]:
         if entry.join is not None:
             yield from _bad_join(deck, number)
     for kind, names_of in (("tracer", [[entry.name] for entry in deck.tracer]),
-                           ("gauge", [[name for name, _ in entry.places()] for entry in deck.gauge])):
+                           ("gauge", [[name for name, _ in entry.places()] for entry in deck.gauge]),
+                           ("source", [[entry.name] for entry in deck.source])):
         taken: set[str] = set()
         for number, own in enumerate(names_of):
             if twice := taken.intersection(own):
@@ -43,6 +46,7 @@ def inconsistencies(deck: Deck) -> Iterator[tuple[tuple, str]]:
     yield from _bad_names(deck, names)
     yield from _bad_mesh(deck)
     yield from _bad_edges(deck)
+    yield from _bad_sources(deck)
     if deck.stop.time is None and deck.stop.cycles is None:
         yield ("stop",), "needs time or cycles"
     if deck.sliding.method == "slip-layer" and not deck.sliding.hard:
@@ -122,17 +126,31 @@ def _bad_targets(deck: Deck) -> Iterator[tuple[tuple, str]]:
                 yield ("penetration", "targets", number), f'the rod reaches "{name}" before "{before}"; name them in that order'
 
 
+def _bad_sources(deck: Deck) -> Iterator[tuple[tuple, str]]:
+    """Sources without a body of their own, with the name of a sink, or with nothing of the mesh within reach."""
+    bodies = [entry.name for entry in deck.body if entry.join is None]
+    for number, entry in enumerate(deck.source):
+        if entry.body not in bodies:
+            yield ("source", number, "body"), unknown("body", entry.body, bodies)
+        if entry.name in SINKS:
+            yield ("source", number, "name"), f'the name "{entry.name}" is that of a sink of the audit: {SINKS[entry.name]}'
+
+
 def _bad_edges(deck: Deck) -> Iterator[tuple[tuple, str]]:
+    table = deck.boundaries.model_dump()
     for edge in EDGES:
-        key = f"{edge}_velocity"
-        given = getattr(deck.boundaries, key) is not None
-        if getattr(deck.boundaries, edge) == "velocity":
-            if not given:
-                yield ("boundaries", edge), f"an edge with a velocity needs {key}"
-            if deck.sliding.method == "contact":
-                yield ("boundaries", edge), "a contact allows no edge with a velocity: each body group would need its own"
-        elif given:
-            yield ("boundaries", key), f'has no meaning without {edge} = "velocity"'
+        kind = BY_NAME.get(table[edge])
+        needed = {f"{edge}_{key.name}" for key in kind.keys} if kind else set()
+        for key in sorted(needed):
+            if table[key] is None:
+                what = "a piston" if kind.name == "piston" else "an edge with a velocity"
+                yield ("boundaries", edge), f"{what} needs {key}"
+        if needed and deck.sliding.method == "contact":
+            yield ("boundaries", edge), "a contact allows no edge with a velocity: each body group would need its own"
+        for other in KINDS:
+            for key in (f"{edge}_{each.name}" for each in other.keys if edge in other.edges):
+                if key not in needed and table[key] is not None:
+                    yield ("boundaries", key), f'has no meaning without {edge} = "{other.name}"'
 
 
 def _bad_mesh(deck: Deck) -> Iterator[tuple[tuple, str]]:
@@ -214,7 +232,7 @@ def _bad_follow(deck: Deck, z: np.ndarray) -> Iterator[tuple[tuple, str]]:
         return
     for key in ("z_min", "z_max"):
         kind = getattr(deck.boundaries, key)
-        if BY_NAME[kind].holds:
+        if BY_NAME[kind].holds():
             what = "a wall" if kind == "wall" else "an edge with a velocity"
             yield ("boundaries", key), f'a mesh that follows "{name}" must have open ends along z; {what} cannot travel with it'
     ahead, behind = room(deck, z)

@@ -9,6 +9,12 @@ from hydro2d.deck.base import Section
 from hydro2d.deck.bodies import SHAPES
 from hydro2d.deck.sections import Deck
 from hydro2d.errors import entry_index, in_words, spelled, unknown
+from hydro2d.sources.registry import KINDS
+
+#: the key by which a table that may be one of several is told apart, and the sections that its words stand for
+TAGS = {"shape": SHAPES, "kind": KINDS}
+#: these words
+_TAGGED = {word: section for sections in TAGS.values() for word, section in sections.items()}
 
 #: keys of decks of older versions, and what they are called now
 RENAMED = {"numerics.trace": "numerics.cutoff", "failure.loose": "failure.strength_cutoff"}
@@ -27,10 +33,17 @@ def explained(entry: dict, data: dict) -> tuple[tuple, str]:
     if kind == "extra_forbidden":
         return path, _no_such_key(path, _allowed_keys(path[:-1], data))
     if kind == "union_tag_not_found":
-        return (*path, "shape"), f"is missing (allowed: {', '.join(SHAPES)})"
+        tag = _tag(entry)
+        return (*path, tag), f"is missing (allowed: {', '.join(TAGS[tag])})"
     if kind == "union_tag_invalid":
-        return (*path, "shape"), unknown("shape", str(entry["ctx"]["tag"]), SHAPES)
+        tag = _tag(entry)
+        return (*path, tag), unknown(tag, str(entry["ctx"]["tag"]), TAGS[tag])
     return path, in_words(entry)
+
+
+def _tag(entry: dict) -> str:
+    """The key of TAGS that one of pydantic's errors is about."""
+    return str(entry["ctx"]["discriminator"]).strip("'")
 
 
 def _key_path(loc: tuple, data: Any) -> tuple:
@@ -38,7 +51,7 @@ def _key_path(loc: tuple, data: Any) -> tuple:
     path: tuple = ()
     for depth, part in enumerate(loc):
         last = depth == len(loc) - 1
-        if isinstance(data, dict) and part not in data and not last and part in SHAPES:
+        if isinstance(data, dict) and part not in data and not last and part in _TAGGED:
             continue
         path += (part,)
         if isinstance(data, dict):
@@ -71,7 +84,7 @@ def _allowed_keys(path: tuple, data: dict) -> list[str]:
     for part in path:
         if isinstance(part, int):
             data = data[part]
-            model = model or SHAPES.get(data.get("shape"))
+            model = model or next((_TAGGED[data[tag]] for tag in TAGS if data.get(tag) in _TAGGED), None)
         else:
             data, model = (data or {}).get(part), section_of(model, part)
     keys = list(model.model_fields) if model else []
@@ -98,7 +111,7 @@ def key_problem(data: dict, key: str) -> str | None:
 
 
 def section_of(model: Any, key: str) -> Any:
-    """The section under a key of a section; None for bodies, whose section depends on their shape."""
+    """The section under a key of a section; None for a table that may be one of several."""
     field = model.model_fields.get(key) if model else None
     return _first_section(field.annotation) if field else None
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
-from pydantic import AfterValidator, BeforeValidator, Field, WithJsonSchema, field_validator, model_validator
+from pydantic import AfterValidator, BeforeValidator, Field, WithJsonSchema, create_model, field_validator, model_validator
 
 from hydro2d import units
 from hydro2d.deck.base import (
@@ -23,7 +23,9 @@ from hydro2d.deck.base import (
     within,
 )
 from hydro2d.deck.bodies import AnyBody
-from hydro2d.mesh.boundary_conditions import words
+from hydro2d.deck.curves import SpeedOverTime
+from hydro2d.mesh.edges.registry import KINDS, words
+from hydro2d.sources.registry import AnySource
 
 _SEGMENTS = (
     "{to, cells}, {to, size}, {cells, size}, {to, ratio}, {cells, ratio}, {to, last}; the last three also take `first`, "
@@ -105,7 +107,7 @@ else:
     Inner, Outer, Lower, Upper = (Literal[words(edge)] for edge in ("r_min", "r_max", "z_min", "z_max"))
 
 
-class Boundaries(Section):
+class _Edges(Section):
     """Boundary conditions at the edges of the mesh; see the table of boundary conditions."""
 
     r_min: Inner | None = Field(
@@ -114,10 +116,22 @@ class Boundaries(Section):
     r_max: Outer = Field("outflow", description="the outer edge")
     z_min: Lower = Field("outflow", description="the lower edge")
     z_max: Upper = Field("outflow", description="the upper edge")
-    r_min_velocity: Speed | None = Field(None, description='radial velocity at r_min = "velocity"', examples=["0 m/s"])
-    r_max_velocity: Speed | None = Field(None, description='radial velocity at r_max = "velocity"', examples=["-10 m/s"])
-    z_min_velocity: Speed | None = Field(None, description='axial velocity at z_min = "velocity"', examples=["100 m/s"])
-    z_max_velocity: Speed | None = Field(None, description='axial velocity at z_max = "velocity"', examples=["-100 m/s"])
+
+
+def _edge_keys() -> dict[str, tuple[Any, Any]]:
+    """The keys that kinds of edges bring, of every edge that can be of the kind: type and field."""
+    types = {("m/s", False): Speed, ("m/s", True): SpeedOverTime}
+    return {
+        f"{edge}_{key.name}": (types[key.unit, key.over_time] | None, Field(
+            None, description=f'{key.meaning} at {edge} = "{kind.name}"', examples=[key.example]))
+        for kind in KINDS for key in kind.keys for edge in kind.edges
+    }  # fmt: skip
+
+
+if TYPE_CHECKING:
+    Boundaries = _Edges
+else:
+    Boundaries = create_model("Boundaries", __base__=_Edges, __doc__=_Edges.__doc__, **_edge_keys())
 
 
 class Numerics(Section):
@@ -435,6 +449,7 @@ class Deck(Section):
     output: Output = Output()
     tracer: tuple[Tracer, ...] = ()
     gauge: tuple[Gauge, ...] = ()
+    source: tuple[AnySource, ...] = Field((), description="what adds energy to bodies")
     experiment: Experiment | None = None
     penetration: Penetration | None = None
 

@@ -9,7 +9,7 @@ import numpy as np
 from hydro2d.deck.checks import AHEAD, extent, room
 from hydro2d.deck.mesh import axis_edges, body, misfits
 from hydro2d.deck.sections import Deck
-from hydro2d.mesh.boundary_conditions import BY_NAME
+from hydro2d.mesh.edges.registry import BY_NAME
 
 #: a body whose density is below this share of the densest one's is a gas
 GAS = 0.01
@@ -65,7 +65,7 @@ def _leaving(deck: Deck) -> Iterator[str]:
         ahead = any(end[1] > front if speed > 0.0 else end[0] < front for end in others)
         kept = BY_NAME[deck.boundaries.z_max if speed > 0.0 else deck.boundaries.z_min]
         flight = (edge - front) / speed
-        if not ahead and kept.opens and 0.0 <= flight < deck.stop.time:
+        if not ahead and kept.flow() and 0.0 <= flight < deck.stop.time:
             yield f'body "{entry.name}": reaches the edge of the mesh after {flight * 1e6:.3g} us and leaves it before the end'
 
 

@@ -189,19 +189,19 @@ def constrain(part, parts, constrained, velocity, mass, u0, v0, u, v, walls):
 
     Reads    constrained [4], columns (2) and rows (2), -1 for none; velocity [4], m/s; mass, u0, v0 [b, j, i]
     Updates  u, v [b, j, i]
-    Writes   walls [2, j]: axial momentum and energy that the edges take in a row
+    Writes   walls [4, 2, j]: axial momentum and energy that each edge takes in a row
     """
     first, last = own_rows(part, parts, u.shape[1])
     for j in range(first, last):
-        walls[0, j], walls[1, j] = 0.0, 0.0
+        for edge in range(4):
+            walls[edge, 0, j], walls[edge, 1, j] = 0.0, 0.0
         for b in range(u.shape[0]):
             for edge in range(2):
                 at, given = constrained[edge], velocity[edge]
                 if at < 0:
                     continue
-                if given != 0.0:
-                    impulse = mass[b, j, at] * (u[b, j, at] - given)
-                    walls[1, j] += 0.5 * impulse * (u0[b, j, at] + given)
+                impulse = mass[b, j, at] * (u[b, j, at] - given)
+                walls[edge, 1, j] += 0.5 * impulse * (u0[b, j, at] + given)
                 u[b, j, at] = given
             for edge in range(2, 4):
                 if constrained[edge] != j:
@@ -209,8 +209,8 @@ def constrain(part, parts, constrained, velocity, mass, u0, v0, u, v, walls):
                 given = velocity[edge]
                 for i in range(u.shape[2]):
                     impulse = mass[b, j, i] * (v[b, j, i] - given)
-                    walls[0, j] += impulse
-                    walls[1, j] += 0.5 * impulse * (v0[b, j, i] + given) if given != 0.0 else 0.0
+                    walls[edge, 0, j] += impulse
+                    walls[edge, 1, j] += 0.5 * impulse * (v0[b, j, i] + given)
                     v[b, j, i] = given
 
 

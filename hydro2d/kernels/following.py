@@ -2,7 +2,6 @@
 
 from hydro2d.jit import kernel
 from hydro2d.kernels.column_ranges import columns, outer_rows, past_row, union
-from hydro2d.mesh.fields import E
 from hydro2d.mesh.grid import VOL_R
 
 #: stresses (Pa), energies (J/kg) and strains below this are nothing; a mesh that travels would carry them on, ever smaller
@@ -48,13 +47,14 @@ def silence(part, parts, carried, body_ranges, q):
     Material that flows through a travelling mesh takes a share of its neighbours' stress along in every step, also ahead of
     all waves, where this makes a tail that falls below the smallest normal number.
 
-    Reads    carried [m], body_ranges [m, j, 2]
+    Reads    carried [m, n], body_ranges [m, j, 2]
     Updates  q (all but the density) [k, m, j, i]
     """
     for j in range(parts[part], parts[part + 1]):
         for m in range(body_ranges.shape[0]):
             lo, n = columns(body_ranges[m, j, 0], body_ranges[m, j, 1])
-            for k in range(E, carried[m]):
+            for place in range(1, carried[m, 0] + 1):
+                k = carried[m, place]
                 row = q[k, m, j]
                 for x in range(n):
                     row[lo + x] = row[lo + x] if abs(row[lo + x]) > FADED else 0.0

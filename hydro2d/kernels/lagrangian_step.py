@@ -19,6 +19,7 @@ from hydro2d.kernels import (
     deformation,
     extension,
     following,
+    memory,
     mixed,
     momentum,
     sliding,
@@ -132,17 +133,20 @@ def accelerate(parts, i0, i1, dt, metrics, dz, body_range, active_range, mixed_c
 
 
 @phase
-def deform(parts, i0, i1, dt, travels, advance, metrics, dz, group_ranges, u0, v0, u, v, fr, fz, cell_mass, contact_columns,
-           volume, skin, bulk, ph, qr, even_r, even_z, mesh_box, group, vof, inside, gate, q, aperture_r, aperture_z, own_r,
-           own_z, pm, checkerboard, hg_coefficient, km, room, body_range, models, materials, sig_rr, sig_zz, sig_tt, sig_rz, tm,
-           scratch, internal, relaxation, tipton, mixed_strength, hard_bodies, threshold, mixed_count, mixed_columns, qz, p,
-           solid, mix, motion, warmed, heat, deposited, slip_layer, shear, friction, occupied, zone, normal, carried, lanes):
+def deform(parts, i0, i1, time, dt, travels, advance, metrics, dz, group_ranges, u0, v0, u, v, fr, fz, cell_mass,
+           contact_columns, volume, skin, bulk, ph, qr, even_r, even_z, mesh_box, group, vof, inside, gate, q, aperture_r,
+           aperture_z, own_r, own_z, pm, checkerboard, hg_coefficient, km, room, body_range, models, materials, sig_rr, sig_zz,
+           sig_tt, sig_rz, tm, scratch, internal, relaxation, tipton, mixed_strength, hard_bodies, threshold, mixed_count,
+           mixed_columns, qz, p, solid, mix, motion, warmed, heat, deposited, slip_layer, shear, friction, occupied, zone,
+           normal, carried, lanes, before):
     """Volumes that faces sweep, work, and strain of every body; what faces sweep relative to a mesh that advances.
 
-    travels, advance : whether the mesh does, and by how much in the step, m
+    time : at the end of the step, s;  travels, advance : whether the mesh does, and by how much in the step, m
     """
     for place in prange(parts.shape[0] - 1):
         part = int64(place)  # numba counts without a sign, for which every kernel would be compiled a second time
+        if before.shape[1] > 0:
+            memory.remember(part, parts, body_range, models, materials, pm, tm, q, scratch, before)
         acceleration.swept_volumes(part, parts, i0, i1, dt, metrics, dz, group_ranges, u0, v0, u, v, fr, fz)
         if cell_mass.shape[0] > 1:
             contact_volumes.even_out(part, parts, contact_columns, volume, skin, bulk, ph, qr, even_r, even_z)
@@ -171,6 +175,8 @@ def deform(parts, i0, i1, dt, travels, advance, metrics, dz, group_ranges, u0, v
             momentum.deposit(part, parts, metrics, warmed, group, heat, cell_mass, vof, q, deposited)
         if slip_layer:
             sliding.cut_shear(part, parts, shear, friction, occupied[0], zone, normal, hard_bodies, vof, pm, q)
+        if before.shape[1] > 0:
+            memory.update_memory(part, parts, time, dt, body_range, models, materials, pm, tm, before, vof, q, scratch)
         if travels:
             wait(gate, parts)
             following.leave(part, parts, advance, metrics, group_ranges[0], fz)

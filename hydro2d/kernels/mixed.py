@@ -29,7 +29,7 @@ from hydro2d.kernels.mixed_strength import (
     work_of_deviators,
 )
 from hydro2d.kernels.thermodynamics import pressures_row, viscosity_row
-from hydro2d.materials.rows import EOS, EOS_AT, GAS, STRENGTH_AT, TENSILE
+from hydro2d.materials.rows import EOS, EOS_AT, GAS, MEMORY, TENSILE
 from hydro2d.mesh.fields import DMG, RHO, SRR, SRZ, SZZ, E
 from hydro2d.mesh.grid import VOL_R
 from hydro2d.physics.closure import NO_VOID, relaxation_bound, relaxation_strain, softness
@@ -77,13 +77,14 @@ def insert_void_mixed_row(j, smallest, max_opening, metrics, dz, mixed_count, mi
             if pm[m, j, i] < 0.0:
                 rho = q[RHO, m, j, i]
                 e = q[E, m, j, i]
-                model, par = models[m, EOS], materials[m, EOS_AT:STRENGTH_AT]
-                share = share_that_stays(rho, zero_pressure_density(model, rho, e, par), max_opening)
+                model, par = models[m, EOS], materials[m, EOS_AT:]
+                internal = q[models[m, MEMORY]:, m, j, i]
+                share = share_that_stays(rho, zero_pressure_density(model, rho, e, internal, par), max_opening)
                 opened[j] += f * (1.0 - share) * metrics[VOL_R, i] * dz[j]
                 f *= share
                 vof[m, j, i] = f
                 q[RHO, m, j, i] = rho / share
-                pm[m, j, i] = evaluate(model, rho / share, e, par)[0]
+                pm[m, j, i] = evaluate(model, rho / share, e, internal, par)[0]
             q[SRR, m, j, i] = 0.0
             q[SZZ, m, j, i] = 0.0
             q[SRZ, m, j, i] = 0.0

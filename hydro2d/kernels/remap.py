@@ -30,7 +30,8 @@ def flux_row(dj, di, j, i0, i1, m, carried, rules, slot, b, body_ranges, pre, fl
     deviators in the volume coordinate (explanation/remap, equation 4), both of the body alone: it leaves no cell with more than
     it has there.
 
-    Reads    pre (pre-sweep volume) [j, i]; flux_volume, vof [m, j, i]; q [k, m, j, i]
+    Reads    carried [n], how many rows of q the body carries beside its density, and which; pre (pre-sweep volume) [j, i];
+             flux_volume, vof [m, j, i]; q [k, m, j, i]
     Writes   flux [k, m, slot, i]
     """
     lo, hi = flux_range(dj, di, i0, i1, m, j, body_ranges)
@@ -61,7 +62,8 @@ def flux_row(dj, di, j, i0, i1, m, carried, rules, slot, b, body_ranges, pre, fl
             flow = swept[x] * (donor + half_v[x] * slope)
             half_m[x] = clean * (1.0 - abs(flow) / max(volume * donor, TINY))
             mass[x] = flow
-        for k in range(1, carried):
+        for place in range(1, carried[0] + 1):
+            k = carried[place]
             a_ll = q[k, m, j - 2 * dj, lo - 2 * di:hi - 2 * di]
             a_l = q[k, m, j - dj, lo - di:hi - di]
             a_r = q[k, m, j, lo:hi]
@@ -82,7 +84,8 @@ def update_row(dj, di, j, i0, i1, m, carried, rules, below, above, b, body_range
 
     Fields stay within the bounds of the table; what has failed stays so, to the last bit, and has no deviator.
 
-    Reads    face, pre (pre-sweep volume) [j, i]; flux_volume [m, j, i]; flux [k, m, slot, i] in the slots `below` and `above`
+    Reads    carried [n] as flux_row; face, pre (pre-sweep volume) [j, i]; flux_volume [m, j, i];
+             flux [k, m, slot, i] in the slots `below` and `above`
     Updates  vof [m, j, i] (share of the volume after the sweep), q [k, m, j, i]
     """
     lo, hi = max(body_ranges[dj, m, j, 0] - di, i0), min(body_ranges[dj, m, j, 1] + di, i1)
@@ -118,7 +121,8 @@ def update_row(dj, di, j, i0, i1, m, carried, rules, below, above, b, body_range
             old_m[x] = 1.0 if same else mass
             new_v[x] = 1.0 if same else (1.0 / after if after > 0.0 else 0.0)
             new_m[x] = 1.0 if same else (1.0 / mass_after if mass_after > 0.0 else 0.0)
-        for k in range(1, carried):
+        for place in range(1, carried[0] + 1):
+            k = carried[place]
             a_j = q[k, m, j, lo:hi]
             a_in = flux[k, m, below, lo:hi]
             a_out = flux[k, m, above, lo + di:hi + di]
@@ -218,7 +222,7 @@ def sweep_r(part, parts, i0, i1, carried, rules, group, mesh_box, body_ranges, g
             flux_volume, scratch, flux, flux_mass, edge_flux, vof, q, cell_mass, mixed_count, mixed):
     """Carries every body along r: fluxes and update row by row.
 
-    Reads    carried, group [m]; rules [m, k, 4]; mesh_box (j0, j1, i0, i1 of the mesh), body_ranges, group_ranges; face,
+    Reads    carried [m, n]; group [m]; rules [m, k, 4]; mesh_box (j0, j1, i0, i1 of the mesh), body_ranges, group_ranges; face,
              pre (pre-sweep volume), volume [j, i]; flux_volume [m, j, i]
     Updates  vof [m, j, i], q [k, m, j, i]
     Writes   flux_mass, cell_mass [b, j, i]; edge_flux [side, k, m, j] of mass and energy; mixed_count [j], mixed [j, k]

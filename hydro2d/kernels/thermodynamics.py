@@ -2,10 +2,18 @@
 
 from math import sqrt
 
-from eos.dispatch import evaluate, pressure_row, temperature_row, zero_pressure_density
+from eos.dispatch import (
+    WITH_MEMORY,
+    evaluate,
+    pressure_row,
+    pressure_row_with_memory,
+    temperature_row,
+    temperature_row_with_memory,
+    zero_pressure_density,
+)
 from hydro2d.jit import apart, point, rowwise, serial
 from hydro2d.kernels.column_ranges import columns, outer_rows
-from hydro2d.materials.rows import CUTOFF_DENSITY, DAMAGE, DAMAGE_AT, EOS, EOS_AT, STRENGTH, STRENGTH_AT, TENSILE
+from hydro2d.materials.rows import CUTOFF_DENSITY, DAMAGE, DAMAGE_AT, EOS, EOS_AT, MEMORY, STRENGTH, STRENGTH_AT, TENSILE
 from hydro2d.mesh.fields import DMG, EP, RHO, SRR, SRZ, SZZ, E
 from hydro2d.mesh.grid import VOL_R
 from hydro2d.physics.fracture import share_that_stays, tension_limit
@@ -18,7 +26,7 @@ SOUND_FLOOR = 1.0  # (1 m/s)^2
 
 
 @apart
-def insert_void_row(m, j, first, number, model, par, fracture_pressure, max_opening, metrics, h, vof, q):
+def insert_void_row(m, j, first, number, model, memory, par, fracture_pressure, max_opening, metrics, h, vof, q):
     """Inserts void in the cells of row j that body m fills and that fracture; returns its volume.
 
     Void until p(rho*, e) = 0, at most max_opening of the cell in a cycle; the deviator is set to zero (explanation/fracture).
@@ -29,8 +37,10 @@ def insert_void_row(m, j, first, number, model, par, fracture_pressure, max_open
     for x in range(number):
         i = first + x
         rho, e = q[RHO, m, j, i], q[E, m, j, i]
-        if vof[m, j, i] == 1.0 and evaluate(model, rho, e, par)[0] < -tension_limit(fracture_pressure, q[DMG, m, j, i]):
-            f = share_that_stays(rho, zero_pressure_density(model, rho, e, par), max_opening)
+        internal = q[memory:, m, j, i]
+        p = evaluate(model, rho, e, internal, par)[0]
+        if vof[m, j, i] == 1.0 and p < -tension_limit(fracture_pressure, q[DMG, m, j, i]):
+            f = share_that_stays(rho, zero_pressure_density(model, rho, e, internal, par), max_opening)
             opened += (1.0 - f) * metrics[VOL_R, i] * h
             vof[m, j, i] = f
             q[RHO, m, j, i] = rho / f
@@ -124,7 +134,8 @@ def pressures_row(j, b, max_opening, metrics, dz, body_range, active_range, mode
     bad[j, 0] = 0
     for m in range(bodies):
         model = models[m, EOS]
-        par = materials[m, EOS_AT:STRENGTH_AT]
+        memory = models[m, MEMORY]
+        par = materials[m, EOS_AT:]
         tensile = materials[m, TENSILE]
         cutoff_density = materials[m, CUTOFF_DENSITY]
         f_j = vof[m, j]
@@ -137,7 +148,10 @@ def pressures_row(j, b, max_opening, metrics, dz, body_range, active_range, mode
         tm_j = tm[m, j]
         first, number = columns(body_range[m, j, 0], body_range[m, j, 1])
         for attempt in range(2):  # once more where a cell has fractured
-            pressure_row(model, par, SOUND_FLOOR, first, number, f_j, r_j, e_j, d_j, pm_j, km_j)
+            if model in WITH_MEMORY:
+                pressure_row_with_memory(model, par, SOUND_FLOOR, m, j, memory, first, number, vof, q, pm, km)
+            else:
+                pressure_row(model, par, SOUND_FLOOR, first, number, f_j, r_j, e_j, d_j, pm_j, km_j)
             fractured = 0
             wrong = 0
             for x in range(number):
@@ -148,11 +162,15 @@ def pressures_row(j, b, max_opening, metrics, dz, body_range, active_range, mode
                 wrong += 0 if good or f_j[i] == 0.0 else 1
             if fractured == 0 or attempt == 1:
                 break
-            new_void += insert_void_row(m, j, first, number, model, par, tensile, max_opening, metrics, dz[j], vof, q)
+            new_void += insert_void_row(m, j, first, number, model, memory, par, tensile, max_opening, metrics, dz[j],
+                                        vof, q)
         if wrong > 0:
             report_row(m, j, first, number, vof, q, pm, bad)
         if feels_temperature(models[m, STRENGTH], models[m, DAMAGE]):
-            temperature_row(model, par, first, number, f_j, r_j, e_j, tm_j)
+            if model in WITH_MEMORY:
+                temperature_row_with_memory(model, par, m, j, memory, first, number, vof, q, tm)
+            else:
+                temperature_row(model, par, first, number, f_j, r_j, e_j, tm_j)
         modulus_row(models[m, STRENGTH], materials[m, STRENGTH_AT:DAMAGE_AT], first, number, pm_j, r_j, tm_j, shear_j)
         add_row(m, j, b, first, number, cutoff_density, vof, q, pm, km, p, bulk, rhobar, solid, cl, scratch)
     for x in range(n):
@@ -275,7 +293,8 @@ def step_cause(j, courant, advective, mesh_speed, dr, dz, metrics, active_range,
 
 
 @serial
-def worst_energies(g, nz, nr, m, sliver, lowest, highest, plastic, most_strain, warm, model, par, vof, q, found):
+def worst_energies(g, nz, nr, m, sliver, lowest, highest, plastic, most_strain, warm, model, memory, par, vof, q,
+                   found):
     """The cells in which the energy of body m is farthest above and below what it can reach there, with those at 0 K.
 
     Cells of which it fills less than `sliver` do not count; a body that does not begin `warm` may be at 0 K.
@@ -291,7 +310,7 @@ def worst_energies(g, nz, nr, m, sliver, lowest, highest, plastic, most_strain, 
                 continue
             e = q[E, m, j, i]
             cold = lowest - e
-            if warm and e < 0.0 and evaluate(model, q[RHO, m, j, i], e, par)[3] <= 0.0:
+            if warm and e < 0.0 and evaluate(model, q[RHO, m, j, i], e, q[memory:, m, j, i], par)[3] <= 0.0:
                 cold = max(cold, -e)
             hot = e - (highest + plastic * min(q[EP, m, j, i], most_strain))
             for side in range(2):

@@ -15,9 +15,9 @@ from types import ModuleType
 
 import numpy as np
 
-from eos.layout import RHO0
+from eos.layout import E0, RHO0
 from hydro2d.materials.outside import KINDS, Kind
-from hydro2d.parameters import NON_NEGATIVE, POSITIVE
+from hydro2d.parameters import NON_NEGATIVE, POSITIVE, Parameter
 
 #: an ID that no model has
 NOBODY = 99
@@ -33,7 +33,7 @@ class Case:
 
     values : its parameters in SI, with every term in use
     densities : densities in the stated range of an equation of state, over the density at rest;  energies : in J/kg
-    constant : parameters for which the flow stress is constant, or None
+    constant : parameters for which the flow stress is constant, or None;  solid : the module that the model stands over
     """
 
     kind: Kind
@@ -42,10 +42,31 @@ class Case:
     densities: tuple[float, ...] = tuple(np.linspace(0.95, 1.5, 12))
     energies: tuple[float, ...] = (0.0, 1e5, 3e6)
     constant: Mapping[str, float] | None = None
+    solid: ModuleType | None = None
 
     @property
     def row(self) -> np.ndarray:
-        return self.module.row(self.values)
+        return self.packed(self.values)
+
+    def packed(self, values: Mapping[str, float]) -> np.ndarray:
+        """The row of these parameters."""
+        return self.module.row(values, self.solid) if self.solid else self.module.row(values)
+
+    @property
+    def parameters(self) -> tuple[Parameter, ...]:
+        """The parameters of the model, and those of its solid that are given with them."""
+        below = self.solid.PARAMETERS if self.solid else ()
+        return (*self.module.PARAMETERS, *(each for each in below if each.name not in self.module.GIVEN_TO_SOLID))
+
+    @property
+    def virgin(self) -> np.ndarray:
+        """The internal variables of virgin material, float64[n]."""
+        return np.array([field.at_rest(self.row) for field in getattr(self.module, "INTERNAL", ())])
+
+    def evaluate(self, rho: float, e: float, par: np.ndarray) -> tuple[float, float, float, float]:
+        """`evaluate` of an equation of state, of virgin material where it has internal variables."""
+        state = (rho, e, self.virgin, par) if hasattr(self.module, "INTERNAL") else (rho, e, par)
+        return self.module.evaluate(*state)
 
     def states(self) -> Iterator[tuple[float, float]]:
         """Densities (kg/m^3) and energies (J/kg) of the stated range."""
@@ -54,7 +75,7 @@ class Case:
 
     def given(self, *names: str) -> float | None:
         """The first of these parameters that the model has, as it is given or by default."""
-        defaults = {parameter.name: parameter.default for parameter in self.module.PARAMETERS}
+        defaults = {parameter.name: parameter.default for parameter in self.parameters}
         return next((self.values.get(name, defaults[name]) for name in names if name in defaults), None)
 
 
@@ -70,9 +91,11 @@ def require(kept: bool, message: str) -> None:
 def row(case: Case) -> None:
     """row(values) returns as many numbers as the kernels read, and none of them is NaN"""
     found = case.row
-    kept = isinstance(found, np.ndarray) and found.shape == (case.kind.length,) and found.dtype == np.float64
-    require(kept, f"row gives {getattr(found, 'dtype', type(found).__name__)} {getattr(found, 'shape', '')}, not float64 "
-                  f"({case.kind.length},)")  # fmt: skip
+    length, least = case.kind.length, "at least " if case.kind.part == "eos" else ""
+    kept = isinstance(found, np.ndarray) and found.ndim == 1 and found.dtype == np.float64
+    require(kept and (found.size == length or (least and found.size > length)),
+            f"row gives {getattr(found, 'dtype', type(found).__name__)} {getattr(found, 'shape', '')}, not float64 "
+            f"({least}{length},)")
     require(not np.isnan(found).any(), f"row has NaN in slot {np.isnan(found).argmax()}")
     if case.kind.part == "eos":
         density = case.values["reference_density"]
@@ -82,7 +105,7 @@ def row(case: Case) -> None:
 def wrong_parameters(case: Case) -> None:
     """row refuses parameters that are unknown, missing or not numbers, and names them"""
     refused(case, {**case.values, "colour": 1.0}, "unknown parameter 'colour'")
-    for parameter in case.module.PARAMETERS:
+    for parameter in case.parameters:
         refused(case, {**case.values, parameter.name: math.nan}, parameter.name)
         if parameter.required:
             rest = {name: value for name, value in case.values.items() if name != parameter.name}
@@ -91,7 +114,7 @@ def wrong_parameters(case: Case) -> None:
 
 def ranges(case: Case) -> None:
     """row refuses negative and zero values where the range of a parameter excludes them"""
-    for parameter in case.module.PARAMETERS:
+    for parameter in case.parameters:
         for number in {POSITIVE: (-1.0, 0.0), NON_NEGATIVE: (-1.0,)}.get(parameter.sign, ()):
             refused(case, {**case.values, parameter.name: number}, f"{parameter.name} = {number}")
 
@@ -99,7 +122,7 @@ def ranges(case: Case) -> None:
 def refused(case: Case, values: Mapping[str, float], words: str) -> None:
     """Raises Broken unless `row` raises a ValueError with these words in it."""
     try:
-        case.module.row(values)
+        case.packed(values)
     except ValueError as error:
         require(words in str(error), f"row says {error}, without {words}: use hydro2d.parameters.collect")
     else:
@@ -115,19 +138,19 @@ def eos_is_chosen(case: Case) -> None:
 
     par = case.row
     for rho, e in case.states():
-        through, alone = dispatch.evaluate(case.module.ID, rho, e, par), case.module.evaluate(rho, e, par)
+        through, alone = dispatch.evaluate(case.module.ID, rho, e, case.virgin, par), case.evaluate(rho, e, par)
         require(through == alone, f"evaluate({rho:g}, {e:g}) is {alone}, and {through} by its ID")
-    require(np.isnan(dispatch.evaluate(NOBODY, 1.0, 1.0, par)).all(), "an ID of no model gives numbers")
+    require(np.isnan(dispatch.evaluate(NOBODY, 1.0, 1.0, case.virgin, par)).all(), "an ID of no model gives numbers")
 
 
 def derivatives(case: Case) -> None:
     """dp/drho and dp/de are the derivatives of p"""
     par = case.row
     for rho, e in case.states():
-        p, dpdrho, dpde, _ = case.module.evaluate(rho, e, par)
+        p, dpdrho, dpde, _ = case.evaluate(rho, e, par)
         d = 1e-5 * rho
-        below = (p - case.module.evaluate(rho - d, e, par)[0]) / d
-        above = (case.module.evaluate(rho + d, e, par)[0] - p) / d
+        below = (p - case.evaluate(rho - d, e, par)[0]) / d
+        above = (case.evaluate(rho + d, e, par)[0] - p) / d
         at = f"at rho = {rho:g} kg/m^3, e = {e:g} J/kg"
         if abs(rho - par[0]) <= d:  # a branch ends there: the slope is that of one side
             kept = near(dpdrho, below, 2e-4) or near(dpdrho, above, 2e-4)
@@ -135,7 +158,7 @@ def derivatives(case: Case) -> None:
             kept = near(dpdrho, 0.5 * (below + above), 1e-7)
         require(kept, f"{at} dp/drho is {dpdrho:g}, and p rises by {0.5 * (below + above):g}")
         d = 0.01 * max(e, 1.0)
-        slope = (case.module.evaluate(rho, e + d, par)[0] - case.module.evaluate(rho, e - d, par)[0]) / (2 * d)
+        slope = (case.evaluate(rho, e + d, par)[0] - case.evaluate(rho, e - d, par)[0]) / (2 * d)
         require(near(dpde, slope, 1e-7), f"{at} dp/de is {dpde:g}, and p rises by {slope:g}")
 
 
@@ -148,7 +171,7 @@ def sound_speed(case: Case) -> None:
     """the sound speed is real in the stated range"""
     par = case.row
     for rho, e in case.states():
-        p, dpdrho, dpde, _ = case.module.evaluate(rho, e, par)
+        p, dpdrho, dpde, _ = case.evaluate(rho, e, par)
         square = dpdrho + p * dpde / rho**2
         require(square > 0.0, f"at rho = {rho:g} kg/m^3, e = {e:g} J/kg c^2 is {square:g}")
 
@@ -156,7 +179,7 @@ def sound_speed(case: Case) -> None:
 def rest(case: Case) -> None:
     """at the density at rest and zero energy, the pressure is exactly zero"""
     par = case.row
-    p = case.module.evaluate(par[0], 0.0, par)[0]
+    p = case.evaluate(par[0], 0.0, par)[0]
     require(p == 0.0, f"p is {p:g} Pa at rho = {par[0]:g} kg/m^3, e = 0")
 
 
@@ -164,7 +187,7 @@ def finite(case: Case) -> None:
     """every positive density gives finite numbers and no negative temperature"""
     par = case.row
     for rho, e in itertools.product((1e-300, 1e-100, 1e-12, 1.0, 1e3, 1e5, 1e9), (-1e6, 0.0, 1e8)):
-        found = case.module.evaluate(rho, e, par)
+        found = case.evaluate(rho, e, par)
         kept = np.isfinite(found).all() and found[3] >= 0.0
         require(kept, f"evaluate({rho:g}, {e:g}) is {tuple(map(float, found))}")
 
@@ -173,7 +196,7 @@ def pressure_rises(case: Case) -> None:
     """p rises with density without a jump, also outside the stated range"""
     par = case.row
     rho = par[0] * np.linspace(0.3, 8.0, 20001)
-    found = np.array([case.module.evaluate(x, 1e5, par)[:2] for x in rho])
+    found = np.array([case.evaluate(x, 1e5, par)[:2] for x in rho])
     rise, expected = np.diff(found[:, 0]), 0.5 * (found[1:, 1] + found[:-1, 1]) * np.diff(rho)
     wrong = ~(rise > 0.0) | (abs(rise - expected) > 5e-3 * abs(expected))
     k = int(wrong.argmax())
@@ -181,22 +204,50 @@ def pressure_rises(case: Case) -> None:
                              f"{expected[k]:g}")  # fmt: skip
 
 
-def temperature(case: Case) -> None:
+def temperature(case: Case) -> str | None:
     """the temperature is consistent with the pressure, T ds = de - p drho/rho^2: d(1/T)/drho|e = -d(p/(rho^2 T))/de|rho"""
+    if hasattr(case.module, "INTERNAL"):
+        return "what the internal variables store is not in the energy of the pressure"
     par, checked = case.row, 0
     for rho, e in case.states():
-        p, _, dpde, T = case.module.evaluate(rho, e, par)
+        p, _, dpde, T = case.evaluate(rho, e, par)
         if T < 50.0:
             continue
         checked += 1
         d = 1e-3 * rho
-        by_rho = (case.module.evaluate(rho + d, e, par)[3] - case.module.evaluate(rho - d, e, par)[3]) / (2 * d)
+        by_rho = (case.evaluate(rho + d, e, par)[3] - case.evaluate(rho - d, e, par)[3]) / (2 * d)
         d = 1e-3 * max(e, 1.0)
-        by_e = (case.module.evaluate(rho, e + d, par)[3] - case.module.evaluate(rho, e - d, par)[3]) / (2 * d)
+        by_e = (case.evaluate(rho, e + d, par)[3] - case.evaluate(rho, e - d, par)[3]) / (2 * d)
         terms = T * dpde / rho**2, p * by_e / rho**2
         require(abs(by_rho - (terms[0] - terms[1])) < 2e-3 * (abs(terms[0]) + abs(terms[1])),
                 f"at rho = {rho:g} kg/m^3, e = {e:g} J/kg dT/drho is {by_rho:g}, not {terms[0] - terms[1]:g}")
     require(checked > 5, f"only {checked} states of the stated range have a temperature above 50 K")
+    return None
+
+
+def memory(case: Case) -> str | None:
+    """internal variables stay as they are while nothing happens, and finite and within their bounds whatever happens"""
+    if not hasattr(case.module, "INTERNAL"):
+        return "the model has no INTERNAL"
+    from eos import dispatch
+
+    par, virgin, rest = case.row, case.virgin, case.row[RHO0]
+    bounds = [(field.least, field.most) for field in case.module.INTERNAL]
+    internal = virgin.copy()
+    case.module.update(rest, rest, par[E0], *np.zeros(8), par, internal)
+    require((internal == virgin).all(), f"at rest {virgin.tolist()} become {internal.tolist()}")
+    happened = 0.01, 1e6, 0.2, 0.3, 2e6, 1e6, 1e-5, 1e-8  # strain, its work, damage and elastic energy twice, time and dt
+    for rho, e in itertools.product(rest * np.array([0.3, 0.9, 1.0, 1.01, 1.5, 8.0]), (0.0, 1e5, 3e6)):
+        internal, through = virgin.copy(), virgin.copy()
+        case.module.update(rest, rho, e, *happened, par, internal)
+        dispatch.update(case.module.ID, rest, rho, e, *happened, par, through)
+        at = f"from rho = {rest:g} to {rho:g} kg/m^3 at e = {e:g} J/kg {virgin.tolist()} become {internal.tolist()}"
+        kept = all(least <= value <= most for value, (least, most) in zip(internal, bounds, strict=True))
+        require(kept, f"{at}, beyond {bounds}")
+        require((through == internal).all(), f"{at}, and {through.tolist()} by its ID")
+        found = case.module.evaluate(rho, e, internal, par)
+        require(np.isfinite(found).all(), f"{at}, and evaluate is {tuple(map(float, found))}")
+    return None
 
 
 # ------------------------------------------------------------------------------------------------ strength
@@ -391,7 +442,7 @@ def damage(case: Case) -> None:
 
 _ALL = (row, wrong_parameters, ranges)
 CHECKS: dict[str, tuple[Callable[[Case], str | None], ...]] = {
-    "eos": (*_ALL, eos_is_chosen, derivatives, sound_speed, rest, finite, pressure_rises, temperature),
+    "eos": (*_ALL, eos_is_chosen, derivatives, sound_speed, rest, finite, pressure_rises, temperature, memory),
     "strength": (*_ALL, strength_is_chosen, moduli, virgin, monotone, melt, yield_floor, weakening, constant_yield,
                  internal_variables),
     "damage": (*_ALL, damage),

@@ -17,7 +17,7 @@ WORDS = ("NAME", "EQUATION", "SOURCE", "VALIDITY")
 #: keys of a model's table in a deck that cannot be parameters
 KEYS = ("model", "file", "code", "code_from", "source", "confidence", "note")
 #: modules of hydro2d that models use, beside those of their own package
-GROUND = ("hydro2d.jit", "hydro2d.parameters")
+GROUND = ("hydro2d.jit", "hydro2d.parameters", "hydro2d.mesh.fields")
 
 
 def part(text: str, required: Mapping[str, tuple[str, ...]]) -> str | None:
@@ -44,13 +44,12 @@ def wrong_import(text: str, package: str) -> tuple[int, str] | None:
 
     What is compiled is kept by the text of the file alone, and the file travels alone.
     """
-    ground = (*GROUND, "hydro2d.mesh.fields") if package == "strength" else GROUND
     for name, line in _imported(ast.parse(text)):
         top = name.split(".")[0]
-        ours = any(f"{name}.".startswith(f"{place}.") for place in (*ground, package))
+        ours = any(f"{name}.".startswith(f"{place}.") for place in (*GROUND, package))
         late = name.split(".")[:2] in ([package, "dispatch"], [package, "radial_return"])
         if late or not (ours or top == "numpy" or top in sys.stdlib_module_names):
-            allowed = f"numpy, Python's own modules, {', '.join(ground)} and modules of {package}"
+            allowed = f"numpy, Python's own modules, {', '.join(GROUND)} and modules of {package}"
             return line, f"imports {name}; a model may import {allowed}" + (", but not those that choose" if late else "")
     return None
 
@@ -91,10 +90,11 @@ def _parameters(module: ModuleType, kind) -> Iterator[str]:
 
 
 def _functions(module: ModuleType, kind) -> Iterator[str]:
-    for name in kind.required:
+    functions, required = kind.interface(module)
+    for name in required:
         if not hasattr(module, name):
-            yield f"needs a function {name}({kind.functions[name][0]})"
-    for name, (arguments, _) in kind.functions.items():
+            yield f"needs a function {name}({functions[name][0]})"
+    for name, (arguments, _) in functions.items():
         function = getattr(module, name, None)
         if function is None:
             continue
@@ -114,7 +114,7 @@ def _variables(module: ModuleType, kind) -> Iterator[str]:
     given = getattr(module, "INTERNAL", ())
     if not isinstance(given, tuple) or not all(isinstance(entry, Field) for entry in given):
         yield "INTERNAL is a tuple of hydro2d.mesh.fields.Field"
-    elif given and kind.part != "strength":
+    elif given and kind.part == "damage":
         yield f"has internal variables, which a {kind.title} cannot"
     for entry in given:
         kinds = entry.centring == "body", entry.remap in ("mass", "volume"), entry.parity in (1, -1), entry.name.isidentifier()

@@ -16,7 +16,8 @@ import numpy as np
 
 from hydro2d import units
 from hydro2d.errors import DeckError, Sources, unknown
-from hydro2d.mesh.fields import Field
+from hydro2d.mesh.fields import INTERNAL, Field
+from hydro2d.parameters import Parameter
 from hydro2d.toml import PARTS, merge, parse, problems_folder
 
 #: how reliable a number is
@@ -33,8 +34,8 @@ CONFIDENCE = {
 
 _KEYS = (*PARTS, "fracture_pressure", "title", "note", "source", "confidence", "variants", "variant", "based_on")
 _ABOUT = ("source", "confidence", "note")
-#: keys of a part that choose the model; `file` has become the other two of a model from outside
-_CHOICE = ("model", "code", "code_from")
+#: keys of a part that choose the model, and the one that it stands over; `file` has become two of these of a model from outside
+_CHOICE = ("model", "code", "code_from", "solid")
 
 if TYPE_CHECKING:
     from hydro2d.materials.outside import Outside
@@ -58,6 +59,7 @@ class Model:
     """A model by name, with a number for every parameter; a model from outside also has the name and text of its file.
 
     trusted : whether this text, which may be a stranger's, may be run
+    solid : name of the equation of state that it stands over, if it stands over one; its parameters are among the numbers
     """
 
     name: str
@@ -65,6 +67,7 @@ class Model:
     file: str = ""
     code: str = ""
     trusted: bool = True
+    solid: str = ""
 
     @property
     def values(self) -> dict[str, float]:
@@ -95,10 +98,20 @@ class Model:
         found = self.outside(part)
         return found.module if found else outside.KINDS[part].models[self.name]
 
+    @property
+    def title(self) -> str:
+        """Its name, with that of the one that it stands over."""
+        return f"{self.name} over {self.solid}" if self.solid else self.name
+
+    def over(self) -> ModuleType | None:
+        """The module of the equation of state that it stands over, None without one."""
+        return _solid(self.solid)[0] if self.solid else None
+
     def as_deck(self) -> dict:
         """The model as a table of a deck, every number in SI."""
         code = {"code_from": self.file, "code": self.code} if self.code else {}
-        return {"model": self.name, **self.values, **code}
+        solid = {"solid": self.solid} if self.solid else {}
+        return {"model": self.name, **solid, **self.values, **code}
 
 
 @dataclass(frozen=True)
@@ -140,7 +153,9 @@ class Material:
 
     def from_outside(self) -> list[Outside]:
         """Its models from outside. Raises ModelError if one is not trusted."""
-        return [found for part in PARTS if (found := getattr(self, part).outside(part))]
+        found = [each for part in PARTS if (each := getattr(self, part).outside(part))]
+        below = _solid(self.eos.solid)[1] if self.eos.solid else None
+        return [*found, below] if below else found
 
 
 @functools.cache
@@ -244,7 +259,8 @@ def _overlaid(base: dict, over: dict) -> dict:
     for part in PARTS:
         old, new = base.get(part), over.get(part)
         tables = isinstance(old, dict) and isinstance(new, dict)
-        if tables and any(new.get(key, old.get(key)) != old.get(key) for key in ("model", "code")):
+        if tables and any(new.get(key, old.get(key)) != old.get(key) for key in ("model", "code", "solid")
+                          if key != "solid" or key in old):
             del base[part]
     return merge(base, {key: value for key, value in over.items() if key not in ("based_on", "variant")})
 
@@ -305,6 +321,40 @@ def _chosen(raw, part: str, fail: Fail) -> tuple[ModuleType, str, str]:
     return found.module, found.file, found.text
 
 
+def _solid(name: str) -> tuple[ModuleType, Outside | None]:
+    """The equation of state, without internal variables, that another one stands over: its module, and what is from outside.
+
+    Raises ValueError for a name of none.
+    """
+    from hydro2d.materials import outside
+
+    models = outside.KINDS["eos"].models
+    below = None if name in models else outside.from_package("eos", name)
+    found = below.module if below else models.get(name)
+    if found is None or hasattr(found, "INTERNAL"):
+        plain = [each for each, module in models.items() if not hasattr(module, "INTERNAL")]
+        raise ValueError(unknown("equation of state without memory", name, [*plain, *outside.in_packages("eos")]))
+    return found, below
+
+
+def _parameters(module: ModuleType, raw: dict, part: str, fail: Fail) -> dict[str, Parameter]:
+    """The parameters of a model by name, with those of the solid that it stands over, where it does."""
+    own = {parameter.name: parameter for parameter in module.PARAMETERS}
+    if not getattr(module, "OVER_SOLID", False):
+        if "solid" in raw:
+            raise fail((part, "solid"), f"{module.NAME} stands over no other equation of state")
+        return own
+    if not isinstance(raw.get("solid"), str):
+        raise fail((part,), f"{module.NAME} needs solid, the name of the equation of state of its solid")
+    try:
+        below, outside = _solid(raw["solid"])
+    except ValueError as problem:
+        raise fail((part, "solid"), str(problem)) from None
+    if outside:
+        outside.offer()
+    return {**{each.name: each for each in below.PARAMETERS if each.name not in module.GIVEN_TO_SOLID}, **own}
+
+
 def _model(raw, part: str, default: str | None, eos: Mapping, fail: Fail, trust: bool) -> Model:
     """A model with all its parameters: given, taken from the equation of state, or the model's default."""
     if raw is None:
@@ -314,7 +364,7 @@ def _model(raw, part: str, default: str | None, eos: Mapping, fail: Fail, trust:
     if not trust and _has_strange_code(raw, part):
         return _unread(raw, part, fail)
     module, file, code = _chosen(raw, part, fail)
-    parameters = {parameter.name: parameter for parameter in module.PARAMETERS}
+    parameters = _parameters(module, raw, part, fail)
     numbers = {}
     for key in raw:
         if key not in (*parameters, *_CHOICE):
@@ -333,7 +383,7 @@ def _model(raw, part: str, default: str | None, eos: Mapping, fail: Fail, trust:
         else:
             number = Number(float(parameter.default), parameter.unit or "1", f"{module.NAME} model", "default")
         numbers[key] = number
-    return Model(module.NAME, numbers, file, code)
+    return Model(module.NAME, numbers, file, code, solid=raw.get("solid", ""))
 
 
 def _has_strange_code(raw, part: str) -> bool:
@@ -384,9 +434,11 @@ GAS_MODULUS = 0.01
 class MaterialTable:
     """The numbers of the materials for kernels, one row per slot m (a body, with all bodies that join it).
 
-    ``eos_par`` is float64[m, eos.ROW], ``strength_par`` float64[m, strength.ROW], ``damage_par`` float64[m,
-    strength.DAMAGE_ROW]; the model ids are int64[m]; ``internal`` holds the internal variables of every strength model;
-    ``fracture_pressure`` is a positive tension, inf where never.
+    ``eos_par`` is float64[m, k] as long as the longest row of the run, at least eos.ROW, ``strength_par`` float64[m,
+    strength.ROW], ``damage_par`` float64[m, strength.DAMAGE_ROW]; the model ids are int64[m]; ``internal`` holds the internal
+    variables of every strength model and then those of its equation of state, ``initial`` what virgin material has of them,
+    ``memory`` the row of State.q in which those of the equation of state begin, int64[m]; ``fracture_pressure`` is a positive
+    tension, inf where never.
     """
 
     names: tuple[str, ...]
@@ -398,6 +450,8 @@ class MaterialTable:
     strength_model: np.ndarray
     strength_par: np.ndarray
     internal: tuple[tuple[Field, ...], ...]
+    initial: tuple[np.ndarray, ...]
+    memory: np.ndarray
     damage_model: np.ndarray
     damage_par: np.ndarray
     fracture_pressure: np.ndarray
@@ -405,13 +459,28 @@ class MaterialTable:
     def __len__(self) -> int:
         return len(self.names)
 
+    @property
+    def remembers(self) -> bool:
+        """Whether an equation of state has internal variables."""
+        return any(INTERNAL + len(own) > first for own, first in zip(self.internal, self.memory, strict=True))
+
+    def virgin(self, m: int) -> np.ndarray:
+        """The internal variables of the equation of state of body m, as virgin material has them, float64[n]."""
+        return self.initial[m][self.memory[m] - INTERNAL:]
+
+    def evaluate(self, m: int, rho: float, e: float) -> tuple[float, float, float, float]:
+        """(p, dp/drho, dp/de, T) of virgin material of body m, see `eos.dispatch.evaluate`."""
+        from eos.dispatch import evaluate
+
+        return evaluate(self.eos_model[m], rho, e, self.virgin(m), self.eos_par[m])
+
     def sound_speeds(self, floor: float = 0.0) -> np.ndarray:
         """Bulk sound speed of every material at rest, m/s, float64[m]; floor : least square of it, (m/s)^2."""
-        from eos.dispatch import evaluate, sound_speed_squared
+        from eos.dispatch import sound_speed_squared
 
         squares = []
         for m in range(len(self)):
-            p, dpdrho, dpde, _ = evaluate(self.eos_model[m], self.rho0[m], self.e0[m], self.eos_par[m])
+            p, dpdrho, dpde, _ = self.evaluate(m, self.rho0[m], self.e0[m])
             squares.append(sound_speed_squared(self.rho0[m], p, dpdrho, dpde, floor))
         return np.sqrt(squares)
 
@@ -422,10 +491,22 @@ class MaterialTable:
 
 
 def _row(module: ModuleType, model: Model, material: Material) -> np.ndarray:
+    over = model.over()
     try:
-        return module.row(model.values)
+        return module.row(model.values, over) if over else module.row(model.values)
     except ValueError as problem:
         raise DeckError(f"material {material.name}: {problem}") from None
+
+
+def _variables(eos_modules, eos_par, strength_modules, strength_par) -> dict:
+    """What a table says of internal variables: those of the strength model of every body, then of its equation of state."""
+    internal, initial = [], []
+    for parts in zip(zip(strength_modules, strength_par, strict=True), zip(eos_modules, eos_par, strict=True), strict=True):
+        own = [(field, row) for module, row in parts for field in getattr(module, "INTERNAL", ())]
+        internal.append(tuple(field for field, _ in own))
+        initial.append(np.array([field.at_rest(row) for field, row in own]))
+    first = [INTERNAL + len(getattr(module, "INTERNAL", ())) for module in strength_modules]
+    return {"internal": tuple(internal), "initial": tuple(initial), "memory": np.array(first, dtype=np.int64)}
 
 
 def resolve(deck) -> MaterialTable:
@@ -444,7 +525,10 @@ def resolve(deck) -> MaterialTable:
     strength_modules = [material.strength.module("strength") for material in chosen]
     damages = [material.damage if deck.failure.damage == "material" else Model("none") for material in chosen]
     damage_modules = [damage.module("damage") for damage in damages]
-    eos_par = np.stack([_row(m, c.eos, c) for m, c in zip(eos_modules, chosen, strict=True)])
+    eos_rows = [_row(module, material.eos, material) for module, material in zip(eos_modules, chosen, strict=True)]
+    eos_par = np.zeros((len(chosen), max(row.size for row in eos_rows)))
+    for row, own in zip(eos_par, eos_rows, strict=True):
+        row[: own.size] = own
     strength_par = np.stack([_row(m, c.strength, c) for m, c in zip(strength_modules, chosen, strict=True)])
     damage_par = np.stack([_row(m, d, c) for m, d, c in zip(damage_modules, damages, chosen, strict=True)])
     tensile = [c.fracture_pressure.value if c.fracture_pressure else np.inf for c in chosen]
@@ -459,7 +543,7 @@ def resolve(deck) -> MaterialTable:
         eos_par=eos_par,
         strength_model=np.array([m.ID for m in strength_modules], dtype=np.int64),
         strength_par=strength_par,
-        internal=tuple(getattr(m, "INTERNAL", ()) for m in strength_modules),
+        **_variables(eos_modules, eos_par, strength_modules, strength_par),
         damage_model=np.array([m.ID for m in damage_modules], dtype=np.int64),
         damage_par=damage_par,
         fracture_pressure=np.array(tensile),
@@ -471,7 +555,7 @@ def describe(name: str, variant: str | None = None) -> str:
     material = load(name, variant)
     lines = [f"{material.name}: {material.title}"] + ([material.note] if material.note else [])
     parts: list[tuple[str, Mapping[str, Number]]] = [
-        (f"{part}: {getattr(material, part).name}", getattr(material, part).numbers) for part in PARTS
+        (f"{part}: {getattr(material, part).title}", getattr(material, part).numbers) for part in PARTS
     ]
     if material.fracture_pressure is not None:
         parts.append(("failure", {"fracture_pressure": material.fracture_pressure}))

@@ -41,6 +41,7 @@ class Kind:
     """A part of a material whose model can come from outside.
 
     models, added : those of hydro2d by name, and those from outside that kernels know;  functions : see eos/registry.py
+    with_memory : functions and required ones of a model with internal variables, where they are others
     """
 
     part: str
@@ -52,6 +53,13 @@ class Kind:
     required: tuple[str, ...]
     flags: tuple[str, ...]
     length: int
+    with_memory: tuple[dict[str, tuple[str, int]], tuple[str, ...]] | None = None
+
+    def interface(self, module: ModuleType) -> tuple[dict[str, tuple[str, int]], tuple[str, ...]]:
+        """The functions that a model may have, and those that it must have."""
+        if self.with_memory and hasattr(module, "INTERNAL"):
+            return self.with_memory
+        return self.functions, self.required
 
 
 _STRENGTH = strength.registry
@@ -59,7 +67,7 @@ KINDS = {
     kind.part: kind
     for kind in (
         Kind("eos", "equation of state", "eos", eos.registry.MODELS, eos.registry.ADDED, eos.registry.FUNCTIONS,
-             eos.registry.REQUIRED, (), EOS_ROW),
+             eos.registry.REQUIRED, (), EOS_ROW, (eos.registry.MEMORY_FUNCTIONS, eos.registry.MEMORY_REQUIRED)),
         Kind("strength", "strength model", "strength", _STRENGTH.STRENGTH_MODELS, _STRENGTH.STRENGTH_ADDED,
              _STRENGTH.STRENGTH_FUNCTIONS, _STRENGTH.STRENGTH_REQUIRED, ("CONSTANT_MODULUS", "THERMAL"), STRENGTH_ROW),
         Kind("damage", "damage model", "strength", _STRENGTH.DAMAGE_MODELS, _STRENGTH.DAMAGE_ADDED,
@@ -195,7 +203,7 @@ def _checked(text: str, part: str) -> ModuleType:
     module = _module(text, kind)
     fault = form.fault(module, kind)
     if fault is None:
-        fault = next((found for name in kind.functions if (found := _compiled(module, name, kind))), None)
+        fault = next((found for name in kind.interface(module)[0] if (found := _compiled(module, name, kind))), None)
     if fault is not None:
         raise ModelError(f": {fault}")
     digest = hashlib.sha256(f"{part} {text}".encode()).hexdigest()
@@ -222,7 +230,7 @@ def _module(text: str, kind: Kind) -> ModuleType:
 
 def _compiled(module: ModuleType, name: str, kind: Kind) -> str | None:
     """Why a function of a model cannot be compiled, or how its return value is wrong; None if there is no fault."""
-    arguments, count = kind.functions[name]
+    arguments, count = kind.interface(module)[0][name]
     if not hasattr(module, name):
         return None
     try:

@@ -1,33 +1,33 @@
 """The materials of a run as two blocks that kernels read.
 
-``models[m, k]``, int64: the ids of the models of body m, in the columns EOS, STRENGTH and DAMAGE.
-``materials[m, k]``, float64: the parameter rows of these models one after another, from EOS_AT, STRENGTH_AT and DAMAGE_AT on,
-and then
+``models[m, k]``, int64: the ids of the models of body m, in the columns EOS, STRENGTH and DAMAGE, and in MEMORY the row of
+State.q in which the internal variables of its equation of state begin.
+``materials[m, k]``, float64: the parameter rows of the strength and the damage model, from STRENGTH_AT and DAMAGE_AT on, then
 
     TENSILE         the tension at which the body fractures, Pa, positive; inf where it never does
     CUTOFF_DENSITY  the density at and below which it is no solid any more, kg/m^3
     FACTOR          what multiplies its flow stress
     GAS             1 for a gas beside the other bodies, else 0
+
+and from EOS_AT to the end the row of the equation of state, with zeros behind it where that of another body is longer.
 """
 
 from __future__ import annotations
 
 import numpy as np
 
-from eos.layout import ROW as EOS_ROW
 from strength.layout import DAMAGE_ROW
 from strength.layout import ROW as STRENGTH_ROW
 
-EOS, STRENGTH, DAMAGE = range(3)
+EOS, STRENGTH, DAMAGE, MEMORY = range(4)
 
-EOS_AT, STRENGTH_AT = 0, EOS_ROW
-DAMAGE_AT = STRENGTH_AT + STRENGTH_ROW
+STRENGTH_AT, DAMAGE_AT = 0, STRENGTH_ROW
 TENSILE = DAMAGE_AT + DAMAGE_ROW
-CUTOFF_DENSITY, FACTOR, GAS = range(TENSILE + 1, TENSILE + 4)
+CUTOFF_DENSITY, FACTOR, GAS, EOS_AT = range(TENSILE + 1, TENSILE + 5)
 
 
 def packed(table, cutoff_density, factor) -> tuple[np.ndarray, np.ndarray]:
     """(models, materials) of a MaterialTable; cutoff_density (kg/m^3) and factor are float64[m]."""
-    models = np.stack([table.eos_model, table.strength_model, table.damage_model], axis=1)
+    models = np.stack([table.eos_model, table.strength_model, table.damage_model, table.memory], axis=1)
     numbers = table.fracture_pressure, cutoff_density, factor, table.gases().astype(float)
-    return models, np.concatenate([table.eos_par, table.strength_par, table.damage_par, np.stack(numbers, axis=1)], axis=1)
+    return models, np.concatenate([table.strength_par, table.damage_par, np.stack(numbers, axis=1), table.eos_par], axis=1)

@@ -11,6 +11,10 @@ _ABOUT = {
     "source": {**_TEXT, "description": "where the numbers come from"},
     "confidence": {"enum": list(CONFIDENCE), "description": "how reliable they are"},
 }
+_SOLID = {
+    "solid": {**_TEXT, "description": "the equation of state that the model stands over, for one that needs it; its parameters "
+              "stand beside those of the model", "examples": ["mie-grueneisen"]},
+}
 
 
 def definitions() -> dict[str, dict]:
@@ -31,6 +35,7 @@ def _part(kind: Kind) -> dict:
         "code": {**_TEXT, "description": "the text of that file, which resolved decks hold instead of its name",
                  "examples": ["NAME = 'my-model'"]},
         "code_from": {**_TEXT, "description": "the name of that file", "examples": ["my_model.py"]},
+        **(_SOLID if kind.part == "eos" else {}),
         **_ABOUT,
         **{key: {**_QUANTITY, "x-unit": entries[0][1], "description": _meanings(entries)} for key, entries in known.items()},
     }

@@ -2,22 +2,19 @@
 
 The fields of the bodies that the remap carries stand in the block ``State.q[k, m, j, i]`` in the order of the table; their
 integer constants are their positions there. From row ``INTERNAL`` on follow the internal variables of the body's strength
-model, which the model declares as fields of its own. Remap, ghost cells and state follow from the table.
+model and then those of its equation of state, which the models declare as fields of their own. Remap, ghost cells and state
+follow from the table.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from math import inf
 
 import numpy as np
 
 RHO, E, SRR, SZZ, SRZ, EP, DMG = range(7)
-
-#: how many of the body fields a body carries: without strength, with strength, with strength and damage; with internal
-#: variables, all that stand before them as well
-CARRIED_FLUID, CARRIED_SOLID, CARRIED_DAMAGE = 2, 6, 7
 
 #: what is stored as the damage of failed material: as far beyond 1 as sound material is below it, so that a cell in which the
 #: remap has mixed both counts as failed, which is from 1 on, where about half of its mass has
@@ -35,7 +32,9 @@ class Field:
 
     ``centring`` is "body" ([m, j, i]), "cell" ([j, i]) or "vertex" ([b, j, i]); ``parity`` the sign in a mirror; ``remap``
     what carries it: "volume", "mass", "momentum" or "" (derived, never remapped); ``least`` and ``most`` are the bounds within
-    which the remap keeps it.
+    which the remap keeps it; ``bodies`` the bodies that carry it, "all", those with "strength" or those with "damage" (what a
+    model declares is carried by the bodies of the model); ``initial`` what virgin material has of it, a number or a function of
+    the row of the model that declares it: what the bodies begin with, and what comes in ahead of a mesh that travels.
     """
 
     name: str
@@ -48,17 +47,23 @@ class Field:
     meaning: str
     least: float = -inf
     most: float = inf
+    bodies: str = "all"
+    initial: float | Callable[[np.ndarray], float] = 0.0
+
+    def at_rest(self, par: np.ndarray) -> float:
+        """What virgin material has of it; par : the row of the material's model."""
+        return self.initial(par) if callable(self.initial) else self.initial
 
 
 FIELDS = (
     Field("volume_fraction", "vof", "body", "1", 1, "volume", True, "share of the cell that the body fills"),
     Field("density", "rho", "body", "kg/m^3", 1, "volume", True, "density of the body's material in the cell"),
     Field("energy", "e", "body", "J/kg", 1, "mass", True, "specific internal energy"),
-    Field("stress_rr", "srr", "body", "Pa", 1, "volume", True, "radial deviatoric stress"),
-    Field("stress_zz", "szz", "body", "Pa", 1, "volume", True, "axial deviatoric stress"),
-    Field("stress_rz", "srz", "body", "Pa", -1, "volume", True, "shear stress"),
-    Field("plastic_strain", "ep", "body", "1", 1, "mass", True, "equivalent plastic strain", 0.0),
-    Field("damage", "dmg", "body", "1", 1, "mass", True, "damage, from 1 on failed", 0.0, FAILED),
+    Field("stress_rr", "srr", "body", "Pa", 1, "volume", True, "radial deviatoric stress", bodies="strength"),
+    Field("stress_zz", "szz", "body", "Pa", 1, "volume", True, "axial deviatoric stress", bodies="strength"),
+    Field("stress_rz", "srz", "body", "Pa", -1, "volume", True, "shear stress", bodies="strength"),
+    Field("plastic_strain", "ep", "body", "1", 1, "mass", True, "equivalent plastic strain", 0.0, bodies="strength"),
+    Field("damage", "dmg", "body", "1", 1, "mass", True, "damage, from 1 on failed", 0.0, FAILED, bodies="damage"),
     Field("body_pressure", "pm", "body", "Pa", 1, "", True, "pressure of the body's material"),
     Field("bulk_modulus", "km", "body", "Pa", 1, "", False, "adiabatic bulk modulus rho c^2"),
     Field("temperature", "tm", "body", "K", 1, "", True, "temperature"),
@@ -90,7 +95,7 @@ FIELDS = (
 #: the rows of State.q that every body has
 BODY = tuple(field for field in FIELDS if field.centring == "body" and field.remap and field.name != "volume_fraction")
 
-#: the row of State.q in which the internal variables of a body's strength model begin
+#: the row of State.q in which the internal variables of a body begin: of its strength model, then of its equation of state
 INTERNAL = len(BODY)
 
 #: columns of `remap_rules`: 1 for what is carried per mass, 0 per volume; the bounds; the sign in a mirror
@@ -109,6 +114,21 @@ def remap_rules(internal: Sequence[Sequence[Field]]) -> np.ndarray:
         for k, field in enumerate((*BODY, *own)):
             rules[m, k] = field.remap == "mass", field.least, field.most, field.parity
     return rules
+
+
+def carried(own: Sequence[Field], strength: bool, damage: bool) -> list[int]:
+    """The rows of State.q that the remap carries beside the density, of a body with the internal variables ``own``."""
+    kinds = {"all", *(["strength"] if strength else []), *(["damage"] if damage else [])}
+    return [*(k for k, field in enumerate(BODY) if field.bodies in kinds and k != RHO), *range(INTERNAL, INTERNAL + len(own))]
+
+
+def carried_rows(bodies: Sequence[Sequence[int]]) -> np.ndarray:
+    """`carried` of every body as kernels read it, int64[m, n]: how many they are, then which; zeros at the end."""
+    rows = np.zeros((len(bodies), 1 + max(len(own) for own in bodies)), dtype=np.int64)
+    for row, own in zip(rows, bodies, strict=True):
+        row[0] = len(own)
+        row[1:1 + len(own)] = own
+    return rows
 
 
 @dataclass(frozen=True)
@@ -163,11 +183,16 @@ WORK = (
     Work("momentum_sums", "5 J", "in a row: kinetic energy before and after, momentum gained, energy cut, wall's momentum"),
     Work("deposited", "J", "energy that a row of cells is given from its vertices"),
     Work("removed", "4+m J", "what the tidying of a row removes: energies, momentum, void, mass of every body"),
-    Work("walls", "2 J", "axial momentum and energy that edges with a given velocity take in a row"),
+    Work("walls", "4 2 J", "axial momentum and energy that each edge with a given velocity takes in a row"),
     Work("held_back", "2", "axial momentum and energy that the transmitting edges take"),
     Work("gate", "G", "where the threads of a phase wait for one another", int),
     Work("row_moving", "J 2", "columns of the moving vertices of a row", int),
     Work("moving", "4", "rows and columns of all moving vertices", int),
+)
+
+#: what equations of state with internal variables need beside
+MEMORY_WORK = (
+    Work("before", "4 m j i", "density, plastic strain, damage and elastic energy of the deviator before the Lagrangian step"),
 )
 
 #: what the contact of two groups needs beside

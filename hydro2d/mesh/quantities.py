@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
+from eos.registry import MODULES
 from hydro2d.errors import Error, unknown
 from hydro2d.mesh.fields import Field
 from strength.registry import STRENGTH_MODULES
@@ -20,7 +21,7 @@ class FieldError(Error):
 @dataclass(frozen=True)
 class Quantity:
     """A row of the table. `title` holds {body} where the quantity is one of every body; one of `contact` is written only
-    where there are two body groups, an `internal` one only for bodies whose strength model has the variable."""
+    where there are two body groups, an `internal` one only for bodies whose model has the variable."""
 
     key: str
     title: str
@@ -40,7 +41,7 @@ class Quantity:
 
 
 def _internal(field: Field) -> Quantity:
-    """The row of an internal variable of a strength model: back_stress_rr is "Back Stress rr of ..."."""
+    """The row of an internal variable of a model: back_stress_rr is "Back Stress rr of ..."."""
     words = [word if len(word) < 3 else word.capitalize() for word in field.name.split("_")]
     return Quantity(field.name, f"{' '.join(words)} of {{body}}", unit(field), field.meaning, internal=True)
 
@@ -55,7 +56,7 @@ def from_name(name: str, bodies: Iterable[str]) -> Iterator[Quantity]:
         if title.endswith(f" of {body}"):
             title = title.removesuffix(f" of {body}")
             key = "_".join(word if len(word) < 3 else word.lower() for word in title.split(" "))
-            yield Quantity(key, f"{title} of {{body}}", unit, "a variable of the strength model", internal=True)
+            yield Quantity(key, f"{title} of {{body}}", unit, "a variable of the model", internal=True)
             return
 
 
@@ -64,9 +65,9 @@ def unit(field: Field) -> str:
     return "" if field.unit == "1" else field.unit
 
 
-#: the internal variables that strength models declare, each name once
-INTERNAL = {field.name: _internal(field) for module in STRENGTH_MODULES for field in getattr(module, "INTERNAL", ())
-            if field.written}
+#: the internal variables that models declare, each name once
+INTERNAL = {field.name: _internal(field) for module in (*STRENGTH_MODULES, *MODULES)
+            for field in getattr(module, "INTERNAL", ()) if field.written}
 
 TABLE: tuple[Quantity, ...] = (
     Quantity("pressure", "Pressure", "Pa", "sum of volume fraction times pressure; positive in compression"),

@@ -31,28 +31,30 @@ def _shape(axes: str, lengths: dict[str, int]) -> list[int]:
     return [sum(length(part) for part in axis.split("+")) for axis in axes.split()]
 
 
-def _arrays(groups: int) -> Iterator[tuple[str, str, type]]:
+def _arrays(groups: int, remembers: bool) -> Iterator[tuple[str, str, type]]:
     """Symbol, axes and kind of every array that has memory of its own; the other fields are views of q and the velocities."""
     yield from (("q", "k m j i", float), ("velocity", "2 b J I", float), ("velocity0", "2 b J I", float))
     views = {"u", "v", "u0", "v0", *(field.symbol for field in fields.BODY)}
     axes = {"body": "m j i", "cell": "j i", "vertex": "b J I"}
     yield from ((field.symbol, axes[field.centring], float) for field in fields.FIELDS if field.symbol not in views)
-    yield from ((work.symbol, work.axes, work.kind) for work in (*fields.WORK, *(fields.CONTACT_WORK if groups > 1 else ())))
+    beside = (*(fields.CONTACT_WORK if groups > 1 else ()), *(fields.MEMORY_WORK if remembers else ()))
+    yield from ((work.symbol, work.axes, work.kind) for work in (*fields.WORK, *beside))
 
 
-def bytes_needed(nj: int, ni: int, bodies: int, groups: int, internal: int = 0) -> int:
+def bytes_needed(nj: int, ni: int, bodies: int, groups: int, internal: int = 0, remembers: bool = False) -> int:
     """Memory of a State on nj by ni cells, ghosts included, bytes, without taking it; internal : most variables of a body."""
     lengths = _lengths(nj, ni, bodies, groups, fields.INTERNAL + internal)
-    return sum(math.prod(_shape(axes, lengths)) * np.dtype(kind).itemsize for _, axes, kind in _arrays(groups))
+    return sum(math.prod(_shape(axes, lengths)) * np.dtype(kind).itemsize for _, axes, kind in _arrays(groups, remembers))
 
 
 class State:
     """Fields of ``bodies`` bodies on a mesh, and what the kernels of a cycle leave for one another.
 
     Its arrays are those of `fields.FIELDS` and `fields.WORK`, by their symbols; with two groups, of `fields.CONTACT_WORK` as
-    well. Shapes: body fields [m, j, i], cell fields [j, i], vertex fields [b, j, i] with a leading index of body group b (one
-    group unless contact is on); all with ghosts. ``velocity`` and ``velocity0`` hold u, v and u0, v0; ``body_range``
-    and ``active_range`` are the first of ``body_ranges`` and ``group_ranges``.
+    well, and where an equation of state has memory, of `fields.MEMORY_WORK`. Shapes: body fields [m, j, i], cell fields [j, i],
+    vertex fields [b, j, i] with a leading index of body group b (one group unless contact is on); all with ghosts.
+    ``velocity`` and ``velocity0`` hold u, v and u0, v0; ``body_range`` and ``active_range`` are the first of ``body_ranges``
+    and ``group_ranges``.
 
     Parameters
     ----------
@@ -61,24 +63,35 @@ class State:
     group : int64[m], optional
         Body group of every body, which is the velocity field that it moves with: 0, and 1 for the hard bodies of a contact.
     internal : sequence of a sequence of Field for every body, optional
-        Internal variables of its strength model; none without.
+        Internal variables of its strength model, then of its equation of state; none without.
+    initial : sequence of float64[n] for every body, optional
+        What virgin material has of them, which is everywhere at first; zeros without.
+    remembers : bool
+        Whether an equation of state has internal variables.
+
+    ``initial`` is kept as float64[k, m], for the rows of q.
     """
 
     if TYPE_CHECKING:
         def __getattr__(self, symbol: str) -> np.ndarray: ...
 
-    def __init__(self, grid: Grid, bodies: int, group=None, internal=None):
+    def __init__(self, grid: Grid, bodies: int, group=None, internal=None, initial=None,
+                 remembers: bool = False):
         self.grid, self.bodies = grid, bodies
         self.group = np.zeros(bodies, dtype=np.int64) if group is None else np.asarray(group, dtype=np.int64)
         groups = self.groups = int(self.group.max()) + 1
         self.rules = fields.remap_rules(internal or [()] * bodies)
         lengths = _lengths(*grid.shape, bodies, groups, self.rules.shape[1])
-        for symbol, axes, kind in _arrays(groups):
+        for symbol, axes, kind in _arrays(groups, remembers):
             setattr(self, symbol, np.zeros(_shape(axes, lengths), dtype=kind))
         self.u, self.v = self.velocity
         self.u0, self.v0 = self.velocity0
         for field, row in zip(fields.BODY, self.q, strict=False):
             setattr(self, field.symbol, row)
+        self.initial = np.zeros(self.rules.shape[1::-1])
+        for m, values in enumerate(initial or ()):
+            self.initial[fields.INTERNAL:fields.INTERNAL + len(values), m] = values
+        self.q[...] = self.initial[:, :, None, None]
         self.pre[...] = grid.volume  # ghosts keep it: a face beside them divides by it
         self.body_range, self.active_range = self.body_ranges[0], self.group_ranges[0, 0]
         self.empty_ranges()

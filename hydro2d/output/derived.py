@@ -40,7 +40,7 @@ class Cells:
         return values
 
     def internal(self, name: str) -> np.ndarray:
-        """An internal variable of strength models, by the name of its field; zero for bodies whose model does not have it."""
+        """An internal variable of models, by the name of its field; zero for bodies whose model does not have it."""
         values = np.zeros_like(self.vof)
         for m, own in enumerate(self._sim.table.internal):
             for k, field in enumerate(own):
@@ -120,7 +120,7 @@ class Cells:
         return number
 
 
-#: the function that computes each quantity, by its key; internal variables of strength models are not listed
+#: the function that computes each quantity, by its key; internal variables of models are not listed
 EVALUATE: dict[str, Callable[[Cells], np.ndarray]] = {
     "pressure": lambda c: c.by_volume(c.p),
     "density": lambda c: c.by_volume(c.rho),

@@ -21,7 +21,7 @@ from hydro2d import checksums
 from hydro2d.errors import Error, unknown
 from hydro2d.files import replacing, write_text
 from hydro2d.mesh import quantities
-from hydro2d.mesh.boundary_conditions import halved
+from hydro2d.mesh.edges.registry import halved
 from hydro2d.output import derived, foreign
 from hydro2d.output.outlines import outlines
 from hydro2d.strange import own_folder

@@ -13,7 +13,7 @@ import numpy as np
 from hydro2d import checksums
 from hydro2d.errors import Error
 from hydro2d.files import read_json
-from hydro2d.mesh.boundary_conditions import halved
+from hydro2d.mesh.edges.registry import halved
 from hydro2d.output import history, snapshot, vtk
 from hydro2d.results.summaries import plausible
 from hydro2d.results.viewer.packing import DEFAULT_BITS

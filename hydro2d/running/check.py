@@ -11,7 +11,8 @@ from hydro2d.deck import deck as decks
 from hydro2d.errors import DeckError
 from hydro2d.materials import library
 from hydro2d.mesh import quantities
-from hydro2d.mesh.boundary_conditions import EDGES, halved
+from hydro2d.mesh.edges.base import EDGES
+from hydro2d.mesh.edges.registry import BY_NAME, halved, made
 from hydro2d.mesh.grid import Grid
 from hydro2d.output.vtk import Dump
 from hydro2d.solver import insertion, memory
@@ -57,7 +58,7 @@ class Check:
             entry, material = decks.body(deck, body), self.table.materials[m]
             found.append(f"body      {body}: {material.name}, {_mass(self.masses[body], grid)}, v = {_speed(entry)}"
                          + self._across(entry))  # fmt: skip
-            found.append(f"          eos {material.eos.name}, strength {material.strength.name}")
+            found.append(f"          eos {material.eos.title}, strength {material.strength.name}")
         found += self._follow()
         found += ["", f"sliding   {_sliding(deck)}"]
         found += [f"stop      {_stop(deck.stop)}"]
@@ -71,9 +72,11 @@ class Check:
         return START + self.seconds * (1.0 - shared + shared / threads)
 
     def _edge(self, key: str) -> str:
-        """The boundary condition at an edge, with its velocity if it has one."""
-        kind, velocity = getattr(self.deck.boundaries, key), getattr(self.deck.boundaries, f"{key}_velocity")
-        return f"{key} {kind}" + (f" {velocity:g} m/s" if velocity is not None else "")
+        """The boundary condition at an edge, with its velocity, or the least and the greatest, if it has one of its own."""
+        kind = getattr(self.deck.boundaries, key)
+        speeds = made(key, self.deck.boundaries.model_dump()).speeds() if BY_NAME[kind].keys else ()
+        shown = " to ".join(f"{speed:g}" for speed in sorted({min(speeds), max(speeds)})) if speeds else ""
+        return f"{key} {kind}" + (f" {shown} m/s" if shown else "")
 
     def _follow(self) -> list[str]:
         """How far a travelling mesh reaches, and which bodies will enter it."""
@@ -135,13 +138,13 @@ def _dump(grid, table, start, r_min: str) -> Dump:
 
 def _cycles(deck, grid, table, start) -> int:
     """Number of cycles to the end, at the time step that the fastest elastic wave allows in the smallest cell."""
-    from eos.dispatch import evaluate, sound_speed_squared
+    from eos.dispatch import sound_speed_squared
     from strength import SHEAR
 
     fastest = 0.0
     for m in range(len(table)):
         rho, e = (float(start[name][m].flat[np.argmax(start["vof"][m])]) for name in ("rho", "e"))
-        p, dpdrho, dpde, _ = evaluate(table.eos_model[m], rho, e, table.eos_par[m])
+        p, dpdrho, dpde, _ = table.evaluate(m, rho, e)
         wave = sound_speed_squared(rho, p, dpdrho, dpde, 0.0) + 4 * table.strength_par[m, SHEAR] / (3 * rho)
         fastest = max(fastest, math.sqrt(wave))
     smallest = min(np.diff(grid.r_edges).min(), np.diff(grid.z_edges).min())

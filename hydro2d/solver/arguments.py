@@ -14,12 +14,12 @@ import numpy as np
 
 from hydro2d.materials import rows
 from hydro2d.mesh import fields
-from hydro2d.mesh.boundary_conditions import EDGES
+from hydro2d.mesh.edges.base import EDGES
 from hydro2d.solver.contact import most_squares
 
 #: what a phase is given by `Cycle` with every call, before anything else
-OF_THE_CALL = ("parts", "i0", "i1", "dt", "mesh_speed", "travels", "advance", "dj", "di", "second", "leading", "opens_low",
-               "opens_high")
+OF_THE_CALL = ("parts", "i0", "i1", "time", "dt", "mesh_speed", "travels", "advance", "dj", "di", "second", "leading",
+               "opens_low", "opens_high")
 
 
 @functools.cache
@@ -53,9 +53,9 @@ class Arguments:
             "underfilled_density": method.mass_floor * float(np.max(table.rho0)),
             "most_squares": most_squares(table, method.courant) if state.groups > 1 else 1.0,
         }
-        if state.groups == 1:  # arrays of the same types without entries
-            self._own |= {work.symbol: np.zeros((0,) * len(work.axes.split()), dtype=work.kind)
-                          for work in fields.CONTACT_WORK}
+        absent = (*(fields.CONTACT_WORK if state.groups == 1 else ()), *(() if table.remembers else fields.MEMORY_WORK))
+        self._own |= {work.symbol: np.zeros((0,) * len(work.axes.split()), dtype=work.kind)
+                      for work in absent}  # arrays of the same types without entries
         self._found: dict[tuple, tuple] = {}
 
     def limit_speed(self, speed: float) -> None:

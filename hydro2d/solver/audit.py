@@ -2,26 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 
 import numpy as np
 
+from hydro2d.mesh.sinks import SINKS
 from hydro2d.mesh.sums import body_totals, vertex_totals
-
-#: sinks by name, and what each of them is
-SINKS = {
-    "cutoff": "sub-cutoff volume fractions: bodies below the cutoff, removed from their cell",
-    "advection": "kinetic energy that the remap of velocities discarded (negative: gained), and the momentum it gained",
-    "ke_bound": "kinetic energy that `ke` would have turned into more speed than ke_bound allows",
-    "outflow": "what left through open edges",
-    "inflow": "what came in (negative): through edges that transmit or have a velocity, and open ones of a mesh that travels",
-    "transmitted": "momentum and energy that waves carried on through transmitting edges",
-    "walls": "momentum taken by walls and edges with a velocity, and the work that these do (negative)",
-    "speed_limit": "vertices with little mass, held to the speed limit",
-}
 
 #: the sinks that are clips: what a limit of the method took from material that is still there
 CLIPS = {name: SINKS[name] for name in ("cutoff", "ke_bound", "speed_limit")}
+
+#: the sinks through which energy comes in from outside, beside those of sources
+BRINGS = ("inflow", "walls", "transmitted")
 
 #: what keeps a clip from taking much, where runs have shown it (problems/classic/README.md)
 REMEDIES = {"ke_bound": 'numerics.advection = "momentum" or "both" has no such bound'}
@@ -97,9 +90,10 @@ class Audit:
     contact_transfers: dict[str, ContactTransfer] = field(default_factory=dict)
 
     @classmethod
-    def open(cls, state) -> Audit:
-        """An audit that begins with the state as it is."""
-        return cls(totals(state), {name: Sink(np.zeros(state.bodies)) for name in SINKS},
+    def open(cls, state, own: Iterable[str] = ()) -> Audit:
+        """An audit that begins with the state as it is; own : names of the sinks of its edges and
+        sources beside SINKS."""
+        return cls(totals(state), {name: Sink(np.zeros(state.bodies)) for name in (*SINKS, *own)},
                    {name: ContactTransfer() for name in CONTACT_TRANSFERS if state.groups > 1})
 
     def add(self, name: str, mass=0.0, momentum: float = 0.0, energy: float = 0.0) -> None:
@@ -108,6 +102,12 @@ class Audit:
         sink.mass += mass
         sink.momentum += momentum
         sink.energy += energy
+
+    @property
+    def came(self) -> float:
+        """Energy that edges and sources have brought since the start, J per radian."""
+        own = [name for name in self.sinks if name not in SINKS]
+        return -sum(min(self.sinks[name].energy, 0.0) for name in (*BRINGS, *own))
 
     def transfer(self, name: str, momentum: float = 0.0, energy: float = 0.0) -> None:
         """Adds to what a contact passed on: axial momentum that soft bodies gained from hard ones, and heat."""
@@ -132,7 +132,7 @@ class Audit:
     def balance(self, state) -> dict:
         """Relative changes that no sink explains, and the sinks; SI, full circumference in cylindrical geometry."""
         now, around = totals(state), 2 * np.pi if state.grid.cylindrical else 1.0
-        mass, momentum, energy = self._unexplained(now, abs(self.start.energy))
+        mass, momentum, energy = self._unexplained(now, abs(self.start.energy) or self.came)
         return {
             "mass": mass,
             "axial_momentum": momentum,

@@ -28,6 +28,7 @@ from hydro2d.solver.contact import Contact, NoContact
 from hydro2d.solver.following import StandingMesh
 from hydro2d.solver.method import Method
 from hydro2d.solver.parts import Parts
+from hydro2d.solver.sources import Sources
 
 #: cells that the active box leads the moving vertices by; one cycle spreads a signal by fewer
 MARGIN = 6
@@ -44,6 +45,7 @@ class Cycle:
     table : MaterialTable
     method : Method
     mesh : what says how the mesh moves; without it the mesh stands
+    sources : Sources; without them nothing gives energy
 
     Attributes
     ----------
@@ -54,9 +56,9 @@ class Cycle:
     audit : Audit
     """
 
-    def __init__(self, state, table, method: Method, mesh=None):
+    def __init__(self, state, table, method: Method, mesh=None, sources: Sources | None = None):
         self.state, self.table, self.method = state, table, method
-        self.mesh = mesh or StandingMesh()
+        self.mesh, self.sources = mesh or StandingMesh(), sources or Sources((), state, table, [])
         grid = self.grid = state.grid
         self.time, self.dt, self.number, self.cause = 0.0, 0.0, 0, "start"
         g = grid.g
@@ -64,7 +66,9 @@ class Cycle:
         at = np.array([g, g + grid.nr, g, g + grid.nz], dtype=np.int64)
         self.constrained = np.where(method.boundaries.having("holds"), at, -1)
         self.transmitting = np.where(method.boundaries.having("transmits"), at, -1)
-        self.carried = np.array([self._carried(m) for m in range(state.bodies)])
+        self.carried = fields.carried_rows([
+            fields.carried(own, bool(strength), bool(damage)) for own, strength, damage in
+            zip(table.internal, table.strength_model, table.damage_model, strict=True)])
         self.contact = Contact(state) if state.groups > 1 else NoContact()
         self.box = list(self.mesh_box)
         self.parts, self.rows = Parts(state), self._one_part
@@ -79,13 +83,6 @@ class Cycle:
         if self.mesh.leading is not None:
             found[self.mesh.leading] = -1
         return found
-
-    def _carried(self, m: int) -> int:
-        if self.table.internal[m]:
-            return fields.INTERNAL + len(self.table.internal[m])
-        if self.table.damage_model[m]:
-            return fields.CARRIED_DAMAGE
-        return fields.CARRIED_SOLID if self.table.strength_model[m] else fields.CARRIED_FLUID
 
     # ------------------------------------------------------------------------------------------------ the page
 
@@ -107,6 +104,7 @@ class Cycle:
             self.remap_momentum(dj, di, second)
 
         self.mesh.move(self.dt)
+        self.sources.give(self.time, self.dt, self.audit)
         self.time += self.dt
         self.number += 1
 
@@ -124,7 +122,7 @@ class Cycle:
         self._vertex_mass()
         if self.audit is None:
             self.box = self._first_box() if self._skips_cells else list(self.mesh_box)
-            self.audit = Audit.open(s)
+            self.audit = Audit.open(s, (*self.method.boundaries.sinks, *self.sources.names))
             sound = float(self.table.sound_speeds(thermodynamics.SOUND_FLOOR).min())
             fastest = float(np.sqrt(np.max(s.u**2 + s.v**2)))
             self.speed_limit = SPEED_LIMIT_FACTOR * max(fastest, sound)
@@ -138,18 +136,17 @@ class Cycle:
 
     @property
     def _skips_cells(self) -> bool:
-        """Whether quiet cells may be skipped: not where the mesh travels, and every cell hands on what it holds."""
-        return self.method.active_region and self.mesh.leading is None
+        """Whether quiet cells may be skipped: not where the mesh travels, and every cell hands on what it holds, nor where
+        sources may heat what no signal has reached."""
+        return self.method.active_region and self.mesh.leading is None and not self.sources
 
     def _first_box(self) -> list[int]:
         """Smallest box around everything that moves or is under pressure or stress, and the margin."""
         s, t = self.state, self.table
-        from eos.dispatch import evaluate
-
         loud = np.zeros(self.grid.shape, dtype=bool)
         for m in range(s.bodies):
             present = s.vof[m] > 0
-            quiet_p = evaluate(t.eos_model[m], t.rho0[m], 0.0, t.eos_par[m])[0] == 0.0
+            quiet_p = t.evaluate(m, t.rho0[m], 0.0)[0] == 0.0
             at_rest = (s.rho[m] == t.rho0[m]) & (s.e[m] == 0.0) & (s.q[2:5, m] == 0.0).all(axis=0)
             loud |= present & ~(at_rest & quiet_p)
         moving = ((s.u != 0) | (s.v != 0)).any(axis=0)
@@ -260,6 +257,7 @@ class Cycle:
         """Total stress of every cell at half the step, and the velocities at its end."""
         s, (j0, j1, i0, i1), phase = self.state, self.box, lagrangian_step.accelerate
         s.swap_velocities()
+        self.method.boundaries.drive(self.time + self.dt)
         phase(self.rows, i0, i1, self.dt, *self.arguments.of(phase))
         if s.limited[2, j0:j1 + 1].any():
             self.audit.add("speed_limit", momentum=float(s.limited[0, j0:j1 + 1].sum()),
@@ -267,13 +265,15 @@ class Cycle:
         self.contact.account(j0, j1, self.audit)
         if s.held_back.any():
             self.audit.add("transmitted", momentum=float(s.held_back[0]), energy=float(s.held_back[1]))
-        momentum_taken, energy_taken = s.walls.sum(axis=1)
-        self.audit.add("walls", momentum=float(momentum_taken), energy=float(energy_taken))
+        for edge, taken in zip(self.method.boundaries.edges, s.walls, strict=True):
+            if edge.holds():
+                momentum_taken, energy_taken = taken.sum(axis=1)
+                self.audit.add(edge.sink, momentum=float(momentum_taken), energy=float(energy_taken))
 
     def deform(self) -> None:
         """Volumes that the faces sweep; work, volume, strain: body by body in pure cells, then the mixed cells."""
-        (_, _, i0, i1), travels, phase = self.box, self.mesh.leading is not None, lagrangian_step.deform
-        phase(self.rows, i0, i1, self.dt, travels, float(self.mesh.velocity * self.dt), *self.arguments.of(phase))
+        (_, _, i0, i1), travels, dt, phase = self.box, self.mesh.leading is not None, self.dt, lagrangian_step.deform
+        phase(self.rows, i0, i1, self.time + dt, dt, travels, float(self.mesh.velocity * dt), *self.arguments.of(phase))
 
     # ------------------------------------------------------------------------------------------------ remap
 
@@ -303,13 +303,15 @@ class Cycle:
         s, (j0, j1, i0, i1), phase = self.state, self.box, remap_step.carry_momentum
         s.swap_velocities()
         phase(self.rows, i0, i1, dj, di, bool(second), *self._open_edges(di), *self.arguments.of(phase))
-        before, after, p_gained, k_cut, p_wall = s.momentum_sums[:, j0:j1 + 1].sum(axis=1)
+        before, after, p_gained, k_cut, _ = s.momentum_sums[:, j0:j1 + 1].sum(axis=1)
         lost = before - after - self._kinetic_outflow(di)
         if self.method.advection == momentum.BOTH:
             lost -= s.deposited[j0:j1].sum()
         self.audit.add("advection", momentum=-float(p_gained), energy=float(lost - k_cut))
         self.audit.add("ke_bound", energy=float(k_cut))
-        self.audit.add("walls", momentum=float(p_wall))
+        for edge, j in zip(self.method.boundaries.edges[2:], self.constrained[2:], strict=True):
+            if j0 <= j <= j1:
+                self.audit.add(edge.sink, momentum=float(s.momentum_sums[4, j]))
         internal, kinetic, axial, _, *mass = s.removed[:, j0:j1].sum(axis=1)
         self.audit.add("cutoff", mass=np.array(mass), momentum=float(axial), energy=float(internal + kinetic))
 

@@ -154,7 +154,7 @@ class FollowingMesh:
         self._placed = found
         vof, rho, e = (self._padded(found[name]) for name in ("vof", "rho", "e"))
         for row in self._ghost_rows:
-            s.vof[:, row], s.q[:, :, row] = vof, 0.0
+            s.vof[:, row], s.q[:, :, row] = vof, s.initial[:, :, None]
             s.q[RHO, :, row], s.q[E, :, row] = rho, e
 
     def move(self, dt: float) -> None:

@@ -207,10 +207,8 @@ def _energy_for(body, table, m: int, rho: float, which: int, target: float) -> f
 
     Both are linear in the energy in every model that has a constant specific heat; a secant serves those that have not.
     """
-    from eos.dispatch import evaluate
-
     def error(e: float) -> float:
-        return evaluate(table.eos_model[m], rho, e, table.eos_par[m])[which] - target
+        return table.evaluate(m, rho, e)[which] - target
 
     low, high = float(table.e0[m]), float(table.e0[m]) + 1e5
     at_low, at_high = error(low), error(high)
@@ -227,10 +225,10 @@ def _energy_for(body, table, m: int, rho: float, which: int, target: float) -> f
 
 def _refuse_unstable(body, table, m: int) -> None:
     """Raises DeckError where the square of the speed of sound is negative at the start: such material is torn at once."""
-    from eos.dispatch import evaluate, sound_speed_squared
+    from eos.dispatch import sound_speed_squared
 
     rho, e = body_state(body, table, m)
-    p, dpdrho, dpde, _ = evaluate(table.eos_model[m], rho, e, table.eos_par[m])
+    p, dpdrho, dpde, _ = table.evaluate(m, rho, e)
     square = sound_speed_squared(rho, p, dpdrho, dpde, -math.inf)
     if square < 0.0:
         raise DeckError(f'body "{body.name}": cannot begin with a density of {rho:g} kg/m^3 and an energy of {e:g} J/kg; at '

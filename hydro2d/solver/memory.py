@@ -20,7 +20,7 @@ def needed(deck) -> int:
     nr, nz = (len(edges) - 1 for edges in decks.edges(deck))
     groups = max(decks.body_groups(deck)) + 1
     internal = max(len(own) for own in table.internal)
-    return bytes_needed(nz + 2 * GHOSTS, nr + 2 * GHOSTS, len(table), groups, internal)
+    return bytes_needed(nz + 2 * GHOSTS, nr + 2 * GHOSTS, len(table), groups, internal, table.remembers)
 
 
 def refuse_too_large(deck) -> None:

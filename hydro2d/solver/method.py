@@ -8,7 +8,7 @@ import numpy as np
 
 from hydro2d.deck import deck as decks
 from hydro2d.kernels import mixed_strength, momentum, sliding
-from hydro2d.mesh.boundary_conditions import BY_NAME, EDGES, BoundaryConditions
+from hydro2d.mesh.boundary_conditions import BoundaryConditions
 
 
 @dataclass(frozen=True)
@@ -54,13 +54,11 @@ class Method:
     @classmethod
     def from_deck(cls, deck, slots: list[str], widths: tuple[float, float], factor: float) -> Method:
         """Translates the words of a deck; slots are the bodies in their order in the arrays."""
-        n, slide, failure, edge = deck.numerics, deck.sliding, deck.failure, deck.boundaries
+        n, slide, failure = deck.numerics, deck.sliding, deck.failure
         order = list(n.interface_order) + [name for name in slots if name not in n.interface_order]
         layer = slide.method == "slip-layer"
         hard = np.array([layer and name in slide.hard for name in slots])
         group = np.array(decks.body_groups(deck), dtype=np.int64)
-        kinds = tuple(BY_NAME[getattr(edge, key)] for key in EDGES)
-        velocity = np.array([getattr(edge, f"{key}_velocity") or 0.0 for key in EDGES])
         return cls(
             advection=momentum.ADVECTIONS.index(n.advection),
             ke_bound=n.ke_bound,
@@ -91,5 +89,5 @@ class Method:
             refresh=slide.refresh,
             yield_factor=np.where(hard | (group == 1), factor, 1.0),
             group=group,
-            boundaries=BoundaryConditions(kinds, velocity),
+            boundaries=BoundaryConditions.of(deck.boundaries.model_dump()),
         )

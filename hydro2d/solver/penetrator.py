@@ -8,7 +8,7 @@ import numpy as np
 
 from hydro2d.deck import deck as decks
 from hydro2d.mesh import sums
-from hydro2d.mesh.boundary_conditions import BY_NAME
+from hydro2d.mesh.edges.registry import BY_NAME
 from hydro2d.mesh.sums import HALF
 from hydro2d.solver import bodies
 from hydro2d.solver.rod_quantities import PASSAGE
@@ -98,7 +98,7 @@ class Penetrator:
         self._offset = grid.offset
         ends = (deck.boundaries.z_min, (0, -1.0)), (deck.boundaries.z_max, (grid.nz, 1.0))
         behind = -self.direction if deck.mesh.follow == body.name else 0.0
-        self._open = [end for kind, end in ends if BY_NAME[kind].opens and end[1] != behind]
+        self._open = [end for kind, end in ends if BY_NAME[kind].flow() and end[1] != behind]
 
     def _fraction(self) -> np.ndarray:
         """Volume fraction of the rod in the cells [j, i]."""
@@ -414,14 +414,13 @@ class Penetrator:
 
 def _ringing(sim, m: int) -> float:
     """Twice the velocity of an elastic wave that brings body m to its first yield stress, 2 Y/(rho c), m/s."""
-    from eos.dispatch import evaluate
     from strength.dispatch import flow_stress
 
     t = sim.table
     speed = t.sound_speeds()[m]
     if not t.strength_model[m] or not speed > 0.0:
         return 0.0
-    p, _, _, temperature = evaluate(t.eos_model[m], t.rho0[m], t.e0[m], t.eos_par[m])
+    p, _, _, temperature = t.evaluate(m, t.rho0[m], t.e0[m])
     stress = sim.engine.method.yield_factor[m] * flow_stress(t.strength_model[m], 0.0, 0.0, temperature, p, t.rho0[m],
                                                              t.strength_par[m])
     return float(2.0 * stress / (t.rho0[m] * speed))

@@ -13,12 +13,10 @@ from typing import NamedTuple
 import numpy as np
 from scipy.optimize import brentq
 
-from hydro2d.mesh.boundary_conditions import EDGES
+from hydro2d.mesh.boundary_conditions import BoundaryConditions
 from hydro2d.solver.insertion import body_state, body_velocity, slot_of
 from strength import SHEAR
 
-#: edges that stop a body
-WALLS = ("wall", "velocity")
 #: times the heat of the hottest state that a cell may show, for reflections, convergence and the dissipation of the method, and
 #: share of it by which a cell may be colder than at the start
 CELL_HOTTER, CELL_COLDER = 3.0, 0.25
@@ -60,17 +58,18 @@ class Reach(NamedTuple):
 
 
 class Material(NamedTuple):
-    """Equation of state of one body, with its first density, kg/m^3, and energy, J/kg."""
+    """Equation of state of one body, with its internal variables as they are at first, density, kg/m^3, and energy, J/kg."""
 
     model: int
     par: np.ndarray
+    internal: np.ndarray
     rho: float
     e: float
 
     def evaluate(self, rho: float, e: float) -> tuple[float, float, float, float]:
         from eos.dispatch import evaluate
 
-        return evaluate(self.model, rho, e, self.par)
+        return evaluate(self.model, rho, e, self.internal, self.par)
 
 
 def of(deck, table, state, start) -> Reach:
@@ -119,7 +118,7 @@ def _highest(deck, pressures: list[float]) -> float:
     A body that meets a wall, or itself in a flow, reaches its own.
     """
     alone = len(pressures) == 1 or any(body.flow for body in deck.body)
-    stopped = alone or any(getattr(deck.boundaries, edge) in WALLS for edge in EDGES)
+    stopped = alone or any(edge.holds() and edge.name != "axis" for edge in _edges(deck))
     return sorted(pressures)[-1 if stopped else -2]
 
 
@@ -129,8 +128,13 @@ def _hottest(deck, table) -> list[Material]:
     for body, m in zip(deck.body, slot_of(deck, table), strict=True):
         rho, e = body_state(body, table, m)
         if m not in found or e > found[m].e:
-            found[m] = Material(int(table.eos_model[m]), table.eos_par[m], rho, e)
+            found[m] = Material(int(table.eos_model[m]), table.eos_par[m], table.virgin(m), rho, e)
     return [found[m] for m in range(len(table))]
+
+
+def _edges(deck):
+    """The edges of the mesh of a deck."""
+    return BoundaryConditions.of(deck.boundaries.model_dump()).edges
 
 
 def closing_speed(deck, grid) -> float:
@@ -141,9 +145,8 @@ def closing_speed(deck, grid) -> float:
     for body in deck.body:
         u, v = body_velocity(body, r, z) if body.flow else body.velocity
         given += [(x, y) for x in (np.min(u), np.max(u)) for y in (np.min(v), np.max(v))]
-    for edge in EDGES:
-        velocity = getattr(deck.boundaries, f"{edge}_velocity") or 0.0
-        given.append((velocity, 0.0) if edge.startswith("r") else (0.0, velocity))
+    for n, edge in enumerate(_edges(deck)):
+        given += [(velocity, 0.0) if n < 2 else (0.0, velocity) for velocity in edge.speeds()]
     return max(math.dist(one, other) for one, other in combinations(given, 2))
 
 

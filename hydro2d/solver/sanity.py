@@ -39,7 +39,7 @@ def faults(state, audit: Audit, names, reach: Reach, share: float = TRUSTED) -> 
         1 + share/TRUSTED times the energy that it can reach
     """
     now, start = totals(state), audit.start
-    came = -sum(min(audit.sinks[name].energy, 0.0) for name in ("inflow", "walls", "transmitted"))
+    came = audit.came
     energy = max(abs(start.energy), start.kinetic) + came
     if not energy > 0.0:
         return []
@@ -91,7 +91,7 @@ def _from(reach: Reach, m: int) -> str:
             f"{GAS_REMEDY if reach.gas[m] else ''}")
 
 
-def doubts(state, table, time: float, reach: Reach) -> Iterator[tuple[str, str]]:
+def doubts(state, table, time: float, reach: Reach, given: np.ndarray) -> Iterator[tuple[str, str]]:
     """(what, sentence) for each body that is hotter or colder in a cell than it can become.
 
     Parameters
@@ -100,14 +100,15 @@ def doubts(state, table, time: float, reach: Reach) -> Iterator[tuple[str, str]]
     table : MaterialTable
     time : since the start, s
     reach : bounds of the energies
+    given : the most energy that sources have given to a cell of each body, J/kg, float64[m]
     """
     from hydro2d.kernels.thermodynamics import worst_energies  # after which no model can join
 
     grid, found = state.grid, np.zeros((2, 3))
     for m, name in enumerate(table.names):
-        high = reach.cell_highest[m] + reach.rubbing[m] * time
+        high = reach.cell_highest[m] + reach.rubbing[m] * time + given[m]
         worst_energies(grid.g, grid.nz, grid.nr, m, SLIVER, reach.cell_lowest[m], high, reach.plastic[m], MOST_STRAIN,
-                       reach.warm[m], table.eos_model[m], table.eos_par[m], state.vof, state.q, found)
+                       reach.warm[m], table.eos_model[m], table.memory[m], table.eos_par[m], state.vof, state.q, found)
         for what, (beyond, j, i) in zip(("hot", "cold"), found.tolist(), strict=True):
             if beyond > 0.0:
                 j, i = int(j) - grid.g, int(i) - grid.g

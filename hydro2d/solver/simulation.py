@@ -24,6 +24,7 @@ from hydro2d.solver.memory import refuse_too_large
 from hydro2d.solver.penetrator import LEFT_MASS, WATCH_EVERY, Penetrator
 from hydro2d.solver.record import Recorder
 from hydro2d.solver.sanity import TRUSTED, doubts, faults
+from hydro2d.solver.sources import Sources
 from hydro2d.solver.targets import targets
 
 if TYPE_CHECKING:
@@ -65,9 +66,12 @@ class Simulation:
         self.table = library.resolve(deck)
         slots = decks.slots(deck)
         method = Method.from_deck(deck, slots, decks.sliding_widths(deck), decks.yield_factor(deck))
-        self.state = State(self.grid, len(slots), method.group, self.table.internal)
+        self.state = State(self.grid, len(slots), method.group, self.table.internal, self.table.initial,
+                           self.table.remembers)
         self._insert(method.boundaries)
-        self.engine = Cycle(self.state, self.table, method, self._mesh(slots, method))
+        self.sources = Sources(deck.source, self.state, self.table, [slots.index(entry.body) for entry in deck.source])
+        self.sources.begin()
+        self.engine = Cycle(self.state, self.table, method, self._mesh(slots, method), self.sources)
         self.engine.prepare()
         self._reach = reach.of(deck, self.table, self.state, self.audit.start)
         self._doubts: dict[str, str] = {}
@@ -328,7 +332,7 @@ class Simulation:
 
     def refuse_nonsense(self) -> None:
         """Raises UnphysicalState with the first fault of the state, if it has any, and remembers what is doubtful."""
-        for what, sentence in doubts(self.state, self.table, self.time, self._reach):
+        for what, sentence in doubts(self.state, self.table, self.time, self._reach, self.sources.given):
             self._doubts.setdefault(what, f"cycle {self.cycle}, time {self.time:.6g} s: {sentence}")
         if found := self.faults(self.deck.numerics.clip_limit):
             raise UnphysicalState(f"cycle {self.cycle}, time {self.time:.6g} s: {found[0]}")
@@ -405,7 +409,8 @@ class Simulation:
         e = self.engine
         return {"time": e.time, "dt": e.dt, "cycle": e.number, "cause": e.cause, "box": [int(x) for x in e.box],
                 "mesh_offset": self.grid.offset, "speed_limit": e.speed_limit, "sign": self._sign, "doubts": self._doubts,
-                "audit": self.audit.saved(), "penetrator": self.penetrator and self.penetrator.saved(),
+                "audit": self.audit.saved(), "sources": self.sources.saved(),
+                "penetrator": self.penetrator and self.penetrator.saved(),
                 "craters": [crater.saved() for crater in self.craters]}
 
     def load_restart_scalars(self, scalars: dict) -> None:
@@ -416,6 +421,7 @@ class Simulation:
         self.grid.move(scalars["mesh_offset"])
         self._doubts = dict(scalars["doubts"])
         e.audit = Audit.resume(scalars["audit"])
+        self.sources.resume(scalars["sources"])
         if self.penetrator:
             self.penetrator.resume(scalars["penetrator"])
             for crater, saved in zip(self.craters, scalars["craters"], strict=True):

@@ -36,7 +36,7 @@ class Stations:
 
     def _look(self) -> None:
         g, s, t = self._sim.grid, self._sim.state, self._sim.table
-        tracers.sample(g.g, g.nr, g.nz, g.r, g.z, s.group, t.eos_model, t.eos_par, s.vof, s.q, s.u, s.v, self.places,
+        tracers.sample(g.g, g.nr, g.nz, g.r, g.z, s.group, t.eos_model, t.memory, t.eos_par, s.vof, s.q, s.u, s.v, self.places,
                        self._found)
         tracers.keep_peaks(self._sim.time, self._found, self.peaks)
 

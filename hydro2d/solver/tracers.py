@@ -81,13 +81,13 @@ def advect(g, nr, nz, dt, r, z, group, vof, u, v, points):
 
 
 @serial
-def sample(g, nr, nz, r, z, group, eos_model, eos_par, vof, q, u, v, points, found):
+def sample(g, nr, nz, r, z, group, eos_model, memory, eos_par, vof, q, u, v, points, found):
     """What is in the cell of each point: mixtures over the bodies, as fields of these names have them.
 
     Pressure and stress are sums of volume fraction times value, void bearing none; temperature, strain and damage are means by
     mass; stresses are total, tension positive. The velocity is that at the point. Beyond the mesh all is NaN.
 
-    Reads    r, z edges;  group, eos_model [m], eos_par [m, k];  vof [m, j, i], q [k, m, j, i];  u, v [b, j-1/2, i-1/2];
+    Reads    r, z edges;  group, eos_model, memory [m], eos_par [m, k];  vof [m, j, i], q [k, m, j, i];  u, v [b, j-1/2, i-1/2];
              points [n, 2]
     Writes   found [n, QUANTITIES]
     """
@@ -106,7 +106,8 @@ def sample(g, nr, nz, r, z, group, eos_model, eos_par, vof, q, u, v, points, fou
             f = vof[m, j, i]
             if f <= 0.0:
                 continue
-            pressure, _, _, temperature = evaluate(eos_model[m], q[RHO, m, j, i], q[E, m, j, i], eos_par[m])
+            pressure, _, _, temperature = evaluate(eos_model[m], q[RHO, m, j, i], q[E, m, j, i], q[memory[m]:, m, j, i],
+                                                     eos_par[m])
             if q[DMG, m, j, i] >= 1.0:
                 pressure = max(pressure, 0.0)
             mass = f * q[RHO, m, j, i]

@@ -18,7 +18,7 @@ import numpy as np
 from hydro2d import toml
 from hydro2d.deck import deck as decks
 from hydro2d.errors import DeckError
-from hydro2d.mesh.boundary_conditions import BY_NAME
+from hydro2d.mesh.edges.registry import BY_NAME
 from hydro2d.study.definition import Ensemble
 
 #: largest shift of the mesh and of the flank of the projectile, as fractions of a cell; largest reduction of the first step
@@ -62,7 +62,7 @@ def _free(deck: decks.Deck, what: str, edges: tuple[str, ...]) -> None:
     """Raises DeckError if an edge of the mesh is a boundary that must not move against the bodies."""
     for edge in edges:
         kind = getattr(deck.boundaries, edge)
-        if BY_NAME[kind].holds:
+        if BY_NAME[kind].holds():
             raise DeckError(f'{what}: the edge {edge} = "{kind}" must not move against the bodies; {OTHER}')
 
 

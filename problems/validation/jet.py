@@ -48,7 +48,7 @@ def isentrope(material) -> tuple[np.ndarray, np.ndarray]:
     row = model.row(material.eos.values)
 
     def pressure(rho: float, e: float) -> float:
-        return evaluate(model.ID, rho, e, row)[0]
+        return evaluate(model.ID, rho, e, np.zeros(0), row)[0]
 
     rho = np.linspace(start, DENSEST * start, STEPS + 1)
 

@@ -21,12 +21,19 @@ SOLID = {
 }
 LIQUID = {"reference_density": 1000.0, "sound_speed": 1480.0, "adiabatic_index": 3.0, "specific_heat": 4180.0}
 
+POROUS = {name: value for name, value in SOLID.items() if name != "reference_density"} | {
+    "reference_density": 2770.0 / 1.275, "solid_density": 2770.0, "elastic_sound_speed": 4110.0, "elastic_pressure": 0.08e9,
+    "crush_pressure": 0.7e9, "crush_exponent": 1.7}
+
 #: per equation of state: parameters, density over rest and specific energies (J/kg) of its stated range
 EOS_CASES = {
     "mie-grueneisen": (SOLID, np.linspace(0.95, 2.0, 22), (0.0, 1e5, 3e6)),
     "ideal-gas": ({"reference_density": 1.2, "adiabatic_index": 1.4}, np.geomspace(0.01, 20.0, 9), (1.0, 2e5, 1e9)),
     "stiffened-gas": (LIQUID, np.linspace(0.9, 1.6, 9), (0.0, 1e5, 3e6)),
+    "p-alpha": (POROUS, np.linspace(0.95, 1.5, 12), (0.0, 1e5, 3e6)),
 }
+#: what a model stands over
+SOLIDS = {"p-alpha": eos.MODELS["mie-grueneisen"]}
 
 G, Y = 26e9, 0.3e9
 
@@ -101,7 +108,7 @@ DAMAGE_CASES = {
 def cases_of(part):
     """Every registered model of a part of a material, with its case."""
     if part == "eos":
-        return [contract.Case(KINDS[part], eos.MODELS[name], values, tuple(ratios), energies)
+        return [contract.Case(KINDS[part], eos.MODELS[name], values, tuple(ratios), energies, solid=SOLIDS.get(name))
                 for name, (values, ratios, energies) in EOS_CASES.items()]
     if part == "damage":
         return [contract.Case(KINDS[part], strength.DAMAGE_MODELS[name], values) for name, values in DAMAGE_CASES.items()]
@@ -149,7 +156,7 @@ def spoilt(part, name, **functions):
     """A case of a model some of whose functions or constants are others."""
     case = next(case for case in cases_of(part) if case.module.NAME == name)
     module = types.SimpleNamespace(**{**vars(case.module), **functions})
-    return contract.Case(case.kind, module, case.values, case.densities, case.energies, case.constant)
+    return contract.Case(case.kind, module, case.values, case.densities, case.energies, case.constant, case.solid)
 
 
 def gas(rho=0.0, e=0.0, p=0.0, slope=1.0, T=1.0):
@@ -163,12 +170,20 @@ def gas(rho=0.0, e=0.0, p=0.0, slope=1.0, T=1.0):
     return spoilt("eos", "ideal-gas", evaluate=evaluate)
 
 
+def pores(**functions):
+    return spoilt("eos", "p-alpha", **functions)
+
+
 def metal(**functions):
     return spoilt("strength", "johnson-cook", **functions)
 
 
 def layered(**functions):
     return spoilt("strength", "kinematic-hardening", **functions)
+
+
+def CRUSHES_TO_NAN(rho0, rho, *rest):
+    rest[-1].fill(1.275 if rho == rho0 else np.nan)
 
 
 POSITIVE_YIELD = (Parameter("yield_stress", "Pa", REQUIRED, "initial yield stress", sign=POSITIVE),)
@@ -189,6 +204,10 @@ FLOW = strength.STRENGTH_MODELS["johnson-cook"].flow_stress
         (contract.finite, gas(p=np.nan), "evaluate"),
         (contract.pressure_rises, gas(slope=1.1), "p rises by"),
         (contract.temperature, gas(T=1.1), "dT/drho is"),
+        (contract.memory, pores(update=lambda *step: step[-1].fill(1.1)), "at rest [[]1.275"),
+        (contract.memory, pores(update=lambda *step: step[-1].fill(0.9)), "beyond"),
+        (contract.memory, pores(update=CRUSHES_TO_NAN), "beyond"),
+        (contract.memory, pores(ID=99), "by its ID"),
         (contract.strength_is_chosen, metal(ID=1), "by its ID"),
         (contract.moduli, metal(shear_modulus=lambda p, rho, T, par: 2 * G), "the modulus is 5.2e[+]10"),
         (contract.virgin, metal(flow_stress=lambda *state: FLOW(*state) + 1.0), "slot YIELD"),

@@ -255,7 +255,8 @@ def carried_along(share: float, swept: float = 0.2, steep: float = 1.0) -> np.nd
     body_ranges = np.zeros((3, 1, 5, 2), dtype=np.int64)
     body_ranges[..., :] = 2, columns - 2
     flux = np.zeros((5, 1, 1, columns))
-    remap.flux_row.py_func(0, 1, 2, 2, columns - 2, 0, 5, rules, 0, 0, body_ranges, np.ones((5, columns)),
+    carried = np.array([4, 1, 2, 3, 4])
+    remap.flux_row.py_func(0, 1, 2, 2, columns - 2, 0, carried, rules, 0, 0, body_ranges, np.ones((5, columns)),
                            np.full((1, 5, columns), swept), vof, q, np.zeros((4, 1, columns)), flux)
     return flux[:, 0, 0]
 

@@ -57,6 +57,8 @@ CASES = {
     "contact, both, friction": (*CONTACT, 'numerics.advection="both"', "sliding.friction=0.1"),
     "following": FOLLOWING,
     "following, contact": (*FOLLOWING, *CONTACT),
+    "memory": ("body.plate.material=Al_porous", "body.plate.thickness=8e-3"),
+    "memory, following": (*FOLLOWING, "body.plate.material=Al_porous"),
 }
 every_case = pytest.mark.parametrize("options", CASES.values(), ids=CASES)
 

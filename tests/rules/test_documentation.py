@@ -20,7 +20,8 @@ import strength
 from hydro2d import units
 from hydro2d.deck import bodies, deck, sections
 from hydro2d.materials import library
-from hydro2d.mesh import boundary_conditions, fields, quantities
+from hydro2d.mesh import fields, quantities
+from hydro2d.mesh.edges import registry as edge_kinds
 from hydro2d.penetration import catalogue
 from strength import tensile_pressure
 from tests.rules import source
@@ -155,7 +156,7 @@ def test_the_reference_has_everything():
     assert [name for name in models if f"### `{name}`" not in pages["models.md"]] == []
     assert [name for name in library.names() if f"## `{name}`" not in pages["materials.md"]] == []
     assert [key for key in deck.schema()["properties"] if key not in pages["deck.md"]] == []
-    assert [entry.name for entry in boundary_conditions.BOUNDARIES if f"| `{entry.name}` |" not in pages["deck.md"]] == []
+    assert [entry.name for entry in edge_kinds.KINDS if f"| `{entry.name}` |" not in pages["deck.md"]] == []
     assert [name for name in catalogue.MODELS if f"## `{name}`" not in pages["penetration-models.md"]] == []
     assert [name for name in getattr(hydro2d, "__all__", ()) if f"## `hydro2d.{name}`" not in pages["api.md"]] == []
 
@@ -229,7 +230,7 @@ def test_the_example_of_every_key_is_valid(heading):
     """Each line is parsed and held against the type and the bounds of its key, as they stand in the code."""
     lines, kind = sections_of_the_page()[heading], SECTIONS[heading]
     tables = {"mesh", "boundaries", "body", "materials", "numerics", "sliding", "failure", "stop", "output", "tracer", "gauge",
-              "experiment", "penetration"} if kind is sections.Deck else set()  # fmt: skip
+              "source", "experiment", "penetration"} if kind is sections.Deck else set()  # fmt: skip
     assert set(lines) - {"include"} == set(kind.model_fields) - tables
     for key, line in lines.items():
         value = tomllib.loads(line)[key]

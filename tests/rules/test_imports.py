@@ -15,7 +15,7 @@ LAYERS = (
      "hydro2d.errors", "hydro2d.toml", "hydro2d.interrupt", "hydro2d.children", "hydro2d.terminal"),
     ("hydro2d.mesh", "eos", "strength", "hydro2d.penetration", "hydro2d.problems"),
     ("hydro2d.materials",),
-    ("hydro2d.physics", "hydro2d.deck"),
+    ("hydro2d.physics", "hydro2d.deck", "hydro2d.sources"),
     ("hydro2d.kernels",),
     ("hydro2d.solver", "hydro2d.output"),
     ("hydro2d.running",),
@@ -28,7 +28,7 @@ LAYERS = (
 OURS = ("hydro2d", "eos", "strength")
 #: packages of these modules and nothing else of hydro2d
 NARROW = {
-    "eos": ("eos", "hydro2d.parameters", "hydro2d.jit"),
+    "eos": ("eos", "hydro2d.parameters", "hydro2d.jit", "hydro2d.mesh.fields"),
     "strength": ("strength", "hydro2d.parameters", "hydro2d.jit", "hydro2d.mesh.fields"),
     "hydro2d.physics": ("hydro2d.physics", "hydro2d.jit", "hydro2d.mesh.fields", "hydro2d.mesh.grid", "eos", "strength"),
     "hydro2d.kernels": ("hydro2d.kernels", "hydro2d.physics", "hydro2d.jit", "hydro2d.mesh.fields", "hydro2d.mesh.grid",

@@ -6,7 +6,8 @@ import copy
 
 from hydro2d import units
 from hydro2d.materials import library
-from hydro2d.mesh.boundary_conditions import EDGES, words
+from hydro2d.mesh.edges.base import EDGES
+from hydro2d.mesh.edges.registry import words
 
 FACTORS = (0.25, 0.5, 0.7, 0.9, 1.1, 1.5, 2.0)
 SPEEDS = (-3000.0, -800.0, -50.0, 0.0, 5.0, 60.0, 300.0, 700.0, 1500.0, 2500.0, 4000.0, 7000.0)
@@ -250,6 +251,9 @@ def boundary(tables, chance):
         section[f"{edge}_velocity"] = chance.choice((-1000.0, -100.0, 20.0, 500.0))
     else:
         section.pop(f"{edge}_velocity", None)
+    section.pop(f"{edge}_piston", None)
+    if section[edge] == "piston":
+        section[f"{edge}_piston"] = [[0.0, 0.0], [1e-6, chance.choice((-500.0, 20.0, 500.0))]]
     return f"{edge} {section[edge]} {section.get(f'{edge}_velocity', '')}"
 
 

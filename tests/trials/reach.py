@@ -53,7 +53,7 @@ class Reach:
 
     def __init__(self, simulation):
         table, self.deck, grid = simulation.table, simulation.deck, simulation.grid
-        self.materials = [Material(int(table.eos_model[m]), table.eos_par[m]) for m in range(len(table))]
+        self.materials = [Material(int(table.eos_model[m]), table.eos_par[m], table.virgin(m)) for m in range(len(table))]
         speeds = _speeds(simulation)
         self.fastest = float(np.hypot(*speeds.T).max())
         self.closing = max(float(np.hypot(*(speeds - one).T).max()) for one in speeds)

@@ -19,19 +19,20 @@ MOST_ETA, LIMIT = 0.999, 1e-6
 
 @dataclass(frozen=True)
 class Material:
-    """An equation of state with its parameters; density kg/m^3, energy J/kg, pressure Pa, speeds m/s."""
+    """An equation of state with its parameters and internal variables; density kg/m^3, energy J/kg, pressure Pa, speeds m/s."""
 
     model: int
     par: np.ndarray
+    internal: np.ndarray
 
     def pressure(self, rho: float, e: float) -> float:
-        return evaluate(self.model, rho, e, self.par)[0]
+        return evaluate(self.model, rho, e, self.internal, self.par)[0]
 
     def temperature(self, rho: float, e: float) -> float:
-        return evaluate(self.model, rho, e, self.par)[3]
+        return evaluate(self.model, rho, e, self.internal, self.par)[3]
 
     def sound(self, rho: float, e: float) -> float:
-        p, dpdrho, dpde, _ = evaluate(self.model, rho, e, self.par)
+        p, dpdrho, dpde, _ = evaluate(self.model, rho, e, self.internal, self.par)
         return math.sqrt(sound_speed_squared(rho, p, dpdrho, dpde, 0.0))
 
     def _behind(self, rho: float, e: float, eta: float) -> tuple[float, float]:

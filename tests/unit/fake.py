@@ -10,6 +10,7 @@ import eos
 from hydro2d.deck.sections import Boundaries, Failure, Mesh, Segment, Sliding
 from hydro2d.errors import UnphysicalState
 from hydro2d.materials import library
+from hydro2d.mesh.fields import BODY
 from hydro2d.mesh.grid import Grid
 
 ROD, PLATE = "rod", "plate"
@@ -61,8 +62,9 @@ class Simulation:
         self.grid = Grid(np.linspace(0, 12e-3, 13), np.linspace(-25e-3, 30e-3, 56))
         shape, vertices = self.grid.shape, self.grid.vertex_shape
         body, vertex = (lambda: np.zeros((2, *shape))), (lambda: np.zeros((1, *vertices)))
+        q = np.zeros((len(BODY), 2, *shape))
         self.state = SimpleNamespace(
-            vof=body(), rho=body(), e=body(), srr=body(), szz=body(), srz=body(), ep=body(), dmg=body(),
+            vof=body(), q=q, **{field.symbol: row for field, row in zip(BODY, q, strict=True)},
             u=vertex(), v=vertex(), mass=vertex() + 1.0, group=np.zeros(2, dtype=np.int64), groups=1,
         )  # fmt: skip
         rows = [library.load(name) for name in ("W_alloy", "Al5083")]
@@ -70,6 +72,7 @@ class Simulation:
             names=(ROD, PLATE), internal=((), ()),
             eos_model=np.array([eos.MODELS[material.eos.name].ID for material in rows]),
             eos_par=np.stack([eos.MODELS[material.eos.name].row(material.eos.values) for material in rows]),
+            memory=np.full(2, len(BODY)),
         )
         self.time, self.cycle, self.dt, self.dt_cause = 0.0, 0, 1e-7, "rod at r = 0.5 mm, z = 0.5 mm: sound"
         places = np.array([[0.0, 0.0], [1e-3, 5e-3]])

@@ -22,6 +22,7 @@ DECKS = {
     "following": FOLLOWING,
     "following, contact": (*FOLLOWING, *CONTACT),
     "internal variables": INTERNAL,
+    "memory": ("body.plate.material=Al_porous",),
     "planar": ('mesh.geometry="planar"', "numerics.active_region=false"),
 }
 PHASES = {name: value for module in (lagrangian_step, remap_step) for name, value in vars(module).items()

@@ -5,6 +5,7 @@ import re
 import pytest
 
 from hydro2d.deck import deck as decks
+from hydro2d.mesh.sinks import SINKS
 from hydro2d.output import history
 from hydro2d.running import columns, run
 from hydro2d.solver import audit
@@ -54,7 +55,7 @@ history_interval = "1 ns"
 vtk_interval = "1 us"
 """
 NAMES = {
-    "BODY": "rod|plate", "TARGET": "plate", "STATION": "tracer_tip|gauge_line_[123]", "SINK": "|".join(audit.SINKS),
+    "BODY": "rod|plate", "TARGET": "plate", "STATION": "tracer_tip|gauge_line_[123]", "SINK": "|".join(SINKS),
     "TRANSFER": "|".join(audit.CONTACT_TRANSFERS),
 }  # fmt: skip
 

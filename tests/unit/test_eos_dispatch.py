@@ -2,6 +2,7 @@
 
 import math
 
+import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -9,6 +10,7 @@ from hypothesis import strategies as st
 from eos import ideal_gas, mie_grueneisen, stiffened_gas
 from eos.dispatch import evaluate, sound_speed_squared, zero_pressure_density
 
+NO_MEMORY = np.zeros(0)
 RHO0, C0, GAMMA = 2770.0, 5200.0, 2.2
 ALUMINIUM = mie_grueneisen.row(
     {
@@ -35,13 +37,13 @@ def test_sound_speed_has_a_floor_and_shows_a_nan():
 def test_density_without_pressure_of_a_stretched_solid(ratio, e):
     """In expansion p = 0 at rho0/(1 + Gamma0 e/c0^2)."""
     expected = RHO0 / (1 + GAMMA * e / C0**2)
-    assert zero_pressure_density(mie_grueneisen.ID, ratio * RHO0, e, ALUMINIUM) == pytest.approx(expected, rel=1e-12)
+    assert zero_pressure_density(mie_grueneisen.ID, ratio * RHO0, e, NO_MEMORY, ALUMINIUM) == pytest.approx(expected, rel=1e-12)
 
 
 def test_density_without_pressure_of_a_liquid():
     """c0^2 (rho - rho0) + (gamma - 1) rho e = 0"""
     expected = 1e3 * 1480.0**2 / (1480.0**2 + 3.4 * 1e5)
-    assert zero_pressure_density(stiffened_gas.ID, 700.0, 1e5, WATER) == pytest.approx(expected, rel=1e-12)
+    assert zero_pressure_density(stiffened_gas.ID, 700.0, 1e5, NO_MEMORY, WATER) == pytest.approx(expected, rel=1e-12)
 
 
 @settings(max_examples=300, deadline=None)
@@ -49,17 +51,17 @@ def test_density_without_pressure_of_a_liquid():
 def test_density_without_pressure(ratio, e):
     """In tension it is above the density, in compression below, and a little off it the pressure changes its sign."""
     rho = ratio * RHO0
-    p = evaluate(mie_grueneisen.ID, rho, e, ALUMINIUM)[0]
-    found = zero_pressure_density(mie_grueneisen.ID, rho, e, ALUMINIUM)
+    p = evaluate(mie_grueneisen.ID, rho, e, NO_MEMORY, ALUMINIUM)[0]
+    found = zero_pressure_density(mie_grueneisen.ID, rho, e, NO_MEMORY, ALUMINIUM)
     assert found >= rho if p < 0.0 else found <= rho
-    assert evaluate(mie_grueneisen.ID, found * (1 - 1e-11), e, ALUMINIUM)[0] <= 0.0
-    assert evaluate(mie_grueneisen.ID, found * (1 + 1e-11), e, ALUMINIUM)[0] >= 0.0
+    assert evaluate(mie_grueneisen.ID, found * (1 - 1e-11), e, NO_MEMORY, ALUMINIUM)[0] <= 0.0
+    assert evaluate(mie_grueneisen.ID, found * (1 + 1e-11), e, NO_MEMORY, ALUMINIUM)[0] >= 0.0
 
 
 def test_unloaded_material_stays():
-    assert zero_pressure_density(mie_grueneisen.ID, RHO0, 0.0, ALUMINIUM) == RHO0
+    assert zero_pressure_density(mie_grueneisen.ID, RHO0, 0.0, NO_MEMORY, ALUMINIUM) == RHO0
 
 
 @pytest.mark.parametrize(("model", "row", "rho", "e"), [(ideal_gas.ID, AIR, 1.3, 2e5), (0, ALUMINIUM, RHO0, 2e9)])
 def test_without_such_a_density_the_answer_is_the_density(model, row, rho, e):
-    assert zero_pressure_density(model, rho, e, row) == rho
+    assert zero_pressure_density(model, rho, e, NO_MEMORY, row) == rho

@@ -50,7 +50,7 @@ def test_every_array_of_the_state_is_in_a_table(groups):
     symbols = [entry.symbol for entry in tables]
     assert len(set(symbols)) == len(symbols)
     arrays = {name for name, value in vars(state).items() if isinstance(value, np.ndarray)}
-    assert arrays - set(symbols) == {"group", "rules", "q", "velocity", "velocity0", "body_range", "active_range"}
+    assert arrays - set(symbols) == {"group", "rules", "initial", "q", "velocity", "velocity0", "body_range", "active_range"}
     assert set(symbols) <= arrays
 
 
@@ -70,3 +70,25 @@ def test_rows_make_sense(field):
     assert field.remap in ("volume", "mass", "momentum", "")
     assert field.parity in (-1, 1)
     assert field.least < field.most
+
+
+def test_what_a_body_carries():
+    """Beside the density: all bodies their energy, those with strength deviators and strain, those with damage that too."""
+    own = (fields.Field("spread", "", "body", "1", 1, "mass", True, "a number", initial=lambda row: 2.0 * row[0]),)
+    assert fields.carried((), strength=False, damage=False) == [fields.E]
+    assert fields.carried((), strength=True, damage=False) == [1, 2, 3, 4, 5]
+    assert fields.carried(own, strength=False, damage=True) == [1, fields.DMG, fields.INTERNAL]
+    rows = fields.carried_rows([[1], [1, 6, 7]])
+    np.testing.assert_array_equal(rows, [[1, 1, 0, 0], [3, 1, 6, 7]])
+    assert own[0].at_rest(np.array([3.0])) == 6.0
+    assert fields.BODY[0].at_rest(np.zeros(1)) == 0.0
+
+
+def test_virgin_material_fills_the_state():
+    grid = Grid(np.linspace(0.0, 1.0, 4), np.linspace(0.0, 1.0, 5))
+    own = (fields.Field("spread", "", "body", "1", 1, "mass", True, "a number", initial=3.0),)
+    state = State(grid, 2, None, [(), own], [np.zeros(0), np.array([3.0])], remembers=True)
+    assert state.initial.shape == (fields.INTERNAL + 1, 2)
+    assert (state.q[fields.INTERNAL, 1] == 3.0).all()
+    assert not state.q[:, 0].any()
+    assert state.before.shape == (4, 2, *grid.shape)

@@ -1,0 +1,28 @@
+"""An open end, and one that transmits waves."""
+
+from __future__ import annotations
+
+from hydro2d.mesh.edges.base import BOTH_WAYS, DASHPOTS, Edge
+
+
+class Outflow(Edge):
+    """Copies beyond it, vertices that are free, and bodies that leave."""
+
+    name = "outflow"
+    meaning = "an open end: bodies leave as if the mesh went on, and nothing but void comes in"
+
+
+class Transmit(Edge):
+    """Copies beyond it and dashpots on its vertices; what stands beside it may come back."""
+
+    name = "transmit"
+    meaning = "the cut through an endless plate: it lets waves out and holds what they press on"
+    sink = "transmitted"
+
+    @classmethod
+    def flow(cls) -> str:
+        return BOTH_WAYS
+
+    @classmethod
+    def traction(cls) -> str:
+        return DASHPOTS

@@ -1,0 +1,25 @@
+"""A piston: an edge whose normal velocity is a table over time."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from hydro2d.mesh.edges.base import Key
+from hydro2d.mesh.edges.velocity import Velocity
+
+
+class Piston(Velocity):
+    """The velocity is straight between the rows of the table, and that of the first and the last row before and after."""
+
+    name = "piston"
+    meaning = "the normal velocity is a table over time; material crosses the edge as it does where the velocity is constant"
+    keys = (Key("piston", "m/s", "normal velocity over time", [["0 us", "0 m/s"], ["1 us", "100 m/s"]], over_time=True),)
+    sink = "piston"
+    sink_meaning = "momentum that pistons take, and the work that they do (negative)"
+
+    def constrain(self, time: float) -> float | None:
+        times, velocities = np.array(self.values["piston"]).T
+        return float(np.interp(time, times, velocities))
+
+    def speeds(self) -> tuple[float, ...]:
+        return tuple(velocity for _, velocity in self.values["piston"])

@@ -1,0 +1,24 @@
+"""An edge with a prescribed normal velocity."""
+
+from __future__ import annotations
+
+from hydro2d.mesh.edges.base import BOTH_WAYS, Edge, Key
+
+
+class Velocity(Edge):
+    """Material crosses the edge at the velocity that the deck gives."""
+
+    name = "velocity"
+    meaning = "the normal velocity is prescribed; where it points inward, more of what stands beside the edge comes in"
+    keys = (Key("velocity", "m/s", "normal velocity", "100 m/s"),)
+    sink = "walls"
+
+    @classmethod
+    def flow(cls) -> str:
+        return BOTH_WAYS
+
+    def constrain(self, time: float) -> float | None:
+        return self.values["velocity"]
+
+    def speeds(self) -> tuple[float, ...]:
+        return (self.values["velocity"],)

@@ -1,0 +1,45 @@
+"""What every source has, whatever its kind."""
+
+from __future__ import annotations
+
+import numpy as np
+from pydantic import Field
+
+from hydro2d.deck.base import Interval, Name, Section
+
+
+class Source(Section):
+    """A table of [[source]]. What a source has given is a sink of the audit with its name, negative.
+
+    The keys of a kind are its fields; `kind` must be one of them, a Literal of one word.
+    """
+
+    name: Name = Field(description="name of the source, and of its sink in the audit", examples=["beam"])
+    body: str = Field(description="the body to which it gives", examples=["plate"])
+    r: Interval | None = Field(None, description="its reach along r; default: the whole mesh", examples=[["0 mm", "2 mm"]])
+    z: Interval | None = Field(None, description="its reach along z; default: the whole mesh", examples=[["0 mm", "5 mm"]])
+
+    def share(self, grid) -> np.ndarray:
+        """Share of every cell's volume that lies within the source's reach, float64[nz, nr]; grid : mesh.grid.Grid."""
+        r, z = grid.r_edges, grid.z_edges
+        radial = _overlap(0.5 * r**2, [0.5 * max(end, 0.0) ** 2 for end in self.r] if self.r else None) if grid.cylindrical \
+            else _overlap(r, self.r)
+        return _overlap(z, self.z)[:, None] * radial[None, :]
+
+    def begin(self, grid, variables: dict[str, np.ndarray]) -> None:
+        """Sets what the material of the body needs before the first step; most kinds need nothing.
+
+        variables : internal variables of the body's models by name, float64[nz, nr], to be changed
+        """
+
+    def heat(self, grid, time: float, dt: float) -> np.ndarray:
+        """Energy that the body's material gains from ``time`` to ``time + dt`` in every cell, J/kg, float64[nz, nr]."""
+        raise NotImplementedError
+
+
+def _overlap(edges: np.ndarray, reach) -> np.ndarray:
+    """Share of every interval between edges that lies within reach = (low, high); ones without a reach."""
+    if reach is None:
+        return np.ones(len(edges) - 1)
+    inside = np.minimum(edges[1:], reach[1]) - np.maximum(edges[:-1], reach[0])
+    return np.maximum(inside, 0.0) / np.diff(edges)

@@ -1,0 +1,15 @@
+"""The kinds of sources. A new one is a file in this folder and a line in ``KINDS``."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from hydro2d.deck.base import one_of
+from hydro2d.sources.base import Source
+from hydro2d.sources.heating import Heating
+
+KINDS: dict[str, type[Source]] = {
+    "heating": Heating,
+}
+
+AnySource: Any = Source if TYPE_CHECKING else one_of(KINDS, "kind")
