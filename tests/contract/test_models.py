@@ -20,6 +20,8 @@ SOLID = {
     "specific_heat": 875.0,
 }
 LIQUID = {"reference_density": 1000.0, "sound_speed": 1480.0, "adiabatic_index": 3.0, "specific_heat": 4180.0}
+TILLOTSON = {"reference_density": 2700.0, "a": 0.5, "b": 1.63, "A": 75.2e9, "B": 65e9, "E0": 5e6, "alpha": 5.0, "beta": 5.0,
+             "incipient_vaporisation": 3e6, "complete_vaporisation": 13.9e6, "specific_heat": 900.0}  # fmt: skip
 
 POROUS = {name: value for name, value in SOLID.items() if name != "reference_density"} | {
     "reference_density": 2770.0 / 1.275, "solid_density": 2770.0, "elastic_sound_speed": 4110.0, "elastic_pressure": 0.08e9,
@@ -31,6 +33,7 @@ EOS_CASES = {
     "ideal-gas": ({"reference_density": 1.2, "adiabatic_index": 1.4}, np.geomspace(0.01, 20.0, 9), (1.0, 2e5, 1e9)),
     "stiffened-gas": (LIQUID, np.linspace(0.9, 1.6, 9), (0.0, 1e5, 3e6)),
     "p-alpha": (POROUS, np.linspace(0.95, 1.5, 12), (0.0, 1e5, 3e6)),
+    "tillotson": (TILLOTSON, np.linspace(0.95, 2.0, 22), (0.0, 1e5, 2.9e6)),
 }
 #: what a model stands over
 SOLIDS = {"p-alpha": eos.MODELS["mie-grueneisen"]}
