@@ -52,16 +52,16 @@ def evaluate(model, rho, e, internal, par):
 
 
 @apart
-def update(model, rho0, rho, e, dep, work, damage0, damage, elastic0, elastic, time, dt, par, internal):
+def update(model, rho0, rho, e, dep, work, damage0, damage, released, time, dt, par, internal):
     """Internal variables of an equation of state at the end of a Lagrangian step, from what has happened in it.
 
     rho0, rho : density before and after, kg/m^3;  e : energy after, J/kg;  dep, work : plastic strain and plastic work of the
-    step, J/m^3;  damage0, damage : before and after;  elastic0, elastic : elastic energy of the deviator before and after,
-    J/m^3;  time : at the end of the step, s
+    step, J/m^3;  damage0, damage : before and after;  released : elastic energy of the deviator that the damage of the step has
+    released, J/m^3;  time : at the end of the step, s
 
     Updates  internal [n]
     """
-    _update(model, rho0, rho, e, dep, work, damage0, damage, elastic0, elastic, time, dt, par, internal)
+    _update(model, rho0, rho, e, dep, work, damage0, damage, released, time, dt, par, internal)
 
 
 @point

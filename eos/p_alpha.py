@@ -100,7 +100,7 @@ def excess(rho, e, distention, par):
 
 
 @point
-def update(rho0, rho, e, dep, work, damage0, damage, elastic0, elastic, time, dt, par, internal):
+def update(rho0, rho, e, dep, work, damage0, damage, released, time, dt, par, internal):
     """Crushes the pores until the distention is on the crush curve at density ``rho`` and energy ``e``, or all are closed.
 
     By a bracketed secant (Illinois) in the distention at rest: its excess rises with it. explanation/equation-of-state, (11)

@@ -9,7 +9,7 @@ from types import ModuleType
 
 from hydro2d.jit import modules
 
-MODULES = modules("eos", "mie_grueneisen", "ideal_gas", "stiffened_gas", "p_alpha", "tillotson")
+MODULES = modules("eos", "mie_grueneisen", "ideal_gas", "stiffened_gas", "p_alpha", "tillotson", "johnson_holmquist")
 MODELS = {module.NAME: module for module in MODULES}
 
 #: what a model computes: the arguments of its functions and the number of values that they return
@@ -18,7 +18,7 @@ REQUIRED = ("evaluate",)
 #: and a model with internal variables, which `update` changes by what has happened in a step
 MEMORY_FUNCTIONS = {
     "evaluate": ("rho, e, internal, par", 4),
-    "update": ("rho0, rho, e, dep, work, damage0, damage, elastic0, elastic, time, dt, par, internal", 0),
+    "update": ("rho0, rho, e, dep, work, damage0, damage, released, time, dt, par, internal", 0),
 }
 MEMORY_REQUIRED = ("evaluate", "update")
 

@@ -146,7 +146,7 @@ def deform(parts, i0, i1, time, dt, travels, advance, metrics, dz, group_ranges,
     for place in prange(parts.shape[0] - 1):
         part = int64(place)  # numba counts without a sign, for which every kernel would be compiled a second time
         if before.shape[1] > 0:
-            memory.remember(part, parts, body_range, models, materials, pm, tm, q, scratch, before)
+            memory.remember(part, parts, body_range, models, q, before)
         acceleration.swept_volumes(part, parts, i0, i1, dt, metrics, dz, group_ranges, u0, v0, u, v, fr, fz)
         if cell_mass.shape[0] > 1:
             contact_volumes.even_out(part, parts, contact_columns, volume, skin, bulk, ph, qr, even_r, even_z)
@@ -176,7 +176,7 @@ def deform(parts, i0, i1, time, dt, travels, advance, metrics, dz, group_ranges,
         if slip_layer:
             sliding.cut_shear(part, parts, shear, friction, occupied[0], zone, normal, hard_bodies, vof, pm, q)
         if before.shape[1] > 0:
-            memory.update_memory(part, parts, time, dt, body_range, models, materials, pm, tm, before, vof, q, scratch)
+            memory.update_memory(part, parts, time, dt, body_range, models, materials, pm, tm, before, vof, q)
         if travels:
             wait(gate, parts)
             following.leave(part, parts, advance, metrics, group_ranges[0], fz)

@@ -29,7 +29,7 @@ from hydro2d.kernels.mixed_strength import (
     work_of_deviators,
 )
 from hydro2d.kernels.thermodynamics import pressures_row, viscosity_row
-from hydro2d.materials.rows import EOS, EOS_AT, GAS, MEMORY, TENSILE
+from hydro2d.materials.rows import EOS, EOS_AT, FADES, GAS, MEMORY, TENSILE
 from hydro2d.mesh.fields import DMG, RHO, SRR, SRZ, SZZ, E
 from hydro2d.mesh.grid import VOL_R
 from hydro2d.physics.closure import NO_VOID, relaxation_bound, relaxation_strain, softness
@@ -63,7 +63,7 @@ def insert_void_mixed_row(j, smallest, max_opening, metrics, dz, mixed_count, mi
         for m in range(bodies):
             f = vof[m, j, i]
             if f > 0.0:
-                limit = tension_limit(materials[m, TENSILE], q[DMG, m, j, i])
+                limit = tension_limit(materials[m, TENSILE], materials[m, FADES], q[DMG, m, j, i])
                 mean += f * limit
                 least = min(least, limit)
         threshold = least * solid[j, i] if smallest else mean

@@ -13,7 +13,7 @@ from eos.dispatch import (
 )
 from hydro2d.jit import apart, point, rowwise, serial
 from hydro2d.kernels.column_ranges import columns, outer_rows
-from hydro2d.materials.rows import CUTOFF_DENSITY, DAMAGE, DAMAGE_AT, EOS, EOS_AT, MEMORY, STRENGTH, STRENGTH_AT, TENSILE
+from hydro2d.materials.rows import CUTOFF_DENSITY, DAMAGE, DAMAGE_AT, EOS, EOS_AT, FADES, MEMORY, STRENGTH, STRENGTH_AT, TENSILE
 from hydro2d.mesh.fields import DMG, EP, RHO, SRR, SRZ, SZZ, E
 from hydro2d.mesh.grid import VOL_R
 from hydro2d.physics.fracture import share_that_stays, tension_limit
@@ -26,7 +26,7 @@ SOUND_FLOOR = 1.0  # (1 m/s)^2
 
 
 @apart
-def insert_void_row(m, j, first, number, model, memory, par, fracture_pressure, max_opening, metrics, h, vof, q):
+def insert_void_row(m, j, first, number, model, memory, par, fracture_pressure, fades, max_opening, metrics, h, vof, q):
     """Inserts void in the cells of row j that body m fills and that fracture; returns its volume.
 
     Void until p(rho*, e) = 0, at most max_opening of the cell in a cycle; the deviator is set to zero (explanation/fracture).
@@ -39,7 +39,7 @@ def insert_void_row(m, j, first, number, model, memory, par, fracture_pressure, 
         rho, e = q[RHO, m, j, i], q[E, m, j, i]
         internal = q[memory:, m, j, i]
         p = evaluate(model, rho, e, internal, par)[0]
-        if vof[m, j, i] == 1.0 and p < -tension_limit(fracture_pressure, q[DMG, m, j, i]):
+        if vof[m, j, i] == 1.0 and p < -tension_limit(fracture_pressure, fades, q[DMG, m, j, i]):
             f = share_that_stays(rho, zero_pressure_density(model, rho, e, internal, par), max_opening)
             opened += (1.0 - f) * metrics[VOL_R, i] * h
             vof[m, j, i] = f
@@ -136,7 +136,7 @@ def pressures_row(j, b, max_opening, metrics, dz, body_range, active_range, mode
         model = models[m, EOS]
         memory = models[m, MEMORY]
         par = materials[m, EOS_AT:]
-        tensile = materials[m, TENSILE]
+        tensile, fades = materials[m, TENSILE], materials[m, FADES]
         cutoff_density = materials[m, CUTOFF_DENSITY]
         f_j = vof[m, j]
         r_j = q[RHO, m, j]
@@ -156,14 +156,14 @@ def pressures_row(j, b, max_opening, metrics, dz, body_range, active_range, mode
             wrong = 0
             for x in range(number):
                 i = first + x
-                fractures = f_j[i] == 1.0 and (pm_j[i] < -tensile or d_j[i] >= 1.0)
+                fractures = f_j[i] == 1.0 and (pm_j[i] < -tensile * (1.0 - fades * d_j[i]) or d_j[i] >= 1.0)
                 good = r_j[i] > 0.0 and abs(pm_j[i]) < 1e300 and abs(ep_j[i]) < 1e300
                 fractured += 1 if fractures else 0
                 wrong += 0 if good or f_j[i] == 0.0 else 1
             if fractured == 0 or attempt == 1:
                 break
-            new_void += insert_void_row(m, j, first, number, model, memory, par, tensile, max_opening, metrics, dz[j],
-                                        vof, q)
+            new_void += insert_void_row(m, j, first, number, model, memory, par, tensile, fades, max_opening, metrics,
+                                        dz[j], vof, q)
         if wrong > 0:
             report_row(m, j, first, number, vof, q, pm, bad)
         if feels_temperature(models[m, STRENGTH], models[m, DAMAGE]):

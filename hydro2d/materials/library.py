@@ -534,7 +534,7 @@ def resolve(deck) -> MaterialTable:
     tensile = [c.fracture_pressure.value if c.fracture_pressure else np.inf for c in chosen]
     if deck.failure.tensile == "none":
         tensile = [np.inf] * len(chosen)
-    return MaterialTable(
+    table = MaterialTable(
         names=tuple(body.name for body in slots),
         materials=tuple(chosen),
         rho0=eos_par[:, eos.RHO0].copy(),
@@ -548,6 +548,19 @@ def resolve(deck) -> MaterialTable:
         damage_par=damage_par,
         fracture_pressure=np.array(tensile),
     )
+    for m, module in enumerate(strength_modules):
+        if hasattr(module, "check_with"):
+            _require_agreement(table, m, module)
+    return table
+
+
+def _require_agreement(table: MaterialTable, m: int, strength: ModuleType) -> None:
+    """Raises DeckError if the strength model of body m and its equation of state contradict each other."""
+    material, rest = table.materials[m], table.rho0[m]
+    try:
+        strength.check_with(material.strength.values, lambda mu: table.evaluate(m, rest * (1.0 + mu), 0.0)[0])
+    except ValueError as problem:
+        raise DeckError(f"material {material.name}: {problem}") from None
 
 
 def describe(name: str, variant: str | None = None) -> str:

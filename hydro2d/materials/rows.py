@@ -8,6 +8,7 @@ State.q in which the internal variables of its equation of state begin.
     CUTOFF_DENSITY  the density at and below which it is no solid any more, kg/m^3
     FACTOR          what multiplies its flow stress
     GAS             1 for a gas beside the other bodies, else 0
+    FADES           1 where the tension falls with damage, to 0 in crushed material, else 0
 
 and from EOS_AT to the end the row of the equation of state, with zeros behind it where that of another body is longer.
 """
@@ -23,11 +24,14 @@ EOS, STRENGTH, DAMAGE, MEMORY = range(4)
 
 STRENGTH_AT, DAMAGE_AT = 0, STRENGTH_ROW
 TENSILE = DAMAGE_AT + DAMAGE_ROW
-CUTOFF_DENSITY, FACTOR, GAS, EOS_AT = range(TENSILE + 1, TENSILE + 5)
+CUTOFF_DENSITY, FACTOR, GAS, FADES, EOS_AT = range(TENSILE + 1, TENSILE + 6)
 
 
 def packed(table, cutoff_density, factor) -> tuple[np.ndarray, np.ndarray]:
     """(models, materials) of a MaterialTable; cutoff_density (kg/m^3) and factor are float64[m]."""
     models = np.stack([table.eos_model, table.strength_model, table.damage_model, table.memory], axis=1)
-    numbers = table.fracture_pressure, cutoff_density, factor, table.gases().astype(float)
+    from strength.dispatch import WEAKENS
+
+    fades = np.isin(table.strength_model, WEAKENS).astype(float)
+    numbers = table.fracture_pressure, cutoff_density, factor, table.gases().astype(float), fades
     return models, np.concatenate([table.strength_par, table.damage_par, np.stack(numbers, axis=1), table.eos_par], axis=1)

@@ -19,9 +19,12 @@ def crushed(before, increment):
 
 
 @point
-def tension_limit(fracture_pressure, damage):
-    """Tension that material bears, Pa: its fracture pressure, nothing once it has failed."""
-    return fracture_pressure if damage < 1.0 else 0.0
+def tension_limit(fracture_pressure, fades, damage):
+    """Tension that material bears, Pa: its fracture pressure, nothing once it has failed.
+
+    fades : 1 where it falls with the damage, as in brittle material that is crushed; else 0
+    """
+    return fracture_pressure * (1.0 - fades * damage) if damage < 1.0 else 0.0
 
 
 @point

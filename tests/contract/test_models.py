@@ -26,6 +26,7 @@ TILLOTSON = {"reference_density": 2700.0, "a": 0.5, "b": 1.63, "A": 75.2e9, "B":
 POROUS = {name: value for name, value in SOLID.items() if name != "reference_density"} | {
     "reference_density": 2770.0 / 1.275, "solid_density": 2770.0, "elastic_sound_speed": 4110.0, "elastic_pressure": 0.08e9,
     "crush_pressure": 0.7e9, "crush_exponent": 1.7}
+CERAMIC = {"reference_density": 2510.0, "K1": 233e9, "K2": -593e9, "K3": 2800e9, "specific_heat": 950.0}
 
 #: per equation of state: parameters, density over rest and specific energies (J/kg) of its stated range
 EOS_CASES = {
@@ -33,6 +34,7 @@ EOS_CASES = {
     "ideal-gas": ({"reference_density": 1.2, "adiabatic_index": 1.4}, np.geomspace(0.01, 20.0, 9), (1.0, 2e5, 1e9)),
     "stiffened-gas": (LIQUID, np.linspace(0.9, 1.6, 9), (0.0, 1e5, 3e6)),
     "p-alpha": (POROUS, np.linspace(0.95, 1.5, 12), (0.0, 1e5, 3e6)),
+    "johnson-holmquist": (CERAMIC, np.linspace(0.95, 1.5, 12), (0.0, 1e5, 3e6)),
     "tillotson": (TILLOTSON, np.linspace(0.95, 2.0, 22), (0.0, 1e5, 2.9e6)),
 }
 #: what a model stands over
@@ -186,7 +188,7 @@ def layered(**functions):
 
 
 def CRUSHES_TO_NAN(rho0, rho, *rest):
-    rest[-1].fill(1.275 if rho == rho0 else np.nan)
+    rest[-1].fill(VIRGIN if rho == rho0 else np.nan)
 
 
 POSITIVE_YIELD = (Parameter("yield_stress", "Pa", REQUIRED, "initial yield stress", sign=POSITIVE),)

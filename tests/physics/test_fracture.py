@@ -14,12 +14,12 @@ share_that_stays = fracture.share_that_stays.py_func
 
 @pytest.mark.parametrize("damage", [0.0, 0.5, 0.999999])
 def test_material_that_has_not_failed_bears_its_fracture_pressure(damage):
-    assert tension_limit(3.5e9, damage) == 3.5e9
+    assert tension_limit(3.5e9, 0.0, damage) == 3.5e9
 
 
 @pytest.mark.parametrize("damage", [1.0, 1.0000001])
 def test_failed_material_bears_no_tension(damage):
-    assert tension_limit(3.5e9, damage) == 0.0
+    assert tension_limit(3.5e9, 0.0, damage) == 0.0
 
 
 @settings(deadline=None)
