@@ -127,7 +127,9 @@ def exact_path(case):
         return [rate, gain * rate]
 
     begin = brentq(lambda e: 2.0 * G * e - strengths(K * (np.exp(e) - 1.0))[0], 0.005, 0.02)
-    crushed = lambda e, y: y[0] - 1.0  # noqa: E731
+    def crushed(e, y):
+        return y[0] - 1.0
+
     crushed.terminal = True
     found = solve_ivp(slopes, (begin, -np.log(0.95)), [0.0, 0.0], rtol=1e-10, atol=1e-10, events=crushed, dense_output=True)
     return begin, found
