@@ -187,6 +187,13 @@ def layered(**functions):
     return spoilt("strength", "kinematic-hardening", **functions)
 
 
+VIRGIN = POROUS["solid_density"] / POROUS["reference_density"]
+
+
+def DENSER_THAN_SOLID(rho0, rho, *rest):
+    rest[-1].fill(VIRGIN if rho == rho0 else 0.9)
+
+
 def CRUSHES_TO_NAN(rho0, rho, *rest):
     rest[-1].fill(VIRGIN if rho == rho0 else np.nan)
 
@@ -210,7 +217,7 @@ FLOW = strength.STRENGTH_MODELS["johnson-cook"].flow_stress
         (contract.pressure_rises, gas(slope=1.1), "p rises by"),
         (contract.temperature, gas(T=1.1), "dT/drho is"),
         (contract.memory, pores(update=lambda *step: step[-1].fill(1.1)), "at rest [[]1.275"),
-        (contract.memory, pores(update=lambda *step: step[-1].fill(0.9)), "beyond"),
+        (contract.memory, pores(update=DENSER_THAN_SOLID), "beyond"),
         (contract.memory, pores(update=CRUSHES_TO_NAN), "beyond"),
         (contract.memory, pores(ID=99), "by its ID"),
         (contract.strength_is_chosen, metal(ID=1), "by its ID"),
