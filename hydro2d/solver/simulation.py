@@ -421,7 +421,7 @@ class Simulation:
         self.grid.move(scalars["mesh_offset"])
         self._doubts = dict(scalars["doubts"])
         e.audit = Audit.resume(scalars["audit"])
-        self.sources.resume(scalars["sources"])
+        self.sources.resume(scalars.get("sources", 0.0))  # files of earlier versions, which had no sources, say nothing
         if self.penetrator:
             self.penetrator.resume(scalars["penetrator"])
             for crater, saved in zip(self.craters, scalars["craters"], strict=True):

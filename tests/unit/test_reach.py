@@ -97,7 +97,8 @@ def test_a_body_beyond_its_reach_is_a_fault(body):
 
 
 def doubted(simulation):
-    return [sentence for _, sentence in doubts(simulation.state, simulation.table, simulation.time, simulation._reach)]
+    return [sentence for _, sentence in doubts(simulation.state, simulation.table, simulation.time, simulation._reach,
+                                       simulation.sources.given)]
 
 
 @pytest.mark.parametrize("body", [0, 2])
