@@ -67,7 +67,7 @@ def test_metals_are_metals():
     """Poisson's ratio of every solid, from the bulk modulus rho0 c0^2 and G, is that of a metal; cv is near 3R."""
     for name in library.names():
         material = library.load(name)
-        if not material.has_strength:
+        if not material.has_strength or material.eos.name != "mie-grueneisen":
             continue
         values = material.eos.values
         bulk = values["reference_density"] * values["sound_speed"] ** 2

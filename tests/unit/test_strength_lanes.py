@@ -53,7 +53,7 @@ def together(model, par, dt, factor, trial, strain, T, p, rho, G):
 
 def alone(model, par, dt, factor, *cells):
     """The same of `plastic_increment`, cell by cell."""
-    found = [plastic_increment(model, trial, ep, dt, T, p, rho, G, factor, par)
+    found = [plastic_increment(model, trial, ep, dt, T, p, rho, G, factor, par, 0.0)
              for trial, ep, T, p, rho, G in zip(*cells, strict=True)]
     return tuple(np.array(found).T)
 
@@ -112,7 +112,7 @@ def test_no_nan_ends_as_an_elastic_step(name):
     module = STRENGTH_MODELS[name]
     par = module.row(STRENGTH_CASES[name])
     trial, strain, T, p, rho, G = 2e9, 0.1, 400.0, 1e9, 2750.0, 26e9
-    assert plastic_increment(module.ID, trial, strain, 1e-8, T, p, rho, G, 1.0, par)[0] > 0.0
+    assert plastic_increment(module.ID, trial, strain, 1e-8, T, p, rho, G, 1.0, par, 0.0)[0] > 0.0
     for what in ("trial", *FEELS[name]):
         given = {"trial": trial, "strain": strain, "T": T, "p": p, "rho": rho, what: math.nan}
         cell = [np.array([value]) for value in (*given.values(), G)]

@@ -61,7 +61,7 @@ def test_the_result_lies_on_the_yield_surface(name, trial, strain, step, T, p, f
     G = shear_modulus(model, p, RHO, T, row)
     static = factor * flow_stress(model, ep, 0.0, T, p, RHO, row)
     seq = (static or 1e8) * (1.0 + 10.0**trial)
-    dep, Y = plastic_increment(model, seq, ep, dt, T, p, RHO, G, factor, row)
+    dep, Y = plastic_increment(model, seq, ep, dt, T, p, RHO, G, factor, row, 0.0)
     if G == 0.0:
         assert (dep, Y) == (0.0, 0.0)
         return
@@ -83,13 +83,13 @@ def test_below_the_surface_nothing_happens(name):
     model, row = MODELS[name]
     static = flow_stress(model, 0.1, 0.0, 400.0, 1e9, RHO, row)
     for share in (0.0, 0.5, 1.0):
-        assert plastic_increment(model, share * static, 0.1, 1e-8, 400.0, 1e9, RHO, 1e10, 1.0, row) == (0.0, static)
+        assert plastic_increment(model, share * static, 0.1, 1e-8, 400.0, 1e9, RHO, 1e10, 1.0, row, 0.0) == (0.0, static)
 
 
 def test_linear_hardening_in_closed_form():
     """(seq - Y)/(3 G + H)"""
     model, row = MODELS["elastic-plastic"]
-    dep, Y = plastic_increment(model, 4e8, 0.01, 1e-8, 298.0, 0.0, 2700.0, 26e9, 1.0, row)
+    dep, Y = plastic_increment(model, 4e8, 0.01, 1e-8, 298.0, 0.0, 2700.0, 26e9, 1.0, row, 0.0)
     assert dep == pytest.approx((4e8 - 3.1e8) / (3 * 26e9 + 1e9), rel=1e-12)
     assert pytest.approx(3.1e8 + 1e9 * dep, rel=1e-12) == Y
 
@@ -99,28 +99,28 @@ def test_rate_is_that_of_the_step():
     module = STRENGTH_MODELS["johnson-cook"]
     row = module.row({"shear_modulus": 27e9, "yield_stress": 3e8, "rate_coefficient": 0.02})
     stress = 3e8 * (1 + 0.02 * math.log(1e5))
-    dep, Y = plastic_increment(module.ID, stress + 3 * 27e9 * 1e-3, 0.0, 1e-8, 298.0, 0.0, 2700.0, 27e9, 1.0, row)
+    dep, Y = plastic_increment(module.ID, stress + 3 * 27e9 * 1e-3, 0.0, 1e-8, 298.0, 0.0, 2700.0, 27e9, 1.0, row, 0.0)
     assert dep == pytest.approx(1e-3, rel=1e-7)
     assert pytest.approx(stress, rel=1e-9) == Y
 
 
 def test_molten_material_loses_its_stress():
     model, row = MODELS["johnson-cook"]
-    dep, Y = plastic_increment(model, 5e8, 0.3, 1e-8, 2000.0, 0.0, RHO, 124e9, 1.0, row)
+    dep, Y = plastic_increment(model, 5e8, 0.3, 1e-8, 2000.0, 0.0, RHO, 124e9, 1.0, row, 0.0)
     assert dep == pytest.approx(5e8 / (3 * 124e9), rel=1e-12)
     assert Y == 0.0
 
 
 @pytest.mark.parametrize("seq", [0.0, 1e8, 1e20])
 def test_without_a_modulus_there_is_nothing_to_return(seq):
-    assert plastic_increment(0, seq, 0.0, 1e-8, 300.0, 0.0, 2700.0, 0.0, 1.0, MODELS["power-law"][1]) == (0.0, 0.0)
+    assert plastic_increment(0, seq, 0.0, 1e-8, 300.0, 0.0, 2700.0, 0.0, 1.0, MODELS["power-law"][1], 0.0) == (0.0, 0.0)
 
 
 @pytest.mark.parametrize("name", MODELS)
 @pytest.mark.parametrize("seq", [1e13, 1e20, 1e100])
 def test_an_absurd_trial_stress_is_returned_as_well(name, seq):
     model, row = MODELS[name]
-    dep, Y = plastic_increment(model, seq, 0.0, 1e-8, 300.0, 0.0, RHO, 5e10, 1.0, row)
+    dep, Y = plastic_increment(model, seq, 0.0, 1e-8, 300.0, 0.0, RHO, 5e10, 1.0, row, 0.0)
     assert dep == pytest.approx(seq / 1.5e11, rel=1e-2)
     assert 0.0 <= Y < 1e-2 * seq
 
@@ -128,6 +128,6 @@ def test_an_absurd_trial_stress_is_returned_as_well(name, seq):
 @pytest.mark.parametrize("name", MODELS)
 def test_nan_is_not_hidden(name):
     model, row = MODELS[name]
-    dep, Y = plastic_increment(model, math.nan, 0.1, 1e-8, 300.0, 0.0, RHO, 5e10, 1.0, row)
+    dep, Y = plastic_increment(model, math.nan, 0.1, 1e-8, 300.0, 0.0, RHO, 5e10, 1.0, row, 0.0)
     assert math.isnan(dep)
     assert math.isnan(Y)
