@@ -16,8 +16,8 @@ from hydro2d import api
 from hydro2d.mesh.quantities import FieldError
 from hydro2d.output import datasets
 from hydro2d.output.vtk import read_grid
+from tests.solver.test_simulation import TEXT
 from tests.study import tubes
-from tests.unit.test_simulation import TEXT
 
 FOLLOWING = {"mesh.follow": "rod", "stop.time": "4 us", "output.vtk_interval": "1 us"}
 

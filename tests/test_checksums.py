@@ -17,7 +17,7 @@ from hydro2d.results import export
 from hydro2d.results.reading import Results, ResultsError
 from hydro2d.running import run as runs
 from hydro2d.strange import StrangeFile
-from tests.unit import fake
+from tests import fake
 
 CHECKED = {"deck.toml", "summary.json", "history.h5", "restart.h5", "series.pvd", "interfaces.pvd", "tracers.pvd"}
 

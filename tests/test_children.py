@@ -11,7 +11,7 @@ import hydro2d
 from hydro2d import children
 from hydro2d.running.compilation import Second
 from hydro2d.study import cluster
-from tests.unit.made_models import DECK, VOCE
+from tests.materials.made_models import DECK, VOCE
 
 #: further modules that someone might plant; those of `eos`, `strength` and `hydro2d` themselves are found out
 FURTHER = ("numpy", "h5py", "numba", "pyvista", "yaml", "cyclopts", "distributed", "sitecustomize", "usercustomize")

@@ -21,7 +21,7 @@ from hydro2d.results.reading import Results
 from hydro2d.running.run import run as start
 from hydro2d.strange import StrangeFile, own, within
 from hydro2d.study import layout
-from tests.unit import fake
+from tests import fake
 
 SERIES = '<VTKFile><Collection><DataSet timestep="0" file="{}"/></Collection></VTKFile>'
 SECRET = "someone's own file\n"

@@ -12,8 +12,8 @@ from hydro2d.results.reading import Results
 from hydro2d.running.run import run as start
 from hydro2d.study import charts, monitor
 from hydro2d.terminal import one_line, say, shown
+from tests import fake
 from tests.rules import source
-from tests.unit import fake
 
 #: sets the title of a terminal, clears it, turns the direction of writing, and forges a line
 NASTY = "a\x1b]0;owned\x07\x1b[2J \u202eb\u2066 \x9b31m [red]c[/red] \r\nd"

@@ -1,1 +1,1 @@
-"""Unit tests."""
+"""hydro2d/cli: commands, their messages and their statuses."""

@@ -14,7 +14,7 @@ import pytest
 
 from hydro2d.cli.main import USER_ERRORS, app, call
 from hydro2d.output import snapshot, vtk
-from tests.unit import fake
+from tests import fake
 
 DECK = """
 [mesh]
@@ -224,7 +224,7 @@ def test_help_is_light():
 def test_signals_write_a_restart_file(deck, tmp_path, number, status):
     code = """
         import sys, time, types
-        from tests.unit import fake
+        from tests import fake
         class Slow(fake.Simulation):
             def step(self):
                 time.sleep(0.02)
@@ -254,7 +254,7 @@ def test_kill_leaves_whole_files(deck, tmp_path):
     """kill -9 in the middle of constant writing: what is there can be read."""
     code = """
         import sys, types
-        from tests.unit import fake
+        from tests import fake
         sys.modules["hydro2d.solver.simulation"] = types.SimpleNamespace(
             Simulation=fake.Simulation, UnphysicalState=fake.UnphysicalState)
         from hydro2d.cli.main import main

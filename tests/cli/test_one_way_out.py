@@ -15,12 +15,12 @@ import pytest
 from hydro2d.cli.main import call
 from hydro2d.output import snapshot, vtk
 from hydro2d.running import run as runs
-from tests.unit.test_cli import DECK
+from tests.cli.test_main import DECK
 
 ROOT = Path(__file__).parents[2]
 SLOW = textwrap.dedent("""
     import sys, time, types
-    from tests.unit import fake
+    from tests import fake
     class Slow(fake.Simulation):
         def step(self):
             time.sleep(0.01)

@@ -11,7 +11,7 @@ from hydro2d.deck import deck
 from hydro2d.errors import DeckError, nearest, unknown
 from hydro2d.running import run
 from hydro2d.study import definition
-from tests.unit.test_sanity import TEXT
+from tests.solver.test_sanity import TEXT
 
 TRACED = TEXT + '''
 [[tracer]]

@@ -40,7 +40,7 @@ def met(number: int) -> tuple[int, list[int], list[int]]:
 
 def in_process(code: str, **environment: str) -> str:
     """What a process of its own prints that runs the code."""
-    code = f"import tests.unit.{__name__.rsplit('.', 1)[-1]} as here\n{code}"
+    code = f"import tests.jit.{__name__.rsplit('.', 1)[-1]} as here\n{code}"
     done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, env={**os.environ, **environment}, capture_output=True,
                           text=True, timeout=300)
     assert done.returncode == 0, done.stderr

@@ -189,7 +189,7 @@ def test_the_groups_own_volumes_are_swept_with_it_where_they_are_in_use():
 
 def test_no_more_than_half_of_it_fades(monkeypatch):
     """Where the hourglass coefficient is large and steps are long."""
-    monkeypatch.setattr("tests.kernel.test_checkerboard.SHARE", 3.0)
+    monkeypatch.setattr("tests.kernels.test_checkerboard.SHARE", 3.0)
     block = Block()
     block.q[SRR, 1] = 1e9 * block.sign
     block.fade()

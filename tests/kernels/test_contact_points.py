@@ -12,7 +12,7 @@ from hydro2d.kernels.extension import MASTERS, SPAN, TIED
 from hydro2d.mesh.fields import INTERNAL, RHO, E
 from hydro2d.mesh.grid import Grid
 from hydro2d.physics.contact import GAP
-from tests.kernel.test_extension import Extensions, N, half_plane, scattered
+from tests.kernels.test_extension import Extensions, N, half_plane, scattered
 from tests.physics.continuity import changes_in_proportion
 
 master = contact_velocities.master.py_func

@@ -7,7 +7,7 @@ from hydro2d.deck import deck
 from hydro2d.mesh.fields import INTERNAL
 from hydro2d.output import derived
 from hydro2d.solver.simulation import Simulation
-from tests.kernel.test_lagrangian import BLOCK, driven, engine
+from tests.kernels.test_lagrangian import BLOCK, driven, engine
 
 G, Y0, H = 26e9, 0.3e9, 5e9
 RR, ZZ, RZ = range(INTERNAL, INTERNAL + 3)

@@ -8,7 +8,7 @@ from hydro2d.kernels import mixed_strength
 from hydro2d.mesh.grid import Grid
 from hydro2d.physics.stress import von_mises
 from hydro2d.solver.simulation import Simulation
-from tests.kernel.pieces import constrain
+from tests.kernels.pieces import constrain
 
 BLOCK = """
 [mesh]

@@ -16,7 +16,7 @@ from hydro2d.deck import deck
 from hydro2d.kernels import lagrangian_step, remap_step
 from hydro2d.mesh import state
 from hydro2d.solver.simulation import Simulation
-from tests.kernel.test_compiled_equals_source import CASES, text_of
+from tests.kernels.test_compiled_equals_source import CASES, text_of
 from tests.rules.source import ROOT
 
 BOTH, ALONE = text_of("both", 'method = "contact"'), text_of("ke", 'method = "none"').replace("friction = 0.1", "")
@@ -59,7 +59,7 @@ def bits_as_python(case: str) -> str:
 
 @pytest.mark.parametrize("case", DECKS)
 def test_phases_do_what_their_source_says_with_any_number_of_parts(case):
-    code = ("from tests.kernel.test_phases import bits, bits_as_python\n"
+    code = ("from tests.kernels.test_phases import bits, bits_as_python\n"
             f"case = {case!r}\n"
             "print(bits_as_python(case) == bits(case, 1) == bits(case, 2) == bits(case, 3) == bits(case, 3, 1, 2))")
     done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, env={**os.environ, "NUMBA_NUM_THREADS": "3"},

@@ -6,8 +6,8 @@ import pytest
 from hydro2d.deck import deck
 from hydro2d.kernels import momentum, remap
 from hydro2d.solver.simulation import Simulation
-from tests.kernel.pieces import constrain, ghost_vertices, sweep_faces, tidy
-from tests.kernel.test_interfaces import CIRCLE, by_stream_function, carry, vortex
+from tests.kernels.pieces import constrain, ghost_vertices, sweep_faces, tidy
+from tests.kernels.test_interfaces import CIRCLE, by_stream_function, carry, vortex
 from tests.physics.continuity import changes_in_proportion, largest_jump
 
 GEOMETRIES = ("cylindrical", "planar")

@@ -11,7 +11,7 @@ from hydro2d.errors import DeckError
 from hydro2d.materials import outside
 from hydro2d.running import run
 from hydro2d.study import cases
-from tests.unit.made_models import DECK, VOCE, python
+from tests.materials.made_models import DECK, VOCE, python
 
 
 @pytest.fixture

@@ -7,7 +7,7 @@ import pytest
 
 from hydro2d.cli.main import call
 from hydro2d.materials import outside
-from tests.unit.made_models import GAS, STRAIN, VOCE, python
+from tests.materials.made_models import GAS, STRAIN, VOCE, python
 
 # ------------------------------------------------------------------------------------------------ files
 

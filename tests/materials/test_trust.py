@@ -13,7 +13,7 @@ from hydro2d.deck import deck as decks
 from hydro2d.materials.outside import ModelError
 from hydro2d.output import snapshot, vtk
 from hydro2d.study import contents, layout, record
-from tests.unit.made_models import GAS, VOCE
+from tests.materials.made_models import GAS, VOCE
 
 SHOT = "problems/cth_nose_shape/hemi_5083_1086.toml"
 

@@ -11,7 +11,7 @@ import pytest
 
 from hydro2d.mesh import quantities
 from hydro2d.output import derived, vtk
-from tests.unit import fake
+from tests import fake
 
 
 @pytest.fixture

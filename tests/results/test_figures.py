@@ -13,7 +13,7 @@ from hydro2d.results import figures
 from hydro2d.results.figures import FigureError
 from hydro2d.results.reading import Results
 from hydro2d.running.check import check
-from tests.unit import fake
+from tests import fake
 
 
 @pytest.fixture

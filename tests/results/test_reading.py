@@ -12,7 +12,7 @@ from hydro2d.results import figures
 from hydro2d.results.reading import ResultsError
 from hydro2d.running.run import run as start
 from hydro2d.study import layout
-from tests.unit import fake
+from tests import fake
 
 
 @pytest.fixture

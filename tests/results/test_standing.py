@@ -7,7 +7,7 @@ import hydro2d
 from hydro2d.cli.main import call
 from hydro2d.files import locked, write_json
 from hydro2d.results import standing
-from tests.unit import made_run
+from tests.results import made_run
 
 
 @pytest.fixture

@@ -12,8 +12,8 @@ from hydro2d.output import history, snapshot, vtk
 from hydro2d.running import run as runs
 from hydro2d.running.run import run
 from hydro2d.solver.record import ColumnError
-from tests.unit import fake
-from tests.unit.test_cli import DECK
+from tests import fake
+from tests.cli.test_main import DECK
 
 RAISED = (RuntimeError("header too large"), ValueError("no"), KeyError("x"), TypeError("y"), MemoryError("8 EiB"),
           OSError("Unable to create attribute"), OSError(errno.ENOSPC, os.strerror(errno.ENOSPC)))  # fmt: skip

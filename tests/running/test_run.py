@@ -12,8 +12,8 @@ from hydro2d.files import LockError
 from hydro2d.interrupt import Interrupt
 from hydro2d.output import history, snapshot, vtk
 from hydro2d.running.run import Due, RunError, exit_status, run
+from tests import fake
 from tests.locks import held
-from tests.unit import fake
 
 
 def test_due_at_first_cycle_at_or_after_each_time():

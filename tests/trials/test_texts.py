@@ -5,9 +5,9 @@ import random
 import pytest
 
 from hydro2d.toml import problems_folder
+from tests.cli.test_main import DECK
+from tests.solver.test_sanity import TEXT
 from tests.trials import spoil
-from tests.unit.test_cli import DECK
-from tests.unit.test_sanity import TEXT
 
 CONTACT = DECK + """
 [sliding]

@@ -12,7 +12,7 @@ from scipy import optimize, special
 
 from hydro2d.deck import deck as decks
 from hydro2d.solver.simulation import Simulation
-from tests.kernel.pieces import ghost_vertices, keep_one
+from tests.kernels.pieces import ghost_vertices, keep_one
 
 DENSITY, BULK, SHEAR = 18160.0, 18160.0 * 4030.0**2, 145e9
 YOUNG, POISSON = 9 * BULK * SHEAR / (3 * BULK + SHEAR), (3 * BULK - 2 * SHEAR) / (6 * BULK + 2 * SHEAR)

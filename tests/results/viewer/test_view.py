@@ -18,7 +18,7 @@ from hydro2d.output import history, vtk
 from hydro2d.results import figures
 from hydro2d.results.viewer import contents, packing
 from hydro2d.results.viewer.fields import CLIPS, Ranges, ViewError
-from tests.unit import made_run
+from tests.results import made_run
 
 
 class Page:

@@ -5,7 +5,7 @@ import pytest
 
 import hydro2d
 from hydro2d.output import vtk
-from tests.unit import made_run
+from tests.results import made_run
 
 PHONE, DESK = 390, 1440
 #: what the questions use: when the page is drawn, a pixel of a section, pointers that press and drag, keys
