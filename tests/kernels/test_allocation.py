@@ -10,52 +10,24 @@ from numba.core.runtime import _nrt_python, rtsys
 from hydro2d import jit
 from hydro2d.deck import deck
 from hydro2d.solver.simulation import Simulation
+from tests.decks import entry, mesh, plate, rod, stop, table
 
-DECK = """
-[mesh]
-r = [{ to = "12 mm", cells = CELLS_R }]
-z_start = "-12 mm"
-z = [{ to = "24 mm", cells = CELLS_Z }]
-[[body]]
-name = "rod"
-material = "W_alloy"
-shape = "rod"
-nose = "hemispherical"
-radius = "3 mm"
-length = "10 mm"
-tip = "-0.1 mm"
-velocity = "1000 m/s"
-[[body]]
-name = "plate"
-material = "Al5083"
-shape = "plate"
-z_front = 0.0
-thickness = "20 mm"
-[numerics]
-ramp_cycles = 0
-active_region = ACTIVE
-advection = "ADVECTION"
-[sliding]
-method = "SLIDING"
-hard = ["rod"]
-[[tracer]]
-name = "tip"
-r = 0.0
-z = "-1 mm"
-[stop]
-time = "1 us"
-"""
 #: bytes: views and numbers of Python, the same on every mesh
 SLACK = 512
 #: cycles before memory is looked at, and while it is: both orders of the sweeps, with and without new slip zones
 WARM, LOOKED_AT = 6, 10
 
 
-def started(columns: int, rows: int, **options: str) -> Simulation:
-    text = DECK.replace("CELLS_R", str(columns)).replace("CELLS_Z", str(rows))
-    for name, value in options.items():
-        text = text.replace(name.upper(), value)
-    simulation = Simulation(deck.loads(text))
+def started(columns: int, rows: int, *, active: bool, advection: str, sliding: str) -> Simulation:
+    simulation = Simulation(deck.loads(
+        mesh(("12 mm", columns), ("-12 mm", "24 mm", rows))
+        + rod("3 mm", "10 mm", tip="-0.1 mm", velocity="1000 m/s")
+        + plate("20 mm")
+        + table("numerics", ramp_cycles=0, active_region=active, advection=advection)
+        + table("sliding", method=sliding, hard=["rod"])
+        + entry("tracer", name="tip", r=0.0, z="-1 mm")
+        + stop("1 us")
+    ))  # fmt: skip
     for _ in range(WARM):
         simulation.step()
     return simulation

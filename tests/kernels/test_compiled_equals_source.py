@@ -12,51 +12,7 @@ from hydro2d import jit
 from hydro2d.deck import deck
 from hydro2d.jit.options import ONLY_CALLS
 from hydro2d.solver.simulation import Simulation
-
-DECK = """
-title = "a rod that strikes a plate, small"
-[mesh]
-MESH
-r = [{ to = "6 mm", cells = 12 }, { cells = 3, ratio = 1.1 }]
-z_start = "-6 mm"
-z = [{ to = "6 mm", cells = 20 }]
-[[body]]
-name = "rod"
-material = "W_alloy"
-shape = "rod"
-nose = "hemispherical"
-radius = "2.7 mm"
-length = "5 mm"
-tip = "0.2 mm"
-velocity = "1200 m/s"
-[[body]]
-name = "plate"
-material = "PLATE"
-shape = "plate"
-z_front = "0.2 mm"
-thickness = "8 mm"
-[boundaries]
-z_max = "EDGE"
-[sliding]
-SLIDING
-hard = ["rod"]
-friction = 0.1
-[materials.hardening]
-based_on = "Al7039"
-[materials.hardening.strength]
-model = "kinematic-hardening"
-shear_modulus = "27.6 GPa"
-yield_stress = "0.3 GPa"
-hardening_modulus = "2 GPa"
-isotropic_share = 0.5
-[failure]
-damage = "material"
-[numerics]
-initial_dt_factor = 1.0
-ADVECTION
-[stop]
-time = "1 us"
-"""
+from tests.decks import material, mesh, plate, rod, stop, table
 
 
 def _kernels():
@@ -76,18 +32,30 @@ def phases_as_python():
     jit.profiling(False)
 
 
-LAYER = 'method = "slip-layer"\nyield_factor = "radius"\nshear = "shear"'
+LAYER = {"method": "slip-layer", "yield_factor": "radius", "shear": "shear", "friction": 0.1}
+CONTACT = {"method": "contact", "friction": 0.1}
+CASES = {"ke, slip-layer": ("ke", LAYER), "both, slip-layer": ("both", LAYER), "ke, contact": ("ke", CONTACT)}
 
 
-CASES = {"ke, slip-layer": ("ke", LAYER), "both, slip-layer": ("both", LAYER), "ke, contact": ("ke", 'method = "contact"')}
-
-
-def text_of(advection: str, sliding: str) -> str:
-    """The deck of a case."""
-    follows = "contact" in sliding
-    text = DECK.replace("ADVECTION", f'advection = "{advection}"').replace("SLIDING", sliding)
-    text = text.replace("MESH", 'follow = "rod"' if follows else "").replace("EDGE", "transmit" if follows else "outflow")
-    return text.replace("PLATE", "hardening" if advection == "both" else "Al7039")  # one deck with internal variables
+def text_of(advection: str, sliding: dict, tip: str = "0.2 mm", follows: bool | None = None) -> str:
+    """A rod that strikes a plate, small; with contact it follows the rod if nothing else is said."""
+    if follows is None:
+        follows = sliding["method"] == "contact"
+    struck = "hardening" if advection == "both" else "Al7039"  # the one has internal variables, the other none
+    return (
+        mesh([{"to": "6 mm", "cells": 12}, {"cells": 3, "ratio": 1.1}], ("-6 mm", "6 mm", 20),
+             **({"follow": "rod"} if follows else {}))
+        + rod("2.7 mm", "5 mm", tip=tip, velocity="1200 m/s")
+        + plate("8 mm", material=struck, z_front="0.2 mm")
+        + table("boundaries", z_max="transmit" if follows else "outflow")
+        + table("sliding", hard=["rod"], **sliding)
+        + material("hardening", "Al7039")
+        + table("materials.hardening.strength", model="kinematic-hardening", shear_modulus="27.6 GPa", yield_stress="0.3 GPa",
+                hardening_modulus="2 GPa", isotropic_share=0.5)
+        + table("failure", damage="material")
+        + table("numerics", initial_dt_factor=1.0, advection=advection)
+        + stop("1 us")
+    )  # fmt: skip
 
 
 @pytest.mark.parametrize(("advection", "sliding"), CASES.values(), ids=CASES)

@@ -8,6 +8,7 @@ import pytest
 from hydro2d.deck import deck
 from hydro2d.kernels import interfaces
 from hydro2d.solver.simulation import Simulation
+from tests.decks import body, box, mesh, stop, table, walls
 from tests.physics.continuity import changes_in_proportion, largest_jump
 
 #: E_geo = sum |f - f0| h^2 of Youngs' method with directionally split sweeps, a prototype's: flow, cells -> error
@@ -22,27 +23,15 @@ YOUNGS = {
     ("rotation", 64): 4.04e-4,
     ("rotation", 128): 1.96e-4,
 }
-CIRCLE = """
-[mesh]
-geometry = "planar"
-r = [{{ to = 1.0, cells = {n} }}]
-z = [{{ to = 1.0, cells = {n} }}]
-[boundaries]
-r_max = "wall"
-z_min = "wall"
-z_max = "wall"
-[[body]]
-name = "circle"
-material = "gas_7_5"
-shape = "sphere"
-centre = [0.5, 0.75]
-radius = 0.15
-energy = 2.5
-[numerics]
-active_region = false
-[stop]
-time = 1.0
-"""
+
+
+def in_a_box(n: int, *bodies: str, geometry: str = "planar") -> str:
+    """Bodies in a box of n x n cells with sides of 1 m."""
+    sides = mesh((1.0, n), (1.0, n), geometry=geometry) + walls("r_max", "z_min", "z_max")
+    return sides + "".join(bodies) + table("numerics", active_region=False) + stop(1.0)
+
+
+CIRCLE = body("circle", "gas_7_5", "sphere", centre=[0.5, 0.75], radius=0.15, energy=2.5)
 
 
 def vortex(x, y, t, period):
@@ -91,7 +80,7 @@ def by_stream_function(engine, stream, dt: float):
 @pytest.mark.parametrize(("name", "n"), list(YOUNGS))
 def test_circle_in_a_flow(name, n):
     stream, period, fastest = FLOWS[name]
-    engine = Simulation(deck.loads(CIRCLE.format(n=n))).engine
+    engine = Simulation(deck.loads(in_a_box(n, CIRCLE))).engine
     s, g = engine.state, engine.grid
     first = g.interior(s.vof[0]).copy()
     steps = int(np.ceil(period * fastest * n / 0.5))  # half a cell a step
@@ -105,20 +94,8 @@ def test_circle_in_a_flow(name, n):
 
 
 def test_three_bodies_without_void_fill_every_cell():
-    text = CIRCLE.format(n=32).replace("[numerics]", """
-[[body]]
-name = "half"
-material = "gas_5_3"
-shape = "box"
-r = [0.0, 0.5]
-z = [0.0, 1.0]
-[[body]]
-name = "rest"
-material = "gas_7_5"
-shape = "box"
-z = [0.0, 1.0]
-[numerics]""")
-    engine = Simulation(deck.loads(text)).engine
+    half, rest = box("half", "gas_5_3", r=[0.0, 0.5], z=[0.0, 1.0]), box("rest", "gas_7_5", z=[0.0, 1.0])
+    engine = Simulation(deck.loads(in_a_box(32, CIRCLE, half, rest))).engine
     s, g = engine.state, engine.grid
     before = g.interior(s.vof * s.rho).sum(axis=(1, 2))
     assert np.abs(g.interior(s.vof).sum(axis=0) - 1.0).max() < 1e-12
@@ -128,24 +105,13 @@ z = [0.0, 1.0]
     np.testing.assert_allclose(after, before, rtol=1e-12)
 
 
-RING = """
-[mesh]
-r = [{ to = 1.0, cells = 40 }]
-z = [{ to = 0.2, cells = 8 }]
-[boundaries]
-z_min = "wall"
-z_max = "wall"
-[[body]]
-name = "ring"
-material = "gas_7_5"
-shape = "box"
-r = [0.63, 0.81]
-z = [0.0, 0.2]
-[numerics]
-active_region = false
-[stop]
-time = 1.0
-"""
+RING = (
+    mesh((1.0, 40), (0.2, 8))
+    + walls("z_min", "z_max")
+    + box("ring", "gas_7_5", r=[0.63, 0.81], z=[0.0, 0.2])
+    + table("numerics", active_region=False)
+    + stop(1.0)
+)
 
 
 def test_ring_that_shrinks_keeps_its_volume():
@@ -168,8 +134,8 @@ def test_ring_that_shrinks_keeps_its_volume():
 
 @pytest.mark.parametrize(("n", "error"), [(16, 4e-5), (32, 2e-5)])
 def test_sphere_moved_along_the_axis_and_back(n, error):
-    text = CIRCLE.replace('geometry = "planar"', "").replace("[0.5, 0.75]", "0.3").format(n=n)
-    engine = Simulation(deck.loads(text.replace("radius = 0.15", "radius = 0.2"))).engine
+    sphere = body("circle", "gas_7_5", "sphere", centre=0.3, radius=0.2, energy=2.5)
+    engine = Simulation(deck.loads(in_a_box(n, sphere, geometry="cylindrical"))).engine
     s, g = engine.state, engine.grid
     first = g.interior(s.vof[0]).copy()
 

@@ -7,6 +7,7 @@ from hydro2d.deck import deck
 from hydro2d.mesh.fields import INTERNAL
 from hydro2d.output import derived
 from hydro2d.solver.simulation import Simulation
+from tests.decks import box, material, mesh, stop, table, walls
 from tests.kernels.test_lagrangian import BLOCK, driven, engine
 
 G, Y0, H = 26e9, 0.3e9, 5e9
@@ -131,29 +132,15 @@ def test_the_shared_yield_stress_of_a_cell_is_measured_from_each_centre():
     np.testing.assert_allclose(from_the_centre(e.state.q[:, 0][:, there]), Y0, rtol=1e-6)
 
 
-MOVES = """
-[mesh]
-geometry = "planar"
-r = [{ to = 0.2, cells = 4 }]
-z = [{ to = 2.0, cells = 80 }]
-[boundaries]
-r_max = "wall"
-[[body]]
-name = "block"
-material = "metal"
-shape = "box"
-z = [0.2, 0.9]
-velocity = 100.0
-[materials.metal]
-based_on = "Al6061_T6"
-[materials.metal.strength]
-model = "kinematic-hardening"
-shear_modulus = "26 GPa"
-yield_stress = "0.3 GPa"
-hardening_modulus = "5 GPa"
-[stop]
-time = 8e-3
-"""
+MOVES = (
+    mesh((0.2, 4), (2.0, 80), geometry="planar")
+    + walls("r_max")
+    + box("block", "metal", z=[0.2, 0.9], velocity=100.0)
+    + material("metal", "Al6061_T6")
+    + table("materials.metal.strength", model="kinematic-hardening", shear_modulus="26 GPa", yield_stress="0.3 GPa",
+            hardening_modulus="5 GPa")
+    + stop(0.008)
+)
 
 
 def test_a_signed_variable_is_carried_and_not_cut_off():

@@ -8,35 +8,20 @@ from hydro2d.kernels import mixed_strength
 from hydro2d.mesh.grid import Grid
 from hydro2d.physics.stress import von_mises
 from hydro2d.solver.simulation import Simulation
+from tests.decks import box, material, mesh, stop, table, walls
 from tests.kernels.pieces import constrain
 
-BLOCK = """
-[mesh]
-geometry = "cylindrical"
-r = [{ to = 0.5, cells = 6 }, { cells = 4, ratio = 1.1 }]
-z = [{ to = 0.6, cells = 7 }, { cells = 3, ratio = 1.15 }]
-[boundaries]
-r_max = "wall"
-z_min = "wall"
-z_max = "wall"
-[[body]]
-name = "block"
-material = "metal"
-shape = "box"
-z = [0.0, 5.0]
-[materials.metal]
-based_on = "Al6061_T6"
-[materials.metal.strength]
-model = "elastic-plastic"
-shear_modulus = "26 GPa"
-yield_stress = "1e6 GPa"
-[numerics]
-active_region = false
-[failure]
-tensile = "none"
-[stop]
-time = 1.0
-"""
+BLOCK = (
+    mesh([{"to": 0.5, "cells": 6}, {"cells": 4, "ratio": 1.1}], [{"to": 0.6, "cells": 7}, {"cells": 3, "ratio": 1.15}],
+         geometry="cylindrical")
+    + walls("r_max", "z_min", "z_max")
+    + box("block", "metal", z=[0.0, 5.0])
+    + material("metal", "Al6061_T6")
+    + table("materials.metal.strength", model="elastic-plastic", shear_modulus="26 GPa", yield_stress="1e6 GPa")
+    + table("numerics", active_region=False)
+    + table("failure", tensile="none")
+    + stop(1.0)
+)
 GEOMETRIES = ("cylindrical", "planar")
 
 

@@ -16,14 +16,13 @@ from hydro2d.deck import deck
 from hydro2d.kernels import lagrangian_step, remap_step
 from hydro2d.mesh import state
 from hydro2d.solver.simulation import Simulation
-from tests.kernels.test_compiled_equals_source import CASES, text_of
+from tests.kernels.test_compiled_equals_source import CASES, CONTACT, text_of
 from tests.rules.source import ROOT
 
-BOTH, ALONE = text_of("both", 'method = "contact"'), text_of("ke", 'method = "none"').replace("friction = 0.1", "")
 #: a rod that begins deep within the plate, on a mesh that stands: contact nodes in most rows
-DEEP = BOTH.replace('tip = "0.2 mm"', 'tip = "5 mm"').replace('follow = "rod"', "").replace("transmit", "outflow")
-DECKS = {**{name: text_of(*case) for name, case in CASES.items()}, "both, contact": BOTH, "both, deep contact": DEEP,
-         "ke, following": ALONE.replace("[mesh]", '[mesh]\nfollow = "rod"').replace("outflow", "transmit")}  # fmt: skip
+DEEP = text_of("both", CONTACT, tip="5 mm", follows=False)
+DECKS = {**{name: text_of(*case) for name, case in CASES.items()}, "both, contact": text_of("both", CONTACT),
+         "both, deep contact": DEEP, "ke, following": text_of("ke", {"method": "none"}, follows=True)}  # fmt: skip
 #: two cuts into parts, and contact for most of them
 CYCLES = 20
 PHASES = [(module, name) for module in (lagrangian_step, remap_step) for name, value in vars(module).items()

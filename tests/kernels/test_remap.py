@@ -6,40 +6,30 @@ import pytest
 from hydro2d.deck import deck
 from hydro2d.kernels import momentum, remap
 from hydro2d.solver.simulation import Simulation
+from tests.decks import body, box, mesh, stop, table, walls
 from tests.kernels.pieces import constrain, ghost_vertices, sweep_faces, tidy
-from tests.kernels.test_interfaces import CIRCLE, by_stream_function, carry, vortex
+from tests.kernels.test_interfaces import by_stream_function, carry, in_a_box, vortex
 from tests.physics.continuity import changes_in_proportion, largest_jump
 
 GEOMETRIES = ("cylindrical", "planar")
-BOX = """
-[mesh]
-geometry = "cylindrical"
-r = [{ to = 0.5, cells = 8 }, { cells = 5, ratio = 1.1 }]
-z = [{ to = 0.6, cells = 9 }, { cells = 4, ratio = 1.15 }]
-[boundaries]
-r_max = "wall"
-z_min = "wall"
-z_max = "wall"
-[[body]]
-name = "tungsten"
-material = "W_alloy"
-shape = "sphere"
-centre = 0.3
-radius = 0.26
-[[body]]
-name = "aluminium"
-material = "Al7039"
-shape = "box"
-z = [ZRANGE]
-[numerics]
-active_region = false
-[failure]
-damage = "material"
-[stop]
-time = 1.0
-"""
-FULL = BOX.replace("ZRANGE", "0.0, 9.0")
-WITH_VOID = BOX.replace("ZRANGE", "0.13, 0.77").replace("[numerics]", "r = [0.0, 0.83]\n[numerics]")
+
+
+def box_with(**aluminium) -> str:
+    """A ball of tungsten in a box between walls, and aluminium around it, between its z and its r if any."""
+    return (
+        mesh([{"to": 0.5, "cells": 8}, {"cells": 5, "ratio": 1.1}], [{"to": 0.6, "cells": 9}, {"cells": 4, "ratio": 1.15}],
+             geometry="cylindrical")
+        + walls("r_max", "z_min", "z_max")
+        + body("tungsten", "W_alloy", "sphere", centre=0.3, radius=0.26)
+        + box("aluminium", "Al7039", **aluminium)
+        + table("numerics", active_region=False)
+        + table("failure", damage="material")
+        + stop(1.0)
+    )
+
+
+FULL = box_with(z=[0.0, 9.0])
+WITH_VOID = box_with(z=[0.13, 0.77], r=[0.0, 0.83])
 
 
 def engine(text: str, *overrides: str):
@@ -127,9 +117,7 @@ def test_unbounded_ke_keeps_kinetic_energy():
 
 def test_uniform_state_stays_uniform_in_a_vortex():
     """Swept volumes without divergence, a body that fills the mesh: every field keeps its one value."""
-    text = CIRCLE.format(n=24).replace('"sphere"', '"box"').replace("centre = [0.5, 0.75]", "z = [0.0, 1.0]").replace(
-        "radius = 0.15", "").replace('"gas_7_5"', '"W_alloy"')
-    e = engine(text)
+    e = engine(in_a_box(24, box("circle", "W_alloy", z=[0.0, 1.0], energy=2.5)))
     s, g = e.state, e.grid
     for k, value in enumerate((18000.0, 5e4, 3e8, -1e8, 2e8, 0.3)):
         g.interior(s.q)[k] = value
@@ -138,23 +126,13 @@ def test_uniform_state_stays_uniform_in_a_vortex():
         np.testing.assert_allclose(g.interior(s.q)[k], value, rtol=1e-12)
 
 
-COLUMN = """
-[mesh]
-geometry = "planar"
-r = [{ to = 2.0, cells = 2 }]
-z = [{ to = 460.0, cells = 460 }]
-[boundaries]
-r_max = "wall"
-[[body]]
-name = "gas"
-material = "gas_7_5"
-shape = "box"
-z = [0.0, 250.0]
-[numerics]
-active_region = false
-[stop]
-time = 1.0
-"""
+COLUMN = (
+    mesh((2.0, 2), (460.0, 460), geometry="planar")
+    + walls("r_max")
+    + box("gas", "gas_7_5", z=[0.0, 250.0])
+    + table("numerics", active_region=False)
+    + stop(1.0)
+)
 
 
 def carried(choice: str, profile, share: float, steps: int, bound: float = 1e9):

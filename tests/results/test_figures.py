@@ -14,6 +14,7 @@ from hydro2d.results.figures import FigureError
 from hydro2d.results.reading import Results
 from hydro2d.running.check import check
 from tests import fake
+from tests.decks import box, mesh, stop, table
 
 
 @pytest.fixture
@@ -37,31 +38,14 @@ def test_a_section_is_mirrored_and_in_readers_units(dump):
     assert np.isnan(shown[~filled]).all()
 
 
-PLANAR = """
-[mesh]
-geometry = "planar"
-r_start = "{start}"
-r = [{{ to = "12 mm", size = "1 mm" }}]
-z = [{{ to = "30 mm", size = "1 mm" }}]
-[boundaries]
-r_min = "{inner}"
-[[body]]
-name = "bar"
-material = "Al5083"
-shape = "box"
-r = ["-3 mm", "4 mm"]
-z = ["5 mm", "20 mm"]
-[stop]
-time = "1 us"
-"""
-
-
 @pytest.mark.parametrize(
     ("start", "inner", "mirrored"),
     [("0 mm", "wall", True), ("0 mm", "outflow", False), ("-6 mm", "wall", False), ("2 mm", "wall", False)],
 )
 def test_a_planar_section_is_mirrored_at_a_plane_of_symmetry_alone(tmp_path, start, inner, mirrored):
-    found = check(decks.loads(PLANAR.format(start=start, inner=inner)))
+    text = (mesh((start, "12 mm", "1 mm"), ("30 mm", "1 mm"), geometry="planar") + table("boundaries", r_min=inner)
+            + box("bar", "Al5083", r=["-3 mm", "4 mm"], z=["5 mm", "20 mm"]) + stop("1 us"))
+    found = check(decks.loads(text))
     axes = figures.draw_sections([[(found.dump, "", None)]], "material").axes[0]
     low = -12.0 if mirrored else float(start.split()[0])
     assert axes.get_ylim() == pytest.approx((low, 12.0))
@@ -69,7 +53,7 @@ def test_a_planar_section_is_mirrored_at_a_plane_of_symmetry_alone(tmp_path, sta
     assert len(meshes) == (2 if mirrored else 1)
     assert len(lines.get_segments()) == (2 if mirrored else 1) * len(found.dump.outlines("bar"))
     picture = tmp_path / "start.png"
-    (tmp_path / "deck.toml").write_text(PLANAR.format(start=start, inner=inner))
+    (tmp_path / "deck.toml").write_text(text)
     assert call(["check", str(tmp_path / "deck.toml"), "--picture", str(picture)]) == 0
     assert picture.read_bytes()[:4] == b"\x89PNG"
 

@@ -8,51 +8,19 @@ from hydro2d.deck import deck as decks
 from hydro2d.output import history
 from hydro2d.running import columns, run
 from hydro2d.solver import audit
+from tests.decks import contact, entry, mesh, plate, rod, table
 
-DECK = """
-[mesh]
-r = [{ to = "6 mm", cells = 12 }]
-z_start = "-14 mm"
-z = [{ to = "10 mm", cells = 48 }]
-[[body]]
-name = "rod"
-material = "W_alloy"
-shape = "rod"
-nose = "hemispherical"
-radius = "2 mm"
-length = "10 mm"
-tip = "-0.1 mm"
-velocity = "1000 m/s"
-[[body]]
-name = "plate"
-material = "Al5083"
-shape = "plate"
-z_front = 0.0
-thickness = "8 mm"
-[sliding]
-method = "contact"
-hard = ["rod"]
-[[tracer]]
-name = "tip"
-r = 0.0
-z = "-1 mm"
-[[gauge]]
-name = "line"
-r = "1 mm"
-z = "1 mm"
-z_end = "7 mm"
-points = 3
-[experiment]
-velocity = "1000 m/s"
-penetration = "1 cm"
-residual_velocity = "0 m/s"
-source = "none"
-[stop]
-cycles = 5
-[output]
-history_interval = "1 ns"
-vtk_interval = "1 us"
-"""
+DECK = (
+    mesh(("6 mm", 12), ("-14 mm", "10 mm", 48))
+    + rod("2 mm", "10 mm", tip="-0.1 mm", velocity="1000 m/s")
+    + plate("8 mm")
+    + contact("rod")
+    + entry("tracer", name="tip", r=0.0, z="-1 mm")
+    + entry("gauge", name="line", r="1 mm", z="1 mm", z_end="7 mm", points=3)
+    + table("experiment", velocity="1000 m/s", penetration="1 cm", residual_velocity="0 m/s", source="none")
+    + table("stop", cycles=5)
+    + table("output", history_interval="1 ns", vtk_interval="1 us")
+)
 NAMES = {
     "BODY": "rod|plate", "TARGET": "plate", "STATION": "tracer_tip|gauge_line_[123]", "SINK": "|".join(audit.SINKS),
     "TRANSFER": "|".join(audit.CONTACT_TRANSFERS),

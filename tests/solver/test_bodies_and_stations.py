@@ -15,42 +15,17 @@ from hydro2d.results.summaries import plausible
 from hydro2d.running.run import run
 from hydro2d.solver import bodies, rod_quantities, station_columns, tracers
 from hydro2d.solver.simulation import Simulation
+from tests.decks import body, entry, mesh, plate, stop
 
-DECK = """
-[mesh]
-r = [{ to = "20 mm", cells = 40 }]
-z_start = "-15 mm"
-z = [{ to = "25 mm", cells = 80 }]
-[[body]]
-name = "ball"
-material = "W_alloy"
-shape = "sphere"
-centre = [0.0, "-6.3 mm"]
-radius = "5 mm"
-velocity = "800 m/s"
-[[body]]
-name = "plate"
-material = "Al5083"
-shape = "plate"
-z_front = 0.0
-thickness = "10 mm"
-[[tracer]]
-name = "mid"
-r = 0.0
-z = "-5 mm"
-[[gauge]]
-name = "line"
-r = 0.0
-z = "1.2 mm"
-z_end = "9.2 mm"
-points = 3
-[[gauge]]
-name = "void"
-r = "15 mm"
-z = "-10 mm"
-[stop]
-time = "10 us"
-"""
+DECK = (
+    mesh(("20 mm", 40), ("-15 mm", "25 mm", 80))
+    + body("ball", "W_alloy", "sphere", centre=[0.0, "-6.3 mm"], radius="5 mm", velocity="800 m/s")
+    + plate("10 mm")
+    + entry("tracer", name="mid", r=0.0, z="-5 mm")
+    + entry("gauge", name="line", r=0.0, z="1.2 mm", z_end="9.2 mm", points=3)
+    + entry("gauge", name="void", r="15 mm", z="-10 mm")
+    + stop("10 us")
+)
 #: fields, and the quantities of stations that are the same
 SAME = {"pressure": "pressure_Pa", "density": "density_kg_m3", "temperature": "temperature_K", "von_mises": "von_mises_Pa",
         "plastic_strain": "plastic_strain"}  # fmt: skip

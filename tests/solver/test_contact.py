@@ -12,45 +12,17 @@ from hydro2d.running import check
 from hydro2d.solver import tracers
 from hydro2d.solver.method import Method
 from hydro2d.solver.simulation import Simulation
+from tests.decks import mesh, plate, rod, stop, table, walls
 
-TEXT = """
-[mesh]
-r = [{ to = "8 mm", cells = 8 }]
-z_start = "-8 mm"
-z = [{ to = "8 mm", cells = 16 }]
-[boundaries]
-z_max = "wall"
-[[body]]
-name = "rod"
-material = "W_alloy"
-shape = "rod"
-nose = "flat"
-radius = "3.5 mm"
-length = "6 mm"
-tip = "0.4 mm"
-velocity = ["3 m/s", "1000 m/s"]
-[[body]]
-name = "plate"
-material = "Al5083"
-shape = "plate"
-z_front = 0.0
-thickness = "4 mm"
-velocity = "-50 m/s"
-[[body]]
-name = "backing"
-material = "steel_4340"
-shape = "plate"
-z_front = "4 mm"
-thickness = "4 mm"
-velocity = "20 m/s"
-[sliding]
-method = "contact"
-hard = ["rod"]
-friction = 0.1
-yield_factor = 1.25
-[stop]
-time = "1 us"
-"""
+TEXT = (
+    mesh(("8 mm", 8), ("-8 mm", "8 mm", 16))
+    + walls("z_max")
+    + rod("3.5 mm", "6 mm", nose="flat", tip="0.4 mm", velocity=["3 m/s", "1000 m/s"])
+    + plate("4 mm", velocity="-50 m/s")
+    + plate("4 mm", name="backing", material="steel_4340", z_front="4 mm", velocity="20 m/s")
+    + table("sliding", method="contact", hard=["rod"], friction=0.1, yield_factor=1.25)
+    + stop("1 us")
+)
 #: interior cells (j, i): rod alone; rod and plate; plate alone; both sides of the surface of the backing; void
 PURE, CUT, PLATE, VOID = (5, 1), (8, 1), (8, 6), (5, 6)
 

@@ -16,30 +16,14 @@ from hydro2d.results.reading import Results, ResultsError
 from hydro2d.running.run import run
 from hydro2d.solver.insertion import fractions
 from hydro2d.solver.simulation import Simulation
+from tests.decks import mesh, plate, rod, stop
 
-TEXT = """
-[mesh]
-r = [{ to = "12 mm", cells = 24 }]
-z_start = "-10 mm"
-z = [{ to = "30 mm", cells = 80 }]
-[[body]]
-name = "rod"
-material = "W_alloy"
-shape = "rod"
-nose = "flat"
-radius = "2 mm"
-length = "8 mm"
-tip = "-0.3 mm"
-velocity = "1 km/s"
-[[body]]
-name = "plate"
-material = "Al5083"
-shape = "plate"
-z_front = 0.0
-thickness = "24 mm"
-[stop]
-time = "1 us"
-"""
+TEXT = (
+    mesh(("12 mm", 24), ("-10 mm", "30 mm", 80))
+    + rod("2 mm", "8 mm", nose="flat", tip="-0.3 mm", velocity="1 km/s")
+    + plate("24 mm")
+    + stop("1 us")
+)
 #: the same, flying to -z
 BACK = ['body.rod.tip="0.3 mm"', "body.rod.direction=-1", 'body.rod.velocity="-1 km/s"', 'body.plate.z_front="-24 mm"',
         'mesh.z_start="-30 mm"', 'mesh.z.0.to="10 mm"']  # fmt: skip

@@ -8,37 +8,15 @@ from hydro2d.physics.waves import impedances
 from hydro2d.running import check
 from hydro2d.solver.following import FollowingMesh, StandingMesh, UndisturbedSpace
 from hydro2d.solver.simulation import Simulation
+from tests.decks import mesh, plate, rod, stop
 
-TEXT = """\
-[mesh]
-follow = "rod"
-r = [{ to = "8 mm", cells = 16 }]
-z_start = "-12 mm"
-z = [{ to = "8 mm", cells = 40 }]
-[[body]]
-name = "rod"
-material = "W_alloy"
-shape = "rod"
-nose = "hemispherical"
-radius = "2.2 mm"
-length = "9.1 mm"
-tip = "-0.3 mm"
-velocity = "1000 m/s"
-[[body]]
-name = "plate"
-material = "Al5083"
-shape = "plate"
-z_front = "0 mm"
-thickness = "5 mm"
-[[body]]
-name = "second"
-material = "Al5083"
-shape = "plate"
-z_front = "20 mm"
-thickness = "10 mm"
-[stop]
-time = "20 us"
-"""
+TEXT = (
+    mesh(("8 mm", 16), ("-12 mm", "8 mm", 40), follow="rod")
+    + rod("2.2 mm", "9.1 mm", tip="-0.3 mm", velocity="1000 m/s")
+    + plate("5 mm", z_front="0 mm")
+    + plate("10 mm", name="second", z_front="20 mm")
+    + stop("20 us")
+)
 
 
 def message(*options: str, text: str = TEXT) -> str:

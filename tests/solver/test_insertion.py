@@ -15,6 +15,7 @@ from hydro2d.mesh.grid import Grid
 from hydro2d.running.check import check
 from hydro2d.solver import insertion
 from hydro2d.solver.simulation import Simulation
+from tests.decks import mesh, plate, rod, stop
 
 R_EDGES = np.concatenate([np.linspace(0, 0.012, 37), 0.012 + np.cumsum(0.0004 * 1.1 ** np.arange(12))])
 Z_EDGES = np.linspace(-0.021, 0.0307, 97)
@@ -31,7 +32,7 @@ def volume(outlines, r=R_EDGES, z=Z_EDGES, cylindrical=True):
     return around * (vof * grid.interior(grid.volume)).sum(axis=(1, 2))
 
 
-def rod(nose, nose_length, direction=1, radius=0.0041, length=0.02, tip=0.0061):
+def rod_shape(nose, nose_length, direction=1, radius=0.0041, length=0.02, tip=0.0061):
     return shapes.rod(radius, length, tip, direction, nose, nose_length)
 
 
@@ -58,12 +59,12 @@ SHANK = math.pi * R**2
     ],
 )
 def test_rods(nose, nose_length, expected, direction):
-    outline = rod(nose, nose_length, direction, tip=0.0061 * direction)
+    outline = rod_shape(nose, nose_length, direction, tip=0.0061 * direction)
     assert volume([outline])[0] == pytest.approx(expected, rel=1e-13)
 
 
 def test_an_ogive_of_the_length_of_its_radius_is_a_hemisphere():
-    assert rod("ogive", R) == rod("hemispherical", R)
+    assert rod_shape("ogive", R) == rod_shape("hemispherical", R)
 
 
 @pytest.mark.parametrize(
@@ -94,7 +95,7 @@ def test_other_shapes(outline, expected):
 def test_planar_shapes():
     circle = shapes.sphere(0.0011, 0.0007, 0.0093)
     assert volume([circle], r=FLAT_EDGES, cylindrical=False)[0] == pytest.approx(math.pi * 0.0093**2, rel=1e-13)
-    flat_rod = rod("hemispherical", R)
+    flat_rod = rod_shape("hemispherical", R)
     area = 2 * R * (L - R) + math.pi * R**2 / 2
     assert volume([flat_rod], r=FLAT_EDGES, cylindrical=False)[0] == pytest.approx(area, rel=1e-13)
 
@@ -110,7 +111,7 @@ def test_the_rod_of_the_study():
 
 
 def test_full_and_empty_cells_are_exact():
-    vof = insertion.fractions([rod("hemispherical", R)], R_EDGES, Z_EDGES, True)[0]
+    vof = insertion.fractions([rod_shape("hemispherical", R)], R_EDGES, Z_EDGES, True)[0]
     inside = (R_EDGES[1:] < R)[None, :] & ((Z_EDGES[:-1] > 0.0061 - L) & (Z_EDGES[1:] < 0.0061 - R))[:, None]
     assert inside.any()
     assert np.all(vof[inside] == 1.0)
@@ -165,7 +166,8 @@ def test_the_volume_of_a_ball_does_not_depend_on_the_mesh(radius, centre, nr, nz
 @pytest.mark.parametrize("cylindrical", [True, False])
 def test_cells_hold_what_their_parts_hold(cylindrical):
     """Shares of cells are those of cells cut in three by three, whose edges the curves cross elsewhere."""
-    outlines = [rod("ogive", 2.2 * R, tip=0.004), rod("conical", R, -1, tip=-0.012), shapes.sphere(3e-3, 2e-3, 6.1e-3)]
+    outlines = [rod_shape("ogive", 2.2 * R, tip=0.004), rod_shape("conical", R, -1, tip=-0.012),
+                shapes.sphere(3e-3, 2e-3, 6.1e-3)]
     r, z = np.linspace(0, 0.012, 8), np.linspace(-0.02, 0.02, 12)
     fine_r, fine_z = np.linspace(0, 0.012, 22), np.linspace(-0.02, 0.02, 34)
     coarse, fine = (insertion.fractions(outlines, *edges, cylindrical) for edges in ((r, z), (fine_r, fine_z)))
@@ -178,7 +180,7 @@ def test_cells_hold_what_their_parts_hold(cylindrical):
 def test_fractions_agree_with_sampling():
     """Share of each cell by a fine midpoint rule in (r^2/2, z)."""
     r, z = np.linspace(0, 0.01, 6), np.linspace(-0.006, 0.008, 6)
-    outlines = [rod("ogive", 2.2 * R, tip=0.004), shapes.polygon([(0.0, -0.001), (0.0093, 0.002), (0.001, 0.0071)])]
+    outlines = [rod_shape("ogive", 2.2 * R, tip=0.004), shapes.polygon([(0.0, -0.001), (0.0093, 0.002), (0.001, 0.0071)])]
     exact = insertion.fractions(outlines, r, z, True)
     n = 400
     part = (np.arange(n) + 0.5) / n
@@ -198,29 +200,12 @@ def test_fractions_agree_with_sampling():
                 taken |= inside
 
 
-TEXT = """\
-[mesh]
-z_start = "-20 mm"
-r = [ { to = "16 mm", cells = 32 } ]
-z = [ { to = "40 mm", cells = 120 } ]
-[[body]]
-name = "rod"
-material = "W_alloy"
-shape = "rod"
-nose = "hemispherical"
-radius = "4 mm"
-length = "16 mm"
-tip = 0.0
-velocity = "1086 m/s"
-[[body]]
-name = "plate"
-material = "Al5083"
-shape = "plate"
-z_front = 0.0
-thickness = "30 mm"
-[stop]
-time = "10 us"
-"""
+TEXT = (
+    mesh(("16 mm", 32), ("-20 mm", "40 mm", 120))
+    + rod("4 mm", "16 mm", tip=0.0, velocity="1086 m/s")
+    + plate("30 mm")
+    + stop("10 us")
+)
 
 
 def start(text, overrides=()):

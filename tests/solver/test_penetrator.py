@@ -10,32 +10,15 @@ from hydro2d.deck import deck
 from hydro2d.output import history
 from hydro2d.solver.penetrator import LEFT
 from hydro2d.solver.simulation import WATCH_EVERY, Simulation
+from tests.decks import mesh, plate, rod, stop, table
 
-TEXT = """
-[mesh]
-r = [{ to = "12 mm", cells = 24 }]
-z_start = "-25 mm"
-z = [{ to = "25 mm", cells = 100 }]
-[numerics]
-advection = "ke"
-[[body]]
-name = "rod"
-material = "W_alloy"
-shape = "rod"
-nose = "flat"
-radius = "3 mm"
-length = "20.2 mm"
-tip = "TIP mm"
-velocity = "1 km/s"
-[[body]]
-name = "plate"
-material = "Al5083"
-shape = "plate"
-z_front = 0.0
-thickness = "24 mm"
-[stop]
-time = "1 us"
-"""
+TEXT = (
+    mesh(("12 mm", 24), ("-25 mm", "25 mm", 100))
+    + table("numerics", advection="ke")
+    + rod("3 mm", "20.2 mm", nose="flat", tip="TIP mm", velocity="1 km/s")
+    + plate("24 mm")
+    + stop("1 us")
+)
 
 
 @pytest.fixture

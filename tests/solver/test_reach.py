@@ -10,38 +10,17 @@ from hydro2d.errors import UnphysicalState
 from hydro2d.running.run import exit_status, run
 from hydro2d.solver.sanity import doubts
 from hydro2d.solver.simulation import Simulation
+from tests.decks import box, mesh, plate, stop, table, walls
 
-SHOT = """
-[mesh]
-geometry = "planar"
-r = [{ to = "1 mm", cells = 4 }]
-z_start = "-4 mm"
-z = [{ to = "8 mm", size = "0.25 mm" }]
-[boundaries]
-r_max = "wall"
-[[body]]
-name = "flyer"
-shape = "box"
-z = ["-3.9 mm", "-0.9 mm"]
-material = "Al5083"
-velocity = "1 km/s"
-[[body]]
-name = "plate"
-shape = "plate"
-z_front = "0.1 mm"
-thickness = "6 mm"
-material = "Al5083"
-[[body]]
-name = "air"
-shape = "box"
-z = ["-0.9 mm", "0.1 mm"]
-pressure = "0.1 MPa"
-material = "air"
-[materials.air]
-eos = { model = "ideal-gas", adiabatic_index = 1.4, reference_density = "1.2 kg/m^3" }
-[stop]
-time = "3 us"
-"""
+SHOT = (
+    mesh(("1 mm", 4), ("-4 mm", "8 mm", "0.25 mm"), geometry="planar")
+    + walls("r_max")
+    + box("flyer", "Al5083", z=["-3.9 mm", "-0.9 mm"], velocity="1 km/s")
+    + plate("6 mm", z_front="0.1 mm")
+    + box("air", "air", z=["-0.9 mm", "0.1 mm"], pressure="0.1 MPa")
+    + table("materials.air", eos={"model": "ideal-gas", "adiabatic_index": 1.4, "reference_density": "1.2 kg/m^3"})
+    + stop("3 us")
+)
 
 
 def reach(*options):

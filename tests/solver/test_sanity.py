@@ -11,28 +11,15 @@ from hydro2d.errors import DeckError, UnphysicalState
 from hydro2d.running.run import exit_status, run
 from hydro2d.solver.audit import totals
 from hydro2d.solver.simulation import Simulation
+from tests.decks import box, mesh, stop, walls
 
-TEXT = """
-[mesh]
-geometry = "planar"
-r = [{ to = "2 mm", cells = 4 }]
-z = [{ to = "20 mm", cells = 40 }]
-[boundaries]
-r_max = "wall"
-[[body]]
-name = "flyer"
-material = "Al6061_T6"
-shape = "box"
-z = ["2 mm", "8 mm"]
-velocity = "300 m/s"
-[[body]]
-name = "wall"
-material = "Al6061_T6"
-shape = "box"
-z = ["8 mm", "18 mm"]
-[stop]
-time = "1 us"
-"""
+TEXT = (
+    mesh(("2 mm", 4), ("20 mm", 40), geometry="planar")
+    + walls("r_max")
+    + box("flyer", "Al6061_T6", z=["2 mm", "8 mm"], velocity="300 m/s")
+    + box("wall", "Al6061_T6", z=["8 mm", "18 mm"])
+    + stop("1 us")
+)
 
 
 @pytest.fixture

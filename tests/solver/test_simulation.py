@@ -6,35 +6,15 @@ import pytest
 from hydro2d.deck import deck
 from hydro2d.solver.audit import totals
 from hydro2d.solver.simulation import WATCH_EVERY, Simulation
+from tests.decks import entry, mesh, plate, rod, stop
 
-TEXT = """
-[mesh]
-r = [{ to = "9 mm", cells = 18 }]
-z_start = "-12 mm"
-z = [{ to = "12 mm", cells = 48 }]
-[[body]]
-name = "rod"
-material = "W_alloy"
-shape = "rod"
-nose = "hemispherical"
-radius = "3 mm"
-length = "10 mm"
-tip = "-0.1 mm"
-velocity = "60 m/s"
-[[body]]
-name = "plate"
-material = "Al5083"
-shape = "plate"
-z_front = 0.0
-thickness = "10 mm"
-[[tracer]]
-name = "nose"
-r = "1 mm"
-z = "-1 mm"
-[stop]
-time = "50 us"
-speed_below = "55 m/s"
-"""
+TEXT = (
+    mesh(("9 mm", 18), ("-12 mm", "12 mm", 48))
+    + rod("3 mm", "10 mm", tip="-0.1 mm", velocity="60 m/s")
+    + plate("10 mm")
+    + entry("tracer", name="nose", r="1 mm", z="-1 mm")
+    + stop("50 us", speed_below="55 m/s")
+)
 
 
 @pytest.fixture(scope="module")

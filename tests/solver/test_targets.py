@@ -15,43 +15,18 @@ from hydro2d.results.reading import Results
 from hydro2d.running.run import run
 from hydro2d.solver.rod_quantities import PASSAGE
 from hydro2d.solver.simulation import Simulation
+from tests.decks import body, contact, mesh, plate, stop, table
 
-TEXT = """
-[mesh]
-r = [{ to = "12 mm", cells = 12 }]
-z_start = "-13 mm"
-z = [{ to = "31 mm", cells = 44 }]
-[[body]]
-name = "ball"
-material = "steel_4340"
-shape = "sphere"
-centre = "-6 mm"
-radius = "5 mm"
-velocity = "1500 m/s"
-[[body]]
-name = "rear"
-material = "Al6061_T6"
-shape = "plate"
-z_front = "12 mm"
-thickness = "4 mm"
-[[body]]
-name = "front"
-material = "Al6061_T6"
-shape = "plate"
-z_front = 0.0
-thickness = "3 mm"
-[numerics]
-advection = "ke"
-[sliding]
-method = "contact"
-hard = ["ball"]
-[stop]
-time = "30 us"
-perforation = true
-[output]
-history_interval = "0.05 us"
-vtk_interval = "10 us"
-"""
+TEXT = (
+    mesh(("12 mm", 12), ("-13 mm", "31 mm", 44))
+    + body("ball", "steel_4340", "sphere", centre="-6 mm", radius="5 mm", velocity="1500 m/s")
+    + plate("4 mm", name="rear", material="Al6061_T6", z_front="12 mm")
+    + plate("3 mm", name="front", material="Al6061_T6")
+    + table("numerics", advection="ke")
+    + contact("ball")
+    + stop("30 us", perforation=True)
+    + table("output", history_interval="0.05 us", vtk_interval="10 us")
+)
 #: the same, flying to -z
 BACK = ['body.ball.centre="6 mm"', 'body.ball.velocity="-1500 m/s"', 'body.rear.z_front="-16 mm"',
         'body.front.z_front="-3 mm"', 'mesh.z_start="-31 mm"', 'mesh.z.0.to="13 mm"']  # fmt: skip

@@ -7,35 +7,16 @@ import pytest
 
 from hydro2d.deck import deck as decks
 from hydro2d.solver.simulation import Simulation
+from tests.decks import box, contact, material, mesh, plate, rod, stop, table, walls
 from tests.verification.running import ADVECTION, Line, advection, between
 
-FLIGHT = """
-[mesh]
-follow = "rod"
-r = [{ to = "4 mm", cells = 8 }]
-z_start = "-8 mm"
-z = [{ to = "8 mm", cells = 32 }]
-[[body]]
-name = "rod"
-material = "W_alloy"
-shape = "rod"
-nose = "hemispherical"
-radius = "2.2 mm"
-length = "5.1 mm"
-tip = "-0.2 mm"
-velocity = "1000 m/s"
-[[body]]
-name = "plate"
-material = "Al5083"
-shape = "plate"
-z_front = "1 km"
-thickness = "1 cm"
-[stop]
-time = "1 s"
-[output]
-history_interval = "1 us"
-vtk_interval = "1 us"
-"""
+FLIGHT = (
+    mesh(("4 mm", 8), ("-8 mm", "8 mm", 32), follow="rod")
+    + rod("2.2 mm", "5.1 mm", tip="-0.2 mm", velocity="1000 m/s")
+    + plate("1 cm", z_front="1 km")
+    + stop("1 s")
+    + table("output", history_interval="1 us", vtk_interval="1 us")
+)
 CONTACT = 'sliding.method="contact"', 'sliding.hard=["rod"]'
 
 
@@ -68,36 +49,15 @@ def test_ten_thousand_cycles_of_free_flight_change_nothing(options):
     closes(simulation)
 
 
-IMPACT = """
-[mesh]
-geometry = "planar"
-follow = "hitter"
-r = [{ to = "0.4 mm", cells = 4 }]
-z_start = "-30 mm"
-z = [{ to = "30 mm", cells = 600 }]
-[boundaries]
-r_min = "wall"
-r_max = "wall"
-[[body]]
-name = "hitter"
-material = "W_alloy"
-shape = "box"
-z = ["-20 mm", 0.0]
-velocity = "1000 m/s"
-[materials.W_fluid]
-based_on = "W_alloy"
-strength = { model = "hydrodynamic" }
-[materials.Al_fluid]
-based_on = "Al5083"
-strength = { model = "hydrodynamic" }
-[[body]]
-name = "plate"
-material = "Al_fluid"
-shape = "box"
-z = [0.0, "40 mm"]
-[stop]
-time = "3 us"
-"""
+IMPACT = (
+    mesh(("0.4 mm", 4), ("-30 mm", "30 mm", 600), geometry="planar", follow="hitter")
+    + walls("r_min", "r_max")
+    + box("hitter", "W_alloy", z=["-20 mm", 0.0], velocity="1000 m/s")
+    + material("W_fluid", "W_alloy", strength={"model": "hydrodynamic"})
+    + material("Al_fluid", "Al5083", strength={"model": "hydrodynamic"})
+    + box("plate", "Al_fluid", z=[0.0, "40 mm"])
+    + stop("3 us")
+)
 
 
 class At:
@@ -132,48 +92,19 @@ def test_tungsten_on_aluminium_in_one_dimension(velocity, choice):
     closes(simulation)
 
 
-SHOT = """
-[mesh]
-r = [{ across = "rod", cells_across = 5.5, cells = 14 }, { cells = 8, ratio = 1.15 }]
-z_start = "-24 mm"
-z = [{ to = "16 mm", size = "0.4 mm" }, { cells = 6, ratio = 1.15 }]
-follow = "rod"
-[numerics]
-advection = "ke"
-[[body]]
-name = "rod"
-material = "W_rigid"
-shape = "rod"
-nose = "hemispherical"
-radius = "2.2 mm"
-length = "20 mm"
-tip = "-1 mm"
-velocity = "1000 m/s"
-[materials.W_rigid]
-based_on = "W_alloy"
-fracture_pressure = "100 GPa"
-strength = { model = "elastic-plastic", shear_modulus = "145 GPa", yield_stress = "100 GPa" }
-[sliding]
-method = "contact"
-hard = ["rod"]
-[[body]]
-name = "front"
-material = "Al5083"
-shape = "plate"
-z_front = 0.0
-thickness = "6 mm"
-[[body]]
-name = "rear"
-material = "Al5083"
-shape = "plate"
-z_front = "25 mm"
-thickness = "6 mm"
-[penetration]
-rod = "rod"
-target = "front"
-[stop]
-time = "60 us"
-"""
+SHOT = (
+    mesh([{"across": "rod", "cells_across": 5.5, "cells": 14}, {"cells": 8, "ratio": 1.15}],
+         [{"to": "16 mm", "size": "0.4 mm"}, {"cells": 6, "ratio": 1.15}], follow="rod", z_start="-24 mm")
+    + table("numerics", advection="ke")
+    + rod("2.2 mm", "20 mm", material="W_rigid", tip="-1 mm", velocity="1000 m/s")
+    + material("W_rigid", "W_alloy", fracture_pressure="100 GPa",
+               strength={"model": "elastic-plastic", "shear_modulus": "145 GPa", "yield_stress": "100 GPa"})
+    + contact("rod")
+    + plate("6 mm", name="front")
+    + plate("6 mm", name="rear", z_front="25 mm")
+    + table("penetration", rod="rod", target="front")
+    + stop("60 us")
+)
 #: the same shot on a mesh that stands and holds all of it
 STANDING = 'mesh.z=[{ to = "64 mm", size = "0.4 mm" }]', "mesh.z_start=-0.04"
 
