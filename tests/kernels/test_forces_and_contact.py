@@ -64,6 +64,56 @@ def test_the_stress_of_a_mixed_cell_is_that_of_its_bodies_by_volume():
     assert sums(cells, hard=np.array([False, True]), hard_threshold=0.2)[1] == pytest.approx(0.5 * 30 - 90 - 5)
 
 
+def accelerated(speed_limit: float = 1e300, **fields) -> Cells:
+    """0.1 s later: vertices of 1 kg around the cell (3, 3), which alone has a stress or an hourglass filter."""
+    cells = Cells()
+    cells.mass[...] = 1.0
+    for name, value in fields.items():
+        getattr(cells, name)[3, 3] = value
+    cells.u0[0, 3:5, 3:5] = fields.get("hg_coefficient", 0.0) / 10.0 * np.array([[1, -1], [-1, 1]])
+    cells.call(acceleration.accelerate, dt=0.1, speed_limit=speed_limit, underfilled_density=10.0)
+    return cells
+
+
+def test_a_pressure_pushes_the_corners_of_its_cell_apart():
+    """8 Pa on half of a face of 1 m^2, of either side of a corner: 4 N each way."""
+    cells = accelerated(sig_rr=-8.0, sig_zz=-8.0, sig_tt=-8.0)
+    assert cells.u[0, 3:5, 3:5] == pytest.approx(np.array([[-0.4, 0.4], [-0.4, 0.4]]))
+    assert cells.v[0, 3:5, 3:5] == pytest.approx(np.array([[-0.4, -0.4], [0.4, 0.4]]))
+    assert np.count_nonzero(cells.u) == 4
+    assert not cells.limited.any()
+
+
+def test_shear_turns_a_cell():
+    cells = accelerated(sig_rz=8.0)
+    assert cells.u[0, 3:5, 3:5] == pytest.approx(np.array([[0.4, 0.4], [-0.4, -0.4]]))
+    assert cells.v[0, 3:5, 3:5] == pytest.approx(np.array([[0.4, -0.4], [0.4, -0.4]]))
+
+
+def test_the_filter_works_against_the_hourglass():
+    """u0 - u1 + u2 - u3 = 4 m/s, 10 kg/s: 40 N on 1 kg in 0.1 s."""
+    cells = accelerated(hg_coefficient=10.0)
+    assert cells.u[0, 3:5, 3:5] == pytest.approx(np.array([[-3, 3], [3, -3]]))
+
+
+def test_a_node_that_is_thinly_filled_is_held_to_the_limit():
+    """0.4 m/s both ways is held to 0.2 m/s; the energy is that of the mean velocity of the step, which began at rest."""
+    cells = accelerated(speed_limit=0.2, sig_rr=-8.0, sig_zz=-8.0, sig_tt=-8.0)
+    held = 0.2 / np.sqrt(2.0)
+    assert cells.u[0, 3, 3:5] == pytest.approx([-held, held])
+    assert cells.limited[:, 3] == pytest.approx([2 * (held - 0.4), 2 * (0.4 - held) * held, 2.0])
+
+
+def test_faces_sweep_what_their_vertices_move():
+    """From 4 to 2 m/s in 0.1 s along r, from 0 to 1 m/s at one end along z."""
+    cells = Cells()
+    cells.u0[0, 3:5, 4], cells.u[0, 3:5, 4], cells.v[0, 4, 3] = 4.0, 2.0, 1.0
+    cells.call(acceleration.swept_volumes, dt=0.1)
+    assert cells.fr[2:5, 4] == pytest.approx([0.15, 0.3, 0.15])
+    assert cells.fz[4, 2:4] == pytest.approx([0.025, 0.025])
+    assert np.count_nonzero(cells.fz) == 2
+
+
 # -------------------------------------------------------------------------------------------------------- contact
 
 
@@ -90,6 +140,13 @@ def test_contact_nodes_are_where_both_groups_have_mass():
     assert cells.warmed[4].tolist() == [2, 7]
     cells.call(contact_geometry.number_nodes, count=cells.contact_node_count)
     assert cells.first_slot[2:8].tolist() == [0, 2, 4, 6, 8, 10]
+
+
+def test_a_vertex_of_one_group_has_one_velocity():
+    cells = halves()
+    cells.u[0], cells.u[1] = 1.0, 2.0
+    cells.call(contact_motion.keep_one, i1=7)
+    assert cells.u[:, 3, 3:8].tolist() == [[2, 1, 1, 1, 1], [2, 2, 2, 1, 1]]
 
 
 def test_the_line_in_the_middle_of_a_cell():

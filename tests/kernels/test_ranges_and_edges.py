@@ -60,6 +60,14 @@ def test_ranges_are_joined_with_those_of_the_rows_beside():
     assert [cells.group_ranges[0, 3, j].tolist() for j in (2, 3, 8, 9)] == [EMPTY, [8, 9], [8, 9], EMPTY]
 
 
+def test_cells_are_mixed_where_a_body_and_something_else_meet():
+    cells = Cells(bodies=2)
+    cells.vof[:, 3, 2:6] = [[1.0, 0.5, 0.25, 0.0], [0.0, 0.5, 0.0, 0.0]]
+    cells.call(column_ranges.list_mixed, count=cells.mixed_count)
+    assert cells.mixed_count[2:6].tolist() == [0, 2, 0, 0]
+    assert cells.mixed[3, :2].tolist() == [3, 4]
+
+
 def test_the_box_of_what_moves():
     cells, limits, box = Cells(), np.zeros((9, 2), dtype=np.int64), np.zeros(4, dtype=np.int64)
     cells.u[0, 3, 4], cells.v[0, 4, 2] = 1e-300, -1.0
@@ -100,6 +108,28 @@ def test_ghost_rows_likewise_but_at_the_edge_that_leads():
     cells.call(boundaries.ghost_rows, mirror_low=True, mirror_high=True, leading=1, fields=0)
     assert (32 * cells.vof[0, :, 4]).tolist() == [7, 3, 3, 7, 11, 15, 0, 0]
     assert not cells.q[:, 0, :2].any()
+
+
+def test_ghost_vertices_are_images_at_a_mirror_and_copies_at_an_open_edge():
+    cells = Cells()
+    cells.u[0] = cells.v[0] = 10.0 * np.arange(9.0)[:, None] + np.arange(9.0)
+    cells.call(boundaries.ghost_vertices_r, mirror_low=True, mirror_high=False)
+    assert cells.u[0, 3].tolist() == [-34, -33, 32, 33, 34, 35, 36, 36, 36]
+    assert cells.v[0, 3].tolist() == [34, 33, 32, 33, 34, 35, 36, 36, 36]
+    cells.call(boundaries.ghost_vertices_z, mirror_low=False, mirror_high=True)
+    assert cells.u[0, :, 4].tolist() == [24, 24, 24, 34, 44, 54, 64, 54, 44]
+    assert cells.v[0, :, 4].tolist() == [24, 24, 24, 34, 44, 54, 64, -54, -44]
+
+
+def test_an_edge_with_a_velocity_takes_momentum_and_work_and_the_axis_neither():
+    cells, velocity = Cells(), np.array([0.0, 0.0, 0.0, 5.0])
+    cells.u[...], cells.v[...], cells.v0[...], cells.mass[0, 6, 3], cells.mass[0, 4, 2] = 1.0, 7.0, 6.0, 3.0, 3.0
+    cells.call(boundaries.constrain, constrained=np.array([2, -1, -1, 6]), velocity=velocity)
+    assert not cells.u[0, :, 2].any()
+    assert cells.u[0, :, 3].all()
+    assert cells.v[0, 4:8, 3].tolist() == [7, 7, 5, 7]
+    assert cells.walls[:, 6].tolist() == [3.0 * (7 - 5), 0.5 * 3.0 * (7 - 5) * (6 + 5)]
+    assert not cells.walls[:, :6].any()
 
 
 def test_no_mass_flows_beyond_the_edges_but_on_through_an_open_one():

@@ -124,6 +124,40 @@ def test_the_mass_of_a_group_is_that_of_its_bodies():
     assert cells.cell_mass.sum() == 6.0
 
 
+def tidied(*fractions: float) -> Cells:
+    """Bodies of 2 and 8 kg/m^3 with 10 J/kg in the cell (3, 3), whose vertices move at 3 m/s along z."""
+    cells = Cells(bodies=2)
+    cells.vof[:, 3, 3], cells.q[RHO, :, 3, 3], cells.q[E, :, 3, 3] = fractions, (2.0, 8.0), 10.0
+    cells.v[...] = 3.0
+    cells.mixed_count[3], cells.mixed[3, 0] = 1, 3
+    cells.call(remap.tidy, cutoff=1e-3, dj=1, di=0, second=True)
+    return cells
+
+
+def test_what_is_below_the_cutoff_goes_with_all_that_it_has():
+    cells = tidied(0.5, 5e-4)
+    assert cells.vof[:, 3, 3].tolist() == [0.5, 0.0]
+    assert not cells.q[:, 1, 3, 3].any()
+    mass = 5e-4 * 8
+    assert cells.removed[:, 3] == pytest.approx([10 * mass, 0.5 * mass * 9, 3 * mass, 0, 0, mass])
+    assert cells.cell_mass[0, 3, 3] == 1.0
+    assert cells.mixed_count[3] == 1
+
+
+def test_void_below_the_cutoff_closes_and_a_full_cell_is_no_longer_mixed():
+    cells = tidied(0.9995, 0.0)
+    assert cells.vof[:, 3, 3].tolist() == [1.0, 0.0]
+    assert cells.q[RHO, 0, 3, 3] == pytest.approx(2 * 0.9995)
+    assert cells.removed[3, 3] == pytest.approx(5e-4)
+    assert cells.mixed_count[3] == 0
+
+
+def test_what_is_above_twice_the_cutoff_stays():
+    cells = tidied(0.5, 0.002)
+    assert cells.vof[:, 3, 3].tolist() == [0.5, 0.002]
+    assert not cells.removed.any()
+
+
 # ---------------------------------------------------------------------------------------------------------- momentum
 
 
