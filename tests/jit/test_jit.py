@@ -191,3 +191,31 @@ def test_arrays_of_kernels_are_promised_to_be_apart(apart):
     (text,) = made.inspect_llvm().values()
     (head,) = [line for line in text.splitlines() if line.startswith("define ") and "%arg.a.4" in line]
     assert len(re.findall(r"noalias[^,]*%arg\.[ab]\.4", head)) == (2 if apart else 0), head
+
+
+@pytest.mark.parametrize("only_calls", [True, False])
+def test_kernels_are_not_optimised_again_in_what_only_calls_them(only_calls, monkeypatch):
+    """A phase calls its kernels by their names; without the option, a kernel as short as this one becomes part of it."""
+    def double(part, parts, a):
+        for j in range(parts[part], parts[part + 1]):
+            a[j] *= 2.0
+
+    def over_parts(parts, a):
+        for place in numba.prange(parts.shape[0] - 1):
+            kernel(np.int64(place), parts, a)
+
+    own = {**options.OPTIONS, "cache": False}
+    kernel, phase = numba.njit(**own)(double), numba.njit(**own, parallel=True)(over_parts)
+    monkeypatch.setattr(options, "ONLY_CALLS", {over_parts} if only_calls else set())
+    phase.compile((numba.int64[::1], numba.float64[::1]))
+    (text,) = phase.inspect_llvm().values()
+    assert len(re.findall(r"call [^\n]*double", text)) == (1 if only_calls else 0)
+
+
+def test_every_phase_only_calls_kernels():
+    """As the option takes for granted: what is not a kernel, or the barrier, would not be optimised at all."""
+    for name in ("lagrangian_step", "remap_step"):
+        module = importlib.import_module(f"hydro2d.kernels.{name}")
+        phases = [value for value in vars(module).values() if getattr(value, "__module__", "") == module.__name__]
+        assert phases
+        assert {phase.compiled.py_func for phase in phases} <= options.ONLY_CALLS
