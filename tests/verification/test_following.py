@@ -7,7 +7,7 @@ import pytest
 
 from hydro2d.deck import deck as decks
 from hydro2d.solver.simulation import Simulation
-from tests.decks import box, contact, material, mesh, plate, rod, stop, table, walls
+from tests.decks import body, box, contact, material, mesh, plate, rod, stop, table, walls
 from tests.verification.running import ADVECTION, Line, advection, between
 
 FLIGHT = (
@@ -105,6 +105,7 @@ SHOT = (
     + table("penetration", rod="rod", target="front")
     + stop("60 us")
 )
+Z_AXIS = next(line for line in SHOT.splitlines() if line.startswith("z = "))
 #: the same shot on a mesh that stands and holds all of it
 STANDING = 'mesh.z=[{ to = "64 mm", size = "0.4 mm" }]', "mesh.z_start=-0.04"
 
@@ -149,23 +150,10 @@ def test_two_plates_and_the_gap_between_them():
 
 def test_what_enters_is_what_the_deck_placed_there():
     """Every body ahead has come in to the last digit of its volume, and lies where it was placed."""
-    bodies = """
-[[body]]
-name = "ball"
-material = "Al5083"
-shape = "sphere"
-centre = "22.5 mm"
-radius = "1.7 mm"
-[[body]]
-name = "disc"
-material = "Al7039"
-shape = "plate"
-z_front = "24.4 mm"
-thickness = "2.77 mm"
-radius = "3.1 mm"
-[stop]"""
-    text = FLIGHT[: FLIGHT.index("[[body]]\nname = \"plate\"")] + FLIGHT[FLIGHT.index("[stop]") :]
-    simulation = Simulation(decks.loads(text.replace("[stop]", bodies)))
+    ball = body("ball", "Al5083", "sphere", centre="22.5 mm", radius="1.7 mm")
+    disc = plate("2.77 mm", name="disc", material="Al7039", z_front="24.4 mm", radius="3.1 mm")
+    text = FLIGHT[: FLIGHT.index("[[body]]\nname = \"plate\"")] + ball + disc + FLIGHT[FLIGHT.index("[stop]") :]
+    simulation = Simulation(decks.loads(text))
     while simulation.grid.z_edges[-1] < 27.5e-3:
         simulation.step()
     expected = {"ball": 4 / 3 * np.pi * 1.7e-3**3, "disc": np.pi * 3.1e-3**2 * 2.77e-3}
@@ -184,7 +172,7 @@ radius = "3.1 mm"
 def mirror_images():
     """The shot upwards and downwards, after 400 cycles."""
     mirrored = SHOT.replace('z_start = "-24 mm"', "z_start = -0.02")
-    mirrored = mirrored.replace(SHOT.splitlines()[4], "z = [{ cells = 110, size = 4e-4 }]")
+    mirrored = mirrored.replace(Z_AXIS, "z = [{ cells = 110, size = 4e-4 }]")
     down_text = mirrored.replace('tip = "-1 mm"', 'tip = "1 mm"\ndirection = -1').replace('"1000 m/s"', '"-1000 m/s"')
     down_text = down_text.replace("z_front = 0.0", 'z_front = "-6 mm"').replace('z_front = "25 mm"', 'z_front = "-31 mm"')
     up_text = mirrored.replace("z_start = -0.02", "z_start = -0.024")
@@ -213,7 +201,7 @@ def test_a_plate_that_hits_a_resting_rod_is_the_same_shot():
     text = text.replace("[[body]]\nname = \"rear\"", 'velocity = "-1000 m/s"\n[[body]]\nname = "rear"')
     text = text.replace("[penetration]", 'velocity = "-1000 m/s"\n[penetration]')
     text = text.replace('z_start = "-24 mm"', "z_start = -0.032")
-    text = text.replace(SHOT.splitlines()[4], 'z = [{ to = "40 mm", size = "0.4 mm" }]')
+    text = text.replace(Z_AXIS, 'z = [{ to = "40 mm", size = "0.4 mm" }]')
     moving, resting = following(), Simulation(decks.loads(text))
     while moving.time < 50e-6:
         moving.step()
