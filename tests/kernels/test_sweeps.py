@@ -99,6 +99,29 @@ def test_two_parts_share_the_fluxes_between_them():
     arrived(cells, *way[2:4])
 
 
+def column(*orders: int) -> list:
+    """What a sweep along z makes of a full column, by one part or by two parts in an order; every face sweeps a tenth."""
+    cells, chance = Cells(nr=1, nz=8), np.random.default_rng(7)
+    cells.vof[...], cells.q[...] = 1.0, chance.uniform(1.0, 1.2, cells.q.shape)
+    cells.fz[3:10], cells.pre[...] = 0.1, 1.0
+    cells.flux_volume[0, 3:10] = 0.1
+    two = {"parts": np.array([2, 6, 10]), "flux": np.zeros((*cells.flux.shape[:2], 12, cells.flux.shape[3])),
+           "scratch": np.zeros((4, 2, 13))}  # fmt: skip
+    given = {"face": cells.fz, "second": True}
+    for part in orders:
+        cells.call(remap.shared_fluxes, part=part, **two)
+    for part in orders:
+        cells.call(remap.sweep_z, part=part, **two, **given)
+    if not orders:
+        cells.call(remap.sweep_z, **given)
+    return [each[..., 2:10, 2].tolist() for each in (cells.vof, cells.q, cells.cell_mass, cells.flux_mass)]
+
+
+@pytest.mark.parametrize("orders", [(0, 1), (1, 0)])
+def test_two_parts_do_what_one_does_to_the_last_bit(orders):
+    assert column(*orders) == column()
+
+
 def test_what_flows_over_the_edge_of_the_mesh_is_kept():
     cells, given = carried(0, 1, (3, 5), (3, 6), "fr")
     cells.call(remap.sweep_r, **given)
