@@ -82,12 +82,12 @@ def test_kernels_do_what_their_source_says(monkeypatch, phases_as_python, advect
 
     for module, name, function in kernels:
         held_against_source(module, name, function)
-    follows = "contact" in sliding
+    follows = sliding["method"] == "contact"
     simulation = Simulation(deck.loads(text_of(advection, sliding)))
     for _ in range(4):
         simulation.step()
     simulation.refuse_nonsense()
-    others = ("sliding",) if "contact" in sliding else ("contact", "extension")  # the treatment that the deck does not have
+    others = ("sliding",) if follows else ("contact", "extension")  # the treatment that the deck does not have
     prefixes = tuple(f"hydro2d.kernels.{other}" for other in others)
     unused = {name for module, name, _ in kernels if module.__name__.startswith(prefixes)} | {"triad"}
     if advection != "both" and "contact" in others:
