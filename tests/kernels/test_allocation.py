@@ -52,12 +52,12 @@ def peaks(simulation: Simulation) -> list[int]:
 every_choice = pytest.mark.parametrize(
     "options",
     [
-        {"active": "true", "advection": "ke", "sliding": "slip-layer"},
-        {"active": "false", "advection": "both", "sliding": "slip-layer"},
-        {"active": "true", "advection": "momentum", "sliding": "none"},
-        {"active": "false", "advection": "both", "sliding": "contact"},
+        {"active": True, "advection": "ke", "sliding": "slip-layer"},
+        {"active": False, "advection": "both", "sliding": "slip-layer"},
+        {"active": True, "advection": "momentum", "sliding": "none"},
+        {"active": False, "advection": "both", "sliding": "contact"},
     ],
-    ids=lambda options: ", ".join(options.values()),
+    ids=lambda options: ", ".join(map(str, options.values())),
 )
 
 
