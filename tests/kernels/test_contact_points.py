@@ -147,7 +147,7 @@ class Settled:
         settle(rows, 1e-3, friction, constrained, g.metrics, g.dz, np.tile(rows, (cells[0], 1)), line, found.count,
                found.nodes, found.first, found.normal, np.ones(vertices), *ties,
                pressure, pressure.copy(), np.zeros(cells), self.mass,
-               before[0].copy(), before[1].copy(), w[0], w[1], *listed, np.full((10, slots, 2), np.nan),
+               before[0].copy(), before[1].copy(), w[0], w[1], *listed, np.full((2 * slots, 12), np.nan),
                np.full((2 * slots * (MASTERS + 2), 2), np.nan), np.full((2, slots, 2), np.nan), np.full((3, slots), np.nan),
                self.heat, self.transfer)
         self.after = w

@@ -11,10 +11,10 @@ from scipy.optimize import brentq
 
 from eos import MODELS
 from hydro2d.kernels import memory
-from hydro2d.kernels.plastic_return import return_to_surface
+from hydro2d.kernels.plastic_return import return_to_surface, weaken
 from hydro2d.materials.rows import DAMAGE_AT, EOS_AT, FADES, STRENGTH_AT, TENSILE
 from hydro2d.materials.rows import FACTOR as YIELD_FACTOR
-from hydro2d.mesh.fields import CRUSHED, DMG, INTERNAL, RHO
+from hydro2d.mesh.fields import CRUSHED, DMG, EP, INTERNAL, RHO
 from hydro2d.physics.stress import von_mises
 from strength import DAMAGE_MODELS, STRENGTH_MODELS
 
@@ -174,3 +174,18 @@ def test_without_bulking_no_pressure_is_gained():
 def test_the_size_of_the_steps_does_not_matter():
     coarse, fine = (path("B", steps)[0][-1] for steps in (500, 8000))
     assert coarse == pytest.approx(fine, rel=0.02, abs=1e5)
+
+
+def test_stress_falls_to_the_strength_at_the_damage_of_the_step():
+    """At P_HEL the strain of 0.002 makes the damage 0.002/ef; what the stress then loses is plastic as well."""
+    element, dep, p = Element("C"), 0.002, P_HEL
+    element.pm[...] = p
+    intact, crushed = S * A * (1.0 + T / P_HEL) ** N, S * 0.31
+    damage = dep / (0.005 * (1.0 + T / P_HEL))
+    weak = intact - damage * (intact - crushed)
+    strain, stress = weaken(0, 0, 0, dep, 1e-6, intact, G, element.models, element.materials, element.pm, element.tm, element.q)
+    assert element.q[DMG, 0, 0, 0] == pytest.approx(damage, rel=1e-12)
+    assert stress == pytest.approx(weak, rel=1e-12)
+    assert strain == pytest.approx(dep + (intact - weak) / (3.0 * G), rel=1e-12) == element.q[EP, 0, 0, 0]
+    assert memory.released(0, 0, 0, dep / 1e-6, 0.0, element.models, element.materials, element.pm, element.tm,
+                           element.q) == pytest.approx((intact**2 - weak**2) / (6.0 * G), rel=1e-12)
