@@ -6,6 +6,7 @@ import inspect
 
 import numpy as np
 
+from hydro2d.mesh import fields
 from hydro2d.mesh.grid import GHOSTS, Grid
 from hydro2d.mesh.state import State
 
@@ -25,7 +26,8 @@ class Cells:
         none = np.full(4, -1)
         self.known = {"part": 0, "parts": np.array([first, past_z]), "i0": first, "i1": past_r, "j0": first, "j1": past_z,
                       "g": GHOSTS, "nr": nr, "nz": nz, "b": 0, "mesh_box": self.mesh_box, "constrained": none,
-                      "transmitting": none, "carried": np.full(bodies, self.state.q.shape[0])}  # fmt: skip
+                      "transmitting": none,
+                      "carried": fields.carried_rows([range(1, self.state.q.shape[0])] * bodies)}  # fmt: skip
 
     def __getattr__(self, name: str):
         return getattr(self.__dict__["state"], name)

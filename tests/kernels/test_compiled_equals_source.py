@@ -41,7 +41,7 @@ def text_of(advection: str, sliding: dict, tip: str = "0.2 mm", follows: bool | 
     """A rod that strikes a plate, small; with contact it follows the rod if nothing else is said."""
     if follows is None:
         follows = sliding["method"] == "contact"
-    struck = "hardening" if advection == "both" else "Al7039"  # both of its models have internal variables
+    struck = "hardening" if advection == "both" else "Al7039"  # both models of the one have variables
     return (
         mesh([{"to": "6 mm", "cells": 12}, {"cells": 3, "ratio": 1.1}], ("-6 mm", "6 mm", 20),
              **({"follow": "rod"} if follows else {}))
@@ -90,10 +90,10 @@ def test_kernels_do_what_their_source_says(monkeypatch, phases_as_python, advect
     others = ("sliding",) if follows else ("contact", "extension")  # the treatment that the deck does not have
     prefixes = tuple(f"hydro2d.kernels.{other}" for other in others)
     unused = {name for module, name, _ in kernels if module.__name__.startswith(prefixes)} | {"triad"}
-    if advection != "both":
-        unused |= {"remember", "update_memory"}
     if advection != "both" and "contact" in others:
         unused.add("deposit")
+    if advection != "both":
+        unused |= {"remember", "update_memory"}
     if follows:
         unused |= {"moving_columns", "moving_box"}  # a mesh that travels skips no cells
     else:

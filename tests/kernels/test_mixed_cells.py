@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from eos import ideal_gas, stiffened_gas
+from eos.layout import ROW
 from hydro2d.kernels import mixed, mixed_strength
 from hydro2d.kernels.cut_cells import BONDED, FREE_SURFACE, INTERFACE, KIND, NORMAL_R
 from hydro2d.kernels.mixed_scratch import (
@@ -48,10 +49,10 @@ class Cell(Cells):
 
     def __init__(self, strong: bool = False, group=(0, 0)):
         super().__init__(nr=1, nz=1, bodies=2, group=list(group))
-        models, materials = np.zeros((2, 3), dtype=np.int64), np.zeros((2, GAS + 1))
+        models, materials = np.zeros((2, 4), dtype=np.int64), np.zeros((2, EOS_AT + ROW))
         for m, (gamma, flow) in enumerate(((1.4, 3.0), (3.0, 6.0))):
             models[m, EOS] = ideal_gas.ID
-            materials[m, EOS_AT:STRENGTH_AT] = ideal_gas.row({"adiabatic_index": gamma, "reference_density": 1.0})
+            materials[m, EOS_AT:] = ideal_gas.row({"adiabatic_index": gamma, "reference_density": 1.0})
             if strong:
                 models[m, STRENGTH] = ELASTIC.ID
                 materials[m, STRENGTH_AT:DAMAGE_AT] = ELASTIC.row({"shear_modulus": 5.0, "yield_stress": flow})
@@ -215,7 +216,7 @@ def pulled(cell: Cell, smallest: bool = False) -> Cell:
     """At a tension of 8 Pa each, of which both bear 7: without it they had 2.5 and 32 kg/m^3. Half may open in a cycle."""
     for m, (rest, squared) in enumerate(((2.5, 16.0), (32.0, 1.0 / 3.0))):
         cell.known["models"][m, EOS] = stiffened_gas.ID
-        cell.known["materials"][m, EOS_AT:STRENGTH_AT] = stiffened_gas.row(
+        cell.known["materials"][m, EOS_AT:] = stiffened_gas.row(
             {"reference_density": rest, "sound_speed": np.sqrt(squared), "adiabatic_index": 1.4, "specific_heat": 1.0})
     cell.p[AT], cell.pm[:, *AT], cell.q[SRR, :, *AT], cell.q[E, :, *AT] = -8.0, -8.0, 1.0, 0.0
     cell.call(mixed.insert_void_mixed_row, smallest=smallest, max_opening=0.5)

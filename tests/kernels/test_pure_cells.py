@@ -4,9 +4,10 @@ import numpy as np
 import pytest
 
 from eos import ideal_gas
+from eos.layout import ROW
 from hydro2d.kernels import deformation, mixed
 from hydro2d.kernels.cut_cells import BONDED, KIND
-from hydro2d.materials.rows import EOS, EOS_AT, GAS, STRENGTH_AT, TENSILE
+from hydro2d.materials.rows import EOS, EOS_AT, TENSILE
 from hydro2d.mesh.fields import RHO, E
 from tests.kernels.cells import Cells
 
@@ -17,9 +18,9 @@ AT = (3, 3)
 def gas(**given) -> Cells:
     """A gas of 2 kg/m^3 with 10 J/kg in one cell of void: p = 10 Pa, K = 15 Pa, c^2 = 7.5 m^2/s^2."""
     cells = Cells()
-    models, materials = np.zeros((1, 3), dtype=np.int64), np.zeros((1, GAS + 1))
+    models, materials = np.zeros((1, 4), dtype=np.int64), np.zeros((1, EOS_AT + ROW))
     models[0, EOS], materials[0, TENSILE] = ideal_gas.ID, np.inf
-    materials[0, EOS_AT:STRENGTH_AT] = ideal_gas.row({"adiabatic_index": GAMMA, "reference_density": 1.0})
+    materials[0, EOS_AT:] = ideal_gas.row({"adiabatic_index": GAMMA, "reference_density": 1.0})
     cells.vof[0, *AT], cells.q[RHO, 0, *AT], cells.q[E, 0, *AT], cells.skin[KIND] = 1.0, 2.0, 10.0, BONDED
     cells.known |= {"models": models, "materials": materials, "group": np.array([0])}
     return cells

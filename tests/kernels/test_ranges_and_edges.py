@@ -128,8 +128,9 @@ def test_an_edge_with_a_velocity_takes_momentum_and_work_and_the_axis_neither():
     assert not cells.u[0, :, 2].any()
     assert cells.u[0, :, 3].all()
     assert cells.v[0, 4:8, 3].tolist() == [7, 7, 5, 7]
-    assert cells.walls[:, 6].tolist() == [3.0 * (7 - 5), 0.5 * 3.0 * (7 - 5) * (6 + 5)]
-    assert not cells.walls[:, :6].any()
+    assert cells.walls[3, :, 6].tolist() == [3.0 * (7 - 5), 0.5 * 3.0 * (7 - 5) * (6 + 5)]
+    assert not cells.walls[3, :, :6].any()
+    assert not cells.walls[:3].any()
 
 
 def test_no_mass_flows_beyond_the_edges_but_on_through_an_open_one():

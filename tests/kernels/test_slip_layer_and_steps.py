@@ -6,7 +6,7 @@ import pytest
 from eos import ideal_gas
 from hydro2d.kernels import sliding, thermodynamics
 from hydro2d.kernels.sliding import BOUNDARY_LAYER, FLUID, HARD, OUTSIDE, SHEAR, SLIP_LAYER
-from hydro2d.mesh.fields import EP, RHO, SRR, SRZ, SZZ, E
+from hydro2d.mesh.fields import EP, INTERNAL, RHO, SRR, SRZ, SZZ, E
 from hydro2d.physics.waves import CAUSES
 from tests.kernels.cells import Cells
 
@@ -93,6 +93,7 @@ def test_energies_that_are_farthest_beyond_reach():
     cells.q[E, 0, 3, 2:6], cells.q[EP, 0, 3, 2:6] = (45.0, 50.0, -5.0, 1e9), (0.0, 2.0, 0.0, 0.0)
     gas = ideal_gas
     given = {"m": 0, "sliver": 0.01, "lowest": -2.0, "highest": 40.0, "plastic": 10.0, "most_strain": 0.8, "model": gas.ID,
+             "memory": INTERNAL,
              "par": gas.row({"adiabatic_index": 1.4, "reference_density": 1.0}), "found": found}  # fmt: skip
     cells.call(thermodynamics.worst_energies, warm=False, **given)
     assert found.tolist() == [[5.0, 3, 2], [3.0, 3, 4]]
