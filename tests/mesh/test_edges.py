@@ -9,11 +9,7 @@ from hydro2d.mesh.boundary_conditions import BoundaryConditions
 from hydro2d.mesh.edges.base import EDGES
 from hydro2d.mesh.edges.registry import BY_NAME, KINDS, made, words
 from hydro2d.mesh.sinks import SINKS
-<<<<<<<< HEAD:tests/mesh/test_edge_kinds.py
-from tests.sources.test_sources import TEXT
-========
 from tests.sources.test_heating import TEXT
->>>>>>>> frame39:tests/mesh/test_edges.py
 
 #: mirrors, holds, opens, supplies, transmits
 FLAGS = {
