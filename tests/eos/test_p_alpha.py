@@ -25,7 +25,7 @@ assert dispatch.WITH_MEMORY
 def after(rho, distention=VIRGIN, e=0.0):
     """The distention after a step to a density and an energy."""
     internal = np.array([distention])
-    p_alpha.update(ROW[RHO0], rho, e, *np.zeros(8), ROW, internal)
+    p_alpha.update(ROW[RHO0], rho, e, *np.zeros(7), ROW, internal)
     return internal[0]
 
 

@@ -91,4 +91,4 @@ def test_virgin_material_fills_the_state():
     assert state.initial.shape == (fields.INTERNAL + 1, 2)
     assert (state.q[fields.INTERNAL, 1] == 3.0).all()
     assert not state.q[:, 0].any()
-    assert state.before.shape == (4, 2, *grid.shape)
+    assert state.before.shape == (3, 2, *grid.shape)
