@@ -23,8 +23,8 @@ def lines(fit: Fit) -> list[str]:
         for name, error in fit.errors[group].items():
             unit, value = fit.law.unit(name), fit.constants[group][name]
             scale, shown = (1e6, "MPa") if unit == "Pa" else (1.0, "" if unit == "1" else unit)
-            common = ", shared by all groups" if name in fit.shared else ""
-            said.append(f"  {name:<24}{value / scale:>11.5g} +- {error / scale:.2g} {shown}".rstrip() + common)
+            about = ", at its least value" * (value == 0.0) + ", shared by all groups" * (name in fit.shared)
+            said.append(f"  {name:<24}{value / scale:>11.5g} +- {error / scale:.2g} {shown}".rstrip() + about)
         said.append(f"  {deck_table(fit, group)}")
     for title, values, form in (("strain rate [1/s]", points.rate, "g"), ("temperature [K]", points.temperature, "g"),
                                 ("plastic strain", points.strain, "g")):

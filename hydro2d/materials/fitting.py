@@ -21,6 +21,7 @@ from hydro2d.errors import DeckError, unknown
 from hydro2d.files import read_text
 from hydro2d.materials import curves
 from hydro2d.materials.library import Material
+from hydro2d.parameters import NON_NEGATIVE
 from strength import STRENGTH_MODELS
 
 #: what a column of a file of points can be
@@ -31,8 +32,8 @@ DEFAULT_COLUMNS = ("strain", "rate", "temperature", "stress")
 HEAT_SHARE, STEP = 0.9, 0.01
 #: largest ratio of the singular values of the scaled Jacobian; beyond it the points do not determine a constant
 WORST_CONDITION = 1e8
-#: smallest share of its first value that a constant can fall to
-LEAST = 1e-9
+#: smallest share of its first value that a constant can fall to, and the share below which one that may be 0 is taken as 0
+LEAST, NOTHING = 1e-9, 1e-6
 
 
 @dataclass(frozen=True)
@@ -58,6 +59,9 @@ class Law:
             if parameter.name == name:
                 return parameter.unit or "1"
         raise DeckError(unknown(f"constant of {self.name}", name, [parameter.name for parameter in self.model.PARAMETERS]))
+
+    def may_be_zero(self, name: str) -> bool:
+        return any(parameter.name == name and parameter.sign == NON_NEGATIVE for parameter in self.model.PARAMETERS)
 
 
 #: first values of the free constants, which of them are stresses, and what must be known besides
@@ -279,6 +283,7 @@ def fit(
         best = least_squares(residual, np.ones(len(places)), bounds=(LEAST, np.inf), xtol=1e-10, ftol=1e-10)
     except ValueError as problem:
         raise DeckError(str(problem)) from None
+    best.x[[x < NOTHING and law.may_be_zero(name) for x, (name, _) in zip(best.x, places, strict=True)]] = 0.0
     names = [name if group is None else f"{name} of group {group:g}" for name, group in places]
     spread = _spread(best.jac, 2.0 * best.cost, names) * scale
     errors = _by_group(dict(zip(places, spread.tolist(), strict=True)), points.groups, {})
