@@ -74,7 +74,7 @@ def draw(fit: Fit):
     from matplotlib.figure import Figure
 
     groups = fit.points.groups
-    figure = Figure(figsize=(3.6 * len(groups) + 0.8, 4.2), layout="constrained")
+    figure = Figure(figsize=(3.4 * len(groups) + 0.8, 5.0), layout="constrained")
     FigureCanvasAgg(figure)
     panels = figure.subplots(1, len(groups), sharey=True, squeeze=False)[0]
     for axes, group in zip(panels, groups, strict=True):
@@ -100,4 +100,4 @@ def _panel(axes, fit: Fit, group: float) -> None:
                   label=f"{rate:g} /s, {T:g} K")
     axes.set_xlabel("plastic strain")
     axes.grid(alpha=0.3)
-    axes.legend(fontsize=5)
+    axes.legend(fontsize=6, loc="upper center", bbox_to_anchor=(0.5, -0.14), ncols=2)

@@ -195,16 +195,23 @@ def _told(value: float, digits: int) -> str:
 
 
 def curve(name: str, slenderness: int, velocities: Sequence[float]) -> list[float]:
-    """Depth over length by a model of the catalogue, for the rod and target of the deck."""
+    """Depth over length by a model of the catalogue, for the rod and target of the deck.
+
+    walker-anderson has the effective flow stress of the target that anderson-riegel computes from Johnson and Cook's law: the
+    latter's coefficients come from the former's depths with that stress.
+    """
     shot = model_deck.read(HERE / DECKS[slenderness])
-    settings = {}
-    if name == "anderson-riegel":
-        law, heat = shot.target.strength.values, shot.target.eos.values["specific_heat"]
-        keys = {"a": "yield_stress", "b": "hardening", "n": "hardening_exponent", "c": "rate_coefficient", "m": "thermal_exponent"}
-        settings = {f"target.johnson_cook_{key}": law[word] for key, word in keys.items()}
-        settings |= {"target.melt_temperature": law["melt_temperature"], "target.specific_heat": heat}
-    case = models.resolve(models.named(name), models.Request(shot.rod, shot.target, settings, shot.values))
-    return [float(row["depth_over_length"]) for row in case.rows([float(velocity) for velocity in velocities])]
+    law, heat = shot.target.strength.values, shot.target.eos.values["specific_heat"]
+    keys = {"a": "yield_stress", "b": "hardening", "n": "hardening_exponent", "c": "rate_coefficient", "m": "thermal_exponent"}
+    settings = {f"target.johnson_cook_{key}": law[word] for key, word in keys.items()}
+    settings |= {"target.melt_temperature": law["melt_temperature"], "target.specific_heat": heat}
+    speeds = [float(velocity) for velocity in velocities]
+    by_curve = models.resolve(models.named("anderson-riegel"), models.Request(shot.rod, shot.target, settings, shot.values))
+    rows = by_curve.rows(speeds)
+    if name != by_curve.model.name:
+        stress = {"target.strength": rows[0]["effective_flow_stress"]} if name == "walker-anderson" else {}
+        rows = models.resolve(models.named(name), models.Request(shot.rod, shot.target, stress, shot.values)).rows(speeds)
+    return [float(row["depth_over_length"]) for row in rows]
 
 
 def draw(results: Sequence[Result]):
@@ -213,7 +220,7 @@ def draw(results: Sequence[Result]):
     from matplotlib.figure import Figure
 
     lengths = sorted({each.slenderness for each in results})
-    figure = Figure(figsize=(1.0 + 3.4 * len(lengths), 4.2), layout="constrained")
+    figure = Figure(figsize=(max(1.0 + 3.2 * len(lengths), 6.4), 4.4), layout="constrained")
     FigureCanvasAgg(figure)
     panels = figure.subplots(1, len(lengths), sharey=True, squeeze=False)[0]
     for axes, ratio in zip(panels, lengths, strict=True):
@@ -228,7 +235,7 @@ def draw(results: Sequence[Result]):
         axes.set_xlabel("impact velocity [m/s]")
         axes.grid(alpha=0.3)
     panels[0].set_ylabel("depth over length of the rod")
-    figure.legend(*panels[0].get_legend_handles_labels(), fontsize="x-small", loc="outside lower center", ncols=4)
+    figure.legend(*panels[0].get_legend_handles_labels(), fontsize="x-small", loc="outside lower center", ncols=3)
     return figure
 
 
