@@ -53,7 +53,7 @@ def along(
 
     law : flow stress at a plastic strain and a temperature
     T : temperature at no strain
-    warming : temperature gained by a unit of plastic work, 1/(rho c) for all of it as heat, 0 at a constant temperature, K m^3/J
+    warming : temperature gained by a unit of plastic work, K m^3/J: 1/(rho c) if all of it heats, 0 at a constant temperature
     longest : longest step in plastic strain
     """
     ep, stresses, temperatures = 0.0, [], []

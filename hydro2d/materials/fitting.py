@@ -141,7 +141,8 @@ def read_points(path: Path, columns: Sequence[str] | None = None, unit: float = 
 
     Raises DeckError with the line of what cannot be read.
     """
-    lines = [(n, line.split("#")[0].replace(",", " ").split()) for n, line in enumerate(read_text(path, DeckError).splitlines(), 1)]
+    text = read_text(path, DeckError).splitlines()
+    lines = [(n, line.split("#")[0].replace(",", " ").split()) for n, line in enumerate(text, 1)]
     lines = [(n, words) for n, words in lines if words]
     if lines and not _is_number(lines[0][1][0]):
         named = lines.pop(0)[1]

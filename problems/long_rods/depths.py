@@ -7,10 +7,9 @@ run before. The table is in Markdown. `--keep` writes all cases into a CSV file 
 velocities and depth of the rods against time. `--figure` draws depth over length against velocity, beside Odermatt's fit and
 the models of the catalogue, and `--parts` draws the histories of the file that --histories wrote.
 
-The depth is the largest of the run: the target springs back by up to 1 % while the run ends. A rod that is worn by one length
-deepens the hole by the *slope*, which is taken while the rod is worn by 2 to 6 diameters. The *end* is the depth that the last 4
-diameters of the rod add, in diameters: the same for rods of all lengths if the velocity is, which is what makes short rods the
-better penetrators.
+The depth is the largest of the run: the target springs back by up to 1 % while the run ends. The *slope* is the depth that a
+length of rod makes when it is worn away, taken while the rod is worn by 2 to 6 diameters. The *end* is the depth that the last
+4 diameters of the rod add, in diameters.
 """
 
 from __future__ import annotations
@@ -38,6 +37,8 @@ HERE = Path(__file__).parent
 DECKS = {10: "rod_10.toml", 20: "rod_20.toml", 30: "rod_30.toml"}
 #: hardness at which Odermatt's fit stands beside armour steel, whose own is not known
 BRINELL = 270.0
+#: densities of rod and target in all decks, kg/m^3
+DENSITIES = (17600.0, 7850.0)
 #: wear of the rod between which the slope is taken, and the length that is left when the end begins, in diameters
 STEADY, LAST = (2.0, 6.0), 4.0
 VELOCITIES = np.linspace(1000.0, 2000.0, 41)
@@ -95,8 +96,8 @@ class Result:
 def measured(history: dict[str, np.ndarray], diameter: float) -> dict[str, float]:
     """Depth and its parts from the history of a run; lengths in m.
 
-    ``slope`` is dP/d(wear) and ``u``, ``v`` are the velocities of the interface and the tail, by straight lines through the rows
-    at which the wear is within ``STEADY``; NaN for a rod that was not worn so far, as is the end.
+    ``slope`` is dP/d(wear), and ``u`` and ``v`` are the velocities of the interface and the tail, by straight lines through the
+    rows at which the wear is within ``STEADY``; NaN for a rod that was not worn so far, as is the end.
     """
     time, depth, tail = history["time"], history["penetration_depth_m"], history["rod_tail_velocity_m_s"]
     wear = history["rod_length_m"][0] - history["rod_length_m"]
@@ -175,7 +176,7 @@ def table(results: Sequence[Result]) -> list[str]:
     for each in results:
         n = each.numbers
         label = each.others or "armour steel"
-        fit = odermatt(each.velocity, each.slenderness, brinell(each), 17600.0, 7850.0)
+        fit = odermatt(each.velocity, each.slenderness, brinell(each), *DENSITIES)
         lines.append(
             f"| {label} | {each.slenderness} | {each.velocity:g} m/s | {each.ratio:.3f} | {_told(n['slope'], 2)} | "
             f"{_told(n['end_over_diameter'], 1)} D | {_told(n['u_m_s'], 0)}, {_told(n['v_m_s'], 0)} m/s | "
@@ -224,10 +225,9 @@ def draw(results: Sequence[Result]):
     FigureCanvasAgg(figure)
     panels = figure.subplots(1, len(lengths), sharey=True, squeeze=False)[0]
     for axes, ratio in zip(panels, lengths, strict=True):
-        low, high = (np.array([odermatt(v, ratio, hardness, 17600.0, 7850.0) for v in VELOCITIES]) for hardness in (350.0, 230.0))
+        low, middle, high = ([odermatt(v, ratio, each, *DENSITIES) for v in VELOCITIES] for each in (350.0, BRINELL, 230.0))
         axes.fill_between(VELOCITIES, low, high, color="0.85", label="Odermatt's fit, BHN 230 to 350")
-        axes.plot(VELOCITIES, [odermatt(v, ratio, BRINELL, 17600.0, 7850.0) for v in VELOCITIES], "k-", lw=1,
-                  label=f"the same, BHN {BRINELL:g}")
+        axes.plot(VELOCITIES, middle, "k-", lw=1, label=f"the same, BHN {BRINELL:g}")
         for name, style in MODELS.items():
             axes.plot(VELOCITIES, curve(name, ratio, VELOCITIES), style, color="0.4", lw=1, label=f"model {name}")
         _runs(axes, [each for each in results if each.slenderness == ratio])
@@ -245,11 +245,12 @@ def _runs(axes, results: Sequence[Result]) -> None:
     for number, label in enumerate(labels):
         own = sorted((each.velocity, each.ratio) for each in results if each.others == label)
         shade = f"C{number}"
-        axes.plot(*zip(*own, strict=True), "o-" if len(own) > 2 else "o", color=shade, ms=4, lw=1.2, label=label or "armour steel")
+        form = "o-" if len(own) > 2 else "o"
+        axes.plot(*zip(*own, strict=True), form, color=shade, ms=4, lw=1.2, label=label or "armour steel")
 
 
 def draw_parts(path: Path):
-    """A matplotlib Figure from a file of histories: velocities of the interface and the tail, and depth over the first length."""
+    """A matplotlib Figure from a file of histories: velocities of the interface and the tail, and depth against wear."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
@@ -259,7 +260,8 @@ def draw_parts(path: Path):
     FigureCanvasAgg(figure)
     left, right = figure.subplots(1, 2)
     for number, case in enumerate(dict.fromkeys(row["case"] for row in rows)):
-        time, depth, length, tail = (np.array([float(row[name]) for row in rows if row["case"] == case]) for name in HISTORY[1:])
+        own = [row for row in rows if row["case"] == case]
+        time, depth, length, tail = (np.array([float(row[name]) for row in own]) for name in HISTORY[1:])
         u = np.gradient(depth, time) * 1e3
         left.plot(time, tail, "-", color=f"C{number}", lw=1.2, label=f"{case}: v of the tail")
         left.plot(time, u, "--", color=f"C{number}", lw=1.2, label="u of the interface")

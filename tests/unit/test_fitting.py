@@ -16,8 +16,8 @@ STEEL = {"yield_stress": 1.1e9, "hardening": 0.5e9, "hardening_exponent": 0.3, "
 IRON = {"athermal_stress": 65e6, "thermal_stress": 1033e6, "thermal_softening": 6.98e-3, "rate_hardening": 4.15e-4,
         "hardening": 266e6, "hardening_exponent": 0.289, "shear_modulus": 80e9, "melt_temperature": 1811.0}
 ALLOY = {"yield_stress": 276e6, "hardening_exponent": 0.084, "youngs_modulus": 70.3e9, "poisson_ratio": 1 / 3}
-TUNGSTEN = {"yield_stress": 1.87e9, "hardening_coefficient": 7.7, "hardening_exponent": 0.13, "temperature_coefficient": 1.52e-4,
-            "shear_modulus": 145e9, "grueneisen": 1.67, "reference_density": 18160.0}
+TUNGSTEN = {"yield_stress": 1.87e9, "hardening_coefficient": 7.7, "hardening_exponent": 0.13,
+            "temperature_coefficient": 1.52e-4, "shear_modulus": 145e9, "grueneisen": 1.67, "reference_density": 18160.0}
 LAWS = {"johnson-cook": STEEL, "zerilli-armstrong": IRON, "power-law": ALLOY, "steinberg-guinan": TUNGSTEN}
 HEATING = fitting.Heating(100.0, 7830.0 * 477.0)
 
@@ -136,8 +136,9 @@ def test_the_command(tmp_path, capsys):
     path, table, picture = tmp_path / "points.txt", tmp_path / "t.csv", tmp_path / "p.png"
     rows = zip(points.strain, points.rate, points.temperature, points.stress / 1e6, strict=True)
     path.write_text("".join(f"{a} {b} {c} 38 {d!r}\n" for a, b, c, d in ((*map(float, row),) for row in rows)))
-    arguments = ["fit-strength", str(path), "--columns", "strain,rate,temperature,group,stress", "--stress-unit", "MPa", "--model",
-                 "johnson-cook", "--material", "steel_4340", "--temperature", "290:600", "--fix", "rate_coefficient=0.012"]
+    arguments = ["fit-strength", str(path), "--columns", "strain,rate,temperature,group,stress", "--stress-unit", "MPa",
+                 "--model", "johnson-cook", "--material", "steel_4340", "--temperature", "290:600",
+                 "--fix", "rate_coefficient=0.012"]
     assert call([*arguments, "--group", "38", "--csv", str(table), "--figure", str(picture)]) == 0
     out = capsys.readouterr().out
     assert "johnson-cook: 45 points, differences from the measured stress: rms 0.0%, largest 0.0%" in out
@@ -151,8 +152,8 @@ def test_the_command(tmp_path, capsys):
 
 
 #: measured flow stress of 4340 steel, MPa: Rockwell C, strain rate in 1/s, temperature of the test in K, and the stresses at
-#: plastic strains of 0, 0.05 and 0.1 (Banerjee's collection for arXiv cond-mat/0510330: Johnson & Cook 1985; Larson & Nunes 1961;
-#: Lee & Yeh 1997). The largest difference from them that the fits have, Johnson-Cook and Zerilli-Armstrong, follows.
+#: plastic strains of 0, 0.05 and 0.1 (Banerjee's collection for arXiv cond-mat/0510330: Johnson & Cook 1985, Larson & Nunes
+#: 1961, Lee & Yeh 1997). The largest difference from them that the fits have, Johnson-Cook and Zerilli-Armstrong, follows.
 MEASURED = [
     (32, 1.1, 298.0, (865.6, 1003.29, 1067.08), 0.06, 0.11),
     (32, 570.0, 298.0, (818.593, 1058.87, 1162.32), 0.11, 0.13),

@@ -69,7 +69,8 @@ def test_kept_results_are_written_as_they_were_read(name, tmp_path):
 
 def test_the_tables_of_the_pages_are_those_of_the_kept_results():
     rows = [row for file in KEPT.values() for row in depths.table(depths.read(file))[2:]]
-    quoted = [line for page in PAGES for line in page.read_text(encoding="utf-8").splitlines() if re.search(r"\| \d+ \| \d+ m/s", line)]
+    lines = [line for page in PAGES for line in page.read_text(encoding="utf-8").splitlines()]
+    quoted = [line for line in lines if re.search(r"\| \d+ \| \d+ m/s", line)]
     assert len(quoted) > 15
     assert [line for line in quoted if line not in rows] == []
     assert [row for row in rows if row not in quoted] == [], "kept, and on no page"

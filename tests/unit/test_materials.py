@@ -63,8 +63,8 @@ def test_every_material_makes_rows(name):
 
 
 #: molar mass, kg/mol, by the first letters of a metal's name; Poisson's ratio where it is not that of most metals
-MOLAR_MASS = {"Al": 0.027, "W_": 0.180, "tungsten": 0.1838, "copper": 0.0635, "steel": 0.0558, "iron": 0.0558, "tantalum": 0.1809,
-              "lead": 0.2072, "uranium": 0.238, "U_": 0.238}
+MOLAR_MASS = {"Al": 0.027, "W_": 0.180, "tungsten": 0.1838, "copper": 0.0635, "steel": 0.0558, "iron": 0.0558,
+              "tantalum": 0.1809, "lead": 0.2072, "uranium": 0.238, "U_": 0.238}
 POISSON = {"uranium": (0.18, 0.25), "U_": (0.22, 0.28), "lead": (0.38, 0.45)}
 
 
