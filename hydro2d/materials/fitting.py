@@ -285,7 +285,8 @@ def fit(
     except ValueError as problem:
         raise DeckError(str(problem)) from None
     best.x[[x < NOTHING and law.may_be_zero(name) for x, (name, _) in zip(best.x, places, strict=True)]] = 0.0
-    names = [name if group is None else f"{name} of group {group:g}" for name, group in places]
+    alone = len(points.groups) == 1
+    names = [name if alone or group is None else f"{name} of group {group:g}" for name, group in places]
     spread = _spread(best.jac, 2.0 * best.cost, names) * scale
     errors = _by_group(dict(zip(places, spread.tolist(), strict=True)), points.groups, {})
     return Fit(law, points, constants(best.x), errors, best.fun, tuple(name for name in free if name in shared))
@@ -319,6 +320,6 @@ def _spread(jacobian: np.ndarray, squares: float, names: Sequence[str]) -> np.nd
     _, sizes, directions = np.linalg.svd(jacobian, full_matrices=False)
     if sizes[-1] * WORST_CONDITION <= sizes[0]:
         doubtful = names[int(np.argmax(np.abs(directions[-1])))]
-        raise DeckError(f"the points do not determine {doubtful}; fix it, or let groups share it")
+        raise DeckError(f"the points do not determine {doubtful}; keep it at a known value, or let groups share it")
     variance = squares / max(1, jacobian.shape[0] - jacobian.shape[1])
     return np.sqrt(variance * np.sum((directions / sizes[:, None]) ** 2, axis=0))
