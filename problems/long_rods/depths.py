@@ -1,11 +1,12 @@
 """Depths of tungsten rods in steel: what the runs gave, where it comes from, and figures beside Odermatt's fit and the models.
 
-    python -m problems.long_rods.depths RESULTS [RESULTS ...] [--keep FILE] [--histories FILE] [--figure PATH] [--parts PATH]
+    python -m problems.long_rods.depths RESULTS [RESULTS ...] [--keep FILE] [--histories FILE] [--figure PATH]
+    python -m problems.long_rods.depths HISTORIES --parts PATH --cases CASE [CASE ...]
 
 RESULTS is the directory of a study, finished or not, or a file in `results`, which has the finished cases of a study that was
 run before. The table is in Markdown. `--keep` writes all cases into a CSV file and `--histories` (of directories alone) the
 velocities and depth of the rods against time. `--figure` draws depth over length against velocity, beside Odermatt's fit and
-the models of the catalogue, and `--parts` draws the histories of the file that --histories wrote.
+the models of the catalogue, and `--parts` draws some cases of a file that --histories wrote.
 
 The depth is the largest of the run: the target springs back by up to 1 % while the run ends. The *slope* is the depth that a
 length of rod makes when it is worn away, taken while the rod is worn by 2 to 6 diameters. The *end* is the depth that the last
@@ -249,8 +250,11 @@ def _runs(axes, results: Sequence[Result]) -> None:
         axes.plot(*zip(*own, strict=True), form, color=shade, ms=4, lw=1.2, label=label or "armour steel")
 
 
-def draw_parts(path: Path):
-    """A matplotlib Figure from a file of histories: velocities of the interface and the tail, and depth against wear."""
+def draw_parts(path: Path, cases: Sequence[str]):
+    """A matplotlib Figure of some cases of a file of histories: velocities of interface and tail, and depth against wear.
+
+    Raises StudyError for a case that the file does not have.
+    """
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
@@ -259,18 +263,21 @@ def draw_parts(path: Path):
     figure = Figure(figsize=(8.4, 3.8), layout="constrained")
     FigureCanvasAgg(figure)
     left, right = figure.subplots(1, 2)
-    for number, case in enumerate(dict.fromkeys(row["case"] for row in rows)):
+    for number, case in enumerate(cases):
         own = [row for row in rows if row["case"] == case]
+        if not own:
+            raise StudyError(f"{path}: has no case {case} (has: {', '.join(dict.fromkeys(row['case'] for row in rows))})")
         time, depth, length, tail = (np.array([float(row[name]) for row in own]) for name in HISTORY[1:])
         u = np.gradient(depth, time) * 1e3
-        left.plot(time, tail, "-", color=f"C{number}", lw=1.2, label=f"{case}: v of the tail")
-        left.plot(time, u, "--", color=f"C{number}", lw=1.2, label="u of the interface")
+        left.plot(time, tail, "-", color=f"C{number}", lw=1.2)
+        left.plot(time, u, "--", color=f"C{number}", lw=1.2)
         right.plot((length[0] - length) / length[0], depth / length[0], "-", color=f"C{number}", lw=1.2, label=case)
     left.set(xlabel="time [us]", ylabel="velocity [m/s]", ylim=(0.0, None))
     right.set(xlabel="wear of the rod over its length", ylabel="depth over length")
+    left.set_title("tail (lines) and interface (dashed)", fontsize="medium")
+    right.legend(fontsize="x-small")
     for axes in (left, right):
         axes.grid(alpha=0.3)
-        axes.legend(fontsize="xx-small")
     return figure
 
 
@@ -280,13 +287,14 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--keep", type=Path, metavar="FILE", help="write all cases to a CSV file")
     parser.add_argument("--histories", type=Path, metavar="FILE", help="write the histories of all cases to a CSV file")
     parser.add_argument("--figure", type=Path, help="draw depth against velocity")
-    parser.add_argument("--parts", type=Path, help="draw the histories")
+    parser.add_argument("--parts", type=Path, help="draw the histories of --cases")
+    parser.add_argument("--cases", nargs="+", default=[], metavar="CASE")
     given = parser.parse_args(arguments)
     try:
         if given.parts:
-            if len(given.results) != 1 or not given.results[0].is_file():
-                raise StudyError("--parts draws one file that --histories wrote")
-            figures.save(draw_parts(given.results[0]), given.parts)
+            if len(given.results) != 1 or not given.results[0].is_file() or not given.cases:
+                raise StudyError("--parts draws --cases of one file that --histories wrote")
+            figures.save(draw_parts(given.results[0], given.cases), given.parts)
             return 0
         results = list({result.name: result for path in given.results for result in read(path)}.values())
         if not results:

@@ -90,10 +90,13 @@ def test_a_file_of_something_else_is_refused(capsys):
     assert "no file of results: it has no column case" in capsys.readouterr().err
 
 
-def test_the_figures(tmp_path):
+def test_the_figures(tmp_path, capsys):
     picture = tmp_path / "p.png"
     assert depths.main([str(KEPT["velocities"]), "--figure", str(picture)]) == 0
     assert picture.read_bytes()[:4] == b"\x89PNG"
     parts = tmp_path / "parts.png"
-    assert depths.main([str(FOLDER / "results" / "histories.csv"), "--parts", str(parts)]) == 0
+    histories = str(FOLDER / "results" / "histories.csv")
+    assert depths.main([histories, "--parts", str(parts), "--cases", "10_1.5km-s", "20_1.5km-s"]) == 0
     assert parts.read_bytes()[:4] == b"\x89PNG"
+    assert depths.main([histories, "--parts", str(parts), "--cases", "10_1.6km-s"]) == 2
+    assert "has no case 10_1.6km-s" in capsys.readouterr().err
