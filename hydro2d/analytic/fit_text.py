@@ -19,7 +19,8 @@ def lines(fit: Fit) -> list[str]:
     said = [f"{fit.law.name}: {len(points)} points, differences from the measured stress: {_size(fit.residual)}"]
     for group in points.groups:
         mask = points.group == group
-        said += ["", f"group {group:g}: {int(mask.sum())} points, {_size(fit.residual[mask])}"] if len(points.groups) > 1 else []
+        if len(points.groups) > 1:
+            said += ["", f"group {group:g}: {int(mask.sum())} points, {_size(fit.residual[mask])}"]
         for name, error in fit.errors[group].items():
             unit, value = fit.law.unit(name), fit.constants[group][name]
             scale, shown = (1e6, "MPa") if unit == "Pa" else (1.0, "" if unit == "1" else unit)
