@@ -17,6 +17,7 @@ from hydro2d.cli.check_model import check_model
 from hydro2d.cli.curve import curve
 from hydro2d.cli.diverge import diverge
 from hydro2d.cli.ensemble import By, Chosen, Member, Repeats, Seed, converge, run_all
+from hydro2d.cli.fit_strength import fit_strength
 from hydro2d.cli.model import model
 from hydro2d.cli.report import report
 from hydro2d.cli.status import status
@@ -41,6 +42,7 @@ app.command(check_model)
 app.command(converge)
 app.command(curve)
 app.command(diverge)
+app.command(fit_strength)
 app.command(model)
 app.command(report)
 app.command(status)
