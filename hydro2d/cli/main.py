@@ -30,7 +30,7 @@ WRONG_INPUT, REFUSED = 2, 4
 app = App(
     name="hydro2d",
     version=__version__,
-    help="A two-dimensional axisymmetric Eulerian hydrocode for rod-into-plate impact.",
+    help="A two-dimensional axisymmetric Eulerian hydrocode for impact: rods, balls and plates.",
     help_format="plaintext",
     suppress_keyboard_interrupt=False,  # `call` knows by which signal a command ends
     help_epilogue="Exit status: 0 success; 2 wrong deck or arguments; 3 unphysical state or failed cases; 4 refused by the "
@@ -164,7 +164,7 @@ def run(
 def check(
     deck: Path, *, set_: Overrides = None, threads: Count | None = None, picture: Path | None = None,
 ) -> int:
-    """Validates a deck and summarises it: mesh, masses, cells across the rod, cost and memory.
+    """Validates a deck and summarises it: mesh, masses, cells across rods and balls, cost and memory.
 
     Example: hydro2d check problems/cth_nose_shape/hemi_5083_1086.toml --picture start.png
 

@@ -324,7 +324,7 @@ def _read_rod(record: Record, place: Place) -> None:
     series = directory / vtk.SERIES["interfaces"]
     if not series.is_file():
         if record.done:
-            record.problems.append(f"there is no {series.name}, so the shape of the rod is not shown")
+            record.problems.append(f"there is no {series.name}, so the shape of the projectile is not shown")
         return
     try:
         files = [within(directory, file) for _, file in vtk.read_series(series)]

@@ -28,7 +28,8 @@ READER = {
     "Pa": ("GPa", 1e-9), "J/kg": ("MJ/kg", 1e-6), "kg/m3": ("g/cm³", 1e-3), "N s": ("N s", 1.0),
 }  # fmt: skip
 TITLES = {
-    DEPTH: "depth", RESIDUAL: "residual velocity", "rod_tail_velocity_m_s": "tail velocity", "rod_length_m": "rod length",
+    DEPTH: "depth", RESIDUAL: "residual velocity", "rod_tail_velocity_m_s": "tail velocity",
+    "rod_length_m": "projectile length",
     "rod_length_ratio": "final / initial length", "rod_radius_ratio": "largest / initial radius",
 }  # fmt: skip
 _QUANTITY = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*([^\d\s].*?)?\s*$")

@@ -8,12 +8,12 @@ import pytest
 
 from hydro2d.deck import deck as decks
 from hydro2d.errors import DeckError
-from hydro2d.mesh import quantities, sums
+from hydro2d.mesh import measured, quantities, station_columns, sums
 from hydro2d.output import derived
 from hydro2d.results.reading import Results
 from hydro2d.results.summaries import plausible
 from hydro2d.running.run import run
-from hydro2d.solver import bodies, rod_quantities, station_columns, tracers
+from hydro2d.solver import bodies, tracers
 from hydro2d.solver.simulation import Simulation
 
 DECK = """
@@ -89,9 +89,9 @@ def test_a_run_calls_the_ball_a_ball_and_gives_one_number_for_each_thing(tmp_pat
     summary = Results(tmp_path / "shot").summary
     shape, ball = summary["projectile"], summary["bodies"]["ball"]
     assert shape["body"] == "ball"
-    for old, new in rod_quantities.PROJECTILE.items():
+    for old, new in measured.PROJECTILE.items():
         assert summary[old] == shape[new], old
-    for old, new in rod_quantities.OF_EVERY_BODY.items():
+    for old, new in measured.OF_EVERY_BODY.items():
         assert summary[old] == pytest.approx((summary["bodies"]["plate"] if "target" in old else ball)[new], rel=1e-12), old
     assert 0.0 < 0.5 * ball["mass_kg"] * ball["velocity_m_s"] ** 2 < ball["kinetic_energy_J"]
     assert 0.0 < shape["length_m"] < 0.01

@@ -47,6 +47,8 @@ velocity = "1000 m/s"
 penetration = "1 cm"
 residual_velocity = "0 m/s"
 source = "none"
+[derived]
+"P/L" = "depth / length0"
 [stop]
 cycles = 5
 [output]
@@ -55,7 +57,7 @@ vtk_interval = "1 us"
 """
 NAMES = {
     "BODY": "rod|plate", "TARGET": "plate", "STATION": "tracer_tip|gauge_line_[123]", "SINK": "|".join(audit.SINKS),
-    "TRANSFER": "|".join(audit.CONTACT_TRANSFERS),
+    "DERIVED": "P/L", "TRANSFER": "|".join(audit.CONTACT_TRANSFERS),
 }  # fmt: skip
 
 

@@ -7,6 +7,7 @@ import hydro2d
 from hydro2d.cli.main import call
 from hydro2d.files import locked, write_json
 from hydro2d.results import standing
+from hydro2d.running import ending
 from tests.unit import made_run
 
 
@@ -75,26 +76,26 @@ def columns(speed, rows=40):
 
 def test_a_constant_deceleration_is_foreseen():
     slowing = columns(lambda time: 1000.0 - 2e6 * time)
-    found = list(standing.ends({"time": 1e-3, "speed_below": 10.0, "body": "rod", "cycles": 3900}, slowing))
+    found = list(ending.ends({"time": 1e-3, "speed_below": 10.0, "body": "rod", "cycles": 3900}, slowing))
     assert [(each.reason, round(each.time * 1e6, 3)) for each in found] == [
         ("end time", 1000.0), ("3900 cycles", 200.0), ("speed below 10 m/s as it slows now", 495.0),
     ]  # fmt: skip
     backwards = columns(lambda time: -(1000.0 - 2e6 * time))
-    (found,) = standing.ends({"rebound": True, "body": "rod"}, backwards)
+    (found,) = ending.ends({"rebound": True, "body": "rod"}, backwards)
     assert (found.reason, found.time) == ("rebound as it slows now", pytest.approx(500e-6))
     del slowing["rod_core_velocity_m_s"]
-    (found,) = standing.ends({"speed_below": 10.0, "body": "ball"}, slowing)
+    (found,) = ending.ends({"speed_below": 10.0, "body": "ball"}, slowing)
     assert found.time == pytest.approx(490e-6)
 
 
 @pytest.mark.parametrize("slope", [0.0, 1e6, -1e-3, np.nan])
 def test_a_body_that_does_not_slow_is_not_foreseen_to_stop(slope):
-    assert list(standing.ends({"speed_below": 10.0, "body": "rod"}, columns(lambda time: 1000.0 + slope * time))) == []
+    assert list(ending.ends({"speed_below": 10.0, "body": "rod"}, columns(lambda time: 1000.0 + slope * time))) == []
 
 
 def test_too_few_rows_say_nothing():
     few = {name: values[:4] for name, values in columns(lambda time: 1000.0 - 1e7 * time).items()}
-    assert list(standing.ends({"speed_below": 10.0, "cycles": 100}, few)) == []
+    assert list(ending.ends({"speed_below": 10.0, "cycles": 100}, few)) == []
 
 
 def test_a_real_run_agrees_with_what_it_says(finished):
