@@ -81,8 +81,8 @@ class Crater:
         return wall, np.where(ndimage.binary_dilation(wall), fraction, 0.0)
 
     def pieces(self) -> np.ndarray:
-        """Which cells [j, i] belong to the target's pieces; the rest of it is debris."""
-        return self._walls()[0]
+        """Which cells [j, i] belong to the target's pieces or lie beside one, as those that their surfaces cut do."""
+        return self._walls()[1] > 0.0
 
     def beyond(self) -> np.ndarray:
         """Which rows of cells are beyond the target's original rear face, [j, 1]."""

@@ -36,7 +36,7 @@ class Debris(NamedTuple):
 
 
 def find(sim, crater, later: list[int]) -> Debris:
-    """What is behind the target of a crater and hangs together with none of its pieces, the projectile included.
+    """What is behind the target of a crater, the projectile included, but for cells of the target's pieces and beside them.
 
     crater : Crater of the target
     later : indices of the targets that the projectile meets after it, which are no debris
