@@ -55,6 +55,7 @@ USER_ERRORS = (
     ("output.snapshot", "SnapshotError"), ("output.history", "HistoryError"), ("output.vtk", "VtkError"),
     ("mesh.quantities", "FieldError"), ("running.run", "RunError"), ("results.reading", "ResultsError"),
     ("results.scales", "FigureError"), ("results.viewer.fields", "ViewError"),
+    ("results.terminal_charts", "ChartError"),
     ("study.definition", "StudyError"),
 )
 

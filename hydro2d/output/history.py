@@ -47,7 +47,8 @@ class HistoryError(Error):
 
 
 def spoken(name: str) -> str:
-    """A quantity in words, without its unit: "penetration depth" for penetration_depth_m."""
+    """A quantity in words, without its unit: "penetration depth" for penetration_depth_m; a rod may be a ball."""
+    name = f"projectile_{name[4:]}" if name.startswith("rod_") else name
     return name.removesuffix("_" + unit(name).replace("/", "_").replace(" ", "_")).replace("_", " ")
 
 

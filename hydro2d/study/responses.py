@@ -99,12 +99,13 @@ def response(name: str) -> Response:
 
 def readers(name: str) -> tuple[str, float]:
     """The reader's unit of a quantity, empty for a plain number, and the factor from SI to it."""
-    si = name[-2:] if name.endswith(("_m2", "_m3")) and not name.endswith("kg_m3") else unit(name)
+    si = unit(name)
     return READER.get(si, ("" if si == "1" else si, 1.0))
 
 
 def title(name: str) -> str:
     """A quantity in words, without its unit."""
+    name = f"projectile_{name[4:]}" if name.startswith("rod_") and name not in TITLES else name
     return TITLES.get(name) or _ENDING.sub("", name).replace("_", " ").replace(".", " ")
 
 
