@@ -124,6 +124,22 @@ def test_pictures_have_no_empty_margin(tmp_path):
         assert np.argmin(empty[::-1]) < 40
 
 
+def test_debris_are_drawn(run, monkeypatch):
+    """Mass in bins by speed and by angle, the last angle that has mass, and one dot for each fragment."""
+    found = {"body": np.array(["rod", "plate"]), "speed_edges_m_s": np.linspace(0.0, 1000.0, 5),
+             "mass_by_speed_kg": np.array([[0.0, 1e-3], [0.0, 2e-3], [0.0, 0.0], [5e-3, 0.0]]),
+             "angle_edges_rad": np.linspace(0.0, np.pi, 5), "mass_by_angle_kg": np.array([[5e-3, 3e-3], *[[0.0, 0.0]] * 3]),
+             "fragment_mass_kg": np.array([5e-3, 2e-3, 1e-3])}  # fmt: skip
+    monkeypatch.setattr(Results, "debris", {"plate": found})
+    speed, angle, fragments = lines.debris([run]).axes
+    assert [patch.get_data().values.sum() for patch in speed.patches] == [pytest.approx(5.0), pytest.approx(3.0)]
+    assert angle.get_xlim() == (0.0, 45.0)
+    assert fragments.lines[0].get_xydata().tolist() == [[5.0, 1.0], [2.0, 2.0], [1.0, 3.0]]
+    monkeypatch.setattr(Results, "debris", {"plate": {**found, "body": np.array([])}})
+    with pytest.raises(FigureError, match="nothing flies behind a target"):
+        lines.debris([run])
+
+
 def test_the_command_draws_debris_and_refuses_options_of_other_kinds(run, tmp_path, capsys):
     for arguments, said in ((["--kind", "crater", "--log"], "are for --kind section, line and xt"),
                             (["--kind", "section", "--line", "0,0,0,1"], "--line is for --kind line and xt"),
