@@ -8,6 +8,9 @@ from hydro2d.errors import DeckError
 from hydro2d.mesh.sums import HALF
 from hydro2d.solver import tracers
 
+#: how far a surface may be from where it was in the cycle before, in cells
+NEAR = 2.0
+
 
 def surfaces(column: np.ndarray, edges: np.ndarray) -> list[tuple[float, int]]:
     """Coordinate and side of every end of a body on a line of cells, -1 where it begins and +1 where it ends.
@@ -31,7 +34,8 @@ def surfaces(column: np.ndarray, edges: np.ndarray) -> list[tuple[float, int]]:
 class Follower:
     """A point that stays on the surface of a body, on the line through its first place along r or z.
 
-    It takes the surface of the same side that is nearest to where it was. Where the line has none any more, it is nowhere.
+    It takes the surface of the same side that is nearest to where it was, NEAR cells away at most: material that breaks off
+    takes it along, and one that is used up leaves it nowhere, for good.
 
     Parameters
     ----------
@@ -61,9 +65,7 @@ class Follower:
         grid, inside = self._sim.grid, self.place.copy()
         if not np.isfinite(inside).all():
             return np.full(2, np.nan)
-        edges = (grid.r_edges, grid.z_edges)[self._axis]
-        cell = min(max(int(np.searchsorted(edges, inside[self._axis], "right")) - 1, 0), len(edges) - 2)
-        inside[self._axis] -= self._side * (edges[cell + 1] - edges[cell])
+        inside[self._axis] -= self._side * self._cell()
         return tracers.velocity_at(grid, self._sim.state, inside[None], self._group)[0]
 
     def _surfaces(self) -> list[tuple[float, int]]:
@@ -75,8 +77,17 @@ class Follower:
         fraction = grid.interior(self._sim.state.vof)[self._m]
         return surfaces(fraction[line] if self._axis == 0 else fraction[:, line], along)
 
+    def _cell(self) -> float:
+        """Size of the cell at the place, along the direction of the surface's motion, m."""
+        edges = (self._sim.grid.r_edges, self._sim.grid.z_edges)[self._axis]
+        cell = min(max(int(np.searchsorted(edges, self.place[self._axis], "right")) - 1, 0), len(edges) - 2)
+        return float(edges[cell + 1] - edges[cell])
+
     def follow(self) -> None:
         """Puts the place where the surface is now; to be called after every cycle."""
         here = self.place[self._axis]
-        ends = [at for at, side in self._surfaces() if side == self._side] if np.isfinite(here) else []
+        ends = []
+        if np.isfinite(here):
+            reach = NEAR * self._cell()
+            ends = [at for at, side in self._surfaces() if side == self._side and abs(at - here) <= reach]
         self.place[self._axis] = min(ends, key=lambda at: abs(at - here)) if ends else np.nan

@@ -106,6 +106,15 @@ def test_a_surface_that_has_gone_is_nowhere():
     assert sim.stations.measure()["gauge_rear"]["z_m"] is None
 
 
+def test_it_does_not_jump_to_another_surface():
+    """The rear of the target is cut off by five cells: the surface there is another one."""
+    sim = Simulation(decks.loads(DECK))
+    z = sim.grid.zc[sim.grid.inside[0]]
+    sim.grid.interior(sim.state.vof)[1][z > 3.5e-3] = 0.0
+    sim.stations.record()
+    assert sim.stations.measure()["gauge_rear"]["z_m"] is None
+
+
 def test_a_gauge_along_r():
     text = DECK.replace('geometry = "planar"', "").replace('shape = "plate"', 'shape = "plate"\nradius = "1.4 mm"')
     sim = Simulation(decks.loads(text, ["gauge.rear.along=r", "gauge.rear.r=0.9 mm", "gauge.rear.z=2 mm"]))
