@@ -169,3 +169,16 @@ def test_what_is_no_number_is_no_peak():
 def test_a_wrong_gauge_is_told(gauge, said):
     with pytest.raises(DeckError, match=said):
         decks.loads(DECK, [f"gauge=[{gauge}]"])
+
+
+def test_the_radii_of_the_ends_and_the_length_of_a_body(struck):
+    """A cone of cells, wide below; its length is that of its rows, and the length at the start is kept."""
+    sim = started(0, 'body.plate.thickness="10 mm"')
+    r, z = np.meshgrid(sim.grid.rc[sim.grid.inside[1]], sim.grid.zc[sim.grid.inside[0]])
+    sim.grid.interior(sim.state.vof)[0] = (z > 0.0) & (z < 8e-3) & (r < 10e-3 - z)
+    found = bodies.measure(sim)["ball"]
+    assert found["radius_at_z_min_m"] == pytest.approx(9.5e-3)
+    assert found["radius_at_z_max_m"] == pytest.approx(2e-3)
+    assert found["length_m"] == pytest.approx(8e-3)
+    assert found["initial_length_m"] == pytest.approx(10e-3, abs=0.2e-3)
+    assert bodies.measure(struck)["ball"]["length_m"] < found["initial_length_m"]
