@@ -77,7 +77,7 @@ class Simulation:
         self.time, self.cycle, self.dt, self.dt_cause = 0.0, 0, 1e-7, "rod at r = 0.5 mm, z = 0.5 mm: sound"
         places = np.array([[0.0, 0.0], [1e-3, 5e-3]])
         found = {f"tracer_{name}": {"r_m": r, "z_m": z} for name, (r, z) in zip(("nose", "deep"), places.tolist(), strict=True)}
-        self.columns = {}
+        self.columns, self.formulas = {}, {}
         self.stations = SimpleNamespace(tracers=places, measure=lambda: found)
         self._place()
 
@@ -108,9 +108,13 @@ class Simulation:
     def holes(self):
         return {}
 
+    def debris(self):
+        return {}
+
     def diagnostics(self) -> dict:
         return {
-            "penetration_depth_m": SPEED * self.time, "rod_length_m": LENGTH, "rod_mass_kg": 0.06,
+            "penetration_depth_m": SPEED * self.time, "penetration_over_length": SPEED * self.time / LENGTH,
+            "rod_length_m": LENGTH, "rod_mass_kg": 0.06,
             "rod_max_plastic_strain": float(self.state.ep.max()), "rod_tail_velocity_m_s": SPEED,
             "rod_nose_velocity_m_s": SPEED, "rod_mean_velocity_m_s": SPEED, "rod_kinetic_energy_J": 3e4,
             "rod_max_radius_m": RADIUS, "regime": "rigid" if self.time < STOP / 2 else "deforming",

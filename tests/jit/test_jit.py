@@ -89,7 +89,7 @@ def test_whatever_a_kernel_can_call_is_among_the_sources_of_its_cache(file):
 
 def test_constants_of_any_folder_are_among_the_sources():
     """A kernel of the solver once kept old columns: they stand in a file beside it, of which the hash did not know."""
-    assert "hydro2d/solver/station_columns.py" in seen_by("hydro2d/solver/tracers.py")
+    assert "hydro2d/mesh/station_columns.py" in seen_by("hydro2d/solver/tracers.py")
     assert "hydro2d/mesh/fields.py" in seen_by("hydro2d/kernels/remap.py")
     assert not {"hydro2d/__init__.py", "hydro2d/files.py", "hydro2d/api.py"} & seen_by("hydro2d/kernels/mixed.py")
 

@@ -10,8 +10,8 @@ from hydro2d.deck import deck as decks
 from hydro2d.output.outlines import outlines
 from hydro2d.output.vtk import Dump
 from hydro2d.results import figures
-from hydro2d.results.figures import FigureError
 from hydro2d.results.reading import Results
+from hydro2d.results.scales import FigureError
 from hydro2d.running.check import check
 from tests import fake
 from tests.decks import box, mesh, stop, table

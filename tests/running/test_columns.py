@@ -19,12 +19,13 @@ DECK = (
     + entry("tracer", name="tip", r=0.0, z="-1 mm")
     + entry("gauge", name="line", r="1 mm", z="1 mm", z_end="7 mm", points=3)
     + table("experiment", velocity="1000 m/s", penetration="1 cm", residual_velocity="0 m/s", source="none")
+    + '[derived]\n"P/L" = "depth / length0"\n'
     + table("stop", cycles=5)
     + table("output", history_interval="1 ns", vtk_interval="1 us")
 )
 NAMES = {
     "BODY": "rod|plate", "TARGET": "plate", "STATION": "tracer_tip|gauge_line_[123]", "SINK": "|".join(SINKS),
-    "TRANSFER": "|".join(audit.CONTACT_TRANSFERS),
+    "DERIVED": "P/L", "TRANSFER": "|".join(audit.CONTACT_TRANSFERS),
 }  # fmt: skip
 
 

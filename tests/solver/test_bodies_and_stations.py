@@ -8,12 +8,12 @@ import pytest
 
 from hydro2d.deck import deck as decks
 from hydro2d.errors import DeckError
-from hydro2d.mesh import quantities, sums
+from hydro2d.mesh import measured, quantities, station_columns, sums
 from hydro2d.output import derived
 from hydro2d.results.reading import Results
 from hydro2d.results.summaries import plausible
 from hydro2d.running.run import run
-from hydro2d.solver import bodies, rod_quantities, station_columns, tracers
+from hydro2d.solver import bodies, tracers
 from hydro2d.solver.simulation import Simulation
 from tests.decks import body, entry, mesh, plate, stop
 
@@ -64,9 +64,9 @@ def test_a_run_calls_the_ball_a_ball_and_gives_one_number_for_each_thing(tmp_pat
     summary = Results(tmp_path / "shot").summary
     shape, ball = summary["projectile"], summary["bodies"]["ball"]
     assert shape["body"] == "ball"
-    for old, new in rod_quantities.PROJECTILE.items():
+    for old, new in measured.PROJECTILE.items():
         assert summary[old] == shape[new], old
-    for old, new in rod_quantities.OF_EVERY_BODY.items():
+    for old, new in measured.OF_EVERY_BODY.items():
         assert summary[old] == pytest.approx((summary["bodies"]["plate"] if "target" in old else ball)[new], rel=1e-12), old
     assert 0.0 < 0.5 * ball["mass_kg"] * ball["velocity_m_s"] ** 2 < ball["kinetic_energy_J"]
     assert 0.0 < shape["length_m"] < 0.01
@@ -169,3 +169,16 @@ def test_what_is_no_number_is_no_peak():
 def test_a_wrong_gauge_is_told(gauge, said):
     with pytest.raises(DeckError, match=said):
         decks.loads(DECK, [f"gauge=[{gauge}]"])
+
+
+def test_the_radii_of_the_ends_and_the_length_of_a_body(struck):
+    """A cone of cells, wide below; its length is that of its rows, and the length at the start is kept."""
+    sim = started(0, 'body.plate.thickness="10 mm"')
+    r, z = np.meshgrid(sim.grid.rc[sim.grid.inside[1]], sim.grid.zc[sim.grid.inside[0]])
+    sim.grid.interior(sim.state.vof)[0] = (z > 0.0) & (z < 8e-3) & (r < 10e-3 - z)
+    found = bodies.measure(sim)["ball"]
+    assert found["radius_at_z_min_m"] == pytest.approx(9.5e-3)
+    assert found["radius_at_z_max_m"] == pytest.approx(2e-3)
+    assert found["length_m"] == pytest.approx(8e-3)
+    assert found["initial_length_m"] == pytest.approx(10e-3, abs=0.2e-3)
+    assert bodies.measure(struck)["ball"]["length_m"] < found["initial_length_m"]

@@ -7,7 +7,7 @@ from hydro2d.deck import deck
 from hydro2d.mesh import quantities
 from hydro2d.output import derived, snapshot
 from hydro2d.output.vtk import Dump
-from hydro2d.results import figures
+from hydro2d.results import figures, scales
 from hydro2d.running import check
 from hydro2d.solver import tracers
 from hydro2d.solver.method import Method
@@ -211,7 +211,7 @@ def test_fields_of_a_contact_are_written_only_there(contact):
 def test_velocities_of_a_contact_have_components(contact):
     set_velocities(contact, (5.0, 100.0), (7.0, 900.0))
     assert np.nanmax(figures.chosen(Dump.of(contact), "velocity_hard:z").values) == pytest.approx(900.0)
-    with pytest.raises(figures.FigureError, match="only velocity, velocity_hard, velocity_soft have components"):
+    with pytest.raises(scales.FigureError, match="only velocity, velocity_hard, velocity_soft have components"):
         figures.chosen(Dump.of(contact), "contact_pressure:z")
 
 

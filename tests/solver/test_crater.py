@@ -11,8 +11,8 @@ from hydro2d.deck import deck
 from hydro2d.deck.shapes import polygon
 from hydro2d.output import history
 from hydro2d.results import figures
-from hydro2d.results.figures import FigureError
 from hydro2d.results.reading import Results, ResultsError
+from hydro2d.results.scales import FigureError
 from hydro2d.running.run import run
 from hydro2d.solver.insertion import fractions
 from hydro2d.solver.simulation import Simulation

@@ -97,7 +97,7 @@ WRONG = [
      'search.toml:8: axis[0].name: "velocity" is the name of the axis that [transition] adds'),
     ('["ke", "momentum"]', '["ke"]\n[[exclude]]\nvelocity = "900 m/s"', 'exclude[0]: unknown axis "velocity"'),
     ('"problems/', '"problem/', "no such file"),
-    (BASE, "problems/verification/sod_z.toml", "search.toml:4: transition: sod_z.toml has no rod and target"),
+    (BASE, "problems/verification/sod_z.toml", "search.toml:4: transition: sod_z.toml has no projectile and target"),
 ]  # fmt: skip
 
 
@@ -335,7 +335,7 @@ def test_a_rod_that_left_a_short_mesh_has_no_regime_either(tmp_path):
     assert status == 0
     assert brackets(found)[0]["to eroding"] == (1300, 1350)
     runs = {run["velocity_m_s"]: run for run in found["combinations"][0]["runs"]}
-    assert (runs[1500]["regime"], runs[1500]["reason"]) == (None, "the rod left the mesh before it came to rest")
+    assert (runs[1500]["regime"], runs[1500]["reason"]) == (None, "the projectile left the mesh before it came to rest")
 
 
 def test_a_run_that_was_cut_short_is_told(tmp_path, capsys):
