@@ -22,9 +22,9 @@ ROUNDS = 3
 RUB_R, RUB_Z, RUBBED = range(3)
 #: rows of `nodes`: slot, group, row and column of a slave, what holds it, and the number of its vertex
 SLOT, GROUP, ROW, COLUMN, HELD, VERTEX = range(6)
-#: rows of `ties`, two for the components of each: impulse, residual, search direction, what the ties make of that, inverse of
-#: the diagonal
-IMPULSE, RESIDUAL, SEARCH, IMAGE, DIAGONAL = 0, 2, 4, 6, 8
+#: columns of `ties`, two for the components of each: impulse, residual, search direction, what the ties make of that, inverse of
+#: the diagonal; then the mass of the slave and the compliance of its tie
+IMPULSE, RESIDUAL, SEARCH, IMAGE, DIAGONAL, MASS, COMPLIANCE = 0, 2, 4, 6, 8, 10, 11
 
 
 @point
@@ -136,40 +136,38 @@ def mismatch(t, nodes, starts, entries, portions, u, v):
 
 
 @apart
-def image_of_search(tied, vertices, strength, nodes, starts, entries, portions, mass, ties, gain):
+def image_of_search(tied, vertices, nodes, starts, entries, portions, ties, gain):
     """What the search direction, as impulses, does to the mismatch: N M^-1 N^T p and the compliance; returns p . image.
 
-    Reads    ties [SEARCH, x, b]
-    Writes   ties [IMAGE, x, b];  scratch gain [n, c], velocities of the listed vertices
+    Reads    ties [t, SEARCH]
+    Writes   ties [t, IMAGE];  scratch gain [n, c], velocities of the listed vertices
     """
     for n in range(vertices):
         gain[n, 0] = 0.0
         gain[n, 1] = 0.0
     for t in range(tied):
-        x, g, own = nodes[SLOT, t], nodes[GROUP, t], nodes[VERTEX, t]
-        m = mass[g, nodes[ROW, t], nodes[COLUMN, t]]
-        p_r, p_z = ties[SEARCH, x, g], ties[SEARCH + 1, x, g]
-        gain[own, 0] += p_r / m
-        gain[own, 1] += p_z / m
+        own = nodes[VERTEX, t]
+        p_r, p_z = ties[t, SEARCH], ties[t, SEARCH + 1]
+        gain[own, 0] += p_r / ties[t, MASS]
+        gain[own, 1] += p_z / ties[t, MASS]
         for e in range(starts[t], starts[t + 1]):
             gain[entries[3, e], 0] -= portions[e, 2] * p_r
             gain[entries[3, e], 1] -= portions[e, 3] * p_z
     along_r, along_z = 0.0, 0.0
     for t in range(tied):
-        x, g, own = nodes[SLOT, t], nodes[GROUP, t], nodes[VERTEX, t]
+        own = nodes[VERTEX, t]
         a_r, a_z = gain[own, 0], gain[own, 1]
         for e in range(starts[t], starts[t + 1]):
             a_r -= portions[e, 0] * gain[entries[3, e], 0]
             a_z -= portions[e, 1] * gain[entries[3, e], 1]
         a_r = 0.0 if nodes[HELD, t] % 2 == 1 else a_r
         a_z = 0.0 if nodes[HELD, t] >= 2 else a_z
-        give_way = (1.0 / strength[x, g] - 1.0) / mass[g, nodes[ROW, t], nodes[COLUMN, t]]
-        a_r += give_way * ties[SEARCH, x, g]
-        a_z += give_way * ties[SEARCH + 1, x, g]
-        ties[IMAGE, x, g] = a_r
-        ties[IMAGE + 1, x, g] = a_z
-        along_r += ties[SEARCH, x, g] * a_r
-        along_z += ties[SEARCH + 1, x, g] * a_z
+        a_r += ties[t, COMPLIANCE] * ties[t, SEARCH]
+        a_z += ties[t, COMPLIANCE] * ties[t, SEARCH + 1]
+        ties[t, IMAGE] = a_r
+        ties[t, IMAGE + 1] = a_z
+        along_r += ties[t, SEARCH] * a_r
+        along_z += ties[t, SEARCH + 1] * a_z
     return along_r, along_z
 
 
@@ -178,47 +176,48 @@ def meet_ties(tied, vertices, constrained, strength, number, where, weights, mas
               gain, taken, transfer):
     """Brings all slaves to the velocities of their masters at once, by conjugate gradients from nothing.
 
-    Updates  u, v [b, j, i]; taken [c, x, b], impulses that slaves have given away;  scratch ties [10, x, b], gain [n, c]
+    Updates  u, v [b, j, i]; taken [c, x, b], impulses that slaves have given away;  scratch ties [t, 12], gain [n, c]
     """
     old_r, old_z = 0.0, 0.0
     for t in range(tied):
         x, g, j, i = nodes[SLOT, t], nodes[GROUP, t], nodes[ROW, t], nodes[COLUMN, t]
         ease_r, ease_z = masters_mobility(g, j, i, x, constrained, number, where, weights, mass)
-        own = 1.0 / (strength[x, g] * mass[g, j, i])
+        m = mass[g, j, i]
+        own = 1.0 / (strength[x, g] * m)
+        ties[t, MASS] = m
+        ties[t, COMPLIANCE] = (1.0 / strength[x, g] - 1.0) / m
         r_r, r_z = mismatch(t, nodes, starts, entries, portions, u, v)
         for c in range(2):
-            ties[IMPULSE + c, x, g] = 0.0
-            ties[DIAGONAL + c, x, g] = 1.0 / (own + (ease_r if c == 0 else ease_z))
-            ties[RESIDUAL + c, x, g] = r_r if c == 0 else r_z
-            ties[SEARCH + c, x, g] = ties[DIAGONAL + c, x, g] * ties[RESIDUAL + c, x, g]
-        old_r += ties[SEARCH, x, g] * r_r
-        old_z += ties[SEARCH + 1, x, g] * r_z
+            ties[t, IMPULSE + c] = 0.0
+            ties[t, DIAGONAL + c] = 1.0 / (own + (ease_r if c == 0 else ease_z))
+            ties[t, RESIDUAL + c] = r_r if c == 0 else r_z
+            ties[t, SEARCH + c] = ties[t, DIAGONAL + c] * ties[t, RESIDUAL + c]
+        old_r += ties[t, SEARCH] * r_r
+        old_z += ties[t, SEARCH + 1] * r_z
     enough_r, enough_z = TOLERANCE * TOLERANCE * old_r, TOLERANCE * TOLERANCE * old_z
     for _ in range(STEPS):
         if old_r <= enough_r and old_z <= enough_z:
             break
-        along_r, along_z = image_of_search(tied, vertices, strength, nodes, starts, entries, portions, mass, ties, gain)
+        along_r, along_z = image_of_search(tied, vertices, nodes, starts, entries, portions, ties, gain)
         step_r = old_r / along_r if old_r > enough_r else 0.0
         step_z = old_z / along_z if old_z > enough_z else 0.0
         new_r, new_z = 0.0, 0.0
         for t in range(tied):
-            x, g = nodes[SLOT, t], nodes[GROUP, t]
-            ties[IMPULSE, x, g] += step_r * ties[SEARCH, x, g]
-            ties[IMPULSE + 1, x, g] += step_z * ties[SEARCH + 1, x, g]
-            ties[RESIDUAL, x, g] -= step_r * ties[IMAGE, x, g]
-            ties[RESIDUAL + 1, x, g] -= step_z * ties[IMAGE + 1, x, g]
-            new_r += ties[DIAGONAL, x, g] * ties[RESIDUAL, x, g] * ties[RESIDUAL, x, g]
-            new_z += ties[DIAGONAL + 1, x, g] * ties[RESIDUAL + 1, x, g] * ties[RESIDUAL + 1, x, g]
+            ties[t, IMPULSE] += step_r * ties[t, SEARCH]
+            ties[t, IMPULSE + 1] += step_z * ties[t, SEARCH + 1]
+            ties[t, RESIDUAL] -= step_r * ties[t, IMAGE]
+            ties[t, RESIDUAL + 1] -= step_z * ties[t, IMAGE + 1]
+            new_r += ties[t, DIAGONAL] * ties[t, RESIDUAL] * ties[t, RESIDUAL]
+            new_z += ties[t, DIAGONAL + 1] * ties[t, RESIDUAL + 1] * ties[t, RESIDUAL + 1]
         again_r = new_r / old_r if old_r > enough_r else 0.0
         again_z = new_z / old_z if old_z > enough_z else 0.0
         for t in range(tied):
-            x, g = nodes[SLOT, t], nodes[GROUP, t]
-            ties[SEARCH, x, g] = ties[DIAGONAL, x, g] * ties[RESIDUAL, x, g] + again_r * ties[SEARCH, x, g]
-            ties[SEARCH + 1, x, g] = ties[DIAGONAL + 1, x, g] * ties[RESIDUAL + 1, x, g] + again_z * ties[SEARCH + 1, x, g]
+            ties[t, SEARCH] = ties[t, DIAGONAL] * ties[t, RESIDUAL] + again_r * ties[t, SEARCH]
+            ties[t, SEARCH + 1] = ties[t, DIAGONAL + 1] * ties[t, RESIDUAL + 1] + again_z * ties[t, SEARCH + 1]
         old_r, old_z = new_r, new_z
     for t in range(tied):
         x, g, j, i = nodes[SLOT, t], nodes[GROUP, t], nodes[ROW, t], nodes[COLUMN, t]
-        push_r, push_z = ties[IMPULSE, x, g], ties[IMPULSE + 1, x, g]
+        push_r, push_z = ties[t, IMPULSE], ties[t, IMPULSE + 1]
         give_tie(g, j, i, x, push_r, push_z, constrained, number, where, weights, mass, u, v, transfer)
         taken[0, x, g] += push_r
         taken[1, x, g] += push_z
@@ -326,7 +325,7 @@ def settle(parts, dt, friction, constrained, metrics, dz, contact_columns, line,
     Updates  u, v [b, j, i]; heat [b, j, i], J per kg of the group's mass at a vertex; adds to transfer[4, j]
     Writes   transfer[:4, j]: axial momentum that the soft group gains from the hard one, heat of the ties to the other group,
              of friction, and of under-filled nodes
-    Scratch  what list_ties writes; ties [10, x, b], gain [n, c]; taken [c, x, b], impulses that slaves have given away;
+    Scratch  what list_ties writes; ties [t, 12], gain [n, c]; taken [c, x, b], impulses that slaves have given away;
              rubbing [3, x]
     """
     j0, j1 = outer_rows(parts)

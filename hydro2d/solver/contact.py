@@ -43,7 +43,7 @@ def slots(number: int = 0) -> Ties:
         starts=np.zeros(2 * number + 1, dtype=np.int64),
         entries=np.zeros((4, most), dtype=np.int64),
         portions=np.zeros((most, 4)),
-        impulses=np.zeros((10, number, 2)),
+        impulses=np.zeros((2 * number, 12)),
         gain=np.zeros((most + 2 * number, 2)),
         taken=np.zeros((2, number, 2)),
         rubbing=np.zeros((3, number)),
