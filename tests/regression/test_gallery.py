@@ -22,6 +22,7 @@ OTHERWISE = {
 BARE = {
     "docs/how-to/index.md": "a list of pages",
     "docs/tutorials/index.md": "a list of pages",
+    "docs/tutorials/first-study.md": "its eight runs take twenty minutes of a core; the page that it writes has the pictures",
 }
 
 
@@ -74,7 +75,7 @@ def test_the_charts_of_studies_are_those_of_the_kept_results(docs, tmp_path):
 
 
 PAGES = [file for file in source.tracked_files() if file.suffix == ".md" and DOCS in file.parents
-         and file.parent.name in ("how-to", "tutorials", "docs")]  # fmt: skip
+         and file.parent in (DOCS, DOCS / "how-to", DOCS / "tutorials")]  # fmt: skip
 
 
 @pytest.mark.parametrize("file", PAGES, ids=lambda file: file.stem)
