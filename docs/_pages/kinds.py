@@ -40,7 +40,7 @@ class Kind:
             f"## {self.title}", "", f"![{self.title}](_static/{self.picture})", "", self.text, "",
             "```sh", *self.commands(), "```", "",
             "| | measured or expected | hydro2d |", "|---|---|---|", *rows, "",
-            f"The run takes {spoken(found['seconds'])}. The deck, as `hydro2d new {self.name}` writes it:", "",
+            f"The run takes {spoken(found['seconds'])}. The deck, as the first command writes it:", "",
             f"```{{literalinclude}} ../problems/templates/{self.name}.toml", ":language: toml", "```", "",
         ]  # fmt: skip
         return "\n".join(lines)

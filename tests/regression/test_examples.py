@@ -54,7 +54,7 @@ FILLED = {
     "hydro2d report DIRECTORY": "hydro2d report runs/velocity_advection",
     "hydro2d model NAME": "hydro2d model tate",
     "hydro2d info NAME": "hydro2d info johnson-cook",
-    "hydro2d new KIND": "hydro2d new taylor",
+    "hydro2d new KIND": "hydro2d new --list",
     "STUDY.toml": SWEEP,
     "runs/STUDY": "runs/velocity_advection",
     "FILE.png": "picture.png",
