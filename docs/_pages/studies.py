@@ -16,7 +16,9 @@ from hydro2d.study import cases
 from hydro2d.toml import is_study, problems_folder
 
 #: columns of kept results that are no axes begin with the first of these
-FIRST = ("nose", "status")
+FIRST = ("nose", "slenderness", "status")
+#: columns of what a run gave, and what the axis of the chart says
+VALUES = {"depth_cm": "depth [cm]", "depth_over_length": "depth / length", "value": "number of the shot / its median"}
 #: studies whose picture is another page's: (picture, the command that draws it)
 OTHERS = {
     "weldox_velocities": ("weldox.png", "python -m problems.perforation.residual runs/weldox_velocities --figure weldox.png"),
@@ -87,7 +89,7 @@ def _measured(study: Study) -> dict[str, float]:
 
 
 def _value(row: dict[str, str], scale: dict[str, float]) -> float | None:
-    text = row.get("depth_cm", row.get("value", ""))
+    text = next(row[name] for name in VALUES if name in row)
     return float(text) / scale.get(row.get("shot", ""), 1.0) if text else None
 
 
@@ -96,14 +98,15 @@ def chart(study: Study):
     axes = study.axes()
     across = next((name for name in ("shot", "velocity") if name in axes), axes[-1])
     others, measured = [name for name in axes if name != across], _measured(study)
-    scale = {} if "depth_cm" in study.results[0] else _medians(study.results)
+    value = next(name for name in VALUES if name in study.results[0])
+    scale = _medians(study.results) if value == "value" else {}
     labels = sorted({row[across] for row in study.results}, key=_order)
     figure, ((place,),) = figures.new_figure(8.0, 4.2, 1, 1)
     groups = list(dict.fromkeys(tuple(row[name] for name in others) for row in study.results))
     for number, group in enumerate(groups):
         rows = [row for row in study.results if tuple(row[name] for name in others) == group]
         shift = 0.5 * (number + 0.5) / len(groups) - 0.25
-        points = [(labels.index(row[across]) + shift, value) for row in rows if (value := _value(row, scale)) is not None]
+        points = [(labels.index(row[across]) + shift, found) for row in rows if (found := _value(row, scale)) is not None]
         place.plot([x for x, _ in points], [y for _, y in points], "os^vDP*X"[number % 8], markersize=4,
                    label=figures.verbatim(", ".join(group)) or None, color=f"C{number % 10}")  # fmt: skip
     shots = {(labels.index(row[across]), measured[row["case"]]) for row in study.results if row.get("case") in measured}
@@ -111,7 +114,7 @@ def chart(study: Study):
         place.plot([x for x, _ in shots], [y for _, y in shots], "D", markersize=9, markerfacecolor="none", color="black",
                    label="measured")  # fmt: skip
     place.set_xticks(range(len(labels)), [figures.verbatim(label) for label in labels], fontsize=7, rotation=30, ha="right")
-    place.set_ylabel("depth [cm]" if not scale else "number of the shot / its median", fontsize=8)
+    place.set_ylabel(VALUES[value], fontsize=8)
     if scale:
         place.set_ylim(0.8, 1.2)  # a block that is stuck in its hole, or not, lies outside
     place.tick_params(axis="y", labelsize=7)

@@ -160,7 +160,7 @@ def test_what_the_user_can_mend_is_one_line(text, tmp_path, monkeypatch, spoil, 
 def test_a_full_disk(simulation, monkeypatch, text, place):
     interrupted(simulation, monkeypatch, text, place, 50)
     with monkeypatch.context() as full:
-        full.setattr("hydro2d.running.progress.opened", lambda path, mode: open("/dev/full", mode))  # as on a full disk
+        full.setattr("hydro2d.running.reporting.opened", lambda path, mode: open("/dev/full", mode))  # as on a full disk
         outcome = run_case(place, text)
     assert outcome.status == "failed"
     assert outcome.message.startswith("the disk is full: ")

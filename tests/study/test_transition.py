@@ -90,7 +90,7 @@ WRONG = [
     ('"50 m/s"', '"50 m/s"\nkey = "body.rd.velocity"', 'toml:8: no deck has the key body.rd.velocity: body: unknown entry'),
     ('"50 m/s"', '"50 m/s"\nkey = "body.plate.thickness"', 'body[1].thickness: "900 m/s" is a velocity; expected a length'),
     ('"50 m/s"', '"50 m/s"\nkey = "body.rod.velocity"\n[set]\n"body.plate.velocity" = "-9 m/s"',
-     "search.toml:8: transition.key: with body.rod.velocity = 900 m/s the rod hits the target at 909 m/s"),
+     "search.toml:8: transition.key: with body.rod.velocity = 900 m/s the projectile hits the target at 909 m/s"),
     ('"numerics.advection"\nvalues = ["ke", "momentum"]', '"body.rod.velocity"\nvalues = [900, 1000]',
      'search.toml:8: axis "advection" sets body.rod.velocity, and the search varies body.rod.velocity'),
     ('name = "advection"', 'name = "velocity"',
@@ -497,7 +497,7 @@ def test_the_velocity_at_which_a_third_of_the_rod_is_used_up(tmp_path, capsys):
     assert len(client.submitted) <= 6
     shown = capsys.readouterr().out
     assert "a third of the length lost  1150 to 1200 m/s  kept at 1150 m/s, used up at 1200 m/s" in shown
-    assert "at least two thirds of the rod's length are left at the end" in shown
+    assert "at least two thirds of the projectile's length are left at the end" in shown
     assert "rigid to deforming" not in shown
 
 

@@ -41,6 +41,9 @@ def _base(name: str) -> dict:
     tables = {key: value for key, value in copy.deepcopy(deck._tables).items() if key not in ("experiment", "output", "name")}
     tables["stop"]["cycles"] = CYCLES
     r, z = decks.edges(deck)
+    if "cells_across" in tables["mesh"]:  # the segments that the two words stand for, so that they can be changed
+        tables["mesh"] = {key: value for key, value in tables["mesh"].items() if key not in ("across", "cells_across", "reach")}
+        tables["mesh"] |= {"r_start": float(r[0]), "z_start": float(z[0]), "r": _segments(r), "z": _segments(z)}
     if (len(r) - 1) * (len(z) - 1) > CELLS:
         z = _cut(deck, tables, z)
         coarser = max(math.sqrt((len(r) - 1) * (len(z) - 1) / CELLS), 1.0)
