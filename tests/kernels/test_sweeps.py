@@ -140,7 +140,7 @@ def test_what_has_failed_stays_so_and_bears_no_deviator():
 
 
 def test_what_is_too_little_to_divide_by_has_no_energy():
-    """A rod that was worn left 1e-305 of a cell: its energy per mass was infinite, and so was the energy that was tidied away."""
+    """A worn rod left 1e-305 of a cell: its energy per mass was infinite, and so was the energy that was tidied away."""
     cells, given = carried(*WAYS[0])
     cells.vof[...] *= 1e-310
     cells.flux_volume[...] *= 1e-310

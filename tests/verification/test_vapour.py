@@ -12,7 +12,7 @@ from tests.verification.running import ADVECTION, Line, advection, between, run
 
 ROW = tillotson.row(library.load("Al_tillotson").eos.values)
 U = 6000.0
-#: pressure and density of the plateau, and its energy: `ke` and `momentum` lose kinetic energy at strong shocks, as the audit says
+#: pressure and density of the plateau, and its energy: `ke` and `momentum` lose kinetic energy at strong shocks
 PLATEAU = {"both": (3e-3, 1e-2), "momentum": (1e-2, 6e-2), "ke": (2e-2, 7e-2)}
 
 
