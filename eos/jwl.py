@@ -1,12 +1,12 @@
 """Explosive: an unreacted solid that a burn fraction turns into detonation products after Jones, Wilkins and Lee (JWL).
 
-With V = rho0/rho, mu = rho/rho0 - 1, E = E0 + rho0 e the energy per initial volume, and the burn fraction F,
+With V = rho0/rho, mu = rho/rho0 - 1, E = rho0 e the energy per initial volume, and the burn fraction F,
 
     p = (1 - F) rho0 c0^2 mu + F p_JWL(V, E),
     p_JWL = A (1 - omega/(R1 V)) exp(-R1 V) + B (1 - omega/(R2 V)) exp(-R2 V) + omega E/V.
 
-The energy of the detonation, E0, is that of the model: e is zero in the unreacted solid at rest and falls below zero in products
-that have done work. F follows from a light time that a source of the deck gives to the material before the first step.
+The unreacted solid at rest has the energy of the detonation, e0 = E0/rho0, and products have what their work has left of it. F
+follows from a light time that a source of the deck gives to the material before the first step.
 """
 
 from __future__ import annotations
@@ -23,10 +23,10 @@ from hydro2d.parameters import NON_NEGATIVE, POSITIVE, REQUIRED, Parameter, coll
 NAME = "jwl"
 ID = 6
 EQUATION = """\
-p = (1 - F) rho0 c0^2 mu + F p_JWL(V, E),  V = rho0/rho,  mu = 1/V - 1,  E = E0 + rho0 e
+p = (1 - F) rho0 c0^2 mu + F p_JWL(V, E),  V = rho0/rho,  mu = 1/V - 1,  E = rho0 e
 p_JWL = A (1 - omega/(R1 V)) exp(-R1 V) + B (1 - omega/(R2 V)) exp(-R2 V) + omega E/V
 F = max(F, (t - t_light)/t_burn, beta (1 - V)/(1 - V_CJ)) up to 1
-T = (1 - F) (T0 + e/cv) + F (E - A/R1 exp(-R1 V) - B/R2 exp(-R2 V))/(rho0 cv)"""
+T = (1 - F) (T0 + (e - E0/rho0)/cv) + F (E - A/R1 exp(-R1 V) - B/R2 exp(-R2 V))/(rho0 cv)"""
 SOURCE = (
     "Lee, Finger & Collins, UCID-16189 (1973); burn fraction: Wilkins, and LS-DYNA's *MAT_HIGH_EXPLOSIVE_BURN [recalled]"
 )
@@ -42,10 +42,13 @@ PARAMETERS = (
     Parameter("R2", "", REQUIRED, "exponent of the second pressure", "R2", POSITIVE),
     Parameter("omega", "", REQUIRED, "Grueneisen parameter of the products", "omega", POSITIVE),
     Parameter("detonation_energy", "Pa", REQUIRED, "energy of the detonation per initial volume, J/m^3", "E0", POSITIVE),
-    Parameter("detonation_velocity", "m/s", REQUIRED, "speed of the detonation, as the constants have it within 1 %", "D", POSITIVE),
-    Parameter("cj_pressure", "Pa", REQUIRED, "Chapman-Jouguet pressure, as the constants have it within 1 %", "P_CJ", POSITIVE),
+    Parameter("detonation_velocity", "m/s", REQUIRED, "speed of the detonation; the constants must have it within 1 %", "D",
+              POSITIVE),
+    Parameter("cj_pressure", "Pa", REQUIRED, "Chapman-Jouguet pressure; the constants must have it within 1 %", "P_CJ",
+              POSITIVE),
     Parameter("sound_speed", "m/s", 2500.0, "bulk sound speed of the unreacted solid", "c0", POSITIVE),
-    Parameter("compression_burn", "", 1.0, "burn fraction by compression, as a share of (1 - V)/(1 - V_CJ)", "beta", NON_NEGATIVE),
+    Parameter("compression_burn", "", 0.0, "burn fraction by compression over (1 - V)/(1 - V_CJ); 0: by time alone", "beta",
+              NON_NEGATIVE),
     Parameter("specific_heat", "J/(kg*K)", 1000.0, "specific heat, for the temperature alone", "cv", POSITIVE),
     Parameter("reference_temperature", "K", 298.0, "temperature at rest", "T0", POSITIVE),
 )
@@ -56,11 +59,13 @@ INTERNAL = (
     Field("light_time", "", "body", "s", 1, "mass", True, "time at which the detonation arrives", 0.0, initial=NEVER),
     Field("burn_time", "", "body", "s", 1, "mass", True, "time from there until all has burnt", 0.0, initial=1.0),
 )
+#: internal variables of what the material becomes at most: products
+SPENT = 1.0, NEVER, 1.0
 #: places of the internal variables
 BURNT, LIGHT, BURN_TIME = range(3)
 
 #: slots of the row; the common ones are RHO0 and E0
-FIRST, SECOND, R1, R2, OMEGA, STORED, C0_SQUARED, COMPRESSED, HEAT, T0, SPEED = range(2, 13)
+FIRST, SECOND, R1, R2, OMEGA, C0_SQUARED, COMPRESSED, HEAT, T0 = range(2, 11)
 
 #: what D and P_CJ of the constants may miss of those stated
 TOLERANCE = 0.01
@@ -73,7 +78,7 @@ def products(rho, e, par):
     """(p, dp/drho at constant e, dp/de at constant rho, cold energy in J/m^3) of the products. explanation/explosives, (2)"""
     first, second = par[R1] * par[RHO0] / rho, par[R2] * par[RHO0] / rho
     a, b = par[FIRST] * exp(-first), par[SECOND] * exp(-second)
-    gas = par[OMEGA] * (par[STORED] / par[RHO0] + e)
+    gas = par[OMEGA] * e
     p = a * (1.0 - par[OMEGA] / first) + b * (1.0 - par[OMEGA] / second) + gas * rho
     dpdrho = (a * (first - par[OMEGA] - par[OMEGA] / first) + b * (second - par[OMEGA] - par[OMEGA] / second)) / rho + gas
     return p, dpdrho, par[OMEGA] * rho, a / par[R1] + b / par[R2]
@@ -81,13 +86,13 @@ def products(rho, e, par):
 
 @point
 def evaluate(rho, e, internal, par):
-    """(p, dp/drho, dp/de, T) at density ``rho`` > 0 and energy ``e``, the burn fraction held; SI. explanation/explosives, (1)"""
+    """(p, dp/drho, dp/de, T) at density ``rho`` > 0 and energy ``e``, the burn fraction held; SI. explanation/explosives (1)"""
     burnt = internal[BURNT]
     solid = 1.0 - burnt
     p, dpdrho, dpde, cold = products(rho, e, par)
     stiffness = par[C0_SQUARED]
-    hot = (par[STORED] - cold) / par[RHO0] + e
-    T = solid * max(par[T0] + e * par[HEAT], 0.0) + burnt * max(hot * par[HEAT], 0.0)
+    hot = e - cold / par[RHO0]
+    T = solid * max(par[T0] + (e - par[E0]) * par[HEAT], 0.0) + burnt * max(hot * par[HEAT], 0.0)
     return (solid * stiffness * (rho - par[RHO0]) + burnt * p, solid * stiffness + burnt * dpdrho, burnt * dpde, T)
 
 
@@ -112,7 +117,7 @@ def cj_state(par: np.ndarray) -> tuple[float, float, float]:
     def state(volume: float) -> tuple[float, float]:
         """(pressure on the Hugoniot, slope of the isentrope through it over that of the Rayleigh line, less 1)."""
         rho = rest / volume
-        cold, dpdrho, dpde, _ = products(rho, 0.0, par)
+        cold, dpdrho, dpde, _ = products(rho, par[E0], par)
         heat = 0.5 * (1.0 - volume) / rest
         p = cold / (1.0 - dpde * heat)
         dpdrho += par[OMEGA] * p * heat
@@ -136,14 +141,15 @@ def row(values) -> np.ndarray:
     """
     given = collect(NAME, PARAMETERS, values)
     par = np.zeros(ROW)
-    par[RHO0], par[E0] = given["reference_density"], 0.0
+    par[RHO0], par[E0] = given["reference_density"], given["detonation_energy"] / given["reference_density"]
     par[FIRST], par[SECOND], par[R1], par[R2] = given["A"], given["B"], given["R1"], given["R2"]
-    par[OMEGA], par[STORED], par[C0_SQUARED] = given["omega"], given["detonation_energy"], given["sound_speed"] ** 2
-    par[HEAT], par[T0], par[SPEED] = 1.0 / given["specific_heat"], given["reference_temperature"], given["detonation_velocity"]
+    par[OMEGA], par[C0_SQUARED] = given["omega"], given["sound_speed"] ** 2
+    par[HEAT], par[T0] = 1.0 / given["specific_heat"], given["reference_temperature"]
     speed, pressure, volume = cj_state(par)
     if abs(speed / given["detonation_velocity"] - 1.0) > TOLERANCE or abs(pressure / given["cj_pressure"] - 1.0) > TOLERANCE:
         raise ValueError(
             f"{NAME}: the constants contradict each other: detonation_velocity = {given['detonation_velocity']:g} m/s and "
-            f"cj_pressure = {given['cj_pressure']:g} Pa are stated, {speed:.5g} m/s and {pressure:.5g} Pa follow from the others")
+            f"cj_pressure = {given['cj_pressure']:g} Pa are stated, {speed:.5g} m/s and {pressure:.5g} Pa follow from the rest"
+        )
     par[COMPRESSED] = given["compression_burn"] / (1.0 - volume)
     return par

@@ -278,6 +278,11 @@ def unsupported(deck: Deck) -> Iterator[tuple[tuple, str]]:
                 ("sliding", "yield_factor"),
                 f'"{deck.sliding.yield_factor}" needs a hard body with a radius; give a number or "off"',
             )
+    for number, entry in enumerate(deck.source):
+        if misfit := entry.misfit(deck.materials[body(deck, entry.body).material]):
+            yield ("source", number, "body"), misfit
+        if entry.kind == "detonation" and deck.mesh.follow is not None:
+            yield ("source", number, "kind"), "a detonation lights what lies in the mesh at the start; mesh.follow brings in more"
     if (deck.stop.speed_below is not None or deck.stop.rebound) and deck.stop.body is None:
         yield ("stop", "body"), "is missing: the name of the body whose speed is watched"
     if deck.stop.perforation and deck.penetration is None:

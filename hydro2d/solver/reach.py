@@ -58,7 +58,7 @@ class Reach(NamedTuple):
 
 
 class Material(NamedTuple):
-    """Equation of state of one body, with its internal variables as they are at first, density, kg/m^3, and energy, J/kg."""
+    """Equation of state of one body, with its internal variables, density, kg/m^3, and energy, J/kg."""
 
     model: int
     par: np.ndarray
@@ -123,12 +123,12 @@ def _highest(deck, pressures: list[float]) -> float:
 
 
 def _hottest(deck, table) -> list[Material]:
-    """The materials of the slots, each in the state of the hottest body that is in it."""
+    """The materials of the slots, each in the state of the hottest body that is in it; explosives have burnt."""
     found: dict[int, Material] = {}
     for body, m in zip(deck.body, slot_of(deck, table), strict=True):
         rho, e = body_state(body, table, m)
         if m not in found or e > found[m].e:
-            found[m] = Material(int(table.eos_model[m]), table.eos_par[m], table.virgin(m), rho, e)
+            found[m] = Material(int(table.eos_model[m]), table.eos_par[m], table.spent(m), rho, e)
     return [found[m] for m in range(len(table))]
 
 
