@@ -111,12 +111,15 @@ def _gases(deck: Deck) -> Iterator[str]:
 
 
 def _duds(deck: Deck) -> Iterator[str]:
-    """Explosives that nothing lights."""
+    """Explosives that nothing lights, and detonations too weak because the remap discards kinetic energy."""
     lit = {entry.body for entry in deck.source if entry.kind == "detonation"}
     for entry in deck.body:
         name = deck.materials[entry.material].eos.name
         if name in EXPLOSIVES and entry.join is None and entry.name not in lit:
             yield f'body "{entry.name}": an explosive without a source of kind "detonation"; no time lights it'
+    if lit and deck.numerics.advection != "both":
+        yield (f'numerics.advection is "{deck.numerics.advection}", which discards kinetic energy at the detonation: pressures '
+               'behind it are too low; choose "both"')
 
 
 def _no_failure(deck: Deck) -> Iterator[str]:

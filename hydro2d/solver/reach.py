@@ -86,7 +86,7 @@ def of(deck, table, state, start) -> Reach:
     speed = closing_speed(deck, state.grid) + math.sqrt(2.0 * float(mass @ free) / max(float(mass.sum()), 1e-300))
     pressure = _highest(deck, [stagnation(one, speed)[2] for one in materials])
     highest = np.array([hottest(one, speed, pressure) for one in materials])
-    lowest = np.array([min(coldest(one), one.e) for one in materials])
+    lowest = np.array([min(coldest(one), one.e - given_away) for one, given_away in zip(materials, free, strict=True)])
     first, density = (np.array([getattr(one, name) for one in materials]) for name in ("e", "rho"))
     noise = AT_REST * 0.5 * speed**2 + OF_SOUND * table.sound_speeds() ** 2
     shear = np.where(table.strength_model > 0, table.strength_par[:, SHEAR], 0.0)

@@ -9,14 +9,14 @@ import numpy as np
 from pydantic import BeforeValidator, Field, WithJsonSchema
 
 from hydro2d import units
-from hydro2d.deck.base import PositiveSpeed
+from hydro2d.deck.base import PositiveNumber, PositiveSpeed
 from hydro2d.errors import DeckError
 from hydro2d.sources.base import Reached, Source
 
 #: equations of state that a detonation can burn, by name
 EXPLOSIVES = ("jwl",)
 #: cell widths over which the detonation burns the material of a cell
-WIDTHS = 1.5
+WIDTHS = 2.5
 #: share of a cell that must lie within the reach of the source
 HALF = 0.5
 #: most points of one detonation
@@ -58,6 +58,7 @@ class Detonation(Source):
         description="table of [r, z, time] at which the detonation begins; beside the axis of an r-z mesh a point is a ring",
         examples=[[["0 mm", "0 mm", "0 us"]]],
     )
+    widths: PositiveNumber = Field(WIDTHS, description="cell widths over which the detonation burns the explosive")
     speed: PositiveSpeed | None = Field(
         None, description="speed of the detonation; default: detonation_velocity of the explosive", examples=["6930 m/s"])
 
@@ -78,10 +79,10 @@ class Detonation(Source):
         light = reached.arrival(np.array(self.points), speed)
         before, lit = reached.variables["light_time"], np.isfinite(light)
         there = (reached.share > 0.0) & (self.share(grid) >= HALF)
-        cells = WIDTHS * np.minimum.outer(np.diff(grid.z_edges), np.diff(grid.r_edges)) / speed
+        duration = self.widths * np.minimum.outer(np.diff(grid.z_edges), np.diff(grid.r_edges)) / speed
         first = there & lit & (light < before)
         before[first] = light[first]
-        reached.variables["burn_time"][first] = cells[first]
+        reached.variables["burn_time"][first] = duration[first]
         dark = float(np.sum(reached.mass[there & ~lit]) / max(np.sum(reached.mass), 1e-300))
         return [f'source "{self.name}": no detonation reaches {dark:.2%} of body "{self.body}", which does not burn'
                 ] if dark > 0.0 else []
