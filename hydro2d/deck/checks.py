@@ -282,7 +282,7 @@ def unsupported(deck: Deck) -> Iterator[tuple[tuple, str]]:
         if misfit := entry.misfit(deck.materials[body(deck, entry.body).material]):
             yield ("source", number, "body"), misfit
         if entry.kind == "detonation" and deck.mesh.follow is not None:
-            yield ("source", number, "kind"), "a detonation lights what lies in the mesh at the start; mesh.follow brings in more"
+            yield ("source", number, "kind"), "a detonation lights what is in the mesh at the start; mesh.follow brings in more"
     if (deck.stop.speed_below is not None or deck.stop.rebound) and deck.stop.body is None:
         yield ("stop", "body"), "is missing: the name of the body whose speed is watched"
     if deck.stop.perforation and deck.penetration is None:

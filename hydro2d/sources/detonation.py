@@ -58,7 +58,8 @@ class Detonation(Source):
         description="table of [r, z, time] at which the detonation begins; beside the axis of an r-z mesh a point is a ring",
         examples=[[["0 mm", "0 mm", "0 us"]]],
     )
-    widths: PositiveNumber = Field(WIDTHS, description="cell widths over which the detonation burns the explosive")
+    widths: PositiveNumber = Field(WIDTHS, description="cell widths over which the detonation burns the explosive",
+                                   examples=[2.5])
     speed: PositiveSpeed | None = Field(
         None, description="speed of the detonation; default: detonation_velocity of the explosive", examples=["6930 m/s"])
 

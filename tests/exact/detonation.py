@@ -32,6 +32,8 @@ class Taylor:
             middle = sound(*half)
             rho, u, p = rho * (1.0 + step), u + step * rho / half[0] * middle, p + step * rho / half[0] * half[0] * middle**2
             rows.append((rho, u, p, u + sound(rho, p)))
+        last, before = np.array(rows[-1]), np.array(rows[-2])
+        rows[-1] = tuple(before + before[1] / (before[1] - last[1]) * (last - before))  # where u is zero
         self.rho, self.u, self.p, self.x_over_t = np.array(rows[::-1]).T
 
     def at(self, x, time: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

@@ -13,7 +13,10 @@ SPEED = 8.0
 
 
 def arrival(points, n, inert=None):
-    """(r [1, i], z [j, 1], times, share of explosive) on 0 < r < 8, -8 < z < 8 of n by 2 n cells; inert(r, z) : the obstacle."""
+    """(r [1, i], z [j, 1], times, share of explosive) on 0 < r < 8, -8 < z < 8 of n by 2 n cells.
+
+    inert(r, z) : where the obstacle is
+    """
     r_edges, z_edges = np.linspace(0.0, 8.0, n + 1), np.linspace(-8.0, 8.0, 2 * n + 1)
     share = np.ones((2 * n, n))
     if inert is not None:
