@@ -17,7 +17,7 @@ import numpy as np
 
 from eos import solid
 from eos.layout import E0, LONG_ROW, RHO0, SOLID_AT
-from hydro2d.jit import point
+from hydro2d.jit import late, point
 from hydro2d.mesh.fields import Field
 from hydro2d.parameters import POSITIVE, REQUIRED, Parameter, collect
 
@@ -69,7 +69,7 @@ def solid_density(rho, distention, par):
     return par[SOLID_RHO] * compression ** (h * h), h * h
 
 
-@point
+@late
 def evaluate(rho, e, internal, par):
     """(p, dp/drho at constant e, dp/de at constant rho, T) at density ``rho`` > 0 and specific energy ``e``; SI.
 
@@ -91,7 +91,7 @@ def crushed(p, par):
     return 1.0 + (par[DISTENTION] - 1.0) * left ** par[EXPONENT]
 
 
-@point
+@late
 def excess(rho, e, distention, par):
     """(how far the distention is above the crush curve, pressure in Pa), of material that would have ``distention`` at rest."""
     rho_s, _ = solid_density(rho, distention, par)
@@ -99,7 +99,7 @@ def excess(rho, e, distention, par):
     return rho_s / rho - crushed(p, par), p
 
 
-@point
+@late
 def update(rho0, rho, e, dep, work, damage0, damage, released, time, dt, par, internal):
     """Crushes the pores until the distention is on the crush curve at density ``rho`` and energy ``e``, or all are closed.
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 import functools
 import math
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 
 #: names of quantities by their SI unit
 KINDS = {
@@ -168,6 +168,18 @@ def to_si(value, unit: str) -> float:
     if not math.isfinite(number):
         raise ValueError(f"{value!r} is not finite; {_expected(unit)}")
     return number
+
+
+def of_kinds(text: str, kinds: Iterable[str]) -> tuple[float, str]:
+    """SI value of a string with a unit of one of several kinds, and that SI unit, one of ``kinds``. Raises ValueError."""
+    match = _NUMBER.match(text)
+    known, _ = COMMON.get(match.group(2), ("", 0.0)) if match else ("", 0.0)
+    for unit in [known] if known in kinds else kinds:
+        try:
+            return to_si(text, unit), unit
+        except ValueError:
+            continue
+    raise ValueError(f'"{text}" is not a quantity; expected a number with a unit, such as "8 mm"')
 
 
 def from_si(value: float, si_unit: str, unit: str) -> float:

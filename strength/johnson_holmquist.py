@@ -93,11 +93,12 @@ def check_with(values: Mapping[str, float], pressure) -> None:
 
     pressure : function from mu = rho/rho0 - 1 to the pressure without heat, Pa
     """
-    from scipy.optimize import brentq
-
-    hel, shear = values["HEL"], values["shear_modulus"]
-    mu = brentq(lambda x: pressure(x) + 4.0 / 3.0 * shear * x / (1.0 + x) - hel, 0.0, 1.0)
-    found = pressure(mu)
+    hel, shear, low, high = values["HEL"], values["shear_modulus"], 0.0, 1.0
+    for _ in range(60):
+        mu = 0.5 * (low + high)
+        below = pressure(mu) + 4.0 / 3.0 * shear * mu / (1.0 + mu) < hel
+        low, high = (mu, high) if below else (low, mu)
+    found = pressure(low)
     if abs(found - values["P_HEL"]) > CONSISTENT * values["P_HEL"]:
         raise ValueError(f"{NAME}: P_HEL = {values['P_HEL']:g} Pa, but HEL = {hel:g} Pa, the shear modulus and the equation of "
                          f"state give {found:g} Pa: the constants contradict each other")

@@ -88,7 +88,7 @@ def next_trial(first, seq, stiffness, x, u, Y, low, high, u_before, Y_before, be
 
 
 @point
-def plastic_increment(model, seq, ep, dt, T, p, rho, G, factor, par, damage=0.0):
+def plastic_increment(model, seq, ep, dt, T, p, rho, G, factor, par, damage):
     """(dep, Y): increment of plastic strain over ``dt``, and the flow stress it ends on, Pa.
 
     ``seq`` von Mises stress of the elastic trial, ``ep`` plastic strain, ``T``, ``p`` and ``rho`` temperature, pressure

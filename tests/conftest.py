@@ -1,14 +1,39 @@
-"""Every worker of pytest-xdist computes on one thread: two teams of threads on the same cores wait for one another."""
+"""What tests of several folders need."""
 
 import os
+import sys
+from types import SimpleNamespace
 
 import pytest
 
 from hydro2d import jit
+from tests import fake
+from tests.browser import browser  # noqa: F401
 
 
 @pytest.fixture(autouse=True)
 def one_thread_for_a_worker():
-    """A test that asks for more threads has them."""
+    """Every worker of pytest-xdist computes on one thread: two teams of threads on the same cores wait for one another.
+
+    A test that asks for more threads has them.
+    """
     if "PYTEST_XDIST_WORKER" in os.environ:
         jit.set_threads(1)
+
+
+@pytest.fixture
+def simulation(monkeypatch):
+    """The fake simulation in the place of the real one; the class is the test's own."""
+    own = type("Simulation", (fake.Simulation,), {})
+    module = SimpleNamespace(Simulation=own)
+    monkeypatch.setitem(sys.modules, "hydro2d.solver.simulation", module)
+    return own
+
+
+@pytest.fixture
+def finished(simulation, tmp_path):
+    """The directory of a fake run that has ended."""
+    from hydro2d.running.run import run
+
+    run(fake.FakeDeck(), tmp_path / "shot", quiet=True)
+    return tmp_path / "shot"

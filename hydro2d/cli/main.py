@@ -17,6 +17,7 @@ from hydro2d.cli.check_model import check_model
 from hydro2d.cli.curve import curve
 from hydro2d.cli.diverge import diverge
 from hydro2d.cli.ensemble import By, Chosen, Member, Repeats, Seed, converge, run_all
+from hydro2d.cli.fit_strength import fit_strength
 from hydro2d.cli.model import model
 from hydro2d.cli.report import report
 from hydro2d.cli.status import status
@@ -30,7 +31,7 @@ WRONG_INPUT, REFUSED = 2, 4
 app = App(
     name="hydro2d",
     version=__version__,
-    help="A two-dimensional axisymmetric Eulerian hydrocode for rod-into-plate impact.",
+    help="A two-dimensional axisymmetric Eulerian hydrocode for impact: rods, balls and plates.",
     help_format="plaintext",
     suppress_keyboard_interrupt=False,  # `call` knows by which signal a command ends
     help_epilogue="Exit status: 0 success; 2 wrong deck or arguments; 3 unphysical state or failed cases; 4 refused by the "
@@ -41,6 +42,7 @@ app.command(check_model)
 app.command(converge)
 app.command(curve)
 app.command(diverge)
+app.command(fit_strength)
 app.command(model)
 app.command(report)
 app.command(status)
@@ -54,7 +56,8 @@ USER_ERRORS = (
     ("errors", "DeckError"), ("files", "LockError"), ("strange", "StrangeFile"), ("penetration.model", "InputError"),
     ("output.snapshot", "SnapshotError"), ("output.history", "HistoryError"), ("output.vtk", "VtkError"),
     ("mesh.quantities", "FieldError"), ("running.run", "RunError"), ("results.reading", "ResultsError"),
-    ("results.figures", "FigureError"), ("results.viewer.fields", "ViewError"),
+    ("results.scales", "FigureError"), ("results.viewer.fields", "ViewError"),
+    ("results.terminal_charts", "ChartError"),
     ("study.definition", "StudyError"),
 )
 
@@ -164,7 +167,7 @@ def run(
 def check(
     deck: Path, *, set_: Overrides = None, threads: Count | None = None, picture: Path | None = None,
 ) -> int:
-    """Validates a deck and summarises it: mesh, masses, cells across the rod, cost and memory.
+    """Validates a deck and summarises it: mesh, masses, cells across rods and balls, cost and memory.
 
     Example: hydro2d check problems/cth_nose_shape/hemi_5083_1086.toml --picture start.png
 
@@ -226,23 +229,50 @@ def _window(text: str | None) -> tuple[float, float, float] | None:
     return z0, z1, r1
 
 
+def _refuse_scale(kind: str, scaled: bool, line: bool) -> None:
+    """Raises UsageError for options that a kind of picture has no use for."""
+    if scaled and kind not in ("section", "line", "xt"):
+        raise UsageError(f"--colours, --clip, --log and --map are for --kind section, line and xt, not for {kind}")
+    if line and kind not in ("line", "xt"):
+        raise UsageError(f"--line is for --kind line and xt, not for {kind}")
+
+
+def _line(text: str | None):
+    """The line of an argument (lines.Line), None for the axis."""
+    from hydro2d.results.lines import Line
+
+    if text is None:
+        return None
+    parts = [quantity(part.strip(), "m", "--line") for part in text.split(",")]
+    if len(parts) != 4 or parts[:2] == parts[2:]:
+        raise UsageError(f'--line "{text}": expected two points r0,z0,r1,z1, such as "1 mm,-2 cm,1 mm,8 cm"')
+    return Line(*parts)
+
+
 @app.command
 def plot(
     runs: list[Path],
     *,
     out: Out,
-    kind: Literal["section", "history", "cutaway", "crater"] = "section",
+    kind: Literal["section", "history", "line", "xt", "crater", "debris", "cutaway"] = "section",
     field: str = "pressure",
     mirror: str | None = None,
     time: Annotated[list[str] | None, Parameter(negative="")] = None,
     window: Annotated[str | None, Parameter(allow_leading_hyphen=True)] = None,
     quantity: Annotated[list[str] | None, Parameter(negative="")] = None,
+    line: Annotated[str | None, Parameter(allow_leading_hyphen=True)] = None,
+    colours: Annotated[str | None, Parameter(allow_leading_hyphen=True)] = None,
+    clip: float = 0.0,
+    log: Annotated[bool, Parameter(negative="")] = False,
+    map_: Annotated[str | None, Parameter(name="--map")] = None,
 ) -> int:
-    """Draws runs as sections, histories, holes in their targets, or a three-dimensional cut-away.
+    """Draws runs as sections, histories, values along a line, holes in their targets, debris, or a cut-away.
 
     Sections are mirrored at the axis, and on a planar mesh at a wall that stands at r = 0; others are drawn as they are.
 
     Example: hydro2d plot runs/a runs/b -o both.png --field von_mises --mirror material --time "80 us"
+
+    Example: hydro2d plot runs/a -o waves.png --kind xt --field pressure --clip 1
 
     Parameters
     ----------
@@ -251,7 +281,8 @@ def plot(
     out
         Picture file; its suffix sets the format.
     kind
-        What to draw.
+        What to draw. line: a field along a line, a curve for each run and time; xt: a field along a line, in colours over place
+        and time; crater: the holes in the targets; debris: what flies behind them.
     field
         Field, or that of the upper half, as `hydro2d info` names it; velocity:z for a component, body_temperature:rod for one
         body.
@@ -263,12 +294,25 @@ def plot(
         Part of the mesh to show, z0,z1,r1, such as "-2 cm,8 cm,2 cm".
     quantity
         Column of the history; can be repeated.
+    line
+        Line of --kind line and xt, r0,z0,r1,z1, such as "1 mm,-2 cm,1 mm,8 cm"; default: the axis.
+    colours
+        Range of the field, low,high, in the unit of the colour bar; default: that of what is shown.
+    clip
+        Per cent of the cells whose values may lie beyond each end of the range, so that a few do not take all colours.
+    log
+        Logarithmic scale of the field; what is not positive has no colour.
+    map_
+        Colour map of matplotlib, such as magma; default: viridis, and blue to red for fields with negative values.
     """
     import_matplotlib()
-    from hydro2d.results import figures
+    from hydro2d.results import figures, lines
     from hydro2d.results.reading import Results
+    from hydro2d.results.scales import Scale
 
     opened, times = [Results(path) for path in runs], _times(time)
+    scale, limits = Scale(clip, log, map_), _range(colours)
+    _refuse_scale(kind, scale != Scale() or limits is not None, line is not None)
     if kind == "cutaway":
         if len(opened) != 1 or len(times) != 1 or out.suffix != ".png":
             raise UsageError("--kind cutaway draws one run at one time, as a .png")
@@ -279,8 +323,15 @@ def plot(
         figures.save(figures.histories(opened, quantity or figures.HISTORIES), out)
     elif kind == "crater":
         figures.save(figures.craters(opened), out)
+    elif kind == "debris":
+        figures.save(lines.debris(opened), out)
+    elif kind == "line":
+        figures.save(lines.line_outs(opened, field, _line(line), times, limits=limits, scale=scale), out)
+    elif kind == "xt":
+        figures.save(lines.space_time(opened, field, _line(line), limits=limits, scale=scale), out)
     else:
-        figures.save(figures.sections(opened, field, mirror=mirror, times=times, window=_window(window)), out)
+        figures.save(figures.sections(opened, field, mirror=mirror, times=times, window=_window(window), limits=limits,
+                                      scale=scale), out)  # fmt: skip
     say(f"wrote {out}")
     return 0
 

@@ -18,6 +18,7 @@ def report(
     y: Annotated[list[str] | None, Parameter(negative="")] = None,
     by: Annotated[list[str] | None, Parameter(negative="")] = None,
     movie: str | None = None,
+    view: Annotated[bool, Parameter(negative="")] = False,
     trust: Trust = False,
 ) -> int:
     """Writes a report of a study or of runs: one HTML page with figures that zoom, a table as CSV and pictures as PNG.
@@ -40,6 +41,8 @@ def report(
         What distinguishes the series of runs, named as for --x; can be repeated; default: everything else that is varied.
     movie
         Field to show in a small film of each run with dumps, as `hydro2d movie` makes; takes seconds to minutes per run.
+    view
+        Makes the page of `hydro2d view` for each run with dumps. The report links to those that there are, in any case.
     trust
         Runs the code of models from outside that the decks of the runs carry, for the analytic models. Only for runs whose
         origin you know.
@@ -47,5 +50,5 @@ def report(
     import_matplotlib()
     from hydro2d.study.report import report as write
 
-    write(directories, out, x=x, y=y or (), by=by or (), movie=movie, trust=trust)
+    write(directories, out, x=x, y=y or (), by=by or (), movie=movie, view=view, trust=trust)
     return 0

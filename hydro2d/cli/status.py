@@ -2,27 +2,104 @@
 
 from __future__ import annotations
 
+import shutil
+import sys
+import time
 from pathlib import Path
+from typing import Annotated
 
+from cyclopts import Parameter
+
+from hydro2d.cli.base import import_matplotlib
 from hydro2d.terminal import say
 
+#: seconds between two looks at a run that is going on
+SECONDS = 2.0
 
-def status(run: Path) -> int:
+
+def status(
+    run: Path,
+    *,
+    quantity: Annotated[list[str] | None, Parameter(negative="")] = None,
+    plot: bool | None = None,
+    watch: bool | None = None,
+) -> int:
     """Says where a run stands: time, what will end it and when, depth, dumps. A study has `hydro2d sweep STUDY --status`.
 
-    Example: hydro2d status runs/a
+    On a terminal it draws histories as well, and looks again every two seconds while the run goes on.
+
+    Example: hydro2d status runs/a --quantity penetration_depth_m --quantity interface_velocity_m_s
 
     Parameters
     ----------
     run
         Run directory, of a run that has ended or is under way.
+    quantity
+        Column of the history to draw; can be repeated; default: depth and tail velocity of the projectile, or velocity and
+        extent of the first body.
+    plot
+        Draws histories with characters, which needs plotext; default: on a terminal, where plotext is installed.
+    watch
+        Looks again every two seconds until the run has ended; default: on a terminal.
     """
-    from hydro2d.results import standing
+    import_matplotlib()
+    from hydro2d.results import terminal_charts
+    from hydro2d.study.layout import RUNNING
+
+    terminal = sys.stdout.isatty()
+    drawn = bool(quantity) or (terminal and terminal_charts.available()) if plot is None else plot
+    found, state = _look(run, quantity, drawn)
+    if state != RUNNING or not (terminal if watch is None else watch):
+        _show(found)
+    elif terminal:
+        _live(run, quantity, drawn)
+    else:
+        while state == RUNNING:
+            _show(found)
+            time.sleep(SECONDS)
+            found, state = _look(run, quantity, drawn)
+        _show(found)
+    if terminal and not drawn and plot is None:
+        say(terminal_charts.MISSING)
+    return 0
+
+
+def _look(run: Path, quantity: list[str] | None, drawn: bool) -> tuple[tuple[list[str], list[str]], str]:
+    """The lines and the charts of a run, and its state."""
+    from hydro2d.results import standing, terminal_charts
     from hydro2d.results.reading import Results
+    from hydro2d.running.run import HISTORY
     from hydro2d.study import layout
 
     opened = Results(run)
     (case,) = layout.gather([run]).cases
-    for line in standing.lines(opened, case.status, case.message, case.progress):
-        say(line)
-    return 0
+    lines = standing.lines(opened, case.status, case.message, case.progress)
+    charts: list[str] = []
+    if drawn and (opened.directory / HISTORY).exists():
+        charts = terminal_charts.charts(opened, quantity or terminal_charts.chosen(opened), shutil.get_terminal_size().columns)
+    return (lines, charts), case.status
+
+
+def _show(found: tuple[list[str], list[str]]) -> None:
+    """Prints lines and charts."""
+    for line in (*found[0], *found[1]):
+        say(line, flush=True)
+
+
+def _live(run: Path, quantity: list[str] | None, drawn: bool) -> None:
+    """Shows a run in place until it has ended."""
+    from rich.console import Group
+    from rich.live import Live
+    from rich.text import Text
+
+    from hydro2d.study.layout import RUNNING
+    from hydro2d.terminal import one_line
+
+    state = RUNNING
+    with Live(auto_refresh=False, vertical_overflow="visible") as live:
+        while True:
+            (lines, charts), state = _look(run, quantity, drawn)
+            live.update(Group(*(Text(one_line(line)) for line in (*lines, *charts))), refresh=True)
+            if state != RUNNING:
+                return
+            time.sleep(SECONDS)

@@ -7,7 +7,7 @@ import operator
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import partial
-from typing import Annotated, Any
+from typing import Annotated, Any, cast
 
 from annotated_types import GroupedMetadata
 from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, WithJsonSchema
@@ -44,8 +44,8 @@ class Section(BaseModel):
 
 def one_of(kinds: Mapping[str, type[Section]], key: str) -> Any:
     """The type of a table that is one of several kinds of sections, which the word of a key tells apart."""
-    union = functools.reduce(operator.or_, kinds.values())
-    return Annotated.__class_getitem__((union, Field(discriminator=key))) if len(kinds) > 1 else union
+    union, annotated = functools.reduce(operator.or_, kinds.values()), cast(Any, Annotated)
+    return annotated[union, Field(discriminator=key)] if len(kinds) > 1 else union  # pydantic discriminates from two on
 
 
 def _positive(value: float) -> float:

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from hydro2d.deck import derived
 from hydro2d.deck.mesh import SegmentError, axis_edges, body, body_radius
 from hydro2d.deck.sections import Deck, Sliding
 from hydro2d.deck.shapes import outline
@@ -100,6 +101,7 @@ def _bad_names(deck: Deck, names: list[str]) -> Iterator[tuple[tuple, str]]:
     if order and sorted(order) != sorted(slot_names) and set(order) <= set(slot_names):
         yield ("numerics", "interface_order"), f"must name every body once: {', '.join(slot_names)}"
     singles = [(("stop", "body"), deck.stop.body)]
+    singles += [(("gauge", number, "surface"), gauge.surface) for number, gauge in enumerate(deck.gauge)]
     if deck.penetration:
         singles += [(("penetration", key), getattr(deck.penetration, key)) for key in ("rod", "target")]
         singles += [(("penetration", "targets", number), name) for number, name in enumerate(deck.penetration.targets)]
@@ -286,6 +288,7 @@ def unsupported(deck: Deck) -> Iterator[tuple[tuple, str]]:
     if (deck.stop.speed_below is not None or deck.stop.rebound) and deck.stop.body is None:
         yield ("stop", "body"), "is missing: the name of the body whose speed is watched"
     if deck.stop.perforation and deck.penetration is None:
-        yield ("stop", "perforation"), "needs a rod and a target"
+        yield ("stop", "perforation"), "needs a projectile and a target"
+    yield from derived.problems(deck)
     if deck.output.history_interval is None or deck.output.vtk_interval is None:
         yield ("output",), "without stop.time, history_interval and vtk_interval must be given"

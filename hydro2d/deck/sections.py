@@ -345,7 +345,7 @@ class Tracer(Section):
 
 
 class Gauge(Section):
-    """A fixed point, or a line of fixed points from (r, z) to (r_end, z_end)."""
+    """A fixed point, or a line of them from (r, z) to (r_end, z_end); with `surface` they stay on it."""
 
     name: Name = Field(
         description="name of the gauge in the history; the points of a line are NAME_1, NAME_2 and so on", examples=["inside"]
@@ -359,9 +359,18 @@ class Gauge(Section):
         None, description="axial position of the last point of a line; default: the same as the first", examples=["10 cm"]
     )
     points: int = Field(1, ge=1, le=10_000, description="number of points of the line, the ends included", examples=[9])
+    surface: str | None = Field(
+        None, description="a body on whose surface the gauge stays: the face nearest to (r, z) at the start; its velocity is "
+        "that of the free surface", examples=["plate"],
+    )
+    along: Literal["r", "z"] | None = Field(
+        None, description="the direction in which a gauge on a surface moves with it; default: z", examples=["r"]
+    )
 
     @model_validator(mode="after")
     def _line(self) -> Gauge:
+        if self.along is not None and self.surface is None:
+            raise ValueError("along is for a gauge on a surface, which `surface` names")
         if (self.points > 1) != (self.r_end is not None or self.z_end is not None):
             raise ValueError("a line of gauges needs an end, r_end or z_end, and more than one of `points`")
         return self
@@ -450,6 +459,10 @@ class Deck(Section):
     tracer: tuple[Tracer, ...] = ()
     gauge: tuple[Gauge, ...] = ()
     source: tuple[AnySource, ...] = Field((), description="what adds energy to bodies")
+    derived: dict[str, str] = Field(
+        {}, description="quantities by name, each a formula of short names and columns of the history, for the history, the "
+        "summary and reports", examples=[{"P/L": "depth / length0"}],
+    )
     experiment: Experiment | None = None
     penetration: Penetration | None = None
 

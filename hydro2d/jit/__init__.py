@@ -1,6 +1,7 @@
 """Every numba option of the code, in one place, and the functions that compiled code computes with.
 
 ``@point``   a scalar function of physics, inlined by the compiler into the loops that call it
+``@late``    a scalar function that calls what is chosen when kernels are loaded
 ``@apart``   a function that kernels call for what is rare
 ``@rowwise`` one row of one phase, a piece of kernels
 ``@kernel``  loops over the rows of one part of the mesh
@@ -18,6 +19,7 @@ from hydro2d.jit.calls import (
     apart,
     by_id,
     kernel,
+    late,
     max_threads,
     modules,
     parts_at_once,
@@ -39,7 +41,7 @@ from hydro2d.jit.options import compiler_events, host_cpu
 from hydro2d.jit.recording import Call, profiling, recorded, timings
 
 __all__ = [
-    "Call", "GATE", "add_model", "all_folder", "apart", "by_id", "compiler_events", "exp", "host_cpu", "kernel", "log",
+    "Call", "GATE", "add_model", "all_folder", "apart", "by_id", "compiler_events", "exp", "host_cpu", "kernel", "late", "log",
     "max_threads", "module_of", "modules", "parts_at_once", "phase", "plus", "point", "power", "prange", "profiling",
     "recorded", "returns", "rows_by_id", "rowwise", "serial", "set_threads", "threaded", "threads", "timings", "wait",
 ]  # fmt: skip

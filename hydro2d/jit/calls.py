@@ -31,6 +31,15 @@ def point(function):
     return _compile(function, forceinline=True)
 
 
+def late(function):
+    """`point` for a function that calls what is chosen only when kernels are loaded: it is not kept in the cache.
+
+    The folder of the cache is named when a function is defined, before models from outside are added. Kernels that such a
+    function is part of are kept as others are.
+    """
+    return _compile(function, forceinline=True, cache=False)
+
+
 def apart(function):
     """Compiles a function that is called, not inlined: what runs rarely need not be compiled again at every place."""
     return _compile(function)

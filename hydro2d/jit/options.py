@@ -1,6 +1,6 @@
 """What numba and LLVM are told, and what of numba's own insides is changed for it.
 
-What numba does not promise to keep is named in tests/unit/test_jit.py.
+What numba does not promise to keep is named in tests/jit/test_jit.py.
 """
 
 from __future__ import annotations

@@ -386,7 +386,7 @@ def constant_yield(case: Case) -> str | None:
             for model, par in rows:
                 modulus = dispatch.shear_modulus(model, p, rho, T, par)
                 flow = dispatch.flow_stress(model, ep, 4e5, T, p, rho, par)
-                back = radial_return.plastic_increment(model, seq, ep, 1e-8, T, p, rho, modulus, 1.0, par)
+                back = radial_return.plastic_increment(model, seq, ep, 1e-8, T, p, rho, modulus, 1.0, par, 0.0)
                 answers.append((modulus, flow, *back))
             modulus, flow, dep, stress = answers[0]
             exact = (modulus, flow, stress) == (G, Y, Y) and near(dep, max(seq - Y, 0.0) / (3.0 * G), 1e-12)

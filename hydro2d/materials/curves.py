@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
@@ -39,15 +39,32 @@ def flow_stress(
         raise DeckError(f"{material.name} has no specific heat; its flow stress is known at one temperature alone")
     model, row, (p, rho, T) = at_rest(material)
     warming = 0.0 if isothermal else 1.0 / (rho * heat.value)
+
+    def law(ep: float, T: float) -> float:
+        return model.flow_stress(ep, rate, T, p, rho, row)
+
+    return along(law, T, warming, strains, STEP)
+
+
+def along(
+    law: Callable[[float, float], float], T: float, warming: float, strains: Sequence[float], longest: float
+) -> tuple[np.ndarray, np.ndarray]:
+    """Flow stress (Pa) and temperature (K) at plastic strains that do not fall, both float64[n], by the midpoint rule.
+
+    law : flow stress at a plastic strain and a temperature
+    T : temperature at no strain
+    warming : temperature gained by a unit of plastic work, K m^3/J: 1/(rho c) if all of it heats, 0 at a constant temperature
+    longest : longest step in plastic strain
+    """
     ep, stresses, temperatures = 0.0, [], []
     for strain in strains:
-        steps = max(int(np.ceil((strain - ep) / STEP)), 1)
-        step = (strain - ep) / steps
-        for _ in range(steps):  # midpoint rule
-            half = T + 0.5 * step * warming * model.flow_stress(ep, rate, T, p, rho, row)
-            T += step * warming * model.flow_stress(ep + 0.5 * step, rate, half, p, rho, row)
+        steps = max(int(np.ceil((strain - ep) / longest)), 1) if warming else 0
+        step = (strain - ep) / max(steps, 1)
+        for _ in range(steps):
+            half = T + 0.5 * step * warming * law(ep, T)
+            T += step * warming * law(ep + 0.5 * step, half)
             ep += step
         ep = strain
-        stresses.append(model.flow_stress(strain, rate, T, p, rho, row))
+        stresses.append(law(strain, T))
         temperatures.append(T)
     return np.array(stresses, dtype=float), np.array(temperatures, dtype=float)

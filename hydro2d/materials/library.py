@@ -27,6 +27,7 @@ CONFIDENCE = {
     "recalled": "quoted from memory of the source, not read again",
     "doubtful": "quoted from memory with little certainty, or printed and improbable",
     "derived": "computed from other entries",
+    "fitted": "fitted to measurements by a command of hydro2d",
     "chosen": "a choice of this library",
     "deck": "given by the deck",
     "default": "the default of the model",

@@ -2,8 +2,9 @@
 
 Every dataset has the attribute `units` and `time` as its dimension scale, so that xarray can open the file directly. Those of
 tracers and gauges have the station as a second dimension, see station_arrays.py. The hole in the first target is the group
-`crater`: its radius over its axial positions. Those in further targets are `crater_NAME`. The whole file is written under a
-temporary name and renamed each time, so a run that is killed leaves the last complete file.
+`crater`: its radius over its axial positions. Those in further targets are `crater_NAME`. What flies behind a target is the
+group `debris_NAME`: the mass of each body by axial speed and by angle, and a list of fragments. The whole file is written under
+a temporary name and renamed each time, so a run that is killed leaves the last complete file.
 """
 
 from __future__ import annotations
@@ -11,6 +12,7 @@ from __future__ import annotations
 import csv
 import io
 from array import array
+from collections.abc import Iterable
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -20,6 +22,7 @@ import numpy as np
 from hydro2d import checksums
 from hydro2d.errors import Error
 from hydro2d.files import hdf5, replacing
+from hydro2d.mesh.measured import FRAGMENTS, in_file, unit
 from hydro2d.output import foreign
 from hydro2d.output.station_arrays import KEYS, KINDS, of_station, stations
 from hydro2d.strange import own
@@ -28,33 +31,24 @@ if TYPE_CHECKING:
     import pandas
     import xarray
 
+    from hydro2d.solver.debris import Debris
+
 #: regimes of a rod in the order of impact velocity, and all regimes by their number in the file
 GROWING = ("rigid", "deforming", "eroding")
 REGIMES = (*GROWING, "left the mesh")
 
+#: prefix of the groups of what flies behind a target
+DEBRIS = "debris"
 #: the group of the hole in the first target, which is also the prefix of the other groups, and its datasets
 CRATER, CRATER_COLUMNS = "crater", ("z_m", "radius_m")
-
-#: unit by ending of the name, the longest first
-_UNITS = (
-    ("_kg_m3", "kg/m3"), ("_J_kg", "J/kg"), ("_m_s", "m/s"), ("_N_s", "N s"), ("_kg", "kg"), ("_Pa", "Pa"), ("_K", "K"),
-    ("_J", "J"), ("_s", "s"), ("_m", "m"),
-)  # fmt: skip
-
 
 class HistoryError(Error):
     """A history file that cannot be read."""
 
 
-def unit(name: str) -> str:
-    """Unit of a quantity, from the end of its name; "1" if it has none."""
-    if name in ("time", "dt"):
-        return "s"
-    return next((unit for ending, unit in _UNITS if name.endswith(ending)), "1")
-
-
 def spoken(name: str) -> str:
-    """A quantity in words, without its unit: "penetration depth" for penetration_depth_m."""
+    """A quantity in words, without its unit: "penetration depth" for penetration_depth_m; a rod may be a ball."""
+    name = f"projectile_{name[4:]}" if name.startswith("rod_") else name
     return name.removesuffix("_" + unit(name).replace("/", "_").replace(" ", "_")).replace("_", " ")
 
 
@@ -87,6 +81,10 @@ class Columns:
         """Time of the last row."""
         return self._columns["time"][-1] if self._rows else None
 
+    def some(self, names: Iterable[str]) -> dict[str, np.ndarray]:
+        """Those of these columns that there are, as floats, shapes (rows,)."""
+        return {name: np.array(self._columns[name]) for name in names if name in self._columns}
+
     def append(self, row: dict[str, float | str | None]) -> None:
         """Adds a row, which must contain `time`. Quantities missing from other rows are NaN there."""
         for name in row:
@@ -114,12 +112,14 @@ class History(Columns):
     ----------
     craters : axial positions and radii of the hole in each target, m, by its name, to be written as well; empty before the end
         of a run
+    debris : what flies behind each target, by its name, likewise
     """
 
     def __init__(self, path: Path, rows: int = 0):
         super().__init__()
         self.path = Path(path)
         self.craters: dict[str, tuple[np.ndarray, np.ndarray]] = {}
+        self.debris: dict[str, Debris] = {}
         if rows:
             for name, values in read(self.path).items():
                 self._columns[name] = array("d", values[:rows].astype(float).tobytes())
@@ -144,6 +144,8 @@ class History(Columns):
                 z, radius = (_dataset(group, *column) for column in zip(CRATER_COLUMNS, crater, strict=True))
                 z.make_scale(CRATER_COLUMNS[0])
                 radius.dims[0].attach_scale(z)
+            for number, (name, found) in enumerate(self.debris.items()):
+                _write_debris(file.create_group(f"{DEBRIS}_{name}"), name, number, found)
 
     def _write_stations(self, file, kind: str, names: list[str]) -> None:
         """Writes the columns of tracers or gauges as arrays over time and station."""
@@ -157,6 +159,20 @@ class History(Columns):
             dataset.attrs.update(attributes(key))
             for dimension, along in zip(dataset.dims, (file["time"], scale), strict=True):
                 dimension.attach_scale(along)
+
+
+def _write_debris(group, target: str, number: int, debris: Debris) -> None:
+    """Writes what flies behind a target: bins with the mass of each body in them, and the fragments."""
+    import h5py
+
+    group.attrs.update(target=target, number=number)
+    group.create_dataset("body", data=debris.bodies, dtype=h5py.string_dtype())
+    for what, edges, mass in (("speed_m_s", debris.speeds, debris.by_speed), ("angle_rad", debris.angles, debris.by_angle)):
+        _dataset(group, f"{what.split('_')[0]}_edges_{what.split('_', 1)[1]}", edges)
+        _dataset(group, f"mass_by_{what.split('_')[0]}_kg", mass)
+    for key, column in zip(FRAGMENTS, debris.fragments.T, strict=True):
+        _dataset(group, f"fragment_{key}", column)
+    group.create_dataset("fragment_body", data=debris.kinds)
 
 
 def _numbers(name: str, values) -> np.ndarray:
@@ -190,8 +206,8 @@ def dataset(columns: dict[str, np.ndarray]) -> xarray.Dataset:
 
 
 def _dataset(file, name: str, values):
-    dataset = file.create_dataset(name, data=_numbers(name, values))
-    dataset.attrs.update(attributes(name))
+    dataset = file.create_dataset(in_file(name), data=_numbers(name, values))
+    dataset.attrs.update(attributes(name) | ({"long_name": name} if in_file(name) != name else {}))
     return dataset
 
 
@@ -212,7 +228,7 @@ def _opened(path: Path):
 def read(path: Path) -> dict[str, np.ndarray]:
     """All columns by name, `time` first, shapes (rows,). Raises HistoryError."""
     with _opened(path) as file:
-        found = {name: file[name][...] for name in file.keys() - set(_craters(file))}
+        found = {file[name].attrs.get("long_name", name): file[name][...] for name in file.keys() - set(_groups(file, ""))}
         for kind in KINDS:
             if kind in found and found[kind].dtype == object:
                 found |= _taken_apart(found, kind)
@@ -230,11 +246,11 @@ def _taken_apart(found: dict[str, np.ndarray], kind: str) -> dict[str, np.ndarra
             for name, column in zip(names, columns, strict=True)}  # fmt: skip
 
 
-def _craters(file) -> list[str]:
-    """Names of the groups of holes, in the order of the targets."""
+def _groups(file, prefix: str) -> list[str]:
+    """Names of the groups with a prefix, in the order of the targets."""
     import h5py
 
-    groups = [name for name, entry in file.items() if isinstance(entry, h5py.Group)]
+    groups = [name for name, entry in file.items() if isinstance(entry, h5py.Group) and name.startswith(prefix)]
     return sorted(groups, key=lambda name: file[name].attrs.get("number", 0))
 
 
@@ -244,8 +260,24 @@ def read_craters(path: Path) -> dict[str, tuple[np.ndarray, np.ndarray]]:
     Raises HistoryError.
     """
     with _opened(path) as file:
-        groups = [file[name] for name in _craters(file)]
+        groups = [file[name] for name in _groups(file, CRATER)]
         return {group.attrs.get("target", "target"): tuple(group[name][...] for name in CRATER_COLUMNS) for group in groups}
+
+
+def read_debris(path: Path) -> dict[str, dict[str, np.ndarray]]:
+    """What flies behind each target at the end, by the target's name; empty if there are none. Raises HistoryError.
+
+    body : names of the bodies;  speed_edges_m_s, angle_edges_rad (n + 1,) : bins;  mass_by_speed_kg, mass_by_angle_kg
+    (n, bodies);  fragment_mass_kg, fragment_r_m, fragment_z_m, fragment_velocity_r_m_s, fragment_velocity_z_m_s and
+    fragment_body, the number of its body, (k,)
+    """
+    with _opened(path) as file:
+        found = {}
+        for name in _groups(file, f"{DEBRIS}_"):
+            arrays = {key: file[name][key][...] for key in file[name]}
+            arrays["body"] = np.array([body.decode() for body in arrays["body"]], dtype=str)
+            found[str(file[name].attrs.get("target", name))] = arrays
+        return found
 
 
 def write_csv(columns: dict[str, np.ndarray], path: Path) -> None:

@@ -22,6 +22,19 @@ def outlines(r_edges: np.ndarray, z_edges: np.ndarray, vof: np.ndarray, closed: 
     return contourpy.contour_generator(r, z, values).lines(0.5)
 
 
+def regions(r_edges: np.ndarray, z_edges: np.ndarray, vof: np.ndarray) -> list[tuple[np.ndarray, np.ndarray]]:
+    """Areas in which vof is 1/2 or more, bounded by `outlines` and the edges of the mesh.
+
+    Each is an array (n, 2) of r, z and the codes (n,) of a matplotlib path: an outline, and those of its holes.
+    """
+    import contourpy
+
+    r, z = (np.concatenate([e[:1], 0.5 * (e[1:] + e[:-1]), e[-1:]]) for e in (r_edges, z_edges))
+    generator = contourpy.contour_generator(r, z, np.pad(vof, 1, mode="edge"), fill_type="OuterCode")
+    points, codes = generator.filled(0.5, np.inf)
+    return list(zip(points, codes, strict=True))
+
+
 def _beyond(edge: float, inside: float) -> float:
     """A point a hair outside of the mesh."""
     return edge + 1e-6 * (edge - inside)

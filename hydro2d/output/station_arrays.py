@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator
 
-from hydro2d.solver.station_columns import QUANTITIES
+from hydro2d.mesh.station_columns import QUANTITIES
 
 #: kinds of stations, which are also the dimension scales with their names, and what the history has of each
 KINDS = ("tracer", "gauge")

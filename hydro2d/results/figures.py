@@ -18,12 +18,13 @@ from pathlib import Path
 import numpy as np
 
 from hydro2d import children
-from hydro2d.errors import Error, unknown
+from hydro2d.errors import unknown
 from hydro2d.files import replacing
 from hydro2d.mesh import quantities
 from hydro2d.output import history
-from hydro2d.output.outlines import outlines
+from hydro2d.output.outlines import outlines, regions
 from hydro2d.output.vtk import Dump
+from hydro2d.results.scales import LINEAR, FigureError, Scale
 from hydro2d.terminal import shown
 
 #: the units that readers use: the name of each, and how many of them make one SI unit
@@ -37,12 +38,10 @@ COMPONENTS = {"r": 0, "z": 1}
 VECTORS = ("velocity", "velocity_hard", "velocity_soft")
 #: file endings of films, which are not pictures
 FILMS = ("gif", "mp4", "avi", "mov", "webm")
+#: greatest height and least width of a panel, inches
+TALLEST, NARROWEST = 9.0, 2.5
 #: time limit of a rendering process, s
 RENDER_SECONDS = 180
-
-
-class FigureError(Error):
-    """A figure that cannot be drawn; the message is for the user."""
 
 
 @dataclass(frozen=True)
@@ -93,21 +92,6 @@ def filled(dump: Dump) -> np.ndarray:
     return sum(dump.fields[f"Volume Fraction for {body}"] for body in dump.bodies)
 
 
-def limits_of(shown: list[Shown]) -> tuple[float, float]:
-    """One colour range for several panels, symmetric about zero if there are negative values."""
-    values = np.concatenate([each.values[np.isfinite(each.values)] for each in shown])
-    if not values.size:
-        return 0.0, 1.0
-    low, high = balanced(float(values.min()), float(values.max()))
-    return (low, high) if high > low else (low, low + 1.0)
-
-
-def balanced(low: float, high: float) -> tuple[float, float]:
-    """A colour range, symmetric about zero if it has negative values."""
-    largest = max(-low, high)
-    return (-largest, largest) if low < 0.0 else (low, high)
-
-
 def verbatim(text: str) -> str:
     """A name from a file as matplotlib draws it letter by letter: a dollar sign begins no formula."""
     return shown(text).replace("$", r"\$")
@@ -119,18 +103,61 @@ def _body_colours(count: int):
     return ListedColormap([BODY_COLOURS[m % len(BODY_COLOURS)] for m in range(count)])
 
 
-def _draw_half(axes, dump: Dump, field: str, sign: int, limits: tuple[float, float]):
-    """Draws the colours of one half, in mm; sign is +1 above the axis, -1 below. Returns what a colour bar needs."""
+def _draw_half(axes, dump: Dump, field: str, sign: int, limits: tuple[float, float], scale: Scale):
+    """Draws the colours of one half, in mm, up to the outlines; sign is +1 above the axis, -1 below. Returns what a colour bar
+    needs."""
     z, r = dump.z_edges * 1e3, sign * dump.r_edges * 1e3
     if field == "material":
-        numbers = np.ma.masked_equal(dump.fields["Material"], 0)
-        count = len(dump.bodies)
-        axes.pcolormesh(z, r, numbers.T, cmap=_body_colours(count), vmin=0.5, vmax=count + 0.5, rasterized=True)
+        values, drawn = dump.fields["Material"].astype(float), {"cmap": _body_colours(len(dump.bodies))}
+        values[values == 0.0] = np.nan
+        drawn |= {"vmin": 0.5, "vmax": len(dump.bodies) + 0.5}
+    else:
+        values, drawn = chosen(dump, field).values, scale.drawn(limits)
+    within = _solid(dump, field)
+    if within is None:
+        return axes.pcolormesh(z, r, np.ma.masked_invalid(values).T, rasterized=True, **drawn)
+    image = axes.pcolormesh(z, r, np.ma.masked_invalid(_widened(values)).T, rasterized=True, **drawn)
+    image.set_clip_path(_path(dump, within, sign), axes.transData)
+    if field != "material":
+        return image
+    for m, body in enumerate(dump.bodies):
+        _fill(axes, _path(dump, dump.fields[f"Volume Fraction for {body}"], sign), BODY_COLOURS[m % len(BODY_COLOURS)])
+    return None
+
+
+def _solid(dump: Dump, field: str) -> np.ndarray | None:
+    """The volume fraction to whose outline a field is drawn, (nz, nr): of its body, or of all; None for a volume fraction."""
+    key, _, part = field.partition(":")
+    if key == "volume_fraction":
         return None
-    shown = chosen(dump, field)
-    colours = "RdBu_r" if limits[0] < 0 and limits[0] == -limits[1] else "viridis"
-    return axes.pcolormesh(z, r, np.ma.masked_invalid(shown.values).T, cmap=colours, vmin=limits[0], vmax=limits[1],
-                           rasterized=True)  # fmt: skip
+    return dump.fields[f"Volume Fraction for {part}"] if part in dump.bodies else filled(dump)
+
+
+def _widened(values: np.ndarray) -> np.ndarray:
+    """Values (nz, nr) with one row of cells more around what is not NaN, each the mean of its neighbours."""
+    around = np.pad(values, 1, constant_values=np.nan)
+    shifted = np.stack([around[1 + dj : around.shape[0] - 1 + dj, 1 + di : around.shape[1] - 1 + di]
+                        for dj in (-1, 0, 1) for di in (-1, 0, 1)])  # fmt: skip
+    known = np.isfinite(shifted)
+    mean = np.sum(shifted, axis=0, where=known) / np.maximum(known.sum(axis=0), 1)
+    return np.where(np.isfinite(values), values, np.where(known.any(axis=0), mean, np.nan))
+
+
+def _path(dump: Dump, fraction: np.ndarray, sign: int):
+    """The areas that a volume fraction (nz, nr) fills by half, as a path in mm of z and r."""
+    from matplotlib.path import Path as Outline
+
+    found = regions(dump.r_edges, dump.z_edges, fraction)
+    if not found:
+        return Outline(np.zeros((1, 2)))
+    points = np.concatenate([np.column_stack([each[:, 1], sign * each[:, 0]]) for each, _ in found]) * 1e3
+    return Outline(points, np.concatenate([codes for _, codes in found]))
+
+
+def _fill(axes, path, colour: str) -> None:
+    from matplotlib.patches import PathPatch
+
+    axes.add_patch(PathPatch(path, facecolor=colour, linewidth=0.0))
 
 
 def _draw_outlines(axes, dump: Dump) -> None:
@@ -153,13 +180,15 @@ def _legend(axes, dump: Dump) -> None:
 
 
 def section(axes, dump: Dump, field: str = "pressure", mirror: str | None = None, limits=None, *, title: str = "",
-            depth_line: float | None = None, window: tuple[float, float, float] | None = None) -> list:  # fmt: skip
+            depth_line: float | None = None, window: tuple[float, float, float] | None = None,
+            scale: Scale = LINEAR) -> list:  # fmt: skip
     """Draws one section into matplotlib axes, mirrored at the axis or plane of symmetry if there is one.
 
     field, mirror : words for the upper and the lower half, see `chosen` (mirror None: the same field)
     limits : (low, high) per word in the reader's unit; by default from the data
     depth_line : axial position of the experiment's depth, m
     window : (z0, z1, r1) in m, the part that is shown and that sets the limits; by default the whole mesh
+    scale : of the colours
 
     Returns [(word, mappable)] for `colour_bars`. Raises FigureError.
     """
@@ -168,8 +197,8 @@ def section(axes, dump: Dump, field: str = "pressure", mirror: str | None = None
     limits, drawn, seen = limits or {}, [], cropped(dump, window)
     for word, sign in ((field, 1), (mirror or field, -1)) if dump.mirrored else ((field, 1),):
         if word != "material" and word not in limits:
-            limits = {**limits, word: limits_of([chosen(seen, word)])}
-        drawn.append((word, _draw_half(axes, dump, word, sign, limits.get(word))))
+            limits = {**limits, word: scale.limits([chosen(seen, word).values])}
+        drawn.append((word, _draw_half(axes, dump, word, sign, limits.get(word), scale)))
     _draw_outlines(axes, dump)
     if "material" in (field, mirror):
         _legend(axes, dump)
@@ -208,18 +237,21 @@ def _ends(dump: Dump, window: tuple[float, float, float] | None) -> tuple[float,
     return (z0, z1, -r1, r1) if dump.mirrored else (z0, z1, max(-r1, inner), min(r1, outer))
 
 
-def _panel_height(width: float, dump: Dump, window: tuple[float, float, float] | None) -> float:
-    """Height in inches of a panel with a title that shows a window at equal scales."""
+def _panel_size(width: float, dump: Dump, window: tuple[float, float, float] | None) -> tuple[float, float]:
+    """Width and height in inches of a panel with a title that shows a window at equal scales, as wide as given at most."""
     z0, z1, low, high = _ends(dump, window)
-    return min(max(width * (high - low) / (z1 - z0), 0.8), 9.0) + 0.6
+    height = width * (high - low) / (z1 - z0)
+    if height > TALLEST:
+        width, height = max(width * TALLEST / height, NARROWEST), TALLEST
+    return width, max(height, 0.8) + 0.6
 
 
 def own_axes(dump: Dump, window: tuple[float, float, float] | None = None, width: float = 8.0):
     """Axes of a new pyplot figure in the shape of a section, which a notebook shows by itself; width in inches."""
     from matplotlib import pyplot
 
-    height = _panel_height(width, dump, window) + 0.4
-    return pyplot.subplots(figsize=(width + 1.2, height), layout="constrained")[1]
+    width, height = _panel_size(width, dump, window)
+    return pyplot.subplots(figsize=(width + 1.2, height + 0.4), layout="constrained")[1]
 
 
 def new_figure(width: float, height: float, rows: int, columns: int):
@@ -233,22 +265,23 @@ def new_figure(width: float, height: float, rows: int, columns: int):
 
 
 def draw_sections(panels: list[list[tuple[Dump, str, float | None]]], field: str, mirror: str | None = None,
-                  window=None, limits: dict[str, tuple[float, float]] | None = None, figure=None):  # fmt: skip
+                  window=None, limits: dict[str, tuple[float, float]] | None = None, figure=None,
+                  scale: Scale = LINEAR):  # fmt: skip
     """Sections with one colour scale. `panels` holds rows of (dump, title, depth line).
 
     window : (z0, z1, r1) in m, or a function that returns it for a dump; by default each panel shows the whole mesh where it
         was at that time
     limits : colour ranges by field, in the reader's unit; by default from what is shown
+    scale : of the colours
     figure : a figure that this function returned earlier, to be redrawn; by default a new one
     """
     seen = window if callable(window) else lambda _: window
     dumps = [dump for row in panels for dump, _, _ in row]
     words = dict.fromkeys(word for word in (field, mirror or field) if word != "material")
-    if limits is None:
-        limits = {word: limits_of([chosen(cropped(dump, seen(dump)), word) for dump in dumps]) for word in words}
+    limits = {word: scale.limits([chosen(cropped(dump, seen(dump)), word).values for dump in dumps])
+              for word in words if word not in (limits or {})} | (limits or {})  # fmt: skip
     rows, columns = len(panels), max(len(row) for row in panels)
-    panel_width = min(11.0, max(4.0, 16.0 / columns))
-    panel_height = _panel_height(panel_width, dumps[0], seen(dumps[0]))
+    panel_width, panel_height = _panel_size(min(11.0, max(4.0, 16.0 / columns)), dumps[0], seen(dumps[0]))
     if figure is None:
         figure, axes = new_figure(panel_width * columns + 1.2, panel_height * rows + 0.4, rows, columns)
     else:
@@ -261,7 +294,8 @@ def draw_sections(panels: list[list[tuple[Dump, str, float | None]]], field: str
                 axes[j, i].set_visible(False)
                 continue
             dump, title, line = row[i]
-            drawn = section(axes[j, i], dump, field, mirror, limits, title=title, depth_line=line, window=seen(dump))
+            drawn = section(axes[j, i], dump, field, mirror, limits, title=title, depth_line=line, window=seen(dump),
+                            scale=scale)  # fmt: skip
     for place in axes[:-1].flat:
         place.set_xlabel("")
     colour_bars(axes, dumps[0], drawn)
@@ -283,10 +317,14 @@ def cropped(dump: Dump, window) -> Dump:
     return replace(dump, r_edges=dump.r_edges[inner : outer + 1], z_edges=dump.z_edges[low : high + 1], fields=fields)
 
 
-def sections(runs: list, field: str = "pressure", *, mirror: str | None = None, times=(None,), window=None):
-    """Sections of runs (results.Results): one row for each run, one column for each time in s (None: the last)."""
+def sections(runs: list, field: str = "pressure", *, mirror: str | None = None, times=(None,), window=None,
+             limits: tuple[float, float] | None = None, scale: Scale = LINEAR):  # fmt: skip
+    """Sections of runs (results.Results): one row for each run, one column for each time in s (None: the last).
+
+    limits : colour range of ``field`` in the reader's unit; by default from what is shown
+    """
     panels = [[(run.dump(time), run.label, run.measured_position) for time in times] for run in runs]
-    return draw_sections(panels, field, mirror, window)
+    return draw_sections(panels, field, mirror, window, {field: limits} if limits else None, scale=scale)
 
 
 def histories(runs: list, quantities=HISTORIES):
@@ -358,7 +396,7 @@ def save(figure, path: Path) -> None:
     if not path.parent.is_dir():
         raise FigureError(f"{path.parent}: there is no such directory")
     with replacing(path) as temporary:
-        figure.savefig(temporary, format=ending, dpi=160)
+        figure.savefig(temporary, format=ending, dpi=160, bbox_inches="tight", pad_inches=0.08)
 
 
 # ---------------------------------------------------------------------------------------------- three dimensions
@@ -411,7 +449,7 @@ def _render(dump: str, path: str, field: str, window, size) -> None:
             points = np.column_stack([line[:, 0], np.zeros(len(line)), line[:, 1]]) * 1e3
             for angle in (0.0, 270.0):
                 plotter.add_mesh(pyvista.lines_from_points(points).rotate_z(angle), color="black", line_width=2)
-    low, high = limits_of([shown])
+    low, high = LINEAR.limits([shown.values])
     for angle in (0.0, 270.0):
         plotter.add_mesh(_cut_face(pyvista, state, shown, angle), scalars=shown.label, cmap=shown.colours,
                          clim=(low, high), lighting=False, scalar_bar_args={"title": shown.label})  # fmt: skip

@@ -11,7 +11,7 @@ from hydro2d.errors import unknown
 from hydro2d.files import replacing
 from hydro2d.output.vtk import Dump
 from hydro2d.results import figures
-from hydro2d.results.figures import FigureError
+from hydro2d.results.scales import LINEAR, FigureError, balanced
 
 #: endings of films, and what writes each
 FORMATS = {".gif": "pillow", ".mp4": "ffmpeg"}
@@ -136,10 +136,10 @@ def _ranges(runs: list, times: list[float], words: list[str], shown: _Window) ->
     """One colour range for each field, from all frames."""
     ranges: dict[str, tuple[float, float]] = {}
     for word, dump in _seen(runs, times, words, shown):
-        low, high = figures.limits_of([figures.chosen(dump, word)])
+        low, high = LINEAR.limits([figures.chosen(dump, word).values])
         before = ranges.get(word, (low, high))
         ranges[word] = (min(low, before[0]), max(high, before[1]))
-    return {word: figures.balanced(*found) for word, found in ranges.items()}
+    return {word: balanced(*found) for word, found in ranges.items()}
 
 
 def _seen(runs: list, times: list[float], words: list[str], shown: _Window) -> Iterator[tuple[str, Dump]]:

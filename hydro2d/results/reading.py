@@ -90,16 +90,27 @@ class Results:
     def crater(self) -> tuple[np.ndarray, np.ndarray]:
         """Axial positions and radii of the hole in the first target at the end, m, shapes (n,), from entrance to bottom.
 
-        Raises HistoryError, and ResultsError if the run has not ended or has no rod and target.
+        Raises HistoryError, and ResultsError if the run has not ended or has no projectile and target.
         """
         return next(iter(self.craters.values()))
 
     @property
     def craters(self) -> dict[str, tuple[np.ndarray, np.ndarray]]:
-        """The holes in all targets by name, in the order in which the rod reaches them. Raises the same errors as `crater`."""
+        """The holes in all targets by name, in the order in which the projectile reaches them. Raises what `crater` does."""
         found = history.read_craters(self.directory / HISTORY)
         if not found:
-            raise ResultsError(f"{self.directory} has no crater: the run has not ended, or has no rod and target")
+            raise ResultsError(f"{self.directory} has no crater: the run has not ended, or has no projectile and target")
+        return found
+
+    @property
+    def debris(self) -> dict[str, dict[str, np.ndarray]]:
+        """What flies behind each target at the end, by its name: mass by speed and by angle, fragments; `history.read_debris`.
+
+        Raises HistoryError, and ResultsError if the run has not ended or has no projectile and target.
+        """
+        found = history.read_debris(self.directory / HISTORY)
+        if not found:
+            raise ResultsError(f"{self.directory} has no debris: the run has not ended, or has no projectile and target")
         return found
 
     def to_pandas(self) -> pandas.DataFrame:
@@ -218,9 +229,14 @@ class Results:
 
     @property
     def direction(self) -> int:
-        """+1 where the rod flies along +z, -1 otherwise."""
+        """+1 where the projectile flies along +z, -1 otherwise."""
         rod = self.deck.get("penetration", {}).get("rod")
         return next((body.get("direction", 1) for body in self.deck["body"] if body["name"] == rod), 1)
+
+    @property
+    def projectile(self) -> str:
+        """Name of the body that is measured as the projectile; "projectile" without one."""
+        return str(_table(self.deck, "penetration").get("rod") or "projectile")
 
     @property
     def measured_depth(self) -> float | None:
@@ -246,8 +262,7 @@ class Results:
                 facts["not trustworthy"] = "; ".join(summary.get("faults") or ())
         if summary.get("penetration_depth_m") is not None:
             facts["depth"] = _millimetres(summary["penetration_depth_m"])
-            body = _table(summary, "projectile").get("body", "rod")
-            facts[body] = f"{_millimetres(summary.get('rod_length_m'))} long, {summary.get('regime')}"
+            facts[self.projectile] = f"{_millimetres(summary.get('rod_length_m'))} long, {summary.get('regime')}"
         if self.measured_depth is not None:
             facts["experiment's depth"] = _millimetres(self.measured_depth)
         facts["dumps"] = f"{len(dumps)}, the last at {dumps[-1][0] * 1e6:.2f} µs" if dumps else "none"

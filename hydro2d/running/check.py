@@ -1,4 +1,4 @@
-"""A summary of a deck before it runs: mesh, masses, cells across the rod, memory, time; and its picture."""
+"""A summary of a deck before it runs: mesh, masses, cells across rods and balls, memory, time; and its picture."""
 
 from __future__ import annotations
 
@@ -211,7 +211,7 @@ def _stop(stop) -> str:
     parts += [f"{stop.cycles} cycles"] if stop.cycles else []
     parts += [f"speed of {stop.body} below {stop.speed_below:g} m/s"] if stop.speed_below else []
     parts += [f"rebound of {stop.body}"] if stop.rebound else []
-    parts += [{True: "perforation", "tail": "tail of the rod through"}[stop.perforation]] if stop.perforation else []
+    parts += [{True: "perforation", "tail": "tail of the projectile through"}[stop.perforation]] if stop.perforation else []
     return ", or ".join(parts)
 
 

@@ -1,37 +1,38 @@
 """The columns of history.h5 and the keys of summary.json, with their meanings: every number that a run writes.
 
-In a name, BODY, TARGET, STATION, SINK and TRANSFER stand for the names of each; a station is `tracer_NAME` or `gauge_NAME`.
+In a name, BODY, TARGET, STATION, DERIVED, SINK and TRANSFER stand for the names of each; a station is `tracer_NAME` or
+`gauge_NAME`.
 """
 
 from __future__ import annotations
 
-from hydro2d.solver import bodies, crater, rod_quantities
-from hydro2d.solver.station_columns import PEAKS, QUANTITIES
-
-PLACES = {"r_m": "radial position", "z_m": "axial position"}
+from hydro2d.mesh import measured
+from hydro2d.mesh.measured import PLACES
+from hydro2d.mesh.station_columns import PEAKS, QUANTITIES
 
 #: amounts of a sink, and of a contact transfer
 AMOUNTS = {"mass_kg": "mass", "momentum_N_s": "axial momentum", "energy_J": "energy"}
 
 #: keys of a summary that call the projectile a rod, whatever its shape, and those that name it
 OLD: dict[str, str] = {
-    **{old: f"projectile.{new}" for old, new in rod_quantities.PROJECTILE.items()},
+    **{old: f"projectile.{new}" for old, new in measured.PROJECTILE.items()},
     **{old: f"bodies.{'TARGET' if old.startswith('target') else 'BODY'}.{new}"
-       for old, new in rod_quantities.OF_EVERY_BODY.items()},
+       for old, new in measured.OF_EVERY_BODY.items()},
 }
 
 HISTORY: dict[str, str] = {
     "time": "time since the start",
     "cycle": "cycle number",
     "dt": "time step",
-    **rod_quantities.QUANTITIES,
+    **measured.QUANTITIES,
     "internal_energy_J": "internal energy of all bodies",
     "kinetic_energy_J": "kinetic energy of all nodes",
     "mass_change_BODY": "relative change of the mass of a body that no sink accounts for",
     "axial_momentum_change": "change of the axial momentum that no sink accounts for, over sqrt(2 m E) at the start",
     "total_energy_change": "relative change of the total energy that no sink accounts for",
-    **{f"body_BODY_{key}": f"of each body: {meaning}" for key, meaning in bodies.QUANTITIES.items()},
+    **{f"body_BODY_{key}": f"of each body: {meaning}" for key, meaning in measured.BODY.items()},
     **{f"STATION_{key}": f"of each tracer and gauge: {meaning}" for key, meaning in {**PLACES, **QUANTITIES}.items()},
+    "DERIVED": "a quantity that `[derived]` of the deck defines",
     **{f"sink_SINK_{key}": f"{meaning} that a sink has taken since the start" for key, meaning in AMOUNTS.items()},
 }
 
@@ -49,14 +50,17 @@ SUMMARY: dict[str, str] = {
     "wall_s": "wall-clock time of the run",
     "ns_per_cell_cycle": "nanoseconds per cell and cycle",
     "cells": "number of cells",
-    **{key: meaning for key, meaning in rod_quantities.QUANTITIES.items() if key not in OLD},
+    **{key: meaning for key, meaning in measured.QUANTITIES.items() if key not in OLD},
     "projectile.body": "name of the projectile, which `bodies` has as well",
-    **{f"projectile.{new}": rod_quantities.QUANTITIES[old] for old, new in rod_quantities.PROJECTILE.items()},
+    **{f"projectile.{new}": measured.QUANTITIES[old] for old, new in measured.PROJECTILE.items()},
     **{old: f"old name of {new}, which later versions will not write" for old, new in OLD.items()},
-    **{f"crater.{key}": f"hole in the first target: {meaning}" for key, meaning in crater.QUANTITIES.items()},
-    **{f"targets.TARGET.{key}": f"of each target: {meaning}" for key, meaning in rod_quantities.PASSAGE.items()},
-    **{f"targets.TARGET.crater.{key}": f"of each target: {meaning}" for key, meaning in crater.QUANTITIES.items()},
-    **{f"bodies.BODY.{key}": f"of each body: {meaning}" for key, meaning in bodies.QUANTITIES.items()},
+    **{f"crater.{key}": f"hole in the first target: {meaning}" for key, meaning in measured.CRATER.items()},
+    **{f"targets.TARGET.{key}": f"of each target: {meaning}" for key, meaning in measured.PASSAGE.items()},
+    **{f"targets.TARGET.crater.{key}": f"of each target: {meaning}" for key, meaning in measured.CRATER.items()},
+    **{f"targets.TARGET.debris.{key}": f"of all that flies behind each target: {meaning}"
+       for key, meaning in measured.DEBRIS.items()},
+    "derived.DERIVED": "a quantity that `[derived]` of the deck defines, at the end",
+    **{f"bodies.BODY.{key}": f"of each body: {meaning}" for key, meaning in measured.BODY.items()},
     **{f"stations.STATION.{key}": f"of each tracer and gauge: {meaning}"
        for key, meaning in {**PLACES, **QUANTITIES, **PEAKS}.items()},
     "experiment.penetration_m": "penetration depth of the experiment in the deck",

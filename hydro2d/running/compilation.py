@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import contextlib
 import hashlib
 import os
 import subprocess
+import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -14,20 +16,28 @@ from hydro2d import children, jit
 from hydro2d.files import turn
 
 EVENT = "numba:compile"
+#: seconds between lines that count kernels
+COUNT_SECONDS = 5.0
 events = jit.compiler_events
 
 
 class Compilation(events.Listener):
     """Listens to numba. Kernels from the cache are not compiled and are not counted.
 
+    Parameters
+    ----------
+    say : receives lines;  begins : is called when the first compilation begins
+    others : how many kernels there are and how many another process has compiled, see `Second.counts`
+
     Attributes
     ----------
     seconds, kernels : float, int; time spent so far, and number of functions compiled, without those inlined in others
     """
 
-    def __init__(self, say: Callable[[str], None], begins: Callable[[], None]):
+    def __init__(self, say: Callable[[str], None], begins: Callable[[], None],
+                 others: Callable[[], tuple[int, int]] = lambda: (0, 0)):  # fmt: skip
         self.seconds, self.kernels = 0.0, 0
-        self._begins = begins
+        self._begins, self._others, self._counted = begins, others, 0.0
         self._say, self._told, self._depth, self._start = say, 0.0, 0, 0.0
 
     def on_start(self, event) -> None:
@@ -45,6 +55,18 @@ class Compilation(events.Listener):
         if self._depth == 0:
             self.seconds += time.perf_counter() - self._start
             self.kernels += 1
+            self._count()
+
+    def _count(self) -> None:
+        """Says now and then how many kernels are compiled."""
+        now = time.perf_counter()
+        if self.kernels == 1:
+            self._counted = self._start
+        if now - self._counted >= COUNT_SECONDS:
+            self._counted = now
+            whole, others = self._others()
+            done = self.kernels + others
+            self._say(f"compiling kernels: {min(done, whole)} of {whole}" if whole else f"compiling kernels: {done} so far")
 
     def report(self) -> None:
         """Reports the time, if anything was compiled since the last report."""
@@ -64,6 +86,7 @@ class Second:
 
     def __init__(self, deck):
         self._deck, self._process = deck, None
+        self._whole = self._done = 0
 
     def start(self) -> None:
         """Starts it, if there is a second core."""
@@ -71,10 +94,21 @@ class Second:
         if cores < 2 or self._process:
             return
         command = children.python("hydro2d.running.compile_ahead")
-        self._process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.DEVNULL,
-                                         stderr=subprocess.DEVNULL)
+        self._process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
+        threading.Thread(target=self._listen, args=(self._process.stdout,), daemon=True).start()
         self._process.stdin.write(self._deck.to_toml().encode())
         self._process.stdin.close()
+
+    def _listen(self, lines) -> None:
+        """Reads what it says after every kernel: how many there are that the cache had not, and how many it has compiled."""
+        with lines:
+            for line in lines:
+                with contextlib.suppress(ValueError):
+                    self._whole, self._done = (int(word) for word in line.split())
+
+    def counts(self) -> tuple[int, int]:
+        """Number of kernels to compile, by all processes, and number of those that it has compiled; zeros if not known."""
+        return self._whole, self._done
 
     def stop(self) -> int | None:
         """Ends it. Returns its exit status if it had failed, else None."""
@@ -94,7 +128,7 @@ def announced(say: Callable[[str], None], deck=None) -> Iterator[Compilation]:
     deck : a resolved deck; a second process helps to compile its kernels
     """
     second = Second(deck)
-    listener = Compilation(say, second.start if deck else lambda: None)
+    listener = Compilation(say, second.start if deck else lambda: None, second.counts)
     events.register(EVENT, listener)
     try:
         yield listener

@@ -11,6 +11,8 @@ import sys
 
 from hydro2d import jit
 from hydro2d.deck import deck as decks
+from hydro2d.running.compilation import EVENT, Compilation
+from hydro2d.terminal import say
 
 
 def calls_of_a_cycle(deck) -> list[jit.Call]:
@@ -48,9 +50,20 @@ def _quiet(method):
 
 
 def main() -> None:
-    """Compiles from the last kernel to the first, while the process that runs the deck goes from the first to the last."""
-    for call in reversed(calls_of_a_cycle(decks.loads(sys.stdin.read()))):
+    """Compiles from the last kernel to the first, while the process that runs the deck goes from the first to the last.
+
+    Prints after each how many kernels there are, without those that the cache had, and how many it has compiled.
+    """
+    calls = calls_of_a_cycle(decks.loads(sys.stdin.read()))
+    compiled = Compilation(lambda text: None, lambda: None)
+    jit.compiler_events.register(EVENT, compiled)
+    whole = len(calls)
+    say(f"{whole} 0", flush=True)
+    for call in reversed(calls):
+        before = compiled.kernels
         call.compile()
+        whole -= compiled.kernels == before
+        say(f"{whole} {compiled.kernels}", flush=True)
 
 
 if __name__ == "__main__":

@@ -9,9 +9,13 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from datetime import datetime
 from pathlib import Path
-from typing import TypeVar
+from typing import NamedTuple, TypeVar
 
 from hydro2d.interrupt import lose_output
+from hydro2d.mesh.measured import unit
+from hydro2d.output.history import Columns
+from hydro2d.running import ending
+from hydro2d.running.ending import End
 from hydro2d.strange import opened
 from hydro2d.terminal import one_line, say
 
@@ -21,6 +25,8 @@ T = TypeVar("T")
 LINE_SECONDS, TABLE_SECONDS = 5.0, 0.5
 #: bodies with more than this share of the largest kinetic energy are told to move at the end, and this many of them
 SHOWN, MOST_SHOWN = 1e-3, 6
+#: bodies whose length has changed by less than this share of it are told no length; tracers and gauges that are told
+SAME_LENGTH, MOST_STATIONS = 1e-3, 12
 #: seconds over which the pace is measured
 PACE_SECONDS = 60.0
 
@@ -37,9 +43,9 @@ def duration(seconds: float) -> str:
 
 def moment(seconds: float) -> str:
     """A time of the simulation in microseconds, or in a larger unit for longer times."""
-    for unit, scale in (("s", 1.0), ("ms", 1e3)):
+    for name, scale in (("s", 1.0), ("ms", 1e3)):
         if seconds * scale >= 10:
-            return f"{seconds * scale:.3f} {unit}"
+            return f"{seconds * scale:.3f} {name}"
     return f"{seconds * 1e6:.3f} us"
 
 
@@ -68,67 +74,92 @@ def counted(items: Sequence[T], what: str, quiet: bool = False) -> Iterator[T]:
         yield item
 
 
-class Clock:
-    """How much of a run is done, by the end time and the number of cycles in the deck, and how long the rest will take.
+class Outlook(NamedTuple):
+    """How a run is likely to end. end : None if it is not known;  share : of the run that is done, 0 to 1;  left : seconds"""
 
-    The pace is that of the last minute, so compilation and the small time steps after an impact affect it no longer than that.
+    end: End | None = None
+    share: float | None = None
+    left: float | None = None
+
+
+class Clock:
+    """How a run will end, how much of it is done, and how long the rest will take.
+
+    The end is that which `status` foresees, see `ending.ends`; before the history has rows enough for it, the end time or the
+    number of cycles of the deck. The pace is that of the last minute, so compilation and the small time steps after an impact
+    affect it no longer than that.
 
     Parameters
     ----------
     stop : the deck's section
+    columns : of the history; None: there is none
     clock : gives seconds
     """
 
-    def __init__(self, stop, clock: Callable[[], float] = clock.perf_counter):
-        self._stop, self._clock = stop, clock
-        self._marks: deque[tuple[float, float | None]] = deque()
+    def __init__(self, stop, columns: Columns | None = None, clock: Callable[[], float] = clock.perf_counter):
+        self._stop = {key: getattr(stop, key, None) for key in ("time", "cycles", "body", "speed_below", "rebound")}
+        self._columns, self._clock = columns, clock
+        self._marks: deque[tuple[float, float, int]] = deque()
 
     def begin(self, sim) -> None:
         """To be called after the first cycle, in which the kernels are compiled or loaded."""
-        self._marks.append((self._clock(), self.done(sim)))
+        self._marks.append((self._clock(), sim.time, sim.cycle))
 
-    def done(self, sim) -> float | None:
-        """Fraction of the run that is done, 0 to 1; None if the deck has neither an end time nor a number of cycles."""
-        shares = [sim.time / self._stop.time] if self._stop.time else []
-        shares += [sim.cycle / self._stop.cycles] if self._stop.cycles else []
-        return min(max(shares), 1.0) if shares else None
+    def look(self, sim) -> Outlook:
+        """The end of a simulation as it is likely now."""
+        found = self._columns.some(ending.needed(self._stop)) if self._columns is not None else {}
+        end, (by_time, by_cycle) = ending.first(self._stop, found), self._pace(sim)
+        cycles = self._stop["cycles"]
+        if cycles and (end is None or end.reason == ending.END_TIME):  # the history is too short to tell the time of it
+            share = sim.cycle / cycles
+            if end is None or share > sim.time / end.time:
+                return Outlook(None, min(share, 1.0), (cycles - sim.cycle) / by_cycle if by_cycle else None)
+        if end is None:
+            return Outlook()
+        return Outlook(end, min(sim.time / end.time, 1.0) if end.time > 0.0 else 1.0,
+                       max(end.time - sim.time, 0.0) / by_time if by_time else None)  # fmt: skip
 
-    def left(self, sim) -> float | None:
-        """Seconds to the end at the pace of the last minute; None if it is not known."""
-        done, now = self.done(sim), self._clock()
-        if done is None or not self._marks:
-            return None
+    def _pace(self, sim) -> tuple[float, float]:
+        """Seconds of the simulation, and cycles, in a second of the last minute; zeros where that is not known."""
+        now = self._clock()
+        if not self._marks:
+            return 0.0, 0.0
         if now - self._marks[-1][0] >= PACE_SECONDS / 60:
-            self._marks.append((now, done))
+            self._marks.append((now, sim.time, sim.cycle))
         while len(self._marks) > 2 and now - self._marks[1][0] >= PACE_SECONDS:
             self._marks.popleft()
-        then, before = self._marks[0]
-        return (now - then) * (1 - done) / (done - before) if done > before else None
-
-    def words(self, sim) -> str:
-        """'12.300 us of 200.000 us (6.2 %)'."""
-        end = f" of {moment(self._stop.time)}" if self._stop.time else ""
-        done = self.done(sim)
-        return f"{moment(sim.time)}{end}" + ("" if done is None else f" ({100 * done:.1f} %)")
+        then, time, cycle = self._marks[0]
+        return ((sim.time - time) / (now - then), (sim.cycle - cycle) / (now - then)) if now > then else (0.0, 0.0)
 
 
-def values(run, left: Clock) -> dict[str, str]:
+def how_far(sim, found: Outlook) -> str:
+    """'12.300 us of 200.000 us (6.2 %)', or '12.300 us of about 61.000 us (20.2 %; speed below 5 m/s as it slows now)'."""
+    said = moment(sim.time)
+    if found.share is None:
+        return said
+    if found.end is None:
+        return f"{said} ({100 * found.share:.1f} % of the cycles)"
+    if found.end.reason == ending.END_TIME:
+        return f"{said} of {moment(found.end.time)} ({100 * found.share:.1f} %)"
+    return f"{said} of about {moment(found.end.time)} ({100 * found.share:.1f} %; {found.end.reason})"
+
+
+def values(run, outlook: Outlook) -> dict[str, str]:
     """The values shown for a run, by name."""
     sim = run.sim
     found, conserved = sim.diagnostics(), sim.conservation()
-    seconds = left.left(sim)
     shown = {
-        "time": left.words(sim),
-        "left": "-" if seconds is None else duration(seconds),
+        "time": how_far(sim, outlook),
+        "left": "-" if outlook.left is None else duration(outlook.left),
         "cycle": str(sim.cycle),
         "dt": f"{sim.dt * 1e9:.4g} ns ({sim.dt_cause})",
     }
-    if found:  # a deck with a rod and a target
+    if found:  # a deck with a projectile and a target
         shown |= {
             "depth": number(found["penetration_depth_m"], 1e3, ".2f", "mm"),
             "tail speed": number(found["rod_tail_velocity_m_s"], 1, ".1f", "m/s"),
             "mean speed": number(found["rod_mean_velocity_m_s"], 1, ".1f", "m/s"),
-            "rod length": number(found["rod_length_m"], 1e3, ".2f", "mm"),
+            f"{sim.projectile} length": number(found["rod_length_m"], 1e3, ".2f", "mm"),
             "regime": found["regime"],
         }
     return shown | {
@@ -183,12 +214,12 @@ class Report:
         now = clock.perf_counter()
         if now - self._last >= LINE_SECONDS:
             self._last = now
-            self.status(values(run, run.clock))
+            self.status(values(run, run.clock.look(run.sim)))
 
     def status(self, shown: dict[str, str]) -> None:
-        rod = f"depth {shown['depth']}, tail {shown['tail speed']}, " if "depth" in shown else ""
+        flight = f"depth {shown['depth']}, tail {shown['tail speed']}, " if "depth" in shown else ""
         self.line(
-            f"t {shown['time']}, {shown['left']} left, cycle {shown['cycle']}, dt {shown['dt']}, {rod}"
+            f"t {shown['time']}, {shown['left']} left, cycle {shown['cycle']}, dt {shown['dt']}, {flight}"
             f"changes of mass {shown['mass']}, momentum {shown['momentum']}, energy {shown['energy']}"
         )
 
@@ -215,7 +246,7 @@ class Live(Report):
         self._live.start()
 
     def show(self, text: str) -> None:
-        self._live.console.print(text, highlight=False, markup=False)
+        self._live.console.print(text, highlight=False, markup=False, soft_wrap=True)
 
     def status(self, shown: dict[str, str]) -> None:
         show, self.show = self.show, lambda text: None  # the table shows it: only the log gets the line
@@ -235,11 +266,10 @@ class Live(Report):
         from rich.table import Table
         from rich.text import Text
 
-        table = Table.grid(padding=(0, 2))
-        for name, value in values(run, run.clock).items():
-            table.add_row(name, Text(one_line(value)))
-        done = run.clock.done(run.sim)
-        return Group(ProgressBar(total=1.0, completed=done or 0.0, width=60, pulse=done is None), table)
+        table, outlook = Table.grid(padding=(0, 2)), run.clock.look(run.sim)
+        for name, value in values(run, outlook).items():
+            table.add_row(Text(one_line(name), no_wrap=True), Text(one_line(value), overflow="fold"))
+        return Group(ProgressBar(total=1.0, completed=outlook.share or 0.0, width=60, pulse=outlook.share is None), table)
 
     def close(self) -> None:
         self._live.stop()
@@ -260,6 +290,10 @@ def result(summary: dict) -> list[str]:
     ]
     if summary["penetration_depth_m"] is not None:
         lines += _rod(summary)
+    else:
+        lines += _bars(summary)
+    lines += _derived(summary)
+    lines += _peaks(summary)
     if moving := _moving(summary):
         lines.append(f"moving at the end     {moving}")
     return [
@@ -269,9 +303,38 @@ def result(summary: dict) -> list[str]:
     ]
 
 
+def _bars(summary: dict) -> list[str]:
+    """Lengths of the bodies that were longer than wide at the start, and have changed, with the radius of the foot."""
+    lines = []
+    for name, body in summary["bodies"].items():
+        first, length, radius = (body.get(key) for key in ("initial_length_m", "length_m", "r_max_m"))
+        if first is None or length is None or radius is None or first < radius or abs(length - first) <= SAME_LENGTH * first:
+            continue
+        ends = [body[f"radius_at_z_{end}_m"] for end in ("min", "max")]
+        lines.append(f"{f'{name} length':<21} {length * 1e3:.2f} mm of {first * 1e3:.2f} mm, {length / first:.3f}; "
+                     f"radius {max(ends) * 1e3:.2f} mm at its foot, {min(ends) * 1e3:.2f} mm at the other end")
+    return lines
+
+
+def _derived(summary: dict) -> list[str]:
+    """What [derived] of the deck defines."""
+    return [f"{name:<21} {'-' if value is None else f'{value:.5g}'}" + (f" {unit(name)}" if unit(name) != "1" else "")
+            for name, value in summary["derived"].items()]
+
+
+def _peaks(summary: dict) -> list[str]:
+    """The largest pressure and speed that tracers and gauges have had."""
+    found = {name: station for name, station in summary["stations"].items() if station.get("peak_pressure_Pa") is not None}
+    lines = [f"{name.replace('_', ' ', 1):<21} at most {found[name]['peak_pressure_Pa'] / 1e9:.4g} GPa, at "
+             f"{moment(found[name]['peak_pressure_time_s'])}, and {found[name]['peak_speed_m_s']:.1f} m/s"
+             for name in list(found)[:MOST_STATIONS]]
+    more = len(found) - len(lines)
+    return lines + ([f"{more} more tracers and gauges are in summary.json"] if more else [])
+
+
 def _moving(summary: dict) -> str:
     """Which bodies still move, the one with the most kinetic energy first, with mean velocity and that energy; and the tail of
-    a rod, which may outrun its mean."""
+    the projectile, which may outrun its mean."""
     energies = {name: body["kinetic_energy_J"] for name, body in summary["bodies"].items()}
     least = SHOWN * max(energies.values(), default=0.0)
     names = [name for name in sorted(energies, key=lambda name: -energies[name]) if energies[name] > least][:MOST_SHOWN]
@@ -288,7 +351,8 @@ def _rod(summary: dict) -> list[str]:
     depth, experiment, shape = summary["penetration_depth_m"], summary["experiment"], summary["projectile"]
     body = shape["body"]
     bound = "at least " if summary["regime"] == LEFT else ""
-    lines = [f"penetration depth     {bound}{number(depth, 1e2, '.2f', 'cm')}"]
+    ratio = "" if summary["penetration_over_length"] is None else f", P/L {summary['penetration_over_length']:.3f}"
+    lines = [f"penetration depth     {bound}{number(depth, 1e2, '.2f', 'cm')}{ratio}"]
     if experiment and experiment["penetration_m"]:
         measured = experiment["penetration_m"]
         error = f" (error {(depth - measured) * 1e2:+.2f} cm, {100 * (depth / measured - 1):+.1f} %)"

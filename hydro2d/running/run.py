@@ -58,7 +58,8 @@ DONE, WRONG_INPUT, UNPHYSICAL = 0, 2, 3
 
 #: results that every summary has; null for a deck without rod and target
 ROD_RESULTS = (
-    "penetration_depth_m", "rod_length_m", "rod_mass_kg", "rod_max_plastic_strain", "rod_tail_velocity_m_s", "regime",
+    "penetration_depth_m", "penetration_over_length", "rod_length_m", "rod_mass_kg", "rod_max_plastic_strain",
+    "rod_tail_velocity_m_s", "regime",
     "rod_residual_velocity_m_s", "rod_residual_mass_kg", "rod_residual_length_m", "exit_time_s",
 )  # fmt: skip
 
@@ -97,7 +98,7 @@ def clear(directory: Path) -> None:
 
 
 #: sections of a deck that may differ when a run is continued
-FREE_SECTIONS = ("name", "title", "stop", "output", "experiment")
+FREE_SECTIONS = ("name", "title", "stop", "output", "experiment", "derived")
 
 
 def check_same_deck(now: str, before: str) -> None:
@@ -158,7 +159,7 @@ class Run:
         self.series = Series(self.directory, deck.output.fields, dumps)
         if self.series.repaired:
             report.line(f"warning: {self.series.repaired}")
-        self.clock, self.team = Clock(deck.stop), Team(threads())
+        self.clock, self.team = Clock(deck.stop, self.history), Team(threads())
         self.started = self.flushed = self.saved_at = self.published = clock.perf_counter()
         self.good, self.flush_every = None, FLUSH_SECONDS
         (self.directory / SUMMARY).unlink(missing_ok=True)
@@ -248,12 +249,12 @@ class Run:
 
     def _publish(self) -> None:
         """Writes progress.json, which other programs read."""
-        found = self.sim.diagnostics()
+        found, outlook = self.sim.diagnostics(), self.clock.look(self.sim)
         write_json(self.directory / PROGRESS, {
             "time_s": self.sim.time,
             "cycles": self.sim.cycle,
-            "fraction": self.clock.done(self.sim),
-            "left_s": self.clock.left(self.sim),
+            "fraction": outlook.share,
+            "left_s": outlook.left,
             "wall_s": self.wall,
             "penetration_depth_m": found.get("penetration_depth_m"),
             "rod_tail_velocity_m_s": found.get("rod_tail_velocity_m_s"),
@@ -313,7 +314,7 @@ class Run:
         """
         attempts = Attempts()
         with attempts.writing(self.directory / HISTORY):
-            self.history.craters = self.sim.holes()
+            self.history.craters, self.history.debris = self.sim.holes(), self.sim.debris()
         state = self.good if status == "unphysical" else self._snapshot()
         if state is not None:
             self._save(state, attempts)
@@ -349,6 +350,7 @@ class Run:
     def summary(self, status: str, reason: str) -> dict:
         """What summary.json holds."""
         sim, cycles, targets, measured = self.sim, self.stepped - 1, self.sim.of_targets(), self.sim.diagnostics()
+        last = row(sim) if sim.formulas else {}
         faults = (sim.faults() or [reason] * (status == "unphysical")) + sim.doubts()
         return {
             "deck": self.deck.name,
@@ -369,6 +371,7 @@ class Run:
             "projectile": projectile(sim.projectile, measured),
             "crater": next((found["crater"] for found in targets.values()), None),
             "targets": targets,
+            "derived": {name: last[name] for name in sim.formulas},
             "bodies": sim.of_bodies(),
             "stations": sim.stations.measure(),
             "experiment": experiment(self.deck),
@@ -401,7 +404,7 @@ def experiment(deck) -> dict | None:
 
 def projectile(body: str | None, measured: dict) -> dict | None:
     """What a summary says of the projectile beside what it says of every body; None without one."""
-    from hydro2d.solver.rod_quantities import PROJECTILE
+    from hydro2d.mesh.measured import PROJECTILE
 
     return {"body": body, **{PROJECTILE[key]: value for key, value in measured.items() if key in PROJECTILE}} if body else None
 

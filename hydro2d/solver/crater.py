@@ -16,18 +16,6 @@ FULL = 0.999
 PIECE = 0.05
 
 
-#: what `measure` gives, and its meaning
-QUANTITIES = {
-    "entrance_diameter_m": "in the first row below the original surface from which the wall is steeper than 45 degrees",
-    "exit_diameter_m": "in the last such row, also beyond the original rear face; null while the hole is not open at its end",
-    "mean_diameter_m": "of the cylinder with the volume and depth of the hole; null where there is none",
-    "volume_m3": "of the hole, the whole circumference; in planar geometry of the meshed half, per metre",
-    "depth_m": "from the original surface to the bottom on the axis; the target's thickness where that is shot through",
-    "ejected_mass_kg": "mass of the target beyond its rear face that no longer hangs together with it: plug and debris",
-    "ejected_velocity_m_s": "mean axial velocity of that mass; null where there is none",
-}
-
-
 class Rows(NamedTuple):
     """Rows of cells along the rod's flight, arrays of shape (n,).
 
@@ -91,6 +79,14 @@ class Crater:
         pieces = at_home & (size >= PIECE * np.max(size, where=at_home, initial=0.0))
         wall = pieces[labels]
         return wall, np.where(ndimage.binary_dilation(wall), fraction, 0.0)
+
+    def pieces(self) -> np.ndarray:
+        """Which cells [j, i] belong to the target's pieces or lie beside one, as those that their surfaces cut do."""
+        return self._walls()[1] > 0.0
+
+    def beyond(self) -> np.ndarray:
+        """Which rows of cells are beyond the target's original rear face, [j, 1]."""
+        return (self._depth(self.sim.grid.zc[self.sim.grid.inside[0]]) > self.rear)[:, None]
 
     def _row(self, wall: np.ndarray, filled: np.ndarray) -> tuple[float, float]:
         """(radius, share on the axis) of a row, shapes (nr,); (NaN, 0) where it has no wall."""
@@ -194,7 +190,7 @@ class Crater:
         mouth, end = self._ends(near + far, radius)
         near[:1] = np.minimum(near[:1], 0.0)  # a row that the original face cuts has no wall where less than half is left
         height = np.maximum(np.minimum(far, self.rear) - np.maximum(near, 0.0), 0.0)
-        cylindrical = self.sim.grid.cylindrical
+        cylindrical, penetrator = self.sim.grid.cylindrical, self.sim.penetrator
         volume = float(np.sum((np.pi * radius**2 if cylindrical else radius) * height))
         mean = None
         if depth > 0.0:
@@ -204,6 +200,8 @@ class Crater:
             "exit_diameter_m": 2.0 * float(radius[end]) if len(radius) and through else None,
             "mean_diameter_m": mean,
             "volume_m3": volume,
+            "volume_per_energy_m3_J": volume / penetrator.energy if penetrator.energy > 0.0 else None,
+            "efficiency": volume * float(self.sim.table.rho0[self.m]) / penetrator.mass,
             "depth_m": depth,
             **self._ejected(walls[0]),
         }
@@ -211,8 +209,7 @@ class Crater:
     def _ejected(self, wall: np.ndarray) -> dict[str, float | None]:
         """Mass and mean axial velocity of what of the target has left it through its rear; ``wall`` are its pieces."""
         grid, s = self.sim.grid, self.sim.state
-        beyond = self._depth(grid.zc[grid.inside[0]]) > self.rear
-        mass = np.where(~wall & beyond[:, None], grid.interior(s.vof)[self.m] * grid.interior(s.rho)[self.m], 0.0)
+        mass = np.where(~wall & self.beyond(), grid.interior(s.vof)[self.m] * grid.interior(s.rho)[self.m], 0.0)
         mass *= grid.volume[grid.inside]
         mean = grid.vertex_mean(s.v[s.group[self.m]])
         total = float(mass.sum())

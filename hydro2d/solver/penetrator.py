@@ -9,9 +9,9 @@ import numpy as np
 from hydro2d.deck import deck as decks
 from hydro2d.mesh import sums
 from hydro2d.mesh.edges.registry import BY_NAME
+from hydro2d.mesh.measured import PASSAGE
 from hydro2d.mesh.sums import HALF
 from hydro2d.solver import bodies
-from hydro2d.solver.rod_quantities import PASSAGE
 from hydro2d.solver.targets import Target
 
 #: the rod is rigid while it has lost less than this share of its length and its radius has grown by less than that
@@ -90,6 +90,7 @@ class Penetrator:
         self.length = self._length()[0]
         self._rears = [self.direction * (target.rear - self.surface) for target in targets]
         self.mass = float(sim.body_sums(self.m)[0].sum()) * self._around
+        self.energy = bodies.motion(sim, self.m)[2]
         self._run = np.zeros(2, dtype=np.int64)
         self._slack = DEBRIS_SPEED * abs(sim.mean_velocity(self.m) or 0.0)
         self._ringing = _ringing(sim, self.m)
@@ -143,16 +144,17 @@ class Penetrator:
         Of a rod in pieces that fill no cell near the axis by half, the depth that a hundredth of their mass has reached. Of a
         rod that has left the mesh, what it was when it reached the edge.
         """
-        if self.left:
-            return self.exit.depth
+        return self.exit.depth if self.left else max(self._front(), 0.0)
+
+    def _front(self) -> float:
+        """The same of a rod in the mesh, m; negative before impact."""
         fraction, deepest = self._fraction(), -np.inf
         for i in range(self.columns):
             column = fraction[:, i]
             for run in self._runs(column):
                 low, high = self._ends(column, run)
                 deepest = max(deepest, (high if self.direction > 0 else -low))
-        found = deepest - self.direction * self.surface if np.isfinite(deepest) else self._front_of_pieces()
-        return float(max(found, 0.0))
+        return float(deepest - self.direction * self.surface) if np.isfinite(deepest) else self._front_of_pieces()
 
     def _masses(self) -> tuple[np.ndarray, np.ndarray]:
         """Depth of every row of cells below the original surface, m, and mass of the rod in it, kg; the deepest row first."""
@@ -386,13 +388,19 @@ class Penetrator:
         mass = float(mass_of_rows.sum())
         mean = float(momentum_of_rows.sum()) / mass if mass > 0.0 else None
         mass *= self._around
-        depth = self.depth()
+        front = self._front()
+        depth = self.exit.depth if self.left else max(front, 0.0)
         residual_velocity, residual_mass = self._residual(depth, core, core_momentum)
         return {
             "penetration_depth_m": depth,
+            "penetration_over_length": depth / self.length if self.length > 0.0 else None,
+            "interface_velocity_m_s": None if self.left or mass == 0.0 else
+            self._axis_velocity(self.surface + self.direction * front),
             "rod_length_m": length,
             "rod_initial_length_m": self.length,
             "rod_mass_kg": mass,
+            "rod_initial_mass_kg": self.mass,
+            "rod_initial_kinetic_energy_J": self.energy,
             "rod_core_mass_kg": core,
             "rod_failed_mass_kg": self._failed_mass(self.m),
             "target_failed_mass_kg": self._failed_mass(self.targets[0].m),

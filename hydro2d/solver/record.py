@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from hydro2d.errors import Error
-from hydro2d.output.history import CRATER, Columns
+from hydro2d.mesh.measured import SHORT
+from hydro2d.mesh.station_columns import PEAKS
+from hydro2d.output.history import CRATER, DEBRIS, Columns
 from hydro2d.output.station_arrays import RESERVED
 from hydro2d.solver.callbacks import Due
-from hydro2d.solver.station_columns import PEAKS
 
 if TYPE_CHECKING:
     from hydro2d.solver.simulation import Simulation
@@ -35,6 +36,7 @@ def row(sim: Simulation) -> dict[str, float | str | None]:
         values |= {f"{name}_{key}": value for key, value in found.items() if key not in PEAKS}
     for sink, amounts in conserved["sinks"].items():
         values |= {f"sink_{sink}_{name}": amount for name, amount in amounts.items()}
+    values |= derived(sim, values)
     check(sim.columns)
     for name, of in sim.columns.items():
         if name in values or name in RESERVED:
@@ -46,12 +48,24 @@ def row(sim: Simulation) -> dict[str, float | str | None]:
     return values
 
 
+def derived(sim: Simulation, values: Mapping[str, Any]) -> dict[str, float | None]:
+    """What [derived] of the deck defines, by name; values : all other columns of the row."""
+    formulas = sim.formulas
+    if not formulas:
+        return {}
+    wanted = {name for formula in formulas.values() for name in formula.names}
+    numbers = {short: values.get(column) for short, column in SHORT.items()} | dict(values)
+    if sim.craters and any(name.startswith(CRATER) for name in wanted):
+        numbers |= {f"{CRATER}_{key}": value for key, value in sim.craters[0].measure().items()}
+    return {name: formula.evaluate(numbers) for name, formula in formulas.items()}
+
+
 def check(columns: Mapping[str, object]) -> None:
     """Raises ColumnError for what no file could hold, or is no function."""
     for name, of in columns.items():
-        if not isinstance(name, str) or not name.isidentifier() or name.startswith(CRATER):
+        if not isinstance(name, str) or not name.isidentifier() or name.startswith((CRATER, DEBRIS)):
             raise ColumnError(f"a column cannot be called {name!r}: its name is a word of letters, digits and underscores that "
-                              f"does not begin with {CRATER}")
+                              f"does not begin with {CRATER} or {DEBRIS}")
         if not callable(of):
             raise ColumnError(f"the column {name} is a function of the simulation, not {of!r}")
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from hydro2d import units
 from hydro2d.deck import deck as decks
+from hydro2d.deck import derived
 from hydro2d.errors import UnphysicalState, unknown
 from hydro2d.interrupt import Interrupt, signals
 from hydro2d.materials import library
@@ -16,9 +17,10 @@ from hydro2d.mesh import fields, quantities, sums
 from hydro2d.mesh.boundary_conditions import BoundaryConditions
 from hydro2d.mesh.grid import Grid
 from hydro2d.mesh.state import State
-from hydro2d.solver import bodies, insertion, reach
+from hydro2d.solver import bodies, debris, insertion, reach
 from hydro2d.solver.audit import Audit
 from hydro2d.solver.crater import Crater
+from hydro2d.solver.debris import Debris
 from hydro2d.solver.following import FollowingMesh, StandingMesh, UndisturbedSpace
 from hydro2d.solver.memory import refuse_too_large
 from hydro2d.solver.penetrator import LEFT_MASS, WATCH_EVERY, Penetrator
@@ -47,10 +49,14 @@ class Simulation:
     ----------
     columns : dict of functions of the simulation, by name
         Further columns of the history, each a number. The ending of a name tells its unit: ``_m``, ``_m_s``, ``_Pa``, ``_K``.
+    formulas : dict of Expression by name
+        What [derived] of the deck defines.
+    lengths : dict of float by name
+        Extent of every body along the axis at the start, m; None for one that filled no cell by half.
     grid, state, table, audit : the mesh, the fields, the materials, what is conserved
     stations : the tracers and gauges
-    penetrator : what measures the rod; None for a deck without rod and target
-    craters : what measures the hole in each target, in the order in which the rod meets them; empty without rod and target
+    penetrator : what measures the projectile; None for a deck without projectile and target
+    craters : what measures the hole in each target, in the order in which the projectile meets them; empty without both
 
     Raises DeckError where the machine has not the memory for the mesh.
     """
@@ -82,11 +88,13 @@ class Simulation:
         self.watched = slots.index(deck.stop.body) if deck.stop.body else None
         self._sign: float | None = None
         self.columns: dict[str, Callable[[Simulation], float]] = {}
+        self.lengths = bodies.lengths(self)
+        self.formulas = derived.expressions(deck)
         assert deck.output.history_interval is not None, "a resolved deck has one"
         self._recorder = Recorder(deck.output.history_interval)
 
     def _penetration(self) -> tuple[Penetrator | None, list[Crater]]:
-        """What measures the rod and the holes in its targets."""
+        """What measures the projectile and the holes in its targets."""
         if self.deck.penetration is None:
             return None, []
         rod = self.deck.penetration.rod
@@ -293,11 +301,19 @@ class Simulation:
     # ------------------------------------------------------------------------------------------------ what is known
 
     def of_targets(self) -> dict[str, dict]:
-        """The rod as it went through each target, see `rod_quantities.PASSAGE`, and the hole in it, by the target's name."""
+        """The projectile as it went through each target, see `measured.PASSAGE`, the hole and what flies behind it, by name."""
         if not self.penetrator:
             return {}
-        return {target.name: {**passage, "crater": crater.measure()} for target, passage, crater in
+        found = self.debris()
+        return {target.name: {**passage, "crater": crater.measure(), "debris": found[target.name].totals}
+                for target, passage, crater in
                 zip(self.penetrator.targets, self.penetrator.passages(), self.craters, strict=True)}
+
+    def debris(self) -> dict[str, Debris]:
+        """What flies behind each target, by the target's name; empty without projectile and target."""
+        targets = self.penetrator.targets if self.penetrator else []
+        return {target.name: debris.find(self, crater, [later.m for later in targets[number + 1 :]])
+                for number, (target, crater) in enumerate(zip(targets, self.craters, strict=True))}
 
     def holes(self) -> dict[str, tuple[np.ndarray, np.ndarray]]:
         """Axial positions and radii of the hole in each target, m, shapes (n,), by the target's name."""
@@ -305,12 +321,12 @@ class Simulation:
         return {name: crater.profile() for name, crater in zip(names, self.craters, strict=True)}
 
     def diagnostics(self) -> dict:
-        """Depth, rod length, speeds and strain of a penetrator; empty for a deck without one. SI."""
+        """Depth, length, speeds and strain of a projectile; empty for a deck without one. SI."""
         return self.penetrator.measure() if self.penetrator else {}
 
     @property
     def projectile(self) -> str | None:
-        """Name of the body that is measured as the rod; None without one."""
+        """Name of the body that is measured as the projectile; None without one."""
         return self.table.names[self.penetrator.m] if self.penetrator else None
 
     def of_bodies(self) -> dict[str, dict[str, float | None]]:
@@ -364,14 +380,14 @@ class Simulation:
 
         Raises FieldError.
         """
-        from hydro2d.output import derived
+        from hydro2d.output import derived as fields_now
 
         quantity = quantities.BY_KEY.get(key)
         if quantity is None:
             raise quantities.FieldError(unknown("field", key, quantities.BY_KEY))
         if quantity.per_body and body not in self.table.names:
             raise quantities.FieldError(f"{key} is one of every body; " + unknown("body", str(body), self.table.names))
-        found = derived.evaluate(self, (key,)).get(quantity.name(body))
+        found = fields_now.evaluate(self, (key,)).get(quantity.name(body))
         if found is None:
             raise quantities.FieldError(f"{key}: the simulation has none" + (f" for {body}" if body else ""))
         return found
@@ -385,9 +401,10 @@ class Simulation:
 
     def to_pyvista(self) -> pyvista.RectilinearGrid:
         """All quantities as they are now, as cell data of a pyvista.RectilinearGrid with x = r, y = z."""
-        from hydro2d.output import derived, vtk
+        from hydro2d.output import derived as fields_now
+        from hydro2d.output import vtk
 
-        return vtk.pyvista_of(self.grid.r_edges, self.grid.z_edges, derived.evaluated(self), self.time)
+        return vtk.pyvista_of(self.grid.r_edges, self.grid.z_edges, fields_now.evaluated(self), self.time)
 
     # ------------------------------------------------------------------------------------------------ restart
 
@@ -422,7 +439,7 @@ class Simulation:
         self.grid.move(scalars["mesh_offset"])
         self._doubts = dict(scalars["doubts"])
         e.audit = Audit.resume(scalars["audit"])
-        self.sources.resume(scalars["sources"])
+        self.sources.resume(scalars.get("sources", 0.0))  # files of earlier versions, which had no sources, say nothing
         if self.penetrator:
             self.penetrator.resume(scalars["penetrator"])
             for crater, saved in zip(self.craters, scalars["craters"], strict=True):

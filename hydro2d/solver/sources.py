@@ -97,6 +97,6 @@ class Sources:
         """What a restart file keeps."""
         return self.given.tolist()
 
-    def resume(self, saved: list[float]) -> None:
+    def resume(self, saved: list[float] | float) -> None:
         """Continues from what `saved` gave."""
         self.given[:] = saved

@@ -1,11 +1,13 @@
-"""Points at which a run records what is there: tracers, which move with the material, and gauges, which stand still."""
+"""Points at which a run records what is there: tracers, which move with the material, and gauges, which stand still or stay on
+a surface."""
 
 from __future__ import annotations
 
 import numpy as np
 
+from hydro2d.mesh.station_columns import NO_PEAKS, PEAKS, QUANTITIES, U, V
 from hydro2d.solver import tracers
-from hydro2d.solver.station_columns import NO_PEAKS, PEAKS, QUANTITIES
+from hydro2d.solver.surfaces import Follower
 
 
 class Stations:
@@ -32,21 +34,29 @@ class Stations:
         self.places = np.array([place for _, place in (*followed, *fixed)], dtype=float).reshape(-1, 2)
         self.tracers = self.places[: len(followed)]
         self.peaks = np.tile(np.array(NO_PEAKS), (len(self.names), 1))
+        on_surface = {f"gauge_{name}": entry for entry in deck.gauge if entry.surface is not None for name, _ in entry.places()}
+        self._followers = {n: Follower(sim, on_surface[name], self.places[n]) for n, name in enumerate(self.names)
+                           if name in on_surface}
         self._found = np.zeros((len(self.names), len(QUANTITIES)))
 
     def _look(self) -> None:
         g, s, t = self._sim.grid, self._sim.state, self._sim.table
         tracers.sample(g.g, g.nr, g.nz, g.r, g.z, s.group, t.eos_model, t.memory, t.eos_par, s.vof, s.q, s.u, s.v, self.places,
                        self._found)
+        for n, follower in self._followers.items():
+            self._found[n, [U, V]] = follower.velocity()
         tracers.keep_peaks(self._sim.time, self._found, self.peaks)
 
     def record(self) -> None:
-        """After a cycle: tracers follow the velocity of their cell, bilinear, by the midpoint rule; peaks are kept."""
+        """After a cycle: tracers follow the velocity of their cell, bilinear, by the midpoint rule; gauges stay on
+        their surfaces; peaks are kept."""
         if not self.names:
             return
         if len(self.tracers):
             g, s = self._sim.grid, self._sim.state
             tracers.advect(g.g, g.nr, g.nz, self._sim.dt, g.r, g.z, s.group, s.vof, s.u, s.v, self.tracers)
+        for follower in self._followers.values():
+            follower.follow()
         self._look()
 
     def measure(self) -> dict[str, dict[str, float | None]]:

@@ -91,18 +91,18 @@ TOLERANCE = 25.0
 class Transition(Section):
     """The impact velocities between which `hydro2d transition` searches, for every combination of the axes."""
 
-    from_: Speed = Field(alias="from", description="lowest velocity: the rod should stay rigid, or be stopped")
+    from_: Speed = Field(alias="from", description="lowest velocity: the projectile should stay rigid, or be stopped")
     to: Speed = Field(
-        description="highest velocity: the rod should erode, or perforate; negative, as `from`, for a body that flies to -z"
+        description="highest velocity: the projectile should erode, or perforate; negative, as `from`, for one that flies to -z"
     )
     tolerance: PositiveSpeed | None = Field(
         None, description="largest width of a bracket; velocities are this far apart, from `from`; default 25 m/s"
     )
-    key: str | None = Field(None, description="deck key that is varied; default: the velocity of the deck's penetrating rod")
+    key: str | None = Field(None, description="deck key that is varied; default: the velocity of the deck's projectile")
     of: Literal["regime", "erosion", "length", "perforation", "deeper", "shallower"] = Field(
         "regime",
-        description="what changes: the regime of the rod; whether it erodes; whether it loses a third of its length; whether "
-        "it perforates the target (ballistic limit); or whether fast shots go deeper, or less deep, than `depth`",
+        description="what changes: the regime of the projectile; whether it erodes; whether it loses a third of its length; "
+        "whether it perforates the target (ballistic limit); or whether fast shots go deeper, or less deep, than `depth`",
     )
     depth: PositiveLength | None = Field(None, description='threshold of `of = "deeper"` and `of = "shallower"`')
     budget: int | None = Field(

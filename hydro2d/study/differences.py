@@ -8,7 +8,7 @@ from dataclasses import dataclass
 #: keys that every run has for itself
 OWN = ("name", "output.directory")
 #: sections whose tables have names
-NAMED = ("body", "materials", "tracer", "gauge")
+NAMED = ("body", "materials", "tracer", "gauge", "source")
 
 
 def flatten(value, prefix: str = "") -> dict[str, object]:

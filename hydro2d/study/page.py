@@ -5,7 +5,7 @@ from __future__ import annotations
 import base64
 import re
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from datetime import UTC, datetime
 
 from hydro2d import __version__
@@ -25,8 +25,9 @@ BREAKS = re.compile(r"(?<=_)(?=[^\s._])|(?<=\.)(?=[^\s._\d])")
 
 
 def page(contents: Contents, choice: Choice, charts: Sequence[Chart], pictures: Sequence[Picture],
-         films: Sequence[Picture] = (), fitted: Sequence[Picture] = ()) -> str:  # fmt: skip
-    """The whole file; ``fitted``: curves of a search with a budget."""
+         films: Sequence[Picture] = (), fitted: Sequence[Picture] = (),
+         views: Mapping[str, str] | None = None) -> str:  # fmt: skip
+    """The whole file; ``fitted``: curves of a search with a budget; ``views``: links to the pages of runs, by case."""
     from jinja2 import Environment, PackageLoader, StrictUndefined
     from plotly.offline import get_plotlyjs
 
@@ -37,7 +38,7 @@ def page(contents: Contents, choice: Choice, charts: Sequence[Chart], pictures: 
     states = Counter(each.case.status for each in contents.records)
     return env.get_template("report.html.j2").render(
         contents=contents, study=contents.study, table=TABLE, csv=to_csv(contents.rows), charts=charts, pictures=pictures,
-        films=films, fitted=fitted, plotly=get_plotlyjs() if charts else "",
+        films=films, fitted=fitted, views=views or {}, plotly=get_plotlyjs() if charts else "",
         made=f"hydro2d {__version__}, {datetime.now(UTC):%Y-%m-%d %H:%M} UTC",
         states=", ".join(f"{number} {status}" for status, number in states.items()),
         transitions=_transitions(contents) if contents.study.search else None,

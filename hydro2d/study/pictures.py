@@ -12,7 +12,7 @@ from hydro2d.errors import unknown
 from hydro2d.mesh import quantities
 from hydro2d.output.vtk import VtkError
 from hydro2d.results import figures, movies, reading
-from hydro2d.results.figures import FigureError
+from hydro2d.results.scales import FigureError
 from hydro2d.study import chance_figure, rods
 from hydro2d.study.contents import Contents
 from hydro2d.study.record import Record

@@ -161,8 +161,16 @@ class Record:
                 found[f"rod_{what}_ratio"] = found[of] / first
         return found
 
+    @property
+    def derived(self) -> list[str]:
+        """Names of the quantities that [derived] of the deck defines."""
+        found = self.deck.get("derived")
+        return [str(name) for name in found] if isinstance(found, dict) else []
+
     def _as_in_summary(self, name: str) -> str:
         """The name in summary.json of a column of the history."""
+        if name in self.derived:
+            return f"derived.{name}"
         for body in self.bodies:
             if name.startswith(f"body_{body}_"):
                 return f"bodies.{body}.{name.removeprefix(f'body_{body}_')}"
@@ -324,7 +332,7 @@ def _read_rod(record: Record, place: Place) -> None:
     series = directory / vtk.SERIES["interfaces"]
     if not series.is_file():
         if record.done:
-            record.problems.append(f"there is no {series.name}, so the shape of the rod is not shown")
+            record.problems.append(f"there is no {series.name}, so the shape of the projectile is not shown")
         return
     try:
         files = [within(directory, file) for _, file in vtk.read_series(series)]

@@ -61,12 +61,12 @@ CRITERIA = {
         "eroding": f"{_ERODING}; else it is deforming",
         **_BY_DEPTH,
     },
-    "length": {KEPT: "at least two thirds of the rod's length are left at the end", USED_UP: "less is left", **_BY_DEPTH},
+    "length": {KEPT: "at least two thirds of the projectile's length are left", USED_UP: "less is left", **_BY_DEPTH},
     "perforation": {
-        PERFORATED: "the nose is at least one rod radius beyond the rear face of the target",
+        PERFORATED: "the leading end is at least the radius of the projectile beyond the rear face of the target",
         "ballistic limit": "between the fastest run that is stopped and the slowest that perforates",
     },
-    "erosion": {ERODES: _ERODING, HOLDS: "less has, whether the rod is rigid or deforming", **_BY_DEPTH},
+    "erosion": {ERODES: _ERODING, HOLDS: "less has, whether the projectile is rigid or deforming", **_BY_DEPTH},
     "deeper": _OF_DEPTH,
     "shallower": _OF_DEPTH,
 }  # fmt: skip
@@ -150,10 +150,10 @@ def judge(found: Record, of: str = "regime", depth: float | None = None) -> Run:
         return _by_threshold(found, velocity, depth)
     first, mass = found.first.get("rod_mass_kg"), found.value("rod_mass_kg")
     if found.perforated and (found.left or (first and mass < (1.0 - penetrator.ERODED_MASS) * first)):
-        why = "the rod went through the target and left the mesh; stop.perforation = true ends a run before that"
+        why = "the projectile went through the target and left the mesh; stop.perforation = true ends a run before that"
         return Run(found, velocity, None, why)
     if found.left:
-        return Run(found, velocity, None, "the rod left the mesh before it came to rest")
+        return Run(found, velocity, None, "the projectile left the mesh before it came to rest")
     if of == "length":
         kept = found.value("rod_length_m") >= LEAST_KEPT * found.value("rod_initial_length_m")
         return Run(found, velocity, KEPT if kept else USED_UP)
@@ -168,7 +168,7 @@ def _by_threshold(found: Record, velocity: float, depth: float) -> Run:
     if found.depth is None:
         return Run(found, velocity, None, "it has no depth")
     if found.depth < depth and found.at_least:
-        return Run(found, velocity, None, f"the rod left the target or the mesh before a depth of {100 * depth:g} cm")
+        return Run(found, velocity, None, f"the projectile left the target or the mesh before a depth of {100 * depth:g} cm")
     return Run(found, velocity, DEEP if found.depth >= depth else SHALLOW)
 
 
@@ -351,7 +351,8 @@ def _compared(known: Sequence[Run], bracket: Bracket) -> tuple[Comparison | None
     """Models, experiments and the CTH study for the rod and target of the first run, or why there is no comparison."""
     first = next((run.record for run in known if run.record.shot), None)
     if first is None:
-        why = next((run.record.without_models for run in known if run.record.without_models), "there are no rod and target")
+        why = next((run.record.without_models for run in known if run.record.without_models),
+                   "there are no projectile and target")
         return None, f"nothing to compare with: {why if known else 'no run is done'}"
     shot = first.shot
     try:

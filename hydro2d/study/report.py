@@ -2,19 +2,44 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Sequence
 from pathlib import Path
+from urllib.parse import quote
 
 from hydro2d.files import write_text
+from hydro2d.output.history import HistoryError
+from hydro2d.output.vtk import VtkError
+from hydro2d.results.reading import Results, ResultsError
+from hydro2d.results.viewer import page as viewer
+from hydro2d.results.viewer.fields import ViewError
+from hydro2d.results.viewer.packing import DEFAULT_BITS
 from hydro2d.strange import own
 from hydro2d.study import ensembles, layout, panels, pictures, responses, table
-from hydro2d.study.contents import collect
+from hydro2d.study.contents import Contents, collect
 from hydro2d.study.page import PAGE, TABLE, page
 from hydro2d.terminal import say
 
 
+def _views(contents: Contents, folder: Path, make: bool, say: Callable[[str], None]) -> dict[str, str]:
+    """Links from a folder to the pages that show runs, by case; ``make``: those of runs with dumps are made first."""
+    found = {}
+    for each in contents.records:
+        file = own(each.case.directory / viewer.PAGE)
+        if make:
+            try:
+                run = Results(each.case.directory)
+                viewer.view([run], ("all",), DEFAULT_BITS).save(file)
+                say(f"wrote {file}")
+            except (ResultsError, ViewError, VtkError, HistoryError) as error:
+                say(f"warning: {each.case.name} has no page of its own: {error}")
+        if file.is_file():
+            found[each.case.name] = quote(Path(os.path.relpath(file.resolve(), folder.resolve())).as_posix())
+    return found
+
+
 def report(directories: Sequence[Path], out: Path | None = None, say: Callable[[str], None] = say, *, x: str | None = None,
-           y: Sequence[str] = (), by: Sequence[str] = (), movie: str | None = None,
+           y: Sequence[str] = (), by: Sequence[str] = (), movie: str | None = None, view: bool = False,
            trust: bool = False) -> Path:  # fmt: skip
     """Writes the report of a study directory, or of run directories and folders of them.
 
@@ -22,6 +47,7 @@ def report(directories: Sequence[Path], out: Path | None = None, say: Callable[[
     say : receives one line for everything that could not be read, and for every file written
     x, y, by : axes and series of the figures, see responses.choose
     movie : a field; a film of it is made for every run with dumps
+    view : whether the page of `hydro2d view` is made for every run with dumps; the report links to those that there are
     trust : whether the code of models from outside that the decks of the runs carry may be run
 
     Returns the path of the page. Raises StudyError, FigureError, OSError.
@@ -43,12 +69,14 @@ def report(directories: Sequence[Path], out: Path | None = None, say: Callable[[
     drawn = list(pictures.draw(contents, folder))
     fitted = list(pictures.fitted(contents, folder))
     films = list(pictures.films(contents, movie, folder, say)) if movie else []
+    views = _views(contents, folder, view, say)
     files = {picture.file for picture in (*drawn, *fitted, *films)}
     for old in folder.iterdir():
         if pictures.NAMES.fullmatch(old.name) and old not in files:
             old.unlink()
     write_text(folder / TABLE, table.to_csv(contents.rows))
-    write_text(folder / PAGE, page(contents, choice, list(panels.draw(contents, choice)), drawn, films, fitted))
+    write_text(folder / PAGE, page(contents, choice, list(panels.draw(contents, choice)), drawn, films, fitted,
+                                    views=views))
     written = [folder / PAGE, folder / TABLE, *sorted(files)]
     if study.ensembles:
         write_text(folder / ensembles.FILE, table.to_csv(contents.rows_of_ensembles(choice)))

@@ -28,7 +28,8 @@ READER = {
     "Pa": ("GPa", 1e-9), "J/kg": ("MJ/kg", 1e-6), "kg/m3": ("g/cm³", 1e-3), "N s": ("N s", 1.0),
 }  # fmt: skip
 TITLES = {
-    DEPTH: "depth", RESIDUAL: "residual velocity", "rod_tail_velocity_m_s": "tail velocity", "rod_length_m": "rod length",
+    DEPTH: "depth", RESIDUAL: "residual velocity", "rod_tail_velocity_m_s": "tail velocity",
+    "rod_length_m": "projectile length",
     "rod_length_ratio": "final / initial length", "rod_radius_ratio": "largest / initial radius",
 }  # fmt: skip
 _QUANTITY = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*([^\d\s].*?)?\s*$")
@@ -98,12 +99,13 @@ def response(name: str) -> Response:
 
 def readers(name: str) -> tuple[str, float]:
     """The reader's unit of a quantity, empty for a plain number, and the factor from SI to it."""
-    si = name[-2:] if name.endswith(("_m2", "_m3")) and not name.endswith("kg_m3") else unit(name)
+    si = unit(name)
     return READER.get(si, ("" if si == "1" else si, 1.0))
 
 
 def title(name: str) -> str:
     """A quantity in words, without its unit."""
+    name = f"projectile_{name[4:]}" if name.startswith("rod_") and name not in TITLES else name
     return TITLES.get(name) or _ENDING.sub("", name).replace("_", " ").replace(".", " ")
 
 

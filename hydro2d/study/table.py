@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
+from hydro2d.mesh.measured import unit
 from hydro2d.study.experiments import Measurement
 from hydro2d.study.layout import Axis, Study
 from hydro2d.study.record import Record
@@ -70,6 +71,7 @@ def _results(record: Record) -> Row:
         "rod_mass_kg": record.value("rod_mass_kg"),
         RESIDUAL: raw(record, RESIDUAL),
         "regime": record.value("regime"),
+        **{f"derived.{name}": record.numbers.get(f"derived.{name}") for name in record.derived},
     }
 
 
@@ -200,7 +202,8 @@ def columns_of_results(study: Study, table: Sequence[Row], choice: Choice) -> li
         Column("Experiment [m/s]", "experiment_residual_m_s", _number("experiment_residual_m_s", "{:.0f}")),
         Column("Error [m/s]", "residual_error_m_s", _number("residual_error_m_s", "{:+.0f}")),
     ]
-    shown = {DEPTH, *(column.name for column in rod)}
+    derived = [name for name in table[0] if name.startswith("derived.")]
+    shown = {DEPTH, *derived, *(column.name for column in rod)}
     drawn = [_of_response(y.name) for y in choice.y if y.name not in shown]
     speed = Column("Speed [m/s]", "velocity_m_s", _number("velocity_m_s", "{:.0f}"))
     known = {name for row in table for name, value in row.items() if value not in (None, "")}
@@ -209,6 +212,7 @@ def columns_of_results(study: Study, table: Sequence[Row], choice: Choice) -> li
         *([] if any(map(is_velocity, study.axes)) else [speed]),
         *(depths[: 4 if "experiment_depth_m" in known else 1] if "target" in known else []),
         *(column for column in rod if column.name != RESIDUAL or through),
+        *(Column(_said(name), name, _number(name, "{:.4g}")) for name in derived),
         *drawn,
         Column("Regime", "regime", _word("regime"), number=False),
     ]
@@ -217,6 +221,12 @@ def columns_of_results(study: Study, table: Sequence[Row], choice: Choice) -> li
         *(column for column in optional if column.name in known),
         Column("Status", "status", _word("status"), number=False),
     ]
+
+
+def _said(name: str) -> str:
+    """The heading of a derived quantity: its name, and its SI unit where the name does not say it."""
+    key = name.removeprefix("derived.")
+    return key if unit(key) == "1" else f"{key} [{unit(key)}]"
 
 
 def _of_axis(axis: Axis, row: Row) -> Column:

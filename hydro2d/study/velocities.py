@@ -83,7 +83,7 @@ def key(bases: Iterable[tuple[Path, Sequence[str]]]) -> str:
             problems.append(str(error))
             continue
         if deck.penetration is None:
-            raise ValueError(f"{file.name} has no rod and target; [penetration] names them")
+            raise ValueError(f"{file.name} has no projectile and target; [penetration] names them")
         rods.add(deck.penetration.rod)
     if not rods:
         raise ValueError(f"all decks are wrong: {problems[0]}")
@@ -95,8 +95,8 @@ def key(bases: Iterable[tuple[Path, Sequence[str]]]) -> str:
 def fault(deck: decks.Deck, key: str, label: str) -> str | None:
     """Why a deck with this velocity under the key does not have this impact velocity; None if it has."""
     if deck.penetration is None:
-        return "the deck has no rod and target; [penetration] names them"
+        return "the deck has no projectile and target; [penetration] names them"
     impact = model_deck.impact_velocity(deck)
     if math.isclose(impact, speed(label), rel_tol=SAME):
         return None
-    return f"with {key} = {label} the rod hits the target at {impact:g} m/s; the key must set the impact velocity"
+    return f"with {key} = {label} the projectile hits the target at {impact:g} m/s; the key must set the impact velocity"

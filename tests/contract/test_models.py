@@ -190,8 +190,9 @@ def layered(**functions):
     return spoilt("strength", "kinematic-hardening", **functions)
 
 
-def CRUSHES_TO_NAN(rho0, rho, *rest):
-    rest[-1].fill(VIRGIN if rho == rho0 else np.nan)
+def crushed_to(value):
+    """An update that gives the distention this value as soon as the density changes."""
+    return lambda rho0, rho, *rest: rest[-1].fill(value) if rho != rho0 else None
 
 
 POSITIVE_YIELD = (Parameter("yield_stress", "Pa", REQUIRED, "initial yield stress", sign=POSITIVE),)
@@ -212,9 +213,9 @@ FLOW = strength.STRENGTH_MODELS["johnson-cook"].flow_stress
         (contract.finite, gas(p=np.nan), "evaluate"),
         (contract.pressure_rises, gas(slope=1.1), "p rises by"),
         (contract.temperature, gas(T=1.1), "dT/drho is"),
-        (contract.memory, pores(update=lambda *step: step[-1].fill(1.1)), "at rest [[]1.275"),
-        (contract.memory, pores(update=lambda *step: step[-1].fill(0.9)), "beyond"),
-        (contract.memory, pores(update=CRUSHES_TO_NAN), "beyond"),
+        (contract.memory, pores(update=lambda *step: step[-1].fill(1.1)), r"at rest \[1.275"),
+        (contract.memory, pores(update=crushed_to(0.9)), r"become \[0.9\], beyond"),
+        (contract.memory, pores(update=crushed_to(np.nan)), r"become \[nan\], beyond"),
         (contract.memory, pores(ID=99), "by its ID"),
         (contract.strength_is_chosen, metal(ID=1), "by its ID"),
         (contract.moduli, metal(shear_modulus=lambda p, rho, T, par: 2 * G), "the modulus is 5.2e[+]10"),

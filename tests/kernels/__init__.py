@@ -1,0 +1,1 @@
+"""The loops over the mesh, one at a time."""

@@ -18,15 +18,15 @@ POINTS = sorted(
 )
 
 
-def touched(syntax: ast.Module) -> Iterator[tuple[str, str]]:
-    """(module, function) of physics that a test file names: ``module.function`` or an import of it."""
+def touched(syntax: ast.Module, package: str = PACKAGE) -> Iterator[tuple[str, str]]:
+    """(module, function) of a package that a test file names: ``module.function`` or an import of it."""
     modules = {}
     for node in ast.walk(syntax):
-        if isinstance(node, ast.ImportFrom) and node.module == PACKAGE:
+        if isinstance(node, ast.ImportFrom) and node.module == package:
             modules.update({alias.asname or alias.name: alias.name for alias in node.names})
-        elif isinstance(node, ast.ImportFrom) and (node.module or "").startswith(f"{PACKAGE}."):
+        elif isinstance(node, ast.ImportFrom) and (node.module or "").startswith(f"{package}."):
             for alias in node.names:
-                yield node.module.removeprefix(f"{PACKAGE}."), alias.name
+                yield node.module.removeprefix(f"{package}."), alias.name
     for node in ast.walk(syntax):
         if isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name) and node.value.id in modules:
             yield modules[node.value.id], node.attr

@@ -4,9 +4,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from hydro2d.mesh.fields import FAILED
+from hydro2d.mesh.fields import CRUSHED, FAILED
 from hydro2d.physics import fracture
 
+crushed = fracture.crushed.py_func
 damaged = fracture.damaged.py_func
 tension_limit = fracture.tension_limit.py_func
 share_that_stays = fracture.share_that_stays.py_func
@@ -20,6 +21,16 @@ def test_material_that_has_not_failed_bears_its_fracture_pressure(damage):
 @pytest.mark.parametrize("damage", [1.0, 1.0000001])
 def test_failed_material_bears_no_tension(damage):
     assert tension_limit(3.5e9, 0.0, damage) == 0.0
+
+
+def test_the_tension_of_brittle_material_fades_with_damage():
+    assert tension_limit(2e8, 1.0, 0.25) == 1.5e8
+    assert tension_limit(2e8, 1.0, CRUSHED) == pytest.approx(0.2, rel=1e-6)
+
+
+def test_crushed_material_has_not_failed():
+    assert crushed(0.2, 0.3) == 0.5
+    assert crushed(0.2, 5.0) == CRUSHED < 1.0 < damaged(0.2, 5.0)
 
 
 @settings(deadline=None)

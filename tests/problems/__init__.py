@@ -1,0 +1,1 @@
+"""The programs and results that lie beside the decks in problems."""

@@ -11,39 +11,17 @@ import pytest
 from hydro2d.deck import deck as decks
 from hydro2d.output import snapshot
 from hydro2d.solver.simulation import Simulation
+from tests.decks import entry, mesh, plate, rod, stop, table
 
-SHOT = """
-[mesh]
-r = [{ to = "9 mm", cells = 18 }, { cells = 6, ratio = 1.1 }]
-z_start = "-14 mm"
-z = [{ to = "16 mm", size = "0.5 mm" }]
-[[body]]
-name = "rod"
-material = "W_alloy"
-shape = "rod"
-nose = "hemispherical"
-radius = "2.7 mm"
-length = "10 mm"
-tip = "-0.2 mm"
-velocity = "1200 m/s"
-[[body]]
-name = "plate"
-material = "Al7039"
-shape = "plate"
-z_front = 0.0
-thickness = "12 mm"
-[[tracer]]
-name = "nose"
-r = "0.4 mm"
-z = "-1 mm"
-[numerics]
-advection = "ke"
-[failure]
-damage = "material"
-[stop]
-time = "1 ms"
-cycles = 120
-"""
+SHOT = (
+    mesh([{"to": "9 mm", "cells": 18}, {"cells": 6, "ratio": 1.1}], ("-14 mm", "16 mm", "0.5 mm"))
+    + rod("2.7 mm", "10 mm", tip="-0.2 mm", velocity="1200 m/s")
+    + plate("12 mm", material="Al7039")
+    + entry("tracer", name="nose", r="0.4 mm", z="-1 mm")
+    + table("numerics", advection="ke")
+    + table("failure", damage="material")
+    + stop("1 ms", cycles=120)
+)
 SLIP = 'sliding.method="slip-layer"', 'sliding.hard=["rod"]', "sliding.yield_factor=1.5"
 CONTACT = 'sliding.method="contact"', 'sliding.hard=["rod"]'
 FOLLOWING = 'mesh.follow="rod"', 'boundaries.z_max="transmit"'

@@ -8,65 +8,27 @@ from hydro2d.deck import deck as decks
 from hydro2d.output import history, snapshot
 from hydro2d.running.run import run
 from hydro2d.solver.simulation import Simulation
+from tests.decks import entry, mesh, plate, rod, stop, table
 
-SHOT = """
-[mesh]
-r = [{to = "12 mm", cells = 12}]
-z_start = "-25 mm"
-z = [{to = "30 mm", size = "1 mm"}]
-[[body]]
-name = "rod"
-material = "W_alloy"
-shape = "rod"
-nose = "hemispherical"
-radius = "4 mm"
-length = "20 mm"
-tip = "-0.5 mm"
-velocity = "1000 m/s"
-[[body]]
-name = "plate"
-material = "Al5083"
-shape = "plate"
-z_front = 0.0
-thickness = "25 mm"
-[[tracer]]
-name = "nose"
-r = 0.0
-z = "-0.5 mm"
-[stop]
-time = "50 us"
-cycles = 160
-[output]
-history_interval = "0.1 us"
-vtk_interval = "0.5 us"
-"""
+SHOT = (
+    mesh(("12 mm", 12), ("-25 mm", "30 mm", "1 mm"))
+    + rod("4 mm", "20 mm", tip="-0.5 mm", velocity="1000 m/s")
+    + plate("25 mm")
+    + entry("tracer", name="nose", r=0.0, z="-0.5 mm")
+    + stop("50 us", cycles=160)
+    + table("output", history_interval="0.1 us", vtk_interval="0.5 us")
+)
 SLIP = ['sliding.method="slip-layer"', 'sliding.hard=["rod"]', "sliding.yield_factor=1.0"]
 
 
 #: a rod that follows its mesh through three plates, apart from one another so that it is alone in between
-PLATES = SHOT.split("[[body]]")[0].replace("[mesh]", '[mesh]\nfollow = "rod"').replace("to = \"30 mm\"", "to = \"4 mm\"") + """
-[[body]]
-name = "rod"
-material = "W_alloy"
-shape = "rod"
-nose = "hemispherical"
-radius = "4 mm"
-length = "16 mm"
-tip = "-0.5 mm"
-velocity = "1500 m/s"
-[stop]
-time = "1 s"
-[output]
-history_interval = "1 us"
-vtk_interval = "1 us"
-""" + "".join(f"""
-[[body]]
-name = "plate {number}"
-material = "Al5083"
-shape = "plate"
-z_front = "{9 * number} mm"
-thickness = "2 mm"
-""" for number in range(3))
+PLATES = (
+    mesh(("12 mm", 12), ("-25 mm", "4 mm", "1 mm"), follow="rod")
+    + rod("4 mm", "16 mm", tip="-0.5 mm", velocity="1500 m/s")
+    + stop("1 s")
+    + table("output", history_interval="1 us", vtk_interval="1 us")
+    + "".join(plate("2 mm", name=f"plate {number}", z_front=f"{9 * number} mm") for number in range(3))
+)
 CONTACT = ['sliding.method="contact"', 'sliding.hard=["rod"]']
 
 

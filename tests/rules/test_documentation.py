@@ -189,7 +189,7 @@ def test_the_page_of_commands_has_every_command_and_argument():
         assert [word for word in shown if f"| `{word}" not in text] == []
         assert len(re.findall("^[|] `", text, re.MULTILINE)) == len(shown)
     assert "| `--set` | text, several |" in page
-    assert "| `--kind` | `section`, `history`, `cutaway`, `crater` | `section` |" in page
+    assert "| `--kind` | `section`, `history`, `line`, `xt`, `crater`, `debris`, `cutaway` | `section` |" in page
 
 
 def test_the_page_of_materials_has_every_source_in_full():

@@ -9,7 +9,7 @@ from hydro2d.jit import options
 from tests.rules import source
 
 #: decorators of functions that are compiled; those of which a loop is parallel
-MARKS = ("phase", "threaded", "kernel", "serial", "rowwise", "apart", "point")
+MARKS = ("phase", "threaded", "kernel", "serial", "rowwise", "apart", "late", "point")
 PARALLEL = {"phase", "threaded"}
 ALLOCATIONS = ("zeros", "empty", "ones", "full", "array", "zeros_like", "empty_like", "copy", "concatenate")
 COMPILED = [

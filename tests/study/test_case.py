@@ -18,8 +18,8 @@ from hydro2d.interrupt import Interrupt
 from hydro2d.output import history, snapshot
 from hydro2d.running import compilation
 from hydro2d.study.case import kernels, run_case
+from tests.cli.test_main import DECK
 from tests.locks import held
-from tests.unit.test_cli import DECK
 
 
 @pytest.fixture

@@ -153,7 +153,7 @@ def test_models_are_those_of_the_command(contents):
 def test_histories_are_thinned(panel):
     figure = charts.histories(panel.series)
     titles = [axis.title.text for axis in figure.select_yaxes()]
-    assert titles == ["depth<br>[cm]", "tail velocity<br>[m/s]", "rod length<br>[cm]"]
+    assert titles == ["depth<br>[cm]", "tail velocity<br>[m/s]", "projectile length<br>[cm]"]
     assert len(figure.data) == 18
     line = figure.data[0]
     assert len(line.x) <= 300

@@ -252,8 +252,8 @@ def test_spheres_and_runs_without_a_projectile_have_a_page(tmp_path):
 def test_responses_are_chosen(study):
     page, lines = page_of(study, x="advection", y=["rod_mass_kg", "crater.volume_m3"], by=["velocity"])
     assert charts(page)[0].startswith("rod_mass_kg")
-    assert "Rod mass against advection" in page.text
-    assert "Rod mass [g]" in page.text  # a column of the table
+    assert "Projectile mass against advection" in page.text
+    assert "Projectile mass [g]" in page.text  # a column of the table
     assert "crater.volume_m3" in table(study / "report")["1086m-s_ke"]
     assert [name for name in charts(page) if "volume" in name] == []
     assert lines[0] == "warning: no run has crater.volume_m3, so it is not drawn"
@@ -284,6 +284,35 @@ def test_films_are_in_the_page(finished, tmp_path, monkeypatch, ending):
     assert ("data:video/mp4" if ending == "mp4" else "data:image/gif") in sources
     page_of(tmp_path / "runs")
     assert not film.exists()
+
+
+def test_pages_of_runs_are_linked(finished, tmp_path):
+    """Those that there are; with `view` those of all runs with dumps are made, and one without dumps is said to have none."""
+    shutil.copytree(finished, tmp_path / "runs" / "a b")
+    fake.write_run(tmp_path / "runs" / "b")
+    page, _ = page_of(tmp_path / "runs")
+    assert [each["href"] for each in page.all("a") if "view.html" in each.get("href", "")] == []
+    page, lines = page_of(tmp_path / "runs", view=True)
+    assert page.faults == []
+    links = [each["href"] for each in page.all("a") if "view.html" in each.get("href", "")]
+    assert links == ["../a%20b/view.html"] * 2  # in the tables of results and of conservation
+    assert (tmp_path / "runs" / "a b" / "view.html").is_file()
+    assert any(line.startswith("warning: b has no page of its own") for line in lines)
+    page, _ = page_of(tmp_path / "runs")
+    assert [each["href"] for each in page.all("a") if "view.html" in each.get("href", "")] == links
+
+
+def test_derived_quantities_are_columns(tmp_path):
+    formulas = '[derived]\n"P/L" = "depth / length0"\nhole_m3 = "crater_volume_m3"\n'
+    text = fake.resolved("problems/shapes/sphere.toml").replace("[derived]\n", formulas)
+    assert formulas in text
+    fake.write_run(tmp_path / "runs" / "a", text=text, derived={"P/L": 1.25, "hole_m3": 2e-6})
+    page, _ = page_of(tmp_path / "runs")
+    assert page.faults == []
+    row = table(tmp_path / "runs" / "report")["a"]
+    assert (row["derived.P/L"], row["derived.hole_m3"]) == ("1.25", "2e-06")
+    assert "P/L" in page.text
+    assert "hole_m3 [m3]" in page.text
 
 
 def test_pictures_of_an_earlier_report_are_removed(study, tmp_path):

@@ -72,7 +72,7 @@ def test_names_choose(tmp_path):
     contents = study(tmp_path, {"velocity": VELOCITIES, "law": LAWS})
     choice = chosen(contents, x="numerics.courant", y=["rod_length_m", "rod_length_ratio", "conservation.mass.rod"], by=["law"])
     assert sorted(set(choice.x.values.values())) == [0.4, 0.5]
-    assert [y.title for y in choice.y] == ["rod length [cm]", "final / initial length", "conservation mass rod"]
+    assert [y.title for y in choice.y] == ["projectile length [cm]", "final / initial length", "conservation mass rod"]
     first = contents.records[0]
     assert choice.y[0].value(first) == pytest.approx(fake.LENGTH * 0.99 * 100)
     assert choice.y[1].value(first) == pytest.approx(0.99)

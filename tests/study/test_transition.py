@@ -13,6 +13,7 @@ from hydro2d.cli.main import call
 from hydro2d.study import cases, regimes
 from hydro2d.study.case import Outcome
 from hydro2d.study.definition import StudyError
+from tests.decks import mesh, plate, rod, stop, table
 from tests.study import made_up, tubes
 from tests.study.html import Page
 
@@ -96,7 +97,7 @@ WRONG = [
      'search.toml:8: axis[0].name: "velocity" is the name of the axis that [transition] adds'),
     ('["ke", "momentum"]', '["ke"]\n[[exclude]]\nvelocity = "900 m/s"', 'exclude[0]: unknown axis "velocity"'),
     ('"problems/', '"problem/', "no such file"),
-    (BASE, "problems/verification/sod_z.toml", "search.toml:4: transition: sod_z.toml has no rod and target"),
+    (BASE, "problems/verification/sod_z.toml", "search.toml:4: transition: sod_z.toml has no projectile and target"),
 ]  # fmt: skip
 
 
@@ -334,7 +335,7 @@ def test_a_rod_that_left_a_short_mesh_has_no_regime_either(tmp_path):
     assert status == 0
     assert brackets(found)[0]["to eroding"] == (1300, 1350)
     runs = {run["velocity_m_s"]: run for run in found["combinations"][0]["runs"]}
-    assert (runs[1500]["regime"], runs[1500]["reason"]) == (None, "the rod left the mesh before it came to rest")
+    assert (runs[1500]["regime"], runs[1500]["reason"]) == (None, "the projectile left the mesh before it came to rest")
 
 
 def test_a_run_that_was_cut_short_is_told(tmp_path, capsys):
@@ -366,31 +367,13 @@ def test_status_and_report_show_the_transitions(again, capsys):
 
 # ------------------------------------------------------------------------------------------------ a real shot
 
-SHOT = """
-[mesh]
-r = [{to = "6 mm", size = "1 mm"}, {cells = 6, ratio = 1.2}]
-z_start = "-16 mm"
-z = [{to = "46 mm", size = "1 mm"}]
-[[body]]
-name = "rod"
-material = "W_alloy"
-shape = "rod"
-nose = "hemispherical"
-radius = "3 mm"
-length = "14 mm"
-tip = 0.0
-velocity = "1000 m/s"
-[[body]]
-name = "plate"
-material = "Al5083"
-shape = "plate"
-z_front = 0.0
-thickness = "44 mm"
-[stop]
-time = "30 us"
-[output]
-vtk_interval = "30 us"
-"""
+SHOT = (
+    mesh([{"to": "6 mm", "size": "1 mm"}, {"cells": 6, "ratio": 1.2}], ("-16 mm", "46 mm", "1 mm"))
+    + rod("3 mm", "14 mm", tip=0.0, velocity="1000 m/s")
+    + plate("44 mm")
+    + stop("30 us")
+    + table("output", vtk_interval="30 us")
+)
 SHORT_ROD = """
 title = "A short rod, three cells across its radius"
 deck = "shot.toml"

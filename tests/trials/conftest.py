@@ -4,9 +4,9 @@ import shutil
 
 import pytest
 
+from tests.cli.test_main import DECK
 from tests.trials import spoil
 from tests.trials.test_texts import STUDY
-from tests.unit.test_cli import DECK
 
 FEW = ["--set", "stop.cycles=30", "--set", "output.vtk_interval='0.3 us'", "--set", "output.history_interval='0.1 us'"]
 

@@ -7,9 +7,9 @@ import pytest
 
 import hydro2d
 from hydro2d.errors import DeckError
+from tests.cli.test_main import DECK
 from tests.trials import spoil
 from tests.trials.test_texts import SEARCH, STUDY
-from tests.unit.test_cli import DECK
 
 SECONDS = 10.0  # 5 on a machine that does nothing else
 LONG = "1" + 4400 * "0"

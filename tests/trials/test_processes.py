@@ -16,9 +16,9 @@ from pathlib import Path
 import pytest
 
 from hydro2d.output import snapshot
+from tests.cli.test_main import DECK
 from tests.trials.conftest import FEW
 from tests.trials.test_texts import STUDY
-from tests.unit.test_cli import DECK
 
 ROOT = Path(__file__).parents[2]
 #: what a signal ends a command with: hydro2d's status, or the signal itself before anything of hydro2d has begun

@@ -5,9 +5,9 @@ import random
 import pytest
 
 from hydro2d.toml import problems_folder
+from tests.cli.test_main import DECK
+from tests.solver.test_sanity import TEXT
 from tests.trials import spoil
-from tests.unit.test_cli import DECK
-from tests.unit.test_sanity import TEXT
 
 CONTACT = DECK + """
 [sliding]
@@ -40,7 +40,7 @@ pressure = "1e5 Pa"
 time = "2 us"
 """
 #: decks that run in a second, and shipped ones, which are checked alone
-SMALL = {"rod": DECK, "bar": TEXT, "contact": CONTACT, "gas": GAS}
+SMALL = {"rod": DECK, "bar": "\n" + TEXT, "contact": CONTACT, "gas": GAS}
 SHIPPED = ("hemi_5083_1086_quick.toml", "hemi_5083_1086.toml", "hemi_5083_1296_johnson_cook_failure.toml")
 STUDY = """
 title = "three velocities, two schemes"

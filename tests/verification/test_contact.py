@@ -9,6 +9,7 @@ import pytest
 from hydro2d.deck import deck as decks
 from hydro2d.output.derived import Cells
 from hydro2d.solver.simulation import Simulation
+from tests.decks import box, contact, mesh, stop, table, walls
 from tests.verification.running import ADVECTION, Line, advection, between, finish
 
 FOLDER = "problems/sliding"
@@ -222,46 +223,17 @@ def test_bodies_that_touch_beyond_the_active_cells_are_no_contact_yet():
     assert abs(simulation.conservation()["total_energy"]) < 1e-11
 
 
-INSIDE = """
-[mesh]
-geometry = "planar"
-r = [{ to = "6 mm", cells = 24 }]
-z = [{ to = "10 mm", cells = 40 }]
-[boundaries]
-r_min = "wall"
-r_max = "wall"
-[[body]]
-name = "block"
-shape = "box"
-material = "steel_4340_power_law"
-r = ["1.248 mm", "2.012 mm"]
-z = ["2.1 mm", "7.3 mm"]
-velocity = "2500 m/s"
-[[body]]
-name = "slider"
-shape = "box"
-material = "W_alloy"
-r = ["0 mm", "2.1 mm"]
-z = ["-1 mm", "11 mm"]
-velocity = "50 m/s"
-pressure = "100 MPa"
-flow = { pattern = "cylindrical", speed = -500.0, centre = "9.2 mm", radius = "1.8 mm", exponent = 1.0 }
-[[body]]
-name = "base"
-shape = "box"
-material = "Al5083"
-r = ["2.1 mm", "6 mm"]
-z = ["-1 mm", "11 mm"]
-pressure = "100 MPa"
-[numerics]
-initial_dt_factor = 1.0
-[sliding]
-method = "contact"
-hard = ["slider"]
-[stop]
-time = "1 us"
-cycles = 5
-"""
+INSIDE = (
+    mesh(("6 mm", 24), ("10 mm", 40), geometry="planar")
+    + walls("r_min", "r_max")
+    + box("block", "steel_4340_power_law", r=["1.248 mm", "2.012 mm"], z=["2.1 mm", "7.3 mm"], velocity="2500 m/s")
+    + box("slider", "W_alloy", r=["0 mm", "2.1 mm"], z=["-1 mm", "11 mm"], velocity="50 m/s", pressure="100 MPa",
+          flow={"pattern": "cylindrical", "speed": -500.0, "centre": "9.2 mm", "radius": "1.8 mm", "exponent": 1.0})
+    + box("base", "Al5083", r=["2.1 mm", "6 mm"], z=["-1 mm", "11 mm"], pressure="100 MPa")
+    + table("numerics", initial_dt_factor=1.0)
+    + contact("slider")
+    + stop("1 us", cycles=5)
+)
 
 
 def test_no_body_flows_out_of_a_cell_in_which_it_is_not():

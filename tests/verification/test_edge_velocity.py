@@ -6,29 +6,15 @@ import pytest
 from hydro2d.deck import deck as decks
 from hydro2d.running import check
 from hydro2d.solver.simulation import Simulation
+from tests.decks import box, mesh, stop, table, walls
 from tests.verification.running import ADVECTION, advection, finish
 
-PISTON = """
-[mesh]
-geometry = "planar"
-r = [{ to = "100 mm", cells = 100 }]
-z = [{ to = "4 mm", cells = 4 }]
-[boundaries]
-r_min = "velocity"
-r_min_velocity = "300 m/s"
-r_max = "wall"
-z_min = "wall"
-z_max = "wall"
-[[body]]
-name = "gas"
-material = "gas_7_5"
-shape = "box"
-r = [0.0, "100 mm"]
-z = [0.0, "4 mm"]
-pressure = "0.1 MPa"
-[stop]
-time = "150 us"
-"""
+PISTON = (
+    mesh(("100 mm", 100), ("4 mm", 4), geometry="planar")
+    + walls("r_max", "z_min", "z_max", r_min="velocity", r_min_velocity="300 m/s")
+    + box("gas", "gas_7_5", r=[0.0, "100 mm"], z=[0.0, "4 mm"], pressure="0.1 MPa")
+    + stop("150 us")
+)
 UP, GAMMA, P = 300.0, 1.4, 1e5
 #: largest error of pressure and density behind the shock; `ke` gains momentum (explanation/remap)
 ERROR = {"ke": 0.01, "momentum": 0.01, "both": 0.005}
@@ -81,23 +67,12 @@ def test_inflow_drives_the_shock_of_a_piston(text, choice):
     audit_closes(simulation)
 
 
-FED = """
-[mesh]
-r = [{ to = "9 mm", cells = 12 }]
-z = [{ to = "12 mm", cells = 16 }]
-[boundaries]
-z_min = "velocity"
-z_min_velocity = "1000 m/s"
-[[body]]
-name = "bar"
-material = "W_alloy"
-shape = "box"
-r = [0.0, "3 mm"]
-z = [0.0, "2 mm"]
-velocity = "1000 m/s"
-[stop]
-time = "8 us"
-"""
+FED = (
+    mesh(("9 mm", 12), ("12 mm", 16))
+    + table("boundaries", z_min="velocity", z_min_velocity="1000 m/s")
+    + box("bar", "W_alloy", r=[0.0, "3 mm"], z=[0.0, "2 mm"], velocity="1000 m/s")
+    + stop("8 us")
+)
 
 
 @pytest.mark.parametrize("choice", ADVECTION)

@@ -5,29 +5,16 @@ import pytest
 
 from hydro2d.deck import deck as decks
 from hydro2d.solver.simulation import Simulation
+from tests.decks import body, box, material, mesh, rod, stop, table
 from tests.verification.running import ADVECTION, advection
 
-FLIGHT = """
-[mesh]
-geometry = "planar"
-r = [{ to = "12 mm", cells = 20 }]
-z = [{ to = "12 mm", cells = 20 }]
-[boundaries]
-r_min = "outflow"
-[[body]]
-name = "block"
-material = "W_alloy"
-shape = "polygon"
-points = [["4 mm", "4.3 mm"], ["7 mm", "3.5 mm"], ["8.2 mm", "7 mm"], ["5 mm", "8 mm"]]
-[[body]]
-name = "gas"
-material = "Al5083"
-shape = "box"
-r = ["5 mm", "6 mm"]
-z = ["9 mm", "9.7 mm"]
-[stop]
-time = "11 us"
-"""
+FLIGHT = (
+    mesh(("12 mm", 20), ("12 mm", 20), geometry="planar")
+    + table("boundaries", r_min="outflow")
+    + body("block", "W_alloy", "polygon", points=[["4 mm", "4.3 mm"], ["7 mm", "3.5 mm"], ["8.2 mm", "7 mm"], ["5 mm", "8 mm"]])
+    + box("gas", "Al5083", r=["5 mm", "6 mm"], z=["9 mm", "9.7 mm"])
+    + stop("11 us")
+)
 CONTACT = 'sliding.method="contact"', 'sliding.hard=["block"]'
 SPEED = 1000.0
 
@@ -62,30 +49,12 @@ def test_free_flight_through_an_open_edge(direction, choice, options):
     leaves_unchanged(Simulation(decks.loads(FLIGHT, [*bodies, advection(choice), *options])), 0, velocity)
 
 
-BEHIND = """
-[mesh]
-follow = "rod"
-r = [{ to = "9 mm", cells = 15 }]
-z_start = "-8 mm"
-z = [{ to = "8 mm", cells = 24 }]
-[[body]]
-name = "rod"
-material = "W_alloy"
-shape = "rod"
-nose = "flat"
-radius = "2.1 mm"
-length = "4 mm"
-tip = "1 mm"
-velocity = "1000 m/s"
-[[body]]
-name = "ring"
-material = "Al5083"
-shape = "box"
-r = ["5 mm", "7.3 mm"]
-z = ["0.4 mm", "5.5 mm"]
-[stop]
-time = "16 us"
-"""
+BEHIND = (
+    mesh(("9 mm", 15), ("-8 mm", "8 mm", 24), follow="rod")
+    + rod("2.1 mm", "4 mm", nose="flat", tip="1 mm", velocity="1000 m/s")
+    + box("ring", "Al5083", r=["5 mm", "7.3 mm"], z=["0.4 mm", "5.5 mm"])
+    + stop("16 us")
+)
 
 
 @pytest.mark.parametrize("choice", ADVECTION)
@@ -94,34 +63,15 @@ def test_what_a_following_mesh_leaves_behind(choice):
     leaves_unchanged(Simulation(decks.loads(BEHIND, [advection(choice)])), 1, (0.0, 0.0))
 
 
-WAVE = """
-[mesh]
-geometry = "planar"
-r = [{ to = "120 mm", size = "1 mm" }]
-z_start = "-10 mm"
-z = [{ to = "10 mm", size = "0.5 mm" }]
-[boundaries]
-r_min = "outflow"
-z_min = "transmit"
-z_max = "transmit"
-[[body]]
-name = "kick"
-material = "Al_elastic"
-shape = "box"
-z = ["-2 mm", "2 mm"]
-[[body]]
-name = "plate"
-join = "kick"
-material = "Al_elastic"
-shape = "box"
-z = ["-1 m", "1 m"]
-[materials.Al_elastic]
-based_on = "Al5083"
-fracture_pressure = "10 GPa"
-strength = { model = "elastic-plastic", shear_modulus = "26 GPa", yield_stress = "10 GPa" }
-[stop]
-time = "8 us"
-"""
+WAVE = (
+    mesh(("120 mm", "1 mm"), ("-10 mm", "10 mm", "0.5 mm"), geometry="planar")
+    + table("boundaries", r_min="outflow", z_min="transmit", z_max="transmit")
+    + box("kick", "Al_elastic", z=["-2 mm", "2 mm"])
+    + box("plate", "Al_elastic", join="kick", z=["-1 m", "1 m"])
+    + material("Al_elastic", "Al5083", fracture_pressure="10 GPa",
+               strength={"model": "elastic-plastic", "shear_modulus": "26 GPa", "yield_stress": "10 GPa"})
+    + stop("8 us")
+)
 FREE = 'boundaries.z_min="outflow"', 'boundaries.z_max="outflow"'
 LONG = "mesh.z_start=-0.06", 'mesh.z=[{ to = "60 mm", size = "0.5 mm" }]'
 
@@ -161,41 +111,14 @@ def test_what_goes_through_transmitting_edges_is_recorded():
     assert abs(found["axial_momentum"]) < 1e-12
 
 
-CORNER = """
-[mesh]
-geometry = "GEOMETRY"
-r = [{ to = "10 mm", cells = 20 }]
-z_start = "-10 mm"
-z = [{ to = "10 mm", cells = 40 }]
-[boundaries]
-z_min = "Z_MIN"
-z_max = "transmit"
-r_max = "transmit"
-[[body]]
-name = "hot"
-material = "Al5083"
-shape = "box"
-r = ["7 mm", "9 mm"]
-z = ["6 mm", "8 mm"]
-velocity = ["40 m/s", "60 m/s"]
-[[body]]
-name = "other"
-join = "hot"
-material = "Al5083"
-shape = "box"
-r = ["7 mm", "9 mm"]
-z = ["-9 mm", "-7 mm"]
-velocity = ["40 m/s", "60 m/s"]
-[[body]]
-name = "plate"
-join = "hot"
-material = "Al5083"
-shape = "box"
-r = ["0 mm", "1 m"]
-z = ["-1 m", "1 m"]
-[stop]
-time = "4 us"
-"""
+CORNER = (
+    mesh(("10 mm", 20), ("-10 mm", "10 mm", 40))
+    + table("boundaries", z_max="transmit", r_max="transmit")
+    + box("hot", "Al5083", r=["7 mm", "9 mm"], z=["6 mm", "8 mm"], velocity=["40 m/s", "60 m/s"])
+    + box("other", "Al5083", join="hot", r=["7 mm", "9 mm"], z=["-9 mm", "-7 mm"], velocity=["40 m/s", "60 m/s"])
+    + box("plate", "Al5083", join="hot", r=["0 mm", "1 m"], z=["-1 m", "1 m"])
+    + stop("4 us")
+)
 
 
 @pytest.mark.parametrize("geometry", ["cylindrical", "planar"])
@@ -203,7 +126,8 @@ time = "4 us"
 def test_the_corner_of_a_transmitting_edge_is_counted_once(lower, geometry):
     """Waves reach every corner: of two transmitting edges, and of one with the axis, a wall, a piston and an open edge."""
     options = ["boundaries.z_min_velocity=5.0"] if lower == "velocity" else []
-    simulation = Simulation(decks.loads(CORNER.replace("GEOMETRY", geometry).replace("Z_MIN", lower), options))
+    options += [f'mesh.geometry="{geometry}"', f'boundaries.z_min="{lower}"']
+    simulation = Simulation(decks.loads(CORNER, options))
     while simulation.stop_reason() is None:
         simulation.step()
     found = simulation.conservation()
@@ -212,28 +136,15 @@ def test_the_corner_of_a_transmitting_edge_is_counted_once(lower, geometry):
     assert abs(found["axial_momentum"]) < 1e-12
 
 
-DEBRIS = """
-[mesh]
-r = [{ to = "10 mm", cells = 12 }]
-z_start = "-10 mm"
-z = [{ to = "10 mm", cells = 24 }]
-[[body]]
-name = "ball"
-material = "Al6061_T6"
-shape = "sphere"
-centre = 0.0
-radius = "5 mm"
-energy = ENERGY
-[stop]
-time = "20 us"
-"""
 
 
 @pytest.mark.parametrize("choice", ADVECTION)
-@pytest.mark.parametrize("energy", ["5e6", "2e7"])
+@pytest.mark.parametrize("energy", [5e6, 2e7])
 def test_hot_debris_that_leaves_takes_nothing_unnamed_along(choice, energy):
     """A ball of aluminium with several times the energy of evaporation bursts and flies out through three open edges."""
-    simulation, worst = Simulation(decks.loads(DEBRIS.replace("ENERGY", energy), [advection(choice)])), 0.0
+    ball = body("ball", "Al6061_T6", "sphere", centre=0.0, radius="5 mm", energy=energy)
+    text = mesh(("10 mm", 12), ("-10 mm", "10 mm", 24)) + ball + stop("20 us")
+    simulation, worst = Simulation(decks.loads(text, [advection(choice)])), 0.0
     while simulation.time < 20e-6:
         simulation.step()
         audit = simulation.conservation()

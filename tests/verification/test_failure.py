@@ -6,6 +6,7 @@ import pytest
 from hydro2d.deck import deck
 from hydro2d.mesh.fields import FAILED, SRR, SRZ
 from hydro2d.solver.simulation import Simulation
+from tests.decks import box, mesh, plate, rod, stop, walls
 from tests.verification.running import finish
 from tests.verification.test_translation import ROD
 
@@ -21,53 +22,20 @@ damage = "material"
 """
 FLIGHT = STRAIN_FAILURE + ROD.replace("W_alloy", "rod_fails")
 #: two halves of a bar of one material, which part in the middle, at r = const nothing happens
-BAR = STRAIN_FAILURE + """
-[mesh]
-r = [{ to = "2 mm", cells = 4 }]
-z_start = "-20 mm"
-z = [{ to = "20 mm", cells = 80 }]
-[boundaries]
-r_max = "wall"
-[[body]]
-name = "low"
-material = "rod_fails"
-shape = "box"
-z = ["-15 mm", "0 mm"]
-velocity = "-20 m/s"
-[[body]]
-name = "high"
-material = "rod_fails"
-shape = "box"
-z = ["0 mm", "15 mm"]
-velocity = "20 m/s"
-join = "low"
-[stop]
-time = "5 us"
-"""
+BAR = STRAIN_FAILURE + (
+    mesh(("2 mm", 4), ("-20 mm", "20 mm", 80))
+    + walls("r_max")
+    + box("low", "rod_fails", z=["-15 mm", "0 mm"], velocity="-20 m/s")
+    + box("high", "rod_fails", z=["0 mm", "15 mm"], velocity="20 m/s", join="low")
+    + stop("5 us")
+)
 #: a short rod that fails at a strain of 0.5, so that much of it does within a few microseconds
-SHOT = STRAIN_FAILURE.replace('[materials.plate', 'damage.D1 = 0.5\n[materials.plate') + """
-[mesh]
-r = [{ to = "9 mm", cells = 18 }]
-z_start = "-12 mm"
-z = [{ to = "18 mm", cells = 60 }]
-[[body]]
-name = "rod"
-material = "rod_fails"
-shape = "rod"
-nose = "flat"
-radius = "2 mm"
-length = "10 mm"
-tip = 0.0
-velocity = "2000 m/s"
-[[body]]
-name = "plate"
-material = "plate_fails"
-shape = "plate"
-z_front = 0.0
-thickness = "16 mm"
-[stop]
-time = "9 us"
-"""
+SHOT = STRAIN_FAILURE.replace('[materials.plate', 'damage.D1 = 0.5\n[materials.plate') + (
+    mesh(("9 mm", 18), ("-12 mm", "18 mm", 60))
+    + rod("2 mm", "10 mm", material="rod_fails", nose="flat", tip=0.0, velocity="2000 m/s")
+    + plate("16 mm", material="plate_fails")
+    + stop("9 us")
+)
 SLIP_LAYER = """
 [sliding]
 method = "slip-layer"

@@ -9,48 +9,11 @@ import pytest
 
 from hydro2d.deck import deck as decks
 from hydro2d.solver.simulation import Simulation
+from tests.decks import body, box, contact, material, mesh, stop, walls
 
 CELL = 0.5  # mm
 SPEED = 1000.0
 
-DECK = """
-[mesh]
-r = [{{ to = "8 mm", size = "{cell} mm" }}]
-z = [{{ to = "30 mm", size = "{cell} mm" }}]
-[boundaries]
-r_max = "wall"
-[materials.metal]
-based_on = "W_alloy"
-strength = {{ model = "elastic-plastic", shear_modulus = "145 GPa", yield_stress = "2 GPa" }}
-[[body]]
-name = "rod"
-material = "metal"
-shape = "polygon"
-points = [{points}]
-velocity = {speed}
-[[body]]
-name = "film"
-material = "Al5083"
-shape = "box"
-r = ["{root} mm", "{rim} mm"]
-z = ["{low} mm", "{high} mm"]
-velocity = {film}
-{tube}
-[sliding]
-method = "contact"
-hard = ["rod"]
-[stop]
-time = "1 s"
-"""
-TUBE = """
-[[body]]
-name = "tube"
-material = "Al5083"
-shape = "box"
-r = ["{rim} mm", "8 mm"]
-z = [0.0, "30 mm"]
-velocity = {around}
-"""
 
 
 def slotted_rod(thick: float, at: float, faster: float, around: float | None) -> Simulation:
@@ -63,10 +26,19 @@ def slotted_rod(thick: float, at: float, faster: float, around: float | None) ->
     middle, half = slot.mean(), 0.5 * thick * CELL
     low, high, foot, end = *slot, 8 * CELL, 34 * CELL
     outline = [(0, foot), (rim, foot), (rim, low), (root, low), (root, high), (rim, high), (rim, end), (0, end)]
-    words = {"cell": CELL, "speed": SPEED, "root": root, "rim": rim, "low": middle - half, "high": middle + half,
-             "film": SPEED + faster, "around": around}  # fmt: skip
-    words["points"] = ", ".join(f'["{r} mm", "{z} mm"]' for r, z in outline)
-    return Simulation(decks.loads(DECK.format(tube="" if around is None else TUBE.format(**words), **words)))
+    tube = "" if around is None else box("tube", "Al5083", r=[f"{rim} mm", "8 mm"], z=[0.0, "30 mm"], velocity=around)
+    return Simulation(decks.loads(
+        mesh(("8 mm", f"{CELL} mm"), ("30 mm", f"{CELL} mm"))
+        + walls("r_max")
+        + material("metal", "W_alloy",
+                   strength={"model": "elastic-plastic", "shear_modulus": "145 GPa", "yield_stress": "2 GPa"})
+        + body("rod", "metal", "polygon", points=[[f"{r} mm", f"{z} mm"] for r, z in outline], velocity=SPEED)
+        + box("film", "Al5083", r=[f"{root} mm", f"{rim} mm"], z=[f"{middle - half} mm", f"{middle + half} mm"],
+              velocity=SPEED + faster)
+        + tube
+        + contact("rod")
+        + stop("1 s")
+    ))  # fmt: skip
 
 
 @pytest.mark.parametrize("thick", [0.01, 0.03, 0.1, 0.3])

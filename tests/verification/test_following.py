@@ -7,35 +7,16 @@ import pytest
 
 from hydro2d.deck import deck as decks
 from hydro2d.solver.simulation import Simulation
+from tests.decks import body, box, contact, material, mesh, plate, rod, stop, table, walls
 from tests.verification.running import ADVECTION, Line, advection, between
 
-FLIGHT = """
-[mesh]
-follow = "rod"
-r = [{ to = "4 mm", cells = 8 }]
-z_start = "-8 mm"
-z = [{ to = "8 mm", cells = 32 }]
-[[body]]
-name = "rod"
-material = "W_alloy"
-shape = "rod"
-nose = "hemispherical"
-radius = "2.2 mm"
-length = "5.1 mm"
-tip = "-0.2 mm"
-velocity = "1000 m/s"
-[[body]]
-name = "plate"
-material = "Al5083"
-shape = "plate"
-z_front = "1 km"
-thickness = "1 cm"
-[stop]
-time = "1 s"
-[output]
-history_interval = "1 us"
-vtk_interval = "1 us"
-"""
+FLIGHT = (
+    mesh(("4 mm", 8), ("-8 mm", "8 mm", 32), follow="rod")
+    + rod("2.2 mm", "5.1 mm", tip="-0.2 mm", velocity="1000 m/s")
+    + plate("1 cm", z_front="1 km")
+    + stop("1 s")
+    + table("output", history_interval="1 us", vtk_interval="1 us")
+)
 CONTACT = 'sliding.method="contact"', 'sliding.hard=["rod"]'
 
 
@@ -68,36 +49,15 @@ def test_ten_thousand_cycles_of_free_flight_change_nothing(options):
     closes(simulation)
 
 
-IMPACT = """
-[mesh]
-geometry = "planar"
-follow = "hitter"
-r = [{ to = "0.4 mm", cells = 4 }]
-z_start = "-30 mm"
-z = [{ to = "30 mm", cells = 600 }]
-[boundaries]
-r_min = "wall"
-r_max = "wall"
-[[body]]
-name = "hitter"
-material = "W_alloy"
-shape = "box"
-z = ["-20 mm", 0.0]
-velocity = "1000 m/s"
-[materials.W_fluid]
-based_on = "W_alloy"
-strength = { model = "hydrodynamic" }
-[materials.Al_fluid]
-based_on = "Al5083"
-strength = { model = "hydrodynamic" }
-[[body]]
-name = "plate"
-material = "Al_fluid"
-shape = "box"
-z = [0.0, "40 mm"]
-[stop]
-time = "3 us"
-"""
+IMPACT = (
+    mesh(("0.4 mm", 4), ("-30 mm", "30 mm", 600), geometry="planar", follow="hitter")
+    + walls("r_min", "r_max")
+    + box("hitter", "W_alloy", z=["-20 mm", 0.0], velocity="1000 m/s")
+    + material("W_fluid", "W_alloy", strength={"model": "hydrodynamic"})
+    + material("Al_fluid", "Al5083", strength={"model": "hydrodynamic"})
+    + box("plate", "Al_fluid", z=[0.0, "40 mm"])
+    + stop("3 us")
+)
 
 
 class At:
@@ -132,48 +92,20 @@ def test_tungsten_on_aluminium_in_one_dimension(velocity, choice):
     closes(simulation)
 
 
-SHOT = """
-[mesh]
-r = [{ across = "rod", cells_across = 5.5, cells = 14 }, { cells = 8, ratio = 1.15 }]
-z_start = "-24 mm"
-z = [{ to = "16 mm", size = "0.4 mm" }, { cells = 6, ratio = 1.15 }]
-follow = "rod"
-[numerics]
-advection = "ke"
-[[body]]
-name = "rod"
-material = "W_rigid"
-shape = "rod"
-nose = "hemispherical"
-radius = "2.2 mm"
-length = "20 mm"
-tip = "-1 mm"
-velocity = "1000 m/s"
-[materials.W_rigid]
-based_on = "W_alloy"
-fracture_pressure = "100 GPa"
-strength = { model = "elastic-plastic", shear_modulus = "145 GPa", yield_stress = "100 GPa" }
-[sliding]
-method = "contact"
-hard = ["rod"]
-[[body]]
-name = "front"
-material = "Al5083"
-shape = "plate"
-z_front = 0.0
-thickness = "6 mm"
-[[body]]
-name = "rear"
-material = "Al5083"
-shape = "plate"
-z_front = "25 mm"
-thickness = "6 mm"
-[penetration]
-rod = "rod"
-target = "front"
-[stop]
-time = "60 us"
-"""
+SHOT = (
+    mesh([{"across": "rod", "cells_across": 5.5, "cells": 14}, {"cells": 8, "ratio": 1.15}],
+         [{"to": "16 mm", "size": "0.4 mm"}, {"cells": 6, "ratio": 1.15}], follow="rod", z_start="-24 mm")
+    + table("numerics", advection="ke")
+    + rod("2.2 mm", "20 mm", material="W_rigid", tip="-1 mm", velocity="1000 m/s")
+    + material("W_rigid", "W_alloy", fracture_pressure="100 GPa",
+               strength={"model": "elastic-plastic", "shear_modulus": "145 GPa", "yield_stress": "100 GPa"})
+    + contact("rod")
+    + plate("6 mm", name="front")
+    + plate("6 mm", name="rear", z_front="25 mm")
+    + table("penetration", rod="rod", target="front")
+    + stop("60 us")
+)
+Z_AXIS = next(line for line in SHOT.splitlines() if line.startswith("z = "))
 #: the same shot on a mesh that stands and holds all of it
 STANDING = 'mesh.z=[{ to = "64 mm", size = "0.4 mm" }]', "mesh.z_start=-0.04"
 
@@ -218,23 +150,10 @@ def test_two_plates_and_the_gap_between_them():
 
 def test_what_enters_is_what_the_deck_placed_there():
     """Every body ahead has come in to the last digit of its volume, and lies where it was placed."""
-    bodies = """
-[[body]]
-name = "ball"
-material = "Al5083"
-shape = "sphere"
-centre = "22.5 mm"
-radius = "1.7 mm"
-[[body]]
-name = "disc"
-material = "Al7039"
-shape = "plate"
-z_front = "24.4 mm"
-thickness = "2.77 mm"
-radius = "3.1 mm"
-[stop]"""
-    text = FLIGHT[: FLIGHT.index("[[body]]\nname = \"plate\"")] + FLIGHT[FLIGHT.index("[stop]") :]
-    simulation = Simulation(decks.loads(text.replace("[stop]", bodies)))
+    ball = body("ball", "Al5083", "sphere", centre="22.5 mm", radius="1.7 mm")
+    disc = plate("2.77 mm", name="disc", material="Al7039", z_front="24.4 mm", radius="3.1 mm")
+    text = FLIGHT[: FLIGHT.index("[[body]]\nname = \"plate\"")] + ball + disc + FLIGHT[FLIGHT.index("[stop]") :]
+    simulation = Simulation(decks.loads(text))
     while simulation.grid.z_edges[-1] < 27.5e-3:
         simulation.step()
     expected = {"ball": 4 / 3 * np.pi * 1.7e-3**3, "disc": np.pi * 3.1e-3**2 * 2.77e-3}
@@ -253,7 +172,7 @@ radius = "3.1 mm"
 def mirror_images():
     """The shot upwards and downwards, after 400 cycles."""
     mirrored = SHOT.replace('z_start = "-24 mm"', "z_start = -0.02")
-    mirrored = mirrored.replace(SHOT.splitlines()[4], "z = [{ cells = 110, size = 4e-4 }]")
+    mirrored = mirrored.replace(Z_AXIS, "z = [{ cells = 110, size = 4e-4 }]")
     down_text = mirrored.replace('tip = "-1 mm"', 'tip = "1 mm"\ndirection = -1').replace('"1000 m/s"', '"-1000 m/s"')
     down_text = down_text.replace("z_front = 0.0", 'z_front = "-6 mm"').replace('z_front = "25 mm"', 'z_front = "-31 mm"')
     up_text = mirrored.replace("z_start = -0.02", "z_start = -0.024")
@@ -282,7 +201,7 @@ def test_a_plate_that_hits_a_resting_rod_is_the_same_shot():
     text = text.replace("[[body]]\nname = \"rear\"", 'velocity = "-1000 m/s"\n[[body]]\nname = "rear"')
     text = text.replace("[penetration]", 'velocity = "-1000 m/s"\n[penetration]')
     text = text.replace('z_start = "-24 mm"', "z_start = -0.032")
-    text = text.replace(SHOT.splitlines()[4], 'z = [{ to = "40 mm", size = "0.4 mm" }]')
+    text = text.replace(Z_AXIS, 'z = [{ to = "40 mm", size = "0.4 mm" }]')
     moving, resting = following(), Simulation(decks.loads(text))
     while moving.time < 50e-6:
         moving.step()

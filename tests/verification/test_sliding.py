@@ -15,41 +15,22 @@ import pytest
 
 from hydro2d.deck import deck
 from hydro2d.solver.simulation import Simulation
+from tests.decks import box, material, mesh, stop, table, walls
 
 SPEED, YIELD = 200.0, 0.3e9
 SURFACE, CELL = 2.1e-3, 0.25e-3
 LAYERS = SURFACE + 4 * CELL
-BLOCKS = """
-[mesh]
-geometry = "planar"
-r = [{ to = "6 mm", cells = 24 }]
-z = [{ to = "48 mm", cells = 96 }]
-[boundaries]
-r_min = "wall"
-r_max = "wall"
-[[body]]
-name = "hard"
-material = "elastic_W"
-shape = "box"
-r = [0.0, "2.1 mm"]
-z = ["-1 m", "1 m"]
-velocity = "200 m/s"
-[[body]]
-name = "soft"
-material = "elastic_Al"
-shape = "box"
-r = ["2.1 mm", "6 mm"]
-z = ["-1 m", "1 m"]
-[materials.elastic_W]
-based_on = "W_alloy"
-[materials.elastic_Al]
-based_on = "Al5083"
-strength = { model = "elastic-plastic", shear_modulus = "26 GPa", yield_stress = "0.3 GPa" }
-[numerics]
-initial_dt_factor = 1.0
-[stop]
-time = "2.5 us"
-"""
+BLOCKS = (
+    mesh(("6 mm", 24), ("48 mm", 96), geometry="planar")
+    + walls("r_min", "r_max")
+    + box("hard", "elastic_W", r=[0.0, "2.1 mm"], z=["-1 m", "1 m"], velocity="200 m/s")
+    + box("soft", "elastic_Al", r=["2.1 mm", "6 mm"], z=["-1 m", "1 m"])
+    + material("elastic_W", "W_alloy")
+    + material("elastic_Al", "Al5083",
+               strength={"model": "elastic-plastic", "shear_modulus": "26 GPa", "yield_stress": "0.3 GPa"})
+    + table("numerics", initial_dt_factor=1.0)
+    + stop("2.5 us")
+)
 SLIP = 'sliding.method="slip-layer"', 'sliding.hard=["hard"]'
 SHEAR = *SLIP, 'sliding.shear="shear"'
 

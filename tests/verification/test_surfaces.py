@@ -12,7 +12,8 @@ from scipy import optimize, special
 
 from hydro2d.deck import deck as decks
 from hydro2d.solver.simulation import Simulation
-from tests.kernel.pieces import ghost_vertices, keep_one
+from tests.decks import box, contact, entry, material, mesh, stop, table
+from tests.kernels.pieces import ghost_vertices, keep_one
 
 DENSITY, BULK, SHEAR = 18160.0, 18160.0 * 4030.0**2, 145e9
 YOUNG, POISSON = 9 * BULK * SHEAR / (3 * BULK + SHEAR), (3 * BULK - 2 * SHEAR) / (6 * BULK + 2 * SHEAR)
@@ -22,51 +23,27 @@ SHARES = (0.05, 0.25, 0.5, 0.75, 0.95)
 SLOW_BARS = {"elastic": (5e-4, 12e-6), "plastic": (6e-3, 30e-6)}  # strain and the time it takes, many periods of breathing
 
 
-DECK = """
-title = "{title}"
-[mesh]
-geometry = "{geometry}"
-r = [{{ to = "{wide} mm", size = "0.5 mm" }}]
-z = [{{ to = "{high} mm", size = "0.5 mm" }}]
-[boundaries]
-r_min = "{r_min}"
-r_max = "{r_max}"
-z_min = "{z_min}"
-z_max = "{z_max}"
-[materials.metal]
-based_on = "W_alloy"
-fracture_pressure = "100 GPa"
-strength = {{ model = "elastic-plastic", shear_modulus = "145 GPa", yield_stress = "{strong} GPa" }}
-[[body]]
-name = "bar"
-material = "metal"
-{shape}
-[stop]
-time = "1 s"
-"""
-
-TUBE = """
-[materials.fluid]
-based_on = "Al5083"
-strength = {{ model = "elastic-plastic", shear_modulus = "1 MPa", yield_stress = "1 Pa" }}
-[[body]]
-name = "tube"
-material = "fluid"
-shape = "box"
-r = [0.0, "{wide} mm"]
-z = [0.0, "{high} mm"]
-[sliding]
-method = "contact"
-hard = ["bar"]
-friction = 0.0
-"""
 
 
-def simulation(shape: str, wide: float, high: float, tube: bool = False, **others) -> Simulation:
+
+def simulation(shape: dict, wide: float, high: float, tube: bool = False, *, strong: float = 100.0,
+               geometry: str = "cylindrical", **edges: str) -> Simulation:  # fmt: skip
     """A body of the metal in void, or in a fluid in which it slides without friction; elastic if not told otherwise."""
-    words = {"title": "a surface", "geometry": "cylindrical", "r_min": "axis", "r_max": "wall", "z_min": "wall",
-             "z_max": "wall", "strong": 100.0, "shape": shape, "wide": wide, "high": high, **others}
-    return Simulation(decks.loads(DECK.format(**words) + (TUBE.format(**words) if tube else "")))
+    text = (
+        mesh((f"{wide} mm", "0.5 mm"), (f"{high} mm", "0.5 mm"), geometry=geometry)
+        + table("boundaries", **{"r_min": "axis", "r_max": "wall", "z_min": "wall", "z_max": "wall", **edges})
+        + material("metal", "W_alloy", fracture_pressure="100 GPa",
+                   strength={"model": "elastic-plastic", "shear_modulus": "145 GPa", "yield_stress": f"{strong} GPa"})
+        + entry("body", name="bar", material="metal", **shape)
+        + stop("1 s")
+    )  # fmt: skip
+    if tube:
+        text += (
+            material("fluid", "Al5083", strength={"model": "elastic-plastic", "shear_modulus": "1 MPa", "yield_stress": "1 Pa"})
+            + box("tube", "fluid", r=[0.0, f"{wide} mm"], z=[0.0, f"{high} mm"])
+            + contact("bar", friction=0.0)
+        )
+    return Simulation(decks.loads(text))
 
 
 # ---------------------------------------------------------------------------------------------------- bars, slowly strained
@@ -86,12 +63,12 @@ class Bar:
         if angle:  # long enough in the mesh for ends that give way, and nowhere near its corners
             wide, high, centre, reach = 24.0, 16.0, np.array([12.0, 8.0]), 2.5e-3
             corners = [centre + x * half * self.across + 40.0 * y * self.along for x, y in ((1, 1), (-1, 1), (-1, -1), (1, -1))]
-            points = ", ".join(f'["{r:.9f} mm", "{z:.9f} mm"]' for r, z in corners)
+            points = [[f"{r:.9f} mm", f"{z:.9f} mm"] for r, z in corners]
             edges = {"geometry": "planar", "r_min": "outflow", "r_max": "outflow"}
-            shape = f'shape = "polygon"\npoints = [{points}]'
+            shape = {"shape": "polygon", "points": points}
         else:
             wide, high, centre, reach = 6.0 if tube else 4.0, 16.0, np.array([0.0, 8.0]), 1.5e-3
-            edges, shape = {}, f'shape = "box"\nr = [0.0, "{half} mm"]\nz = [0.0, "{high} mm"]'
+            edges, shape = {}, {"shape": "box", "r": [0.0, f"{half} mm"], "z": [0.0, f"{high} mm"]}
         self.simulation = simulation(shape, wide, high, tube, z_min="outflow", z_max="outflow", strong=strong, **edges)
         grid, self.planar, self.law = self.simulation.grid, bool(angle), law
         self.place = self._along(grid.r, grid.z, 1e-3 * centre)
@@ -285,7 +262,7 @@ def braked(share: float, transits: int = 20, length: float = 20.0, strain: float
     The bar stands on a wall, seen from the wall: a body force per mass that comes up softly over a transit of the bar wave,
     and would strain it by `strain` at the wall in the end; its waves then run to and fro.
     """
-    bar = simulation(f'shape = "box"\nr = [0.0, "{2.5 + 0.5 * share} mm"]\nz = [0.0, "{length} mm"]', 4.0, length + 2.0)
+    bar = simulation({"shape": "box", "r": [0.0, f"{2.5 + 0.5 * share} mm"], "z": [0.0, f"{length} mm"]}, 4.0, length + 2.0)
     engine, state, grid = bar.engine, bar.state, bar.grid
     transit = 1e-3 * length / np.sqrt(YOUNG / DENSITY)
     force, forces, sums = strain * YOUNG / DENSITY / (1e-3 * length), engine.accelerate, []
@@ -341,7 +318,7 @@ def breathing(inner: float, outer: float) -> float:
 def test_period_of_a_ring(share):
     """Two cells thick, both surfaces in void: five periods are 0.08 to 0.31 % short on average, single ones up to 0.6 %."""
     inner = 10.0 + 0.5 * share
-    ring = simulation(f'shape = "box"\nr = ["{inner} mm", "{inner + 1.0} mm"]\nz = [0.0, "2 mm"]', 14.0, 2.0)
+    ring = simulation({"shape": "box", "r": [f"{inner} mm", f"{inner + 1.0} mm"], "z": [0.0, "2 mm"]}, 14.0, 2.0)
     period, state, inside = 2 * np.pi / breathing(1e-3 * inner, 1e-3 * (inner + 1.0)), ring.state, ring.grid.g + 1
     state.u[0, :, inside:] = 2.0
     times, speeds = [], []

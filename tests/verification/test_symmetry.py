@@ -5,60 +5,31 @@ import pytest
 
 from hydro2d.deck import deck
 from hydro2d.solver.simulation import Simulation
-
-MESH = """
-[mesh]
-geometry = "GEOMETRY"
-r = [{ to = "6 mm", cells = 12 }, { cells = 4, ratio = 1.1 }]
-z_start = -0.0078125
-z = [{ cells = 32, size = 0.00048828125 }]
-"""
-ROD = """
-[[body]]
-name = "rod"
-material = "W_alloy"
-shape = "rod"
-nose = "hemispherical"
-radius = "2.7 mm"
-length = "6 mm"
-tip = "SIGN0.2 mm"
-direction = DIRECTION
-velocity = "SIGN1200 m/s"
-"""
-PLATE = """
-[[body]]
-name = "plate"
-material = "Al7039"
-shape = "box"
-z = [RANGE]
-"""
-COVER = """
-[[body]]
-name = "cover"
-material = "Al5083"
-shape = "box"
-z = [COVERED]
-"""
-END = """
-[failure]
-damage = "material"
-[numerics]
-advection = "ke"
-ORDER
-[stop]
-cycles = 40
-time = "1 s"
-"""
+from tests.decks import box, mesh, rod, stop, table
 
 
-def impact(bodies=(ROD, PLATE, COVER), sign="", geometry="cylindrical", order="", options=()) -> Simulation:
-    """A rod on a plate with a cover, flying to +z, or to -z with sign "-"; before the first cycle."""
-    text = MESH + "".join(bodies) + END
-    words = {"GEOMETRY": geometry, "DIRECTION": f"{sign}1", "SIGN": sign, "ORDER": order}
-    words["RANGE"] = '"0.3 mm", "5 mm"' if not sign else '"-5 mm", "-0.3 mm"'
-    words["COVERED"] = '"5 mm", "6.3 mm"' if not sign else '"-6.3 mm", "-5 mm"'
-    for word, value in words.items():
-        text = text.replace(word, value)
+def bodies(sign: int) -> dict[str, str]:
+    """A rod on a plate with a cover, flying to +z, or to -z with sign -1."""
+    def between(low: float, high: float) -> list[str]:
+        return [f"{low} mm", f"{high} mm"] if sign > 0 else [f"{-high} mm", f"{-low} mm"]
+
+    return {
+        "rod": rod("2.7 mm", "6 mm", tip=f"{0.2 * sign} mm", direction=sign, velocity=f"{1200 * sign} m/s"),
+        "plate": box("plate", "Al7039", z=between(0.3, 5)),
+        "cover": box("cover", "Al5083", z=between(5, 6.3)),
+    }
+
+
+def impact(order=("rod", "plate", "cover"), sign=1, geometry="cylindrical", options=(), **numerics) -> Simulation:
+    """The bodies, in an order, before the first cycle; z is mirrored with sign -1."""
+    text = (
+        mesh([{"to": "6 mm", "cells": 12}, {"cells": 4, "ratio": 1.1}], [{"cells": 32, "size": 0.00048828125}],
+             geometry=geometry, z_start=-0.0078125)
+        + "".join(bodies(sign)[name] for name in order)
+        + table("failure", damage="material")
+        + table("numerics", advection="ke", **numerics)
+        + stop("1 s", cycles=40)
+    )  # fmt: skip
     return Simulation(deck.loads(text, options))
 
 
@@ -100,7 +71,7 @@ def take_mirror_image(down: Simulation, up: Simulation) -> None:
 @pytest.mark.parametrize("options", CASES.values(), ids=CASES)
 def test_mirrored_in_z(geometry, options):
     """From mirrored bits, on a mesh whose edges are mirrored bits, the mirrored problem has mirrored bits."""
-    up, down = (impact(sign=sign, geometry=geometry, options=options) for sign in ("", "-"))
+    up, down = (impact(sign=sign, geometry=geometry, options=options) for sign in (1, -1))
     for name in (*BODY_FIELDS, "u", "v"):
         sign = -1.0 if name in ("srz", "v") else 1.0
         mirrored = sign * inside(up, name)[..., ::-1, :]
@@ -123,7 +94,7 @@ CONTACT = ('sliding.method="contact"', 'sliding.hard=["rod"]', 'sliding.yield_fa
 
 def test_contact_of_mirror_images():
     """Round-off of 1e-15 grows to less than 1e-9 m/s in 200 cycles (1.2e-10), since nothing is decided by it."""
-    up, down = (impact(sign=sign, options=CONTACT) for sign in ("", "-"))
+    up, down = (impact(sign=sign, options=CONTACT) for sign in (1, -1))
     take_mirror_image(down, up)
     run(up), run(down)
     mass = up.grid.interior_vertices(up.state.mass)
@@ -150,16 +121,16 @@ def compared(first: Simulation, second: Simulation, order: list[int]) -> dict[st
 @pytest.mark.parametrize("options", CASES.values(), ids=CASES)
 def test_order_of_the_bodies_in_the_deck(options):
     """With the nesting of interfaces stated, the order in which a deck lists its bodies changes nothing."""
-    order = 'interface_order = ["rod", "plate", "cover"]'
-    first = run(impact((ROD, PLATE, COVER), order=order, options=options))
-    second = run(impact((COVER, ROD, PLATE), order=order, options=options))
+    order = ["rod", "plate", "cover"]
+    first = run(impact(options=options, interface_order=order))
+    second = run(impact(("cover", "rod", "plate"), options=options, interface_order=order))
     assert max(compared(first, second, [1, 2, 0]).values()) < 1e-12
 
 
 def test_nesting_changes_little():
     """The order of the interfaces is a choice of the method; it shows where three materials meet."""
-    first = run(impact((ROD, PLATE, COVER)))
-    second = run(impact((COVER, PLATE, ROD)))
+    first = run(impact())
+    second = run(impact(("cover", "plate", "rod")))
     difference = compared(first, second, [2, 1, 0])
     assert difference["vof"] < 0.01
     assert difference["v"] < 0.03

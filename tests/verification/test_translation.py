@@ -5,40 +5,20 @@ import pytest
 
 from hydro2d.deck import deck
 from hydro2d.solver.simulation import Simulation
+from tests.decks import body, mesh, rod, stop, table
 
-ROD = """
-[mesh]
-r = [{ to = "6 mm", cells = 12 }, { cells = 4, ratio = 1.1 }]
-z_start = "-13 mm"
-z = [{ to = "32 mm", size = "0.5 mm" }]
-[[body]]
-name = "rod"
-material = "W_alloy"
-shape = "rod"
-nose = "hemispherical"
-radius = "3.3 mm"
-length = "10 mm"
-tip = "-1.2 mm"
-velocity = "1000 m/s"
-[stop]
-time = "28 us"
-"""
-BLOCK = """
-[mesh]
-geometry = "planar"
-r = [{ to = "12 mm", cells = 24 }]
-z = [{ to = "24 mm", cells = 48 }]
-[boundaries]
-r_min = "outflow"
-[[body]]
-name = "block"
-material = "W_alloy"
-shape = "polygon"
-points = [["2 mm", "3 mm"], ["5 mm", "1.5 mm"], ["6.2 mm", "7 mm"], ["3 mm", "6 mm"]]
-velocity = [250.0, 1000.0]
-[stop]
-time = "14 us"
-"""
+ROD = (
+    mesh([{"to": "6 mm", "cells": 12}, {"cells": 4, "ratio": 1.1}], ("-13 mm", "32 mm", "0.5 mm"))
+    + rod("3.3 mm", "10 mm", tip="-1.2 mm", velocity="1000 m/s")
+    + stop("28 us")
+)
+BLOCK = (
+    mesh(("12 mm", 24), ("24 mm", 48), geometry="planar")
+    + table("boundaries", r_min="outflow")
+    + body("block", "W_alloy", "polygon", points=[["2 mm", "3 mm"], ["5 mm", "1.5 mm"], ["6.2 mm", "7 mm"], ["3 mm", "6 mm"]],
+           velocity=[250.0, 1000.0])
+    + stop("14 us")
+)
 SLIP = 'sliding.method="slip-layer"', 'sliding.yield_factor="radius"'
 #: density, bulk sound speed and modulus of the alloy
 RHO, SOUND = 18160.0, 4030.0

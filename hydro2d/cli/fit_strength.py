@@ -1,0 +1,114 @@
+"""The command `hydro2d fit-strength`: constants of a strength model from measured flow stresses."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+from cyclopts import Parameter
+
+from hydro2d.cli.base import UsageError, import_matplotlib, quantity
+from hydro2d.terminal import say
+
+
+def fit_strength(
+    points: Path,
+    *,
+    model: str,
+    material: str,
+    fix: Annotated[list[str] | None, Parameter(negative="")] = None,
+    share: Annotated[list[str] | None, Parameter(negative="")] = None,
+    group: Annotated[list[float] | None, Parameter(negative="")] = None,
+    columns: str | None = None,
+    stress_unit: str = "Pa",
+    temperature: str | None = None,
+    heated_from: str | None = None,
+    csv: Path | None = None,
+    figure: Path | None = None,
+) -> int:
+    """Fits the constants of a strength model to measured flow stresses, and says how well it fits.
+
+    Example: hydro2d fit-strength points.txt --model johnson-cook --material steel_4340 --fix rate_coefficient=0.014
+
+    Parameters
+    ----------
+    points
+        File with a measured point in each line: plastic strain, strain rate in 1/s, temperature in K, flow stress. The first
+        line may name the columns.
+    model
+        johnson-cook, zerilli-armstrong, power-law or steinberg-guinan.
+    material
+        Material of the library, NAME or NAME:VARIANT. It gives the density and specific heat for --heated-from, and those
+        constants of the model that are not fitted and that its own law has too.
+    fix
+        Keeps a constant, as name=value with or without a unit; can be repeated.
+    share
+        A constant that all groups have in common; can be repeated. The others are fitted for each group.
+    group
+        Fits the points of this group, by its number in the column "group"; can be repeated; default: all groups.
+    columns
+        What the columns are, in order, with commas: strain, rate, temperature, stress, group, skip.
+    stress_unit
+        Unit of the stresses.
+    temperature
+        Range of temperatures of the points that are fitted, in K, as LOW:HIGH.
+    heated_from
+        Strain rate, in 1/s, from which plastic work heats the specimen during a test.
+    csv
+        Writes every point with the fitted stress and the difference to this file.
+    figure
+        Draws the measured points and the fit and saves them as this file (.png, .pdf, .svg).
+    """
+    from hydro2d.analytic import fit_text, model_materials
+    from hydro2d.materials import fitting
+
+    data = fitting.read_points(points, columns.split(",") if columns else None,
+                               quantity(f"1 {stress_unit}", "Pa", "--stress-unit"))
+    data = _chosen(data, group, temperature)
+    base = model_materials.load(material)
+    law = fitting.law(model)
+    given = fitting.from_material(law, base) | {name: quantity(text, law.unit(name), f"--fix {name}")
+                                                for name, text in map(_assignment, fix or [])}
+    heating = fitting.heating_of(base, quantity(heated_from, "1/s", "--heated-from")) if heated_from else None
+    found = fitting.fit(law, data, given, share or [], heating)
+    for line in fit_text.lines(found):
+        say(line)
+    if csv is not None:
+        fit_text.write_csv(found, csv)
+    if figure is not None:
+        import_matplotlib()
+        from hydro2d.results import figures
+
+        figures.save(fit_text.draw(found), figure)
+    for path in filter(None, (csv, figure)):
+        say(f"wrote {path}")
+    return 0
+
+
+def _assignment(text: str) -> tuple[str, str]:
+    name, equals, value = text.partition("=")
+    if not (name and equals and value):
+        raise UsageError(f"--fix {text}: expected name=value")
+    return name, value
+
+
+def _chosen(data, groups: list[float] | None, temperature: str | None):
+    """The points of some groups and within a range of temperatures. Raises UsageError where none are left."""
+    import numpy as np
+
+    mask = np.full(len(data), True)
+    if groups:
+        unknown = sorted(set(groups) - set(data.groups))
+        if unknown:
+            raise UsageError(f"--group {unknown[0]:g}: the file has the groups {', '.join(f'{g:g}' for g in data.groups)}")
+        mask &= np.isin(data.group, groups)
+    if temperature is not None:
+        low, _, high = temperature.partition(":")
+        try:
+            low, high = float(low), float(high)
+        except ValueError:
+            raise UsageError(f"--temperature {temperature}: expected LOW:HIGH in K") from None
+        mask &= (data.temperature >= low) & (data.temperature <= high)
+    if not mask.any():
+        raise UsageError("no points are left to fit")
+    return data.chosen(mask)

@@ -1,0 +1,148 @@
+"""What a run measures, in words: names and meanings of the numbers in a history and a summary. `solver/` computes them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from hydro2d.mesh.station_columns import QUANTITIES as OF_STATIONS
+
+#: unit by ending of the name, the longest first
+UNITS = {
+    "_m3_J": "m3/J", "_kg_m3": "kg/m3", "_J_kg": "J/kg", "_J_m2": "J/m2", "_m_s2": "m/s2", "_m_s": "m/s", "_N_s": "N s",
+    "_Pa_s": "Pa s", "_rad": "rad", "_1_s": "1/s", "_kg": "kg", "_Pa": "Pa", "_m2": "m2", "_m3": "m3", "_K": "K", "_J": "J",
+    "_N": "N", "_W": "W", "_s": "s", "_m": "m",
+}  # fmt: skip
+
+
+def unit(name: str) -> str:
+    """Unit of a quantity, from the end of its name; "1" if it has none."""
+    if name in ("time", "dt"):
+        return "s"
+    return next((unit for ending, unit in UNITS.items() if name.endswith(ending)), "1")
+
+
+def in_file(name: str) -> str:
+    """The name of a quantity among the datasets of history.h5, where / would begin a folder."""
+    return name.replace("/", "_per_")
+
+
+#: what `penetrator.Penetrator.measure` gives of a projectile, and its meaning; the names say rod, whatever its shape
+QUANTITIES = {
+    "penetration_depth_m": "from the target's original surface to the projectile's deepest part near the axis",
+    "penetration_over_length": "that depth over the projectile's length at the start: P/L",
+    "interface_velocity_m_s": "axial velocity on the axis at that depth: u of the theory of penetration, whose v is of the "
+    "tail",
+    "rod_length_m": "of the longest run of intact material on the axis",
+    "rod_initial_length_m": "the same at the start",
+    "rod_mass_kg": "mass of the projectile in the mesh",
+    "rod_initial_mass_kg": "the same at the start",
+    "rod_initial_kinetic_energy_J": "kinetic energy of the projectile at the start",
+    "rod_core_mass_kg": "mass of what is intact, hangs together from the axis outward and keeps up with the axis",
+    "rod_failed_mass_kg": "mass of the projectile that has failed by damage",
+    "target_failed_mass_kg": "mass of the target that has failed by damage",
+    "rod_max_radius_m": "largest radius of a solid section with the area of the projectile in a row of cells",
+    "rod_initial_radius_m": "radius of the projectile in the deck",
+    "rod_max_plastic_strain": "largest plastic strain of the cells that the projectile fills by half",
+    "rod_mean_velocity_m_s": "mean axial velocity of all of the projectile",
+    "rod_core_velocity_m_s": "the same of its core",
+    "rod_nose_velocity_m_s": "axial velocity of the projectile on the axis at its leading end",
+    "rod_tail_velocity_m_s": "the same at its tail",
+    "rod_kinetic_energy_J": "kinetic energy of the projectile, of the radial motion as well",
+    "rod_residual_velocity_m_s": "axial velocity of the core of a projectile that has perforated the target or left the mesh; "
+    "of all that was left of one in pieces",
+    "rod_residual_mass_kg": "mass of that",
+    "rod_residual_length_m": "length of a projectile that has perforated the target",
+    "exit_time_s": "when its leading end was its radius beyond the rear of the last target; null before",
+    "regime": "rigid, deforming, eroding or left the mesh",
+}
+
+#: those that `BODY` has of every body: of the projectile, and of the first target
+OF_EVERY_BODY = {
+    "rod_mass_kg": "mass_kg", "rod_mean_velocity_m_s": "velocity_m_s", "rod_kinetic_energy_J": "kinetic_energy_J",
+    "rod_failed_mass_kg": "failed_mass_kg", "target_failed_mass_kg": "failed_mass_kg",
+}  # fmt: skip
+#: those that a projectile of any shape has in a summary, by their key there
+PROJECTILE = {key: key.removeprefix("rod_") for key in QUANTITIES if key.startswith("rod_") and key not in OF_EVERY_BODY}
+
+#: what `Penetrator.passages` gives of each target, and its meaning; null while the projectile is not through it
+PASSAGE = {
+    "exit_time_s": "when the projectile's leading end was its radius beyond the rear of this target",
+    "exit_velocity_m_s": "axial velocity of its core then, or of all that was left of one in pieces",
+    "exit_mass_kg": "mass of that",
+    "exit_length_m": "of the longest run of intact material on the axis then",
+}
+
+#: what `bodies.measure` gives of every body, and its meaning; of what is in the mesh where nothing else is said
+BODY = {
+    "mass_kg": "mass",
+    "momentum_N_s": "axial momentum",
+    "velocity_m_s": "mean axial velocity, by mass; null where nothing of it is in the mesh",
+    "kinetic_energy_J": "kinetic energy, of the radial motion as well",
+    "failed_mass_kg": "mass that has failed by damage",
+    "outflow_kg": "mass that has left through open edges of the mesh since the start",
+    "inflow_kg": "mass that a mesh that travels has met since the start",
+    "r_min_m": "least radius that it reaches; null where it fills no cell by half",
+    "r_max_m": "largest radius that it reaches",
+    "z_min_m": "lowest axial position that it reaches",
+    "z_max_m": "highest axial position that it reaches",
+    "length_m": "its extent along the axis",
+    "initial_length_m": "the same at the start",
+    "radius_at_z_min_m": "radius of its lowest row of cells: of the foot of a bar that stands there",
+    "radius_at_z_max_m": "radius of its highest row of cells",
+}
+
+#: what `crater.Crater.measure` gives of the hole in a target, and its meaning
+CRATER = {
+    "entrance_diameter_m": "in the first row below the original surface from which the wall is steeper than 45 degrees",
+    "exit_diameter_m": "in the last such row, also beyond the original rear face; null while the hole is not open at its end",
+    "mean_diameter_m": "of the cylinder with the volume and depth of the hole; null where there is none",
+    "volume_m3": "of the hole, the whole circumference; in planar geometry of the meshed half, per metre",
+    "volume_per_energy_m3_J": "that volume over the kinetic energy of the projectile at the start",
+    "efficiency": "mass of the target that filled that volume at first, over the projectile's mass at the start: pi_V of the "
+    "scaling of craters",
+    "depth_m": "from the original surface to the bottom on the axis; the target's thickness where that is shot through",
+    "ejected_mass_kg": "mass of the target beyond its rear face that no longer hangs together with it: plug and debris",
+    "ejected_velocity_m_s": "mean axial velocity of that mass; null where there is none",
+}
+
+#: what `debris.measure` gives of all that flies behind a target, the projectile included, and its meaning
+DEBRIS = {
+    "mass_kg": "mass of all bodies",
+    "momentum_N_s": "axial momentum, along the flight of the projectile",
+    "kinetic_energy_J": "kinetic energy, of the radial motion as well",
+    "velocity_m_s": "mean axial velocity, by mass; null where there is nothing",
+    "leading_velocity_m_s": "axial velocity that a hundredth of the mass exceeds",
+    "cone_angle_rad": "angle to the axis within which nine tenths of the mass fly",
+    "fragments": "number of pieces, each of cells that hang together and are filled by half; one off the axis is a ring",
+    "largest_fragment_kg": "mass of the heaviest of them",
+    "dust_kg": "mass in cells that are filled by less than half, and so in none of them",
+}
+
+#: what is known of each fragment and its unit, and of the mass by axial speed and by angle
+FRAGMENTS = ("mass_kg", "r_m", "z_m", "velocity_r_m_s", "velocity_z_m_s")
+
+PLACES = {"r_m": "radial position", "z_m": "axial position"}
+
+#: short names for expressions in a deck, and the columns for which they stand
+SHORT = {
+    "depth": "penetration_depth_m", "length": "rod_length_m", "length0": "rod_initial_length_m", "radius": "rod_max_radius_m",
+    "radius0": "rod_initial_radius_m", "mass": "rod_mass_kg", "mass0": "rod_initial_mass_kg", "core_mass": "rod_core_mass_kg",
+    "energy": "rod_kinetic_energy_J", "energy0": "rod_initial_kinetic_energy_J", "velocity": "rod_mean_velocity_m_s",
+    "u": "interface_velocity_m_s", "v": "rod_tail_velocity_m_s",
+}  # fmt: skip
+#: columns that are words
+WORDS = ("regime",)
+
+
+def names(bodies: Iterable[str], stations: Iterable[str], penetrates: bool) -> list[str]:
+    """What an expression in a deck can be made of: columns of its history, `crater_KEY`, and, where that is meant, SHORT.
+
+    bodies : of the deck;  stations : `tracer_NAME` and `gauge_NAME`;  penetrates : whether it has a projectile and a target
+    """
+    found = ["time", "dt", "internal_energy_J", "kinetic_energy_J"]
+    found += [f"body_{body}_{key}" for body in bodies for key in BODY]
+    found += [f"{station}_{key}" for station in stations for key in (*PLACES, *OF_STATIONS)]
+    if penetrates:
+        found += [name for name in QUANTITIES if name not in WORDS]
+        found += [f"crater_{key}" for key in CRATER]
+    return found

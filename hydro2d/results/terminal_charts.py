@@ -1,0 +1,69 @@
+"""Histories drawn with characters, for `hydro2d status` in a terminal. They need plotext, which hydro2d does not bring."""
+
+from __future__ import annotations
+
+from importlib import metadata
+
+import numpy as np
+
+from hydro2d.errors import Error, unknown
+from hydro2d.output import history
+from hydro2d.results.figures import reader_unit
+from hydro2d.terminal import shown
+
+#: what is drawn of a run with a projectile and a target, and of the first body of any other
+OF_PROJECTILE, OF_BODY = ("penetration_depth_m", "rod_tail_velocity_m_s"), ("velocity_m_s", "z_max_m")
+#: lines of a chart, and the fewest and most characters in one
+LINES, LEAST, MOST = 12, 40, 100
+MISSING = "histories are drawn by plotext 5, which is not installed; `pip install 'plotext<6'` adds it"
+
+
+class ChartError(Error):
+    """A history that cannot be drawn in a terminal; the message is for the user."""
+
+
+def available() -> bool:
+    """Whether plotext is installed, in the version whose functions are used here."""
+    try:
+        return metadata.version("plotext").startswith("5.")
+    except metadata.PackageNotFoundError:
+        return False
+
+
+def chosen(run) -> list[str]:
+    """The columns that are drawn of a run (results.Results) if nothing else is asked for."""
+    found = [name for name in OF_PROJECTILE if np.isfinite(run.history.get(name, np.nan)).any()]
+    bodies = [str(body["name"]) for body in run.deck.get("body", ()) if "join" not in body]
+    return found or [f"body_{bodies[0]}_{key}" for key in OF_BODY if bodies and f"body_{bodies[0]}_{key}" in run.history]
+
+
+def charts(run, names: list[str], width: int) -> list[str]:
+    """Lines of text that show columns of the history of a run over time, one below the other.
+
+    width : of the terminal, characters
+
+    Raises ChartError without plotext, and for a column that there is not.
+    """
+    if not available():
+        raise ChartError(MISSING)
+    lines: list[str] = []
+    for name in names:
+        if name not in run.history:
+            raise ChartError(f"{run.directory}: {unknown('quantity', name, run.history)}")
+        lines += _chart(name, run.history["time"], run.history[name].astype(float), width)
+    return lines
+
+
+def _chart(name: str, time: np.ndarray, values: np.ndarray, width: int) -> list[str]:
+    import plotext
+
+    unit, scale = reader_unit(history.unit(name))
+    known = np.isfinite(values)
+    if known.sum() < 2:
+        return [f"{shown(history.spoken(name))}: nothing to draw yet"]
+    plotext.clear_figure()
+    plotext.theme("clear")
+    plotext.plotsize(min(max(width, LEAST), MOST), LINES)
+    plotext.plot((1e6 * time[known]).tolist(), (scale * values[known]).tolist(), marker="braille")
+    plotext.title(shown(history.spoken(name)) + (f" [{unit}]" if unit != "1" else "") + " over time [us]")
+    return plotext.uncolorize(plotext.build()).splitlines()

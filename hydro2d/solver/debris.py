@@ -1,0 +1,120 @@
+"""What flies behind a target: its mass, momentum and speeds, the angles of its flight, and its fragments."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from hydro2d.mesh.measured import FRAGMENTS
+from hydro2d.mesh.sums import HALF
+
+#: bins of the axial speed, and of the angle to the axis, 5 degrees each
+SPEEDS, ANGLES = 40, 36
+#: the share of the mass that flies within the cone, and the share that is faster than the leading velocity
+CONE, LEADING = 0.9, 0.01
+
+
+class Debris(NamedTuple):
+    """What is behind a target. Arrays by body have a column for each name in ``bodies``; SI, whole circumference.
+
+    bodies : that it is made of
+    speeds, by_speed : edges of the bins of axial speed along the flight (n + 1,), and the mass in them (n, bodies)
+    angles, by_angle : edges of the bins of the angle to the axis, rad (n + 1,), and the mass in them (n, bodies)
+    fragments : FRAGMENTS of each, (k, 5), the heaviest first;  kinds : number in ``bodies`` of that which it is mostly, (k,)
+    totals : measured.DEBRIS by name
+    """
+
+    bodies: list[str]
+    speeds: np.ndarray
+    by_speed: np.ndarray
+    angles: np.ndarray
+    by_angle: np.ndarray
+    fragments: np.ndarray
+    kinds: np.ndarray
+    totals: dict[str, float | int | None]
+
+
+def find(sim, crater, later: list[int]) -> Debris:
+    """What is behind the target of a crater, the projectile included, but for cells of the target's pieces and beside them.
+
+    crater : Crater of the target
+    later : indices of the targets that the projectile meets after it, which are no debris
+
+    Each cell has the velocity of its body group, the mean of its four vertices. A fragment is a set of cells that the debris
+    fills by half or more and that are joined by faces: in cylindrical geometry a ring, unless it reaches the axis. Bodies
+    that touch are one fragment.
+    """
+    from scipy import ndimage
+
+    grid, state, table = sim.grid, sim.state, sim.table
+    around = 2.0 * np.pi if grid.cylindrical else 1.0
+    chosen = [m for m in range(len(table.names)) if m not in later]
+    behind = crater.beyond()
+    fraction = np.where(behind, grid.interior(state.vof)[chosen], 0.0)
+    fraction[chosen.index(crater.m)] *= ~crater.pieces()
+    mass = fraction * np.where(fraction > 0.0, grid.interior(state.rho)[chosen], 0.0) * (grid.volume[grid.inside] * around)
+    u, v = (np.stack([grid.vertex_mean(field[state.group[m]]) for m in chosen]) for field in (state.u, state.v))
+    axial = crater.direction * v
+    present = [k for k in range(len(chosen)) if mass[k].any()]
+    mass, u, axial, fraction = mass[present], u[present], axial[present], fraction[present]
+    labels, count = ndimage.label(fraction.sum(axis=0) >= HALF) if present else (np.zeros((grid.nz, grid.nr), dtype=int), 0)
+    fragments, kinds = _fragments(grid, labels, count, mass, u, crater.direction * axial)
+    top = float(axial.max(where=mass > 0.0, initial=0.0))
+    speeds = np.linspace(float(axial.min(where=mass > 0.0, initial=0.0)), top if top > 0.0 else 1.0, SPEEDS + 1)
+    angles = np.linspace(0.0, np.pi, ANGLES + 1)
+    angle = np.arctan2(np.abs(u), axial)
+    return Debris(
+        [table.names[chosen[k]] for k in present], speeds, _binned(axial, mass, speeds), angles, _binned(angle, mass, angles),
+        fragments, kinds, _totals(mass, u, axial, angle, fragments),
+    )  # fmt: skip
+
+
+def _binned(values: np.ndarray, mass: np.ndarray, edges: np.ndarray) -> np.ndarray:
+    """Mass of each body in bins of a quantity, (n, bodies)."""
+    found = [np.histogram(one.ravel(), edges, weights=weight.ravel())[0] for one, weight in zip(values, mass, strict=True)]
+    return np.stack(found, axis=1) if found else np.zeros((len(edges) - 1, 0))
+
+
+def _fragments(grid, labels: np.ndarray, count: int, mass: np.ndarray, u: np.ndarray, v: np.ndarray):
+    """FRAGMENTS of each label, the heaviest first, (count, 5), and the body that each is mostly made of, (count,)."""
+    r, z = np.meshgrid(grid.rc[grid.inside[1]], grid.zc[grid.inside[0]])
+    flat, whole = labels.ravel(), mass.sum(axis=0) if len(mass) else np.zeros(labels.shape)
+
+    def total(weights: np.ndarray) -> np.ndarray:
+        return np.bincount(flat, weights.ravel(), count + 1)[1:]
+
+    own = total(whole)
+    sums = [total(whole * r), total(whole * z), total((mass * u).sum(axis=0)), total((mass * v).sum(axis=0))]
+    order = np.argsort(-own, kind="stable")
+    found = np.column_stack([own, *(each / np.maximum(own, 1e-300) for each in sums)])[order]
+    kinds = np.argmax([total(each) for each in mass], axis=0)[order] if len(mass) else np.zeros(0, dtype=int)
+    return found.reshape(-1, len(FRAGMENTS)), kinds
+
+
+def _totals(mass: np.ndarray, u: np.ndarray, axial: np.ndarray, angle: np.ndarray, fragments: np.ndarray) -> dict:
+    """measured.DEBRIS by name."""
+    total = float(mass.sum())
+    momentum = float((mass * axial).sum())
+    return {
+        "mass_kg": total,
+        "momentum_N_s": momentum,
+        "kinetic_energy_J": 0.5 * float((mass * (u**2 + axial**2)).sum()),
+        "velocity_m_s": momentum / total if total > 0.0 else None,
+        "leading_velocity_m_s": _quantile(axial, mass, 1.0 - LEADING),
+        "cone_angle_rad": _quantile(angle, mass, CONE),
+        "fragments": len(fragments),
+        "largest_fragment_kg": float(fragments[0, 0]) if len(fragments) else None,
+        "dust_kg": total - float(fragments[:, 0].sum()),
+    }
+
+
+def _quantile(values: np.ndarray, mass: np.ndarray, share: float) -> float | None:
+    """The value that this share of the mass does not exceed; None where there is no mass."""
+    there = mass > 0.0
+    if not there.any():
+        return None
+    values, mass = values[there], mass[there]
+    order = np.argsort(values, kind="stable")
+    below = np.cumsum(mass[order])
+    return float(values[order][min(int(np.searchsorted(below, share * below[-1])), len(below) - 1)])

@@ -1,0 +1,316 @@
+"""Depths of tungsten rods in steel: what the runs gave, where it comes from, and figures beside Odermatt's fit and the models.
+
+    python -m problems.long_rods.depths RESULTS [RESULTS ...] [--keep FILE] [--histories FILE] [--figure PATH]
+    python -m problems.long_rods.depths HISTORIES --parts PATH --cases CASE [CASE ...]
+
+RESULTS is the directory of a study, finished or not, or a file in `results`, which has the finished cases of a study that was
+run before. The table is in Markdown. `--keep` writes all cases into a CSV file and `--histories` (of directories alone) the
+velocities and depth of the rods against time. `--figure` draws depth over length against velocity, beside Odermatt's fit and
+the models of the catalogue, and `--parts` draws some cases of a file that --histories wrote.
+
+The depth is the largest of the run: the target springs back by up to 1 % while the run ends. The *slope* is the depth that a
+length of rod makes when it is worn away, taken while the rod is worn by 2 to 6 diameters. The *end* is the depth that the last
+4 diameters of the rod add, in diameters.
+"""
+
+from __future__ import annotations
+
+import argparse
+import csv
+import math
+import sys
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from hydro2d import units
+from hydro2d.analytic import model_deck, models
+from hydro2d.errors import DeckError
+from hydro2d.penetration.model import InputError
+from hydro2d.results import figures
+from hydro2d.results.reading import Results
+from hydro2d.study import layout
+from hydro2d.study.layout import StudyError
+
+HERE = Path(__file__).parent
+DECKS = {10: "rod_10.toml", 20: "rod_20.toml", 30: "rod_30.toml"}
+#: hardness at which Odermatt's fit stands beside armour steel, whose own is not known
+BRINELL = 270.0
+#: densities of rod and target in all decks, kg/m^3
+DENSITIES = (17600.0, 7850.0)
+#: wear of the rod between which the slope is taken, and the length that is left when the end begins, in diameters
+STEADY, LAST = (2.0, 6.0), 4.0
+VELOCITIES = np.linspace(1000.0, 2000.0, 41)
+#: models of the catalogue, and how they are drawn
+MODELS = {"tate": "--", "walker-anderson": "-.", "anderson-riegel": ":"}
+COLOURS = {10: "#1f4e79", 20: "#c26a1b", 30: "#4f7942"}
+#: numbers of a case after its labels: unit and digits are in the name of the column and here
+NUMBERS = {"velocity_m_s": 0, "depth_over_length": 4, "slope": 3, "end_over_diameter": 2, "u_m_s": 0, "v_m_s": 0,
+           "left_over_length": 3, "hole_over_diameter": 2, "time_us": 1, "minutes": 1}
+HISTORY = ("case", "time_us", "depth_mm", "length_mm", "tail_m_s")
+#: time between two rows of kept histories, us
+EVERY = 1.0
+
+
+def odermatt(velocity: float, slenderness: float, brinell: float, rod_density: float, target_density: float) -> float:
+    """Depth over length of a tungsten rod in thick steel by the fit of Lanz and Odermatt; m/s, kg/m^3.
+
+    P/L = 0.921 coth(0.283 + 0.0656 L/D) sqrt(rho_p/rho_t) exp(-s/(rho_p v^2)), s = (138 - 0.100 BHN) BHN, with v in km/s, for a
+    Brinell hardness of 200 to 600, L/D >= 4 and a density of the rod of 16.5 to 19.3 g/cm^3. Lanz & Odermatt, 13th Int. Symp.
+    Ballistics (1992), with the coefficients of "Odermatt 2000".
+    """
+    strength = (138.0 - 0.100 * brinell) * brinell
+    size = 0.921 / math.tanh(0.283 + 0.0656 * slenderness)
+    return size * math.sqrt(rod_density / target_density) * math.exp(-strength * 1e6 / (rod_density * velocity**2))
+
+
+@dataclass(frozen=True)
+class Result:
+    """A finished case: its name, its labels on the axes, its slenderness L/D, and the numbers of ``NUMBERS``."""
+
+    name: str
+    labels: dict[str, str]
+    slenderness: int
+    numbers: dict[str, float]
+
+    @property
+    def velocity(self) -> float:
+        return self.numbers["velocity_m_s"]
+
+    @property
+    def ratio(self) -> float:
+        return self.numbers["depth_over_length"]
+
+    @property
+    def others(self) -> str:
+        """What the case varies besides the velocity and the length."""
+        return ", ".join(label for axis, label in self.labels.items() if axis not in ("velocity", "L/D"))
+
+    @property
+    def row(self) -> dict[str, str]:
+        told = {name: f"{round(self.numbers[name], digits):.12g}" for name, digits in NUMBERS.items()}
+        return {**self.labels, "slenderness": str(self.slenderness), **told, "case": self.name}
+
+
+def measured(history: dict[str, np.ndarray], diameter: float) -> dict[str, float]:
+    """Depth and its parts from the history of a run; lengths in m.
+
+    ``slope`` is dP/d(wear), and ``u`` and ``v`` are the velocities of the interface and the tail, by straight lines through the
+    rows at which the wear is within ``STEADY``; NaN for a rod that was not worn so far, as is the end.
+    """
+    time, depth, tail = history["time"], history["penetration_depth_m"], history["rod_tail_velocity_m_s"]
+    wear = history["rod_length_m"][0] - history["rod_length_m"]
+    deepest = int(np.argmax(depth))
+    steady = (wear >= STEADY[0] * diameter) & (wear <= STEADY[1] * diameter) & (np.arange(time.size) <= deepest)
+    slope = u = v = end = math.nan
+    if steady.sum() >= 4 and wear.max() >= STEADY[1] * diameter:
+        slope = float(np.polyfit(wear[steady], depth[steady], 1)[0])
+        u = float(np.polyfit(time[steady], depth[steady], 1)[0])
+        v = float(tail[steady].mean())
+    short = np.flatnonzero(history["rod_length_m"] <= LAST * diameter)
+    if short.size and short[0] <= deepest:
+        end = float(depth[deepest] - depth[short[0]]) / diameter
+    return {"depth": float(depth[deepest]), "time": float(time[deepest]), "slope": slope, "u": u, "v": v, "end": end,
+            "left": float(history["rod_length_m"][deepest])}
+
+
+def read(path: Path) -> list[Result]:
+    """The finished cases of the directory of a study, or of a file of results. Raises StudyError, OSError."""
+    if path.is_file():
+        return [_kept(row) for row in _rows(path)]
+    return [_of(case) for case in layout.read(path).cases if case.status == layout.DONE]
+
+
+def _rows(path: Path) -> list[dict[str, str]]:
+    with open(path, encoding="utf-8", newline="") as file:
+        table = csv.DictReader(file)
+        missing = {"case", "slenderness", *NUMBERS} - {*(table.fieldnames or ())}
+        if missing:
+            raise StudyError(f"{path}: no file of results: it has no column {', '.join(sorted(missing))}")
+        return list(table)
+
+
+def _kept(row: dict[str, str]) -> Result:
+    labels = {name: text for name, text in row.items() if text and name not in ("case", "slenderness", *NUMBERS)}
+    return Result(row["case"], labels, int(row["slenderness"]), {name: float(row[name]) for name in NUMBERS})
+
+
+def _of(case: layout.Case) -> Result:
+    told = case.summary
+    diameter, length = 2.0 * told["rod_initial_radius_m"], told["rod_initial_length_m"]
+    if "velocity" not in case.values or not told.get("crater"):
+        raise StudyError(f"{case.name}: its study has no axis of the velocity, or it made no hole")
+    velocity = units.to_si(case.values["velocity"], "m/s")
+    found = measured(Results(case.directory).history, diameter)
+    numbers = (velocity, found["depth"] / length, found["slope"], found["end"], found["u"], found["v"], found["left"] / length,
+               told["crater"]["mean_diameter_m"] / diameter, 1e6 * found["time"], told["wall_s"] / 60.0)
+    return Result(case.name, case.values, round(length / diameter), dict(zip(NUMBERS, numbers, strict=True)))
+
+
+def keep(results: Sequence[Result], path: Path) -> None:
+    """Writes a file of results. Raises OSError."""
+    with open(path, "w", encoding="utf-8", newline="") as file:
+        axes = dict.fromkeys(axis for result in results for axis in result.labels)
+        table = csv.DictWriter(file, [*axes, "slenderness", *NUMBERS, "case"], restval="", lineterminator="\n")
+        table.writeheader()
+        table.writerows(result.row for result in results)
+
+
+def keep_histories(directories: Sequence[Path], path: Path) -> None:
+    """Writes depth, length and velocity of the tail of every finished case against time, a row every ``EVERY`` us."""
+    with open(path, "w", encoding="utf-8", newline="") as file:
+        table = csv.writer(file, lineterminator="\n")
+        table.writerow(HISTORY)
+        for case in (case for each in directories for case in layout.read(each).cases if case.status == layout.DONE):
+            history = Results(case.directory).history
+            time = 1e6 * history["time"]
+            for n in np.searchsorted(time, np.arange(0.0, time[-1], EVERY)):
+                table.writerow([case.name, f"{time[n]:.2f}", f"{1e3 * history['penetration_depth_m'][n]:.3f}",
+                                f"{1e3 * history['rod_length_m'][n]:.3f}", f"{history['rod_tail_velocity_m_s'][n]:.1f}"])
+
+
+def table(results: Sequence[Result]) -> list[str]:
+    """Lines of Markdown: a case in each row."""
+    lines = ["| case | L/D | velocity | P/L | slope | end | u, v | left | hole | Odermatt |", "|---" * 10 + "|"]
+    for each in results:
+        n = each.numbers
+        label = each.others or "armour steel"
+        fit = odermatt(each.velocity, each.slenderness, brinell(each), *DENSITIES)
+        lines.append(
+            f"| {label} | {each.slenderness} | {each.velocity:g} m/s | {each.ratio:.3f} | {_told(n['slope'], 2)} | "
+            f"{_told(n['end_over_diameter'], 1)} D | {_told(n['u_m_s'], 0)}, {_told(n['v_m_s'], 0)} m/s | "
+            f"{n['left_over_length']:.0%} | {n['hole_over_diameter']:.1f} D | {fit:.2f} ({each.ratio / fit - 1.0:+.0%}) |")
+    return lines
+
+
+def brinell(result: Result) -> float:
+    """Brinell hardness of the target: that of its label, by ASTM E140 for a Rockwell hardness, else ``BRINELL``."""
+    label = result.labels.get("steel", "")
+    known = {"fit Rc 32": 301.0, "fit Rc 38": 353.0}
+    return known.get(label, float(label.removeprefix("BHN ")) if label.startswith("BHN ") else BRINELL)
+
+
+def _told(value: float, digits: int) -> str:
+    return "-" if math.isnan(value) else f"{value:.{digits}f}"
+
+
+def curve(name: str, slenderness: int, velocities: Sequence[float]) -> list[float]:
+    """Depth over length by a model of the catalogue, for the rod and target of the deck.
+
+    walker-anderson has the effective flow stress of the target that anderson-riegel computes from Johnson and Cook's law: the
+    latter's coefficients come from the former's depths with that stress.
+    """
+    shot = model_deck.read(HERE / DECKS[slenderness])
+    law, heat = shot.target.strength.values, shot.target.eos.values["specific_heat"]
+    keys = {"a": "yield_stress", "b": "hardening", "n": "hardening_exponent", "c": "rate_coefficient", "m": "thermal_exponent"}
+    settings = {f"target.johnson_cook_{key}": law[word] for key, word in keys.items()}
+    settings |= {"target.melt_temperature": law["melt_temperature"], "target.specific_heat": heat}
+    speeds = [float(velocity) for velocity in velocities]
+    by_curve = models.resolve(models.named("anderson-riegel"), models.Request(shot.rod, shot.target, settings, shot.values))
+    rows = by_curve.rows(speeds)
+    if name != by_curve.model.name:
+        stress = {"target.strength": rows[0]["effective_flow_stress"]} if name == "walker-anderson" else {}
+        rows = models.resolve(models.named(name), models.Request(shot.rod, shot.target, stress, shot.values)).rows(speeds)
+    return [float(row["depth_over_length"]) for row in rows]
+
+
+def draw(results: Sequence[Result]):
+    """A matplotlib Figure: depth over length against velocity, a panel for each L/D that was run."""
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    lengths = sorted({each.slenderness for each in results})
+    figure = Figure(figsize=(max(1.0 + 3.2 * len(lengths), 6.4), 4.4), layout="constrained")
+    FigureCanvasAgg(figure)
+    panels = figure.subplots(1, len(lengths), sharey=True, squeeze=False)[0]
+    for axes, ratio in zip(panels, lengths, strict=True):
+        low, middle, high = ([odermatt(v, ratio, each, *DENSITIES) for v in VELOCITIES] for each in (350.0, BRINELL, 230.0))
+        axes.fill_between(VELOCITIES, low, high, color="0.85", label="Odermatt's fit, BHN 230 to 350")
+        axes.plot(VELOCITIES, middle, "k-", lw=1, label=f"the same, BHN {BRINELL:g}")
+        for name, style in MODELS.items():
+            axes.plot(VELOCITIES, curve(name, ratio, VELOCITIES), style, color="0.4", lw=1, label=f"model {name}")
+        _runs(axes, [each for each in results if each.slenderness == ratio])
+        axes.set_title(f"L/D = {ratio}", fontsize="medium")
+        axes.set_xlabel("impact velocity [m/s]")
+        axes.grid(alpha=0.3)
+    panels[0].set_ylabel("depth over length of the rod")
+    figure.legend(*panels[0].get_legend_handles_labels(), fontsize="x-small", loc="outside lower center", ncols=3)
+    return figure
+
+
+def _runs(axes, results: Sequence[Result]) -> None:
+    """Marks for the runs, a colour for each label; lines through three velocities and more."""
+    labels = list(dict.fromkeys(each.others for each in results))
+    for number, label in enumerate(labels):
+        own = sorted((each.velocity, each.ratio) for each in results if each.others == label)
+        shade = f"C{number}"
+        form = "o-" if len(own) > 2 else "o"
+        axes.plot(*zip(*own, strict=True), form, color=shade, ms=4, lw=1.2, label=label or "armour steel")
+
+
+def draw_parts(path: Path, cases: Sequence[str]):
+    """A matplotlib Figure of some cases of a file of histories: velocities of interface and tail, and depth against wear.
+
+    Raises StudyError for a case that the file does not have.
+    """
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    with open(path, encoding="utf-8", newline="") as file:
+        rows = list(csv.DictReader(file))
+    figure = Figure(figsize=(8.4, 3.8), layout="constrained")
+    FigureCanvasAgg(figure)
+    left, right = figure.subplots(1, 2)
+    for number, case in enumerate(cases):
+        own = [row for row in rows if row["case"] == case]
+        if not own:
+            raise StudyError(f"{path}: has no case {case} (has: {', '.join(dict.fromkeys(row['case'] for row in rows))})")
+        time, depth, length, tail = (np.array([float(row[name]) for row in own]) for name in HISTORY[1:])
+        u = np.gradient(depth, time) * 1e3
+        left.plot(time, tail, "-", color=f"C{number}", lw=1.2)
+        left.plot(time, u, "--", color=f"C{number}", lw=1.2)
+        right.plot((length[0] - length) / length[0], depth / length[0], "-", color=f"C{number}", lw=1.2, label=case)
+    left.set(xlabel="time [us]", ylabel="velocity [m/s]", ylim=(0.0, None))
+    right.set(xlabel="wear of the rod over its length", ylabel="depth over length")
+    left.set_title("tail (lines) and interface (dashed)", fontsize="medium")
+    right.legend(fontsize="x-small")
+    for axes in (left, right):
+        axes.grid(alpha=0.3)
+    return figure
+
+
+def main(arguments: list[str] | None = None) -> int:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("results", nargs="+", type=Path)
+    parser.add_argument("--keep", type=Path, metavar="FILE", help="write all cases to a CSV file")
+    parser.add_argument("--histories", type=Path, metavar="FILE", help="write the histories of all cases to a CSV file")
+    parser.add_argument("--figure", type=Path, help="draw depth against velocity")
+    parser.add_argument("--parts", type=Path, help="draw the histories of --cases")
+    parser.add_argument("--cases", nargs="+", default=[], metavar="CASE")
+    given = parser.parse_args(arguments)
+    try:
+        if given.parts:
+            if len(given.results) != 1 or not given.results[0].is_file() or not given.cases:
+                raise StudyError("--parts draws --cases of one file that --histories wrote")
+            figures.save(draw_parts(given.results[0], given.cases), given.parts)
+            return 0
+        results = list({result.name: result for path in given.results for result in read(path)}.values())
+        if not results:
+            raise StudyError("there is no finished case")
+        print("\n".join(table(results)))
+        if given.keep:
+            keep(results, given.keep)
+        if given.histories:
+            keep_histories([path for path in given.results if path.is_dir()], given.histories)
+        if given.figure:
+            figures.save(draw(results), given.figure)
+    except (StudyError, DeckError, InputError, OSError) as error:
+        print(error, file=sys.stderr)
+        return 2
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,1 @@
+"""hydro2d/cli: commands, their messages and their statuses."""

@@ -1,0 +1,221 @@
+"""How compiled functions choose among models."""
+
+import ast
+import importlib
+import inspect
+import math
+import os
+import re
+import stat
+import tempfile
+import types
+from pathlib import Path
+
+import llvmlite.binding
+import numba
+import numpy as np
+import pytest
+from numba.core import caching, codegen, cpu
+
+from hydro2d import jit
+from hydro2d.jit import cache, options
+from hydro2d.mesh.fields import LANE_ROWS, LANES
+from strength import dispatch, lanes
+from strength.layout import ROW
+
+
+def model(number: int, **functions) -> types.SimpleNamespace:
+    return types.SimpleNamespace(ID=number, __name__="strength.hydrodynamic", **functions)
+
+
+def test_the_model_with_the_id_is_called():
+    for module in dispatch.STRENGTH_MODULES:
+        par = np.linspace(1.0, 2.0, ROW)
+        assert dispatch.shear_modulus(module.ID, 0.0, 1.0, 300.0, par) == module.shear_modulus(0.0, 1.0, 300.0, par)
+
+
+def test_an_unknown_id_gives_what_was_said():
+    assert math.isnan(dispatch.flow_stress(99, 0.0, 0.0, 300.0, 0.0, 1.0, dispatch.STRENGTH_MODULES[0].row({})))
+    assert dispatch.yield_floor(99, dispatch.STRENGTH_MODULES[0].row({})) == 0.0
+    lane = np.zeros(LANE_ROWS * LANES)
+    dispatch.flow_row(99, 8, np.zeros(ROW), lane)
+    assert np.isnan(lane[lanes.FLOW:][:8]).all()
+    assert np.isnan(lane).sum() == 8
+
+
+def test_models_without_the_function_are_left_out():
+    with_it = [module.ID for module in dispatch.STRENGTH_MODULES if hasattr(module, "yield_floor")]
+    assert 0 < len(with_it) < len(dispatch.STRENGTH_MODULES)
+
+
+def test_the_chain_is_a_file_that_does_not_change_between_imports():
+    """numba caches what is compiled by the file's name, time and size."""
+    file = dispatch.flow_stress.py_func.__code__.co_filename
+    before = os.stat(file)
+    again = jit.by_id(dispatch.STRENGTH_MODULES, "flow_stress", "ep, rate, T, p, rho, par",
+                      dispatch.flow_stress.__doc__)
+    after = os.stat(again.py_func.__code__.co_filename)
+    assert (before.st_mtime, before.st_size, before.st_ino) == (after.st_mtime, after.st_size, after.st_ino)
+
+
+def test_two_models_with_one_id_are_an_error():
+    with pytest.raises(ValueError, match="ID 0"):
+        jit.by_id((model(0, flow_stress=None), model(0, flow_stress=None)), "flow_stress", "ep", "one of them")
+
+
+ROOT = cache.ROOT
+KERNELS = sorted(file for file in ROOT.glob("hydro2d/kernels/[a-z]*.py") if "def " in file.read_text(encoding="utf-8"))
+
+
+def seen_by(name: str) -> set[str]:
+    return {file.relative_to(ROOT).as_posix() for file in cache.seen_by(ROOT / name)}
+
+
+@pytest.mark.parametrize("file", KERNELS, ids=lambda file: file.stem)
+def test_whatever_a_kernel_can_call_is_among_the_sources_of_its_cache(file):
+    """Every compiled function that its module knows, and what that one's module knows, and so on."""
+    seen, waiting, known = cache.seen_by(file), [importlib.import_module(f"hydro2d.kernels.{file.stem}")], set()
+    while waiting:
+        for value in vars(waiting.pop()).values():
+            compiled = getattr(value, "compiled", value)
+            if not hasattr(compiled, "py_func") or compiled.py_func.__module__ in known:
+                continue
+            known.add(compiled.py_func.__module__)
+            module = importlib.import_module(compiled.py_func.__module__)
+            assert Path(module.__file__).resolve() in seen or Path(module.__file__).parent == Path(jit.all_folder())
+            waiting.append(module)
+    assert known
+
+
+def test_constants_of_any_folder_are_among_the_sources():
+    """A kernel of the solver once kept old columns: they stand in a file beside it, of which the hash did not know."""
+    assert "hydro2d/mesh/station_columns.py" in seen_by("hydro2d/solver/tracers.py")
+    assert "hydro2d/mesh/fields.py" in seen_by("hydro2d/kernels/remap.py")
+    assert not {"hydro2d/__init__.py", "hydro2d/files.py", "hydro2d/api.py"} & seen_by("hydro2d/kernels/mixed.py")
+
+
+#: what numba does not promise to keep: (object, attribute, words that its signature must have)
+RELIED_ON = [
+    (codegen.CPUCodeLibrary, "_optimize_final_module", ("self",)),
+    (cpu, "CPUTargetOptions", ()),
+    (numba.core.options, "TargetOptions", ()),
+    (numba.core.options.TargetOptions, "Mapping", ("flag_name",)),
+    (numba.core.compiler.Flags(), "noalias", ()),
+    (caching.IndexDataCacheFile, "save", ("key", "data")),
+    (numba.core, "event", ()),
+    (numba.core.event, "Listener", ()),
+    (numba.core.event, "register", ("kind", "listener")),
+    (numba.core.dispatcher.Dispatcher, "typeof_pyval", ("val",)),
+    (numba.core.dispatcher.Dispatcher, "compile", ("sig",)),
+    (numba.core.options.DefaultOptions, "_nrt", ()),
+    (numba.config, "CACHE_DIR", ()),
+    (numba.config, "THREADING_LAYER", ()),
+    (llvmlite.binding, "set_option", ("name", "option")),
+]
+
+
+@pytest.mark.parametrize(("owner", "name", "words"), RELIED_ON, ids=[name for _, name, _ in RELIED_ON])
+def test_what_numba_does_not_promise_is_there(owner, name, words):
+    found = getattr(owner, name)
+    assert not words or set(words) <= set(inspect.signature(found).parameters)
+
+
+def test_no_other_private_name_of_numba_is_used():
+    """Attributes that begin with an underscore, and imports from inside numba, in the whole of hydro2d."""
+    known = {name for _, name, _ in RELIED_ON}
+    for file in (ROOT / "hydro2d").glob("**/*.py"):
+        tree = ast.parse(file.read_text(encoding="utf-8"))
+        modules = {alias.asname or alias.name for node in ast.walk(tree) if isinstance(node, (ast.Import, ast.ImportFrom))
+                   for alias in node.names if "numba" in (getattr(node, "module", None) or alias.name)}  # fmt: skip
+        used = {node.attr for node in ast.walk(tree) if isinstance(node, ast.Attribute) and node.attr.startswith("_")
+                and node.attr != "__version__"
+                and isinstance(node.value, ast.Name) and node.value.id in modules}  # fmt: skip
+        assert used <= known, file
+
+
+def test_an_edit_compiles_again_what_can_see_it_and_nothing_else():
+    sees_strength = {file.stem for file in KERNELS if "strength/power_law.py" in seen_by(f"hydro2d/kernels/{file.name}")}
+    assert {"deformation", "mixed"} <= sees_strength
+    assert not sees_strength & {"remap", "momentum", "interfaces", "contact_geometry", "contact_motion", "contact_velocities",
+                                "contact_volumes", "acceleration", "sliding", "column_ranges", "following", "boundaries"}
+    assert "hydro2d/physics/interfaces.py" in seen_by("hydro2d/kernels/contact_volumes.py")
+    assert "hydro2d/physics/interfaces.py" not in seen_by("hydro2d/kernels/momentum.py")
+
+
+def test_the_folder_changes_with_the_text_of_a_source(tmp_path):
+    first, second = tmp_path / "a.py", tmp_path / "b.py"
+    first.write_text("A = 1\n")
+    second.write_text("B = 1\n")
+    before = cache.folder_for([first, second])
+    assert cache.folder_for([second, first]) == before
+    second.write_text("B = 2\n")
+    assert cache.folder_for([first, second]) != before
+    assert cache.folder_for([first]) != before
+
+
+def test_the_cache_in_the_temporary_folder_is_the_users_alone(tmp_path, monkeypatch, capsys):
+    """What is kept there is executed: a folder that somebody has prepared is not used."""
+    monkeypatch.setenv("HYDRO2D_CACHE_DIR", os.environ.get("HYDRO2D_CACHE_DIR", ""))  # as it was, afterwards
+    own = str(tmp_path / "own")
+    assert cache._private(own) == cache._private(own) == own
+    assert stat.S_IMODE(os.stat(own).st_mode) == 0o700
+    assert capsys.readouterr().err == ""
+    open_to_all, link = tmp_path / "open", tmp_path / "link"
+    open_to_all.mkdir(mode=0o777)
+    open_to_all.chmod(0o777)
+    link.symlink_to(own)
+    for folder in (open_to_all, link):
+        used = cache._private(str(folder))
+        assert used == os.environ["HYDRO2D_CACHE_DIR"] not in (str(folder), own)
+        assert stat.S_IMODE(os.stat(used).st_mode) == 0o700
+        assert f"{folder} is not a private folder of this user" in capsys.readouterr().err
+
+
+def test_a_home_that_cannot_be_written_to_has_a_private_cache(tmp_path, monkeypatch):
+    monkeypatch.delenv("HYDRO2D_CACHE_DIR", raising=False)
+    monkeypatch.setenv("XDG_CACHE_HOME", "/proc/none/cache")
+    monkeypatch.setattr(tempfile, "gettempdir", lambda: str(tmp_path))
+    assert cache._cache_root.__wrapped__() == str(tmp_path / f"hydro2d-{os.getuid()}")
+
+
+@pytest.mark.parametrize("apart", [True, False])
+def test_arrays_of_kernels_are_promised_to_be_apart(apart):
+    """The option is numba's own; a compiler that is not told compares addresses before every loop."""
+    def add(n, a, b):
+        for i in range(n):
+            a[i] += b[i]
+
+    assert jit.kernel(add).compiled.targetoptions["noalias"]
+    made = numba.njit(**{**options.OPTIONS, "cache": False}, noalias=apart)(add)
+    made.compile((numba.int64, numba.float64[::1], numba.float64[::1]))
+    (text,) = made.inspect_llvm().values()
+    (head,) = [line for line in text.splitlines() if line.startswith("define ") and "%arg.a.4" in line]
+    assert len(re.findall(r"noalias[^,]*%arg\.[ab]\.4", head)) == (2 if apart else 0), head
+
+
+@pytest.mark.parametrize("only_calls", [True, False])
+def test_kernels_are_not_optimised_again_in_what_only_calls_them(only_calls, monkeypatch):
+    """A phase calls its kernels by their names; without the option, a kernel as short as this one becomes part of it."""
+    def double(part, parts, a):
+        for j in range(parts[part], parts[part + 1]):
+            a[j] *= 2.0
+
+    def over_parts(parts, a):
+        for place in numba.prange(parts.shape[0] - 1):
+            kernel(np.int64(place), parts, a)
+
+    own = {**options.OPTIONS, "cache": False}
+    kernel, phase = numba.njit(**own)(double), numba.njit(**own, parallel=True)(over_parts)
+    monkeypatch.setattr(options, "ONLY_CALLS", {over_parts} if only_calls else set())
+    phase.compile((numba.int64[::1], numba.float64[::1]))
+    (text,) = phase.inspect_llvm().values()
+    assert len(re.findall(r"call [^\n]*double", text)) == (1 if only_calls else 0)
+
+
+def test_every_phase_only_calls_kernels():
+    """As the option takes for granted: what is not a kernel, or the barrier, would not be optimised at all."""
+    for name in ("lagrangian_step", "remap_step"):
+        module = importlib.import_module(f"hydro2d.kernels.{name}")
+        phases = [value for value in vars(module).values() if getattr(value, "__module__", "") == module.__name__]
+        assert phases
+        assert {phase.compiled.py_func for phase in phases} <= options.ONLY_CALLS

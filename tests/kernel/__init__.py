@@ -1,1 +1,0 @@
-"""The loops over the mesh, one at a time."""

@@ -1,0 +1,211 @@
+"""Between two barriers no part of the mesh touches what another one writes: every access of a step, seen in Python."""
+
+import functools
+import inspect
+import sys
+import threading
+
+import numpy as np
+import pytest
+
+from hydro2d import jit
+from hydro2d.deck import deck
+from hydro2d.kernels import contact_motion, extension, lagrangian_step, remap_step
+from hydro2d.mesh import state
+from hydro2d.solver.simulation import Simulation
+from tests.kernels.test_compiled_equals_source import CONTACT, LAYER, text_of
+from tests.kernels.test_phases import PHASES
+
+PARTS = 4
+DECKS = {"slip-layer": text_of("both", LAYER), "contact": text_of("both", CONTACT, tip="5 mm", follows=False),
+         "following": text_of("ke", CONTACT)}  # fmt: skip
+
+
+class Seen(threading.local):
+    """What the part that runs has read and written since the last barrier: addresses."""
+
+    def __init__(self):
+        self.read, self.written = set(), set()
+
+
+SEEN = Seen()
+
+
+class Watched(np.ndarray):
+    """An array that notes which of its elements are read and written."""
+
+    def __array_finalize__(self, base):
+        self.at = None
+
+    def _address(self, key) -> int:
+        if self.at is None:
+            self.at = self.__array_interface__["data"][0]
+        places = key if isinstance(key, tuple) else (key,)
+        return self.at + sum(int(place) * step for place, step in zip(places, self.strides, strict=True))
+
+    def __getitem__(self, key):
+        found = super().__getitem__(key)
+        if not isinstance(found, np.ndarray):
+            SEEN.read.add(self._address(key))
+        return found
+
+    def __setitem__(self, key, value):
+        SEEN.written.add(self._address(key))
+        super().__setitem__(key, value)
+
+
+class Races:
+    """Runs the phases as Python, every part in a thread of its own, one after another from barrier to barrier.
+
+    found : (phase, number of the interval between barriers, array) of what one part wrote and another one touched
+    """
+
+    def __init__(self, monkeypatch, without: tuple[str, int] | None = None):
+        self.without, self.barriers = without, {}
+        self.found, self.own, self.stopped = set(), threading.local(), threading.Semaphore(0)
+        for module in list(sys.modules.values()):
+            if module.__name__.startswith(("hydro2d.kernels", "hydro2d.physics", "eos", "strength", "hydro2d_")):
+                for name, value in list(vars(module).items()):
+                    source = getattr(getattr(value, "compiled", value), "py_func", None)
+                    if source is not None and (module, name) not in PHASES and not name.startswith(("exp", "log", "power")):
+                        monkeypatch.setattr(module, name, source)
+        for module, name in PHASES:
+            phase = getattr(module, name)
+            monkeypatch.setattr(module, name, functools.wraps(phase)(functools.partial(self, phase.compiled.py_func)))
+        for module in (lagrangian_step, remap_step):
+            monkeypatch.setattr(module, "prange", lambda _: [self.own.place])
+            monkeypatch.setattr(module, "wait", lambda gate, parts: self._wait())
+
+    def _wait(self):
+        self.own.waits += 1
+        if self.without != (self.own.phase, self.own.waits):
+            self._stop()
+
+    def _stop(self):
+        self.own.log.append((SEEN.read, SEEN.written))
+        SEEN.read, SEEN.written = set(), set()
+        self.stopped.release()
+        self.own.turn.acquire()
+
+    def __call__(self, phase, parts, *arguments):
+        number, failed = len(parts) - 1, []
+        turns, logs, running = [threading.Semaphore(0) for _ in range(number)], [[] for _ in range(number)], set(range(number))
+        watched = [each.view(Watched) if isinstance(each, np.ndarray) else each for each in arguments]
+
+        def work(place):
+            self.own.place, self.own.turn, self.own.log = place, turns[place], logs[place]
+            self.own.phase, self.own.waits = phase.__name__, 0
+            turns[place].acquire()
+            try:
+                with np.errstate(all="ignore"):
+                    phase(parts, *watched)
+            except BaseException as error:
+                failed.append(error)
+            running.discard(place)
+            self.barriers[phase.__name__] = self.own.waits
+            self._stop()
+
+        for place in range(number):
+            threading.Thread(target=work, args=(place,), daemon=True).start()
+        while running:
+            for turn in turns:
+                turn.release()
+                self.stopped.acquire()
+                if failed:
+                    raise failed[0]
+        names = phase.__code__.co_varnames[1:]
+        arrays = [(names[k], each) for k, each in enumerate(arguments) if isinstance(each, np.ndarray)]
+        for interval, touched in enumerate(zip(*logs, strict=True)):
+            for one, (_, written) in enumerate(touched):
+                for other, (read, also_written) in enumerate(touched):
+                    for address in written & (read | also_written) if one != other else ():
+                        self.found.add((phase.__name__, interval, owner(address, arrays)))
+        for turn in turns:
+            turn.release()
+
+
+def owner(address: int, arrays: list) -> str:
+    """The array of an address."""
+    for name, array in arrays:
+        first = array.__array_interface__["data"][0]
+        if first <= address < first + array.nbytes:
+            return name
+    raise AssertionError("an address of no array")
+
+
+def everything_happens(monkeypatch) -> None:
+    """What is rare happens everywhere: groups come apart in every cell beside them, and every contact node is a slave."""
+    for name in ("meeting", "come_apart"):
+        monkeypatch.setattr(contact_motion, name, lambda *_: True)
+    monkeypatch.setattr(extension, "sureness", lambda share: 0.0)
+    source = contact_motion.contact_viscosity
+    at = list(inspect.signature(source).parameters).index("p")
+
+    def without_pressure(*arguments):
+        source(*arguments[:at], np.zeros_like(arguments[at], subok=False), *arguments[at + 1:])
+
+    monkeypatch.setattr(contact_motion, "contact_viscosity", without_pressure)
+
+
+def races(monkeypatch, case: str, without: tuple[str, int] | None = None) -> Races:
+    """A cycle after two others, in which everything happens."""
+    monkeypatch.setattr(state, "max_threads", lambda: PARTS)  # scratch memory for as many parts
+    simulation = Simulation(deck.loads(DECKS[case]))
+    for _ in range(2):
+        simulation.step()
+    monkeypatch.setattr(jit, "parts_at_once", lambda: PARTS)
+    seen = Races(monkeypatch, without)
+    everything_happens(monkeypatch)
+    with np.errstate(all="ignore"):
+        simulation.step()
+    assert len(simulation.engine.rows) == PARTS + 1
+    return seen
+
+
+@pytest.mark.parametrize("case", DECKS)
+def test_no_part_touches_what_another_one_writes(monkeypatch, case):
+    seen = races(monkeypatch, case)
+    assert seen.found == set()
+    assert set(seen.barriers) >= {"close_cells", "accelerate", "deform", "carry_bodies", "carry_momentum"}
+
+
+def barrier_before(phase: str, kernel: str) -> tuple[str, int]:
+    """The last barrier in the text of a phase before it calls a kernel: which of its barriers it is, from 1."""
+    module = next(module for module, name in PHASES if name == phase)
+    text = inspect.getsource(getattr(module, phase).compiled.py_func)
+    return phase, text[: text.index(f"{kernel}(")].count("wait(gate, parts)")
+
+
+#: barriers without which bits rarely change, and what is then touched by two parts
+RARE = [
+    ("find_contact", "contact_motion.contact_viscosity", "vof"),
+    ("carry_bodies", "contact_volumes.limit_fluxes", "flux_volume"),
+    ("carry_momentum", "column_ranges.find_active_ranges", "occupied"),
+]
+#: all others of which this deck has need
+OFTEN = [
+    ("close_cells", "mixed.close_cells", "u"), ("close_cells", "contact_geometry.number_nodes", "contact_node_count"),
+    ("find_contact", "contact_geometry.face_apertures", "line"), ("find_contact", "extension.find_extensions", "filled"),
+    ("find_contact", "thermodynamics.least_step", "row_step"), ("accelerate", "acceleration.accelerate", "sig_rr"),
+    ("accelerate", "contact_velocities.settle", "u"), ("accelerate", "boundaries.constrain", "u"),
+    ("deform", "contact_volumes.warm_evened", "even_z"), ("deform", "contact_volumes.contact_work", "fz"),
+    ("deform", "contact_checkerboard.fade_pressures", "room"), ("deform", "deformation.deform", "vof"),
+    ("carry_bodies", "interfaces.interface_volumes", "flux_volume"), ("carry_bodies", "contact_volumes.contact_fluxes", "size"),
+    ("carry_bodies", "remap.sweep_z", "flux"), ("carry_bodies", "edge_sums.sum_outflow", "edge_flux"),
+    ("carry_momentum", "momentum.sweep_momentum", "flux_mass"), ("carry_momentum", "momentum.deposit", "deficit"),
+    ("carry_momentum", "edge_sums.sum_kinetic_outflow", "cell_mass"),
+    ("carry_momentum", "column_ranges.widen_ranges", "group_ranges"),
+]  # fmt: skip
+NEEDED = [*RARE, *(pytest.param(*each, marks=pytest.mark.slow) for each in OFTEN)]
+
+
+@pytest.mark.parametrize(("phase", "kernel", "array"), NEEDED)
+def test_a_barrier_that_is_missing_is_seen(monkeypatch, phase, kernel, array):
+    seen = races(monkeypatch, "contact", barrier_before(phase, kernel))
+    assert array in {touched for _, _, touched in seen.found}
+
+
+def test_without_contact_sweeps_wait_for_the_volumes_of_mixed_cells(monkeypatch):
+    """The third barrier that is met; with contact it is the fifth, and `limit_fluxes` stands before it."""
+    seen = races(monkeypatch, "slip-layer", ("carry_bodies", 3))
+    assert "flux_volume" in {touched for _, _, touched in seen.found}

@@ -1,0 +1,196 @@
+"""Checkerboards of stress: what fades, how fast, what stays, and that a smooth field is left alone."""
+
+import numpy as np
+import pytest
+
+from hydro2d.kernels import contact_checkerboard as kernels
+from hydro2d.mesh.fields import RHO, SRR, SRZ, SZZ, E
+from hydro2d.mesh.grid import Grid
+
+#: cells along either side of the mesh, and those that the hard body fills
+N, FILLED = 10, np.s_[2:12, 2:9]
+BULK, DENSITY, STEP = 3e11, 18000.0, 1e-8
+#: share of a checkerboard that fades in a step
+SHARE = 0.08
+
+
+class Block:
+    """A hard body (1) that fills columns 0 to 6 of a mesh, and a soft one (0) in what is left; vertices do not move."""
+
+    def __init__(self, geometry="planar", edges=None):
+        edges = 1e-3 * np.arange(N + 1.0) if edges is None else edges
+        self.grid = g = Grid(edges, edges, geometry)
+        self.rows = np.array([g.g, g.g + N])
+        self.vof, self.pm, self.q = np.zeros((2, *g.shape)), np.zeros((2, *g.shape)), np.zeros((7, 2, *g.shape))
+        self.vof[1][FILLED] = 1.0
+        self.vof[0][g.inside] = 1.0 - self.vof[1][g.inside]
+        self.q[RHO], self.km = DENSITY, np.full((2, *g.shape), BULK)
+        self.j, self.i = np.indices(g.shape)
+        self.sign = (-1.0) ** (self.j + self.i)
+
+    def fade(self, contact_columns=None):
+        """One step; leaves the swept volumes in fr, fz and own_r, own_z."""
+        g, rows, (j0, j1) = self.grid, self.rows, self.rows
+        ranges = np.zeros((2, 4, g.vertex_shape[0], 2), dtype=np.int64)
+        ranges[..., 0], ranges[..., 1] = j0, j1
+        cell_mass = DENSITY * self.vof * g.volume
+        self.mass = cell_mass[1]
+        hg = SHARE / 16.0 * cell_mass.sum(axis=0) / STEP
+        columns = np.zeros((g.shape[0] + 1, 2), dtype=np.int64)
+        if contact_columns:
+            columns[:] = contact_columns
+        found, room, inside = np.full((5, *g.vertex_shape), np.nan), np.full(g.shape, np.nan), np.full(g.shape, np.nan)
+        self.fr, self.fz = np.zeros(g.vertex_shape), np.zeros(g.vertex_shape)
+        self.own_r, self.own_z = np.zeros((2, *g.vertex_shape)), np.zeros((2, *g.vertex_shape))
+        group = np.array([0, 1])
+        kernels.find_insides(0, rows, j0, j1, group, ranges, self.vof, inside)
+        kernels.find_checkerboards(0, rows, j0, j1, group, ranges, self.vof, self.q, self.pm, inside, found)
+        kernels.fade_deviators(0, rows, STEP, group, ranges, g.volume, hg, cell_mass, inside, found, self.vof, self.km, self.q,
+                               room)
+        kernels.fade_pressures(0, rows, j0, j1, group, ranges, columns, cell_mass, room, self.vof, self.pm, self.fr, self.fz,
+                               self.own_r, self.own_z, self.q)
+        return self
+
+    @property
+    def grown(self):
+        """Share that every cell grows by."""
+        swept = (self.fr[:-1, 1:] - self.fr[:-1, :-1]) + (self.fz[1:, :-1] - self.fz[:-1, :-1])
+        return swept / self.grid.volume
+
+
+def inner(a):
+    """Cells away from the edges of the body."""
+    return a[4:10, 4:7]
+
+
+@pytest.mark.parametrize("row", [SRR, SZZ, SRZ])
+def test_a_checkerboard_of_a_deviator_fades_by_its_share(row):
+    block = Block()
+    block.q[row, 1] = 1e9 * block.sign
+    block.fade()
+    assert inner(block.q[row, 1] / block.sign) == pytest.approx(1e9 * (1 - SHARE), rel=1e-12)
+
+
+def test_a_checkerboard_of_pressure_fades_by_its_share():
+    """By the volume that its cells gain and lose; each does work on its neighbours by their mean pressure."""
+    block = Block()
+    block.pm[1] = 3e9 + 1e9 * block.sign
+    block.fade()
+    assert inner(block.pm[1] - BULK * block.grown) == pytest.approx(inner(3e9 + (1 - SHARE) * 1e9 * block.sign), rel=1e-12)
+    assert inner(block.q[E, 1]) == pytest.approx(inner(-3e9 * block.grown / DENSITY), rel=1e-9)
+
+
+@pytest.mark.parametrize("geometry", ["planar", "cylindrical"])
+def test_volume_and_energy_stay(geometry):
+    """Whatever the stress is: what a cell gains another one loses."""
+    block, rng = Block(geometry, 1e-3 * np.cumsum(1.0 + 0.3 * np.sin(np.arange(N + 1.0)))), np.random.default_rng(4)
+    block.pm[1], block.q[SRR:SRZ + 1, 1] = rng.normal(0, 1e9, block.grid.shape), rng.normal(0, 1e9, (3, *block.grid.shape))
+    block.fade()
+    swept = block.grown * block.grid.volume
+    assert abs(swept).max() > 1e-14
+    assert abs(swept.sum()) < 1e-13 * abs(swept).sum()
+    given = block.mass * block.q[E, 1]
+    assert abs(given.sum()) < 1e-13 * abs(given).sum()
+    assert (block.pm[1] * swept)[block.vof[1] == 1.0].sum() > 0.0  # higher pressures expand
+
+
+@pytest.mark.parametrize("power", [(0, 0), (1, 0), (0, 1), (3, 0), (0, 3), (1, 1)])
+def test_nothing_else_changes(power):
+    """Fields that bend as the mesh can resolve it have no cell that stands out of those around it."""
+    block = Block()
+    field = 1e6 * (block.i - 4.2) ** power[0] * (block.j - 6.3) ** power[1]
+    block.pm[1], block.q[SRR, 1], block.q[SRZ, 1] = field, field, -field
+    block.fade()
+    assert abs(block.grown).max() < 1e-15
+    assert block.q[SRR, 1] == pytest.approx(field, abs=1e-6)
+    assert block.q[SRZ, 1] == pytest.approx(-field, abs=1e-6)
+
+
+def test_an_extremum_loses_next_to_nothing():
+    """Its four quarters are a checkerboard of the size of h^4/16 of the fourth derivative, here 4."""
+    block = Block()
+    block.q[SRR, 1] = field = 1e6 * (block.i - 5.0) ** 2 * (block.j - 6.0) ** 2
+    block.fade()
+    change = np.abs(block.q[SRR, 1] - field)
+    assert inner(change).max() == change[6, 5] == pytest.approx(SHARE * 4e6 / 16, rel=1e-9)
+    assert np.sum(inner(change) > 1e-6) == 1
+
+
+@pytest.mark.parametrize("axis", [0, 1])
+def test_waves_along_one_direction_stay(axis):
+    """Even of two cells: they push vertices."""
+    block = Block()
+    block.q[SRR, 1] = wave = 1e9 * (-1.0) ** (block.j if axis else block.i)
+    block.fade()
+    assert (block.q[SRR, 1] == wave).all()
+
+
+def test_a_cell_that_stands_out_alone_leaves_nothing_in_its_row_and_column():
+    """A linear filter would spread it along both: what is forced in one cell would stripe the whole rod."""
+    block = Block()
+    block.q[SZZ, 1, 6, 5] = 1e9
+    for _ in range(200):
+        block.fade()
+    assert abs(block.q[SZZ, 1, 6, 5]) < 0.02e9
+    block.q[SZZ, 1, 6, 5] = 0.0
+    assert abs(block.q[SZZ, 1]).max() == 0.0
+
+
+def test_a_cell_comes_in_by_degrees():
+    """As its emptiest neighbour fills: nothing at none of it, all of it from INSIDE on."""
+    lost = []
+    for share in (0.0, 1e-9, 0.5 * kernels.INSIDE, kernels.INSIDE, 1.0):
+        block = Block()
+        block.vof[1, :, 9:] = 0.0
+        block.vof[1][2:12, 9] = share
+        block.q[SRR, 1] = 1e9 * block.sign
+        block.fade()
+        lost.append(abs(block.q[SRR, 1, 6, 8] / block.sign[6, 8] - 1e9))
+    assert lost[0] == 0.0
+    assert lost[1] < 1e-3
+    assert lost[2] == pytest.approx(0.25 * lost[3], rel=1e-6)
+    assert lost[3] == pytest.approx(SHARE * 1e9, rel=1e-9)
+    assert lost[4] == pytest.approx(lost[3], rel=1e-9)
+
+
+def test_the_least_of_four_numbers_is_of_those_that_count():
+    least_of = kernels.least_of.py_func
+    assert least_of(3.0, 2.0, 4.0, 5.0, 1.0, 1.0, 1.0, 1.0) == 2.0
+    assert least_of(3.0, 2.0, 4.0, 5.0, 1.0, 0.0, 1.0, 1.0) == 3.0
+    assert least_of(3.0, 2.0, 4.0, 5.0, 0.0, 0.0, 0.0, 1.0) == 5.0
+    assert least_of(3.0, 0.0, 4.0, 5.0, 1.0, 1e-9, 1.0, 1.0) == 3.0
+    assert least_of(3.0, 0.0, 4.0, 5.0, 1.0, 0.5, 1.0, 1.0) == 2.5
+
+
+def test_the_soft_body_and_cells_that_are_not_full_are_left_alone():
+    block = Block()
+    block.vof[1, 5, 5], block.vof[0, 5, 5] = 0.999, 0.001
+    block.pm[:], block.q[SRR] = 1e9 * block.sign, 1e9 * block.sign
+    block.fade()
+    around = np.zeros(block.grid.shape, dtype=bool)
+    around[5, 5] = True
+    around[block.vof[0] > 0.0] = True
+    assert abs(block.grown[around]).max() == 0.0
+    assert (block.q[SRR, 1] == 1e9 * block.sign)[around].all()
+    assert (block.q[SRR, 0] == 1e9 * block.sign).all()
+    assert (block.q[E, 0] == 0.0).all()
+
+
+def test_the_groups_own_volumes_are_swept_with_it_where_they_are_in_use():
+    block = Block()
+    block.pm[1] = 1e9 * block.sign
+    block.fade(contact_columns=(5, 7))
+    assert abs(block.fr).max() > 0.0
+    for own_r, own_z in zip(block.own_r, block.own_z, strict=True):
+        assert (own_r[2:12, 5:8] == block.fr[2:12, 5:8]).all()
+        assert (own_z[3:12, 5:7] == block.fz[3:12, 5:7]).all()
+        assert abs(own_r[:, [2, 3, 4, 8]]).max() == abs(own_z[:, [2, 3, 4, 7]]).max() == 0.0
+
+
+def test_no_more_than_half_of_it_fades(monkeypatch):
+    """Where the hourglass coefficient is large and steps are long."""
+    monkeypatch.setattr("tests.kernels.test_checkerboard.SHARE", 3.0)
+    block = Block()
+    block.q[SRR, 1] = 1e9 * block.sign
+    block.fade()
+    assert inner(block.q[SRR, 1] / block.sign) == pytest.approx(1e9 * (1 - kernels.MOST), rel=1e-12)

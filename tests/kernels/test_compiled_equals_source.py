@@ -1,0 +1,101 @@
+"""Every kernel, compiled, does what its Python source says: numba can lose writes without a word."""
+
+import importlib
+import itertools
+import pkgutil
+
+import numpy as np
+import pytest
+
+import hydro2d.kernels
+from hydro2d import jit
+from hydro2d.deck import deck
+from hydro2d.jit.options import ONLY_CALLS
+from hydro2d.solver.simulation import Simulation
+from tests.decks import material, mesh, plate, rod, stop, table
+
+
+def _kernels():
+    """Every function that Python calls but the phases, which call the rest."""
+    for entry in pkgutil.iter_modules(hydro2d.kernels.__path__):
+        module = importlib.import_module(f"hydro2d.kernels.{entry.name}")
+        for name, value in vars(module).items():
+            if hasattr(value, "compiled") and value.__module__ == module.__name__ and value.compiled.py_func not in ONLY_CALLS:
+                yield module, name, value
+
+
+@pytest.fixture
+def phases_as_python():
+    """Phases call kernels as attributes of modules."""
+    jit.profiling(True, each_kernel=True)
+    yield
+    jit.profiling(False)
+
+
+LAYER = {"method": "slip-layer", "yield_factor": "radius", "shear": "shear", "friction": 0.1}
+CONTACT = {"method": "contact", "friction": 0.1}
+CASES = {"ke, slip-layer": ("ke", LAYER), "both, slip-layer": ("both", LAYER), "ke, contact": ("ke", CONTACT)}
+
+
+def text_of(advection: str, sliding: dict, tip: str = "0.2 mm", follows: bool | None = None) -> str:
+    """A rod that strikes a plate, small; with contact it follows the rod if nothing else is said."""
+    if follows is None:
+        follows = sliding["method"] == "contact"
+    struck = "hardening" if advection == "both" else "Al7039"  # both models of the one have variables
+    return (
+        mesh([{"to": "6 mm", "cells": 12}, {"cells": 3, "ratio": 1.1}], ("-6 mm", "6 mm", 20),
+             **({"follow": "rod"} if follows else {}))
+        + rod("2.7 mm", "5 mm", tip=tip, velocity="1200 m/s")
+        + plate("8 mm", material=struck, z_front="0.2 mm")
+        + table("boundaries", z_max="transmit" if follows else "outflow")
+        + table("sliding", hard=["rod"], **sliding)
+        + material("hardening", "Al_porous")
+        + table("materials.hardening.strength", model="kinematic-hardening", shear_modulus="27.6 GPa", yield_stress="0.3 GPa",
+                hardening_modulus="2 GPa", isotropic_share=0.5)
+        + table("failure", damage="material")
+        + table("numerics", initial_dt_factor=1.0, advection=advection)
+        + stop("1 us")
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize(("advection", "sliding"), CASES.values(), ids=CASES)
+def test_kernels_do_what_their_source_says(monkeypatch, phases_as_python, advection, sliding):
+    seen, kernels = set(), list(_kernels())
+
+    def held_against_source(module, name, function):
+        source = function.compiled.py_func
+
+        def call(*arguments):
+            copies = [a.copy() if isinstance(a, np.ndarray) else a for a in arguments]
+            given = [a for a in arguments if isinstance(a, np.ndarray) and a.size]
+            for one, other in itertools.combinations(given, 2):  # hydro2d.jit promises it to the compiler
+                assert not np.shares_memory(one, other), f"arguments of {name} overlap"
+            function(*arguments)
+            with np.errstate(all="ignore"):
+                source(*copies)
+            for number, (mine, other) in enumerate(zip(arguments, copies, strict=True)):
+                if isinstance(mine, np.ndarray):
+                    np.testing.assert_allclose(mine, other, rtol=1e-11, atol=1e-300, err_msg=f"{name}, argument {number}")
+            seen.add(name)
+
+        monkeypatch.setattr(module, name, call)
+
+    for module, name, function in kernels:
+        held_against_source(module, name, function)
+    follows = sliding["method"] == "contact"
+    simulation = Simulation(deck.loads(text_of(advection, sliding)))
+    for _ in range(4):
+        simulation.step()
+    simulation.refuse_nonsense()
+    others = ("sliding",) if follows else ("contact", "extension")  # the treatment that the deck does not have
+    prefixes = tuple(f"hydro2d.kernels.{other}" for other in others)
+    unused = {name for module, name, _ in kernels if module.__name__.startswith(prefixes)} | {"triad"}
+    if advection != "both" and "contact" in others:
+        unused.add("deposit")
+    if advection != "both":
+        unused |= {"remember", "update_memory"}
+    if follows:
+        unused |= {"moving_columns", "moving_box"}  # a mesh that travels skips no cells
+    else:
+        unused |= {"transmit"} | {name for module, name, _ in kernels if module.__name__ == "hydro2d.kernels.following"}
+    assert seen == {name for _, name, _ in kernels} - unused

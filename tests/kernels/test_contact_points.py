@@ -1,0 +1,390 @@
+"""What contact does at vertices: masters, impulses, the force on a piece of surface, ties, what evens out, what slopes see."""
+
+import numpy as np
+import pytest
+
+from hydro2d.kernels import contact_geometry, contact_velocities, momentum
+from hydro2d.kernels.contact_geometry import REACH
+from hydro2d.kernels.contact_velocities import settle
+from hydro2d.kernels.contact_volumes import EVENING, even_out, warm_evened
+from hydro2d.kernels.cut_cells import FREE_SURFACE, INTERFACE, KIND
+from hydro2d.kernels.extension import MASTERS, SPAN, TIED
+from hydro2d.mesh.fields import INTERNAL, RHO, E
+from hydro2d.mesh.grid import Grid
+from hydro2d.physics.contact import GAP
+from tests.kernels.test_extension import Extensions, N, half_plane, scattered
+from tests.physics.continuity import changes_in_proportion
+
+master = contact_velocities.master.py_func
+held = contact_velocities.held.py_func
+give = contact_velocities.give.py_func
+give_tie = contact_velocities.give_tie.py_func
+mismatch = contact_velocities.mismatch.py_func
+list_ties = contact_velocities.list_ties.py_func
+masters_mobility = contact_velocities.masters_mobility.py_func
+mobility = contact_velocities.mobility.py_func
+warm_up = contact_velocities.warm_up.py_func
+pressed = contact_velocities.pressed.py_func
+face_aperture = contact_geometry.face_aperture.py_func
+
+NOWHERE = np.full(4, -1)
+
+
+# ----------------------------------------------------------------------------------------------- one slave, its masters
+
+
+def one_tie(*masters):
+    """(number, where, weights) of slot 0, whose node of group 1 has these masters (place, weight)."""
+    number, where = np.array([[0, len(masters)]]), np.zeros((1, 2, MASTERS + 1), dtype=np.int64)
+    weights = np.zeros((1, 2, MASTERS + 1))
+    for n, (place, weight) in enumerate(masters):
+        where[0, 1, n], weights[0, 1, n] = place, weight
+    return number, where, weights
+
+
+def place(dj: int, di: int) -> int:
+    return SPAN * (dj + REACH) + di + REACH
+
+
+def test_places_of_masters_do_not_meet():
+    places = [(dj, di) for dj in range(-REACH, REACH + 1) for di in range(-REACH, REACH + 1)]
+    where = np.zeros((1, 2, MASTERS + 1), dtype=np.int64)
+    where[0, 1] = [*(place(*each) for each in places), TIED]
+    found = [master(n, 1, 5, 6, 0, where) for n in range(MASTERS + 1)]
+    assert found == [*((1, 5 + dj, 6 + di) for dj, di in places), (0, 5, 6)]
+
+
+def test_axis_and_walls_hold_one_component():
+    constrained = np.array([2, 9, -1, 7])
+    assert held(4, 2, constrained) == (True, False)
+    assert held(4, 9, constrained) == (True, False)
+    assert held(7, 5, constrained) == (False, True)
+    assert held(7, 2, constrained) == (True, True)
+    assert held(4, 5, constrained) == (False, False)
+
+
+@pytest.mark.parametrize(("constrained", "gained"), [(NOWHERE, (1.5, -2.0)), (np.array([1, -1, -1, -1]), (0.0, -2.0)),
+                                               (np.array([-1, -1, 1, -1]), (1.5, 0.0))])
+def test_an_impulse_moves_what_is_not_held(constrained, gained):
+    mass, u, v, transfer = np.full((2, 3, 3), 2.0), np.zeros((2, 3, 3)), np.zeros((2, 3, 3)), np.zeros((5, 3))
+    give(0, 1, 1, 3.0, -4.0, constrained, mass, u, v, transfer)
+    assert (u[0, 1, 1], v[0, 1, 1]) == gained
+    assert np.count_nonzero(u) + np.count_nonzero(v) == np.count_nonzero(gained)
+    assert mass[0, 1, 1] * v[0, 1, 1] + transfer[4, 1] == -4.0  # what moves and what a wall takes is the impulse
+
+
+def room_for_ties(slots: int, vertices=(7, 7)):
+    """nodes, starts, entries, portions and places as `list_ties` fills them."""
+    most = 2 * slots * (MASTERS + 1)
+    nodes, starts, entries, places = (np.zeros(shape, dtype=np.int64) for shape in (
+        (6, 2 * slots), 2 * slots + 1, (4, most), (2, *vertices)))
+    return nodes, starts, entries, np.full((most, 4), np.nan), places
+
+
+def apart(number, where, weights, mass, u, v, constrained):
+    """By what the slave of `one_tie`, at (3, 3), differs from its masters."""
+    count, nodes, first = np.zeros(7, dtype=np.int64), np.full((7, 7), 3), np.zeros(8, dtype=np.int64)
+    count[3] = 1
+    listed, strength = room_for_ties(1), np.array([[0.0, 1.0]])
+    tied, vertices = list_ties(0, 6, constrained, count, nodes, first, strength, number, where, weights, mass, *listed)
+    assert (tied, vertices) == (1, 1 + number[0, 1])
+    assert not listed[-1].any()
+    return mismatch(0, *listed[:-1], u, v)
+
+
+def test_an_impulse_of_a_tie_goes_from_the_slave_to_its_masters():
+    number, where, weights = one_tie((place(0, -1), 0.75), (place(1, 1), -0.25), (TIED, 0.5))
+    mass, u, v, transfer = np.full((2, 7, 7), 2.0), np.zeros((2, 7, 7)), np.zeros((2, 7, 7)), np.zeros((5, 7))
+    give_tie(1, 3, 3, 0, 8.0, -4.0, NOWHERE, number, where, weights, mass, u, v, transfer)
+    assert (u[1, 3, 3], u[1, 3, 2], u[1, 4, 4], u[0, 3, 3]) == (-4.0, 3.0, -1.0, 2.0)
+    np.testing.assert_array_equal(v, -0.5 * u)
+    assert apart(number, where, weights, mass, u, v, NOWHERE) == (-7.5, 3.75)
+    assert apart(number, where, weights, mass, u, v, np.array([2, -1, 3, -1])) == (-4.0 - 0.25 - 1.0, 0.0)
+
+
+def test_a_slave_is_as_heavy_as_it_and_its_masters():
+    number, where, weights = one_tie((place(0, -1), 0.75), (TIED, 0.25))
+    mass, strength = np.full((2, 7, 7), 4.0), np.array([[0.0, 1.0]])
+    mass[0, 3, 3] = 2.0
+    ease = 0.75**2 / 4.0 + 0.25**2 / 2.0
+    assert masters_mobility(1, 3, 3, 0, NOWHERE, number, where, weights, mass) == pytest.approx((ease, ease))
+    assert masters_mobility(1, 3, 3, 0, np.array([2, -1, -1, -1]), number, where, weights, mass)[0] == pytest.approx(0.03125)
+    assert mobility(0, 3, 3, 0, NOWHERE, strength, number, where, weights, mass) == 0.5
+    tied = 1.0 / (4.0 + 1.0 / ease)
+    assert mobility(1, 3, 3, 0, NOWHERE, strength, number, where, weights, mass) == pytest.approx(tied)
+    strength[0, 1] = 0.25
+    assert mobility(1, 3, 3, 0, NOWHERE, strength, number, where, weights, mass) == pytest.approx(0.25 * tied + 0.75 / 4.0)
+
+
+def test_the_heat_of_a_slave_goes_to_it_and_its_masters():
+    """By mass, times the size of the weight for a master: a tie of a heavy slave to a light node must not burn that."""
+    number, where, weights = one_tie((place(0, -1), 0.75), (place(1, 1), -0.25), (TIED, 0.5))
+    mass, heat = np.arange(1.0, 99.0).reshape(2, 7, 7), np.zeros((2, 7, 7))
+    warm_up(1, 3, 3, 0, 6.0, number, where, weights, mass, heat)
+    assert heat[1, 3, 3] == pytest.approx(6.0 / (
+        mass[1, 3, 3] + 0.75 * mass[1, 3, 2] + 0.25 * mass[1, 4, 4] + 0.5 * mass[0, 3, 3]))
+    assert heat[0, 3, 3] == pytest.approx(0.5 * heat[1, 3, 3])
+    warm_up(0, 3, 3, 0, 5.0, number, where, weights, mass, heat)
+    assert np.sum(heat * mass) == pytest.approx(11.0)
+    assert heat[1, 3, 2] == pytest.approx(3.0 * heat[1, 4, 4])
+
+
+# ----------------------------------------------------------------------------------------------------------- all ties
+
+
+class Settled:
+    """Random velocities of both groups at the vertices of a mesh, before and after `settle`."""
+
+    def __init__(self, found: Extensions, before, strength=None, friction=0.0, constrained=NOWHERE):
+        g, slots, vertices, cells = found.grid, int(found.first[-1]), found.grid.vertex_shape, found.grid.shape
+        ties = found.ties if strength is None else (np.where(found.ties[0] > 0.0, strength, 0.0), *found.ties[1:])
+        self.before, self.mass, self.heat = before, found.mass, np.zeros((2, *vertices))
+        self.transfer, w = np.zeros((5, vertices[0])), before.copy()
+        line, pressure = np.zeros((10, *cells)), np.full(cells, -1e3)
+        line[contact_geometry.SHARE] = found.hard
+        listed = room_for_ties(slots, vertices)
+        rows = np.array([g.g, g.g + N])
+        settle(rows, 1e-3, friction, constrained, g.metrics, g.dz, np.tile(rows, (cells[0], 1)), line, found.count,
+               found.nodes, found.first, found.normal, np.ones(vertices), *ties,
+               pressure, pressure.copy(), np.zeros(cells), self.mass,
+               before[0].copy(), before[1].copy(), w[0], w[1], *listed, np.full((2 * slots, 12), np.nan),
+               np.full((2 * slots * (MASTERS + 2), 2), np.nan), np.full((2, slots, 2), np.nan), np.full((3, slots), np.nan),
+               self.heat, self.transfer)
+        self.after = w
+        slot, group = listed[0][:2]
+        #: of every slave: its strength, and by what it differs from its masters before and after
+        self.slaves = [(ties[0][slot[t], group[t]], *(np.array(mismatch(t, *listed[:-1], *u)) for u in (before, w)))
+                       for t in range(np.count_nonzero(ties[0]))]
+
+    def sums(self, w):
+        """(momentum along r and z, kinetic energy)"""
+        return np.array([*np.sum(self.mass * w, axis=(1, 2, 3)), 0.5 * np.sum(self.mass * w**2)])
+
+
+def velocities(found: Extensions, seed: int = 0):
+    return 100.0 * np.random.default_rng(seed).standard_normal((2, 2, *found.grid.vertex_shape)) * (found.mass > 0.0)
+
+
+BODIES = [(half_plane(0.4), (np.cos(0.4), np.sin(0.4))), *((scattered(seed), (0.76, 0.64)) for seed in range(3))]
+bodies = pytest.mark.parametrize(("hard", "normal"), BODIES)
+
+
+@bodies
+def test_ties_are_met_whatever_the_order_of_nodes(hard, normal):
+    """The mirrored problem, whose rows come the other way round, has the mirrored solution."""
+    found = Extensions(hard, normal, most_squares=2.0)
+    mirrored = Extensions(hard[::-1], (normal[0], -normal[1]), most_squares=2.0)
+    sign = np.array([1.0, -1.0])[:, None, None, None]
+    here = Settled(found, velocities(found))
+    there = Settled(mirrored, (sign * velocities(found))[:, :, ::-1].copy())
+    np.testing.assert_allclose(sign * there.after[:, :, ::-1], here.after, atol=1e-10 * np.abs(here.after).max())
+    assert np.abs(here.after - here.before).max() > 10.0
+
+
+@bodies
+def test_slaves_move_with_their_masters(hard, normal):
+    settled = Settled(found := Extensions(hard, normal, most_squares=2.0), velocities(found))
+    mismatch = max(np.abs(before).max() for _, before, _ in settled.slaves)
+    firm = [np.abs(after).max() for strength, _, after in settled.slaves if strength == 1.0]
+    assert len(firm) >= 8
+    assert max(firm) < 1e-9 * mismatch
+
+
+@bodies
+@pytest.mark.parametrize("friction", [0.0, 0.3])
+@pytest.mark.parametrize("strength", [None, 0.5])
+def test_momentum_stays_and_lost_energy_is_heat(hard, normal, friction, strength):
+    settled = Settled(found := Extensions(hard, normal, most_squares=2.0), velocities(found), strength, friction)
+    before, after = settled.sums(settled.before), settled.sums(settled.after)
+    scale = np.sum(settled.mass * np.abs(settled.before))
+    np.testing.assert_allclose(after[:2], before[:2], atol=1e-13 * scale)
+    lost = before[2] - after[2]
+    assert lost > 0.0
+    assert np.sum(settled.heat * settled.mass) == pytest.approx(lost, rel=1e-12, abs=1e-12 * before[2])
+    assert settled.transfer[1:4].sum() == pytest.approx(lost, rel=1e-11)
+    assert (settled.transfer[2].sum() > 0.0) == (friction > 0.0)
+    gained = np.sum(settled.mass[0] * (settled.after[1, 0] - settled.before[1, 0]))
+    assert settled.transfer[0].sum() == pytest.approx(gained, abs=1e-12 * scale)
+
+
+@pytest.mark.parametrize("strength", [0.1, 0.5, 0.9])
+def test_a_slave_that_is_loosely_tied_goes_part_of_the_way(strength):
+    """A single one: what is left of the mismatch follows from its mass, and from the mobility of its masters."""
+    hard = np.ones((N, N))
+    hard[5, 5] = 0.9  # a crumb of the soft body, whose four vertices are tied to the hard one
+    found = Extensions(hard, (1.0, 0.0))
+    settled = Settled(found, velocities(found), strength)
+    assert len(settled.slaves) == 4
+    m, ease = 0.25 * 0.1, 1.0 / (1.0 - 0.25 * 0.1)
+    met = (1.0 / m + ease) / (1.0 / (strength * m) + ease)
+    assert strength < met < 1.0
+    for _, before, after in settled.slaves:
+        assert after == pytest.approx((1.0 - met) * before, rel=1e-9)
+
+
+def test_ties_fade_in():
+    found = Extensions(scattered(1), (0.76, 0.64), most_squares=2.0)
+    w = velocities(found)
+    loose, half, firm = (np.sum([np.sum(after**2) for *_, after in Settled(found, w, s).slaves]) for s in (1e-9, 0.5, 1.0))
+    assert firm < 1e-15 * half < 1e-15 * loose
+    assert np.abs(Settled(found, w, 1e-12).after - w).max() < 1e-7
+
+
+@bodies
+def test_walls_and_the_axis_keep_what_they_hold(hard, normal):
+    found = Extensions(hard, normal, most_squares=2.0)
+    first = found.grid.g
+    constrained = np.array([first, -1, -1, first + N])
+    w = velocities(found)
+    w[0, :, :, first] = 0.0
+    w[1, :, first + N] = 0.0
+    settled = Settled(found, w, constrained=constrained)
+    assert (settled.after[0, :, :, first] == 0.0).all()
+    assert (settled.after[1, :, first + N] == 0.0).all()
+    before, after = settled.sums(w), settled.sums(settled.after)
+    assert after[1] + settled.transfer[4].sum() == pytest.approx(before[1], abs=1e-13 * np.sum(settled.mass * np.abs(w)))
+    assert np.sum(settled.heat * settled.mass) == pytest.approx(before[2] - after[2], rel=1e-12)
+    assert max(np.abs(left).max() for strength, _, left in settled.slaves if strength == 1.0) < 1e-7
+
+
+# ------------------------------------------------------------------------------------------------- force on a surface
+
+
+def test_pressure_on_a_flat_surface_is_force_over_its_area():
+    """A surface across the axis at a row of vertices: its area at a vertex is that of the dual cell."""
+    g = Grid(np.linspace(0.0, 8e-3, 9), np.linspace(0.0, 6e-3, 7))
+    shape = g.shape
+    contact_columns = np.tile([2, shape[1]], (shape[0], 1))
+    line = np.zeros((10, *shape))
+    j, i = 5, 7
+    line[contact_geometry.SHARE, :j] = 1.0  # the hard body lies below
+    zz = np.full(shape, -3e9)
+    nothing = np.zeros(shape)
+    force = pressed(j, i, 0.0, 1.0, contact_columns, g.metrics, g.dz, line, nothing, zz, nothing)
+    area = g.az_out[i - 1] + g.az_in[i]
+    assert area == pytest.approx(g.face_r[i] * 1e-3, rel=0.02)
+    assert force == pytest.approx(3e9 * area)
+    assert pressed(j, i, 0.0, 1.0, contact_columns, g.metrics, g.dz, line, nothing, -zz, nothing) == 0.0
+
+
+def test_the_line_of_a_cell_wets_its_edges():
+    line, hard, soft = np.zeros((10, 1, 1)), np.full((1, 1), 0.25), np.full((1, 1), 0.75)
+    line[contact_geometry.SHARE], line[contact_geometry.LINE_R] = 0.25, 1.0
+    line[contact_geometry.CONSTANT] = 0.25  # hard where x <= 1/4
+    assert face_aperture(0, 0, 0.0, 0.0, 0.0, 1.0, True, line, hard, soft) == (1.0, 1.0, 1.0)
+    assert face_aperture(0, 0, 1.0, 0.0, 1.0, 1.0, True, line, hard, soft) == (1.0, 0.0, 0.0)
+    solid, low, high = face_aperture(0, 0, 0.0, 0.0, 1.0, 0.0, True, line, hard, soft)
+    assert (solid, low + high) == (1.0, pytest.approx(2.0 * 0.25))  # the two ends share the quarter that is open
+    assert low > high
+
+
+@pytest.mark.parametrize("inside", [True, False])
+def test_without_a_line_an_edge_has_the_share_of_its_cell(inside):
+    line, hard, soft = np.zeros((10, 1, 1)), np.full((1, 1), 0.3), np.full((1, 1), 0.3)
+    line[contact_geometry.SHARE] = 0.5
+    assert face_aperture(0, 0, 0.0, 0.0, 1.0, 0.0, inside, line, hard, soft) == (1.0, 0.5, 0.5)
+
+
+def test_an_edge_of_a_void_cell_has_no_weight():
+    line, nothing = np.full((10, 1, 1), -1.0), np.zeros((1, 1))
+    for inside in (True, False):
+        assert face_aperture(0, 0, 0.0, 0.0, 1.0, 0.0, inside, line, nothing, nothing) == (0.0, 0.0, 0.0)
+
+
+# --------------------------------------------------------------------------------------- which surface draws the line
+
+
+@pytest.mark.parametrize("ratio", [1.0, 1.0 + contact_geometry.STEEPER])
+def test_the_steeper_surface_takes_over_without_a_jump(ratio):
+    steeper = contact_geometry.steeper.py_func
+    changes_in_proportion(lambda x: steeper(x, 1.0), ratio, 2.0 / contact_geometry.STEEPER)
+    assert steeper(1.0, 1.0) == 0.0
+    assert steeper(1.2, 1.0) == 1.0
+    assert steeper(1.0, 1.2) == 0.0
+
+
+@pytest.mark.parametrize("void", [GAP, 2.0 * GAP])
+@pytest.mark.parametrize("whole", [0.5 * contact_geometry.BETWEEN, contact_geometry.BETWEEN])
+def test_void_parts_the_groups_without_a_jump(void, whole):
+    parted = contact_geometry.parted.py_func
+    changes_in_proportion(lambda x: parted(x, 0.1 * whole, 1.0), void, 2.0 / GAP)
+    changes_in_proportion(lambda x: parted(0.1, x, 1.0), whole, 4.0 / contact_geometry.BETWEEN)
+    assert parted(0.1, 0.0, 1.0) == 1.0
+    assert parted(0.5 * GAP, 0.0, 1.0) == parted(0.1, 2.0 * contact_geometry.BETWEEN, 1.0) == parted(0.1, 0.0, 0.0) == 0.0
+
+
+# ------------------------------------------------------------------------------- what evens out along the surface
+
+
+def evened(pressure, kind=INTERFACE, viscosity=0.0):
+    """(volumes through faces along r and along z, heat of the two bodies of every cell (J)) of 6 x 6 cells of the surface."""
+    shape, vertices, columns = (6, 6), (7, 7), np.tile([0, 6], (6, 1))
+    volume, bulk, vof = 2.0 + np.add.outer(np.arange(6.0), np.arange(6.0)), np.full(shape, 5.0), np.full((2, *shape), 0.5)
+    qr, q, skin, r, z = np.full(shape, viscosity), np.zeros((INTERNAL, 2, *shape)), np.zeros((3, *shape)), *np.full(
+        (2, *vertices), np.nan)
+    q[RHO] = np.array([2.0, 6.0])[:, None, None]
+    skin[KIND] = kind
+    even_out(0, np.array([0, 6]), columns, volume, skin, bulk, pressure, qr, r, z)
+    warm_evened(0, np.array([0, 6]), columns, volume, pressure, qr, r, z, vof, q)
+    return r[:6], z[:, :6], volume, q[E] * q[RHO] * vof * volume
+
+
+def test_a_uniform_pressure_moves_nothing():
+    r, z, _, heat = evened(np.full((6, 6), 3.0), viscosity=0.7)
+    assert (r == 0.0).all()
+    assert (z == 0.0).all()
+    assert (heat == 0.0).all()
+
+
+def test_a_pattern_along_the_surface_decays_and_what_it_loses_is_heat():
+    """Every cell that is above its neighbours grows by EVENING of what would make the stiffer of a pair even."""
+    pattern = 3.0 + 0.2 * (-1.0) ** np.add.outer(np.arange(6), np.arange(6))
+    r, z, volume, heat = evened(pattern)
+    change = np.diff(r, axis=1) + np.diff(z, axis=0)
+    assert ((change > 0.0) == (pattern > 3.0)).all()
+    after = pattern - 5.0 * change / volume
+    assert np.ptp(after) < np.ptp(pattern)
+    assert after.mean() == pytest.approx(3.0, abs=0.05)
+    assert r[2, 3] == pytest.approx(EVENING * volume[2, 2] / 5.0 * (pattern[2, 2] - pattern[2, 3]))
+    assert change.sum() == pytest.approx(0.0, abs=1e-14)  # nothing leaves
+    lost = np.sum(change * pattern)
+    by_faces = np.sum(r[:, 1:6] * -np.diff(pattern, axis=1)) + np.sum(z[1:6] * -np.diff(pattern, axis=0))
+    assert lost == pytest.approx(by_faces)
+    assert heat.sum() == pytest.approx(lost, rel=1e-12)
+    np.testing.assert_allclose(heat[1], 3.0 * heat[0])  # by mass
+
+
+def test_nothing_evens_out_off_the_surface():
+    pressure = np.random.default_rng(0).random((6, 6))
+    kind = np.full((6, 6), INTERFACE)
+    kind[:, 3] = FREE_SURFACE
+    r, z, _, heat = evened(pressure, kind)
+    assert (r[:, 3:5] == 0.0).all()
+    assert (z[:, 3] == 0.0).all()
+    assert (heat[:, :, 3] == 0.0).all()
+    assert (r[:, [1, 2, 5]] != 0.0).all()
+
+
+# ------------------------------------------------------------------------------ slopes beside vertices without mass
+
+
+def carried(last_mass: float) -> list[float]:
+    """Mass, momentum and kinetic energy that flow past the vertices of a row, the left one of which has hardly any mass."""
+    columns, g = 10, Grid(np.linspace(0.0, 7.0, 7), np.linspace(0.0, 7.0, 7), "planar")
+    ranges = np.tile(np.array([0, columns]), (1, 4, columns, 1)).reshape(1, 4, columns, 2)
+    mass, flux = np.ones((1, columns, columns)), np.full((1, columns, columns), 0.1)
+    mass[0, :, :4], mass[0, :, 4] = 0.0, last_mass
+    w = np.zeros((2, 1, columns, columns))
+    w[0, 0], w[1, 0] = 3.0 * np.arange(columns) ** 2, -np.arange(columns) ** 2
+    w[:, :, :, :4] = 0.0
+    dual = np.zeros((6, 2, columns))
+    momentum.dual_row.py_func(0, 0, 1, 5, 4, 7, 0, g.metrics, ranges, flux, mass, w, dual)
+    return list(dual[:5, 0, 5:7].ravel())
+
+
+def test_a_vertex_is_not_changed_as_its_neighbour_loses_its_last_mass():
+    """Its velocity is 0 then: a slope to that would be another one than to what it was."""
+    np.testing.assert_allclose(carried(0.0), carried(1e-20), rtol=1e-14)
+    assert carried(0.0) != pytest.approx(carried(1.0), rel=1e-3)
+    for mass in (0.0, momentum.SLIGHT):
+        changes_in_proportion(carried, mass, 1e5, sides=(1.0,) if mass == 0.0 else (-1.0, 1.0))

@@ -1,0 +1,290 @@
+"""Stress, forces and contact, kernel by kernel, on cells made by hand.
+
+In the contact the hard body fills the columns 2 and 3, the soft one the columns 5 on, and column 4 belongs to each by half.
+"""
+
+import numpy as np
+import pytest
+
+from hydro2d.kernels import acceleration, contact_geometry, contact_motion, contact_volumes
+from hydro2d.kernels.contact_geometry import CONSTANT, HARD_FIRST, HARD_R, HARD_Z, LINE_R, LINE_Z, SHARE, SOFT_AFTER, SOFT_R
+from hydro2d.kernels.contact_motion import SEED
+from hydro2d.kernels.cut_cells import BONDED, FREE_SURFACE, INTERFACE, KIND
+from hydro2d.mesh.fields import RHO, SRR, SRZ, SZZ, E
+from tests.kernels.cells import Cells
+
+ROWS = slice(2, 6)
+
+
+def test_a_vertex_has_a_quarter_of_every_cell_around():
+    cells = Cells()
+    cells.cell_mass[0, 3, 3:5] = 4.0, 8.0
+    cells.call(acceleration.vertex_masses, i1=7)
+    assert cells.mass[0, 3, 2:7].tolist() == cells.mass[0, 4, 2:7].tolist() == [0, 1, 3, 2, 0]
+    assert cells.mass.sum() == 12.0
+
+
+def test_a_vertex_of_revolution_has_more_of_the_cell_inside_of_it():
+    """From r = 1 to 2 m: (2 r1 + r2)/(6 (r1 + r2)) = 2/9 of the cell at an inner vertex, 5/18 at an outer one."""
+    cells = Cells(geometry="cylindrical")
+    cells.cell_mass[0, 3, 3] = 18.0
+    cells.call(acceleration.vertex_masses, i1=7)
+    assert cells.mass[0, 3, 2:6] == pytest.approx([0, 4, 5, 0])
+
+
+def stressed(**q) -> Cells:
+    """Bodies with s_rr = 10, s_zz = -4, s_rz = 3 Pa at a pressure of 100 Pa, which expand at 1/s; K = 50 Pa."""
+    cells = Cells(bodies=2)
+    cells.q[SRR], cells.q[SZZ], cells.q[SRZ] = 10.0, -4.0, 3.0
+    cells.p[...], cells.bulk[...], cells.solid[...], cells.qr[...], cells.qz[...] = 100.0, 50.0, 1.0, 5.0, 7.0
+    cells.v[0] = np.arange(9.0)[:, None]
+    cells.vof[0] = 1.0
+    return cells
+
+
+def sums(cells: Cells, **given) -> list:
+    cells.call(acceleration.total_stress, **{"dt": 0.4, "solid_mode": False, "hard": np.array([False, False]),
+                                             "hard_threshold": 0.5, **given})  # fmt: skip
+    return [getattr(cells, name)[3, 3] for name in ("ph", "sig_rr", "sig_zz", "sig_tt", "sig_rz")]
+
+
+def test_the_stress_of_a_pure_cell():
+    """The pressure at half the step is 100 - 0.2 * 50 * 1 = 90 Pa."""
+    assert sums(stressed()) == pytest.approx([90.0, 10 - 90 - 5, -4 - 90 - 7, -6 - 90 - 5, 3.0])
+
+
+def test_the_stress_of_a_mixed_cell_is_that_of_its_bodies_by_volume():
+    """Half void, then the same in mode solid, then in the hard zone of a slip layer, where the hard body has it all."""
+    cells = stressed()
+    cells.vof[:, 3, 3], cells.solid[3, 3] = (0.25, 0.25), 0.5
+    cells.q[SRR, 1] = 30.0
+    cells.mixed_count[3], cells.mixed[3, 0] = 1, 3
+    assert sums(cells)[1] == pytest.approx(0.25 * (10 + 30) - 90 - 5)
+    assert sums(cells, solid_mode=True)[1] == pytest.approx(0.5 * (10 + 30) - 90 - 5)
+    assert sums(cells, hard=np.array([False, True]), hard_threshold=0.2)[1] == pytest.approx(0.5 * 30 - 90 - 5)
+
+
+def accelerated(speed_limit: float = 1e300, **fields) -> Cells:
+    """0.1 s later: vertices of 1 kg around the cell (3, 3), which alone has a stress or an hourglass filter."""
+    cells = Cells()
+    cells.mass[...] = 1.0
+    for name, value in fields.items():
+        getattr(cells, name)[3, 3] = value
+    cells.u0[0, 3:5, 3:5] = fields.get("hg_coefficient", 0.0) / 10.0 * np.array([[1, -1], [-1, 1]])
+    cells.call(acceleration.accelerate, dt=0.1, speed_limit=speed_limit, underfilled_density=10.0)
+    return cells
+
+
+def test_a_pressure_pushes_the_corners_of_its_cell_apart():
+    """8 Pa on half of a face of 1 m^2, of either side of a corner: 4 N each way."""
+    cells = accelerated(sig_rr=-8.0, sig_zz=-8.0, sig_tt=-8.0)
+    assert cells.u[0, 3:5, 3:5] == pytest.approx(np.array([[-0.4, 0.4], [-0.4, 0.4]]))
+    assert cells.v[0, 3:5, 3:5] == pytest.approx(np.array([[-0.4, -0.4], [0.4, 0.4]]))
+    assert np.count_nonzero(cells.u) == 4
+    assert not cells.limited.any()
+
+
+def test_shear_turns_a_cell():
+    cells = accelerated(sig_rz=8.0)
+    assert cells.u[0, 3:5, 3:5] == pytest.approx(np.array([[0.4, 0.4], [-0.4, -0.4]]))
+    assert cells.v[0, 3:5, 3:5] == pytest.approx(np.array([[0.4, -0.4], [0.4, -0.4]]))
+
+
+def test_the_filter_works_against_the_hourglass():
+    """u0 - u1 + u2 - u3 = 4 m/s, 10 kg/s: 40 N on 1 kg in 0.1 s."""
+    cells = accelerated(hg_coefficient=10.0)
+    assert cells.u[0, 3:5, 3:5] == pytest.approx(np.array([[-3, 3], [3, -3]]))
+
+
+def test_a_node_that_is_thinly_filled_is_held_to_the_limit():
+    """0.4 m/s both ways is held to 0.2 m/s; the energy is that of the mean velocity of the step, which began at rest."""
+    cells = accelerated(speed_limit=0.2, sig_rr=-8.0, sig_zz=-8.0, sig_tt=-8.0)
+    held = 0.2 / np.sqrt(2.0)
+    assert cells.u[0, 3, 3:5] == pytest.approx([-held, held])
+    assert cells.limited[:, 3] == pytest.approx([2 * (held - 0.4), 2 * (0.4 - held) * held, 2.0])
+
+
+def test_faces_sweep_what_their_vertices_move():
+    """From 4 to 2 m/s in 0.1 s along r, from 0 to 1 m/s at one end along z."""
+    cells = Cells()
+    cells.u0[0, 3:5, 4], cells.u[0, 3:5, 4], cells.v[0, 4, 3] = 4.0, 2.0, 1.0
+    cells.call(acceleration.swept_volumes, dt=0.1)
+    assert cells.fr[2:5, 4] == pytest.approx([0.15, 0.3, 0.15])
+    assert cells.fz[4, 2:4] == pytest.approx([0.025, 0.025])
+    assert np.count_nonzero(cells.fz) == 2
+
+
+# -------------------------------------------------------------------------------------------------------- contact
+
+
+def halves(nz: int = 4) -> Cells:
+    """The hard and the soft body, with densities of 4 and 1 kg/m^3, their masses, and where they meet."""
+    cells = Cells(nr=5, nz=nz, bodies=2, group=[0, 1])
+    cells.vof[1, :, 2:7], cells.vof[0, :, 2:7] = (1.0, 1.0, 0.5, 0.0, 0.0), (0.0, 0.0, 0.5, 1.0, 1.0)
+    cells.q[RHO, 0], cells.q[RHO, 1] = 1.0, 4.0
+    cells.cell_mass[:, 2:2 + nz] = (cells.vof * cells.q[RHO])[:, 2:2 + nz]
+    cells.skin[KIND] = BONDED
+    cells.call(acceleration.vertex_masses, i1=8)
+    cells.call(contact_geometry.find_contact_nodes, count=cells.contact_node_count)
+    cells.call(contact_geometry.contact_lines, count=cells.contact_node_count)
+    cells.call(contact_geometry.face_apertures, count=cells.contact_node_count, normal=cells.contact_normal)
+    return cells
+
+
+def test_contact_nodes_are_where_both_groups_have_mass():
+    cells = halves()
+    assert cells.contact_node_count.tolist() == [0, 0, 2, 2, 2, 2, 2, 0, 0]
+    assert cells.contact_nodes[2:7, :2].tolist() == 5 * [[4, 5]]
+    assert cells.hard[3, 2:7].tolist() == [1, 1, 0.5, 0, 0]
+    assert cells.soft[3, 2:7].tolist() == [0, 0, 0.5, 1, 1]
+    assert cells.warmed[4].tolist() == [2, 7]
+    cells.call(contact_geometry.number_nodes, count=cells.contact_node_count)
+    assert cells.first_slot[2:8].tolist() == [0, 2, 4, 6, 8, 10]
+
+
+def test_a_vertex_of_one_group_has_one_velocity():
+    cells = halves()
+    cells.u[0], cells.u[1] = 1.0, 2.0
+    cells.call(contact_motion.keep_one, i1=7)
+    assert cells.u[:, 3, 3:8].tolist() == [[2, 1, 1, 1, 1], [2, 2, 2, 1, 1]]
+
+
+def test_the_line_in_the_middle_of_a_cell():
+    """Youngs' gradient of 1 to 0 over two cells of 1 m, with weights that add up to 4: a fall of 2 in his units."""
+    cells = halves()
+    assert cells.contact_columns[ROWS].tolist() == 4 * [[3, 6]]
+    line = cells.line[:, 3, 4]
+    assert line[[LINE_R, LINE_Z, SHARE]].tolist() == [1.0, 0.0, 0.5]
+    assert line[[CONSTANT, SOFT_AFTER, HARD_FIRST]] == pytest.approx([0.5, 1.0, 1.0])
+    assert line[HARD_R] == line[SOFT_R] > 0.0
+    assert line[HARD_Z] == 0.0
+
+
+def test_apertures_are_what_the_line_leaves_of_a_face():
+    """Half of a face, from its inner end: (2 a - a^2, a^2) with a = 1/2."""
+    cells = halves()
+    assert cells.aperture_r[:, 3, 3:7].T.tolist() == [[1, 1], [1, 1], [0, 0], [0, 0]]
+    assert cells.aperture_z[:, 4, 3:6].T.tolist() == [[1, 1], [0.75, 0.25], [0, 0]]
+    assert cells.contact_normal[:, :, 3, 4].tolist() == 3 * [[1, 0]]
+    assert cells.touch[3, 4:6].tolist() == [1, 1]
+    cells.soft[ROWS, 4] = 0.45  # a twentieth of void between them
+    cells.soft[ROWS, 3] = cells.hard[ROWS, 5] = 0.0
+    cells.call(contact_geometry.face_apertures, count=cells.contact_node_count, normal=cells.contact_normal)
+    assert not cells.touch[3, 4:6].any()
+
+
+def test_the_contact_cell_has_the_stress_of_its_one_rate_of_volume():
+    cells = halves()
+    cells.p[...], cells.bulk[...], cells.rate[...], cells.ph[...] = 100.0, 50.0, 1.0, 70.0
+    cells.sig_rr[...], cells.sig_zz[...], cells.sig_tt[...], cells.contact_pressure[...] = -80.0, -75.0, -90.0, 9.0
+    cells.call(contact_motion.contact_stress, dt=0.4)
+    assert [a[3, 4] for a in (cells.ph, cells.sig_rr, cells.sig_zz, cells.sig_tt)] == pytest.approx([90, -100, -95, -110])
+    assert cells.contact_pressure[3, 2:7] == pytest.approx([0, 0, 100, 0, 0])
+    assert cells.ph[3, 6] == 70.0
+
+
+def seen(cells: Cells) -> np.ndarray:
+    step = np.full(8, 1e300)
+    cells.call(contact_motion.contact_viscosity, linear=0.5, quadratic=2.0, courant=0.5, normal=cells.contact_normal,
+               row_step=step, scratch=cells.kinds)  # fmt: skip
+    return step
+
+
+def test_viscosity_answers_to_the_one_rate_of_volume():
+    """The cell loses 0.3 of its volume in a second; the mean density by compressibility is (3 * 1 + 1 * 4)/4 = 1.75 kg/m^3."""
+    cells = halves()
+    cells.km[0], cells.km[1] = 1.0, 3.0
+    cells.solid[...], cells.p[...], cells.bulk[...], cells.cl[...], cells.rhobar[...] = 1.0, 1.0, 7.0, 10.0, 2.5
+    cells.v[...] = -0.3 * np.arange(9.0)[:, None]
+    step = seen(cells)
+    assert cells.rate[3, 3:6] == pytest.approx(3 * [-0.3])
+    q = 1.75 * 0.3 * (2.0 * 0.3 + 0.5 * 2.0)
+    assert cells.qr[3, 4] == cells.qz[3, 4] == pytest.approx(q)
+    assert step[3] == pytest.approx(0.5 / np.sqrt(100.0 + 2.0 * max(q / 1.75, cells.qr[3, 3] / 2.5)))
+    assert step[6] == 1e300
+
+
+def test_a_full_cell_whose_groups_part_is_given_room():
+    cells = halves()
+    cells.km[...] = cells.bulk[...] = cells.cl[...] = cells.rhobar[...] = cells.solid[...] = 1.0
+    cells.u[0] = 1.0  # the soft body leaves the hard one
+    seen(cells)
+    assert cells.skin[KIND, 3, 4] == BONDED  # both have been in this cell all along: `find_surfaces` has seen to it
+    assert cells.skin[KIND, 3, 3] == cells.skin[KIND, 3, 5] == BONDED  # nothing is beside them but the cell of both
+    cells.vof[:, :, 4], cells.hard[:, 4], cells.soft[:, 4] = [[1.0], [0.0]], 0.0, 1.0
+    seen(cells)
+    assert cells.skin[KIND, 3, 3] == cells.skin[KIND, 3, 4] == INTERFACE
+    assert cells.vof[0, 3, 4] == cells.solid[3, 4] == 1.0 - SEED
+    assert cells.q[RHO, 0, 3, 4] == 1.0 / (1.0 - SEED)
+    assert cells.mixed_count[3] == 2
+    assert cells.mixed[3, :2].tolist() == [3, 4]
+
+
+def test_a_gap_beside_the_other_group_is_no_free_surface():
+    cells = halves()
+    cells.km[...] = cells.bulk[...] = cells.cl[...] = cells.rhobar[...] = 1.0
+    cells.vof[:, :, 4], cells.hard[:, 4], cells.soft[:, 4] = [[0.9], [0.0]], 0.0, 0.9
+    cells.skin[KIND, 3, 4], cells.solid[...] = FREE_SURFACE, 0.9
+    seen(cells)
+    assert cells.skin[KIND, 3, 4] == INTERFACE
+
+
+def pushed(**given) -> Cells:
+    """Velocities after 0.1 s at the nodes between columns 3 and 4: 10 Pa left of them, 2 Pa on their right."""
+    cells = halves()
+    cells.ph[:, :4], cells.ph[:, 4:], cells.aperture_r[...] = 10.0, 2.0, 0.5
+    cells.call(contact_motion.contact_node_forces, dt=0.1, solid_mode=False, count=cells.contact_node_count, **given)
+    return cells
+
+
+def test_pressure_acts_on_each_group_by_its_aperture():
+    """On a length of 1 m: half of 8 N on either group, whose masses are 3 kg (hard) and 0.25 kg (soft)."""
+    cells = pushed()
+    assert cells.mass[:, 3, 4].tolist() == [0.25, 3.0]
+    assert cells.u[:, 3, 4] == pytest.approx([0.1 * 4.0 / 0.25, 0.1 * 4.0 / 3.0])
+    assert cells.v[:, 3, 4] == pytest.approx([0.0, 0.0])
+    held = pushed(constrained=np.array([4, -1, -1, -1]))
+    assert held.u[:, 3, 4].tolist() == [0.0, 0.0]
+
+
+def test_deviators_of_a_group_act_on_it_alone():
+    """s_rz = 6 Pa of the hard body left of the nodes pulls them along z: -(-1/2 * 1 * 6) N from each of two cells."""
+    cells = halves()
+    cells.q[SRZ, 1, :, :4] = 6.0
+    cells.call(contact_motion.contact_node_forces, dt=0.1, solid_mode=False, count=cells.contact_node_count)
+    assert cells.v[:, 3, 4] == pytest.approx([0.0, -0.1 * 6.0 / 3.0])
+
+
+def test_faces_of_the_contact_are_swept_by_aperture():
+    cells = halves()
+    cells.u[1], cells.u[0], cells.u0[1], cells.u0[0], cells.v[1], cells.v[0] = 2.0, 4.0, 2.0, 4.0, 10.0, 2.0
+    cells.even_r[3, 4] = 0.01
+    cells.aperture_r[...] = 0.5
+    cells.call(contact_volumes.contact_swept_volumes, dt=0.1)
+    assert cells.fr[3, 4:6] == pytest.approx([0.31, 0.3])
+    assert cells.own_r[:, 3, 5] == pytest.approx([0.4, 0.2])
+    assert cells.own_r[:, 3, 4] == pytest.approx([0.41, 0.21])
+    assert cells.own_z[:, 4, 4] == pytest.approx([0.1, 0.5])  # at rest at the beginning of the step
+    assert cells.fz[4, 4] == pytest.approx(0.5 * (0.1 + 0.5))
+
+
+def test_a_pure_cell_does_the_work_of_the_volume_that_it_loses():
+    cells = halves()
+    cells.fr[3, 4:6], cells.ph[...], cells.qr[...] = (0.1, -0.1), 7.0, 1.0
+    cells.call(contact_volumes.contact_work, dt=0.1)
+    assert cells.q[E, :, 3, 3:6].tolist() == [[0, 0, -(7 + 1) * 0.1], [pytest.approx(-(7 + 1) * 0.1 / 4), 0, 0]]
+    cells.u[0] = np.arange(10.0)  # the group's own rate of volume is in `deform`
+    cells.call(contact_volumes.contact_work, dt=0.2)
+    assert cells.q[E, 0, 3, 5] == pytest.approx(-0.8 - 8.0 * (0.1 - 0.5 * 0.2))
+
+
+def test_no_cell_gives_more_through_both_faces_than_it_has():
+    cells = halves()
+    cells.flux_volume[0, 3, 4], cells.flux_volume[0, 3, 5] = -0.4, 0.6
+    cells.flux_volume[1, 3, 4], cells.flux_volume[1, 3, 5] = -0.1, 0.3
+    cells.call(contact_volumes.limit_fluxes, dj=0, di=1)
+    assert cells.flux_volume[0, 3, 4:6] == pytest.approx([-0.2, 0.3])
+    assert cells.flux_volume[1, 3, 4:6].tolist() == [-0.1, 0.3]
+    cells.flux_volume[1, 3, 4], cells.flux_volume[1, 4, 4] = 0.4, 1.0
+    cells.call(contact_volumes.limit_fluxes, dj=1, di=0)
+    assert cells.flux_volume[1, 3:5, 4] == pytest.approx([0.4, 0.5])

@@ -1,0 +1,174 @@
+"""Equations of state with memory on their way through a step: what they are told, and what becomes of their variables."""
+
+import numpy as np
+import pytest
+
+from eos import p_alpha
+from hydro2d.deck import deck
+from hydro2d.kernels import memory
+from hydro2d.materials.rows import EOS, MEMORY
+from hydro2d.mesh.fields import DMG, EP, INTERNAL, SRR, SZZ, carried
+from hydro2d.output import derived
+from hydro2d.solver.simulation import Simulation
+from tests.kernels.test_lagrangian import BLOCK
+
+PORES = """
+[materials.metal.eos]
+model = "p-alpha"
+solid = "mie-grueneisen"
+reference_density = 2000.0
+solid_density = 2700.0
+elastic_sound_speed = 4110.0
+elastic_pressure = "0.08 GPa"
+crush_pressure = "0.70 GPa"
+sound_speed = 5350.0
+hugoniot_slope = 1.34
+grueneisen = 2.0
+specific_heat = 890.0
+"""
+POROUS = BLOCK.replace("[materials.metal.strength]", f"{PORES}[materials.metal.strength]")
+#: beside a body without memory, whose strength model has variables of its own
+TWO = POROUS.replace("z = [0.0, 5.0]", "z = [0.0, 0.33]") + """
+[[body]]
+name = "upper"
+material = "hardening"
+shape = "box"
+z = [0.33, 5.0]
+[materials.hardening]
+based_on = "Al6061_T6"
+[materials.hardening.strength]
+model = "kinematic-hardening"
+shear_modulus = "26 GPa"
+yield_stress = "0.3 GPa"
+hardening_modulus = "5 GPa"
+"""
+
+
+def simulation(text=POROUS, *overrides):
+    return Simulation(deck.loads(text, ['mesh.geometry="planar"', *overrides]))
+
+
+def test_virgin_material_is_everywhere_at_first():
+    state = simulation(TWO).state
+    assert state.q.shape[0] == INTERNAL + 3
+    assert np.all(state.q[INTERNAL, 0] == 2700.0 / 2000.0)
+    assert np.all(state.q[INTERNAL:, 1] == 0.0)
+    assert state.before.shape[:2] == (3, 2)
+
+
+def test_a_body_with_memory_alone_carries_no_deviators():
+    fields = (p_alpha.INTERNAL[0],)
+    assert carried(fields, strength=False, damage=False) == [1, INTERNAL]
+    assert carried(fields, strength=True, damage=True) == [1, 2, 3, 4, 5, 6, INTERNAL]
+
+
+def test_no_memory_is_taken_where_no_equation_of_state_has_any():
+    sim = Simulation(deck.loads(BLOCK))
+    assert not hasattr(sim.state, "before")
+    assert sim.engine.arguments._look_up("before").size == 0
+
+
+def test_a_model_is_told_what_has_happened(monkeypatch):
+    """Density, strain and damage before and after; work is stress times strain; damage weakens nothing here."""
+    told = {}
+
+    def update(model, rho0, rho, e, dep, work, damage0, damage, released, time, dt, par, internal):
+        told[len(told)] = rho0, rho, e, dep, work, damage0, damage, released, time, dt
+        internal[0] = 1.25
+
+    s = (sim := simulation()).state
+    e = sim.engine
+    monkeypatch.setitem(memory.update_memory.compiled.py_func.__globals__, "update", update)
+    j, i = 4, 3
+    arguments = e.arguments._look_up
+    part, parts = 0, np.array([j, j + 1])
+    s.body_range[0, j] = i, i + 1
+    s.rho[0, j, i], s.q[SRR, 0, j, i], s.q[SZZ, 0, j, i] = 2000.0, 1e8, -2e8
+    materials = arguments("models"), arguments("materials"), s.pm, s.tm
+    memory.remember.compiled.py_func(part, parts, s.body_range, materials[0], s.q, s.before)
+    s.rho[0, j, i], s.e[0, j, i], s.q[EP, 0, j, i], s.q[DMG, 0, j, i] = 2100.0, 7e3, 0.02, 0.3
+    s.q[SRR, 0, j, i], s.q[SZZ, 0, j, i] = 0.5e8, -1e8
+    memory.update_memory.compiled.py_func(part, parts, 3e-6, 1e-8, s.body_range, *materials, s.before, s.vof, s.q)
+    stress = np.sqrt(3.0 * (1.0 - 2.0 + 4.0)) * 1e8
+    expected = (2000.0, 2100.0, 7e3, 0.02, 0.5 * stress * 0.02, 0.0, 0.3, 0.0, 3e-6, 1e-8)
+    assert told[0] == pytest.approx(expected, rel=1e-12)
+    assert len(told) == 1
+    assert s.q[INTERNAL, 0, j, i] == 1.25
+
+
+def test_the_variables_of_strength_come_first():
+    plain = 'model = "elastic-plastic"\nshear_modulus = "26 GPa"\nyield_stress = "1e6 GPa"'
+    assert plain in POROUS
+    own = simulation(POROUS.replace(plain, plain.replace("elastic-plastic", "kinematic-hardening")))
+    assert own.engine.arguments._look_up("models")[0, MEMORY] == INTERNAL + 3
+    assert own.engine.arguments._look_up("models")[0, EOS] == p_alpha.ID
+    assert np.all(own.state.q[INTERNAL + 3, 0] == 1.35)
+
+
+MOVES = f"""
+[mesh]
+geometry = "planar"
+r = [{{ to = 0.2, cells = 4 }}]
+z = [{{ to = 2.0, cells = 80 }}]
+[boundaries]
+r_max = "wall"
+[[body]]
+name = "block"
+material = "metal"
+shape = "box"
+z = [0.2, 0.9]
+velocity = 100.0
+[materials.metal]
+{PORES}
+[stop]
+time = 1.0
+"""
+
+
+def test_pores_travel_with_the_body():
+    """In free flight the distention goes along unchanged; what is crushed in part of the body stays that much of its mass."""
+    sim = simulation(MOVES)
+    s, g = sim.state, sim.grid
+    half = (g.zc < 0.5)[:, None] & np.ones(g.shape, dtype=bool)
+    s.q[INTERNAL, 0][half] = 1.1
+    s.rho[0][half] *= 1.35 / 1.1  # without pressure
+
+    def crushed():
+        mass = g.interior(s.vof * s.rho * g.volume)[0]
+        return np.sum(mass * g.interior(s.q[INTERNAL, 0]))
+
+    sim.engine.audit = None
+    sim.engine.prepare()
+    before = crushed()
+    for _ in range(60):
+        sim.engine.advance()
+    assert crushed() == pytest.approx(before, rel=1e-12)
+    there = g.interior(s.vof[0]) > 0.0
+    found = g.interior(s.q[INTERNAL, 0])[there]
+    assert found.min() >= 1.1 - 1e-12
+    assert found.max() <= 1.35 + 1e-12
+    assert (found < 1.1 + 1e-6).any()
+    assert (found > 1.35 - 1e-6).any()
+
+
+def test_it_is_written_for_the_body_that_has_it():
+    written = derived.evaluate(simulation(TWO), ("distention", "back_stress_rr"))
+    assert written["Distention of block"].max() == 1.35
+    assert "Distention of upper" not in written
+    assert "Back Stress rr of upper [Pa]" in written
+
+
+def test_a_restart_keeps_the_bits():
+    first = simulation(MOVES, "body.block.z=[0.0, 0.9]", 'boundaries.z_min="wall"', "body.block.velocity=-300.0")
+    for _ in range(20):
+        first.step()
+    arrays = {name: array.copy() for name, array in first.restart_arrays().items()}
+    scalars = first.restart_scalars()
+    assert arrays["q"][INTERNAL].min() < 1.3
+    second = simulation(MOVES, "body.block.z=[0.0, 0.9]", 'boundaries.z_min="wall"', "body.block.velocity=-300.0")
+    second.load_restart_arrays(arrays)
+    second.load_restart_scalars(scalars)
+    for _ in range(10):
+        first.step()
+        second.step()
+    np.testing.assert_array_equal(first.grid.interior(first.state.q), second.grid.interior(second.state.q))

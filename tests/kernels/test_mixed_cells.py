@@ -1,0 +1,348 @@
+"""What a mixed cell does in a step, function by function, on one cell made by hand.
+
+The cell is (2, 2) of a mesh of one square cell of 1 m, planar, and is filled by two bodies of 2 and 8 kg/m^3 by half.
+"""
+
+import numpy as np
+import pytest
+
+from eos import ideal_gas, stiffened_gas
+from eos.layout import ROW
+from hydro2d.kernels import mixed, mixed_strength
+from hydro2d.kernels.cut_cells import BONDED, FREE_SURFACE, INTERFACE, KIND, NORMAL_R
+from hydro2d.kernels.mixed_scratch import (
+    ACROSS,
+    ALONG,
+    FLOW,
+    HEAT,
+    HOURGLASS,
+    MEAN_RR,
+    MEAN_RZ,
+    MEAN_TT,
+    MEAN_ZZ,
+    MODULUS,
+    NORMAL,
+    RBZ,
+    RR,
+    SIZE,
+    SOFT,
+    TRIAL_RR,
+    TRIAL_RZ,
+    TRIAL_ZZ,
+    TT,
+    YIELD,
+    ZBR,
+    ZZ,
+)
+from hydro2d.kernels.mixed_strength import MATERIAL, MAX, SOLID, VOLUME, ZERO
+from hydro2d.materials.rows import CUTOFF_DENSITY, DAMAGE_AT, EOS, EOS_AT, FACTOR, GAS, STRENGTH, STRENGTH_AT, TENSILE
+from hydro2d.mesh.fields import DMG, EP, RHO, SRR, SRZ, SZZ, E
+from strength import STRENGTH_MODELS
+from tests.kernels.cells import Cells
+
+AT = (2, 2)
+ELASTIC = STRENGTH_MODELS["elastic-plastic"]
+
+
+class Cell(Cells):
+    """Its bodies are ideal gases (gamma = 1.4 and 3, of 1 kg/m^3 at rest); if `strong`, with G = 5 Pa, Y = 3 and 6 Pa."""
+
+    def __init__(self, strong: bool = False, group=(0, 0)):
+        super().__init__(nr=1, nz=1, bodies=2, group=list(group))
+        models, materials = np.zeros((2, 4), dtype=np.int64), np.zeros((2, EOS_AT + ROW))
+        for m, (gamma, flow) in enumerate(((1.4, 3.0), (3.0, 6.0))):
+            models[m, EOS] = ideal_gas.ID
+            materials[m, EOS_AT:] = ideal_gas.row({"adiabatic_index": gamma, "reference_density": 1.0})
+            if strong:
+                models[m, STRENGTH] = ELASTIC.ID
+                materials[m, STRENGTH_AT:DAMAGE_AT] = ELASTIC.row({"shear_modulus": 5.0, "yield_stress": flow})
+        materials[:, FACTOR], materials[:, TENSILE] = 1.0, 7.0
+        self.vof[:, *AT], self.q[RHO, :, *AT], self.q[E, :, *AT] = 0.5, (2.0, 8.0), 1.0
+        self.km[:, *AT], self.solid[AT], self.skin[KIND] = (1.0, 4.0), 1.0, BONDED
+        self.mixed_count[2], self.mixed[2, 0], self.cell_mass[0, *AT] = 1, 2, 5.0
+        nobody = np.array([False, False])
+        self.known |= {"j": 2, "i": 2, "dt": 0.1, "h": 1.0, "rate": 0.1, "total": 1.0, "volume": 1.0, "models": models,
+                       "materials": materials, "hard": nobody, "hard_threshold": 0.5, "internal": np.zeros((5, 4))}  # fmt: skip
+
+    def moving(self, **gradient: float) -> None:
+        """A velocity gradient, the same at the end of the step and at its middle, and what the filter does."""
+        names = {"rr": (RR, MEAN_RR), "tt": (TT, MEAN_TT), "zz": (ZZ, MEAN_ZZ), "rbz": (RBZ, MEAN_RZ), "zbr": (ZBR,),
+                 "filter": (HOURGLASS,)}  # fmt: skip
+        for name, value in gradient.items():
+            self.motion[2, :, names[name]] = value
+
+    def run(self, function, **given):
+        """A scalar function as Python."""
+        return self.call(function.py_func, **given)
+
+
+# ------------------------------------------------------------------------------------------------ motion and shares
+
+
+def test_the_motion_of_a_cell():
+    """u = r at the beginning and 3 r at the end, a shear of v by r, and an hourglass in u."""
+    cell = Cell()
+    cell.u0[0, 2:4, 2:4], cell.u[0, 2:4, 2:4] = [[0, 1], [0, 1]], [[0, 3], [0, 3]]
+    cell.v0[0, 2:4, 2:4] = cell.v[0, 2:4, 2:4] = [[0, 2], [0, 2]]
+    cell.hg_coefficient[AT] = 10.0
+    cell.run(mixed.cell_motion, g=0)
+    assert cell.motion[2, 0, [RR, TT, ZZ, RBZ, ZBR]].tolist() == [3, 0, 0, 0, 2]
+    assert cell.motion[2, 0, [MEAN_RR, MEAN_TT, MEAN_ZZ, MEAN_RZ, HOURGLASS]].tolist() == [2, 0, 0, 2, 0]
+    cell.u0[0, 2:4, 2:4], cell.u[0, 2:4, 2:4] = [[1, -1], [-1, 1]], [[0.5, -0.5], [-0.5, 0.5]]
+    cell.run(mixed.cell_motion, g=0)
+    assert cell.motion[2, 0, HOURGLASS] == 0.5 * 0.1 * 10.0 * 4.0 * (4.0 + 2.0)
+
+
+def test_shares_in_a_change_of_volume():
+    """By f/K they are 0.5 and 0.125, so that the softer body takes four fifths; strained alike they are by volume."""
+    cell = Cell()
+    cell.pm[:, *AT] = 10.0, 20.0
+    inverse, mean = cell.run(mixed.soften, tipton=True)
+    assert (cell.mix[2, SOFT] * inverse).tolist() == pytest.approx([0.8, 0.2])
+    assert mean == pytest.approx(12.0)
+    inverse, mean = cell.run(mixed.soften, tipton=False)
+    assert (cell.mix[2, SOFT] * inverse).tolist() == [0.5, 0.5]
+    assert mean == 15.0
+
+
+def test_the_filter_works_on_each_group_by_its_mass():
+    cell = Cell(group=(0, 1))
+    cell.cell_mass[:, *AT], cell.motion[2, :, HOURGLASS] = (1.0, 3.0), (8.0, 4.0)
+    assert cell.run(mixed.filter_work) == 5.0
+    cell.cell_mass[1, *AT] = 0.0
+    assert cell.run(mixed.filter_work) == 8.0
+
+
+def test_the_rise_of_the_pressure_of_a_cell():
+    cell = Cell()
+    cell.pm[:, *AT] = 10.0, 20.0
+    assert cell.run(mixed.pressure_rise, middle=18.0) == 3.0
+    cell.vof[1, *AT], cell.pm[1, *AT] = 0.0, np.nan
+    assert cell.run(mixed.pressure_rise, middle=18.0) == 13.0
+
+
+def test_a_gas_counts_where_it_is():
+    cell = Cell()
+    assert not cell.run(mixed.is_beside_gas)
+    cell.known["materials"][1, GAS] = 1.0
+    assert cell.run(mixed.is_beside_gas)
+    cell.vof[1, *AT] = 0.0
+    assert not cell.run(mixed.is_beside_gas)
+
+
+def test_beside_a_gas_each_pressure_works_on_its_own_change_of_volume():
+    """Changes of -0.08 and -0.02 m^3 at 10 + 1 and 20 + 1 Pa are 0.88 and 0.42 J; of 2 J there remain 0.7, by 1 and 4 kg."""
+    cell = Cell()
+    cell.pm[:, *AT], cell.mix[2, SOFT] = (10.0, 20.0), (0.5, 0.125)
+    cell.run(mixed.work_beside_gas, change=-0.1, inverse=1.6, work=2.0, rise=1.0, target=12.0, relaxed=0.0)
+    assert cell.mix[2, HEAT] == pytest.approx([0.88 + 0.2 * 0.7, 0.42 + 0.8 * 0.7])
+    assert cell.mix[2, HEAT].sum() == pytest.approx(2.0)
+
+
+def test_relaxation_beside_a_gas_works_too_and_makes_no_energy():
+    """A tenth of the excess of -2 and 8 Pa: volumes of 0.1 * 0.5 * (-2/1, 8/4) at (10 + 0.1, 20 - 0.4) Pa."""
+    cell = Cell()
+    cell.pm[:, *AT] = 10.0, 20.0
+    cell.run(mixed.work_beside_gas, change=0.0, inverse=1.6, work=0.0, rise=0.0, target=12.0, relaxed=0.1)
+    own = np.array([-0.1 * 10.1, 0.1 * 19.6])
+    assert cell.mix[2, HEAT] == pytest.approx(-own + np.array([0.2, 0.8]) * own.sum())
+    assert cell.mix[2, HEAT].sum() == pytest.approx(0.0, abs=1e-15)
+
+
+# ------------------------------------------------------------------------------------------------- after the step
+
+
+def filled(cell: Cell, **given) -> Cell:
+    """0.9 m^3 remain of the cell, of which the bodies lose 0.08 and 0.02."""
+    cell.mix[2, SOFT] = 0.5, 0.125
+    cell.run(mixed.fill_cell, **{"change": -0.1, "inverse": 1.6, "mean_p": 12.0, "work_p": 1.0, "work_q": 0.5, "middle": 13.0,
+                                 "relaxation": 0.0, "tipton": True, **given})  # fmt: skip
+    return cell
+
+
+def test_a_cell_that_bodies_fill_goes_on_by_their_shares():
+    cell = Cell()
+    cell.mix[2, HEAT], cell.pm[:, *AT] = (0.01, 0.02), 12.0
+    cell.moving(filter=0.2)
+    filled(cell)
+    assert cell.vof[:, *AT] * 0.9 == pytest.approx([0.42, 0.48])
+    assert cell.q[RHO, :, *AT] == pytest.approx([1.0 / 0.42, 4.0 / 0.48])
+    assert cell.q[E, :, *AT] == pytest.approx([1 + 0.8 * 1.0 + 0.5 * 0.7 + 0.01, 1 + (0.2 * 1.0 + 0.5 * 0.7 + 0.02) / 4])
+
+
+def test_pressures_relax_by_a_change_of_volume_that_adds_up_to_none():
+    """Half of 0.5 * 0.5 * (-0.02/1, 0.08/4) m^3; the body that is pressed together gains p dV."""
+    cell = Cell()
+    cell.pm[:, *AT] = 11.98, 12.08
+    filled(cell, change=0.0, work_p=0.0, work_q=0.0, relaxation=0.5)
+    assert cell.vof[:, *AT] == pytest.approx([0.495, 0.505])
+    assert cell.q[E, :, *AT] == pytest.approx([1 + 12 * 0.005, 1 - 12 * 0.005 / 4])
+
+
+def test_no_body_is_pressed_below_half_of_its_volume():
+    cell = filled(Cell(), change=-0.5, relaxation=0.0)
+    assert cell.vof[:, *AT] * 0.5 == pytest.approx([0.25, 0.4])
+
+
+def test_a_cell_without_change_keeps_its_bits():
+    cell = Cell()
+    cell.vof[:, *AT], cell.pm[:, *AT] = (1 / 3, 2 / 3), 12.0
+    filled(cell, change=0.0, work_p=0.0, work_q=0.0)
+    assert cell.vof[:, *AT].tolist() == [1 / 3, 2 / 3]
+    assert cell.q[[RHO, E], :, *AT].tolist() == [[2, 8], [1, 1]]
+
+
+def test_a_gas_makes_a_cell_go_by_its_own_rule():
+    """As in `work_beside_gas`: 0.08 (10 + 1) J and 0.02 (10 + 1) J of 1.5 + 0.2; the rest by mass."""
+    cell = Cell()
+    cell.known["materials"][0, GAS], cell.pm[:, *AT] = 1.0, 12.0
+    cell.moving(filter=0.2)
+    filled(cell)
+    own = 13.0 * np.array([0.08, 0.02])
+    assert cell.q[E, :, *AT] == pytest.approx(1 + (own + np.array([0.2, 0.8]) * (1.7 - own.sum())) / (1.0, 4.0))
+
+
+def test_the_whole_step_of_a_cell_of_two_gases():
+    """Pressed together by a tenth at 10 Pa: 1 J, by f/K; nothing moves but what the faces sweep."""
+    cell = Cell()
+    cell.fr[2, 2], cell.ph[AT], cell.pm[:, *AT] = 0.1, 10.0, 10.0
+    cell.u0[0, 2:4, 2], cell.u[0, 2:4, 2] = 1.0, 1.0  # the left face at 1 m/s for 0.1 s
+    cell.call(mixed.deform_mixed, relaxation=0.25, tipton=True, mode=VOLUME)
+    assert cell.vof[:, *AT] * 0.9 == pytest.approx([0.42, 0.48])
+    assert cell.q[E, :, *AT] == pytest.approx([1.8, 1 + 0.2 / 4])
+
+
+def pulled(cell: Cell, smallest: bool = False) -> Cell:
+    """At a tension of 8 Pa each, of which both bear 7: without it they had 2.5 and 32 kg/m^3. Half may open in a cycle."""
+    for m, (rest, squared) in enumerate(((2.5, 16.0), (32.0, 1.0 / 3.0))):
+        cell.known["models"][m, EOS] = stiffened_gas.ID
+        cell.known["materials"][m, EOS_AT:] = stiffened_gas.row(
+            {"reference_density": rest, "sound_speed": np.sqrt(squared), "adiabatic_index": 1.4, "specific_heat": 1.0})
+    cell.p[AT], cell.pm[:, *AT], cell.q[SRR, :, *AT], cell.q[E, :, *AT] = -8.0, -8.0, 1.0, 0.0
+    cell.call(mixed.insert_void_mixed_row, smallest=smallest, max_opening=0.5)
+    return cell
+
+
+def test_void_opens_where_a_mixed_cell_fractures():
+    """The first body keeps 2/2.5 of its volume and has no tension left, the second keeps the half that it must."""
+    cell = pulled(Cell())
+    assert cell.vof[:, *AT] == pytest.approx([0.4, 0.25])
+    assert cell.q[RHO, :, *AT] == pytest.approx([2.5, 16.0])
+    assert cell.opened[2] == pytest.approx(0.1 + 0.25)
+    assert not cell.q[SRR].any()
+    assert cell.pm[:, *AT] == pytest.approx([0.0, -16.0 / 3.0], abs=1e-12)
+    assert (cell.solid[AT], cell.skin[KIND, *AT]) == (pytest.approx(0.65), FREE_SURFACE)
+
+
+def test_what_bears_the_tension_and_what_belongs_to_a_contact_stays_closed():
+    cell = Cell()
+    cell.known["materials"][1, TENSILE] = 10.0  # by volume they bear 8.5
+    assert pulled(cell).opened[2] == 0.0
+    assert cell.q[SRR, :, *AT].tolist() == [1.0, 1.0]
+    assert not pulled(cell, smallest=True).q[SRR].any()
+    cell = Cell()
+    cell.skin[KIND, *AT] = INTERFACE
+    assert pulled(cell).q[SRR, :, *AT].tolist() == [1.0, 1.0]
+    cell = Cell()
+    cell.known["materials"][0, TENSILE], cell.q[DMG, 0, *AT] = 1e9, 2.0  # what has failed bears none
+    assert not pulled(cell).q[SRR].any()
+
+
+# -------------------------------------------------------------------------------------------------------- strength
+
+
+def test_the_body_that_dominates_is_hard_and_fills_enough():
+    cell = Cell()
+    hard = np.array([False, True])
+    assert cell.run(mixed_strength.dominant_body) == -1
+    assert cell.run(mixed_strength.dominant_body, hard=hard) == 1
+    assert cell.run(mixed_strength.dominant_body, hard=hard, hard_threshold=0.6) == -1
+
+
+def test_deviators_work_by_their_share():
+    """s : D of s_rr = 4 Pa, s_rz = 3 Pa at D_rr = 2/s, 2 D_rz = 1/s is 11 W; what a cut cell keeps across is none of it."""
+    cell = Cell()
+    cell.q[[SRR, SRZ], 0, *AT] = 4.0, 3.0
+    cell.moving(rr=2.0, rbz=1.0)
+    given = {"dominant": -1, "scale": 1.0}
+    cell.run(mixed_strength.work_of_deviators, **given)
+    assert cell.mix[2, HEAT] == pytest.approx([0.5 * 0.1 * 11.0, 0.0])
+    cell.mix[2, NORMAL, 0] = 1.5
+    cell.run(mixed_strength.work_of_deviators, **{**given, "scale": 2.0})
+    assert cell.mix[2, HEAT] == pytest.approx([0.1 * (11.0 - 1.5 * 2.0), 0.0])
+    cell.mix[2, NORMAL] = 0.0
+    cell.run(mixed_strength.work_of_deviators, **{**given, "dominant": 0, "total": 0.9})
+    assert cell.mix[2, HEAT] == pytest.approx([0.9 * 0.1 * 11.0, 0.0])
+    cell.run(mixed_strength.work_of_deviators, **{**given, "dominant": 1, "total": 0.9})
+    assert cell.mix[2, HEAT].tolist() == [0.0, 0.0]
+
+
+@pytest.mark.parametrize(("mode", "total", "flow"), [(VOLUME, 1.0, 4.5), (SOLID, 0.9, 5.0), (MAX, 1.0, 6.0), (ZERO, 1.0, 0.0),
+                                                     (MATERIAL, 1.0, 4.5)])
+def test_the_elastic_trial_and_the_yield_stress_of_a_cell(mode, total, flow):
+    """2 G times the deviator of a strain of 0.3 along r: (2, -1, -1) Pa, and 2 G times half of 0.4 of shear."""
+    cell = Cell(strong=True)
+    cell.q[SRR, 0, *AT] = 1.0
+    cell.moving(rr=3.0, rbz=4.0, zbr=4.0)
+    assert cell.run(mixed_strength.strain_deviators, mode=mode, total=total) == pytest.approx(flow)
+    trial = cell.mix[2, [TRIAL_RR, TRIAL_ZZ, TRIAL_RZ, MODULUS, YIELD]]
+    assert trial.T == pytest.approx(np.array([[3, -1, 4, 5, 3], [2, -1, 4, 5, 6]]))
+    assert cell.mix[2, SIZE] == pytest.approx([2 * (9 + 1 - 3 + 16), 2 * (4 + 1 - 2 + 16)])
+
+
+def test_the_strain_across_a_surface_is_left_for_the_traction_to_find():
+    cell = Cell(strong=True)
+    cell.skin[[NORMAL_R, KIND], *AT] = 1.0, FREE_SURFACE
+    cell.moving(rr=3.0, zz=3.0)
+    cell.run(mixed_strength.strain_deviators, mode=VOLUME)
+    assert cell.mix[2, [TRIAL_RR, TRIAL_ZZ], 0] == pytest.approx([-1, 2])
+    assert cell.mix[2, ALONG, 0] == pytest.approx(-1)
+
+
+def test_what_has_failed_or_is_thin_has_no_yield_stress():
+    cell = Cell(strong=True)
+    cell.q[DMG, 0, *AT], cell.known["materials"][1, CUTOFF_DENSITY] = 2.0, 8.0
+    assert cell.run(mixed_strength.strain_deviators, mode=VOLUME) == 0.0
+    assert cell.mix[2, YIELD].tolist() == [0.0, 0.0]
+
+
+def test_bodies_are_strained_across_by_what_their_traction_needs():
+    """Whatever `meet_traction` finds across the surface is put on the trial: 2 G (n n - 1/3) times the strain."""
+    cell = Cell(strong=True)
+    cell.skin[[NORMAL_R, KIND], *AT], cell.bulk[AT] = (1.0, INTERFACE), 1.6
+    cell.mix[2, MODULUS], cell.mix[2, YIELD], cell.q[SRR, 0, *AT] = 5.0, (3.0, 0.0), 4.0
+    cell.run(mixed_strength.strain_bodies_across, own=True, cell_yield=9.0, change=-0.01, void=0.0)
+    assert cell.mix[2, FLOW] == pytest.approx([np.sqrt(3.0) * 4.0, 0.0])  # it flows at what it has
+    assert cell.mix[2, ACROSS].any()
+    for trial, share in ((TRIAL_RR, 2 / 3), (TRIAL_ZZ, -1 / 3), (TRIAL_RZ, 0.0)):
+        assert cell.mix[2, trial] == pytest.approx(10.0 * share * cell.mix[2, ACROSS])
+    cell.run(mixed_strength.strain_bodies_across, own=False, cell_yield=9.0, change=-0.01, void=0.0)
+    assert cell.mix[2, FLOW] == pytest.approx([9.0, 9.0])
+
+
+def returned(own: bool, dominant: int = -1) -> Cell:
+    """From trials of (4, -2, -2) Pa, whose von Mises stress is 6 Pa; G = 5 Pa, Y = 3 and 6 Pa."""
+    cell = Cell(strong=True)
+    cell.mix[2, TRIAL_RR], cell.mix[2, TRIAL_ZZ], cell.mix[2, MODULUS], cell.mix[2, YIELD] = 4.0, -2.0, 5.0, (3.0, 6.0)
+    cell.run(mixed_strength.return_deviators, own=own, cell_yield=1.5, dominant=dominant)
+    return cell
+
+
+def test_bodies_return_each_to_its_own_surface_or_to_that_of_the_cell():
+    cell = returned(own=True)
+    assert cell.q[[SRR, SZZ], :, *AT] == pytest.approx(np.array([[2, 4], [-1, -2]]))
+    assert cell.q[EP, :, *AT] == pytest.approx([3.0 / 15.0, 0.0])
+    assert cell.mix[2, HEAT].tolist() == [0, 0]
+    assert returned(own=False).q[[SRR, SZZ], :, *AT] == pytest.approx(np.array([[1, 1], [-0.5, -0.5]]))
+
+
+def test_the_plastic_heat_of_the_dominant_body_is_shared_by_fraction_over_yield_stress():
+    """0.2 * 3 J, of which a share of (0.5/3) / (0.5/3 + 0.5/6) = 2/3 stays."""
+    assert returned(own=True, dominant=0).mix[2, HEAT] == pytest.approx([-0.2, 0.2])
+    cell = Cell(strong=True)
+    cell.mix[2, YIELD], cell.mix[2, HEAT] = (3.0, 0.0), (1.0, 1.0)
+    cell.run(mixed_strength.share_plastic_heat, dominant=0, plastic=0.6)
+    assert cell.mix[2, HEAT] == pytest.approx([1.0, 1.0])  # what has no strength takes nothing
+    cell.mix[2, YIELD] = 3.0, 1.0
+    cell.run(mixed_strength.share_plastic_heat, dominant=0, plastic=0.6)
+    assert cell.mix[2, HEAT] == pytest.approx([1.0 - 0.45, 1.0 + 0.45])

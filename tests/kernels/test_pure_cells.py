@@ -1,0 +1,69 @@
+"""What a pure cell does in a step: pressure, sound, viscosity, the step that it allows, and work."""
+
+import numpy as np
+import pytest
+
+from eos import ideal_gas
+from eos.layout import ROW
+from hydro2d.kernels import deformation, mixed
+from hydro2d.kernels.cut_cells import BONDED, KIND
+from hydro2d.materials.rows import EOS, EOS_AT, TENSILE
+from hydro2d.mesh.fields import RHO, E
+from tests.kernels.cells import Cells
+
+GAMMA = 1.5
+AT = (3, 3)
+
+
+def gas(**given) -> Cells:
+    """A gas of 2 kg/m^3 with 10 J/kg in one cell of void: p = 10 Pa, K = 15 Pa, c^2 = 7.5 m^2/s^2."""
+    cells = Cells()
+    models, materials = np.zeros((1, 4), dtype=np.int64), np.zeros((1, EOS_AT + ROW))
+    models[0, EOS], materials[0, TENSILE] = ideal_gas.ID, np.inf
+    materials[0, EOS_AT:] = ideal_gas.row({"adiabatic_index": GAMMA, "reference_density": 1.0})
+    cells.vof[0, *AT], cells.q[RHO, 0, *AT], cells.q[E, 0, *AT], cells.skin[KIND] = 1.0, 2.0, 10.0, BONDED
+    cells.known |= {"models": models, "materials": materials, "group": np.array([0])}
+    return cells
+
+
+def closed(cells: Cells) -> Cells:
+    cells.call(mixed.close_cells, max_opening=0.5, smallest_tension=False, linear=0.5, quadratic=2.0, courant=0.5,
+               advective=1.0, mesh_speed=0.0, hourglass=0.1)  # fmt: skip
+    return cells
+
+
+def test_a_gas_at_rest():
+    cells = closed(gas())
+    found = [getattr(cells, name)[AT] for name in ("p", "bulk", "rhobar", "solid", "cl", "qr", "qz")]
+    assert found == pytest.approx([10.0, 15.0, 2.0, 1.0, np.sqrt(7.5), 0.0, 0.0])
+    assert cells.hg_coefficient[AT] == pytest.approx(0.25 * 0.1 * 2.0 * np.sqrt(7.5))
+    assert cells.row_step[2:6] == pytest.approx([1e300, 0.5 / np.sqrt(7.5), 1e300, 1e300])
+    assert not cells.bad.any()
+    assert not cells.p[2].any()
+
+
+def test_viscosity_along_the_one_direction_that_is_pressed_together():
+    """du = -2 m/s beside cells without a difference: q = rho (2 du^2 + c |du|/2)."""
+    cells = gas()
+    cells.v[0, 4:] = -2.0
+    closed(cells)
+    q = 2.0 * (2.0 * 4.0 + 0.5 * np.sqrt(7.5) * 2.0)
+    assert (cells.qr[AT], cells.qz[AT]) == (0.0, pytest.approx(q))
+    assert cells.row_step[3] == pytest.approx(min(0.5 / np.sqrt(7.5 + q), 0.2 / 2.0))
+
+
+def test_what_is_not_finite_is_counted():
+    cells = gas()
+    cells.q[E, 0, *AT], cells.u[0, 3, 3] = np.nan, np.inf
+    closed(cells)
+    assert cells.bad[3].tolist() == [1, 3, 0, 1]
+
+
+def test_pressure_does_work_on_what_is_pressed_together():
+    """The left face moves at 1 m/s for 0.1 s against 10 Pa: 1 J for 2 kg in 0.9 m^3."""
+    cells = gas()
+    cells.u0[0, 3:5, 3] = cells.u[0, 3:5, 3] = 1.0
+    cells.fr[AT] = 0.1
+    cells.sig_rr[AT] = cells.sig_zz[AT] = cells.sig_tt[AT] = -10.0
+    cells.call(deformation.deform, dt=0.1)
+    assert cells.q[[RHO, E], 0, *AT] == pytest.approx([2.0 / 0.9, 10.5])

@@ -1,0 +1,213 @@
+"""Where bodies are and what moves, ghosts, transmitting edges, sums along edges, a mesh that travels: on cells made by hand."""
+
+import numpy as np
+import pytest
+
+from hydro2d.kernels import boundaries, column_ranges, edge_sums, following, triad
+from hydro2d.kernels.column_ranges import NOTHING
+from hydro2d.mesh.fields import RHO, SRR, SRZ, E
+from tests.kernels.cells import Cells
+
+EMPTY = [NOTHING, 0]
+
+
+# ------------------------------------------------------------------------------------------------ where bodies are
+
+
+@pytest.mark.parametrize("anew", [True, False])
+def test_a_body_lies_from_its_first_column_to_its_last(anew):
+    cells = Cells(bodies=2, group=[0, 1])
+    cells.vof[0, 3, 2:6] = 0.0, 0.5, 1.0, 0.0
+    cells.vof[1, 3, 5] = 0.1
+    cells.call(column_ranges.find_body_ranges, anew=anew)
+    assert cells.body_ranges[0, :, 3].tolist() == [[3, 5], [5, 6]]
+    assert cells.body_ranges[0, :, 4].tolist() == [EMPTY, EMPTY]
+    assert cells.occupied[:, 3].tolist() == [[3, 6], [5, 6]]
+    assert cells.occupied[0, 4].tolist() == EMPTY
+
+
+def test_a_body_is_looked_for_no_farther_than_a_column_from_where_it_was():
+    cells = Cells()
+    cells.body_ranges[1, 0, 3] = 2, 3
+    cells.vof[0, 3, [2, 5]] = 1.0
+    cells.call(column_ranges.find_body_ranges, anew=False)
+    assert cells.body_ranges[0, 0, 3].tolist() == [2, 3]
+
+
+def test_cells_are_active_within_two_of_a_body():
+    cells = Cells(nr=12, nz=12)
+    cells.occupied[...] = EMPTY
+    cells.occupied[0, 6] = 7, 8
+    cells.call(column_ranges.find_active_ranges)
+    active = cells.group_ranges[0, 0]
+    assert active[4:9].tolist() == [[5, 10]] * 5
+    assert active[3].tolist() == active[9].tolist() == EMPTY
+    cells.occupied[0, 6] = 2, 3
+    cells.call(column_ranges.find_active_ranges)
+    assert active[6].tolist() == [2, 5]  # not beyond the box
+
+
+def test_ranges_are_joined_with_those_of_the_rows_beside():
+    cells = Cells(nr=8, nz=8)
+    cells.empty_ranges()
+    cells.body_ranges[0, 0, 5], cells.body_ranges[0, 0, 6] = (8, 9), (3, 4)
+    cells.group_ranges[0, 0, 5] = 8, 9
+    cells.call(column_ranges.widen_ranges)
+    cell, face = cells.body_ranges[1, 0], cells.body_ranges[2, 0]
+    assert [cell[j].tolist() for j in (3, 4, 5, 7, 8)] == [EMPTY, [8, 9], [3, 9], [3, 4], EMPTY]
+    assert [face[j].tolist() for j in (3, 4, 7, 8, 9)] == [EMPTY, [8, 9], [3, 9], [3, 4], EMPTY]
+    assert [cells.group_ranges[0, 1, j].tolist() for j in (4, 5, 6, 7)] == [EMPTY, [8, 9], [8, 9], EMPTY]
+    assert [cells.group_ranges[0, 3, j].tolist() for j in (2, 3, 8, 9)] == [EMPTY, [8, 9], [8, 9], EMPTY]
+
+
+def test_cells_are_mixed_where_a_body_and_something_else_meet():
+    cells = Cells(bodies=2)
+    cells.vof[:, 3, 2:6] = [[1.0, 0.5, 0.25, 0.0], [0.0, 0.5, 0.0, 0.0]]
+    cells.call(column_ranges.list_mixed, count=cells.mixed_count)
+    assert cells.mixed_count[2:6].tolist() == [0, 2, 0, 0]
+    assert cells.mixed[3, :2].tolist() == [3, 4]
+
+
+def test_the_box_of_what_moves():
+    cells, limits, box = Cells(), np.zeros((9, 2), dtype=np.int64), np.zeros(4, dtype=np.int64)
+    cells.u[0, 3, 4], cells.v[0, 4, 2] = 1e-300, -1.0
+    cells.call(column_ranges.moving_columns, i1=7, limits=limits)
+    assert limits[2:7].tolist() == [EMPTY, [4, 5], [2, 3], EMPTY, EMPTY]
+    column_ranges.moving_box(2, 7, limits, box)
+    assert box.tolist() == [3, 5, 2, 5]
+    limits[...] = EMPTY
+    column_ranges.moving_box(2, 7, limits, box)
+    assert box[0] == box[1] == 7
+
+
+# ------------------------------------------------------------------------------------------------ beyond the edges
+
+
+def ghosts() -> Cells:
+    cells = Cells()
+    cells.vof[0, 2:6, 2:6] = np.arange(1.0, 17.0).reshape(4, 4) / 32
+    cells.q[:, 0, 2:6, 2:6] = cells.vof[0, 2:6, 2:6]
+    return cells
+
+
+def test_ghost_columns_are_images_at_a_mirror_and_copies_at_an_open_edge():
+    cells = ghosts()
+    cells.call(boundaries.ghost_columns, mirror_low=True, mirror_high=False, fields=cells.q.shape[0])
+    row = 32 * cells.vof[0, 3]
+    assert row.tolist() == [6, 5, 5, 6, 7, 8, 8, 8]
+    assert (32 * cells.q[RHO, 0, 3]).tolist() == row.tolist()
+    assert (32 * cells.q[SRZ, 0, 3]).tolist() == [-6, -5, 5, 6, 7, 8, 8, 8]
+
+
+def test_ghost_rows_likewise_but_at_the_edge_that_leads():
+    cells = ghosts()
+    cells.call(boundaries.ghost_rows, mirror_low=False, mirror_high=True, leading=-1, fields=cells.q.shape[0])
+    assert (32 * cells.vof[0, :, 4]).tolist() == [3, 3, 3, 7, 11, 15, 15, 11]
+    assert (32 * cells.q[SRZ, 0, :, 4]).tolist() == [3, 3, 3, 7, 11, 15, -15, -11]
+    cells = ghosts()
+    cells.call(boundaries.ghost_rows, mirror_low=True, mirror_high=True, leading=1, fields=0)
+    assert (32 * cells.vof[0, :, 4]).tolist() == [7, 3, 3, 7, 11, 15, 0, 0]
+    assert not cells.q[:, 0, :2].any()
+
+
+def test_ghost_vertices_are_images_at_a_mirror_and_copies_at_an_open_edge():
+    cells = Cells()
+    cells.u[0] = cells.v[0] = 10.0 * np.arange(9.0)[:, None] + np.arange(9.0)
+    cells.call(boundaries.ghost_vertices_r, mirror_low=True, mirror_high=False)
+    assert cells.u[0, 3].tolist() == [-34, -33, 32, 33, 34, 35, 36, 36, 36]
+    assert cells.v[0, 3].tolist() == [34, 33, 32, 33, 34, 35, 36, 36, 36]
+    cells.call(boundaries.ghost_vertices_z, mirror_low=False, mirror_high=True)
+    assert cells.u[0, :, 4].tolist() == [24, 24, 24, 34, 44, 54, 64, 54, 44]
+    assert cells.v[0, :, 4].tolist() == [24, 24, 24, 34, 44, 54, 64, -54, -44]
+
+
+def test_an_edge_with_a_velocity_takes_momentum_and_work_and_the_axis_neither():
+    cells, velocity = Cells(), np.array([0.0, 0.0, 0.0, 5.0])
+    cells.u[...], cells.v[...], cells.v0[...], cells.mass[0, 6, 3], cells.mass[0, 4, 2] = 1.0, 7.0, 6.0, 3.0, 3.0
+    cells.call(boundaries.constrain, constrained=np.array([2, -1, -1, 6]), velocity=velocity)
+    assert not cells.u[0, :, 2].any()
+    assert cells.u[0, :, 3].all()
+    assert cells.v[0, 4:8, 3].tolist() == [7, 7, 5, 7]
+    assert cells.walls[3, :, 6].tolist() == [3.0 * (7 - 5), 0.5 * 3.0 * (7 - 5) * (6 + 5)]
+    assert not cells.walls[3, :, :6].any()
+    assert not cells.walls[:3].any()
+
+
+def test_no_mass_flows_beyond_the_edges_but_on_through_an_open_one():
+    flow = np.ones((1, 9, 9))
+    Cells().call(boundaries.close_mass_flux, di=1, opens_low=False, opens_high=False, flow=flow)
+    assert not flow[0, [1, 6]].any()
+    assert flow[0, 2:6].all()
+    flow[0, 2:6] = np.arange(9.0)
+    Cells().call(boundaries.close_mass_flux, di=1, opens_low=True, opens_high=True, flow=flow)
+    assert flow[0, 3].tolist() == [0, 2, 2, 3, 4, 5, 6, 6, 8]
+    flow[...] = np.arange(9.0)[:, None]
+    Cells().call(boundaries.close_mass_flux, di=0, opens_low=True, opens_high=False, flow=flow)
+    assert flow[0, :, 4].tolist() == [0, 2, 2, 3, 4, 5, 6, 7, 8]
+    assert not flow[0, :, [1, 6]].any()
+
+
+def test_a_transmitting_edge_holds_with_the_impedance_of_what_is_beside_it():
+    """rho c_l = 6: over the step of 0.5 s, 3 kg/s on a vertex between two cells of the edge and half of that at its ends."""
+    cells, taken = Cells(), np.full(2, 9.0)
+    cells.rhobar[2:6, 2:6], cells.cl[2:6, 2:6], cells.bulk[2:6, 2:6] = 2.0, 3.0, 18.0
+    cells.mass[...], cells.u[0, :, 6], cells.u0[0, :, 6] = 1.0, 4.0, 4.0
+    cells.call(boundaries.transmit_edges, transmitting=np.array([-1, 6, -1, -1]), dt=0.5, taken=taken)
+    assert cells.u[0, 1:8, 6].tolist() == pytest.approx([4.0, 1.6, 1.0, 1.0, 1.0, 1.6, 4.0])
+    assert taken == pytest.approx([0.0, 3 * 0.5 * 3.0 * 5.0 + 2 * 0.5 * 2.4 * 5.6])
+    before = cells.u.copy()
+    cells.call(boundaries.transmit_edges, dt=0.5, taken=taken)
+    assert (cells.u == before).all()
+    assert not taken.any()
+
+
+# ------------------------------------------------------------------------------------------- sums of what goes out
+
+
+def test_what_goes_out_and_what_comes_in_are_summed_apart():
+    cells = Cells(bodies=2)
+    cells.edge_flux[:, 0, 1, 3], cells.edge_flux[:, 1, 1, 3] = (2.0, 3.0), (8.0, 30.0)
+    cells.edge_flux[1, 0, 0, 4], cells.edge_flux[1, 1, 0, 4] = -1.0, -5.0
+    cells.edge_flux[1, 0, 0, 6] = 100.0  # beyond the active box
+    cells.call(edge_sums.sum_outflow, di=1)
+    assert cells.outflow[0].tolist() == [[0, 0, 0], [-8, 0, -2]]
+    assert cells.outflow[1].tolist() == [[30, 0, 3], [-5, -1, 0]]
+
+
+def test_momentum_that_goes_out_and_that_comes_in():
+    cells = Cells()
+    cells.edge_dual[0, 1, :, 6] = 2.0, 7.0, 3.0, 1.0, 0.5  # the last vertex of the box counts
+    cells.edge_dual[0, 0, :, 2] = 1.0, 7.0, -4.0, 0.25, 1.0
+    cells.call(edge_sums.sum_kinetic_outflow, di=1, outflow=cells.kinetic_outflow)
+    assert cells.kinetic_outflow.tolist() == [[[0, 0], [4, -1.25]], [[3, 1.5], [0, 0]]]
+
+
+# ------------------------------------------------------------------------------------------------ a mesh that travels
+
+
+def test_faces_sweep_less_by_what_the_mesh_advances():
+    """A column from 1 to 2 m of radius has an area of 1.5 m^2 per radian."""
+    cells = Cells(bodies=2, group=[0, 1], geometry="cylindrical")
+    cells.group_ranges[0, 1, :] = 3, 4
+    cells.call(following.leave, advance=0.1, group_ranges=cells.group_ranges[0])
+    assert cells.fz[2:7, 3] == pytest.approx(5 * [-0.15])
+    assert np.count_nonzero(cells.fz) == 5
+    cells.contact_columns[...], cells.contact_columns[3] = EMPTY, (3, 4)
+    cells.call(following.leave_contact, advance=0.1)
+    assert cells.own_z[:, 3:5, 3] == pytest.approx(np.full((2, 2), -0.15))
+    assert np.count_nonzero(cells.own_z) == 4
+
+
+def test_what_has_faded_is_nothing():
+    cells = Cells()
+    cells.q[:, 0, 3, 3:5] = -1e-31, 1e-29
+    cells.call(following.silence, body_ranges=cells.body_ranges[0])
+    assert cells.q[RHO, 0, 3, 3] == -1e-31
+    assert cells.q[[E, SRR, SRZ], 0, 3, 3].tolist() == [0.0, 0.0, 0.0]
+    assert (cells.q[:, 0, 3, 4] == 1e-29).all()
+
+
+def test_the_triad():
+    b, c, a = np.full((3, 2), 5.0), np.full((3, 2), 7.0), np.zeros((3, 2))
+    triad.triad(1, 3, 2.0, b, c, a)
+    assert a.tolist() == [[0, 0], [19, 19], [19, 19]]

@@ -1,0 +1,102 @@
+"""The slip layer, the step of a row and its cause, and the energies that are farthest off: on cells made by hand."""
+
+import numpy as np
+import pytest
+
+from eos import ideal_gas
+from hydro2d.kernels import sliding, thermodynamics
+from hydro2d.kernels.sliding import BOUNDARY_LAYER, FLUID, HARD, OUTSIDE, SHEAR, SLIP_LAYER
+from hydro2d.mesh.fields import EP, INTERNAL, RHO, SRR, SRZ, SZZ, E
+from hydro2d.physics.waves import CAUSES
+from tests.kernels.cells import Cells
+
+
+def zoned() -> Cells:
+    """A hard body in the columns 2 and 3, a boundary layer and a slip layer of 1 m each beside it."""
+    cells = Cells(nr=6, nz=4, bodies=2)
+    cells.vof[1, :, 2:4], cells.vof[0, :, 4:8] = 1.0, 1.0
+    cells.call(sliding.slip_zones, width_bl=1.0, width_sl=1.0, threshold=0.5, hard_body=np.array([False, True]),
+               normal=cells.normal)  # fmt: skip
+    return cells
+
+
+def test_zones_follow_the_distance_from_the_face_of_a_full_cell():
+    cells = zoned()
+    assert cells.distance[3, 4:6].tolist() == [0.5, 1.5]
+    assert cells.zone[3, 2:8].tolist() == [HARD, HARD, BOUNDARY_LAYER, SLIP_LAYER, OUTSIDE, OUTSIDE]
+    assert cells.normal[:, 3, 5].tolist() == [1.0, 0.0]
+
+
+def test_the_surface_in_a_mixed_cell_lies_where_its_fraction_says():
+    """Column 4 is filled by 0.25: its surface is at 2.25 m, a quarter of a metre before its middle."""
+    cells = zoned()
+    cells.vof[1, :, 4] = 0.25
+    cells.call(sliding.slip_zones, width_bl=1.0, width_sl=1.0, threshold=0.5, hard_body=np.array([False, True]),
+               normal=cells.normal)  # fmt: skip
+    assert cells.distance[3, 4:6] == pytest.approx([0.25, 1.25])
+    assert cells.zone[3, 4:7].tolist() == [BOUNDARY_LAYER, SLIP_LAYER, OUTSIDE]
+
+
+@pytest.mark.parametrize(("treatment", "rz", "after"), [(FLUID, 50.0, (0, 0, 0)), (SHEAR, 50.0, (-20, 5, 12)),
+                                                        (SHEAR, -50.0, (-20, 5, -12)), (SHEAR, 3.0, (-20, 5, 3))])
+def test_soft_material_of_the_slip_layer_loses_its_shear(treatment, rz, after):
+    """Friction of 0.1 bears 0.1 (100 + 20) Pa of the shear beside a wall along z."""
+    cells = zoned()
+    cells.q[SRR], cells.q[SZZ], cells.q[SRZ], cells.pm[...] = -20.0, 5.0, rz, 100.0
+    cells.call(sliding.cut_shear, treatment=treatment, friction=0.1, occupied=cells.occupied[0],
+               hard_body=np.array([False, True]))  # fmt: skip
+    assert cells.q[[SRR, SZZ, SRZ], 0, 3, 5] == pytest.approx(after)
+    for column in (3, 4, 6):
+        assert cells.q[[SRR, SZZ, SRZ], 0, 3, column].tolist() == [-20, 5, rz]
+
+
+# --------------------------------------------------------------------------------------------------------- the step
+
+
+def test_the_row_of_the_least_step_and_of_what_is_not_finite():
+    cells = Cells()
+    cells.row_step[...] = 1.0
+    cells.row_step[[4, 5]] = 0.5
+    cells.call(thermodynamics.least_step, found=cells.least_row)
+    assert cells.least_row[0] in (4, 5)
+    assert cells.least_row[1:].tolist() == [-1, -1]
+    cells.bad[3, 0], cells.bad[[3, 2], 3] = 1, 4
+    cells.row_step[5] = 0.4
+    cells.call(thermodynamics.least_step, found=cells.least_row)
+    assert cells.least_row.tolist() == [5, 3, 2]
+
+
+@pytest.mark.parametrize(("u", "v", "cause"), [(1.0, 0.0, "sound"), (60.0, 0.0, "radial velocity"),
+                                               (0.0, -60.0, "axial velocity")])
+def test_what_sets_the_step(u, v, cause):
+    """Sound of 10 m/s crosses half a cell in 0.05 s, 60 m/s a whole one in less; a velocity that is even changes no volume."""
+    cells = Cells()
+    cells.rhobar[3, 3:5], cells.cl[3, 3], cells.cl[3, 4] = 1.0, 9.0, 10.0
+    cells.u[...], cells.v[...] = u, v
+    cells.call(thermodynamics.step_cause, j=3, courant=0.5, advective=1.0, mesh_speed=0.0)
+    assert CAUSES[cells.cause[0]] == cause
+    assert cells.cause[1] == (4 if cause == "sound" else 3)
+
+
+def test_a_cell_that_is_pressed_together_sets_the_step():
+    cells = Cells()
+    cells.rhobar[3, 3:5], cells.cl[3, 3:5] = 1.0, 10.0
+    cells.v[0, 4:, 3] = -20.0
+    cells.call(thermodynamics.step_cause, j=3, courant=0.5, advective=5.0, mesh_speed=0.0)
+    assert (CAUSES[cells.cause[0]], cells.cause[1]) == ("volume change", 3)
+
+
+def test_energies_that_are_farthest_beyond_reach():
+    """A body may have -2 to 40 J/kg and 10 more for every unit of plastic strain."""
+    cells, found = Cells(), np.zeros((2, 3))
+    cells.vof[0, 3, 2:6] = 1.0, 1.0, 1.0, 0.001
+    cells.q[E, 0, 3, 2:6], cells.q[EP, 0, 3, 2:6] = (45.0, 50.0, -5.0, 1e9), (0.0, 2.0, 0.0, 0.0)
+    gas = ideal_gas
+    given = {"m": 0, "sliver": 0.01, "lowest": -2.0, "highest": 40.0, "plastic": 10.0, "most_strain": 0.8, "model": gas.ID,
+             "memory": INTERNAL,
+             "par": gas.row({"adiabatic_index": 1.4, "reference_density": 1.0}), "found": found}  # fmt: skip
+    cells.call(thermodynamics.worst_energies, warm=False, **given)
+    assert found.tolist() == [[5.0, 3, 2], [3.0, 3, 4]]
+    cells.q[RHO, 0, 3, 4] = 1.0
+    cells.call(thermodynamics.worst_energies, warm=True, **given)
+    assert found[1].tolist() == [5.0, 3, 4]  # it began warm, and is at 0 K

@@ -1,0 +1,1 @@
+"""hydro2d/materials: the library, and models from outside."""

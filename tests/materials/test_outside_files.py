@@ -1,0 +1,131 @@
+"""Models from outside: what their files must be, and what a check of them finds."""
+
+import hashlib
+import json
+
+import pytest
+
+from hydro2d.cli.main import call
+from hydro2d.materials import outside
+from tests.materials.made_models import GAS, STRAIN, VOCE, python
+
+# ------------------------------------------------------------------------------------------------ files
+
+
+@pytest.mark.parametrize(("text", "part"), [(VOCE, "strength"), (GAS, "eos"), (STRAIN, "damage")])
+def test_a_file_says_what_it_is_a_model_of(tmp_path, text, part):
+    (tmp_path / "model.py").write_text(text)
+    found = outside.read(tmp_path / "model.py")
+    assert (found.kind.part, found.file, found.text) == (part, "model.py", text)
+    assert found.module.ID >= outside.FIRST_ID
+    assert found.about()["sha256"] == hashlib.sha256(text.encode()).hexdigest()
+
+
+def test_the_id_follows_from_the_text_alone(tmp_path):
+    """Processes that meet models in another order, or under other names of files, compile the same."""
+    (tmp_path / "a.py").write_text(VOCE)
+    (tmp_path / "b.py").write_text(VOCE)
+    assert outside.read(tmp_path / "a.py").module is outside.read(tmp_path / "b.py").module
+    ids = "from hydro2d.materials import outside; print([outside.read(name).module.ID for name in ('{}', '{}')])"
+    (tmp_path / "c.py").write_text(GAS)
+    first, second = (json.loads(python(ids.format(*names), tmp_path)) for names in (("a.py", "c.py"), ("c.py", "b.py")))
+    assert first[0] != first[1]
+    assert first == second[::-1] == [outside.read(tmp_path / name).module.ID for name in ("a.py", "c.py")]
+
+
+WRONG = [
+    (VOCE, "import math", "import maths", ":3: imports maths; a model may import numpy, Python's own modules"),
+    (VOCE, "import math", "import numba", ":3: imports numba"),
+    (VOCE, "import math", "from . import other", ":3: imports .other"),
+    (VOCE, "import math", "from eos import layout", ":3: imports eos.layout"),
+    (VOCE, "import math", "from strength import dispatch", "but not those that choose"),
+    (VOCE, "import math", "import math, json.nothing", ":3: cannot be imported: ModuleNotFoundError: No module named"),
+    (VOCE, "CONSTANT_MODULUS = True", "CONSTANT_MODULUS = Tru", ":12: cannot be imported: NameError: name 'Tru'"),
+    (VOCE, "CONSTANT_MODULUS = True", "CONSTANT_MODULUS =", ":12: is not Python: invalid syntax"),
+    (VOCE, "CONSTANT_MODULUS = True\n", "", "needs CONSTANT_MODULUS, True or False"),
+    (VOCE, 'NAME = "voce"', "", "needs NAME, a text"),
+    (VOCE, '"voce"', '"johnson-cook"', "the NAME 'johnson-cook' is taken by a strength model of hydro2d"),
+    (VOCE, '"voce"', '"my model"', "the NAME 'my model' has blanks"),
+    (VOCE, 'SOURCE = "Voce', 'SOURCE = "" #', "needs SOURCE, a text"),
+    (VOCE, "PARAMETERS = (", "PARAMETERS = (1.0,", "needs PARAMETERS, a tuple of hydro2d.parameters.Parameter"),
+    (VOCE, '"saturation", "Pa", 0.0', '"shear_modulus", "Pa", 0.0', "has the parameter shear_modulus twice"),
+    (VOCE, '"saturation", "Pa", 0.0', '"code", "Pa", 0.0', "has a parameter 'code', which cannot be a key"),
+    (VOCE, "def row(", "def rows(", "needs a function row(values)"),
+    (VOCE, "def shear_modulus(", "def modulus(", "needs a function shear_modulus(p, rho, T, par)"),
+    (VOCE, "(ep, rate, T, p, rho, par)", "(ep, rate, p, T, rho, par)", "flow_stress takes (ep, rate, p, T, rho, par), not ("),
+    (VOCE, "@point\ndef flow", "def flow", "flow_stress is not compiled: put @point before it"),
+    (VOCE, '    """Flow stress, Pa."""\n', "",
+     f"flow_stress, line {VOCE.split('def flow')[0].count(chr(10))}, has no docstring: write what the function returns"),
+    (VOCE, "math.exp(", "math.expo(", "flow_stress does not compile: module 'math' has no attribute 'expo'"),
+    (VOCE, "math.exp(", "nothing(", "flow_stress does not compile: NameError: name 'nothing' is not defined"),
+    (VOCE, "return par[SHEAR]", "return par", "shear_modulus returns array(float64, 1d, C), not one number"),
+    (VOCE, "return par[SHEAR]", "return 1", "shear_modulus returns Literal[int](1), not one number (write 1.0, not 1"),
+    (VOCE, "    return par[SHEAR]", "    if p > 0.0:\n        return par[SHEAR]", "returns OptionalType(float64)"),
+    (GAS, "return rho * e, e, rho, max(e, 0.0) / 700.0", "return rho * e, e, rho", "not 4 numbers"),
+    (GAS, '"reference_density", "kg', '"density", "kg', "needs the parameter reference_density"),
+    (STRAIN, "THERMAL = False", "THERMAL = 0", "needs THERMAL, True or False"),
+]
+
+
+@pytest.mark.parametrize(("text", "old", "new", "said"), WRONG)
+def test_a_mistake_in_the_file_is_one_line_with_its_reason(tmp_path, capsys, text, old, new, said):
+    assert old in text
+    file = tmp_path / "model.py"
+    file.write_text(text.replace(old, new))
+    part = {"voce": "strength", "gamma-two": "eos", "strain": "damage"}[text.split('NAME = "')[1].split('"')[0]]
+    with pytest.raises(outside.ModelError) as error:
+        outside.read(file, part)
+    assert str(error.value).startswith(str(file))
+    assert said in str(error.value)
+    assert "\n" not in str(error.value)
+    assert call(["check-model", str(file), "--as", part]) == 2
+    told = capsys.readouterr().err
+    assert told == f"hydro2d: {error.value}\n"
+
+
+def test_files_that_are_no_models(tmp_path):
+    (tmp_path / "bytes.py").write_bytes(b"\xff\xfe\x00")
+    (tmp_path / "empty.py").write_text("")
+    for name, said in (("none.py", "cannot be read: No such file"), ("bytes.py", "is not UTF-8"), ("empty.py", "has none of")):
+        with pytest.raises(outside.ModelError, match=said):
+            outside.read(tmp_path / name)
+
+
+# ------------------------------------------------------------------------------------------------ the contract
+
+
+CHECK = "from hydro2d.cli.main import call; print(call(['check-model', 'model.py']))"
+
+
+@pytest.mark.parametrize("text", [VOCE, GAS, STRAIN])
+def test_check_model_passes_a_good_one(tmp_path, text):
+    (tmp_path / "model.py").write_text(text)
+    told = python(CHECK, tmp_path)
+    assert told.endswith("all checks passed\n0\n")
+    assert "FAILED" not in told
+
+
+@pytest.mark.parametrize(
+    ("text", "old", "new", "said"),
+    [
+        (VOCE, "1.0 - math.exp(", "math.exp(", "the flow stress falls from plastic strain 0 to 1e-12"),
+        (VOCE, "return par[SHEAR]", "return par[SHEAR] + p", "not slot SHEAR of the row"),
+        (VOCE, "collect(NAME, PARAMETERS, values)", "{**dict(saturation=0.0), **values}", "unknown parameter 'colour'"),
+        (GAS, "max(e, 0.0) / 700.0", "300.0", "dT/drho is 0"),
+        (STRAIN, "dep / par[0]", "(dep + 1e-9) / par[0]", "without plastic strain"),
+    ],
+)
+def test_check_model_finds_what_is_wrong(tmp_path, text, old, new, said):
+    assert old in text
+    (tmp_path / "model.py").write_text(text.replace(old, new))
+    told = python(CHECK, tmp_path)
+    assert "  FAILED " in told
+    assert said in told
+    assert told.endswith("failed\n2\n")
+
+
+def test_check_model_needs_an_example(tmp_path):
+    (tmp_path / "model.py").write_text(VOCE.replace("EXAMPLE", "EXAMPLES"))
+    told = python(CHECK, tmp_path)
+    assert "needs EXAMPLE, parameters in SI to try it with" in told
+    assert "\n2\n" in told

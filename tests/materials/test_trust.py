@@ -1,0 +1,130 @@
+"""The code that a stranger's run carries is not run by what only reads the run."""
+
+import tomllib
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import hydro2d
+from hydro2d import toml
+from hydro2d.cli.main import call
+from hydro2d.deck import deck as decks
+from hydro2d.materials.outside import ModelError
+from hydro2d.output import snapshot, vtk
+from hydro2d.study import contents, layout, record
+from tests.materials.made_models import GAS, VOCE
+
+SHOT = "problems/cth_nose_shape/hemi_5083_1086.toml"
+
+
+@pytest.fixture
+def mark(tmp_path):
+    """The file that the planted code makes."""
+    return tmp_path / "was run"
+
+
+@pytest.fixture
+def strange(finished, mark):
+    """A run whose deck carries code that leaves a mark, and no dumps."""
+    deck = tomllib.loads(decks.load(SHOT).to_toml())
+    run = f"\nopen({str(mark)!r}, 'w').close()\n"
+    material = deck["materials"]["W_alloy"]
+    material["strength"] = {"model": "voce", "code": VOCE + run, "code_from": "my_model.py", "shear_modulus": 1.6e11,
+                            "yield_stress": 1e9, "saturation": 0.0}  # fmt: skip
+    text = toml.dumps(deck)
+    (finished / "deck.toml").write_text(text)
+    saved = snapshot.read(finished / "restart.h5")
+    snapshot.write(finished / "restart.h5", replace(saved, deck=text))
+    (finished / "restart.previous.h5").unlink(missing_ok=True)
+    return finished
+
+
+def test_what_reads_a_run_runs_nothing(strange, mark, tmp_path, capsys):
+    run, picture = str(strange), str(tmp_path / "a.png")
+    for command in (
+        ["report", run, "--out", str(tmp_path / "report")],
+        ["plot", run, "-o", picture],
+        ["plot", run, "--kind", "history", "-o", picture],
+        ["export", run, "-o", str(tmp_path / "export")],
+        ["model", "transition", "--rod", "W_alloy", "--target", "Al5083", "--runs", run],
+    ):
+        assert call(command) == 0, capsys.readouterr().err
+        assert not mark.exists(), command
+    said = capsys.readouterr().out
+    assert said.count("the code of the strength model voce (my_model.py), which the deck of the run carries, is not run") == 1
+    assert "--trust runs it" in said
+    assert "1.09" in said or "1086" in said
+
+
+def test_what_python_reads_runs_nothing(strange, mark):
+    assert len(hydro2d.open_run(strange).fields.time) == len(hydro2d.open_run(strange).dumps)
+    hydro2d.open_study(strange).table()
+    found = record.read(layout.load(strange).cases[0])
+    assert found.velocity == 1086.0
+    assert found.setup.rod == "W_alloy"
+    assert found.problems == []
+    assert not mark.exists()
+
+
+def test_the_state_of_a_run_needs_trust(strange, mark, tmp_path, capsys):
+    (strange / "series.pvd").unlink()
+    assert call(["export", str(strange), "-o", str(tmp_path / "export")]) == 2
+    assert not mark.exists()
+    assert capsys.readouterr().err.endswith("is not run; --trust, in Python trust=True, runs it\n")
+    assert call(["export", str(strange), "-o", str(tmp_path / "export"), "--trust"]) == 0
+    assert mark.exists()
+
+
+def test_python_asks_for_trust_as_well(strange, mark):
+    for read in (lambda: hydro2d.open_run(strange).simulation(), lambda: hydro2d.open_run(strange).state()):
+        with pytest.raises(ModelError, match="trust=True"):
+            read()
+    assert not mark.exists()
+    assert hydro2d.open_run(strange, trust=True).simulation().cycle > 0
+    assert mark.exists()
+
+
+def test_a_report_with_trust_has_the_models(strange, mark, tmp_path, capsys):
+    assert call(["report", str(strange), "--trust", "--out", str(tmp_path / "report")]) == 0
+    assert mark.exists()
+    assert "is not run" not in capsys.readouterr().out
+    assert contents.collect(layout.load(strange)).notes == []  # this process has run it already
+
+
+def test_a_deck_in_a_run_names_no_file(strange, mark, tmp_path):
+    deck = tomllib.loads((strange / "deck.toml").read_text())
+    (tmp_path / "evil.py").write_text(deck["materials"]["W_alloy"]["strength"].pop("code"))
+    deck["materials"]["W_alloy"]["strength"] = {"file": str(tmp_path / "evil.py")}
+    (strange / "deck.toml").write_text(toml.dumps(deck))
+    found = record.read(layout.load(strange).cases[0])
+    assert "names a file of code" in found.problems[0]
+    assert not mark.exists()
+
+
+def test_numbers_that_code_would_have_checked(strange):
+    deck = tomllib.loads((strange / "deck.toml").read_text())
+    gas = GAS.replace('"a test"', '"another test"')
+    deck["materials"]["Al5083"]["eos"] = {"model": "gamma-two", "code": gas, "code_from": "gas.py"}
+    with pytest.raises(decks.DeckError, match="gamma-two needs reference_density"):
+        decks.loads(toml.dumps(deck), trust=False)
+    deck["materials"]["Al5083"]["eos"]["reference_density"] = 1.2
+    found = decks.loads(toml.dumps(deck), trust=False).materials["Al5083"]
+    assert found.reference_density == 1.2
+    assert found.as_deck()["eos"] == deck["materials"]["Al5083"]["eos"]
+    deck["materials"]["Al5083"]["eos"]["reference_density"] = "1.2 kg"
+    with pytest.raises(decks.DeckError):
+        decks.loads(toml.dumps(deck), trust=False)
+
+
+def test_variables_of_unknown_models_are_found_by_their_names(tmp_path):
+    from hydro2d.output import datasets
+
+    shape = (2, 3)
+    fields = {"Volume Fraction for a": np.ones(shape), "Volume Fraction for b of a": np.zeros(shape),
+              "Softness of a": np.full(shape, 2.0), "Back Pull rr of b of a [Pa]": np.full(shape, 3.0)}  # fmt: skip
+    found = datasets.of_state(vtk.Dump(np.arange(4.0), np.arange(3.0), fields, 0.0))
+    assert set(found) == {"volume_fraction", "softness", "back_pull_rr"}
+    assert found.back_pull_rr.attrs["units"] == "Pa"
+    np.testing.assert_array_equal(found.back_pull_rr.sel(body="b of a"), 3.0)
+    assert np.isnan(found.back_pull_rr.sel(body="a")).all()

@@ -1,0 +1,1 @@
+"""hydro2d/mesh: the table of fields, and the state."""

@@ -1,0 +1,78 @@
+"""The kinds of edges: what each says of itself, and the numbers that kernels get."""
+
+import numpy as np
+import pytest
+
+from hydro2d.deck import deck
+from hydro2d.errors import DeckError
+from hydro2d.mesh.boundary_conditions import BoundaryConditions
+from hydro2d.mesh.edges.base import EDGES
+from hydro2d.mesh.edges.registry import BY_NAME, KINDS, made, words
+from hydro2d.mesh.sinks import SINKS
+from tests.sources.test_heating import TEXT
+
+#: mirrors, holds, opens, supplies, transmits
+FLAGS = {
+    "axis": (True, True, False, False, False),
+    "wall": (True, True, False, False, False),
+    "outflow": (False, False, True, False, False),
+    "transmit": (False, False, True, True, True),
+    "velocity": (False, True, True, True, False),
+    "piston": (False, True, True, True, False),
+}
+PISTON = ((0.0, 0.0), (1e-6, 100.0), (3e-6, -50.0))
+
+
+def of(kind, **values):
+    """Conditions with this kind at every edge that may be of it, and walls elsewhere."""
+    return BoundaryConditions(tuple(BY_NAME[kind if edge in BY_NAME[kind].edges else "wall"](**values) for edge in EDGES))
+
+
+@pytest.mark.parametrize("kind", [kind.name for kind in KINDS])
+def test_flags(kind):
+    values = {"velocity": 1.0} if kind == "velocity" else {"piston": PISTON} if kind == "piston" else {}
+    found = of(kind, **values)
+    assert tuple(found.having(flag)[0] for flag in ("mirrors", "holds", "opens", "supplies", "transmits")) == FLAGS[kind]
+
+
+def test_the_axis_is_an_inner_edge_alone():
+    assert "axis" in words("r_min")
+    assert "axis" not in {*words("r_max"), *words("z_min"), *words("z_max")}
+
+
+def test_every_sink_is_told():
+    assert [kind.name for kind in KINDS if not (kind.sink in SINKS or kind.sink_meaning)] == []
+
+
+def test_a_piston_moves_by_its_table():
+    found = of("piston", piston=PISTON)
+    assert found.velocity.tolist() == [0.0] * 4
+    held = found.velocity
+    for time, speed in ((0.5e-6, 50.0), (1e-6, 100.0), (2e-6, 25.0), (9e-6, -50.0)):
+        found.drive(time)
+        assert held == pytest.approx([speed] * 4, rel=1e-12)
+    assert found.sinks == ["piston"]
+    assert of("wall").sinks == []
+    assert made("z_min", {"z_min": "piston", "z_min_piston": PISTON}).speeds() == (0.0, 100.0, -50.0)
+
+
+@pytest.mark.parametrize(("overrides", "words"), [
+    (['boundaries.z_min="piston"'], "a piston needs z_min_piston"),
+    (['boundaries.z_min="velocity"'], "an edge with a velocity needs z_min_velocity"),
+    (["boundaries.z_min_piston=[[0, 0], [1, 1]]"], 'has no meaning without z_min = "piston"'),
+    (['boundaries.z_min="velocity"', "boundaries.z_min_velocity=1", "boundaries.z_min_piston=[[0, 0], [1, 1]]"],
+     'z_min_piston: has no meaning without z_min = "piston"'),
+    (['boundaries.z_min="piston"', 'boundaries.z_min_piston=[[0, 0], ["1 us", "1e7 m/s"]]'], "row 1: is 1e[+]07 m/s, beyond"),
+    (['boundaries.z_min="axis"'], "unknown value .axis."),
+])  # fmt: skip
+def test_wrong_edges(overrides, words):
+    with pytest.raises(DeckError, match=words):
+        deck.loads(TEXT, overrides)
+
+
+def test_the_words_of_a_deck_become_edges():
+    found = deck.loads(TEXT, ['boundaries.z_min="piston"', 'boundaries.z_min_piston=[[0, 0], ["1 us", "0.1 km/s"]]'])
+    conditions = BoundaryConditions.of(found.boundaries.model_dump())
+    assert [edge.name for edge in conditions.edges] == ["wall", "wall", "piston", "outflow"]
+    conditions.drive(0.25e-6)
+    np.testing.assert_allclose(conditions.velocity, [0.0, 0.0, 25.0, 0.0], rtol=1e-12)

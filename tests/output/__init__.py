@@ -1,0 +1,1 @@
+"""hydro2d/output: histories, dumps and restart files."""

@@ -1,0 +1,102 @@
+"""Tungsten rods into steel: Odermatt's fit, where the depth comes from, the kept results and the pages that quote them."""
+
+import csv
+import re
+
+import numpy as np
+import pytest
+
+from hydro2d.study import cases
+from problems.long_rods import depths
+from tests.rules import source
+
+FOLDER = source.PROBLEMS / "long_rods"
+KEPT = {file.stem: file for file in sorted((FOLDER / "results").glob("*.csv")) if not file.stem.startswith("histories")}
+PAGES = (FOLDER / "README.md", source.ROOT / "docs/explanation/tungsten-into-steel.md")
+
+
+@pytest.mark.parametrize(("slenderness", "ratios"), [
+    (10, (0.58, 0.79, 0.88, 0.97, 1.11, 1.23)), (20, (0.46, 0.63, 0.70, 0.77, 0.89, 0.98)),
+    (30, (0.43, 0.59, 0.66, 0.725, 0.83, 0.92))])
+def test_odermatts_fit(slenderness, ratios):
+    """Against numbers worked out by hand for a Brinell hardness of 270 and densities of 17.6 and 7.85 g/cm^3."""
+    found = [depths.odermatt(1e3 * v, slenderness, 270.0, 17600.0, 7850.0) for v in (1.2, 1.4, 1.5, 1.6, 1.8, 2.0)]
+    assert found == pytest.approx(ratios, abs=0.006)
+
+
+def history(length, u, v, steps=400):
+    """A rod that is worn at v - u to 5 mm and then stops within the depth of another 3 mm; 5 mm thick."""
+    duration = (length - 5e-3) / (v - u)
+    time = np.linspace(0.0, 1.5 * duration, steps)
+    worn = np.minimum(time, duration)
+    end = 3e-3 * np.clip((time - duration) / (0.4 * duration), 0.0, 1.0)
+    depth = u * worn + end
+    depth[time > 1.45 * duration] -= 1e-4
+    return {"time": time, "penetration_depth_m": depth, "rod_length_m": length - (v - u) * worn,
+            "rod_tail_velocity_m_s": np.where(time < duration, v, 0.0)}
+
+
+def test_where_the_depth_comes_from():
+    found = depths.measured(history(50e-3, 600.0, 1400.0), 5e-3)
+    assert found["slope"] == pytest.approx(600.0 / 800.0, rel=1e-3)
+    assert (found["u"], found["v"]) == (pytest.approx(600.0, rel=1e-3), 1400.0)
+    assert found["depth"] == pytest.approx(0.75 * 45e-3 + 3e-3, rel=1e-6), "the largest depth, not the last"
+    assert found["end"] == pytest.approx((0.75 * 15.0 + 3.0) / 5.0, abs=0.05)
+    assert found["left"] == pytest.approx(5e-3)
+
+
+def test_a_rod_that_is_hardly_worn_has_no_steady_part():
+    found = depths.measured(history(20e-3, 100.0, 900.0), 5e-3)
+    assert np.isnan(found["slope"])
+    assert np.isnan(found["u"])
+
+
+@pytest.mark.parametrize("name", KEPT)
+def test_kept_results_are_cases_of_their_study(name):
+    planned = {case.name: case.values for case in cases.plan(FOLDER / f"{name}.toml", quiet=True).cases}
+    results = depths.read(KEPT[name])
+    assert len({result.name for result in results}) == len(results) > 0
+    for result in results:
+        labels = planned[result.name.split("/")[0]]
+        assert {axis: result.labels[axis] for axis in labels} == labels
+
+
+@pytest.mark.parametrize("name", KEPT)
+def test_kept_results_are_written_as_they_were_read(name, tmp_path):
+    depths.keep(depths.read(KEPT[name]), tmp_path / "again.csv")
+    assert (tmp_path / "again.csv").read_text() == KEPT[name].read_text()
+
+
+def test_the_tables_of_the_pages_are_those_of_the_kept_results():
+    rows = [row for file in KEPT.values() for row in depths.table(depths.read(file))[2:]]
+    lines = [line for page in PAGES for line in page.read_text(encoding="utf-8").splitlines()]
+    quoted = [line for line in lines if re.search(r"\| \d+ \| \d+ m/s", line)]
+    assert len(quoted) > 15
+    assert [line for line in quoted if line not in rows] == []
+    assert [row for row in rows if row not in quoted] == [], "kept, and on no page"
+
+
+def test_the_histories_are_those_of_kept_cases():
+    known = {result.name for file in KEPT.values() for result in depths.read(file)}
+    for file in (FOLDER / "results").glob("histories*.csv"):
+        with open(file, encoding="utf-8", newline="") as text:
+            rows = list(csv.DictReader(text))
+        assert {row["case"] for row in rows} <= known
+        assert tuple(rows[0]) == depths.HISTORY
+
+
+def test_a_file_of_something_else_is_refused(capsys):
+    assert depths.main([str(source.PROBLEMS / "perforation" / "weldox_460e.csv")]) == 2
+    assert "no file of results: it has no column case" in capsys.readouterr().err
+
+
+def test_the_figures(tmp_path, capsys):
+    picture = tmp_path / "p.png"
+    assert depths.main([str(KEPT["velocities"]), "--figure", str(picture)]) == 0
+    assert picture.read_bytes()[:4] == b"\x89PNG"
+    parts = tmp_path / "parts.png"
+    histories = str(FOLDER / "results" / "histories.csv")
+    assert depths.main([histories, "--parts", str(parts), "--cases", "10_1.5km-s", "20_1.5km-s"]) == 0
+    assert parts.read_bytes()[:4] == b"\x89PNG"
+    assert depths.main([histories, "--parts", str(parts), "--cases", "10_1.6km-s"]) == 2
+    assert "has no case 10_1.6km-s" in capsys.readouterr().err

@@ -1,0 +1,203 @@
+"""The table and the figure of what ends a rigid rod, and the results that are kept beside the studies."""
+
+import re
+from types import SimpleNamespace
+
+import pytest
+
+from hydro2d.study import cases
+from problems.cth_nose_shape import rigid_rod
+from problems.cth_nose_shape.rigid_rod import Result, Shot
+from tests.rules import source
+
+#: what `depths` and `table` keep there has other columns
+OTHERS = ("classic", "long_rods")
+KEPT = sorted(file for file in source.PROBLEMS.glob("*/results/*.csv") if file.parent.parent.name not in OTHERS)
+#: a result of a run on a page, as Result writes it
+CELL = re.compile(r"(?:\d+\.\d cm|perforated at \d+ m/s), [\d.]+ %")
+
+
+def case(name, values, depth, length, status="done", reason="speed of rod below 5 m/s"):
+    summary = {"penetration_depth_m": depth, "rod_length_m": length, "rod_initial_length_m": 0.1, "stop_reason": reason,
+               "rod_residual_velocity_m_s": 123.4, "regime": "rigid", "time_s": 3.2e-4, "wall_s": 150.0,
+               "crater": {"volume_m3": 1.6e-5}}  # fmt: skip
+    deck = {"body": [{"name": "plate"}, {"name": "rod", "nose": "ogive" if "ogive" in name else "hemispherical"}]}
+    return SimpleNamespace(name=name, values=values, status=status, summary=summary, deck=deck)
+
+
+@pytest.fixture
+def study(tmp_path, monkeypatch):
+    there = (
+        case("A_5083-1086", {"law": "A", "shot": "5083-1086"}, 0.4168, 0.0958),
+        case("A_ogive", {"law": "A", "shot": "ogive-7039-1291"}, 0.537, 0.0995, reason="perforation of plate"),
+        case("B_7039-1165", {"law": "B", "shot": "hemi 7039 1165"}, 0.156, 0.0384),
+        case("B_5083-1200", {"law": "B", "shot": "5083-1200"}, 0.1, 0.09, status="running"),
+        case("B_else", {"law": "B", "shot": "something else"}, 0.1, 0.09),
+        case("B_search", {"law": "B", "plate": "5083", "velocity": "700 m/s"}, 0.2, 0.095),
+    )
+    monkeypatch.setattr(rigid_rod.layout, "read", lambda directory: SimpleNamespace(cases=there))
+    return tmp_path
+
+
+@pytest.mark.parametrize(("label", "shot"), [
+    ("5083-1086", Shot("hemispherical", "5083", 1086.0)), ("hemi 7039 1165", Shot("hemispherical", "7039", 1165.0)),
+    ("ogive-5083-923", Shot("ogival", "5083", 923.0)), ("6061-967", None), ("", None)])
+def test_labels(label, shot):
+    assert Shot.named(label) == shot
+
+
+@pytest.mark.parametrize(("labels", "shot", "column"), [
+    ({"law": "A", "shot": "5083-1086"}, Shot("hemispherical", "5083", 1086.0), "A"),
+    ({"law": "A", "plate": "7039", "velocity": "875 m/s"}, Shot("ogival", "7039", 875.0), "A"),
+    ({"plate": "5083-H116", "shot": "5083-1086"}, Shot("hemispherical", "5083", 1086.0), "5083-H116"),
+    ({"plate": "6061", "velocity": "875 m/s"}, None, "")])  # fmt: skip
+def test_shots_of_studies_and_of_searches(labels, shot, column):
+    result = Result("name", labels, "ogival", 1.0, 0.0, None, "rigid", None, 1.0, 1.0)
+    assert (result.shot, result.column) == (shot, column)
+
+
+def test_all_twelve_shots_are_known():
+    found = rigid_rod.experiments()
+    assert len(found) == 12
+    assert str(found[Shot("hemispherical", "5083", 1086.0)]) == "44.8 cm"
+    assert str(found[Shot("ogival", "7039", 1291.0)]) == "perforated"
+    assert str(found[Shot("hemispherical", "7039", 1165.0)]) == "11.4 cm (estimated)"
+
+
+def test_the_table(study, capsys):
+    assert rigid_rod.main([str(study)]) == 0
+    assert capsys.readouterr().out.splitlines() == [
+        "| shot | experiment | A | B |", "|---|---|---|---|",
+        "| hemispherical, 5083, 700 m/s |  |  | 20.0 cm, 5.0 % |",
+        "| hemispherical, 5083, 1086 m/s | 44.8 cm | 41.7 cm, 4.2 % |  |",
+        "| hemispherical, 7039, 1165 m/s | 11.4 cm (estimated) |  | 15.6 cm, 62 % |",
+        "| ogival, 7039, 1291 m/s | perforated | perforated at 123 m/s, 0.5 % |  |", "",
+        "| rod | transition | experiment | A | B |", "|---|---|---|---|---|",
+        "| hemispherical, 5083 | a third of the length lost |  | above 1086 m/s | above 700 m/s |",
+        "| | depth no longer above 25.6 cm | 1086 to 1200 m/s | above 1086 m/s | none deeper |",
+        "| hemispherical, 7039 | a third of the length lost |  |  | below 1165 m/s |",
+        "| | depth no longer above 25.0 cm | 1038 to 1165 m/s |  | none deeper |",
+        "| ogival, 7039 | a third of the length lost |  | above 1291 m/s |  |",
+        "| | depth no longer above 25.9 cm | above 1291 m/s | above 1291 m/s |  |", "",
+        "| rods | runs in 5083 | energy over volume | runs in 7039 | energy over volume |", "|---|---|---|---|---|",
+        "| hemispherical, up to a tenth of the length lost | 2 | 1.0 to 2.3 GPa | 0 | |",
+        "| hemispherical, more | 0 | | 1 | 2.7 GPa |",
+    ]  # fmt: skip
+
+
+def test_the_figure(study):
+    assert rigid_rod.main([str(study), "--figure", str(study / "figure.png")]) == 0
+    assert (study / "figure.png").read_bytes()[:4] == b"\x89PNG"
+    panels = rigid_rod.draw(rigid_rod.columns(rigid_rod.read(study))).axes
+    assert [panel.get_title() for panel in panels[::3]] == ["hemispherical nose, 5083 aluminium", "ogival nose, 7039 aluminium"]
+    first, last = ({line.get_label(): line for line in panel.lines} for panel in panels[::3])
+    assert first["A"].get_xdata() == pytest.approx([1086.0])
+    assert first["A"].get_ydata() == pytest.approx([41.68])
+    assert last["A"].get_ydata() == pytest.approx([rigid_rod.PLATE])
+    assert max(first["model forrestal"].get_ydata()) > max(first["model tate"].get_ydata()) > 0.0
+
+
+@pytest.mark.parametrize(("depths", "said"), [
+    ({700.0: 20.0, 1000.0: 40.0, 1100.0: 30.0, 1200.0: 15.0}, "1100 to 1200 m/s"), ({700.0: 20.0}, "none deeper"),
+    ({1000.0: 40.0, 1100.0: 15.0, 1200.0: 30.0}, "1000 to 1100 m/s"), ({1000.0: 40.0}, "above 1000 m/s"), ({}, "")])
+def test_the_transition_by_depth(depths, said):
+    assert rigid_rod._deeper(depths, 25.6) == said
+
+
+def test_nothing_to_show_or_to_keep(tmp_path, monkeypatch):
+    monkeypatch.setattr(rigid_rod.layout, "read", lambda directory: SimpleNamespace(cases=()))
+    file = tmp_path / "kept.csv"
+    file.write_text("what was kept before")
+    assert rigid_rod.main([str(tmp_path)]) == 2
+    assert rigid_rod.main([str(tmp_path), "--keep", str(file)]) == 2
+    assert file.read_text() == "what was kept before"
+
+
+def test_results_that_are_no_shots_have_no_figure(study, monkeypatch, capsys):
+    there = (case("elsewhere", {"law": "A", "shot": "steel-2120"}, 0.1, 0.02),)
+    monkeypatch.setattr(rigid_rod.layout, "read", lambda directory: SimpleNamespace(cases=there))
+    assert rigid_rod.main([str(study), "--keep", str(study / "kept.csv")]) == 0
+    assert rigid_rod.main([str(study / "kept.csv"), "--figure", str(study / "figure.png")]) == 2
+    assert capsys.readouterr().err == "there is no finished case of a shot\n"
+
+
+def test_another_table_is_no_file_of_results(capsys):
+    assert rigid_rod.main([str(source.PROBLEMS / "cth_nose_shape" / "experiments.csv")]) == 2
+    assert "experiments.csv: no file of results: it has no column case, " in capsys.readouterr().err
+
+
+def test_kept_results_are_read_again(study, capsys):
+    file = study / "kept.csv"
+    assert rigid_rod.main([str(study), "--keep", str(file)]) == 0
+    assert file.read_text().splitlines()[:3] == [
+        "law,shot,plate,velocity,nose,depth_cm,loss_percent,regime,residual_m_s,hole_cm3,time_us,minutes,case",
+        "A,5083-1086,,,hemispherical,41.68,4.2,rigid,,16,320,2.5,A_5083-1086",
+        "A,ogive-7039-1291,,,ogival,,0.5,rigid,123,16,320,2.5,A_ogive",
+    ]
+    from_runs = capsys.readouterr().out
+    assert rigid_rod.main([str(file)]) == 0
+    assert capsys.readouterr().out == from_runs
+    newer = study / "newer.csv"
+    newer.write_text(file.read_text().splitlines()[0] + "\nA,5083-1086,,,hemispherical,30,50,eroding,,,320,2.5,A_5083-1086\n")
+    assert rigid_rod.main([str(file), str(newer), "--keep", str(file)]) == 0
+    assert len(file.read_text().splitlines()) == 6
+    assert "| 30.0 cm, 50 % |" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("file", KEPT, ids=lambda file: file.stem)
+def test_kept_results_are_those_of_their_study(file):
+    plan = cases.plan(file.parent.parent / f"{file.stem}.toml", quiet=True)
+    results = rigid_rod.read(file)
+    assert len({result.name for result in results}) == len(results) > 0
+    planned = {case.name: case.values for case in plan.cases}
+    assert [(result.name, result.labels) for result in results] == [
+        (result.name, planned.get(result.name)) for result in results
+    ]
+
+
+def found(*names):
+    """The results that are kept of some studies, by column and shot."""
+    kept = [result for name in names for result in rigid_rod.read(source.PROBLEMS / "cth_nose_shape/results" / f"{name}.csv")]
+    return rigid_rod.columns(kept)
+
+
+def test_the_shots_transitions_and_holes_of_the_page_are_those_of_the_kept_results():
+    """Cell by cell after the column of the experiment, to which the page adds what became of the rod."""
+    page = (source.ROOT / "docs/explanation/rigid-rod.md").read_text(encoding="utf-8").splitlines()
+    rows = rigid_rod.table(found("rigid_rod_laws"))[2:]
+    assert len(rows) == 18
+    for row in rows:
+        shot, cells = row.split(" | ")[0].split(", ", 1)[1], row.split("|", 3)[3]
+        assert [line for line in page if shot in line and line.endswith(cells)], row
+    searched = rigid_rod.transitions(found("rigid_rod_laws", "transition_rigid_rod_hemi", "transition_rigid_rod_ogive"))
+    assert [row for row in searched if row not in page] == []
+    kept = [result for file in KEPT if "rigid_rod" in file.stem for result in rigid_rod.read(file)]
+    assert [row for row in rigid_rod.holes(kept) if row not in page] == []
+
+
+@pytest.mark.parametrize(("page", "least"), [("rigid-rod", 100), ("nose-shape", 25)])
+def test_results_on_a_page_are_kept_ones(page, least):
+    told = set(CELL.findall((source.ROOT / f"docs/explanation/{page}.md").read_text(encoding="utf-8")))
+    assert len(told) > least
+    assert sorted(told - {str(result) for file in KEPT for result in rigid_rod.read(file)}) == []
+
+
+def test_the_readme_has_the_shots_that_were_run_again():
+    """Depths and losses of both laws, of the runs with the traction in cut cells."""
+    rows = (source.ROOT / "README.md").read_text(encoding="utf-8").splitlines()
+    again = rigid_rod.read(source.PROBLEMS / "cth_nose_shape/results/traction/rigid_rod_laws.csv")
+    assert len(again) == 12
+    for result in again:
+        alloy, velocity = result.labels["shot"].split("-")
+        (row,) = (row for row in rows if row.startswith(f"| {alloy}, {velocity} m/s |"))
+        entry = row.split("|")[3 if result.labels["law"] == "Steinberg-Guinan" else 4]
+        depth, loss = str(result).split(", ")
+        assert depth in entry, result
+        assert loss in entry, result
+
+
+def test_every_kept_result_is_on_the_page_of_all_runs():
+    page = (source.ROOT / "docs/explanation/rigid-rod-runs.md").read_text(encoding="utf-8")
+    shown = re.findall(r"^:file: ../../(.*)$", page, flags=re.M)
+    assert sorted(shown) == sorted(str(file.relative_to(source.ROOT)) for file in KEPT)
+    assert f"The {sum(len(rigid_rod.read(file)) for file in KEPT)} runs behind" in page

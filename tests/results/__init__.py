@@ -1,0 +1,1 @@
+"""hydro2d/results: what is read back from runs, and drawn."""

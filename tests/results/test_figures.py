@@ -1,0 +1,192 @@
+"""Figures show what they say, or say why they cannot."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from hydro2d.cli.main import call
+from hydro2d.deck import deck as decks
+from hydro2d.output.outlines import outlines
+from hydro2d.output.vtk import Dump
+from hydro2d.results import figures
+from hydro2d.results.reading import Results
+from hydro2d.results.scales import FigureError
+from hydro2d.running.check import check
+from tests import fake
+from tests.decks import box, mesh, stop, table
+
+
+@pytest.fixture
+def dump():
+    sim = fake.Simulation(fake.FakeDeck())
+    for _ in range(60):
+        sim.step()
+    return Dump.of(sim)
+
+
+def test_a_section_is_mirrored_and_in_readers_units(dump):
+    figure = figures.draw_sections([[(dump, "", 0.0121)]], "pressure")
+    axes = figure.axes[0]
+    upper, lower = (mesh.get_array() for mesh in axes.collections[:2])
+    np.testing.assert_array_equal(upper, lower)
+    assert axes.get_ylim() == pytest.approx((-12, 12))
+    assert figure.axes[-1].get_ylabel() == "Pressure [GPa]"
+    shown = figures.chosen(dump, "pressure").values
+    filled = dump.fields["Material"] > 0
+    np.testing.assert_allclose(shown[filled], dump.fields["Pressure [Pa]"][filled] * 1e-9)
+    assert np.isnan(shown[~filled]).all()
+
+
+@pytest.mark.parametrize(
+    ("start", "inner", "mirrored"),
+    [("0 mm", "wall", True), ("0 mm", "outflow", False), ("-6 mm", "wall", False), ("2 mm", "wall", False)],
+)
+def test_a_planar_section_is_mirrored_at_a_plane_of_symmetry_alone(tmp_path, start, inner, mirrored):
+    text = (mesh((start, "12 mm", "1 mm"), ("30 mm", "1 mm"), geometry="planar") + table("boundaries", r_min=inner)
+            + box("bar", "Al5083", r=["-3 mm", "4 mm"], z=["5 mm", "20 mm"]) + stop("1 us"))
+    found = check(decks.loads(text))
+    axes = figures.draw_sections([[(found.dump, "", None)]], "material").axes[0]
+    low = -12.0 if mirrored else float(start.split()[0])
+    assert axes.get_ylim() == pytest.approx((low, 12.0))
+    *meshes, lines = axes.collections
+    assert len(meshes) == (2 if mirrored else 1)
+    assert len(lines.get_segments()) == (2 if mirrored else 1) * len(found.dump.outlines("bar"))
+    picture = tmp_path / "start.png"
+    (tmp_path / "deck.toml").write_text(text)
+    assert call(["check", str(tmp_path / "deck.toml"), "--picture", str(picture)]) == 0
+    assert picture.read_bytes()[:4] == b"\x89PNG"
+
+
+def test_both_sides_of_a_planar_mesh_are_seen_and_set_the_range(dump):
+    whole = replace(dump, r_edges=dump.r_edges - 6e-3, mirrored=False)
+    axes = figures.draw_sections([[(whole, "", None)]], "material", window=(0.0, 0.01, 4e-3)).axes[0]
+    assert axes.get_ylim() == pytest.approx((-4.0, 4.0))
+    part = figures.cropped(whole, (0.0, 0.01, 4e-3))
+    np.testing.assert_allclose(part.r_edges[[0, -1]], [-4e-3, 4e-3])
+    assert not part.mirrored
+    with pytest.raises(FigureError, match="no second half"):
+        figures.draw_sections([[(whole, "", None)]], "pressure", mirror="density")
+
+
+def test_a_run_says_whether_it_is_mirrored_and_has_an_axis(finished, tmp_path, capsys):
+    assert Results(finished).dump().mirrored
+    deck = finished / "deck.toml"
+    text = deck.read_text().partition("\n")[2]  # the first line is the checksum of the file as it was
+    deck.write_text(text + '[mesh]\ngeometry = "planar"\nr_start = -0.01\n[boundaries]\nr_min = "wall"\n')
+    assert not Results(finished).dump().mirrored
+    assert call(["plot", str(finished), "-o", str(tmp_path / "x.png"), "--mirror", "density"]) == 2
+    assert call(["plot", str(finished), "-o", str(tmp_path / "x.png"), "--kind", "cutaway"]) == 2
+    assert "no axis" in capsys.readouterr().err
+    assert not (tmp_path / "x.png").exists()
+
+
+def test_the_experiment_is_a_line_at_its_depth(dump):
+    axes = figures.draw_sections([[(dump, "", 0.0121)]], "pressure").axes[0]
+    assert any(line.get_xdata()[0] == pytest.approx(12.1) for line in axes.lines)
+
+
+def test_a_line_outside_of_the_window_does_not_stretch_the_figure(dump, tmp_path, recwarn):
+    figures.save(figures.draw_sections([[(dump, "", 0.5)]], "pressure", "velocity"), tmp_path / "x.png")
+    assert not [each for each in recwarn if "layout" in str(each.message)]
+
+
+def test_panels_share_their_colours(dump):
+    other = Dump(dump.r_edges, dump.z_edges, {n: 2 * v for n, v in dump.fields.items()} | {
+        n: v for n, v in dump.fields.items() if n.startswith("Vol") or n == "Material"}, 0.0)  # fmt: skip
+    figure = figures.draw_sections([[(dump, "", None)], [(other, "", None)]], "von_mises")
+    limits = {mesh.get_clim() for axes in figure.axes[:2] for mesh in axes.collections[:2]}
+    assert len(limits) == 1
+
+
+def test_a_window_decides_the_range(dump):
+    whole = figures.draw_sections([[(dump, "", None)]], "pressure")
+    part = figures.draw_sections([[(dump, "", None)]], "pressure", window=(0.0, 5e-3, 3e-3))
+    assert part.axes[0].get_xlim() == (0, 5)
+    assert part.axes[0].collections[0].get_clim() != whole.axes[0].collections[0].get_clim()
+    with pytest.raises(FigureError, match="nothing of the mesh"):
+        figures.draw_sections([[(dump, "", None)]], "pressure", window=(1.0, 2.0, 1.0))
+
+
+@pytest.mark.parametrize(
+    "word", ["velocity", "velocity:z", "body_temperature:plate", "volume_fraction:rod", "material"]
+)
+def test_words(dump, word):
+    figures.draw_sections([[(dump, "", None)]], word, mirror="density")
+
+
+@pytest.mark.parametrize(
+    ("word", "said"),
+    [("presure", 'did you mean "pressure"'), ("body_density", "write body_density:NAME"), ("body_density:rd", '"rod"'),
+     ("pressure:r", "only velocity"), ("velocity:x", "velocity:r")],
+)  # fmt: skip
+def test_wrong_words(dump, word, said):
+    with pytest.raises(FigureError, match=said):
+        figures.chosen(dump, word)
+
+
+def test_a_field_that_was_not_written(dump):
+    del dump.fields["Damage"]
+    with pytest.raises(FigureError, match="output.fields"):
+        figures.chosen(dump, "damage")
+
+
+def test_runs_side_by_side(finished, tmp_path):
+    runs = [Results(finished), Results(finished)]
+    figure = figures.sections(runs, "density", mirror="material", times=[5e-6, None])
+    assert len([axes for axes in figure.axes if axes.get_title()]) == 4
+    figures.save(figure, tmp_path / "x.png")
+    assert (tmp_path / "x.png").read_bytes()[:4] == b"\x89PNG"
+
+
+def test_histories(finished, tmp_path):
+    figure = figures.histories([Results(finished)], ["penetration_depth_m", "rod_length_m", "dt"])
+    depth = figure.axes[0].lines
+    assert depth[0].get_ydata()[-1] == pytest.approx(20, rel=0.02)
+    assert depth[1].get_ydata()[0] == pytest.approx(12.1)
+    assert figure.axes[0].get_ylabel() == "penetration depth [mm]"
+    with pytest.raises(FigureError, match='did you mean "rod_length_m"'):
+        figures.histories([Results(finished)], ["rod_lenght_m"])
+
+
+def test_formats(dump, tmp_path):
+    figure = figures.draw_sections([[(dump, "", None)]], "density")
+    figures.save(figure, tmp_path / "x.pdf")
+    assert (tmp_path / "x.pdf").read_bytes()[:4] == b"%PDF"
+    with pytest.raises(FigureError, match="picture format"):
+        figures.save(figure, tmp_path / "x.docx")
+    with pytest.raises(FigureError, match="no such directory"):
+        figures.save(figure, tmp_path / "none" / "x.png")
+
+
+def test_cutaway_or_a_clear_error(finished, tmp_path):
+    """Where there is no way to render, that is said; nothing is left behind."""
+    said = ""
+    try:
+        figures.cutaway(Results(finished).dump_file(), tmp_path / "cut.png")
+    except FigureError as error:
+        said = str(error)
+    assert "could not be rendered" in said or (tmp_path / "cut.png").read_bytes()[:4] == b"\x89PNG"
+    assert {path.name for path in tmp_path.iterdir()} <= {"cut.png", "shot"}
+
+
+def test_cutaway_tells_a_wrong_field(finished, tmp_path):
+    with pytest.raises(FigureError, match="did you mean"):
+        figures.cutaway(Results(finished).dump_file(), tmp_path / "cut.png", "presure")
+
+
+def test_outline_of_a_disc():
+    edges = np.linspace(0, 1, 41)
+    centres = 0.5 * (edges[1:] + edges[:-1])
+    r, z = np.meshgrid(centres, centres - 0.5)
+    (line,) = outlines(edges, edges, 1 / (1 + np.exp((np.hypot(r, z) - 0.3) * 50)))
+    np.testing.assert_allclose(np.hypot(line[:, 0], line[:, 1] - 0.5), 0.3, atol=0.02)
+    assert sorted(line[[0, -1], 0]) == [0, 0]
+
+
+def test_closed_outline_follows_the_boundary():
+    edges = np.linspace(0, 1, 11)
+    (line,) = outlines(edges, edges, np.ones((10, 10)), closed=True)
+    assert line[:, 0].max() == pytest.approx(1, abs=1e-5)
+    assert (line[:, 1].min(), line[:, 1].max()) == pytest.approx((0, 1), abs=1e-5)
+    assert outlines(edges, edges, np.ones((10, 10))) == []

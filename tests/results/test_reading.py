@@ -1,0 +1,151 @@
+"""A run read back: history as tables, sections in the caller's axes, what it says of itself, what is not a run."""
+
+
+import numpy as np
+import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+
+import hydro2d
+from hydro2d.output import history, vtk
+from hydro2d.results import figures
+from hydro2d.results.reading import ResultsError
+from hydro2d.running.run import run as start
+from hydro2d.study import layout
+from tests import fake
+
+
+@pytest.fixture
+def shot(finished):
+    return hydro2d.open_run(finished)
+
+
+def own_axes(columns=1):
+    figure = Figure()
+    FigureCanvasAgg(figure)
+    return figure.subplots(1, columns)
+
+
+def test_a_section_goes_into_the_axes_that_are_given(shot):
+    left, right = own_axes(2)
+    assert shot.section("pressure", mirror="velocity", time=5e-6, axes=left) is left
+    assert left.get_title() == f"shot  t = {shot.dump(5e-6).time * 1e6:.2f} µs"
+    assert not right.has_data()
+    bars = [axes.get_ylabel() for axes in left.figure.axes[2:]]
+    assert bars == ["Pressure [GPa]", "Velocity [m/s]"]
+
+
+def test_a_section_is_the_one_that_figures_draws(shot):
+    own = shot.section("velocity:z", axes=own_axes())
+    drawn = figures.sections([shot], "velocity:z").axes[0]
+    for one, other in zip(own.collections, drawn.collections, strict=True):
+        assert (one.get_array() is None) == (other.get_array() is None)
+        if one.get_array() is not None:
+            np.testing.assert_array_equal(one.get_array(), other.get_array())
+            assert one.get_clim() == other.get_clim()
+    assert (own.get_xlim(), own.get_ylim(), own.get_title()) == (drawn.get_xlim(), drawn.get_ylim(), drawn.get_title())
+    assert [line.get_xdata()[0] for line in own.lines] == [line.get_xdata()[0] for line in drawn.lines]
+    assert any(line.get_xdata()[0] == pytest.approx(12.1) for line in own.lines)
+
+
+def test_limits_window_and_no_bar(shot):
+    axes = own_axes()
+    shot.section("density", axes=axes, limits={"density": (1.0, 20.0)}, window=(-5e-3, 5e-3, 4e-3), colour_bar=False)
+    assert axes.collections[0].get_clim() == (1.0, 20.0)
+    assert axes.get_xlim() == pytest.approx((-5, 5))
+    assert axes.get_ylim() == pytest.approx((-4, 4))
+    assert len(axes.figure.axes) == 1
+
+
+def test_a_section_has_a_figure_of_its_own_where_none_is_given(shot):
+    from matplotlib import pyplot
+
+    before = pyplot.get_backend()
+    pyplot.switch_backend("agg")
+    try:
+        axes = shot.section("material")
+        assert axes.figure.number in pyplot.get_fignums()
+        assert axes.figure is not shot.section("material").figure
+    finally:
+        pyplot.close("all")
+        pyplot.switch_backend(before)
+
+
+def test_pandas_has_units_and_the_regime_in_words(shot):
+    pytest.importorskip("pandas")
+    frame = shot.to_pandas()
+    assert frame.index.name == "time"
+    assert frame.index[-1] == shot.history["time"][-1]
+    assert frame["penetration_depth_m"].iloc[-1] == shot.history["penetration_depth_m"][-1]
+    assert frame.attrs["units"]["rod_tail_velocity_m_s"] == "m/s"
+    assert set(frame.attrs["units"]) == {"time", *frame.columns}
+    assert list(frame["regime"].iloc[[0, -1]]) == ["rigid", "deforming"]
+
+
+def test_a_regime_that_was_not_known_is_missing(tmp_path, shot):
+    pytest.importorskip("pandas")
+    columns = history.History(shot.directory / "history.h5", rows=2)
+    columns.append({"time": 1.0})
+    columns.write()
+    assert hydro2d.open_run(shot.directory).to_pandas()["regime"].isna().tolist() == [False, False, True]
+
+
+def test_xarray_has_units(shot):
+    pytest.importorskip("xarray")
+    data = shot.to_xarray()
+    assert data["rod_length_m"].dims == ("time",)
+    assert (data["rod_length_m"].attrs["units"], data["time"].attrs["units"]) == ("m", "s")
+    assert data["regime"].attrs["flag_meanings"] == "rigid deforming eroding left_the_mesh"
+
+
+def test_a_run_says_what_it_is(shot):
+    for text in (repr(shot), shot._repr_html_()):
+        assert "a rod that meets a plate" in text
+        assert "the stop time was reached at 20." in text
+        assert "20.0 mm long, deforming" in text
+        assert "12.1 mm" in text
+        assert "5, the last at 20." in text
+        assert str(shot.directory.parent) not in text
+    assert "<table>" in shot._repr_html_()
+
+
+def test_titles_are_escaped(shot):
+    shot.deck["title"] = "<b>1 & 2</b>"
+    assert "&lt;b&gt;1 &amp; 2&lt;/b&gt;" in shot._repr_html_()
+
+
+def test_a_run_that_has_not_ended_says_so(shot):
+    (shot.directory / "summary.json").unlink()
+    (shot.directory / "series.pvd").unlink()
+    text = repr(hydro2d.open_run(shot.directory))
+    assert "run: has not ended" in text
+    assert "dumps: none" in text
+    assert "depth: " not in text.replace("experiment's depth", "")
+
+
+def test_a_deck_without_a_rod_says_nothing_of_one(shot):
+    shot.summary |= dict.fromkeys(("penetration_depth_m", "rod_length_m", "regime"))
+    assert "rod:" not in repr(shot)
+
+
+def test_a_study_is_told_what_reads_it(simulation, tmp_path):
+    for name in ("a", "b"):
+        start(fake.FakeDeck(), tmp_path / "folder" / name, quiet=True)
+    with pytest.raises(ResultsError, match="it has no deck.toml; it holds runs: a, b$"):
+        hydro2d.open_run(tmp_path / "folder")
+    (tmp_path / "folder" / layout.STUDY).write_text("{}")
+    with pytest.raises(ResultsError, match="it is a study, so use hydro2d.open_study"):
+        hydro2d.open_run(tmp_path / "folder")
+    with pytest.raises(ResultsError, match="it has no deck.toml$"):
+        hydro2d.open_run(tmp_path / "nothing")
+
+
+def test_a_dump_has_middles_and_outlines(shot):
+    dump = shot.dump(0.0)
+    assert dump.r_centres[:2] == pytest.approx([0.5e-3, 1.5e-3])
+    assert dump.z_centres.shape == dump.fields["Material"].shape[:1]
+    (line,) = dump.outlines("rod")
+    assert line[:, 0].max() == pytest.approx(fake.RADIUS, abs=1e-6)
+    assert np.ptp(line[:, 1]) == pytest.approx(fake.LENGTH, abs=1e-6)
+    with pytest.raises(vtk.VtkError, match='did you mean "rod"'):
+        dump.outlines("rot")

@@ -1,0 +1,188 @@
+"""Where a run stands: what is said of one that is under way, has ended, or was left, and when it will end."""
+
+import sys
+
+import numpy as np
+import pytest
+
+import hydro2d
+from hydro2d.cli import status
+from hydro2d.cli.main import call
+from hydro2d.files import locked, write_json
+from hydro2d.results import standing, terminal_charts
+from hydro2d.running import ending
+from tests.results import made_run
+
+
+@pytest.fixture
+def under_way(tmp_path):
+    """A run of 80 us in the middle, without a summary."""
+    run = made_run.write(tmp_path / "run", dumps=3, ended=False)
+    deck = [line for line in (run / "deck.toml").read_text().splitlines() if not line.startswith("#")]
+    (run / "deck.toml").write_text("\n".join([*deck, "[stop]", "time = 80e-6", "perforation = true"]) + "\n")
+    write_json(run / "progress.json", {"time_s": 40e-6, "cycles": 1000, "fraction": 0.5, "left_s": 90.0, "wall_s": 100.0,
+                                       "penetration_depth_m": 0.04, "host": "here", "process": 1})  # fmt: skip
+    return run
+
+
+def said(run, capsys):
+    assert call(["status", str(run)]) == 0
+    return dict(line.split(None, 1) for line in capsys.readouterr().out.splitlines())
+
+
+def test_a_run_under_way(under_way, capsys):
+    with locked(under_way / "run.lock"):
+        found = said(under_way, capsys)
+    assert found["run"] == "A made shot"
+    assert found["state"].startswith("running: process ")
+    assert found["time"] == "40.000 us, cycle 1000, 1 min 40 s of computing"
+    assert found["end"] == "end time, at 80.000 us, in about 1 min 30 s, unless the rod goes through before"
+    assert found["depth"] == "40.00 mm, in the experiment 30.00 mm"
+    assert found["rod"] == "rigid, 26.00 mm long"
+    assert found["dumps"] == "3, the last at 40.000 us"
+
+
+def test_a_run_that_is_continued_is_where_it_is_now(under_way, capsys):
+    write_json(under_way / "summary.json", {"time_s": 20e-6, "status": "interrupted", "stop_reason": "SIGINT"})
+    with locked(under_way / "run.lock"):
+        assert said(under_way, capsys)["time"].startswith("40.000 us")
+    found = said(under_way, capsys)
+    assert found["state"] == "interrupted: SIGINT"
+    assert found["time"].startswith("20.000 us")
+    assert "end" not in found
+
+
+def test_a_run_that_was_left(under_way, capsys):
+    found = said(under_way, capsys)
+    assert found["state"].startswith("waiting: ")
+    assert found["end"] == "end time, at 80.000 us, unless the rod goes through before"  # nobody computes
+
+
+def test_a_run_without_anything_yet(under_way, capsys):
+    for name in ("history.h5", "series.pvd", "progress.json"):
+        (under_way / name).unlink()
+    found = said(under_way, capsys)
+    assert found["dumps"] == "none"
+    assert not {"time", "depth", "rod"} & set(found)
+
+
+def test_what_is_no_run_is_told(tmp_path, capsys):
+    assert call(["status", str(tmp_path)]) == 2
+    assert "is not a run directory" in capsys.readouterr().err
+
+
+def columns(speed, rows=40):
+    time = np.linspace(0.0, 100e-6, rows)
+    return {"time": time, "cycle": np.arange(rows) * 50, "rod_core_velocity_m_s": speed(time),
+            "body_ball_velocity_m_s": 0.5 * speed(time)}  # fmt: skip
+
+
+def test_a_constant_deceleration_is_foreseen():
+    slowing = columns(lambda time: 1000.0 - 2e6 * time)
+    found = list(ending.ends({"time": 1e-3, "speed_below": 10.0, "body": "rod", "cycles": 3900}, slowing))
+    assert [(each.reason, round(each.time * 1e6, 3)) for each in found] == [
+        ("end time", 1000.0), ("3900 cycles", 200.0), ("speed below 10 m/s as it slows now", 495.0),
+    ]  # fmt: skip
+    backwards = columns(lambda time: -(1000.0 - 2e6 * time))
+    (found,) = ending.ends({"rebound": True, "body": "rod"}, backwards)
+    assert (found.reason, found.time) == ("rebound as it slows now", pytest.approx(500e-6))
+    del slowing["rod_core_velocity_m_s"]
+    (found,) = ending.ends({"speed_below": 10.0, "body": "ball"}, slowing)
+    assert found.time == pytest.approx(490e-6)
+
+
+@pytest.mark.parametrize("slope", [0.0, 1e6, -1e-3, np.nan])
+def test_a_body_that_does_not_slow_is_not_foreseen_to_stop(slope):
+    assert list(ending.ends({"speed_below": 10.0, "body": "rod"}, columns(lambda time: 1000.0 + slope * time))) == []
+
+
+def test_too_few_rows_say_nothing():
+    few = {name: values[:4] for name, values in columns(lambda time: 1000.0 - 1e7 * time).items()}
+    assert list(ending.ends({"speed_below": 10.0, "cycles": 100}, few)) == []
+
+
+def test_a_real_run_agrees_with_what_it_says(finished):
+    """A fake run that has ended: its line of time is that of its summary."""
+    run = hydro2d.open_run(finished)
+    found = standing.lines(run, "done", "", {})
+    assert any("the stop time was reached" in line for line in found)
+    assert any(f"cycle {run.summary['cycles']}" in line for line in found)
+
+
+class Pretend:
+    """What is used of plotext."""
+
+    def __init__(self):
+        self.asked = []
+
+    def __getattr__(self, name):
+        return lambda *values, **named: self.asked.append((name, values, named))
+
+    def build(self):
+        return "\x1b[1mone\x1b[0m\ntwo"
+
+    def uncolorize(self, text):
+        return text.replace("\x1b[1m", "").replace("\x1b[0m", "")
+
+
+@pytest.fixture
+def plotext(monkeypatch):
+    pretend = Pretend()
+    monkeypatch.setitem(sys.modules, "plotext", pretend)
+    monkeypatch.setattr(terminal_charts.metadata, "version", lambda name: "5.3.2")
+    return pretend
+
+
+def test_histories_are_drawn(under_way, plotext, capsys):
+    assert call(["status", str(under_way), "--plot", "--quantity", "rod_length_m"]) == 0
+    assert capsys.readouterr().out.splitlines()[-2:] == ["one", "two"]
+    ((_, (time, values), _),) = [each for each in plotext.asked if each[0] == "plot"]
+    assert (time[-1], values[-1]) == (pytest.approx(40.0), pytest.approx(26.0))
+    ((_, (title,), _),) = [each for each in plotext.asked if each[0] == "title"]
+    assert title == "projectile length [mm] over time [us]"
+
+
+def test_depth_and_tail_are_drawn_of_a_shot_and_the_first_body_of_others(under_way):
+    run = hydro2d.open_run(under_way)
+    assert terminal_charts.chosen(run) == ["penetration_depth_m", "rod_tail_velocity_m_s"]
+    run._history = run._history[0], {"time": np.zeros(2), "body_rod_velocity_m_s": np.zeros(2)}
+    assert terminal_charts.chosen(run) == ["body_rod_velocity_m_s"]
+
+
+@pytest.mark.parametrize("version", ["6.1.0", None])
+def test_without_plotext_one_message_says_so(under_way, monkeypatch, capsys, version):
+    def found(name):
+        if version is None:
+            raise terminal_charts.metadata.PackageNotFoundError(name)
+        return version
+
+    monkeypatch.setattr(terminal_charts.metadata, "version", found)
+    assert call(["status", str(under_way), "--plot"]) == 2
+    assert capsys.readouterr().err == f"hydro2d: {terminal_charts.MISSING}\n"
+    assert call(["status", str(under_way)]) == 0  # no terminal: nothing is drawn
+
+
+def test_a_column_that_there_is_not(under_way, plotext, capsys):
+    assert call(["status", str(under_way), "--quantity", "rod_lenght_m"]) == 2
+    assert 'did you mean "rod_length_m"' in capsys.readouterr().err
+
+
+def test_a_run_is_watched_until_it_has_ended(under_way, monkeypatch, capsys):
+    """It looks again after two seconds, and says how the run ended."""
+    waits = []
+
+    def sleep(seconds):
+        waits.append(seconds)
+        if len(waits) == 2:
+            lock.__exit__(None, None, None)
+            write_json(under_way / "summary.json", {"time_s": 80e-6, "status": "done", "stop_reason": "end time"})
+            (under_way / "progress.json").unlink()
+
+    monkeypatch.setattr(status.time, "sleep", sleep)
+    lock = locked(under_way / "run.lock")
+    lock.__enter__()
+    assert call(["status", str(under_way), "--watch"]) == 0
+    said = capsys.readouterr().out
+    assert waits == [2.0, 2.0]
+    assert said.count("running: process") == 2
+    assert "done: end time" in said

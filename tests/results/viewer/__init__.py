@@ -1,0 +1,1 @@
+"""hydro2d/results/viewer: the page of `hydro2d view`."""

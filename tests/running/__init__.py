@@ -1,0 +1,1 @@
+"""hydro2d/running: runs, checks before them, compilation, threads, and progress."""

@@ -1,0 +1,171 @@
+"""Runs end, are interrupted, and continue to the same bits."""
+
+import json
+import os
+import socket
+
+import numpy as np
+import pytest
+
+from hydro2d.deck.sections import Sliding
+from hydro2d.files import LockError
+from hydro2d.interrupt import Interrupt
+from hydro2d.output import history, snapshot, vtk
+from hydro2d.running.run import Due, RunError, exit_status, run
+from tests import fake
+from tests.locks import held
+
+
+def test_due_at_first_cycle_at_or_after_each_time():
+    due = Due(1.0)
+    assert [time for time in (0.0, 0.5, 0.99, 1.0, 1.2, 3.7, 3.9, 4.0) if due(time)] == [0.0, 1.0, 3.7, 4.0]
+
+
+@pytest.mark.parametrize("interval", [0.1, 1e-7, 3e-6])
+def test_due_survives_rounding(interval):
+    due = Due(interval)
+    assert all(due(k * interval) and not due(k * interval) for k in range(2000))
+
+
+def test_run_directory(simulation, tmp_path):
+    summary = run(fake.FakeDeck(), tmp_path / "a", quiet=True)
+    assert summary["status"] == "done"
+    assert exit_status(summary) == 0
+    names = {path.name for path in (tmp_path / "a").iterdir()}
+    assert {"deck.toml", "summary.json", "history.h5", "restart.h5", "log.txt", "series.pvd", "vtk"} <= names
+    assert not [name for name in names if "tmp" in name]
+    stored = json.loads((tmp_path / "a" / "summary.json").read_text())
+    for key in ("deck", "version", "stop_reason", "time_s", "cycles", "wall_s", "ns_per_cell_cycle", "cells",
+                "penetration_depth_m", "rod_length_m", "rod_mass_kg", "rod_max_plastic_strain",
+                "rod_tail_velocity_m_s", "regime", "conservation"):  # fmt: skip
+        assert key in stored
+    assert stored["conservation"]["total_energy"] is None  # not finite, and still JSON
+
+
+def test_a_run_begins_with_the_warnings(simulation, tmp_path, capsys):
+    deck = fake.FakeDeck()
+    run(deck, tmp_path / "a")
+    assert "warning" not in capsys.readouterr().out
+    deck.sliding = Sliding(method="slip-layer", hard=("rod",))
+    run(deck, tmp_path / "b")
+    for text in (capsys.readouterr().out, (tmp_path / "b" / "log.txt").read_text()):
+        assert text.count('warning: sliding.yield_factor is "off"') == 1
+        assert text.index("warning") < text.index("done: ")
+
+
+def test_existing_run_is_kept_unless_told(simulation, tmp_path):
+    run(fake.FakeDeck(), tmp_path, quiet=True)
+    with pytest.raises(RunError, match="--restart"):
+        run(fake.FakeDeck(), tmp_path, quiet=True)
+    (tmp_path / "mine.txt").write_text("not of a run")
+    run(fake.FakeDeck(), tmp_path, overwrite=True, quiet=True)
+    assert (tmp_path / "mine.txt").exists()
+
+
+def interrupt_after(cycles, simulation):
+    stop, step = Interrupt(), simulation.step
+
+    def counted(self):
+        step(self)
+        if self.cycle == cycles:
+            stop("SIGTERM")
+
+    simulation.step = counted
+    return stop
+
+
+@pytest.mark.parametrize("cycles", [1, 37, 100])
+def test_restart_gives_the_same_bits(simulation, tmp_path, cycles):
+    run(fake.FakeDeck(), tmp_path / "whole", quiet=True)
+    interrupt = interrupt_after(cycles, simulation)
+    first = run(fake.FakeDeck(), tmp_path / "parts", quiet=True, interrupt=interrupt)
+    assert first["status"] == "interrupted"
+    assert exit_status(first) == 143
+    assert first["cycles"] == cycles
+    run(fake.FakeDeck(), tmp_path / "parts", restart=True, quiet=True)
+    whole, parts = (tmp_path / name for name in ("whole", "parts"))
+    one, two = (snapshot.read(path / "restart.h5") for path in (whole, parts))
+    assert one.arrays["e"].tobytes() == two.arrays["e"].tobytes()
+    assert one.scalars == two.scalars
+    one, two = (history.read(path / "history.h5") for path in (whole, parts))
+    assert one.keys() == two.keys()
+    assert all(one[name].tobytes() == two[name].tobytes() for name in one)
+    assert vtk.read_series(whole / "series.pvd") == vtk.read_series(parts / "series.pvd")
+    for file in (whole / "vtk").iterdir():
+        assert file.read_bytes() == (parts / "vtk" / file.name).read_bytes()
+
+
+def test_restart_drops_what_came_after_the_restart_point(simulation, tmp_path):
+    """A run that went on after its last restart file, and was killed: later rows and dumps are written again."""
+    run(fake.FakeDeck(), tmp_path, quiet=True, interrupt=interrupt_after(87, simulation))
+    early = (tmp_path / "restart.h5").read_bytes()
+    run(fake.FakeDeck(), tmp_path, restart=True, quiet=True)
+    before = vtk.read_series(tmp_path / "series.pvd")
+    (tmp_path / "restart.h5").write_bytes(early)
+    (tmp_path / "summary.json").unlink()
+    run(fake.FakeDeck(), tmp_path, restart=True, quiet=True)
+    assert vtk.read_series(tmp_path / "series.pvd") == before
+    times = history.read(tmp_path / "history.h5")["time"]
+    assert np.all(np.diff(times) > 0)
+
+
+def test_one_process_at_a_time(simulation, tmp_path):
+    with held(tmp_path / "run.lock"), pytest.raises(LockError, match=f"in use by process {os.getppid()} on "):
+        run(fake.FakeDeck(), tmp_path, quiet=True)
+    (tmp_path / "run.lock").write_text("elsewhere 1")
+    with pytest.raises(LockError, match="on elsewhere"):
+        run(fake.FakeDeck(), tmp_path, quiet=True)
+    (tmp_path / "run.lock").write_text(f"{socket.gethostname()} {os.getpid()}")  # left behind, and the number has come again
+    assert run(fake.FakeDeck(), tmp_path, quiet=True)["status"] == "done"
+    assert not (tmp_path / "run.lock").exists()
+
+
+def test_restart_refuses_another_deck(simulation, tmp_path):
+    run(fake.FakeDeck(), tmp_path, quiet=True)
+    other = fake.FakeDeck()
+    other.courant = 0.4
+    with pytest.raises(RunError, match="numerics"):
+        run(other, tmp_path, restart=True, quiet=True)
+
+
+def test_restart_may_extend_the_stop_time(simulation, tmp_path):
+    run(fake.FakeDeck(), tmp_path, quiet=True)
+    longer = fake.FakeDeck()
+    longer.stop.time = 2 * fake.STOP
+    assert run(longer, tmp_path, restart=True, quiet=True)["time_s"] >= 2 * fake.STOP
+
+
+def test_due_continues_where_the_interval_has_changed():
+    before, after = Due(1.0), Due(0.5)
+    assert before(2.5)
+    after.resume(before.saved(), 2.5)
+    assert [time for time in (2.6, 3.0, 3.2, 3.6) if after(time)] == [3.0, 3.6]
+
+
+def test_restart_without_a_file_is_one_clear_error(simulation, tmp_path):
+    with pytest.raises(snapshot.SnapshotError, match="no restart file"):
+        run(fake.FakeDeck(), tmp_path, restart=True, quiet=True)
+
+
+def test_damaged_restart_falls_back_and_says_so(simulation, tmp_path):
+    run(fake.FakeDeck(restart_interval=1e-9), tmp_path, quiet=True)
+    (tmp_path / "restart.h5").write_bytes(b"\x89HDF nonsense")
+    summary = run(fake.FakeDeck(), tmp_path, restart=True, quiet=True)
+    assert summary["status"] == "done"
+    assert "continuing from the one before" in (tmp_path / "log.txt").read_text()
+
+
+def test_unphysical_state(simulation, tmp_path):
+    simulation.fail_at = 7
+    summary = run(fake.FakeDeck(), tmp_path, quiet=True)
+    assert exit_status(summary) == 3
+    assert "density -1" in summary["stop_reason"]
+    assert snapshot.read(tmp_path / "restart.h5").scalars["cycle"] == 0
+
+
+def test_plain_lines(simulation, tmp_path, capsys):
+    run(fake.FakeDeck(), tmp_path)
+    shown = capsys.readouterr().out
+    assert "experiment          1.21 cm" in shown
+    assert "rod at r = 0.5 mm" in shown
+    assert "r is x" in shown

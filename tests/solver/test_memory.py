@@ -1,0 +1,53 @@
+"""A mesh that does not fit is refused before any memory is taken."""
+
+import os
+
+import numpy as np
+import pytest
+
+from hydro2d.deck import deck
+from hydro2d.errors import DeckError
+from hydro2d.mesh.fields import Field
+from hydro2d.mesh.grid import Grid
+from hydro2d.mesh.state import State, bytes_needed
+from hydro2d.running import check
+from hydro2d.solver import memory
+from hydro2d.solver.simulation import Simulation
+from tests.solver.test_sanity import TEXT
+
+
+@pytest.mark.parametrize("groups", [1, 2])
+@pytest.mark.parametrize("internal", [0, 3])
+def test_what_is_needed_is_what_is_taken(groups, internal):
+    own = tuple(Field(f"x{k}", "", "body", "1", 1, "mass", True, "a number") for k in range(internal))
+    grid = Grid(np.linspace(0.0, 1.0, 8), np.linspace(0.0, 1.0, 70))
+    state = State(grid, 2, [0, groups - 1], [(), own], remembers=internal > 0)
+    arrays = [array for name, array in vars(state).items()
+              if isinstance(array, np.ndarray) and name not in ("group", "rules", "initial")]
+    taken = sum(array.nbytes for array in arrays if array.base is None)
+    assert bytes_needed(*grid.shape, 2, groups, internal, internal > 0) == taken
+
+
+LARGE = ['mesh.r=[{to="2 mm", cells=400000}]', 'mesh.z=[{to="20 mm", cells=400000}]']
+
+
+@pytest.mark.parametrize("begin", [check.check, Simulation])
+def test_a_mesh_beyond_the_machine(begin):
+    with pytest.raises(DeckError, match=r"mesh: 400000 x 400000 cells need about .* GiB of memory; this machine has"):
+        begin(deck.loads(TEXT, LARGE))
+
+
+def test_a_mesh_that_fills_most_of_the_memory_is_none_of_its_business(monkeypatch):
+    small = deck.loads(TEXT)
+    pages = memory.needed(small) // os.sysconf("SC_PAGE_SIZE")
+    monkeypatch.setattr(os, "sysconf", lambda name: {"SC_PAGE_SIZE": 4096, "SC_PHYS_PAGES": 2 * pages}[name])
+    memory.refuse_too_large(small)
+    monkeypatch.setattr(os, "sysconf", lambda name: {"SC_PAGE_SIZE": 4096, "SC_PHYS_PAGES": pages}[name])
+    with pytest.raises(DeckError):
+        memory.refuse_too_large(small)
+
+
+@pytest.mark.parametrize("segment", ['{to="20 mm", size="1e-15 m"}', '{to="20 mm", first="1e-15 m", ratio=1.0}'])
+def test_cells_beyond_counting(segment):
+    with pytest.raises(DeckError, match=r"mesh.z\[0\]: would need 2e\+13 cells"):
+        deck.loads(TEXT, [f"mesh.z=[{segment}]"])

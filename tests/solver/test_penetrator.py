@@ -1,0 +1,308 @@
+"""What is measured of a rod: lengths to a cell's share, and the regime by its stated rules."""
+
+import json
+
+import numpy as np
+import pytest
+
+from hydro2d import toml
+from hydro2d.deck import deck
+from hydro2d.output import history
+from hydro2d.solver.penetrator import LEFT
+from hydro2d.solver.simulation import WATCH_EVERY, Simulation
+from tests.decks import mesh, plate, rod, stop, table
+
+TEXT = (
+    mesh(("12 mm", 24), ("-25 mm", "25 mm", 100))
+    + table("numerics", advection="ke")
+    + rod("3 mm", "20.2 mm", nose="flat", tip="TIP mm", velocity="1 km/s")
+    + plate("24 mm")
+    + stop("1 us")
+)
+
+
+@pytest.fixture
+def simulation():
+    return Simulation(deck.loads(TEXT.replace("TIP", "-0.3")))
+
+
+def cells(simulation):
+    """The rod's volume fractions, without ghosts, and the heights of the cells' centres."""
+    return simulation.grid.interior(simulation.state.vof)[0], simulation.grid.zc[simulation.grid.inside[0]]
+
+
+def test_a_rod_before_impact(simulation):
+    found = simulation.diagnostics()
+    assert found["rod_length_m"] == pytest.approx(20.2e-3, rel=1e-9)
+    assert found["penetration_depth_m"] == 0.0
+    assert found["rod_mass_kg"] == pytest.approx(np.pi * 3e-3**2 * 20.2e-3 * 18160, rel=1e-9)
+    ends = 0.2e-3 / 20.2e-3  # the row at the tip is filled by less than half and no part of the core
+    assert found["rod_core_mass_kg"] == pytest.approx(found["rod_mass_kg"] * (1 - ends), rel=1e-9)
+    assert found["rod_max_radius_m"] == pytest.approx(3e-3, rel=1e-9)
+    assert found["rod_mean_velocity_m_s"] == pytest.approx(1000.0, rel=2e-3)  # its tip shares a cell with the plate
+    assert found["rod_tail_velocity_m_s"] == pytest.approx(1000.0, rel=1e-9)
+    assert found["regime"] == "rigid"
+
+
+def test_depth_counts_the_share_of_the_last_cell(simulation):
+    fraction, z = cells(simulation)
+    new = (z > 0) & (z < 4e-3)
+    fraction[np.ix_(new, np.arange(24) < 6)] = 1.0  # 0.1 mm of the cell below z = 0 are missing: filled
+    fraction[(z > -0.5e-3) & (z < 0), :6] = 1.0
+    fraction[(z > 4e-3) & (z < 4.5e-3), :6] = 0.25
+    assert simulation.diagnostics()["penetration_depth_m"] == pytest.approx(4.125e-3, rel=1e-9)
+
+
+def test_fragments_behind_the_tail_do_not_count(simulation):
+    fraction, z = cells(simulation)
+    fraction[(z > -23.5e-3) & (z < -22.9e-3), :4] = 1.0
+    assert simulation.diagnostics()["rod_length_m"] == pytest.approx(20.2e-3, rel=1e-9)
+
+
+def test_regimes(simulation):
+    fraction, z = cells(simulation)
+    fraction[z < -19.9e-3] = 0.0  # 0.6 mm of the tail are gone: 3 % of length and mass
+    assert simulation.diagnostics()["regime"] == "deforming"
+    skirt = (z > -15e-3) & (z < -9e-3)
+    fraction[np.ix_(skirt, np.arange(24) == 5)] = 0.0  # a gap, and outside of it what was turned back
+    fraction[np.ix_(skirt, np.arange(24) == 7)] = 1.0
+    found = simulation.diagnostics()
+    assert found["rod_core_mass_kg"] < 0.9 * found["rod_mass_kg"]
+    assert found["regime"] == "eroding"
+
+
+def test_what_has_failed_is_debris(simulation):
+    """The nose fails over 4 mm: it still counts for the depth and is mass of the rod, not of its core nor its length."""
+    before = simulation.diagnostics()
+    _, z = cells(simulation)
+    damage = simulation.grid.interior(simulation.state.dmg)
+    damage[0][z > -4e-3] = 1.0
+    found = simulation.diagnostics()
+    assert found["rod_length_m"] == pytest.approx(16.5e-3, rel=1e-9)
+    assert found["penetration_depth_m"] == before["penetration_depth_m"]
+    assert found["rod_failed_mass_kg"] == pytest.approx(np.pi * 3e-3**2 * 3.7e-3 * 18160, rel=1e-9)
+    assert found["rod_core_mass_kg"] < found["rod_mass_kg"] - found["rod_failed_mass_kg"] + 1e-12
+    assert (found["target_failed_mass_kg"], found["regime"]) == (0.0, "eroding")
+
+
+def test_what_flies_back_does_not_stop_the_run(simulation):
+    """Half of the mass is torn off and flies back as fast as the core goes on: the mean is at rest, the core is not."""
+    fraction, z = cells(simulation)
+    fraction[(z > -11e-3) & (z < -10e-3)] = 0.0
+    v = simulation.grid.interior_vertices(simulation.state.v)[0]
+    v[:] = np.where(simulation.grid.z_edges < -10.4e-3, -1000.0, 1000.0)[:, None]
+    found = simulation.diagnostics()
+    assert abs(found["rod_mean_velocity_m_s"]) < 100.0
+    assert found["rod_core_velocity_m_s"] == pytest.approx(1000.0, rel=1e-12)
+    assert simulation.penetrator.velocity() == found["rod_core_velocity_m_s"]
+    simulation.penetrator._intact = lambda rows, columns=slice(None): 0.0 * fraction[rows, columns]
+    assert simulation.penetrator.velocity() == pytest.approx(505.0, rel=0.01)  # what flies on, over the mass of all
+
+
+def test_debris_against_the_flank_is_not_of_the_core(simulation):
+    """Debris of more mass than the core flies back along half of it: the core still has the rod's velocity and mass."""
+    before = simulation.diagnostics()
+    fraction, z = cells(simulation)
+    v = simulation.grid.interior_vertices(simulation.state.v)[0]
+    beside = (z > -20e-3) & (z < -6e-3)
+    fraction[np.ix_(beside, np.arange(24) >= 6)] = 1.0
+    simulation.grid.interior(simulation.state.rho)[0][beside] = 18160.0
+    v[np.ix_((simulation.grid.z_edges > -21e-3) & (simulation.grid.z_edges < -5e-3), np.arange(25) > 6)] = -400.0
+    found = simulation.diagnostics()
+    assert found["rod_mean_velocity_m_s"] < 0.0
+    assert found["rod_core_velocity_m_s"] == pytest.approx(1000.0, rel=0.01)
+    assert found["rod_core_mass_kg"] == pytest.approx(before["rod_core_mass_kg"], rel=1e-9)
+    assert simulation.penetrator.speed() == found["rod_core_velocity_m_s"]
+
+
+def test_a_run_does_not_end_while_the_tail_feeds_the_head():
+    """The mean of the core is at rest, its tail is not; a tail that only rings is no reason to go on."""
+    simulation = shot("stop.speed_below=10.0")
+    v, z = simulation.grid.interior_vertices(simulation.state.v)[0], simulation.grid.z_edges
+    for tail, reason in ((355.0, None), (0.9 * simulation.penetrator._ringing, "speed of rod below 10 m/s")):
+        v[...] = np.where(z < -15e-3, tail, 0.0)[:, None]
+        v[...] -= simulation.penetrator.velocity()
+        assert abs(simulation.penetrator.velocity()) < 10.0
+        assert simulation.stop_reason() == reason
+    assert 5.0 < simulation.penetrator._ringing < 100.0
+
+
+def ball(*options):
+    text = (toml.problems_folder() / "perforation" / "sphere.toml").read_text()
+    text = text.replace('{ to = "36 mm", size = "0.4 mm" }', '{ cells = 44, size = "1.1 mm" }')
+    text = text.replace("cells = 25", "cells = 9").replace("cells_across = 12.5", "cells_across = 4.5")
+    return Simulation(deck.loads(text.replace("1500 m/s", "5 km/s"), options))
+
+
+@pytest.mark.parametrize(
+    ("options", "reason"), [([], "perforation of plate"), (["stop.perforation=false"], "ball left the mesh")],
+    ids=["perforation", "speed"])
+def test_a_ball_that_breaks_up_has_perforated_and_left(options, reason):
+    """It goes through in pieces and flies out of the mesh: nothing that is left of it has a speed to end the run by."""
+    sim = ball(*options)
+    while sim.stop_reason() is None:
+        sim.step()
+    found = sim.diagnostics()
+    assert sim.stop_reason() == reason
+    assert sim.of_targets()["plate"]["exit_velocity_m_s"] > 3500.0
+    assert found["rod_residual_velocity_m_s"] > 3500.0
+    assert found["rod_residual_mass_kg"] > 0.5 * sim.penetrator.mass
+    assert found["penetration_depth_m"] > 6e-3
+    assert (found["regime"] == LEFT) is (reason == "ball left the mesh")
+
+
+def test_a_rod_that_earlier_bodies_cover_has_no_speed():
+    """Where bodies overlap the earlier is there: of a rod inside a block that comes first nothing is."""
+    text = TEXT.replace("TIP", "-0.3").replace('[[body]]\nname = "rod"', '[[body]]\nname = "block"\nmaterial = "Al5083"\n'
+                        'shape = "box"\nz = ["-25 mm", "0 mm"]\n[[body]]\nname = "rod"')  # fmt: skip
+    sim = Simulation(deck.loads(text, ["stop.speed_below=1.0"]))
+    assert sim.diagnostics()["rod_mean_velocity_m_s"] is None
+    assert (sim.penetrator.speed(), sim.stop_reason()) == (None, None)
+
+
+def test_a_body_that_is_gone_has_no_speed():
+    """Without [penetration]: a block flies out of an empty mesh, and the wake of 1e-6 of it does not end the run as slow."""
+    text = TEXT[:TEXT.index('[[body]]\nname = "plate"')] + '[stop]\nbody = "rod"\nspeed_below = "5 m/s"\ntime = "100 us"\n'
+    sim = Simulation(deck.loads(text.replace("TIP", "20"), ["mesh.r.0.cells=12", "mesh.z.0.cells=40"]))
+    while sim.stop_reason() is None:
+        sim.step()
+    assert sim.stop_reason() == "rod left the mesh"
+    assert sim.time < 60e-6
+
+
+#: thin air behind a thin plate, and coarse cells: the rod is out of the mesh in a few hundred cycles
+SHORT = ["mesh.r.0.cells=12", "mesh.z.0.cells=36", "mesh.z.0.to=11e-3", "body.plate.thickness=2e-3", "body.rod.tip=-0.3e-3",
+         "body.rod.length=12e-3", "mesh.z_start=-13e-3"]  # fmt: skip
+BACKWARD = ["mesh.r.0.cells=12", "mesh.z.0.cells=36", "mesh.z_start=-11e-3", "mesh.z.0.to=13e-3", "body.plate.z_front=-2e-3",
+            "body.plate.thickness=2e-3", "body.rod.tip=0.3e-3", "body.rod.direction=-1", "body.rod.velocity=-1e3",
+            "body.rod.length=12e-3"]  # fmt: skip
+
+
+def shot(*options):
+    return Simulation(deck.loads(TEXT.replace("TIP", "-0.3"), ["stop.time=100e-6", *options]))
+
+
+@pytest.mark.parametrize("options", [SHORT, BACKWARD], ids=["to +z", "to -z"])
+def test_a_rod_that_leaves_the_mesh(options):
+    """Its velocity and mass are those of the moment when the nose reached the edge, and so is its depth."""
+    sim = shot(*options)
+    before, masses = {}, []
+    while not sim.penetrator.left:
+        sim.step()
+        assert sim.time < 30e-6
+        if sim.penetrator.exit is None:
+            before = sim.diagnostics()
+            masses.append(before["rod_core_mass_kg"])
+    found = sim.diagnostics()
+    assert found["regime"] == LEFT
+    assert before["regime"] != LEFT
+    assert found["penetration_depth_m"] == pytest.approx(11e-3, abs=0.4e-3)
+    assert found["rod_residual_velocity_m_s"] == pytest.approx(before["rod_core_velocity_m_s"], rel=0.01)
+    shortly = np.median(masses[-10:])  # the row of its tail is core in one cycle and debris in the next
+    assert found["rod_residual_mass_kg"] == pytest.approx(shortly, rel=0.02)  # its ends cut cells
+    assert found["rod_mass_kg"] < 0.99 * sim.penetrator.mass
+    names = ("regime", "penetration_depth_m", "rod_residual_velocity_m_s", "rod_residual_mass_kg")
+    while sim.penetrator._length()[0] > 0.0:
+        sim.step()
+    assert sim.penetrator.gone
+    assert {name: sim.diagnostics()[name] for name in names} == {name: found[name] for name in names}
+
+
+def test_a_rod_that_has_perforated_flies_on():
+    sim = shot(*SHORT)
+    while not sim.penetrator.perforates():
+        assert sim.diagnostics()["rod_residual_mass_kg"] is None
+        sim.step()
+    found = sim.diagnostics()
+    assert found["rod_residual_velocity_m_s"] == found["rod_core_velocity_m_s"] > 500.0
+    assert found["rod_residual_mass_kg"] == found["rod_core_mass_kg"]
+    assert found["rod_residual_length_m"] == found["rod_length_m"]
+    assert found["regime"] != LEFT
+    assert found["exit_time_s"] is None or found["exit_time_s"] == sim.time
+    while sim.cycle % WATCH_EVERY:
+        sim.step()
+    when = sim.diagnostics()["exit_time_s"]
+    assert sim.time - WATCH_EVERY * sim.dt * 1.5 < when <= sim.time
+    saved = json.loads(json.dumps(sim.penetrator.saved()))
+    sim.penetrator.resume(saved)
+    for _ in range(WATCH_EVERY):
+        sim.step()
+    assert sim.diagnostics()["exit_time_s"] == when
+
+
+@pytest.mark.parametrize(
+    ("options", "reason"),
+    [(["stop.speed_below=1.0"], "rod left the mesh"), (["stop.rebound=true"], "rod left the mesh"),
+     (["stop.perforation=true", "body.plate.thickness=9e-3", "body.rod.velocity=2e3"], "rod left the mesh"), ([], None)],
+)  # fmt: skip
+def test_a_run_that_watches_its_rod_ends_when_that_is_gone(options, reason):
+    sim = shot(*SHORT, *options)
+    while sim.stop_reason() is None and not (reason is None and sim.penetrator.gone and sim.cycle % WATCH_EVERY == 0):
+        sim.step()
+    assert sim.penetrator.gone
+    assert sim.stop_reason() == reason
+
+
+def test_debris_does_not_leave_for_the_rod(simulation):
+    """Mass of the rod that flows out while its core is inside, or reaches an edge that it moves away from, says nothing."""
+    sim, sink = simulation, simulation.audit.sinks["outflow"]
+    fraction, z = cells(sim)
+    sink.mass[0] += 0.3 * sim.penetrator.mass
+    sim.state.v[...], sim.engine.dt = 1000.0, 1e-9
+    sim.penetrator.watch()
+    assert (sim.penetrator.exit, sim.diagnostics()["regime"]) == (None, "rigid")
+    fraction[-4:, :6] = 1.0  # a fragment flies out before the rod
+    sim.penetrator.watch()
+    assert sim.penetrator.exit is None
+    fraction[z < -20e-3, :6] = 1.0  # the tail reaches the edge behind it, and flies away from it
+    sim.penetrator.watch()
+    assert sim.penetrator.exit is None
+    fraction[z > -1e-3, :6] = 1.0  # the nose reaches the one before it
+    sim.penetrator.watch()
+    assert sim.penetrator.exit is not None
+    assert sim.diagnostics()["regime"] != LEFT
+    sink.mass[0] += 0.02 * sim.penetrator.mass / (2 * np.pi)
+    assert sim.diagnostics()["regime"] == LEFT
+
+
+def test_a_mesh_that_travels_faster_than_the_rod_leaves_it_behind(simulation):
+    fraction, z = cells(simulation)
+    fraction[z < -20e-3, :6] = 1.0
+    simulation.state.v[...], simulation.engine.dt = 1000.0, 1e-9
+    for speed, reached in ((900.0, False), (1100.0, True)):
+        simulation.grid.move(simulation.grid.offset + speed * simulation.dt)
+        simulation.penetrator.watch()
+        assert (simulation.penetrator.exit is not None) is reached
+
+
+def test_the_edge_behind_the_rod_of_a_mesh_that_follows_it_is_no_way_out():
+    """Debris that fills the hole behind an eroding rod hangs together with what is left of it; ahead, the edge counts."""
+    following = ("mesh.follow=rod", "boundaries.z_max=transmit")
+    assert [vertex for vertex, _ in shot().penetrator._open] == [0, 100]
+    assert [vertex for vertex, _ in shot(*following).penetrator._open] == [100]
+    assert [vertex for vertex, _ in shot(*following, "mesh.follow=none").penetrator._open] == [0, 100]
+
+
+def test_a_wall_is_no_way_out():
+    sim = shot("boundaries.z_max=wall", "body.plate.thickness=24e-3")
+    fraction, _ = cells(sim)
+    fraction[-30:, :6] = 1.0
+    sim.state.v[...], sim.engine.dt = 1000.0, 1e-9
+    sim.penetrator.watch()
+    assert sim.penetrator.exit is None
+
+
+def test_a_restart_remembers_the_exit():
+    sim = shot(*SHORT)
+    while not sim.penetrator.left:
+        sim.step()
+    again = shot(*SHORT)
+    again.load_restart_arrays({name: array.copy() for name, array in sim.restart_arrays().items()})
+    again.load_restart_scalars(json.loads(json.dumps(sim.restart_scalars())))
+    assert again.diagnostics() == sim.diagnostics()
+    assert again.restart_scalars() == sim.restart_scalars()
+
+
+def test_the_word_is_known_to_the_history():
+    assert history.REGIMES.index(LEFT) == 3
+    assert history.REGIMES[:3] == history.GROWING == ("rigid", "deforming", "eroding")

@@ -1,0 +1,160 @@
+"""What energy a body can reach: against Hugoniots and isentropes in closed form, and gases beside metals held to it."""
+
+import json
+
+import numpy as np
+import pytest
+
+from hydro2d.deck import deck as decks
+from hydro2d.errors import UnphysicalState
+from hydro2d.running.run import exit_status, run
+from hydro2d.solver.sanity import doubts
+from hydro2d.solver.simulation import Simulation
+from tests.decks import box, mesh, plate, stop, table, walls
+
+SHOT = (
+    mesh(("1 mm", 4), ("-4 mm", "8 mm", "0.25 mm"), geometry="planar")
+    + walls("r_max")
+    + box("flyer", "Al5083", z=["-3.9 mm", "-0.9 mm"], velocity="1 km/s")
+    + plate("6 mm", z_front="0.1 mm")
+    + box("air", "air", z=["-0.9 mm", "0.1 mm"], pressure="0.1 MPa")
+    + table("materials.air", eos={"model": "ideal-gas", "adiabatic_index": 1.4, "reference_density": "1.2 kg/m^3"})
+    + stop("3 us")
+)
+
+
+def reach(*options):
+    return Simulation(decks.loads(SHOT, options))._reach
+
+
+def test_a_gas_is_shocked_and_then_compressed_along_its_isentrope():
+    """The shock that stops an ideal gas, U = (g + 1)/4 v + sqrt(((g + 1)/4 v)^2 + c^2), then e ~ p^((g - 1)/g)."""
+    found, gamma, rho, p0 = reach(), 1.4, 1.2, 1e5
+    v, c2 = found.speed, gamma * p0 / rho
+    assert v == pytest.approx(1000.0, rel=0.01)
+    shock = (gamma + 1) / 4 * v + np.sqrt(((gamma + 1) / 4 * v) ** 2 + c2)
+    p = p0 + rho * shock * v
+    e = p0 / rho / (gamma - 1) + 0.5 * v**2 + p0 * v / (rho * shock)
+    assert found.highest[2] == pytest.approx(e * (found.pressure / p) ** ((gamma - 1) / gamma), rel=5e-3)
+    assert found.lowest[2] == pytest.approx(0.0, abs=1e-6)
+    assert found.gas.tolist() == [False, False, True]
+
+
+def test_a_solid_stops_on_its_hugoniot():
+    """p = rho0 (c0 + s v) v and e = v^2/2, with the constants of 5083 in the library."""
+    found = reach()
+    v = found.speed
+    assert found.pressure == pytest.approx(2670.0 * (5340.0 + 1.34 * v) * v, rel=0.02)
+    assert found.highest[0] == pytest.approx(0.5 * v**2, rel=1e-6)
+    assert -4e5 < found.lowest[0] < -2e5  # the heat that it has at room temperature
+
+
+@pytest.mark.parametrize(("option", "speed"), [
+    ("body.flyer.velocity=[0.0, 0.0]", 0.0), ("body.flyer.pressure=1e8", 1000.0), ("body.plate.velocity=[0.0, -500.0]", 1500.0),
+    ('body.flyer.flow={ pattern = "spherical", speed = -300.0 }', np.hypot(1300.0, 300.0))])
+def test_the_closing_speed_is_that_of_the_deck(option, speed):
+    assert reach(option).speed == pytest.approx(speed, abs=5.0)
+
+
+def test_where_two_bodies_meet_the_softer_one_sets_the_pressure():
+    tungsten = ["body.flyer.material=W_alloy", "boundaries.r_max=outflow", "boundaries.r_min=outflow"]
+    assert reach(*tungsten).pressure == pytest.approx(reach().pressure, rel=5e-3)
+    assert reach(*tungsten, "boundaries.z_max=wall").pressure > 4.0 * reach().pressure
+
+
+@pytest.mark.parametrize("body", [0, 2])
+def test_a_body_beyond_its_reach_is_a_fault(body):
+    """Far too little to show in the energy of the shot."""
+    simulation = Simulation(decks.loads(SHOT))
+    s, found = simulation.state, simulation._reach
+    assert simulation.faults() == []
+    for energy in (3.0 * found.highest[body], 2.5 * found.lowest[body] - 0.1 * found.highest[body]):
+        kept = s.e[body].copy()
+        s.e[body][s.vof[body] > 0] = energy
+        assert any(f'body "{simulation.table.names[body]}" has ' in fault for fault in simulation.faults())
+        s.e[body] = kept
+
+
+def doubted(simulation):
+    return [sentence for _, sentence in doubts(simulation.state, simulation.table, simulation.time, simulation._reach,
+                                       simulation.sources.given)]
+
+
+@pytest.mark.parametrize("body", [0, 2])
+def test_a_body_that_is_too_hot_or_too_cold_in_one_cell_is_a_doubt(body):
+    """In a cell that it fills; what fills less than a hundredth of its cell does not count."""
+    simulation = Simulation(decks.loads(SHOT))
+    s, found, name = simulation.state, simulation._reach, simulation.table.names[body]
+    assert doubted(simulation) == []
+    j, i = np.argwhere(s.vof[body] == 1.0)[5]
+    for energy, what in ((1.1 * found.cell_highest[body], "hot"), (1.1 * found.cell_lowest[body], "cold"), (np.nan, "hot")):
+        s.e[body, j, i] = energy
+        assert doubted(simulation)[0].startswith(f'body "{name}" is too {what} with ')
+    s.vof[body, j, i] = 0.005
+    assert doubted(simulation) == []
+
+
+def test_plastic_work_makes_a_cell_hotter_than_any_shock():
+    simulation = Simulation(decks.loads(SHOT))
+    s, highest = simulation.state, simulation._reach.cell_highest[0]
+    j, i = np.argwhere(s.vof[0] == 1.0)[5]
+    s.e[0, j, i] = 1.5 * highest
+    assert len(doubted(simulation)) == 1
+    s.ep[0, j, i] = 5.0
+    assert doubted(simulation) == []
+
+
+def test_a_temperature_of_zero_is_a_doubt():
+    simulation = Simulation(decks.loads(SHOT))
+    s = simulation.state
+    j, i = np.argwhere(s.vof[1] == 1.0)[5]
+    s.e[1, j, i] = 1.001 * simulation._reach.lowest[1]
+    (sentence,) = doubted(simulation)
+    assert sentence.startswith('body "plate" is too cold with -')
+
+
+def test_what_was_doubtful_once_is_not_forgotten(tmp_path):
+    """Not even after a restart: the run goes on, and is not trusted."""
+    simulation = Simulation(decks.loads(SHOT, ["body.air.pressure=0.0", "body.air.material=Al5083"]))
+    s = simulation.state
+    j, i = np.argwhere(s.vof[0] == 1.0)[5]
+    kept, s.e[0, j, i] = s.e[0, j, i], 2.0 * simulation._reach.cell_highest[0]
+    with pytest.raises(UnphysicalState, match="does not add up"):
+        simulation.refuse_nonsense()
+    s.e[0, j, i] = kept
+    simulation.refuse_nonsense()
+    (doubt,) = simulation.doubts()
+    assert doubt.startswith('cycle 0, time 0 s: body "flyer" is too hot')
+    again = Simulation(simulation.deck)
+    again.load_restart_arrays(simulation.restart_arrays())
+    again.load_restart_scalars(json.loads(json.dumps(simulation.restart_scalars())))
+    assert again.doubts() == [doubt]
+
+
+def test_a_film_of_air_that_is_crushed_is_not_called_done(tmp_path):
+    """Once 2.3e8 J/kg, 320 000 K, and trusted: the heat of the viscosity and the pressure of the metal went into the air."""
+    summary = run(decks.loads(SHOT), tmp_path / "run", quiet=True)
+    assert exit_status(summary) == 3
+    assert not summary["trustworthy"]
+    assert 'body "air" has ' in summary["stop_reason"]
+    assert "Leave the space empty" in summary["stop_reason"]
+
+
+def test_a_gas_beside_a_moving_metal_has_the_heat_of_its_shock():
+    """Air before a flyer at 1 km/s, not yet crushed: some 7e5 J/kg behind the shock, where metal and air share cells."""
+    simulation = Simulation(decks.loads(SHOT))
+    while simulation.time < 0.45e-6:
+        simulation.step()
+    s = simulation.state
+    mixed = (s.vof[2] > 0.01) & (s.vof[0] > 0.01)
+    assert mixed.any()
+    assert 3e5 < s.e[2][mixed].max() < 1.5e6
+    assert simulation.faults() == []
+
+
+def test_refusing_a_gas_may_be_put_off_but_not_trusted():
+    simulation = Simulation(decks.loads(SHOT, ["numerics.clip_limit=0.5"]))
+    with pytest.raises(UnphysicalState):
+        Simulation(decks.loads(SHOT)).run()
+    simulation.run("1.5 us")
+    assert simulation.faults()

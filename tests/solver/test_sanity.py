@@ -1,0 +1,186 @@
+"""Nonsense is not called done: what a state may not be, whatever the audit says."""
+
+import dataclasses
+import json
+
+import numpy as np
+import pytest
+
+from hydro2d.deck import deck
+from hydro2d.errors import DeckError, UnphysicalState
+from hydro2d.running.run import exit_status, run
+from hydro2d.solver.audit import totals
+from hydro2d.solver.simulation import Simulation
+from tests.decks import box, mesh, stop, walls
+
+TEXT = (
+    mesh(("2 mm", 4), ("20 mm", 40), geometry="planar")
+    + walls("r_max")
+    + box("flyer", "Al6061_T6", z=["2 mm", "8 mm"], velocity="300 m/s")
+    + box("wall", "Al6061_T6", z=["8 mm", "18 mm"])
+    + stop("1 us")
+)
+
+
+@pytest.fixture
+def shot():
+    simulation = Simulation(deck.loads(TEXT))
+    for _ in range(20):
+        simulation.step()
+    assert simulation.faults() == []
+    return simulation
+
+
+def close(simulation):
+    """Records by the name of a sink what the audit does not explain, as a limit of the method would."""
+    audit = simulation.audit
+    gone = audit.start.energy - totals(simulation.state).energy - sum(sink.energy for sink in audit.sinks.values())
+    audit.add("advection", energy=gone)
+
+
+def test_energy_that_nobody_recorded(shot):
+    shot.state.e[0] *= 1.0 + 1e-3
+    (fault,) = shot.faults()
+    assert fault.startswith("the energy does not add up: ")
+
+
+def test_mass_that_nobody_recorded(shot):
+    shot.state.rho[1] *= 1.0 + 1e-5
+    close(shot)
+    (fault,) = shot.faults()
+    assert fault.startswith("the mass does not add up: 1e-05 of it")
+
+
+def test_a_body_with_negative_energy_as_a_whole(shot):
+    shot.state.e[1][shot.state.vof[1] > 0] = -2e4
+    shot.state.e[1, 25, 3] = -5e4
+    close(shot)
+    (fault,) = shot.faults()
+    assert fault.startswith('body "wall" as a whole has -')
+    assert f"-5e+04 J/kg in the cell (r, z) = ({shot.grid.rc[3]:.6g}, {shot.grid.zc[25]:.6g}) m" in fault
+
+
+def test_the_heat_of_plastic_work_is_no_fault(shot):
+    """A body may be as hot as its plastic strain makes it: an eroded rod has a mean strain of 1.5."""
+    state, (rho, reach) = shot.state, (2703.0, shot._reach)
+    full = state.vof[0] > 0
+    state.e[0][full] = reach.lowest[0] + 2.1 * (reach.highest[0] - reach.lowest[0])
+    state.ep[0][full] = 0.0
+    close(shot)
+    (fault,) = (fault for fault in shot.faults() if fault.startswith('body "flyer" has'))
+    state.ep[0][full] = 1.5
+    assert 0.3e9 < reach.worked[0] * rho < 1e9
+    assert not [fault for fault in shot.faults() if fault.startswith('body "flyer" has')]
+
+
+def test_what_is_left_of_a_body_is_not_looked_at_as_a_whole(shot):
+    """The last twentieth of a rod, which is about to leave the mesh, may be hot."""
+    state, mass = shot.state, totals(shot.state).mass[0]
+    full = np.nonzero((state.vof[0] > 0).any(axis=1))[0]
+    gone = slice(full[0] + 1, None)
+    state.vof[0, gone], state.e[0] = 0.0, 1e6
+    assert 0.0 < totals(state).mass[0] < 0.1 * mass
+    assert not [fault for fault in shot.faults() if fault.startswith('body "flyer" has')]
+
+
+def test_kinetic_energy_out_of_nothing(shot):
+    shot.state.v *= 1.3
+    close(shot)
+    kinetic, gained = (fault for fault in shot.faults() if "momentum" not in fault)
+    assert kinetic.startswith("the kinetic energy is ")
+    assert 'of "flyer" at the cell (r, z) = ' in kinetic
+    assert gained.startswith("the remap of velocities has gained ")
+
+
+@pytest.mark.parametrize("clip", ["cutoff", "ke_bound", "speed_limit"])
+def test_a_clip_that_took_much(shot, clip):
+    start = shot.audit.start.energy
+    shot.state.e[0] -= 0.05 * start / totals(shot.state).mass[0]
+    shot.audit.add(clip, energy=0.05 * start)
+    (fault,) = shot.faults()
+    assert fault.startswith(f"0.05 of the energy went to {clip} (")
+    assert shot.faults(share=0.06) == []
+
+
+def test_what_is_no_number_is_a_fault(shot):
+    shot.state.e[0, 10, 3] = np.nan
+    assert shot.faults()
+
+
+def test_what_edges_put_in_counts(shot):
+    """A piston may bring any energy."""
+    work = 10.0 * shot.audit.start.energy
+    shot.state.e[1][shot.state.vof[1] > 0] += work / totals(shot.state).mass[1]
+    shot.audit.add("walls", energy=-work)
+    assert shot.faults() == []
+
+
+def test_a_run_with_a_fault_ends_within_ten_cycles(shot):
+    shot.state.e[1][shot.state.vof[1] > 0] = -2e4
+    close(shot)
+    for _ in range(9):
+        shot.step()
+    with pytest.raises(UnphysicalState, match='body "wall" as a whole has') as stopped:
+        shot.step()
+    assert f"cycle {shot.cycle}, time " in str(stopped.value)
+
+
+def spoil(monkeypatch, cycle):
+    """Lets ke_bound take a twentieth of the energy in one cycle."""
+    step = Simulation.step
+
+    def spoiled(self):
+        step(self)
+        if self.cycle == cycle:
+            part = 0.05 * self.audit.start.energy
+            self.state.e[0] -= part / totals(self.state).mass[0]
+            self.audit.add("ke_bound", energy=part)
+
+    monkeypatch.setattr(Simulation, "step", spoiled)
+
+
+def test_a_run_that_clips_is_unphysical_and_keeps_an_earlier_state(tmp_path, monkeypatch):
+    spoil(monkeypatch, 115)
+    summary = run(deck.loads(TEXT, ["stop.time=1", "stop.cycles=200"]), tmp_path / "run", quiet=True)
+    assert (summary["status"], summary["cycles"], exit_status(summary)) == ("unphysical", 120, 3)
+    assert not summary["trustworthy"]
+    (fault,) = summary["faults"]
+    assert fault in summary["stop_reason"]
+    assert json.loads((tmp_path / "run" / "summary.json").read_text())["faults"] == [fault]
+    again = run(deck.loads(TEXT, ["stop.time=1", "stop.cycles=110"]), tmp_path / "run", restart=True, quiet=True)
+    assert (again["status"], again["cycles"], again["trustworthy"]) == ("done", 110, True)
+
+
+def test_a_collapsed_time_step_names_its_body(shot):
+    shot.state.e[1, 25, 3] = 1e14
+    with pytest.raises(UnphysicalState, match=r'time step .* below dt_min = 1e-08 s, set by .*, in body "wall"'):
+        step_with(shot, dt_min=1e-8)
+
+
+def step_with(simulation, **changes):
+    simulation.engine.method = dataclasses.replace(simulation.engine.method, **changes)
+    simulation.step()
+
+
+def test_a_fault_in_the_last_cycle_is_seen(tmp_path, monkeypatch):
+    spoil(monkeypatch, 17)
+    summary = run(deck.loads(TEXT, ["stop.cycles=17"]), tmp_path / "run", quiet=True)
+    assert (summary["status"], summary["cycles"]) == ("unphysical", 17)
+
+
+def test_a_deck_may_let_it_go_on_but_not_be_trusted(tmp_path, monkeypatch, capsys):
+    spoil(monkeypatch, 15)
+    summary = run(deck.loads(TEXT, ["stop.cycles=30", "numerics.clip_limit=0.1"]), tmp_path / "run")
+    assert (summary["status"], summary["trustworthy"]) == ("done", False)
+    assert f"NOT TRUSTWORTHY: {summary['faults'][0]}" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(("key", "value", "reason"), [
+    ("courant", 0.95, "unstable"), ("courant", 1e-300, "must lie between"), ("ke_bound", 1e-6, "of its own momentum"),
+    ("viscosity_linear", 5.0, "unstable"), ("viscosity_quadratic", 50.0, "unstable"), ("relaxation", 10.0, "overshoot"),
+    ("max_growth", 10.0, "must lie between 1 and 2"),
+    ("max_growth", 0.5, "must lie between"), ("clip_limit", 2.0, "between 0 and 1")])
+def test_choices_that_are_never_sound(key, value, reason):
+    with pytest.raises(DeckError, match=reason) as refused:
+        deck.loads(TEXT, [f"numerics.{key}={value}"])
+    assert f"numerics.{key}" in str(refused.value)

@@ -1,0 +1,1 @@
+"""Models of strength and failure, one at a time."""
