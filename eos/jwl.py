@@ -86,7 +86,10 @@ def products(rho, e, par):
 
 @point
 def evaluate(rho, e, internal, par):
-    """(p, dp/drho, dp/de, T) at density ``rho`` > 0 and energy ``e``, the burn fraction held; SI. explanation/explosives (1)"""
+    """(p, dp/drho, dp/de, T) at density ``rho`` > 0 and energy ``e``, the burn fraction held; SI.
+
+    explanation/explosives, (1)
+    """
     burnt = internal[BURNT]
     solid = 1.0 - burnt
     p, dpdrho, dpde, cold = products(rho, e, par)
