@@ -14,6 +14,7 @@ from hydro2d.errors import unknown
 from hydro2d.mesh.edges.base import EDGES
 from hydro2d.mesh.edges.registry import BY_NAME, KINDS
 from hydro2d.mesh.sinks import SINKS
+from hydro2d.sources.detonation import EXPLOSIVES
 
 #: rod radii that a mesh should reach ahead of the rod that it follows; at this distance its edge no longer affects the rod
 AHEAD = 20
@@ -280,6 +281,10 @@ def unsupported(deck: Deck) -> Iterator[tuple[tuple, str]]:
                 ("sliding", "yield_factor"),
                 f'"{deck.sliding.yield_factor}" needs a hard body with a radius; give a number or "off"',
             )
+    for number, entry in enumerate(deck.body):
+        given = [key for key in ("energy", "pressure", "temperature") if getattr(entry, key) is not None]
+        if given and deck.materials[entry.material].eos.name in EXPLOSIVES:
+            yield ("body", number, given[0]), "would replace the energy of the detonation; an explosive begins at rest"
     for number, entry in enumerate(deck.source):
         if misfit := entry.misfit(deck.materials[body(deck, entry.body).material]):
             yield ("source", number, "body"), misfit
