@@ -11,12 +11,14 @@ from typing import TYPE_CHECKING, Any
 
 from hydro2d import toml
 from hydro2d.deck import deck as decks
+from hydro2d.deck import plain_numbers
 from hydro2d.deck.deck import Deck
 from hydro2d.errors import UnphysicalState
 from hydro2d.files import plain, write_text
 from hydro2d.results.reading import Results
 from hydro2d.running import run as runs
 from hydro2d.running.run import deck_hash
+from hydro2d.running.team import at_most
 from hydro2d.study import cases, cluster, contents, layout
 from hydro2d.study import sweep as sweeps
 from hydro2d.study.choice import Choice
@@ -30,14 +32,18 @@ if TYPE_CHECKING:
 __all__ = ["Study", "open_run", "open_study", "run", "sweep"]
 
 
-def run(deck: Deck | str | Path, directory: str | Path | None = None, *, restart: bool = False, overwrite: bool = False,
-        quiet: bool = False, columns: Mapping[str, Callable[[Simulation], float]] | None = None) -> Results:  # fmt: skip
+def run(deck: Deck | str | Path, directory: str | Path | None = None, *, threads: int | None = None, restart: bool = False,
+        overwrite: bool = False, quiet: bool = False,
+        columns: Mapping[str, Callable[[Simulation], float]] | None = None) -> Results:  # fmt: skip
     """Runs a deck to its end in a directory, as the command `hydro2d run` does, and opens the results.
+
+    A notebook shows a bar and the numbers of the moment while it runs.
 
     Parameters
     ----------
     deck : Deck, or path of a deck file
     directory : where everything is written; default: ``output.directory`` of the deck, else ``runs/NAME``
+    threads : largest number of threads, for this run; default: all that the process has. The results do not depend on it
     restart, overwrite : continue the existing run, or replace it
     quiet : prints nothing; log.txt is still written
     columns : dict of functions of the simulation, by name
@@ -46,7 +52,8 @@ def run(deck: Deck | str | Path, directory: str | Path | None = None, *, restart
     Raises
     ------
     DeckError, RunError, LockError, SnapshotError
-        The deck is wrong, the directory already holds a run, another process uses it, or there is nothing to continue from.
+        The deck or the number of threads is wrong, the directory already holds a run, another process uses it, or there is
+        nothing to continue from.
     ColumnError
         A column has no name for a file, or fails; ``restart=True`` continues the run.
     UnphysicalState
@@ -56,7 +63,8 @@ def run(deck: Deck | str | Path, directory: str | Path | None = None, *, restart
     """
     deck = deck if isinstance(deck, Deck) else Deck.from_file(deck)
     directory = Path(directory or str(deck.output.directory))
-    summary = runs.run(deck, directory, restart=restart, overwrite=overwrite, quiet=quiet, columns=columns)
+    with at_most(threads):
+        summary = runs.run(deck, directory, restart=restart, overwrite=overwrite, quiet=quiet, columns=columns)
     if summary["status"] == "interrupted":
         raise KeyboardInterrupt(f"{directory}: {summary['stop_reason']}")
     if summary["status"] == "unphysical":
@@ -166,6 +174,8 @@ def _plan(study: str | Path | Deck, axes: Mapping[str, Sequence[Any]] | None, ov
             raise StudyError("axes: a key is empty")
         if isinstance(values, str) or not isinstance(values, Iterable):
             raise StudyError(f"axes: {key}: expected a list of values, is {values!r}")
+        if wrong := [text for value in plain({key: list(values)})[key] for text in plain_numbers.of_override(key, value)]:
+            raise StudyError(f"axes: {wrong[0]}")
     file = _base(study, directory) if isinstance(study, Deck) else decks.find(study)
     tables = {"deck": str(file.resolve()), "axis": [{"name": _name(key, axes), "key": key, "values": list(values)}
                                                     for key, values in axes.items()]}  # fmt: skip

@@ -444,3 +444,67 @@ def test_what_is_no_study_is_refused(tmp_path):
             hydro2d.sweep(tubes.write(tmp_path), directory=tmp_path / "out", **options)
     with pytest.raises(hydro2d.StudyError, match="no deck has the key body.low.colour"):
         hydro2d.sweep(tubes.write(tmp_path).with_name("tube.toml"), {"body.low.colour": [1]}, directory=tmp_path / "out")
+
+
+# ---------------------------------------------------------------------------------------------------- plain numbers, threads
+
+
+@pytest.mark.parametrize(("changes", "told"), [
+    ({"body.rod.radius": 2.5}, r'body.rod.radius: 2.5 without a unit is 2.5 m; write "2.5 mm", or "2.5 m" if that is meant'),
+    ({"stop.time": 60}, 'stop.time: 60 without a unit is 60 s; write "60 us"'),
+    ({"body.rod.velocity": 1.086}, 'write "1.086 km/s"'),
+    ({"mesh.z": [{"to": 40, "cells": 20}]}, r"mesh.z\[0\].to: 40 without a unit is 40 m"),
+    ({"gauge": [{"name": "a", "r": np.float64(3.0), "z": 0.0}]}, r"gauge\[0\].r: 3 without a unit"),
+])  # fmt: skip
+def test_a_number_that_lacks_its_unit_is_found(changes, told):
+    with pytest.raises(hydro2d.DeckError, match=told):
+        hydro2d.Deck.from_toml(TEXT, changes)
+
+
+def test_a_ball_of_radius_two_and_a_half_is_found_in_a_dict_and_an_axis(deck):
+    tables = tomllib.loads(TEXT)
+    tables["body"][0]["radius"] = 2.5
+    with pytest.raises(hydro2d.DeckError, match=r"^shot: body\[0\].radius: 2.5 without a unit is 2.5 m"):
+        hydro2d.Deck.from_dict(tables, name="shot")
+    with pytest.raises(hydro2d.StudyError, match=r"axes: body.rod.radius: 2.5 without a unit"):
+        hydro2d.sweep(deck, {"body.rod.radius": [2e-3, 2.5]}, directory="nowhere")
+
+
+def test_plain_numbers_that_can_be_meant_are_taken():
+    """In SI units: a rod of 2 mm, no velocity, a speed to compare with, a time on the wall; and what names its unit."""
+    found = hydro2d.Deck.from_toml(TEXT, {"body.rod.radius": 2e-3, "body.plate.velocity": 0.0, "stop.speed_below": 5,
+                                          "output.restart_interval": 300, "body.rod.velocity": "5 m/s", "stop.time": 1e-5})
+    assert (found.body[0].radius, found.stop.speed_below, found.body[0].velocity) == (2e-3, 5.0, (0.0, 5.0))
+
+
+def test_the_deck_of_a_run_is_a_deck(deck, shot):
+    assert isinstance(shot.deck, hydro2d.Deck)
+    assert shot.deck.body[0].velocity == deck.body[0].velocity
+    assert shot.deck.to_toml() == deck.to_toml().replace('name = "shot"', f'name = "{shot.label}"', 1)
+    assert shot.tables["stop"]["time"] == 4e-6
+
+
+def test_threads_are_those_of_the_run_alone(deck, tmp_path, monkeypatch):
+    from hydro2d import jit
+
+    before, seen = jit.threads(), []
+    columns = {"threads": lambda sim: seen.append(jit.threads()) or 1.0}
+    hydro2d.run(deck, tmp_path / "one", threads=1, quiet=True, columns=columns)
+    assert set(seen) == {1}
+    assert jit.threads() == before
+    with pytest.raises(hydro2d.Error, match=r"threads = 99: this process can use from 1 to"):
+        hydro2d.run(deck, tmp_path / "many", threads=99)
+    assert not (tmp_path / "many").exists()
+
+
+def test_reprs_are_short(deck, shot):
+    from hydro2d.study import layout
+
+    assert repr(deck) == str(deck)
+    assert len(repr(deck)) < 120
+    assert repr(deck.stop) == str(deck.stop) == "Stop(time=4e-06, body='rod', speed_below=55.0)"
+    assert len(repr(deck.body[0])) < 250
+    assert repr(layout.gather([shot.directory])).endswith(": 1 case, 1 ended>")
+    assert len(repr(hydro2d.open_study(shot.directory).cases[0])) < 250
+    assert len(repr(shot)) < 120
+    assert repr(shot.view()).startswith("<View: a page of ")

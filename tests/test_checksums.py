@@ -97,7 +97,7 @@ def test_a_change_is_refused_until_it_is_meant(done, name, change, remedy):
         Results(done)
     file.write_text("\n".join(line for line in changed.split("\n") if "sha256 " not in line and '"sha256"' not in line))
     found = Results(done)
-    assert "fine" in found.summary["status"] or found.deck["numerics"]["courant"] == 0.4
+    assert "fine" in found.summary["status"] or found.tables["numerics"]["courant"] == 0.4
 
 
 def test_files_of_earlier_versions_are_read(tmp_path):

@@ -26,11 +26,12 @@ def calibrated(path: str) -> float:
     grid: pyvista.RectilinearGrid = sim.to_pyvista()
     print(text, reason, rows, columns, density, now, grid)
 
-    shot: hydro2d.Results = hydro2d.run(deck, "runs/shot", columns={"time_again_s": lambda each: each.time})
+    shot: hydro2d.Results = hydro2d.run(deck, "runs/shot", threads=1, columns={"time_again_s": lambda each: each.time})
+    resolved: hydro2d.Deck = shot.deck
     same: hydro2d.Results = hydro2d.open_run("runs/shot")
     everything: xarray.Dataset = same.fields
     table: pandas.DataFrame = hydro2d.sweep(deck, {"body.rod.velocity": [900.0, 1000.0]}, directory="runs/study")
     cases = hydro2d.open_study("runs/study").cases
-    print(everything, table, [case.status for case in cases])
+    print(resolved, everything, table, [case.status for case in cases])
     depth: float = shot.summary["penetration_depth_m"]
     return depth

@@ -19,6 +19,7 @@ from hydro2d.cli.diverge import diverge
 from hydro2d.cli.ensemble import By, Chosen, Member, Repeats, Seed, converge, run_all
 from hydro2d.cli.fit_strength import fit_strength
 from hydro2d.cli.model import model
+from hydro2d.cli.new import new
 from hydro2d.cli.report import report
 from hydro2d.cli.status import status
 from hydro2d.cli.study import sweep, transition
@@ -44,6 +45,7 @@ app.command(curve)
 app.command(diverge)
 app.command(fit_strength)
 app.command(model)
+app.command(new)
 app.command(report)
 app.command(status)
 app.command(sweep)
@@ -167,7 +169,7 @@ def run(
 def check(
     deck: Path, *, set_: Overrides = None, threads: Count | None = None, picture: Path | None = None,
 ) -> int:
-    """Validates a deck and summarises it: mesh, masses, cells across rods and balls, cost and memory.
+    """Validates a deck and summarises it: mesh, masses, cells across every body, cost and memory.
 
     Example: hydro2d check problems/cth_nose_shape/hemi_5083_1086.toml --picture start.png
 
@@ -180,7 +182,7 @@ def check(
     threads
         Number of threads for the estimate of the time; default: all cores.
     picture
-        Draws the initial state and saves it as this file (.png, .pdf, .svg).
+        Draws the bodies, the mesh, tracers and gauges, and saves the picture as this file (.png, .pdf, .svg).
     """
     from hydro2d.running import check as checks
 
@@ -189,9 +191,9 @@ def check(
         say(line)
     if picture is not None:
         import_matplotlib()
-        from hydro2d.results import figures
+        from hydro2d.results import figures, start_figure
 
-        figures.save(figures.draw_sections([[(found.dump, found.deck.name, None)]], "material"), picture)
+        figures.save(start_figure.draw(found.dump, found.deck), picture)
         say(f"wrote     {picture}")
     return 0
 

@@ -41,6 +41,16 @@ class Section(BaseModel):
 
     model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
 
+    def __repr_args__(self) -> Iterator[tuple[str | None, Any]]:
+        """The keys that do not have their defaults: what a reader wants to see of a section."""
+        fields = type(self).model_fields
+        for name, value in super().__repr_args__():
+            if name not in fields or fields[name].is_required() or value != fields[name].default:
+                yield name, value
+
+    def __str__(self) -> str:
+        return repr(self)
+
 
 def one_of(kinds: Mapping[str, type[Section]], key: str) -> Any:
     """The type of a table that is one of several kinds of sections, which the word of a key tells apart."""

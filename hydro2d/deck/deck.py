@@ -17,9 +17,10 @@ import numpy as np
 from pydantic import PrivateAttr, ValidationError, ValidationInfo, model_validator
 
 from hydro2d import toml, units
-from hydro2d.deck import keys, sections
+from hydro2d.deck import keys, plain_numbers, sections
 from hydro2d.deck.checks import extent, faces, heading, inconsistencies, room, travel, unsupported
-from hydro2d.deck.mesh import axis_edges, body, body_radius
+from hydro2d.deck.generated_mesh import ReachError, as_segments, with_segments
+from hydro2d.deck.mesh import axis_edges, body, body_radius, cells_between
 from hydro2d.deck.warnings import warnings
 from hydro2d.errors import MOST_LINES, DeckError, Sources, spelled, unknown
 from hydro2d.files import plain
@@ -30,6 +31,7 @@ __all__ = [
     "DeckError",
     "body",
     "body_groups",
+    "cells_between",
     "edges",
     "extent",
     "find",
@@ -43,6 +45,7 @@ __all__ = [
     "surface",
     "travel",
     "warnings",
+    "written_segments",
     "yield_factor",
 ]
 
@@ -88,7 +91,8 @@ class Deck(sections.Deck):
         overrides : dict or list of str
             Values by dotted key that replace those of the deck: ``{"body.rod.velocity": "1200 m/s", "stop.time": 50e-6}``. A
             list holds ``"key=value"``, as for the option ``--set`` of the command line. Numbers are in SI units; text may name
-            its unit.
+            its unit. Numbers that are probably meant in another unit are refused: lengths above 1 m, times above 0.1 s and
+            velocities below 10 m/s must name theirs.
 
         Raises
         ------
@@ -116,6 +120,7 @@ class Deck(sections.Deck):
                   folder: str | Path = ".") -> Deck:  # fmt: skip
         """Makes a deck from nested dicts and lists with the contents of a TOML file.
 
+        tables : numbers are in SI units; those that are probably meant in another are refused, as in overrides
         name, folder, overrides : as in `from_toml`
 
         Raises DeckError.
@@ -173,7 +178,10 @@ def of_tables(tables: Mapping[str, Any], overrides: Overrides = (), name: str = 
     """Makes a deck from nested dicts and lists, as a TOML file would give them. Raises DeckError as ``load`` does."""
     sources = Sources()
     sources.add(name, {}, "")
-    data = toml.with_included(plain(toml.within_limits(tables, name)), Path(folder), sources)
+    given = plain(toml.within_limits(tables, name))
+    if wrong := [f"{name}: {spelled(path)}: {said}" for path, said in islice(plain_numbers.questionable(given), MOST_LINES)]:
+        raise DeckError("\n".join(wrong))
+    data = toml.with_included(given, Path(folder), sources)
     return _resolve(data, name, overrides, sources, True)
 
 
@@ -183,6 +191,8 @@ def _laid_over(data: dict, overrides: Overrides, sources: Sources) -> dict:
     if isinstance(overrides, Mapping):
         toml.within_limits(overrides, "overrides")
         entries = [(key, value, f"override {key} = {value!r}") for key, value in plain(overrides).items()]
+        if wrong := [f"{said}: {text}" for key, value, said in entries for text in plain_numbers.of_override(key, value)]:
+            raise DeckError("\n".join(wrong[:MOST_LINES]))
     else:
         entries = [(*toml.assignment(text), f"--set {text}") for text in overrides]
     for key, value, said in entries:
@@ -207,6 +217,10 @@ def _resolve(data: dict, name: str, overrides: Overrides, sources: Sources, trus
         problems += [str(complaint(path, message)) for path, message in islice(_unknown_materials(data), MOST_LINES)]
         problems += [f"{len(found) - MOST_LINES} further mistakes"] if len(found) > MOST_LINES else []
         raise DeckError("\n".join(dict.fromkeys(problems))) from None
+    try:
+        deck = with_segments(deck)
+    except ReachError as error:
+        raise complaint(error.path, str(error)) from None
     wrong_together = islice(chain(inconsistencies(deck), _unknown_materials(data)), MOST_LINES)
     problems += [str(complaint(path, message)) for path, message in wrong_together]
     own, wrong = _own_materials(deck, complaint, trust)
@@ -311,6 +325,11 @@ def _in_the_way(deck: Deck, rod, plates: list) -> list[str]:
     ahead = [entry for entry in across if sign * (sum(extent(entry, deck, "z")) - here) > 0.0]
     ahead.sort(key=lambda entry: sign * sum(extent(entry, deck, "z")))
     return [entry.name for entry in ahead or plates[:1]]
+
+
+def written_segments(deck: Deck) -> dict[str, Any]:
+    """Overrides by key that write out the segments of a mesh described by cells_across and reach; empty for other meshes."""
+    return as_segments(deck, deck._tables)
 
 
 def slots(deck: Deck) -> list[str]:

@@ -7,7 +7,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from hydro2d.deck.sections import Deck, Segment
+from hydro2d.deck.mesh_sections import Segment
+from hydro2d.deck.sections import Deck
 from hydro2d.units import written
 
 #: fraction of a cell by which a segment may miss a whole number of cells; beyond the second value there is a notice
@@ -51,6 +52,11 @@ def axis_edges(deck: Deck, axis: str) -> np.ndarray:
     for *_, new in _laid(deck, axis):
         edges += new.tolist()
     return np.array(edges)
+
+
+def cells_between(edges: np.ndarray, low: float, high: float) -> float:
+    """Number of cells from low to high, of what lies on the mesh; a cell that is cut counts by its share. edges : (n + 1,)"""
+    return float(np.diff(np.interp((low, high), edges, np.arange(len(edges))))[0])
 
 
 def misfits(deck: Deck) -> Iterator[str]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
-from pydantic import AfterValidator, BeforeValidator, Field, WithJsonSchema, create_model, field_validator, model_validator
+from pydantic import AfterValidator, BeforeValidator, Field, WithJsonSchema, create_model, model_validator
 
 from hydro2d import units
 from hydro2d.deck.base import (
@@ -24,79 +24,9 @@ from hydro2d.deck.base import (
 )
 from hydro2d.deck.bodies import AnyBody
 from hydro2d.deck.curves import SpeedOverTime
+from hydro2d.deck.mesh_sections import Mesh
 from hydro2d.mesh.edges.registry import KINDS, words
 from hydro2d.sources.registry import AnySource
-
-_SEGMENTS = (
-    "{to, cells}, {to, size}, {cells, size}, {to, ratio}, {cells, ratio}, {to, last}; the last three also take `first`, "
-    "and without it continue the segment before; {across, cells_across} can replace size and first"
-)
-
-
-_UNEVEN = "neighbouring cells that differ by more cannot transmit a wave"
-
-
-class Segment(Section):
-    """A row of cells along one axis; segments follow one another. A ratio is adjusted so that the segment ends at `to`."""
-
-    to: Length | None = Field(None, description="position of the far edge", examples=["2 cm"])
-    cells: int | None = Field(None, gt=0, le=1_000_000, description="number of cells", examples=[40])
-    size: PositiveLength | None = Field(
-        None, description="size of every cell; must divide the length of the segment", examples=["0.5 mm"]
-    )
-    first: PositiveLength | None = Field(
-        None, description="size of the first cell; default: previous size x ratio", examples=["0.5 mm"]
-    )
-    last: PositiveLength | None = Field(None, description="size of the last cell", examples=["5 mm"])
-    ratio: Annotated[float, within(1e-3, 1e3, _UNEVEN)] | None = Field(
-        None, description="ratio of the size of each cell to that of the cell before", examples=[1.05]
-    )
-    across: str | None = Field(None, description="a body whose radius sets the size of the cells", examples=["rod"])
-    cells_across: Annotated[float, within(0.01, 1e6, "fewer resolve nothing, more fit on no machine")] | None = Field(
-        None, description="cells across the radius of that body", examples=[8.5])
-
-    @model_validator(mode="after")
-    def _shape(self):
-        given = {key for key in ("to", "cells", "size", "first", "last", "ratio") if getattr(self, key) is not None}
-        if (self.across is None) != (self.cells_across is None):
-            raise ValueError("across and cells_across go together")
-        if self.across is not None:
-            graded = bool(given & {"ratio", "last"})
-            if ("first" if graded else "size") in given:
-                raise ValueError("across already gives the size of the cells; leave out first or size")
-            given.add("first" if graded else "size")
-        even = ("to cells", "to size", "cells size", "to ratio", "cells ratio", "to last")
-        with_first = ("to first ratio", "cells first ratio", "to first last")
-        if given not in [set(entry.split()) for entry in even + with_first]:
-            raise ValueError(f"{', '.join(sorted(given)) or 'nothing'} does not define a segment; it takes {_SEGMENTS}")
-        return self
-
-
-class Mesh(Section):
-    """The mesh. r = 0 is the axis of symmetry in cylindrical geometry; z is the axis a rod flies along."""
-
-    geometry: Literal["cylindrical", "planar"] = Field("cylindrical", description="r-z with an axis, or plane strain")
-    r_start: Length = Field(0.0, description="inner edge of the mesh", examples=["0 mm"])
-    z_start: Length = Field(0.0, description="lower edge of the mesh", examples=["-10 cm"])
-    r: tuple[Segment, ...] = Field(
-        min_length=1, description="segments from r_start outward",
-        examples=[[{"to": "6 mm", "size": "0.5 mm"}, {"to": "8 cm", "ratio": 1.1}]],
-    )
-    z: tuple[Segment, ...] = Field(
-        min_length=1, description="segments from z_start upward", examples=[[{"to": "10 cm", "cells": 400}]]
-    )
-    follow: str | None = Field(
-        None, description="a body with which the whole mesh travels along z; what the deck places ahead enters when the mesh "
-        "reaches it; default and none: the mesh does not move",
-        examples=["rod"],
-    )
-
-    @field_validator("follow")
-    @classmethod
-    def _nobody(cls, follow: str | None) -> str | None:
-        """``none`` cancels the value of an included deck."""
-        return None if follow == "none" else follow
-
 
 if TYPE_CHECKING:
     Inner = str

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from hydro2d.deck.checks import AHEAD, extent, room
-from hydro2d.deck.mesh import axis_edges, body, misfits
+from hydro2d.deck.mesh import axis_edges, body, cells_between, misfits
 from hydro2d.deck.sections import Deck
 from hydro2d.mesh.edges.registry import BY_NAME
 from hydro2d.sources.detonation import EXPLOSIVES
@@ -48,7 +48,7 @@ def _coarse_bodies(deck: Deck) -> Iterator[str]:
                 continue
             edges, (low, high) = axis_edges(deck, axis), extent(entry, deck, axis)
             low, high = np.clip((low, high), edges[0], edges[-1])
-            cells = float(np.diff(np.interp((low, high), edges, np.arange(len(edges))))[0])
+            cells = cells_between(edges, low, high)
             if 0.0 < cells < CELLS_ACROSS - 1e-9 and not (low == edges[0] and high == edges[-1]):
                 yield f'body "{entry.name}": {cells:.1f} cells across it along {axis}; waves in it need at least {CELLS_ACROSS}'
 

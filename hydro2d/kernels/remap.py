@@ -119,8 +119,8 @@ def update_row(dj, di, j, i0, i1, m, carried, rules, below, above, b, body_range
             # what a cell without flux is multiplied and divided by is one
             old_v[x] = 1.0 if same else volume
             old_m[x] = 1.0 if same else mass
-            new_v[x] = 1.0 if same else (1.0 / after if after > 0.0 else 0.0)
-            new_m[x] = 1.0 if same else (1.0 / mass_after if mass_after > 0.0 else 0.0)
+            new_v[x] = 1.0 if same else (1.0 / after if after > TINY else 0.0)  # less has no inverse
+            new_m[x] = 1.0 if same else (1.0 / mass_after if mass_after > TINY else 0.0)
         for place in range(1, carried[0] + 1):
             k = carried[place]
             a_j = q[k, m, j, lo:hi]

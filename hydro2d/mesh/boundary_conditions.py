@@ -27,7 +27,9 @@ class BoundaryConditions:
 
     def __init__(self, edges: tuple[Edge, ...]):
         self.edges, self.velocity = edges, np.zeros(4)
-        self.drive(0.0)
+        for n, edge in enumerate(edges):
+            self.velocity[n] = edge.constrain(0.0) or 0.0
+        self._driven = [(n, edge) for n, edge in enumerate(edges) if len(set(edge.speeds())) > 1]
 
     @classmethod
     def of(cls, boundaries: Mapping[str, Any]) -> BoundaryConditions:
@@ -36,8 +38,8 @@ class BoundaryConditions:
 
     def drive(self, time: float) -> None:
         """Gives `velocity` its values at a time, s."""
-        for n, edge in enumerate(self.edges):
-            self.velocity[n] = edge.constrain(time) or 0.0
+        for n, edge in self._driven:  # the velocities of the others never change
+            self.velocity[n] = edge.constrain(time)
 
     @cached_property
     def sinks(self) -> list[str]:

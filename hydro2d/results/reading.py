@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+import copy
 import html
 import tomllib
 from dataclasses import replace
+from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from hydro2d import checksums
+from hydro2d import checksums, toml
+from hydro2d.deck import keys
 from hydro2d.errors import Error
 from hydro2d.files import read_json
 from hydro2d.mesh.edges.registry import halved
@@ -28,6 +31,7 @@ if TYPE_CHECKING:
     import xarray
     from matplotlib.axes import Axes
 
+    from hydro2d.deck.deck import Deck
     from hydro2d.results.viewer.page import View
     from hydro2d.solver.simulation import Simulation
 
@@ -45,8 +49,8 @@ class Results:
     Attributes
     ----------
     directory : Path
-    deck : dict
-        The resolved deck, SI units.
+    tables : dict
+        The resolved deck as nested dicts and lists, SI units, as it stands in the directory.
     summary : dict
         The contents of summary.json; empty until the run has ended.
     trust : bool
@@ -59,12 +63,22 @@ class Results:
         if not (self.directory / DECK).exists():
             raise ResultsError(_no_run(self.directory))
         try:
-            self.deck = tomllib.loads(checksums.verified_text(self.directory / DECK, ResultsError))
+            self.tables = tomllib.loads(checksums.verified_text(self.directory / DECK, ResultsError))
         except (ValueError, RecursionError) as error:
             raise ResultsError(f"{self.directory / DECK} cannot be read: {error}") from None
         file = self.directory / SUMMARY
         self.summary, _ = plausible(read_json(file, ResultsError) if file.exists() else {})
         self._history: tuple[int, dict[str, np.ndarray]] | None = None
+
+    @cached_property
+    def deck(self) -> Deck:
+        """The resolved deck, as `Deck.from_file` gives it: ``deck.body[0].velocity``. ``deck.to_toml()`` writes it.
+
+        Raises DeckError if this version does not accept the deck, and ModelError without trust in a model that it carries.
+        """
+        from hydro2d.deck import deck as decks
+
+        return decks.loads(toml.dumps(keys.renewed(copy.deepcopy(self.tables))), name=self.label, trust=self.trust)
 
     @property
     def label(self) -> str:
@@ -153,7 +167,7 @@ class Results:
 
     def dump(self, time: float | None = None) -> vtk.Dump:
         """The fields of the dump nearest to a time in s, or of the last dump, as arrays by their names in the file."""
-        return replace(vtk.read_grid(self.dump_file(time)), mirrored=mirrored(self.deck))
+        return replace(vtk.read_grid(self.dump_file(time)), mirrored=mirrored(self.tables))
 
     def state(self) -> vtk.Dump:
         """All fields of the restart file, in full precision. Raises SnapshotError, and ModelError without trust in a model."""
@@ -220,28 +234,28 @@ class Results:
     @property
     def planar(self) -> bool:
         """Whether the mesh has no axis."""
-        return _table(self.deck, "mesh").get("geometry") == "planar"
+        return _table(self.tables, "mesh").get("geometry") == "planar"
 
     @property
     def surface(self) -> float | None:
         """Axial position of the target's original surface, m."""
-        return self.deck.get("penetration", {}).get("surface")
+        return self.tables.get("penetration", {}).get("surface")
 
     @property
     def direction(self) -> int:
         """+1 where the projectile flies along +z, -1 otherwise."""
-        rod = self.deck.get("penetration", {}).get("rod")
-        return next((body.get("direction", 1) for body in self.deck["body"] if body["name"] == rod), 1)
+        rod = self.tables.get("penetration", {}).get("rod")
+        return next((body.get("direction", 1) for body in self.tables["body"] if body["name"] == rod), 1)
 
     @property
     def projectile(self) -> str:
         """Name of the body that is measured as the projectile; "projectile" without one."""
-        return str(_table(self.deck, "penetration").get("rod") or "projectile")
+        return str(_table(self.tables, "penetration").get("rod") or "projectile")
 
     @property
     def measured_depth(self) -> float | None:
         """Penetration depth of the experiment, m."""
-        return self.deck.get("experiment", {}).get("penetration")
+        return self.tables.get("experiment", {}).get("penetration")
 
     @property
     def measured_position(self) -> float | None:
@@ -253,7 +267,7 @@ class Results:
     def _facts(self) -> dict[str, str]:
         """The main facts of a run, in words."""
         summary, dumps = self.summary, self.dumps
-        facts = {"shot": self.deck.get("title", "")}
+        facts = {"shot": self.tables.get("title", "")}
         facts["run"] = "has not ended"
         if summary:
             time = summary.get("time_s")
@@ -269,7 +283,10 @@ class Results:
         return facts
 
     def __repr__(self) -> str:
-        return f"<Results {self.label}: " + "; ".join(f"{name}: {said}" for name, said in self._facts().items()) + ">"
+        facts = self._facts()
+        said = [facts["run"], *(["not trustworthy"] if "not trustworthy" in facts else [])]
+        said += [f"depth {facts['depth']}"] if "depth" in facts else []
+        return f"<Results {self.label}: {', '.join(said)}>"
 
     def _repr_html_(self) -> str:
         rows = "".join(f"<tr><th>{name}</th><td>{html.escape(said)}</td></tr>" for name, said in self._facts().items())

@@ -20,7 +20,7 @@ def lines(run, status: str, message: str, progress: dict) -> list[str]:
     columns = run.history if (run.directory / HISTORY).exists() else {}
     summary = {} if progress else run.summary  # that of a run that is being continued is out of date
     now = _last(columns) | {name: value for name, value in (summary or progress).items() if value is not None}
-    said = {"run": run.deck.get("title") or run.label, "state": status + (f": {message}" if message else "")}
+    said = {"run": run.tables.get("title") or run.label, "state": status + (f": {message}" if message else "")}
     if summary:
         said["state"] = f"{status}: {summary.get('stop_reason') or message}"
     if now.get("time_s") is not None:
@@ -28,7 +28,7 @@ def lines(run, status: str, message: str, progress: dict) -> list[str]:
         if now.get("wall_s") is not None:
             said["time"] += f", {duration(now['wall_s'])} of computing"
     if not summary:
-        said["end"] = _end(run.deck.get("stop", {}), columns, now, progress, run.projectile)
+        said["end"] = _end(run.tables.get("stop", {}), columns, now, progress, run.projectile)
     if now.get("penetration_depth_m") is not None:
         said["depth"] = number(now["penetration_depth_m"], 1e3, ".2f", "mm")
         if run.measured_depth is not None:

@@ -23,7 +23,7 @@ from hydro2d import jit
 from hydro2d.deck import deck as decks
 from hydro2d.interrupt import Interrupt
 from hydro2d.kernels.triad import triad
-from hydro2d.running import progress, provenance, run
+from hydro2d.running import provenance, reporting, run
 from hydro2d.running.compilation import announced
 from hydro2d.solver.simulation import Simulation
 from hydro2d.terminal import say
@@ -226,7 +226,7 @@ class _Shot(run.Run):
 def measure_shot(bandwidth: Bandwidth, overrides: tuple[str, ...] = ()) -> dict:
     """The shot to rest, with all its outputs, in a temporary directory, measured from its second cycle."""
     before = bandwidth()
-    with tempfile.TemporaryDirectory() as folder, progress.reporter(Path(folder) / run.LOG, quiet=True) as report:
+    with tempfile.TemporaryDirectory() as folder, reporting.reporter(Path(folder) / run.LOG, quiet=True) as report:
         shot = _Shot(decks.load(DECK, overrides), Path(folder), report)
         summary = shot.execute(Interrupt())
         seconds = time.perf_counter() - shot.began

@@ -24,6 +24,10 @@ NANOSECONDS = 250.0
 START = 2.5
 #: number of cells at which threads share half of the work of a cycle (explanation/speed, Measured)
 HALF_SHARED = 150e3
+#: what the extent of a body along z is called
+WORDS = {"rod": "length", "plate": "thickness", "sphere": "diameter"}
+#: a body that the mesh cuts off by less than this fraction is whole
+ROUNDING = 1e-9
 #: a deck that needs more cycles is a mistake
 MOST_CYCLES = 1e10
 
@@ -56,8 +60,9 @@ class Check:
         found += [f"          boundaries: {', '.join(self._edge(key) for key in EDGES)}", ""]
         for m, body in enumerate(self.table.names):
             entry, material = decks.body(deck, body), self.table.materials[m]
-            found.append(f"body      {body}: {material.name}, {_mass(self.masses[body], grid)}, v = {_speed(entry)}"
-                         + self._across(entry))  # fmt: skip
+            found.append(f"body      {body}: {material.name}, {_mass(self.masses[body], grid)}, v = {_speed(entry)}")
+            found.append(f"          {self._across(entry)}")
+            found += [f"          {each.name} joins it: {self._across(each)}" for each in deck.body if each.join == body]
             found.append(f"          eos {material.eos.title}, strength {material.strength.name}")
         found += self._follow()
         found += ["", f"sliding   {_sliding(deck)}"]
@@ -99,10 +104,21 @@ class Check:
         return found
 
     def _across(self, entry) -> str:
-        if entry.shape != "rod":
-            return ""
-        edges, cells = self.grid.r_edges, np.arange(self.grid.nr + 1)
-        return f", {np.interp(entry.rod_radius, edges, cells):.3g} cells across the radius of {entry.rod_radius * 1e3:.4g} mm"
+        """How many cells lie across a body: its radius and its length, or its thickness."""
+        found = []
+        for axis, edges in (("r", self.grid.r_edges), ("z", self.grid.z_edges)):
+            low, high = decks.extent(entry, self.deck, axis)
+            what = WORDS.get(entry.shape, "height")
+            if axis == "r":
+                what = "radius" if low <= 0.0 and self.grid.cylindrical else "width"
+            low = max(low, 0.0) if axis == "r" and self.grid.cylindrical else low
+            inside = min(high, edges[-1]) - max(low, edges[0])
+            if what == "radius" and entry.shape in ("plate", "box") and inside < high - low:
+                continue  # it goes on beyond the edge of the mesh
+            cut = f", of which {inside * 1e3:.4g} mm lie in the mesh" if inside < (1.0 - ROUNDING) * (high - low) else ""
+            size = f" of {(high - low) * 1e3:.4g} mm" if math.isfinite(high - low) else ""
+            found.append(f"{decks.cells_between(edges, low, high):.3g} cells across the {what}{size}{cut}")
+        return ", ".join(found)
 
 
 def check(deck) -> Check:

@@ -1,4 +1,7 @@
-"""Progress reports of a run: a bar and a table on a terminal, a line every few seconds elsewhere, and always log.txt."""
+"""Progress reports of a run: a bar and a table on a terminal, a line every few seconds elsewhere, and always log.txt.
+
+The report in a notebook is in `notebook.py`; `reporting.py` chooses among them.
+"""
 
 from __future__ import annotations
 
@@ -6,9 +9,7 @@ import sys
 import time as clock
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
 from datetime import datetime
-from pathlib import Path
 from typing import NamedTuple, TypeVar
 
 from hydro2d.interrupt import lose_output
@@ -16,7 +17,6 @@ from hydro2d.mesh.measured import unit
 from hydro2d.output.history import Columns
 from hydro2d.running import ending
 from hydro2d.running.ending import End
-from hydro2d.strange import opened
 from hydro2d.terminal import one_line, say
 
 T = TypeVar("T")
@@ -374,19 +374,3 @@ def _rod(summary: dict) -> list[str]:
         f"largest plastic strain of the {body} {shape['max_plastic_strain']:.3g}",
         f"regime                {summary['regime']}",
     ]
-
-
-@contextmanager
-def reporter(log: Path, quiet: bool, gone: Callable[[], None] = lambda: None) -> Iterator[Report]:
-    """The report for this kind of output; it appends to the log. ``gone`` is called when the reader of the output has gone."""
-    with opened(log, "a") as file:
-        kind = Live if not quiet and sys.stdout.isatty() else Report
-        report = kind(file, quiet, gone)
-        try:
-            yield report
-        except Exception as error:
-            report.close()
-            file.write(one_line(f"stopped by {type(error).__name__}: {error}") + "\n")
-            raise
-        finally:
-            report.close()

@@ -35,7 +35,8 @@ from hydro2d.output.history import History, HistoryError
 from hydro2d.output.vtk import FOLDER, SERIES, Series
 from hydro2d.running import provenance
 from hydro2d.running.outputs import Attempts, writing
-from hydro2d.running.progress import Clock, reporter
+from hydro2d.running.progress import Clock
+from hydro2d.running.reporting import reporter
 from hydro2d.running.team import Team
 from hydro2d.solver.callbacks import Due
 from hydro2d.solver.record import ColumnError, check, row
@@ -125,7 +126,7 @@ class Run:
     deck : the resolved deck
     directory : where everything is written
     restart : continue from restart.h5 of the directory
-    report : see progress.reporter
+    report : see reporting.reporter
     columns : further columns of the history, see Simulation.columns
     """
 

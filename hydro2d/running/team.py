@@ -10,9 +10,11 @@ from __future__ import annotations
 import statistics
 import time
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 
 from hydro2d import jit
+from hydro2d.errors import Error
 
 #: cycles in a trial for each number of threads
 TRIAL = 5
@@ -20,6 +22,27 @@ TRIAL = 5
 REST, LEAST = 20.0, 2.0
 #: it comes after this fraction of that interval if the median of this many cycles is longer by this factor than in the trial
 EARLY, LATE, SLOWER = 0.25, 20, 1.5
+
+
+class ThreadsError(Error):
+    """A number of threads that this process cannot use; the message is for the user."""
+
+
+@contextmanager
+def at_most(threads: int | None) -> Iterator[None]:
+    """Within the block at most this many threads are used; None: as many as before. Raises ThreadsError."""
+    if threads is None:
+        yield
+        return
+    if not 1 <= threads <= jit.max_threads():
+        raise ThreadsError(f"threads = {threads}: this process can use from 1 to {jit.max_threads()}; the environment variable "
+                           "NUMBA_NUM_THREADS sets the largest number before hydro2d is imported")  # fmt: skip
+    before = jit.threads()
+    jit.set_threads(threads)
+    try:
+        yield
+    finally:
+        jit.set_threads(before)
 
 
 class Team:

@@ -65,6 +65,8 @@ class Cycle:
         self.mesh_box = np.array([g, g + grid.nz, g, g + grid.nr], dtype=np.int64)
         at = np.array([g, g + grid.nr, g, g + grid.nz], dtype=np.int64)
         self.constrained = np.where(method.boundaries.having("holds"), at, -1)
+        along_z = zip(method.boundaries.edges[2:], self.constrained[2:].tolist(), strict=True)
+        self._rows_that_hold = [(edge, j) for edge, j in along_z if j >= 0]
         self.transmitting = np.where(method.boundaries.having("transmits"), at, -1)
         self.carried = fields.carried_rows([
             fields.carried(own, bool(strength), bool(damage)) for own, strength, damage in
@@ -265,10 +267,10 @@ class Cycle:
         self.contact.account(j0, j1, self.audit)
         if s.held_back.any():
             self.audit.add("transmitted", momentum=float(s.held_back[0]), energy=float(s.held_back[1]))
-        for edge, taken in zip(self.method.boundaries.edges, s.walls, strict=True):
-            if edge.holds():
-                momentum_taken, energy_taken = taken.sum(axis=1)
-                self.audit.add(edge.sink, momentum=float(momentum_taken), energy=float(energy_taken))
+        taken = s.walls.sum(axis=2).tolist()
+        for edge, (momentum_taken, energy_taken) in zip(self.method.boundaries.edges, taken, strict=True):
+            if momentum_taken != 0.0 or energy_taken != 0.0:
+                self.audit.add(edge.sink, momentum=momentum_taken, energy=energy_taken)
 
     def deform(self) -> None:
         """Volumes that the faces sweep; work, volume, strain: body by body in pure cells, then the mixed cells."""
@@ -309,7 +311,7 @@ class Cycle:
             lost -= s.deposited[j0:j1].sum()
         self.audit.add("advection", momentum=-float(p_gained), energy=float(lost - k_cut))
         self.audit.add("ke_bound", energy=float(k_cut))
-        for edge, j in zip(self.method.boundaries.edges[2:], self.constrained[2:], strict=True):
+        for edge, j in self._rows_that_hold:
             if j0 <= j <= j1:
                 self.audit.add(edge.sink, momentum=float(s.momentum_sums[4, j]))
         internal, kinetic, axial, _, *mass = s.removed[:, j0:j1].sum(axis=1)

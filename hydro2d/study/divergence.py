@@ -176,7 +176,7 @@ def compare(one: Results, other: Results, fields: Sequence[str] = ()) -> Diverge
     for name in fields:
         if name not in quantities.BY_KEY:
             raise ResultsError(f"--field: {unknown('field', name, quantities.BY_KEY)}")
-    found = differences.compare({"one": one.deck, "other": other.deck}, exact=True)
+    found = differences.compare({"one": one.tables, "other": other.tables}, exact=True)
     keys = {key: _both(users) for key, users in found.varying.items()}
     if alone := [key for key, values in keys.items() if key.startswith("body.") and "not there" in values]:
         raise ResultsError(f"{one.directory} and {other.directory} are not of one shot: only one has {', '.join(alone)}")
@@ -205,7 +205,7 @@ def _histories(one: Results, other: Results) -> Iterator[Curve]:
     """The curves of the histories."""
     first, second = one.history, other.history
     names = [name for name in COLUMNS if name in first] or [
-        f"body_{body['name']}_{name}" for body in one.deck["body"] for name in OF_BODY]
+        f"body_{body['name']}_{name}" for body in one.tables["body"] for name in OF_BODY]
     time = first["time"][first["time"] <= second["time"][-1]]
     if len(time) < 2:
         raise ResultsError(f"{one.directory} and {other.directory} have no common times in their histories")

@@ -84,12 +84,12 @@ class Case:
     directory: Path
     values: dict[str, str] = field(default_factory=dict)
     base: str = ""
-    overrides: tuple[str, ...] = ()
-    deck_sha256: str | None = None
+    overrides: tuple[str, ...] = field(default=(), repr=False)
+    deck_sha256: str | None = field(default=None, repr=False)
     status: str = WAITING
     message: str = ""
-    summary: dict = field(default_factory=dict)
-    progress: dict = field(default_factory=dict)
+    summary: dict = field(default_factory=dict, repr=False)
+    progress: dict = field(default_factory=dict, repr=False)
     of: str = ""
     member: int = 0
     changed: dict[str, float] = field(default_factory=dict)
@@ -140,6 +140,10 @@ class Study:
     cases: tuple[Case, ...]
     entries: tuple[dict, ...] = ()
     search: Interval | None = None
+
+    def __repr__(self) -> str:
+        ended = sum(bool(case.summary) for case in self.cases)
+        return f"<{type(self).__name__} {self.name}: {len(self.cases)} case{'s' * (len(self.cases) != 1)}, {ended} ended>"
 
     @property
     def ensembles(self) -> tuple[Ensemble, ...]:

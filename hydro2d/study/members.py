@@ -136,8 +136,13 @@ def allowed(deck: decks.Deck) -> tuple[str, ...]:
 
 
 def overrides(deck: decks.Deck, changed: Mapping[str, float]) -> list[str]:
-    """The overrides that make a member of a deck. Raises DeckError if the deck does not allow a change."""
-    return [text for name, amount in changed.items() for text in KNOBS[name].overrides(deck, amount)]
+    """The overrides that make a member of a deck; segments of its mesh that it does not have yet are written out first.
+
+    Raises DeckError if the deck does not allow a change.
+    """
+    found = [text for name, amount in changed.items() for text in KNOBS[name].overrides(deck, amount)]
+    segments = decks.written_segments(deck) if any(text.startswith("mesh.") for text in found) else {}
+    return [*(f"{key}={toml.inline(value)}" for key, value in segments.items()), *found]
 
 
 def name(case: str, number: int) -> str:

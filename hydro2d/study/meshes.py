@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 
 from hydro2d.deck import deck as decks
-from hydro2d.deck.sections import Segment
+from hydro2d.deck.mesh_sections import Segment
 from hydro2d.errors import DeckError
 from hydro2d.study.members import cells_across, projectile
 
 
-def settings(deck: decks.Deck, cells: float) -> dict[str, list[dict]]:
+def settings(deck: decks.Deck, cells: float) -> dict[str, Any]:
     """Segments in r and z for so many cells across the radius of the projectile, by deck key; all cells change by one factor.
 
     The first segment in r then has exactly this number; in the others a number of cells is rounded, and their ends stay. Graded
@@ -27,7 +28,8 @@ def settings(deck: decks.Deck, cells: float) -> dict[str, list[dict]]:
         raise DeckError(f'mesh.r[0]: the cells across "{name}" are not all of one size, so their number cannot be set')
     across = {"across": name, "cells_across": cells} if rest else {"to": end}
     first = {"cells": max(round(end * cells / radius), 1), **across}
-    return {"mesh.r": [first, *(_scaled(*each, factor) for each in rest)],
+    return {**decks.written_segments(deck),
+            "mesh.r": [first, *(_scaled(*each, factor) for each in rest)],
             "mesh.z": [_scaled(*each, factor) for each in _laid(deck, "z")]}  # fmt: skip
 
 

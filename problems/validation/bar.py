@@ -77,7 +77,7 @@ def reference(speed: float, length: float) -> tuple[Bar, ...]:
 def measure(directory: Path | str, name: str | None = None) -> dict:
     """The bar in every dump, and its comparison with the reference at its times; SI. Raises ResultsError, VtkError."""
     run = reading.Results(directory)
-    bodies = {body["name"]: body for body in run.deck["body"]}
+    bodies = {body["name"]: body for body in run.tables["body"]}
     name = name or next(iter(bodies))
     if name not in bodies:
         raise reading.ResultsError(f'{directory} has no body "{name}"; its bodies are {", ".join(bodies)}')

@@ -139,6 +139,16 @@ def test_what_has_failed_stays_so_and_bears_no_deviator():
     assert cells.q[[DMG, SRR], 0, 3, 4].tolist() == cells.q[[DMG, SRR], 0, 3, 3].tolist() == [FAILED, 0.0]
 
 
+def test_what_is_too_little_to_divide_by_has_no_energy():
+    """A rod that was worn left 1e-305 of a cell: its energy per mass was infinite, and so was the energy that was tidied away."""
+    cells, given = carried(*WAYS[0])
+    cells.vof[...] *= 1e-310
+    cells.flux_volume[...] *= 1e-310
+    cells.call(remap.sweep_r, **given)
+    assert cells.vof[0, 3, 3:5].all()
+    assert np.isfinite(cells.q).all()
+
+
 def test_the_mass_of_a_group_is_that_of_its_bodies():
     cells = Cells(bodies=3, group=[0, 1, 0])
     cells.vof[:, 3, 3], cells.q[RHO, :, 3, 3] = (0.5, 0.25, 0.125), (4.0, 8.0, 16.0)

@@ -21,6 +21,7 @@ import pytest
 from hydro2d import jit, toml
 from hydro2d.cli.main import app, call
 from hydro2d.deck import deck as decks
+from hydro2d.deck import templates
 from hydro2d.study import cases, cluster
 from tests.rules import source
 
@@ -42,6 +43,7 @@ NOT_RUN = {
     "python -m tests.study.coverage": "1200 made-up searches: minutes",
     "python -m tests.trials.campaign": "5000 runs: an hour; tests/trials/test_mutants.py has some of them",
     "hydro2d bench": "minutes",
+    "python docs/gallery.py": "half an hour; tests/regression/test_gallery.py has it in short form",
     "hydro2d diverge": "runs of a few cycles have no time in common; tests/study/test_divergence.py has made-up ones",
     "hydro2d plot runs/ball -o debris.png": "nothing flies behind a plate yet; tests/results/test_lines.py draws debris",
     "dask ": "needs a cluster",
@@ -54,6 +56,7 @@ FILLED = {
     "hydro2d report DIRECTORY": "hydro2d report runs/velocity_advection",
     "hydro2d model NAME": "hydro2d model tate",
     "hydro2d info NAME": "hydro2d info johnson-cook",
+    "hydro2d new KIND": "hydro2d new --list",
     "STUDY.toml": SWEEP,
     "runs/STUDY": "runs/velocity_advection",
     "FILE.png": "picture.png",
@@ -67,6 +70,8 @@ FILLED = {
 PRESUMED = {
     "README.md": {"runs/shot": DECK},
     "docs/tutorials/first-study.md": {"first_study.toml": ""},
+    "docs/how-to/depth-curves.md": {"curve.toml": ""},
+    "docs/how-to/find-a-transition.md": {"limit.toml": ""},
     "docs/how-to/make-a-film.md": {"runs/shot": DECK},
     "docs/how-to/paraview.md": {"runs/shot": DECK},
     "docs/how-to/perforate-a-plate.md": {"runs/shot": DECK},
@@ -80,7 +85,11 @@ PRESUMED = {
     "docs/explanation/rigid-rod.md": {"runs/rigid_rod_laws": LAWS},
 }
 #: what keys of a deck are laid over, beside the decks of the nose shapes
-BASES = {"docs/how-to/perforate-a-plate.md": "../perforation/two_plates.toml"}
+BASES = {
+    "docs/how-to/perforate-a-plate.md": "../perforation/two_plates.toml",
+    "docs/how-to/jackets.md": "../classic/jacketed_rod.toml",
+    "docs/explanation/explosives.md": "../explosives/cylinder.toml",
+}
 QUICK = "hemi_5083_1086_quick.toml"
 
 FENCE = re.compile(r"^```([^\n`]*)\n(.*?)^```", re.M | re.S)
@@ -196,6 +205,7 @@ def in_this_process(workers, threads):
 def folder(short, tmp_path, monkeypatch):
     """Makes a reader's folder ready for a page; what it takes for granted has run once."""
     monkeypatch.setattr(cluster, "local", in_this_process)
+    monkeypatch.setattr(templates, "problems_folder", lambda: short / "problems")
     (tmp_path / "problems").symlink_to(short / "problems")
     monkeypatch.chdir(tmp_path)
     threads = jit.threads()

@@ -18,7 +18,7 @@ import eos
 import hydro2d
 import strength
 from hydro2d import units
-from hydro2d.deck import bodies, deck, sections
+from hydro2d.deck import bodies, deck, mesh_sections, sections
 from hydro2d.materials import library
 from hydro2d.mesh import fields, quantities
 from hydro2d.mesh.edges import registry as edge_kinds
@@ -216,11 +216,11 @@ def sections_of_the_page() -> dict[str, dict[str, str]]:
 
 #: sections of the page of deck keys and the classes that check them
 SECTIONS = {
-    "Top level": sections.Deck, "`[mesh]`": sections.Mesh, "`[boundaries]`": sections.Boundaries,
+    "Top level": sections.Deck, "`[mesh]`": mesh_sections.Mesh, "`[boundaries]`": sections.Boundaries,
     "`[numerics]`": sections.Numerics, "`[sliding]`": sections.Sliding, "`[failure]`": sections.Failure,
     "`[stop]`": sections.Stop, "`[output]`": sections.Output, "`[[tracer]]`": sections.Tracer, "`[[gauge]]`": sections.Gauge,
     "`[experiment]`": sections.Experiment, "`[penetration]`": sections.Penetration,
-    "Segment: a table of `mesh.r` and `mesh.z`": sections.Segment, "Flow: a table of `body.flow`": bodies.Flow,
+    "Segment: a table of `mesh.r` and `mesh.z`": mesh_sections.Segment, "Flow: a table of `body.flow`": bodies.Flow,
     **{f'`[[body]]` with `shape = "{shape}"`': kind for shape, kind in bodies.SHAPES.items()},
 }  # fmt: skip
 

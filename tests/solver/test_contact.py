@@ -82,7 +82,8 @@ def test_check_prints_the_contact_and_counts_its_memory():
     without = check.check(deck.loads(TEXT, ["sliding.method=none", "sliding.friction=0"]))
     assert "sliding   none" in without.lines(1)
     state = Simulation(deck.loads(TEXT)).state
-    arrays = [array for name, array in vars(state).items() if isinstance(array, np.ndarray) and name not in ("group", "rules", "initial")]
+    others = "group", "rules", "initial"
+    arrays = [array for name, array in vars(state).items() if isinstance(array, np.ndarray) and name not in others]
     assert found.memory == sum(array.nbytes for array in arrays if array.base is None)
     vertices = (16 + 4 + 1) * (8 + 4 + 1)
     assert found.memory > without.memory + 5 * 8 * vertices  # a second velocity at both ends of the step, and its mass

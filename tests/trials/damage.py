@@ -88,7 +88,7 @@ def _record(file: Path):
 READERS: dict[str, tuple[Callable, ...]] = {
     "run/history.h5": (_columns, _record),
     "run/restart.h5": (_restart,),
-    "run/deck.toml": (lambda file: reading.Results(file.parent).deck, lambda file: _case(file.parent).deck, _record),
+    "run/deck.toml": (lambda file: reading.Results(file.parent).tables, lambda file: _case(file.parent).deck, _record),
     "run/summary.json": (lambda file: reading.Results(file.parent).summary, lambda file: _case(file.parent).summary),
     "run/series.pvd": (vtk.read_series,),
     "run/interfaces.pvd": (vtk.read_series, _record),

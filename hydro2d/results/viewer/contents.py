@@ -41,7 +41,7 @@ def contents(run, words: Iterable[str], bits: int) -> tuple[dict, str]:
     state = run.dump(files[-1][0])
     table = {
         "label": shown(run.label),
-        "title": shown(run.deck.get("title", "")),
+        "title": shown(run.tables.get("title", "")),
         "ended": shown(run.summary.get("stop_reason") or "") if run.summary else None,
         "mirrored": state.mirrored,
         "bodies": [shown(body) for body in state.bodies],

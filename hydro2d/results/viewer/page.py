@@ -47,6 +47,9 @@ class View:
         write_text(Path(path), self.html)
         return Path(path)
 
+    def __repr__(self) -> str:
+        return f"<View: a page of {len(self.html) / 1e6:.1f} MB; save(FILE) writes it>"
+
     def _repr_html_(self) -> str:
         style = f"width: 100%; height: {HEIGHT}px; border: 0"
         return f'<iframe title="hydro2d view" style="{style}" srcdoc="{html.escape(self.html)}"></iframe>'

@@ -1,0 +1,165 @@
+"""The studies in the gallery: a chart of the results that `problems` keeps, beside the experiments of their decks."""
+
+from __future__ import annotations
+
+import csv
+import tempfile
+import tomllib
+from dataclasses import dataclass
+from pathlib import Path
+
+import figures as pictures
+
+from _pages.kinds import spoken
+from hydro2d.results import figures
+from hydro2d.study import cases
+from hydro2d.toml import is_study, problems_folder
+
+#: columns of kept results that are no axes begin with the first of these
+FIRST = ("nose", "status")
+#: studies whose picture is another page's: (picture, the command that draws it)
+OTHERS = {
+    "weldox_velocities": ("weldox.png", "python -m problems.perforation.residual runs/weldox_velocities --figure weldox.png"),
+    "drag": ("contact_skin.png", "hydro2d plot runs/undeformable_rod_8 -o contact_skin.png --field plastic_strain --mirror "
+             "velocity:z"),
+}  # fmt: skip
+HEADING = """## Studies
+
+Each study is one file, which `hydro2d sweep` runs, or `hydro2d transition` where it is a search. The charts show the results
+that the repository keeps, filled marks, beside the depths that were measured, open diamonds. Times are the sum over all runs,
+each on one core. The page of the folder says what came out, and which results are older than the present method.
+"""
+
+
+@dataclass(frozen=True)
+class Study:
+    """A study of `problems`; results : the rows that are kept, each with the names of its axes; empty if there are none."""
+
+    file: Path
+    plan: cases.Plan
+    results: list[dict[str, str]]
+
+    @property
+    def name(self) -> str:
+        return self.file.stem
+
+    @property
+    def picture(self) -> str | None:
+        """The picture in docs/_static."""
+        return f"gallery_{self.name}.png" if self.results else OTHERS.get(self.name, (None,))[0]
+
+    def axes(self) -> list[str]:
+        """The columns of the kept results that are axes."""
+        names = list(self.results[0])
+        return names[: next(names.index(name) for name in FIRST if name in names)]
+
+    def minutes(self) -> float | None:
+        """Sum of the minutes of all runs."""
+        found = [float(row["minutes"]) for row in self.results if row.get("minutes")]
+        return sum(found) if found else None
+
+
+def studies() -> list[Study]:
+    """All studies, by folder and name."""
+    files = sorted(file for file in problems_folder().rglob("*.toml") if file.parent.name != "materials")
+    found = [file for file in files if is_study(tomllib.loads(file.read_text(encoding="utf-8")))]
+    return [Study(file, cases.plan(file, quiet=True), _kept(file)) for file in found]
+
+
+def _kept(file: Path) -> list[dict[str, str]]:
+    """The newest results: those with the traction in cut cells, else those before it."""
+    places = [file.parent / "results" / folder / f"{file.stem}.csv" for folder in ("traction", "")]
+    kept = next((place for place in places if place.is_file()), None)
+    if kept is None:
+        return []
+    with kept.open(encoding="utf-8", newline="") as lines:
+        return list(csv.DictReader(lines))
+
+
+def _measured(study: Study) -> dict[str, float]:
+    """Measured depth in cm of every case whose deck has one, by the name of the case."""
+    found = {}
+    for case in study.plan.cases:
+        experiment = tomllib.loads(case.text or "").get("experiment", {})
+        if experiment.get("penetration"):
+            found[case.name] = experiment["penetration"] * 100
+    return found
+
+
+def _value(row: dict[str, str], scale: dict[str, float]) -> float | None:
+    text = row.get("depth_cm", row.get("value", ""))
+    return float(text) / scale.get(row.get("shot", ""), 1.0) if text else None
+
+
+def chart(study: Study):
+    """Depth, or the number of the study, against the shot or the velocity; colours are the other axes."""
+    axes = study.axes()
+    across = next((name for name in ("shot", "velocity") if name in axes), axes[-1])
+    others, measured = [name for name in axes if name != across], _measured(study)
+    scale = {} if "depth_cm" in study.results[0] else _medians(study.results)
+    labels = sorted({row[across] for row in study.results}, key=_order)
+    figure, ((place,),) = figures.new_figure(8.0, 4.2, 1, 1)
+    groups = list(dict.fromkeys(tuple(row[name] for name in others) for row in study.results))
+    for number, group in enumerate(groups):
+        rows = [row for row in study.results if tuple(row[name] for name in others) == group]
+        shift = 0.5 * (number + 0.5) / len(groups) - 0.25
+        points = [(labels.index(row[across]) + shift, value) for row in rows if (value := _value(row, scale)) is not None]
+        place.plot([x for x, _ in points], [y for _, y in points], "os^vDP*X"[number % 8], markersize=4,
+                   label=figures.verbatim(", ".join(group)) or None, color=f"C{number % 10}")  # fmt: skip
+    shots = {(labels.index(row[across]), measured[row["case"]]) for row in study.results if row.get("case") in measured}
+    if shots:
+        place.plot([x for x, _ in shots], [y for _, y in shots], "D", markersize=9, markerfacecolor="none", color="black",
+                   label="measured")  # fmt: skip
+    place.set_xticks(range(len(labels)), [figures.verbatim(label) for label in labels], fontsize=7, rotation=30, ha="right")
+    place.set_ylabel("depth [cm]" if not scale else "number of the shot / its median", fontsize=8)
+    if scale:
+        place.set_ylim(0.8, 1.2)  # a block that is stuck in its hole, or not, lies outside
+    place.tick_params(axis="y", labelsize=7)
+    place.grid(alpha=0.3)
+    if 0 < len(groups) <= 16:
+        place.legend(fontsize=6, loc="center left", bbox_to_anchor=(1.0, 0.5))
+    return figure
+
+
+def _medians(rows: list[dict[str, str]]) -> dict[str, float]:
+    found: dict[str, list[float]] = {}
+    for row in rows:
+        if row["value"]:
+            found.setdefault(row["shot"], []).append(float(row["value"]))
+    return {shot: sorted(values)[len(values) // 2] for shot, values in found.items()}
+
+
+def _order(label: str) -> tuple:
+    """Velocities by their number, all else by the alphabet."""
+    first = label.split(" ")[0]
+    return (0, float(first), label) if first.replace(".", "", 1).isdecimal() else (1, 0.0, label)
+
+
+def draw(folder: Path) -> None:
+    """Draws the charts of all studies with kept results."""
+    for study in studies():
+        if study.results:
+            with tempfile.TemporaryDirectory() as place:
+                file = Path(place) / study.picture
+                figures.save(chart(study), file)
+                pictures.shrink(file, folder / study.picture)
+            print(f"{study.name}: {study.picture}", flush=True)
+
+
+def sections() -> list[str]:
+    """The part of the page on the studies."""
+    parts = [HEADING]
+    for study in studies():
+        path = f"problems/{study.file.relative_to(problems_folder())}"
+        verb = "transition" if study.plan.search else "sweep"
+        minutes, count = study.minutes(), len(study.plan.cases)
+        told = f"At most {count} runs" if study.plan.search else f"{count} runs"
+        told += f", {spoken(60.0 * minutes)} in all" if minutes else ""
+        page = f"`{Path(path).parent}/README.md` says what came out"
+        lines = [f"### {study.name}", "", f"{study.plan.title}. {told}; {page}.", ""]
+        if study.picture:
+            lines += [f"![{study.plan.title}](_static/{study.picture})", ""]
+        lines += ["```text", f"hydro2d {verb} {path}"]
+        lines += [OTHERS[study.name][1]] if study.name in OTHERS and not study.results else []
+        parts.append("\n".join([*lines, "```", ""]))
+    return parts

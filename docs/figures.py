@@ -1,0 +1,153 @@
+"""Makes the pictures of pages by the commands that the pages show.
+
+    python docs/figures.py docs/how-to/spall.md
+
+runs, in a folder of its own, the `hydro2d` commands and the Python of the page down to the last one that writes one of its
+pictures, and puts the pictures into docs/_static: `![...](../_static/spall.png)` is what a command of the page wrote as
+spall.png, and `../_static/report_rods_01.png` of the page report.md is rods_01.png of the report that it makes. They are made
+smaller, so that none has more than 100 kB. With --together, several pages use one folder, and no command is run twice.
+"""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import os
+import re
+import shlex
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+from PIL import Image, ImageSequence
+
+HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent))
+os.environ["MPLBACKEND"] = "agg"
+STATIC = HERE / "_static"
+#: largest picture of a page, bytes; its width, and that of a film, pixels
+MOST, WIDTH, FILM_WIDTH = 100_000, 1200, 400
+#: colours of a picture and of a film
+COLOURS, FILM_COLOURS = 255, 32
+
+#: a name that a reader replaces, such as DECK
+TO_FILL_IN = re.compile(r"(?<![\w.-])[A-Z]{3,}\b")
+FENCE = re.compile(r"^```(\w*)\n(.*?)^```", re.M | re.S)
+#: what the text before a block says if the reader is to save the block as a file
+FILE = re.compile(r"(?:Save this as|into a file|where) `(\w+\.(?:toml|py))`")
+PICTURE = re.compile(r"!\[[^\]]*\]\((?:\.\./)?_static/([\w-]+\.(?:png|gif))\)")
+
+
+def pictures(text: str) -> list[str]:
+    """The pictures of a page that lie in docs/_static, by their file names."""
+    return list(dict.fromkeys(PICTURE.findall(text)))
+
+
+def blocks(text: str) -> list[tuple[str | None, str, str]]:
+    """The blocks of a page in its order: name of the file that a reader makes of it, or None; language; text."""
+    found, before = [], 0
+    for match in FENCE.finditer(text):
+        name = FILE.findall(text[before : match.start()])
+        found.append((name[-1] if name and match[1] in ("toml", "python") else None, match[1], match[2]))
+        before = match.end()
+    return found
+
+
+def steps(text: str) -> list[tuple[str, str]]:
+    """The commands and the Python of a page, in its order: kind ("sh" or "python") and text.
+
+    Of a shell `hydro2d` alone, and no command in which a reader is to fill in a name.
+    """
+    found = []
+    for name, language, block in blocks(text):
+        if language == "python" and name is None:
+            found.append(("python", block))
+        lines = [re.sub(r"\s+#.*", "", line).strip() for line in block.splitlines() if language == "sh"]
+        found += [("sh", line) for line in lines if line.startswith("hydro2d ") and not TO_FILL_IN.search(line)]
+    return found
+
+
+def needed(text: str, page: Path) -> list[tuple[str, str]]:
+    """The steps of a page down to the last one that writes one of its pictures; those of a report are of its first report."""
+    found, names = steps(text), pictures(text)
+    written = re.compile("|".join(rf"(?<![\w-]){re.escape(name)}" for name in names) or "(?!)")
+    last = [number for number, (_, step) in enumerate(found) if written.search(step)]
+    if any(written_as(name, page) != name for name in names):
+        last += [number for number, (_, step) in enumerate(found) if step.startswith("hydro2d report ")][:1]
+    return found[: max(last, default=-1) + 1]
+
+
+def run(step: tuple[str, str], folder: Path, names: dict[str, object]) -> None:
+    """Runs a step in a folder, in which `problems` is that of this checkout; names : of the Python of the page so far."""
+    kind, text = step
+    if kind == "python":
+        with contextlib.chdir(folder):
+            exec(text, names)
+        return
+    environment = os.environ | {"PYTHONPATH": str(HERE.parent), "BROWSER": "true"}
+    subprocess.run([sys.executable, "-m", "hydro2d", *shlex.split(text)[1:]], cwd=folder, env=environment, check=True)
+
+
+def shrink(source: Path, target: Path) -> None:
+    """A picture of at most WIDTH pixels in COLOURS colours. Raises ValueError if it still has more than MOST bytes."""
+    with Image.open(source) as picture:
+        if source.suffix == ".gif":
+            _film(picture, target)
+        else:
+            _smaller(picture.convert("RGB"), WIDTH, COLOURS).save(target, optimize=True)
+    if target.stat().st_size > MOST:
+        raise ValueError(f"{target} has {target.stat().st_size} bytes; a picture of a page has at most {MOST}")
+
+
+def _smaller(picture: Image.Image, width: int, colours: int) -> Image.Image:
+    picture.thumbnail((width, width), Image.Resampling.LANCZOS)
+    return picture.quantize(colours, method=Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE)
+
+
+def _film(picture: Image.Image, target: Path) -> None:
+    first, *rest = [_smaller(frame.convert("RGB"), FILM_WIDTH, FILM_COLOURS) for frame in ImageSequence.Iterator(picture)]
+    first.save(target, save_all=True, append_images=rest, duration=picture.info.get("duration", 100), loop=0, optimize=True)
+
+
+def written_as(picture: str, page: Path) -> str:
+    """The name under which the commands of a page write a picture of it: that of a report lacks the name of the page."""
+    return picture.removeprefix(f"{page.stem}_")
+
+
+def make(page: Path, folder: Path, done: set[tuple[str, str]]) -> None:
+    """Makes the pictures of a page in a folder and puts them into docs/_static; done : the steps that were run there before."""
+    text, names = page.read_text(encoding="utf-8"), {"__name__": page.stem}
+    if not (folder / "problems").exists():
+        (folder / "problems").symlink_to(HERE.parent / "problems")
+    for file, _, block in blocks(text):
+        if file is not None:
+            (folder / file).write_text(block, encoding="utf-8")
+    for step in needed(text, page):
+        if step in done:
+            continue
+        done.add(step)
+        print(f"{page.name}: {step[1].splitlines()[0]}", flush=True)
+        run(step, folder, names)
+    for name in pictures(text):
+        if found := sorted(folder.rglob(written_as(name, page)), key=lambda file: len(file.parts)):
+            shrink(found[0], STATIC / name)
+            print(f"{page.name}: made {name}, {(STATIC / name).stat().st_size / 1000:.0f} kB", flush=True)
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Makes the pictures of the pages that are named."""
+    parser = argparse.ArgumentParser(description="Makes the pictures of pages by the commands that the pages show.")
+    parser.add_argument("pages", nargs="+", type=Path, metavar="PAGE")
+    parser.add_argument("--together", action="store_true", help="uses one folder for all pages, and runs no command twice")
+    given = parser.parse_args(arguments)
+    for pages in [given.pages] if given.together else [[page] for page in given.pages]:
+        done: set[tuple[str, str]] = set()
+        with tempfile.TemporaryDirectory() as folder:
+            for page in pages:
+                make(page, Path(folder), done)
+    return 0
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

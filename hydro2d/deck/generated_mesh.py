@@ -1,0 +1,145 @@
+"""The segments of a mesh that a deck describes in two words: cells across a body, and how far the mesh reaches.
+
+Fine square cells cover the body, what moves with it and the way ahead of it; from there cells grow by a tenth from one to the
+next. The deck then has these segments, as if its author had written them.
+"""
+
+from __future__ import annotations
+
+import math
+
+from hydro2d.deck.checks import extent, heading
+from hydro2d.deck.mesh import body
+from hydro2d.deck.mesh_sections import GENERATED, Mesh, radii
+from hydro2d.deck.sections import Deck
+from hydro2d.errors import unknown
+
+#: ratio of the size of a cell to that of the one before, beyond the fine cells
+GROWTH = 1.1
+#: fine cells beside the bodies, ahead of one that the mesh follows, and behind; then the growing cells behind. All as multiples
+#: of the length that `cells_across` divides
+BESIDE, AHEAD, BEHIND, TRAIL = 1.5, 5.0, 0.5, 3.0
+#: more cells along a direction than any machine holds
+MOST = 1_000_000
+#: a length that is this fraction of a cell longer than a whole number of cells is that number
+ROUNDING = 1e-6
+
+
+class ReachError(ValueError):
+    """A mesh that cannot be made; ``path`` is its key in the deck."""
+
+    def __init__(self, path: tuple, message: str):
+        super().__init__(message)
+        self.path = path
+
+
+def with_segments(deck: Deck) -> Deck:
+    """The deck with the segments that its `mesh.cells_across` and `mesh.reach` stand for; the same deck without these keys.
+
+    Raises ReachError.
+    """
+    mesh = deck.mesh
+    if mesh.reach is None:
+        return deck
+    entry = _measured(deck)
+    size = _width(entry, deck) / mesh.cells_across
+    moving = [entry, *(other for other in deck.body if other is not entry and _moves(other))]
+    reach = _reach(entry, deck)
+    outer = max((end for each in moving if math.isfinite(end := extent(each, deck, "r")[1])), default=0.0)
+    low, high = min(extent(each, deck, "z")[0] for each in moving), max(extent(each, deck, "z")[1] for each in moving)
+    start, along = _along(deck, entry, size, (low, high), reach)
+    whole = {key: value for key, value in mesh.model_dump().items() if value is not None and key not in GENERATED}
+    whole |= {"z_start": start, "r": _aside(mesh.r_start, outer, size, size * mesh.cells_across, reach), "z": along}
+    return deck.model_copy(update={"mesh": Mesh.model_validate(whole)})
+
+
+def as_segments(deck: Deck, written: dict) -> dict[str, object]:
+    """Overrides by key that give a deck the segments of its resolved mesh; empty if its author wrote segments.
+
+    written : the tables of the deck as its author wrote them
+    """
+    if written.get("mesh", {}).get("reach") in (None, "none"):
+        return {}
+    mesh = deck.mesh.model_dump(exclude_none=True)
+    return {"mesh.reach": "none", "mesh.z_start": mesh["z_start"], "mesh.r": list(mesh["r"]), "mesh.z": list(mesh["z"])}
+
+
+def _moves(entry) -> bool:
+    return entry.velocity != (0.0, 0.0) or entry.flow is not None
+
+
+def _measured(deck: Deck):
+    """The body across which cells are counted."""
+    names, given = [entry.name for entry in deck.body], deck.mesh.across
+    if given is not None and given not in names:
+        raise ReachError(("mesh", "across"), unknown("body", given, names))
+    chosen = given or deck.mesh.follow or (deck.penetration.rod if deck.penetration else None)
+    if chosen in names:
+        return body(deck, chosen)
+    return next((entry for entry in deck.body if _moves(entry)), deck.body[0])
+
+
+def _width(entry, deck: Deck) -> float:
+    """The radius of a rod or a sphere; of another body the smaller of its width from the axis and its thickness, m."""
+    if entry.shape == "rod":
+        return entry.rod_radius
+    if entry.shape == "sphere":
+        return entry.radius
+    (inner, outer), (low, high) = extent(entry, deck, "r"), extent(entry, deck, "z")
+    return min(outer - max(inner, deck.mesh.r_start), high - low)
+
+
+def _reach(entry, deck: Deck) -> float:
+    """How far the mesh reaches, m."""
+    count = radii(deck.mesh.reach)
+    if count is None:
+        return float(deck.mesh.reach)
+    inner, outer = extent(entry, deck, "r")
+    if not math.isfinite(outer):
+        raise ReachError(("mesh", "reach"), f'"{entry.name}" has no radius; give a length, such as "20 mm"')
+    return count * (0.5 * (outer - inner) if entry.shape == "sphere" else outer)
+
+
+def _count(length: float, size: float, key: str) -> int:
+    """Cells of this size that cover a length."""
+    if length / size > MOST:
+        raise ReachError(("mesh", key), f"would need {length / size:.3g} cells of {size:.3g} m")
+    return max(math.ceil(length / size - ROUNDING), 0)
+
+
+def _growing(length: float, size: float) -> int:
+    """Cells that cover a length if each is larger than the one before, the first larger than ``size``."""
+    return math.ceil(math.log1p(length / size * (GROWTH - 1.0) / GROWTH) / math.log(GROWTH) - ROUNDING) if length > 0.0 else 0
+
+
+def _grown(count: int, size: float) -> list[dict]:
+    return [{"cells": count, "ratio": GROWTH}] if count else []
+
+
+def _aside(start: float, outer: float, size: float, width: float, reach: float) -> list[dict]:
+    """The segments from the axis outward: fine cells to beyond the bodies, then growing ones."""
+    fine = max(_count(outer + min(BESIDE * width, reach) - start, size, "reach"), 1)
+    return [{"cells": fine, "size": size}, *_grown(_growing(outer + reach - start - fine * size, size), size)]
+
+
+def _along(deck: Deck, entry, size: float, ends: tuple[float, float], reach: float) -> tuple[float, list[dict]]:
+    """The lower end of the mesh and its segments along z. A tip of the body lies on an edge between cells."""
+    width, (low, high) = size * deck.mesh.cells_across, ends
+    sign = heading(entry) if entry.velocity[1] != 0.0 else 0
+    fine = min(AHEAD * width, reach) if deck.mesh.follow is not None else reach
+    ahead, behind = (fine, reach - fine), (BEHIND * width, TRAIL * width)
+    below, above = {1: (behind, ahead), -1: (ahead, behind), 0: ((reach, 0.0), (reach, 0.0))}[sign]
+    tip = low if sign < 0 else high
+    upper = _count(high + above[0] - tip, size, "reach")
+    grown = _grown(_growing(high + sum(above) - tip - upper * size, size), size)
+    beyond = [{"cells": upper, "size": size}, *grown] if upper else grown
+    if "z_start" in deck.mesh.model_fields_set:
+        start = deck.mesh.z_start
+        lower = _count(tip - start, size, "z_start")
+        first = [{"to": tip, "cells": lower}] if tip > start else []
+        return start, [*first, *beyond]
+    lower = _count(tip - low + below[0], size, "reach")
+    count = _growing(tip - low + sum(below) - lower * size, size)
+    start = tip - lower * size - sum(size * GROWTH ** (number + 1) for number in range(count))
+    shrinking = [{"cells": count, "first": size * GROWTH**count, "ratio": 1.0 / GROWTH}] if count else []
+    return start, [*shrinking, {"to": tip, "cells": lower}, *beyond]

@@ -1,0 +1,138 @@
+"""The mesh of a deck: its keys, and those of the segments that it is made of."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+from pydantic import BeforeValidator, Field, WithJsonSchema, field_validator, model_validator
+
+from hydro2d import units
+from hydro2d.deck.base import Length, PositiveLength, Section, within
+
+_SEGMENTS = (
+    "{to, cells}, {to, size}, {cells, size}, {to, ratio}, {cells, ratio}, {to, last}; the last three also take `first`, "
+    "and without it continue the segment before; {across, cells_across} can replace size and first"
+)
+
+
+_UNEVEN = "neighbouring cells that differ by more cannot transmit a wave"
+CellsAcross = Annotated[float, within(0.01, 1e6, "fewer resolve nothing, more fit on no machine")]
+
+
+def radii(reach: float | str) -> float | None:
+    """The number of radii that a reach such as "30 radii" means; None for a length."""
+    words = reach.split() if isinstance(reach, str) else []
+    try:
+        return float(words[0]) if words[1:] in (["radii"], ["radius"]) else None
+    except ValueError:
+        return None
+
+
+def _reach(value):
+    """A length in m, or a number of radii as it was written."""
+    count = radii(value)
+    length = units.to_si(value, "m") if count is None and value != "none" else count
+    if length is not None and not 0.0 < length < float("inf"):
+        raise ValueError(f"must be positive, is {value}")
+    return length if count is None and value != "none" else value
+
+
+Reach = Annotated[float | str, BeforeValidator(_reach), WithJsonSchema({"anyOf": [{"type": "number"}, {"type": "string"}]})]
+
+
+class Segment(Section):
+    """A row of cells along one axis; segments follow one another. A ratio is adjusted so that the segment ends at `to`."""
+
+    to: Length | None = Field(None, description="position of the far edge", examples=["2 cm"])
+    cells: int | None = Field(None, gt=0, le=1_000_000, description="number of cells", examples=[40])
+    size: PositiveLength | None = Field(
+        None, description="size of every cell; must divide the length of the segment", examples=["0.5 mm"]
+    )
+    first: PositiveLength | None = Field(
+        None, description="size of the first cell; default: previous size x ratio", examples=["0.5 mm"]
+    )
+    last: PositiveLength | None = Field(None, description="size of the last cell", examples=["5 mm"])
+    ratio: Annotated[float, within(1e-3, 1e3, _UNEVEN)] | None = Field(
+        None, description="ratio of the size of each cell to that of the cell before", examples=[1.05]
+    )
+    across: str | None = Field(None, description="a body whose radius sets the size of the cells", examples=["rod"])
+    cells_across: CellsAcross | None = Field(None, description="cells across the radius of that body", examples=[8.5])
+
+    @model_validator(mode="after")
+    def _shape(self):
+        given = {key for key in ("to", "cells", "size", "first", "last", "ratio") if getattr(self, key) is not None}
+        if (self.across is None) != (self.cells_across is None):
+            raise ValueError("across and cells_across go together")
+        if self.across is not None:
+            graded = bool(given & {"ratio", "last"})
+            if ("first" if graded else "size") in given:
+                raise ValueError("across already gives the size of the cells; leave out first or size")
+            given.add("first" if graded else "size")
+        even = ("to cells", "to size", "cells size", "to ratio", "cells ratio", "to last")
+        with_first = ("to first ratio", "cells first ratio", "to first last")
+        if given not in [set(entry.split()) for entry in even + with_first]:
+            raise ValueError(f"{', '.join(sorted(given)) or 'nothing'} does not define a segment; it takes {_SEGMENTS}")
+        return self
+
+
+#: keys of a mesh that is described in words
+GENERATED = ("cells_across", "reach", "across")
+
+
+class Mesh(Section):
+    """The mesh. r = 0 is the axis of symmetry in cylindrical geometry; z is the axis a rod flies along."""
+
+    geometry: Literal["cylindrical", "planar"] = Field("cylindrical", description="r-z with an axis, or plane strain")
+    r_start: Length = Field(0.0, description="inner edge of the mesh", examples=["0 mm"])
+    z_start: Length = Field(0.0, description="lower edge of the mesh", examples=["-10 cm"])
+    r: tuple[Segment, ...] = Field(
+        (), description="segments from r_start outward; or give cells_across and reach",
+        examples=[[{"to": "6 mm", "size": "0.5 mm"}, {"to": "8 cm", "ratio": 1.1}]],
+    )
+    z: tuple[Segment, ...] = Field(
+        (), description="segments from z_start upward; or give cells_across and reach",
+        examples=[[{"to": "10 cm", "cells": 400}]],
+    )
+    cells_across: CellsAcross | None = Field(
+        None, description="with reach, instead of r and z: cells across the radius of a rod or a sphere, or across the smaller "
+        "of thickness and width of another body; square cells of this size cover that body, all that moves and the way ahead, "
+        "and cells beyond them grow by a tenth from one to the next", examples=[8.5],
+    )
+    reach: Reach | None = Field(
+        None, description="how far the mesh goes ahead of that body and beside it: a length, or a number of its radii; none "
+        "cancels this and cells_across of an included deck", examples=["30 radii"],
+    )
+    across: str | None = Field(
+        None, description="the body that cells_across and reach mean; default: the one that the mesh follows, else the rod of "
+        "[penetration], else the first that moves", examples=["rod"],
+    )
+    follow: str | None = Field(
+        None, description="a body with which the whole mesh travels along z; what the deck places ahead enters when the mesh "
+        "reaches it; default and none: the mesh does not move",
+        examples=["rod"],
+    )
+
+    @field_validator("follow")
+    @classmethod
+    def _nobody(cls, follow: str | None) -> str | None:
+        """``none`` cancels the value of an included deck."""
+        return None if follow == "none" else follow
+
+    @model_validator(mode="before")
+    @classmethod
+    def _cancelled(cls, data: Any) -> Any:
+        """A reach of ``none`` cancels the three keys of a generated mesh."""
+        if isinstance(data, dict) and data.get("reach") == "none":
+            return {key: value for key, value in data.items() if key not in GENERATED}
+        return data
+
+    @model_validator(mode="after")
+    def _segments_or_words(self) -> Mesh:
+        words = [key for key in GENERATED if getattr(self, key) is not None]
+        if words and (self.r or self.z):
+            raise ValueError(f"give either segments, r and z, or cells_across and reach; {words[0]} and "
+                             f'{"r" if self.r else "z"} are both given (reach = "none" cancels an included deck\'s)')
+        lost = [key for key in (("cells_across", "reach") if words else ("r", "z")) if not getattr(self, key)]
+        if lost:
+            raise ValueError(f"{' and '.join(lost)} missing: a mesh needs r and z, its segments, or cells_across and reach")
+        return self

@@ -1,0 +1,97 @@
+"""The templates of `hydro2d new`, the command, and what `hydro2d check` says and draws of a deck."""
+
+import re
+
+import pytest
+
+from hydro2d.cli.main import call
+from hydro2d.deck import deck as decks
+from hydro2d.deck import templates
+from hydro2d.solver.simulation import Simulation
+
+
+def test_there_are_templates():
+    assert set(templates.kinds()) >= {"rod", "crater", "taylor", "whipple", "spall", "perforation", "jacketed"}
+
+
+@pytest.mark.parametrize("kind", templates.kinds())
+def test_a_template_is_written_checked_and_runs(kind, tmp_path, monkeypatch, capsys):
+    """Without a warning; the mesh is described in two words; the commands that are printed are those for the file."""
+    monkeypatch.chdir(tmp_path)
+    assert call(["new", kind]) == 0
+    commands = re.findall(r"^ +hydro2d (\w+) (\S+)", capsys.readouterr().out, re.M)
+    assert commands == [("check", f"{kind}.toml"), ("run", f"{kind}.toml"), ("view", f"runs/{kind}")]
+    assert call(["check", f"{kind}.toml", "--picture", "start.png"]) == 0
+    shown = capsys.readouterr().out
+    assert "warning" not in shown
+    text = (tmp_path / f"{kind}.toml").read_text()
+    assert text == templates.text(kind)
+    assert len(text.splitlines()) < 90
+    assert "cells_across = " in text
+    assert 'reach = "' in text
+    deck = decks.load(f"{kind}.toml")
+    simulation = Simulation(deck)
+    for _ in range(5):
+        simulation.step()
+    assert simulation.faults() == []
+
+
+def test_the_list_has_a_line_for_each_kind(capsys):
+    assert call(["new", "--list"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert [line.split()[0] for line in lines] == list(templates.kinds())
+    assert all(len(line) < 129 and line.endswith((".", "?")) for line in lines)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["wipple"], 'unknown kind "wipple"; did you mean "whipple"?'),
+        ([], "give a kind of shot: crater"),
+        (["rod", "--list"], "--list lists the kinds"),
+        (["rod", "--out", "nowhere/rod.toml"], "nowhere: there is no such directory"),
+        (["rod", "--out", "there.toml"], "there.toml exists; give another name"),
+    ],
+)
+def test_what_is_wrong_is_told(arguments, said, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "there.toml").write_text("mine")
+    assert call(["new", *arguments]) == 2
+    assert said in capsys.readouterr().err
+    assert (tmp_path / "there.toml").read_text() == "mine"
+    assert sorted(file.name for file in tmp_path.iterdir()) == ["there.toml"]
+
+
+def test_check_counts_the_cells_across_every_body(capsys):
+    for kind, said in {
+        "whipple": ["10 cells across the radius of 4.765 mm, 20 cells across the diameter of 9.53 mm",
+                    "4.2 cells across the thickness of 2 mm", "8.39 cells across the thickness of 4 mm"],
+        "spall": ["120 cells across the radius of 12 mm, 20 cells across the thickness of 2 mm"],
+        "taylor": ["8 cells across the radius of 3.81 mm, 53.3 cells across the height of 25.4 mm"],
+        "crater": ["85 cells across the thickness of 60 mm, of which 50 mm lie in the mesh"],
+    }.items():  # fmt: skip
+        assert call(["check", f"problems/templates/{kind}.toml"]) == 0
+        shown = capsys.readouterr().out
+        assert [text for text in said if text not in shown] == []
+
+
+def test_the_picture_has_mesh_tracers_and_gauges():
+    from hydro2d.results import start_figure
+    from hydro2d.running.check import check
+
+    deck = decks.load("problems/templates/taylor.toml", [
+        'gauge=[{ name = "probe", r = "6 mm", z = "1 mm" }, '
+        '{ name = "line", r = "7 mm", z = "1 mm", z_end = "9 mm", points = 3 }]'
+    ])
+    found = check(deck)
+    figure = start_figure.draw(found.dump, found.deck)
+    axes = figure.axes[0]
+    lines = next(each for each in axes.collections if each.get_alpha() == 0.6).get_segments()
+    assert len(lines) == found.grid.nr + 1 + found.grid.nz + 1
+    assert max(line[:, 1].max() for line in lines) == 0.0
+    assert [text.get_text() for text in axes.texts] == ["tail", "probe", "line_1", "line_2", "line_3"]
+    marks = [(line.get_marker(), *line.get_xydata()[0]) for line in axes.lines if line.get_marker() in ("o", "x")]
+    assert marks[:2] == [("o", pytest.approx(25.0), pytest.approx(0.0)), ("x", pytest.approx(1.0), pytest.approx(6.0))]
+    assert "mesh, tracers (dots), gauges (crosses)" in axes.get_title()
+    fine = check(decks.load("problems/templates/taylor.toml", ["mesh.cells_across=60"]))
+    assert "one line of the mesh in " in start_figure.draw(fine.dump, fine.deck).axes[0].get_title()

@@ -1,0 +1,53 @@
+"""A run in a notebook: what stands below the cell, in a kernel as Jupyter has it; and that other processes are none."""
+
+import nbformat
+import pytest
+from nbclient import NotebookClient
+
+from hydro2d.running import notebook
+
+CELLS = [
+    "import hydro2d\n"
+    "deck = hydro2d.Deck.from_file('problems/templates/taylor.toml', {'stop.time': 2e-6, 'mesh.cells_across': 3})\n"
+    "deck",
+    "shot = hydro2d.run(deck, 'shot', threads=1)",
+    "shot",
+    "hydro2d.run(deck, 'quiet', threads=1, quiet=True);",
+]
+
+
+@pytest.fixture(scope="module")
+def cells(tmp_path_factory):
+    """The notebook after its run."""
+    pages = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(text) for text in CELLS])
+    place = tmp_path_factory.mktemp("notebook")
+    NotebookClient(pages, timeout=600, resources={"metadata": {"path": str(place)}}).execute()
+    return pages.cells
+
+
+def test_one_place_below_the_cell_has_the_title_and_the_result(cells):
+    (shown,) = cells[1].outputs
+    assert shown.output_type == "display_data"
+    page = shown.data["text/html"]
+    assert page.startswith("<pre>Copper bar on a rigid wall at 190 m/s\nwarning: ")
+    assert "done: end time" in page
+    assert "<progress" not in page  # the run is over
+    assert "ipykernel" not in page
+
+
+def test_the_results_are_one_line_and_a_quiet_run_shows_nothing(cells):
+    assert cells[0].outputs[0].data["text/plain"] == "<Deck taylor: Copper bar on a rigid wall at 190 m/s; bodies bar>"
+    assert cells[2].outputs[0].data["text/plain"].startswith("<Results shot: end time at 2.0")
+    assert cells[3].outputs == []
+
+
+def test_the_page_has_a_bar_and_a_table_and_escapes_names():
+    page = notebook.Page(["<b>"], 0.25, {"time": "1 & 2"})
+    assert page._repr_html_().startswith('<pre>&lt;b&gt;</pre><progress max="1" value="0.2500"')
+    assert "<tr><th>time</th><td>1 &amp; 2</td></tr>" in page._repr_html_()
+    assert repr(page) == "<b>\ntime  1 & 2"
+    assert " value=" not in notebook.Page([], None, {"time": "1"})._repr_html_()
+
+
+def test_a_test_is_no_notebook():
+    assert not notebook.is_notebook()
