@@ -9,7 +9,7 @@ from types import ModuleType
 
 from hydro2d.jit import modules
 
-MODULES = modules("eos", "mie_grueneisen", "ideal_gas", "stiffened_gas", "p_alpha", "tillotson", "johnson_holmquist")
+MODULES = modules("eos", "mie_grueneisen", "ideal_gas", "stiffened_gas", "p_alpha", "tillotson", "johnson_holmquist", "jwl")
 MODELS = {module.NAME: module for module in MODULES}
 
 #: what a model computes: the arguments of its functions and the number of values that they return

@@ -14,6 +14,7 @@ from hydro2d.errors import unknown
 from hydro2d.mesh.edges.base import EDGES
 from hydro2d.mesh.edges.registry import BY_NAME, KINDS
 from hydro2d.mesh.sinks import SINKS
+from hydro2d.sources.detonation import EXPLOSIVES
 
 #: rod radii that a mesh should reach ahead of the rod that it follows; at this distance its edge no longer affects the rod
 AHEAD = 20
@@ -280,6 +281,15 @@ def unsupported(deck: Deck) -> Iterator[tuple[tuple, str]]:
                 ("sliding", "yield_factor"),
                 f'"{deck.sliding.yield_factor}" needs a hard body with a radius; give a number or "off"',
             )
+    for number, entry in enumerate(deck.body):
+        given = [key for key in ("energy", "pressure", "temperature") if getattr(entry, key) is not None]
+        if given and deck.materials[entry.material].eos.name in EXPLOSIVES:
+            yield ("body", number, given[0]), "would replace the energy of the detonation; an explosive begins at rest"
+    for number, entry in enumerate(deck.source):
+        if misfit := entry.misfit(deck.materials[body(deck, entry.body).material]):
+            yield ("source", number, "body"), misfit
+        if entry.kind == "detonation" and deck.mesh.follow is not None:
+            yield ("source", number, "kind"), "a detonation lights what is in the mesh at the start; mesh.follow brings in more"
     if (deck.stop.speed_below is not None or deck.stop.rebound) and deck.stop.body is None:
         yield ("stop", "body"), "is missing: the name of the body whose speed is watched"
     if deck.stop.perforation and deck.penetration is None:

@@ -10,6 +10,7 @@ from hydro2d.deck.checks import AHEAD, extent, room
 from hydro2d.deck.mesh import axis_edges, body, cells_between, misfits
 from hydro2d.deck.sections import Deck
 from hydro2d.mesh.edges.registry import BY_NAME
+from hydro2d.sources.detonation import EXPLOSIVES
 
 #: a body whose density is below this share of the densest one's is a gas
 GAS = 0.01
@@ -22,7 +23,7 @@ CELLS_ACROSS = 4
 def warnings(deck: Deck) -> list[str]:
     """What is allowed but unwise, one sentence each, as `hydro2d check` and the start of a run show it."""
     return [*misfits(deck), *_coarse_rods(deck), *_coarse_bodies(deck), *_leaving(deck), *_jumps(deck), *_short_mesh(deck),
-            *_yielding_rods(deck), *_no_failure(deck), *_gases(deck)]
+            *_yielding_rods(deck), *_no_failure(deck), *_gases(deck), *_duds(deck)]
 
 
 def _coarse_rods(deck: Deck) -> Iterator[str]:
@@ -107,6 +108,18 @@ def _gases(deck: Deck) -> Iterator[str]:
     for name, material in materials.items():
         if material.reference_density < GAS * densest or (name in ideal and len(ideal) < len(materials)):
             yield f'body "{name}": {told}; leave the space empty'
+
+
+def _duds(deck: Deck) -> Iterator[str]:
+    """Explosives that nothing lights, and detonations too weak because the remap discards kinetic energy."""
+    lit = {entry.body for entry in deck.source if entry.kind == "detonation"}
+    for entry in deck.body:
+        name = deck.materials[entry.material].eos.name
+        if name in EXPLOSIVES and entry.join is None and entry.name not in lit:
+            yield f'body "{entry.name}": an explosive without a source of kind "detonation"; no time lights it'
+    if lit and deck.numerics.advection != "both":
+        yield (f'numerics.advection is "{deck.numerics.advection}", which discards kinetic energy at the detonation: pressures '
+               'behind it are too low; choose "both"')
 
 
 def _no_failure(deck: Deck) -> Iterator[str]:

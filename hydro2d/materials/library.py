@@ -469,6 +469,11 @@ class MaterialTable:
         """The internal variables of the equation of state of body m, as virgin material has them, float64[n]."""
         return self.initial[m][self.memory[m] - INTERNAL:]
 
+    def spent(self, m: int) -> np.ndarray:
+        """These of what it becomes at most: products, where it is an explosive (the model's SPENT), else virgin material."""
+        found = getattr(self.materials[m].eos.module("eos"), "SPENT", None)
+        return self.virgin(m) if found is None else np.array(found)
+
     def evaluate(self, m: int, rho: float, e: float) -> tuple[float, float, float, float]:
         """(p, dp/drho, dp/de, T) of virgin material of body m, see `eos.dispatch.evaluate`."""
         from eos.dispatch import evaluate

@@ -15,7 +15,7 @@ from hydro2d.mesh.edges.base import EDGES
 from hydro2d.mesh.edges.registry import BY_NAME, halved, made
 from hydro2d.mesh.grid import Grid
 from hydro2d.output.vtk import Dump
-from hydro2d.solver import insertion, memory
+from hydro2d.solver import insertion, memory, sources
 from hydro2d.terminal import one_line
 
 #: nanoseconds per cell and cycle on one thread, as a first estimate; `hydro2d bench` measures the machine
@@ -131,13 +131,22 @@ def check(deck) -> Check:
     mass = full * np.sum(start["vof"] * start["rho"] * grid.interior(grid.volume), axis=(1, 2))
     empty = [f'body "{body}" fills no part of the mesh' for body, m in zip(table.names, mass, strict=True)
              if m == 0 and deck.mesh.follow is None]
+    dark = _sources(deck, grid, table, start)
     cycles = _cycles(deck, grid, table, start)
     return Check(
         deck=deck, grid=grid, table=table, dump=_dump(grid, table, start, deck.boundaries.r_min),
         masses=dict(zip(table.names, mass.tolist(), strict=True)),
         memory=memory.needed(deck), cycles=cycles,
-        seconds=cycles * grid.cells * NANOSECONDS * 1e-9, warnings=empty + decks.warnings(deck),
+        seconds=cycles * grid.cells * NANOSECONDS * 1e-9, warnings=empty + decks.warnings(deck) + dark,
     )  # fmt: skip
+
+
+def _sources(deck, grid, table, start) -> list[str]:
+    """Warnings of the sources on the mesh. Raises DeckError for one that does not fit its body there."""
+    slots = [table.names.index(entry.body) for entry in deck.source]
+    variables = {m: np.stack([np.full((grid.nz, grid.nr), value) for value in table.initial[m]])
+                 for m in set(slots) if len(table.initial[m])}
+    return sources.begin(deck.source, slots, grid, table, start["vof"], start["rho"], variables)
 
 
 def _dump(grid, table, start, r_min: str) -> Dump:

@@ -139,6 +139,7 @@ class Run:
         self.warnings = warnings(deck)
         self.provenance = provenance.collect(threads()) | {"models": models_from_outside(deck)}
         self.sim = Simulation(deck)
+        self.warnings += self.sim.warnings
         self.sim.columns.update(columns or {})
         self.wall_before = 0.0
         self.stepping, self.stepped = 0.0, 0

@@ -58,7 +58,7 @@ class Reach(NamedTuple):
 
 
 class Material(NamedTuple):
-    """Equation of state of one body, with its internal variables as they are at first, density, kg/m^3, and energy, J/kg."""
+    """Equation of state of one body, with its internal variables, density, kg/m^3, and energy, J/kg."""
 
     model: int
     par: np.ndarray
@@ -86,7 +86,7 @@ def of(deck, table, state, start) -> Reach:
     speed = closing_speed(deck, state.grid) + math.sqrt(2.0 * float(mass @ free) / max(float(mass.sum()), 1e-300))
     pressure = _highest(deck, [stagnation(one, speed)[2] for one in materials])
     highest = np.array([hottest(one, speed, pressure) for one in materials])
-    lowest = np.array([min(coldest(one), one.e) for one in materials])
+    lowest = np.array([min(coldest(one), one.e - given_away) for one, given_away in zip(materials, free, strict=True)])
     first, density = (np.array([getattr(one, name) for one in materials]) for name in ("e", "rho"))
     noise = AT_REST * 0.5 * speed**2 + OF_SOUND * table.sound_speeds() ** 2
     shear = np.where(table.strength_model > 0, table.strength_par[:, SHEAR], 0.0)
@@ -123,12 +123,12 @@ def _highest(deck, pressures: list[float]) -> float:
 
 
 def _hottest(deck, table) -> list[Material]:
-    """The materials of the slots, each in the state of the hottest body that is in it."""
+    """The materials of the slots, each in the state of the hottest body that is in it; explosives have burnt."""
     found: dict[int, Material] = {}
     for body, m in zip(deck.body, slot_of(deck, table), strict=True):
         rho, e = body_state(body, table, m)
         if m not in found or e > found[m].e:
-            found[m] = Material(int(table.eos_model[m]), table.eos_par[m], table.virgin(m), rho, e)
+            found[m] = Material(int(table.eos_model[m]), table.eos_par[m], table.spent(m), rho, e)
     return [found[m] for m in range(len(table))]
 
 

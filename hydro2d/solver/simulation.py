@@ -76,7 +76,8 @@ class Simulation:
                            self.table.remembers)
         self._insert(method.boundaries)
         self.sources = Sources(deck.source, self.state, self.table, [slots.index(entry.body) for entry in deck.source])
-        self.sources.begin()
+        #: what sources have to say of the deck on its mesh, one sentence each
+        self.warnings = self.sources.begin()
         self.engine = Cycle(self.state, self.table, method, self._mesh(slots, method), self.sources)
         self.engine.prepare()
         self._reach = reach.of(deck, self.table, self.state, self.audit.start)

@@ -2,10 +2,49 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 
 from hydro2d.mesh.fields import INTERNAL
 from hydro2d.solver.audit import Audit
+from hydro2d.sources.base import Reached
+
+
+def begin(entries, slots: list[int], grid, table, vof, rho, variables: dict[int, np.ndarray]) -> list[str]:
+    """Lets sources set what they need of their bodies, and returns their warnings.
+
+    Parameters
+    ----------
+    entries : the tables of [[source]];  slots : index m of the body of each
+    grid : Grid;  table : MaterialTable
+    vof, rho : float64[m, nz, nr]
+    variables : internal variables by body, float64[k, nz, nr], which are changed
+
+    Raises DeckError for a source that does not fit the body as it lies in the mesh.
+    """
+    said = []
+    for entry, m in zip(entries, slots, strict=True):
+        own = {field.name: variables[m][k] for k, field in enumerate(table.internal[m])}
+        mass = vof[m] * rho[m] * grid.interior(grid.volume)
+        said += entry.begin(grid, Reached(table.materials[m], vof[m], mass, own, partial(arrival, grid, vof[m])))
+    return said
+
+
+def arrival(grid, share: np.ndarray, points: np.ndarray, speed: float) -> np.ndarray:
+    """Times at which a detonation from points float64[n, 3] (r, z, time) arrives within a body, s, float64[nz, nr].
+
+    share : of every cell's volume that the body fills. inf where it does not arrive.
+    """
+    from hydro2d.kernels.light_times import bend_around, light_points  # after which no model can join
+
+    light, front = np.full(share.shape, np.inf), np.zeros((3, *share.shape))
+    rows, columns = grid.inside
+    mesh = grid.r_edges, grid.z_edges, grid.rc[columns].copy(), grid.zc[rows].copy(), np.ascontiguousarray(share)
+    light_points(points, speed, *mesh, light, front)
+    while bend_around(speed, *mesh, light, front):
+        pass
+    return light
 
 
 class Sources:
@@ -34,12 +73,12 @@ class Sources:
         """Those of their sinks."""
         return [entry.name for entry, _ in self._all]
 
-    def begin(self) -> None:
-        """Lets every source set what it needs of its body before the first step."""
+    def begin(self) -> list[str]:
+        """Lets every source set what it needs of its body before the first step. Returns their warnings."""
         s = self.state
-        for entry, m in self._all:
-            variables = {field.name: s.grid.interior(s.q[INTERNAL + k, m]) for k, field in enumerate(self._table.internal[m])}
-            entry.begin(s.grid, variables)
+        inner = s.grid.interior
+        return begin([entry for entry, _ in self._all], [m for _, m in self._all], s.grid, self._table,
+                     inner(s.vof), inner(s.rho), {m: inner(s.q[INTERNAL:, m]) for _, m in self._all})
 
     def give(self, time: float, dt: float, audit: Audit) -> None:
         """Adds the heat of the step from ``time`` on to the bodies as they are after it, and books it; J per radian."""

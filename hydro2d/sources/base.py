@@ -2,10 +2,29 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
 import numpy as np
 from pydantic import Field
 
 from hydro2d.deck.base import Interval, Name, Section
+
+
+class Reached(NamedTuple):
+    """The body of a source before the first step; arrays float64[nz, nr].
+
+    material : materials.library.Material;  share : of every cell's volume that it fills;  mass : per radian, kg
+    variables : internal variables of its models by name, to be changed
+    arrival : (points float64[n, 3] as (r, z, time), speed in m/s) -> times at which a signal from them arrives within the body,
+        straight or around what is not of it; inf where it does not
+    """
+
+    material: Any
+    share: np.ndarray
+    mass: np.ndarray
+    variables: dict[str, np.ndarray]
+    arrival: Callable[[np.ndarray, float], np.ndarray]
 
 
 class Source(Section):
@@ -26,11 +45,13 @@ class Source(Section):
             else _overlap(r, self.r)
         return _overlap(z, self.z)[:, None] * radial[None, :]
 
-    def begin(self, grid, variables: dict[str, np.ndarray]) -> None:
-        """Sets what the material of the body needs before the first step; most kinds need nothing.
+    def misfit(self, material) -> str | None:
+        """Why the material of the body (materials.library.Material) cannot take what the source gives; None if it can."""
+        return None
 
-        variables : internal variables of the body's models by name, float64[nz, nr], to be changed
-        """
+    def begin(self, grid, reached: Reached) -> list[str]:
+        """Sets what the material of the body needs before the first step; most kinds need nothing. Returns warnings."""
+        return []
 
     def heat(self, grid, time: float, dt: float) -> np.ndarray:
         """Energy that the body's material gains from ``time`` to ``time + dt`` in every cell, J/kg, float64[nz, nr]."""

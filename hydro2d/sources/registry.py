@@ -6,10 +6,12 @@ from typing import TYPE_CHECKING, Any
 
 from hydro2d.deck.base import one_of
 from hydro2d.sources.base import Source
+from hydro2d.sources.detonation import Detonation
 from hydro2d.sources.heating import Heating
 
 KINDS: dict[str, type[Source]] = {
     "heating": Heating,
+    "detonation": Detonation,
 }
 
 AnySource: Any = Source if TYPE_CHECKING else one_of(KINDS, "kind")

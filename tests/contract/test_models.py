@@ -27,6 +27,8 @@ POROUS = {name: value for name, value in SOLID.items() if name != "reference_den
     "reference_density": 2770.0 / 1.275, "solid_density": 2770.0, "elastic_sound_speed": 4110.0, "elastic_pressure": 0.08e9,
     "crush_pressure": 0.7e9, "crush_exponent": 1.7}
 CERAMIC = {"reference_density": 2510.0, "K1": 233e9, "K2": -593e9, "K3": 2800e9, "specific_heat": 950.0}
+EXPLOSIVE = {"reference_density": 1630.0, "A": 371.2e9, "B": 3.231e9, "R1": 4.15, "R2": 0.95, "omega": 0.30,
+             "detonation_energy": 7e9, "detonation_velocity": 6930.0, "cj_pressure": 21e9, "compression_burn": 1.0}
 
 #: per equation of state: parameters, density over rest and specific energies (J/kg) of its stated range
 EOS_CASES = {
@@ -35,6 +37,7 @@ EOS_CASES = {
     "stiffened-gas": (LIQUID, np.linspace(0.9, 1.6, 9), (0.0, 1e5, 3e6)),
     "p-alpha": (POROUS, np.linspace(0.95, 1.5, 12), (0.0, 1e5, 3e6)),
     "johnson-holmquist": (CERAMIC, np.linspace(0.95, 1.5, 12), (0.0, 1e5, 3e6)),
+    "jwl": (EXPLOSIVE, np.linspace(0.95, 1.5, 12), (0.0, 4.29e6, 7e6)),
     "tillotson": (TILLOTSON, np.linspace(0.95, 2.0, 22), (0.0, 1e5, 2.9e6)),
 }
 #: what a model stands over

@@ -88,6 +88,7 @@ PRESUMED = {
 BASES = {
     "docs/how-to/perforate-a-plate.md": "../perforation/two_plates.toml",
     "docs/how-to/jackets.md": "../classic/jacketed_rod.toml",
+    "docs/explanation/explosives.md": "../explosives/cylinder.toml",
 }
 QUICK = "hemi_5083_1086_quick.toml"
 

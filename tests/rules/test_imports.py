@@ -139,7 +139,8 @@ def users(library: str) -> set[str]:
         ("pandas", ("hydro2d.study.table", "hydro2d.api", "hydro2d.output.history")),
         ("xarray", ("hydro2d.output.datasets", "hydro2d.output.history")),
         ("hydro2d.kernels", ("hydro2d.kernels", "hydro2d.solver.method", "hydro2d.solver.contact", "hydro2d.solver.following",
-                             "hydro2d.solver.cycle", "hydro2d.solver.sanity", "hydro2d.running.bench")),
+                             "hydro2d.solver.cycle", "hydro2d.solver.sanity", "hydro2d.solver.sources",
+                             "hydro2d.running.bench")),
     ],
 )
 def test_only_these_import(library, allowed):

@@ -50,7 +50,7 @@ def test_the_value_of_a_table(time, expected):
 
 
 @pytest.mark.parametrize(("override", "words"), [
-    ('source.beam.kind="burn"', r"source\[0\].kind: unknown value .burn. \(allowed: heating\)"),
+    ('source.beam.kind="burn"', r"source\[0\].kind: unknown kind .burn. \(allowed: detonation, heating\)"),
     ('source.beam.body="plat"', "unknown body .plat.; did you mean"),
     ('source.beam.name="walls"', "is that of a sink of the audit"),
     ("source.beam.power=[[0, 1]]", "expected a table of 2 to 100000 rows"),
@@ -122,10 +122,11 @@ def test_a_source_may_set_variables_before_the_first_step(monkeypatch):
     simulation = Simulation(deck.load("problems/verification/porous_compaction.toml"))
 
     class Crushed(Source):
-        def begin(self, grid, variables):
-            variables["distention"][...] = 1.0 + grid.zc[grid.inside[0], None]
+        def begin(self, grid, reached):
+            reached.variables["distention"][...] = 1.0 + grid.zc[grid.inside[0], None]
+            return [f"{reached.mass.sum():.3g} kg"]
 
     simulation.sources._all = [(Crushed(name="press", body="block"), 0)]
-    simulation.sources.begin()
+    assert simulation.sources.begin() == [f"{2117.647 * 0.4e-3 * 39e-3:.3g} kg"]
     found = simulation.grid.interior(simulation.state.q[7, 0])
     np.testing.assert_array_equal(found[:, 1], 1.0 + simulation.grid.zc[simulation.grid.inside[0]])

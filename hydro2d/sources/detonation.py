@@ -1,0 +1,101 @@
+"""Detonation: the points at which an explosive is lit, and the speed at which the detonation runs from them."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import Annotated, Literal
+
+import numpy as np
+from pydantic import BeforeValidator, Field, WithJsonSchema
+
+from hydro2d import units
+from hydro2d.deck.base import PositiveNumber, PositiveSpeed
+from hydro2d.errors import DeckError
+from hydro2d.sources.base import Reached, Source
+
+#: equations of state that a detonation can burn, by name
+EXPLOSIVES = ("jwl",)
+#: cell widths over which the detonation burns the material of a cell
+WIDTHS = 2.5
+#: share of a cell that must lie within the reach of the source
+HALF = 0.5
+#: most points of one detonation
+MOST = 1000
+
+Points = tuple[tuple[float, float, float], ...]
+
+
+def _points(value, unit: tuple[str, str, str]) -> Points:
+    if not isinstance(value, (list, tuple)) or not 0 < len(value) <= MOST:
+        raise ValueError(f"expected a table of 1 to {MOST} rows, [[r, z, time], ...]")
+    rows = []
+    for number, row in enumerate(value):
+        if not isinstance(row, (list, tuple)) or len(row) != 3:
+            raise ValueError(f"row {number} is not [r, z, time]")
+        try:
+            r, z, time = (units.in_reach(units.to_si(part, of), of) for part, of in zip(row, unit, strict=True))
+        except ValueError as problem:
+            raise ValueError(f"row {number}: {problem}") from None
+        if time < 0.0:
+            raise ValueError(f"the time of row {number} must not be negative, is {time:g} s")
+        rows.append((r, z, time))
+    return tuple(rows)
+
+
+_ITEM = {"anyOf": [{"type": "number"}, {"type": "string"}]}
+_SCHEMA = {"type": "array", "minItems": 1, "maxItems": MOST,
+           "items": {"type": "array", "items": _ITEM, "minItems": 3, "maxItems": 3, "x-unit": "m, m, s"}}
+
+
+class Detonation(Source):
+    """Lights an explosive: every cell at the time at which the detonation arrives there, straight or around obstacles.
+
+    It gives no energy by itself: that of the explosive is in its equation of state. explanation/explosives
+    """
+
+    kind: Literal["detonation"] = Field(description="detonation points of an explosive")
+    points: Annotated[Points, BeforeValidator(partial(_points, unit=("m", "m", "s"))), WithJsonSchema(_SCHEMA)] = Field(
+        description="table of [r, z, time] at which the detonation begins; beside the axis of an r-z mesh a point is a ring",
+        examples=[[["0 mm", "0 mm", "0 us"]]],
+    )
+    widths: PositiveNumber = Field(WIDTHS, description="cell widths over which the detonation burns the explosive",
+                                   examples=[2.5])
+    speed: PositiveSpeed | None = Field(
+        None, description="speed of the detonation; default: detonation_velocity of the explosive", examples=["6930 m/s"])
+
+    def misfit(self, material) -> str | None:
+        """Why the material of the body cannot be lit, or None; material : materials.library.Material."""
+        if material.eos.name not in EXPLOSIVES:
+            return (f'body "{self.body}" is no explosive: the equation of state of {material.name} is {material.eos.name}, not '
+                    f"{' or '.join(EXPLOSIVES)}")
+        return None
+
+    def begin(self, grid, reached: Reached) -> list[str]:
+        """Sets light times and burning times of the explosive. Raises DeckError for a point outside of it."""
+        speed = self.speed or reached.material.eos.numbers["detonation_velocity"].value
+        for r, z, _ in self.points:
+            if not self._holds(grid, reached.share, r, z):
+                raise DeckError(f'source "{self.name}": the point (r, z) = ({r:g}, {z:g}) m lies outside of its explosive, '
+                                f'body "{self.body}"')
+        light = reached.arrival(np.array(self.points), speed)
+        before, lit = reached.variables["light_time"], np.isfinite(light)
+        there = (reached.share > 0.0) & (self.share(grid) >= HALF)
+        duration = self.widths * np.minimum.outer(np.diff(grid.z_edges), np.diff(grid.r_edges)) / speed
+        first = there & lit & (light < before)
+        before[first] = light[first]
+        reached.variables["burn_time"][first] = duration[first]
+        dark = float(np.sum(reached.mass[there & ~lit]) / max(np.sum(reached.mass), 1e-300))
+        return [f'source "{self.name}": no detonation reaches {dark:.2%} of body "{self.body}", which does not burn'
+                ] if dark > 0.0 else []
+
+    def heat(self, grid, time: float, dt: float) -> np.ndarray:
+        """Nothing, float64[nz, nr]: the explosive has its energy."""
+        return np.zeros((grid.nz, grid.nr))
+
+    @staticmethod
+    def _holds(grid, share: np.ndarray, r: float, z: float) -> bool:
+        """Whether one of the cells that the point lies in, or on the edge of, has some of the body."""
+        (z_edges, r_edges), small = (grid.z_edges, grid.r_edges), 1e-9
+        j = (z_edges[:-1] <= z + small * np.diff(z_edges)) & (z <= z_edges[1:] + small * np.diff(z_edges))
+        i = (r_edges[:-1] <= r + small * np.diff(r_edges)) & (r <= r_edges[1:] + small * np.diff(r_edges))
+        return bool((share[np.ix_(j, i)] > 0.0).any())

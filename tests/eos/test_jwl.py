@@ -1,0 +1,137 @@
+"""Explosives: the Chapman-Jouguet state of every set, the products between the unreacted solid and burnt, what burns when."""
+
+import numpy as np
+import pytest
+from scipy.optimize import brentq
+
+from eos import jwl
+from hydro2d.errors import DeckError
+from hydro2d.materials import library
+
+TNT = {"reference_density": 1630.0, "A": 371.2e9, "B": 3.231e9, "R1": 4.15, "R2": 0.95, "omega": 0.30,
+       "detonation_energy": 7e9, "detonation_velocity": 6930.0, "cj_pressure": 21e9}  # fmt: skip
+ROW = jwl.row(TNT)
+BURNT = np.array([1.0, 0.0, 1e-7])
+
+EXPLOSIVES = [(name, variant) for name in library.names() if library.load(name).eos.name == "jwl"
+              for variant in (None, *library.load(name).variants)]
+
+
+def pressure(volume, energy):
+    """JWL as it is printed, with V = rho0/rho and E per initial volume; TNT."""
+    first, second = (amplitude * (1.0 - 0.3 / (rate * volume)) * np.exp(-rate * volume)
+                     for amplitude, rate in ((371.2e9, 4.15), (3.231e9, 0.95)))
+    return first + second + 0.3 * energy / volume
+
+
+def test_the_library_has_explosives():
+    assert len(EXPLOSIVES) == 11
+    assert ("TNT", "other_fit") in EXPLOSIVES
+
+
+@pytest.mark.parametrize(("name", "variant"), EXPLOSIVES)
+def test_every_set_has_the_detonation_velocity_and_pressure_that_it_states(name, variant):
+    values = library.load(name, variant).eos.values
+    speed, found, _ = jwl.cj_state(jwl.row(values))
+    assert speed == pytest.approx(values["detonation_velocity"], rel=3.1e-3)  # nitromethane: 6261, not 6280 m/s
+    assert found == pytest.approx(values["cj_pressure"], rel=1.1e-3)
+
+
+def test_the_state_is_that_of_the_least_speed_on_the_hugoniot():
+    """Independently: of all Rayleigh lines from the initial state that meet the Hugoniot, the tangent has the least slope."""
+
+    def hugoniot(volume):
+        return brentq(lambda p: pressure(volume, 7e9 + 0.5 * p * (1.0 - volume)) - p, 1e9, 1e12, xtol=1.0)
+
+    volumes = np.linspace(0.70, 0.76, 601)
+    squares = np.array([hugoniot(volume) / (1.0 - volume) for volume in volumes]) / 1630.0
+    speed, found, volume = jwl.cj_state(ROW)
+    assert speed == pytest.approx(np.sqrt(squares.min()), rel=1e-8)
+    assert volume == pytest.approx(volumes[squares.argmin()], abs=1e-4)
+    assert found == pytest.approx(1630.0 * speed**2 * (1.0 - volume), rel=1e-12)
+    # and the flow there is sonic: u + c = D
+    rho = 1630.0 / volume
+    p, dpdrho, dpde, _ = jwl.evaluate(rho, (7e9 + 0.5 * found * (1.0 - volume)) / 1630.0, BURNT, ROW)
+    assert p == pytest.approx(found, rel=1e-12)
+    assert found / (1630.0 * speed) + np.sqrt(dpdrho + p * dpde / rho**2) == pytest.approx(speed, rel=1e-12)
+
+
+@pytest.mark.parametrize("change", [
+    {"B": 3.8e9}, {"R1": 4.10}, {"detonation_velocity": 7010.0}, {"cj_pressure": 21.3e9}, {"detonation_energy": 6e9}])
+def test_constants_that_contradict_each_other(change):
+    with pytest.raises(ValueError, match=r"contradict each other: .* are stated, [\d.e+]+ m/s and [\d.e+]+ Pa follow"):
+        jwl.row(TNT | change)
+
+
+def test_a_set_that_is_often_quoted_fails():
+    """PBX-9404 with R1 = 4.55: 8915 m/s and 38.1 GPa."""
+    values = library.load("PBX9404").eos.values
+    with pytest.raises(ValueError, match=r"8800 m/s and cj_pressure = 3.7e\+10 Pa are stated, 89\d\d.* m/s and 3.8"):
+        jwl.row(values | {"R1": 4.55})
+
+
+def test_constants_without_any_detonation():
+    with pytest.raises(ValueError, match="no Chapman-Jouguet state"):
+        jwl.row(TNT | {"omega": 5.0})
+
+
+def test_a_deck_hears_it():
+    with pytest.raises(DeckError, match="material dud: jwl: the constants contradict each other"):
+        library._row(jwl, library.Model("jwl", {name: library.Number(value, "", "", "deck") for name, value in
+                                                (TNT | {"cj_pressure": 25e9}).items()}),
+                     library.Material("dud", "", "", *[library.Model("none")] * 3, None))
+
+
+def test_the_unreacted_solid():
+    virgin = np.array([field.at_rest(ROW) for field in jwl.INTERNAL])
+    rest, e0 = ROW[0], ROW[1]
+    assert e0 == 7e9 / 1630.0
+    assert jwl.evaluate(rest, e0, virgin, ROW) == (0.0, 2500.0**2, 0.0, 298.0)
+    assert jwl.evaluate(1.1 * rest, 0.0, virgin, ROW)[0] == pytest.approx(0.1 * rest * 2500.0**2, rel=1e-12)
+
+
+@pytest.mark.parametrize("burnt", [0.0, 0.25, 1.0])
+def test_partly_burnt_material_has_a_share_of_both_pressures(burnt):
+    for volume, energy in ((0.73, 9.8e9), (1.0, 7e9), (7.0, 0.9e9)):
+        found = jwl.evaluate(1630.0 / volume, energy / 1630.0, np.array([burnt, 0.0, 1.0]), ROW)[0]
+        solid = 1630.0 * 2500.0**2 * (1.0 / volume - 1.0)
+        assert found == pytest.approx((1.0 - burnt) * solid + burnt * pressure(volume, energy), rel=1e-12)
+
+
+@pytest.mark.parametrize("burnt", [0.3, 1.0])
+def test_the_derivatives_of_burning_material(burnt):
+    internal = np.array([burnt, 0.0, 1.0])
+    for rho, e in ((2200.0, 6e6), (1630.0, 4.3e6), (300.0, 1e6), (2.0, 2e5)):
+        _, dpdrho, dpde, _ = jwl.evaluate(rho, e, internal, ROW)
+        low, high = (jwl.evaluate(rho * (1.0 + step), e, internal, ROW)[0] for step in (-1e-5, 1e-5))
+        assert dpdrho == pytest.approx((high - low) / (2e-5 * rho), rel=1e-6)
+        low, high = (jwl.evaluate(rho, e * (1.0 + step), internal, ROW)[0] for step in (-1e-3, 1e-3))
+        assert dpde == pytest.approx((high - low) / (2e-3 * e), rel=1e-7)
+
+
+def test_thin_products_are_an_ideal_gas_of_omega():
+    assert jwl.evaluate(1.0, 1e6, BURNT, ROW)[0] == pytest.approx(0.3 * 1e6, rel=1e-12)
+
+
+def burn(internal, time, rho=1630.0, row=ROW):
+    internal = np.array(internal)
+    jwl.update(rho, rho, ROW[1], 0.0, 0.0, 0.0, 0.0, 0.0, time, 1e-9, row, internal)
+    return internal
+
+
+def test_the_burn_fraction_rises_from_the_light_time_on():
+    state = [0.0, 2e-6, 0.5e-6]
+    for time, expected in ((0.0, 0.0), (2e-6, 0.0), (2.1e-6, 0.2), (2.5e-6, 1.0), (9e-6, 1.0)):
+        assert burn(state, time).tolist() == pytest.approx([expected, *state[1:]], abs=1e-9)
+    assert burn([0.7, 2e-6, 0.5e-6], 2.1e-6)[0] == 0.7, "it never falls"
+
+
+def test_virgin_material_burns_at_no_time_and_by_compression_only_if_told():
+    virgin = [field.at_rest(ROW) for field in jwl.INTERNAL]
+    assert burn(virgin, 1.0)[0] == 0.0
+    assert burn(virgin, 1e-6, rho=1630.0 / 0.8)[0] == 0.0
+    squeezed = jwl.row(TNT | {"compression_burn": 1.0})
+    volume = jwl.cj_state(ROW)[2]
+    assert burn(virgin, 1e-6, rho=1630.0 / (0.5 + 0.5 * volume), row=squeezed)[0] == pytest.approx(0.5, rel=1e-12)
+    assert burn(virgin, 1e-6, rho=1630.0 / 0.6, row=squeezed)[0] == 1.0
+    assert burn(virgin, 1e-6, rho=1500.0, row=squeezed)[0] == 0.0

@@ -1,0 +1,40 @@
+"""The decks of explosives: what was kept of their runs, the table that their page shows, and Gurney's formulas."""
+
+import pytest
+
+from problems.explosives import read
+from tests.rules import source
+
+FOLDER = source.PROBLEMS / "explosives"
+KEPT = read.kept()
+
+
+def test_the_table_of_the_page_is_that_of_the_kept_results():
+    page = (FOLDER / "README.md").read_text(encoding="utf-8").splitlines()
+    shown = [line for line in page if line.startswith("| `") and line.count("|") == 7]
+    assert shown == read.table(KEPT)[2:]
+    assert len(shown) == 14
+
+
+def test_every_run_of_a_deck_was_kept():
+    assert {(row["deck"], row["explosive"]) for row in KEPT} == {
+        *(("cylinder", name) for name in read.CYLINDER), *((deck, name) for deck in ("plate_push", "sandwich")
+                                                          for name in ("TNT", "comp_B")), ("against_a_wall", "TNT")}
+
+
+def test_what_the_page_says_of_the_differences():
+    """Gurney within 5 %, cylinder walls 2 to 4.5 % slow, the wall's pressure within half a per cent."""
+    off = {row["quantity"]: [] for row in KEPT}
+    for row in KEPT:
+        off[row["quantity"]].append(float(row["obtained"]) / float(row["expected"]) - 1.0)
+    assert max(map(abs, off["final velocity"])) < 0.05
+    for distance in (6, 19):
+        assert all(-0.045 < each < -0.02 for each in off[f"wall velocity at {distance} mm"])
+    assert abs(off["pressure at the wall"][0]) < 5e-3
+
+
+@pytest.mark.parametrize(("form", "ratio", "expected"), [
+    ("cylinder", 2.565, 1542.0 / 2700.0), ("sandwich", 2.565, 1585.9 / 2700.0), ("open", 0.0, 3.0**0.5)])
+def test_gurneys_formulas(form, ratio, expected):
+    """Composition B in 4340 by his cylinder and sandwich, at 2700 m/s; without metal the free face of an open-faced charge."""
+    assert read.gurney(form, ratio) == pytest.approx(expected, rel=1e-3)
