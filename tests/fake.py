@@ -34,6 +34,7 @@ class FakeDeck:
         r, z = Segment(to=12e-3, cells=12), Segment(to=30e-3, cells=55)
         self.mesh, self.body, self.materials = Mesh(r=(r,), z_start=-25e-3, z=(z,)), (), {}
         self.sliding, self.failure, self.boundaries = Sliding(), Failure(), Boundaries(r_min="axis")
+        self.source: tuple = ()
 
     def to_toml(self) -> str:
         return f"""\
