@@ -118,7 +118,7 @@ RIGID = 1e15  # no flow
 def stressed(e: float, flow: float, size: float, along: float) -> float:
     """n . s . n of a deviator after the strain e across the surface, returned to the yield surface."""
     x = 2.0 * G * e
-    norm = sqrt(1.5 * (size + 2.0 * x * along + 2.0 / 3.0 * x * x))
+    norm = sqrt(max(1.5 * (size + 2.0 * x * along + 2.0 / 3.0 * x * x), 0.0))
     return (along + 2.0 / 3.0 * x) * (flow / norm if norm > flow else 1.0)
 
 
