@@ -30,7 +30,7 @@ SHANK, BEHIND, AHEAD = 4.0, 2.0, 8.0
 def shipped() -> tuple[str, ...]:
     """The decks that hydro2d ships, without studies and materials, as paths within its problems.
 
-    Those of explosives are left out: on meshes as coarse as these a burn front overshoots the bounds of its energy by up to 30 %.
+    Those of explosives are left out: on meshes this coarse a burn front overshoots the bounds of its energy by up to 30 %.
     """
     folder = toml.problems_folder()
     files = [file for file in sorted(folder.glob("*/*.toml")) if file.parent.name != "explosives"]
