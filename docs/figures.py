@@ -20,11 +20,12 @@ import sys
 import tempfile
 from pathlib import Path
 
+import matplotlib
 from PIL import Image, ImageSequence
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
-os.environ["MPLBACKEND"] = "agg"
+matplotlib.use("agg")
 STATIC = HERE / "_static"
 #: largest picture of a page, bytes; its width, and that of a film, pixels
 MOST, WIDTH, FILM_WIDTH = 100_000, 1200, 400
@@ -85,7 +86,7 @@ def run(step: tuple[str, str], folder: Path, names: dict[str, object]) -> None:
         with contextlib.chdir(folder):
             exec(text, names)
         return
-    environment = os.environ | {"PYTHONPATH": str(HERE.parent), "BROWSER": "true"}
+    environment = os.environ | {"PYTHONPATH": str(HERE.parent), "BROWSER": "true", "MPLBACKEND": "agg"}
     subprocess.run([sys.executable, "-m", "hydro2d", *shlex.split(text)[1:]], cwd=folder, env=environment, check=True)
 
 

@@ -44,7 +44,7 @@ def run_kind(kind: kinds.Kind, folder: Path, settings: tuple[str, ...] = ()) -> 
 
     settings : further arguments of `hydro2d run`, to cut it short
     """
-    environment = os.environ | {"PYTHONPATH": str(HERE.parent)}
+    environment = os.environ | {"PYTHONPATH": str(HERE.parent), "MPLBACKEND": "agg"}
     seconds = 0.0
     for words in kind.commands():
         more = settings if words.startswith("hydro2d run") else ()
