@@ -61,7 +61,9 @@ CRITERIA = {
         "eroding": f"{_ERODING}; else it is deforming",
         **_BY_DEPTH,
     },
-    "length": {KEPT: "at least two thirds of the projectile's length are left", USED_UP: "less is left", **_BY_DEPTH},
+    "length": {
+        KEPT: "at least two thirds of the projectile's length are left at the end", USED_UP: "less is left", **_BY_DEPTH,
+    },
     "perforation": {
         PERFORATED: "the leading end is at least the radius of the projectile beyond the rear face of the target",
         "ballistic limit": "between the fastest run that is stopped and the slowest that perforates",

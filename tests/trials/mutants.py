@@ -28,13 +28,9 @@ SHANK, BEHIND, AHEAD = 4.0, 2.0, 8.0
 
 @cache
 def shipped() -> tuple[str, ...]:
-    """The decks that hydro2d ships, without studies and materials, as paths within its problems.
-
-    Those of explosives are left out: on meshes this coarse a burn front overshoots the bounds of its energy by up to 30 %.
-    """
+    """The decks that hydro2d ships, without studies and materials, as paths within its problems."""
     folder = toml.problems_folder()
-    files = [file for file in sorted(folder.glob("*/*.toml")) if file.parent.name != "explosives"]
-    tables = {file: toml.read(file, Sources()) for file in files}
+    tables = {file: toml.read(file, Sources()) for file in sorted(folder.glob("*/*.toml"))}
     return tuple(str(file.relative_to(folder)) for file, data in tables.items() if "mesh" in data and not toml.is_study(data))
 
 

@@ -1,11 +1,11 @@
 """What the bodies of a deck can reach, whatever the method makes of it.
 
 The bounds follow from the deck and the equations of state alone. Closing speed V: the largest difference between the velocities
-of two bodies, walls and edges included, and the speeds at which what is under pressure at the start expands. A body is shocked
-by a jump of V, or to the pressure that the other side bears, then squeezed on its isentrope to the largest pressure of any
-collision; this covers reflections, and gas between closing walls. Density and energy there are what it reaches. After that it
-expands, which gives speeds. Plastic work, friction and the margins come on top. Nothing has less energy than its isentrope
-through the start, because entropy does not fall.
+of two bodies, walls and edges included, and the speeds at which what is under pressure at the start expands; an explosive has
+burnt at once. A body is shocked by a jump of V, or to the pressure that the other side bears, then squeezed on its isentrope to
+the largest pressure of any collision; this covers reflections, and gas between closing walls. Density and energy there are what
+it reaches. After that it expands, which gives speeds. Plastic work, friction and the margins come on top. Nothing has less
+energy than its isentrope through the start, because entropy does not fall.
 """
 
 from __future__ import annotations
@@ -53,7 +53,7 @@ class Reach:
 
     def __init__(self, simulation):
         table, self.deck, grid = simulation.table, simulation.deck, simulation.grid
-        self.materials = [Material(int(table.eos_model[m]), table.eos_par[m], table.virgin(m)) for m in range(len(table))]
+        self.materials = [Material(int(table.eos_model[m]), table.eos_par[m], table.spent(m)) for m in range(len(table))]
         speeds = _speeds(simulation)
         self.fastest = float(np.hypot(*speeds.T).max())
         self.closing = max(float(np.hypot(*(speeds - one).T).max()) for one in speeds)
