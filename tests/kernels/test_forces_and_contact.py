@@ -255,6 +255,27 @@ def test_deviators_of_a_group_act_on_it_alone():
     assert cells.v[:, 3, 4] == pytest.approx([0.0, -0.1 * 6.0 / 3.0])
 
 
+def test_both_ways_of_summing_the_corner_forces_agree():
+    """Four cells a vertex row by row (`accelerate`), and cell by cell for one group (`contact_node_forces`)."""
+    random = np.random.default_rng(3)
+    cells = Cells(bodies=2, group=np.array([0, 1]), geometry="cylindrical")
+    cells.vof[0], cells.solid[...], cells.cell_mass[0] = 1.0, 1.0, 1.0
+    cells.mass[0] = random.uniform(1.0, 2.0, cells.grid.vertex_shape)
+    cells.q[SRR, 0], cells.q[SZZ, 0], cells.q[SRZ, 0] = random.standard_normal((3, *cells.grid.shape))
+    cells.sig_rr[...], cells.sig_zz[...], cells.sig_rz[...] = cells.q[[SRR, SZZ, SRZ], 0]
+    cells.sig_tt[...] = -(cells.sig_rr + cells.sig_zz)
+    cells.hg_coefficient[...] = random.uniform(0.0, 1.0, cells.grid.shape)
+    cells.u0[0], cells.v0[0] = random.standard_normal((2, *cells.grid.vertex_shape))
+    cells.call(acceleration.accelerate, dt=0.1, speed_limit=1e300, underfilled_density=0.0)
+    inside = np.s_[0, 3:6, 3:6]
+    by_rows = np.array([cells.u[inside], cells.v[inside]])
+    cells.contact_node_count[3:6], cells.contact_nodes[3:6, :3] = 3, [3, 4, 5]
+    cells.mass[1] = 1.0  # divided by, and of no matter
+    cells.call(contact_motion.contact_node_forces, dt=0.1, solid_mode=False, count=cells.contact_node_count)
+    np.testing.assert_allclose([cells.u[inside], cells.v[inside]], by_rows, rtol=1e-12, atol=1e-13)
+    assert np.abs(by_rows - [cells.u0[inside], cells.v0[inside]]).min() > 1e-4
+
+
 def test_faces_of_the_contact_are_swept_by_aperture():
     cells = halves()
     cells.u[1], cells.u[0], cells.u0[1], cells.u0[0], cells.v[1], cells.v[0] = 2.0, 4.0, 2.0, 4.0, 10.0, 2.0
