@@ -1,0 +1,164 @@
+"""The twelve shots by their members: depth and loss of length with their spread, a score for each law, and a figure with dots.
+
+    python -m problems.cth_nose_shape.members RESULTS [RESULTS ...] [--figure PATH]
+
+RESULTS are what `rigid_rod` reads: directories of studies with `[ensemble]`, or the file that it keeps of them. Two tables are
+printed in Markdown. In the first a cell has the median depth of the members and the least and the largest, the median loss of
+length, and how many members end on the side of the transition on which the experiment did. The second counts, for each law,
+members on that side and shots whose median depth is within the aim: 10 % for rods that stay rigid, 20 % for eroded ones, and a
+perforation where there was one. In the figure each dot is a member.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+from statistics import median
+
+from hydro2d.analytic import model_transition
+from hydro2d.errors import DeckError
+from hydro2d.results import figures
+from hydro2d.study.layout import StudyError
+from problems.cth_nose_shape import rigid_rod
+from problems.cth_nose_shape.rigid_rod import COLOURS, PLATE, Result, Shot
+
+#: by how much a depth may be off, of that of the experiment
+RIGID_WITHIN, ERODED_WITHIN = 0.10, 0.20
+
+
+def grouped(results: list[Result]) -> dict[str, dict[Shot, list[Result]]]:
+    """The members of every shot, by column and shot."""
+    found: dict[str, dict[Shot, list[Result]]] = {}
+    for result in results:
+        if result.shot is not None:
+            found.setdefault(result.column, {}).setdefault(result.shot, []).append(result)
+    return found
+
+
+def rigid() -> dict[Shot, bool]:
+    """Whether the rod of each experiment stayed rigid, by its depth."""
+    return {Shot(each.nose, each.target.removeprefix("Al"), each.velocity): each.stayed_rigid
+            for each in model_transition.experiments()}  # fmt: skip
+
+
+def right(members: list[Result], stayed_rigid: bool) -> int:
+    """How many members end as the experiment did: two thirds of the length left, or not."""
+    return sum(result.held == stayed_rigid for result in members)
+
+
+def cell(members: list[Result], stayed_rigid: bool | None) -> str:
+    """A cell of the table."""
+    through = sum(result.depth is None for result in members)
+    depths = sorted(result.reach for result in members)
+    depth = f"{median(depths):.1f} cm" if 2 * through < len(members) else "perforated"
+    if through in (0, len(members)) and depths[0] < depths[-1]:
+        depth += f" ({depths[0]:.1f} to {depths[-1]:.1f})"
+    elif through not in (0, len(members)):
+        depth += f" ({through} of {len(members)} perforated, least {depths[0]:.1f} cm)"
+    lost = median(result.loss for result in members)
+    told = f"{depth}, {lost:.1f} %" if lost < 10.0 else f"{depth}, {lost:.0f} %"
+    return told if stayed_rigid is None else f"{told}, {right(members, stayed_rigid)} of {len(members)}"
+
+
+def table(found: dict[str, dict[Shot, list[Result]]]) -> list[str]:
+    """Lines of Markdown: a row for each shot, a column for each law."""
+    measured, sides = rigid_rod.experiments(), rigid()
+    shots = sorted({shot for cases in found.values() for shot in cases}, key=lambda at: (at.nose, at.alloy, at.velocity))
+    lines = ["| shot | experiment | " + " | ".join(found) + " |", "|---" * (len(found) + 2) + "|"]
+    for shot in shots:
+        cells = [cell(cases[shot], sides.get(shot)) if shot in cases else "" for cases in found.values()]
+        lines.append(f"| {shot} | {measured.get(shot, '')} | " + " | ".join(cells) + " |")
+    return lines
+
+
+def within_aim(members: list[Result], shot: Shot) -> bool:
+    """Whether the median depth of a shot's members is as near to the measured one as was aimed at."""
+    measured, through = rigid_rod.experiments()[shot], 2 * sum(result.depth is None for result in members) >= len(members)
+    if measured.kind == "at least":
+        return through
+    most = RIGID_WITHIN if rigid()[shot] else ERODED_WITHIN
+    return not through and abs(median(result.reach for result in members) / (1e2 * measured.depth) - 1.0) <= most
+
+
+def scores(found: dict[str, dict[Shot, list[Result]]]) -> list[str]:
+    """Lines of Markdown: what every law has right."""
+    sides = rigid()
+    lines = ["| law | shots | members on the right side | shots with nine in ten on it | depths within the aim |",
+             "|---|---|---|---|---|"]  # fmt: skip
+    for column, cases in found.items():
+        known = {shot: members for shot, members in cases.items() if shot in sides}
+        if not known:
+            continue
+        rights = {shot: right(members, sides[shot]) for shot, members in known.items()}
+        sure = sum(10 * rights[shot] >= 9 * len(members) for shot, members in known.items())
+        aims = sum(within_aim(members, shot) for shot, members in known.items())
+        members = sum(map(len, known.values()))
+        lines.append(f"| {column} | {len(known)} | {sum(rights.values())} of {members} | {sure} | {aims} |")
+    return lines
+
+
+def draw(found: dict[str, dict[Shot, list[Result]]]):
+    """A matplotlib Figure with a panel for each nose and alloy: a dot for every member; triangles are rods that perforate."""
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(9.6, 7.8), layout="constrained")
+    FigureCanvasAgg(figure)
+    panels = figure.subplots(2, 2, sharey=True, squeeze=False)
+    measured = rigid_rod.experiments()
+    for nose, row in zip(rigid_rod.NOSES.values(), panels, strict=True):
+        for alloy, axes in zip(("5083", "7039"), row, strict=True):
+            for number, (column, cases) in enumerate(found.items()):
+                shift = 6.0 * (number - 0.5 * (len(found) - 1))  # beside one another, m/s
+                here = {shot.velocity + shift: members for shot, members in cases.items()
+                        if (shot.nose, shot.alloy) == (nose, alloy)}  # fmt: skip
+                _dots(axes, column, COLOURS[number % len(COLOURS)], here)
+            for marker, is_measured, label in (("s", True, "experiment"), ("^", False, "experiment, perforated")):
+                shots = [(shot.velocity, 1e2 * told.depth) for shot, told in measured.items()
+                         if (shot.nose, shot.alloy, told.kind != "at least") == (nose, alloy, is_measured)]  # fmt: skip
+                axes.plot(*zip(*shots, strict=True) if shots else ([], []), marker, color="black", markersize=8,
+                          markerfacecolor="none", label=label)  # fmt: skip
+            axes.axhline(PLATE, color="black", linewidth=0.5, linestyle=":")
+            axes.set_title(f"{nose} nose, {alloy} aluminium", fontsize="medium")
+            axes.grid(alpha=0.3)
+        row[0].set_ylabel("depth [cm]")
+    for axes in panels[-1]:
+        axes.set_xlabel("impact velocity [m/s]")
+    panels[0][0].set_ylim(0.0, 60.0)
+    figure.legend(*panels[0][0].get_legend_handles_labels(), fontsize="small", loc="outside lower center", ncols=3)
+    return figure
+
+
+def _dots(axes, column: str, colour: str, members: dict[float, list[Result]]) -> None:
+    """The members of one law in one panel, by velocity, with a line through their medians."""
+    places = sorted(members)
+    axes.plot(places, [median(result.reach for result in members[at]) for at in places], color=colour, linewidth=0.8)
+    for marker, through in (("o", False), ("^", True)):
+        dots = [(at, result.reach) for at in places for result in members[at] if (result.depth is None) == through]
+        axes.plot(*zip(*dots, strict=True) if dots else ([], []), marker, color=colour, markersize=5, alpha=0.6,
+                  label="_" if through else column)  # fmt: skip
+
+
+def main(arguments: list[str] | None = None) -> int:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("results", nargs="+", type=Path)
+    parser.add_argument("--figure", type=Path)
+    given = parser.parse_args(arguments)
+    try:
+        results = list({result.name: result for path in given.results for result in rigid_rod.read(path)}.values())
+        found = grouped(results)
+        if not found:
+            print("there is no finished case of a shot", file=sys.stderr)
+            return 2
+        print("\n".join([*table(found), "", *scores(found)]))
+        if given.figure:
+            figures.save(draw(found), given.figure)
+    except (StudyError, DeckError, OSError) as error:
+        print(error, file=sys.stderr)
+        return 2
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
