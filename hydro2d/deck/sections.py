@@ -323,7 +323,8 @@ class Experiment(Section):
     """
 
     velocity: PositiveSpeed | None = Field(
-        None, description="impact velocity of the shot; default: the velocity of the projectile, whatever it is", examples=["1086 m/s"]
+        None, description="impact velocity of the shot; default: the velocity of the projectile, whatever it is",
+        examples=["1086 m/s"],
     )
     target: str | None = Field(
         None, description="material of the target in the shot; default: that of the target, whatever it is", examples=["Al5083"]
