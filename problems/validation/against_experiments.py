@@ -9,6 +9,7 @@ the studies.
 
 from __future__ import annotations
 
+import argparse
 import csv
 import sys
 from dataclasses import dataclass
@@ -148,7 +149,8 @@ def tables() -> list[str]:
     return lines
 
 
-def main() -> int:
+def main(arguments: list[str] | None = None) -> int:
+    argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter).parse_args(arguments)
     print("\n".join(tables()))
     return 0
 
