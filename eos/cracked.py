@@ -19,8 +19,13 @@ from hydro2d.mesh.fields import Field
 
 NAME = "cracked"
 ID = 7
-INTERNAL = (Field("crack_volume", "", "body", "m^3/kg", 1, "mass", True, "volume of the cracks per mass", 0.0),)
+INTERNAL = (
+    Field("crack_volume", "", "body", "m^3/kg", 1, "mass", True, "volume of the cracks per mass", 0.0),
+    Field("crack_growth", "", "body", "1", 1, "mass", False, "1 where cracks have opened in the last step, else 0", 0.0, 1.0),
+)
 
+#: the variables
+CRACKS, GROWTH = 0, 1
 #: slot of the row beside RHO0 and E0; from SOLID_AT on stands the row of the solid
 SOLID_MODEL = 2
 
@@ -40,11 +45,12 @@ def solid_share(rho, cracks):
 def evaluate(rho, e, internal, par):
     """(p, dp/drho at constant e, dp/de at constant rho, T) at density ``rho`` > 0 and specific energy ``e``; SI.
 
-    The crack volume is held. explanation/fracture, (8)
+    The crack volume is held; but where cracks grow, they take all of a small change of volume, and dp/drho is zero. This is the
+    modulus from which a step predicts the pressure in its middle. explanation/fracture, (8)
     """
-    share = solid_share(rho, internal[0])
+    share = solid_share(rho, internal[CRACKS])
     p, dpdrho, dpde, T = solid.evaluate(int(par[SOLID_MODEL]), rho / share, e, par[SOLID_AT:])
-    return p, dpdrho / (share * share), dpde, T
+    return p, dpdrho / (share * share) if internal[GROWTH] < 0.5 else 0.0, dpde, T
 
 
 @late
@@ -75,12 +81,12 @@ def opened(rho, e, limit, cracks, par):
 @late
 def update(rho0, rho, e, dep, work, damage0, damage, released, time, dt, par, internal):
     """Closes cracks that are under pressure, until it is gone or they are: they bear none. explanation/fracture, (9)"""
-    cracks = internal[0]
+    cracks = internal[CRACKS]
     if cracks <= 0.0:
         return
     rho_s = rho / solid_share(rho, cracks)
     if solid.evaluate(int(par[SOLID_MODEL]), rho_s, e, par[SOLID_AT:])[0] > 0.0:
-        internal[0] = min(max(1.0 / rho - 1.0 / density_at(0.0, rho_s, e, par), 0.0), cracks)
+        internal[CRACKS] = min(max(1.0 / rho - 1.0 / density_at(0.0, rho_s, e, par), 0.0), cracks)
 
 
 def row(model: int, of_solid: np.ndarray) -> np.ndarray:

@@ -178,9 +178,9 @@ def deform(parts, i0, i1, time, dt, travels, advance, metrics, dr, dz, group_ran
             sliding.cut_shear(part, parts, shear, friction, occupied[0], zone, normal, hard_bodies, vof, pm, q)
         if before.shape[1] > 0:
             memory.update_memory(part, parts, time, dt, body_range, models, materials, pm, tm, before, vof, q)
-            cracks.open_cracks(part, parts, body_range, models, materials, before, vof, q)
+            cracks.open_cracks(part, parts, body_range, models, materials, vof, q)
             wait(gate, parts)
-            cracks.damage_by_cracks(part, parts, mesh_box, dr, dz, group, body_range, models, materials, u, v, before, vof, q)
+            cracks.damage_by_cracks(part, parts, mesh_box, dr, dz, group, body_range, models, materials, u, v, vof, q)
         if travels:
             wait(gate, parts)
             following.leave(part, parts, advance, metrics, group_ranges[0], fz)

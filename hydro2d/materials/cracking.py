@@ -27,8 +27,8 @@ def cracking_pressure(material: Material, tension: float) -> float:
     if material.fracture_pressure is None:
         raise DeckError(f"material {material.name}: {name} needs a fracture_pressure, the tension at which cracks open")
     if not np.isfinite(tension):
-        raise DeckError(f'material {material.name}: {name} opens cracks at the fracture pressure, which failure.tensile = "none" '
-                        'switches off; write tensile = "material"')
+        raise DeckError(f"material {material.name}: {name} opens cracks at the fracture pressure, which failure.tensile = "
+                        '"none" switches off; write tensile = "material"')
     if hasattr(material.strength.module("strength"), "weakened"):
         raise DeckError(f"material {material.name}: the strength model {material.strength.name} falls with a damage of its own "
                         f"and does not go with {name}")

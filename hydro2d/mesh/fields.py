@@ -192,7 +192,7 @@ WORK = (
 
 #: what equations of state with internal variables need beside
 MEMORY_WORK = (
-    Work("before", "4 m j i", "density, plastic strain and damage before the Lagrangian step; whether cracks have opened in it"),
+    Work("before", "3 m j i", "density, plastic strain and damage before the Lagrangian step"),
 )
 
 #: what the contact of two groups needs beside

@@ -1,4 +1,4 @@
-"""Cracked material: the pressure of its solid, cracks that open at a tension and close under pressure, and what a deck must say."""
+"""Cracked material: the pressure of its solid, cracks that open and close, and what a deck must say."""
 
 import numpy as np
 import pytest
@@ -19,13 +19,13 @@ ROW = cracked.row(mie_grueneisen.ID, SOLID)
 assert dispatch.WITH_MEMORY
 
 
-def state(rho, e, cracks):
-    return cracked.evaluate(rho, e, np.array([cracks]), ROW)
+def state(rho, e, cracks, growth=0.0):
+    return cracked.evaluate(rho, e, np.array([cracks, growth]), ROW)
 
 
 def after(rho, e, cracks):
     """The crack volume after a step to a density and an energy."""
-    internal = np.array([cracks])
+    internal = np.array([cracks, 0.0])
     cracked.update(RHO0, rho, e, *np.zeros(7), ROW, internal)
     return internal[0]
 
@@ -43,8 +43,15 @@ def test_the_pressure_is_that_of_the_solid_and_follows_from_the_energy(cracks):
     rho, e, small = 1.0 / (1.0 / 2650.0 + cracks), 2e5, 1e-3
     p, dpdrho, dpde, T = state(rho, e, cracks)
     assert (p, T) == pytest.approx(mie_grueneisen.evaluate(2650.0, e, SOLID)[::3], rel=1e-10)
-    assert dpdrho == pytest.approx((state(rho + small, e, cracks)[0] - state(rho - small, e, cracks)[0]) / (2 * small), rel=1e-6)
+    slope = (state(rho + small, e, cracks)[0] - state(rho - small, e, cracks)[0]) / (2 * small)
+    assert dpdrho == pytest.approx(slope, rel=1e-6)
     assert dpde == pytest.approx((state(rho, e + 1.0, cracks)[0] - state(rho, e - 1.0, cracks)[0]) / 2.0, rel=1e-6)
+
+
+def test_cracks_that_grow_take_all_of_a_change_of_volume():
+    still, growing = state(2600.0, 1e5, 1e-6), state(2600.0, 1e5, 1e-6, growth=1.0)
+    assert still[1] > 0.0
+    assert growing == (still[0], 0.0, *still[2:])
 
 
 @pytest.mark.parametrize("share", [0.0, 0.3, 1.0])
@@ -82,10 +89,11 @@ def table_of(text):
 
 
 def test_a_body_of_it_has_the_crack_volume_and_no_other_fracture_pressure():
-    found = table_of(material("metal", "Al6061_T6", fracture_pressure=TENSION, damage=CRACKS) + table("failure", damage="material"))
-    assert [field.name for field in found.internal[0]] == ["crack_volume"]
+    metal = material("metal", "Al6061_T6", fracture_pressure=TENSION, damage=CRACKS)
+    found = table_of(metal + table("failure", damage="material"))
+    assert [field.name for field in found.internal[0]] == ["crack_volume", "crack_growth"]
     assert (found.cracking.tolist(), found.fracture_pressure.tolist()) == ([TENSION], [np.inf])
-    plain = table_of(material("metal", "Al6061_T6", fracture_pressure=TENSION, damage=CRACKS) + table("failure", damage="none"))
+    plain = table_of(metal + table("failure", damage="none"))
     assert (plain.internal, plain.cracking.tolist(), plain.fracture_pressure.tolist()) == (((),), [0.0], [TENSION])
 
 
