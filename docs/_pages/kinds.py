@@ -93,6 +93,22 @@ def of_wall(results) -> str:
     return "perforated" if dump.fields["Volume Fraction for wall"][:, 0].max() < 0.5 else "holds on the axis"
 
 
+def wall_velocity(results, travel: float) -> str:
+    """Velocity of the wall of the cylinder test when it has moved by travel, m."""
+    moved, speed = results.history["wall_travel_m"], results.history["tracer_wall_velocity_r_m_s"]
+    return f"{np.interp(travel, moved, speed) / 1e3:.2f} km/s"
+
+
+def early_wall(results) -> str:
+    """Velocity of the wall after 6 mm."""
+    return wall_velocity(results, 6e-3)
+
+
+def late_wall(results) -> str:
+    """Velocity of the wall after 19 mm."""
+    return wall_velocity(results, 19e-3)
+
+
 def pull_back(results) -> str:
     """Fall of the velocity of the rear from its plateau to its first minimum."""
     speed = results.history["tracer_rear_velocity_z_m_s"]
@@ -141,4 +157,10 @@ KINDS = (
          (("depth of the core after 50 µs", "somewhat less than the 40 to 43 mm of Tate's model for the core",
            early_depth),
           ("depth of the core at the end", "no value at hand", depth))),
+    Kind("cylinder-test", "The cylinder test",
+         "TNT in a tube of copper, lit over its left end. Pressure above the axis, materials below, after 12 and 28 µs: the "
+         "detonation runs to the right, and its products drive the wall.",
+         '--field pressure --mirror material --time "12 us" --time "28 us" --window "0 mm,165 mm,38 mm"',
+         (("velocity of the wall after 6 mm", "1.21 km/s (LLNL Explosives Handbook 1985, recalled)", early_wall),
+          ("velocity of the wall after 19 mm", "1.42 km/s (the same)", late_wall))),
 )  # fmt: skip

@@ -122,11 +122,12 @@ def _bad_targets(deck: Deck) -> Iterator[tuple[tuple, str]]:
         return
     for number, name in enumerate(shot.targets):
         if name == shot.rod:
-            yield ("penetration", "targets", number), f'"{name}" is the rod'
+            yield ("penetration", "targets", number), f'"{name}" is the projectile'
         elif number > 0:
             before, sign = shot.targets[number - 1], heading(body(deck, shot.rod))
             if sign * (faces(deck, shot.rod, name)[0] - faces(deck, shot.rod, before)[0]) < 0.0:
-                yield ("penetration", "targets", number), f'the rod reaches "{name}" before "{before}"; name them in that order'
+                path = ("penetration", "targets", number)
+                yield path, f'"{shot.rod}" reaches "{name}" before "{before}"; name them in that order'
 
 
 def _bad_sources(deck: Deck) -> Iterator[tuple[tuple, str]]:

@@ -212,19 +212,19 @@ class Failure(Section):
 class Stop(Section):
     """When the run ends: at the first of these conditions. The speed of a body is checked every 10 cycles.
 
-    If the speed of the rod, its rebound or perforation is watched, the run also ends when the rod has left the mesh.
+    If the speed of the projectile, its rebound or perforation is watched, the run also ends when it has left the mesh.
     """
 
     time: PositiveTime | None = Field(None, description="end time", examples=["400 us"])
     cycles: int | None = Field(None, gt=0, le=10**12, description="number of cycles", examples=[1000])
-    body: str | None = Field(None, description="the body watched; default: the rod", examples=["rod"])
+    body: str | None = Field(None, description="the body watched; default: the projectile", examples=["rod"])
     speed_below: PositiveSpeed | None = Field(
         None, description="stop when the axial speed of that body's centre of mass, for a rod of its core, falls below this",
         examples=["5 m/s"],
     )
     rebound: bool = Field(False, description="stop when that body reverses its direction")
     perforation: Literal[False, True, "tail"] = Field(
-        False, description="stop when the nose of the rod is one rod radius beyond the rear face of the last target; tail: "
+        False, description="stop when the nose of the projectile is its radius beyond the rear face of the last target; tail: "
         "when its tail is beyond that face too"
     )
 
@@ -323,7 +323,8 @@ class Experiment(Section):
     """
 
     velocity: PositiveSpeed | None = Field(
-        None, description="impact velocity of the shot; default: the velocity of the rod, whatever it is", examples=["1086 m/s"]
+        None, description="impact velocity of the shot; default: the velocity of the projectile, whatever it is",
+        examples=["1086 m/s"],
     )
     target: str | None = Field(
         None, description="material of the target in the shot; default: that of the target, whatever it is", examples=["Al5083"]
@@ -352,7 +353,7 @@ class Penetration(Section):
         None, description="the body that is penetrated; of several, the first", examples=["plate"]
     )
     targets: tuple[str, ...] = Field(
-        (), description="the bodies that are penetrated, in the order in which the rod reaches them; default: target alone",
+        (), description="the bodies that are penetrated, in the order in which it reaches them; default: target alone",
         examples=[["front", "rear"]],
     )
     surface: Length | None = Field(

@@ -304,11 +304,16 @@ def result(summary: dict) -> list[str]:
 
 
 def _bars(summary: dict) -> list[str]:
-    """Lengths of the bodies that were longer than wide at the start, and have changed, with the radius of the foot."""
+    """Lengths of the bodies that were longer than wide at the start, and have changed, with the radius of the foot.
+
+    A body of which something has left the mesh has no length that could be told.
+    """
     lines = []
     for name, body in summary["bodies"].items():
         first, length, radius = (body.get(key) for key in ("initial_length_m", "length_m", "r_max_m"))
         if first is None or length is None or radius is None or first < radius or abs(length - first) <= SAME_LENGTH * first:
+            continue
+        if body["outflow_kg"] > 0.0:
             continue
         ends = [body[f"radius_at_z_{end}_m"] for end in ("min", "max")]
         lines.append(f"{f'{name} length':<21} {length * 1e3:.2f} mm of {first * 1e3:.2f} mm, {length / first:.3f}; "

@@ -55,7 +55,7 @@ class Source(Section):
 
     def heat(self, grid, time: float, dt: float) -> np.ndarray:
         """Energy that the body's material gains from ``time`` to ``time + dt`` in every cell, J/kg, float64[nz, nr]."""
-        raise NotImplementedError
+        raise NotImplementedError(f"{type(self).__name__} does not say what it gives")
 
 
 def _overlap(edges: np.ndarray, reach) -> np.ndarray:

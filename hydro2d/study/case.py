@@ -95,8 +95,9 @@ def _run(directory: Path, deck_text: str, threads: int, overwrite: bool, interru
     restart = _can_continue(directory, deck_text, overwrite)
     jit.set_threads(min(threads, jit.max_threads()))
     compilation.once(kernels(deck), lambda: _compile(deck))
-    (directory / FAILED).unlink(missing_ok=True)
-    return run.run(deck, directory, restart=restart, overwrite=not restart, quiet=True, interrupt=interrupt)
+    summary = run.run(deck, directory, restart=restart, overwrite=not restart, quiet=True, interrupt=interrupt)
+    (directory / FAILED).unlink(missing_ok=True)  # not before: dask may repeat a case whose failure the sweep has written down
+    return summary
 
 
 def _wait_for_silence(directory: Path, interrupt: Interrupt | None) -> None:

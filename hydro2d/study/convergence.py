@@ -116,7 +116,7 @@ def _sequence(found: Sequence[Ensemble], y: Response) -> Meshes:
         few = ", ".join(f"{cells:g}" for cells, values in samples if len(values) < 2)
         limit = Limit(None, None, None, None, f"fewer than two members have ended on {few} cells")
     elif len(kinds) > 1:
-        limit = Limit(None, None, None, None, f"rods end in {len(kinds)} ways ({', '.join(sorted(kinds))}), and a mean of them "
+        limit = Limit(None, None, None, None, f"runs end in {len(kinds)} ways ({', '.join(sorted(kinds))}), and a mean of them "
                                               "is the depth of none")  # fmt: skip
     elif y.name == DEPTH and any(each.bound is not None for each in found):
         limit = Limit(None, None, None, None, "some depths are lower bounds, since the projectile perforated or left the mesh")

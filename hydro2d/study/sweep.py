@@ -154,8 +154,9 @@ class _Sweep:
             if not interrupt.reason:
                 self._begin()
             if case is not None:
-                self._finish(case, _outcome(future))
+                outcome = _outcome(future)
                 future.release()
+                self._finish(case, outcome)
             self.board.update()
         return self.spent
 

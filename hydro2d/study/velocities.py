@@ -88,7 +88,7 @@ def key(bases: Iterable[tuple[Path, Sequence[str]]]) -> str:
     if not rods:
         raise ValueError(f"all decks are wrong: {problems[0]}")
     if len(rods) > 1:
-        raise ValueError(f"the rods of the decks have different names ({', '.join(sorted(rods))}); give key")
+        raise ValueError(f"the projectiles of the decks have different names ({', '.join(sorted(rods))}); give key")
     return f"body.{toml.quoted(rods.pop())}.velocity"
 
 

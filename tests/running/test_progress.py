@@ -93,7 +93,7 @@ def test_the_table_is_whole_on_a_narrow_terminal(tmp_path):
 def closing(**changes):
     """The last lines of a bar that was 25.4 mm long, with a gauge and a derived quantity."""
     body = {"velocity_m_s": 0.0, "kinetic_energy_J": 0.0, "initial_length_m": 25.4e-3, "length_m": 17.43e-3, "r_max_m": 6.6e-3,
-            "radius_at_z_min_m": 6.6e-3, "radius_at_z_max_m": 3.81e-3}  # fmt: skip
+            "outflow_kg": 0.0, "radius_at_z_min_m": 6.6e-3, "radius_at_z_max_m": 3.81e-3}  # fmt: skip
     station = {"peak_pressure_Pa": 3.21e9, "peak_pressure_time_s": 1.5e-6, "peak_speed_m_s": 190.0}
     return result({
         "status": "done", "stop_reason": "end time", "faults": [], "cycles": 9, "time_s": 6e-5, "wall_s": 3.0,
@@ -107,8 +107,12 @@ def test_the_last_lines_give_the_length_and_the_foot_of_a_bar():
     said = closing()
     assert "bar length            17.43 mm of 25.40 mm, 0.686; radius 6.60 mm at its foot, 3.81 mm at the other end" in said
     same = {"bar": {"velocity_m_s": 0.0, "kinetic_energy_J": 0.0, "initial_length_m": 25.4e-3, "length_m": 25.399e-3,
-                    "r_max_m": 3e-3, "radius_at_z_min_m": 3e-3, "radius_at_z_max_m": 3e-3}}  # fmt: skip
+                    "outflow_kg": 0.0, "r_max_m": 3e-3, "radius_at_z_min_m": 3e-3, "radius_at_z_max_m": 3e-3}}  # fmt: skip
     assert not any("foot" in line for line in closing(bodies=same))
+    short = {"tube": same["bar"] | {"length_m": 9e-3}}
+    assert any("foot" in line for line in closing(bodies=short))
+    short["tube"]["outflow_kg"] = 1e-6  # some of it has left the mesh
+    assert not any("foot" in line for line in closing(bodies=short))
 
 
 def test_the_last_lines_give_peaks_and_derived_quantities():

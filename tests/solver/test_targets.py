@@ -66,9 +66,9 @@ def test_named_targets(keys, targets):
 
 @pytest.mark.parametrize(
     ("keys", "said"),
-    [('targets = ["rear", "front"]', 'the rod reaches "front" before "rear"; name them in that order'),
+    [('targets = ["rear", "front"]', '"ball" reaches "front" before "rear"; name them in that order'),
      ('targets = ["front", "back"]', 'unknown body "back"'),
-     ('targets = ["front", "ball"]', '"ball" is the rod'),
+     ('targets = ["front", "ball"]', '"ball" is the projectile'),
      ('targets = ["front", "front"]', "targets names a body twice"),
      ('target = "rear"\ntargets = ["front", "rear"]', 'target is "rear" and the first of targets is "front"'),
      ("", "target or targets is missing")],

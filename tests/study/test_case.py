@@ -61,6 +61,22 @@ def test_a_finished_case_is_not_run_again(text, place):
     assert (place / "summary.json").stat().st_mtime_ns == before
 
 
+def test_a_failure_that_is_written_down_stays_until_a_run_has_ended(monkeypatch, text, place):
+    """A sweep writes it; dask may then repeat the case, if its worker has died before dask knew that its result was taken."""
+    place.mkdir()
+    (place / "failed.json").write_text('{"reason": "a fault"}')
+
+    def fault(*_given, **_options):
+        raise ZeroDivisionError("a fault")
+
+    with monkeypatch.context() as patch:
+        patch.setattr("hydro2d.running.run.run", fault)
+        assert run_case(place, text).status == "failed"
+    assert (place / "failed.json").is_file()
+    assert run_case(place, text).status == "done"
+    assert not (place / "failed.json").is_file()
+
+
 def test_an_interrupted_case_continues_to_the_same_bits(simulation, monkeypatch, text, place, tmp_path):
     first = interrupted(simulation, monkeypatch, text, place, 50)
     assert first.status == "interrupted"
