@@ -19,15 +19,18 @@ def test_the_table_of_the_page_is_that_of_the_kept_results():
                               for cells in (100, 200, 400)}
 
 
-def off(shot, failure):
-    """By how much the pull-backs on 100 and 200 cells differ from that on 400."""
-    finest = PULL_BACK[shot, failure, 400]
-    return max(abs(PULL_BACK[shot, failure, cells] / finest - 1.0) for cells in (100, 200))
+def off(shot, failure, cells):
+    """By what share the pull-back differs from that on 400 cells."""
+    return PULL_BACK[shot, failure, cells] / PULL_BACK[shot, failure, 400] - 1.0
 
 
-@pytest.mark.parametrize("shot", ["flyer", "pulse"])
-def test_with_cracks_the_pull_back_does_not_depend_on_the_mesh(shot):
-    assert off(shot, "cracks") < 0.03
+def test_what_the_page_says_of_the_meshes():
+    """The flyer within 1 % with either model. The pulse: cracks are within 1 % on 200 cells, and the plain model still rises."""
+    for failure in ("cracks", "plain"):
+        assert max(abs(off("flyer", failure, cells)) for cells in (100, 200)) < 0.01
+    assert abs(off("pulse", "cracks", 200)) < 0.01
+    assert 0.03 < off("pulse", "cracks", 100) < 0.05
+    assert -0.03 < off("pulse", "plain", 100) < off("pulse", "plain", 200) < -0.01
 
 
 def test_how_a_pull_back_is_read():
