@@ -54,8 +54,9 @@ def open_cracks(part, parts, body_range, models, materials, vof, q):
             model, row = models[m, DAMAGE], models[m, MEMORY]
             if model not in OPENS_CRACKS:
                 continue
-            par, tension = materials[m, EOS_AT:], materials[m, CRACKS]
+            par = materials[m, EOS_AT:]
             damage_par = materials[m, DAMAGE_AT:TENSILE]
+            tension = materials[m, CRACKS]
             first, n = columns(body_range[m, j, 0], body_range[m, j, 1])
             for x in range(n):
                 i = first + x
