@@ -6,6 +6,7 @@ import pytest
 
 from problems.cth_nose_shape import members, rigid_rod
 from problems.cth_nose_shape.rigid_rod import Result, Shot
+from tests.rules import source
 
 HELD, USED_UP = Shot("hemispherical", "5083", 1086.0), Shot("hemispherical", "5083", 1200.0)
 THROUGH = Shot("ogival", "5083", 1227.0)
@@ -58,6 +59,17 @@ def test_the_figure_has_a_dot_for_every_member():
     (line,) = (line for line in first.lines if line.get_linewidth() == 0.8 and line.get_linestyle() == "-"
                and len(line.get_xdata()) == 2)  # fmt: skip
     assert list(line.get_ydata()) == [median([44.0, 46.0, rigid_rod.PLATE]), 20.0]
+
+
+def test_pages_have_the_tables_of_what_is_kept():
+    found = members.grouped(rigid_rod.read(source.PROBLEMS / "cth_nose_shape/results/twelve_shots.csv"))
+    assert len(found) == 2
+    page = (source.ROOT / "docs/explanation/rigid-rod.md").read_text(encoding="utf-8").splitlines()
+    readme = (source.ROOT / "README.md").read_text(encoding="utf-8").splitlines()
+    shots = members.table(found)
+    assert len(shots) == 14
+    assert [line for line in [*shots, *members.scores(found)] if line not in page] == []
+    assert [line for line in shots if "ogival" not in line and line not in readme] == []
 
 
 def test_nothing_to_show(tmp_path, capsys):

@@ -182,20 +182,6 @@ def test_results_on_a_page_are_kept_ones(page, least):
     assert sorted(told - {str(result) for file in KEPT for result in rigid_rod.read(file)}) == []
 
 
-def test_the_readme_has_the_shots_that_were_run_again():
-    """Depths and losses of both laws, of the runs with the traction in cut cells."""
-    rows = (source.ROOT / "README.md").read_text(encoding="utf-8").splitlines()
-    again = rigid_rod.read(source.PROBLEMS / "cth_nose_shape/results/traction/rigid_rod_laws.csv")
-    assert len(again) == 12
-    for result in again:
-        alloy, velocity = result.labels["shot"].split("-")
-        (row,) = (row for row in rows if row.startswith(f"| {alloy}, {velocity} m/s |"))
-        entry = row.split("|")[3 if result.labels["law"] == "Steinberg-Guinan" else 4]
-        depth, loss = str(result).split(", ")
-        assert depth in entry, result
-        assert loss in entry, result
-
-
 def test_every_kept_result_is_on_the_page_of_all_runs():
     page = (source.ROOT / "docs/explanation/rigid-rod-runs.md").read_text(encoding="utf-8")
     shown = re.findall(r"^:file: ../../(.*)$", page, flags=re.M)

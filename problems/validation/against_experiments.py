@@ -1,0 +1,157 @@
+"""Every experiment that kept runs are compared with, as the tables of docs/explanation/validation.md.
+
+    python -m problems.validation.against_experiments
+
+Prints three tables in Markdown: the sets, with their sources, what was chosen and how to repeat them; the shots of which
+nothing was chosen by looking at results; and those where something was. All numbers come from the files in `results` beside
+the studies.
+"""
+
+from __future__ import annotations
+
+import csv
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+from statistics import median
+
+from hydro2d.deck import deck as decks
+from problems.cth_nose_shape import heads, members, rigid_rod
+from problems.long_rods import depths
+
+HERE = Path(__file__).parent
+PROBLEMS = HERE.parent
+
+
+@dataclass(frozen=True)
+class Set:
+    """Experiments of one kind: what it is called, its source, what was chosen, the command, and whether nothing was chosen."""
+
+    name: str
+    source: str
+    chosen: str
+    command: str
+    predicted: bool = True
+
+
+SETS = (
+    Set("tungsten into aluminium", "Scheffler, CTH nose-shape study, Table 2",
+        "nothing: Steinberg and Guinan's law for the study's alloy, its fracture pressures, no friction, 8.5 cells",
+        "sweep problems/cth_nose_shape/twelve_shots.toml"),
+    Set("tungsten into aluminium, sintered alloy", "the same",
+        "the rod's law: that of another alloy, one of four that were tried; density of the shots' rods",
+        "sweep problems/cth_nose_shape/twelve_shots.toml", predicted=False),
+    Set("eroding rods", "Luk & Piekutowski, Int. J. Impact Engng 11 (1991) 323",
+        "nothing: contact, the rod's fracture pressure, 6 cells", "sweep problems/validation/eroded_heads.toml"),
+    Set("steel rods, 1.6 GPa", "Forrestal & Piekutowski, Int. J. Impact Engng 24 (2000) 57, as tabled by others",
+        "the rod's yield stress, 1.6 GPa without hardening, and the plate's law, Steinberg and Guinan's, one of four",
+        "sweep problems/validation/rigid_steel_rods.toml", predicted=False),
+    Set("steel rods, fitted law", "the same",
+        "nothing: the rod's law fitted to flow stresses of 4340, Rc 38, without looking at depths; Johnson and Cook's for 6061",
+        "sweep problems/validation/steel_rods_fitted.toml"),
+    Set("tungsten into armour steel", "Odermatt's fit to many shots, BHN 270, read in a public source",
+        "nothing: 6.5 cells", "sweep problems/long_rods/velocities.toml"),
+    Set("cylinder test", "Dobratz & Crawford, UCRL-52997 (1985), recalled", "nothing", "run problems/explosives/cylinder.toml"),
+)  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Row:
+    """A shot: its set, what was shot, the quantity measured and computed, with its unit, and the runs' values."""
+
+    name: str
+    shot: str
+    measured: float | None
+    unit: str
+    computed: tuple[float, ...]
+    said: str = ""
+    digits: int = 1
+
+    def __str__(self) -> str:
+        values = [f"{value:.{self.digits}f}" for value in (min(self.computed), max(self.computed))] if self.computed else []
+        middle = f"{median(self.computed):.{self.digits}f} {self.unit}" if self.computed else ""
+        spread = f" ({values[0]} to {values[1]}, {len(self.computed)} runs)" if len(self.computed) > 1 else ""
+        given = "perforated" if self.measured is None else f"{self.measured:.{self.digits}f} {self.unit}"
+        apart = ""
+        if self.measured is not None and self.computed and not self.said:
+            apart = f"{100.0 * (median(self.computed) / self.measured - 1.0):+.0f} %"
+        return f"| {self.name} | {self.shot} | {given} | {self.said or middle + spread} | {apart} |"
+
+
+def twelve(name: str, law: str) -> list[Row]:
+    """The twelve shots with one law."""
+    file = PROBLEMS / "cth_nose_shape/results/twelve_shots.csv"
+    measured, rows = rigid_rod.experiments(), []
+    found = members.grouped(rigid_rod.read(file)).get(law, {})
+    for shot, runs in sorted(found.items(), key=lambda item: (item[0].nose, item[0].alloy, item[0].velocity)):
+        told = measured[shot]
+        through = sum(run.depth is None for run in runs)
+        said = f"perforated in {through} of {len(runs)} runs" if through else ""
+        depth = None if told.kind == "at least" else 1e2 * told.depth
+        rows.append(Row(name, str(shot), depth, "cm", tuple(run.reach for run in runs), said))
+    return rows
+
+
+def eroding(name: str) -> list[Row]:
+    """Luk and Piekutowski's rods, which fail by their fracture pressure."""
+    return [Row(name, heads.SHOTS[run.labels["shot"]][0], heads.measured(run.labels["shot"]), "cm", (run.depth,))
+            for run in rigid_rod.read(HERE / "results/eroded_heads.csv")
+            if run.labels["failure"] == "fracture pressure" and run.depth is not None]  # fmt: skip
+
+
+def steel(name: str, file: str, **labels: str) -> list[Row]:
+    """Forrestal and Piekutowski's rods, of the runs with these labels."""
+    measured = {round(found.velocity): 1e2 * found.penetration for path in sorted(HERE.glob("rigid_6061_*.toml"))
+                if (found := decks.load(path).experiment)}  # fmt: skip
+    runs = [run for run in rigid_rod.read(HERE / "results" / file)
+            if all(run.labels.get(axis) == label for axis, label in labels.items())]
+    return [Row(name, f"{run.labels['shot']} m/s", measured[int(run.labels["shot"])], "cm", (run.depth,))
+            for run in sorted(runs, key=lambda run: int(run.labels["shot"]))
+            if int(run.labels["shot"]) in measured and run.depth is not None]  # fmt: skip
+
+
+def armour(name: str) -> list[Row]:
+    """Long rods, depth over length, beside the fit."""
+    rows = []
+    kept = depths.read(PROBLEMS / "long_rods/results/velocities.csv")
+    for run in sorted(kept, key=lambda run: (int(run.labels["L/D"]), run.velocity)):
+        fit = depths.odermatt(run.velocity, float(run.labels["L/D"]), 270.0, *depths.DENSITIES)
+        rows.append(Row(name, f"L/D {run.labels['L/D']}, {run.velocity:g} m/s", fit, "L", (run.ratio,), digits=2))
+    return rows
+
+
+def explosives(name: str) -> list[Row]:
+    """Velocities of the wall of the cylinder test."""
+    with open(PROBLEMS / "explosives/results/explosives.csv", encoding="utf-8", newline="") as file:
+        return [Row(name, f"{row['explosive']}, {row['quantity']}", float(row["expected"]), row["unit"],
+                    (float(row["obtained"]),), digits=2)
+                for row in csv.DictReader(file) if row["quantity"].startswith("wall velocity")]  # fmt: skip
+
+
+def rows() -> dict[str, list[Row]]:
+    """The shots by set, in the order of SETS."""
+    names = [each.name for each in SETS]
+    found = (twelve(names[0], "Steinberg-Guinan"), twelve(names[1], "Johnson-Cook, sintered"), eroding(names[2]),
+             steel(names[3], "rigid_steel_rods.csv", target="Steinberg-Guinan", rod="1.6 GPa"),
+             steel(names[4], "steel_rods_fitted.csv", rod="fit, Rc 38"), armour(names[5]), explosives(names[6]))  # fmt: skip
+    return dict(zip(names, found, strict=True))
+
+
+def tables() -> list[str]:
+    """Lines of Markdown: the sets; what is predicted; where something was chosen."""
+    lines = ["| set | source | chosen | repeat with `hydro2d` |", "|---|---|---|---|"]
+    lines += [f"| {each.name} | {each.source} | {each.chosen} | `{each.command}` |" for each in SETS]
+    found = rows()
+    for predicted in (True, False):
+        lines += ["", "| set | shot | measured | computed | difference |", "|---|---|---|---|---|"]
+        lines += [str(row) for each in SETS if each.predicted == predicted for row in found[each.name]]
+    return lines
+
+
+def main() -> int:
+    print("\n".join(tables()))
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

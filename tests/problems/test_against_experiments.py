@@ -1,0 +1,35 @@
+"""The page of all experiments has what is kept."""
+
+from problems.validation import against_experiments as against
+from problems.validation.against_experiments import Row
+from tests.rules import source
+
+
+def test_the_page_has_every_line_of_the_tables():
+    lines = (source.ROOT / "docs/explanation/validation.md").read_text(encoding="utf-8").splitlines()
+    told = against.tables()
+    assert len(told) > 55
+    assert [line for line in told if line not in lines] == []
+
+
+def test_what_was_chosen_stands_apart():
+    told = "\n".join(against.tables()).split("\n\n")
+    assert len(told) == 3
+    for each in against.SETS:
+        assert (f"| {each.name} |" in told[1]) == each.predicted
+        assert (f"| {each.name} |" in told[2]) != each.predicted
+        assert each.predicted == each.chosen.startswith("nothing")
+
+
+def test_every_set_has_shots_and_a_study_that_exists():
+    for name, rows in against.rows().items():
+        assert rows, name
+    for each in against.SETS:
+        assert (source.ROOT / each.command.split()[1]).is_file()
+
+
+def test_a_row_has_the_median_the_spread_and_the_difference():
+    assert str(Row("a", "b", 10.0, "cm", (9.0, 12.0, 10.5))) == "| a | b | 10.0 cm | 10.5 cm (9.0 to 12.0, 3 runs) | +5 % |"
+    assert str(Row("a", "b", 10.0, "cm", (9.0,))) == "| a | b | 10.0 cm | 9.0 cm | -10 % |"
+    assert str(Row("a", "b", None, "cm", (53.3,), "perforated in 1 of 1 runs")) == (
+        "| a | b | perforated | perforated in 1 of 1 runs |  |")  # fmt: skip
