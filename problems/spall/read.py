@@ -1,7 +1,7 @@
 """Prints the free-surface velocities of runs of these decks: `python -m problems.spall.read RUN [RUN ...]`.
 
-A row has the shot, the failure model, the cells across the target, the highest velocity of the surface, the lowest after it, the
-pull-back between them and the rebound after it. The rows that the README shows are kept in results/spall.csv.
+A row has the shot, the failure model, the cells across the target, the highest velocity of the surface, the lowest after it,
+the pull-back between them and the rebound after it. The rows that the README shows are kept in results/spall.csv.
 """
 
 from __future__ import annotations
@@ -46,7 +46,8 @@ def of_run(directory: Path) -> tuple:
         top, lowest, rebound = pull_back(file["tracer_velocity_z_m_s"][:, 0])
     size = float(np.diff(decks.edges(deck)[1]).min())
     failure = "cracks" if deck.failure.damage == "material" else "plain"
-    return (deck.name, failure, round(THICKNESS / size), *(round(each, 1) for each in (top, lowest, top - lowest, rebound - lowest)))
+    numbers = top, lowest, top - lowest, rebound - lowest
+    return (deck.name, failure, round(THICKNESS / size), *(round(each, 1) for each in numbers))
 
 
 def kept() -> list[dict[str, str]]:
@@ -57,7 +58,8 @@ def kept() -> list[dict[str, str]]:
 
 def table(rows: list[dict[str, str]]) -> list[str]:
     """The rows of the kept file as lines of the README's table: each beside that of the finest mesh."""
-    lines = ["| deck | failure | cells | highest | lowest | pull-back | against 400 cells | rebound |", "|---|---|---|---|---|---|---|---|"]
+    lines = ["| deck | failure | cells | highest | lowest | pull-back | against 400 cells | rebound |",
+             "|---|---|---|---|---|---|---|---|"]
     finest = {(row["shot"], row["failure"]): float(row["pull_back_m_s"]) for row in rows if row["cells"] == "400"}
     for row in rows:
         off = float(row["pull_back_m_s"]) / finest[row["shot"], row["failure"]] - 1.0
