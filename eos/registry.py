@@ -10,6 +10,8 @@ from types import ModuleType
 from hydro2d.jit import modules
 
 MODULES = modules("eos", "mie_grueneisen", "ideal_gas", "stiffened_gas", "p_alpha", "tillotson", "johnson_holmquist", "jwl")
+#: models that no deck names: a material has them with a model of another part
+BESIDE = modules("eos", "cracked")
 MODELS = {module.NAME: module for module in MODULES}
 
 #: what a model computes: the arguments of its functions and the number of values that they return
@@ -28,4 +30,4 @@ ADDED: list[ModuleType] = []
 
 def chosen() -> tuple[ModuleType, ...]:
     """The models that kernels choose among, in an order that does not depend on the order in which they were added."""
-    return (*MODULES, *sorted(ADDED, key=lambda module: module.ID))
+    return (*MODULES, *BESIDE, *sorted(ADDED, key=lambda module: module.ID))

@@ -21,6 +21,8 @@ THERMAL = tuple(module.ID for module in STRENGTH_MODULES if module.THERMAL)
 WITH_INTERNAL = tuple(module.ID for module in STRENGTH_MODULES if hasattr(module, "INTERNAL"))
 #: ids of the models whose flow stress falls with damage, down to a strength that crushed material keeps
 WEAKENS = tuple(module.ID for module in STRENGTH_MODULES if hasattr(module, "weakened"))
+#: ids of the damage models that open cracks, and whose tension falls as they open
+OPENS_CRACKS = tuple(module.ID for module in DAMAGE_MODULES if hasattr(module, "tension_left"))
 DAMAGE_THERMAL = tuple(module.ID for module in DAMAGE_MODULES if module.THERMAL)
 
 shear_modulus = by_id(
@@ -67,6 +69,14 @@ harden = by_id(
 damage_increment = by_id(
     DAMAGE_MODULES, "damage_increment", registry.DAMAGE_FUNCTIONS["damage_increment"][0],
     "Increment of damage of a damage model: see ``johnson_cook_damage.damage_increment``.")
+
+tension_left = by_id(
+    DAMAGE_MODULES, "tension_left", registry.DAMAGE_FUNCTIONS["tension_left"][0],
+    "Share of the fracture pressure that material bears at a damage below 1, of a damage model that opens cracks.")
+
+full_opening = by_id(
+    DAMAGE_MODULES, "full_opening", registry.DAMAGE_FUNCTIONS["full_opening"][0],
+    "Volume of cracks per area of the crack at which the damage is 1, m, of a damage model that opens cracks.")
 
 
 @point

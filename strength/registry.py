@@ -12,7 +12,7 @@ from hydro2d.jit import modules
 STRENGTH_MODULES = modules(
     "strength", "hydrodynamic", "elastic_plastic", "johnson_cook", "steinberg_guinan", "power_law",
     "kinematic_hardening", "zerilli_armstrong", "johnson_holmquist")
-DAMAGE_MODULES = modules("strength", "no_damage", "johnson_cook_damage", "johnson_holmquist_damage")
+DAMAGE_MODULES = modules("strength", "no_damage", "johnson_cook_damage", "johnson_holmquist_damage", "cochran_banner")
 STRENGTH_MODELS = {module.NAME: module for module in STRENGTH_MODULES}
 DAMAGE_MODELS = {module.NAME: module for module in DAMAGE_MODULES}
 
@@ -29,7 +29,11 @@ STRENGTH_FUNCTIONS = {
 }
 STRENGTH_REQUIRED = ("shear_modulus", "flow_stress")
 #: and a damage model
-DAMAGE_FUNCTIONS = {"damage_increment": ("dep, rate, T, p, seq, par", 1)}
+DAMAGE_FUNCTIONS = {
+    "damage_increment": ("dep, rate, T, p, seq, par", 1),
+    "tension_left": ("damage, par", 1),
+    "full_opening": ("par", 1),
+}
 DAMAGE_REQUIRED = ("damage_increment",)
 
 #: models from outside, as ``hydro2d/materials/outside.py`` adds them

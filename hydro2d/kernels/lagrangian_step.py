@@ -15,6 +15,7 @@ from hydro2d.kernels import (
     contact_motion,
     contact_velocities,
     contact_volumes,
+    cracks,
     cut_cells,
     deformation,
     extension,
@@ -133,7 +134,7 @@ def accelerate(parts, i0, i1, dt, metrics, dz, body_range, active_range, mixed_c
 
 
 @phase
-def deform(parts, i0, i1, time, dt, travels, advance, metrics, dz, group_ranges, u0, v0, u, v, fr, fz, cell_mass,
+def deform(parts, i0, i1, time, dt, travels, advance, metrics, dr, dz, group_ranges, u0, v0, u, v, fr, fz, cell_mass,
            contact_columns, volume, skin, bulk, ph, qr, even_r, even_z, mesh_box, group, vof, inside, gate, q, aperture_r,
            aperture_z, own_r, own_z, pm, checkerboard, hg_coefficient, km, room, body_range, models, materials, sig_rr, sig_zz,
            sig_tt, sig_rz, tm, scratch, internal, relaxation, tipton, mixed_strength, hard_bodies, threshold, mixed_count,
@@ -177,6 +178,9 @@ def deform(parts, i0, i1, time, dt, travels, advance, metrics, dz, group_ranges,
             sliding.cut_shear(part, parts, shear, friction, occupied[0], zone, normal, hard_bodies, vof, pm, q)
         if before.shape[1] > 0:
             memory.update_memory(part, parts, time, dt, body_range, models, materials, pm, tm, before, vof, q)
+            cracks.open_cracks(part, parts, body_range, models, materials, vof, q)
+            wait(gate, parts)
+            cracks.damage_by_cracks(part, parts, mesh_box, dr, dz, group, body_range, models, materials, u, v, vof, q)
         if travels:
             wait(gate, parts)
             following.leave(part, parts, advance, metrics, group_ranges[0], fz)

@@ -440,12 +440,31 @@ def damage(case: Case) -> None:
     require(math.isnan(dispatch.damage_increment(NOBODY, 0.01, 0.0, 298.0, 0.0, 1.0, par)), "an ID of no model gives numbers")
 
 
+def cracks(case: Case) -> str | None:
+    """where damage opens cracks, undamaged material bears all of its tension, failed material none; the opening is positive"""
+    if not hasattr(case.module, "tension_left"):
+        return "the model has no tension_left"
+    from strength import dispatch
+
+    module, par = case.module, case.row
+    left = [module.tension_left(damage, par) for damage in np.linspace(0.0, 1.0, 101).tolist()]
+    require(left[0] == 1.0, f"at damage 0 the share of the tension is {left[0]:g}, not 1")
+    require(near(left[-1], 0.0, 1e-12), f"at damage 1 the share of the tension is {left[-1]:g}, not 0")
+    require(all(low < high for high, low in itertools.pairwise(left)), "the share of the tension does not fall with damage")
+    opening = module.full_opening(par)
+    require(0.0 < opening < math.inf, f"full_opening is {opening:g} m")
+    for name, values in (("tension_left", (0.3,)), ("full_opening", ())):
+        own, through = getattr(module, name)(*values, par), getattr(dispatch, name)(module.ID, *values, par)
+        require(own == through, f"{name} is {own:g}, and {through:g} by its ID")
+    return None
+
+
 _ALL = (row, wrong_parameters, ranges)
 CHECKS: dict[str, tuple[Callable[[Case], str | None], ...]] = {
     "eos": (*_ALL, eos_is_chosen, derivatives, sound_speed, rest, finite, pressure_rises, temperature, memory),
     "strength": (*_ALL, strength_is_chosen, moduli, virgin, monotone, melt, yield_floor, weakening, constant_yield,
                  internal_variables),
-    "damage": (*_ALL, damage),
+    "damage": (*_ALL, damage, cracks),
 }
 
 

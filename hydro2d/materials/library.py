@@ -16,6 +16,7 @@ import numpy as np
 
 from hydro2d import units
 from hydro2d.errors import DeckError, Sources, unknown
+from hydro2d.materials.cracking import cracking_pressure, opens_cracks, over
 from hydro2d.mesh.fields import INTERNAL, Field
 from hydro2d.parameters import Parameter
 from hydro2d.toml import PARTS, merge, parse, problems_folder
@@ -439,7 +440,7 @@ class MaterialTable:
     strength.ROW], ``damage_par`` float64[m, strength.DAMAGE_ROW]; the model ids are int64[m]; ``internal`` holds the internal
     variables of every strength model and then those of its equation of state, ``initial`` what virgin material has of them,
     ``memory`` the row of State.q in which those of the equation of state begin, int64[m]; ``fracture_pressure`` is a positive
-    tension, inf where never.
+    tension, inf where never, and ``cracking`` that at which cracks open, where the damage model opens them, else 0.
     """
 
     names: tuple[str, ...]
@@ -456,6 +457,7 @@ class MaterialTable:
     damage_model: np.ndarray
     damage_par: np.ndarray
     fracture_pressure: np.ndarray
+    cracking: np.ndarray
 
     def __len__(self) -> int:
         return len(self.names)
@@ -532,14 +534,19 @@ def resolve(deck) -> MaterialTable:
     damages = [material.damage if deck.failure.damage == "material" else Model("none") for material in chosen]
     damage_modules = [damage.module("damage") for damage in damages]
     eos_rows = [_row(module, material.eos, material) for module, material in zip(eos_modules, chosen, strict=True)]
+    tensile = [c.fracture_pressure.value if c.fracture_pressure else np.inf for c in chosen]
+    if deck.failure.tensile == "none":
+        tensile = [np.inf] * len(chosen)
+    cracking = np.zeros(len(chosen))
+    for m, material in enumerate(chosen):
+        if opens_cracks(damage_modules[m]):
+            cracking[m], tensile[m] = cracking_pressure(material, tensile[m]), np.inf
+            eos_modules[m], eos_rows[m] = over(material, eos_rows[m])
     eos_par = np.zeros((len(chosen), max(row.size for row in eos_rows)))
     for row, own in zip(eos_par, eos_rows, strict=True):
         row[: own.size] = own
     strength_par = np.stack([_row(m, c.strength, c) for m, c in zip(strength_modules, chosen, strict=True)])
     damage_par = np.stack([_row(m, d, c) for m, d, c in zip(damage_modules, damages, chosen, strict=True)])
-    tensile = [c.fracture_pressure.value if c.fracture_pressure else np.inf for c in chosen]
-    if deck.failure.tensile == "none":
-        tensile = [np.inf] * len(chosen)
     table = MaterialTable(
         names=tuple(body.name for body in slots),
         materials=tuple(chosen),
@@ -553,6 +560,7 @@ def resolve(deck) -> MaterialTable:
         damage_model=np.array([m.ID for m in damage_modules], dtype=np.int64),
         damage_par=damage_par,
         fracture_pressure=np.array(tensile),
+        cracking=cracking,
     )
     for m, module in enumerate(strength_modules):
         if hasattr(module, "check_with"):

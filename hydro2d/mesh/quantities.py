@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
-from eos.registry import MODULES
+from eos.registry import BESIDE, MODULES
 from hydro2d.errors import Error, unknown
 from hydro2d.mesh.fields import Field
 from strength.registry import STRENGTH_MODULES
@@ -66,7 +66,7 @@ def unit(field: Field) -> str:
 
 
 #: the internal variables that models declare, each name once
-INTERNAL = {field.name: _internal(field) for module in (*STRENGTH_MODULES, *MODULES)
+INTERNAL = {field.name: _internal(field) for module in (*STRENGTH_MODULES, *MODULES, *BESIDE)
             for field in getattr(module, "INTERNAL", ()) if field.written}
 
 TABLE: tuple[Quantity, ...] = (

@@ -28,6 +28,15 @@ def tension_limit(fracture_pressure, fades, damage):
 
 
 @point
+def crack_opening(vof, rho, cracks, size):
+    """Volume of the cracks of a cell per area of the cell across its length ``size``, m: explanation/fracture, (11).
+
+    cracks : their volume per mass, m^3/kg
+    """
+    return vof * rho * cracks * size
+
+
+@point
 def share_that_stays(rho, relaxed, max_opening):
     """Share of its volume that a fractured body keeps, so that the rest is void.
 

@@ -25,6 +25,8 @@ SHOT = (
 SLIP = 'sliding.method="slip-layer"', 'sliding.hard=["rod"]', "sliding.yield_factor=1.5"
 CONTACT = 'sliding.method="contact"', 'sliding.hard=["rod"]'
 FOLLOWING = 'mesh.follow="rod"', 'boundaries.z_max="transmit"'
+CRACKS = ('materials.cracking={based_on="Al7039", damage={model="cochran-banner", opening="17 um"}}',
+          'body.plate.material="cracking"')
 CASES = {
     "ke": (),
     "both": ('numerics.advection="both"',),
@@ -36,6 +38,8 @@ CASES = {
     "following": FOLLOWING,
     "following, contact": (*FOLLOWING, *CONTACT),
     "memory": ("body.plate.material=Al_porous", "body.plate.thickness=8e-3"),
+    "cracks": CRACKS,
+    "cracks, following": (*FOLLOWING, *CRACKS),
     "memory, following": (*FOLLOWING, "body.plate.material=Al_porous"),
 }
 every_case = pytest.mark.parametrize("options", CASES.values(), ids=CASES)

@@ -1,0 +1,54 @@
+"""Cochran-Banner damage: cracks open where the tension reaches the fracture pressure, and what they bear falls as they open."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from hydro2d.jit import point
+from hydro2d.parameters import POSITIVE, REQUIRED, Parameter, collect
+from strength.layout import DAMAGE_ROW
+
+NAME = "cochran-banner"
+ID = 3
+THERMAL = False
+EQUATION = "p >= -pf (1 - D^(2/3)),  D = volume of the cracks per area of the crack / opening;  fractured at D = 1"
+SOURCE = (
+    "Cochran & Banner, J. Appl. Phys. 48 (1977) 2729, recalled; the sum over the neighbouring cells and the closing of cracks "
+    "without pressure are ours"
+)
+VALIDITY = (
+    "spall of metals; the rate of the tension does not matter; needs a fracture pressure and an equation of state without "
+    "internal variables"
+)
+PARAMETERS = (
+    Parameter("opening", "m", REQUIRED, "volume of cracks per area of the crack at which nothing is borne", "D0", POSITIVE),
+)
+
+#: slot of the row
+OPENING = 0
+
+
+@point
+def damage_increment(dep, rate, T, p, seq, par):
+    """Zero: plastic strain opens no cracks."""
+    return 0.0
+
+
+@point
+def tension_left(damage, par):
+    """Share of the fracture pressure that cracked material bears: explanation/fracture, (10)."""
+    return max(1.0 - damage ** (2.0 / 3.0), 0.0)
+
+
+@point
+def full_opening(par):
+    """Volume of cracks per area at which nothing is borne any more, m."""
+    return par[OPENING]
+
+
+def row(values) -> np.ndarray:
+    """Packs the parameters, by name; float64[DAMAGE_ROW]. Raises ValueError for a missing, unknown or impossible value."""
+    given = collect(NAME, PARAMETERS, values)
+    par = np.zeros(DAMAGE_ROW)
+    par[OPENING] = given["opening"]
+    return par

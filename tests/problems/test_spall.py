@@ -1,0 +1,43 @@
+"""The decks of spall: what was kept of their runs, the table that their page shows, and how a pull-back is read."""
+
+import numpy as np
+import pytest
+
+from problems.spall import read
+from tests.rules import source
+
+FOLDER = source.PROBLEMS / "spall"
+KEPT = read.kept()
+PULL_BACK = {(row["shot"], row["failure"], int(row["cells"])): float(row["pull_back_m_s"]) for row in KEPT}
+
+
+def test_the_table_of_the_page_is_that_of_the_kept_results():
+    page = (FOLDER / "README.md").read_text(encoding="utf-8").splitlines()
+    shown = [line for line in page if line.startswith("| `") and line.count("|") == 9]
+    assert shown == read.table(KEPT)[2:]
+    assert set(PULL_BACK) == {(shot, failure, cells) for shot in ("flyer", "pulse") for failure in ("cracks", "plain")
+                              for cells in (100, 200, 400, 800)}
+
+
+def off(shot, failure, cells):
+    """By what share the pull-back differs from that on 400 cells."""
+    return PULL_BACK[shot, failure, cells] / PULL_BACK[shot, failure, 400] - 1.0
+
+
+def test_what_the_page_says_of_the_meshes():
+    """The flyer within 1 % with either model. The pulse: cracks are at the acoustic value, and the plain model still rises."""
+    for failure in ("cracks", "plain"):
+        assert max(abs(off("flyer", failure, cells)) for cells in (100, 200, 800)) < 0.01
+    acoustic = 2.0 * 1.2e9 / (2703.0 * 5240.0)
+    assert [PULL_BACK["pulse", "cracks", cells] for cells in (200, 400, 800)] == pytest.approx([acoustic] * 3, rel=0.015)
+    assert 0.03 < off("pulse", "cracks", 100) < 0.06
+    assert off("pulse", "plain", 100) < off("pulse", "plain", 200) < -0.01
+    assert off("pulse", "plain", 800) > 0.02
+
+
+def test_how_a_pull_back_is_read():
+    """The first fall that ends in a rise; ripples count nothing."""
+    velocity = np.array([0.0, 400.0, 300.0, 310.0, 250.0, 260.0, 330.0, 200.0, 500.0 - 120.0])
+    assert read.pull_back(velocity) == (400.0, 250.0, 380.0)
+    with pytest.raises(ValueError, match="nothing has spalled"):
+        read.pull_back(np.array([0.0, 400.0, 300.0, 310.0]))
