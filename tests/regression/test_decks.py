@@ -33,7 +33,7 @@ def test_deck_runs(file):
     assert abs(balance["axial_momentum"]) < 1e-12
     assert abs(balance["total_energy"]) < 1e-11
     for name in ("cutoff", "speed_limit"):
-        assert abs(balance["sinks"][name]["energy_J"]) < 1e-6 * balance["start_energy_J"], name
+        assert abs(balance["sinks"][name]["energy_J"]) <= 1e-6 * balance["start_energy_J"], name  # 0 of 0 in a deck at rest
 
 
 def test_quick_deck_begins_to_penetrate():
