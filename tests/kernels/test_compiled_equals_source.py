@@ -42,13 +42,15 @@ def text_of(advection: str, sliding: dict, tip: str = "0.2 mm", follows: bool | 
     if follows is None:
         follows = sliding["method"] == "contact"
     struck = "hardening" if advection == "both" else "Al7039"  # both models of the one have variables
+    strikes = "cracking" if advection == "both" else "W_alloy"
     return (
         mesh([{"to": "6 mm", "cells": 12}, {"cells": 3, "ratio": 1.1}], ("-6 mm", "6 mm", 20),
              **({"follow": "rod"} if follows else {}))
-        + rod("2.7 mm", "5 mm", tip=tip, velocity="1200 m/s")
+        + rod("2.7 mm", "5 mm", tip=tip, velocity="1200 m/s", material=strikes)
         + plate("8 mm", material=struck, z_front="0.2 mm")
         + table("boundaries", z_max="transmit" if follows else "outflow")
         + table("sliding", hard=["rod"], **sliding)
+        + material("cracking", "W_alloy", damage={"model": "cochran-banner", "opening": "20 um"})
         + material("hardening", "Al_porous")
         + table("materials.hardening.strength", model="kinematic-hardening", shear_modulus="27.6 GPa", yield_stress="0.3 GPa",
                 hardening_modulus="2 GPa", isotropic_share=0.5)
@@ -93,7 +95,7 @@ def test_kernels_do_what_their_source_says(monkeypatch, phases_as_python, advect
     if advection != "both" and "contact" in others:
         unused.add("deposit")
     if advection != "both":
-        unused |= {"remember", "update_memory"}
+        unused |= {"remember", "update_memory", "open_cracks", "damage_by_cracks"}
     unused |= {"light_points", "bend_around"}  # before the first step of an explosive: tests/kernels/test_light_times.py
     if follows:
         unused |= {"moving_columns", "moving_box"}  # a mesh that travels skips no cells
