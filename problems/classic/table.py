@@ -10,7 +10,6 @@ unphysical, it says when and by what. `--keep` writes all cases into a CSV file,
 from __future__ import annotations
 
 import argparse
-import csv
 import sys
 from collections.abc import Callable
 from dataclasses import asdict, dataclass, fields
@@ -21,6 +20,7 @@ from hydro2d.results.reading import Results, ResultsError
 from hydro2d.solver.audit import CLIPS
 from hydro2d.study import layout
 from hydro2d.study.layout import StudyError
+from problems import kept
 
 ADVECTION = ("ke", "momentum", "both")
 
@@ -103,17 +103,7 @@ COLUMNS = tuple(field.name for field in fields(Result))
 
 def read(path: Path) -> list[Result]:
     """The ended cases of a study directory, or of a file of results. Raises StudyError, OSError, ResultsError, HistoryError."""
-    if path.is_file():
-        return [_kept(row) for row in _rows(path)]
-    return [_of(case) for case in layout.read(path).cases if case.status in (layout.DONE, layout.UNPHYSICAL)]
-
-
-def _rows(path: Path) -> list[dict[str, str]]:
-    with open(path, encoding="utf-8", newline="") as file:
-        table = csv.DictReader(file)
-        if missing := {*COLUMNS} - {*(table.fieldnames or ())}:
-            raise StudyError(f"{path}: no file of results: it has no column {', '.join(sorted(missing))}")
-        return list(table)
+    return kept.read(path, COLUMNS, _kept, _of, ended=(layout.DONE, layout.UNPHYSICAL))
 
 
 def _kept(row: dict[str, str]) -> Result:
@@ -144,10 +134,7 @@ def _short(fault: str) -> str:
 
 def keep(results: list[Result], path: Path) -> None:
     """Writes a file of results. Raises OSError."""
-    with open(path, "w", encoding="utf-8", newline="") as file:
-        table = csv.DictWriter(file, COLUMNS, lineterminator="\n")
-        table.writeheader()
-        table.writerows({**asdict(result), "value": "" if result.value is None else result.value} for result in results)
+    kept.write(path, COLUMNS, ({**asdict(result), "value": "" if result.value is None else result.value} for result in results))
 
 
 def table(results: list[Result]) -> list[str]:

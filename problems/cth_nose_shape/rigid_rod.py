@@ -13,7 +13,6 @@ that erodes. `--keep` writes all cases into a CSV file, in the order in which th
 from __future__ import annotations
 
 import argparse
-import csv
 import itertools
 import re
 import sys
@@ -27,6 +26,7 @@ from hydro2d.errors import DeckError
 from hydro2d.results import figures
 from hydro2d.study import bisection, layout
 from hydro2d.study.layout import StudyError
+from problems import kept
 from hydro2d.study.regimes import DEPTHS, KEPT, LEAST_KEPT, NOT_DEEPER, USED_UP, by_depth
 from hydro2d.study.velocities import speed
 
@@ -150,22 +150,11 @@ def experiments() -> dict[Shot, Experiment]:
 
 def read(path: Path) -> list[Result]:
     """The finished cases of the directory of a study, or of a file of results. Raises StudyError, OSError."""
-    if path.is_file():
-        return [_kept(row) for row in _rows(path)]
-    return [_of(case) for case in layout.read(path).cases if case.status == layout.DONE]
-
-
-def _rows(path: Path) -> list[dict[str, str]]:
-    with open(path, encoding="utf-8", newline="") as file:
-        table = csv.DictReader(file)
-        missing = {"case", "nose", *RESULTS} - {*(table.fieldnames or ())}
-        if missing:
-            raise StudyError(f"{path}: no file of results: it has no column {', '.join(sorted(missing))}")
-        return list(table)
+    return kept.read(path, ("case", "nose", *RESULTS), _kept, _of)
 
 
 def _kept(row: dict[str, str]) -> Result:
-    labels = {name: text for name, text in row.items() if text and name not in ("case", "nose", *RESULTS)}
+    labels = kept.labels(row, ("nose", *RESULTS))
     depth, residual, hole = (float(row[name]) if row[name] else None for name in ("depth_cm", "residual_m_s", "hole_cm3"))
     loss, time, minutes = (float(row[name]) for name in ("loss_percent", "time_us", "minutes"))
     return Result(row["case"], labels, row["nose"], depth, loss, residual, row["regime"], hole, time, minutes)
@@ -186,11 +175,8 @@ def _of(case: layout.Case) -> Result:
 
 def keep(results: list[Result], path: Path) -> None:
     """Writes a file of results. Raises OSError."""
-    with open(path, "w", encoding="utf-8", newline="") as file:
-        axes = dict.fromkeys(axis for result in results for axis in result.labels)
-        table = csv.DictWriter(file, [*axes, "nose", *RESULTS, "case"], restval="", lineterminator="\n")
-        table.writeheader()
-        table.writerows(result.row for result in results)
+    axes = dict.fromkeys(axis for result in results for axis in result.labels)
+    kept.write(path, [*axes, "nose", *RESULTS, "case"], (result.row for result in results))
 
 
 def columns(results: list[Result]) -> dict[str, dict[Shot, Result]]:

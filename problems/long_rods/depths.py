@@ -33,6 +33,7 @@ from hydro2d.results import figures
 from hydro2d.results.reading import Results
 from hydro2d.study import layout
 from hydro2d.study.layout import StudyError
+from problems import kept
 
 HERE = Path(__file__).parent
 DECKS = {10: "rod_10.toml", 20: "rod_20.toml", 30: "rod_30.toml"}
@@ -118,22 +119,11 @@ def measured(history: dict[str, np.ndarray], diameter: float) -> dict[str, float
 
 def read(path: Path) -> list[Result]:
     """The finished cases of the directory of a study, or of a file of results. Raises StudyError, OSError."""
-    if path.is_file():
-        return [_kept(row) for row in _rows(path)]
-    return [_of(case) for case in layout.read(path).cases if case.status == layout.DONE]
-
-
-def _rows(path: Path) -> list[dict[str, str]]:
-    with open(path, encoding="utf-8", newline="") as file:
-        table = csv.DictReader(file)
-        missing = {"case", "slenderness", *NUMBERS} - {*(table.fieldnames or ())}
-        if missing:
-            raise StudyError(f"{path}: no file of results: it has no column {', '.join(sorted(missing))}")
-        return list(table)
+    return kept.read(path, ("case", "slenderness", *NUMBERS), _kept, _of)
 
 
 def _kept(row: dict[str, str]) -> Result:
-    labels = {name: text for name, text in row.items() if text and name not in ("case", "slenderness", *NUMBERS)}
+    labels = kept.labels(row, ("slenderness", *NUMBERS))
     return Result(row["case"], labels, int(row["slenderness"]), {name: float(row[name]) for name in NUMBERS})
 
 
@@ -151,11 +141,8 @@ def _of(case: layout.Case) -> Result:
 
 def keep(results: Sequence[Result], path: Path) -> None:
     """Writes a file of results. Raises OSError."""
-    with open(path, "w", encoding="utf-8", newline="") as file:
-        axes = dict.fromkeys(axis for result in results for axis in result.labels)
-        table = csv.DictWriter(file, [*axes, "slenderness", *NUMBERS, "case"], restval="", lineterminator="\n")
-        table.writeheader()
-        table.writerows(result.row for result in results)
+    axes = dict.fromkeys(axis for result in results for axis in result.labels)
+    kept.write(path, [*axes, "slenderness", *NUMBERS, "case"], (result.row for result in results))
 
 
 def keep_histories(directories: Sequence[Path], path: Path) -> None:
@@ -258,8 +245,7 @@ def draw_parts(path: Path, cases: Sequence[str]):
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
-    with open(path, encoding="utf-8", newline="") as file:
-        rows = list(csv.DictReader(file))
+    rows = kept.rows(path, HISTORY)
     figure = Figure(figsize=(8.4, 3.8), layout="constrained")
     FigureCanvasAgg(figure)
     left, right = figure.subplots(1, 2)

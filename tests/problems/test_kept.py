@@ -1,0 +1,22 @@
+"""Files of results beside the studies."""
+
+import pytest
+
+from hydro2d.study.layout import StudyError
+from problems import kept
+
+
+def test_a_file_that_was_written_is_read(tmp_path):
+    path = tmp_path / "results.csv"
+    kept.write(path, ["law", "depth_cm", "case"], [{"law": "a", "depth_cm": 1.5, "case": "a_1"}, {"case": "b, 1", "depth_cm": 2}])
+    assert path.read_bytes() == b'law,depth_cm,case\na,1.5,a_1\n,2,"b, 1"\n'
+    found = kept.read(path, ["case", "depth_cm"], lambda row: row, None)
+    assert found == [{"law": "a", "depth_cm": "1.5", "case": "a_1"}, {"law": "", "depth_cm": "2", "case": "b, 1"}]
+    assert [kept.labels(row, ["depth_cm"]) for row in found] == [{"law": "a"}, {}]
+
+
+def test_a_file_without_a_column_is_none(tmp_path):
+    path = tmp_path / "results.csv"
+    path.write_text("law,case\na,a_1\n")
+    with pytest.raises(StudyError, match=r"no file of results: it has no column depth_cm, time_us"):
+        kept.rows(path, ["case", "time_us", "depth_cm"])
