@@ -26,9 +26,9 @@ from hydro2d.errors import DeckError
 from hydro2d.results import figures
 from hydro2d.study import bisection, layout
 from hydro2d.study.layout import StudyError
-from problems import kept
 from hydro2d.study.regimes import DEPTHS, KEPT, LEAST_KEPT, NOT_DEEPER, USED_UP, by_depth
 from hydro2d.study.velocities import speed
+from problems import kept
 
 HERE = Path(__file__).parent
 #: the label of a shot: nose, alloy and velocity; without a nose it means a hemispherical one
