@@ -136,7 +136,3 @@ def test_a_full_opening_is_failure(block):
     block.damage()
     assert block.q[DMG, 0, J, I] == FAILED
     assert block.q[DMG, 0, J - 1, I] == CRUSHED, "the cell beside it has less of the crack and bears nothing"
-
-
-def test_the_opening_by_hand():
-    assert crack_opening(0.5, 2000.0, 1e-5, 4e-5) == pytest.approx(4e-7, rel=1e-15)

@@ -59,3 +59,8 @@ def test_damage_jumps_once_it_reaches_one(before, increment, after):
     """As far beyond 1 as sound material is below it; what the remap has mixed stays as it is."""
     assert FAILED == 2.0
     assert damaged(before, increment) == pytest.approx(after, abs=1e-15)
+
+
+def test_the_opening_of_cracks_is_their_volume_per_area():
+    """Half of a cell of 40 um, with 1e-5 m^3/kg of cracks in 2000 kg/m^3: 2 % of 20 um."""
+    assert fracture.crack_opening.py_func(0.5, 2000.0, 1e-5, 4e-5) == pytest.approx(4e-7, rel=1e-15)
