@@ -1,7 +1,8 @@
 """Prints what tiles save in runs of these decks: `python -m problems.ceramics.read RUN [RUN ...]`.
 
-A row has the ceramic and the thickness of its tile, the largest depth from the face of the tile and that in the steel behind
-it. The rows that the README shows are kept in results/ceramics.csv. The row whose tile is of steel is the reference.
+A row has the cells across the radius of the rod, the ceramic and the thickness of its tile, the largest depth from the face of
+the tile and that in the steel behind it. The rows that the README shows are kept in results/ceramics.csv. The row of the same
+mesh whose tile is of steel is the reference.
 """
 
 from __future__ import annotations
@@ -11,11 +12,12 @@ import sys
 from pathlib import Path
 
 import h5py
+import numpy as np
 
 from hydro2d.deck import deck as decks
 
 KEPT = Path(__file__).parent / "results" / "ceramics.csv"
-COLUMNS = ("ceramic", "density_kg_m3", "thickness_mm", "depth_mm", "in_steel_mm")
+COLUMNS = ("cells", "ceramic", "density_kg_m3", "thickness_mm", "depth_mm", "in_steel_mm")
 #: density of the backing, kg/m^3
 STEEL = 7850.0
 
@@ -23,12 +25,14 @@ STEEL = 7850.0
 def of_run(directory: Path) -> tuple:
     """The row of a run, in the order of COLUMNS; the depth in the steel is 0 where the rod ends in the tile."""
     deck = decks.load(directory / "deck.toml")
-    tile = next(body for body in deck.body if body.name == "tile")
+    rod, tile = (next(body for body in deck.body if body.name == name) for name in ("rod", "tile"))
+    cells = 0.5 * rod.diameter / float(np.diff(decks.edges(deck)[1]).min())
     thickness = (tile.z[1] - tile.z[0]) * 1e3
     with h5py.File(directory / "history.h5") as file:
         depth = float(file["penetration_depth_m"][:].max()) * 1e3
     density = deck.materials[tile.material].eos.values["reference_density"]
-    return tile.material, round(density), round(thickness, 3), round(depth, 2), round(max(depth - thickness, 0.0), 2)
+    behind = max(depth - thickness, 0.0)
+    return round(cells, 1), tile.material, round(density), round(thickness, 3), round(depth, 2), round(behind, 2)
 
 
 def efficiency(saved: float, density: float, thickness: float) -> float:
@@ -46,22 +50,23 @@ def kept() -> list[dict[str, str]]:
         return list(csv.DictReader(file))
 
 
-def reference(rows: list[dict[str, str]]) -> float:
-    """Depth in steel alone, mm."""
-    return next(float(row["depth_mm"]) for row in rows if row["ceramic"] == "steel")
+def references(rows: list[dict[str, str]]) -> dict[str, float]:
+    """Depth in steel alone, mm, by cells across the radius of the rod."""
+    return {row["cells"]: float(row["depth_mm"]) for row in rows if row["ceramic"] == "steel"}
 
 
 def table(rows: list[dict[str, str]]) -> list[str]:
     """The rows of the kept file as lines of the README's table."""
-    lines = ["| tile | thickness | depth | of it in steel | saved | differential mass efficiency |", "|---|---|---|---|---|---|"]
-    alone = reference(rows)
+    lines = ["| cells | tile | thickness | depth | of it in steel | saved | differential mass efficiency |",
+             "|---|---|---|---|---|---|---|"]
+    alone = references(rows)
     for row in rows:
         density, thickness, behind = (float(row[name]) for name in ("density_kg_m3", "thickness_mm", "in_steel_mm"))
-        shown = f"| `{row['ceramic']}` | {thickness:g} mm | {row['depth_mm']} mm | "
+        shown = f"| {row['cells']} | `{row['ceramic']}` | {thickness:g} mm | {row['depth_mm']} mm | "
         if row["ceramic"] == "steel":
             lines.append(f"{shown}{row['depth_mm']} mm | | |")
             continue
-        saved = alone - behind
+        saved = alone[row["cells"]] - behind
         least = "at least " if behind == 0.0 else ""
         lines.append(f"{shown}{row['in_steel_mm']} mm | {saved:.1f} mm | {least}{efficiency(saved, density, thickness):.2f} |")
     return lines
