@@ -11,10 +11,9 @@ import csv
 import sys
 from pathlib import Path
 
-import h5py
 import numpy as np
 
-from hydro2d.deck import deck as decks
+from problems.ceramics.read import ended
 
 KEPT = Path(__file__).parent / "results" / "dwell.csv"
 #: times of three of the depths, us
@@ -53,21 +52,20 @@ def rod_of(deck) -> tuple[float, float, float]:
 
 def of_run(directory: Path) -> tuple:
     """The row of a run, in the order of COLUMNS. Raises ValueError for a rod that is not worn by WORN[1]."""
-    deck = decks.load(directory / "deck.toml")
-    rod = next(body for body in deck.body if body.name == "rod")
-    with h5py.File(directory / "history.h5") as file:
-        worn = file["rod_length_m"][0] - file["rod_length_m"][:]
-        time, depth, tail = (file[name][:] for name in ("time", "penetration_depth_m", "rod_tail_velocity_m_s"))
+    run = ended(directory)
+    rod = next(body for body in run.deck.body if body.name == "rod")
+    worn = run.history["rod_length_m"][0] - run.history["rod_length_m"]
+    time, depth, tail = (run.history[name] for name in ("time", "penetration_depth_m", "rod_tail_velocity_m_s"))
     if worn.max() < WORN[1]:
         raise ValueError(f"{directory}: the rod is worn by {worn.max() * 1e3:.1f} mm only")
     first, last = (int(np.argmax(worn >= each)) for each in WORN)
     u = (depth[last] - depth[first]) / (time[last] - time[first])
     v = tail[first:last + 1].mean()
     speed = abs(rod.velocity[1])
-    estimate = pressure(speed, *rod_of(deck)) * 1e-9
+    estimate = pressure(speed, *rod_of(run.deck)) * 1e-9
     face = "bare" if rod.tip == 0.0 else "cover"
     depths = (*np.interp(np.array(AT) * 1e-6, time, depth), depth.max())
-    return face, round(speed), round(estimate, 1), *(round(float(each) * 1e3, 1) for each in depths), round(u), round(v)
+    return face, round(speed), round(estimate, 2), *(round(float(each) * 1e3, 1) for each in depths), round(u), round(v)
 
 
 def kept() -> list[dict[str, str]]:

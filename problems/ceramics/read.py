@@ -11,9 +11,9 @@ import csv
 import sys
 from pathlib import Path
 
-import h5py
 import numpy as np
 
+import hydro2d
 from hydro2d.deck import deck as decks
 
 KEPT = Path(__file__).parent / "results" / "ceramics.csv"
@@ -22,15 +22,22 @@ COLUMNS = ("cells", "ceramic", "density_kg_m3", "thickness_mm", "depth_mm", "in_
 STEEL = 7850.0
 
 
+def ended(directory: Path) -> hydro2d.Results:
+    """The results of a run. Raises ValueError if it has not ended."""
+    run = hydro2d.open_run(directory)
+    if not run.summary:
+        raise ValueError(f"{directory}: the run has not ended")
+    return run
+
+
 def of_run(directory: Path) -> tuple:
     """The row of a run, in the order of COLUMNS; the depth in the steel is 0 where the rod ends in the tile."""
-    deck = decks.load(directory / "deck.toml")
-    rod, tile = (next(body for body in deck.body if body.name == name) for name in ("rod", "tile"))
-    cells = 0.5 * rod.diameter / float(np.diff(decks.edges(deck)[1]).min())
+    run = ended(directory)
+    rod, tile = (next(body for body in run.deck.body if body.name == name) for name in ("rod", "tile"))
+    cells = 0.5 * rod.diameter / float(np.diff(decks.edges(run.deck)[1]).min())
     thickness = (tile.z[1] - tile.z[0]) * 1e3
-    with h5py.File(directory / "history.h5") as file:
-        depth = float(file["penetration_depth_m"][:].max()) * 1e3
-    density = deck.materials[tile.material].eos.values["reference_density"]
+    depth = float(run.history["penetration_depth_m"].max()) * 1e3
+    density = run.deck.materials[tile.material].eos.values["reference_density"]
     behind = max(depth - thickness, 0.0)
     return round(cells, 1), tile.material, round(density), round(thickness, 3), round(depth, 2), round(behind, 2)
 
