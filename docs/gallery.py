@@ -26,7 +26,7 @@ HERE = Path(__file__).resolve().parent
 NUMBERS, PAGE = HERE / "gallery.json", HERE / "gallery.md"
 LEAD = """# Gallery
 
-Eight shots to start from, with what each gives beside what was measured or is expected, and every study of the repository.
+Nine shots to start from, with what each gives beside what was measured or is expected, and every study of the repository.
 `hydro2d new KIND` writes the deck. Times are those of one core of an AMD EPYC, without the compilation that the first run of
 all needs.
 

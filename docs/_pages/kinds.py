@@ -58,6 +58,11 @@ def depth(results) -> str:
     return f"{results.summary['penetration_depth_m'] * 1e3:.1f} mm"
 
 
+def in_steel(results) -> str:
+    """Depth behind a tile of 20 mm."""
+    return f"{max(results.summary['penetration_depth_m'] * 1e3 - 20.0, 0.0):.1f} mm"
+
+
 def early_depth(results) -> str:
     """Penetration depth after 50 us."""
     return f"{np.interp(50e-6, results.history['time'], results.history['penetration_depth_m']) * 1e3:.1f} mm"
@@ -157,6 +162,12 @@ KINDS = (
          (("depth of the core after 50 µs", "somewhat less than the 40 to 43 mm of Tate's model for the core",
            early_depth),
           ("depth of the core at the end", "no value at hand", depth))),
+    Kind("ceramic", "A ceramic tile",
+         "A rod of tungsten alloy goes through a tile of alumina, which lies in a ring of steel, into the steel behind. "
+         "Materials above the axis, damage below, after 10 and 60 µs: yellow is crushed.",
+         '--field material --mirror damage --time "10 us" --time "60 us" --window "-30 mm,50 mm,45 mm"',
+         (("depth in the steel behind the tile", "no value at hand; 38.7 mm without the tile (fit of Lanz and Odermatt)",
+           in_steel),)),
     Kind("cylinder-test", "The cylinder test",
          "TNT in a tube of copper, lit over its left end. Pressure above the axis, materials below, after 12 and 28 µs: the "
          "detonation runs to the right, and its products drive the wall.",

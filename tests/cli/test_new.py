@@ -11,7 +11,8 @@ from hydro2d.solver.simulation import Simulation
 
 
 def test_there_are_templates():
-    assert set(templates.kinds()) >= {"rod", "crater", "taylor", "whipple", "spall", "perforation", "jacketed"}
+    assert set(templates.kinds()) >= {"rod", "crater", "taylor", "whipple", "spall", "perforation", "jacketed",
+                                       "ceramic"}
 
 
 @pytest.mark.parametrize("kind", templates.kinds())

@@ -1,0 +1,92 @@
+"""Prints what tiles save in runs of these decks: `python -m problems.ceramics.read RUN [RUN ...]`.
+
+A row has the cells across the radius of the rod, the ceramic and the thickness of its tile, the largest depth from the face of
+the tile and that in the steel behind it. The rows that the README shows are kept in results/ceramics.csv. The row of the same
+mesh whose tile is of steel is the reference.
+"""
+
+from __future__ import annotations
+
+import csv
+import sys
+from pathlib import Path
+
+import numpy as np
+
+import hydro2d
+from hydro2d.deck import deck as decks
+
+KEPT = Path(__file__).parent / "results" / "ceramics.csv"
+COLUMNS = ("cells", "ceramic", "density_kg_m3", "thickness_mm", "depth_mm", "in_steel_mm")
+#: density of the backing, kg/m^3
+STEEL = 7850.0
+
+
+def ended(directory: Path) -> hydro2d.Results:
+    """The results of a run. Raises ValueError if it has not ended."""
+    run = hydro2d.open_run(directory)
+    if not run.summary:
+        raise ValueError(f"{directory}: the run has not ended")
+    return run
+
+
+def of_run(directory: Path) -> tuple:
+    """The row of a run, in the order of COLUMNS; the depth in the steel is 0 where the rod ends in the tile."""
+    run = ended(directory)
+    rod, tile = (next(body for body in run.deck.body if body.name == name) for name in ("rod", "tile"))
+    cells = 0.5 * rod.diameter / float(np.diff(decks.edges(run.deck)[1]).min())
+    thickness = (tile.z[1] - tile.z[0]) * 1e3
+    depth = float(run.history["penetration_depth_m"].max()) * 1e3
+    density = run.deck.materials[tile.material].eos.values["reference_density"]
+    behind = max(depth - thickness, 0.0)
+    return round(cells, 1), tile.material, round(density), round(thickness, 3), round(depth, 2), round(behind, 2)
+
+
+def efficiency(saved: float, density: float, thickness: float) -> float:
+    """Differential mass efficiency of a tile: mass of the steel that it saves over its own, per area.
+
+    saved : depth in steel alone less that in the steel behind the tile, in the unit of thickness; density : kg/m^3.
+    Yaziv, Rosenberg & Partom, 9th Int. Symp. Ballistics (1986), recalled.
+    """
+    return STEEL * saved / (density * thickness)
+
+
+def kept() -> list[dict[str, str]]:
+    """The rows of results/ceramics.csv."""
+    with KEPT.open(encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def references(rows: list[dict[str, str]]) -> dict[str, float]:
+    """Depth in steel alone, mm, by cells across the radius of the rod."""
+    return {row["cells"]: float(row["depth_mm"]) for row in rows if row["ceramic"] == "steel"}
+
+
+def table(rows: list[dict[str, str]]) -> list[str]:
+    """The rows of the kept file as lines of the README's table."""
+    lines = ["| cells | tile | thickness | depth | of it in steel | saved | differential mass efficiency |",
+             "|---|---|---|---|---|---|---|"]
+    alone = references(rows)
+    for row in rows:
+        density, thickness, behind = (float(row[name]) for name in ("density_kg_m3", "thickness_mm", "in_steel_mm"))
+        shown = f"| {row['cells']} | `{row['ceramic']}` | {thickness:g} mm | {row['depth_mm']} mm | "
+        if row["ceramic"] == "steel":
+            lines.append(f"{shown}{row['depth_mm']} mm | | |")
+            continue
+        saved = alone[row["cells"]] - behind
+        least = "at least " if behind == 0.0 else ""
+        lines.append(f"{shown}{row['in_steel_mm']} mm | {saved:.1f} mm | {least}{efficiency(saved, density, thickness):.2f} |")
+    return lines
+
+
+def main(arguments: list[str]) -> int:
+    """Prints the rows of the runs as CSV."""
+    writer = csv.writer(sys.stdout, lineterminator="\n")
+    writer.writerow(COLUMNS)
+    for each in arguments:
+        writer.writerow(of_run(Path(each)))
+    return 0
+
+
+if __name__ == "__main__":
+    raise SystemExit(main(sys.argv[1:]))
