@@ -48,7 +48,7 @@ def test_the_list_has_a_line_for_each_kind(capsys):
     ("arguments", "said"),
     [
         (["wipple"], 'unknown kind "wipple"; did you mean "whipple"?'),
-        ([], "give a kind of shot: crater"),
+        ([], "give a kind of shot: ceramic"),
         (["rod", "--list"], "--list lists the kinds"),
         (["rod", "--out", "nowhere/rod.toml"], "nowhere: there is no such directory"),
         (["rod", "--out", "there.toml"], "there.toml exists; give another name"),
