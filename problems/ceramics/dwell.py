@@ -86,11 +86,14 @@ def table(rows: list[dict[str, str]]) -> list[str]:
 
 
 def main(arguments: list[str]) -> int:
-    """Prints the rows of the runs as CSV."""
+    """Prints the rows of the runs as CSV, and of a run in which the rod is hardly worn that it has none."""
     writer = csv.writer(sys.stdout, lineterminator="\n")
     writer.writerow(COLUMNS)
     for each in arguments:
-        writer.writerow(of_run(Path(each)))
+        try:
+            writer.writerow(of_run(Path(each)))
+        except ValueError as problem:
+            print(problem, file=sys.stderr)
     return 0
 
 

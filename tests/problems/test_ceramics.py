@@ -65,7 +65,7 @@ def test_efficiency_and_pressure():
     assert dwell.pressure(1000.0, 17600.0, 280e9, 0.0) == pytest.approx(8.8e9 + 8.8e9**2 / 560e9)
 
 
-def test_how_dwell_is_read(monkeypatch, tmp_path):
+def test_how_dwell_is_read(monkeypatch, tmp_path, capsys):
     """The rod dwells up to a wear of 8 mm, and then the interface moves at 200 m/s."""
     time = np.linspace(0.0, 50e-6, 501)
     depth = np.maximum(time - 10e-6, 0.0) * 200.0
@@ -77,6 +77,10 @@ def test_how_dwell_is_read(monkeypatch, tmp_path):
     history["rod_length_m"] = 40e-3 - 300.0 * time
     with pytest.raises(ValueError, match="the rod is worn by 15.0 mm only"):
         dwell.of_run(tmp_path)
+    assert dwell.main([str(tmp_path)]) == 0  # it is told, and others go on
+    out, err = capsys.readouterr()
+    assert out.splitlines() == [",".join(dwell.COLUMNS)]
+    assert "the rod is worn by 15.0 mm only" in err
 
 
 def test_a_run_that_goes_on_is_refused(monkeypatch, tmp_path):
