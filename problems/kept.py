@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import sys
 from collections.abc import Callable, Collection, Iterable, Sequence
 from pathlib import Path
 from typing import TypeVar
@@ -39,6 +40,17 @@ def write(path: Path, columns: Sequence[str], found: Iterable[dict[str, object]]
         table = csv.DictWriter(file, columns, restval="", lineterminator="\n")
         table.writeheader()
         table.writerows(found)
+
+
+def show(columns: Sequence[str], of_run: Callable[[Path], Sequence], runs: Iterable[str]) -> None:
+    """Prints a row for each run as CSV; of a run for which `of_run` raises ValueError it says on the standard error why."""
+    table = csv.writer(sys.stdout, lineterminator="\n")
+    table.writerow(columns)
+    for run in runs:
+        try:
+            table.writerow(of_run(Path(run)))
+        except ValueError as problem:
+            print(f"{run}: {problem}", file=sys.stderr)
 
 
 def labels(row: dict[str, str], others: Collection[str]) -> dict[str, str]:

@@ -7,12 +7,12 @@ the rod is worn from WORN[0] to WORN[1]. The rows that the README shows are kept
 
 from __future__ import annotations
 
-import csv
 import sys
 from pathlib import Path
 
 import numpy as np
 
+from problems import kept as results
 from problems.ceramics.read import ended
 
 KEPT = Path(__file__).parent / "results" / "dwell.csv"
@@ -57,7 +57,7 @@ def of_run(directory: Path) -> tuple:
     worn = run.history["rod_length_m"][0] - run.history["rod_length_m"]
     time, depth, tail = (run.history[name] for name in ("time", "penetration_depth_m", "rod_tail_velocity_m_s"))
     if worn.max() < WORN[1]:
-        raise ValueError(f"{directory}: the rod is worn by {worn.max() * 1e3:.1f} mm only")
+        raise ValueError(f"the rod is worn by {worn.max() * 1e3:.1f} mm only")
     first, last = (int(np.argmax(worn >= each)) for each in WORN)
     u = (depth[last] - depth[first]) / (time[last] - time[first])
     v = tail[first:last + 1].mean()
@@ -70,8 +70,7 @@ def of_run(directory: Path) -> tuple:
 
 def kept() -> list[dict[str, str]]:
     """The rows of results/dwell.csv."""
-    with KEPT.open(encoding="utf-8", newline="") as file:
-        return list(csv.DictReader(file))
+    return results.rows(KEPT, COLUMNS)
 
 
 def table(rows: list[dict[str, str]]) -> list[str]:
@@ -87,13 +86,7 @@ def table(rows: list[dict[str, str]]) -> list[str]:
 
 def main(arguments: list[str]) -> int:
     """Prints the rows of the runs as CSV, and of a run in which the rod is hardly worn that it has none."""
-    writer = csv.writer(sys.stdout, lineterminator="\n")
-    writer.writerow(COLUMNS)
-    for each in arguments:
-        try:
-            writer.writerow(of_run(Path(each)))
-        except ValueError as problem:
-            print(problem, file=sys.stderr)
+    results.show(COLUMNS, of_run, arguments)
     return 0
 
 

@@ -7,7 +7,6 @@ mesh whose tile is of steel is the reference.
 
 from __future__ import annotations
 
-import csv
 import sys
 from pathlib import Path
 
@@ -15,6 +14,7 @@ import numpy as np
 
 import hydro2d
 from hydro2d.deck import deck as decks
+from problems import kept as results
 
 KEPT = Path(__file__).parent / "results" / "ceramics.csv"
 COLUMNS = ("cells", "ceramic", "density_kg_m3", "thickness_mm", "depth_mm", "in_steel_mm")
@@ -26,7 +26,7 @@ def ended(directory: Path) -> hydro2d.Results:
     """The results of a run. Raises ValueError if it has not ended."""
     run = hydro2d.open_run(directory)
     if not run.summary:
-        raise ValueError(f"{directory}: the run has not ended")
+        raise ValueError("the run has not ended")
     return run
 
 
@@ -53,8 +53,7 @@ def efficiency(saved: float, density: float, thickness: float) -> float:
 
 def kept() -> list[dict[str, str]]:
     """The rows of results/ceramics.csv."""
-    with KEPT.open(encoding="utf-8", newline="") as file:
-        return list(csv.DictReader(file))
+    return results.rows(KEPT, COLUMNS)
 
 
 def references(rows: list[dict[str, str]]) -> dict[str, float]:
@@ -80,11 +79,8 @@ def table(rows: list[dict[str, str]]) -> list[str]:
 
 
 def main(arguments: list[str]) -> int:
-    """Prints the rows of the runs as CSV."""
-    writer = csv.writer(sys.stdout, lineterminator="\n")
-    writer.writerow(COLUMNS)
-    for each in arguments:
-        writer.writerow(of_run(Path(each)))
+    """Prints the rows of the runs as CSV, and of a run that has not ended that it has none."""
+    results.show(COLUMNS, of_run, arguments)
     return 0
 
 

@@ -9,6 +9,7 @@ Reads what is kept of `rigid_rod_failure.toml` and of the members of `twelve_sho
 from __future__ import annotations
 
 import argparse
+import functools
 import sys
 from pathlib import Path
 from statistics import median
@@ -34,10 +35,10 @@ SHOTS = {
 }
 
 
+@functools.cache
 def measured(shot: str) -> float:
     """The measured depth of a shot, cm."""
-    depth = decks.load(SHOTS[shot][1]).experiment.penetration
-    return 1e2 * depth
+    return 1e2 * decks.load(SHOTS[shot][1]).experiment.penetration
 
 
 def kept() -> list[Result]:

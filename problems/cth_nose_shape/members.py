@@ -16,7 +16,6 @@ import sys
 from pathlib import Path
 from statistics import median
 
-from hydro2d.analytic import model_transition
 from hydro2d.errors import DeckError
 from hydro2d.results import figures
 from hydro2d.study.layout import StudyError
@@ -38,8 +37,7 @@ def grouped(results: list[Result]) -> dict[str, dict[Shot, list[Result]]]:
 
 def rigid() -> dict[Shot, bool]:
     """Whether the rod of each experiment stayed rigid, by its depth."""
-    return {Shot(each.nose, each.target.removeprefix("Al"), each.velocity): each.stayed_rigid
-            for each in model_transition.experiments()}  # fmt: skip
+    return {shot: told.rigid for shot, told in rigid_rod.experiments().items()}
 
 
 def right(members: list[Result], stayed_rigid: bool) -> int:
@@ -77,7 +75,7 @@ def within_aim(members: list[Result], shot: Shot) -> bool:
     measured, through = rigid_rod.experiments()[shot], 2 * sum(result.depth is None for result in members) >= len(members)
     if measured.kind == "at least":
         return through
-    most = RIGID_WITHIN if rigid()[shot] else ERODED_WITHIN
+    most = RIGID_WITHIN if measured.rigid else ERODED_WITHIN
     return not through and abs(median(result.reach for result in members) / (1e2 * measured.depth) - 1.0) <= most
 
 

@@ -13,6 +13,7 @@ that erodes. `--keep` writes all cases into a CSV file, in the order in which th
 from __future__ import annotations
 
 import argparse
+import functools
 import itertools
 import re
 import sys
@@ -71,10 +72,11 @@ class Shot:
 
 @dataclass(frozen=True)
 class Experiment:
-    """Depth (m), and whether it is "measured", "estimated" or "at least"."""
+    """Depth (m), whether it is "measured", "estimated" or "at least", and whether the rod stayed rigid, by its depth."""
 
     depth: float
     kind: str
+    rigid: bool
 
     def __str__(self) -> str:
         return {"at least": "perforated", "estimated": f"{self.depth * 1e2:.1f} cm (estimated)"}.get(
@@ -142,10 +144,11 @@ class Result:
         return f"perforated at {self.residual:.0f} m/s, {lost}" if self.depth is None else f"{self.depth:.1f} cm, {lost}"
 
 
+@functools.cache
 def experiments() -> dict[Shot, Experiment]:
     """The twelve shots."""
-    return {Shot(each.nose, each.target.removeprefix("Al"), each.velocity): Experiment(each.depth, each.depth_is)
-            for each in model_transition.experiments()}  # fmt: skip
+    return {Shot(each.nose, each.target.removeprefix("Al"), each.velocity):
+            Experiment(each.depth, each.depth_is, each.stayed_rigid) for each in model_transition.experiments()}  # fmt: skip
 
 
 def read(path: Path) -> list[Result]:

@@ -12,7 +12,6 @@ table has the depth, the mass that was taken and the time of flight.
 from __future__ import annotations
 
 import argparse
-import csv
 import sys
 from pathlib import Path
 
@@ -21,6 +20,7 @@ import numpy as np
 import hydro2d
 from hydro2d.deck import deck as decks
 from hydro2d.solver import audit
+from problems import kept
 
 HERE = Path(__file__).parent
 DECKS = [HERE / "hemi_5083_1296.toml", HERE / "hemi_7039_1248.toml"]
@@ -61,14 +61,15 @@ def shots(files: list[Path]) -> list[dict]:
     rows = []
     for file in files:
         deck = decks.load(file, list(LAW))
-        for kept in (True, False):
+        for with_tube in (True, False):
             sim = hydro2d.Simulation(deck)
             radius = 0.5 * next(body.diameter for body in deck.body if body.name == sim.projectile)
             knife = Knife(radius)
-            sim.run(callbacks=() if kept else [hydro2d.every(EVERY, knife)])
+            sim.run(callbacks=() if with_tube else [hydro2d.every(EVERY, knife)])
             told = sim.diagnostics()
-            rows.append(dict(zip(COLUMNS, (file.stem, "kept" if kept else "taken", round(1e2 * told["penetration_depth_m"], 2),
-                                           round(1e3 * knife.taken, 1), round(1e6 * sim.time), sim.cycle), strict=True)))
+            depth, taken, time = 1e2 * told["penetration_depth_m"], 1e3 * knife.taken, 1e6 * sim.time
+            row = file.stem, "kept" if with_tube else "taken", round(depth, 2), round(taken, 1), round(time), sim.cycle
+            rows.append(dict(zip(COLUMNS, row, strict=True)))
             print(", ".join(f"{name} {value}" for name, value in rows[-1].items()), flush=True)
     return rows
 
@@ -80,10 +81,7 @@ def main(arguments: list[str] | None = None) -> int:
     given = parser.parse_args(arguments)
     rows = shots(given.deck)
     if given.keep:
-        with open(given.keep, "w", encoding="utf-8", newline="") as file:
-            table = csv.DictWriter(file, COLUMNS, lineterminator="\n")
-            table.writeheader()
-            table.writerows(rows)
+        kept.write(given.keep, COLUMNS, rows)
     return 0
 
 

@@ -14,6 +14,7 @@ import h5py
 import numpy as np
 
 from hydro2d.deck import deck as decks
+from problems import kept as results
 
 KEPT = Path(__file__).parent / "results" / "explosives.csv"
 COLUMNS = ("deck", "explosive", "quantity", "unit", "expected", "source", "obtained")
@@ -86,8 +87,7 @@ def table(rows: list[dict[str, str]]) -> list[str]:
 
 def kept() -> list[dict[str, str]]:
     """The rows of results/explosives.csv."""
-    with KEPT.open(encoding="utf-8", newline="") as file:
-        return list(csv.DictReader(file))
+    return results.rows(KEPT, COLUMNS)
 
 
 def main(arguments: list[str]) -> int:

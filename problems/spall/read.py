@@ -6,7 +6,6 @@ the pull-back between them and the rebound after it. The rows that the README sh
 
 from __future__ import annotations
 
-import csv
 import sys
 from pathlib import Path
 
@@ -14,6 +13,7 @@ import h5py
 import numpy as np
 
 from hydro2d.deck import deck as decks
+from problems import kept as results
 
 KEPT = Path(__file__).parent / "results" / "spall.csv"
 COLUMNS = ("shot", "failure", "cells", "top_m_s", "lowest_m_s", "pull_back_m_s", "rebound_m_s")
@@ -52,8 +52,7 @@ def of_run(directory: Path) -> tuple:
 
 def kept() -> list[dict[str, str]]:
     """The rows of results/spall.csv."""
-    with KEPT.open(encoding="utf-8", newline="") as file:
-        return list(csv.DictReader(file))
+    return results.rows(KEPT, COLUMNS)
 
 
 def table(rows: list[dict[str, str]]) -> list[str]:
@@ -70,13 +69,7 @@ def table(rows: list[dict[str, str]]) -> list[str]:
 
 def main(arguments: list[str]) -> int:
     """Prints the rows of the runs as CSV, and of a run in which nothing has spalled that it has none."""
-    writer = csv.writer(sys.stdout, lineterminator="\n")
-    writer.writerow(COLUMNS)
-    for each in arguments:
-        try:
-            writer.writerow(of_run(Path(each)))
-        except ValueError as problem:
-            print(f"{each}: {problem}", file=sys.stderr)
+    results.show(COLUMNS, of_run, arguments)
     return 0
 
 

@@ -10,7 +10,6 @@ the studies.
 from __future__ import annotations
 
 import argparse
-import csv
 import sys
 from dataclasses import dataclass
 from pathlib import Path
@@ -18,6 +17,7 @@ from statistics import median
 
 from hydro2d.deck import deck as decks
 from problems.cth_nose_shape import heads, members, rigid_rod
+from problems.explosives import read as of_explosives
 from problems.long_rods import depths
 
 HERE = Path(__file__).parent
@@ -123,10 +123,9 @@ def armour(name: str) -> list[Row]:
 
 def explosives(name: str) -> list[Row]:
     """Velocities of the wall of the cylinder test."""
-    with open(PROBLEMS / "explosives/results/explosives.csv", encoding="utf-8", newline="") as file:
-        return [Row(name, f"{row['explosive']}, {row['quantity']}", float(row["expected"]), row["unit"],
-                    (float(row["obtained"]),), digits=2)
-                for row in csv.DictReader(file) if row["quantity"].startswith("wall velocity")]  # fmt: skip
+    return [Row(name, f"{row['explosive']}, {row['quantity']}", float(row["expected"]), row["unit"],
+                (float(row["obtained"]),), digits=2)
+            for row in of_explosives.kept() if row["quantity"].startswith("wall velocity")]  # fmt: skip
 
 
 def rows() -> dict[str, list[Row]]:
