@@ -6,6 +6,7 @@ import math
 import numpy as np
 import pytest
 
+from hydro2d import toml
 from hydro2d.cli.main import call
 from hydro2d.errors import DeckError
 from hydro2d.materials import curves, fitting, library
@@ -181,3 +182,32 @@ def test_the_librarys_steels_against_measurements(hardness, rate, temperature, s
         assert found / 1e6 == pytest.approx(np.array(stresses), rel=tolerance), variant
         confidence = material.strength.numbers["yield_stress" if variant is None else "thermal_stress"].confidence
         assert confidence == "fitted"
+
+
+#: the file of points of docs/how-to/fit-a-strength-model.md; what a fit of a hardness has beside `--heated-from "100 /s"`
+POINTS = toml.problems_folder() / "materials" / "flow_stress_4340.txt"
+FITS = [
+    (32, "johnson-cook", {}, 0.044, 0.108),
+    (32, "zerilli-armstrong", {}, 0.048, 0.128),
+    (38, "johnson-cook", {}, 0.052, 0.112),
+    (38, "zerilli-armstrong", {}, 0.051, 0.096),
+    (45, "johnson-cook", {"thermal_exponent": 0.708}, 0.093, 0.162),
+    (45, "zerilli-armstrong", {}, 0.054, 0.098),
+    (49, "johnson-cook", {"thermal_exponent": 0.708}, 0.043, 0.068),
+    (49, "zerilli-armstrong", {}, 0.011, 0.021),
+]
+
+
+@pytest.mark.parametrize(("hardness", "model", "fixed", "rms", "largest"), FITS)
+def test_the_librarys_steels_are_the_fits_of_the_page(hardness, model, fixed, rms, largest):
+    """Their constants, the root-mean-square difference and the largest one in the table of the page."""
+    points = fitting.read_points(POINTS, unit=1e6)
+    points = points.chosen((points.group == hardness) & (points.temperature >= 200.0) & (points.temperature <= 800.0)
+                           if hardness == 38 else points.group == hardness)  # fmt: skip
+    law, base = fitting.law(model), library.load("steel_4340")
+    found = fitting.fit(law, points, fitting.from_material(law, base) | fixed, heating=fitting.heating_of(base, 100.0))
+    assert (round(found.rms, 3), round(found.largest, 3)) == (rms, largest)
+    kept = library.load(f"steel_4340_Rc{hardness}", None if model == "johnson-cook" else model).strength.values
+    constants = found.constants[float(hardness)]
+    assert {name: kept[name] for name in law.free} == pytest.approx({name: constants[name] for name in law.free}, rel=3e-3,
+                                                                     abs=1e-9)  # fmt: skip

@@ -47,7 +47,6 @@ NOT_RUN = {
     "hydro2d diverge": "runs of a few cycles have no time in common; tests/study/test_divergence.py has made-up ones",
     "hydro2d plot runs/ball -o debris.png": "nothing flies behind a plate yet; tests/results/test_lines.py draws debris",
     "dask ": "needs a cluster",
-    "hydro2d fit-strength": "the points are the reader's; tests/materials/test_fitting.py fits made-up ones",
 }
 #: what a reader fills in, the longest first, and a window in which a short run has something to see
 FILLED = {
