@@ -13,6 +13,7 @@ from hydro2d import checksums, files
 from hydro2d.checksums import sealed, verified, verified_text
 from hydro2d.errors import Error
 from hydro2d.output import history, snapshot, vtk
+from hydro2d.output.series import Series
 from hydro2d.results import export
 from hydro2d.results.reading import Results, ResultsError
 from hydro2d.running import run as runs
@@ -141,7 +142,7 @@ def test_a_series_that_is_damaged_is_read_from_the_dumps(done):
     file = done / "series.pvd"
     times = [time for time, _ in vtk.read_series(file)]
     file.write_bytes(file.read_bytes().replace(b"timestep", b"timestop", 1))
-    again = vtk.Series(done, dumps=len(times))
+    again = Series(done, dumps=len(times))
     assert "series.pvd does not fit its checksum" in again.repaired
     assert again.last_time == times[-1]
 

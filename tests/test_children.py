@@ -66,7 +66,7 @@ def test_the_second_compiler(planted, monkeypatch):
 
 
 def test_the_process_that_renders(planted):
-    done = subprocess.run(children.python("hydro2d.results.figures"), input="{}", capture_output=True, text=True, check=False)
+    done = subprocess.run(children.python("hydro2d.results.cutaway"), input="{}", capture_output=True, text=True, check=False)
     assert "_render() missing" in done.stderr
     assert found(planted) == ""
 
@@ -111,7 +111,7 @@ def test_settings_of_matplotlib_in_the_current_directory_name_no_program(tmp_pat
 
 @pytest.mark.parametrize("command", ["plot", "movie", "report", "curve", "check"])
 def test_every_command_that_draws_imports_it_so(command, tmp_path, monkeypatch):
-    from hydro2d.cli import curve, main, report
+    from hydro2d.cli import curve, main, pictures, report
 
     class Asked(Exception):
         pass
@@ -119,7 +119,7 @@ def test_every_command_that_draws_imports_it_so(command, tmp_path, monkeypatch):
     def ask() -> None:
         raise Asked
 
-    for module in (main, curve, report):
+    for module in (main, pictures, curve, report):
         monkeypatch.setattr(module, "import_matplotlib", ask)
     picture = str(tmp_path / "a.png")
     words = {"plot": ["-o", picture], "movie": ["-o", picture], "report": [], "curve": ["--figure", picture],

@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-import math
 import os
 import sys
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated
 
 import cyclopts
-from cyclopts import App, Parameter, validators
+from cyclopts import App, Parameter
 
 from hydro2d import __version__
-from hydro2d.cli.base import Count, Out, Overrides, Trust, UsageError, import_matplotlib, quantity, refuse_old_names
+from hydro2d.cli.base import Count, Out, Overrides, Trust, UsageError, import_matplotlib, refuse_old_names
 from hydro2d.cli.check_model import check_model
 from hydro2d.cli.curve import curve
 from hydro2d.cli.diverge import diverge
@@ -20,6 +19,7 @@ from hydro2d.cli.ensemble import By, Chosen, Member, Repeats, Seed, converge, ru
 from hydro2d.cli.fit_strength import fit_strength
 from hydro2d.cli.model import model
 from hydro2d.cli.new import new
+from hydro2d.cli.pictures import movie, plot
 from hydro2d.cli.report import report
 from hydro2d.cli.status import status
 from hydro2d.cli.study import sweep, transition
@@ -45,7 +45,9 @@ app.command(curve)
 app.command(diverge)
 app.command(fit_strength)
 app.command(model)
+app.command(movie)
 app.command(new)
+app.command(plot)
 app.command(report)
 app.command(status)
 app.command(sweep)
@@ -213,191 +215,6 @@ def info(name: str | None = None) -> int:
 
     say(pages.page(name) if name else pages.overview())
     return 0
-
-
-def _times(texts: list[str] | None) -> list[float | None]:
-    return [quantity(text, "s", "--time") for text in texts] if texts else [None]
-
-
-def _window(text: str | None) -> tuple[float, float, float] | None:
-    if text is None:
-        return None
-    parts = text.split(",")
-    if len(parts) != 3:
-        raise UsageError(f'--window "{text}": expected three lengths z0,z1,r1, such as "-2 cm,8 cm,2 cm"')
-    z0, z1, r1 = (quantity(part.strip(), "m", "--window") for part in parts)
-    if not (z0 < z1 and r1 > 0):
-        raise UsageError(f'--window "{text}": z0 must be less than z1, and r1 positive')
-    return z0, z1, r1
-
-
-def _refuse_scale(kind: str, scaled: bool, line: bool) -> None:
-    """Raises UsageError for options that a kind of picture has no use for."""
-    if scaled and kind not in ("section", "line", "xt"):
-        raise UsageError(f"--colours, --clip, --log and --map are for --kind section, line and xt, not for {kind}")
-    if line and kind not in ("line", "xt"):
-        raise UsageError(f"--line is for --kind line and xt, not for {kind}")
-
-
-def _line(text: str | None):
-    """The line of an argument (lines.Line), None for the axis."""
-    from hydro2d.results.lines import Line
-
-    if text is None:
-        return None
-    parts = [quantity(part.strip(), "m", "--line") for part in text.split(",")]
-    if len(parts) != 4 or parts[:2] == parts[2:]:
-        raise UsageError(f'--line "{text}": expected two points r0,z0,r1,z1, such as "1 mm,-2 cm,1 mm,8 cm"')
-    return Line(*parts)
-
-
-@app.command
-def plot(
-    runs: list[Path],
-    *,
-    out: Out,
-    kind: Literal["section", "history", "line", "xt", "crater", "debris", "cutaway"] = "section",
-    field: str = "pressure",
-    mirror: str | None = None,
-    time: Annotated[list[str] | None, Parameter(negative="")] = None,
-    window: Annotated[str | None, Parameter(allow_leading_hyphen=True)] = None,
-    quantity: Annotated[list[str] | None, Parameter(negative="")] = None,
-    line: Annotated[str | None, Parameter(allow_leading_hyphen=True)] = None,
-    colours: Annotated[str | None, Parameter(allow_leading_hyphen=True)] = None,
-    clip: float = 0.0,
-    log: Annotated[bool, Parameter(negative="")] = False,
-    map_: Annotated[str | None, Parameter(name="--map")] = None,
-) -> int:
-    """Draws runs as sections, histories, values along a line, holes in their targets, debris, or a cut-away.
-
-    Sections are mirrored at the axis, and on a planar mesh at a wall that stands at r = 0; others are drawn as they are.
-
-    Example: hydro2d plot runs/a runs/b -o both.png --field von_mises --mirror material --time "80 us"
-
-    Example: hydro2d plot runs/a -o waves.png --kind xt --field pressure --clip 1
-
-    Parameters
-    ----------
-    runs
-        Run directories. Sections of several runs are drawn below one another, histories and craters in the same axes.
-    out
-        Picture file; its suffix sets the format.
-    kind
-        What to draw. line: a field along a line, a curve for each run and time; xt: a field along a line, in colours over place
-        and time; crater: the holes in the targets; debris: what flies behind them.
-    field
-        Field, or that of the upper half, as `hydro2d info` names it; velocity:z for a component, body_temperature:rod for one
-        body.
-    mirror
-        Field of the lower half of a mirrored section; default: the same.
-    time
-        Time, such as "80 us", whose nearest dump is drawn; default: the last dump. Can be repeated, for sections side by side.
-    window
-        Part of the mesh to show, z0,z1,r1, such as "-2 cm,8 cm,2 cm".
-    quantity
-        Column of the history; can be repeated.
-    line
-        Line of --kind line and xt, r0,z0,r1,z1, such as "1 mm,-2 cm,1 mm,8 cm"; default: the axis.
-    colours
-        Range of the field, low,high, in the unit of the colour bar; default: that of what is shown.
-    clip
-        Per cent of the cells whose values may lie beyond each end of the range, so that a few do not take all colours.
-    log
-        Logarithmic scale of the field; what is not positive has no colour.
-    map_
-        Colour map of matplotlib, such as magma; default: viridis, and blue to red for fields with negative values.
-    """
-    import_matplotlib()
-    from hydro2d.results import figures, lines
-    from hydro2d.results.reading import Results
-    from hydro2d.results.scales import Scale
-
-    opened, times = [Results(path) for path in runs], _times(time)
-    scale, limits = Scale(clip, log, map_), _range(colours)
-    _refuse_scale(kind, scale != Scale() or limits is not None, line is not None)
-    if kind == "cutaway":
-        if len(opened) != 1 or len(times) != 1 or out.suffix != ".png":
-            raise UsageError("--kind cutaway draws one run at one time, as a .png")
-        if opened[0].planar:
-            raise UsageError(f"{opened[0].directory}: the mesh is planar, so there is no axis to turn a cut-away about")
-        figures.cutaway(opened[0].dump_file(times[0]), out, field, _window(window))
-    elif kind == "history":
-        figures.save(figures.histories(opened, quantity or figures.HISTORIES), out)
-    elif kind == "crater":
-        figures.save(figures.craters(opened), out)
-    elif kind == "debris":
-        figures.save(lines.debris(opened), out)
-    elif kind == "line":
-        figures.save(lines.line_outs(opened, field, _line(line), times, limits=limits, scale=scale), out)
-    elif kind == "xt":
-        figures.save(lines.space_time(opened, field, _line(line), limits=limits, scale=scale), out)
-    else:
-        figures.save(figures.sections(opened, field, mirror=mirror, times=times, window=_window(window), limits=limits,
-                                      scale=scale), out)  # fmt: skip
-    say(f"wrote {out}")
-    return 0
-
-
-@app.command
-def movie(
-    runs: list[Path],
-    *,
-    out: Out,
-    field: str = "pressure",
-    mirror: str | None = None,
-    window: Annotated[str | None, Parameter(allow_leading_hyphen=True)] = None,
-    follow: str | None = None,
-    colours: Annotated[str | None, Parameter(allow_leading_hyphen=True)] = None,
-    rate: Annotated[float, Parameter(validator=validators.Number(gt=0, lte=120))] = 10.0,
-    beside: bool = False,
-) -> int:
-    """Makes a film from the dumps of runs, with one colour range for all frames.
-
-    Example: hydro2d movie runs/a runs/b -o both.mp4 --field von_mises --mirror material --follow rod --window "-8 cm,2 cm,2 cm"
-
-    Parameters
-    ----------
-    runs
-        Run directories; several are shown below one another.
-    out
-        Film file: .gif, or .mp4 where ffmpeg is installed.
-    field
-        Field, or that of the upper half, as `hydro2d info` names it; velocity:z for a component, body_temperature:rod for one
-        body.
-    mirror
-        Field of the lower half of a mirrored section; default: the same.
-    window
-        Part of the mesh to show, z0,z1,r1, such as "-2 cm,8 cm,2 cm".
-    follow
-        Body that the window follows; z0 and z1 are then measured from its leading end.
-    colours
-        Colour range of the field, low,high, in the unit of the colour bar; default: the range of all frames.
-    rate
-        Frames per second.
-    beside
-        Shows several runs side by side.
-    """
-    import_matplotlib()
-    from hydro2d.results import movies
-    from hydro2d.results.reading import Results
-
-    opened = [Results(path) for path in runs]
-    frames = movies.film(opened, out, field, mirror=mirror, window=_window(window), follow=follow, limits=_range(colours),
-                         rate=rate, beside=beside)  # fmt: skip
-    say(f"wrote {out}, {frames} frames")
-    return 0
-
-
-def _range(text: str | None) -> tuple[float, float] | None:
-    if text is None:
-        return None
-    try:
-        low, high = (float(part) for part in text.split(","))
-    except ValueError:
-        raise UsageError(f'--colours "{text}": expected two numbers low,high, such as "0,2.5"') from None
-    if not (math.isfinite(low) and math.isfinite(high) and low < high):
-        raise UsageError(f'--colours "{text}": low must be less than high')
-    return low, high
 
 
 @app.command

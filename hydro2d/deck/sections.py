@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import Annotated, Any, Literal
 
-from pydantic import AfterValidator, BeforeValidator, Field, WithJsonSchema, create_model, model_validator
+from pydantic import AfterValidator, BeforeValidator, Field, WithJsonSchema, model_validator
 
 from hydro2d import units
 from hydro2d.deck.base import (
@@ -18,50 +18,13 @@ from hydro2d.deck.base import (
     PositiveSpeed,
     PositiveTime,
     Section,
-    Speed,
     Time,
     within,
 )
 from hydro2d.deck.bodies import AnyBody
-from hydro2d.deck.curves import SpeedOverTime
+from hydro2d.deck.boundaries import Boundaries
 from hydro2d.deck.mesh_sections import Mesh
-from hydro2d.mesh.edges.registry import KINDS, words
 from hydro2d.sources.registry import AnySource
-
-if TYPE_CHECKING:
-    Inner = str
-    Outer = str
-    Lower = str
-    Upper = str
-else:
-    Inner, Outer, Lower, Upper = (Literal[words(edge)] for edge in ("r_min", "r_max", "z_min", "z_max"))
-
-
-class _Edges(Section):
-    """Boundary conditions at the edges of the mesh; see the table of boundary conditions."""
-
-    r_min: Inner | None = Field(
-        None, description="the inner edge; default: axis where a cylindrical mesh starts at r = 0, else wall"
-    )
-    r_max: Outer = Field("outflow", description="the outer edge")
-    z_min: Lower = Field("outflow", description="the lower edge")
-    z_max: Upper = Field("outflow", description="the upper edge")
-
-
-def _edge_keys() -> dict[str, tuple[Any, Any]]:
-    """The keys that kinds of edges bring, of every edge that can be of the kind: type and field."""
-    types = {("m/s", False): Speed, ("m/s", True): SpeedOverTime}
-    return {
-        f"{edge}_{key.name}": (types[key.unit, key.over_time] | None, Field(
-            None, description=f'{key.meaning} at {edge} = "{kind.name}"', examples=[key.example]))
-        for kind in KINDS for key in kind.keys for edge in kind.edges
-    }  # fmt: skip
-
-
-if TYPE_CHECKING:
-    Boundaries = _Edges
-else:
-    Boundaries = create_model("Boundaries", __base__=_Edges, __doc__=_Edges.__doc__, **_edge_keys())
 
 
 class Numerics(Section):

@@ -10,7 +10,7 @@ import errno
 import math
 import os
 from collections.abc import Iterable, Iterator
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from xml.etree import ElementTree
@@ -24,7 +24,6 @@ from hydro2d.mesh import quantities
 from hydro2d.mesh.edges.registry import halved
 from hydro2d.output import derived, foreign
 from hydro2d.output.outlines import outlines
-from hydro2d.strange import own_folder
 
 FOLDER = "vtk"
 SERIES = {"dump": "series.pvd", "interfaces": "interfaces.pvd", "tracers": "tracers.pvd"}
@@ -195,87 +194,6 @@ def read_series(path: Path) -> list[tuple[float, str]]:
         return found
     except (ElementTree.ParseError, TypeError, ValueError) as error:
         raise VtkError(f"{path} is not a series of VTK files: {error}") from None
-
-
-class Series:
-    """The dumps of a run directory.
-
-    Parameters
-    ----------
-    directory : the run directory
-    fields : keys of quantities.TABLE, or words of quantities.GROUPS, to write
-    dumps : number of dumps of the existing series to keep (a restart); later ones are removed
-
-    Attributes
-    ----------
-    repaired : what was wrong with the existing series, whose times were then read from the dumps; empty if nothing was
-    """
-
-    def __init__(self, directory: Path, fields=("standard",), dumps: int = 0):
-        self.directory, self.fields = Path(directory), fields
-        self._times: list[float] = []
-        self.repaired = ""
-        if dumps:
-            self._times = self._read(dumps)
-        for kind in SERIES:
-            for file in (self.directory / FOLDER).glob(f"{kind}_*.vt?"):
-                if int(file.stem.split("_")[1]) >= len(self._times):
-                    file.unlink()
-        if self._times:
-            self._write_series()
-
-    def _read(self, dumps: int) -> list[float]:
-        """Times of the first dumps, from the series or, if that is damaged, from the dumps up to the first damaged dump."""
-        try:
-            return [time for time, _ in read_series(self.directory / SERIES["dump"])][:dumps]
-        except VtkError as error:
-            self.repaired = f"{error}; its times are read from the dumps"
-        times: list[float] = []
-        with suppress(VtkError):
-            for number in range(dumps):
-                times.append(read_grid(self._path("dump", number)).time)
-        return times
-
-    def __len__(self) -> int:
-        return len(self._times)
-
-    @property
-    def last_time(self) -> float | None:
-        """Time of the last dump."""
-        return self._times[-1] if self._times else None
-
-    def dump(self, sim) -> Path:
-        """Writes fields, outlines and tracers of a simulation and lists them in the series."""
-        number, time = len(self._times), sim.time
-        own_folder(self.directory / FOLDER)
-        path = self._path("dump", number)
-        write_grid(path, sim.grid.r_edges, sim.grid.z_edges, derived.evaluated(sim, self.fields), time)
-        write_lines(self._path("interfaces", number), _body_lines(sim), time)
-        if len(sim.stations.tracers):
-            write_points(self._path("tracers", number), sim.stations.tracers, time)
-        self._times.append(time)
-        self._write_series()
-        return path
-
-    def _path(self, kind: str, number: int) -> Path:
-        return self.directory / FOLDER / f"{kind}_{number:06d}.{'vtr' if kind == 'dump' else 'vtp'}"
-
-    def _write_series(self) -> None:
-        for kind, name in SERIES.items():
-            paths = [self._path(kind, number) for number in range(len(self._times))]
-            entries = [(time, f"{FOLDER}/{path.name}") for time, path in zip(self._times, paths, strict=True)
-                       if path.exists()]  # fmt: skip
-            if entries:
-                write_series(self.directory / name, entries)
-
-
-def _body_lines(sim) -> list[tuple[int, np.ndarray]]:
-    vof = sim.grid.interior(sim.state.vof)
-    return [
-        (m + 1, line)
-        for m in range(len(vof))
-        for line in outlines(sim.grid.r_edges, sim.grid.z_edges, vof[m])
-    ]  # fmt: skip
 
 
 @dataclass(frozen=True)

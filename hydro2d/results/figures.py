@@ -1,28 +1,22 @@
-"""Figures of runs: mirrored sections, histories and craters with matplotlib, and a three-dimensional cut-away with pyvista.
+"""Figures of runs: mirrored sections, histories and craters with matplotlib.
 
 Sections show z to the right and r upwards, mirrored at the axis or plane of symmetry; the lower half may show another field.
 A planar mesh without a plane of symmetry at r = 0 is drawn as it is. Runs are arranged in rows and times in columns, with one
-colour scale. The three-dimensional picture is rendered in a separate process, so that a
-failing graphics driver cannot take anything else down with it.
+colour scale.
 """
 
 from __future__ import annotations
 
-import json
-import os
-import subprocess
-import sys
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 
-from hydro2d import children
 from hydro2d.errors import unknown
 from hydro2d.files import replacing
 from hydro2d.mesh import quantities
 from hydro2d.output import history
-from hydro2d.output.outlines import outlines, regions
+from hydro2d.output.outlines import regions
 from hydro2d.output.vtk import Dump
 from hydro2d.results.scales import LINEAR, FigureError, Scale
 from hydro2d.terminal import shown
@@ -40,8 +34,6 @@ VECTORS = ("velocity", "velocity_hard", "velocity_soft")
 FILMS = ("gif", "mp4", "avi", "mov", "webm")
 #: greatest height and least width of a panel, inches
 TALLEST, NARROWEST = 9.0, 2.5
-#: time limit of a rendering process, s
-RENDER_SECONDS = 180
 
 
 @dataclass(frozen=True)
@@ -97,7 +89,8 @@ def verbatim(text: str) -> str:
     return shown(text).replace("$", r"\$")
 
 
-def _body_colours(count: int):
+def body_colours(count: int):
+    """The colours of the bodies as a colour map."""
     from matplotlib.colors import ListedColormap
 
     return ListedColormap([BODY_COLOURS[m % len(BODY_COLOURS)] for m in range(count)])
@@ -108,7 +101,7 @@ def _draw_half(axes, dump: Dump, field: str, sign: int, limits: tuple[float, flo
     needs."""
     z, r = dump.z_edges * 1e3, sign * dump.r_edges * 1e3
     if field == "material":
-        values, drawn = dump.fields["Material"].astype(float), {"cmap": _body_colours(len(dump.bodies))}
+        values, drawn = dump.fields["Material"].astype(float), {"cmap": body_colours(len(dump.bodies))}
         values[values == 0.0] = np.nan
         drawn |= {"vmin": 0.5, "vmax": len(dump.bodies) + 0.5}
     else:
@@ -397,89 +390,3 @@ def save(figure, path: Path) -> None:
         raise FigureError(f"{path.parent}: there is no such directory")
     with replacing(path) as temporary:
         figure.savefig(temporary, format=ending, dpi=160, bbox_inches="tight", pad_inches=0.08)
-
-
-# ---------------------------------------------------------------------------------------------- three dimensions
-
-
-def cutaway(dump_file: Path, path: Path, field: str = "pressure", window=None, size=(1400, 900)) -> None:
-    """Renders the bodies rotated about the axis with a quarter cut out and the cut coloured by a field.
-
-    window = (z0, z1, r1) in m, size in pixels.
-
-    A separate process renders the picture, on the display if there is one, else with EGL, else with OSMesa. Raises
-    FigureError if none of them works.
-    """
-    task = json.dumps({"dump": str(dump_file), "path": str(path), "field": field, "window": window, "size": size})
-    windows = [None] if os.environ.get("DISPLAY") else ["vtkEGLRenderWindow", "vtkOSOpenGLRenderWindow"]
-    said = ""
-    for window in windows:
-        environment = os.environ | ({"VTK_DEFAULT_OPENGL_WINDOW": window} if window else {})
-        try:
-            done = subprocess.run(children.python("hydro2d.results.figures"), input=task, text=True, env=environment,
-                                  capture_output=True, timeout=RENDER_SECONDS, check=False)  # fmt: skip
-        except subprocess.TimeoutExpired:
-            said = f"no picture after {RENDER_SECONDS} s"
-            continue
-        if done.returncode == 0:
-            return
-        said = (done.stderr.strip().splitlines() or [f"exit status {done.returncode}"])[-1]
-    raise FigureError(f"the three-dimensional picture could not be rendered on this machine: {said}")
-
-
-def _render(dump: str, path: str, field: str, window, size) -> None:
-    """The work of the rendering process."""
-    import pyvista
-
-    from hydro2d.output.vtk import read_grid
-
-    state = cropped(read_grid(Path(dump)), window)
-    shown = chosen(state, field)
-    plotter = pyvista.Plotter(off_screen=True, window_size=list(size))
-    count = len(state.bodies)
-    for line in outlines(state.r_edges, state.z_edges, filled(state), closed=True):
-        points = np.column_stack([line[:, 0], np.zeros(len(line)), line[:, 1]]) * 1e3
-        curve = pyvista.lines_from_points(points)
-        curve["body"] = _nearest_body(state, line)
-        turned = curve.extrude_rotate(angle=270, resolution=90, capping=False)
-        plotter.add_mesh(turned, scalars="body", cmap=_body_colours(count), clim=(0.5, count + 0.5), specular=0.3,
-                         show_scalar_bar=False, interpolate_before_map=False)  # fmt: skip
-    for body in state.bodies:
-        for line in state.outlines(body):
-            points = np.column_stack([line[:, 0], np.zeros(len(line)), line[:, 1]]) * 1e3
-            for angle in (0.0, 270.0):
-                plotter.add_mesh(pyvista.lines_from_points(points).rotate_z(angle), color="black", line_width=2)
-    low, high = LINEAR.limits([shown.values])
-    for angle in (0.0, 270.0):
-        plotter.add_mesh(_cut_face(pyvista, state, shown, angle), scalars=shown.label, cmap=shown.colours,
-                         clim=(low, high), lighting=False, scalar_bar_args={"title": shown.label})  # fmt: skip
-    plotter.add_text(f"t = {state.time * 1e6:.2f} us", font_size=10)
-    plotter.view_vector((1.0, -1.0, -0.7), viewup=(0, 0, -1))  # into the cut, +z down
-    with replacing(Path(path)) as temporary:
-        picture = temporary.with_suffix(".png")  # pyvista chooses the format by the ending
-        plotter.screenshot(str(picture))
-        os.replace(picture, temporary)
-
-
-def _nearest_body(state: Dump, line: np.ndarray) -> np.ndarray:
-    """Number of the body that fills most of the 3 x 3 cells around each point of an outline, shape (n,)."""
-    j = np.clip(np.searchsorted(state.z_edges, line[:, 1], "right") - 1, 0, len(state.z_edges) - 2)
-    i = np.clip(np.searchsorted(state.r_edges, line[:, 0], "right") - 1, 0, len(state.r_edges) - 2)
-    shares = np.stack([np.pad(state.fields[f"Volume Fraction for {body}"], 1) for body in state.bodies])
-    around = sum(shares[:, j + dj, i + di] for dj in range(3) for di in range(3))
-    return 1.0 + np.argmax(around, axis=0)
-
-
-def _cut_face(pyvista, state: Dump, shown: Shown, angle: float):
-    """The section as a plane through the axis at an angle in degrees, without void, in mm."""
-    plane = pyvista.RectilinearGrid(state.r_edges * 1e3, np.zeros(1), state.z_edges * 1e3)
-    plane.cell_data[shown.label] = shown.values.ravel()
-    plane.cell_data["solid"] = np.isfinite(shown.values).ravel().astype(float)
-    return plane.threshold(0.5, scalars="solid").rotate_z(angle)
-
-
-if __name__ == "__main__":
-    try:
-        _render(**json.load(sys.stdin))
-    except FigureError as problem:
-        sys.exit(str(problem))

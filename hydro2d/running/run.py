@@ -32,7 +32,8 @@ from hydro2d.files import locked, write_json, write_text
 from hydro2d.interrupt import Interrupt, signals
 from hydro2d.output import snapshot
 from hydro2d.output.history import History, HistoryError
-from hydro2d.output.vtk import FOLDER, SERIES, Series
+from hydro2d.output.series import Series
+from hydro2d.output.vtk import FOLDER, SERIES
 from hydro2d.running import provenance
 from hydro2d.running.outputs import Attempts, writing
 from hydro2d.running.progress import Clock

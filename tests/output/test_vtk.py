@@ -11,19 +11,12 @@ import pytest
 
 from hydro2d.mesh import quantities
 from hydro2d.output import derived, vtk
+from hydro2d.output.series import Series
 from tests import fake
 
 
-@pytest.fixture
-def moved():
-    sim = fake.Simulation(fake.FakeDeck())
-    for _ in range(30):
-        sim.step()
-    return sim
-
-
 def test_fields_survive_as_float32(moved, tmp_path):
-    path = vtk.Series(tmp_path).dump(moved)
+    path = Series(tmp_path).dump(moved)
     dump = vtk.read_grid(path)
     assert dump.time == moved.time
     assert dump.bodies == ["rod", "plate"]
@@ -39,7 +32,7 @@ def test_fields_survive_as_float32(moved, tmp_path):
 
 def test_pyvista_sees_the_geometry(moved, tmp_path):
     pyvista = pytest.importorskip("pyvista")
-    grid = pyvista.read(vtk.Series(tmp_path).dump(moved))
+    grid = pyvista.read(Series(tmp_path).dump(moved))
     assert grid.dimensions == (13, 56, 1)
     assert grid.cell_data["Velocity [m/s]"].shape == (12 * 55, 3)
     cell = grid.find_containing_cell((0.5e-3, moved.time * fake.SPEED - 5.5e-3, 0.0))
@@ -75,30 +68,13 @@ def test_void_is_zero(moved):
 
 
 def test_chosen_fields(moved, tmp_path):
-    dump = vtk.read_grid(vtk.Series(tmp_path, ["pressure"]).dump(moved))
+    dump = vtk.read_grid(Series(tmp_path, ["pressure"]).dump(moved))
     assert set(dump.fields) == {"Pressure [Pa]", "Volume Fraction for rod", "Volume Fraction for plate", "Material"}
-
-
-def test_series(moved, tmp_path):
-    series = vtk.Series(tmp_path)
-    times = []
-    for _ in range(4):
-        series.dump(moved)
-        times.append(moved.time)
-        moved.step()
-    assert [time for time, _ in vtk.read_series(tmp_path / "series.pvd")] == times
-    kept = vtk.Series(tmp_path, dumps=2)
-    assert len(kept) == 2
-    for name in ("series.pvd", "interfaces.pvd", "tracers.pvd"):
-        entries = vtk.read_series(tmp_path / name)
-        assert [time for time, _ in entries] == times[:2]
-        assert all((tmp_path / file).exists() for _, file in entries)
-    assert len(list((tmp_path / "vtk").iterdir())) == 6
 
 
 def test_pyvista_opens_the_series(moved, tmp_path):
     pyvista = pytest.importorskip("pyvista")
-    vtk.Series(tmp_path).dump(moved)
+    Series(tmp_path).dump(moved)
     reader = pyvista.get_reader(tmp_path / "series.pvd")
     assert reader.time_values == [moved.time]
     assert reader.read()[0].n_cells == 12 * 55
@@ -106,7 +82,7 @@ def test_pyvista_opens_the_series(moved, tmp_path):
 
 def test_outlines_and_tracers(moved, tmp_path):
     pyvista = pytest.importorskip("pyvista")
-    vtk.Series(tmp_path).dump(moved)
+    Series(tmp_path).dump(moved)
     lines = pyvista.read(tmp_path / "vtk" / "interfaces_000000.vtp")
     assert set(lines.cell_data["Material"]) == {1, 2}
     assert lines.points[:, 0].min() == 0.0  # they reach the axis
@@ -176,7 +152,7 @@ def test_no_room_is_told_in_one_line_and_not_by_vtk(tmp_path, most):
 
 @pytest.mark.parametrize("keep", [100, 1000])
 def test_a_damaged_file_is_told_in_one_line_and_not_by_vtk(tmp_path, moved, capfd, keep):
-    path = vtk.Series(tmp_path).dump(moved)
+    path = Series(tmp_path).dump(moved)
     path.write_bytes(path.read_bytes()[:keep])
     for read in (vtk.read_grid, vtk.pyvista_grid):
         with pytest.raises(vtk.VtkError):

@@ -159,22 +159,6 @@ def test_formats(dump, tmp_path):
         figures.save(figure, tmp_path / "none" / "x.png")
 
 
-def test_cutaway_or_a_clear_error(finished, tmp_path):
-    """Where there is no way to render, that is said; nothing is left behind."""
-    said = ""
-    try:
-        figures.cutaway(Results(finished).dump_file(), tmp_path / "cut.png")
-    except FigureError as error:
-        said = str(error)
-    assert "could not be rendered" in said or (tmp_path / "cut.png").read_bytes()[:4] == b"\x89PNG"
-    assert {path.name for path in tmp_path.iterdir()} <= {"cut.png", "shot"}
-
-
-def test_cutaway_tells_a_wrong_field(finished, tmp_path):
-    with pytest.raises(FigureError, match="did you mean"):
-        figures.cutaway(Results(finished).dump_file(), tmp_path / "cut.png", "presure")
-
-
 def test_outline_of_a_disc():
     edges = np.linspace(0, 1, 41)
     centres = 0.5 * (edges[1:] + edges[:-1])

@@ -128,8 +128,8 @@ def users(library: str) -> set[str]:
     [
         ("numba", ("hydro2d.jit.options", "hydro2d.jit.cache", "hydro2d.jit.calls", "hydro2d.jit.bits",
                    "hydro2d.jit.barrier")),
-        ("pyvista", ("hydro2d.output.vtk", "hydro2d.results.figures")),
-        ("vtk", ("hydro2d.output.vtk", "hydro2d.results.figures")),
+        ("pyvista", ("hydro2d.output.vtk", "hydro2d.results.cutaway")),
+        ("vtk", ("hydro2d.output.vtk", "hydro2d.results.cutaway")),
         ("pint", ("hydro2d.units",)),
         ("scipy", ("hydro2d.penetration", "hydro2d.materials.fitting", "hydro2d.solver.crater", "hydro2d.solver.debris",
                    "hydro2d.solver.reach",

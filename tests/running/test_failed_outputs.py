@@ -9,6 +9,7 @@ import pytest
 
 from hydro2d.cli.main import call
 from hydro2d.output import history, snapshot, vtk
+from hydro2d.output.series import Series
 from hydro2d.running import run as runs
 from hydro2d.running.run import run
 from hydro2d.solver.record import ColumnError
@@ -50,7 +51,7 @@ def test_a_history_that_cannot_be_written_at_the_end(simulation, deck, tmp_path,
 
 
 @pytest.mark.parametrize("error", RAISED, ids=lambda error: type(error).__name__)
-@pytest.mark.parametrize(("place", "name", "file"), [(history.History, "write", "history.h5"), (vtk.Series, "dump", "vtk")])
+@pytest.mark.parametrize(("place", "name", "file"), [(history.History, "write", "history.h5"), (Series, "dump", "vtk")])
 def test_an_output_that_cannot_be_written_on_the_way(simulation, deck, tmp_path, monkeypatch, capsys, error, place, name, file):
     monkeypatch.setattr(runs, "FLUSH_SECONDS", 0.0)
     monkeypatch.setattr(runs, "FLUSH_SHARE", 1e9)
