@@ -53,7 +53,12 @@ SETS = (
     Set("tungsten into armour steel", "Odermatt's fit to many shots, BHN 270, read in a public source",
         "nothing: 6.5 cells", "sweep problems/long_rods/velocities.toml"),
     Set("cylinder test", "Dobratz & Crawford, UCRL-52997 (1985), recalled", "nothing", "run problems/explosives/cylinder.toml"),
+    Set("driven by an explosive", "Gurney's formula with the energies of the same handbook, recalled: a fit to many shots",
+        "nothing", "run problems/explosives/sandwich.toml"),
 )  # fmt: skip
+
+#: what an explosive drives, by the deck of problems/explosives
+DRIVEN = {"cylinder": "tube", "plate_push": "plate on a charge", "sandwich": "two plates around a charge"}
 
 
 @dataclass(frozen=True)
@@ -75,7 +80,7 @@ class Row:
         given = "perforated" if self.measured is None else f"{self.measured:.{self.digits}f} {self.unit}"
         apart = ""
         if self.measured is not None and self.computed and not self.said:
-            apart = f"{100.0 * (median(self.computed) / self.measured - 1.0):+.0f} %"
+            apart = f"{round(100.0 * (median(self.computed) / self.measured - 1.0)):+d} %"
         return f"| {self.name} | {self.shot} | {given} | {self.said or middle + spread} | {apart} |"
 
 
@@ -123,9 +128,19 @@ def armour(name: str) -> list[Row]:
 
 def explosives(name: str) -> list[Row]:
     """Velocities of the wall of the cylinder test."""
-    return [Row(name, f"{row['explosive']}, {row['quantity']}", float(row["expected"]), row["unit"],
-                (float(row["obtained"]),), digits=2)
+    return [Row(name, f"{row['explosive']}, {row['quantity']}", *_of_explosive(row), digits=2)
             for row in of_explosives.kept() if row["quantity"].startswith("wall velocity")]  # fmt: skip
+
+
+def gurney(name: str) -> list[Row]:
+    """Final velocities of metal that an explosive drives."""
+    return [Row(name, f"{DRIVEN[row['deck']]}, {row['explosive']}", *_of_explosive(row), digits=2)
+            for row in of_explosives.kept() if row["quantity"] == "final velocity"]  # fmt: skip
+
+
+def _of_explosive(row: dict[str, str]) -> tuple[float, str, tuple[float]]:
+    """What is expected, its unit, and what the run gave."""
+    return float(row["expected"]), row["unit"], (float(row["obtained"]),)
 
 
 def rows() -> dict[str, list[Row]]:
@@ -133,7 +148,8 @@ def rows() -> dict[str, list[Row]]:
     names = [each.name for each in SETS]
     found = (twelve(names[0], "Steinberg-Guinan"), twelve(names[1], "Johnson-Cook, sintered"), eroding(names[2]),
              steel(names[3], "rigid_steel_rods.csv", target="Steinberg-Guinan", rod="1.6 GPa"),
-             steel(names[4], "steel_rods_fitted.csv", rod="fit, Rc 38"), armour(names[5]), explosives(names[6]))  # fmt: skip
+             steel(names[4], "steel_rods_fitted.csv", rod="fit, Rc 38"), armour(names[5]), explosives(names[6]),
+             gurney(names[7]))  # fmt: skip
     return dict(zip(names, found, strict=True))
 
 

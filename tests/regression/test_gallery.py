@@ -22,7 +22,6 @@ OTHERWISE = {
 BARE = {
     "docs/how-to/index.md": "a list of pages",
     "docs/tutorials/index.md": "a list of pages",
-    "docs/how-to/results.md": "it is about numbers; run-a-shot.md and depth-curves.md have the pictures",
     "docs/tutorials/first-study.md": "its eight runs take twenty minutes of a core; the page that it writes has the pictures",
 }
 
