@@ -35,8 +35,9 @@ def new(kind: str | None = None, *, out: Out | None = None,
             raise UsageError("--list lists the kinds and writes nothing; leave the kind and --out out")
         if not list_:
             raise UsageError(f"give a kind of shot: {', '.join(templates.kinds())} (hydro2d new --list says what they are)")
+        width = max(map(len, templates.kinds()))
         for name, what in templates.kinds().items():
-            say(f"{name:<12} {what}")
+            say(f"{name:<{width}}  {what}")
         return 0
     text = templates.text(kind)
     deck = out or Path(f"{kind}.toml")

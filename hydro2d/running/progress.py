@@ -27,6 +27,8 @@ LINE_SECONDS, TABLE_SECONDS = 5.0, 0.5
 SHOWN, MOST_SHOWN = 1e-3, 6
 #: bodies whose length has changed by less than this share of it are told no length; tracers and gauges that are told
 SAME_LENGTH, MOST_STATIONS = 1e-3, 12
+#: projectiles whose length and diameter differ by less than this share are as long as they are thick
+AS_LONG = 1e-2
 #: seconds over which the pace is measured
 PACE_SECONDS = 60.0
 
@@ -304,7 +306,7 @@ def result(summary: dict) -> list[str]:
 
 
 def _bars(summary: dict) -> list[str]:
-    """Lengths of the bodies that were longer than wide at the start, and have changed, with the radius of the foot.
+    """Lengths of the bodies that were longer than wide at the start, and have changed, with the radii of their ends.
 
     A body of which something has left the mesh has no length that could be told.
     """
@@ -317,7 +319,7 @@ def _bars(summary: dict) -> list[str]:
             continue
         ends = [body[f"radius_at_z_{end}_m"] for end in ("min", "max")]
         lines.append(f"{f'{name} length':<21} {length * 1e3:.2f} mm of {first * 1e3:.2f} mm, {length / first:.3f}; "
-                     f"radius {max(ends) * 1e3:.2f} mm at its foot, {min(ends) * 1e3:.2f} mm at the other end")
+                     f"radius {max(ends) * 1e3:.2f} mm at the wider end, {min(ends) * 1e3:.2f} mm at the other")
     return lines
 
 
@@ -350,14 +352,26 @@ def _moving(summary: dict) -> str:
     return "; ".join(said)
 
 
+def _over_length(summary: dict) -> str:
+    """Depth over the length of the projectile, or over the diameter of one that is as long as it is thick, such as a ball."""
+    shape, ratio = summary["projectile"], summary["penetration_over_length"]
+    if ratio is None:
+        return ""
+    thick = 2.0 * shape["initial_radius_m"]
+    return f", P/{'D' if abs(thick - shape['initial_length_m']) < AS_LONG * thick else 'L'} {ratio:.3f}"
+
+
 def _rod(summary: dict) -> list[str]:
     from hydro2d.solver.penetrator import LEFT
 
     depth, experiment, shape = summary["penetration_depth_m"], summary["experiment"], summary["projectile"]
     body = shape["body"]
     bound = "at least " if summary["regime"] == LEFT else ""
-    ratio = "" if summary["penetration_over_length"] is None else f", P/L {summary['penetration_over_length']:.3f}"
-    lines = [f"penetration depth     {bound}{number(depth, 1e2, '.2f', 'cm')}{ratio}"]
+    through = [name for name, found in summary["targets"].items() if found["exit_time_s"] is not None]
+    if through and len(through) == len(summary["targets"]):
+        lines = [f"gone through          {', '.join(through)}; nose {number(depth, 1e2, '.2f', 'cm')} behind the first face"]
+    else:
+        lines = [f"penetration depth     {bound}{number(depth, 1e2, '.2f', 'cm')}{_over_length(summary)}"]
     if experiment and experiment["penetration_m"]:
         measured = experiment["penetration_m"]
         error = f" (error {(depth - measured) * 1e2:+.2f} cm, {100 * (depth / measured - 1):+.1f} %)"

@@ -82,6 +82,7 @@ def _transitions(contents: Contents) -> dict:
         "rows": [_of_combination(each, names) for each in found],
         "notes": [f"{each.title}: {note}" for each, known in told for note in each.notes if note not in known],
         "criteria": regimes.criteria(contents.study),
+        "of_rods": contents.study.search.of in regimes.OF_ROD,
         "file": regimes.FILE,
     }
 

@@ -103,16 +103,32 @@ def closing(**changes):
     })  # fmt: skip
 
 
-def test_the_last_lines_give_the_length_and_the_foot_of_a_bar():
+def test_the_last_lines_give_the_length_and_the_ends_of_a_bar():
     said = closing()
-    assert "bar length            17.43 mm of 25.40 mm, 0.686; radius 6.60 mm at its foot, 3.81 mm at the other end" in said
+    assert "bar length            17.43 mm of 25.40 mm, 0.686; radius 6.60 mm at the wider end, 3.81 mm at the other" in said
     same = {"bar": {"velocity_m_s": 0.0, "kinetic_energy_J": 0.0, "initial_length_m": 25.4e-3, "length_m": 25.399e-3,
                     "outflow_kg": 0.0, "r_max_m": 3e-3, "radius_at_z_min_m": 3e-3, "radius_at_z_max_m": 3e-3}}  # fmt: skip
-    assert not any("foot" in line for line in closing(bodies=same))
+    assert not any("wider" in line for line in closing(bodies=same))
     short = {"tube": same["bar"] | {"length_m": 9e-3}}
-    assert any("foot" in line for line in closing(bodies=short))
+    assert any("wider" in line for line in closing(bodies=short))
     short["tube"]["outflow_kg"] = 1e-6  # some of it has left the mesh
-    assert not any("foot" in line for line in closing(bodies=short))
+    assert not any("wider" in line for line in closing(bodies=short))
+
+
+def test_the_last_lines_tell_a_ball_from_a_rod_and_a_depth_from_a_hole():
+    """P/D of a ball, P/L of a rod; behind the last target there is no depth."""
+    ball = {"body": "ball", "length_m": 9e-3, "initial_length_m": 9.98e-3, "initial_radius_m": 5e-3, "max_plastic_strain": 0.4}
+    shot = {"penetration_depth_m": 14.7e-3, "penetration_over_length": 1.473, "experiment": None, "regime": "deforming",
+            "projectile": ball | {"tail_velocity_m_s": None}, "targets": {"first": {"exit_time_s": None}}}  # fmt: skip
+    assert "penetration depth     1.47 cm, P/D 1.473" in closing(**shot)
+    rod = shot | {"projectile": shot["projectile"] | {"initial_length_m": 50e-3}}
+    assert "penetration depth     1.47 cm, P/L 1.473" in closing(**rod)
+    through = {"exit_time_s": 1e-6, "exit_velocity_m_s": 9.0, "exit_mass_kg": 1e-3}
+    one = closing(**shot | {"targets": {"first": through, "second": {"exit_time_s": None}}})
+    assert any(line.startswith("penetration depth") for line in one)
+    both = closing(**shot | {"targets": {"first": through, "second": through}})
+    assert "gone through          first, second; nose 1.47 cm behind the first face" in both
+    assert not any(line.startswith("penetration depth") for line in both)
 
 
 def test_the_last_lines_give_peaks_and_derived_quantities():
