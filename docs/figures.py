@@ -28,7 +28,7 @@ sys.path.insert(0, str(HERE.parent))
 matplotlib.use("agg")
 STATIC = HERE / "_static"
 #: largest picture of a page, bytes; its width, and that of a film, pixels
-MOST, WIDTH, FILM_WIDTH = 100_000, 1200, 400
+MOST, WIDTH, FILM_WIDTH = 100_000, 1200, 370
 #: colours of a picture and of a film
 COLOURS, FILM_COLOURS = 255, 32
 
