@@ -132,7 +132,7 @@ KINDS = (
          "A steel ball in copper at 2 km/s. Pressure above the axis, plastic strain below, after 5 and 40 µs.",
          '--field pressure --mirror plastic_strain --time "5 us" --time "40 us" --window "-15 mm,30 mm,25 mm"',
          (("depth", "13 mm or a little more (fit of Charters and Summers to balls that are used up, recalled)", depth),
-          ("diameter of the hole at the face", "no value at hand", hole))),
+          ("diameter of the hole at the face", "about 27 mm, if the crater is a hemisphere as deep as that fit says", hole))),
     Kind("taylor", "Taylor's test",
          "A copper bar on a rigid wall, at the left, after 20 and 60 µs. Plastic strain above the axis, temperature below.",
          '--field plastic_strain --mirror temperature --time "20 us" --time "60 us" --window "0 mm,27 mm,10 mm"',
@@ -143,7 +143,8 @@ KINDS = (
          "density below, after 9 and 25 µs. Only cells that are half full are drawn, so thin debris is not to be seen.",
          '--field material --mirror density --time "9 us" --time "25 us" --window "-20 mm,80 mm,45 mm"',
          (("velocity of the ball behind the bumper", "at least 4.56 km/s, by momentum", of_ball),
-          ("the wall of 4 mm, 58 mm behind the bumper", "no value at hand", of_wall))),
+          ("the wall of 4 mm, 58 mm behind the bumper", "perforated: by Christiansen's ballistic-limit equation (Int. J. "
+           "Impact Engng 14 (1993) 145) this shield stops balls of up to 5.0 mm", of_wall))),
     Kind("spall", "Spall",
          "A flyer of aluminium hits a disc of twice its thickness. Where the release waves meet, the disc is torn. Pressure "
          "above the axis, density below, after 0.6 and 1.8 µs.",
@@ -161,13 +162,14 @@ KINDS = (
          '--field material --mirror plastic_strain --time "20 us" --time "70 us" --window "-25 mm,60 mm,25 mm"',
          (("depth of the core after 50 µs", "somewhat less than the 40 to 43 mm of Tate's model for the core",
            early_depth),
-          ("depth of the core at the end", "no value at hand", depth))),
+          ("depth of the core after 70 µs, still in flight", "none published: the shot is made up", depth))),
     Kind("ceramic", "A ceramic tile",
          "A rod of tungsten alloy goes through a tile of alumina, which lies in a ring of steel, into the steel behind. "
-         "Materials above the axis, damage below, after 10 and 60 µs: yellow is crushed.",
+         "Materials above the axis, damage below, after 10 and 60 µs: yellow is crushed. Without the tile the rod of hydro2d "
+         "goes 33.8 mm deep, so the tile saves 10 mm (`problems/ceramics/README.md`).",
          '--field material --mirror damage --time "10 us" --time "60 us" --window "-30 mm,50 mm,45 mm"',
-         (("depth in the steel behind the tile", "no value at hand; 38.7 mm without the tile (fit of Lanz and Odermatt)",
-           in_steel),)),
+         (("depth in the steel behind the tile", "none published for this shot; 38.7 mm without the tile (fit of Lanz and "
+           "Odermatt), of which alumina of a mass efficiency of 1.5 to 2 (recalled) leaves 19 to 24 mm", in_steel),)),
     Kind("cylinder-test", "The cylinder test",
          "TNT in a tube of copper, lit over its left end. Pressure above the axis, materials below, after 12 and 28 µs: the "
          "detonation runs to the right, and its products drive the wall.",
