@@ -119,7 +119,8 @@ class Simulation:
             "rod_length_m": LENGTH, "rod_mass_kg": 0.06,
             "rod_max_plastic_strain": float(self.state.ep.max()), "rod_tail_velocity_m_s": SPEED,
             "rod_nose_velocity_m_s": SPEED, "rod_mean_velocity_m_s": SPEED, "rod_kinetic_energy_J": 3e4,
-            "rod_max_radius_m": RADIUS, "regime": "rigid" if self.time < STOP / 2 else "deforming",
+            "rod_initial_length_m": LENGTH, "rod_max_radius_m": RADIUS, "rod_initial_radius_m": RADIUS,
+            "regime": "rigid" if self.time < STOP / 2 else "deforming",
         }  # fmt: skip
 
     projectile = ROD
