@@ -96,7 +96,7 @@ INLINE = re.compile(r"`([^`]+)`")
 LANGUAGES, SHOWN = ("sh", "python", "toml"), ("", "text", "json", "csv")
 COMMAND = re.compile(r"(?:\.venv/bin/)?(?:hydro2d|python3?|pip|dask) ")
 #: a command that the text names and does not give in full
-NAME = re.compile(r"hydro2d ([a-z]+)(?: transition)?|python -m (problems[\w.]+)")
+NAME = re.compile(r"hydro2d ([a-z-]+)(?: transition)?|python -m (problems[\w.]+)")
 
 
 def commands(block: str) -> list[tuple[int, str]]:
