@@ -6,7 +6,7 @@ import numpy as np
 
 from hydro2d.output import history
 from hydro2d.running import ending
-from hydro2d.running.progress import duration, moment, number
+from hydro2d.running.progress import duration, moment, number, passed
 from hydro2d.running.run import HISTORY
 
 
@@ -29,7 +29,10 @@ def lines(run, status: str, message: str, progress: dict) -> list[str]:
             said["time"] += f", {duration(now['wall_s'])} of computing"
     if not summary:
         said["end"] = _end(run.tables.get("stop", {}), columns, now, progress, run.projectile)
-    if now.get("penetration_depth_m") is not None:
+    if summary and (through := passed(summary)):
+        nose = number(now["penetration_depth_m"], 1e3, ".2f", "mm")
+        said["through"] = f"{', '.join(through)}; nose {nose} behind the first face"
+    elif now.get("penetration_depth_m") is not None:
         said["depth"] = number(now["penetration_depth_m"], 1e3, ".2f", "mm")
         if run.measured_depth is not None:
             said["depth"] += f", in the experiment {number(run.measured_depth, 1e3, '.2f', 'mm')}"

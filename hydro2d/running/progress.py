@@ -27,8 +27,7 @@ LINE_SECONDS, TABLE_SECONDS = 5.0, 0.5
 SHOWN, MOST_SHOWN = 1e-3, 6
 #: bodies whose length has changed by less than this share of it are told no length; tracers and gauges that are told
 SAME_LENGTH, MOST_STATIONS = 1e-3, 12
-#: projectiles whose length and diameter differ by less than this share are as long as they are thick
-AS_LONG = 1e-2
+AS_LONG = 1e-2  # projectiles whose length and diameter differ by less than this share are as long as they are thick
 #: seconds over which the pace is measured
 PACE_SECONDS = 60.0
 
@@ -352,6 +351,12 @@ def _moving(summary: dict) -> str:
     return "; ".join(said)
 
 
+def passed(summary: dict) -> list[str]:
+    """Names of the targets where the projectile has gone through all of them, else none."""
+    found = summary.get("targets", {})
+    return [] if any(target["exit_time_s"] is None for target in found.values()) else list(found)
+
+
 def _over_length(summary: dict) -> str:
     """Depth over the length of the projectile, or over the diameter of one that is as long as it is thick, such as a ball."""
     shape, ratio = summary["projectile"], summary["penetration_over_length"]
@@ -367,8 +372,7 @@ def _rod(summary: dict) -> list[str]:
     depth, experiment, shape = summary["penetration_depth_m"], summary["experiment"], summary["projectile"]
     body = shape["body"]
     bound = "at least " if summary["regime"] == LEFT else ""
-    through = [name for name, found in summary["targets"].items() if found["exit_time_s"] is not None]
-    if through and len(through) == len(summary["targets"]):
+    if through := passed(summary):
         lines = [f"gone through          {', '.join(through)}; nose {number(depth, 1e2, '.2f', 'cm')} behind the first face"]
     else:
         lines = [f"penetration depth     {bound}{number(depth, 1e2, '.2f', 'cm')}{_over_length(summary)}"]

@@ -52,6 +52,17 @@ def test_a_run_that_is_continued_is_where_it_is_now(under_way, capsys):
     assert "end" not in found
 
 
+def test_a_projectile_that_has_gone_through_has_no_depth(under_way, capsys):
+    (under_way / "progress.json").unlink()
+    summary = {"time_s": 70e-6, "status": "done", "stop_reason": "perforation of plate", "penetration_depth_m": 0.05}
+    write_json(under_way / "summary.json", summary | {"targets": {"plate": {"exit_time_s": 60e-6}}})
+    found = said(under_way, capsys)
+    assert found["through"] == "plate; nose 50.00 mm behind the first face"
+    assert "depth" not in found
+    write_json(under_way / "summary.json", summary | {"targets": {"plate": {"exit_time_s": None}}})
+    assert said(under_way, capsys)["depth"].startswith("50.00 mm")
+
+
 def test_a_run_that_was_left(under_way, capsys):
     found = said(under_way, capsys)
     assert found["state"].startswith("waiting: ")
