@@ -29,6 +29,14 @@ METALS = ("Al6061_T6", "Al2024_T4", "Al7075_T6", "copper_OFHC", "iron_Armco", "t
 PRESSURES = (20, 50, 100, 150, 200, 250, 300)
 #: particle velocities between which a state is sought, m/s
 SLOWEST, FASTEST = 1.0, 9e3
+#: energy up to which a metal at zero pressure is sought to melt, J/kg
+HOTTEST = 2e6
+#: what is compared: the words of the table, and its columns in the list of published values
+QUANTITIES = {
+    "temperature": ("temperature, K", "temperature_K", "temperature_error_K"),
+    "melting": ("melting pressure, GPa", "pressure_GPa", "pressure_error_GPa"),
+    "melting without pressure": ("melting temperature at 0 GPa, K", "temperature_K", "temperature_error_K"),
+}
 
 CURVES = "material", "pressure_GPa", "compression", "temperature_K", "melting_temperature_K"
 BESIDE = "material", "quantity", "published", "error", "source", "confidence", "at_GPa", "obtained", "difference_percent"
@@ -60,6 +68,20 @@ class Metal:
 
         return self.behind(brentq(above, SLOWEST, FASTEST))[2]
 
+    def melts_without_pressure(self) -> float:
+        """The temperature at which it melts at zero pressure, K."""
+        from eos.dispatch import zero_pressure_density
+
+        def state(e: float) -> tuple[float, float]:
+            rho = zero_pressure_density(self.rest.model, self.rest.rho, e, self.rest.internal, self.rest.par)
+            return rho / self.rest.rho, self.rest.evaluate(rho, e)[3]
+
+        def above(e: float) -> float:
+            eta, T = state(e)
+            return T - melting.temperature(eta, self.line)
+
+        return state(brentq(above, 0.0, HOTTEST))[1]
+
 
 def curves() -> list[dict[str, object]]:
     """Rows of the first table, by CURVES."""
@@ -78,14 +100,16 @@ def beside() -> list[dict[str, object]]:
                "source", "confidence")
     rows = []
     for row in kept.rows(PUBLISHED, columns):
-        metal, melts = Metal(row["material"]), row["quantity"] == "melting"
-        published, error = (row[f"{'pressure' if melts else 'temperature'}{end}"]
-                            for end in (("_GPa", "_error_GPa") if melts else ("_K", "_error_K")))
-        found = 1e-9 * metal.melts_at() if melts else metal.state(1e9 * float(row["pressure_GPa"]))[1]
+        metal, quantity = Metal(row["material"]), row["quantity"]
+        words, value, error = QUANTITIES[quantity]
+        at = row["pressure_GPa"] if quantity == "temperature" else ""
+        if quantity == "melting":
+            found = 1e-9 * metal.melts_at()
+        else:
+            found = metal.state(1e9 * float(at))[1] if at else metal.melts_without_pressure()
         rows.append(dict(zip(BESIDE, (
-            metal.name, "melting pressure, GPa" if melts else "temperature, K", published, error,
-            f"{row['source']} ({row['how']})", row["confidence"], "" if melts else row["pressure_GPa"], f"{found:.0f}",
-            f"{100 * (found / float(published) - 1):+.0f}"), strict=True)))  # fmt: skip
+            metal.name, words, row[value], row[error], f"{row['source']} ({row['how']})", row["confidence"], at, f"{found:.0f}",
+            f"{100 * (found / float(row[value]) - 1):+.0f}"), strict=True)))
     return rows
 
 
