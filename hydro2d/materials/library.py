@@ -389,7 +389,9 @@ def _melting(raw, eos: Model, fail: Fail) -> dict[str, Number]:
     return _numbers(line.NAME, {each.name: each for each in line.PARAMETERS}, raw, "melting", eos.numbers, fail)
 
 
-def _numbers(name: str, parameters: Mapping[str, Parameter], raw: dict, part: str, eos: Mapping, fail: Fail) -> dict[str, Number]:
+def _numbers(
+    name: str, parameters: Mapping[str, Parameter], raw: dict, part: str, eos: Mapping, fail: Fail
+) -> dict[str, Number]:
     """All parameters of what has this name: given by the table of a part, taken from the equation of state, or by default."""
     numbers = {}
     for key in raw:

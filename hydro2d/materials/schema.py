@@ -29,7 +29,7 @@ def _melting() -> dict:
                for each in melting.PARAMETERS}
     return {
         "type": "object", "title": "Melting", "additionalProperties": False,
-        "description": "The melting line of a material, from which on it has no strength; `hydro2d info melting` has its equation.",
+        "description": "The melting line of a material, from which on it has no strength; see `hydro2d info melting`.",
         "properties": {**_ABOUT, **numbers},
     }  # fmt: skip
 

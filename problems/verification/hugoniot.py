@@ -2,8 +2,8 @@
 
     python -m problems.verification.hugoniot [--keep]
 
-prints both tables: temperature and melting temperature at given pressures, then what has been published beside what the equation
-of state and the melting line give. `--keep` writes them into `results` as well. Nothing is run: a state follows from the jump
+prints both tables: temperature and melting temperature at given pressures, then what has been published beside what the
+equation of state and the melting line give. `--keep` writes them into `results` as well. Nothing is run: a state follows from the jump
 conditions and the equation of state alone, without strength.
 """
 
@@ -25,7 +25,8 @@ from strength import melting
 FOLDER = Path(__file__).parent
 PUBLISHED = FOLDER / "published_temperatures.csv"
 #: the metals of the first table: those whose melting line is that of the metal or of its alloy
-METALS = ("Al6061_T6", "Al2024_T4", "Al7075_T6", "copper_OFHC", "iron_Armco", "tantalum", "tungsten", "W_alloy", "uranium", "lead")
+METALS = ("Al6061_T6", "Al2024_T4", "Al7075_T6", "copper_OFHC", "iron_Armco", "tantalum", "tungsten", "W_alloy", "uranium",
+          "lead")
 PRESSURES = (20, 50, 100, 150, 200, 250, 300)
 #: particle velocities between which a state is sought, m/s
 SLOWEST, FASTEST = 1.0, 9e3

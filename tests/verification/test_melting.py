@@ -11,7 +11,7 @@ from hydro2d.materials import thermal
 from hydro2d.mesh.fields import INTERNAL
 from hydro2d.solver.simulation import Simulation
 from tests.contract.test_models import STRENGTH_CASES
-from tests.verification.running import FOLDER, Line, between, run
+from tests.verification.running import Line, between, run
 
 #: Hugoniot pressure without strength, and impact velocity over two, m/s
 MOLTEN, SOLID = (131.21e9, 4300.0), (76.75e9, 3000.0)
@@ -20,11 +20,11 @@ SLOW = 'body.flyer.velocity="6 km/s"'
 LAWS = {
     "power-law": {},
     "elastic-plastic": {"shear_modulus": 26e9, "yield_stress": 0.3e9},
-    "johnson-cook": {key: value for key, value in STRENGTH_CASES["johnson-cook"].items() if key != "melt_temperature"},
-    "zerilli-armstrong": {key: value for key, value in STRENGTH_CASES["zerilli-armstrong"].items() if key != "melt_temperature"},
+    **{name: {key: value for key, value in STRENGTH_CASES[name].items() if key != "melt_temperature"}
+       for name in ("johnson-cook", "zerilli-armstrong")},
     "kinematic-hardening": STRENGTH_CASES["kinematic-hardening"],
     "steinberg-guinan": {"shear_modulus": 27.6e9, "yield_stress": 0.29e9},
-    "johnson-holmquist": {**STRENGTH_CASES["johnson-holmquist"], "P_HEL": 1.08392e9},  # what HEL gives with this equation of state
+    "johnson-holmquist": {**STRENGTH_CASES["johnson-holmquist"], "P_HEL": 1.08392e9},  # as this equation of state has it
 }
 
 
@@ -141,7 +141,8 @@ def test_a_melt_forgets_its_stress_in_full_and_in_cut_cells(mixed):
     hot, warm = heated(1.5e6, choice), heated(0.3e6, choice)
     vof = hot.grid.interior(hot.state.vof[0])
     full, cut = vof == 1.0, (vof > 0.1) & (vof < 1.0)
-    assert full.any() and cut.any()
+    assert full.any()
+    assert cut.any()
     assert [np.median(thermal.of(each)[1][0][full]) > 1400.0 for each in (hot, warm)] == [True, False]
     for key in ("srr", "szz", "srz"):
         melt, solid = (each.grid.interior(getattr(each.state, key)[0]) for each in (hot, warm))
