@@ -20,7 +20,6 @@ from hydro2d.materials.cracking import cracking_pressure, opens_cracks, over
 from hydro2d.mesh.fields import INTERNAL, Field
 from hydro2d.parameters import Parameter
 from hydro2d.toml import PARTS, merge, parse, problems_folder
-from strength import melting as line
 
 #: how reliable a number is
 CONFIDENCE = {
@@ -380,13 +379,15 @@ def _model(raw, part: str, default: str | None, eos: Mapping, fail: Fail, trust:
 
 def _melting(raw, eos: Model, fail: Fail) -> dict[str, Number]:
     """The parameters of a melting line: given, taken from the equation of state, or by default; empty without a line."""
+    from strength import melting
+
     if raw is None:
         return {}
     if not isinstance(raw, dict):
         raise fail(("melting",), "must be a table")
     if eos.solid:
         raise fail(("melting",), f"{eos.title} does not say the density of the solid, on which a melting line stands")
-    return _numbers(line.NAME, {each.name: each for each in line.PARAMETERS}, raw, "melting", eos.numbers, fail)
+    return _numbers(melting.NAME, {each.name: each for each in melting.PARAMETERS}, raw, "melting", eos.numbers, fail)
 
 
 def _numbers(
@@ -599,10 +600,12 @@ def resolve(deck) -> MaterialTable:
 
 def _line_of(material: Material, used: bool) -> np.ndarray:
     """The melting line of a material as kernels read it; NONE where it has none, or where it is not used."""
+    from strength import melting
+
     if not (used and material.melting):
-        return np.array(line.NONE)
+        return np.array(melting.NONE)
     try:
-        return line.row({name: number.value for name, number in material.melting.items()})
+        return melting.row({name: number.value for name, number in material.melting.items()})
     except ValueError as problem:
         raise DeckError(f"material {material.name}: {problem}") from None
 

@@ -3,8 +3,8 @@
     python -m problems.verification.hugoniot [--keep]
 
 prints both tables: temperature and melting temperature at given pressures, then what has been published beside what the
-equation of state and the melting line give. `--keep` writes them into `results` as well. Nothing is run: a state follows from the jump
-conditions and the equation of state alone, without strength.
+equation of state and the melting line give. `--keep` writes them into `results` as well. Nothing is run: a state follows from
+the jump conditions and the equation of state alone, without strength.
 """
 
 from __future__ import annotations
