@@ -262,7 +262,10 @@ def _based(name: str, tables: Mapping[str, dict], fail: Fail, chain: tuple[str, 
 
 
 def _overlaid(base: dict, over: dict) -> dict:
-    """``over`` on ``base``; a part that names another model replaces the whole part."""
+    """``over`` on ``base``; a part that names another model replaces the whole part.
+
+    With another equation of state the melting line goes, which stands on its density and its Grueneisen coefficient.
+    """
     base = dict(base)
     for part in PARTS:
         old, new = base.get(part), over.get(part)
@@ -270,6 +273,8 @@ def _overlaid(base: dict, over: dict) -> dict:
         if tables and any(new.get(key, old.get(key)) != old.get(key) for key in ("model", "code", "solid")
                           if key != "solid" or key in old):
             del base[part]
+            if part == "eos":
+                base.pop("melting", None)
     return merge(base, {key: value for key, value in over.items() if key not in ("based_on", "variant")})
 
 

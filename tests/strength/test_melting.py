@@ -120,6 +120,17 @@ def test_the_deck_asks_for_the_line():
     assert table_of('based_on = "nylon"').melting.tolist() == [list(melting.NONE)]
 
 
+def test_another_equation_of_state_has_no_line():
+    other = """based_on = "Al6061_T651"
+eos = { model = "stiffened-gas", reference_density = 2700.0, sound_speed = 5240.0, adiabatic_index = 3.0, specific_heat = 885.0 }
+"""
+    assert table_of(other).melting.tolist() == [list(melting.NONE)]
+    own = other + 'melting = { melt_temperature = "1220 K", grueneisen = 2.0 }\n'
+    assert table_of(own).melting[0][melting.INVERSE_RHO0] == pytest.approx(1 / 2700.0)
+    with pytest.raises(deck.DeckError, match="needs grueneisen"):
+        table_of(other + "melting.melt_temperature = 1220.0\n")
+
+
 def test_a_resolved_deck_keeps_the_line():
     given = deck.loads(f'{DECK}based_on = "Al5083"\nmelting.melt_exponent = 1.2\n[failure]\nmelting = "material"\n')
     again = deck.loads(given.to_toml())
