@@ -122,7 +122,7 @@ def test_the_deck_asks_for_the_line():
 
 def test_another_equation_of_state_has_no_line():
     other = """based_on = "Al6061_T651"
-eos = { model = "stiffened-gas", reference_density = 2700.0, sound_speed = 5240.0, adiabatic_index = 3.0, specific_heat = 885.0 }
+eos = { model = "stiffened-gas", reference_density = 2700.0, sound_speed = 5240.0, adiabatic_index = 3.0, specific_heat = 885 }
 """
     assert table_of(other).melting.tolist() == [list(melting.NONE)]
     own = other + 'melting = { melt_temperature = "1220 K", grueneisen = 2.0 }\n'
