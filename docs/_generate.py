@@ -77,14 +77,16 @@ def _model(description) -> str:
 
 
 def models_page() -> str:
-    """Every equation of state, strength model and failure model."""
+    """Every equation of state, strength model and failure model, and the melting line."""
     import eos
     import strength
-    from strength import tensile_pressure
+    from hydro2d.parameters import described
+    from strength import melting, tensile_pressure
 
     failure = [*strength.DAMAGE_MODELS, tensile_pressure.NAME]
     parts = [f"# Models\n\n{NOTE}", "## Equations of state", *(_model(eos.describe(name)) for name in eos.MODELS)]
     parts += ["## Strength", *(_model(strength.describe(name)) for name in strength.STRENGTH_MODELS)]
+    parts += ["## Melting", _model(described(melting, "melting line of a material"))]
     parts += ["## Failure", *(_model(strength.describe_damage(name)) for name in failure)]
     return "\n\n".join(parts)
 

@@ -6,7 +6,7 @@ The models are those of ``registry`` when this module is imported, which is when
 from __future__ import annotations
 
 from hydro2d.jit import by_id, point, rows_by_id
-from strength import registry
+from strength import melting, registry
 from strength.lanes import DENSITY, FLOW, HARDENED, HEAT, PRESSURE, RATE
 from strength.layout import SHEAR
 
@@ -62,6 +62,10 @@ kinematic_modulus = by_id(
     STRENGTH_MODULES, "kinematic_modulus", registry.STRENGTH_FUNCTIONS["kinematic_modulus"][0],
     "How far the centre of the yield surface moves, as a tensile stress, per plastic strain, Pa: 0 for most models.", "0.0")
 
+melted = by_id(
+    STRENGTH_MODULES, "melted", registry.STRENGTH_FUNCTIONS["melted"][0],
+    "Internal variables of a strength model after the material has melted. internal: float64[n], one cell's.", "None")
+
 harden = by_id(
     STRENGTH_MODULES, "harden", registry.STRENGTH_FUNCTIONS["harden"][0],
     "Internal variables after the plastic strain dep along the direction (rr, zz, rz), whose von Mises norm is 1.", "None")
@@ -96,6 +100,15 @@ def modulus_row(model, par, first, number, p, rho, T, shear):
 
 
 @point
-def feels_temperature(model, damage_model):
+def end_at_melt(line, first, number, rho, T, shear):
+    """Sets shear[first:first + number], Pa, to zero where material has reached its melting line (strength/melting.py)."""
+    if melting.melts(line):
+        for x in range(number):
+            i = first + x
+            shear[i] = melting.solid_modulus(shear[i], rho[i], T[i], line) if rho[i] > 0.0 else 0.0
+
+
+@point
+def feels_temperature(model, damage_model, line):
     """Whether the temperature is asked for at all."""
-    return model in THERMAL or damage_model in DAMAGE_THERMAL
+    return model in THERMAL or damage_model in DAMAGE_THERMAL or melting.melts(line)

@@ -66,6 +66,12 @@ def turn(spin, internal):
 
 
 @point
+def melted(internal):
+    """A melt has no back stress: what freezes begins anew."""
+    internal[0], internal[1], internal[2] = 0.0, 0.0, 0.0
+
+
+@point
 def harden(dep, rr, zz, rz, par, internal):
     """Shifts the centre by the plastic strain ``dep`` along the unit direction (rr, zz, rz): explanation/strength, (12).
 

@@ -23,6 +23,7 @@ STRENGTH_FUNCTIONS = {
     "weakened": ("flow, rate, p, damage, par", 1),
     "yield_floor": ("par", 1),
     "turn": ("spin, internal", 0),
+    "melted": ("internal", 0),
     "back_stress": ("internal", 3),
     "kinematic_modulus": ("par", 1),
     "harden": ("dep, rr, zz, rz, par, internal", 0),

@@ -1,10 +1,4 @@
-"""Steinberg-Guinan shear modulus and yield stress, and the melting curve that ends both.
-
-The melting temperature needs an exponential and a power. Since ln(eta) >= 1 - 1/eta, ln(eta) <= eta - 1 and
-exp(y) >= 1 + y, it is never below Tm0 (1 + y) with y = 2a(1 - 1/eta) + k (1 - 1/eta) for k >= 0 or + k (eta - 1) for
-k < 0, k = 2(Gamma0 - a - 1/3): only a material hotter than that is asked for its exact melting point. In a row of cells the
-compiler evaluates both sides of every choice, for several cells at once.
-"""
+"""Steinberg-Guinan shear modulus and yield stress, and the melting line that ends both (strength/melting.py)."""
 
 from __future__ import annotations
 
@@ -12,8 +6,9 @@ import math
 
 import numpy as np
 
-from hydro2d.jit import exp, log, point, power
+from hydro2d.jit import point, power
 from hydro2d.parameters import POSITIVE, REQUIRED, Parameter, collect
+from strength import melting
 from strength.layout import ROW, SHEAR, YIELD
 
 NAME = "steinberg-guinan"
@@ -59,26 +54,10 @@ def cube_root(x):
 
 
 @point
-def melt_temperature(eta, par):
-    """Tm at the compression ``eta`` = rho/rho0, K: explanation/strength, (8)."""
-    return par[MELT] * exp(par[TWO_A] * (1.0 - 1.0 / eta) + par[K] * log(eta))
-
-
-@point
-def is_solid(T, eta, par):
-    """Whether ``T`` is below the melting temperature at ``eta``."""
-    w = 1.0 - 1.0 / eta
-    bend = par[K] * (w if par[K] >= 0.0 else eta - 1.0)
-    if par[MELT] * (1.0 + par[TWO_A] * w + bend) > T:
-        return True
-    return not T >= melt_temperature(eta, par)
-
-
-@point
 def relative_modulus(p, rho, T, par):
     """G/G0, zero from melt on: explanation/strength, (6)."""
     eta = rho * par[INVERSE_RHO0]
-    if not is_solid(T, eta, par):
+    if not melting.is_solid(T, eta, par[MELT], par[TWO_A], par[K]):
         return 0.0
     relative = 1.0 + par[PRESSURE] * p / cube_root(eta) - par[TEMPERATURE] * (T - par[T0])
     return 0.0 if relative < 0.0 else relative  # a NaN stays one

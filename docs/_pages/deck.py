@@ -13,8 +13,12 @@ MATERIAL = {
     "based_on": "W_alloy", "variant": "strain-failure", "title": "tungsten alloy of my tests", "fracture_pressure": "1.5 GPa",
     "note": "yield stress of our own tests", "source": "J. Doe, private communication", "confidence": "found",
     "variants": {"soft": {"strength": {"yield_stress": "1.0 GPa"}}}, "eos": {"grueneisen": 1.8},
-    "strength": {"yield_stress": "1.3 GPa"}, "damage": {"model": "none"},
+    "strength": {"yield_stress": "1.3 GPa"}, "damage": {"model": "none"}, "melting": {"melt_temperature": "2300 K"},
 }  # fmt: skip
+
+
+#: titles of the tables of a material that have numbers
+TABLES = ("Eos", "Strength", "Damage", "Melting")
 
 
 class Schema:
@@ -76,9 +80,9 @@ class Schema:
     def example(self, section: dict, key: str, part: dict):
         """A value that the key may have: declared beside it, of the material library, or another word than the default."""
         entry, title = self.resolved(part), section["title"]
-        if title in ("Eos", "Strength", "Damage") and (value := library_values(title.lower()).get(key)) is not None:
+        if title in TABLES and (value := library_values(title.lower()).get(key)) is not None:
             return value
-        if title in ("Material", "Eos", "Strength", "Damage") and key in MATERIAL:
+        if title in ("Material", *TABLES) and key in MATERIAL:
             return MATERIAL[key]
         if declared := part.get("examples", entry.get("examples")):
             return declared[0]
@@ -116,16 +120,19 @@ def _default(value) -> str:
 
 @functools.cache
 def library_values(part: str) -> dict[str, float | str]:
-    """A number for every parameter of a kind of models, of the first material of the library that has it, else its default."""
+    """A number for every parameter of a table, of the first material of the library that has it, else its default."""
     import eos
     import strength
     from hydro2d.materials import library
+    from strength import melting
 
-    models = {"eos": eos.MODELS, "strength": strength.STRENGTH_MODELS, "damage": strength.DAMAGE_MODELS}[part]
+    models = {"eos": eos.MODELS, "strength": strength.STRENGTH_MODELS, "damage": strength.DAMAGE_MODELS,
+              "melting": {melting.NAME: melting}}[part]
     found = {entry.name: entry.default for model in models.values() for entry in model.PARAMETERS if not entry.required}
     for name in reversed(library.names()):
         for variant in (*library.load(name).variants, None):
-            numbers = getattr(library.load(name, variant), part).numbers
+            material = library.load(name, variant)
+            numbers = material.melting if part == "melting" else getattr(material, part).numbers
             found |= {key: _readable(number) for key, number in numbers.items() if number.confidence != "default"}
     return found
 

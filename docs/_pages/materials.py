@@ -47,6 +47,8 @@ def _rows(material) -> Iterator[tuple[str, str, object]]:
         model = getattr(material, part)
         for name, number in model.numbers.items():
             yield f"{part}: {model.name}", name, number
+    for name, number in material.melting.items():
+        yield "melting", name, number
     if material.fracture_pressure is not None:
         yield "tensile-pressure", "fracture_pressure", material.fracture_pressure
 

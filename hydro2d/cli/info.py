@@ -84,6 +84,7 @@ def page(name: str) -> str:
     from hydro2d.materials import library, outside
     from hydro2d.parameters import described
     from hydro2d.penetration import catalogue
+    from strength import melting
 
     packaged = [each for part in outside.KINDS if (each := outside.from_package(part, name))]
     found = [str(described(each.module, each.kind.title)) for each in packaged]
@@ -96,6 +97,8 @@ def page(name: str) -> str:
     ):
         if name in models:
             found.append(str(describe(name)))
+    if name == melting.NAME:
+        found.append(str(described(melting, "melting line of a material")))
     if name in catalogue.MODELS:
         found.append(model_text.page(catalogue.MODELS[name]))
     if name in quantities.BY_KEY:

@@ -159,6 +159,10 @@ class Failure(Section):
         "material", description="tensile failure at the fracture pressure of each material, or none"
     )
     damage: Literal["material", "none"] = Field("none", description="the damage model of each material, or none")
+    melting: Literal["material", "none"] = Field(
+        "none", description="no strength from the melting line of each material on, whatever its strength model, or by the "
+        "strength model alone"
+    )
     tension: Literal["mean", "min"] = Field(
         "mean", description="fracture pressure of a mixed cell: mean by volume fraction, or the smallest"
     )

@@ -9,6 +9,7 @@ import numpy as np
 from hydro2d.deck.checks import AHEAD, extent, room
 from hydro2d.deck.mesh import axis_edges, body, cells_between, misfits
 from hydro2d.deck.sections import Deck
+from hydro2d.materials.library import Material
 from hydro2d.mesh.edges.registry import BY_NAME
 from hydro2d.sources.detonation import EXPLOSIVES
 
@@ -122,6 +123,12 @@ def _duds(deck: Deck) -> Iterator[str]:
                'behind it are too low; choose "both"')
 
 
+def _melts_by_itself(material: Material) -> bool:
+    """Whether the strength model of a material has a melting temperature of its own."""
+    own = material.strength.numbers.get("melt_temperature")
+    return own is not None and np.isfinite(own.value)
+
+
 def _no_failure(deck: Deck) -> Iterator[str]:
     """Bodies with strength that cannot fail in a way that the deck or their material provides for.
 
@@ -143,6 +150,11 @@ def _no_failure(deck: Deck) -> Iterator[str]:
             yield (
                 f'body "{entry.name}": {material.name} has no fracture_pressure and, with failure.tensile = "material", '
                 "never fractures in tension"
+            )
+        if not material.melting and failure.melting == "material" and not _melts_by_itself(material):
+            yield (
+                f'body "{entry.name}": {material.name} has no melting line and, with failure.melting = "material", '
+                "never melts"
             )
         if material.damage.name == "none" and failure.damage == "material" and not material.says_damage:
             yield (

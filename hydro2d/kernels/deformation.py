@@ -4,13 +4,13 @@
 from hydro2d.jit import kernel, rowwise
 from hydro2d.kernels.column_ranges import columns
 from hydro2d.kernels.plastic_return import flow, return_to_surface
-from hydro2d.materials.rows import CUTOFF_DENSITY, DAMAGE_AT, FACTOR, STRENGTH, STRENGTH_AT
+from hydro2d.materials.rows import CUTOFF_DENSITY, DAMAGE_AT, EOS_AT, FACTOR, MELTING_AT, STRENGTH, STRENGTH_AT
 from hydro2d.mesh.fields import DMG, EP, LANES, RHO, SRR, SRZ, SZZ, E
 from hydro2d.mesh.grid import VOL_R
 from hydro2d.physics.kinematics import hourglass_mode, velocity_gradient
-from hydro2d.physics.plasticity import keep_internal, take_internal
+from hydro2d.physics.plasticity import forget, is_fluid, keep_internal, take_internal
 from hydro2d.physics.stress import turn_and_strain, von_mises
-from strength.dispatch import WEAKENS, WITH_INTERNAL, modulus_row, turn, yield_floor
+from strength.dispatch import WEAKENS, WITH_INTERNAL, end_at_melt, modulus_row, turn, yield_floor
 from strength.lanes import COLUMN, DENSITY, HEAT, INCREMENT, PRESSURE, STIFFNESS, STRAIN, STRESS, TRIAL, WIDTH
 from strength.radial_return import return_together
 
@@ -23,7 +23,7 @@ def strain_row(m, j, b, g, first, n, dt, metrics, h, cutoff_density, u0, v0, u, 
     Reads    u0, v0, u, v [b, j, i]; sig_.., hg_coefficient [j, i]; vof [m, j, i]; scratch [0, b, i], shear modulus
     Updates  q (energy, deviators) [k, m, j, i]
     Writes   scratch [1, b, i], von Mises norm of the trial: negative up to the cutoff density, 0 where the body fills no
-             cell; scratch [2, b, i], spin
+             cell, and without a shear modulus; scratch [2, b, i], spin
     """
     rr_j = sig_rr[j]
     zz_j = sig_zz[j]
@@ -72,7 +72,7 @@ def strain_row(m, j, b, g, first, n, dt, metrics, h, cutoff_density, u0, v0, u, 
         szz_j[i] = szz if pure else szz_j[i]
         srz_j[i] = srz if pure else srz_j[i]
         size = von_mises(srr, szz, srz)
-        size = -size if rho <= cutoff_density else size
+        size = -size if rho <= cutoff_density or is_fluid(shear_j[i]) else size
         trial_j[i] = size if pure else 0.0
         spin_j[i] = spin
 
@@ -145,6 +145,9 @@ def internal_row(m, j, b, first, n, dt, models, materials, vof, pm, tm, scratch,
     model = models[m, STRENGTH]
     for x in range(n):
         i = first + x
+        if vof[m, j, i] == 1.0 and is_fluid(scratch[0, b, i]):
+            forget(m, j, i, model, q, internal[j])
+            continue
         if vof[m, j, i] != 1.0 or scratch[1, b, i] < 0.0:
             continue
         take_internal(m, j, i, model, q, internal[j])
@@ -162,9 +165,9 @@ def internal_row(m, j, b, first, n, dt, models, materials, vof, pm, tm, scratch,
 def expand_row(m, j, b, first, n, metrics, h, fr, fz, vof, scratch, q):
     """Density of body m in the cells of row j that it fills, whose mass stays.
 
-    No deviator is left where it has failed or has the cutoff density or less.
+    No deviator is left where it has failed or melted, or has the cutoff density or less.
 
-    Reads    fr, fz [j, i]; vof [m, j, i]; scratch [1, b, i], negative up to the cutoff density
+    Reads    fr, fz [j, i]; vof [m, j, i]; scratch [1, b, i], negative up to the cutoff density and in melts
     Updates  q (density, deviators) [k, m, j, i]
     """
     fr_j = fr[j]
@@ -196,7 +199,7 @@ def deform(part, parts, dt, metrics, dz, body_range, group, models, materials, u
 
     de = V dt sigma : D(u mid-step) / m, the work of the same corner forces that moved the vertices; rho V is constant;
     the deviators are strained with the velocities at the end of the step (explanation/lagrangian-step, equations 5 and
-    7). Failed material and material at or below its cutoff density carries no deviator.
+    7). Failed and molten material and material at or below its cutoff density carries no deviator.
 
     Reads    group [m]; u0, v0, u, v [b, j, i]; fr, fz, sig_.., hg_coefficient [j, i]; vof, pm, tm [m, j, i]
     Updates  q [k, m, j, i]
@@ -209,6 +212,7 @@ def deform(part, parts, dt, metrics, dz, body_range, group, models, materials, u
             par = materials[m, STRENGTH_AT:DAMAGE_AT]
             first, n = columns(body_range[m, j, 0], body_range[m, j, 1])
             modulus_row(model, par, first, n, pm[m, j], q[RHO, m, j], tm[m, j], scratch[0, part])
+            end_at_melt(materials[m, MELTING_AT:EOS_AT], first, n, q[RHO, m, j], tm[m, j], scratch[0, part])
             strain_row(m, j, part, group[m], first, n, dt, metrics, h, materials[m, CUTOFF_DENSITY], u0, v0, u, v, sig_rr,
                        sig_zz, sig_tt, sig_rz, hg_coefficient, vof, scratch, q)
             if model in WITH_INTERNAL or model in WEAKENS:

@@ -26,12 +26,13 @@ from hydro2d.kernels.mixed_scratch import (
     ZZ,
 )
 from hydro2d.kernels.plastic_return import return_to_surface
-from hydro2d.materials.rows import CUTOFF_DENSITY, DAMAGE_AT, FACTOR, STRENGTH, STRENGTH_AT
+from hydro2d.materials.rows import CUTOFF_DENSITY, DAMAGE_AT, EOS_AT, FACTOR, MELTING_AT, STRENGTH, STRENGTH_AT
 from hydro2d.mesh.fields import DMG, EP, RHO, SRR, SRZ, SZZ
-from hydro2d.physics.plasticity import carries_no_stress, deviator_power, keep_internal, take_internal
+from hydro2d.physics.plasticity import carries_no_stress, deviator_power, forget, is_fluid, keep_internal, take_internal
 from hydro2d.physics.stress import turn_and_strain, von_mises
 from hydro2d.physics.traction import along_normal
 from strength.dispatch import flow_stress, shear_modulus, turn, weakened
+from strength.melting import melts, solid_modulus
 
 #: mixed-cell strength by name, in the order of the integer that the kernels take
 STRENGTH_MODES = ("volume", "solid", "zero", "max", "material")
@@ -95,6 +96,9 @@ def strain_deviators(j, i, rate, mode, total, skin, group, models, materials, pm
             continue
         g, model, par, rho = group[m], models[m, STRENGTH], materials[m, STRENGTH_AT:DAMAGE_AT], q[RHO, m, j, i]
         modulus = shear_modulus(model, pm[m, j, i], rho, tm[m, j, i], par)
+        line = materials[m, MELTING_AT:EOS_AT]
+        if melts(line):
+            modulus = solid_modulus(modulus, rho, tm[m, j, i], line)
         strain_r, strain_z, strain_t = motion[j, g, RR] * rate, motion[j, g, ZZ] * rate, motion[j, g, TT] * rate
         strain_s = 0.5 * (motion[j, g, RBZ] + motion[j, g, ZBR]) * rate
         spin = 0.5 * (motion[j, g, RBZ] - motion[j, g, ZBR]) * rate
@@ -114,7 +118,7 @@ def strain_deviators(j, i, rate, mode, total, skin, group, models, materials, pm
         mix[j, MODULUS, m] = modulus
         mix[j, SIZE, m] = 2.0 * (rr * rr + zz * zz + rr * zz + rz * rz)
         mix[j, ALONG, m] = along_normal(n_r, n_z, rr, zz, rz) * inverse
-        if not carries_no_stress(q[DMG, m, j, i], rho, materials[m, CUTOFF_DENSITY]):
+        if not (is_fluid(modulus) or carries_no_stress(q[DMG, m, j, i], rho, materials[m, CUTOFF_DENSITY])):
             flow = flow_stress(model, q[EP, m, j, i], 0.0, tm[m, j, i], pm[m, j, i], rho, par)
             mix[j, YIELD, m] = materials[m, FACTOR] * weakened(model, flow, 0.0, pm[m, j, i], q[DMG, m, j, i], par)
         cell_yield += f * mix[j, YIELD, m]
@@ -150,7 +154,7 @@ def strain_bodies_across(j, i, own, cell_yield, change, void, skin, p, bulk, mod
 
 @point
 def return_deviators(j, i, dt, own, cell_yield, dominant, volume, total, models, materials, pm, tm, vof, q, mix, internal):
-    """Brings the trial deviators back to the yield surface: each body's own, or the one of the cell.
+    """Brings the trial deviators back to the yield surface: each body's own, or the one of the cell. Melts lose theirs.
 
     In the hard zone the plastic heat of the dominant body is shared by f_m/Y_m among what is solid, as in layers under one
     stress.
@@ -161,6 +165,12 @@ def return_deviators(j, i, dt, own, cell_yield, dominant, volume, total, models,
     bodies = vof.shape[0]
     for m in range(bodies):
         if vof[m, j, i] == 0.0 or models[m, STRENGTH] == 0:
+            continue
+        if is_fluid(mix[j, MODULUS, m]):
+            forget(m, j, i, models[m, STRENGTH], q, internal[j])
+            q[SRR, m, j, i] = 0.0
+            q[SZZ, m, j, i] = 0.0
+            q[SRZ, m, j, i] = 0.0
             continue
         rr, zz, rz, dep, final = return_to_surface(
             m, j, i, dt, mix[j, TRIAL_RR, m], mix[j, TRIAL_ZZ, m], mix[j, TRIAL_RZ, m], mix[j, MODULUS, m], own, cell_yield,

@@ -13,14 +13,26 @@ from eos.dispatch import (
 )
 from hydro2d.jit import apart, point, rowwise, serial
 from hydro2d.kernels.column_ranges import columns, outer_rows
-from hydro2d.materials.rows import CUTOFF_DENSITY, DAMAGE, DAMAGE_AT, EOS, EOS_AT, FADES, MEMORY, STRENGTH, STRENGTH_AT, TENSILE
+from hydro2d.materials.rows import (
+    CUTOFF_DENSITY,
+    DAMAGE,
+    DAMAGE_AT,
+    EOS,
+    EOS_AT,
+    FADES,
+    MELTING_AT,
+    MEMORY,
+    STRENGTH,
+    STRENGTH_AT,
+    TENSILE,
+)
 from hydro2d.mesh.fields import DMG, EP, RHO, SRR, SRZ, SZZ, E
 from hydro2d.mesh.grid import VOL_R
 from hydro2d.physics.fracture import share_that_stays, tension_limit
 from hydro2d.physics.kinematics import volume_loss
 from hydro2d.physics.viscosity import directional_viscosity, shut, smoothness
 from hydro2d.physics.waves import step_limits
-from strength.dispatch import feels_temperature, modulus_row
+from strength.dispatch import end_at_melt, feels_temperature, modulus_row
 
 SOUND_FLOOR = 1.0  # (1 m/s)^2
 
@@ -105,7 +117,7 @@ def pressures_row(j, b, max_opening, metrics, dz, body_range, active_range, mode
     """Equation of state of every body, void inserted in pure cells that fracture, and the sums over a cell.
 
     p = sum f_m p_m;  rhobar = sum f_m rho_m;  1/bulk = sum f_m / K_m (explanation/equation-of-state, mixed-cells);
-    A body at or below its cutoff density is no solid any more and has no shear modulus.
+    A body at or below its cutoff density, and one that has melted, is no solid any more and has no shear modulus.
     cl = max over bodies of sqrt((K + 4 G/3)/rho), for the time step.
     A pure cell below its fracture pressure is given void (`insert_void_row`).
 
@@ -166,12 +178,14 @@ def pressures_row(j, b, max_opening, metrics, dz, body_range, active_range, mode
                                         dz[j], vof, q)
         if wrong > 0:
             report_row(m, j, first, number, vof, q, pm, bad)
-        if feels_temperature(models[m, STRENGTH], models[m, DAMAGE]):
+        line = materials[m, MELTING_AT:EOS_AT]
+        if feels_temperature(models[m, STRENGTH], models[m, DAMAGE], line):
             if model in WITH_MEMORY:
                 temperature_row_with_memory(model, par, m, j, memory, first, number, vof, q, tm)
             else:
                 temperature_row(model, par, first, number, f_j, r_j, e_j, tm_j)
         modulus_row(models[m, STRENGTH], materials[m, STRENGTH_AT:DAMAGE_AT], first, number, pm_j, r_j, tm_j, shear_j)
+        end_at_melt(line, first, number, r_j, tm_j, shear_j)
         add_row(m, j, b, first, number, cutoff_density, vof, q, pm, km, p, bulk, rhobar, solid, cl, scratch)
     for x in range(n):
         i = lo + x

@@ -1,7 +1,7 @@
 """Named materials: the library, the materials of a deck, and the rows of numbers that kernels read.
 
-A material is an equation of state, a strength model, a damage model and a fracture pressure. Every number of the
-library has its source and a confidence. Doubtful printed values are kept as variants, beside the default.
+A material is an equation of state, a strength model, a damage model, a melting line and a fracture pressure. Every number of
+the library has its source and a confidence. Doubtful printed values are kept as variants, beside the default.
 """
 
 from __future__ import annotations
@@ -34,7 +34,9 @@ CONFIDENCE = {
     "default": "the default of the model",
 }
 
-_KEYS = (*PARTS, "fracture_pressure", "title", "note", "source", "confidence", "variants", "variant", "based_on")
+#: its tables of numbers: those of its models, and its melting line
+TABLES = (*PARTS, "melting")
+_KEYS = (*TABLES, "fracture_pressure", "title", "note", "source", "confidence", "variants", "variant", "based_on")
 _ABOUT = ("source", "confidence", "note")
 #: keys of a part that choose the model, and the one that it stands over; `file` has become two of these of a model from outside
 _CHOICE = ("model", "code", "code_from", "solid")
@@ -127,6 +129,8 @@ class Material:
     strength: Model
     damage: Model
     fracture_pressure: Number | None
+    #: the parameters of its melting line (strength/melting.py), empty without one
+    melting: Mapping[str, Number] = field(default_factory=dict)
     variants: Mapping[str, str] = field(default_factory=dict)
     #: whether it sets its damage model itself, even to none
     says_damage: bool = field(default=False, compare=False)
@@ -145,6 +149,8 @@ class Material:
         data: dict = {"title": self.title} if self.title else {}
         if self.fracture_pressure is not None:
             data["fracture_pressure"] = self.fracture_pressure.value
+        if self.melting:
+            data["melting"] = {key: number.value for key, number in self.melting.items()}
         for part in PARTS:
             data[part] = getattr(self, part).as_deck()
         return data
@@ -180,7 +186,7 @@ def _sourced(table: dict, confidence: str, about: dict | None = None) -> dict:
     """The table with source and confidence added to every number, so that it can be merged with another."""
     about = {"source": "", "confidence": confidence, **(about or {}), **_about(table), "note": ""}
     result = {key: value for key, value in table.items() if key not in ("source", "confidence")}
-    for part in PARTS:
+    for part in TABLES:
         if isinstance(table.get(part), dict):
             own = {**about, **_about(table[part])}
             rest = {key: value for key, value in table[part].items() if key not in _ABOUT}
@@ -256,7 +262,10 @@ def _based(name: str, tables: Mapping[str, dict], fail: Fail, chain: tuple[str, 
 
 
 def _overlaid(base: dict, over: dict) -> dict:
-    """``over`` on ``base``; a part that names another model replaces the whole part."""
+    """``over`` on ``base``; a part that names another model replaces the whole part.
+
+    With another equation of state the melting line goes, which stands on its density and its Grueneisen coefficient.
+    """
     base = dict(base)
     for part in PARTS:
         old, new = base.get(part), over.get(part)
@@ -264,6 +273,8 @@ def _overlaid(base: dict, over: dict) -> dict:
         if tables and any(new.get(key, old.get(key)) != old.get(key) for key in ("model", "code", "solid")
                           if key != "solid" or key in old):
             del base[part]
+            if part == "eos":
+                base.pop("melting", None)
     return merge(base, {key: value for key, value in over.items() if key not in ("based_on", "variant")})
 
 
@@ -293,9 +304,10 @@ def _build(name: str, raw: dict, fail: Fail, trust: bool) -> Material:
         fracture = _number(raw["fracture_pressure"], "Pa", ("fracture_pressure",), fail)
         if fracture.value <= 0:
             raise fail(("fracture_pressure",), f"must be positive (a tension), is {fracture.value:g}")
+    melting = _melting(raw.get("melting"), eos, fail)
     variants = {key: str(entry.get("title", "")) for key, entry in raw.get("variants", {}).items()}
     title, note = str(raw.get("title", "")), str(raw.get("note", ""))
-    return Material(name, title, note, eos, strength, damage, fracture, variants, raw.get("damage") is not None)
+    return Material(name, title, note, eos, strength, damage, fracture, melting, variants, raw.get("damage") is not None)
 
 
 def _chosen(raw, part: str, fail: Fail) -> tuple[ModuleType, str, str]:
@@ -366,11 +378,31 @@ def _model(raw, part: str, default: str | None, eos: Mapping, fail: Fail, trust:
     if not trust and _has_strange_code(raw, part):
         return _unread(raw, part, fail)
     module, file, code = _chosen(raw, part, fail)
-    parameters = _parameters(module, raw, part, fail)
+    numbers = _numbers(module.NAME, _parameters(module, raw, part, fail), raw, part, eos, fail)
+    return Model(module.NAME, numbers, file, code, solid=raw.get("solid", ""))
+
+
+def _melting(raw, eos: Model, fail: Fail) -> dict[str, Number]:
+    """The parameters of a melting line: given, taken from the equation of state, or by default; empty without a line."""
+    from strength import melting
+
+    if raw is None:
+        return {}
+    if not isinstance(raw, dict):
+        raise fail(("melting",), "must be a table")
+    if eos.solid:
+        raise fail(("melting",), f"{eos.title} does not say the density of the solid, on which a melting line stands")
+    return _numbers(melting.NAME, {each.name: each for each in melting.PARAMETERS}, raw, "melting", eos.numbers, fail)
+
+
+def _numbers(
+    name: str, parameters: Mapping[str, Parameter], raw: dict, part: str, eos: Mapping, fail: Fail
+) -> dict[str, Number]:
+    """All parameters of what has this name: given by the table of a part, taken from the equation of state, or by default."""
     numbers = {}
     for key in raw:
         if key not in (*parameters, *_CHOICE):
-            raise fail((part, key), _unknown_parameter(module.NAME, key, parameters))
+            raise fail((part, key), _unknown_parameter(name, key, parameters))
     for key, parameter in parameters.items():
         if key in raw:
             number = _number(raw[key], parameter.unit or "1", (part, key), fail)
@@ -381,11 +413,11 @@ def _model(raw, part: str, default: str | None, eos: Mapping, fail: Fail, trust:
         elif parameter.from_eos and key in eos:
             number = eos[key]
         elif parameter.required:
-            raise fail((part,), f"{module.NAME} needs {key} ({parameter.description}, {parameter.unit or '1'})")
+            raise fail((part,), f"{name} needs {key} ({parameter.description}, {parameter.unit or '1'})")
         else:
-            number = Number(float(parameter.default), parameter.unit or "1", f"{module.NAME} model", "default")
+            number = Number(float(parameter.default), parameter.unit or "1", f"{name} model", "default")
         numbers[key] = number
-    return Model(module.NAME, numbers, file, code, solid=raw.get("solid", ""))
+    return numbers
 
 
 def _has_strange_code(raw, part: str) -> bool:
@@ -440,7 +472,8 @@ class MaterialTable:
     strength.ROW], ``damage_par`` float64[m, strength.DAMAGE_ROW]; the model ids are int64[m]; ``internal`` holds the internal
     variables of every strength model and then those of its equation of state, ``initial`` what virgin material has of them,
     ``memory`` the row of State.q in which those of the equation of state begin, int64[m]; ``fracture_pressure`` is a positive
-    tension, inf where never, and ``cracking`` that at which cracks open, where the damage model opens them, else 0.
+    tension, inf where never, and ``cracking`` that at which cracks open, where the damage model opens them, else 0; ``melting``
+    holds the melting lines that the deck uses, float64[m, strength.melting.ROW], NONE where there is none.
     """
 
     names: tuple[str, ...]
@@ -458,6 +491,7 @@ class MaterialTable:
     damage_par: np.ndarray
     fracture_pressure: np.ndarray
     cracking: np.ndarray
+    melting: np.ndarray
 
     def __len__(self) -> int:
         return len(self.names)
@@ -561,11 +595,24 @@ def resolve(deck) -> MaterialTable:
         damage_par=damage_par,
         fracture_pressure=np.array(tensile),
         cracking=cracking,
+        melting=np.stack([_line_of(material, deck.failure.melting == "material") for material in chosen]),
     )
     for m, module in enumerate(strength_modules):
         if hasattr(module, "check_with"):
             _require_agreement(table, m, module)
     return table
+
+
+def _line_of(material: Material, used: bool) -> np.ndarray:
+    """The melting line of a material as kernels read it; NONE where it has none, or where it is not used."""
+    from strength import melting
+
+    if not (used and material.melting):
+        return np.array(melting.NONE)
+    try:
+        return melting.row({name: number.value for name, number in material.melting.items()})
+    except ValueError as problem:
+        raise DeckError(f"material {material.name}: {problem}") from None
 
 
 def _require_agreement(table: MaterialTable, m: int, strength: ModuleType) -> None:
@@ -584,6 +631,8 @@ def describe(name: str, variant: str | None = None) -> str:
     parts: list[tuple[str, Mapping[str, Number]]] = [
         (f"{part}: {getattr(material, part).title}", getattr(material, part).numbers) for part in PARTS
     ]
+    if material.melting:
+        parts.append(("melting line", material.melting))
     if material.fracture_pressure is not None:
         parts.append(("failure", {"fracture_pressure": material.fracture_pressure}))
     for heading, numbers in parts:

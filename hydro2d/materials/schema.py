@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from hydro2d.materials.library import CONFIDENCE
 from hydro2d.materials.outside import KINDS, Kind, in_packages
+from strength import melting
 
 _QUANTITY = {"anyOf": [{"type": "number"}, {"type": "string"}, {"type": "object"}]}
 _TEXT = {"type": "string"}
@@ -18,8 +19,19 @@ _SOLID = {
 
 
 def definitions() -> dict[str, dict]:
-    """Schemas of a material of a deck and of the tables in it, by title: Material, Eos, Strength and Damage."""
-    return {**{part.capitalize(): _part(kind) for part, kind in KINDS.items()}, "Material": _material()}
+    """Schemas of a material of a deck and of the tables in it, by title: Material, Eos, Strength, Damage and Melting."""
+    return {**{part.capitalize(): _part(kind) for part, kind in KINDS.items()}, "Melting": _melting(), "Material": _material()}
+
+
+def _melting() -> dict:
+    """The table of a melting line."""
+    numbers = {each.name: {**_QUANTITY, "x-unit": each.unit or "1", "description": each.description}
+               for each in melting.PARAMETERS}
+    return {
+        "type": "object", "title": "Melting", "additionalProperties": False,
+        "description": "The melting line of a material, from which on it has no strength; see `hydro2d info melting`.",
+        "properties": {**_ABOUT, **numbers},
+    }  # fmt: skip
 
 
 def _part(kind: Kind) -> dict:
@@ -59,6 +71,7 @@ def _material() -> dict:
             "eos": {"$ref": "#/$defs/Eos", "description": "equation of state"},
             "strength": {"$ref": "#/$defs/Strength", "description": "strength model; without one there is no shear stress"},
             "damage": {"$ref": "#/$defs/Damage", "description": 'damage model; used with failure.damage = "material"'},
+            "melting": {"$ref": "#/$defs/Melting", "description": 'melting line; used with failure.melting = "material"'},
             "fracture_pressure": {**_QUANTITY, "x-unit": "Pa", "description": "tension at which the material opens, positive; "
                                   'used with failure.tensile = "material"'},
             "title": {**_TEXT, "description": "title for `hydro2d info`"},

@@ -2,7 +2,7 @@
 
 from hydro2d.jit import point
 from hydro2d.mesh.fields import INTERNAL
-from strength.dispatch import WITH_INTERNAL, back_stress, harden, kinematic_modulus
+from strength.dispatch import WITH_INTERNAL, back_stress, harden, kinematic_modulus, melted
 
 
 @point
@@ -19,6 +19,23 @@ def deviator_power(rr, zz, rz, d_rr, d_zz, d_tt, d_rz):
 def carries_no_stress(damage, rho, cutoff_density):
     """Whether material has failed, or has the cutoff density (kg/m^3) or less: neither carries shear (explanation/fracture)."""
     return damage >= 1.0 or rho <= cutoff_density
+
+
+@point
+def is_fluid(modulus):
+    """Whether the shear ``modulus`` has fallen to zero, as in a melt, which carries no deviator either; not so a NaN."""
+    return modulus <= 0.0
+
+
+@point
+def forget(m, j, i, model, q, internal):
+    """Lets the internal variables of body m in cell (j, i), which has melted, be those of a melt.
+
+    Updates  q (internal variables) [k, m, j, i]; scratch internal [k]
+    """
+    take_internal(m, j, i, model, q, internal)
+    melted(model, internal)
+    keep_internal(m, j, i, model, internal, q)
 
 
 @point

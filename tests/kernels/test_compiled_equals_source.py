@@ -54,7 +54,7 @@ def text_of(advection: str, sliding: dict, tip: str = "0.2 mm", follows: bool | 
         + material("hardening", "Al_porous")
         + table("materials.hardening.strength", model="kinematic-hardening", shear_modulus="27.6 GPa", yield_stress="0.3 GPa",
                 hardening_modulus="2 GPa", isotropic_share=0.5)
-        + table("failure", damage="material")
+        + table("failure", damage="material", melting="material")
         + table("numerics", initial_dt_factor=1.0, advection=advection)
         + stop("1 us")
     )  # fmt: skip

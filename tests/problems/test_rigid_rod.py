@@ -11,7 +11,7 @@ from problems.cth_nose_shape.rigid_rod import Result, Shot
 from tests.rules import source
 
 #: what `depths` and `table` keep there has other columns
-OTHERS = ("ceramics", "classic", "explosives", "long_rods", "spall")
+OTHERS = ("ceramics", "classic", "explosives", "long_rods", "spall", "verification")
 KEPT = sorted(file for file in source.PROBLEMS.glob("*/results/*.csv") if file.parent.parent.name not in OTHERS)
 #: a result of a run on a page, as Result writes it
 CELL = re.compile(r"(?:\d+\.\d cm|perforated at \d+ m/s), [\d.]+ %")

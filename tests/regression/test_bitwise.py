@@ -27,6 +27,9 @@ CONTACT = 'sliding.method="contact"', 'sliding.hard=["rod"]'
 FOLLOWING = 'mesh.follow="rod"', 'boundaries.z_max="transmit"'
 CRACKS = ('materials.cracking={based_on="Al7039", damage={model="cochran-banner", opening="17 um"}}',
           'body.plate.material="cracking"')
+MELTING = ('materials.soft={based_on="Al7039", strength={model="kinematic-hardening", shear_modulus="26 GPa", '
+           'yield_stress="0.3 GPa", hardening_modulus="2 GPa"}, melting={melt_temperature="400 K"}}',
+           'body.plate.material="soft"', 'failure.melting="material"')  # where it has passed the shock it melts soon
 CASES = {
     "ke": (),
     "both": ('numerics.advection="both"',),
@@ -40,6 +43,8 @@ CASES = {
     "memory": ("body.plate.material=Al_porous", "body.plate.thickness=8e-3"),
     "cracks": CRACKS,
     "cracks, following": (*FOLLOWING, *CRACKS),
+    "melting": MELTING,
+    "melting, contact": (*MELTING, *CONTACT),
     "memory, following": (*FOLLOWING, "body.plate.material=Al_porous"),
 }
 every_case = pytest.mark.parametrize("options", CASES.values(), ids=CASES)

@@ -23,7 +23,7 @@ from hydro2d.materials import library
 from hydro2d.mesh import fields, quantities
 from hydro2d.mesh.edges import registry as edge_kinds
 from hydro2d.penetration import catalogue
-from strength import tensile_pressure
+from strength import melting, tensile_pressure
 from tests.rules import source
 
 DOCS = source.ROOT / "docs"
@@ -198,7 +198,7 @@ def test_the_page_of_materials_has_every_source_in_full():
     for name in library.names():
         for material in (library.load(name, variant) for variant in (None, *library.load(name).variants)):
             parts = (material.eos, material.strength, material.damage)
-            numbers = [number for part in parts for number in part.numbers.values()]
+            numbers = [*(number for part in parts for number in part.numbers.values()), *material.melting.values()]
             lost += [f"{name}: {text}" for number in numbers for text in (number.source, number.note) if text not in page]
     assert lost == []
 
@@ -248,7 +248,8 @@ def test_an_example_that_is_not_valid_is_found():
 def test_examples_of_materials_are_valid():
     """Numbers are held against the parameters of the models, the keys of a material against the library."""
     page = sections_of_the_page()
-    kinds = {"Eos": eos.MODELS, "Strength": strength.STRENGTH_MODELS, "Damage": strength.DAMAGE_MODELS}
+    kinds = {"Eos": eos.MODELS, "Strength": strength.STRENGTH_MODELS, "Damage": strength.DAMAGE_MODELS,
+             "Melting": {melting.NAME: melting}}
     for name, models in kinds.items():
         lines = page[f"{name}: a table of `materials.{name.lower()}`"]
         for key, line in lines.items():

@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
-from strength import elastic_plastic, johnson_cook, power_law, steinberg_guinan, zerilli_armstrong
+from strength import elastic_plastic, johnson_cook, melting, power_law, steinberg_guinan, zerilli_armstrong
 from strength.layout import YIELD
 
 AL7039 = johnson_cook.row(
@@ -207,7 +207,8 @@ def test_melting_curve(eta, ratio, gamma, a):
     """Equation 8, and no strength from there on."""
     row = steinberg_guinan.row({**TUNGSTEN, "grueneisen": gamma, "melt_exponent": a, "temperature_coefficient": 0.0})
     melt = 2263.0 * math.exp(2 * a * (1 - 1 / eta)) * eta ** (2 * (gamma - a - 1 / 3))
-    assert steinberg_guinan.melt_temperature(eta, row) == pytest.approx(melt, rel=1e-12)
+    line = (row[slot] for slot in (steinberg_guinan.MELT, steinberg_guinan.TWO_A, steinberg_guinan.K))
+    assert melting.melting_temperature(eta, *line) == pytest.approx(melt, rel=1e-12)
     T = ratio * melt
     if abs(ratio - 1.0) > 1e-9:
         assert (steinberg_guinan.shear_modulus(0.0, eta * 18167.0, T, row) > 0.0) == (ratio < 1.0)
