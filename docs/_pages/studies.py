@@ -22,14 +22,14 @@ VALUES = {"depth_cm": "depth [cm]", "depth_over_length": "depth / length", "valu
 #: studies whose picture is another page's: (picture, the command that draws it)
 OTHERS = {
     "weldox_velocities": ("weldox.png", "python -m problems.perforation.residual runs/weldox_velocities --figure weldox.png"),
-    "drag": ("contact_skin.png", "hydro2d plot runs/undeformable_rod_8 -o contact_skin.png --field plastic_strain --mirror "
-             "velocity:z"),
+    "drag": ("contact_skin.png", "hydro2d plot runs/drag/cases/contact_8.5 -o contact_skin.png --field plastic_strain --mirror "
+             "velocity:z --time '200 us' --window '170 mm,205 mm,10 mm'"),
 }  # fmt: skip
 HEADING = """## Studies
 
 Each study is one file, which `hydro2d sweep` runs, or `hydro2d transition` where it is a search. The charts show the results
 that the repository keeps, filled marks, beside the depths that were measured, open diamonds. Times are the sum over all runs,
-each on one core. The page of the folder says what came out, and which results are older than the present method.
+each on one core. The page of the folder says what came out.
 """
 
 
