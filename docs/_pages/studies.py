@@ -69,10 +69,8 @@ def studies() -> list[Study]:
 
 
 def _kept(file: Path) -> list[dict[str, str]]:
-    """The newest results: those with the traction in cut cells, else those before it."""
-    places = [file.parent / "results" / folder / f"{file.stem}.csv" for folder in ("traction", "")]
-    kept = next((place for place in places if place.is_file()), None)
-    if kept is None:
+    kept = file.parent / "results" / f"{file.stem}.csv"
+    if not kept.is_file():
         return []
     with kept.open(encoding="utf-8", newline="") as lines:
         return list(csv.DictReader(lines))
