@@ -22,14 +22,14 @@ VALUES = {"depth_cm": "depth [cm]", "depth_over_length": "depth / length", "valu
 #: studies whose picture is another page's: (picture, the command that draws it)
 OTHERS = {
     "weldox_velocities": ("weldox.png", "python -m problems.perforation.residual runs/weldox_velocities --figure weldox.png"),
-    "drag": ("contact_skin.png", "hydro2d plot runs/undeformable_rod_8 -o contact_skin.png --field plastic_strain --mirror "
-             "velocity:z"),
+    "drag": ("contact_skin.png", "hydro2d plot runs/drag/cases/contact_8.5 -o contact_skin.png --field plastic_strain --mirror "
+             "velocity:z --time '200 us' --window '170 mm,205 mm,10 mm'"),
 }  # fmt: skip
 HEADING = """## Studies
 
 Each study is one file, which `hydro2d sweep` runs, or `hydro2d transition` where it is a search. The charts show the results
 that the repository keeps, filled marks, beside the depths that were measured, open diamonds. Times are the sum over all runs,
-each on one core. The page of the folder says what came out, and which results are older than the present method.
+each on one core. The page of the folder says what came out.
 """
 
 
@@ -69,10 +69,8 @@ def studies() -> list[Study]:
 
 
 def _kept(file: Path) -> list[dict[str, str]]:
-    """The newest results: those with the traction in cut cells, else those before it."""
-    places = [file.parent / "results" / folder / f"{file.stem}.csv" for folder in ("traction", "")]
-    kept = next((place for place in places if place.is_file()), None)
-    if kept is None:
+    kept = file.parent / "results" / f"{file.stem}.csv"
+    if not kept.is_file():
         return []
     with kept.open(encoding="utf-8", newline="") as lines:
         return list(csv.DictReader(lines))

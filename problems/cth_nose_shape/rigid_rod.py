@@ -1,13 +1,12 @@
-"""Depth against velocity for the rods of the shots: a table, a figure, and the results that are kept beside the studies.
+"""Depth against velocity for the rods of the shots: tables, and the results that are kept beside the studies.
 
-    python -m problems.cth_nose_shape.rigid_rod RESULTS [RESULTS ...] [--figure PATH] [--keep FILE]
+    python -m problems.cth_nose_shape.rigid_rod RESULTS [RESULTS ...] [--keep FILE]
 
 RESULTS is the directory of a study, finished or not, or a file in `results`, which has the finished cases of a study that was
 run before. If several have the same case, the last one counts. Three tables are printed in Markdown. In the first each row is a
 shot, each column a variant of whatever else the studies vary, and the experiments stand beside the runs. The second has the
-transitions, by the loss of length and by the depth, and the third the kinetic energy over the volume of the hole. The figure
-has a panel for each nose and alloy, and shows two analytic models: `forrestal` for a rod that stays rigid and `tate` for one
-that erodes. `--keep` writes all cases into a CSV file, in the order in which they were given.
+transitions, by the loss of length and by the depth, and the third the kinetic energy over the volume of the hole. `--keep`
+writes all cases into a CSV file, in the order in which they were given. `problems.cth_nose_shape.members` draws them.
 """
 
 from __future__ import annotations
@@ -20,33 +19,26 @@ import sys
 from dataclasses import dataclass
 from pathlib import Path
 
-import numpy as np
-
-from hydro2d.analytic import model_deck, model_transition, models
+from hydro2d.analytic import model_transition
 from hydro2d.errors import DeckError
-from hydro2d.results import figures
 from hydro2d.study import bisection, layout
 from hydro2d.study.layout import StudyError
 from hydro2d.study.regimes import DEPTHS, KEPT, LEAST_KEPT, NOT_DEEPER, USED_UP, by_depth
 from hydro2d.study.velocities import speed
 from problems import kept
 
-HERE = Path(__file__).parent
 #: the label of a shot: nose, alloy and velocity; without a nose it means a hemispherical one
 SHOT = re.compile(r"(?:(hemi|ogive)[- ])?(5083|7039)[- ](\d+)")
 #: noses by what labels and decks call them
 NOSES = {"hemi": "hemispherical", "ogive": "ogival"}
 #: the axis of the shots; those that make a shot in a search for a transition
 SHOTS, SEARCHED = "shot", ("plate", "velocity")
-#: decks of the analytic models
-DECKS = {
-    ("hemispherical", "5083"): "hemi_5083_1086.toml", ("hemispherical", "7039"): "hemi_7039_1038.toml",
-    ("ogival", "5083"): "ogive_5083_923.toml", ("ogival", "7039"): "ogive_7039_1075.toml",
-}  # fmt: skip
+#: rods and plates of the shots
+RODS = tuple(itertools.product(NOSES.values(), ("5083", "7039")))
 #: what a case gave, in a file of results, after its labels
 RESULTS = ("depth_cm", "loss_percent", "regime", "residual_m_s", "hole_cm3", "time_us", "minutes")
-#: velocities of the analytic models, m/s; thickness of the plates, cm; mass of the rods, kg
-VELOCITIES, PLATE, MASS = np.linspace(700.0, 2100.0, 57), 53.34, 0.063
+#: thickness of the plates, cm; mass of the rods, kg
+PLATE, MASS = 53.34, 0.063
 #: what rods lose of their length, by the largest loss in per cent
 LOSSES = {10.0: "up to a tenth of the length lost", 100.0 / 3.0: "up to a third", 100.0: "more"}
 COLOURS = ("#1f4e79", "#c26a1b", "#4f7942", "#8b3a62", "#5b6770")
@@ -207,7 +199,7 @@ def transitions(found: dict[str, dict[Shot, Result]]) -> list[str]:
     limits = {(each.nose, each.target.removeprefix("Al")): 1e2 * each.limit for each in model_transition.experiments()}
     measured = {shot: 1e2 * told.depth for shot, told in experiments().items()}
     lines = ["| rod | transition | experiment | " + " | ".join(found) + " |", "|---" * (len(found) + 3) + "|"]
-    for rod in DECKS:
+    for rod in RODS:
         of_rod = [{shot.velocity: case for shot, case in cases.items() if (shot.nose, shot.alloy) == rod}
                   for cases in found.values()]  # fmt: skip
         if not any(of_rod):
@@ -259,70 +251,21 @@ def _range(values: list[float]) -> str:
     return least if least == most else f"{least} to {most}"
 
 
-def draw(found: dict[str, dict[Shot, Result]]):
-    """A matplotlib Figure with a panel for each nose and alloy; triangles are rods that perforate."""
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
-
-    noses = [nose for nose in NOSES.values() if any(shot.nose == nose for cases in found.values() for shot in cases)]
-    figure = Figure(figsize=(9.6, 1.2 + 3.3 * len(noses)), layout="constrained")
-    FigureCanvasAgg(figure)
-    panels = figure.subplots(len(noses), 2, sharey=True, sharex="row", squeeze=False)
-    for nose, row in zip(noses, panels, strict=True):
-        for alloy, axes in zip(("5083", "7039"), row, strict=True):
-            _panel(axes, nose, alloy, found)
-            axes.set_title(f"{nose} nose, {alloy} aluminium", fontsize="medium")
-        row[0].set_ylabel("depth [cm]")
-    for axes in panels[-1]:
-        axes.set_xlabel("impact velocity [m/s]")
-    figure.legend(*panels[0][0].get_legend_handles_labels(), fontsize="small", loc="outside lower center", ncols=4)
-    return figure
-
-
-def _panel(axes, nose: str, alloy: str, found: dict[str, dict[Shot, Result]]) -> None:
-    """One nose and alloy: models, runs and experiments."""
-    fastest = 0.0
-    for number, (column, cases) in enumerate(found.items()):
-        there = sorted((shot for shot in cases if (shot.nose, shot.alloy) == (nose, alloy)), key=lambda at: at.velocity)
-        speeds = np.array([shot.velocity for shot in there])
-        through = np.array([cases[shot].depth is None for shot in there], dtype=bool)
-        depths = np.array([cases[shot].reach for shot in there])
-        colour = COLOURS[number % len(COLOURS)]
-        axes.plot(speeds, depths, color=colour, linewidth=1.2, marker="o", markersize=4, label=column)
-        axes.plot(speeds[through], depths[through], "^", color=colour, markersize=7)
-        fastest = max(fastest, *speeds, 1400.0)
-    for marker, measured, label in (("s", True, "experiment"), ("^", False, "experiment, perforated")):
-        shots = [(shot.velocity, told.depth * 1e2) for shot, told in experiments().items()
-                 if (shot.nose, shot.alloy, told.kind != "at least") == (nose, alloy, measured)]  # fmt: skip
-        axes.plot(*zip(*shots, strict=True) if shots else ([], []), marker, color="black", markersize=8, label=label)
-    shot = model_deck.read(HERE / DECKS[nose, alloy])
-    speeds = VELOCITIES[VELOCITIES <= fastest]
-    for name, style in (("forrestal", "k--"), ("tate", "k-.")):
-        case = models.resolve(models.named(name), models.Request(shot.rod, shot.target, geometry=shot.values))
-        axes.plot(speeds, [row["depth"] * 1e2 for row in case.rows(speeds.tolist())], style, linewidth=0.8,
-                  label=f"model {name}")  # fmt: skip
-    axes.grid(alpha=0.3)
-    axes.set_ylim(0.0, 60.0)
-
-
 def main(arguments: list[str] | None = None) -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("results", nargs="+", type=Path)
-    parser.add_argument("--figure", type=Path)
     parser.add_argument("--keep", type=Path, metavar="FILE", help="write all cases to a CSV file")
     given = parser.parse_args(arguments)
     try:
         results = list({(result.name, result.nose): result for path in given.results for result in read(path)}.values())
         found = columns(results)
-        if not (results if given.keep and not given.figure else found):
+        if not (results if given.keep else found):
             print("there is no finished case of a shot", file=sys.stderr)
             return 2
         if given.keep:
             keep(results, given.keep)
         if found:
             print("\n".join([*table(found), "", *transitions(found), "", *holes(results)]))
-        if given.figure:
-            figures.save(draw(found), given.figure)
     except (StudyError, DeckError, OSError) as error:
         print(error, file=sys.stderr)
         return 2

@@ -1,4 +1,4 @@
-"""The table and the figure of what ends a rigid rod, and the results that are kept beside the studies."""
+"""The tables of what ends a rigid rod, and the results that are kept beside the studies."""
 
 import re
 from types import SimpleNamespace
@@ -85,18 +85,6 @@ def test_the_table(study, capsys):
     ]  # fmt: skip
 
 
-def test_the_figure(study):
-    assert rigid_rod.main([str(study), "--figure", str(study / "figure.png")]) == 0
-    assert (study / "figure.png").read_bytes()[:4] == b"\x89PNG"
-    panels = rigid_rod.draw(rigid_rod.columns(rigid_rod.read(study))).axes
-    assert [panel.get_title() for panel in panels[::3]] == ["hemispherical nose, 5083 aluminium", "ogival nose, 7039 aluminium"]
-    first, last = ({line.get_label(): line for line in panel.lines} for panel in panels[::3])
-    assert first["A"].get_xdata() == pytest.approx([1086.0])
-    assert first["A"].get_ydata() == pytest.approx([41.68])
-    assert last["A"].get_ydata() == pytest.approx([rigid_rod.PLATE])
-    assert max(first["model forrestal"].get_ydata()) > max(first["model tate"].get_ydata()) > 0.0
-
-
 @pytest.mark.parametrize(("depths", "said"), [
     ({700.0: 20.0, 1000.0: 40.0, 1100.0: 30.0, 1200.0: 15.0}, "1100 to 1200 m/s"), ({700.0: 20.0}, "none deeper"),
     ({1000.0: 40.0, 1100.0: 15.0, 1200.0: 30.0}, "1000 to 1100 m/s"), ({1000.0: 40.0}, "above 1000 m/s"), ({}, "")])
@@ -113,11 +101,11 @@ def test_nothing_to_show_or_to_keep(tmp_path, monkeypatch):
     assert file.read_text() == "what was kept before"
 
 
-def test_results_that_are_no_shots_have_no_figure(study, monkeypatch, capsys):
+def test_results_that_are_no_shots_are_kept_and_have_no_table(study, monkeypatch, capsys):
     there = (case("elsewhere", {"law": "A", "shot": "steel-2120"}, 0.1, 0.02),)
     monkeypatch.setattr(rigid_rod.layout, "read", lambda directory: SimpleNamespace(cases=there))
     assert rigid_rod.main([str(study), "--keep", str(study / "kept.csv")]) == 0
-    assert rigid_rod.main([str(study / "kept.csv"), "--figure", str(study / "figure.png")]) == 2
+    assert rigid_rod.main([str(study / "kept.csv")]) == 2
     assert capsys.readouterr().err == "there is no finished case of a shot\n"
 
 
@@ -155,27 +143,16 @@ def test_kept_results_are_those_of_their_study(file):
     ]
 
 
-def found(*names):
-    """The results that are kept of some studies, by column and shot."""
-    kept = [result for name in names for result in rigid_rod.read(source.PROBLEMS / "cth_nose_shape/results" / f"{name}.csv")]
-    return rigid_rod.columns(kept)
-
-
-def test_the_shots_transitions_and_holes_of_the_page_are_those_of_the_kept_results():
-    """Cell by cell after the column of the experiment, to which the page adds what became of the rod."""
+def test_the_holes_of_the_page_are_those_of_the_kept_results():
     page = (source.ROOT / "docs/explanation/rigid-rod.md").read_text(encoding="utf-8").splitlines()
-    rows = rigid_rod.table(found("rigid_rod_laws"))[2:]
-    assert len(rows) == 18
-    for row in rows:
-        shot, cells = row.split(" | ")[0].split(", ", 1)[1], row.split("|", 3)[3]
-        assert [line for line in page if shot in line and line.endswith(cells)], row
-    searched = rigid_rod.transitions(found("rigid_rod_laws", "transition_rigid_rod_hemi", "transition_rigid_rod_ogive"))
-    assert [row for row in searched if row not in page] == []
-    kept = [result for file in KEPT if "rigid_rod" in file.stem for result in rigid_rod.read(file)]
-    assert [row for row in rigid_rod.holes(kept) if row not in page] == []
+    names = ("twelve_shots", "rigid_rod_mesh", "rigid_rod_failure")
+    kept = [result for name in names for result in rigid_rod.read(source.PROBLEMS / f"cth_nose_shape/results/{name}.csv")]
+    rows = rigid_rod.holes(kept)
+    assert len(rows) == 6
+    assert [row for row in rows if row not in page] == []
 
 
-@pytest.mark.parametrize(("page", "least"), [("rigid-rod", 100), ("nose-shape", 25)])
+@pytest.mark.parametrize(("page", "least"), [("rigid-rod", 24), ("nose-shape", 3)])
 def test_results_on_a_page_are_kept_ones(page, least):
     told = set(CELL.findall((source.ROOT / f"docs/explanation/{page}.md").read_text(encoding="utf-8")))
     assert len(told) > least

@@ -79,7 +79,6 @@ PRESUMED = {
     "docs/how-to/write-a-deck.md": {"my_deck.toml": ""},
     "docs/reference/files.md": {"runs/shot": DECK},
     "docs/explanation/penetration/transition.md": {"runs/a": DECK, "runs/b": DECK},
-    "docs/explanation/rigid-rod.md": {"runs/rigid_rod_laws": LAWS},
 }
 #: what keys of a deck are laid over, beside the decks of the nose shapes
 BASES = {
