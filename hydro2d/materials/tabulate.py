@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from types import ModuleType
 
 import numpy as np
@@ -31,22 +32,27 @@ def temperatures(rest: float, high: float, number: int) -> np.ndarray:
     return np.concatenate([np.linspace(0.0, rest, below + 1)[:-1], [rest], np.geomspace(rest, high, number - below)[1:]])
 
 
-def table_of(material: Material, density: np.ndarray, temperature: np.ndarray) -> Table:
-    """The table of a material's equation of state.
+def of_material(material: Material, density: np.ndarray, temperature: np.ndarray) -> Table:
+    """`table_of` the equation of state of a material."""
+    return table_of(material.name, material.eos.module("eos"), material.eos.values, density, temperature)
 
+
+def table_of(name: str, module: ModuleType, values: Mapping[str, float], density: np.ndarray, temperature: np.ndarray) -> Table:
+    """The table of an equation of state.
+
+    name : of the material, for messages;  module, values : equation of state and its parameters by name, in SI
     density : float64[i], kg/m^3, rising;  temperature : float64[j], K, rising from 0 or more
 
     Raises DeckError for an equation of state with internal variables, and where no energy has one of the temperatures.
     """
-    module = material.eos.module("eos")
     if hasattr(module, "INTERNAL") or hasattr(module, "FROM_TABLE"):
-        raise DeckError(f"material {material.name}: {module.NAME} cannot be tabulated: " + (
+        raise DeckError(f"material {name}: {module.NAME} cannot be tabulated: " + (
             "its pressure depends on internal variables" if hasattr(module, "INTERNAL") else "it is a table"))
-    par = module.row(material.eos.values)
+    par = module.row(values)
     p, e = np.empty((density.size, temperature.size)), np.empty((density.size, temperature.size))
     for i, rho in enumerate(density.tolist()):
         for j, T in enumerate(temperature.tolist()):
-            e[i, j] = _energy(module, rho, T, par, material.name)
+            e[i, j] = _energy(module, rho, T, par, name)
             p[i, j] = module.evaluate(rho, e[i, j], par)[0]
     rest = density == par[RHO0]
     p[rest] = np.where(np.abs(p[rest]) < 1e-3, 0.0, p[rest])  # Pa: what round-off of the energy leaves of zero
