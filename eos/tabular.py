@@ -38,8 +38,9 @@ PARAMETERS = (
               POSITIVE),
     Parameter("reference_temperature", "K", 298.0, "temperature at rest, from which energies are counted", "T0"),
 )
-#: by what share of its terms the temperature may miss T ds = de - p drho/rho^2: slopes within a cell are those of its corners
-TEMPERATURE_WITHIN = 0.05
+#: by what share of its terms the temperature may miss T ds = de - p drho/rho^2: a table can be no better than what it was made from,
+#: and of what is tabulated here Tillotson's equations are the roughest
+TEMPERATURE_WITHIN = 0.25
 
 #: slots of the row: numbers of densities and temperatures; from DATA on stand the densities, the temperatures, pressures and
 #: energies with the temperature running first, and 1 for every cell that is open, else 0

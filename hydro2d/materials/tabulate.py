@@ -27,7 +27,12 @@ def points(low: float, rest: float, high: float, number: int) -> np.ndarray:
 
 
 def temperatures(rest: float, high: float, number: int) -> np.ndarray:
-    """``number`` temperatures from zero to high, K: in equal steps to that at rest, then in equal ratios; float64[number]."""
+    """``number`` temperatures from zero to high, K: in equal steps to that at rest, then in equal ratios; float64[number].
+
+    From zero, where that at rest is zero, in equal steps.
+    """
+    if rest == 0.0:
+        return np.linspace(0.0, high, number)
     below = min(max(round(BELOW * (number - 1)), 1), number - 2)
     return np.concatenate([np.linspace(0.0, rest, below + 1)[:-1], [rest], np.geomspace(rest, high, number - below)[1:]])
 
