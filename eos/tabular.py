@@ -126,7 +126,7 @@ def row(values, table) -> np.ndarray:
                          f"{p[i, j]:.4g} Pa; {without_pressure(table, T0)}")
     p[i, j] = 0.0
     e = e - e[i, j]
-    opened = open_cells(rho, p, e)
+    opened = open_cells(rho, T, p, e)
     if not opened[i, j]:
         raise ValueError(f"{NAME}: in the table c^2 is not positive at rest, {rho0:g} kg/m^3 and {T0:g} K")
     packed = np.concatenate([[rho0, 0.0, rho.size, T.size], rho, T, p.ravel(), e.ravel(), opened.ravel()])
@@ -167,8 +167,8 @@ def without_pressure(table, T: float) -> str:
     return "it is zero at " + " and ".join(f"{rho:.8g}" for rho in found) + " kg/m^3" if found else "it is zero at no density there"
 
 
-def open_cells(rho: np.ndarray, p: np.ndarray, e: np.ndarray) -> np.ndarray:
-    """Whether c^2 is positive all over each cell of a table, bool[i - 1, j - 1]; p, e : float64[i, j].
+def open_cells(rho: np.ndarray, T: np.ndarray, p: np.ndarray, e: np.ndarray) -> np.ndarray:
+    """Whether c^2 is positive all over each cell of a table, bool[i - 1, j - 1]; p, e : float64[i, j]. At 0 K it may be zero.
 
     In a cell G = rho^2 c^2 de/dt is linear in t, and along its sides t = 0 and t = 1 a cubic of w, whose least value is at an
     end or where its slope vanishes. explanation/equation-of-state, (20)
@@ -182,13 +182,15 @@ def open_cells(rho: np.ndarray, p: np.ndarray, e: np.ndarray) -> np.ndarray:
     _, ew, et, ewt = parts(e)
     turn, turn_w, turn_t = pw * et - pt * ew, pw * ewt - pwt * ew, pwt * et - pt * ewt
     kept = np.ones(p0.shape, dtype=bool)
+    cold = (T[:-1] == 0.0)[None, :]
     empty = (r == 0.0) & (p0 == 0.0) & (pt == 0.0)  # where rho = 0 and p = 0 for all T, G has the factor w^2
     for t in (0.0, 1.0):
         a, b = (turn + t * turn_t) / width, turn_w / width
         c, d = p0 + t * pt, pw + t * pwt
         cubic = (a * r * r + c * pt, b * r * r + 2.0 * a * r * width + c * pwt + d * pt,
                  a * width**2 + 2.0 * b * r * width + d * pwt, b * width**2)
-        kept &= np.where(empty, _least(cubic[2], cubic[3], 0.0, 0.0) > 0.0, _least(*cubic) > 0.0)
+        least = np.where(empty, _least(cubic[2], cubic[3], 0.0, 0.0), _least(*cubic))
+        kept &= (least > 0.0) | ((least == 0.0) & cold & (t == 0.0))
     return kept
 
 

@@ -404,6 +404,7 @@ def _model(raw, part: str, default: str | None, eos: Mapping, fail: Fail, trust:
     if not trust and _has_strange_code(raw, part):
         return _unread(raw, part, fail)
     module, file, code = _chosen(raw, part, fail)
+    text, name = _table(module, raw, part, fail)
     parameters = _parameters(module, raw, part, fail)
     numbers = {}
     for key in raw:
@@ -423,7 +424,6 @@ def _model(raw, part: str, default: str | None, eos: Mapping, fail: Fail, trust:
         else:
             number = Number(float(parameter.default), parameter.unit or "1", f"{module.NAME} model", "default")
         numbers[key] = number
-    text, name = _table(module, raw, part, fail)
     return Model(module.NAME, numbers, file, code, solid=raw.get("solid", ""), table=text, table_from=name)
 
 

@@ -60,7 +60,7 @@ def read(text: str) -> Table:
         return TableError(f"line {lines[k]}: {message}")
 
     for k, word in ((0, "densities"), (1, "temperatures")):
-        if numbers.size < 2 or not (numbers[k] == round(numbers[k]) and LEAST <= numbers[k] <= numbers.size):
+        if numbers.size < 2 or not (numbers[k] == np.floor(numbers[k]) and LEAST <= numbers[k] <= numbers.size):
             found = f"{numbers[k]:g}" if numbers.size > k else "nothing"
             raise TableError(f"record 301 begins with its numbers of densities and temperatures, each at least {LEAST}; that of "
                              f"{word} is {found}")
