@@ -4,10 +4,10 @@ Between four points of the table, with w and t the shares of the way in density 
 
     p = (1-w)(1-t) p_00 + w (1-t) p_10 + (1-w) t p_01 + w t p_11,    and so e and, of t alone, T.
 
-At a given density e is linear in t, so that t, p and T follow from (rho, e) in closed form, and so do the derivatives. Energies
-are counted from the state at rest, which is made a point of the table: bilinear interpolation in the halves of an interval gives
-what it gave in the whole. There is nothing beyond the table, and nothing where c^2 is not positive: p and T are NaN there, and a
-run that gets there ends.
+At a given density e is linear in t, so that t, p and T follow from (rho, e) in closed form, and so do the derivatives.
+Energies are counted from the state at rest, which is made a point of the table: bilinear interpolation in the two parts of an
+interval gives what it gave in the whole. There is nothing beyond the table, and nothing where c^2 is not positive: p and T are
+NaN there, and a run that gets there ends.
 """
 
 from __future__ import annotations
@@ -38,8 +38,8 @@ PARAMETERS = (
               POSITIVE),
     Parameter("reference_temperature", "K", 298.0, "temperature at rest, from which energies are counted", "T0"),
 )
-#: by what share of its terms the temperature may miss T ds = de - p drho/rho^2: a table can be no better than what it was made from,
-#: and of what is tabulated here Tillotson's equations are the roughest
+#: by what share of its terms the temperature may miss T ds = de - p drho/rho^2: a table is no better than what it was
+#: made from, and of what is tabulated here Tillotson's equations are the roughest
 TEMPERATURE_WITHIN = 0.25
 
 #: slots of the row: numbers of densities and temperatures; from DATA on stand the densities, the temperatures, pressures and
@@ -115,7 +115,8 @@ def row(values, table) -> np.ndarray:
     rho, T, p, e = table.density, table.temperature, table.pressure, table.energy
     for word, value, points, unit in (("reference_density", rho0, rho, "kg/m^3"), ("reference_temperature", T0, T, "K")):
         if not points[0] <= value < points[-1]:
-            raise ValueError(f"{NAME}: {word} = {value:g} {unit} is not within the table, {points[0]:g} to {points[-1]:g} {unit}")
+            raise ValueError(f"{NAME}: {word} = {value:g} {unit} is not within the table, {points[0]:g} to {points[-1]:g} "
+                             f"{unit}")
     rho, (p, e) = with_point(rho, (p, e), rho0)
     T, (p, e) = with_point(T, (p.T, e.T), T0)
     p, e = p.T, e.T
@@ -164,11 +165,12 @@ def densities_without_pressure(table, T: float) -> list[float]:
 def without_pressure(table, T: float) -> str:
     """Says at which densities the pressure is zero at a temperature in K."""
     found = [rho for rho in densities_without_pressure(table, T) if rho > 0.0]
-    return "it is zero at " + " and ".join(f"{rho:.8g}" for rho in found) + " kg/m^3" if found else "it is zero at no density there"
+    at = " and ".join(f"{rho:.8g}" for rho in found)
+    return f"it is zero at {at} kg/m^3" if found else "it is zero at no density there"
 
 
 def open_cells(rho: np.ndarray, T: np.ndarray, p: np.ndarray, e: np.ndarray) -> np.ndarray:
-    """Whether c^2 is positive all over each cell of a table, bool[i - 1, j - 1]; p, e : float64[i, j]. At 0 K it may be zero.
+    """Whether c^2 is positive all over each cell of a table, bool[i - 1, j - 1]; at 0 K it may be zero. p, e : float64[i, j].
 
     In a cell G = rho^2 c^2 de/dt is linear in t, and along its sides t = 0 and t = 1 a cubic of w, whose least value is at an
     end or where its slope vanishes. explanation/equation-of-state, (20)
@@ -176,7 +178,8 @@ def open_cells(rho: np.ndarray, T: np.ndarray, p: np.ndarray, e: np.ndarray) -> 
     r, width = rho[:-1, None], np.diff(rho)[:, None]
 
     def parts(q):
-        return q[:-1, :-1], q[1:, :-1] - q[:-1, :-1], q[:-1, 1:] - q[:-1, :-1], q[1:, 1:] - q[1:, :-1] - q[:-1, 1:] + q[:-1, :-1]
+        along_t = np.diff(q, axis=1)
+        return q[:-1, :-1], np.diff(q, axis=0)[:, :-1], along_t[:-1], np.diff(along_t, axis=0)
 
     p0, pw, pt, pwt = parts(p)
     _, ew, et, ewt = parts(e)
@@ -207,11 +210,6 @@ def _least(g0, g1, g2, g3) -> np.ndarray:
             inside = (w > 0.0) & (w < 1.0)
             found = np.where(inside, np.minimum(found, at(np.where(inside, w, 0.0))), found)
     return found
-
-
-def covers(rho: float, e: float, par: np.ndarray) -> bool:
-    """Whether the table has this state."""
-    return not np.isnan(evaluate(rho, e, par)[0])
 
 
 def span(par: np.ndarray) -> str:

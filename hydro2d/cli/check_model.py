@@ -67,7 +67,7 @@ def _check_table(file: Path, text: str, T: float) -> int:
                                     f"{table.temperature[-1]:g} K")
         rest = [rho for rho in tabular.densities_without_pressure(table, T) if rho > 0.0]
         if not rest:
-            raise sesame.TableError(f"at {T:g} K there is pressure at every density; a gas is at rest at the temperature without")
+            raise sesame.TableError(f"at {T:g} K there is pressure at every density; a gas is at rest at 0 K")
         said = lines(table, rest[-1], T)
     except ValueError as error:
         raise DeckError(f"{file}: {error}") from None

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 from hydro2d.cli.base import Out, UsageError, quantity
 from hydro2d.terminal import say
 
@@ -29,8 +27,8 @@ def tabulate(material: str, *, out: Out, density: str | None = None, temperature
         Least and greatest density, and how many densities in equal ratios, as LOW:HIGH:NUMBER; that at rest is among them.
         Default: 0.8 to 3 times the density at rest, 151 of them.
     temperature
-        Greatest temperature and how many temperatures from zero on, as HIGH:NUMBER; that at rest is among them. Default: 20000 K
-        and 101.
+        Greatest temperature and how many temperatures from zero on, as HIGH:NUMBER; that at rest is among them. Default:
+        20000 K and 101.
     """
     from hydro2d.analytic import model_materials
     from hydro2d.files import write_text
@@ -39,7 +37,8 @@ def tabulate(material: str, *, out: Out, density: str | None = None, temperature
     chosen = model_materials.load(material)
     rest, at_rest = chosen.reference_density, chosen.eos.numbers.get("reference_temperature")
     T = at_rest.value if at_rest else 0.0
-    (low, high), rows = _range("--density", density, "kg/m^3", 2) or (tuple(share * rest for share in DENSITIES), NUMBERS[0])
+    (low, high), rows = _range("--density", density, "kg/m^3", 2) or (
+        tuple(share * rest for share in DENSITIES), NUMBERS[0])
     (hottest,), columns = _range("--temperature", temperature, "K", 1) or ((HOTTEST,), NUMBERS[1])
     if not 0.0 < low < rest < high:
         raise UsageError(f"--density {low:g} to {high:g} kg/m^3: must have {rest:g}, the density at rest, between its ends")

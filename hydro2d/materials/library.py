@@ -107,10 +107,11 @@ class Model:
     @property
     def title(self) -> str:
         """Its name, with that of the one that it stands over, or of its table."""
-        return f"{self.name} over {self.solid}" if self.solid else f"{self.name} ({self.table_from})" if self.table else self.name
+        over = f" over {self.solid}" if self.solid else f" ({self.table_from})" if self.table else ""
+        return f"{self.name}{over}"
 
     def base(self) -> ModuleType | Table | None:
-        """What its row is made from beside its numbers: the module of the equation of state that it stands over, or its table."""
+        """What its row is made from beside its numbers: the equation of state that it stands over, or its table; else None."""
         from hydro2d.materials import sesame
 
         return _solid(self.solid)[0] if self.solid else sesame.read(self.table) if self.table else None

@@ -16,8 +16,8 @@ _SOLID = {
               "stand beside those of the model", "examples": ["mie-grueneisen"]},
 }
 _TABLE = {
-    "table": {**_TEXT, "description": "a file with a table of the SESAME type 301, relative to the deck, for a model that is made "
-              "from one", "examples": ["aluminium.301"]},
+    "table": {**_TEXT, "description": "a file with a table of the SESAME type 301, relative to the deck, for a model that is "
+              "made from one", "examples": ["aluminium.301"]},
     "table_data": {**_TEXT, "description": "the text of that file, which resolved decks hold instead of its name",
                    "examples": ["3 3 0.1 0.2 0.3 0 300 600 ..."]},
     "table_from": {**_TEXT, "description": "the name of that file", "examples": ["aluminium.301"]},

@@ -1,9 +1,9 @@
 """Tables of the SESAME type 301 as text: pressure and energy over density and temperature.
 
-The text is that of the ASCII exchange files of SESAME tables: records, each with a heading `RECORD TYPE = 301 NWDS = n` and its
-numbers in order. Of record 301 these are NR and NT, NR densities in Mg/m^3, NT temperatures in K, then NR times NT pressures in
-GPa and energies in MJ/kg, the density running first; free energies that may follow are not used, nor are records of other types.
-A text of numbers alone is one record 301.
+The text is that of the ASCII exchange files of SESAME tables: records, each with a heading `RECORD TYPE = 301 NWDS = n` and
+its numbers in order. Of record 301 these are NR and NT, NR densities in Mg/m^3, NT temperatures in K, then NR times NT
+pressures in GPa and energies in MJ/kg, the density running first. Free energies that may follow are not used, nor are records
+of other types. A text of numbers alone is one record 301.
 
 Lyon & Johnson, SESAME: the Los Alamos National Laboratory equation of state database, LA-UR-92-3407 (1992).
 """
@@ -62,8 +62,8 @@ def read(text: str) -> Table:
     for k, word in ((0, "densities"), (1, "temperatures")):
         if numbers.size < 2 or not (numbers[k] == np.floor(numbers[k]) and LEAST <= numbers[k] <= numbers.size):
             found = f"{numbers[k]:g}" if numbers.size > k else "nothing"
-            raise TableError(f"record 301 begins with its numbers of densities and temperatures, each at least {LEAST}; that of "
-                             f"{word} is {found}")
+            raise TableError(f"record 301 begins with its numbers of densities and temperatures, each at least {LEAST}; that "
+                             f"of {word} is {found}")
     nr, nt = int(numbers[0]), int(numbers[1])
     needed, whole = 2 + nr + nt + 2 * nr * nt, 2 + nr + nt + 3 * nr * nt
     if numbers.size not in (needed, whole):

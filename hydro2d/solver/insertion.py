@@ -233,7 +233,8 @@ def _refuse_unstable(body, table, m: int) -> None:
     rho, e = body_state(body, table, m)
     p, dpdrho, dpde, _ = table.evaluate(m, rho, e)
     if math.isnan(p) and (limits := table.limits(m, rho)):
-        raise DeckError(f'body "{body.name}": cannot begin with a density of {rho:g} kg/m^3 and an energy of {e:g} J/kg: {limits}')
+        raise DeckError(f'body "{body.name}": cannot begin with a density of {rho:g} kg/m^3 and an energy of {e:g} J/kg: '
+                        f"{limits}")
     square = sound_speed_squared(rho, p, dpdrho, dpde, -math.inf)
     if square < 0.0:
         raise DeckError(f'body "{body.name}": cannot begin with a density of {rho:g} kg/m^3 and an energy of {e:g} J/kg; at '

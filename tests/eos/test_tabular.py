@@ -174,7 +174,7 @@ def test_hugoniots_are_those_of_the_model_to_second_order(name):
 
 
 def test_the_temperature_is_as_consistent_as_the_table_is_fine():
-    """Of a model whose temperature is consistent: slopes within a cell are those of its corners, so that it is of first order."""
+    """Of a model whose temperature is consistent: slopes within a cell are those of its corners, so it is of first order."""
     def worst(number):
         density, temperature = tabulate.points(0.9 * REST, REST, 2.4 * REST, number), tabulate.temperatures(298.0, 2e4, number)
         values = {"reference_density": REST, "sound_speed": 5350.0, "grueneisen": 2.0, "hugoniot_slope": 1.34,
@@ -212,8 +212,8 @@ def plain(**changes):
 @pytest.mark.parametrize(("values", "changes", "words"), [
     ({"reference_density": 1201.0}, {}, "reference_density = 1201 kg/m.3 is not within the table, 900 to 1200"),
     ({"reference_density": 1000.0, "reference_temperature": 2e3}, {}, "reference_temperature = 2000 K is not within"),
-    ({"reference_density": 1001.0}, {}, "at reference_density = 1001 kg/m.3 and 298 K the table has a pressure of 1e.06 Pa; it is "
-                                        "zero at 1000 kg/m.3"),
+    ({"reference_density": 1001.0}, {}, "at reference_density = 1001 kg/m.3 and 298 K the table has a pressure of 1e.06 Pa; it "
+                                        "is zero at 1000 kg/m.3"),
     ({"reference_density": 1000.0}, {"pressure": -plain().pressure}, "c.2 is not positive at rest"),
     ({"reference_density": 1000.0}, {"pressure": plain().pressure + 1e12}, "it is zero at no density there"),
 ])

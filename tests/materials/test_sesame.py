@@ -213,8 +213,8 @@ def test_a_density_that_is_not_at_rest_is_refused(folder):
 
 
 @pytest.mark.parametrize(("said", "words"), [
-    ("density = 9000", 'body "target": cannot begin with a density of 9000 kg/m.3 and an energy of 0 J/kg: al.301 has densities'),
-    ('temperature = "13000 K"', 'body "target": no energy gives a temperature of 13000 at a density of 2700 kg/m.3; al.301 has'),
+    ("density = 9000", 'body "target": cannot begin with a density of 9000 kg/m.3 and an energy of 0 J/kg: al.301 has'),
+    ('temperature = "13000 K"', 'body "target": no energy gives a temperature of 13000 at a density of 2700 kg/m.3; al.301'),
 ])
 def test_a_body_that_begins_beyond_the_table_is_refused(folder, said, words):
     (folder / "shot.toml").write_text(DECK.replace('name = "target"', f'name = "target"\n{said}'))
@@ -241,8 +241,8 @@ def test_a_run_that_leaves_the_table_says_which_state_and_where(folder, failed):
 
 def test_the_commands_write_and_check_a_table(tmp_path, capsys):
     file = tmp_path / "al.301"
-    assert app(["tabulate", "Al_tillotson", "-o", str(file), "--density", "2.3 g/cm^3:6 g/cm^3:91", "--temperature", "9000 K:61"],
-               result_action="return_value") == 0
+    ranges = ["--density", "2.3 g/cm^3:6 g/cm^3:91", "--temperature", "9000 K:61"]
+    assert app(["tabulate", "Al_tillotson", "-o", str(file), *ranges], result_action="return_value") == 0
     said = capsys.readouterr().out
     assert "reference_density = 2700 kg/m^3, reference_temperature = 298 K" in said
     assert "densities of 2300 to 6000 kg/m^3 and temperatures of 0 to 9000 K" in said
@@ -258,13 +258,14 @@ def test_the_commands_write_and_check_a_table(tmp_path, capsys):
 
 @pytest.mark.parametrize(("arguments", "words"), [
     (["tabulate", "Al_tillotson", "-o", "x", "--density", "1:2"], "expected LOW:HIGH:NUMBER, with a NUMBER from 3 to 1000"),
-    (["tabulate", "Al_tillotson", "-o", "x", "--density", "3000:4000:9"], "must have 2700, the density at rest, between its ends"),
+    (["tabulate", "Al_tillotson", "-o", "x", "--density", "3000:4000:9"], "must have 2700, the density at rest, between"),
     (["tabulate", "Al_tillotson", "-o", "x", "--temperature", "100:9"], "must be above 298 K, the temperature at rest"),
     (["check-model", "plain.301", "--temperature", "2000 K"], "2000 K is not within its temperatures, 0 to 1000 K"),
 ])
 def test_wrong_arguments_are_one_line(tmp_path, arguments, words):
     (tmp_path / "plain.301").write_text(PLAIN)
-    done = subprocess.run([sys.executable, "-m", "hydro2d", *arguments], cwd=tmp_path, capture_output=True, text=True, check=False)
+    command = [sys.executable, "-m", "hydro2d", *arguments]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
     assert done.returncode == 2
     assert words in done.stderr
     assert "Traceback" not in done.stderr
