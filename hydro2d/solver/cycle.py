@@ -11,6 +11,7 @@ import numpy as np
 from hydro2d.errors import UnphysicalState
 from hydro2d.kernels import (
     acceleration,
+    boundaries,
     column_ranges,
     contact_motion,
     lagrangian_step,
@@ -67,6 +68,7 @@ class Cycle:
         self.constrained = np.where(method.boundaries.having("holds"), at, -1)
         along_z = zip(method.boundaries.edges[2:], self.constrained[2:].tolist(), strict=True)
         self._rows_that_hold = [(edge, j) for edge, j in along_z if j >= 0]
+        self._held = [(edge.sink, n // 2, -(n % 2)) for n, edge in enumerate(method.boundaries.edges) if edge.holds()]
         self.transmitting = np.where(method.boundaries.having("transmits"), at, -1)
         self.carried = fields.carried_rows([
             fields.carried(own, bool(strength), bool(damage)) for own, strength, damage in
@@ -97,6 +99,7 @@ class Cycle:
         self.close_cells()
         self.choose_step()
 
+        self.push(self.time)
         self.accelerate()
         self.deform()
 
@@ -106,6 +109,7 @@ class Cycle:
             self.remap_momentum(dj, di, second)
 
         self.mesh.move(self.dt)
+        self.push(self.time + 0.5 * self.dt)
         self.sources.give(self.time, self.dt, self.audit)
         self.time += self.dt
         self.number += 1
@@ -273,6 +277,13 @@ class Cycle:
         for edge, (momentum_taken, energy_taken) in zip(self.method.boundaries.edges, taken, strict=True):
             if momentum_taken != 0.0 or energy_taken != 0.0:
                 self.audit.add(edge.sink, momentum=momentum_taken, energy=energy_taken)
+
+    def push(self, time: float) -> None:
+        """What forces of sources do to velocities in half a step from ``time`` on (explanation/lagrangian-step, sources)."""
+        if self.sources.push(time, 0.5 * self.dt, self.audit, self._held):
+            s, g, (r_min, r_max, z_min, z_max) = self.state, self.grid, self.method.boundaries.having("mirrors")
+            boundaries.ghost_vertices_r(0, self._one_part, g.nr, r_min, r_max, s.u, s.v)
+            boundaries.ghost_vertices_z(0, self._one_part, 0, s.u.shape[2], g.nz, z_min, z_max, s.u, s.v)
 
     def deform(self) -> None:
         """Volumes that the faces sweep; work, volume, strain: body by body in pure cells, then the mixed cells."""
