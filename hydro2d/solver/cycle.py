@@ -279,7 +279,7 @@ class Cycle:
                 self.audit.add(edge.sink, momentum=momentum_taken, energy=energy_taken)
 
     def push(self, time: float) -> None:
-        """What forces of sources do to velocities in half a step from ``time`` on (explanation/lagrangian-step, forces from outside)."""
+        """Forces of sources in half a step from ``time`` on (explanation/lagrangian-step, forces from outside)."""
         if self.sources.push(time, 0.5 * self.dt, self.audit, self._held):
             s, g, (r_min, r_max, z_min, z_max) = self.state, self.grid, self.method.boundaries.having("mirrors")
             boundaries.ghost_vertices_r(0, self._one_part, g.nr, r_min, r_max, s.u, s.v)

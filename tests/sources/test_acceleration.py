@@ -69,7 +69,8 @@ def test_a_table_gives_its_integral():
 
 def test_what_is_not_within_reach_is_not_pushed():
     """A source over the lower half of the plate gives half of the momentum."""
-    simulation = Simulation(deck.loads(FALL, ['source.gravity.z=["0 mm", "14.5 mm"]', 'stop.time="0.1 us"', "body.plate.velocity=0"]))
+    lower_half = ['source.gravity.z=["0 mm", "14.5 mm"]', 'stop.time="0.1 us"', "body.plate.velocity=0"]
+    simulation = Simulation(deck.loads(FALL, lower_half))
     simulation.run()
     momentum = -simulation.audit.sinks["gravity"].momentum
     assert momentum == pytest.approx(0.5 * simulation.audit.start.mass.sum() * G * simulation.time, rel=1e-3)
@@ -241,5 +242,4 @@ def test_a_restart_goes_on_falling_to_the_same_bits():
         second.step()
     for name in ("q", "v"):
         np.testing.assert_array_equal(getattr(second.state, name), getattr(first.state, name))
-    assert second.audit.sinks["gravity"] == first.audit.sinks["gravity"] or (
-        second.audit.sinks["gravity"].energy == first.audit.sinks["gravity"].energy)
+    assert second.audit.sinks["gravity"].energy == first.audit.sinks["gravity"].energy
