@@ -99,8 +99,8 @@ class Cycle:
         self.close_cells()
         self.choose_step()
 
-        self.push(self.time)
         self.accelerate()
+        self.push()
         self.deform()
 
         directions = ((0, 1), (1, 0)) if self.number % 2 == 0 else ((1, 0), (0, 1))
@@ -109,7 +109,6 @@ class Cycle:
             self.remap_momentum(dj, di, second)
 
         self.mesh.move(self.dt)
-        self.push(self.time + 0.5 * self.dt)
         self.sources.give(self.time, self.dt, self.audit)
         self.time += self.dt
         self.number += 1
@@ -278,9 +277,9 @@ class Cycle:
             if momentum_taken != 0.0 or energy_taken != 0.0:
                 self.audit.add(edge.sink, momentum=momentum_taken, energy=energy_taken)
 
-    def push(self, time: float) -> None:
-        """Forces of sources in half a step from ``time`` on (explanation/lagrangian-step, forces from outside)."""
-        if self.sources.push(time, 0.5 * self.dt, self.audit, self._held):
+    def push(self) -> None:
+        """What forces of sources do to the velocities in the step (explanation/lagrangian-step, forces from outside)."""
+        if self.sources.push(self.time, self.dt, self.audit, self._held):
             s, g, (r_min, r_max, z_min, z_max) = self.state, self.grid, self.method.boundaries.having("mirrors")
             boundaries.ghost_vertices_r(0, self._one_part, g.nr, r_min, r_max, s.u, s.v)
             boundaries.ghost_vertices_z(0, self._one_part, 0, s.u.shape[2], g.nz, z_min, z_max, s.u, s.v)

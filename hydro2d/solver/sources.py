@@ -112,40 +112,40 @@ class Sources:
         """Gives the vertices the velocity that sources add from ``time`` to ``time + dt``, and books it. Whether any did.
 
         The material of a cell gains it, and a vertex moves with what its cells hold: its velocity changes by the impulse of
-        the corner masses over its mass. An edge that holds its vertices takes their impulse.
+        the corner masses over its mass. An edge that holds its vertices takes their impulse. The work of an impulse is that at
+        the mean of the velocities at the start and at the end of the step, as of the other forces.
 
         held : (sink, component, index) of the edges that hold: 0 for their columns and radial velocities, 1 for rows and axial
         ones;  index of the first or the last among the vertices of the mesh
         """
         s, grid = self.state, self.state.grid
-        pushed = False
-        for entry, m in self._all:
-            gain = entry.push(grid, time, dt)
-            if gain is None:
-                continue
-            pushed = True
-            cells = grid.interior(s.vof[m] * s.rho[m] * grid.volume)
-            mass = grid.interior_vertices(s.mass[s.group[m]])
-            momentum = energy = highest = 0.0
-            for component, velocities in enumerate((s.u, s.v)):
-                velocity = grid.interior_vertices(velocities[s.group[m]])
-                impulse = at_vertices(grid, cells * gain[component])
-                for sink, of, index in held:
-                    if of == component:
-                        line = (slice(None), index) if component == 0 else index
-                        taken, work = impulse[line].sum(), (impulse[line] * velocity[line]).sum()
-                        momentum, energy = momentum + component * taken, energy + work
-                        audit.add(sink, momentum=component * float(taken), energy=float(work))
-                        impulse[line] = 0.0
+        gains = [(entry.name, m, gain) for entry, m in self._all if (gain := entry.push(grid, time, dt)) is not None]
+        for component, (start, end) in enumerate(((s.u0, s.u), (s.v0, s.v))):
+            pushes = []
+            for name, m, gain in gains:
+                impulse = at_vertices(grid, grid.interior(s.vof[m] * s.rho[m] * grid.volume) * gain[component])
+                taken = [(sink, line, impulse[line].copy()) for sink, of, index in held if of == component
+                         for line in [(slice(None), index) if component == 0 else (index, slice(None))]]
+                for _, line, _ in taken:
+                    impulse[line] = 0.0
+                g = s.group[m]
+                mass, velocity = grid.interior_vertices(s.mass[g]), grid.interior_vertices(end[g])
                 before = velocity.copy()
                 velocity += np.divide(impulse, mass, out=np.zeros_like(mass), where=mass > 0.0)
-                momentum += component * (mass * (velocity - before)).sum()
-                work = 0.5 * (velocity**2 - before**2)
-                energy += (mass * work).sum()
-                highest += float(np.abs(work).max(initial=0.0))
-            audit.add(entry.name, momentum=-float(momentum), energy=-float(energy))
-            self.given += highest  # what is pushed may meet any of the others
-        return pushed
+                pushes.append((name, m, g, mass * (velocity - before), taken))  # as it is stored
+            for name, m, g, impulse, taken in pushes:
+                mean = 0.5 * (grid.interior_vertices(start[g]) + grid.interior_vertices(end[g]))
+                momentum, energy = component * float(impulse.sum()), float((impulse * mean).sum())
+                for sink, line, lost in taken:
+                    part, work = component * float(lost.sum()), float((lost * mean[line]).sum())
+                    momentum, energy = momentum + part, energy + work
+                    audit.add(sink, momentum=part, energy=work)
+                audit.add(name, momentum=-momentum, energy=-energy)
+                mass = grid.interior_vertices(s.mass[g])
+                gained = np.divide(impulse, mass, out=np.zeros_like(mass), where=mass > 0.0)
+                work = np.maximum(np.abs(gained * mean), 0.5 * gained**2)  # at least what it would do alone
+                self.given += float(work.max(initial=0.0))  # what is pushed may meet any of the others
+        return bool(gains)
 
     def saved(self) -> list[float]:
         """What a restart file keeps."""

