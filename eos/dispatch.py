@@ -159,7 +159,7 @@ def zero_pressure_density(model, rho, e, internal, par):
         p, dpdrho, dpde, T = evaluate(model, x, e, internal, par)
         if p < 0.0:
             low = x
-        elif p > 0.0:
+        elif p != 0.0:  # a NaN too: the search ahead has left a table
             high = x
         else:
             return x

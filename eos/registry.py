@@ -9,7 +9,8 @@ from types import ModuleType
 
 from hydro2d.jit import modules
 
-MODULES = modules("eos", "mie_grueneisen", "ideal_gas", "stiffened_gas", "p_alpha", "tillotson", "johnson_holmquist", "jwl")
+MODULES = modules("eos", "mie_grueneisen", "ideal_gas", "stiffened_gas", "p_alpha", "tillotson", "johnson_holmquist", "jwl",
+                  "tabular")
 #: models that no deck names: a material has them with a model of another part
 BESIDE = modules("eos", "cracked")
 MODELS = {module.NAME: module for module in MODULES}

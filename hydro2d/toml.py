@@ -130,16 +130,17 @@ def _table(value) -> dict:
 
 
 def placed(data: dict, folder: Path) -> dict:
-    """A deck with full paths of its model files, which are relative to a folder."""
+    """A deck with full paths of the files of its models, code and tables, which are relative to a folder."""
     data = copy.deepcopy(data)
     for _, table in model_tables(data):
-        if isinstance(table.get("file"), str):
-            table["file"] = os.path.abspath(folder / table["file"])
+        for key in ("file", "table"):
+            if isinstance(table.get(key), str):
+                table[key] = os.path.abspath(folder / table[key])
     return data
 
 
 def placed_value(key: str, value, folder: Path):
-    """The value of an override, with full paths of model files, as `placed` gives them."""
+    """The value of an override, with full paths of the files of models, as `placed` gives them."""
     parts = key_parts(key)
     nested = value
     for part in reversed(parts):

@@ -1,4 +1,4 @@
-"""The command `hydro2d check-model`: runs the checks of hydro2d's own models on a model from outside."""
+"""The command `hydro2d check-model`: runs the checks of hydro2d's own models on a model or a table from outside."""
 
 from __future__ import annotations
 
@@ -7,28 +7,42 @@ from typing import Annotated, Literal
 
 from cyclopts import App, Parameter
 
+from hydro2d.cli.base import UsageError, quantity
+from hydro2d.errors import DeckError
+from hydro2d.files import read_text
 from hydro2d.terminal import say
 
-WRONG = 2
+#: exit status of a check that fails; temperature at rest of a table, K
+WRONG, ROOM = 2, 298.0
 
 check_model = App(name="check-model")
 
 
 @check_model.default
-def check(file: Path, *, as_: Annotated[Literal["strength", "eos", "damage"] | None, Parameter(name="--as")] = None) -> int:
+def check(file: Path, *, as_: Annotated[Literal["strength", "eos", "damage"] | None, Parameter(name="--as")] = None,
+          temperature: str | None = None) -> int:
     """Runs the checks of hydro2d's own models on a model from outside: form, docstrings, compilation, derivatives, limits.
 
     Example: hydro2d check-model my_model.py
 
+    Example: hydro2d check-model aluminium.301 --temperature "298 K"
+
     Parameters
     ----------
     file
-        Python file of the model, or the name of a model in an installed package.
+        Python file of the model, or the name of a model in an installed package; or a table of the SESAME type 301.
     as_
         Kind of model; default: the kind to which the functions in the file belong.
+    temperature
+        Temperature at rest of a table; default: 298 K. The greatest density without pressure there is that at rest.
     """
-    from hydro2d.materials import contract, outside
+    from hydro2d.materials import contract, outside, sesame
 
+    text = read_text(file, DeckError) if file.is_file() else ""
+    if sesame.is_table(text):
+        return _check_table(file, text, quantity(temperature, "K", "--temperature") if temperature else ROOM)
+    if temperature:
+        raise UsageError(f"--temperature is for a table, and {file} is none")
     model = _model(file, as_)
     model.require()
     say(f"{model.file}: the {model.kind.title} {model.name}")
@@ -37,8 +51,38 @@ def check(file: Path, *, as_: Annotated[Literal["strength", "eos", "damage"] | N
         case = contract.case_of(model.kind.part, model.module)
     except contract.Broken as error:
         raise outside.ModelError(f"{file}: {error}") from None
+    return _run(case)
+
+
+def _check_table(file: Path, text: str, T: float) -> int:
+    """Reads a table, says what a deck must give with it, and runs the checks of equations of state on it."""
+    from eos import tabular
+    from hydro2d.cli.tabulate import lines
+    from hydro2d.materials import contract, sesame
+
+    try:
+        table = sesame.read(text)
+        if not table.temperature[0] <= T < table.temperature[-1]:
+            raise sesame.TableError(f"{T:g} K is not within its temperatures, {table.temperature[0]:g} to "
+                                    f"{table.temperature[-1]:g} K")
+        rest = [rho for rho in tabular.densities_without_pressure(table, T) if rho > 0.0]
+        if not rest:
+            raise sesame.TableError(f"at {T:g} K there is pressure at every density; a gas is at rest at 0 K")
+        said = lines(table, rest[-1], T)
+    except ValueError as error:
+        raise DeckError(f"{file}: {error}") from None
+    say(f"{file}: a table of {table.density.size} densities and {table.temperature.size} temperatures")
+    for line in said:
+        say(line)
+    return _run(contract.case_of_table(table, rest[-1], T))
+
+
+def _run(case) -> int:
+    """Runs the checks of a case, says what they find, and returns the exit status."""
+    from hydro2d.materials import contract
+
     failed = 0
-    for each in contract.CHECKS[model.kind.part]:
+    for each in contract.CHECKS[case.kind.part]:
         try:
             skipped = each(case)
             say(f"  {'skipped' if skipped else 'passed':<9} {each.__doc__}{f' ({skipped})' if skipped else ''}")
@@ -46,7 +90,7 @@ def check(file: Path, *, as_: Annotated[Literal["strength", "eos", "damage"] | N
             failed += 1
             what = str(error) if isinstance(error, contract.Broken) else f"{type(error).__name__}: {error}"
             say(f"  {'FAILED':<9} {each.__doc__}\n  {'':<9} {' '.join(what.split())}")
-    say(f"{model.name}: {f'{failed} of the checks failed' if failed else 'all checks passed'}")
+    say(f"{case.module.NAME}: {f'{failed} of the checks failed' if failed else 'all checks passed'}")
     return WRONG if failed else 0
 
 

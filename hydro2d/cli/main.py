@@ -23,6 +23,7 @@ from hydro2d.cli.pictures import movie, plot
 from hydro2d.cli.report import report
 from hydro2d.cli.status import status
 from hydro2d.cli.study import sweep, transition
+from hydro2d.cli.tabulate import tabulate
 from hydro2d.cli.view import view
 from hydro2d.interrupt import STATUS, Interrupt, ended_by, lose_output, raise_between_imports, signals
 from hydro2d.terminal import say
@@ -51,6 +52,7 @@ app.command(plot)
 app.command(report)
 app.command(status)
 app.command(sweep)
+app.command(tabulate)
 app.command(transition)
 app.command(view)
 

@@ -33,6 +33,12 @@ def _rows(value, unit: str) -> Rows:
     return tuple(rows)
 
 
+def _constant_or_rows(value, unit: str) -> float | Rows:
+    if isinstance(value, (list, tuple)):
+        return _rows(value, unit)
+    return units.in_reach(units.to_si(value, unit), unit)
+
+
 def _schema(unit: str) -> dict:
     item = {"anyOf": [{"type": "number"}, {"type": "string"}]}
     row = {"type": "array", "items": item, "minItems": 2, "maxItems": 2, "x-unit": f"s, {unit}"}
@@ -40,6 +46,10 @@ def _schema(unit: str) -> dict:
 
 
 SpeedOverTime = Annotated[Rows, BeforeValidator(partial(_rows, unit="m/s")), WithJsonSchema(_schema("m/s"))]
+AccelerationOverTime = Annotated[
+    float | Rows, BeforeValidator(partial(_constant_or_rows, unit="m/s^2")),
+    WithJsonSchema({"anyOf": [{"type": "number", "x-unit": "m/s^2"}, {"type": "string"}, _schema("m/s^2")], "x-unit": "m/s^2"}),
+]
 PowerOverTime = Annotated[Rows, BeforeValidator(partial(_rows, unit="W/kg")), WithJsonSchema(_schema("W/kg"))]
 
 

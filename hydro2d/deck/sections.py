@@ -356,7 +356,7 @@ class Deck(Section):
     output: Output = Output()
     tracer: tuple[Tracer, ...] = ()
     gauge: tuple[Gauge, ...] = ()
-    source: tuple[AnySource, ...] = Field((), description="what adds energy to bodies")
+    source: tuple[AnySource, ...] = Field((), description="what adds energy or momentum to bodies")
     derived: dict[str, str] = Field(
         {}, description="quantities by name, each a formula of short names and columns of the history, for the history, the "
         "summary and reports", examples=[{"P/L": "depth / length0"}],

@@ -38,11 +38,12 @@ CONFIDENCE = {
 TABLES = (*PARTS, "melting")
 _KEYS = (*TABLES, "fracture_pressure", "title", "note", "source", "confidence", "variants", "variant", "based_on")
 _ABOUT = ("source", "confidence", "note")
-#: keys of a part that choose the model, and the one that it stands over; `file` has become two of these of a model from outside
-_CHOICE = ("model", "code", "code_from", "solid")
+#: keys of a part that choose the model, the one that it stands over, and its table; the names of files have become two of these
+_CHOICE = ("model", "code", "code_from", "solid", "table_data", "table_from")
 
 if TYPE_CHECKING:
     from hydro2d.materials.outside import Outside
+    from hydro2d.materials.sesame import Table
 
 Fail = Callable[[tuple, str], Exception]
 
@@ -64,6 +65,7 @@ class Model:
 
     trusted : whether this text, which may be a stranger's, may be run
     solid : name of the equation of state that it stands over, if it stands over one; its parameters are among the numbers
+    table, table_from : the text of its table, if it has one, and the name of the file
     """
 
     name: str
@@ -72,6 +74,8 @@ class Model:
     code: str = ""
     trusted: bool = True
     solid: str = ""
+    table: str = ""
+    table_from: str = ""
 
     @property
     def values(self) -> dict[str, float]:
@@ -104,18 +108,22 @@ class Model:
 
     @property
     def title(self) -> str:
-        """Its name, with that of the one that it stands over."""
-        return f"{self.name} over {self.solid}" if self.solid else self.name
+        """Its name, with that of the one that it stands over, or of its table."""
+        over = f" over {self.solid}" if self.solid else f" ({self.table_from})" if self.table else ""
+        return f"{self.name}{over}"
 
-    def over(self) -> ModuleType | None:
-        """The module of the equation of state that it stands over, None without one."""
-        return _solid(self.solid)[0] if self.solid else None
+    def base(self) -> ModuleType | Table | None:
+        """What its row is made from beside its numbers: the equation of state that it stands over, or its table; else None."""
+        from hydro2d.materials import sesame
+
+        return _solid(self.solid)[0] if self.solid else sesame.read(self.table) if self.table else None
 
     def as_deck(self) -> dict:
         """The model as a table of a deck, every number in SI."""
         code = {"code_from": self.file, "code": self.code} if self.code else {}
         solid = {"solid": self.solid} if self.solid else {}
-        return {"model": self.name, **solid, **self.values, **code}
+        table = {"table_from": self.table_from, "table_data": self.table} if self.table else {}
+        return {"model": self.name, **solid, **self.values, **code, **table}
 
 
 @dataclass(frozen=True)
@@ -158,6 +166,13 @@ class Material:
     def unread(self) -> list[str]:
         """Says of each model that is not trusted that its code is not run."""
         return [said for part in PARTS if (said := getattr(self, part).unread(part))]
+
+    def tables(self) -> list[dict]:
+        """Entries of its tables in a summary."""
+        from hydro2d.materials import sesame
+
+        return [{"kind": "table", "name": self.name, "file": self.eos.table_from, "sha256": sesame.digest(self.eos.table)}
+                ] if self.eos.table else []
 
     def from_outside(self) -> list[Outside]:
         """Its models from outside. Raises ModelError if one is not trusted."""
@@ -345,10 +360,34 @@ def _solid(name: str) -> tuple[ModuleType, Outside | None]:
     models = outside.KINDS["eos"].models
     below = None if name in models else outside.from_package("eos", name)
     found = below.module if below else models.get(name)
-    if found is None or hasattr(found, "INTERNAL"):
-        plain = [each for each, module in models.items() if not hasattr(module, "INTERNAL")]
+    if found is None or not _is_plain(found):
+        plain = [each for each, module in models.items() if _is_plain(module)]
         raise ValueError(unknown("equation of state without memory", name, [*plain, *outside.in_packages("eos")]))
     return found, below
+
+
+def _is_plain(module: ModuleType) -> bool:
+    """Whether an equation of state has its parameters alone: no internal variables and no table."""
+    return not hasattr(module, "INTERNAL") and not hasattr(module, "FROM_TABLE")
+
+
+def _table(module: ModuleType, raw: dict, part: str, fail: Fail) -> tuple[str, str]:
+    """Text and name of the table that a part's model is made from; empty for a model that has none."""
+    from hydro2d.materials import sesame
+
+    if not hasattr(module, "FROM_TABLE"):
+        if "table_data" in raw or "table_from" in raw:
+            raise fail((part, "table"), f"{module.NAME} has no table")
+        return "", ""
+    text = raw.get("table_data")
+    if not isinstance(text, str):
+        raise fail((part,), f"{module.NAME} needs table, the name of a file with a table of the SESAME type 301")
+    name = str(raw.get("table_from", "table"))
+    try:
+        sesame.read(text)
+    except sesame.TableError as problem:
+        raise fail((part, "table"), f"{name}: {problem}") from None
+    return text, name
 
 
 def _parameters(module: ModuleType, raw: dict, part: str, fail: Fail) -> dict[str, Parameter]:
@@ -378,8 +417,9 @@ def _model(raw, part: str, default: str | None, eos: Mapping, fail: Fail, trust:
     if not trust and _has_strange_code(raw, part):
         return _unread(raw, part, fail)
     module, file, code = _chosen(raw, part, fail)
+    text, table_from = _table(module, raw, part, fail)
     numbers = _numbers(module.NAME, _parameters(module, raw, part, fail), raw, part, eos, fail)
-    return Model(module.NAME, numbers, file, code, solid=raw.get("solid", ""))
+    return Model(module.NAME, numbers, file, code, solid=raw.get("solid", ""), table=text, table_from=table_from)
 
 
 def _melting(raw, eos: Model, fail: Fail) -> dict[str, Number]:
@@ -516,6 +556,17 @@ class MaterialTable:
 
         return evaluate(self.eos_model[m], rho, e, self.virgin(m), self.eos_par[m])
 
+    def limits(self, m: int, rho: float) -> str:
+        """What the table of body m covers and which energies at a density, in words; empty where it has no table."""
+        from eos import cracked, layout
+
+        module = self.materials[m].eos.module("eos")
+        if not hasattr(module, "FROM_TABLE"):
+            return ""
+        par = self.eos_par[m][layout.SOLID_AT:] if self.eos_model[m] == cracked.ID else self.eos_par[m]
+        said, energies = f"{self.materials[m].eos.table_from} has {module.span(par)}", module.energies(rho, par)
+        return said + (f"; at {rho:.6g} kg/m^3 energies of {energies[0]:.6g} to {energies[1]:.6g} J/kg" if energies else "")
+
     def sound_speeds(self, floor: float = 0.0) -> np.ndarray:
         """Bulk sound speed of every material at rest, m/s, float64[m]; floor : least square of it, (m/s)^2."""
         from eos.dispatch import sound_speed_squared
@@ -533,9 +584,9 @@ class MaterialTable:
 
 
 def _row(module: ModuleType, model: Model, material: Material) -> np.ndarray:
-    over = model.over()
+    base = model.base()
     try:
-        return module.row(model.values, over) if over else module.row(model.values)
+        return module.row(model.values, base) if base else module.row(model.values)
     except ValueError as problem:
         raise DeckError(f"material {material.name}: {problem}") from None
 

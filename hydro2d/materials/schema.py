@@ -16,6 +16,13 @@ _SOLID = {
     "solid": {**_TEXT, "description": "the equation of state that the model stands over, for one that needs it; its parameters "
               "stand beside those of the model", "examples": ["mie-grueneisen"]},
 }
+_TABLE = {
+    "table": {**_TEXT, "description": "a file with a table of the SESAME type 301, relative to the deck, for a model that is "
+              "made from one", "examples": ["aluminium.301"]},
+    "table_data": {**_TEXT, "description": "the text of that file, which resolved decks hold instead of its name",
+                   "examples": ["3 3 0.1 0.2 0.3 0 300 600 ..."]},
+    "table_from": {**_TEXT, "description": "the name of that file", "examples": ["aluminium.301"]},
+}
 
 
 def definitions() -> dict[str, dict]:
@@ -47,7 +54,7 @@ def _part(kind: Kind) -> dict:
         "code": {**_TEXT, "description": "the text of that file, which resolved decks hold instead of its name",
                  "examples": ["NAME = 'my-model'"]},
         "code_from": {**_TEXT, "description": "the name of that file", "examples": ["my_model.py"]},
-        **(_SOLID if kind.part == "eos" else {}),
+        **({**_SOLID, **_TABLE} if kind.part == "eos" else {}),
         **_ABOUT,
         **{key: {**_QUANTITY, "x-unit": entries[0][1], "description": _meanings(entries)} for key, entries in known.items()},
     }

@@ -106,8 +106,9 @@ FREE_SECTIONS = ("name", "title", "stop", "output", "experiment", "derived")
 def check_same_deck(now: str, before: str) -> None:
     """Raises RunError if two resolved decks differ in anything on which the state depends."""
     now, before = (tomllib.loads(text) for text in (now, before))
-    new, old = ({table["model"]: table["code"] for _, table in model_tables(data) if table.pop("code_from", "")}
-                for data in (now, before))
+    new, old = ({**{table["model"]: table["code"] for _, table in model_tables(data) if table.pop("code_from", "")},
+                 **{f"{path[1]}, its table": table["table_data"] for path, table in model_tables(data)
+                    if table.pop("table_from", "")}} for data in (now, before))
     changed = sorted(
         key for key in now.keys() | before.keys() if key not in FREE_SECTIONS and now.get(key) != before.get(key)
     )
@@ -388,8 +389,9 @@ def deck_hash(text: str) -> str:
 
 
 def models_from_outside(deck) -> list[dict]:
-    """The models of a deck that are not part of hydro2d: kind, name, file and SHA-256."""
-    return [model.about() for material in deck.materials.values() for model in material.from_outside()]
+    """What of a deck's models is not part of hydro2d, code and tables: kind, name, file and SHA-256."""
+    return [about for material in deck.materials.values()
+            for about in (*(model.about() for model in material.from_outside()), *material.tables())]
 
 
 def experiment(deck) -> dict | None:

@@ -11,6 +11,7 @@ import numpy as np
 from hydro2d.errors import UnphysicalState
 from hydro2d.kernels import (
     acceleration,
+    boundaries,
     column_ranges,
     contact_motion,
     lagrangian_step,
@@ -67,6 +68,7 @@ class Cycle:
         self.constrained = np.where(method.boundaries.having("holds"), at, -1)
         along_z = zip(method.boundaries.edges[2:], self.constrained[2:].tolist(), strict=True)
         self._rows_that_hold = [(edge, j) for edge, j in along_z if j >= 0]
+        self._held = [(edge.sink, n // 2, -(n % 2)) for n, edge in enumerate(method.boundaries.edges) if edge.holds()]
         self.transmitting = np.where(method.boundaries.having("transmits"), at, -1)
         self.carried = fields.carried_rows([
             fields.carried(own, bool(strength), bool(damage)) for own, strength, damage in
@@ -98,6 +100,7 @@ class Cycle:
         self.choose_step()
 
         self.accelerate()
+        self.push()
         self.deform()
 
         directions = ((0, 1), (1, 0)) if self.number % 2 == 0 else ((1, 0), (0, 1))
@@ -228,10 +231,12 @@ class Cycle:
     def _report_bad(self, j: int) -> None:
         s, g = self.state, self.grid
         i, m = int(s.bad[j, 1]), int(s.bad[j, 2])
+        limits = self.table.limits(m, s.rho[m, j, i])
         raise UnphysicalState(
             f"cycle {self.number}, time {self.time:.6g} s, cell (r, z) = ({g.rc[i]:.6g}, {g.zc[j]:.6g}) m, body "
             f'"{self.table.names[m]}": volume fraction {s.vof[m, j, i]:.6g}, density {s.rho[m, j, i]:.6g} kg/m^3, energy '
-            f"{s.e[m, j, i]:.6g} J/kg, pressure {s.pm[m, j, i]:.6g} Pa ({int(s.bad[j, 0])} such cells in its row)")
+            f"{s.e[m, j, i]:.6g} J/kg, pressure {s.pm[m, j, i]:.6g} Pa ({int(s.bad[j, 0])} such cells in its row)"
+            + (f"; material {self.table.materials[m].name}: {limits}" if limits else ""))
 
     def choose_step(self) -> None:
         """The time step, with the cell and the term that set it."""
@@ -271,6 +276,13 @@ class Cycle:
         for edge, (momentum_taken, energy_taken) in zip(self.method.boundaries.edges, taken, strict=True):
             if momentum_taken != 0.0 or energy_taken != 0.0:
                 self.audit.add(edge.sink, momentum=momentum_taken, energy=energy_taken)
+
+    def push(self) -> None:
+        """What forces of sources do to the velocities in the step (explanation/lagrangian-step, forces from outside)."""
+        if self.sources.push(self.time, self.dt, self.audit, self._held):
+            s, g, (r_min, r_max, z_min, z_max) = self.state, self.grid, self.method.boundaries.having("mirrors")
+            boundaries.ghost_vertices_r(0, self._one_part, g.nr, r_min, r_max, s.u, s.v)
+            boundaries.ghost_vertices_z(0, self._one_part, 0, s.u.shape[2], g.nz, z_min, z_max, s.u, s.v)
 
     def deform(self) -> None:
         """Volumes that the faces sweep; work, volume, strain: body by body in pure cells, then the mixed cells."""

@@ -217,18 +217,24 @@ def _energy_for(body, table, m: int, rho: float, which: int, target: float) -> f
             break
         low, high, at_high = low - at_low * (high - low) / (at_high - at_low), low, at_low
         at_low = error(low)
-    if abs(at_low) > 1e-9 * abs(target) + 1e-6:
+    if not abs(at_low) <= 1e-9 * abs(target) + 1e-6:
         what = ("pressure", "", "", "temperature")[which]
-        raise DeckError(f'body "{body.name}": no energy gives a {what} of {target:g} at a density of {rho:g} kg/m^3')
+        limits = table.limits(m, rho)
+        raise DeckError(f'body "{body.name}": no energy gives a {what} of {target:g} at a density of {rho:g} kg/m^3'
+                        + (f"; {limits}" if limits else ""))
     return low
 
 
 def _refuse_unstable(body, table, m: int) -> None:
-    """Raises DeckError where the square of the speed of sound is negative at the start: such material is torn at once."""
+    """Raises DeckError where the square of the speed of sound is negative at the start, and such material is torn at once, and
+    where its table has no such state."""
     from eos.dispatch import sound_speed_squared
 
     rho, e = body_state(body, table, m)
     p, dpdrho, dpde, _ = table.evaluate(m, rho, e)
+    if math.isnan(p) and (limits := table.limits(m, rho)):
+        raise DeckError(f'body "{body.name}": cannot begin with a density of {rho:g} kg/m^3 and an energy of {e:g} J/kg: '
+                        f"{limits}")
     square = sound_speed_squared(rho, p, dpdrho, dpde, -math.inf)
     if square < 0.0:
         raise DeckError(f'body "{body.name}": cannot begin with a density of {rho:g} kg/m^3 and an energy of {e:g} J/kg; at '

@@ -193,14 +193,18 @@ def stagnation(material: Material, speed: float) -> tuple[float, float, float]:
 
 
 def _along_isentrope(material: Material, rho: float, e: float, step: float, ends) -> float:
-    """Energy where the pressure on an isentrope, de = p/rho d(ln rho), ends a walk in the logarithm of density, J/kg."""
+    """Energy where the pressure on an isentrope, de = p/rho d(ln rho), ends a walk in the logarithm of density, J/kg.
+
+    The walk ends as well where a table does, beyond which no run goes.
+    """
     farthest = FARTHEST if step > 0.0 else THINNEST
     for _ in range(round(farthest / abs(step))):
         p = material.evaluate(rho, e)[0]
-        if ends(p):
-            break
         half = rho * math.exp(0.5 * step)
-        e += step * material.evaluate(half, e + 0.5 * step * p / rho)[0] / half
+        in_middle = material.evaluate(half, e + 0.5 * step * p / rho)[0]
+        if ends(p) or math.isnan(p + in_middle):
+            break
+        e += step * in_middle / half
         rho *= math.exp(step)
     return e
 

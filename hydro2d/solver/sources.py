@@ -1,12 +1,14 @@
-"""The sources of a deck at work: what they give to the cells, and what the audit books of it."""
+"""The sources of a deck at work: what they give to cells and vertices, and what the audit books of it."""
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from functools import partial
 
 import numpy as np
 
 from hydro2d.mesh.fields import INTERNAL
+from hydro2d.mesh.grid import CM_IN, CM_OUT
 from hydro2d.solver.audit import Audit
 from hydro2d.sources.base import Reached
 
@@ -47,6 +49,17 @@ def arrival(grid, share: np.ndarray, points: np.ndarray, speed: float) -> np.nda
     return light
 
 
+def at_vertices(grid, cells: np.ndarray) -> np.ndarray:
+    """Sums at the vertices over their cells, by the shares of corner masses; float64[nz + 1, nr + 1] of float64[nz, nr]."""
+    columns = grid.inside[1]
+    inner, outer = cells * grid.metrics[CM_IN, columns], cells * grid.metrics[CM_OUT, columns]
+    found = np.zeros((cells.shape[0] + 1, cells.shape[1] + 1))
+    for rows in (slice(None, -1), slice(1, None)):
+        found[rows, :-1] += inner
+        found[rows, 1:] += outer
+    return found
+
+
 class Sources:
     """What the sources of a deck do to a state.
 
@@ -85,6 +98,8 @@ class Sources:
         s, grid = self.state, self.state.grid
         for entry, m in self._all:
             heat = entry.heat(grid, time, dt)
+            if heat is None:
+                continue
             vof, rho, e = (grid.interior(array[m]) for array in (s.vof, s.rho, s.e))
             there = vof > 0.0
             before = np.where(there, e, 0.0)
@@ -92,6 +107,45 @@ class Sources:
             gained = np.where(there, e, 0.0) - before  # what the sum has kept of it, to the last bit
             audit.add(entry.name, energy=-float(np.sum(vof * rho * grid.interior(grid.volume) * gained)))
             self.given[m] += float(np.abs(heat).max(initial=0.0))
+
+    def push(self, time: float, dt: float, audit: Audit, held: Iterable[tuple[str, int, int]]) -> bool:
+        """Gives the vertices the velocity that sources add from ``time`` to ``time + dt``, and books it. Whether any did.
+
+        The material of a cell gains it, and a vertex moves with what its cells hold: its velocity changes by the impulse of
+        the corner masses over its mass. An edge that holds its vertices takes their impulse. The work of an impulse is that at
+        the mean of the velocities at the start and at the end of the step, as of the other forces.
+
+        held : (sink, component, index) of the edges that hold: 0 for their columns and radial velocities, 1 for rows and axial
+        ones;  index of the first or the last among the vertices of the mesh
+        """
+        s, grid = self.state, self.state.grid
+        gains = [(entry.name, m, gain) for entry, m in self._all if (gain := entry.push(grid, time, dt)) is not None]
+        for component, (start, end) in enumerate(((s.u0, s.u), (s.v0, s.v))):
+            pushes = []
+            for name, m, gain in gains:
+                impulse = at_vertices(grid, grid.interior(s.vof[m] * s.rho[m] * grid.volume) * gain[component])
+                taken = [(sink, line, impulse[line].copy()) for sink, of, index in held if of == component
+                         for line in [(slice(None), index) if component == 0 else (index, slice(None))]]
+                for _, line, _ in taken:
+                    impulse[line] = 0.0
+                g = s.group[m]
+                mass, velocity = grid.interior_vertices(s.mass[g]), grid.interior_vertices(end[g])
+                before = velocity.copy()
+                velocity += np.divide(impulse, mass, out=np.zeros_like(mass), where=mass > 0.0)
+                pushes.append((name, g, mass * (velocity - before), taken))  # as it is stored
+            for name, g, impulse, taken in pushes:
+                mean = 0.5 * (grid.interior_vertices(start[g]) + grid.interior_vertices(end[g]))
+                momentum, energy = component * float(impulse.sum()), float((impulse * mean).sum())
+                for sink, line, lost in taken:
+                    part, work = component * float(lost.sum()), float((lost * mean[line]).sum())
+                    momentum, energy = momentum + part, energy + work
+                    audit.add(sink, momentum=part, energy=work)
+                audit.add(name, momentum=-momentum, energy=-energy)
+                mass = grid.interior_vertices(s.mass[g])
+                gained = np.divide(impulse, mass, out=np.zeros_like(mass), where=mass > 0.0)
+                work = np.maximum(np.abs(gained * mean), 0.5 * gained**2)  # at least what it would do alone
+                self.given += float(work.max(initial=0.0))  # what is pushed may meet any of the others
+        return bool(gains)
 
     def saved(self) -> list[float]:
         """What a restart file keeps."""

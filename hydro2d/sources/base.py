@@ -53,9 +53,19 @@ class Source(Section):
         """Sets what the material of the body needs before the first step; most kinds need nothing. Returns warnings."""
         return []
 
-    def heat(self, grid, time: float, dt: float) -> np.ndarray:
-        """Energy that the body's material gains from ``time`` to ``time + dt`` in every cell, J/kg, float64[nz, nr]."""
-        raise NotImplementedError(f"{type(self).__name__} does not say what it gives")
+    def heat(self, grid, time: float, dt: float) -> np.ndarray | None:
+        """Energy that the body's material gains from ``time`` to ``time + dt`` in every cell, J/kg, float64[nz, nr].
+
+        None from a kind that does not heat.
+        """
+        return None
+
+    def push(self, grid, time: float, dt: float) -> np.ndarray | None:
+        """Velocity that the body's material gains by a force per mass from ``time`` to ``time + dt`` in every cell.
+
+        float64[2, nz, nr], m/s, radial and axial; None from a kind that does not push.
+        """
+        return None
 
 
 def _overlap(edges: np.ndarray, reach) -> np.ndarray:

@@ -88,10 +88,6 @@ class Detonation(Source):
         return [f'source "{self.name}": no detonation reaches {dark:.2%} of body "{self.body}", which does not burn'
                 ] if dark > 0.0 else []
 
-    def heat(self, grid, time: float, dt: float) -> np.ndarray:
-        """Nothing, float64[nz, nr]: the explosive has its energy."""
-        return np.zeros((grid.nz, grid.nr))
-
     @staticmethod
     def _holds(grid, share: np.ndarray, r: float, z: float) -> bool:
         """Whether one of the cells that the point lies in, or on the edge of, has some of the body."""

@@ -5,12 +5,14 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from hydro2d.deck.base import one_of
+from hydro2d.sources.acceleration import Acceleration
 from hydro2d.sources.base import Source
 from hydro2d.sources.detonation import Detonation
 from hydro2d.sources.heating import Heating
 
 KINDS: dict[str, type[Source]] = {
     "heating": Heating,
+    "acceleration": Acceleration,
     "detonation": Detonation,
 }
 

@@ -7,7 +7,7 @@ import pytest
 
 import eos
 import strength
-from hydro2d.materials import contract
+from hydro2d.materials import contract, tabulate
 from hydro2d.materials.outside import KINDS
 from hydro2d.parameters import POSITIVE, REQUIRED, Parameter
 from strength import dispatch, tensile_pressure
@@ -39,9 +39,18 @@ EOS_CASES = {
     "johnson-holmquist": (CERAMIC, np.linspace(0.95, 1.5, 12), (0.0, 1e5, 3e6)),
     "jwl": (EXPLOSIVE, np.linspace(0.95, 1.5, 12), (0.0, 4.29e6, 7e6)),
     "tillotson": (TILLOTSON, np.linspace(0.95, 2.0, 22), (0.0, 1e5, 2.9e6)),
+    "tabular": ({"reference_density": 2770.0}, np.linspace(0.95, 2.0, 22), (0.0, 1e5, 3e6)),
 }
-#: what a model stands over
-SOLIDS = {"p-alpha": eos.MODELS["mie-grueneisen"]}
+
+
+def tabulated():
+    """A table of SOLID in fine steps."""
+    density, temperature = tabulate.points(0.9 * 2770.0, 2770.0, 2.2 * 2770.0, 201), tabulate.temperatures(298.0, 2e4, 101)
+    return tabulate.table_of("aluminium", eos.MODELS["mie-grueneisen"], SOLID, density, temperature)
+
+
+#: what a row is made from beside the parameters: the solid that a model stands over, a table
+BASES = {"p-alpha": eos.MODELS["mie-grueneisen"], "tabular": tabulated()}
 
 G, Y = 26e9, 0.3e9
 
@@ -117,7 +126,7 @@ DAMAGE_CASES = {
 def cases_of(part):
     """Every registered model of a part of a material, with its case."""
     if part == "eos":
-        return [contract.Case(KINDS[part], eos.MODELS[name], values, tuple(ratios), energies, solid=SOLIDS.get(name))
+        return [contract.Case(KINDS[part], eos.MODELS[name], values, tuple(ratios), energies, base=BASES.get(name))
                 for name, (values, ratios, energies) in EOS_CASES.items()]
     if part == "damage":
         return [contract.Case(KINDS[part], strength.DAMAGE_MODELS[name], values) for name, values in DAMAGE_CASES.items()]
@@ -165,7 +174,7 @@ def spoilt(part, name, **functions):
     """A case of a model some of whose functions or constants are others."""
     case = next(case for case in cases_of(part) if case.module.NAME == name)
     module = types.SimpleNamespace(**{**vars(case.module), **functions})
-    return contract.Case(case.kind, module, case.values, case.densities, case.energies, case.constant, case.solid)
+    return contract.Case(case.kind, module, case.values, case.densities, case.energies, case.constant, case.base)
 
 
 def gas(rho=0.0, e=0.0, p=0.0, slope=1.0, T=1.0):

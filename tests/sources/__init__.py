@@ -1,1 +1,1 @@
-"""Sources of energy, one kind at a time."""
+"""Sources of energy and momentum, one kind at a time."""

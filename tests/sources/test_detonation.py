@@ -85,7 +85,7 @@ def test_the_reach_limits_what_is_lit():
     ("source.fuse.points=[[0, 0, 0], [0, 0, -1e-6]]", "the time of row 1 must not be negative"),
     ("source.fuse.speed=0", "must be positive"),
     ("body.charge.energy=1e6", r"body\[1\].energy: would replace the energy of the detonation"),
-    ("source.fuse.kind=burn", r"unknown kind .burn. \(allowed: detonation, heating\)"),
+    ("source.fuse.kind=burn", r"unknown kind .burn. \(allowed: acceleration, detonation, heating\)"),
 ])  # fmt: skip
 def test_wrong_tables(override, words):
     with pytest.raises(DeckError, match=words):

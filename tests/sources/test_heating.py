@@ -50,7 +50,7 @@ def test_the_value_of_a_table(time, expected):
 
 
 @pytest.mark.parametrize(("override", "words"), [
-    ('source.beam.kind="burn"', r"source\[0\].kind: unknown kind .burn. \(allowed: detonation, heating\)"),
+    ('source.beam.kind="burn"', r"source\[0\].kind: unknown kind .burn. \(allowed: acceleration, detonation, heating\)"),
     ('source.beam.body="plat"', "unknown body .plat.; did you mean"),
     ('source.beam.name="walls"', "is that of a sink of the audit"),
     ("source.beam.power=[[0, 1]]", "expected a table of 2 to 100000 rows"),

@@ -1,0 +1,223 @@
+"""Forces per mass: free fall, hydrostatic pressure, what audits say of them, walls, two bodies, restarts."""
+
+import numpy as np
+import pytest
+
+from hydro2d.deck import deck
+from hydro2d.errors import DeckError
+from hydro2d.materials import library
+from hydro2d.solver.simulation import Simulation
+
+G = -2e8
+FALL = """
+[mesh]
+geometry = "planar"
+r = [{ to = "2 mm", cells = 4 }]
+z = [{ to = "20 mm", cells = 40 }]
+[boundaries]
+r_max = "wall"
+[[body]]
+name = "plate"
+material = "Al5083"
+shape = "plate"
+z_front = "12 mm"
+thickness = "5 mm"
+velocity = "100 m/s"
+[[source]]
+name = "gravity"
+kind = "acceleration"
+body = "plate"
+axial = -2e8
+[stop]
+time = "6 us"
+"""
+
+
+def face(simulation):
+    """Height of the lower face of the plate."""
+    grid = simulation.grid
+    share, edges = grid.interior(simulation.state.vof)[0, :, 1], grid.z_edges
+    middle = int(np.argmax(share == 1.0)) + 2
+    return edges[middle] - (share[:middle] * np.diff(edges)[:middle]).sum()
+
+
+@pytest.mark.parametrize("advection", ["ke", "momentum", "both"])
+def test_free_fall_is_exact(advection):
+    """Velocity v0 + g t and place v0 t + g t^2/2, no stress and no heat; the source's impulse is M g t and its work M g h."""
+    simulation = Simulation(deck.loads(FALL, [f'numerics.advection="{advection}"']))
+    simulation.run()
+    t, mass = simulation.time, simulation.audit.start.mass.sum()
+    v = 100.0 + G * t
+    moving = simulation.grid.interior_vertices(simulation.state.mass[0]) > 1e-6 * simulation.state.mass.max()
+    np.testing.assert_allclose(simulation.grid.interior_vertices(simulation.state.v[0])[moving], v, rtol=1e-9)
+    assert face(simulation) == pytest.approx(12e-3 + 100.0 * t + 0.5 * G * t * t, abs=1e-9)
+    assert abs(simulation.grid.interior(simulation.state.e)).max() < 1e-6 * 0.5 * v * v
+    found, sink = simulation.conservation(), simulation.audit.sinks["gravity"]
+    assert abs(found["total_energy"]) < 1e-12
+    assert abs(found["axial_momentum"]) < 1e-12
+    assert sink.momentum == pytest.approx(-mass * G * t, rel=1e-12)
+    assert sink.energy == pytest.approx(-0.5 * mass * (v**2 - 100.0**2), rel=1e-9)
+    assert simulation.doubts() == []
+
+
+def test_a_table_gives_its_integral():
+    simulation = Simulation(deck.loads(FALL.replace("axial = -2e8", 'axial = [["1 us", 0], ["2 us", "2e8 m/s^2"]]')))
+    simulation.run()
+    v = simulation.grid.interior_vertices(simulation.state.v[0])
+    assert v[28] == pytest.approx(100.0 + 100.0, rel=1e-9)
+
+
+def test_what_is_not_within_reach_is_not_pushed():
+    """A source over the lower half of the plate gives half of the momentum."""
+    lower_half = ['source.gravity.z=["0 mm", "14.5 mm"]', 'stop.time="0.1 us"', "body.plate.velocity=0"]
+    simulation = Simulation(deck.loads(FALL, lower_half))
+    simulation.run()
+    momentum = -simulation.audit.sinks["gravity"].momentum
+    assert momentum == pytest.approx(0.5 * simulation.audit.start.mass.sum() * G * simulation.time, rel=1e-3)
+    assert abs(simulation.conservation()["axial_momentum"]) < 1e-12
+
+
+@pytest.mark.parametrize(("override", "words"), [
+    ("source.gravity.axial=[[0, 1]]", "expected a table of 2 to 100000 rows"),
+    ('source.gravity.axial="3 m/s"', r"is a speed; expected an acceleration|expected .*m/s\^2"),
+    ("source.gravity.kind=gravity", r"unknown kind .gravity. \(allowed: acceleration, detonation, heating\)"),
+    ("source.gravity.axle=1", 'unknown key "axle"; did you mean "axial"'),
+])  # fmt: skip
+def test_wrong_tables(override, words):
+    with pytest.raises(DeckError, match=words):
+        deck.loads(FALL, [override])
+
+
+# ------------------------------------------------------------------------------------------------ a column at rest
+
+#: cells, their height, and the material of the column
+N, H = 20, 0.5e-3
+#: its energy at the start, J/kg: with none, what round-off changes would be more than all there is
+ENERGY = 1e3
+
+
+def density_at(material, p):
+    """The density at a pressure and the energy of the column, kg/m^3."""
+    from scipy.optimize import brentq
+
+    module, values = material.eos.module("eos"), material.eos.values
+    par, rest = module.row(values), material.reference_density
+    return brentq(lambda rho: module.evaluate(rho, ENERGY, par)[0] - p, 0.9 * rest, 1.5 * rest, xtol=1e-13, rtol=1e-15)
+
+
+def column(names):
+    """Densities from the top down in which every vertex is in balance: its half cells weigh what the pressure differs by."""
+    found, p = [], 0.0
+    weight = 0.0  # of the half cell above
+    for name in names:
+        material = library.load(name)
+        rho = material.reference_density
+        for _ in range(60):
+            rho = density_at(material, p + weight - 0.5 * G * H * rho)
+        p, weight = p + weight - 0.5 * G * H * rho, -0.5 * G * H * rho
+        found.append((rho, p))
+    return found
+
+
+def standing(names, extra=""):
+    """A deck of a column of cells, of the materials given from the top down, on a wall."""
+    text = f"""
+[mesh]
+geometry = "planar"
+r = [{{ to = "2 mm", cells = 4 }}]
+z = [{{ to = "{N + 4} mm", size = "{H * 1e3} mm" }}]
+[boundaries]
+r_max = "wall"
+z_min = "wall"
+[failure]
+tensile = "none"
+[stop]
+time = "20 us"
+{extra}
+"""
+    first = {}
+    for k, (name, (rho, _)) in enumerate(zip(names, column(names), strict=True)):
+        join = f'join = "{first[name]}"' if name in first else ""
+        first.setdefault(name, f"b{k}")
+        low = (N - 1 - k) * H
+        text += f"""
+[[body]]
+name = "b{k}"
+material = "{name}_fluid"
+shape = "plate"
+z_front = {low!r}
+thickness = {H!r}
+density = {rho!r}
+energy = {ENERGY!r}
+{join}
+"""
+    for name, body in first.items():
+        text += f"""
+[materials.{name}_fluid]
+based_on = "{name}"
+strength.model = "hydrodynamic"
+[[source]]
+name = "gravity on {name}"
+kind = "acceleration"
+body = "{body}"
+axial = {G}
+"""
+    return text
+
+
+@pytest.mark.parametrize("names", [["Al5083"] * N, ["Al5083"] * (N // 2) + ["copper_OFHC"] * (N // 2)])
+def test_a_column_at_rest_keeps_its_hydrostatic_pressure(names):
+    """Ten transit times of sound, to round-off; walls take the impulse that gravity gives."""
+    simulation = Simulation(deck.loads(standing(names)))
+    simulation.run()
+    expected = [p for _, p in reversed(column(names))]
+    pressure = simulation.grid.interior(simulation.state.p)[:N, 1]
+    np.testing.assert_allclose(pressure, expected, rtol=1e-6)
+    assert abs(simulation.state.v).max() < 1e-6
+    found, sinks = simulation.conservation(), simulation.audit.sinks
+    weight = simulation.audit.start.mass.sum() * G * simulation.time
+    given = sum(sinks[f"gravity on {name}"].momentum for name in set(names))
+    assert given == pytest.approx(-weight, rel=1e-12)
+    assert sinks["walls"].momentum == pytest.approx(weight, rel=1e-12)  # the momentum of the column itself is round-off
+    assert abs(found["total_energy"]) < 1e-12
+    assert simulation.doubts() == []
+
+
+def test_without_the_source_the_same_column_rises():
+    """The check above can fail: without its weight the column springs up."""
+    text = standing(["Al5083"] * N)
+    simulation = Simulation(deck.loads(text[: text.index("[[source]]")]))
+    for _ in range(20):
+        simulation.step()
+    assert abs(simulation.state.v).max() > 1.0
+
+
+def test_a_force_is_refused_beside_a_contact():
+    """The contact has booked its work before the force acts."""
+    contact = FALL + """
+[[body]]
+name = "ball"
+material = "W_alloy"
+shape = "sphere"
+radius = "1 mm"
+centre = "-10 mm"
+[sliding]
+method = "contact"
+hard = ["ball"]
+"""
+    with pytest.raises(DeckError, match='"acceleration" is a force, which cannot act beside method = "contact"'):
+        deck.loads(contact)
+
+
+def test_a_restart_goes_on_falling_to_the_same_bits():
+    first, second = (Simulation(deck.loads(FALL)) for _ in range(2))
+    while first.time < 2e-6:
+        first.step()
+    second.load_restart_arrays({name: array.copy() for name, array in first.restart_arrays().items()})
+    second.load_restart_scalars(first.restart_scalars())
+    for _ in range(5):
+        first.step()
+        second.step()
+    for name in ("q", "v"):
+        np.testing.assert_array_equal(getattr(second.state, name), getattr(first.state, name))
+    assert second.audit.sinks["gravity"].energy == first.audit.sinks["gravity"].energy
