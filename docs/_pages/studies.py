@@ -16,9 +16,10 @@ from hydro2d.study import cases
 from hydro2d.toml import is_study, problems_folder
 
 #: columns of kept results that are no axes begin with the first of these
-FIRST = ("nose", "slenderness", "status")
+FIRST = ("nose", "slenderness", "status", "member")
 #: columns of what a run gave, and what the axis of the chart says
-VALUES = {"depth_cm": "depth [cm]", "depth_over_length": "depth / length", "value": "number of the shot / its median"}
+VALUES = {"depth_cm": "depth [cm]", "depth_over_length": "depth / length", "value": "number of the shot / its median",
+          "force_GPa": "force over the section [GPa]"}
 #: studies whose picture is another page's: (picture, the command that draws it)
 OTHERS = {
     "weldox_velocities": ("weldox.png", "python -m problems.perforation.residual runs/weldox_velocities --figure weldox.png"),

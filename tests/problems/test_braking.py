@@ -1,0 +1,70 @@
+"""What brakes a rod in its first 90 us: how a run is read, and the tables of the page."""
+
+import numpy as np
+import pytest
+
+from hydro2d.study import cases
+from problems.cth_nose_shape import braking
+from tests.rules import source
+
+PAGE = source.ROOT / "docs/explanation/rigid-rod.md"
+
+
+def test_stresses_are_means_over_the_rods_own_section():
+    """Cells count by the volume of the rod in them, between 5 and 10 mm behind the tip, and nowhere else."""
+    r_edges, z_edges = np.array([0.0, 1e-3, 2e-3]), np.linspace(0.0, 20e-3, 21)
+    fraction = np.zeros((20, 2))
+    fraction[:15, 0], fraction[:15, 1] = 1.0, 0.5
+    axial, lateral = np.full((20, 2), 9e9), np.full((20, 2), 9e9)
+    axial[5:10] = 1e9, 3e9
+    lateral[5:10] = 0.5e9, 0.0
+    found = braking.section(r_edges, z_edges, fraction, axial, lateral)
+    assert found == pytest.approx(((1.0 * 1e9 + 1.5 * 3e9) / 2.5, 1.0 * 0.5e9 / 2.5))
+    with pytest.raises(ValueError, match="no rod on the axis"):
+        braking.section(r_edges, z_edges, 0.0 * fraction, axial, lateral)
+
+
+def test_members_are_told_by_their_median_and_ends():
+    rows = [{"length_mm": each} for each in ("96.53", "96.74", "96.60")]
+    assert braking.told(rows, "length_mm") == "96.60 (96.53 to 96.74)"
+    assert braking.told(rows[:1], "length_mm") == "96.53"
+
+
+def test_the_tables_of_the_page_are_those_of_the_kept_results():
+    page = PAGE.read_text(encoding="utf-8").splitlines()
+    for rows in (braking.rods(braking.kept("first_90us")), braking.forces(braking.kept("nose_force"))):
+        assert [line for line in page if line in rows[2:]] == rows[2:]
+
+
+def lengths(rod, cells):
+    """The lengths of the members of a rod on a mesh at 90 us, mm."""
+    return [float(row["length_mm"]) for row in braking.kept("first_90us") if (row["rod"], row["cells"]) == (rod, cells)]
+
+
+def test_what_the_page_says_of_the_meshes():
+    """A rod that the force does not overcome is as long on every mesh; one that it does is shorter on the finer ones."""
+    for rod, most in (("undeformable", 0.1), ("plastic", 0.1), ("no-rate", 0.25)):
+        assert np.ptp([float(np.median(lengths(rod, cells))) for cells in ("8.5", "12.5", "16.5")]) < most
+    assert min(lengths("sintered", "8.5")) > max(lengths("sintered", "12.5") + lengths("sintered", "16.5"))
+    assert np.ptp(lengths("sintered", "12.5")) > 0.3
+
+
+def test_what_the_page_says_of_the_force():
+    """It grows by some per cent over 500 m/s, in either plate."""
+    for plate, share in (("5083", 1.07), ("7039", 1.05)):
+        force = [float(row["force_GPa"]) for row in braking.kept("nose_force") if row["plate"] == plate]
+        assert force[-1] / force[0] == pytest.approx(share, abs=0.01)
+
+
+@pytest.mark.parametrize("study", sorted(braking.STUDIES))
+def test_kept_rows_are_cases_of_their_study(study):
+    plan = cases.plan(source.PROBLEMS / f"cth_nose_shape/{study}.toml", quiet=True)
+    labels, kept = braking.STUDIES[study], braking.kept(study)
+    found = [(*(row[label] for label in labels), row["member"]) for row in kept]
+    assert len(set(found)) == len(found) > 0
+    assert set(found) <= {(*(case.values[label] for label in labels), str(case.member)) for case in plan.cases}
+
+
+def test_a_directory_of_another_study_is_refused(tmp_path, capsys):
+    assert braking.main([str(tmp_path)]) == 2
+    assert str(tmp_path) in capsys.readouterr().err
