@@ -25,7 +25,7 @@ import importlib.util  # noqa: E402
 from pathlib import Path  # noqa: E402
 from typing import TYPE_CHECKING  # noqa: E402
 
-__version__ = "0.2.0"
+__version__ = "0.3.0"
 
 if TYPE_CHECKING:
     from hydro2d.api import Study, open_run, open_study, run, sweep
