@@ -254,8 +254,11 @@ def test_names_of_commands_exist(page):
 
 @pytest.mark.parametrize("page", with_kind("toml"))
 def test_toml_of_the_text_is_valid(page, folder):
-    """Beside the decks of the nose shapes; what is not whole is laid over a deck or a search."""
+    """Beside the decks of the nose shapes and the tables of the page; what is not whole is laid over a deck or a search."""
     folder(page)
+    for _, _, text in of_kind(page, "sh"):
+        if text.startswith("hydro2d tabulate "):
+            assert run(text.replace(" -o ", " -o problems/cth_nose_shape/")) == 0
     for line, _, text in of_kind(page, "toml"):
         data, file = tomllib.loads(text), Path(f"problems/cth_nose_shape/line_{line}.toml")
         if {"transition", "ensemble"} & set(data) and "deck" not in data:
