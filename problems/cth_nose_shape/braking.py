@@ -117,13 +117,15 @@ def rods(rows: list[dict[str, str]]) -> list[str]:
 
 
 def forces(rows: list[dict[str, str]]) -> list[str]:
-    """Lines of Markdown: a row for each plate, the force and the pressure on the flank at each velocity."""
+    """Lines of Markdown: for each plate the force, the pressure on the flank and their difference at each velocity."""
     velocities = list(dict.fromkeys(row["velocity"] for row in rows))
     lines = ["| GPa | " + " | ".join(velocities) + " |", "|---" * (len(velocities) + 1) + "|"]
     for plate in dict.fromkeys(row["plate"] for row in rows):
-        for column, word in (("force_GPa", "force over the section"), ("lateral_GPa", "pressure on the flank")):
-            found = {row["velocity"]: row[column] for row in rows if row["plate"] == plate}
-            lines.append(f"| {plate}, {word} | " + " | ".join(found.get(each, "") for each in velocities) + " |")
+        here = {row["velocity"]: row for row in rows if row["plate"] == plate}
+        force, flank = ({at: float(row[name]) for at, row in here.items()} for name in ("force_GPa", "lateral_GPa"))
+        left = {at: force[at] - flank[at] for at in here}
+        for word, found in (("force over the section", force), ("pressure on the flank", flank), ("difference", left)):
+            lines.append(f"| {plate}, {word} | " + " | ".join(f"{found[at]:.2f}" for at in velocities) + " |")
     return lines
 
 
