@@ -14,6 +14,8 @@ deviator_power = plasticity.deviator_power.py_func
 carries_no_stress = plasticity.carries_no_stress.py_func
 take_internal = plasticity.take_internal.py_func
 keep_internal = plasticity.keep_internal.py_func
+forget = plasticity.forget.py_func
+is_fluid = plasticity.is_fluid.py_func
 from_centre = plasticity.from_centre.py_func
 returned = plasticity.returned.py_func
 
@@ -74,6 +76,19 @@ def test_internal_variables_go_out_and_back():
     keep_internal(1, 0, 2, HARDENS.ID, internal, q)
     before[INTERNAL:, 1, 0, 2] += 0.5
     np.testing.assert_array_equal(q, before)
+
+
+def test_a_melt_forgets_its_back_stress_and_no_other_cell_does():
+    q = np.arange(1.0, 1.0 + 2.0 * (INTERNAL + 3) * 6).reshape(INTERNAL + 3, 2, 2, 3)
+    before = q.copy()
+    forget(1, 0, 2, HARDENS.ID, q, np.zeros(3))
+    before[INTERNAL:, 1, 0, 2] = 0.0
+    np.testing.assert_array_equal(q, before)
+
+
+@pytest.mark.parametrize(("modulus", "fluid"), [(26e9, False), (1e-300, False), (0.0, True), (-1.0, True), (np.nan, False)])
+def test_what_has_no_shear_modulus_is_a_fluid(modulus, fluid):
+    assert is_fluid(modulus) == fluid
 
 
 def test_a_model_without_internal_variables_touches_none():

@@ -93,7 +93,7 @@ class Reach:
     def _meets_itself(self) -> bool:
         """Whether a body may meet a wall, an edge with a velocity, the axis, or parts of itself."""
         edge = self.deck.boundaries
-        held = any(getattr(edge, key) in ("wall", "velocity") for key in ("r_min", "r_max", "z_min", "z_max"))
+        held = any(getattr(edge, key) in ("wall", "velocity", "piston") for key in ("r_min", "r_max", "z_min", "z_max"))
         return held or self.converges or any(body.join is not None for body in self.deck.body)
 
     def _limits(self, m: int, starts, table) -> Limits:
@@ -114,7 +114,7 @@ class Reach:
 
 
 def _speeds(simulation) -> np.ndarray:
-    """Velocities [n, 2] of all bodies, of walls and of edges with a velocity, m/s."""
+    """Velocities [n, 2] of all bodies, of walls, of edges with a velocity and of pistons, m/s."""
     grid, edges = simulation.grid, simulation.engine.method.boundaries
     rows, columns = grid.inside
     r, z = np.meshgrid(grid.rc[columns], grid.zc[rows])
@@ -122,6 +122,6 @@ def _speeds(simulation) -> np.ndarray:
     for body in simulation.deck.body:
         u, v = insertion.body_velocity(body, r, z)
         found += [(x, y) for x in (u.min(), u.max()) for y in (v.min(), v.max())]
-    if edges.velocity.any():
-        found += [(edges.velocity[0], 0.0), (edges.velocity[1], 0.0), (0.0, edges.velocity[2]), (0.0, edges.velocity[3])]
+    for n, edge in enumerate(edges.edges):
+        found += [(speed, 0.0) if n < 2 else (0.0, speed) for speed in edge.speeds() if speed]
     return np.array(found)
