@@ -68,7 +68,8 @@ class Cycle:
         self.constrained = np.where(method.boundaries.having("holds"), at, -1)
         along_z = zip(method.boundaries.edges[2:], self.constrained[2:].tolist(), strict=True)
         self._rows_that_hold = [(edge, j) for edge, j in along_z if j >= 0]
-        self._held = [(edge.sink, n // 2, -(n % 2)) for n, edge in enumerate(method.boundaries.edges) if edge.holds()]
+        lines = np.s_[:, 0], np.s_[:, -1], np.s_[0, :], np.s_[-1, :]
+        self._held = [(edge.sink, n // 2, lines[n]) for n, edge in enumerate(method.boundaries.edges) if edge.holds()]
         self.transmitting = np.where(method.boundaries.having("transmits"), at, -1)
         self.carried = fields.carried_rows([
             fields.carried(own, bool(strength), bool(damage)) for own, strength, damage in

@@ -108,15 +108,15 @@ class Sources:
             audit.add(entry.name, energy=-float(np.sum(vof * rho * grid.interior(grid.volume) * gained)))
             self.given[m] += float(np.abs(heat).max(initial=0.0))
 
-    def push(self, time: float, dt: float, audit: Audit, held: Iterable[tuple[str, int, int]]) -> bool:
+    def push(self, time: float, dt: float, audit: Audit, held: Iterable[tuple[str, int, tuple]]) -> bool:
         """Gives the vertices the velocity that sources add from ``time`` to ``time + dt``, and books it. Whether any did.
 
         The material of a cell gains it, and a vertex moves with what its cells hold: its velocity changes by the impulse of
         the corner masses over its mass. An edge that holds its vertices takes their impulse. The work of an impulse is that at
         the mean of the velocities at the start and at the end of the step, as of the other forces.
 
-        held : (sink, component, index) of the edges that hold: 0 for their columns and radial velocities, 1 for rows and axial
-        ones;  index of the first or the last among the vertices of the mesh
+        held : (sink, component, line) of the edges that hold: 0 for radial velocities and 1 for axial ones;  index of their
+        vertices among those of the mesh
         """
         s, grid = self.state, self.state.grid
         gains = [(entry.name, m, gain) for entry, m in self._all if (gain := entry.push(grid, time, dt)) is not None]
@@ -124,25 +124,23 @@ class Sources:
             pushes = []
             for name, m, gain in gains:
                 impulse = at_vertices(grid, grid.interior(s.vof[m] * s.rho[m] * grid.volume) * gain[component])
-                taken = [(sink, line, impulse[line].copy()) for sink, of, index in held if of == component
-                         for line in [(slice(None), index) if component == 0 else (index, slice(None))]]
+                taken = [(sink, line, impulse[line].copy()) for sink, of, line in held if of == component]
                 for _, line, _ in taken:
                     impulse[line] = 0.0
                 g = s.group[m]
                 mass, velocity = grid.interior_vertices(s.mass[g]), grid.interior_vertices(end[g])
                 before = velocity.copy()
                 velocity += np.divide(impulse, mass, out=np.zeros_like(mass), where=mass > 0.0)
-                pushes.append((name, g, mass * (velocity - before), taken))  # as it is stored
-            for name, g, impulse, taken in pushes:
+                pushes.append((name, g, mass, velocity - before, taken))  # as it is stored
+            for name, g, mass, gained, taken in pushes:
                 mean = 0.5 * (grid.interior_vertices(start[g]) + grid.interior_vertices(end[g]))
+                impulse = mass * gained
                 momentum, energy = component * float(impulse.sum()), float((impulse * mean).sum())
                 for sink, line, lost in taken:
                     part, work = component * float(lost.sum()), float((lost * mean[line]).sum())
                     momentum, energy = momentum + part, energy + work
                     audit.add(sink, momentum=part, energy=work)
                 audit.add(name, momentum=-momentum, energy=-energy)
-                mass = grid.interior_vertices(s.mass[g])
-                gained = np.divide(impulse, mass, out=np.zeros_like(mass), where=mass > 0.0)
                 work = np.maximum(np.abs(gained * mean), 0.5 * gained**2)  # at least what it would do alone
                 self.given += float(work.max(initial=0.0))  # what is pushed may meet any of the others
         return bool(gains)

@@ -125,7 +125,8 @@ def forces(rows: list[dict[str, str]]) -> list[str]:
         force, flank = ({at: float(row[name]) for at, row in here.items()} for name in ("force_GPa", "lateral_GPa"))
         left = {at: force[at] - flank[at] for at in here}
         for word, found in (("force over the section", force), ("pressure on the flank", flank), ("difference", left)):
-            lines.append(f"| {plate}, {word} | " + " | ".join(f"{found[at]:.2f}" for at in velocities) + " |")
+            cells = [f"{found[at]:.2f}" if at in found else "" for at in velocities]
+            lines.append(f"| {plate}, {word} | " + " | ".join(cells) + " |")
     return lines
 
 
