@@ -21,6 +21,8 @@ ENOUGH = 1e-3
 SPAN = 2 * REACH + 1
 MASTERS = SPAN * SPAN
 TIED = MASTERS
+#: by how much two nodes let go that are tied to each other and have no other masters
+SLACK = 1e-3
 
 
 @point
@@ -149,6 +151,13 @@ def extend_vertices(x, g, j, i, reach, inward_r, inward_z, mesh_box, factor, fil
     return smoothstep(whole / ENOUGH)
 
 
+@point
+def tied_weight(x, g, number, where, weights):
+    """Weight that the other group's velocity at its node has for the slave of group g in slot x."""
+    last = number[x, g] - 1
+    return weights[x, g, last] if last >= 0 and where[x, g, last] == TIED else 0.0
+
+
 @kernel
 def find_extensions(part, parts, mesh_box, most_squares, r, z, count, contact_nodes, first, normal, hard, soft, filled, group,
                     vof, dmg, strength, number, where, weights):
@@ -156,7 +165,8 @@ def find_extensions(part, parts, mesh_box, most_squares, r, z, count, contact_no
 
     To the mean of the linear fields of cells that most_squares allows; where there are none (or hardly any, ENOUGH), of cells
     with a reduced gradient, then to vertices, and in the end to the other group's velocity at the node. A crumb within failed
-    material of the other group asks two vertices away, others three.
+    material of the other group asks two vertices away, others three. Two nodes that are tied to each other let go by SLACK, so
+    that no master with hardly any weight holds both of them.
 
     Reads    first [j], the slot of a row's first contact node; normal [3, 2, j, i]; hard, soft [j, i]; filled [b, j, i];
              vof, dmg [m, j, i]
@@ -192,3 +202,6 @@ def find_extensions(part, parts, mesh_box, most_squares, r, z, count, contact_no
                         weights[x, g, found] = w
                         found += 1
                 number[x, g] = found
+            slack = SLACK * tied_weight(x, 0, number, where, weights) * tied_weight(x, 1, number, where, weights)
+            for g in range(2):
+                strength[x, g] *= 1.0 - slack

@@ -12,7 +12,7 @@ from hydro2d.kernels.extension import MASTERS, SPAN, TIED
 from hydro2d.mesh.fields import INTERNAL, RHO, E
 from hydro2d.mesh.grid import Grid
 from hydro2d.physics.contact import GAP
-from tests.kernels.test_extension import Extensions, N, half_plane, scattered
+from tests.kernels.test_extension import Extensions, N, half_plane, pair, scattered
 from tests.physics.continuity import changes_in_proportion
 
 master = contact_velocities.master.py_func
@@ -220,6 +220,20 @@ def test_a_slave_that_is_loosely_tied_goes_part_of_the_way(strength):
     assert strength < met < 1.0
     for _, before, after in settled.slaves:
         assert after == pytest.approx((1.0 - met) * before, rel=1e-9)
+
+
+@pytest.mark.parametrize("beyond", [1e-4, 3e-4, 1e-3])
+def test_a_master_that_hardly_counts_does_not_hold_two_nodes_that_hold_each_other(beyond):
+    """Its weight is 4e-10 to 4e-6. The nodes of the pair meet, as without it, and no impulse beyond theirs is needed."""
+    found = pair(beyond)
+    assert 0.0 < 1.0 - found.weights[1, 5, 5, TIED] < 1e-5
+    w, at = velocities(found), np.s_[0, :, found.grid.g + 5, found.grid.g + 5]
+    settled, alone = Settled(found, w), Settled(pair(0.0), w)
+    mismatch = abs(np.diff(w[at])[0])
+    assert abs(np.diff(settled.after[at])[0]) < 1e-3 * mismatch
+    np.testing.assert_allclose(settled.after[at], alone.after[at], atol=1e-4 * mismatch)
+    before, after = settled.sums(settled.before), settled.sums(settled.after)
+    assert np.sum(settled.heat * settled.mass) == pytest.approx(before[2] - after[2], abs=1e-14 * before[2])
 
 
 def test_ties_fade_in():

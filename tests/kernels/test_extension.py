@@ -5,7 +5,7 @@ import pytest
 
 from hydro2d.kernels import extension
 from hydro2d.kernels.contact_geometry import REACH
-from hydro2d.kernels.extension import MASTERS, SPAN, SURE, TIED, UNDERFILLED, find_extensions, find_filled
+from hydro2d.kernels.extension import MASTERS, SLACK, SPAN, SURE, TIED, UNDERFILLED, find_extensions, find_filled
 from hydro2d.mesh.grid import Grid
 from tests.physics.continuity import changes_in_proportion, largest_jump
 
@@ -282,6 +282,25 @@ def test_nothing_jumps_as_any_cell_fills(seed):
         return np.concatenate([found.strength.ravel(), (found.strength[..., None] * found.weights).ravel()])
 
     assert largest_jump(everything, 0.0, 1.0) < 1e-9
+
+
+def pair(beyond: float) -> Extensions:
+    """A crumb of both groups in void, by itself, and a hard block whose one vertex within reach is filled by UNDERFILLED and
+    `beyond`."""
+    hard, soft = np.zeros((N, N)), np.zeros((N, N))
+    hard[4:6, 2:4] = UNDERFILLED + beyond
+    hard[5, 5] = soft[5, 5] = 0.2
+    return Extensions(hard, (1.0, 0.0), soft)
+
+
+def test_two_nodes_that_are_tied_to_each_other_let_go_by_a_little():
+    """As far as neither has masters of its own group: the other one's slack ends with its weight."""
+    alone, held = pair(0.0), pair(0.05)
+    assert (alone.weights[:, 5, 5, TIED] == 1.0).all()
+    np.testing.assert_allclose(alone.strength[:, 5, 5], 1.0 - SLACK, rtol=1e-15)
+    assert held.weights[:, 5, 5, TIED].tolist() == [1.0, 0.0]
+    assert held.strength[:, 5, 5].tolist() == [1.0, 1.0]
+    assert largest_jump(lambda beyond: pair(beyond).everything(1, 5, 5), 0.0, 0.05) < 1e-9
 
 
 # ---------------------------------------------------------------------------------------------------------- debris
