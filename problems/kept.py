@@ -6,6 +6,7 @@ import csv
 import sys
 from collections.abc import Callable, Collection, Iterable, Sequence
 from pathlib import Path
+from statistics import median
 from typing import TypeVar
 
 from hydro2d.study import layout
@@ -56,3 +57,18 @@ def show(columns: Sequence[str], of_run: Callable[[Path], Sequence], runs: Itera
 def labels(row: dict[str, str], others: Collection[str]) -> dict[str, str]:
     """The labels of a row on the axes of its study: all columns that have something, without `case` and these others."""
     return {name: text for name, text in row.items() if text and name != "case" and name not in others}
+
+
+def told(rows: Collection[dict[str, str]], column: str) -> str:
+    """The median of a column of numbers, and of several that differ the least and the largest: "2.3 (1.9 to 2.6)"."""
+    found = sorted((row[column] for row in rows), key=float)
+    digits = max(len(each.partition(".")[2]) for each in found)
+    return f"{median(map(float, found)):.{digits}f}" + (f" ({found[0]} to {found[-1]})" if found[0] != found[-1] else "")
+
+
+def grouped(rows: Iterable[dict[str, str]], columns: Sequence[str]) -> dict[tuple[str, ...], list[dict[str, str]]]:
+    """The rows by what they have in these columns, in the order in which they come: the members of every case."""
+    found: dict[tuple[str, ...], list[dict[str, str]]] = {}
+    for row in rows:
+        found.setdefault(tuple(row[name] for name in columns), []).append(row)
+    return found

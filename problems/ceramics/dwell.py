@@ -2,7 +2,8 @@
 
 A row has the face, the velocity of impact, the pressure that Lundberg, Renstrom & Lundberg estimate at the interface, the
 depths below the face of the ceramic at AT and the largest one, and the velocities of the interface and of the rod's tail while
-the rod is worn from WORN[0] to WORN[1]. The rows that the README shows are kept in results/dwell.csv.
+the rod is worn from WORN[0] to WORN[1]. The rows that the README shows are kept in results/dwell.csv, those of the members in
+results/members.csv.
 """
 
 from __future__ import annotations
@@ -15,7 +16,8 @@ import numpy as np
 from problems import kept as results
 from problems.ceramics.read import ended
 
-KEPT = Path(__file__).parent / "results" / "dwell.csv"
+RESULTS = Path(__file__).parent / "results"
+KEPT, MEMBERS = RESULTS / "dwell.csv", RESULTS / "members.csv"
 #: times of three of the depths, us
 AT = (10, 20, 30)
 COLUMNS = ("face", "velocity_m_s", "pressure_GPa", *(f"depth_{each}_us_mm" for each in AT), "depth_mm", "u_m_s", "v_m_s")
@@ -68,9 +70,9 @@ def of_run(directory: Path) -> tuple:
     return face, round(speed), round(estimate, 2), *(round(float(each) * 1e3, 1) for each in depths), round(u), round(v)
 
 
-def kept() -> list[dict[str, str]]:
-    """The rows of results/dwell.csv."""
-    return results.rows(KEPT, COLUMNS)
+def kept(path: Path = KEPT) -> list[dict[str, str]]:
+    """The rows of results/dwell.csv, or of MEMBERS."""
+    return results.rows(path, COLUMNS)
 
 
 def table(rows: list[dict[str, str]]) -> list[str]:
@@ -81,6 +83,15 @@ def table(rows: list[dict[str, str]]) -> list[str]:
         depths = " | ".join(f"{row[name]} mm" for name in COLUMNS[3:7])
         lines.append(f"| {row['face']} | {row['velocity_m_s']} m/s | {row['pressure_GPa']} GPa | "
                      f"{float(row['pressure_GPa']) / STRENGTH:.2f} | {depths} | {row['u_m_s']} m/s | {row['v_m_s']} m/s |")
+    return lines
+
+
+def members_table(rows: list[dict[str, str]]) -> list[str]:
+    """The rows of MEMBERS as lines of the README's table: medians, the least and the largest."""
+    lines = ["| face | velocity | members | depth at 20 µs, mm | depth at the end, mm | interface, m/s |", "|---" * 6 + "|"]
+    for (face, velocity), members in results.grouped(rows, ("face", "velocity_m_s")).items():
+        columns = " | ".join(results.told(members, name) for name in ("depth_20_us_mm", "depth_mm", "u_m_s"))
+        lines.append(f"| {face} | {velocity} m/s | {len(members)} | {columns} |")
     return lines
 
 

@@ -1,14 +1,15 @@
 """Prints what tiles save in runs of these decks: `python -m problems.ceramics.read RUN [RUN ...]`.
 
 A row has the cells across the radius of the rod, the ceramic and the thickness of its tile, the largest depth from the face of
-the tile and that in the steel behind it. The rows that the README shows are kept in results/ceramics.csv. The row of the same
-mesh whose tile is of steel is the reference.
+the tile and that in the steel behind it. The rows that the README shows are kept in results/ceramics.csv, one for each member
+of a case. The median of the rows of the same mesh whose tile is of steel is the reference.
 """
 
 from __future__ import annotations
 
 import sys
 from pathlib import Path
+from statistics import median
 
 import numpy as np
 
@@ -56,25 +57,31 @@ def kept() -> list[dict[str, str]]:
     return results.rows(KEPT, COLUMNS)
 
 
+def cases(rows: list[dict[str, str]]) -> dict[tuple[str, ...], list[dict[str, str]]]:
+    """The members of every case, by cells across the radius of the rod, ceramic and thickness of the tile, mm."""
+    return results.grouped(rows, ("cells", "ceramic", "thickness_mm"))
+
+
 def references(rows: list[dict[str, str]]) -> dict[str, float]:
-    """Depth in steel alone, mm, by cells across the radius of the rod."""
-    return {row["cells"]: float(row["depth_mm"]) for row in rows if row["ceramic"] == "steel"}
+    """Median depth in steel alone, mm, by cells across the radius of the rod."""
+    return {cells: median(float(row["depth_mm"]) for row in members)
+            for (cells, ceramic, _), members in cases(rows).items() if ceramic == "steel"}  # fmt: skip
 
 
 def table(rows: list[dict[str, str]]) -> list[str]:
     """The rows of the kept file as lines of the README's table."""
-    lines = ["| cells | tile | thickness | depth | of it in steel | saved | differential mass efficiency |",
-             "|---|---|---|---|---|---|---|"]
+    lines = ["| cells | tile | thickness | members | depth, mm | of it in steel, mm | saved | differential mass efficiency |",
+             "|---|---|---|---|---|---|---|---|"]
     alone = references(rows)
-    for row in rows:
-        density, thickness, behind = (float(row[name]) for name in ("density_kg_m3", "thickness_mm", "in_steel_mm"))
-        shown = f"| {row['cells']} | `{row['ceramic']}` | {thickness:g} mm | {row['depth_mm']} mm | "
-        if row["ceramic"] == "steel":
-            lines.append(f"{shown}{row['depth_mm']} mm | | |")
+    for (cells, ceramic, thickness), members in cases(rows).items():
+        shown = f"| {cells} | `{ceramic}` | {float(thickness):g} mm | {len(members)} | {results.told(members, 'depth_mm')} | "
+        if ceramic == "steel":
+            lines.append(f"{shown}{results.told(members, 'depth_mm')} | | |")
             continue
-        saved = alone[row["cells"]] - behind
-        least = "at least " if behind == 0.0 else ""
-        lines.append(f"{shown}{row['in_steel_mm']} mm | {saved:.1f} mm | {least}{efficiency(saved, density, thickness):.2f} |")
+        behind = median(float(row["in_steel_mm"]) for row in members)
+        saved, least = alone[cells] - behind, "at least " if behind == 0.0 else ""
+        gained = efficiency(saved, float(members[0]["density_kg_m3"]), float(thickness))
+        lines.append(f"{shown}{results.told(members, 'in_steel_mm')} | {saved:.1f} mm | {least}{gained:.2f} |")
     return lines
 
 

@@ -17,7 +17,6 @@ import argparse
 import math
 import sys
 from pathlib import Path
-from statistics import median
 
 import numpy as np
 
@@ -98,20 +97,13 @@ def keep(directory: Path) -> None:
                   [{**case.values, "member": case.member, **measure(case.directory)} for case in cases])
 
 
-def told(rows: list[dict[str, str]], column: str) -> str:
-    """The median of a column, and with several members the least and the largest."""
-    found = sorted((row[column] for row in rows), key=float)
-    digits = len(found[0].split(".")[1])
-    return f"{median(map(float, found)):.{digits}f}" + (f" ({found[0]} to {found[-1]})" if found[0] != found[-1] else "")
-
-
 def rods(rows: list[dict[str, str]]) -> list[str]:
     """Lines of Markdown: a row for each rod and mesh."""
     lines = ["| rod | cells | runs | force, GPa | length, mm | largest radius, mm | axial, GPa | flank, GPa |",
              "|---|---|---|---|---|---|---|---|"]  # fmt: skip
     for rod, cells in dict.fromkeys((row["rod"], row["cells"]) for row in rows):
         members = [row for row in rows if (row["rod"], row["cells"]) == (rod, cells)]
-        numbers = " | ".join(told(members, column) for column in MEASURED)
+        numbers = " | ".join(results.told(members, column) for column in MEASURED)
         lines.append(f"| {rod} | {cells} | {len(members)} | {numbers} |")
     return lines
 

@@ -24,12 +24,6 @@ def test_stresses_are_means_over_the_rods_own_section():
         braking.section(r_edges, z_edges, 0.0 * fraction, axial, lateral)
 
 
-def test_members_are_told_by_their_median_and_ends():
-    rows = [{"length_mm": each} for each in ("96.53", "96.74", "96.60")]
-    assert braking.told(rows, "length_mm") == "96.60 (96.53 to 96.74)"
-    assert braking.told(rows[:1], "length_mm") == "96.53"
-
-
 def test_the_tables_of_the_page_are_those_of_the_kept_results():
     page = PAGE.read_text(encoding="utf-8").splitlines()
     for rows in (braking.rods(braking.kept("first_90us")), braking.forces(braking.kept("nose_force"))):

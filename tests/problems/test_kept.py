@@ -21,3 +21,16 @@ def test_a_file_without_a_column_is_none(tmp_path):
     path.write_text("law,case\na,a_1\n")
     with pytest.raises(StudyError, match=r"no file of results: it has no column depth_cm, time_us"):
         kept.rows(path, ["case", "time_us", "depth_cm"])
+
+
+def test_members_are_told_by_their_median_and_ends():
+    rows = [{"length_mm": text, "u_m_s": text[:2]} for text in ("96.53", "96.74", "96.60", "9.10")]
+    assert kept.told(rows[:3], "length_mm") == "96.60 (96.53 to 96.74)"
+    assert kept.told(rows[:1], "length_mm") == "96.53"
+    assert kept.told([*rows, {"length_mm": "97.1"}], "length_mm") == "96.60 (9.10 to 97.1)"  # in order as numbers
+    assert kept.told(rows[:3], "u_m_s") == "96"
+
+
+def test_members_are_grouped_by_what_they_share():
+    rows = [{"face": face, "depth": depth} for face, depth in (("bare", "1"), ("cover", "2"), ("bare", "3"))]
+    assert kept.grouped(rows, ["face"]) == {("bare",): [rows[0], rows[2]], ("cover",): [rows[1]]}
