@@ -23,6 +23,7 @@ VALUES = {"depth_cm": "depth [cm]", "depth_over_length": "depth / length", "valu
 #: studies whose picture is another page's: (picture, the command that draws it)
 OTHERS = {
     "weldox_velocities": ("weldox.png", "python -m problems.perforation.residual runs/weldox_velocities --figure weldox.png"),
+    "whipple_shots": ("whipple_shots.png", "python -m problems.whipple.read --figure whipple_shots.png"),
     "drag": ("contact_skin.png", "hydro2d plot runs/drag/cases/contact_8.5 -o contact_skin.png --field plastic_strain --mirror "
              "velocity:z --time '200 us' --window '170 mm,205 mm,10 mm'"),
 }  # fmt: skip
