@@ -35,7 +35,7 @@ class Case:
     values : its parameters in SI, with every term in use
     densities : densities in the stated range of an equation of state, over the density at rest;  energies : in J/kg
     constant : parameters for which the flow stress is constant, or None
-    base : what `row` takes beside the parameters: the module of the solid that the model stands over, or its table
+    base : what `row` takes beside the parameters: the module of the solid that the model stands over, and the table
     """
 
     kind: Kind
@@ -44,7 +44,7 @@ class Case:
     densities: tuple[float, ...] = tuple(np.linspace(0.95, 1.5, 12))
     energies: tuple[float, ...] = (0.0, 1e5, 3e6)
     constant: Mapping[str, float] | None = None
-    base: ModuleType | Table | None = None
+    base: tuple[ModuleType | Table, ...] = ()
 
     @property
     def row(self) -> np.ndarray:
@@ -52,12 +52,12 @@ class Case:
 
     def packed(self, values: Mapping[str, float]) -> np.ndarray:
         """The row of these parameters."""
-        return self.module.row(values, self.base) if self.base else self.module.row(values)
+        return self.module.row(values, *self.base)
 
     @property
     def parameters(self) -> tuple[Parameter, ...]:
         """The parameters of the model, and those of its solid that are given with them."""
-        below = self.base.PARAMETERS if isinstance(self.base, ModuleType) else ()
+        below = [each for over in self.base if isinstance(over, ModuleType) for each in over.PARAMETERS]
         return (*self.module.PARAMETERS, *(each for each in below if each.name not in self.module.GIVEN_TO_SOLID))
 
     @property
@@ -78,8 +78,8 @@ class Case:
 
     @property
     def has_kinks(self) -> bool:
-        """Whether slopes jump at the points of a table."""
-        return hasattr(self.module, "FROM_TABLE")
+        """Whether slopes jump at the points of a table, that of the model or of its solid."""
+        return any(isinstance(each, Table) for each in self.base)
 
     def given(self, *names: str) -> float | None:
         """The first of these parameters that the model has, as it is given or by default."""
@@ -266,7 +266,8 @@ def memory(case: Case) -> str | None:
         require(kept, f"{at}, beyond {bounds}")
         require((through == internal).all(), f"{at}, and {through.tolist()} by its ID")
         found = case.module.evaluate(rho, e, internal, par)
-        require(np.isfinite(found).all(), f"{at}, and evaluate is {tuple(map(float, found))}")
+        kept = np.isfinite(found).all() or (case.has_kinks and np.isnan(found).all())
+        require(kept, f"{at}, and evaluate is {tuple(map(float, found))}")
     return None
 
 
@@ -494,7 +495,7 @@ def case_of_table(table: Table, rest: float, T: float) -> Case:
 
     low, high = max(table.density[0] / rest, 0.9), min(table.density[-1] / rest, 2.0)
     values = {"reference_density": rest, "reference_temperature": T}
-    return Case(KINDS["eos"], tabular, values, tuple(np.linspace(low, high, 25)[1:-1]), (0.0, 1e5, 1e6, 3e6), base=table)
+    return Case(KINDS["eos"], tabular, values, tuple(np.linspace(low, high, 25)[1:-1]), (0.0, 1e5, 1e6, 3e6), base=(table,))
 
 
 def case_of(part: str, module: ModuleType) -> Case:

@@ -65,7 +65,7 @@ class Model:
 
     trusted : whether this text, which may be a stranger's, may be run
     solid : name of the equation of state that it stands over, if it stands over one; its parameters are among the numbers
-    table, table_from : the text of its table, if it has one, and the name of the file
+    table, table_from : the text of its table, or that of its solid, if there is one, and the name of the file
     """
 
     name: str
@@ -108,15 +108,16 @@ class Model:
 
     @property
     def title(self) -> str:
-        """Its name, with that of the one that it stands over, or of its table."""
-        over = f" over {self.solid}" if self.solid else f" ({self.table_from})" if self.table else ""
-        return f"{self.name}{over}"
+        """Its name, with that of the one that it stands over, and of its table."""
+        over, table = f" over {self.solid}" if self.solid else "", f" ({self.table_from})" if self.table else ""
+        return f"{self.name}{over}{table}"
 
-    def base(self) -> ModuleType | Table | None:
-        """What its row is made from beside its numbers: the equation of state that it stands over, or its table; else None."""
+    def base(self) -> tuple[ModuleType | Table, ...]:
+        """What its row is made from beside its numbers: the equation of state that it stands over, and the table."""
         from hydro2d.materials import sesame
 
-        return _solid(self.solid)[0] if self.solid else sesame.read(self.table) if self.table else None
+        over = (_solid(self.solid)[0],) if self.solid else ()
+        return (*over, sesame.read(self.table)) if self.table else over
 
     def as_deck(self) -> dict:
         """The model as a table of a deck, every number in SI."""
@@ -360,15 +361,10 @@ def _solid(name: str) -> tuple[ModuleType, Outside | None]:
     models = outside.KINDS["eos"].models
     below = None if name in models else outside.from_package("eos", name)
     found = below.module if below else models.get(name)
-    if found is None or not _is_plain(found):
-        plain = [each for each, module in models.items() if _is_plain(module)]
+    if found is None or hasattr(found, "INTERNAL"):
+        plain = [each for each, module in models.items() if not hasattr(module, "INTERNAL")]
         raise ValueError(unknown("equation of state without memory", name, [*plain, *outside.in_packages("eos")]))
     return found, below
-
-
-def _is_plain(module: ModuleType) -> bool:
-    """Whether an equation of state has its parameters alone: no internal variables and no table."""
-    return not hasattr(module, "INTERNAL") and not hasattr(module, "FROM_TABLE")
 
 
 def _table(module: ModuleType, raw: dict, part: str, fail: Fail) -> tuple[str, str]:
@@ -390,13 +386,12 @@ def _table(module: ModuleType, raw: dict, part: str, fail: Fail) -> tuple[str, s
     return text, name
 
 
-def _parameters(module: ModuleType, raw: dict, part: str, fail: Fail) -> dict[str, Parameter]:
-    """The parameters of a model by name, with those of the solid that it stands over, where it does."""
-    own = {parameter.name: parameter for parameter in module.PARAMETERS}
+def _below(module: ModuleType, raw: dict, part: str, fail: Fail) -> ModuleType | None:
+    """The equation of state of the solid that a part's model stands over; None where it stands over none."""
     if not getattr(module, "OVER_SOLID", False):
         if "solid" in raw:
             raise fail((part, "solid"), f"{module.NAME} stands over no other equation of state")
-        return own
+        return None
     if not isinstance(raw.get("solid"), str):
         raise fail((part,), f"{module.NAME} needs solid, the name of the equation of state of its solid")
     try:
@@ -405,7 +400,13 @@ def _parameters(module: ModuleType, raw: dict, part: str, fail: Fail) -> dict[st
         raise fail((part, "solid"), str(problem)) from None
     if outside:
         outside.offer()
-    return {**{each.name: each for each in below.PARAMETERS if each.name not in module.GIVEN_TO_SOLID}, **own}
+    return below
+
+
+def _parameters(module: ModuleType, below: ModuleType | None) -> dict[str, Parameter]:
+    """The parameters of a model by name, with those of the solid that it stands over, where it does."""
+    of_solid = [each for each in below.PARAMETERS if each.name not in module.GIVEN_TO_SOLID] if below else []
+    return {parameter.name: parameter for parameter in (*of_solid, *module.PARAMETERS)}
 
 
 def _model(raw, part: str, default: str | None, eos: Mapping, fail: Fail, trust: bool) -> Model:
@@ -417,8 +418,9 @@ def _model(raw, part: str, default: str | None, eos: Mapping, fail: Fail, trust:
     if not trust and _has_strange_code(raw, part):
         return _unread(raw, part, fail)
     module, file, code = _chosen(raw, part, fail)
-    text, table_from = _table(module, raw, part, fail)
-    numbers = _numbers(module.NAME, _parameters(module, raw, part, fail), raw, part, eos, fail)
+    below = _below(module, raw, part, fail)
+    text, table_from = _table(below or module, raw, part, fail)
+    numbers = _numbers(module.NAME, _parameters(module, below), raw, part, eos, fail)
     return Model(module.NAME, numbers, file, code, solid=raw.get("solid", ""), table=text, table_from=table_from)
 
 
@@ -556,15 +558,26 @@ class MaterialTable:
 
         return evaluate(self.eos_model[m], rho, e, self.virgin(m), self.eos_par[m])
 
-    def limits(self, m: int, rho: float) -> str:
-        """What the table of body m covers and which energies at a density, in words; empty where it has no table."""
+    def limits(self, m: int, rho: float, internal: np.ndarray) -> str:
+        """What the table of body m covers and which energies at a density, in words; empty where it has no table.
+
+        internal : internal variables of its equation of state, float64[n]. Where that stands over the model of its solid, the
+        table is the solid's, and the density of the solid is said as well.
+        """
         from eos import cracked, layout
 
-        module = self.materials[m].eos.module("eos")
-        if not hasattr(module, "FROM_TABLE"):
+        model = self.materials[m].eos
+        if not model.table:
             return ""
-        par = self.eos_par[m][layout.SOLID_AT:] if self.eos_model[m] == cracked.ID else self.eos_par[m]
-        said, energies = f"{self.materials[m].eos.table_from} has {module.span(par)}", module.energies(rho, par)
+        module, par, said = model.module("eos"), self.eos_par[m], ""
+        over = cracked if self.eos_model[m] == cracked.ID else module if model.solid else None
+        if over:
+            rho, par = over.density_of_solid(rho, internal, par), par[layout.SOLID_AT:]
+            said = f"its solid has {rho:.6g} kg/m^3; "
+        if model.solid:
+            module = _solid(model.solid)[0]
+        said += f"{model.table_from} has {module.span(par)}"
+        energies = module.energies(rho, par)
         return said + (f"; at {rho:.6g} kg/m^3 energies of {energies[0]:.6g} to {energies[1]:.6g} J/kg" if energies else "")
 
     def sound_speeds(self, floor: float = 0.0) -> np.ndarray:
@@ -584,9 +597,8 @@ class MaterialTable:
 
 
 def _row(module: ModuleType, model: Model, material: Material) -> np.ndarray:
-    base = model.base()
     try:
-        return module.row(model.values, base) if base else module.row(model.values)
+        return module.row(model.values, *model.base())
     except ValueError as problem:
         raise DeckError(f"material {material.name}: {problem}") from None
 

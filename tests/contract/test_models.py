@@ -49,8 +49,11 @@ def tabulated():
     return tabulate.table_of("aluminium", eos.MODELS["mie-grueneisen"], SOLID, density, temperature)
 
 
+TABLE = tabulated()
 #: what a row is made from beside the parameters: the solid that a model stands over, a table
-BASES = {"p-alpha": eos.MODELS["mie-grueneisen"], "tabular": tabulated()}
+BASES = {"p-alpha": (eos.MODELS["mie-grueneisen"],), "tabular": (TABLE,)}
+#: the parameters of a porous material whose solid is in the table
+PORES = {name: value for name, value in POROUS.items() if name not in SOLID or name == "reference_density"}
 
 G, Y = 26e9, 0.3e9
 
@@ -126,15 +129,17 @@ DAMAGE_CASES = {
 def cases_of(part):
     """Every registered model of a part of a material, with its case."""
     if part == "eos":
-        return [contract.Case(KINDS[part], eos.MODELS[name], values, tuple(ratios), energies, base=BASES.get(name))
-                for name, (values, ratios, energies) in EOS_CASES.items()]
+        own = [contract.Case(KINDS[part], eos.MODELS[name], values, tuple(ratios), energies, base=BASES.get(name, ()))
+               for name, (values, ratios, energies) in EOS_CASES.items()]
+        over_table = eos.MODELS["tabular"], TABLE
+        return [*own, contract.Case(KINDS[part], eos.MODELS["p-alpha"], PORES, base=over_table)]
     if part == "damage":
         return [contract.Case(KINDS[part], strength.DAMAGE_MODELS[name], values) for name, values in DAMAGE_CASES.items()]
     return [contract.Case(KINDS[part], strength.STRENGTH_MODELS[name], values, constant=CONSTANT_YIELD.get(name))
             for name, values in STRENGTH_CASES.items()]
 
 
-CASES = [pytest.param(case, check, id=f"{part}-{case.module.NAME}-{check.__name__}")
+CASES = [pytest.param(case, check, id=f"{part}-{case.module.NAME}{'-over-table' * (len(case.base) > 1)}-{check.__name__}")
          for part, checks in contract.CHECKS.items() for case in cases_of(part) for check in checks]
 
 
