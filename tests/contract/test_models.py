@@ -7,7 +7,7 @@ import pytest
 
 import eos
 import strength
-from hydro2d.materials import contract, tabulate
+from hydro2d.materials import contract, contract_strength, tabulate
 from hydro2d.materials.outside import KINDS
 from hydro2d.parameters import POSITIVE, REQUIRED, Parameter
 from strength import dispatch, tensile_pressure
@@ -296,7 +296,7 @@ def test_a_model_that_says_nothing_of_its_modulus_has_it_evaluated_in_every_cell
     text = dispatch.modulus_row.py_func.__code__
     fill = types.FunctionType(text, {**vars(dispatch), "shear_modulus": modulus})
     row = np.full(strength.ROW, G)
-    p, rho, T = contract.states()
+    p, rho, T = contract_strength.states()
     shear = np.empty(p.size)
     fill(99, row, 0, p.size, p, rho, T, shear)
     np.testing.assert_array_equal(shear, modulus(99, p, rho, T, row))
