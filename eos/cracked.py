@@ -41,6 +41,12 @@ def solid_share(rho, cracks):
     return max(1.0 - cracks * rho, LEAST_SHARE)
 
 
+@point
+def density_of_solid(rho, internal, par):
+    """Density of the solid, kg/m^3, at density ``rho`` and these internal variables."""
+    return rho / solid_share(rho, internal[CRACKS])
+
+
 @late
 def evaluate(rho, e, internal, par):
     """(p, dp/drho at constant e, dp/de at constant rho, T) at density ``rho`` > 0 and specific energy ``e``; SI.

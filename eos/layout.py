@@ -7,7 +7,6 @@ RHO0, E0 = 0, 1
 TABLE, TABLE_SIZE = 16, 1024
 ROW = TABLE + TABLE_SIZE
 
-#: where the row of the solid begins in that of a model that stands over another one, and the length of such a row; a row may
-#: be as long as its model needs, such as a table of numbers, but not shorter than ROW
+#: where the row of the solid begins in that of a model that stands over another one, with which it ends; a row may be as long
+#: as its model needs, such as a table of numbers, but not shorter than ROW
 SOLID_AT = 16
-LONG_ROW = SOLID_AT + ROW

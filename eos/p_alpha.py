@@ -16,7 +16,7 @@ import math
 import numpy as np
 
 from eos import solid
-from eos.layout import E0, LONG_ROW, RHO0, SOLID_AT
+from eos.layout import E0, RHO0, SOLID_AT
 from hydro2d.jit import late, point
 from hydro2d.mesh.fields import Field
 from hydro2d.parameters import POSITIVE, REQUIRED, Parameter, collect
@@ -57,6 +57,8 @@ SOLID_MODEL, SOLID_RHO, P_ELASTIC, P_CRUSH, EXPONENT, VIRGIN, DISTENTION, SLOPE 
 
 #: bound of the search on the crush curve, and its steps
 _TOLERANCE, _ITERATIONS = 1e-12, 80
+#: how far off the crush curve a state of the solid is that no table has
+_BEYOND = math.inf
 
 
 @point
@@ -67,6 +69,12 @@ def solid_density(rho, distention, par):
     h = 1.0 + (distention - 1.0) * par[SLOPE]
     compression = distention / par[VIRGIN] * (rho / par[RHO0])  # of the solid, were it not elastic: exactly 1 at rest
     return par[SOLID_RHO] * compression ** (h * h), h * h
+
+
+@point
+def density_of_solid(rho, internal, par):
+    """Density of the solid, kg/m^3, at density ``rho`` and these internal variables."""
+    return solid_density(rho, internal[0], par)[0]
 
 
 @late
@@ -93,9 +101,15 @@ def crushed(p, par):
 
 @late
 def excess(rho, e, distention, par):
-    """(how far the distention is above the crush curve, pressure in Pa), of material that would have ``distention`` at rest."""
+    """(how far the distention is above the crush curve, pressure in Pa), of material that would have ``distention`` at rest.
+
+    Where the table of the solid has no such state, it is infinitely far above where the solid is compressed, and below where it
+    is expanded, and the pressure is NaN.
+    """
     rho_s, _ = solid_density(rho, distention, par)
     p = rho / rho_s * solid.evaluate(int(par[SOLID_MODEL]), rho_s, e, par[SOLID_AT:])[0]
+    if math.isnan(p):
+        return _BEYOND if rho_s > par[SOLID_RHO] else -_BEYOND, p
     return rho_s / rho - crushed(p, par), p
 
 
@@ -104,12 +118,15 @@ def update(rho0, rho, e, dep, work, damage0, damage, released, time, dt, par, in
     """Crushes the pores until the distention is on the crush curve at density ``rho`` and energy ``e``, or all are closed.
 
     By a bracketed secant (Illinois) in the distention at rest: its excess rises with it. explanation/equation-of-state, (11)
+
+    The search may begin beyond the table of the solid, and halves the bracket until both ends are in it. Where the table has no
+    state on the curve, the material is left in one that the table does not have.
     """
     high = internal[0]
     if high <= 1.0:
         return
     above, p = excess(rho, e, high, par)
-    if p <= par[P_ELASTIC] or above <= 0.0:
+    if p <= par[P_ELASTIC] or (above <= 0.0 and p < par[P_CRUSH]):
         return
     low = 1.0
     below, p = excess(rho, e, low, par)
@@ -120,7 +137,10 @@ def update(rho0, rho, e, dep, work, damage0, damage, released, time, dt, par, in
     for _ in range(_ITERATIONS):
         if high - low <= _TOLERANCE:
             break
-        middle = (low * above - high * below) / (above - below)
+        if above - below < _BEYOND:
+            middle = (low * above - high * below) / (above - below)
+        else:
+            middle = 0.5 * (low + high)
         found, p = excess(rho, e, middle, par)
         if found > 0.0:
             high, above = middle, found
@@ -132,18 +152,21 @@ def update(rho0, rho, e, dep, work, damage0, damage, released, time, dt, par, in
             side = -1
         if found == 0.0:
             break
-    internal[0] = low
+    if above < _BEYOND:
+        internal[0] = low
 
 
-def row(values, over) -> np.ndarray:
-    """Packs the parameters, by name, and those of the solid, whose module is ``over``; float64[LONG_ROW].
+def row(values, over, *table) -> np.ndarray:
+    """Packs the parameters, by name, and those of the solid, whose module is ``over``; float64[SOLID_AT + its own].
+
+    table : that of the solid (`hydro2d.materials.sesame.Table`), where it is made from one
 
     Raises ValueError for a missing, unknown or impossible value, and for a material that is denser than its solid.
     """
     own = {parameter.name for parameter in PARAMETERS}
     given = collect(NAME, PARAMETERS, {name: value for name, value in values.items() if name in own})
     rest = {name: value for name, value in values.items() if name not in own}
-    below = over.row({**rest, **{name: given[source] for name, source in GIVEN_TO_SOLID.items()}})
+    below = over.row({**rest, **{name: given[source] for name, source in GIVEN_TO_SOLID.items()}}, *table)
     rho0, rho_s0, lowest, highest = (given[name] for name in (
         "reference_density", "solid_density", "elastic_pressure", "crush_pressure"))
     if rho0 >= rho_s0:
@@ -156,14 +179,14 @@ def row(values, over) -> np.ndarray:
     if ratio > 1.0:
         raise ValueError(f"{NAME}: elastic_sound_speed = {given['elastic_sound_speed']:g} is above the {sound:g} of the solid")
     alpha0 = rho_s0 / rho0
-    par = np.zeros(LONG_ROW)
+    par = np.zeros(SOLID_AT + below.size)
     par[RHO0], par[E0], par[SOLID_MODEL], par[SOLID_RHO] = rho0, below[E0], over.ID, rho_s0
     par[P_ELASTIC], par[P_CRUSH], par[EXPONENT] = lowest, highest, given["crush_exponent"]
     par[VIRGIN], par[SLOPE] = alpha0, (ratio - 1.0) / (alpha0 - 1.0)
     par[SOLID_AT:] = below
 
     def above(compression: float) -> float:
-        """Pressure of the virgin material over that at which it crushes."""
+        """Pressure of the virgin material over that at which it crushes; NaN where the table of the solid has no such state."""
         rho_s = rho_s0 * compression ** (ratio * ratio)
         rho = rho0 * compression
         return rho / rho_s * over.evaluate(rho_s, below[E0], below)[0] - lowest
@@ -173,6 +196,8 @@ def row(values, over) -> np.ndarray:
         raise ValueError(f"{NAME}: elastic_pressure = {lowest:g} is reached at no density below twice that at rest")
     for _ in range(60):
         compression = 0.5 * (low + high)
-        low, high = (low, compression) if above(compression) > 0.0 else (compression, high)
+        low, high = (compression, high) if above(compression) <= 0.0 else (low, compression)
+    if math.isnan(above(high)):
+        raise ValueError(f"{NAME}: elastic_pressure = {lowest:g} is not reached in the table of the solid")
     par[DISTENTION] = alpha0 * compression ** (ratio * ratio - 1.0)
     return par

@@ -11,7 +11,7 @@ import numpy as np
 
 from hydro2d.files import replacing
 from hydro2d.materials import curves
-from hydro2d.materials.library import Material
+from hydro2d.materials.material import Material
 
 
 @dataclass(frozen=True)

@@ -12,7 +12,7 @@ from hydro2d.analytic.model_materials import Given
 from hydro2d.deck import deck as decks
 from hydro2d.deck import shapes
 from hydro2d.errors import DeckError
-from hydro2d.materials.library import Material
+from hydro2d.materials.material import Material
 from hydro2d.solver import insertion
 
 #: words of decks for noses, where they differ from the models'

@@ -14,7 +14,7 @@ from hydro2d import units
 from hydro2d.analytic import model_materials
 from hydro2d.analytic.model_materials import Given
 from hydro2d.errors import unknown
-from hydro2d.materials.library import Material
+from hydro2d.materials.material import Material
 from hydro2d.penetration import catalogue
 from hydro2d.penetration.inputs import FROM_LIBRARY, ROD_DIAMETER, ROD_LENGTH, ROD_MASS
 from hydro2d.penetration.model import Input, InputError, Model, Value

@@ -9,7 +9,7 @@ import numpy as np
 from hydro2d.deck.checks import AHEAD, extent, room
 from hydro2d.deck.mesh import axis_edges, body, cells_between, misfits
 from hydro2d.deck.sections import Deck
-from hydro2d.materials.library import Material
+from hydro2d.materials.material import Material
 from hydro2d.mesh.edges.registry import BY_NAME
 from hydro2d.sources.detonation import EXPLOSIVES
 

@@ -10,7 +10,7 @@ import numpy as np
 from hydro2d.errors import DeckError
 
 if TYPE_CHECKING:
-    from hydro2d.materials.library import Material
+    from hydro2d.materials.material import Material
 
 
 def opens_cracks(damage: ModuleType) -> bool:

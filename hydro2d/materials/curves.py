@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from hydro2d.errors import DeckError
-from hydro2d.materials.library import Material
+from hydro2d.materials.material import Material
 
 #: temperature of a material whose equation of state has none to begin with, K; longest step in plastic strain
 ROOM, STEP = 298.0, 1e-3

@@ -20,7 +20,7 @@ import numpy as np
 from hydro2d.errors import DeckError, unknown
 from hydro2d.files import read_text
 from hydro2d.materials import curves
-from hydro2d.materials.library import Material
+from hydro2d.materials.material import Material
 from hydro2d.parameters import NON_NEGATIVE
 from strength import STRENGTH_MODELS
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from hydro2d.materials.library import CONFIDENCE
+from hydro2d.materials.material import CONFIDENCE
 from hydro2d.materials.outside import KINDS, Kind, in_packages
 from strength import melting
 

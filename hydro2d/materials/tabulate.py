@@ -10,7 +10,7 @@ import numpy as np
 
 from eos.layout import RHO0
 from hydro2d.errors import DeckError
-from hydro2d.materials.library import Material
+from hydro2d.materials.material import Material
 from hydro2d.materials.sesame import Table
 
 #: share of the temperatures that lie between zero and that at rest, and of the range of energies that a search begins with

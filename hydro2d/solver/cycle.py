@@ -232,7 +232,7 @@ class Cycle:
     def _report_bad(self, j: int) -> None:
         s, g = self.state, self.grid
         i, m = int(s.bad[j, 1]), int(s.bad[j, 2])
-        limits = self.table.limits(m, s.rho[m, j, i])
+        limits = self.table.limits(m, s.rho[m, j, i], s.q[self.table.memory[m]:, m, j, i])
         raise UnphysicalState(
             f"cycle {self.number}, time {self.time:.6g} s, cell (r, z) = ({g.rc[i]:.6g}, {g.zc[j]:.6g}) m, body "
             f'"{self.table.names[m]}": volume fraction {s.vof[m, j, i]:.6g}, density {s.rho[m, j, i]:.6g} kg/m^3, energy '

@@ -219,7 +219,7 @@ def _energy_for(body, table, m: int, rho: float, which: int, target: float) -> f
         at_low = error(low)
     if not abs(at_low) <= 1e-9 * abs(target) + 1e-6:
         what = ("pressure", "", "", "temperature")[which]
-        limits = table.limits(m, rho)
+        limits = table.limits(m, rho, table.virgin(m))
         raise DeckError(f'body "{body.name}": no energy gives a {what} of {target:g} at a density of {rho:g} kg/m^3'
                         + (f"; {limits}" if limits else ""))
     return low
@@ -232,7 +232,7 @@ def _refuse_unstable(body, table, m: int) -> None:
 
     rho, e = body_state(body, table, m)
     p, dpdrho, dpde, _ = table.evaluate(m, rho, e)
-    if math.isnan(p) and (limits := table.limits(m, rho)):
+    if math.isnan(p) and (limits := table.limits(m, rho, table.virgin(m))):
         raise DeckError(f'body "{body.name}": cannot begin with a density of {rho:g} kg/m^3 and an energy of {e:g} J/kg: '
                         f"{limits}")
     square = sound_speed_squared(rho, p, dpdrho, dpde, -math.inf)

@@ -14,7 +14,7 @@ from hydro2d.deck.base import Interval, Name, Section
 class Reached(NamedTuple):
     """The body of a source before the first step; arrays float64[nz, nr].
 
-    material : materials.library.Material;  share : of every cell's volume that it fills;  mass : per radian, kg
+    material : materials.material.Material;  share : of every cell's volume that it fills;  mass : per radian, kg
     variables : internal variables of its models by name, to be changed
     arrival : (points float64[n, 3] as (r, z, time), speed in m/s) -> times at which a signal from them arrives within the body,
         straight or around what is not of it; inf where it does not
@@ -46,7 +46,7 @@ class Source(Section):
         return _overlap(z, self.z)[:, None] * radial[None, :]
 
     def misfit(self, material) -> str | None:
-        """Why the material of the body (materials.library.Material) cannot take what the source gives; None if it can."""
+        """Why the material of the body (materials.material.Material) cannot take what the source gives; None if it can."""
         return None
 
     def begin(self, grid, reached: Reached) -> list[str]:

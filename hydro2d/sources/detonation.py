@@ -64,7 +64,7 @@ class Detonation(Source):
         None, description="speed of the detonation; default: detonation_velocity of the explosive", examples=["6930 m/s"])
 
     def misfit(self, material) -> str | None:
-        """Why the material of the body cannot be lit, or None; material : materials.library.Material."""
+        """Why the material of the body cannot be lit, or None; material : materials.material.Material."""
         if material.eos.name not in EXPLOSIVES:
             return (f'body "{self.body}" is no explosive: the equation of state of {material.name} is {material.eos.name}, not '
                     f"{' or '.join(EXPLOSIVES)}")

@@ -7,7 +7,7 @@ import pytest
 
 import eos
 import strength
-from hydro2d.materials import contract, tabulate
+from hydro2d.materials import contract, contract_strength, tabulate
 from hydro2d.materials.outside import KINDS
 from hydro2d.parameters import POSITIVE, REQUIRED, Parameter
 from strength import dispatch, tensile_pressure
@@ -49,8 +49,11 @@ def tabulated():
     return tabulate.table_of("aluminium", eos.MODELS["mie-grueneisen"], SOLID, density, temperature)
 
 
+TABLE = tabulated()
 #: what a row is made from beside the parameters: the solid that a model stands over, a table
-BASES = {"p-alpha": eos.MODELS["mie-grueneisen"], "tabular": tabulated()}
+BASES = {"p-alpha": (eos.MODELS["mie-grueneisen"],), "tabular": (TABLE,)}
+#: the parameters of a porous material whose solid is in the table
+PORES = {name: value for name, value in POROUS.items() if name not in SOLID or name == "reference_density"}
 
 G, Y = 26e9, 0.3e9
 
@@ -126,15 +129,17 @@ DAMAGE_CASES = {
 def cases_of(part):
     """Every registered model of a part of a material, with its case."""
     if part == "eos":
-        return [contract.Case(KINDS[part], eos.MODELS[name], values, tuple(ratios), energies, base=BASES.get(name))
-                for name, (values, ratios, energies) in EOS_CASES.items()]
+        own = [contract.Case(KINDS[part], eos.MODELS[name], values, tuple(ratios), energies, base=BASES.get(name, ()))
+               for name, (values, ratios, energies) in EOS_CASES.items()]
+        over_table = eos.MODELS["tabular"], TABLE
+        return [*own, contract.Case(KINDS[part], eos.MODELS["p-alpha"], PORES, base=over_table)]
     if part == "damage":
         return [contract.Case(KINDS[part], strength.DAMAGE_MODELS[name], values) for name, values in DAMAGE_CASES.items()]
     return [contract.Case(KINDS[part], strength.STRENGTH_MODELS[name], values, constant=CONSTANT_YIELD.get(name))
             for name, values in STRENGTH_CASES.items()]
 
 
-CASES = [pytest.param(case, check, id=f"{part}-{case.module.NAME}-{check.__name__}")
+CASES = [pytest.param(case, check, id=f"{part}-{case.module.NAME}{'-over-table' * (len(case.base) > 1)}-{check.__name__}")
          for part, checks in contract.CHECKS.items() for case in cases_of(part) for check in checks]
 
 
@@ -291,7 +296,7 @@ def test_a_model_that_says_nothing_of_its_modulus_has_it_evaluated_in_every_cell
     text = dispatch.modulus_row.py_func.__code__
     fill = types.FunctionType(text, {**vars(dispatch), "shear_modulus": modulus})
     row = np.full(strength.ROW, G)
-    p, rho, T = contract.states()
+    p, rho, T = contract_strength.states()
     shear = np.empty(p.size)
     fill(99, row, 0, p.size, p, rho, T, shear)
     np.testing.assert_array_equal(shear, modulus(99, p, rho, T, row))

@@ -6,7 +6,7 @@ from scipy.optimize import brentq
 
 from eos import jwl
 from hydro2d.errors import DeckError
-from hydro2d.materials import library
+from hydro2d.materials import library, slots
 
 TNT = {"reference_density": 1630.0, "A": 371.2e9, "B": 3.231e9, "R1": 4.15, "R2": 0.95, "omega": 0.30,
        "detonation_energy": 7e9, "detonation_velocity": 6930.0, "cj_pressure": 21e9}  # fmt: skip
@@ -77,9 +77,9 @@ def test_constants_without_any_detonation():
 
 def test_a_deck_hears_it():
     with pytest.raises(DeckError, match="material dud: jwl: the constants contradict each other"):
-        library._row(jwl, library.Model("jwl", {name: library.Number(value, "", "", "deck") for name, value in
-                                                (TNT | {"cj_pressure": 25e9}).items()}),
-                     library.Material("dud", "", "", *[library.Model("none")] * 3, None))
+        slots._row(jwl, library.Model("jwl", {name: library.Number(value, "", "", "deck") for name, value in
+                                              (TNT | {"cj_pressure": 25e9}).items()}),
+                   library.Material("dud", "", "", *[library.Model("none")] * 3, None))
 
 
 def test_the_unreacted_solid():

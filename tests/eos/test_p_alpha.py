@@ -93,6 +93,14 @@ def test_from_the_crush_pressure_on_it_is_its_solid_to_the_last_bit():
         assert p_alpha.evaluate(rho, e, np.array([1.0]), ROW) == expected
 
 
+def test_no_pores_are_left_at_any_density_beyond_the_crush_pressure():
+    """The elastic law (10) alone would make the solid thinner than the whole at more than twice its density."""
+    for distention in (1.01, 1.1, VIRGIN):
+        rho = 2.4 * 2700.0
+        assert p_alpha.solid_density(rho, distention, ROW)[0] < rho
+        assert after(rho, distention, e=1e7) == 1.0
+
+
 def test_heat_crushes_as_well():
     assert after(2300.0, e=2e5) < after(2300.0)
 

@@ -57,8 +57,7 @@ def test_every_number_of_the_library_has_a_source(name):
 @pytest.mark.parametrize("name", library.names())
 def test_every_material_makes_rows(name):
     material = library.load(name)
-    over = [material.eos.base()] if material.eos.base() else []
-    assert eos.MODELS[material.eos.name].row(material.eos.values, *over)[eos.RHO0] == material.reference_density
+    assert eos.MODELS[material.eos.name].row(material.eos.values, *material.eos.base())[eos.RHO0] == material.reference_density
     assert np.isfinite(strength.STRENGTH_MODELS[material.strength.name].row(material.strength.values)[SHEAR])
     strength.DAMAGE_MODELS[material.damage.name].row(material.damage.values)
 

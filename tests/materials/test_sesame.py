@@ -191,7 +191,9 @@ def test_a_restart_with_another_table_is_refused(folder):
     ('model = "tabular"', 'model = "tillotson"', "shot.toml:24: materials.al.eos.table: tillotson has no table"),
     ('table = "al.301"', 'table = "al.301"\nspecific_heat = 3', 'unknown parameter of tabular "specific_heat"'),
     ('"al.301"', '"shot.toml"', "materials.al.eos.table: shot.toml: line 2: 'title' is not a number"),
-    ('"tabular"\ntable = "al.301"', '"p-alpha"\nsolid = "tabular"', 'unknown equation of state without memory "tabular"'),
+    ('"tabular"\ntable = "al.301"', '"p-alpha"\nsolid = "tabular"', "tabular needs table, the name of a file"),
+    ('"tabular"', '"p-alpha"\nsolid = "tillotson"', "shot.toml:25: materials.al.eos.table: tillotson has no table"),
+    ('"tabular"', '"p-alpha"\nsolid = "tabular"', "p-alpha needs solid_density"),
 ])
 def test_a_mistake_in_the_deck_says_where(folder, old, new, said):
     assert old in DECK

@@ -1,13 +1,20 @@
-"""Two-wave compaction of porous aluminium against the jump conditions, with the pores closed in full and in part."""
+"""Two-wave compaction of porous aluminium against the jump conditions, with the pores closed in full and in part, and over a
+table of its solid."""
+
+import functools
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from hydro2d.deck import deck as decks
+from hydro2d.materials import library, sesame, tabulate
 from hydro2d.mesh.fields import INTERNAL
+from tests.eos.test_p_alpha_over_table import compacted
 from tests.exact.compaction import Porous
-from tests.verification.running import FOLDER, Line, advection, between, crossing, finish, speed
+from tests.verification.running import FOLDER, Line, between, crossing, finish, speed
 
+DECK = f"{FOLDER}/porous_compaction.toml"
 POROUS = Porous(rho0=2117.647, rho_s=2700.0, c_e=4110.0, p_e=0.08e9, p_s=0.70e9, c0=5350.0, s=1.34, gamma=2.0)
 
 
@@ -19,8 +26,31 @@ def test_the_exact_solution_is_that_of_jutzi_and_others():
         assert (POROUS.behind(piston).p, POROUS.behind(piston).rho) == pytest.approx(expected[1:], rel=3e-3)
 
 
+@functools.cache
+def foam(number):
+    """The material of the deck over a table of its solid, with so many densities and temperatures."""
+    from eos import mie_grueneisen
+
+    values = library.load("Al_porous").eos.values
+    solid = {name: values[name] for name in ("sound_speed", "hugoniot_slope", "grueneisen", "specific_heat")}
+    own = {name: value for name, value in values.items() if name not in solid and name != "reference_temperature"}
+    table = tabulate.table_of("aluminium", mie_grueneisen, {**solid, "reference_density": POROUS.rho_s},
+                              tabulate.points(0.9 * POROUS.rho_s, POROUS.rho_s, 1.6 * POROUS.rho_s, number),
+                              tabulate.temperatures(298.0, 1e4, number))
+    return {"eos": {"model": "p-alpha", "solid": "tabular", "table_data": sesame.write(table), "table_from": "al.301", **own}}
+
+
+def deck_of(velocity, number=None, **changes):
+    """The deck with a velocity, m/s; number : of points of the table of the solid, in place of its model."""
+    given = {"body.block.velocity": -velocity, "numerics.advection": "both", **changes}
+    if number:
+        given |= {"body.block.material": "foam", "materials.foam": foam(number)}
+    return decks.loads(Path(DECK).read_text(encoding="utf-8"), given)
+
+
+@pytest.mark.parametrize("number", [None, 41], ids=["model", "table"])
 @pytest.mark.parametrize("velocity", [100.0, 200.0, 458.0])
-def test_both_waves(velocity):
+def test_both_waves(velocity, number):
     """Pressure, density, velocity and speed of both waves within 1 %, the distention on the crush curve."""
     track = []
 
@@ -32,8 +62,7 @@ def test_both_waves(velocity):
                           crossing(line.x, pressure, 0.5 * first.p)))
 
     first, second = POROUS.precursor(), POROUS.behind(velocity)
-    simulation = finish(decks.load(f"{FOLDER}/porous_compaction.toml",
-                                   [f"body.block.velocity=-{velocity}", advection("both")]), watch)
+    simulation = finish(deck_of(velocity, number), watch)
     line, time = Line(simulation), simulation.time
     distention = simulation.grid.interior(simulation.state.q[INTERNAL, 0])[:, 2]
     times, shock, precursor = np.array(track).T
@@ -49,3 +78,25 @@ def test_both_waves(velocity):
             heat = 1e-2 if velocity == 458.0 else 3e-2  # a slow wave heats what it crushes first, see the page
             assert line.body("e", 0)[cells].mean() == pytest.approx(state.e, rel=heat)
     assert abs(simulation.conservation()["total_energy"]) < 1e-12
+
+
+@functools.cache
+def behind(velocity, number=None):
+    """Mean pressure behind the shock of a shorter run, Pa; number : of points of the table of the solid."""
+    simulation = finish(deck_of(velocity, number, **{"mesh.z": [{"to": "10 mm", "cells": 200}], "stop.time": "2 us",
+                                                     "body.block.thickness": "9.75 mm"}))
+    line = Line(simulation)
+    return line.pressure[between(line.x, 0.5e-3, 0.5 * (POROUS.behind(velocity).speed - velocity) * simulation.time)].mean()
+
+
+def exact(velocity, number=None):
+    """The pressure behind it by the jump conditions, Pa, of the row that the run has."""
+    return compacted(library.resolve(deck_of(velocity, number)).eos_par[0], velocity)[0]
+
+
+@pytest.mark.parametrize("velocity", [200.0, 458.0])
+@pytest.mark.parametrize("number", [11, 21, 41])
+def test_a_run_over_a_table_misses_that_over_the_model_by_what_the_interpolation_does(velocity, number):
+    """The pressure behind the shock; that this falls to second order is a test of the equation of state."""
+    found, expected = (of(velocity, number) / of(velocity) - 1.0 for of in (behind, exact))
+    assert found == pytest.approx(expected, abs=6e-4)
