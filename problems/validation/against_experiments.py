@@ -42,6 +42,10 @@ SETS = (
     Set("tungsten into aluminium, sintered alloy", "the same",
         "the rod's law: that of another alloy, one of four that were tried; density of the shots' rods",
         "sweep problems/cth_nose_shape/twelve_shots.toml", predicted=False),
+    Set("tungsten into aluminium, 90W-7Ni-3Fe", "the same", "the same, another of the four",
+        "sweep problems/cth_nose_shape/twelve_shots.toml", predicted=False),
+    Set("tungsten into aluminium, Y925", "the same", "the same, the last of the four",
+        "sweep problems/cth_nose_shape/twelve_shots.toml", predicted=False),
     Set("eroding rods", "Luk & Piekutowski, Int. J. Impact Engng 11 (1991) 323",
         "nothing: contact, the rod's fracture pressure, 6 cells", "sweep problems/validation/eroded_heads.toml"),
     Set("steel rods, 1.6 GPa", "Forrestal & Piekutowski, Int. J. Impact Engng 24 (2000) 57, as tabled by others",
@@ -146,10 +150,12 @@ def _of_explosive(row: dict[str, str]) -> tuple[float, str, tuple[float]]:
 def rows() -> dict[str, list[Row]]:
     """The shots by set, in the order of SETS."""
     names = [each.name for each in SETS]
-    found = (twelve(names[0], "Steinberg-Guinan"), twelve(names[1], "Johnson-Cook, sintered"), eroding(names[2]),
-             steel(names[3], "rigid_steel_rods.csv", target="Steinberg-Guinan", rod="1.6 GPa"),
-             steel(names[4], "steel_rods_fitted.csv", rod="fit, Rc 38"), armour(names[5]), explosives(names[6]),
-             gurney(names[7]))  # fmt: skip
+    laws = "Steinberg-Guinan", "Johnson-Cook, sintered", "Johnson-Cook, 90W", "Johnson-Cook, Y925"
+    others = names[len(laws):]
+    found = (*map(twelve, names, laws), eroding(others[0]),
+             steel(others[1], "rigid_steel_rods.csv", target="Steinberg-Guinan", rod="1.6 GPa"),
+             steel(others[2], "steel_rods_fitted.csv", rod="fit, Rc 38"), armour(others[3]), explosives(others[4]),
+             gurney(others[5]))  # fmt: skip
     return dict(zip(names, found, strict=True))
 
 

@@ -63,7 +63,7 @@ def test_the_figure_has_a_dot_for_every_member():
 
 def test_pages_have_the_tables_of_what_is_kept():
     found = members.grouped(rigid_rod.read(source.PROBLEMS / "cth_nose_shape/results/twelve_shots.csv"))
-    assert len(found) == 2
+    assert len(found) == 4
     page = (source.ROOT / "docs/explanation/rigid-rod.md").read_text(encoding="utf-8").splitlines()
     readme = (source.ROOT / "README.md").read_text(encoding="utf-8").splitlines()
     shots = members.table(found)

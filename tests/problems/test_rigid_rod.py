@@ -6,14 +6,14 @@ from types import SimpleNamespace
 import pytest
 
 from hydro2d.study import cases
-from problems.cth_nose_shape import braking, rigid_rod
+from problems.cth_nose_shape import braking, rigid_rod, transitions
 from problems.cth_nose_shape.rigid_rod import Result, Shot
 from tests.rules import source
 
-#: what `depths` and `table` keep there has other columns, and so has what `braking` keeps
-OTHERS = ("ceramics", "classic", "explosives", "long_rods", "spall", "verification")
+#: what `depths` and `table` keep there has other columns, and so has what `braking` and `transitions` keep
+OTHERS = ("ceramics", "classic", "explosives", "long_rods", "spall", "verification", "whipple")
 KEPT = sorted(file for file in source.PROBLEMS.glob("*/results/*.csv")
-              if file.parent.parent.name not in OTHERS and file.stem not in braking.STUDIES)
+              if file.parent.parent.name not in OTHERS and file.stem not in braking.STUDIES and file != transitions.FILE)
 #: a result of a run on a page, as Result writes it
 CELL = re.compile(r"(?:\d+\.\d cm|perforated at \d+ m/s), [\d.]+ %")
 
