@@ -44,6 +44,11 @@ def child(deck, out, **options):
     return subprocess.Popen([sys.executable, "-c", SLOW, "run", deck, "--out", str(out)], cwd=ROOT, **options)
 
 
+def heard():
+    """In a child: SIGHUP ends it again, also where the tests were started with nohup."""
+    signal.signal(signal.SIGHUP, signal.SIG_DFL)
+
+
 def test_a_reader_that_goes_away_interrupts_the_run(deck, tmp_path):
     """As with `| head -3`."""
     out = tmp_path / "out"
@@ -98,7 +103,8 @@ except KeyboardInterrupt:
     print(interrupt.ended_by())
 """
     environment = {**os.environ, "PYTHONPATH": f"{tmp_path}{os.pathsep}{ROOT}"}
-    process = subprocess.Popen([sys.executable, "-c", script], env=environment, stdout=subprocess.PIPE, text=True)
+    process = subprocess.Popen([sys.executable, "-c", script], env=environment, stdout=subprocess.PIPE, text=True,
+                               preexec_fn=heard)  # fmt: skip
     assert process.stdout.readline() == "begun\n"
     process.send_signal(number)
     assert process.communicate(timeout=30)[0] == f"whole\n{number.name}\n"
@@ -133,7 +139,7 @@ def test_the_status_of_a_command_is_that_of_its_signal(deck):
     """The library behind the command line has a status of its own for KeyboardInterrupt."""
     script = "from hydro2d.cli import main; import time; main._load = lambda *_: time.sleep(60); print(flush=True); main.main()"
     command = [sys.executable, "-c", script, "check", deck]
-    process = subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    process = subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, preexec_fn=heard)
     process.stdout.readline()
     time.sleep(1.0)
     process.send_signal(signal.SIGHUP)
