@@ -10,7 +10,6 @@ that has left its rear. The wall has a hole where cells that it fills by less th
 from __future__ import annotations
 
 import argparse
-import csv
 import sys
 from pathlib import Path
 
@@ -25,6 +24,8 @@ HERE = Path(__file__).parent
 SHOTS, KEPT, VELOCITIES = HERE / "shots.csv", HERE / "results" / "walls.csv", HERE / "results" / "wall_velocities.csv"
 CHOICES = HERE / "results" / "choices.csv"
 COLUMNS = ("case", "velocity_km_s", "bumper_mm", "gap_mm", "wall_mm", "cells", "hole", "behind_mg")
+#: columns of shots.csv
+TOLD = ("shot", "report", "velocity_km_s", "bumper_mm", "gap_mm", "wall_mm", "perforated", "half")
 #: shots by which the set-up was chosen, and those that were run after that
 HALVES = {"A": "chosen by", "B": "not looked at before"}
 #: diameter in cm and density in g/cm^3 of the ball, density of the bumper in g/cm^3, yield stress of the wall in ksi
@@ -97,17 +98,20 @@ def defeated(row: dict[str, str]) -> bool:
 
 def shots() -> list[dict[str, str]]:
     """The rows of shots.csv, each with `computed`, its row of what is kept, by number of cells: the coarsest first."""
-    with open(SHOTS, encoding="utf-8") as file:
-        told = list(csv.DictReader(file))
     runs: dict[str, list[dict[str, str]]] = {}
     for row in sorted(results.rows(KEPT, COLUMNS), key=lambda row: int(row["cells"])):
         runs.setdefault(row["case"].split("-")[-1], []).append(row)
-    return [{**shot, "computed": runs.get(shot["shot"], [])} for shot in told]
+    return [{**shot, "computed": runs.get(shot["shot"], [])} for shot in results.rows(SHOTS, TOLD)]
+
+
+def measured(shot: dict) -> bool:
+    """Whether the wall of a shot was defeated."""
+    return shot["perforated"] == "yes"
 
 
 def right(found: list[dict], verdict) -> str:
     """How many shots end as `verdict`, a function of a shot, has it; of how many."""
-    return f"{sum(verdict(shot) == (shot['perforated'] == 'yes') for shot in found)} of {len(found)}"
+    return f"{sum(verdict(shot) == measured(shot) for shot in found)} of {len(found)}"
 
 
 def ends(found: list[dict], verdict) -> str:
@@ -120,11 +124,6 @@ def ends(found: list[dict], verdict) -> str:
 def computed(shot: dict) -> bool:
     """Whether the wall of a shot is defeated in its run on the coarsest mesh."""
     return defeated(shot["computed"][0])
-
-
-def measured(shot: dict) -> bool:
-    """Whether the wall of a shot was defeated."""
-    return shot["perforated"] == "yes"
 
 
 def has_hole(shot: dict) -> bool:

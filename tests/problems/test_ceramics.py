@@ -53,7 +53,7 @@ def test_what_the_page_says_of_chance_and_the_mesh():
         assert others[0] < depths(cells, "boron_carbide", "20.0")[0] < others[-1]
         assert depths(cells, "steel", "20.0")[0] > depths("5.5", "steel", "20.0")[-1] + 0.8
         fine, coarse = (efficiencies(each)["alumina_995", 20] for each in (cells, "5.5"))
-        assert fine / coarse == pytest.approx(1.01, abs=0.015)
+        assert fine / coarse == pytest.approx(1.01, abs=0.005)
     for ceramic, thickness in (("steel", "20.0"), ("alumina_995", "10.0")):
         found = depths("5.5", ceramic, thickness)
         assert found[-1] - found[0] < 0.2
