@@ -13,19 +13,21 @@ from hydro2d.physics.waves import impedances
 
 
 @apart
-def fill(m, j, i, from_j, from_i, mirror, fields, rules, vof, q):
+def fill(m, j, i, from_j, from_i, mirror, fields, rules, vof, q, centroid):
     """Makes cell (j, i) of body m a copy or, in a mirror, an image of cell (from_j, from_i)."""
     vof[m, j, i] = vof[m, from_j, from_i]
+    centroid[0, m, j, i] = -centroid[0, m, from_j, from_i] if mirror and j == from_j else centroid[0, m, from_j, from_i]
+    centroid[1, m, j, i] = -centroid[1, m, from_j, from_i] if mirror and i == from_i else centroid[1, m, from_j, from_i]
     for k in range(fields):
         q[k, m, j, i] = -q[k, m, from_j, from_i] if mirror and rules[m, k, PARITY] < 0.0 else q[k, m, from_j, from_i]
 
 
 @kernel
-def ghost_columns(part, parts, nr, mirror_low, mirror_high, fields, rules, body_range, vof, q):
+def ghost_columns(part, parts, nr, mirror_low, mirror_high, fields, rules, body_range, vof, q, centroid):
     """Ghost cells left and right of rows j0 to j1, of bodies that are near or were: fractions and the first `fields` of q.
 
     Reads    rules [m, k, 4]; body_range [m, j, 2]
-    Updates  vof [m, j, i], q [k, m, j, i]
+    Updates  vof [m, j, i], q [k, m, j, i], centroid [2, m, j, i]
     """
     g = GHOSTS
     for j in range(parts[part], parts[part + 1]):
@@ -40,17 +42,17 @@ def ghost_columns(part, parts, nr, mirror_low, mirror_high, fields, rules, body_
                 for n in range(g):
                     ghost = edge + (n + 1) * out
                     source = edge - n * out if mirror else edge
-                    fill(m, j, ghost, j, source, mirror, fields, rules, vof, q)
+                    fill(m, j, ghost, j, source, mirror, fields, rules, vof, q, centroid)
 
 
 @kernel
-def ghost_rows(part, parts, i0, i1, nz, mirror_low, mirror_high, leading, fields, rules, vof, q):
+def ghost_rows(part, parts, i0, i1, nz, mirror_low, mirror_high, leading, fields, rules, vof, q, centroid):
     """Ghost cells below and above the mesh, columns i0 to i1, likewise; the first and the last part have one side each.
 
     The side `leading` of a mesh that travels (0 low, 1 high, -1 none) is left as it is: what flows in has been placed there.
 
     Reads    rules [m, k, 4]
-    Updates  vof [m, j, i], q [k, m, j, i]
+    Updates  vof [m, j, i], q [k, m, j, i], centroid [2, m, j, i]
     """
     g = GHOSTS
     for side in range(2):
@@ -64,7 +66,7 @@ def ghost_rows(part, parts, i0, i1, nz, mirror_low, mirror_high, leading, fields
                 ghost = edge + (n + 1) * out
                 source = edge - n * out if mirror else edge
                 for i in range(i0, i1):
-                    fill(m, ghost, i, source, i, mirror, fields, rules, vof, q)
+                    fill(m, ghost, i, source, i, mirror, fields, rules, vof, q, centroid)
 
 
 @kernel

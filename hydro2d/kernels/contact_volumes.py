@@ -7,10 +7,11 @@ from hydro2d.jit import apart, kernel, point
 from hydro2d.kernels.column_ranges import first_row, outer_rows, past_row, union
 from hydro2d.kernels.contact_geometry import HARD_FIRST, SOFT_AFTER
 from hydro2d.kernels.cut_cells import INTERFACE, KIND
+from hydro2d.kernels.interfaces import ACROSS, ALONG, NOTHING, SHARE, fill_strips
 from hydro2d.mesh.fields import RHO, E
 from hydro2d.mesh.grid import FACE_R
 from hydro2d.physics.contact import GAP, face_flow_r, face_flow_z, largest_of, volume_rate
-from hydro2d.physics.interfaces import cumulative, nested, share_in_strip, surface
+from hydro2d.physics.interfaces import cumulative
 from hydro2d.physics.traction import smoothstep
 
 #: share of a cell that other bodies and void leave free from which it is in full no longer one body's, and has void
@@ -160,31 +161,6 @@ def contact_shares(part, parts, mesh_box, contact_columns, volume, pre, vof, own
 
 
 @apart
-def strip_of(m, j, i, along_z, width, high, order, own_share, vof, dr, dz):
-    """Volume of body m in a strip of cell (j, i), as a share of the cell; nested in the order, never more than there is.
-
-    The lines are those of own_share, the void is that of vof.
-    """
-    below, total, given = 0.0, 0.0, 0.0
-    void = 1.0 - cumulative(j, i, order.shape[0] - 1, order, vof)
-    for k in range(order.shape[0]):
-        f = own_share[order[k], j, i]
-        total = min(total + f, 1.0)
-        if f == 0.0:
-            continue
-        n_r, n_z, w, h, weight = surface(j, i, k, order, own_share, dr, dz, void)
-        if along_z:
-            n_r, n_z, w, h = n_z, n_r, h, w
-        filled = share_in_strip(n_r, n_z, w, h, weight, total, width, high)
-        filled = nested(filled, below, f, total, width)
-        given = filled - below
-        if order[k] == m:
-            break
-        below = filled
-    return given
-
-
-@apart
 def take(g, more, dj, di, j, i, group, own_share, size, vof, flux_volume):
     """Adds `more` to the volume of group g through face (j, i); what the group cannot take.
 
@@ -212,7 +188,7 @@ def take(g, more, dj, di, j, i, group, own_share, size, vof, flux_volume):
 
 @kernel
 def contact_fluxes(dj, di, part, parts, mesh_box, dr, dz, hard_first, soft_first, group, contact_columns, line, face, own,
-                   own_share, size, vof, flux_volume):
+                   own_share, size, vof, centroid, flux_volume, flux_place, strips):
     """Volume of every body through the faces of contact-interface cells, with the velocity of its group.
 
     In a cell the group with the flatter surface comes first among the nested interfaces, where void parts them each group for
@@ -224,7 +200,8 @@ def contact_fluxes(dj, di, part, parts, mesh_box, dr, dz, hard_first, soft_first
 
     Reads    face [j, i], own [b, j, i], what contact_shares wrote, vof [m, j, i], group [m], line [10, j, i];
              hard_first, soft_first [m], the bodies in the order in which their interfaces are nested
-    Updates  flux_volume [m, j, i]
+    Updates  flux_volume [m, j, i]; flux_place [2, m, j, i]
+    Scratch  strips [j, 3, 4, m]
     """
     j0, j1 = outer_rows(parts)
     bodies = group.shape[0]
@@ -241,17 +218,31 @@ def contact_fluxes(dj, di, part, parts, mesh_box, dr, dz, hard_first, soft_first
                 up = swept > 0.0
                 row, column = (j - dj, i - di) if up else (j, i)
                 volume = 0.0
+                flux_place[0, m, j, i] = 0.0
+                flux_place[1, m, j, i] = 0.0
                 if vof[m, row, column] == 1.0:
                     volume = swept
                 elif vof[m, row, column] > 0.0 and swept != 0.0:
                     width = min(abs(swept) / size[row, column], 1.0)
-                    w, given = 1.0, 0.0
+                    w, given, along, across = 1.0, 0.0, 0.0, 0.0
+                    void = 1.0 - cumulative(row, column, bodies - 1, hard_first, vof)
+                    w_low, w_high = (0.0, width) if up else (width, 0.0)
+                    strip = strips[j, 1 if up else 0]
                     if contact_columns[row, 0] <= column < contact_columns[row, 1]:
                         w = line[HARD_FIRST if group[m] == 1 else SOFT_AFTER, row, column]
                     if w > 0.0:
-                        given += w * strip_of(m, row, column, dj == 1, width, up, hard_first, own_share, vof, dr, dz)
+                        fill_strips(row, column, dj == 1, w_low, w_high, 0.0, hard_first, own_share, void, centroid, dr, dz,
+                                    strips[j])
+                        given, along, across = w * strip[SHARE, m], w * strip[ALONG, m], w * strip[ACROSS, m]
                     if w < 1.0:
-                        given += (1.0 - w) * strip_of(m, row, column, dj == 1, width, up, soft_first, own_share, vof, dr, dz)
+                        fill_strips(row, column, dj == 1, w_low, w_high, 0.0, soft_first, own_share, void, centroid, dr, dz,
+                                    strips[j])
+                        given += (1.0 - w) * strip[SHARE, m]
+                        along += (1.0 - w) * strip[ALONG, m]
+                        across += (1.0 - w) * strip[ACROSS, m]
+                    if given > NOTHING:
+                        flux_place[0, m, j, i] = along / given
+                        flux_place[1, m, j, i] = across / given
                     volume = given * size[row, column] if up else -given * size[row, column]
                 flux_volume[m, j, i] = volume
                 total += volume

@@ -6,9 +6,17 @@ stated order bounds their cumulative fraction, void comes last.
 """
 
 
-from hydro2d.jit import kernel, point, rowwise
+from hydro2d.jit import apart, kernel, point, rowwise
 from hydro2d.kernels.column_ranges import columns, outer_rows, past_row
-from hydro2d.physics.interfaces import cumulative, nested, share_in_strip, surface
+from hydro2d.physics.centroids import beside, box_piece, goes_on, piece, placed, within
+from hydro2d.physics.interfaces import add_body, at_most_full, cumulative, nested, surface
+
+#: rows of a strip: shares of the cell; times them, the centroids' offsets along the sweep and across; how thin the bodies are
+SHARE, ALONG, ACROSS, THIN = range(4)
+#: no fraction of anything in the cells of `add_body`
+NO_BODY = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+#: a share of a cell with less than this lies nowhere in particular
+NOTHING = 1e-14
 
 
 @rowwise
@@ -71,20 +79,155 @@ def donor_volumes_row(j, dj, di, i0, i1, open_faces, body_ranges, f_face, vof, f
                 out[open_faces[3]] = 0.0
 
 
+@point
+def thinnest_body(j, i, order, share, thin):
+    """How thin the thinnest body of cell (j, i) is, 0 to 1 (`placed`); 0 where no two bodies meet.
+
+    Writes   thin [m], that of each
+    """
+    present, thinnest = 0, 0.0
+    for m in range(order.shape[0]):
+        thin[m] = 0.0
+        if share[m, j, i] > 0.0:
+            own, _ = placed(add_body(m, j, i, share, NO_BODY))
+            thin[m] = 1.0 - own
+            thinnest = max(thinnest, 1.0 - own)
+            present += 1
+    return thinnest if present > 1 else 0.0
+
+
+@apart
+def next_body(m, f, thin, box, whole, total, side, width, high, weight, below, strip):
+    """Adds what a strip has of body m, the next of the nested ones, times a weight, and returns `below` for the one after it.
+
+    f is the body's fraction, total that of all up to it; thin how thin it is if it comes first for that, 0 else. box is what
+    the strip has of its box, whole what it has of all up to it, as `line_piece` gives them; side is its centroid's offset
+    across the sweep.
+    below : what the bodies before have of the strip; the same as their interface gives it, with its moments
+
+    Updates  strip [SHARE, ALONG, ACROSS; m]
+    """
+    given, along, across = whole[0] - below[1], whole[1] - below[2], whole[2] - below[3]
+    up_to = whole[0] + (below[0] - below[1])
+    if thin > 0.0:
+        given = thin * box[0] + (1.0 - thin) * given
+        along = thin * box[1] + (1.0 - thin) * along
+        across = thin * box[2] + (1.0 - thin) * across
+        up_to = below[0] + given
+    up_to = nested(up_to, below[0], f, total, width)
+    kept = up_to - below[0]
+    place = 0.0
+    if given > NOTHING:
+        place, side = along / given, across / given
+    strip[SHARE, m] += weight * kept
+    strip[ALONG, m] += weight * kept * min(max(place, -0.5), 0.5)
+    strip[ACROSS, m] += weight * kept * min(max(side, -0.5), 0.5)
+    return up_to, whole[0], whole[1], whole[2]
+
+
+@apart
+def nest(j, i, along_z, w_low, w_high, w_whole, thin_first, weight, order, share, void, centroid, dr, dz, strips):
+    """Adds what the nested interfaces give of every body in the strips of cell (j, i), times a weight.
+
+    The bodies come in their order, or first those that are thin (strips [0, THIN, m]), each by a box of its own. A strip of no
+    width is left out.
+
+    Updates  strips [3, SHARE to ACROSS, m]: of the strips at the low and at the high side, and of the whole cell
+    """
+    around = NO_BODY
+    moment_along, moment_across = 0.0, 0.0
+    low, high, whole = (0.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0)
+    for turn in range(2 if thin_first else 1):
+        for k in range(order.shape[0]):
+            m = order[k]
+            f = share[m, j, i]
+            thin = strips[0, THIN, m] if thin_first else 0.0
+            if f == 0.0 or (thin_first and (thin > 0.0) != (turn == 0)):
+                continue
+            around = add_body(m, j, i, share, around)
+            full = at_most_full(around)
+            along, across = centroid[0, m, j, i], centroid[1, m, j, i]
+            n_r, n_z, w, h, corner = surface(j, i, full, dr, dz, void)
+            if along_z:
+                along, across = across, along
+                n_r, n_z, w, h = n_z, n_r, h, w
+            bound = n_r, n_z, w, h, corner
+            moment_along += f * along
+            moment_across += f * across
+            total = full[4]
+            middle_along, middle_across = moment_along / total, moment_across / total
+            continues, box = 0.0, (0.0, 0.0, 0.0)
+            if thin > 0.0:
+                continues = goes_on(f, *beside(add_body(m, j, i, share, NO_BODY), along_z))
+            if w_low > 0.0:
+                if thin > 0.0:
+                    box = box_piece(f, along, across, continues, w_low, False)
+                low = next_body(m, f, thin, box, piece(full, along_z, middle_along, middle_across, bound, w_low, False), total,
+                                across, w_low, False, weight, low, strips[0])
+            if w_high > 0.0:
+                if thin > 0.0:
+                    box = box_piece(f, along, across, continues, w_high, True)
+                high = next_body(m, f, thin, box, piece(full, along_z, middle_along, middle_across, bound, w_high, True), total,
+                                 across, w_high, True, weight, high, strips[1])
+            if w_whole > 0.0:
+                if thin > 0.0:
+                    box = box_piece(f, along, across, continues, w_whole, True)
+                whole = next_body(m, f, thin, box, piece(full, along_z, middle_along, middle_across, bound, w_whole, True),
+                                  total, across, w_whole, True, weight, whole, strips[2])
+
+
+@apart
+def fill_strips(j, i, along_z, w_low, w_high, w_whole, order, share, void, centroid, dr, dz, strips):
+    """What every body has in the strips at the low and at the high side of cell (j, i), and in all of it, and where.
+
+    Nested interfaces in the order of the bodies. Where several bodies meet and one of them is narrower than a cell, so that its
+    neighbours do not place it, it comes first, whatever the order says (explanation/interfaces, thin bodies).
+
+    w_low, w_high, w_whole : widths of the strips as shares of the cell, 0 for one that is left out
+
+    Reads    share [m, j, i], the fractions; void, the share of the cell that is empty; centroid [2, m, j, i]
+    Writes   strips [3, 4, m]: shares of the cell; times them, where the centroids lie off the middle of the strip, along the
+             sweep in widths of the strip and across; how thin the bodies are
+    """
+    for n in range(3):
+        for m in range(order.shape[0]):
+            strips[n, SHARE, m] = 0.0
+            strips[n, ALONG, m] = 0.0
+            strips[n, ACROSS, m] = 0.0
+    thinnest = thinnest_body(j, i, order, share, strips[0, THIN])
+    if thinnest < 1.0:
+        nest(j, i, along_z, w_low, w_high, w_whole, False, 1.0 - thinnest, order, share, void, centroid, dr, dz, strips)
+    if thinnest > 0.0:
+        nest(j, i, along_z, w_low, w_high, w_whole, True, thinnest, order, share, void, centroid, dr, dz, strips)
+
+
+@point
+def place_of(strip, m):
+    """Where the centroid of what a strip has of body m lies off its middle: along the sweep, in widths of it, and across."""
+    given = strip[SHARE, m]
+    if given < NOTHING:
+        return 0.0, 0.0
+    return strip[ALONG, m] / given, strip[ACROSS, m] / given
+
+
 @rowwise
-def interface_volumes_row(j, dj, di, dr, dz, order, mixed_count, mixed, f_face, pre, vof, flux_volume, strips):
-    """Volume of each body out of each mixed cell, from the nested linear interfaces.
+def interface_volumes_row(j, dj, di, dr, dz, order, mixed_count, mixed, f_face, pre, vof, centroid, flux_volume, flux_place,
+                          strips):
+    """Volume of each body out of each mixed cell, from the nested interfaces, and where it lies in the strips that leave.
 
     The cumulative volumes of a strip are kept monotone, each body gives no more than it has, and what two opposite strips
     ask together beyond that is passed on to the next body.
 
     Reads    mixed [j, k], order [k], f_face, pre [j, i], vof [m, j, i]
-    Updates  flux_volume [m, j, i] at the faces through which mixed cells lose volume
-    Scratch  strips [j, 2, m]
+    Updates  flux_volume [m, j, i] and flux_place [2, m, j, i] at the faces through which mixed cells lose volume;
+             centroid [2, m, j, i] of these cells: that of what the interfaces enclose
+    Scratch  strips [j, 3, 4, m]
     """
     bodies = order.shape[0]
     left = strips[j, 0]
     right = strips[j, 1]
+    whole = strips[j, 2]
+    along_z = dj == 1
     for k in range(mixed_count[j]):
         i = mixed[j, k]
         out_low = max(-f_face[j, i], 0.0)
@@ -93,40 +236,33 @@ def interface_volumes_row(j, dj, di, dr, dz, order, mixed_count, mixed, f_face, 
             continue
         size = pre[j, i]
         w_low, w_high = out_low / size, out_high / size
-        below_low, below_high, total = 0.0, 0.0, 0.0
         void = 1.0 - cumulative(j, i, bodies - 1, order, vof)
-        for n in range(bodies):
-            f = vof[order[n], j, i]
-            total = min(total + f, 1.0)
+        fill_strips(j, i, along_z, w_low, w_high, 1.0, order, vof, void, centroid, dr, dz, strips[j])
+        for m in range(bodies):
+            f = vof[m, j, i]
             if f == 0.0:
-                left[n] = 0.0
-                right[n] = 0.0
                 continue
-            n_r, n_z, w, h, weight = surface(j, i, n, order, vof, dr, dz, void)
-            if dj == 1:
-                n_r, n_z, w, h = n_z, n_r, h, w
-            low = share_in_strip(n_r, n_z, w, h, weight, total, w_low, False) if w_low > 0.0 else 0.0
-            high = share_in_strip(n_r, n_z, w, h, weight, total, w_high, True) if w_high > 0.0 else 0.0
-            low = nested(low, below_low, f, total, w_low)
-            high = nested(high, below_high, f, total, w_high)
-            left[n] = low - below_low
-            right[n] = high - below_high
-            below_low = low
-            below_high = high
+            if w_low > 0.0:
+                flux_place[0, m, j, i], flux_place[1, m, j, i] = place_of(left, m)
+            if w_high > 0.0:
+                flux_place[0, m, j + dj, i + di], flux_place[1, m, j + dj, i + di] = place_of(right, m)
+            along, across = place_of(whole, m)
+            centroid[di, m, j, i] = within(across, f)
+            centroid[dj, m, j, i] = within(along, f)
         # two strips together may not take more of a body than there is; the excess moves on to the next body
         if w_low > 0.0 and w_high > 0.0:
             excess = 0.0
             for n in range(bodies):
-                f = vof[order[n], j, i]
-                right[n] += excess
-                kept = min(right[n], max(f - left[n], 0.0))
-                excess = right[n] - kept
-                right[n] = kept
-        for n in range(bodies):
+                m = order[n]
+                right[SHARE, m] += excess
+                kept = min(right[SHARE, m], max(vof[m, j, i] - left[SHARE, m], 0.0))
+                excess = right[SHARE, m] - kept
+                right[SHARE, m] = kept
+        for m in range(bodies):
             if w_low > 0.0:
-                flux_volume[order[n], j, i] = -left[n] * size
+                flux_volume[m, j, i] = -left[SHARE, m] * size
             if w_high > 0.0:
-                flux_volume[order[n], j + dj, i + di] = right[n] * size
+                flux_volume[m, j + dj, i + di] = right[SHARE, m] * size
 
 
 @kernel
@@ -144,7 +280,9 @@ def donor_volumes(dj, di, part, parts, i0, i1, first, open_faces, volume, body_r
 
 
 @kernel
-def interface_volumes(dj, di, part, parts, dr, dz, order, mixed_count, mixed, face, pre, vof, flux_volume, strips):
+def interface_volumes(dj, di, part, parts, dr, dz, order, mixed_count, mixed, face, pre, vof, centroid, flux_volume,
+                      flux_place, strips):
     """interface_volumes_row for rows j0 to j1."""
     for j in range(parts[part], parts[part + 1]):
-        interface_volumes_row(j, dj, di, dr, dz, order, mixed_count, mixed, face, pre, vof, flux_volume, strips)
+        interface_volumes_row(j, dj, di, dr, dz, order, mixed_count, mixed, face, pre, vof, centroid, flux_volume, flux_place,
+                              strips)

@@ -139,7 +139,7 @@ def deform(parts, i0, i1, time, dt, travels, advance, metrics, dr, dz, group_ran
            aperture_z, own_r, own_z, pm, checkerboard, hg_coefficient, km, room, body_range, models, materials, sig_rr, sig_zz,
            sig_tt, sig_rz, tm, scratch, internal, relaxation, tipton, mixed_strength, hard_bodies, threshold, mixed_count,
            mixed_columns, qz, p, solid, mix, motion, warmed, heat, deposited, slip_layer, shear, friction, occupied, zone,
-           normal, carried, lanes, before):
+           normal, carried, lanes, before, centroid):
     """Volumes that faces sweep, work, and strain of every body; what faces sweep relative to a mesh that advances.
 
     time : at the end of the step, s;  travels, advance : whether the mesh does, and by how much in the step, m
@@ -171,7 +171,8 @@ def deform(parts, i0, i1, time, dt, travels, advance, metrics, dr, dz, group_ran
                            sig_zz, sig_tt, sig_rz, hg_coefficient, vof, pm, tm, scratch, q, internal, lanes)
         mixed.deform_mixed(part, parts, dt, relaxation, tipton, mixed_strength, hard_bodies, threshold, metrics, dz,
                            mixed_count, mixed_columns, group, contact_columns, cell_mass, models, materials, u0, v0, u, v, fr,
-                           fz, ph, qr, qz, hg_coefficient, skin, p, bulk, solid, pm, km, tm, vof, q, mix, motion, internal)
+                           fz, ph, qr, qz, hg_coefficient, skin, p, bulk, solid, pm, km, tm, vof, q, mix, motion, internal,
+                           centroid)
         if cell_mass.shape[0] > 1:
             momentum.deposit(part, parts, metrics, warmed, group, heat, cell_mass, vof, q, deposited)
         if slip_layer:

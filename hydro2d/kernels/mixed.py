@@ -2,9 +2,11 @@
 
 from eos.dispatch import evaluate, zero_pressure_density
 from hydro2d.jit import kernel, point, rowwise
+from hydro2d.kernels.centroids import push_bodies
 from hydro2d.kernels.column_ranges import mixed_row
 from hydro2d.kernels.cut_cells import BONDED, FREE_SURFACE, INTERFACE, KIND, common_traction, fill_cut_cell, normal_deviator
 from hydro2d.kernels.mixed_scratch import (
+    BEFORE,
     HEAT,
     HOURGLASS,
     MEAN_RR,
@@ -263,7 +265,7 @@ def fill_cell(j, i, change, volume, total, inverse, mean_p, work_p, work_q, midd
 @kernel
 def deform_mixed(part, parts, dt, relaxation, tipton, mode, hard, hard_threshold, metrics, dz, mixed_count, mixed, group,
                  contact_columns, cell_mass, models, materials, u0, v0, u, v, fr, fz, ph, qr, qz, hg_coefficient, skin, p, bulk,
-                 solid, pm, km, tm, vof, q, mix, motion, internal):
+                 solid, pm, km, tm, vof, q, mix, motion, internal, centroid):
     """The Lagrangian step of the bodies in mixed cells.
 
     Where bodies of one group fill a cell, by compressibility: w_m = R_m/Rbar with R_m = f_m/K_m, then relaxation of the
@@ -275,8 +277,8 @@ def deform_mixed(part, parts, dt, relaxation, tipton, mode, hard, hard_threshold
 
     Reads    velocities, swept volumes, stresses as `deform`; ph, qr, qz, solid [j, i]; contact_columns [j, 2];
              cell_mass [b, j, i]; group, hard [m]
-    Updates  vof [m, j, i] (share of the volume after the step), q [k, m, j, i]
-    Scratch  mix [j, 14, m] (rows SOFT to NORMAL), motion [j, b, 10], internal [j, k]
+    Updates  vof [m, j, i] (share of the volume after the step), q [k, m, j, i], centroid [2, m, j, i]
+    Scratch  mix [j, 17, m] (rows SOFT to SHIFT_Z), motion [j, b, 10], internal [j, k]
     """
     groups = cell_mass.shape[0]
     for j in range(parts[part], parts[part + 1]):
@@ -298,6 +300,7 @@ def deform_mixed(part, parts, dt, relaxation, tipton, mode, hard, hard_threshold
             total, meet = solid[j, i], held > 1
             dominant = dominant_body(j, i, hard, hard_threshold, vof)
             for m in range(vof.shape[0]):
+                mix[j, BEFORE, m] = vof[m, j, i]
                 mix[j, NORMAL, m] = normal_deviator(m, j, i, skin, q) if vof[m, j, i] > 0.0 else 0.0
             cut, own = skin[KIND, j, i] != BONDED, mode == MATERIAL or dominant >= 0 or meet
             target = 0.0
@@ -312,7 +315,8 @@ def deform_mixed(part, parts, dt, relaxation, tipton, mode, hard, hard_threshold
             if cut:
                 fill_cut_cell(j, i, change, volume, target, work_p + work_q + filter_work(j, i, motion, cell_mass), vof,
                               pm, q, mix)
-                continue
-            inverse, mean_p = soften(j, i, tipton, vof, pm, km, mix)
-            fill_cell(j, i, change, volume, total, inverse, mean_p, work_p, work_q, ph[j, i], relaxation, tipton, group,
-                      motion, cell_mass, materials, pm, km, vof, q, mix)
+            else:
+                inverse, mean_p = soften(j, i, tipton, vof, pm, km, mix)
+                fill_cell(j, i, change, volume, total, inverse, mean_p, work_p, work_q, ph[j, i], relaxation, tipton, group,
+                          motion, cell_mass, materials, pm, km, vof, q, mix)
+            push_bodies(j, i, vof, centroid, mix)

@@ -206,20 +206,37 @@ def sum_cell_mass(part, parts, group_ranges, group, volume, vof, q, cell_mass):
         cell_mass_row(0, 0, j, group_ranges, group, volume, volume, volume, True, vof, q, cell_mass)
 
 
+@point
+def forget_centroids(j, i, vof, centroid):
+    """Places every body in the middle of a cell that it fills, or in which it is not.
+
+    Updates  centroid [2, m, j, i]
+    """
+    for m in range(vof.shape[0]):
+        if not 0.0 < vof[m, j, i] < 1.0:
+            centroid[0, m, j, i] = 0.0
+            centroid[1, m, j, i] = 0.0
+
+
 @rowwise
 def sweep_row(dj, di, j, i0, i1, below, above, b, carried, rules, group, body_ranges, group_ranges, face, pre, volume, second,
-              flux_volume, flux, scratch, vof, q, cell_mass, mixed_count, mixed):
-    """Row j after the sweep: every body, the mass of the cells and the list of those that are mixed."""
+              flux_volume, flux, scratch, vof, q, cell_mass, mixed_count, mixed, centroid):
+    """Row j after the sweep: every body, the mass of the cells and the list of those that are mixed.
+
+    Cells that were mixed and are no more have no centroids.
+    """
     for m in range(body_ranges.shape[1]):
         update_row(dj, di, j, i0, i1, m, carried[m], rules, below, above, b, body_ranges, face, pre, flux_volume, flux, scratch,
                    vof, q)
     cell_mass_row(dj, di, j, group_ranges, group, pre, face, volume, second, vof, q, cell_mass)
+    for k in range(mixed_count[j]):
+        forget_centroids(j, mixed[j, k], vof, centroid)
     mixed_row(j, group_ranges[0, 0], vof, scratch[0], b, mixed_count, mixed)
 
 
 @kernel
 def sweep_r(part, parts, i0, i1, carried, rules, group, mesh_box, body_ranges, group_ranges, face, pre, volume, second,
-            flux_volume, scratch, flux, flux_mass, edge_flux, vof, q, cell_mass, mixed_count, mixed):
+            flux_volume, scratch, flux, flux_mass, edge_flux, vof, q, cell_mass, mixed_count, mixed, centroid):
     """Carries every body along r: fluxes and update row by row.
 
     Reads    carried [m, n]; group [m]; rules [m, k, 4]; mesh_box (j0, j1, i0, i1 of the mesh), body_ranges, group_ranges; face,
@@ -239,7 +256,7 @@ def sweep_r(part, parts, i0, i1, carried, rules, group, mesh_box, body_ranges, g
                 edge_flux[side, E, m, j] = flux[E, m, slot, i] if lo <= i < hi else 0.0
         mass_flux_row(0, 1, j, i0, i1, slot, group_ranges, body_ranges, group, flux, flux_mass)
         sweep_row(0, 1, j, i0, i1, slot, slot, part, carried, rules, group, body_ranges, group_ranges, face, pre, volume,
-                  second, flux_volume, flux, scratch, vof, q, cell_mass, mixed_count, mixed)
+                  second, flux_volume, flux, scratch, vof, q, cell_mass, mixed_count, mixed, centroid)
 
 
 @point
@@ -277,7 +294,7 @@ def shared_fluxes(part, parts, i0, i1, carried, rules, body_ranges, pre, flux_vo
 
 @kernel
 def sweep_z(part, parts, i0, i1, carried, rules, group, mesh_box, body_ranges, group_ranges, face, pre, volume, second,
-            flux_volume, scratch, flux, flux_mass, edge_flux, vof, q, cell_mass, mixed_count, mixed):
+            flux_volume, scratch, flux, flux_mass, edge_flux, vof, q, cell_mass, mixed_count, mixed, centroid):
     """Carries every body along z: a row is updated as soon as the fluxes of the faces that need it are known.
 
     Reads    flux of the faces that two parts share (shared_fluxes), and what sweep_r reads
@@ -306,7 +323,7 @@ def sweep_z(part, parts, i0, i1, carried, rules, group, mesh_box, body_ranges, g
             below = slot_of(j, part, parts)
             above = slot_of(j + 1, part, parts)
             sweep_row(1, 0, j, i0, i1, below, above, part, carried, rules, group, body_ranges, group_ranges, face, pre, volume,
-                      second, flux_volume, flux, scratch, vof, q, cell_mass, mixed_count, mixed)
+                      second, flux_volume, flux, scratch, vof, q, cell_mass, mixed_count, mixed, centroid)
 
 
 #: shares of a cell that are round-off
@@ -325,7 +342,7 @@ def fade(share, cutoff):
 
 @kernel
 def tidy(part, parts, cutoff, metrics, volume, group, mixed_count, mixed, pre, dj, di, fr, fz, second, u, v, vof, q, cell_mass,
-         removed):
+         removed, centroid):
     """Removes sub-cutoff fractions of bodies and void, makes fractions that should be 1 exactly 1, and sums what was removed.
 
     A body below the cutoff is removed with its mass, internal energy, momentum and kinetic energy; void below it is
@@ -334,7 +351,7 @@ def tidy(part, parts, cutoff, metrics, volume, group, mixed_count, mixed, pre, d
 
     Reads    group [m]; u, v [b, j, i]
     Updates  mixed_count [j], mixed [j, k], the list of cells that are not full of one body; vof [m, j, i], q [k, m, j, i],
-             cell_mass [b, j, i]
+             cell_mass [b, j, i]; centroid [2, m, j, i]
     Writes   removed [4 + m, j]: internal energy, kinetic energy, axial momentum, volume closed; then mass of each body
     """
     bodies = vof.shape[0]
@@ -380,6 +397,7 @@ def tidy(part, parts, cutoff, metrics, volume, group, mixed_count, mixed, pre, d
                         f = 1.0 if present == 1 and void == 0.0 else f  # beside a second body, however little, it is not full
                         q[RHO, m, j, i] *= vof[m, j, i] / f
                         vof[m, j, i] = f
+            forget_centroids(j, i, vof, centroid)
             for g in range(cell_mass.shape[0]):
                 mass = 0.0
                 for m in range(bodies):

@@ -9,6 +9,7 @@ from hydro2d.jit import phase, prange, wait
 from hydro2d.kernels import (
     acceleration,
     boundaries,
+    centroids,
     column_ranges,
     contact_motion,
     contact_volumes,
@@ -24,7 +25,7 @@ def carry_bodies(parts, i0, i1, dj, di, second, leading, fr, own_r, fz, own_z, q
                  body_range, vof, nz, mirror_z_min, mirror_z_max, active_range, mixed_count, mixed_columns, scratch, gate,
                  void_only, volume, body_ranges, pre, flux_volume, dr, dz, interface_order, strips, cell_mass, mesh_box,
                  contact_columns, own_share, size, hard_first, soft_first, group, line, carried, flux, group_ranges, flux_mass,
-                 edge_flux, outflow):
+                 edge_flux, outflow, centroid, flux_place):
     """Volume of every body through every face, fluxes of what it carries, and the cells after the sweep.
 
     leading : the edge along z that goes ahead with a mesh that travels, 0 low, 1 high, -1 none: its ghost cells are filled
@@ -33,8 +34,10 @@ def carry_bodies(parts, i0, i1, dj, di, second, leading, fr, own_r, fz, own_z, q
     along_r, along_z = di * q.shape[0], dj * q.shape[0]  # the other direction's interfaces need fractions
     for place in prange(parts.shape[0] - 1):
         part = int64(place)  # numba counts without a sign, for which every kernel would be compiled a second time
-        boundaries.ghost_columns(part, parts, nr, mirror_r_min, mirror_r_max, along_r, rules, body_range, vof, q)
-        boundaries.ghost_rows(part, parts, i0 - 2, i1 + 2, nz, mirror_z_min, mirror_z_max, leading, along_z, rules, vof, q)
+        boundaries.ghost_columns(part, parts, nr, mirror_r_min, mirror_r_max, along_r, rules, body_range, vof, q,
+                                 centroid)
+        boundaries.ghost_rows(part, parts, i0 - 2, i1 + 2, nz, mirror_z_min, mirror_z_max, leading, along_z, rules, vof, q,
+                              centroid)
         if not second:  # cells may have been filled by the Lagrangian step
             column_ranges.list_mixed(part, parts, active_range, vof, mixed_count, mixed_columns, scratch)
         wait(gate, parts)
@@ -42,12 +45,13 @@ def carry_bodies(parts, i0, i1, dj, di, second, leading, fr, own_r, fz, own_z, q
                                  vof, pre, flux_volume)
         wait(gate, parts)
         interfaces.interface_volumes(dj, di, part, parts, dr, dz, interface_order, mixed_count, mixed_columns, face, pre, vof,
-                                     flux_volume, strips)
+                                     centroid, flux_volume, flux_place, strips)
         if cell_mass.shape[0] > 1:
             contact_volumes.contact_shares(part, parts, mesh_box, contact_columns, volume, pre, vof, own_share, size)
             wait(gate, parts)
             contact_volumes.contact_fluxes(dj, di, part, parts, mesh_box, dr, dz, hard_first, soft_first, group,
-                                           contact_columns, line, face, own, own_share, size, vof, flux_volume)
+                                           contact_columns, line, face, own, own_share, size, vof, centroid, flux_volume,
+                                           flux_place, strips)
             wait(gate, parts)
             contact_volumes.limit_fluxes(dj, di, part, parts, mesh_box, contact_columns, pre, vof, flux_volume)
         wait(gate, parts)
@@ -56,12 +60,14 @@ def carry_bodies(parts, i0, i1, dj, di, second, leading, fr, own_r, fz, own_z, q
             wait(gate, parts)
             remap.sweep_z(part, parts, i0, i1, carried, rules, group, mesh_box, body_ranges, group_ranges, face, pre, volume,
                           second, flux_volume, scratch, flux, flux_mass, edge_flux, vof, q, cell_mass, mixed_count,
-                          mixed_columns)
+                          mixed_columns, centroid)
         else:
             remap.sweep_r(part, parts, i0, i1, carried, rules, group, mesh_box, body_ranges, group_ranges, face, pre, volume,
                           second, flux_volume, scratch, flux, flux_mass, edge_flux, vof, q, cell_mass, mixed_count,
-                          mixed_columns)
+                          mixed_columns, centroid)
         wait(gate, parts)
+        centroids.carry_centroids(dj, di, part, parts, second, mesh_box, group, contact_columns, mixed_count, mixed_columns,
+                                  face, own, volume, pre, vof, flux_volume, flux_place, centroid)
         if part == 0:
             edge_sums.sum_outflow(di, parts, i0, i1, edge_flux, outflow)
 
@@ -71,7 +77,7 @@ def carry_momentum(parts, i0, i1, dj, di, second, opens_low, opens_high, mesh_bo
                    constrained, edge_velocity, metrics, group_ranges, cell_mass, mass, velocity0, velocity, dual, edge_dual,
                    deficit, momentum_sums, nr, mirror_r_min, mirror_r_max, u, v, nz, mirror_z_min, mirror_z_max, active_range,
                    group, vof, q, deposited, cutoff, volume, mixed_count, mixed_columns, pre, fr, fz, removed, body_ranges,
-                   occupied, kinetic_outflow):
+                   occupied, kinetic_outflow, centroid):
     """Velocities after the sweep; then what is left over is tidied away, and the bodies are found anew.
 
     opens_low, opens_high : whether bodies flow through the edges of this direction that the active box has reached
@@ -89,7 +95,7 @@ def carry_momentum(parts, i0, i1, dj, di, second, opens_low, opens_high, mesh_bo
         if advection == momentum.BOTH:
             momentum.deposit(part, parts, metrics, active_range, group, deficit, cell_mass, vof, q, deposited)
         remap.tidy(part, parts, cutoff, metrics, volume, group, mixed_count, mixed_columns, pre, dj, di, fr, fz, second, u, v,
-                   vof, q, cell_mass, removed)
+                   vof, q, cell_mass, removed, centroid)
         wait(gate, parts)
         if part == 0:
             edge_sums.sum_kinetic_outflow(di, parts, i0, i1, edge_dual, kinetic_outflow)

@@ -33,8 +33,9 @@ def _shape(axes: str, lengths: dict[str, int]) -> list[int]:
 
 def _arrays(groups: int, remembers: bool) -> Iterator[tuple[str, str, type]]:
     """Symbol, axes and kind of every array that has memory of its own; the other fields are views of q and the velocities."""
-    yield from (("q", "k m j i", float), ("velocity", "2 b J I", float), ("velocity0", "2 b J I", float))
-    views = {"u", "v", "u0", "v0", *(field.symbol for field in fields.BODY)}
+    yield from (("q", "k m j i", float), ("centroid", "2 m j i", float), ("velocity", "2 b J I", float),
+                ("velocity0", "2 b J I", float))
+    views = {"u", "v", "u0", "v0", "centroid_r", "centroid_z", *(field.symbol for field in fields.BODY)}
     axes = {"body": "m j i", "cell": "j i", "vertex": "b J I"}
     yield from ((field.symbol, axes[field.centring], float) for field in fields.FIELDS if field.symbol not in views)
     beside = (*(fields.CONTACT_WORK if groups > 1 else ()), *(fields.MEMORY_WORK if remembers else ()))
@@ -53,8 +54,8 @@ class State:
     Its arrays are those of `fields.FIELDS` and `fields.WORK`, by their symbols; with two groups, of `fields.CONTACT_WORK` as
     well, and where an equation of state has memory, of `fields.MEMORY_WORK`. Shapes: body fields [m, j, i], cell fields [j, i],
     vertex fields [b, j, i] with a leading index of body group b (one group unless contact is on); all with ghosts.
-    ``velocity`` and ``velocity0`` hold u, v and u0, v0; ``body_range`` and ``active_range`` are the first of ``body_ranges``
-    and ``group_ranges``.
+    ``velocity`` and ``velocity0`` hold u, v and u0, v0, ``centroid`` holds centroid_r and centroid_z; ``body_range`` and
+    ``active_range`` are the first of ``body_ranges`` and ``group_ranges``.
 
     Parameters
     ----------
@@ -86,6 +87,7 @@ class State:
             setattr(self, symbol, np.zeros(_shape(axes, lengths), dtype=kind))
         self.u, self.v = self.velocity
         self.u0, self.v0 = self.velocity0
+        self.centroid_r, self.centroid_z = self.centroid
         for field, row in zip(fields.BODY, self.q, strict=False):
             setattr(self, field.symbol, row)
         self.initial = np.zeros(self.rules.shape[1::-1])
@@ -109,4 +111,5 @@ class State:
 
     def restartable(self) -> dict[str, np.ndarray]:
         """The arrays from which every other one follows."""
-        return {"vof": self.vof, "q": self.q, "u": self.u, "v": self.v, "zone": self.zone, "normal": self.normal}
+        return {"vof": self.vof, "q": self.q, "centroid": self.centroid, "u": self.u, "v": self.v, "zone": self.zone,
+                "normal": self.normal}

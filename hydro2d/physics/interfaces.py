@@ -1,4 +1,4 @@
-"""Piecewise-linear interfaces: Youngs' normal, the constant of the line, corners, and the share of a donor strip.
+"""Piecewise-linear interfaces: Youngs' normal, the constant of the line, corners, and what lies in a donor strip.
 
 All in the unit square of a cell with axes s = r^2/2 and z, in which areas are volumes of revolution, so that the planar
 formulas are exact (explanation/interfaces). More than two materials are nested: the interface of the first k bodies of the
@@ -52,22 +52,46 @@ def area_below(m1, m2, alpha):
 
 
 @point
-def strip_share(nx, ny, fraction, width, high):
-    """Material in the strip of given width at the low or high x side of the unit square, as a share of the square.
+def centroid_below(m1, m2, alpha):
+    """(share of the unit square with m1 x + m2 y <= alpha, x - 1/2 and y - 1/2 of its centroid); m1, m2 >= 0, not both 0."""
+    small, large = min(m1, m2), max(m1, m2)
+    a = min(max(alpha, 0.0), small + large)
+    if a < small:
+        return 0.5 * (a / small) * (a / large), a / (3.0 * m1) - 0.5, a / (3.0 * m2) - 0.5
+    if a <= large:
+        share = (a - 0.5 * small) / large
+        if share <= 0.0:
+            return 0.0, 0.0, 0.0
+        steep = 0.5 * (share + (small / large) ** 2 / (12.0 * share)) - 0.5
+        flat = -small / (12.0 * large * share)
+        return share, (steep if m1 >= m2 else flat), (flat if m1 >= m2 else steep)
+    rest = small + large - a
+    empty = 0.5 * (rest / small) * (rest / large)
+    share = 1.0 - empty
+    return share, -empty * (0.5 - rest / (3.0 * m1)) / share, -empty * (0.5 - rest / (3.0 * m2)) / share
 
-    (nx, ny) is the outward normal of the material, |nx| + |ny| = 1 or 0 (spread evenly); fraction its share.
+
+@point
+def line_piece(nx, ny, fraction, width, high):
+    """Material in the strip of given width at the low or high x side of the unit square, and its moments.
+
+    (nx, ny) is the outward normal of the material, |nx| + |ny| = 1 or 0 (spread evenly); fraction its share. Returns its share
+    of the square, and that share times where its centroid lies off the middle of the strip: along x in widths of the strip,
+    along y.
     """
     if fraction <= 0.0:
-        return 0.0
+        return 0.0, 0.0, 0.0
     if fraction >= 1.0:
-        return width
+        return width, 0.0, 0.0
     m1, m2 = abs(nx), abs(ny)
     if m1 + m2 == 0.0:
-        return width * fraction
+        return width * fraction, 0.0, 0.0
     alpha = line_constant(m1, m2, fraction)
     if high == (nx > 0.0):  # the strip lies where the material ends, once x is turned along the normal
         alpha -= m1 * (1.0 - width)
-    return width * area_below(m1 * width, m2, alpha)
+    share, x, y = centroid_below(m1 * width, m2, alpha)
+    share *= width
+    return share, share * (x if nx >= 0.0 else -x), share * (y if ny >= 0.0 else -y)
 
 
 @point
@@ -121,13 +145,22 @@ def youngs_gradient(j, i, sw, s, se, w, e, nw, n, ne, dr, dz):
 
 
 @point
-def fractions_around(j, i, last, order, vof):
-    """`cumulative` in the 3 x 3 cells around cell (j, i), row by row upwards."""
-    return (cumulative(j - 1, i - 1, last, order, vof), cumulative(j - 1, i, last, order, vof),
-            cumulative(j - 1, i + 1, last, order, vof), cumulative(j, i - 1, last, order, vof),
-            cumulative(j, i, last, order, vof), cumulative(j, i + 1, last, order, vof),
-            cumulative(j + 1, i - 1, last, order, vof), cumulative(j + 1, i, last, order, vof),
-            cumulative(j + 1, i + 1, last, order, vof))
+def add_body(m, j, i, vof, f):
+    """Sums of fractions in the 3 x 3 cells around cell (j, i), row by row upwards, and in those two away, with those of body m.
+
+    The cells two away are at lower and higher r, at lower and higher z.
+    """
+    v = vof[m]
+    return (f[0] + v[j - 1, i - 1], f[1] + v[j - 1, i], f[2] + v[j - 1, i + 1], f[3] + v[j, i - 1], f[4] + v[j, i],
+            f[5] + v[j, i + 1], f[6] + v[j + 1, i - 1], f[7] + v[j + 1, i], f[8] + v[j + 1, i + 1],
+            f[9] + v[j, i - 2], f[10] + v[j, i + 2], f[11] + v[j - 2, i], f[12] + v[j + 2, i])
+
+
+@point
+def at_most_full(f):
+    """Sums of fractions in 13 cells, no more than 1 in any."""
+    return (min(f[0], 1.0), min(f[1], 1.0), min(f[2], 1.0), min(f[3], 1.0), min(f[4], 1.0), min(f[5], 1.0), min(f[6], 1.0),
+            min(f[7], 1.0), min(f[8], 1.0), min(f[9], 1.0), min(f[10], 1.0), min(f[11], 1.0), min(f[12], 1.0))
 
 
 @point
@@ -237,29 +270,20 @@ def relative_sizes(n, sizes):
 
 
 @point
-def surface(j, i, last, order, vof, dr, dz, void):
-    """(n_r, n_z, width, height, weight): what bounds the first bodies of the order, up to and with position `last`.
+def surface(j, i, f, dr, dz, void):
+    """(n_r, n_z, width, height, weight): what bounds the first bodies of the order.
 
     A line with Youngs' outward normal (n_r, n_z) and a `corner`, which has no weight in cells without void: void is the share
-    of a mixed cell that is none of the bodies.
+    of a mixed cell that is none of the bodies. f : fractions in the 13 cells of `add_body`
     """
-    f = fractions_around(j, i, last, order, vof)
     n_r, n_z = youngs_normal(j, i, f, dr, dz)
     room = smoothstep(void / ROOM)
     if room == 0.0:
         return n_r, n_z, 0.0, 0.0, 0.0
-    beyond = (cumulative(j, i - 2, last, order, vof), cumulative(j, i + 2, last, order, vof),
-              cumulative(j - 2, i, last, order, vof), cumulative(j + 2, i, last, order, vof))
-    width, height, weight = corner(n_r, n_z, f, beyond, relative_sizes(i, dr), relative_sizes(j, dz))
+    beyond = f[9], f[10], f[11], f[12]
+    around = f[0], f[1], f[2], f[3], f[4], f[5], f[6], f[7], f[8]
+    width, height, weight = corner(n_r, n_z, around, beyond, relative_sizes(i, dr), relative_sizes(j, dz))
     return n_r, n_z, width, height, weight * room
-
-
-@point
-def corner_strip(n_x, width, height, strip, high):
-    """What lies of a `corner` in the strip of given width at the low or high x side, as a share of the square."""
-    if width < 0.0:
-        return strip + height * covered(strip, -width, high == (n_x > 0.0))
-    return height * covered(strip, width, high == (n_x < 0.0))
 
 
 @point
@@ -269,9 +293,30 @@ def covered(strip, width, same):
 
 
 @point
-def share_in_strip(n_x, n_y, width, height, weight, fraction, strip, high):
-    """What lies in the strip of given width at the low or high x side of the unit square: of a corner by weight, and a line."""
-    line = strip_share(n_x, n_y, fraction, strip, high)
+def corner_piece(n_x, n_y, width, height, strip, high):
+    """What lies of a `corner` in the strip of given width at the low or high x side, as `line_piece` gives it."""
+    full = width > 0.0
+    near = high == (n_x < 0.0 if full else n_x > 0.0)  # the rectangle lies at the side of the strip
+    length = covered(strip, abs(width), near)
+    share = abs(height) * length
+    off = 0.5 * (strip - length) / strip
+    along = share * (off if near == high else -off)
+    up = n_y < 0.0 if full else n_y > 0.0
+    across = share * 0.5 * (1.0 - abs(height)) * (1.0 if up else -1.0)
+    if full:
+        return share, along, across
+    return strip - share, -along, -across
+
+
+@point
+def piece_of_surface(n_x, n_y, width, height, weight, fraction, strip, high):
+    """What lies in the strip of given width at the low or high x side of the unit square: of a corner by weight, and a line.
+
+    As `line_piece` gives it.
+    """
+    share, along, across = line_piece(n_x, n_y, fraction, strip, high)
     if weight == 0.0:
-        return line
-    return weight * corner_strip(n_x, width, height, strip, high) + (1.0 - weight) * line
+        return share, along, across
+    cut, cut_along, cut_across = corner_piece(n_x, n_y, width, height, strip, high)
+    return (weight * cut + (1.0 - weight) * share, weight * cut_along + (1.0 - weight) * along,
+            weight * cut_across + (1.0 - weight) * across)

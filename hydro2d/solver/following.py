@@ -68,7 +68,9 @@ class UndisturbedSpace:
         return {m for m, low, high in self._extents if (high > z if direction > 0 else low < z)}
 
     def strip(self, low: float, high: float) -> dict[str, np.ndarray]:
-        """``vof``, ``rho`` (kg/m^3) and ``e`` (J/kg) between two heights, shapes (m, nr), as `insertion` gives them.
+        """``vof``, ``rho`` (kg/m^3), ``e`` (J/kg) and ``centroid`` between two heights, as `insertion` gives them.
+
+        Shapes (m, nr), of ``centroid`` (2, m, nr).
 
         Between two heights at which nothing begins, ends or curves they are computed once.
         """
@@ -82,7 +84,7 @@ class UndisturbedSpace:
     def _insert(self, low: float, high: float) -> dict[str, np.ndarray]:
         row = Grid(self.grid.r_edges, [low, high], self.grid.geometry)
         found = insertion.initial_state(self.deck, row, self.table)
-        return {name: found[name][:, 0] for name in ("vof", "rho", "e")}
+        return {name: found[name][..., 0, :] for name in ("vof", "centroid", "rho", "e")}
 
 
 class FollowingMesh:
@@ -152,10 +154,10 @@ class FollowingMesh:
         if found is self._placed:
             return
         self._placed = found
-        vof, rho, e = (self._padded(found[name]) for name in ("vof", "rho", "e"))
+        vof, rho, e, centroid = (self._padded(found[name]) for name in ("vof", "rho", "e", "centroid"))
         for row in self._ghost_rows:
             s.vof[:, row], s.q[:, :, row] = vof, s.initial[:, :, None]
-            s.q[RHO, :, row], s.q[E, :, row] = rho, e
+            s.q[RHO, :, row], s.q[E, :, row], s.centroid[:, :, row] = rho, e, centroid
 
     def move(self, dt: float) -> None:
         """Advances the mesh by w dt, and forgets bodies that are inside as a whole."""
@@ -174,8 +176,8 @@ class FollowingMesh:
         return (g.g + g.nz, g.g + g.nz + 1) if self.leading else (g.g - 1, g.g - 2)
 
     def _padded(self, values: np.ndarray) -> np.ndarray:
-        """Values (m, nr) with those of the ghost columns."""
+        """Values (..., nr) with those of the ghost columns."""
         low, high = self._pads
         g = self.grid.g
-        values = np.pad(values, ((0, 0), (g, 0)), mode=low)
-        return np.pad(values, ((0, 0), (0, g)), mode=high)
+        rest = ((0, 0),) * (values.ndim - 1)
+        return np.pad(np.pad(values, (*rest, (g, 0)), mode=low), (*rest, (0, g)), mode=high)

@@ -27,7 +27,13 @@ _SHARES /= _SHARES.sum()
 
 
 def fractions(outlines: list[Outline], r_edges: np.ndarray, z_edges: np.ndarray, cylindrical: bool) -> np.ndarray:
-    """Share of every cell that each outline fills; where outlines overlap, the earlier has the place.
+    """Share of every cell that each outline fills, as `shares_and_moments` finds it."""
+    return shares_and_moments(outlines, r_edges, z_edges, cylindrical)[0]
+
+
+def shares_and_moments(outlines: list[Outline], r_edges: np.ndarray, z_edges: np.ndarray,
+                       cylindrical: bool) -> tuple[np.ndarray, np.ndarray]:
+    """Share of every cell that each outline fills, and its first moments; where outlines overlap, the earlier has the place.
 
     Parameters
     ----------
@@ -37,9 +43,11 @@ def fractions(outlines: list[Outline], r_edges: np.ndarray, z_edges: np.ndarray,
 
     Returns
     -------
-    float64, shape (m, nz, nr); exactly 0 and 1 in empty and full cells, sums over m never above 1
+    shares : float64, shape (m, nz, nr); exactly 0 and 1 in empty and full cells, sums over m never above 1
+    moments : float64, shape (2, m, nz, nr), shares times the offsets of the centroids from the middle of the cell along r^2/2
+        (planar: r) and z, in cells
     """
-    result = np.zeros((len(outlines), len(z_edges) - 1, len(r_edges) - 1))
+    result = np.zeros((3, len(outlines), len(z_edges) - 1, len(r_edges) - 1))
     area = _area_of(r_edges, cylindrical)
     full = np.diff(0.5 * r_edges**2 if cylindrical else r_edges)
     for j, (low, high) in enumerate(zip(z_edges, z_edges[1:], strict=False)):
@@ -48,23 +56,34 @@ def fractions(outlines: list[Outline], r_edges: np.ndarray, z_edges: np.ndarray,
             continue
         breaks = _breaks(rows, low, high, r_edges)
         for a, b in zip(breaks, breaks[1:], strict=False):
-            _integrate(result[:, j], rows, a, b, (b - a) / (high - low), area)
-        result[:, j] /= full
-    return _snapped(result)
+            _integrate(result[:, :, j], rows, a, b, low, high, area)
+        result[:, :, j] /= full
+    return _snapped(result[0]), result[1:]
 
 
 def _area_of(r_edges: np.ndarray, cylindrical: bool):
-    """The function (a, b) -> area per height of the interval in every column."""
+    """The function (a, b) -> area per height of the interval in every column, and that times its offset, in columns."""
+
+    def along(r: np.ndarray) -> np.ndarray:
+        return 0.5 * r**2 if cylindrical else r
+
+    edges = along(r_edges)
+    middle, width = 0.5 * (edges[1:] + edges[:-1]), np.diff(edges)
 
     def area(a: float, b: float) -> np.ndarray:
-        clipped = np.clip(r_edges, a, b)
-        return np.diff(0.5 * clipped**2 if cylindrical else clipped)
+        clipped = along(np.clip(r_edges, a, b))
+        size = np.diff(clipped)
+        return np.stack([size, size * (0.5 * (clipped[1:] + clipped[:-1]) - middle) / width])
 
     return area
 
 
-def _integrate(total: np.ndarray, rows: list[list[Slab]], a: float, b: float, share: float, area) -> None:
-    """Adds to ``total`` [m, nr] the mean area of every body between z = a and z = b, times ``share``."""
+def _integrate(total: np.ndarray, rows: list[list[Slab]], a: float, b: float, low: float, high: float, area) -> None:
+    """Adds to ``total`` [3, m, nr] what every body fills of the row from ``low`` to ``high`` between z = a and z = b.
+
+    Its mean area over the row, and its moments along r and z.
+    """
+    share = (b - a) / (high - low)
     middle = 0.5 * (a + b)
     active = [[slab for slab in slabs if slab.low <= middle <= slab.high] for slabs in rows]
     if not any(active):
@@ -79,7 +98,9 @@ def _integrate(total: np.ndarray, rows: list[list[Slab]], a: float, b: float, sh
             for slab in slabs:
                 inner, outer = slab.inner.r(z), slab.outer.r(z)
                 for piece in _common(free, inner, outer):
-                    total[m] += share * weight * area(*piece)
+                    size = share * weight * area(*piece)
+                    total[:2, m] += size
+                    total[2, m] += size[0] * ((z - low) / (high - low) - 0.5)
                 free = _without(free, inner, outer)
 
 
@@ -153,9 +174,9 @@ def _snapped(vof: np.ndarray) -> np.ndarray:
     return vof
 
 
-def _body_fractions(deck, grid) -> np.ndarray:
+def _body_shares(deck, grid) -> tuple[np.ndarray, np.ndarray]:
     outlines = [outline(body, deck.mesh.r_start) for body in deck.body]
-    return fractions(outlines, grid.r_edges, grid.z_edges, grid.cylindrical)
+    return shares_and_moments(outlines, grid.r_edges, grid.z_edges, grid.cylindrical)
 
 
 def slot_of(deck, table) -> list[int]:
@@ -166,7 +187,7 @@ def slot_of(deck, table) -> list[int]:
 def insert(deck, grid, table) -> np.ndarray:
     """Volume fractions of the slots, float64[m, nz, nr] without ghosts. Earlier bodies have the place of later ones."""
     result = np.zeros((len(table), grid.nz, grid.nr))
-    for m, share in zip(slot_of(deck, table), _body_fractions(deck, grid), strict=True):
+    for m, share in zip(slot_of(deck, table), _body_shares(deck, grid)[0], strict=True):
         result[m] += share
     return np.minimum(result, 1.0)
 
@@ -253,18 +274,21 @@ def initial_state(deck, grid, table, group=None) -> dict[str, np.ndarray]:
     -------
     dict with float64 arrays
         ``vof``, ``rho`` (kg/m^3), ``e`` (J/kg), shape (m, nz, nr); density and energy also where a body is not.
+        ``centroid``, shape (2, m, nz, nr): offsets from the middle of the cell along r^2/2 (planar: r) and z, in cells.
         ``u_cell``, ``v_cell`` (m/s), shape (b, nz, nr): momentum over mass of the group, 0 where nothing of it is.
 
     Raises DeckError where a body has no speed of sound.
     """
-    shares, slots = _body_fractions(deck, grid), slot_of(deck, table)
+    (shares, moments), slots = _body_shares(deck, grid), slot_of(deck, table)
     shape = (len(table), grid.nz, grid.nr)
     vof, mass, energy = np.zeros(shape), np.zeros(shape), np.zeros(shape)
-    rho, e = np.zeros(shape), np.zeros(shape)
+    rho, e, place = np.zeros(shape), np.zeros(shape), np.zeros((2, *shape))
     group = np.zeros(len(table), dtype=np.int64) if group is None else group
     momentum = np.zeros((2, int(group.max()) + 1, grid.nz, grid.nr))
     g = grid.g
     r, z = grid.rc[g : g + grid.nr][None, :], grid.zc[g : g + grid.nz][:, None]
+    for m, moment in zip(slots, moments.swapaxes(0, 1), strict=True):
+        place[:, m] += moment
     for body, m, share in reversed(list(zip(deck.body, slots, shares, strict=True))):
         _refuse_unstable(body, table, m)
         density, heat = body_state(body, table, m)
@@ -278,4 +302,7 @@ def initial_state(deck, grid, table, group=None) -> dict[str, np.ndarray]:
         momentum[:, group[m]] += share * density * np.stack(body_velocity(body, r, z))
     total = np.stack([mass[group == b].sum(axis=0) for b in range(momentum.shape[1])])
     velocity = np.where(total > 0, momentum / np.where(total > 0, total, 1.0), 0.0)
-    return {"vof": np.minimum(vof, 1.0), "rho": rho, "e": e, "u_cell": velocity[0], "v_cell": velocity[1]}
+    vof = np.minimum(vof, 1.0)
+    cut = (vof > 0.0) & (vof < 1.0)
+    place = np.where(cut, place / np.where(cut, vof, 1.0), 0.0)
+    return {"vof": vof, "centroid": place, "rho": rho, "e": e, "u_cell": velocity[0], "v_cell": velocity[1]}

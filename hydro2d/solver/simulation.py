@@ -120,7 +120,7 @@ class Simulation:
         """
         s, g = self.state, self.grid
         first = insertion.initial_state(self.deck, g, self.table, s.group)
-        for name in ("vof", "rho", "e"):
+        for name in ("vof", "centroid", "rho", "e"):
             g.interior(getattr(s, name))[...] = first[name]
         mass, dual = np.zeros((s.groups, *g.shape)), np.zeros((s.groups, *g.vertex_shape))
         for b in range(s.groups):
