@@ -25,7 +25,7 @@ def box_piece(fraction, along, across, continues, strip, high):
     """What lies of a box in the strip of given width at the low or high x side, as `line_piece` gives it.
 
     The box has the body's centroid, (along, across) off the middle, and lies in the cell. It is as short along x as that
-    allows where the body ends in the cell, and as long where it goes on at both sides (continues 0 to 1).
+    allows where the body ends in the cell, and as long where it goes on in the next one (continues 0 to 1).
     explanation/interfaces, equations 7 and 8.
     """
     along, across = within(along, fraction), within(across, fraction)
@@ -45,8 +45,11 @@ def box_piece(fraction, along, across, continues, strip, high):
 
 @point
 def goes_on(fraction, before, after):
-    """How far something goes on at both sides, 0 to 1: the fractions of it in a cell, before it and after it."""
-    return min(min(before, after) / fraction, 1.0)
+    """How far something goes on in one of the next cells, 0 to 1.
+
+    fraction, before, after : of it in a cell, before that and after it
+    """
+    return min(max(before, after) / fraction, 1.0)
 
 
 @point
