@@ -87,36 +87,39 @@ def carry_centroids(dj, di, part, parts, second, mesh_box, group, contact_column
 def push_bodies(j, i, vof, centroid, mix):
     """Moves the centroids of the bodies of a mixed cell as these and void take and give volume in the Lagrangian step.
 
-    Void that opens where there was none opens in the midst of each body.
+    Void that opens where there was none opens in the midst of the bodies that shrink, and pushes none; where there was some, it
+    opens there, the more the more there was.
 
     Reads    mix [j, BEFORE, m], fractions before; vof [m, j, i], after
     Updates  centroid [2, m, j, i]
     """
     bodies = vof.shape[0]
-    void, gained, void_r, void_z = 1.0, 0.0, 0.0, 0.0
+    void, gained, shrunk, void_r, void_z = 1.0, 0.0, 0.0, 0.0, 0.0
     for m in range(bodies):
         f = mix[j, BEFORE, m]
         void -= f
         gained += f - vof[m, j, i]
+        shrunk += max(f - vof[m, j, i], 0.0)
         void_r -= f * centroid[0, m, j, i]
         void_z -= f * centroid[1, m, j, i]
-    empty = void <= NOTHING
-    if not empty:
+    void = max(void, 0.0)
+    if void > NOTHING:
         void_r, void_z = within(void_r / void, void), within(void_z / void, void)
+    inside = gained * gained / (void + gained) if gained > 0.0 else 0.0  # of the new void, what opens in the bodies
     for m in range(bodies):
         f = mix[j, BEFORE, m]
         mix[j, SHIFT_R, m], mix[j, SHIFT_Z, m] = 0.0, 0.0
-        if f == 0.0 or (empty and gained > NOTHING):
+        if f == 0.0:
             continue
         for k in range(bodies):
             other = mix[j, BEFORE, k]
             if k != m and other > 0.0:
                 change = vof[k, j, i] - other
+                change += inside * max(-change, 0.0) / shrunk if inside > 0.0 else 0.0
                 mix[j, SHIFT_R, m] += pushed(centroid[0, m, j, i], centroid[0, k, j, i], f, other, change)
                 mix[j, SHIFT_Z, m] += pushed(centroid[1, m, j, i], centroid[1, k, j, i], f, other, change)
-        if not empty:
-            mix[j, SHIFT_R, m] += pushed(centroid[0, m, j, i], void_r, f, void, gained)
-            mix[j, SHIFT_Z, m] += pushed(centroid[1, m, j, i], void_z, f, void, gained)
+        mix[j, SHIFT_R, m] += pushed(centroid[0, m, j, i], void_r, f, void, gained - inside)
+        mix[j, SHIFT_Z, m] += pushed(centroid[1, m, j, i], void_z, f, void, gained - inside)
     for m in range(bodies):
         if mix[j, BEFORE, m] > 0.0:
             centroid[0, m, j, i] = within(centroid[0, m, j, i] + mix[j, SHIFT_R, m], vof[m, j, i])

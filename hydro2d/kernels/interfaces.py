@@ -17,6 +17,8 @@ SHARE, ALONG, ACROSS, THIN = range(4)
 NO_BODY = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 #: a share of a cell with less than this lies nowhere in particular
 NOTHING = 1e-14
+#: share of a cell that leaves it from which its interfaces determine the centroids; of less, none of which may decide, less
+SWEPT = 0.1
 
 
 @rowwise
@@ -220,7 +222,7 @@ def interface_volumes_row(j, dj, di, dr, dz, order, mixed_count, mixed, f_face, 
 
     Reads    mixed [j, k], order [k], f_face, pre [j, i], vof [m, j, i]
     Updates  flux_volume [m, j, i] and flux_place [2, m, j, i] at the faces through which mixed cells lose volume;
-             centroid [2, m, j, i] of these cells: that of what the interfaces enclose
+             centroid [2, m, j, i] of these cells: that of what the interfaces enclose, in full where SWEPT of the cell leaves
     Scratch  strips [j, 3, 4, m]
     """
     bodies = order.shape[0]
@@ -236,6 +238,7 @@ def interface_volumes_row(j, dj, di, dr, dz, order, mixed_count, mixed, f_face, 
             continue
         size = pre[j, i]
         w_low, w_high = out_low / size, out_high / size
+        taken = min((w_low + w_high) / SWEPT, 1.0)
         void = 1.0 - cumulative(j, i, bodies - 1, order, vof)
         fill_strips(j, i, along_z, w_low, w_high, 1.0, order, vof, void, centroid, dr, dz, strips[j])
         for m in range(bodies):
@@ -247,8 +250,8 @@ def interface_volumes_row(j, dj, di, dr, dz, order, mixed_count, mixed, f_face, 
             if w_high > 0.0:
                 flux_place[0, m, j + dj, i + di], flux_place[1, m, j + dj, i + di] = place_of(right, m)
             along, across = place_of(whole, m)
-            centroid[di, m, j, i] = within(across, f)
-            centroid[dj, m, j, i] = within(along, f)
+            centroid[di, m, j, i] = within(centroid[di, m, j, i] + taken * (across - centroid[di, m, j, i]), f)
+            centroid[dj, m, j, i] = within(centroid[dj, m, j, i] + taken * (along - centroid[dj, m, j, i]), f)
         # two strips together may not take more of a body than there is; the excess moves on to the next body
         if w_low > 0.0 and w_high > 0.0:
             excess = 0.0
