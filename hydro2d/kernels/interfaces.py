@@ -14,7 +14,7 @@ from hydro2d.physics.interfaces import add_body, at_most_full, cumulative, neste
 #: rows of a strip: shares of the cell; times them, the centroids' offsets along the sweep and across; how thin the bodies are
 SHARE, ALONG, ACROSS, THIN = range(4)
 #: no fraction of anything in the cells of `add_body`
-NO_BODY = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+NO_BODY = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 #: a share of a cell with less than this lies nowhere in particular
 NOTHING = 1e-14
 #: share of a cell that leaves it from which its interfaces determine the centroids; of less, none of which may decide, less
@@ -91,7 +91,7 @@ def thinnest_body(j, i, order, share, thin):
     for m in range(order.shape[0]):
         thin[m] = 0.0
         if share[m, j, i] > 0.0:
-            own, _ = placed(add_body(m, j, i, share, NO_BODY))
+            own = placed(add_body(m, j, i, share, NO_BODY))
             thin[m] = 1.0 - own
             thinnest = max(thinnest, 1.0 - own)
             present += 1

@@ -11,6 +11,8 @@ from hydro2d.physics.traction import smoothstep
 
 #: what fills one of the cells around is placed by them in full, and what fills none of them by more than this not at all
 FILLED = 0.95
+#: by how much a fraction grows from one cell to the next where the body in full goes on to the cell behind it
+GROWING = 0.1
 
 
 @point
@@ -29,18 +31,16 @@ def box_piece(fraction, along, across, continues, strip, high):
     explanation/interfaces, equations 7 and 8.
     """
     along, across = within(along, fraction), within(across, fraction)
+    if strip >= 1.0:
+        return fraction, fraction * along, fraction * across
     longest, tallest = 1.0 - 2.0 * abs(along), 1.0 - 2.0 * abs(across)
     shortest = min(longest, fraction / max(tallest, fraction))
     length = shortest + (longest - shortest) * continues
-    first, last = along - 0.5 * length, along + 0.5 * length
-    middle = 0.5 - 0.5 * strip
-    if high:
-        first = max(first, 0.5 - strip)
-    else:
-        last = min(last, strip - 0.5)
-        middle = -middle
-    share = fraction / length * max(last - first, 0.0)
-    return share, share * (0.5 * (first + last) - middle) / strip, share * across
+    turned = along if high else -along  # as if the strip were at the high side
+    beyond = min(max((0.5 - strip) - (turned - 0.5 * length), 0.0), length)  # what of the length does not reach the strip
+    share = fraction * ((length - beyond) / length)
+    off = (turned + 0.5 * beyond - (0.5 - 0.5 * strip)) / strip
+    return share, share * (off if high else -off), share * across
 
 
 @point
@@ -59,14 +59,36 @@ def beside(f, along_z):
 
 
 @point
-def placed(f):
-    """How far the cells around place something, and how far they place what is beside it, each 0 to 1.
+def reached(here, near, far):
+    """How much of a cell two away counts as the body's of this one: all of it if the body grows towards it."""
+    return far * smoothstep((near - here) / GROWING)
 
-    f : its fractions in 3 x 3 cells, row by row upwards; the middle one does not count
-    """
+
+@point
+def most_around(f):
+    """The largest fraction in the cells around: of the eight next to it, and of those two away as far as they are `reached`."""
     most = max(max(max(f[0], f[1]), max(f[2], f[3])), max(max(f[5], f[6]), max(f[7], f[8])))
-    least = min(min(min(f[0], f[1]), min(f[2], f[3])), min(min(f[5], f[6]), min(f[7], f[8])))
-    return smoothstep((most - FILLED) / (1.0 - FILLED)), smoothstep((1.0 - least - FILLED) / (1.0 - FILLED))
+    axes = max(max(reached(f[4], f[3], f[9]), reached(f[4], f[5], f[10])),
+               max(reached(f[4], f[1], f[11]), reached(f[4], f[7], f[12])))
+    corners = max(max(reached(f[4], f[0], f[13]), reached(f[4], f[2], f[14])),
+                  max(reached(f[4], f[6], f[15]), reached(f[4], f[8], f[16])))
+    return max(most, max(axes, corners))
+
+
+@point
+def rest_of(f):
+    """What is not filled of the 17 cells of `add_body`."""
+    return (1.0 - f[0], 1.0 - f[1], 1.0 - f[2], 1.0 - f[3], 1.0 - f[4], 1.0 - f[5], 1.0 - f[6], 1.0 - f[7], 1.0 - f[8],
+            1.0 - f[9], 1.0 - f[10], 1.0 - f[11], 1.0 - f[12], 1.0 - f[13], 1.0 - f[14], 1.0 - f[15], 1.0 - f[16])
+
+
+@point
+def placed(f):
+    """How far the cells around place something, 0 to 1: in full where it fills one of them.
+
+    f : its fractions in the 17 cells of `add_body`
+    """
+    return smoothstep((most_around(f) - FILLED) / (1.0 - FILLED))
 
 
 @point
@@ -76,13 +98,13 @@ def piece(f, along_z, along, across, bound, strip, high):
     By the line or the corner where the cells around place both it and what is beside it (`placed`); else by weight by a box of
     it or by a box of what is beside it, whichever is thinner.
 
-    f : its fractions in 3 x 3 cells, row by row upwards; along, across : its centroid, along the sweep and across;
+    f : its fractions in the 17 cells of `add_body`; along, across : its centroid, along the sweep and across;
     bound : the surface, with the normal along the sweep first
     """
     fraction = f[4]
     if fraction >= 1.0:
         return strip, 0.0, 0.0
-    own, other = placed(f)
+    own, other = placed(f), placed(rest_of(f))
     by_line = own * other
     share, shift, lift = 0.0, 0.0, 0.0
     if by_line > 0.0:

@@ -148,19 +148,21 @@ def youngs_gradient(j, i, sw, s, se, w, e, nw, n, ne, dr, dz):
 def add_body(m, j, i, vof, f):
     """Sums of fractions in the 3 x 3 cells around cell (j, i), row by row upwards, and in those two away, with those of body m.
 
-    The cells two away are at lower and higher r, at lower and higher z.
+    The cells two away are at lower and higher r, at lower and higher z, then the corners of 5 x 5 cells, row by row upwards.
     """
     v = vof[m]
     return (f[0] + v[j - 1, i - 1], f[1] + v[j - 1, i], f[2] + v[j - 1, i + 1], f[3] + v[j, i - 1], f[4] + v[j, i],
             f[5] + v[j, i + 1], f[6] + v[j + 1, i - 1], f[7] + v[j + 1, i], f[8] + v[j + 1, i + 1],
-            f[9] + v[j, i - 2], f[10] + v[j, i + 2], f[11] + v[j - 2, i], f[12] + v[j + 2, i])
+            f[9] + v[j, i - 2], f[10] + v[j, i + 2], f[11] + v[j - 2, i], f[12] + v[j + 2, i],
+            f[13] + v[j - 2, i - 2], f[14] + v[j - 2, i + 2], f[15] + v[j + 2, i - 2], f[16] + v[j + 2, i + 2])
 
 
 @point
 def at_most_full(f):
-    """Sums of fractions in 13 cells, no more than 1 in any."""
+    """Sums of fractions in 17 cells, no more than 1 in any."""
     return (min(f[0], 1.0), min(f[1], 1.0), min(f[2], 1.0), min(f[3], 1.0), min(f[4], 1.0), min(f[5], 1.0), min(f[6], 1.0),
-            min(f[7], 1.0), min(f[8], 1.0), min(f[9], 1.0), min(f[10], 1.0), min(f[11], 1.0), min(f[12], 1.0))
+            min(f[7], 1.0), min(f[8], 1.0), min(f[9], 1.0), min(f[10], 1.0), min(f[11], 1.0), min(f[12], 1.0),
+            min(f[13], 1.0), min(f[14], 1.0), min(f[15], 1.0), min(f[16], 1.0))
 
 
 @point
@@ -274,7 +276,7 @@ def surface(j, i, f, dr, dz, void):
     """(n_r, n_z, width, height, weight): what bounds the first bodies of the order.
 
     A line with Youngs' outward normal (n_r, n_z) and a `corner`, which has no weight in cells without void: void is the share
-    of a mixed cell that is none of the bodies. f : fractions in the 13 cells of `add_body`
+    of a mixed cell that is none of the bodies. f : fractions in the 17 cells of `add_body`
     """
     n_r, n_z = youngs_normal(j, i, f, dr, dz)
     room = smoothstep(void / ROOM)
@@ -289,7 +291,7 @@ def surface(j, i, f, dr, dz, void):
 @point
 def covered(strip, width, same):
     """Length that two strips of the unit square have in common, at the same or at opposite sides of it."""
-    return min(strip, width) if same else max(strip + width - 1.0, 0.0)
+    return min(strip, width) if same else max(width - (1.0 - strip), 0.0)
 
 
 @point

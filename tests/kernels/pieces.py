@@ -45,4 +45,4 @@ def tidy(engine) -> None:
     s, g, method = engine.state, engine.grid, engine.method
     column_ranges.list_mixed(0, rows(engine), s.active_range, s.vof, s.mixed_count, s.mixed, s.scratch)
     remap.tidy(0, rows(engine), method.cutoff, g.metrics, g.volume, s.group, s.mixed_count, s.mixed, s.pre, 0, 1, s.fr, s.fz,
-               True, s.u, s.v, s.vof, s.q, s.cell_mass, s.removed)
+               True, s.u, s.v, s.vof, s.q, s.cell_mass, s.removed, s.centroid)

@@ -3,12 +3,13 @@
 import numpy as np
 import pytest
 
-from hydro2d.kernels import contact_volumes
+from hydro2d.kernels import contact_volumes, interfaces
 from hydro2d.kernels.contact_volumes import OTHERS, contact_fluxes, contact_shares
+from hydro2d.kernels.interfaces import fill_strips
 from hydro2d.physics.contact import GAP
 from tests.physics.continuity import changes_in_proportion, largest_jump
 
-strip_of, take = contact_volumes.strip_of.py_func, contact_volumes.take.py_func
+take = contact_volumes.take.py_func
 
 #: rows and columns, the row and the column of the cell that volume leaves to the left
 SHAPE, ROW, GIVER = (7, 10), 3, 5
@@ -32,7 +33,7 @@ def fluxes(vof, face: float, own: tuple[float, float], part=None, size=None) -> 
     swept = np.array(own)[:, None, None] * np.ones(SHAPE)
     contact_fluxes(0, 1, 0, ROWS, MESH_BOX, np.ones(SHAPE[1]), np.ones(SHAPE[0]), *first, GROUP, COLUMNS, line,
                    np.full(SHAPE, face), swept, vof.copy() if part is None else part, np.ones(SHAPE) if size is None else size,
-                   vof, result)
+                   vof, np.zeros((2, *vof.shape)), result, np.zeros((2, *vof.shape)), np.zeros((SHAPE[0], 3, 4, 2)))
     return tuple(result[:, ROW, GIVER])
 
 
@@ -146,12 +147,17 @@ def test_the_shares_of_a_cell_do_not_jump_as_it_becomes_one_body_s_or_full(stret
 
 
 def corner_of(scale: float, void: float) -> list[float]:
-    """What strips of a tenth of a cell hold of a body that has a corner there, its fractions scaled, beside another one."""
+    """What strips of a tenth of a cell hold of a body that has a corner there, beside another one; mixed cells are scaled."""
     f = np.clip(2.5 - np.arange(5), 0.0, 1.0)
     body = np.outer(f, f)
-    vof = np.array([body, (1.0 - body) * (1.0 - void / (1.0 - body[2, 2]))])
-    return [strip_of(m, 2, 2, along_z, 0.1, high, np.arange(2), vof * scale, vof, np.ones(5), np.ones(5)) / scale
-            for m in range(2) for along_z in (False, True) for high in (False, True)]
+    vof = np.array([body, 1.0 - body])
+    vof[1, 2, 2] -= void
+    rest, strips, given = 1.0 - vof[:, 2, 2].sum(), np.zeros((3, 4, 2)), []
+    for along_z in (False, True):
+        fill_strips(2, 2, along_z, 0.1, 0.1, 0.0, np.arange(2), np.where(vof == 1.0, 1.0, vof * scale), rest, np.zeros((2, 2, 5, 5)), np.ones(5),
+                    np.ones(5), strips)
+        given += list(strips[:2, interfaces.SHARE].ravel() / scale)
+    return given
 
 
 def test_a_cell_without_void_has_no_corner_however_its_fractions_are_scaled():

@@ -50,7 +50,8 @@ def test_every_array_of_the_state_is_in_a_table(groups):
     symbols = [entry.symbol for entry in tables]
     assert len(set(symbols)) == len(symbols)
     arrays = {name for name, value in vars(state).items() if isinstance(value, np.ndarray)}
-    assert arrays - set(symbols) == {"group", "rules", "initial", "q", "velocity", "velocity0", "body_range", "active_range"}
+    assert arrays - set(symbols) == {"group", "rules", "initial", "q", "centroid", "velocity", "velocity0", "body_range",
+                                     "active_range"}
     assert set(symbols) <= arrays
 
 

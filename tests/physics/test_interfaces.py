@@ -10,21 +10,23 @@ from tests.physics.continuity import changes_in_proportion, largest_jump
 
 line_constant = interfaces.line_constant.py_func
 area_below = interfaces.area_below.py_func
-strip_share = interfaces.strip_share.py_func
+centroid_below = interfaces.centroid_below.py_func
+line_piece = interfaces.line_piece.py_func
 line_centre = interfaces.line_centre.py_func
 cumulative = interfaces.cumulative.py_func
 youngs_difference = interfaces.youngs_difference.py_func
 youngs_gradient = interfaces.youngs_gradient.py_func
 youngs_normal = interfaces.youngs_normal.py_func
-fractions_around = interfaces.fractions_around.py_func
+add_body = interfaces.add_body.py_func
+at_most_full = interfaces.at_most_full.py_func
 line_misfit = interfaces.line_misfit.py_func
 corner_size = interfaces.corner_size.py_func
 corner = interfaces.corner.py_func
 relative_sizes = interfaces.relative_sizes.py_func
 surface = interfaces.surface.py_func
 covered = interfaces.covered.py_func
-corner_strip = interfaces.corner_strip.py_func
-share_in_strip = interfaces.share_in_strip.py_func
+corner_piece = interfaces.corner_piece.py_func
+piece_of_surface = interfaces.piece_of_surface.py_func
 turned = interfaces.turned.py_func
 reversed_if = interfaces.reversed_if.py_func
 
@@ -52,6 +54,14 @@ def cut(polygon, n1, n2, level):
 def area(polygon) -> float:
     ends = polygon[1:] + polygon[:1]
     return 0.5 * sum(x0 * y1 - x1 * y0 for (x0, y0), (x1, y1) in zip(polygon, ends, strict=True))
+
+
+def moments(polygon):
+    """(area, integrals of x and of y) of a polygon."""
+    total = np.zeros(3)
+    for (x0, y0), (x1, y1) in zip(polygon, polygon[1:] + polygon[:1], strict=True):
+        total += (x0 * y1 - x1 * y0) * np.array([0.5, (x0 + x1) / 6.0, (y0 + y1) / 6.0])
+    return tuple(total)
 
 
 def block(left, right):
@@ -88,6 +98,44 @@ def test_below_a_line_that_is_all_but_level_is_its_height_in_the_middle(tilt):
     for alpha, share in ((-0.1, 0.0), (0.3, middle), (1.2, 1.0)):
         assert area_below(tilt, 1.0 - tilt, alpha) == pytest.approx(share, abs=1e-8)
         assert area_below(1.0 - tilt, tilt, alpha) == pytest.approx(share, abs=1e-8)
+
+
+def by_integration(m1, m2, alpha):
+    """`centroid_below` by Gauss quadrature over y, between the heights at which the line meets the sides."""
+    ends = sorted({0.0, 1.0, *(min(max((alpha - m1 * x) / m2, 0.0), 1.0) for x in (0.0, 1.0))})
+    nodes, weights = np.polynomial.legendre.leggauss(4)
+    total = np.zeros(3)
+    for low, high in zip(ends, ends[1:], strict=False):
+        y = 0.5 * (low + high) + 0.5 * (high - low) * nodes
+        x = np.clip((alpha - m2 * y) / m1, 0.0, 1.0)
+        total += 0.5 * (high - low) * (np.stack([x, 0.5 * x**2, x * y]) @ weights)
+    return total[0], total[1] - 0.5 * total[0], total[2] - 0.5 * total[0]
+
+
+@settings(deadline=None)
+@given(COMPONENT, COMPONENT, st.floats(0.001, 0.999))
+def test_the_centroid_below_a_line_is_that_of_an_integration(m1, m2, place):
+    """Also of a normal of any length, as in a strip."""
+    alpha = place * (m1 + m2)
+    share, x, y = centroid_below(m1, m2, alpha)
+    assert share == area_below(m1, m2, alpha)
+    assert (share, share * x, share * y) == pytest.approx(by_integration(m1, m2, alpha), abs=1e-12)
+    assert centroid_below(m2, m1, alpha) == (share, y, x)
+
+
+def test_centroids_below_lines_that_are_known():
+    assert centroid_below(0.5, 0.5, 0.25) == pytest.approx((0.125, 1.0 / 6.0 - 0.5, 1.0 / 6.0 - 0.5))  # a triangle
+    assert centroid_below(1.0, 0.0, 0.3) == pytest.approx((0.3, -0.35, 0.0))  # a slab
+    assert centroid_below(0.0, 1.0, 0.3) == pytest.approx((0.3, 0.0, -0.35))
+    assert centroid_below(0.5, 0.5, 0.75) == pytest.approx((0.875, -1.0 / 21.0, -1.0 / 21.0))  # all but a triangle
+    assert centroid_below(0.3, 0.7, 1.0) == (1.0, 0.0, 0.0)
+    assert centroid_below(1.0, 0.0, 0.0) == centroid_below(0.0, 1.0, -0.1) == (0.0, 0.0, 0.0)
+
+
+@pytest.mark.parametrize("alpha", [0.2, 0.8])
+def test_the_centroid_does_not_jump_where_the_line_passes_a_corner(alpha):
+    """From a triangle to a trapezium, and on to all but a triangle."""
+    changes_in_proportion(lambda level: centroid_below(0.2, 0.8, level), alpha, 5.0)
 
 
 @settings(deadline=None)
@@ -133,14 +181,28 @@ def test_an_empty_and_a_full_square_end_at_their_corners(m1):
 # ---------------------------------------------------------------------------------------------------------- strips
 
 
+def piece_of(polygon, width, high):
+    """(share, moments) of a polygon in a strip as `line_piece` gives them; no polygon has none."""
+    if len(polygon) < 3:
+        return 0.0, 0.0, 0.0
+    share, moment_x, moment_y = moments(polygon)
+    middle = 1.0 - 0.5 * width if high else 0.5 * width
+    return share, (moment_x - share * middle) / width, moment_y - 0.5 * share
+
+
 @settings(deadline=None)
 @given(COMPONENT, SIGN, SIGN, st.floats(0.02, 0.98), st.floats(0.01, 0.99), st.booleans())
 def test_a_strip_holds_the_polygon_that_it_cuts_out(nx, side, up, place, width, high):
+    """Its share, and where it lies."""
     nx, ny, level = signed_line(nx * side, up, place)
     fraction = area(cut(block(0.0, 1.0), nx, ny, level)[0])
     strip = block(1.0 - width, 1.0) if high else block(0.0, width)
     part = cut(strip, nx, ny, level)[0]
-    assert strip_share(nx, ny, fraction, width, high) == pytest.approx(area(part) if part else 0.0, abs=1e-12)
+    share, along, across = line_piece(nx, ny, fraction, width, high)
+    expected = piece_of(part, width, high)
+    assert share == pytest.approx(area(part) if part else 0.0, abs=1e-12)
+    assert (share, across) == pytest.approx((expected[0], expected[2]), abs=1e-12)
+    assert along == pytest.approx(expected[1], abs=1e-12 / width)
 
 
 def cancellation(m1, m2):
@@ -151,50 +213,57 @@ def cancellation(m1, m2):
 @settings(deadline=None)
 @given(st.floats(-1.0, 1.0), st.booleans(), UNIT, WIDTH)
 def test_strips_add_up_to_the_cell(nx, up, fraction, width):
+    """Their shares to its fraction, and their moments to that of all of it."""
     ny = (1.0 - abs(nx)) * (1.0 if up else -1.0)
-    low = strip_share(nx, ny, fraction, width, False)
-    high = strip_share(nx, ny, fraction, 1.0 - width, True)
+    low, low_along, low_across = line_piece(nx, ny, fraction, width, False)
+    high, high_along, high_across = line_piece(nx, ny, fraction, 1.0 - width, True)
+    whole, along, across = line_piece(nx, ny, fraction, 1.0, True)
     small = cancellation(nx, ny)
+    assert whole == pytest.approx(fraction, abs=small)
     assert low + high == pytest.approx(fraction, abs=2.0 * small)
     assert -small <= low <= width + small
     assert -small <= high <= 1.0 - width + small
+    together = low_along * width + low * 0.5 * (width - 1.0) + high_along * (1.0 - width) + high * 0.5 * width
+    assert together == pytest.approx(along, abs=4.0 * small)
+    assert low_across + high_across == pytest.approx(across, abs=4.0 * small)
 
 
 @settings(deadline=None)
 @given(st.floats(-1.0, 1.0), UNIT, WIDTH)
 def test_mirrored_strips_are_the_same_bits(nx, fraction, width):
     ny = 1.0 - abs(nx)
-    high = strip_share(nx, ny, fraction, width, True)
+    share, along, across = line_piece(nx, ny, fraction, width, True)
     if nx != 0.0:
-        assert strip_share(-nx, ny, fraction, width, False) == high
-    assert strip_share(nx, -ny, fraction, width, True) == high
+        assert line_piece(-nx, ny, fraction, width, False) == (share, -along, across)
+    if ny != 0.0:
+        assert line_piece(nx, -ny, fraction, width, True) == (share, along, -across)
 
 
 def test_a_strip_of_a_level_interface():
-    assert strip_share(1.0, 0.0, 0.7, 0.25, True) == 0.0
-    assert strip_share(1.0, 0.0, 0.7, 0.25, False) == pytest.approx(0.25, abs=1e-15)
-    assert strip_share(-1.0, 0.0, 0.7, 0.4, False) == pytest.approx(0.1, abs=1e-15)
-    assert strip_share(0.0, 1.0, 0.7, 0.25, True) == pytest.approx(0.175, abs=1e-15)
+    assert line_piece(1.0, 0.0, 0.7, 0.25, True) == (0.0, 0.0, 0.0)
+    assert line_piece(1.0, 0.0, 0.7, 0.25, False) == pytest.approx((0.25, 0.0, 0.0), abs=1e-15)
+    assert line_piece(-1.0, 0.0, 0.7, 0.4, False) == pytest.approx((0.1, 0.1 * 0.375, 0.0), abs=1e-15)
+    assert line_piece(0.0, 1.0, 0.7, 0.25, True) == pytest.approx((0.175, 0.0, 0.175 * -0.15), abs=1e-15)
 
 
 @pytest.mark.parametrize("high", [False, True])
 @pytest.mark.parametrize("error", [0.0, 1e-15])
 def test_a_strip_of_nothing_and_a_strip_of_all(high, error):
     """Also where round-off makes less of nothing and more of all."""
-    assert strip_share(0.4, -0.6, -error, 0.3, high) == 0.0
-    assert strip_share(0.4, -0.6, 1.0 + error, 0.3, high) == 0.3
+    assert line_piece(0.4, -0.6, -error, 0.3, high) == (0.0, 0.0, 0.0)
+    assert line_piece(0.4, -0.6, 1.0 + error, 0.3, high) == (0.3, 0.0, 0.0)
 
 
 @pytest.mark.parametrize("high", [False, True])
 def test_without_a_normal_the_material_is_spread_evenly(high):
-    assert strip_share(0.0, 0.0, 0.6, 0.25, high) == pytest.approx(0.15)
+    assert line_piece(0.0, 0.0, 0.6, 0.25, high) == pytest.approx((0.15, 0.0, 0.0))
 
 
 def test_the_strip_on_the_far_side_of_upright_material_stays_empty():
     """Material to the left of 0.7: the last quarter has none, the last half a fifth."""
-    assert strip_share(1.0, 0.0, 0.7, 0.25, True) == 0.0
-    assert strip_share(1.0, 0.0, 0.7, 0.5, True) == pytest.approx(0.2)
-    assert strip_share(-1.0, 0.0, 0.7, 0.25, True) == pytest.approx(0.25)
+    assert line_piece(1.0, 0.0, 0.7, 0.25, True)[0] == 0.0
+    assert line_piece(1.0, 0.0, 0.7, 0.5, True)[0] == pytest.approx(0.2)
+    assert line_piece(-1.0, 0.0, 0.7, 0.25, True)[0] == pytest.approx(0.25)
 
 
 # ---------------------------------------------------------------------------------------------------------- centre
@@ -257,9 +326,37 @@ def plane(by_r, by_z):
     return f
 
 
-def normal_of(*bodies, last=0, order=None, dr=DR, dz=DZ):
-    order = np.arange(len(bodies)) if order is None else order
-    return youngs_normal(2, 2, fractions_around(2, 2, last, order, np.array(bodies)), dr, dz)
+#: cells without anything
+NOTHING = (0.0,) * 13
+
+
+def sums_of(*bodies, j=2, i=2):
+    """Fractions of bodies together in the cells around cell (j, i)."""
+    f = NOTHING
+    for m in range(len(bodies)):
+        f = add_body(m, j, i, np.array(bodies), f)
+    return at_most_full(f)
+
+
+def normal_of(*bodies, dr=DR, dz=DZ):
+    return youngs_normal(2, 2, sums_of(*bodies), dr, dz)
+
+
+def test_fractions_of_bodies_add_up_row_by_row_and_then_two_cells_away():
+    """The cells two away are left and right, below and above; no others count."""
+    cells = [(1, 1), (1, 2), (1, 3), (2, 1), (2, 2), (2, 3), (3, 1), (3, 2), (3, 3), (2, 0), (2, 4), (0, 2), (4, 2)]
+    vof = np.full((2, 5, 5), np.nan)
+    for n, cell in enumerate(cells):
+        vof[:, *cell] = 0.01 * n, 0.5 + 0.01 * n
+    first = add_body(0, 2, 2, vof, NOTHING)
+    assert first == tuple(vof[0, *cell] for cell in cells)
+    assert add_body(1, 2, 2, vof, first) == tuple(vof[0, *cell] + vof[1, *cell] for cell in cells)
+
+
+@pytest.mark.parametrize("n", range(13))
+def test_no_cell_is_more_than_full(n):
+    f = tuple(1.25 if k == n else 0.05 * k for k in range(13))
+    assert at_most_full(f) == tuple(1.0 if k == n else 0.05 * k for k in range(13))
 
 
 GRADIENT = st.floats(-0.1, 0.1).filter(lambda value: abs(value) > 1e-3)
@@ -308,9 +405,7 @@ def test_every_cell_around_pushes_the_normal_away_from_itself(row, column, norma
 def test_the_normal_is_that_of_the_first_bodies_together():
     """Two bodies whose own fractions are rough, and whose sum falls along r alone."""
     rough = 0.2 * np.random.default_rng(5).uniform(size=(5, 5))
-    first, second = rough, plane(-0.1, 0.0) - rough
-    other = np.full((5, 5), np.nan)
-    assert normal_of(first, other, second, last=1, order=np.array([0, 2, 1])) == pytest.approx((1.0, 0.0), abs=1e-12)
+    assert normal_of(rough, plane(-0.1, 0.0) - rough) == pytest.approx((1.0, 0.0), abs=1e-12)
 
 
 def test_mirrored_fractions_have_mirrored_normals_to_the_bit():
@@ -398,7 +493,7 @@ def rectangle(r, z, sizes=(DR, DZ)):
 
 
 def surface_of(f, dr=DR, dz=DZ, void=None):
-    return surface(2, 2, 0, np.arange(1), np.array([f]), dr, dz, 1.0 - f[2, 2] if void is None else void)
+    return surface(2, 2, sums_of(f), dr, dz, 1.0 - f[2, 2] if void is None else void)
 
 
 #: beyond the cells on every side
@@ -438,8 +533,7 @@ def test_a_round_nose_has_no_corners(cells):
     inside = fine[None, :] ** 2 + (fine[:, None] - 0.3) ** 2 < cells**2
     f = np.pad(inside.reshape(16, 20, 16, 20).mean(axis=(1, 3)), ((2, 2), (2, 2)), mode="edge")
     sizes = np.ones(20)
-    found = [surface(j, i, 0, np.arange(1), f[None], sizes, sizes, 1.0 - f[j, i])[4] for j in range(2, 18)
-             for i in range(2, 18)]
+    found = [surface(j, i, sums_of(f, j=j, i=i), sizes, sizes, 1.0 - f[j, i])[4] for j in range(2, 18) for i in range(2, 18)]
     assert not any(found)
 
 
@@ -467,21 +561,35 @@ def test_a_corner_keeps_the_fraction_and_the_proportion_of_the_cells_beside_it()
 
 
 @settings(deadline=None)
-@given(COMPONENT, COMPONENT, SIGN, SIGN, UNIT, st.booleans(), st.booleans())
-def test_a_strip_has_the_share_of_the_corner_that_lies_in_it(width, height, to_x, to_y, strip, high, filled):
-    x = (0.0, width) if (to_x > 0.0) == filled else (1.0 - width, 1.0)
-    ends = (1.0 - strip, 1.0) if high else (0.0, strip)
-    common = height * max(min(x[1], ends[1]) - max(x[0], ends[0]), 0.0)
+@given(COMPONENT, COMPONENT, SIGN, SIGN, st.floats(0.01, 0.99), st.booleans(), st.booleans())
+def test_a_strip_has_what_lies_in_it_of_the_corner(width, height, to_x, to_y, strip, high, filled):
+    """A rectangle away from (to_x, to_y), or all but one that lies towards them."""
+    left = 0.0 if (to_x > 0.0) == filled else 1.0 - width
+    bottom = 0.0 if (to_y > 0.0) == filled else 1.0 - height
+    part = [(left, bottom), (left + width, bottom), (left + width, bottom + height), (left, bottom + height)]
+    part = cut(cut(part, -1.0, 0.0, strip - 1.0 if high else 0.0)[0], 1.0, 0.0, 1.0 if high else strip)[0]
+    share, along, across = piece_of(part, strip, high)
+    expected = (share, along, across) if filled else (strip - share, -along, -across)
     size = (width, height) if filled else (-width, -height)
-    share = share_in_strip(to_x * 0.5, to_y * 0.5, *size, 1.0, width * height, strip, high)
-    assert share == pytest.approx(common if filled else strip - common, abs=1e-14)
-    assert share == corner_strip(to_x * 0.5, *size, strip, high)
+    found = corner_piece(to_x * 0.5, to_y * 0.5, *size, strip, high)
+    assert found == pytest.approx(expected, abs=1e-13)
+    assert piece_of_surface(to_x * 0.5, to_y * 0.5, *size, 1.0, width * height, strip, high) == found
 
 
-def test_a_strip_has_the_share_of_the_line_as_far_as_the_corner_has_no_weight():
-    line, whole = strip_share(0.3, -0.7, 0.4, 0.2, True), corner_strip(0.3, 0.8, 0.5, 0.2, True)
-    assert share_in_strip(0.3, -0.7, 0.0, 0.0, 0.0, 0.4, 0.2, True) == line
-    assert share_in_strip(0.3, -0.7, 0.8, 0.5, 0.25, 0.4, 0.2, True) == pytest.approx(0.25 * whole + 0.75 * line)
+@settings(deadline=None)
+@given(COMPONENT, COMPONENT, SIGN, SIGN, WIDTH, st.booleans(), SIGN)
+def test_mirrored_corners_have_the_same_bits(width, height, n_x, n_y, strip, high, filled):
+    size = filled * width, filled * height
+    share, along, across = corner_piece(n_x, n_y, *size, strip, high)
+    assert corner_piece(-n_x, n_y, *size, strip, not high) == (share, -along, across)
+    assert corner_piece(n_x, -n_y, *size, strip, high) == (share, along, -across)
+
+
+def test_a_strip_has_what_lies_in_it_of_the_line_as_far_as_the_corner_has_no_weight():
+    line, whole = line_piece(0.3, -0.7, 0.4, 0.2, True), corner_piece(0.3, -0.7, 0.8, 0.5, 0.2, True)
+    assert piece_of_surface(0.3, -0.7, 0.0, 0.0, 0.0, 0.4, 0.2, True) == line
+    found = piece_of_surface(0.3, -0.7, 0.8, 0.5, 0.25, 0.4, 0.2, True)
+    assert found == pytest.approx([0.25 * c + 0.75 * a for c, a in zip(whole, line, strict=True)])
 
 
 def test_strips_of_a_square_cover_each_other():
@@ -550,7 +658,7 @@ ANGLE = rectangle((-FAR, 2.4), (-FAR, 2.5), (np.ones(5), np.ones(5)))
 def strips(f, void):
     """What lies in strips of a tenth of the middle cell at all of its sides."""
     n_r, n_z, width, height, weight = surface_of(f, np.ones(5), np.ones(5), void)
-    return [share_in_strip(*along, weight, f[2, 2], 0.1, high) for high in (False, True)
+    return [piece_of_surface(*along, weight, f[2, 2], 0.1, high) for high in (False, True)
             for along in ((n_r, n_z, width, height), (n_z, n_r, height, width))]
 
 

@@ -58,8 +58,8 @@ def inside(simulation: Simulation, name: str) -> np.ndarray:
 
 def take_mirror_image(down: Simulation, up: Simulation) -> None:
     """Gives a simulation the mirrored bits of the other, which insertion rounds differently."""
-    for name in BODY_FIELDS:
-        inside(down, name)[...] = (-1.0 if name == "srz" else 1.0) * inside(up, name)[..., ::-1, :]
+    for name in (*BODY_FIELDS, "centroid_r", "centroid_z"):
+        inside(down, name)[...] = (-1.0 if name in ("srz", "centroid_z") else 1.0) * inside(up, name)[..., ::-1, :]
     for name, sign in (("u", 1.0), ("v", -1.0)):
         here, there = (one.grid.interior_vertices(getattr(one.state, name)) for one in (down, up))
         here[...] = sign * there[..., ::-1, :]
