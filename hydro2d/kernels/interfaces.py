@@ -8,6 +8,7 @@ stated order bounds their cumulative fraction, void comes last.
 
 from hydro2d.jit import apart, kernel, point, rowwise
 from hydro2d.kernels.column_ranges import columns, outer_rows, past_row
+from hydro2d.materials.rows import GAS
 from hydro2d.physics.centroids import beside, box_piece, goes_on, piece, placed, within
 from hydro2d.physics.interfaces import add_body, at_most_full, cumulative, nested, surface
 
@@ -82,8 +83,8 @@ def donor_volumes_row(j, dj, di, i0, i1, open_faces, body_ranges, f_face, vof, f
 
 
 @point
-def thinnest_body(j, i, order, share, thin):
-    """How thin the thinnest body of cell (j, i) is, 0 to 1 (`placed`); 0 where no two bodies meet.
+def thinnest_body(j, i, gas, order, share, thin):
+    """How thin the thinnest body of cell (j, i) is, 0 to 1 (`placed`); 0 where no two bodies meet, and where a gas is.
 
     Writes   thin [m], that of each
     """
@@ -91,15 +92,24 @@ def thinnest_body(j, i, order, share, thin):
     for m in range(order.shape[0]):
         thin[m] = 0.0
         if share[m, j, i] > 0.0:
-            own = placed(add_body(m, j, i, share, NO_BODY))
-            thin[m] = 1.0 - own
-            thinnest = max(thinnest, 1.0 - own)
             present += 1
+            if not gas:
+                thin[m] = 1.0 - placed(add_body(m, j, i, share, NO_BODY))
+                thinnest = max(thinnest, thin[m])
     return thinnest if present > 1 else 0.0
 
 
+@point
+def is_beside_gas(j, i, materials, vof):
+    """Whether a gas is in a cell."""
+    found = False
+    for m in range(vof.shape[0]):
+        found = found or (vof[m, j, i] > 0.0 and materials[m, GAS] > 0.0)
+    return found
+
+
 @apart
-def next_body(m, f, thin, box, whole, total, side, width, high, weight, below, strip):
+def next_body(m, f, thin, box, whole, total, side, width, weight, below, strip):
     """Adds what a strip has of body m, the next of the nested ones, times a weight, and returns `below` for the one after it.
 
     f is the body's fraction, total that of all up to it; thin how thin it is if it comes first for that, 0 else. box is what
@@ -128,11 +138,11 @@ def next_body(m, f, thin, box, whole, total, side, width, high, weight, below, s
 
 
 @apart
-def nest(j, i, along_z, w_low, w_high, w_whole, thin_first, weight, order, share, void, centroid, dr, dz, strips):
+def nest(j, i, along_z, w_low, w_high, w_whole, thin_first, weight, order, share, void, gas, centroid, dr, dz, strips):
     """Adds what the nested interfaces give of every body in the strips of cell (j, i), times a weight.
 
     The bodies come in their order, or first those that are thin (strips [0, THIN, m]), each by a box of its own. A strip of no
-    width is left out.
+    width is left out. gas : whether a gas is in the cell
 
     Updates  strips [3, SHARE to ACROSS, m]: of the strips at the low and at the high side, and of the whole cell
     """
@@ -164,26 +174,27 @@ def nest(j, i, along_z, w_low, w_high, w_whole, thin_first, weight, order, share
             if w_low > 0.0:
                 if thin > 0.0:
                     box = box_piece(f, along, across, continues, w_low, False)
-                low = next_body(m, f, thin, box, piece(full, along_z, middle_along, middle_across, bound, w_low, False), total,
-                                across, w_low, False, weight, low, strips[0])
+                all_of_it = piece(full, along_z, middle_along, middle_across, gas, bound, w_low, False)
+                low = next_body(m, f, thin, box, all_of_it, total, across, w_low, weight, low, strips[0])
             if w_high > 0.0:
                 if thin > 0.0:
                     box = box_piece(f, along, across, continues, w_high, True)
-                high = next_body(m, f, thin, box, piece(full, along_z, middle_along, middle_across, bound, w_high, True), total,
-                                 across, w_high, True, weight, high, strips[1])
+                all_of_it = piece(full, along_z, middle_along, middle_across, gas, bound, w_high, True)
+                high = next_body(m, f, thin, box, all_of_it, total, across, w_high, weight, high, strips[1])
             if w_whole > 0.0:
                 if thin > 0.0:
                     box = box_piece(f, along, across, continues, w_whole, True)
-                whole = next_body(m, f, thin, box, piece(full, along_z, middle_along, middle_across, bound, w_whole, True),
-                                  total, across, w_whole, True, weight, whole, strips[2])
+                all_of_it = piece(full, along_z, middle_along, middle_across, gas, bound, w_whole, True)
+                whole = next_body(m, f, thin, box, all_of_it, total, across, w_whole, weight, whole, strips[2])
 
 
 @apart
-def fill_strips(j, i, along_z, w_low, w_high, w_whole, order, share, void, centroid, dr, dz, strips):
+def fill_strips(j, i, along_z, w_low, w_high, w_whole, order, share, void, materials, centroid, dr, dz, strips):
     """What every body has in the strips at the low and at the high side of cell (j, i), and in all of it, and where.
 
-    Nested interfaces in the order of the bodies. Where several bodies meet and one of them is narrower than a cell, so that its
-    neighbours do not place it, it comes first, whatever the order says (explanation/interfaces, thin bodies).
+    Nested interfaces in the order of the bodies. Where several bodies meet, none of them a gas, and one of them is narrower
+    than a cell, so that its neighbours do not place it, it comes first, whatever the order says (explanation/interfaces, thin
+    bodies).
 
     w_low, w_high, w_whole : widths of the strips as shares of the cell, 0 for one that is left out
 
@@ -196,11 +207,12 @@ def fill_strips(j, i, along_z, w_low, w_high, w_whole, order, share, void, centr
             strips[n, SHARE, m] = 0.0
             strips[n, ALONG, m] = 0.0
             strips[n, ACROSS, m] = 0.0
-    thinnest = thinnest_body(j, i, order, share, strips[0, THIN])
+    gas = is_beside_gas(j, i, materials, share)
+    thinnest = thinnest_body(j, i, gas, order, share, strips[0, THIN])
     if thinnest < 1.0:
-        nest(j, i, along_z, w_low, w_high, w_whole, False, 1.0 - thinnest, order, share, void, centroid, dr, dz, strips)
+        nest(j, i, along_z, w_low, w_high, w_whole, False, 1.0 - thinnest, order, share, void, gas, centroid, dr, dz, strips)
     if thinnest > 0.0:
-        nest(j, i, along_z, w_low, w_high, w_whole, True, thinnest, order, share, void, centroid, dr, dz, strips)
+        nest(j, i, along_z, w_low, w_high, w_whole, True, thinnest, order, share, void, gas, centroid, dr, dz, strips)
 
 
 @point
@@ -213,8 +225,8 @@ def place_of(strip, m):
 
 
 @rowwise
-def interface_volumes_row(j, dj, di, dr, dz, order, mixed_count, mixed, f_face, pre, vof, centroid, flux_volume, flux_place,
-                          strips):
+def interface_volumes_row(j, dj, di, dr, dz, order, materials, mixed_count, mixed, f_face, pre, vof, centroid, flux_volume,
+                          flux_place, strips):
     """Volume of each body out of each mixed cell, from the nested interfaces, and where it lies in the strips that leave.
 
     The cumulative volumes of a strip are kept monotone, each body gives no more than it has, and what two opposite strips
@@ -240,7 +252,7 @@ def interface_volumes_row(j, dj, di, dr, dz, order, mixed_count, mixed, f_face, 
         w_low, w_high = out_low / size, out_high / size
         taken = min((w_low + w_high) / SWEPT, 1.0)
         void = 1.0 - cumulative(j, i, bodies - 1, order, vof)
-        fill_strips(j, i, along_z, w_low, w_high, 1.0, order, vof, void, centroid, dr, dz, strips[j])
+        fill_strips(j, i, along_z, w_low, w_high, 1.0, order, vof, void, materials, centroid, dr, dz, strips[j])
         for m in range(bodies):
             f = vof[m, j, i]
             if f == 0.0:
@@ -283,9 +295,9 @@ def donor_volumes(dj, di, part, parts, i0, i1, first, open_faces, volume, body_r
 
 
 @kernel
-def interface_volumes(dj, di, part, parts, dr, dz, order, mixed_count, mixed, face, pre, vof, centroid, flux_volume,
+def interface_volumes(dj, di, part, parts, dr, dz, order, materials, mixed_count, mixed, face, pre, vof, centroid, flux_volume,
                       flux_place, strips):
     """interface_volumes_row for rows j0 to j1."""
     for j in range(parts[part], parts[part + 1]):
-        interface_volumes_row(j, dj, di, dr, dz, order, mixed_count, mixed, face, pre, vof, centroid, flux_volume, flux_place,
-                              strips)
+        interface_volumes_row(j, dj, di, dr, dz, order, materials, mixed_count, mixed, face, pre, vof, centroid, flux_volume,
+                              flux_place, strips)

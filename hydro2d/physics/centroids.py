@@ -92,19 +92,19 @@ def placed(f):
 
 
 @point
-def piece(f, along_z, along, across, bound, strip, high):
+def piece(f, along_z, along, across, gas, bound, strip, high):
     """What lies of something in the strip of given width at the low or high side of a cell, as `line_piece` gives it.
 
     By the line or the corner where the cells around place both it and what is beside it (`placed`); else by weight by a box of
-    it or by a box of what is beside it, whichever is thinner.
+    it or by a box of what is beside it, whichever is thinner. Beside a gas, which would fill it, void has no box.
 
     f : its fractions in the 17 cells of `add_body`; along, across : its centroid, along the sweep and across;
-    bound : the surface, with the normal along the sweep first
+    bound : the surface, with the normal along the sweep first;  gas : whether a gas is in the cell
     """
     fraction = f[4]
     if fraction >= 1.0:
         return strip, 0.0, 0.0
-    own, other = placed(f), placed(rest_of(f))
+    own, other = placed(f), 1.0 if gas else placed(rest_of(f))
     by_line = own * other
     share, shift, lift = 0.0, 0.0, 0.0
     if by_line > 0.0:
@@ -120,8 +120,8 @@ def piece(f, along_z, along, across, bound, strip, high):
         share, shift, lift = share + by_box * s, shift + by_box * a, lift + by_box * c
     if by_gap > 0.0:
         gap = 1.0 - fraction
-        s, a, c = box_piece(gap, -along * fraction / gap, -across * fraction / gap, goes_on(gap, 1.0 - before, 1.0 - after),
-                            strip, high)
+        continues = goes_on(gap, 1.0 - before, 1.0 - after)
+        s, a, c = box_piece(gap, -along * fraction / gap, -across * fraction / gap, continues, strip, high)
         share, shift, lift = share + by_gap * (strip - s), shift - by_gap * a, lift - by_gap * c
     return share, shift, lift
 

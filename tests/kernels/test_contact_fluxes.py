@@ -6,6 +6,7 @@ import pytest
 from hydro2d.kernels import contact_volumes, interfaces
 from hydro2d.kernels.contact_volumes import OTHERS, contact_fluxes, contact_shares
 from hydro2d.kernels.interfaces import fill_strips
+from hydro2d.materials.rows import GAS
 from hydro2d.physics.contact import GAP
 from tests.physics.continuity import changes_in_proportion, largest_jump
 
@@ -16,24 +17,29 @@ SHAPE, ROW, GIVER = (7, 10), 3, 5
 
 
 GROUP = np.array([1, 0], dtype=np.int64)
+SOLIDS = np.zeros((2, GAS + 1))
 MESH_BOX = np.array([2, SHAPE[0] - 2, 2, SHAPE[1] - 2], dtype=np.int64)
 #: one part, of the giver's row alone
 ROWS = np.array([ROW, ROW + 1])
 COLUMNS = np.tile(np.array([GIVER - 1, GIVER + 2], dtype=np.int64), (SHAPE[0], 1))
 
 
-def fluxes(vof, face: float, own: tuple[float, float], part=None, size=None) -> tuple[float, float]:
+def fluxes(vof, face: float, own: tuple[float, float], part=None, size=None, place=None,
+           centroid=None) -> tuple[float, float]:
     """Volumes of the hard and the soft body through the left face of the giver, per volume of a cell.
 
     own are the volumes that the face sweeps with the velocities of the soft and of the hard body; the nested interfaces begin
     with the soft body.
+    place, centroid [2, m, j, i] : where they lie in what the face sweeps is written there; where they lie in their cells
     """
     line, result = np.zeros((10, *SHAPE)), np.zeros((2, *SHAPE))
+    place = np.zeros((2, *vof.shape)) if place is None else place
+    centroid = np.zeros((2, *vof.shape)) if centroid is None else centroid
     first = [np.array(order, dtype=np.int64) for order in ((0, 1), (1, 0))]
     swept = np.array(own)[:, None, None] * np.ones(SHAPE)
-    contact_fluxes(0, 1, 0, ROWS, MESH_BOX, np.ones(SHAPE[1]), np.ones(SHAPE[0]), *first, GROUP, COLUMNS, line,
+    contact_fluxes(0, 1, 0, ROWS, MESH_BOX, np.ones(SHAPE[1]), np.ones(SHAPE[0]), *first, GROUP, SOLIDS, COLUMNS, line,
                    np.full(SHAPE, face), swept, vof.copy() if part is None else part, np.ones(SHAPE) if size is None else size,
-                   vof, np.zeros((2, *vof.shape)), result, np.zeros((2, *vof.shape)), np.zeros((SHAPE[0], 3, 4, 2)))
+                   vof, centroid, result, place, np.zeros((SHAPE[0], 3, 4, 2)))
     return tuple(result[:, ROW, GIVER])
 
 
@@ -62,6 +68,18 @@ def flux(hard: float, soft: float, swept: float) -> tuple[float, float]:
 
 def test_a_full_cell_takes_its_own_body_from_a_cell_with_a_gap():
     assert flux(0.3, 0.6, -0.01) == pytest.approx((-0.01, 0.0), abs=1e-15)
+
+
+def test_what_flows_lies_where_it_was():
+    """The hard body 0.004 deep at the face, of a hundredth that is swept; what gives nothing, or comes from a full cell."""
+    place, centroid = np.full((2, 2, *SHAPE), np.nan), np.zeros((2, 2, *SHAPE))
+    centroid[0, :, :, GIVER] = np.array([-0.498, 0.2])[:, None]
+    fluxes(upright(0.004, 0.6), -0.01, (-0.01, -0.01), place=place, centroid=centroid)
+    np.testing.assert_allclose(place[:, :, ROW, GIVER], [[-0.3, 0.0], [0.0, 0.0]], atol=1e-12)
+    fluxes(upright(0.3, 0.6), 0.01, (0.01, 0.01), place=place)
+    assert not place[:, :, ROW, GIVER].any()
+    fluxes(oblique(0.1, 0.9), -0.01, (-0.01, -0.01), place=place)
+    assert place[1, 0, ROW, GIVER] < 0.0 < place[1, 1, ROW, GIVER]  # the hard body lies below the soft one
 
 
 def test_it_takes_no_more_than_there_is():
@@ -152,9 +170,10 @@ def corner_of(scale: float, void: float) -> list[float]:
     body = np.outer(f, f)
     vof = np.array([body, 1.0 - body])
     vof[1, 2, 2] -= void
-    rest, strips, given = 1.0 - vof[:, 2, 2].sum(), np.zeros((3, 4, 2)), []
+    share, rest = np.where(vof == 1.0, 1.0, vof * scale), 1.0 - vof[:, 2, 2].sum()
+    strips, given = np.zeros((3, 4, 2)), []
     for along_z in (False, True):
-        fill_strips(2, 2, along_z, 0.1, 0.1, 0.0, np.arange(2), np.where(vof == 1.0, 1.0, vof * scale), rest, np.zeros((2, 2, 5, 5)), np.ones(5),
+        fill_strips(2, 2, along_z, 0.1, 0.1, 0.0, np.arange(2), share, rest, SOLIDS, np.zeros((2, 2, 5, 5)), np.ones(5),
                     np.ones(5), strips)
         given += list(strips[:2, interfaces.SHARE].ravel() / scale)
     return given

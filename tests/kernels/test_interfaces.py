@@ -1,12 +1,14 @@
 """Interfaces: circles, bodies and spheres in prescribed flows."""
 
 from functools import partial
+from itertools import permutations
 
 import numpy as np
 import pytest
 
 from hydro2d.deck import deck
 from hydro2d.kernels import interfaces
+from hydro2d.materials.rows import GAS
 from hydro2d.solver.simulation import Simulation
 from tests.decks import body, box, mesh, stop, table, walls
 from tests.physics.continuity import changes_in_proportion, largest_jump
@@ -150,6 +152,11 @@ def test_sphere_moved_along_the_axis_and_back(n, error):
     assert mass == pytest.approx(np.sum(volume * first), rel=1e-12)
 
 
+#: rows of materials that are no gases, and of which the second of three is one
+SOLIDS, GAS_BETWEEN = np.zeros((3, GAS + 1)), np.zeros((3, GAS + 1))
+GAS_BETWEEN[1, GAS] = 1.0
+
+
 def given(dj: int, void: float, w_low: float = 0.1, w_high: float = 0.2, everywhere: bool = False) -> np.ndarray:
     """What a cell gives of a body that has a corner there and of the one around it through both of its faces.
 
@@ -165,9 +172,9 @@ def given(dj: int, void: float, w_low: float = 0.1, w_high: float = 0.2, everywh
     vof = np.array([body, rest])
     mixed, face, flux = np.full((5, 5), 2, dtype=np.int64), np.zeros((5, 5)), np.zeros((2, 5, 5))
     face[2, 2], face[2 + dj, 3 - dj] = -w_low, w_high
-    interfaces.interface_volumes_row.py_func(2, dj, 1 - dj, np.ones(5), np.ones(5), np.arange(2), np.ones(5, dtype=np.int64),
-                                             mixed, face, np.ones((5, 5)), vof, np.zeros((2, 2, 5, 5)), flux,
-                                             np.zeros((2, 2, 5, 5)), np.zeros((5, 3, 4, 2)))
+    interfaces.interface_volumes_row.py_func(2, dj, 1 - dj, np.ones(5), np.ones(5), np.arange(2), SOLIDS[:2],
+                                             np.ones(5, dtype=np.int64), mixed, face, np.ones((5, 5)), vof,
+                                             np.zeros((2, 2, 5, 5)), flux, np.zeros((2, 2, 5, 5)), np.zeros((5, 3, 4, 2)))
     return np.array([flux[:, 2, 2], flux[:, 2 + dj, 3 - dj]])
 
 
@@ -191,3 +198,199 @@ def test_what_a_cell_gives_does_not_jump_as_the_body_around_a_corner_becomes_thi
     for void in (0.0, 0.75 * 0.05):
         changes_in_proportion(amidst_void, void, 30.0, sides=(1.0,))
     assert largest_jump(amidst_void, 0.0, 0.5) < 1e-11
+
+
+# ------------------------------------------------------------------------------------------- thin bodies among others
+
+fill_strips = interfaces.fill_strips.py_func
+nest = interfaces.nest.py_func
+next_body = interfaces.next_body.py_func
+thinnest_body = interfaces.thinnest_body.py_func
+place_of = interfaces.place_of.py_func
+is_beside_gas = interfaces.is_beside_gas.py_func
+SHARE, ALONG, ACROSS, THIN = interfaces.SHARE, interfaces.ALONG, interfaces.ACROSS, interfaces.THIN
+
+#: upright slabs that meet in the middle one of five columns: one that goes on to the left, a plate, one to the right
+SLABS = ((-2.5, -0.2), (-0.2, 0.0), (0.0, 2.5))
+
+
+def stack(slabs=SLABS, along_z=False):
+    """(fractions, centroids) of slabs in 5 x 5 cells, upright or level; places from the middle of the middle cell on."""
+    faces = np.arange(6) - 2.5
+    vof, place = np.zeros((len(slabs), 5, 5)), np.zeros((2, len(slabs), 5, 5))
+    for m, (first, last) in enumerate(slabs):
+        low, high = np.clip(faces[:-1], first, last), np.clip(faces[1:], first, last)
+        cut = (high > low) & (high - low < 1.0)
+        vof[m], place[0, m] = high - low, np.where(cut, 0.5 * (low + high) - (faces[:-1] + 0.5), 0.0)
+    if along_z:
+        return vof.swapaxes(1, 2).copy(), place[::-1].swapaxes(2, 3).copy()
+    return vof, place
+
+
+def in_strip(slab, low, high):
+    """(share, moment along in widths of the strip, moment across) of a slab between two places of the cell."""
+    first, last = max(slab[0], low), min(slab[1], high)
+    share = max(last - first, 0.0)
+    return share, share * (0.5 * (first + last) - 0.5 * (low + high)) / (high - low), 0.0
+
+
+def strips_of(vof, centroid, order, along_z=False, widths=(0.4, 0.6, 1.0), materials=SOLIDS):
+    strips = np.full((3, 4, len(vof)), np.nan)
+    void = 1.0 - vof[:, 2, 2].sum()
+    fill_strips(2, 2, along_z, *widths, np.array(order), vof, void, materials, centroid, np.ones(5), np.ones(5), strips)
+    return strips
+
+
+@pytest.mark.parametrize("along_z", [False, True])
+@pytest.mark.parametrize("order", list(permutations(range(3))))
+def test_a_plate_between_two_bodies_lies_where_it_is_whatever_the_order(order, along_z):
+    """Each body has in each strip what of it is there, and where it is; the plate alone is thin."""
+    strips = strips_of(*stack(along_z=along_z), order, along_z)
+    for n, ends in enumerate([(-0.5, -0.1), (-0.1, 0.5), (-0.5, 0.5)]):
+        expected = np.transpose([in_strip(slab, *ends) for slab in SLABS])
+        np.testing.assert_allclose(strips[n, :THIN], expected, atol=1e-14)
+    np.testing.assert_array_equal(strips[0, THIN], [0.0, 1.0, 0.0])
+
+
+def test_a_plate_beside_void_lies_where_it_is_too():
+    """A gas from the left, a plate 0.2 thick behind a gap of 0.1, and no more."""
+    slabs = ((-2.5, -0.2), (-0.1, 0.1))
+    for order in ((0, 1), (1, 0)):
+        strips = strips_of(*stack(slabs), order)
+        for n, ends in enumerate([(-0.5, -0.1), (-0.1, 0.5), (-0.5, 0.5)]):
+            expected = np.transpose([in_strip(slab, *ends) for slab in slabs])
+            np.testing.assert_allclose(strips[n, SHARE, 1], expected[SHARE, 1], atol=1e-14)
+            np.testing.assert_allclose(strips[n, ALONG, 1], expected[ALONG, 1], atol=1e-14)
+        assert strips[2, SHARE] == pytest.approx([0.3, 0.2], abs=1e-14)
+
+
+def test_a_strip_that_is_left_out_is_empty():
+    vof, centroid = stack()
+    strips = strips_of(vof, centroid, (0, 1, 2), widths=(0.0, 0.6, 0.0))
+    assert not strips[[0, 2], :THIN].any()
+    np.testing.assert_array_equal(strips[1, :THIN], strips_of(vof, centroid, (0, 1, 2))[1, :THIN])
+
+
+def test_no_two_bodies_are_thin_without_each_other():
+    """How thin a body is counts where bodies meet; beside void alone its own `piece` sees to it."""
+    vof, _ = stack()
+    thin = np.full(3, np.nan)
+    assert thinnest_body(2, 2, np.arange(3), vof, SOLIDS, thin) == 1.0
+    assert thin.tolist() == [0.0, 1.0, 0.0]
+    assert thinnest_body(2, 1, np.arange(3), vof, SOLIDS, thin) == 0.0
+    assert thin.tolist() == [0.0, 0.0, 0.0]
+    vof[[0, 2]] = 0.0
+    assert thinnest_body(2, 2, np.arange(3), vof, SOLIDS, thin) == 0.0
+    assert thin.tolist() == [0.0, 1.0, 0.0]
+    vof, _ = stack(((-2.5, 0.0), (0.0, 2.5)))
+    vof[0, 2, 1], vof[0, [1, 3], 1], vof[0, :, 0] = 0.975, 0.975, 0.5
+    assert thinnest_body(2, 2, np.arange(2), vof, SOLIDS, thin[:2]) == pytest.approx(0.5)
+
+
+def test_a_gas_is_never_thin_and_void_beside_it_is_spread():
+    vof, centroid = stack()
+    thin = np.full(3, np.nan)
+    assert thinnest_body(2, 2, np.arange(3), vof, GAS_BETWEEN, thin) == 0.0
+    assert thin.tolist() == [0.0, 0.0, 0.0]
+    strips = strips_of(vof, centroid, (1, 0, 2), materials=GAS_BETWEEN)  # it comes first, and its own box is between the others
+    np.testing.assert_allclose(strips[2, SHARE], [0.3, 0.2, 0.5], atol=1e-14)
+    assert is_beside_gas(2, 2, GAS_BETWEEN, vof)
+    assert not is_beside_gas(2, 1, GAS_BETWEEN, vof)
+    assert not is_beside_gas(2, 2, SOLIDS, vof)
+    vof, centroid = np.zeros((2, 5, 5)), np.zeros((2, 2, 5, 5))
+    vof[0], vof[:, 2, 2] = 1.0, (0.6, 0.1)  # a body that fills all cells around, a gas, and void
+    for materials, low in ((GAS_BETWEEN[:2], [0.06, 0.01]), (SOLIDS[:2], [0.1, 0.0])):
+        found = strips_of(vof, centroid, (0, 1), widths=(0.1, 0.1, 1.0), materials=materials)
+        np.testing.assert_allclose(found[:2, SHARE], [low, low], atol=1e-14)
+
+
+def test_bodies_become_thin_without_a_jump():
+    """As the body to the left of a plate ceases to fill a cell, and as it is gone; its centroid is not that of the slab."""
+    vof, centroid = stack()
+    centroid[:, 0, 2, 2] = -0.1, 0.1
+
+    def strips(share):
+        f = vof.copy()
+        f[0, :, :2] *= share
+        return strips_of(f, centroid, (0, 1, 2))[:, :THIN]
+
+    assert np.abs(strips(1.0) - strips(0.9)).max() > 0.01
+    for share in (1.0, 0.95):
+        changes_in_proportion(strips, share, 30.0, sides=(-1.0,))
+    assert largest_jump(strips, 0.0, 1.0) < 1e-11
+
+
+def test_nested_bodies_come_in_their_order_or_the_thin_ones_first():
+    """All weighted: with the plate last in the order the line between it and void decides, else its own box."""
+    vof, centroid = stack(((-2.5, -0.2), (-0.1, 0.1)))
+    strips = np.zeros((3, 4, 2))
+    strips[0, THIN] = 0.0, 1.0
+    common = (0.4, 0.0, 0.0), (np.arange(2), vof, 0.5, False, centroid, np.ones(5), np.ones(5), strips)
+    nest(2, 2, False, *common[0], True, 0.25, *common[1])
+    np.testing.assert_allclose(strips[0, SHARE], [0.25 * 0.3, 0.0], atol=1e-15)
+    assert not strips[1:, :THIN].any()
+    nest(2, 2, False, *common[0], False, 0.75, *common[1])
+    np.testing.assert_allclose(strips[0, SHARE], [0.3, 0.75 * 0.1], atol=1e-14)  # the plate follows upon the gas
+
+
+def test_the_next_body_has_what_it_and_those_before_have_without_theirs():
+    strip = np.zeros((4, 2))
+    before, box = (0.1, 0.1, 0.01, -0.01), (0.0, 0.0, 0.0)
+    below = next_body(1, 0.3, 0.0, box, (0.25, 0.05, -0.02), 0.5, 0.1, 0.4, 0.5, before, strip)
+    assert below == (0.25, 0.25, 0.05, -0.02)
+    assert strip[:THIN, 1] == pytest.approx([0.5 * 0.15, 0.5 * 0.04, 0.5 * -0.01])
+    assert not strip[:, 0].any()
+
+
+def test_a_thin_body_has_what_its_box_has():
+    strip, box = np.zeros((4, 2)), (0.05, 0.01, 0.02)
+    below = next_body(1, 0.3, 1.0, box, (0.25, 0.05, -0.02), 0.5, 0.1, 0.4, 1.0, (0.1, 0.1, 0.01, -0.01), strip)
+    assert below == pytest.approx((0.15, 0.25, 0.05, -0.02))
+    assert strip[:THIN, 1] == pytest.approx(box)
+
+
+def test_a_body_that_gets_less_than_its_interface_gives_lies_where_that_lies():
+    """No more than its fraction: of the 0.3 that the interface gives it has 0.2."""
+    strip = np.zeros((4, 1))
+    below = next_body(0, 0.2, 0.0, (0.0, 0.0, 0.0), (0.3, 0.06, -0.03), 0.2, 0.0, 0.4, 1.0, (0.0, 0.0, 0.0, 0.0), strip)
+    assert below[0] == 0.2
+    assert strip[:THIN, 0] == pytest.approx([0.2, 0.04, -0.02])
+
+
+def test_the_place_in_a_strip_is_the_moment_over_the_share():
+    strip = np.array([[0.2, 1e-15], [0.05, 1e-15], [-0.02, 1e-15], [0.0, 0.0]])
+    assert place_of(strip, 0) == pytest.approx((0.25, -0.1))
+    assert place_of(strip, 1) == (0.0, 0.0)
+
+
+@pytest.mark.parametrize("along_z", [False, True])
+def test_a_mixed_cell_says_where_its_bodies_lie_in_what_it_gives(along_z):
+    """A tenth of it goes to the left, and six tenths to the right: places in these, and centroids that were not known."""
+    vof, exact = stack(along_z=along_z)
+    centroid = exact.copy()
+    centroid[:, [0, 2], 2, 2] = 0.0  # those that neighbours place are found, however little was known
+    dj, di = (1, 0) if along_z else (0, 1)
+    mixed, face = np.full((5, 5), 2, dtype=np.int64), np.zeros((5, 5))
+    face[2, 2], face[2 + dj, 2 + di] = -0.1, 0.6
+    flux, place = np.zeros((3, 5, 5)), np.full((2, 3, 5, 5), np.nan)
+    given = np.ones(5), np.ones(5), np.arange(3), SOLIDS, np.ones(5, dtype=np.int64), mixed, face, np.ones((5, 5)), vof
+    interfaces.interface_volumes_row.py_func(2, dj, di, *given, centroid, flux, place, np.zeros((5, 3, 4, 3)))
+    np.testing.assert_allclose(flux[:, 2, 2], [-0.1, 0.0, 0.0], atol=1e-15)
+    np.testing.assert_allclose(flux[:, 2 + dj, 2 + di], [0.0, 0.1, 0.5], atol=1e-15)
+    np.testing.assert_allclose(place[:, :, 2, 2], [[0.0, 0.0, 0.0]] * 2, atol=1e-14)
+    np.testing.assert_allclose(place[0, :, 2 + dj, 2 + di], [0.0, (0.05 - 0.3) / 0.6, (0.35 - 0.3) / 0.6], atol=1e-14)
+    np.testing.assert_allclose(place[1, :, 2 + dj, 2 + di], 0.0, atol=1e-14)
+    np.testing.assert_allclose(centroid, exact, atol=1e-14)
+
+
+def test_the_less_a_cell_gives_the_less_its_interfaces_say_of_its_centroids():
+    """Of a cell that a body fills by half from the left, whose centroid was not known."""
+    vof, exact = stack(((-2.5, 0.0),))
+    mixed = np.full((5, 5), 2, dtype=np.int64)
+    for swept, known in ((2.0, 1.0), (1.0, 1.0), (0.5, 0.5), (0.0, 0.0)):
+        centroid, face = np.zeros_like(exact), np.zeros((5, 5))
+        face[2, 3] = swept * interfaces.SWEPT
+        given = np.ones(5), np.ones(5), np.arange(1), SOLIDS[:1], np.ones(5, dtype=np.int64), mixed, face, np.ones((5, 5)), vof
+        interfaces.interface_volumes_row.py_func(2, 0, 1, *given, centroid, np.zeros((1, 5, 5)), np.zeros((2, 1, 5, 5)),
+                                                 np.zeros((5, 3, 4, 1)))
+        assert centroid[:, 0, 2, 2] == pytest.approx([known * -0.25, 0.0], abs=1e-15)

@@ -22,6 +22,20 @@ def test_the_state_has_a_view_of_every_row():
         assert (getattr(state, field.symbol) == k).all()
 
 
+def test_the_state_has_a_view_of_either_offset_of_the_centroids_which_a_restart_needs():
+    state = State(Grid(np.linspace(0.0, 1.0, 4), np.linspace(0.0, 1.0, 5)), 2)
+    assert state.centroid.shape == (2, 2, 8, 7)
+    state.centroid[0], state.centroid[1] = 1.0, 2.0
+    assert (state.centroid_r == 1.0).all()
+    assert (state.centroid_z == 2.0).all()
+    assert state.restartable()["centroid"] is state.centroid
+
+
+def test_what_has_an_offset_along_r_or_a_direction_of_r_changes_its_sign_in_a_mirror():
+    odd = {field.symbol for field in fields.FIELDS if field.parity < 0}
+    assert odd == {"srz", "centroid_r", "sig_rz", "u", "u0"}
+
+
 def test_the_rules_are_the_table_and_the_internal_variables_behind_it():
     own = (fields.Field("spread", "", "body", "1", -1, "mass", True, "a number", -2.0, 3.0),)
     rules = fields.remap_rules([(), own])
@@ -60,6 +74,8 @@ def test_axes_of_work_are_lengths():
     assert state.flux.shape == (7, 2, 6 * jit.max_threads(), 8)
     assert state.scratch.shape == (4, jit.max_threads(), 8)
     assert state.removed.shape == (6, 75)
+    assert state.strips.shape == (74, 3, 4, 2)
+    assert state.flux_place.shape == (2, 2, 75, 8)
     assert state.edge_dual.shape == (2, 2, 5, 75)
     assert state.body_ranges.shape == (3, 2, 74, 2)
     assert (state.body_ranges.dtype, state.zone.dtype, state.fr.dtype) == (np.int64, np.int8, np.float64)

@@ -6,13 +6,16 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from hydro2d.physics import centroids, interfaces
-from hydro2d.physics.centroids import FILLED
+from hydro2d.physics.centroids import FILLED, GROWING
 from tests.physics.continuity import changes_in_proportion, largest_jump
 
 within = centroids.within.py_func
 box_piece = centroids.box_piece.py_func
 goes_on = centroids.goes_on.py_func
 beside = centroids.beside.py_func
+reached = centroids.reached.py_func
+most_around = centroids.most_around.py_func
+rest_of = centroids.rest_of.py_func
 placed = centroids.placed.py_func
 piece = centroids.piece.py_func
 pushed = centroids.pushed.py_func
@@ -23,12 +26,21 @@ FRACTION = st.floats(0.01, 0.99)
 OFFSET = st.floats(-0.5, 0.5)
 UNIT = st.floats(0.0, 1.0)
 STRIP = st.floats(0.01, 0.99)
-#: fractions of the cells around a middle one, row by row upwards
-AROUND = st.tuples(*[UNIT] * 8)
+#: rows and columns, of 5 by 5, of the 17 cells of `add_body`
+CELLS = [*((row, column) for row in (1, 2, 3) for column in (1, 2, 3)), (2, 0), (2, 4), (0, 2), (4, 2), (0, 0), (0, 4), (4, 0),
+         (4, 4)]
+MIDDLE = 4
+#: fractions of these cells
+AROUND = st.tuples(*[UNIT] * 17)
 
 
-def with_middle(around, fraction):
-    return around[:4] + (fraction,) + around[4:]
+def with_middle(f, fraction):
+    return f[:MIDDLE] + (fraction,) + f[MIDDLE + 1:]
+
+
+def seen(f, where):
+    """The fractions of the cells that stand at where(row, column)."""
+    return tuple(f[CELLS.index(where(*cell))] for cell in CELLS)
 
 
 def about_the_middle(found, strip, high):
@@ -129,23 +141,62 @@ def test_the_cells_before_and_after_lie_along_the_sweep():
     assert beside(tuple(range(9)), True) == (1, 7)
 
 
+def test_a_cell_two_away_is_reached_as_far_as_the_one_between_is_fuller_than_the_middle_one():
+    assert reached(0.3, 0.3, 0.9) == reached(0.3, 0.1, 0.9) == 0.0
+    assert reached(0.3, 0.3 + 0.5 * GROWING, 0.9) == pytest.approx(0.45)
+    assert reached(0.3, 0.31 + GROWING, 0.9) == 0.9
+    for near in (0.3, 0.3 + GROWING):
+        changes_in_proportion(lambda near: reached(0.3, near, 0.9), near, 1.5 / GROWING)
+
+
+def test_the_most_around_is_that_of_a_cell_beside_or_of_one_behind_a_fuller_one():
+    """On the axes and on the diagonals; the middle cell does not count itself."""
+    def most(**others):
+        return most_around(tuple(others.get(f"c{row}{column}", 0.2) for row, column in CELLS))
+
+    assert most(c22=0.7) == 0.2
+    for row, column in CELLS:
+        far, near = (row, column), ((row + 2) // 2, (column + 2) // 2)
+        if max(abs(row - 2), abs(column - 2)) == 1:
+            assert most(**{f"c{row}{column}": 0.7}) == 0.7
+        elif far != (2, 2):
+            other = 4 - near[0], 4 - near[1]
+            assert most(**{f"c{row}{column}": 0.7}) == 0.2
+            assert most(**{f"c{row}{column}": 0.7, f"c{near[0]}{near[1]}": 0.21 + GROWING}) == 0.7
+            # what grows to the other side does not lead there
+            assert most(**{f"c{row}{column}": 0.7, f"c{other[0]}{other[1]}": 0.21 + GROWING}) == 0.21 + GROWING
+
+
+def test_what_is_not_filled_is_the_rest_of_each_cell():
+    f = tuple(0.05 * k for k in range(17))
+    assert rest_of(f) == tuple(1.0 - each for each in f)
+
+
 def test_one_full_cell_around_places_a_body_and_one_empty_cell_what_is_beside_it():
     middle = 0.5 * (1.0 + FILLED)
     for n in (0, 1, 2, 3, 5, 6, 7, 8):
         for most, by in ((1.0, 1.0), (FILLED, 0.0), (middle, 0.5), (0.5, 0.0)):
-            f = [0.4] * 9
-            f[n], f[4] = most, np.nan
-            assert placed(f) == pytest.approx((by, 0.0))
-            f[n] = 1.0 - most
-            assert placed(f) == pytest.approx((0.0, by))
-    assert placed((1.0,) + (0.4,) * 7 + (0.0,)) == (1.0, 1.0)
+            f = tuple(most if k == n else 0.4 for k in range(17))
+            assert placed(f) == pytest.approx(by)
+            empty = tuple(1.0 - most if k == n else 0.4 for k in range(17))
+            assert placed(rest_of(empty)) == pytest.approx(by)
+            assert placed(empty) == 0.0
+
+
+@settings(deadline=None)
+@given(AROUND)
+def test_mirrored_bodies_are_placed_alike_to_the_bit(f):
+    assert placed(seen(f, lambda row, column: (row, 4 - column))) == placed(f)
+    assert placed(seen(f, lambda row, column: (4 - row, column))) == placed(f)
+    assert placed(seen(f, lambda row, column: (column, row))) == placed(f)
 
 
 def surround(f, fraction, along_z):
-    """Fractions of 3 x 3 cells around one of the fraction, and the line that they give it."""
+    """Fractions around one of the fraction, those of 3 x 3 cells going on beyond, and the line that they give it."""
     f = np.array(f, dtype=float)
     f[1, 1] = fraction
-    f = tuple(float(each) for each in f.ravel())
+    f = np.pad(f, 1, mode="edge")
+    f = tuple(float(f[cell]) for cell in CELLS)
     n_r, n_z = youngs_normal(1, 1, f, np.ones(3), np.ones(3))
     return f, (n_z, n_r, 0.0, 0.0, 0.0) if along_z else (n_r, n_z, 0.0, 0.0, 0.0)
 
@@ -158,7 +209,8 @@ GAP = 1.0 - np.array(SPECK)
 
 
 def test_a_cell_that_a_body_fills_has_all_of_the_strip():
-    assert piece((0.5,) * 4 + (1.0,) + (0.5,) * 4, False, 0.1, 0.1, (1.0, 0.0, 0.0, 0.0, 0.0), 0.3, True) == (0.3, 0.0, 0.0)
+    f = with_middle((0.5,) * 17, 1.0)
+    assert piece(f, False, 0.1, 0.1, False, (1.0, 0.0, 0.0, 0.0, 0.0), 0.3, True) == (0.3, 0.0, 0.0)
 
 
 @pytest.mark.parametrize("along_z", [False, True])
@@ -167,15 +219,25 @@ def test_the_cells_around_say_whether_line_box_or_gap_give_the_piece(high, along
     """A body on a slope is cut off by its line, one that fills no cell has a box, one that no cell is without one of void."""
     along, across, strip = 0.05, -0.1, 0.35
     f, bound = surround(SLOPE, 0.5, along_z)
-    assert piece(f, along_z, along, across, bound, strip, high) == piece_of_surface(*bound, 0.5, strip, high)
+    assert piece(f, along_z, along, across, False, bound, strip, high) == piece_of_surface(*bound, 0.5, strip, high)
     f, bound = surround(SPECK, 0.4, along_z)
     expected = box_piece(0.4, along, across, goes_on(0.4, *beside(f, along_z)), strip, high)
-    assert piece(f, along_z, along, across, bound, strip, high) == expected
+    assert piece(f, along_z, along, across, False, bound, strip, high) == expected
     f, bound = surround(GAP, 0.6, along_z)
     empty = goes_on(0.4, *(1.0 - each for each in beside(f, along_z)))
     share, a, c = box_piece(0.4, -1.5 * along, -1.5 * across, empty, strip, high)
-    found = piece(f, along_z, along, across, bound, strip, high)
+    found = piece(f, along_z, along, across, False, bound, strip, high)
     assert found == pytest.approx((strip - share, -a, -c), abs=1e-15)
+
+
+@pytest.mark.parametrize("high", [False, True])
+def test_where_a_gas_is_void_that_no_cell_around_is_without_is_spread(high):
+    """A body that fills all cells around has its share of each strip; one that its neighbours or its box place is there."""
+    f, bound = surround(GAP, 0.6, False)
+    assert piece(f, False, 0.05, -0.1, True, bound, 0.35, high) == pytest.approx((0.35 * 0.6, 0.0, 0.0))
+    for pattern in (SLOPE, SPECK):
+        f, bound = surround(pattern, 0.4, False)
+        assert piece(f, False, 0.05, -0.1, True, bound, 0.35, high) == piece(f, False, 0.05, -0.1, False, bound, 0.35, high)
 
 
 @settings(deadline=None)
@@ -188,9 +250,10 @@ def test_the_piece_of_a_body_and_that_of_all_else_are_the_strip(fraction, along,
     bound = (n_x, 1.0 - abs(n_x), *corner)
     other_bound = (-bound[0], -bound[1], -corner[0], -corner[1], corner[2])
     assume(bound[0] != 0.0 and bound[1] != 0.0)
-    mine = np.array(piece(f, along_z, along, across, bound, strip, high))
+    mine = np.array(piece(f, along_z, along, across, False, bound, strip, high))
     other = tuple(1.0 - each for each in f)
-    rests = np.array(piece(other, along_z, -along * fraction / rest, -across * fraction / rest, other_bound, strip, high))
+    place = -along * fraction / rest, -across * fraction / rest
+    rests = np.array(piece(other, along_z, *place, False, other_bound, strip, high))
     np.testing.assert_allclose(mine + rests, [strip, 0.0, 0.0], atol=1e-6 if min(abs(n_x), 1.0 - abs(n_x)) < 1e-6 else 1e-10)
 
 
@@ -199,11 +262,11 @@ def test_the_piece_of_a_body_and_that_of_all_else_are_the_strip(fraction, along,
 def test_the_piece_of_a_mirrored_body_is_mirrored_to_the_bit(fraction, along, across, strip, high, f, n_x):
     assume(0.0 < abs(n_x) < 1.0)
     f = with_middle(f, fraction)
-    share, a, c = piece(f, False, along, across, (n_x, 1.0 - abs(n_x), 0.0, 0.0, 0.0), strip, high)
-    left = tuple(f[row + column] for row in (0, 3, 6) for column in (2, 1, 0))
-    assert piece(left, False, -along, across, (-n_x, 1.0 - abs(n_x), 0.0, 0.0, 0.0), strip, not high) == (share, -a, c)
-    down = f[6:] + f[3:6] + f[:3]
-    assert piece(down, False, along, -across, (n_x, abs(n_x) - 1.0, 0.0, 0.0, 0.0), strip, high) == (share, a, -c)
+    share, a, c = piece(f, False, along, across, False, (n_x, 1.0 - abs(n_x), 0.0, 0.0, 0.0), strip, high)
+    left = seen(f, lambda row, column: (row, 4 - column))
+    assert piece(left, False, -along, across, False, (-n_x, 1.0 - abs(n_x), 0.0, 0.0, 0.0), strip, not high) == (share, -a, c)
+    down = seen(f, lambda row, column: (4 - row, column))
+    assert piece(down, False, along, -across, False, (n_x, abs(n_x) - 1.0, 0.0, 0.0, 0.0), strip, high) == (share, a, -c)
 
 
 @settings(deadline=None)
@@ -211,24 +274,25 @@ def test_the_piece_of_a_mirrored_body_is_mirrored_to_the_bit(fraction, along, ac
 def test_the_piece_along_z_is_that_along_r_of_cells_with_their_axes_exchanged(fraction, along, across, strip, high, f, n_x):
     f = with_middle(f, fraction)
     bound = n_x, 1.0 - abs(n_x), 0.0, 0.0, 0.0
-    turned = tuple(f[row + column] for column in range(3) for row in (0, 3, 6))
-    assert piece(f, True, along, across, bound, strip, high) == piece(turned, False, along, across, bound, strip, high)
+    turned = seen(f, lambda row, column: (column, row))
+    rest = along, across, False, bound, strip, high
+    assert piece(f, True, *rest) == piece(turned, False, *rest)
 
 
-def walked(first, last, fraction, strip, along_z, high):
-    """The piece of a body as the fractions around it walk from one pattern to another, share 0 to 1, and their line with them."""
+def walked(first, last, fraction, strip, along_z, high, spread):
+    """The piece of a body as the fractions around it, and their line, walk from one pattern to another, share 0 to 1."""
     def pieces(share):
         f, bound = surround((1.0 - share) * np.array(first) + share * np.array(last), fraction, along_z)
-        return piece(f, along_z, -0.1, 0.15, bound, strip, high)
+        return piece(f, along_z, -0.1, 0.15, spread, bound, strip, high)
 
     return pieces
 
 
 @pytest.mark.parametrize("along_z", [False, True])
-@pytest.mark.parametrize("high", [False, True])
+@pytest.mark.parametrize(("high", "spread"), [(False, False), (True, False), (True, True)])
 @pytest.mark.parametrize(("first", "last"), [(SLOPE, SPECK), (SLOPE, GAP), (SPECK, GAP)], ids=["box", "gap", "both"])
-def test_a_piece_does_not_jump_as_its_neighbours_cease_to_place_it(first, last, high, along_z):
-    pieces = walked(first, last, 0.5, 0.3, along_z, high)
+def test_a_piece_does_not_jump_as_its_neighbours_cease_to_place_it(first, last, high, spread, along_z):
+    pieces = walked(first, last, 0.5, 0.3, along_z, high, spread)
     assert np.abs(np.subtract(pieces(1.0), pieces(0.0))).max() > 0.01
     assert largest_jump(pieces, 0.0, 1.0) < 1e-11
 
@@ -238,7 +302,7 @@ def test_a_piece_changes_in_proportion_as_a_full_cell_beside_it_is_no_more_full(
     """The body lies on a full cell at the left, void is at the right: then it has no cell that it fills."""
     def pieces(share):
         f, bound = surround([[0.1, 0.0, 0.0], [share, 0.0, 0.0], [0.2, 0.0, 0.0]], 0.4, False)
-        return piece(f, False, 0.0, 0.1, bound, 0.5, True)
+        return piece(f, False, 0.0, 0.1, False, bound, 0.5, True)
 
     assert np.abs(np.subtract(pieces(1.0), pieces(FILLED))).max() > 0.05
     changes_in_proportion(pieces, filled, 1.5 / (1.0 - FILLED))
@@ -249,7 +313,7 @@ def test_a_piece_changes_in_proportion_as_a_full_cell_beside_it_is_no_more_full(
 def test_a_piece_changes_in_proportion_as_an_empty_cell_beside_it_is_no_more_empty(filled):
     def pieces(share):
         f, bound = surround([[1.0, 1.0, 0.9], [1.0, 1.0, share], [1.0, 1.0, 0.8]], 0.6, False)
-        return piece(f, False, 0.0, 0.1, bound, 0.3, True)
+        return piece(f, False, 0.0, 0.1, False, bound, 0.3, True)
 
     assert np.abs(np.subtract(pieces(0.0), pieces(1.0 - FILLED))).max() > 0.05
     changes_in_proportion(pieces, filled, 1.5 / (1.0 - FILLED), sides=(1.0,) if filled == 0.0 else (-1.0, 1.0))
@@ -259,7 +323,7 @@ def test_a_piece_changes_in_proportion_as_an_empty_cell_beside_it_is_no_more_emp
 @pytest.mark.parametrize("pattern", [SLOPE, SPECK, GAP], ids=["line", "box", "gap"])
 def test_a_piece_becomes_the_strip_as_the_body_fills_the_cell(pattern):
     f, bound = surround(pattern, 1.0 - 1e-10, False)
-    assert piece(f, False, 0.3, -0.2, bound, 0.3, True) == pytest.approx((0.3, 0.0, 0.0), abs=1e-9)
+    assert piece(f, False, 0.3, -0.2, False, bound, 0.3, True) == pytest.approx((0.3, 0.0, 0.0), abs=1e-9)
 
 
 # ------------------------------------------------------------------------------------------------- what pushes what

@@ -199,6 +199,73 @@ def test_fractions_agree_with_sampling():
                 taken |= inside
 
 
+# -------------------------------------------------------------------------------------------------------- centroids
+
+
+@pytest.mark.parametrize("cylindrical", [True, False])
+def test_the_centroid_of_a_box_in_each_cell_is_the_middle_of_what_it_has_there(cylindrical):
+    """Along r^2/2 (planar: r) and z, off the middle of the cell, in cells; a moment is that times the share."""
+    r, z = np.array([0.001, 0.002, 0.004, 0.005]), np.array([-0.002, 0.0, 0.001, 0.004])
+    ends_r, ends_z = (0.0013, 0.0043), (-0.0005, 0.0015)
+    shares, moments = insertion.shares_and_moments([shapes.box(ends_r, ends_z)], r, z, cylindrical)
+
+    def cut(edges, ends):
+        """Share of each interval, and where the middle of that lies."""
+        low, high = np.clip(edges[:-1], *ends), np.clip(edges[1:], *ends)
+        size = np.diff(edges)
+        return (high - low) / size, np.where(high > low, 0.5 * (low + high - edges[:-1] - edges[1:]) / size, 0.0)
+
+    columns, along = cut(0.5 * r**2, [0.5 * end**2 for end in ends_r]) if cylindrical else cut(r, ends_r)
+    rows, up = cut(z, ends_z)
+    share = rows[:, None] * columns
+    np.testing.assert_allclose(shares[0], share, atol=1e-14)
+    np.testing.assert_allclose(moments[0, 0], share * along, atol=1e-14)
+    np.testing.assert_allclose(moments[1, 0], share * up[:, None], atol=1e-14)
+    assert moments[0, 0, 1, 1] == moments[1, 0, 1, 1] == 0.0  # a full cell
+    assert np.count_nonzero(np.abs(moments) > 1e-6) == 12
+
+
+@pytest.mark.parametrize("cylindrical", [True, False])
+def test_moments_agree_with_sampling(cylindrical):
+    """Of a ball, and of a plate of which it takes a part, by a fine midpoint rule in (r^2/2, z)."""
+    r, z = np.linspace(0.0, 0.01, 6), np.linspace(-0.006, 0.008, 6)
+    outlines = [shapes.sphere(0.0, 0.001, 0.0063), shapes.box((0.0, math.inf), (-0.0031, 0.0043))]
+    shares, moments = insertion.shares_and_moments(outlines, r, z, cylindrical)
+    part = (np.arange(600) + 0.5) / 600
+    for j in range(5):
+        for i in range(5):
+            a, b = (r[i] ** 2, r[i + 1] ** 2) if cylindrical else (r[i], r[i + 1])
+            x = np.sqrt(a + part * (b - a)) if cylindrical else a + part * (b - a)
+            y = z[j] + part * (z[j + 1] - z[j])
+            ball = x[None, :] ** 2 + (y[:, None] - 0.001) ** 2 < 0.0063**2
+            plate = ~ball & ((y > -0.0031) & (y < 0.0043))[:, None]
+            for m, inside in enumerate((ball, plate)):
+                assert shares[m, j, i] == pytest.approx(inside.mean(), abs=2e-3)
+                assert moments[0, m, j, i] == pytest.approx((inside * (part - 0.5)[None, :]).mean(), abs=1e-3)
+                assert moments[1, m, j, i] == pytest.approx((inside * (part - 0.5)[:, None]).mean(), abs=1e-3)
+    assert (np.abs(moments) > 0.01).any(axis=(2, 3)).all()
+
+
+@pytest.mark.parametrize("cylindrical", [True, False])
+def test_moments_of_cells_are_those_of_their_parts(cylindrical):
+    """Of cells cut in two by two: to round-off, as the volumes are."""
+    outlines = [rod_shape("ogive", 2.2 * R, tip=0.004), rod_shape("conical", R, -1, tip=-0.012),
+                shapes.sphere(3e-3, 2e-3, 6.1e-3)]
+    s = np.linspace(0.0, 1.0, 13)  # parts of equal volume
+    fine_r, fine_z = 0.012 * (np.sqrt(s) if cylindrical else s), np.linspace(-0.02, 0.02, 23)
+    _, moments = insertion.shares_and_moments(outlines, fine_r[::2], fine_z[::2], cylindrical)
+    shares, fine = insertion.shares_and_moments(outlines, fine_r, fine_z, cylindrical)
+
+    def together(values):
+        return values.reshape(3, 11, 2, 6, 2).sum(axis=(2, 4)) / 4
+
+    sides = np.array([-0.25, 0.25])
+    along = together(0.5 * fine[0] + shares * np.tile(sides, 6))
+    up = together(0.5 * fine[1] + shares * np.tile(sides, 11)[:, None])
+    np.testing.assert_allclose(moments, [along, up], atol=1e-13)
+    assert (np.abs(moments) > 0.01).any(axis=(2, 3)).all()
+
+
 TEXT = (
     mesh(("16 mm", 32), ("-20 mm", "40 mm", 120))
     + rod("4 mm", "16 mm", tip=0.0, velocity="1086 m/s")
@@ -287,6 +354,35 @@ def test_a_temperature_without_an_energy_is_an_error():
     cold = SimpleNamespace(name="x", density=1e-3, energy=None, pressure=None, temperature=-5.0)
     with pytest.raises(deck.DeckError, match='body "x": no energy gives a temperature of -5'):
         insertion.body_state(cold, table, 0)
+
+
+def test_centroids_of_the_initial_state_are_moments_over_shares_in_cells_that_a_body_shares():
+    d, grid, _, state = start(TEXT, ['body.rod.tip="0.3 mm"'])
+    place, vof = state["centroid"], state["vof"]
+    shares, moments = insertion.shares_and_moments([shapes.outline(body, 0.0) for body in d.body], *deck.edges(d), True)
+    assert place.shape == (2, 2, 120, 32)
+    mixed = (vof > 0.0) & (vof < 1.0)
+    np.testing.assert_allclose((place * shares)[:, mixed], moments[:, mixed], atol=1e-15)
+    assert not place[:, ~mixed].any()
+    assert (np.abs(place[:, mixed]) <= 0.5 * (1.0 - vof[mixed]) + 1e-12).all()
+    assert (np.abs(place[0, 0][mixed[0]]) > 0.01).any()
+    s, g = Simulation(d).state, grid
+    np.testing.assert_array_equal(g.interior(s.centroid), place)
+
+
+def test_joined_bodies_have_one_centroid_where_they_meet():
+    """The plate goes on as the rod: in cells that both fill in part that of both together, and none where they fill them."""
+    text = TEXT.replace('material = "Al5083"\nshape', 'material = "W_alloy"\njoin = "rod"\ndensity = 17500\nshape')
+    d, _, _, state = start(text, ['body.rod.tip="0.75 mm"', 'body.plate.z_front="0.1 mm"'])
+    shares, moments = insertion.shares_and_moments([shapes.outline(body, 0.0) for body in d.body], *deck.edges(d), True)
+    total, place = shares.sum(axis=0), state["centroid"][:, 0]
+    meet = (shares > 0.0).all(axis=0)
+    cut = meet & (total < 1.0 - 1e-9)
+    assert cut.any()
+    np.testing.assert_allclose(place[:, cut], moments.sum(axis=1)[:, cut] / total[cut], atol=1e-14)
+    full = state["vof"][0] == 1.0
+    assert (meet & full).any()
+    assert not place[:, full].any()
 
 
 def test_joined_bodies_are_one():
