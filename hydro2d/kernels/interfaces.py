@@ -83,8 +83,8 @@ def donor_volumes_row(j, dj, di, i0, i1, open_faces, body_ranges, f_face, vof, f
 
 
 @point
-def thinnest_body(j, i, gas, order, share, thin):
-    """How thin the thinnest body of cell (j, i) is, 0 to 1 (`placed`); 0 where no two bodies meet, and where a gas is.
+def thinnest_body(j, i, in_order, order, share, thin):
+    """How thin the thinnest body of cell (j, i) is, 0 to 1 (`placed`); 0 where no two bodies meet, or they keep their order.
 
     Writes   thin [m], that of each
     """
@@ -93,19 +93,21 @@ def thinnest_body(j, i, gas, order, share, thin):
         thin[m] = 0.0
         if share[m, j, i] > 0.0:
             present += 1
-            if not gas:
+            if not in_order:
                 thin[m] = 1.0 - placed(add_body(m, j, i, share, NO_BODY))
                 thinnest = max(thinnest, thin[m])
     return thinnest if present > 1 else 0.0
 
 
 @point
-def is_beside_gas(j, i, materials, vof):
-    """Whether a gas is in a cell."""
-    found = False
-    for m in range(vof.shape[0]):
-        found = found or (vof[m, j, i] > 0.0 and materials[m, GAS] > 0.0)
-    return found
+def keeps_order(j, i, group, materials, share):
+    """Whether the bodies of a cell keep their order, and void has no box: where a gas is, and where two groups meet."""
+    gas, groups = False, 0
+    for m in range(group.shape[0]):
+        if share[m, j, i] > 0.0:
+            gas = gas or materials[m, GAS] > 0.0
+            groups |= 1 << group[m]
+    return gas or groups == 3
 
 
 @apart
@@ -138,11 +140,11 @@ def next_body(m, f, thin, box, whole, total, side, width, weight, below, strip):
 
 
 @apart
-def nest(j, i, along_z, w_low, w_high, w_whole, thin_first, weight, order, share, void, gas, centroid, dr, dz, strips):
+def nest(j, i, along_z, w_low, w_high, w_whole, thin_first, weight, order, share, void, in_order, centroid, dr, dz, strips):
     """Adds what the nested interfaces give of every body in the strips of cell (j, i), times a weight.
 
     The bodies come in their order, or first those that are thin (strips [0, THIN, m]), each by a box of its own. A strip of no
-    width is left out. gas : whether a gas is in the cell
+    width is left out. in_order : whether void has no box (`keeps_order`)
 
     Updates  strips [3, SHARE to ACROSS, m]: of the strips at the low and at the high side, and of the whole cell
     """
@@ -174,27 +176,27 @@ def nest(j, i, along_z, w_low, w_high, w_whole, thin_first, weight, order, share
             if w_low > 0.0:
                 if thin > 0.0:
                     box = box_piece(f, along, across, continues, w_low, False)
-                all_of_it = piece(full, along_z, middle_along, middle_across, gas, bound, w_low, False)
+                all_of_it = piece(full, along_z, middle_along, middle_across, in_order, bound, w_low, False)
                 low = next_body(m, f, thin, box, all_of_it, total, across, w_low, weight, low, strips[0])
             if w_high > 0.0:
                 if thin > 0.0:
                     box = box_piece(f, along, across, continues, w_high, True)
-                all_of_it = piece(full, along_z, middle_along, middle_across, gas, bound, w_high, True)
+                all_of_it = piece(full, along_z, middle_along, middle_across, in_order, bound, w_high, True)
                 high = next_body(m, f, thin, box, all_of_it, total, across, w_high, weight, high, strips[1])
             if w_whole > 0.0:
                 if thin > 0.0:
                     box = box_piece(f, along, across, continues, w_whole, True)
-                all_of_it = piece(full, along_z, middle_along, middle_across, gas, bound, w_whole, True)
+                all_of_it = piece(full, along_z, middle_along, middle_across, in_order, bound, w_whole, True)
                 whole = next_body(m, f, thin, box, all_of_it, total, across, w_whole, weight, whole, strips[2])
 
 
 @apart
-def fill_strips(j, i, along_z, w_low, w_high, w_whole, order, share, void, materials, centroid, dr, dz, strips):
+def fill_strips(j, i, along_z, w_low, w_high, w_whole, order, share, void, group, materials, centroid, dr, dz, strips):
     """What every body has in the strips at the low and at the high side of cell (j, i), and in all of it, and where.
 
-    Nested interfaces in the order of the bodies. Where several bodies meet, none of them a gas, and one of them is narrower
-    than a cell, so that its neighbours do not place it, it comes first, whatever the order says (explanation/interfaces, thin
-    bodies).
+    Nested interfaces in the order of the bodies. Where several bodies of one group meet, none of them a gas, and one of them is
+    narrower than a cell, so that its neighbours do not place it, it comes first, whatever the order says
+    (explanation/interfaces, thin bodies).
 
     w_low, w_high, w_whole : widths of the strips as shares of the cell, 0 for one that is left out
 
@@ -207,12 +209,13 @@ def fill_strips(j, i, along_z, w_low, w_high, w_whole, order, share, void, mater
             strips[n, SHARE, m] = 0.0
             strips[n, ALONG, m] = 0.0
             strips[n, ACROSS, m] = 0.0
-    gas = is_beside_gas(j, i, materials, share)
-    thinnest = thinnest_body(j, i, gas, order, share, strips[0, THIN])
+    in_order = keeps_order(j, i, group, materials, share)
+    thinnest = thinnest_body(j, i, in_order, order, share, strips[0, THIN])
     if thinnest < 1.0:
-        nest(j, i, along_z, w_low, w_high, w_whole, False, 1.0 - thinnest, order, share, void, gas, centroid, dr, dz, strips)
+        nest(j, i, along_z, w_low, w_high, w_whole, False, 1.0 - thinnest, order, share, void, in_order, centroid, dr, dz,
+             strips)
     if thinnest > 0.0:
-        nest(j, i, along_z, w_low, w_high, w_whole, True, thinnest, order, share, void, gas, centroid, dr, dz, strips)
+        nest(j, i, along_z, w_low, w_high, w_whole, True, thinnest, order, share, void, in_order, centroid, dr, dz, strips)
 
 
 @point
@@ -225,8 +228,8 @@ def place_of(strip, m):
 
 
 @rowwise
-def interface_volumes_row(j, dj, di, dr, dz, order, materials, mixed_count, mixed, f_face, pre, vof, centroid, flux_volume,
-                          flux_place, strips):
+def interface_volumes_row(j, dj, di, dr, dz, order, group, materials, mixed_count, mixed, f_face, pre, vof, centroid,
+                          flux_volume, flux_place, strips):
     """Volume of each body out of each mixed cell, from the nested interfaces, and where it lies in the strips that leave.
 
     The cumulative volumes of a strip are kept monotone, each body gives no more than it has, and what two opposite strips
@@ -252,7 +255,7 @@ def interface_volumes_row(j, dj, di, dr, dz, order, materials, mixed_count, mixe
         w_low, w_high = out_low / size, out_high / size
         taken = min((w_low + w_high) / SWEPT, 1.0)
         void = 1.0 - cumulative(j, i, bodies - 1, order, vof)
-        fill_strips(j, i, along_z, w_low, w_high, 1.0, order, vof, void, materials, centroid, dr, dz, strips[j])
+        fill_strips(j, i, along_z, w_low, w_high, 1.0, order, vof, void, group, materials, centroid, dr, dz, strips[j])
         for m in range(bodies):
             f = vof[m, j, i]
             if f == 0.0:
@@ -295,9 +298,9 @@ def donor_volumes(dj, di, part, parts, i0, i1, first, open_faces, volume, body_r
 
 
 @kernel
-def interface_volumes(dj, di, part, parts, dr, dz, order, materials, mixed_count, mixed, face, pre, vof, centroid, flux_volume,
-                      flux_place, strips):
+def interface_volumes(dj, di, part, parts, dr, dz, order, group, materials, mixed_count, mixed, face, pre, vof, centroid,
+                      flux_volume, flux_place, strips):
     """interface_volumes_row for rows j0 to j1."""
     for j in range(parts[part], parts[part + 1]):
-        interface_volumes_row(j, dj, di, dr, dz, order, materials, mixed_count, mixed, face, pre, vof, centroid, flux_volume,
-                              flux_place, strips)
+        interface_volumes_row(j, dj, di, dr, dz, order, group, materials, mixed_count, mixed, face, pre, vof, centroid,
+                              flux_volume, flux_place, strips)

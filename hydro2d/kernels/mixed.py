@@ -5,7 +5,6 @@ from hydro2d.jit import kernel, point, rowwise
 from hydro2d.kernels.centroids import push_bodies
 from hydro2d.kernels.column_ranges import mixed_row
 from hydro2d.kernels.cut_cells import BONDED, FREE_SURFACE, INTERFACE, KIND, common_traction, fill_cut_cell, normal_deviator
-from hydro2d.kernels.interfaces import is_beside_gas
 from hydro2d.kernels.mixed_scratch import (
     BEFORE,
     HEAT,
@@ -32,7 +31,7 @@ from hydro2d.kernels.mixed_strength import (
     work_of_deviators,
 )
 from hydro2d.kernels.thermodynamics import pressures_row, viscosity_row
-from hydro2d.materials.rows import EOS, EOS_AT, FADES, MEMORY, TENSILE
+from hydro2d.materials.rows import EOS, EOS_AT, FADES, GAS, MEMORY, TENSILE
 from hydro2d.mesh.fields import DMG, RHO, SRR, SRZ, SZZ, E
 from hydro2d.mesh.grid import VOL_R
 from hydro2d.physics.closure import NO_VOID, relaxation_bound, relaxation_strain, softness
@@ -184,6 +183,15 @@ def pressure_rise(j, i, middle, vof, pm):
     for m in range(vof.shape[0]):
         before += vof[m, j, i] * pm[m, j, i] if vof[m, j, i] > 0.0 else 0.0
     return middle - before
+
+
+@point
+def is_beside_gas(j, i, materials, vof):
+    """Whether a gas is in a cell."""
+    found = False
+    for m in range(vof.shape[0]):
+        found = found or (vof[m, j, i] > 0.0 and materials[m, GAS] > 0.0)
+    return found
 
 
 @point

@@ -35,7 +35,7 @@ def box_piece(fraction, along, across, continues, strip, high):
         return fraction, fraction * along, fraction * across
     longest, tallest = 1.0 - 2.0 * abs(along), 1.0 - 2.0 * abs(across)
     shortest = min(longest, fraction / max(tallest, fraction))
-    length = shortest + (longest - shortest) * continues
+    length = max(shortest + (longest - shortest) * continues, fraction)
     turned = along if high else -along  # as if the strip were at the high side
     beyond = min(max((0.5 - strip) - (turned - 0.5 * length), 0.0), length)  # what of the length does not reach the strip
     share = fraction * ((length - beyond) / length)
@@ -92,19 +92,19 @@ def placed(f):
 
 
 @point
-def piece(f, along_z, along, across, gas, bound, strip, high):
+def piece(f, along_z, along, across, in_order, bound, strip, high):
     """What lies of something in the strip of given width at the low or high side of a cell, as `line_piece` gives it.
 
     By the line or the corner where the cells around place both it and what is beside it (`placed`); else by weight by a box of
-    it or by a box of what is beside it, whichever is thinner. Beside a gas, which would fill it, void has no box.
+    it or by a box of what is beside it, whichever is thinner.
 
     f : its fractions in the 17 cells of `add_body`; along, across : its centroid, along the sweep and across;
-    bound : the surface, with the normal along the sweep first;  gas : whether a gas is in the cell
+    bound : the surface, with the normal along the sweep first;  in_order : whether void has no box
     """
     fraction = f[4]
     if fraction >= 1.0:
         return strip, 0.0, 0.0
-    own, other = placed(f), 1.0 if gas else placed(rest_of(f))
+    own, other = placed(f), 1.0 if in_order else placed(rest_of(f))
     by_line = own * other
     share, shift, lift = 0.0, 0.0, 0.0
     if by_line > 0.0:

@@ -275,24 +275,25 @@ def test_no_two_bodies_are_thin_without_each_other():
     """How thin a body is counts where bodies meet; beside void alone its own `piece` sees to it."""
     vof, _ = stack()
     thin = np.full(3, np.nan)
-    assert thinnest_body(2, 2, np.arange(3), vof, SOLIDS, thin) == 1.0
+    assert thinnest_body(2, 2, False, np.arange(3), vof, thin) == 1.0
     assert thin.tolist() == [0.0, 1.0, 0.0]
-    assert thinnest_body(2, 1, np.arange(3), vof, SOLIDS, thin) == 0.0
+    assert thinnest_body(2, 1, False, np.arange(3), vof, thin) == 0.0
     assert thin.tolist() == [0.0, 0.0, 0.0]
     vof[[0, 2]] = 0.0
-    assert thinnest_body(2, 2, np.arange(3), vof, SOLIDS, thin) == 0.0
+    assert thinnest_body(2, 2, False, np.arange(3), vof, thin) == 0.0
     assert thin.tolist() == [0.0, 1.0, 0.0]
     vof, _ = stack(((-2.5, 0.0), (0.0, 2.5)))
     vof[0, 2, 1], vof[0, [1, 3], 1], vof[0, :, 0] = 0.975, 0.975, 0.5
-    assert thinnest_body(2, 2, np.arange(2), vof, SOLIDS, thin[:2]) == pytest.approx(0.5)
+    assert thinnest_body(2, 2, False, np.arange(2), vof, thin[:2]) == pytest.approx(0.5)
 
 
-def test_a_gas_is_never_thin_and_void_beside_it_is_spread():
+def test_where_a_gas_is_no_body_is_thin_and_void_has_no_box():
     vof, centroid = stack()
     thin = np.full(3, np.nan)
-    assert thinnest_body(2, 2, np.arange(3), vof, GAS_BETWEEN, thin) == 0.0
+    assert thinnest_body(2, 2, True, np.arange(3), vof, thin) == 0.0
     assert thin.tolist() == [0.0, 0.0, 0.0]
-    strips = strips_of(vof, centroid, (1, 0, 2), materials=GAS_BETWEEN)  # it comes first, and its own box is between the others
+    strips = strips_of(vof, centroid, (1, 0, 2), materials=GAS_BETWEEN)  # the stated order holds
+    np.testing.assert_array_equal(strips[0, THIN], [0.0, 0.0, 0.0])
     np.testing.assert_allclose(strips[2, SHARE], [0.3, 0.2, 0.5], atol=1e-14)
     assert is_beside_gas(2, 2, GAS_BETWEEN, vof)
     assert not is_beside_gas(2, 1, GAS_BETWEEN, vof)

@@ -231,10 +231,12 @@ def test_the_cells_around_say_whether_line_box_or_gap_give_the_piece(high, along
 
 
 @pytest.mark.parametrize("high", [False, True])
-def test_where_a_gas_is_void_that_no_cell_around_is_without_is_spread(high):
-    """A body that fills all cells around has its share of each strip; one that its neighbours or its box place is there."""
+def test_beside_a_gas_void_has_no_box(high):
+    """A body that fills a cell around is cut off by its line, though none is empty; one that fills none keeps its box."""
     f, bound = surround(GAP, 0.6, False)
-    assert piece(f, False, 0.05, -0.1, True, bound, 0.35, high) == pytest.approx((0.35 * 0.6, 0.0, 0.0))
+    line = piece_of_surface(*bound, 0.6, 0.35, high)
+    assert piece(f, False, 0.05, -0.1, True, bound, 0.35, high) == line
+    assert piece(f, False, 0.05, -0.1, False, bound, 0.35, high) != pytest.approx(line, abs=1e-3)
     for pattern in (SLOPE, SPECK):
         f, bound = surround(pattern, 0.4, False)
         assert piece(f, False, 0.05, -0.1, True, bound, 0.35, high) == piece(f, False, 0.05, -0.1, False, bound, 0.35, high)
@@ -279,20 +281,20 @@ def test_the_piece_along_z_is_that_along_r_of_cells_with_their_axes_exchanged(fr
     assert piece(f, True, *rest) == piece(turned, False, *rest)
 
 
-def walked(first, last, fraction, strip, along_z, high, spread):
+def walked(first, last, fraction, strip, along_z, high, gas):
     """The piece of a body as the fractions around it, and their line, walk from one pattern to another, share 0 to 1."""
     def pieces(share):
         f, bound = surround((1.0 - share) * np.array(first) + share * np.array(last), fraction, along_z)
-        return piece(f, along_z, -0.1, 0.15, spread, bound, strip, high)
+        return piece(f, along_z, -0.1, 0.15, gas, bound, strip, high)
 
     return pieces
 
 
 @pytest.mark.parametrize("along_z", [False, True])
-@pytest.mark.parametrize(("high", "spread"), [(False, False), (True, False), (True, True)])
+@pytest.mark.parametrize(("high", "gas"), [(False, False), (True, False), (True, True)])
 @pytest.mark.parametrize(("first", "last"), [(SLOPE, SPECK), (SLOPE, GAP), (SPECK, GAP)], ids=["box", "gap", "both"])
-def test_a_piece_does_not_jump_as_its_neighbours_cease_to_place_it(first, last, high, spread, along_z):
-    pieces = walked(first, last, 0.5, 0.3, along_z, high, spread)
+def test_a_piece_does_not_jump_as_its_neighbours_cease_to_place_it(first, last, high, gas, along_z):
+    pieces = walked(first, last, 0.5, 0.3, along_z, high, gas)
     assert np.abs(np.subtract(pieces(1.0), pieces(0.0))).max() > 0.01
     assert largest_jump(pieces, 0.0, 1.0) < 1e-11
 
