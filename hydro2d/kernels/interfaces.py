@@ -11,6 +11,7 @@ from hydro2d.kernels.column_ranges import columns, outer_rows, past_row
 from hydro2d.materials.rows import GAS
 from hydro2d.physics.centroids import beside, box_piece, goes_on, piece, placed, within
 from hydro2d.physics.interfaces import add_body, at_most_full, cumulative, nested, surface
+from hydro2d.physics.traction import smoothstep
 
 #: rows of a strip: shares of the cell; times them, the centroids' offsets along the sweep and across; how thin the bodies are
 SHARE, ALONG, ACROSS, THIN = range(4)
@@ -18,6 +19,8 @@ SHARE, ALONG, ACROSS, THIN = range(4)
 NO_BODY = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 #: a share of a cell with less than this lies nowhere in particular
 NOTHING = 1e-14
+#: share of a gas, or of both groups of a contact, from which a cell is theirs in full; with 0.01 the nose of a rod is rough
+MEETING = 1e-6
 #: share of a cell that leaves it from which its interfaces determine the centroids; of less, none of which may decide, less
 SWEPT = 0.1
 
@@ -84,7 +87,9 @@ def donor_volumes_row(j, dj, di, i0, i1, open_faces, body_ranges, f_face, vof, f
 
 @point
 def thinnest_body(j, i, in_order, order, share, thin):
-    """How thin the thinnest body of cell (j, i) is, 0 to 1 (`placed`); 0 where no two bodies meet, or they keep their order.
+    """How thin the thinnest body of cell (j, i) is, 0 to 1 (`placed`), as far as bodies do not keep their order.
+
+    0 where no two bodies meet.
 
     Writes   thin [m], that of each
     """
@@ -93,21 +98,22 @@ def thinnest_body(j, i, in_order, order, share, thin):
         thin[m] = 0.0
         if share[m, j, i] > 0.0:
             present += 1
-            if not in_order:
-                thin[m] = 1.0 - placed(add_body(m, j, i, share, NO_BODY))
+            if in_order < 1.0:
+                thin[m] = (1.0 - in_order) * (1.0 - placed(add_body(m, j, i, share, NO_BODY)))
                 thinnest = max(thinnest, thin[m])
     return thinnest if present > 1 else 0.0
 
 
 @point
 def keeps_order(j, i, group, materials, share):
-    """Whether the bodies of a cell keep their order, and void has no box: where a gas is, and where two groups meet."""
-    gas, groups = False, 0
+    """How far, 0 to 1, bodies of a cell keep their order, and void has no box: where a gas is, and where two groups meet."""
+    gas, hard, soft = 0.0, 0.0, 0.0
     for m in range(group.shape[0]):
-        if share[m, j, i] > 0.0:
-            gas = gas or materials[m, GAS] > 0.0
-            groups |= 1 << group[m]
-    return gas or groups == 3
+        f = share[m, j, i]
+        gas += f if materials[m, GAS] > 0.0 else 0.0
+        hard += f if group[m] == 1 else 0.0
+        soft += 0.0 if group[m] == 1 else f
+    return smoothstep(max(gas, min(hard, soft)) / MEETING)
 
 
 @apart
@@ -144,7 +150,7 @@ def nest(j, i, along_z, w_low, w_high, w_whole, thin_first, weight, order, share
     """Adds what the nested interfaces give of every body in the strips of cell (j, i), times a weight.
 
     The bodies come in their order, or first those that are thin (strips [0, THIN, m]), each by a box of its own. A strip of no
-    width is left out. in_order : whether void has no box (`keeps_order`)
+    width is left out. in_order : how far void has no box (`keeps_order`)
 
     Updates  strips [3, SHARE to ACROSS, m]: of the strips at the low and at the high side, and of the whole cell
     """
@@ -156,9 +162,11 @@ def nest(j, i, along_z, w_low, w_high, w_whole, thin_first, weight, order, share
             m = order[k]
             f = share[m, j, i]
             thin = strips[0, THIN, m] if thin_first else 0.0
-            if f == 0.0 or (thin_first and (thin > 0.0) != (turn == 0)):
+            if thin_first and (thin > 0.0) != (turn == 0):
                 continue
-            around = add_body(m, j, i, share, around)
+            around = add_body(m, j, i, share, around)  # also where it is beside the cell alone
+            if f == 0.0:
+                continue
             full = at_most_full(around)
             along, across = centroid[0, m, j, i], centroid[1, m, j, i]
             n_r, n_z, w, h, corner = surface(j, i, full, dr, dz, void)

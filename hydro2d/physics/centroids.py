@@ -99,12 +99,12 @@ def piece(f, along_z, along, across, in_order, bound, strip, high):
     it or by a box of what is beside it, whichever is thinner.
 
     f : its fractions in the 17 cells of `add_body`; along, across : its centroid, along the sweep and across;
-    bound : the surface, with the normal along the sweep first;  in_order : whether void has no box
+    bound : the surface, with the normal along the sweep first;  in_order : how far void has no box, 0 to 1
     """
     fraction = f[4]
     if fraction >= 1.0:
         return strip, 0.0, 0.0
-    own, other = placed(f), 1.0 if in_order else placed(rest_of(f))
+    own, other = placed(f), max(in_order, placed(rest_of(f)))
     by_line = own * other
     share, shift, lift = 0.0, 0.0, 0.0
     if by_line > 0.0:

@@ -131,7 +131,7 @@ def ball(*options):
     text = (toml.problems_folder() / "perforation" / "sphere.toml").read_text()
     text = text.replace('{ to = "36 mm", size = "0.4 mm" }', '{ cells = 44, size = "1.1 mm" }')
     text = text.replace("cells = 25", "cells = 9").replace("cells_across = 12.5", "cells_across = 4.5")
-    return Simulation(deck.loads(text.replace("1500 m/s", "5 km/s"), options))
+    return Simulation(deck.loads(text.replace("1500 m/s", "5.5 km/s"), options))
 
 
 @pytest.mark.parametrize(
@@ -198,8 +198,8 @@ def test_a_rod_that_leaves_the_mesh(options):
     assert before["regime"] != LEFT
     assert found["penetration_depth_m"] == pytest.approx(11e-3, abs=0.4e-3)
     assert found["rod_residual_velocity_m_s"] == pytest.approx(before["rod_core_velocity_m_s"], rel=0.01)
-    shortly = np.median(masses[-10:])  # the row of its tail is core in one cycle and debris in the next
-    assert found["rod_residual_mass_kg"] == pytest.approx(shortly, rel=0.02)  # its ends cut cells
+    shortly = masses[-40:]  # the row of its tail is core in one cycle and debris in the next
+    assert 0.99 * min(shortly) < found["rod_residual_mass_kg"] < 1.01 * max(shortly)
     assert found["rod_mass_kg"] < 0.99 * sim.penetrator.mass
     names = ("regime", "penetration_depth_m", "rod_residual_velocity_m_s", "rod_residual_mass_kg")
     while sim.penetrator._length()[0] > 0.0:
