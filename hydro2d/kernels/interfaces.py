@@ -1,14 +1,13 @@
 """Piecewise-linear interfaces: Youngs' normal, the constant of the line, and the share of a donor strip.
 
 All in the unit square of a cell with axes s = r^2/2 and z, in which areas are volumes of revolution, so that the planar
-formulas are exact (explanation/interfaces). More than two materials are nested: the interface of the first k bodies of the
+formulas are exact (explanation/interfaces). More than two gases are nested: the interface of the first k bodies of the
 stated order bounds their cumulative fraction, void comes last.
 """
 
 
 from hydro2d.jit import apart, kernel, point, rowwise
 from hydro2d.kernels.column_ranges import columns, outer_rows, past_row
-from hydro2d.materials.rows import GAS
 from hydro2d.physics.centroids import beside, box_piece, goes_on, piece, placed, within
 from hydro2d.physics.interfaces import add_body, at_most_full, cumulative, nested, surface
 from hydro2d.physics.traction import smoothstep
@@ -105,11 +104,11 @@ def thinnest_body(j, i, in_order, order, share, thin):
 
 
 @point
-def keeps_order(j, i, group, materials, share):
+def keeps_order(j, i, group, gases, share):
     """How far, 0 to 1, bodies of a cell keep their order, and void has no box: where a gas is, and beside another group."""
     gas, hard, soft = 0.0, 0.0, 0.0
     for m in range(group.shape[0]):
-        gas += share[m, j, i] if materials[m, GAS] > 0.0 else 0.0
+        gas += share[m, j, i] if gases[m] else 0.0
         most = 0.0
         for row in range(j - 1, j + 2):
             for column in range(i - 1, i + 2):
@@ -202,7 +201,7 @@ def nest(j, i, along_z, w_low, w_high, w_whole, thin_first, weight, order, share
 
 
 @apart
-def fill_strips(j, i, along_z, w_low, w_high, w_whole, order, share, void, group, materials, centroid, dr, dz, strips):
+def fill_strips(j, i, along_z, w_low, w_high, w_whole, order, share, void, group, gases, centroid, dr, dz, strips):
     """What every body has in the strips at the low and at the high side of cell (j, i), and in all of it, and where.
 
     Nested interfaces in the order of the bodies. Where several bodies of one group meet, none of them a gas, and one of them is
@@ -220,7 +219,7 @@ def fill_strips(j, i, along_z, w_low, w_high, w_whole, order, share, void, group
             strips[n, SHARE, m] = 0.0
             strips[n, ALONG, m] = 0.0
             strips[n, ACROSS, m] = 0.0
-    in_order = keeps_order(j, i, group, materials, share)
+    in_order = keeps_order(j, i, group, gases, share)
     thinnest = thinnest_body(j, i, in_order, order, share, strips[0, THIN])
     if thinnest < 1.0:
         nest(j, i, along_z, w_low, w_high, w_whole, False, 1.0 - thinnest, order, share, void, in_order, centroid, dr, dz,
@@ -239,7 +238,7 @@ def place_of(strip, m):
 
 
 @rowwise
-def interface_volumes_row(j, dj, di, dr, dz, order, group, materials, mixed_count, mixed, f_face, pre, vof, centroid,
+def interface_volumes_row(j, dj, di, dr, dz, order, group, gases, mixed_count, mixed, f_face, pre, vof, centroid,
                           flux_volume, flux_place, strips):
     """Volume of each body out of each mixed cell, from the nested interfaces, and where it lies in the strips that leave.
 
@@ -266,7 +265,7 @@ def interface_volumes_row(j, dj, di, dr, dz, order, group, materials, mixed_coun
         w_low, w_high = out_low / size, out_high / size
         taken = min((w_low + w_high) / SWEPT, 1.0)
         void = 1.0 - cumulative(j, i, bodies - 1, order, vof)
-        fill_strips(j, i, along_z, w_low, w_high, 1.0, order, vof, void, group, materials, centroid, dr, dz, strips[j])
+        fill_strips(j, i, along_z, w_low, w_high, 1.0, order, vof, void, group, gases, centroid, dr, dz, strips[j])
         for m in range(bodies):
             f = vof[m, j, i]
             if f == 0.0:
@@ -309,9 +308,9 @@ def donor_volumes(dj, di, part, parts, i0, i1, first, open_faces, volume, body_r
 
 
 @kernel
-def interface_volumes(dj, di, part, parts, dr, dz, order, group, materials, mixed_count, mixed, face, pre, vof, centroid,
+def interface_volumes(dj, di, part, parts, dr, dz, order, group, gases, mixed_count, mixed, face, pre, vof, centroid,
                       flux_volume, flux_place, strips):
     """interface_volumes_row for rows j0 to j1."""
     for j in range(parts[part], parts[part + 1]):
-        interface_volumes_row(j, dj, di, dr, dz, order, group, materials, mixed_count, mixed, face, pre, vof, centroid,
+        interface_volumes_row(j, dj, di, dr, dz, order, group, gases, mixed_count, mixed, face, pre, vof, centroid,
                               flux_volume, flux_place, strips)

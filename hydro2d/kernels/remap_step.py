@@ -25,7 +25,7 @@ def carry_bodies(parts, i0, i1, dj, di, second, leading, fr, own_r, fz, own_z, q
                  body_range, vof, nz, mirror_z_min, mirror_z_max, active_range, mixed_count, mixed_columns, scratch, gate,
                  void_only, volume, body_ranges, pre, flux_volume, dr, dz, interface_order, strips, cell_mass, mesh_box,
                  contact_columns, own_share, size, hard_first, soft_first, group, line, carried, flux, group_ranges, flux_mass,
-                 edge_flux, outflow, materials, centroid, flux_place):
+                 edge_flux, outflow, gases, centroid, flux_place):
     """Volume of every body through every face, fluxes of what it carries, and the cells after the sweep.
 
     leading : the edge along z that goes ahead with a mesh that travels, 0 low, 1 high, -1 none: its ghost cells are filled
@@ -44,12 +44,12 @@ def carry_bodies(parts, i0, i1, dj, di, second, leading, fr, own_r, fz, own_z, q
         interfaces.donor_volumes(dj, di, part, parts, i0, i1, not second, void_only, volume, body_ranges, active_range, fr, fz,
                                  vof, pre, flux_volume)
         wait(gate, parts)
-        interfaces.interface_volumes(dj, di, part, parts, dr, dz, interface_order, group, materials, mixed_count,
+        interfaces.interface_volumes(dj, di, part, parts, dr, dz, interface_order, group, gases, mixed_count,
                                      mixed_columns, face, pre, vof, centroid, flux_volume, flux_place, strips)
         if cell_mass.shape[0] > 1:
             contact_volumes.contact_shares(part, parts, mesh_box, contact_columns, volume, pre, vof, own_share, size)
             wait(gate, parts)
-            contact_volumes.contact_fluxes(dj, di, part, parts, mesh_box, dr, dz, hard_first, soft_first, group, materials,
+            contact_volumes.contact_fluxes(dj, di, part, parts, mesh_box, dr, dz, hard_first, soft_first, group, gases,
                                            contact_columns, line, face, own, own_share, size, vof, centroid, flux_volume,
                                            flux_place, strips)
             wait(gate, parts)

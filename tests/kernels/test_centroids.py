@@ -5,7 +5,6 @@ import pytest
 
 from hydro2d.kernels import boundaries, centroids, column_ranges, interfaces, remap
 from hydro2d.kernels.mixed_scratch import BEFORE, SHIFT_Z
-from hydro2d.materials.rows import GAS
 from hydro2d.mesh.fields import RHO
 from tests.kernels.cells import Cells
 from tests.physics.continuity import changes_in_proportion, largest_jump
@@ -63,7 +62,7 @@ def sweep(cells, dj, swept, order) -> None:
     cells.call(boundaries.ghost_rows, leading=-1, **ghosts | {"i0": 0, "i1": cells.vof.shape[2]})
     cells.call(column_ranges.list_mixed, count=cells.mixed_count)
     cells.call(interfaces.donor_volumes, dj=dj, di=1 - dj, first=False, open_faces=cells.mesh_box)
-    cells.call(interfaces.interface_volumes, order=order, materials=np.zeros((len(order), GAS + 1)), **way)
+    cells.call(interfaces.interface_volumes, order=order, gases=np.zeros(len(order), dtype=bool), **way)
     cells.call(remap.sweep_z if dj else remap.sweep_r, second=True, face=face)
     cells.call(centroids.carry_centroids, second=True, own=ONE_GROUP, contact_columns=NO_CONTACT, **way)
     cells.call(remap.tidy, cutoff=1e-13, dj=dj, di=1 - dj, second=True)

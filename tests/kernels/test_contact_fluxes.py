@@ -6,7 +6,6 @@ import pytest
 from hydro2d.kernels import contact_volumes, interfaces
 from hydro2d.kernels.contact_volumes import OTHERS, contact_fluxes, contact_shares
 from hydro2d.kernels.interfaces import fill_strips
-from hydro2d.materials.rows import GAS
 from hydro2d.physics.contact import GAP
 from tests.physics.continuity import changes_in_proportion, largest_jump
 
@@ -17,7 +16,7 @@ SHAPE, ROW, GIVER = (7, 10), 3, 5
 
 
 GROUP = np.array([1, 0], dtype=np.int64)
-SOLIDS = np.zeros((2, GAS + 1))
+SOLIDS = np.zeros(2, dtype=bool)
 MESH_BOX = np.array([2, SHAPE[0] - 2, 2, SHAPE[1] - 2], dtype=np.int64)
 #: one part, of the giver's row alone
 ROWS = np.array([ROW, ROW + 1])

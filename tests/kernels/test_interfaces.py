@@ -8,7 +8,6 @@ import pytest
 
 from hydro2d.deck import deck
 from hydro2d.kernels import interfaces
-from hydro2d.materials.rows import GAS
 from hydro2d.solver.simulation import Simulation
 from tests.decks import body, box, mesh, stop, table, walls
 from tests.physics.continuity import changes_in_proportion, largest_jump
@@ -152,9 +151,8 @@ def test_sphere_moved_along_the_axis_and_back(n, error):
     assert mass == pytest.approx(np.sum(volume * first), rel=1e-12)
 
 
-#: rows of materials that are no gases, and of which the second of three is one
-SOLIDS, GAS_BETWEEN = np.zeros((3, GAS + 1)), np.zeros((3, GAS + 1))
-GAS_BETWEEN[1, GAS] = 1.0
+#: bodies that are no gases, and of which the second of three is one
+SOLIDS, GAS_BETWEEN = np.zeros(3, dtype=bool), np.array([False, True, False])
 ONE_GROUP = np.zeros(3, dtype=np.int64)
 
 
@@ -235,10 +233,10 @@ def in_strip(slab, low, high):
     return share, share * (0.5 * (first + last) - 0.5 * (low + high)) / (high - low), 0.0
 
 
-def strips_of(vof, centroid, order, along_z=False, widths=(0.4, 0.6, 1.0), materials=SOLIDS):
+def strips_of(vof, centroid, order, along_z=False, widths=(0.4, 0.6, 1.0), gases=SOLIDS):
     strips = np.full((3, 4, len(vof)), np.nan)
     void = 1.0 - vof[:, 2, 2].sum()
-    fill_strips(2, 2, along_z, *widths, np.array(order), vof, void, ONE_GROUP[:len(vof)], materials, centroid, np.ones(5),
+    fill_strips(2, 2, along_z, *widths, np.array(order), vof, void, ONE_GROUP[:len(vof)], gases, centroid, np.ones(5),
                 np.ones(5), strips)
     return strips
 
@@ -294,7 +292,7 @@ def test_where_a_gas_is_no_body_is_thin_and_void_has_no_box():
     thin = np.full(3, np.nan)
     assert thinnest_body(2, 2, True, np.arange(3), vof, thin) == 0.0
     assert thin.tolist() == [0.0, 0.0, 0.0]
-    strips = strips_of(vof, centroid, (1, 0, 2), materials=GAS_BETWEEN)  # the stated order holds
+    strips = strips_of(vof, centroid, (1, 0, 2), gases=GAS_BETWEEN)  # the stated order holds
     np.testing.assert_array_equal(strips[0, THIN], [0.0, 0.0, 0.0])
     np.testing.assert_allclose(strips[2, SHARE], [0.3, 0.2, 0.5], atol=1e-14)
     assert keeps_order(2, 2, ONE_GROUP, GAS_BETWEEN, vof) == 1.0
@@ -302,8 +300,8 @@ def test_where_a_gas_is_no_body_is_thin_and_void_has_no_box():
     assert keeps_order(2, 2, ONE_GROUP, SOLIDS, vof) == 0.0
     vof, centroid = np.zeros((2, 5, 5)), np.zeros((2, 2, 5, 5))
     vof[0], vof[:, 2, 2] = 1.0, (0.6, 0.1)  # a body that fills all cells around, a gas, and void
-    for materials, low in ((GAS_BETWEEN[:2], [0.06, 0.01]), (SOLIDS[:2], [0.1, 0.0])):
-        found = strips_of(vof, centroid, (0, 1), widths=(0.1, 0.1, 1.0), materials=materials)
+    for gases, low in ((GAS_BETWEEN[:2], [0.06, 0.01]), (SOLIDS[:2], [0.1, 0.0])):
+        found = strips_of(vof, centroid, (0, 1), widths=(0.1, 0.1, 1.0), gases=gases)
         np.testing.assert_allclose(found[:2, SHARE], [low, low], atol=1e-14)
 
 

@@ -5,11 +5,10 @@ import pytest
 
 from hydro2d.kernels import interfaces, momentum, remap
 from hydro2d.kernels.momentum import BOTH, KE, MOMENTUM
-from hydro2d.materials.rows import GAS
 from hydro2d.mesh.fields import DMG, FAILED, RHO, SRR, E
 from tests.kernels.cells import Cells
 
-NO_GAS = np.zeros((1, GAS + 1))
+NO_GAS = np.zeros(1, dtype=bool)
 #: (dj, di), the cell that a volume comes from, the one that it goes to, and the array that holds what the faces sweep
 WAYS = [(0, 1, (3, 3), (3, 4), "fr"), (1, 0, (3, 3), (4, 3), "fz")]
 
@@ -47,10 +46,10 @@ def test_a_mixed_cell_gives_what_lies_at_its_face(dj, di, source, target, face):
     cells.vof[0] = np.clip(0.5 - along, 0.0, 1.0)[:, None] if dj else np.clip(0.5 - along, 0.0, 1.0)[None, :]
     cells.mixed_count[3], cells.mixed[3, 0] = 1, 3
     getattr(cells, face)[target] = 0.6
-    cells.call(interfaces.interface_volumes, dj=dj, di=di, order=np.array([0]), materials=NO_GAS, face=getattr(cells, face))
+    cells.call(interfaces.interface_volumes, dj=dj, di=di, order=np.array([0]), gases=NO_GAS, face=getattr(cells, face))
     assert cells.flux_volume[0, *target] == pytest.approx(0.1)
     getattr(cells, face)[target], getattr(cells, face)[source] = 0.0, -0.3
-    cells.call(interfaces.interface_volumes, dj=dj, di=di, order=np.array([0]), materials=NO_GAS, face=getattr(cells, face))
+    cells.call(interfaces.interface_volumes, dj=dj, di=di, order=np.array([0]), gases=NO_GAS, face=getattr(cells, face))
     assert cells.flux_volume[0, *source] == pytest.approx(-0.3)
 
 

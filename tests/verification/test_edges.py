@@ -13,7 +13,7 @@ FLIGHT = (
     + table("boundaries", r_min="outflow")
     + body("block", "W_alloy", "polygon", points=[["4 mm", "4.3 mm"], ["7 mm", "3.5 mm"], ["8.2 mm", "7 mm"], ["5 mm", "8 mm"]])
     + box("gas", "Al5083", r=["5 mm", "6 mm"], z=["9 mm", "9.7 mm"])
-    + stop("11 us")
+    + stop("13 us")
 )
 CONTACT = 'sliding.method="contact"', 'sliding.hard=["block"]'
 SPEED = 1000.0
