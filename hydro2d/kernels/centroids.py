@@ -53,15 +53,15 @@ def carry_centroids(dj, di, part, parts, second, mesh_box, group, contact_column
             i = mixed[j, k]
             after = size_after(j, i, dj, di, second, volume, pre, face)
             for m in range(vof.shape[0]):
-                held = vof[m, j, i] * after
                 if not 0.0 < vof[m, j, i] < 1.0:
                     continue
+                left = vof[m, j, i] * after
                 s_low, s_high = face[j, i], face[j + dj, i + di]
                 if contact and contact_columns[j, 0] <= i < contact_columns[j, 1]:
                     s_low, s_high = own[group[m], j, i], own[group[m], j + dj, i + di]
                 drift = 0.5 * (s_low + s_high)
                 v_low, v_high = flux_volume[m, j, i], flux_volume[m, j + dj, i + di]
-                stood = held + (v_high - v_low)
+                stood = left + (v_high - v_low)
                 low, side_low, high, side_high = 0.0, 0.0, 0.0, 0.0
                 if v_low != 0.0:
                     row, column = (j - dj, i - di) if v_low > 0.0 else (j, i)
@@ -79,8 +79,8 @@ def carry_centroids(dj, di, part, parts, second, mesh_box, group, contact_column
                     side_high = -v_high * y
                 along = stood * (centroid[dj, m, j, i] * pre[j, i] + drift) + (low + high)
                 across = stood * centroid[di, m, j, i] + (side_low + side_high)
-                centroid[dj, m, j, i] = within(along / (held * after), vof[m, j, i])
-                centroid[di, m, j, i] = within(across / held, vof[m, j, i])
+                centroid[dj, m, j, i] = within(along / (left * after), vof[m, j, i])
+                centroid[di, m, j, i] = within(across / left, vof[m, j, i])
 
 
 @point
