@@ -231,11 +231,11 @@ def contact_fluxes(dj, di, part, parts, mesh_box, dr, dz, hard_first, soft_first
                     if contact_columns[row, 0] <= column < contact_columns[row, 1]:
                         w = line[HARD_FIRST if group[m] == 1 else SOFT_AFTER, row, column]
                     if w > 0.0:
-                        fill_strips(row, column, dj == 1, w_low, w_high, 0.0, hard_first, own_share, void, group, gases,
+                        fill_strips(row, column, m, dj == 1, w_low, w_high, 0.0, hard_first, own_share, void, group, gases,
                                     centroid, dr, dz, strips[j])
                         given, along, across = w * strip[SHARE, m], w * strip[ALONG, m], w * strip[ACROSS, m]
                     if w < 1.0:
-                        fill_strips(row, column, dj == 1, w_low, w_high, 0.0, soft_first, own_share, void, group, gases,
+                        fill_strips(row, column, m, dj == 1, w_low, w_high, 0.0, soft_first, own_share, void, group, gases,
                                     centroid, dr, dz, strips[j])
                         given += (1.0 - w) * strip[SHARE, m]
                         along += (1.0 - w) * strip[ALONG, m]

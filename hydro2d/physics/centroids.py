@@ -65,9 +65,15 @@ def reached(here, near, far):
 
 
 @point
+def most_beside(f):
+    """The largest fraction in the eight cells next to the middle one."""
+    return max(max(max(f[0], f[1]), max(f[2], f[3])), max(max(f[5], f[6]), max(f[7], f[8])))
+
+
+@point
 def most_around(f):
     """The largest fraction in the cells around: of the eight next to it, and of those two away as far as they are `reached`."""
-    most = max(max(max(f[0], f[1]), max(f[2], f[3])), max(max(f[5], f[6]), max(f[7], f[8])))
+    most = most_beside(f)
     axes = max(max(reached(f[4], f[3], f[9]), reached(f[4], f[5], f[10])),
                max(reached(f[4], f[1], f[11]), reached(f[4], f[7], f[12])))
     corners = max(max(reached(f[4], f[0], f[13]), reached(f[4], f[2], f[14])),
@@ -88,32 +94,51 @@ def placed(f):
 
     f : its fractions in the 17 cells of `add_body`
     """
+    near = most_beside(f)
+    if near >= 1.0:
+        return 1.0
+    far = max(max(max(f[9], f[10]), max(f[11], f[12])), max(max(f[13], f[14]), max(f[15], f[16])))
+    if max(near, far) <= FILLED:
+        return 0.0
     return smoothstep((most_around(f) - FILLED) / (1.0 - FILLED))
 
 
 @point
-def piece(f, along_z, along, across, in_order, bound, strip, high):
+def forms(f, in_order):
+    """Weights of the line or the corner, of a box of something, and of a box of what is beside it (`piece`).
+
+    f : its fractions in the 17 cells of `add_body`;  in_order : how far void has no box, 0 to 1
+    """
+    own, other = placed(f), in_order
+    if other < 1.0:
+        other = max(other, placed(rest_of(f)))
+    by_line = own * other
+    if by_line == 1.0:
+        return 1.0, 0.0, 0.0
+    by_box = (1.0 - by_line) * (1.0 - own) / ((1.0 - own) + (1.0 - other))
+    return by_line, by_box, (1.0 - by_line) - by_box
+
+
+@point
+def piece(f, along_z, along, across, form, bound, strip, high):
     """What lies of something in the strip of given width at the low or high side of a cell, as `line_piece` gives it.
 
     By the line or the corner where the cells around place both it and what is beside it (`placed`); else by weight by a box of
     it or by a box of what is beside it, whichever is thinner.
 
     f : its fractions in the 17 cells of `add_body`; along, across : its centroid, along the sweep and across;
-    bound : the surface, with the normal along the sweep first;  in_order : how far void has no box, 0 to 1
+    form : the weights, of `forms`;  bound : the surface, with the normal along the sweep first
     """
     fraction = f[4]
     if fraction >= 1.0:
         return strip, 0.0, 0.0
-    own, other = placed(f), max(in_order, placed(rest_of(f)))
-    by_line = own * other
+    by_line, by_box, by_gap = form
     share, shift, lift = 0.0, 0.0, 0.0
     if by_line > 0.0:
         share, shift, lift = piece_of_surface(bound[0], bound[1], bound[2], bound[3], bound[4], fraction, strip, high)
         if by_line == 1.0:
             return share, shift, lift
     before, after = beside(f, along_z)
-    by_box = (1.0 - by_line) * (1.0 - own) / ((1.0 - own) + (1.0 - other))
-    by_gap = (1.0 - by_line) - by_box
     share, shift, lift = by_line * share, by_line * shift, by_line * lift
     if by_box > 0.0:
         s, a, c = box_piece(fraction, along, across, goes_on(fraction, before, after), strip, high)
@@ -127,12 +152,11 @@ def piece(f, along_z, along, across, in_order, bound, strip, high):
 
 
 @point
-def pushed(own, other, fraction, fraction_other, change):
-    """What an offset of a centroid changes by as something else in the cell grows by `change` of the cell.
+def side(own, other, fraction, fraction_other):
+    """On which side of something else in its cell a body lies along one axis, -1 to 1: what a growth of the other pushes it by.
 
     own and other are the centroids' offsets, fraction and fraction_other the shares of the cell. Two slabs that lie side by
-    side push each other apart, and one that lies in the midst of the other stays where it is: explanation/interfaces,
-    equation 9.
+    side push each other apart by half of what either grows, and one that lies in the midst of the other stays where it is:
+    explanation/interfaces, equation 9.
     """
-    side = (own - other) / (0.5 * (fraction + fraction_other))
-    return 0.5 * change * min(max(side, -1.0), 1.0)
+    return min(max((own - other) / (0.5 * (fraction + fraction_other)), -1.0), 1.0)
