@@ -8,14 +8,14 @@ import sys
 WORDS = ("deck", "title", "deck_sha256", "version", "status", "stop_reason", "regime", "qualifier", "source",
          "body")
 TABLES = ("conservation", "experiment", "provenance", "packages", "crater", "mass", "sinks", "contact_transfers",
-          "bodies", "stations", "targets", "projectile", "debris", "derived")
+          "bodies", "stations", "targets", "projectile", "debris", "derived", "off_course_cells")
 YES_OR_NO = ("trustworthy", "git_dirty")
 #: keys that hold numbers, and what the names of others end in that do
 NUMBERS = ("cycles", "cells", "ns_per_cell_cycle", "axial_momentum", "total_energy", "rod_max_plastic_strain",
            "max_plastic_strain", "penetration_over_length", "efficiency", "fragments")
 UNITS = ("_m", "_m_s", "_s", "_kg", "_J", "_N_s", "_m2", "_m3", "_K", "_Pa", "_rad")
 #: tables that hold numbers alone, or tables alone, whatever their keys are
-OF_NUMBERS, OF_TABLES = ("mass", "derived"), ("sinks", "contact_transfers", "bodies", "stations", "targets")
+OF_NUMBERS, OF_TABLES = ("mass", "derived", "off_course_cells"), ("sinks", "contact_transfers", "bodies", "stations", "targets")
 
 
 def plausible(summary: dict) -> tuple[dict, list[str]]:

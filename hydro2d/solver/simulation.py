@@ -334,9 +334,14 @@ class Simulation:
         return bodies.measure(self)
 
     def conservation(self) -> dict:
-        """Relative changes that no sink explains: mass per body, axial momentum, total energy; and every sink by name."""
+        """Relative changes that no sink explains: mass per body, axial momentum, total energy; and every sink by name.
+
+        Beside them by body how far its centre of mass was off its course when it was last looked at (`courses.Courses`).
+        """
         result = self.audit.balance(self.state)
         result["mass"] = dict(zip(self.table.names, (float(x) for x in result["mass"]), strict=True))
+        off = np.abs(self.engine.courses.apart).max(axis=1).tolist()
+        result["off_course_cells"] = dict(zip(self.table.names, off, strict=True))
         return result
 
     def faults(self, share: float = TRUSTED) -> list[str]:
@@ -344,12 +349,14 @@ class Simulation:
         return faults(self.state, self.audit, self.table.names, self._reach, share)
 
     def doubts(self) -> list[str]:
-        """Why what was run so far is not to be trusted: the first time that a body was too hot or too cold in some cell."""
+        """Why what was run so far is not to be trusted: when a body was first too hot or too cold in some cell, or off its course."""
         return list(self._doubts.values())
 
     def refuse_nonsense(self) -> None:
         """Raises UnphysicalState with the first fault of the state, if it has any, and remembers what is doubtful."""
-        for what, sentence in doubts(self.state, self.table, self.time, self._reach, self.sources.given):
+        self.engine.courses.look(self.time)
+        doubtful = doubts(self.state, self.table, self.time, self._reach, self.sources.given)
+        for what, sentence in (*doubtful, *self.engine.courses.parted(self.table.names)):
             self._doubts.setdefault(what, f"cycle {self.cycle}, time {self.time:.6g} s: {sentence}")
         if found := self.faults(self.deck.numerics.clip_limit):
             raise UnphysicalState(f"cycle {self.cycle}, time {self.time:.6g} s: {found[0]}")
@@ -427,7 +434,7 @@ class Simulation:
         e = self.engine
         return {"time": e.time, "dt": e.dt, "cycle": e.number, "cause": e.cause, "box": [int(x) for x in e.box],
                 "mesh_offset": self.grid.offset, "speed_limit": e.speed_limit, "sign": self._sign, "doubts": self._doubts,
-                "audit": self.audit.saved(), "sources": self.sources.saved(),
+                "audit": self.audit.saved(), "courses": e.courses.saved(), "sources": self.sources.saved(),
                 "penetrator": self.penetrator and self.penetrator.saved(),
                 "craters": [crater.saved() for crater in self.craters]}
 
@@ -439,6 +446,7 @@ class Simulation:
         self.grid.move(scalars["mesh_offset"])
         self._doubts = dict(scalars["doubts"])
         e.audit = Audit.resume(scalars["audit"])
+        e.courses.resume(scalars["courses"])
         self.sources.resume(scalars.get("sources", 0.0))  # files of earlier versions, which had no sources, say nothing
         if self.penetrator:
             self.penetrator.resume(scalars["penetrator"])
