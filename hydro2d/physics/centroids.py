@@ -104,12 +104,12 @@ def placed(f):
 
 
 @point
-def forms(f, in_order):
+def forms(f, no_gap):
     """Weights of the line or the corner, of a box of something, and of a box of what is beside it (`piece`).
 
-    f : its fractions in the 17 cells of `add_body`;  in_order : how far void has no box, 0 to 1
+    f : its fractions in the 17 cells of `add_body`;  no_gap : how far void has no box, 0 to 1
     """
-    own, other = placed(f), in_order
+    own, other = placed(f), no_gap
     if other < 1.0:
         other = max(other, placed(rest_of(f)))
     by_line = own * other
@@ -120,14 +120,15 @@ def forms(f, in_order):
 
 
 @point
-def piece(f, along_z, along, across, form, bound, strip, high):
+def piece(f, along_z, along, across, form, bound, boxes, strip, high):
     """What lies of something in the strip of given width at the low or high side of a cell, as `line_piece` gives it.
 
-    By the line or the corner where the cells around place both it and what is beside it (`placed`); else by weight by a box of
-    it or by a box of what is beside it, whichever is thinner.
+    By the line or the corner where the cells around place both it and what is beside it (`placed`); else by weight by the boxes
+    of the bodies in it or by a box of what is beside it, whichever is thinner.
 
     f : its fractions in the 17 cells of `add_body`; along, across : its centroid, along the sweep and across;
-    form : the weights, of `forms`;  bound : the surface, with the normal along the sweep first
+    form : the weights, of `forms`;  bound : the surface, with the normal along the sweep first;
+    boxes : what lies in the strip of the bodies' boxes, in the same form
     """
     fraction = f[4]
     if fraction >= 1.0:
@@ -138,12 +139,11 @@ def piece(f, along_z, along, across, form, bound, strip, high):
         share, shift, lift = piece_of_surface(bound[0], bound[1], bound[2], bound[3], bound[4], fraction, strip, high)
         if by_line == 1.0:
             return share, shift, lift
-    before, after = beside(f, along_z)
     share, shift, lift = by_line * share, by_line * shift, by_line * lift
     if by_box > 0.0:
-        s, a, c = box_piece(fraction, along, across, goes_on(fraction, before, after), strip, high)
-        share, shift, lift = share + by_box * s, shift + by_box * a, lift + by_box * c
+        share, shift, lift = share + by_box * boxes[0], shift + by_box * boxes[1], lift + by_box * boxes[2]
     if by_gap > 0.0:
+        before, after = beside(f, along_z)
         gap = 1.0 - fraction
         continues = goes_on(gap, 1.0 - before, 1.0 - after)
         s, a, c = box_piece(gap, -along * fraction / gap, -across * fraction / gap, continues, strip, high)
