@@ -150,7 +150,7 @@ def keeps_order(j, i, group, gases, share, void):
 
 @point
 def own_box(place, width, high):
-    """What a strip has of a body's box, as `line_piece` gives it; place : its fraction, centroid, how far it goes on, if at all."""
+    """What a strip has of a body's box, as `line_piece` gives it; place : fraction, centroid, how far it goes on, or none."""
     fraction, along, across, continues, boxed = place
     return box_piece(fraction, along, across, continues, width, high) if boxed else (0.0, 0.0, 0.0)
 
@@ -294,8 +294,9 @@ def interface_volumes_row(j, dj, di, mesh_box, contact_columns, dr, dz, order, g
                           vof, centroid, flux_volume, flux_place, strips):
     """Volume of each body out of each mixed cell, from the nested interfaces, and where it lies in the strips that leave.
 
-    Of contact-interface cells only the centroids are worked out (`by_contact`). The cumulative volumes of a strip are kept monotone, each body gives no more than it has, and what two opposite strips
-    ask together beyond that is passed on to the next body.
+    Of contact-interface cells only the centroids are worked out (`by_contact`). The cumulative volumes of a strip are kept
+    monotone, each body gives no more than it has, and what two opposite strips ask together beyond that is passed on to the
+    next body.
 
     Reads    mixed [j, k], order [k], f_face, pre [j, i], vof [m, j, i]
     Updates  flux_volume [m, j, i] and flux_place [2, m, j, i] at the faces through which mixed cells lose volume;
@@ -362,8 +363,8 @@ def donor_volumes(dj, di, part, parts, i0, i1, first, open_faces, volume, body_r
 
 
 @kernel
-def interface_volumes(dj, di, part, parts, mesh_box, contact_columns, dr, dz, order, group, gases, mixed_count, mixed, face, pre,
-                      vof, centroid, flux_volume, flux_place, strips):
+def interface_volumes(dj, di, part, parts, mesh_box, contact_columns, dr, dz, order, group, gases, mixed_count, mixed, face,
+                      pre, vof, centroid, flux_volume, flux_place, strips):
     """interface_volumes_row for rows j0 to j1."""
     for j in range(parts[part], parts[part + 1]):
         interface_volumes_row(j, dj, di, mesh_box, contact_columns, dr, dz, order, group, gases, mixed_count, mixed, face, pre,

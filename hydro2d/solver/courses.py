@@ -24,9 +24,9 @@ class Courses:
     """What every body's momentum has moved it by since the start, beside where its centre of mass is.
 
     The first moment of a body's mass changes by its momentum and by what crosses an edge of the mesh:
-    d(sum m x)/dt = sum m v + (what comes in) x (where it comes in). The place of a body in a cell that it shares is its centroid, and
-    it moves there with what lies between the velocities of the vertices. Its momentum is summed up by the trapezoidal rule from
-    look to look.
+    d(sum m x)/dt = sum m v + (what comes in) x (where it comes in). The place of a body in a cell that it shares is its
+    centroid, and it moves there with what lies between the velocities of the vertices. Its momentum is summed up by the
+    trapezoidal rule from look to look.
 
     Parameters
     ----------

@@ -349,7 +349,7 @@ class Simulation:
         return faults(self.state, self.audit, self.table.names, self._reach, share)
 
     def doubts(self) -> list[str]:
-        """Why what was run so far is not to be trusted: when a body was first too hot or too cold in some cell, or off its course."""
+        """Why what was run is not to be trusted: when a body was first too hot or too cold in some cell, or off its course."""
         return list(self._doubts.values())
 
     def refuse_nonsense(self) -> None:

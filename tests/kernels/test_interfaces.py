@@ -173,8 +173,9 @@ def given(dj: int, void: float, w_low: float = 0.1, w_high: float = 0.2, everywh
     vof = np.array([body, rest])
     mixed, face, flux = np.full((5, 5), 2, dtype=np.int64), np.zeros((5, 5)), np.zeros((2, 5, 5))
     face[2, 2], face[2 + dj, 3 - dj] = -w_low, w_high
-    interfaces.interface_volumes_row.py_func(2, dj, 1 - dj, INSIDE, NO_CONTACT, np.ones(5), np.ones(5), np.arange(2), ONE_GROUP[:2],
-                                             SOLIDS[:2], np.ones(5, dtype=np.int64), mixed, face, np.ones((5, 5)), vof,
+    interfaces.interface_volumes_row.py_func(2, dj, 1 - dj, INSIDE, NO_CONTACT, np.ones(5), np.ones(5), np.arange(2),
+                                             ONE_GROUP[:2], SOLIDS[:2], np.ones(5, dtype=np.int64), mixed, face, np.ones((5, 5)),
+                                             vof,
                                              np.zeros((2, 2, 5, 5)), flux, np.zeros((2, 2, 5, 5)), np.zeros((5, 3, 4, 2)))
     return np.array([flux[:, 2, 2], flux[:, 2 + dj, 3 - dj]])
 
@@ -429,8 +430,8 @@ def test_a_mixed_cell_says_where_its_bodies_lie_in_what_it_gives(along_z):
     mixed, face = np.full((5, 5), 2, dtype=np.int64), np.zeros((5, 5))
     face[2, 2], face[2 + dj, 2 + di] = -0.1, 0.6
     flux, place = np.zeros((3, 5, 5)), np.full((2, 3, 5, 5), np.nan)
-    given = (INSIDE, NO_CONTACT, np.ones(5), np.ones(5), np.arange(3), ONE_GROUP, SOLIDS, np.ones(5, dtype=np.int64), mixed, face,
-             np.ones((5, 5)), vof)
+    given = (INSIDE, NO_CONTACT, np.ones(5), np.ones(5), np.arange(3), ONE_GROUP, SOLIDS, np.ones(5, dtype=np.int64), mixed,
+             face, np.ones((5, 5)), vof)
     interfaces.interface_volumes_row.py_func(2, dj, di, *given, centroid, flux, place, np.zeros((5, 3, 4, 3)))
     np.testing.assert_allclose(flux[:, 2, 2], [-0.1, 0.0, 0.0], atol=1e-15)
     np.testing.assert_allclose(flux[:, 2 + dj, 2 + di], [0.0, 0.1, 0.5], atol=1e-15)
@@ -447,8 +448,8 @@ def test_the_less_a_cell_gives_the_less_its_interfaces_say_of_its_centroids():
     for swept, known in ((2.0, 1.0), (1.0, 1.0), (0.5, 0.5), (0.0, 0.0)):
         centroid, face = np.zeros_like(exact), np.zeros((5, 5))
         face[2, 3] = swept * interfaces.SWEPT
-        given = (INSIDE, NO_CONTACT, np.ones(5), np.ones(5), np.arange(1), ONE_GROUP[:1], SOLIDS[:1], np.ones(5, dtype=np.int64), mixed, face,
-                 np.ones((5, 5)), vof)
+        given = (INSIDE, NO_CONTACT, np.ones(5), np.ones(5), np.arange(1), ONE_GROUP[:1], SOLIDS[:1],
+                 np.ones(5, dtype=np.int64), mixed, face, np.ones((5, 5)), vof)
         interfaces.interface_volumes_row.py_func(2, 0, 1, *given, centroid, np.zeros((1, 5, 5)), np.zeros((2, 1, 5, 5)),
                                                  np.zeros((5, 3, 4, 1)))
         assert centroid[:, 0, 2, 2] == pytest.approx([known * -0.25, 0.0], abs=1e-15)

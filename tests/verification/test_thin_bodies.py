@@ -112,7 +112,7 @@ def test_a_gap_between_two_bodies_is_kept(order, contact):
 
 
 def stacked(seed: int) -> Simulation:
-    """Two to five bodies at one velocity, 0.1 to 4 cells thick, with gaps of 0.1 to 2 cells or none, in any order of the deck."""
+    """Two to five bodies at one velocity, 0.1 to 4 cells thick, with gaps of 0.1 to 2 cells or none, in any order."""
     random = np.random.default_rng(seed)
     z, bodies = 3.0 + random.random(), []
     count = int(random.integers(2, 6))
