@@ -38,6 +38,10 @@ if TYPE_CHECKING:
     from hydro2d.solver.method import Method
 
 
+#: a body that is slower than this, m/s, has not moved yet
+MOVES = 1e-3
+
+
 class Simulation:
     """A deck in memory, to be stepped and looked at. It writes no files: `hydro2d.run` does.
 
@@ -86,7 +90,8 @@ class Simulation:
         self._rows = np.zeros((2, self.grid.shape[0]))
         self.penetrator, self.craters = self._penetration()
         self.watched = slots.index(deck.stop.body) if deck.stop.body else None
-        self._sign: float | None = None
+        #: the body that `stop` watches, the sign of the velocity that it first had, whether it was faster than `speed_below`
+        self._watch: dict = {"body": deck.stop.body, "sign": None, "moved": False}
         self.columns: dict[str, Callable[[Simulation], float]] = {}
         self.lengths = bodies.lengths(self)
         self.formulas = derived.expressions(deck)
@@ -290,12 +295,15 @@ class Simulation:
             v = penetrator.speed() if penetrator is not None and watches_rod else self.mean_velocity(self.watched)
             if v is None:
                 return None
-            if self._sign is None:
-                self._sign = 1.0 if v >= 0 else -1.0
-            if stop.rebound and v * self._sign < 0:
+            watch = self._watch
+            if watch["sign"] is None and abs(v) > MOVES:
+                watch["sign"] = 1.0 if v > 0.0 else -1.0
+            if stop.rebound and v * (watch["sign"] or 0.0) < 0.0:
                 return f"rebound of {stop.body}"
-            if stop.speed_below is not None and abs(v) < stop.speed_below:
-                return f"speed of {stop.body} below {stop.speed_below:g} m/s"
+            if stop.speed_below is not None:
+                watch["moved"] = watch["moved"] or abs(v) >= stop.speed_below
+                if watch["moved"] and abs(v) < stop.speed_below:
+                    return f"speed of {stop.body} below {stop.speed_below:g} m/s"
         return None
 
     # ------------------------------------------------------------------------------------------------ what is known
@@ -433,7 +441,7 @@ class Simulation:
         """What a restart needs beside the arrays; JSON keeps every bit of it."""
         e = self.engine
         return {"time": e.time, "dt": e.dt, "cycle": e.number, "cause": e.cause, "box": [int(x) for x in e.box],
-                "mesh_offset": self.grid.offset, "speed_limit": e.speed_limit, "sign": self._sign, "doubts": self._doubts,
+                "mesh_offset": self.grid.offset, "speed_limit": e.speed_limit, "watch": self._watch, "doubts": self._doubts,
                 "audit": self.audit.saved(), "courses": e.courses.saved(), "sources": self.sources.saved(),
                 "penetrator": self.penetrator and self.penetrator.saved(),
                 "craters": [crater.saved() for crater in self.craters]}
@@ -442,7 +450,9 @@ class Simulation:
         """Continues from what `restart_scalars` gave; after `load_restart_arrays`."""
         e = self.engine
         e.time, e.dt, e.number, e.cause = (scalars[name] for name in ("time", "dt", "cycle", "cause"))
-        e.box, e.speed_limit, self._sign = list(scalars["box"]), scalars["speed_limit"], scalars["sign"]
+        e.box, e.speed_limit = list(scalars["box"]), scalars["speed_limit"]
+        if scalars["watch"]["body"] == self.deck.stop.body:  # else another one is watched from here on
+            self._watch = dict(scalars["watch"])
         self.grid.move(scalars["mesh_offset"])
         self._doubts = dict(scalars["doubts"])
         e.audit = Audit.resume(scalars["audit"])

@@ -173,10 +173,10 @@ def given(dj: int, void: float, w_low: float = 0.1, w_high: float = 0.2, everywh
     vof = np.array([body, rest])
     mixed, face, flux = np.full((5, 5), 2, dtype=np.int64), np.zeros((5, 5)), np.zeros((2, 5, 5))
     face[2, 2], face[2 + dj, 3 - dj] = -w_low, w_high
-    interfaces.interface_volumes_row.py_func(2, dj, 1 - dj, INSIDE, NO_CONTACT, np.ones(5), np.ones(5), np.arange(2),
-                                             ONE_GROUP[:2], SOLIDS[:2], np.ones(5, dtype=np.int64), mixed, face, np.ones((5, 5)),
-                                             vof,
-                                             np.zeros((2, 2, 5, 5)), flux, np.zeros((2, 2, 5, 5)), np.zeros((5, 3, 4, 2)))
+    interfaces.interface_volumes_row.py_func(
+        2, dj, 1 - dj, INSIDE, NO_CONTACT, np.ones(5), np.ones(5), np.arange(2), ONE_GROUP[:2], SOLIDS[:2],
+        np.ones(5, dtype=np.int64), mixed, face, np.ones((5, 5)), vof, np.zeros((2, 2, 5, 5)), flux, np.zeros((2, 2, 5, 5)),
+        np.zeros((5, 3, 4, 2)))
     return np.array([flux[:, 2, 2], flux[:, 2 + dj, 3 - dj]])
 
 
