@@ -23,6 +23,14 @@ def within(offset, fraction):
 
 
 @point
+def box_length(fraction, along, across, continues):
+    """Length along x of the box of `box_piece`, in cells; (along, across) leave room for the fraction (`within`)."""
+    longest, tallest = 1.0 - 2.0 * abs(along), 1.0 - 2.0 * abs(across)
+    shortest = min(longest, fraction / max(tallest, fraction))
+    return max(shortest + (longest - shortest) * continues, fraction)
+
+
+@point
 def box_piece(fraction, along, across, continues, strip, high):
     """What lies of a box in the strip of given width at the low or high x side, as `line_piece` gives it.
 
@@ -33,9 +41,7 @@ def box_piece(fraction, along, across, continues, strip, high):
     along, across = within(along, fraction), within(across, fraction)
     if strip >= 1.0:
         return fraction, fraction * along, fraction * across
-    longest, tallest = 1.0 - 2.0 * abs(along), 1.0 - 2.0 * abs(across)
-    shortest = min(longest, fraction / max(tallest, fraction))
-    length = max(shortest + (longest - shortest) * continues, fraction)
+    length = box_length(fraction, along, across, continues)
     turned = along if high else -along  # as if the strip were at the high side
     beyond = min(max((0.5 - strip) - (turned - 0.5 * length), 0.0), length)  # what of the length does not reach the strip
     share = fraction * ((length - beyond) / length)

@@ -7,6 +7,10 @@ import numpy as np
 from hydro2d.mesh import sums
 from hydro2d.mesh.measured import BODY
 from hydro2d.mesh.sums import HALF
+from hydro2d.physics.centroids import box_length, goes_on, within
+
+#: a body of which a cell has less than this share, and no cell has half, is a crumb there and has no extent
+CRUMB = 0.01
 
 
 def measure(sim) -> dict[str, dict[str, float | None]]:
@@ -14,19 +18,19 @@ def measure(sim) -> dict[str, dict[str, float | None]]:
 
     Mass, axial momentum, mean axial velocity and kinetic energy are of what is in the mesh. Outflow and inflow are the masses
     that have left and entered through its open edges. The extent is that of the cells that the body fills by half or more, and
-    of the share of the cells beside them that it fills; None where there are none such. The radius of its ends is the largest
-    in its lowest and its highest row of such cells.
+    of the share of the cells beside them that it fills. A body that fills no cell by half is narrower than a cell: its extent
+    is that of its boxes in the cells (explanation/interfaces, equation 7) of which it fills CRUMB or more; None where there are
+    none such. The radius of its ends is the largest in its lowest and its highest row of these cells.
     """
-    grid, state = sim.grid, sim.state
+    grid = sim.grid
     around = 2 * np.pi if grid.cylindrical else 1.0
     flows = {name: sim.audit.sinks[name].mass if name in sim.audit.sinks else None for name in ("outflow", "inflow")}
     found = {}
     for m, name in enumerate(sim.table.names):
         mass, momentum, kinetic, failed = motion(sim, m)
         went, came = (0.0 if flow is None else abs(float(flow[m])) * around for flow in flows.values())
-        fraction = grid.interior(state.vof)[m]
-        inner, outer = _surfaces(fraction.T, grid.r_edges)
-        extent = (*_ends(inner, outer), *_ends(*_surfaces(fraction, grid.z_edges)))
+        inner, outer = _extent(sim, m, 0)
+        extent = (*_ends(inner, outer), *_ends(*_extent(sim, m, 1)))
         ends = (float(outer[0]), float(outer[-1])) if len(outer) else (None, None)
         values = (mass, momentum, momentum / mass if mass > 0.0 else None, kinetic, failed, went, came, *extent,
                   _between(*extent[2:]), sim.lengths.get(name), *ends)
@@ -35,10 +39,8 @@ def measure(sim) -> dict[str, dict[str, float | None]]:
 
 
 def lengths(sim) -> dict[str, float | None]:
-    """Extent of every body along the axis now, m, by name; None where it fills no cell by half."""
-    grid = sim.grid
-    fractions = zip(sim.table.names, grid.interior(sim.state.vof), strict=True)
-    return {name: _between(*_ends(*_surfaces(fraction, grid.z_edges))) for name, fraction in fractions}
+    """Extent of every body along the axis now, m, by name; None where it fills CRUMB of no cell."""
+    return {name: _between(*_ends(*_extent(sim, m, 1))) for m, name in enumerate(sim.table.names)}
 
 
 def _between(low: float | None, high: float | None) -> float | None:
@@ -52,6 +54,36 @@ def motion(sim, m: int) -> list[float]:
     sums.body_motion(grid.g, grid.nz, grid.nr, m, grid.cm_in, grid.cm_out, grid.volume, state.vof, state.dmg, state.rho,
                      state.u[b], state.v[b], found)
     return ((2 * np.pi if grid.cylindrical else 1.0) * found).tolist()
+
+
+def _extent(sim, m: int, axis: int) -> tuple[np.ndarray, np.ndarray]:
+    """Lowest and highest coordinate of body m along r (axis 0) or z (1), m, of each line of cells with it; see `measure`."""
+    grid = sim.grid
+    fraction, edges = grid.interior(sim.state.vof)[m], (grid.r_edges, grid.z_edges)[axis]
+    if (fraction >= HALF).any():
+        return _surfaces(fraction if axis == 1 else fraction.T, edges)
+    return _boxes(sim, m, axis)
+
+
+def _boxes(sim, m: int, axis: int) -> tuple[np.ndarray, np.ndarray]:
+    """The same for a body that fills no cell by half, from its boxes."""
+    grid = sim.grid
+    f, centroid = grid.interior(sim.state.vof)[m], grid.interior(sim.state.centroid)[:, m]
+    round_axis = axis == 0 and grid.cylindrical
+    edges = (0.5 * grid.r_edges**2 if round_axis else grid.r_edges) if axis == 0 else grid.z_edges
+    beside = np.pad(f, 1)
+    found: dict[int, tuple[float, float]] = {}
+    for j, i in np.argwhere(f >= CRUMB).tolist():
+        before, after = (beside[j + 1, i], beside[j + 1, i + 2]) if axis == 0 else (beside[j, i + 1], beside[j + 2, i + 1])
+        along, across = (within(float(offset), f[j, i]) for offset in (centroid[axis, j, i], centroid[1 - axis, j, i]))
+        half = 0.5 * box_length(f[j, i], along, across, goes_on(f[j, i], before, after))
+        line, cell = (j, i) if axis == 0 else (i, j)
+        middle, size = 0.5 * (edges[cell] + edges[cell + 1]), edges[cell + 1] - edges[cell]
+        low, high = found.get(line, (np.inf, -np.inf))
+        found[line] = min(low, middle + (along - half) * size), max(high, middle + (along + half) * size)
+    ends = np.array([found[line] for line in sorted(found)]).reshape(-1, 2)
+    ends = np.sqrt(2.0 * np.maximum(ends, 0.0)) if round_axis else ends
+    return ends[:, 0], ends[:, 1]
 
 
 def _surfaces(fraction: np.ndarray, edges: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
