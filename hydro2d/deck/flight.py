@@ -42,16 +42,16 @@ class Flights:
     edges: dict[str, np.ndarray]
 
     def counts(self, axis: str, low: float, high: float, velocity: Velocity, least: int) -> list[Count]:
-        """The cells from low to high (m) at the start, and the fewest that they are later, where these are fewer than ``least``.
+        """The cells from low to high (m) at the start, and the fewest that they are later, where fewer than ``least``.
 
-        velocity : (radial, axial) in m/s, with which the piece flies until it, or a body of the same velocity, meets another one
+        velocity : (radial, axial) in m/s, with which the piece flies until a body of the same velocity meets another one
         """
         start, later = self.begin(axis, low, high, velocity), self._fewest(axis, low, high, velocity)
         few = [count for count in (start, later) if count.cells < least - ROUNDING]
         return few if later.told != start.told else few[:1]
 
     def begin(self, axis: str, low: float, high: float, velocity: Velocity) -> Count:
-        """The cells from low to high at the start; of what lies ahead of a body that the mesh follows, where it reaches them."""
+        """The cells from low to high at the start; ahead of a body that the mesh follows, where this one reaches them."""
         edges, where = self.edges[axis], ""
         if axis == "z" and (direction := travel(self.deck)):
             leader = body(self.deck, self.deck.mesh.follow)

@@ -1,9 +1,9 @@
 """What is too thin for the mesh: bodies, coats and layers of a few cells, and gaps of less than one.
 
-They move at their own speed (explanation/interfaces, thin bodies), but a wave needs a few cells, and what is beside a gap within
-one cell may close it. Lines along r and z are laid through all bodies, between the places where their outlines turn. A point of a
-body is as thick as the shorter of the two pieces of lines through it that lie in the body, and the body as thick as all of it but
-a tenth: the tip of a cone makes no body thin, and the corners of a coat make it no thicker.
+They move at their own speed (explanation/interfaces, thin bodies), but a wave needs a few cells, and what is beside a gap
+within one cell may close it. Lines along r and z are laid through all bodies, between the places where their outlines turn. A
+point of a body is as thick as the shorter of the two pieces of lines through it that lie in the body. The body is as thick as
+its thickest points are, a tenth of it left out: the tip of a cone makes no body thin, and corners make no coat thick.
 """
 
 from __future__ import annotations
@@ -33,6 +33,7 @@ PLACES = {1e-6: 0.25, 0.5: 0.5, 1.0 - 1e-6: 0.25}
 THICKER = 0.1
 #: most levels that one outline adds; polygons with more corners have smooth curves
 MOST_LEVELS = 40
+
 
 class Piece(NamedTuple):
     """The part of a line from low to high (m), which lies in the body of that name."""
@@ -70,12 +71,11 @@ class Point(NamedTuple):
 
 
 def thin_things(deck: Deck) -> Iterator[str]:
-    """One sentence for each body and axis, and for each gap, that is thin at the start or where it flies by its own velocity."""
+    """One sentence for each body and each gap that is thin at the start or where it flies by its own velocity."""
     flights = Flights(deck, {axis: axis_edges(deck, axis) for axis in AXES})
     lines = {axis: list(_lines(flights, axis)) for axis in AXES}
     yield from _thin_bodies(flights, lines)
-    for axis in AXES:
-        yield from _thin_gaps(flights, axis, lines[axis])
+    yield from _thin_gaps(flights, lines)
 
 
 def _told(counts: list[Count], what: str) -> str:
@@ -112,7 +112,8 @@ def _lines(flights: Flights, axis: str) -> Iterator[Line]:
     for band, (low, high) in enumerate(pairwise(sorted({first, last, *inside}))):
         for place, share in PLACES.items():
             at = low + place * (high - low)
-            yield Line(at, share * (high - low), band, _visible([(name, shape.chords(axis, at)) for name, shape in shapes], window))
+            chords = [(name, shape.chords(axis, at)) for name, shape in shapes]
+            yield Line(at, share * (high - low), band, _visible(chords, window))
 
 
 def _visible(chords: list[tuple[str, list[tuple[float, float]]]], window: tuple[float, float]) -> list[Piece]:
@@ -139,15 +140,16 @@ def _thin_bodies(flights: Flights, lines: dict[str, list[Line]]) -> Iterator[str
     for entry in flights.deck.body:
         if entry.name not in points:
             continue
-        thickest = _thickest(points[entry.name])
+        thickest, said = _thickest(points[entry.name]), []
         for axis in AXES if entry.shape != "rod" else ("z",):
             pieces = [piece for line in lines[axis] for piece in line.pieces if piece.name == entry.name]
             low, high = min(piece.low for piece in pieces), max(piece.high for piece in pieces)
             if axis == thickest.thin:
                 low, high = thickest.piece.low, thickest.piece.high
             if counts := flights.counts(axis, low, high, entry.velocity, CELLS_ACROSS):
-                said = _told(counts, f"across it along {axis}")
-                yield f'body "{entry.name}": {said}; stresses and waves in it need at least {CELLS_ACROSS}'
+                said.append(_told(counts, f"across it along {axis}"))
+        if said:
+            yield f'body "{entry.name}": {", ".join(said)}; stresses and waves in it need at least {CELLS_ACROSS}'
 
 
 def _points(flights: Flights, lines: dict[str, list[Line]]) -> dict[str, list[Point]]:
@@ -177,25 +179,35 @@ def _thickest(points: list[Point]) -> Point:
     return point
 
 
-def _thin_gaps(flights: Flights, axis: str, lines: list[Line]) -> Iterator[str]:
-    """Gaps between two bodies, or two parts of one, that do not close by the velocities of these."""
-    along = AXES.index(axis)
-    for (before, after), bands in _gaps(lines).items():
-        velocity, other = (body(flights.deck, name).velocity for name in (before, after))
-        gaps = list(_narrow(bands))
-        if not gaps or velocity[along] > other[along]:
-            continue
-        low, high = min(gaps, key=lambda gap: gap[1] - gap[0])
-        where = f'in "{before}"' if before == after else f'between "{before}" and "{after}"'
-        if counts := flights.counts(axis, low, high, velocity if velocity == other else (0.0, 0.0), CELLS_OF_A_GAP):
-            yield f"gap of {_told(counts, f'along {axis} {where}')}; what is beside a gap thinner than a cell may close it"
+def _thin_gaps(flights: Flights, lines: dict[str, list[Line]]) -> Iterator[str]:
+    """Gaps between two bodies, or within one, that do not close by the velocities of these; the narrowest of each pair."""
+    found: dict[tuple[str, str], tuple[float, str]] = {}
+    for axis, along in zip(AXES, (0, 1), strict=True):
+        bored = axis == "r" and flights.deck.mesh.geometry == "cylindrical" and flights.edges["r"][0] == 0.0
+        for (before, after), bands in _gaps(lines[axis], bored).items():
+            velocity, other = (body(flights.deck, name).velocity for name in (before, after))
+            gaps = list(_narrow(bands))
+            if not gaps or velocity[along] > other[along]:
+                continue
+            low, high = min(gaps, key=lambda gap: gap[1] - gap[0])
+            flight = (0.0, 0.0) if velocity != other or low == flights.edges[axis][0] else velocity
+            if counts := flights.counts(axis, low, high, flight, CELLS_OF_A_GAP):
+                where = f'in "{before}"' if before == after else f'between "{before}" and "{after}"'
+                told = f"gap of {_told(counts, f'along {axis} {where}')}; what is beside a gap thinner than a cell may close it"
+                pair = (min(before, after), max(before, after))
+                found[pair] = min(found.get(pair, (math.inf, "")), (min(count.cells for count in counts), told))
+    yield from (told for _, told in found.values())
 
 
-def _gaps(lines: list[Line]) -> dict[tuple[str, str], dict[int, list[tuple[float, float]]]]:
-    """Ends of the gaps between the pieces of lines, by the names before and after them and by band."""
+def _gaps(lines: list[Line], bored: bool) -> dict[tuple[str, str], dict[int, list[tuple[float, float]]]]:
+    """Ends of the gaps between the pieces of lines, by the names before and after them and by band.
+
+    bored : whether what lies between 0 and the first piece is a hole in its body
+    """
     found: dict[tuple[str, str], dict[int, list[tuple[float, float]]]] = {}
     for line in lines:
-        for before, after in pairwise(line.pieces):
+        first = [Piece(0.0, 0.0, line.pieces[0].name)] if bored and line.pieces else []
+        for before, after in pairwise([*first, *line.pieces]):
             if not _touch(before, after):
                 found.setdefault((before.name, after.name), {}).setdefault(line.band, []).append((before.high, after.low))
     return found

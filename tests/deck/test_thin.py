@@ -7,7 +7,8 @@ import pytest
 from hydro2d.deck import deck
 
 MESH = '[mesh]\nr = [{ to = "4 mm", size = "0.1 mm" }]\nz = [{ to = "4 mm", size = "0.1 mm" }]\n'
-GRADED = '[mesh]\nr = [{ to = "4 mm", size = "0.5 mm" }]\nz = [{ to = "5 mm", size = "0.5 mm" }, { to = "80 mm", ratio = 1.1 }]\n'
+GRADED = '[mesh]\nr = [{ to = "4 mm", size = "0.5 mm" }]\n' \
+         'z = [{ to = "5 mm", size = "0.5 mm" }, { to = "80 mm", ratio = 1.1 }]\n'
 BACKWARDS = '[mesh]\nz_start = "-80 mm"\nr = [{ to = "4 mm", size = "0.5 mm" }]\n' \
             'z = [{ to = "-5 mm", first = "7.25 mm", last = "0.55 mm" }, { to = 0.0, size = "0.5 mm" }]\n'
 FOLLOWING = '[mesh]\nfollow = "rod"\nr = [{ to = "4 mm", size = "0.1 mm" }]\nz_start = "-3 mm"\n' \
@@ -39,10 +40,10 @@ def told(mesh, *bodies):
     [
         ([box("foil", (0.53, 0.56))], [f'body "foil": 0.3 cells across it along z{ALWAYS}']),
         ([box("hot", (0.5, 0.8), r=("0 mm", "0.3 mm"))],
-         [f'body "hot": 3.0 cells across it along r{ALWAYS}', f'body "hot": 3.0 cells across it along z{ALWAYS}']),
+         [f'body "hot": 3.0 cells across it along r, 3.0 cells across it along z{ALWAYS}']),
         ([box("layer", (1.03, 1.06)), box("rear", (0.2, 1.03)), box("front", (1.06, 2.2))],
          [f'body "layer": 0.3 cells across it along z{ALWAYS}']),
-        ([box("core", (0.5, 3.5), r=("0 mm", "2 mm")), box("coat", (0.45, 3.55), r=("0 mm", "2.05 mm"))],
+        ([box("core", (0.5, 3.5), r=("0 mm", "2 mm")), box("coat", (0.47, 3.53), r=("0 mm", "2.05 mm"))],
          [f'body "coat": 0.5 cells across it along r{ALWAYS}']),
         ([box("core", (0.5, 3.5), r=("0 mm", "2 mm")), box("coat", (0.5, 3.5), r=("2 mm", "2.07 mm"))],
          [f'body "coat": 0.7 cells across it along r{ALWAYS}']),
@@ -65,9 +66,13 @@ def test_the_wall_of_a_shell_counts_and_not_its_diameter():
     [
         ([box("rear", (0.2, 1.03), 1000), box("front", (1.09, 2), 1000)],
          [f'gap of 0.6 cells along z between "rear" and "front"{CLOSED}']),
-        ([box("b", (0.5, 1.03), 1000), box("c", (1.06, 2.3), 1000, more='join = "b"')], [f'gap of 0.3 cells along z in "b"{CLOSED}']),
+        ([box("b", (0.5, 1.03), 1000), box("c", (1.06, 2.3), 1000, more='join = "b"')],
+         [f'gap of 0.3 cells along z in "b"{CLOSED}']),
         ([box("rod", (0.5, 3), r=("0 mm", "1 mm")), box("sleeve", (0.5, 3), r=("1.05 mm", "2 mm"))],
          [f'gap of 0.5 cells along r between "rod" and "sleeve"{CLOSED}']),
+        ([box("tube", (0.5, 3), r=("0.06 mm", "1 mm"))], [f'gap of 0.6 cells along r in "tube"{CLOSED}']),
+        ([box("tube", (0.5, 3), r=("0.1 mm", "1 mm"))], []),
+        ([ball("ball", 2, 1, more='inner_radius = "0.03 mm"')], [f'gap of 0.3 cells along r in "ball"{CLOSED}']),
         ([box("rear", (0.2, 1.03), 1000), box("front", (1.09, 2))], []),
         ([box("rear", (0.2, 1.03), 1000), box("front", (1.15, 2), 1000)], []),
         ([box("rear", (0.2, 1.03), 1000), box("front", (1.03, 2), 1000)], []),
@@ -87,18 +92,21 @@ def test_cells_are_counted_where_a_body_flies(sign):
     plug, witness = sorted((sign * 1.25, sign * 2.75)), sorted((sign * 40, sign * 60))
     mesh = GRADED if sign > 0 else BACKWARDS
     (text,) = told(mesh, box("plug", plug, 1000 * sign), box("witness", witness))
-    found = re.fullmatch('body "plug": 3.0 cells across it along z and (.*) at z = (.*) mm, which it reaches after (.*) us' + ALWAYS, text)
+    flown = 'body "plug": 3.0 cells across it along z and (.*) at z = (.*) mm, which it reaches after (.*) us'
+    found = re.fullmatch(flown + ALWAYS, text)
     cells, place, time = (float(number) for number in found.groups())
     assert 34 < time <= 36
     assert place == pytest.approx(sign * (2 + time), abs=0.06)
     z = deck.edges(deck.loads(mesh + box("plug", plug) + REST))[1]
     assert cells == pytest.approx(deck.cells_between(z, 1e-3 * place - 0.75e-3, 1e-3 * place + 0.75e-3), abs=0.01)
-    assert told(mesh, box("plug", plug, 10 * sign), box("witness", witness)) == [f'body "plug": 3.0 cells across it along z{ALWAYS}']
+    slow = told(mesh, box("plug", plug, 10 * sign), box("witness", witness))
+    assert slow == [f'body "plug": 3.0 cells across it along z{ALWAYS}']
 
 
 def test_a_gap_may_fly_into_larger_cells():
     (text,) = [text for text in told(GRADED, box("rear", (0, 2), 1000), box("front", (2.6, 4.8), 1000)) if "gap" in text]
-    assert text.startswith('gap of 0.') and 'along z between "rear" and "front" at z = ' in text
+    assert text.startswith("gap of 0.")
+    assert 'along z between "rear" and "front" at z = ' in text
 
 
 def test_a_flight_ends_at_what_the_first_body_of_the_same_velocity_meets():
@@ -107,7 +115,7 @@ def test_a_flight_ends_at_what_the_first_body_of_the_same_velocity_meets():
 
 
 def test_a_mesh_that_follows_a_body():
-    """What moves with it does not change its cells; what lies ahead counts where the body reaches it, wherever it is at the start."""
+    """What moves with it does not change its cells; what lies ahead counts where the body reaches it."""
     rod = box("rod", (-2, -0.5), 1000, r=("0 mm", "1 mm"))
     assert told(FOLLOWING, rod) == []
     for z in ((1, 1.03), (9, 9.03), (25, 25.03)):
