@@ -23,6 +23,8 @@ from hydro2d.deck.shapes import Outline, outline
 
 #: a body needs at least this many cells across, and a gap this many
 CELLS_ACROSS, CELLS_OF_A_GAP = 4, 1
+#: the wall of a jacket, a rod with a core in it, needs at least this many
+CELLS_ACROSS_WALL = 3
 #: fraction of a length that is round-off
 ROUNDING = 1e-9
 #: a gap that narrows to less than this fraction of its width is a wedge beside a point of contact
@@ -141,15 +143,17 @@ def _thin_bodies(flights: Flights, lines: dict[str, list[Line]]) -> Iterator[str
         if entry.name not in points:
             continue
         thickest, said = _thickest(points[entry.name]), []
-        for axis in AXES if entry.shape != "rod" else ("z",):
+        wall = entry.shape == "rod" and thickest.thin == "r" and thickest.piece.low > 0.0
+        least = CELLS_ACROSS_WALL if wall else CELLS_ACROSS
+        for axis in AXES if wall or entry.shape != "rod" else ("z",):
             pieces = [piece for line in lines[axis] for piece in line.pieces if piece.name == entry.name]
             low, high = min(piece.low for piece in pieces), max(piece.high for piece in pieces)
             if axis == thickest.thin:
                 low, high = thickest.piece.low, thickest.piece.high
-            if counts := flights.counts(axis, low, high, entry.velocity, CELLS_ACROSS):
+            if counts := flights.counts(axis, low, high, entry.velocity, least):
                 said.append(_told(counts, f"across it along {axis}"))
         if said:
-            yield f'body "{entry.name}": {", ".join(said)}; stresses and waves in it need at least {CELLS_ACROSS}'
+            yield f'body "{entry.name}": {", ".join(said)}; stresses and waves in it need at least {least}'
 
 
 def _points(flights: Flights, lines: dict[str, list[Line]]) -> dict[str, list[Point]]:

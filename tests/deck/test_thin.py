@@ -86,6 +86,14 @@ def test_gaps_and_slits(bodies, warned):
     assert told(MESH, *bodies) == warned
 
 
+@pytest.mark.parametrize(("core", "warned"), [("1.75", "2.5"), ("1.7", None)])
+def test_the_wall_of_a_jacket_needs_three_cells(core, warned):
+    rods = [body(name, f'shape = "rod"\nradius = "{radius} mm"\nlength = "3 mm"\ntip = "3.5 mm"')
+            for name, radius in (("core", core), ("jacket", 2))]
+    expected = [f'body "jacket": {warned} cells across it along r; stresses and waves in it need at least 3'] if warned else []
+    assert told(MESH, *rods) == expected
+
+
 @pytest.mark.parametrize("sign", [1, -1])
 def test_cells_are_counted_where_a_body_flies(sign):
     """The witness is met at 40 mm; what lies beyond it does not count."""
