@@ -81,7 +81,7 @@ BODY = {
     "failed_mass_kg": "mass that has failed by damage",
     "outflow_kg": "mass that has left through open edges of the mesh since the start",
     "inflow_kg": "mass that a mesh that travels has met since the start",
-    "r_min_m": "least radius that it reaches; null where it fills a hundredth of no cell",
+    "r_min_m": "least radius that it reaches; null where it is less than a hundredth of any cell",
     "r_max_m": "largest radius that it reaches",
     "z_min_m": "lowest axial position that it reaches",
     "z_max_m": "highest axial position that it reaches",

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 
 from hydro2d.mesh import sums
 from hydro2d.mesh.measured import BODY
 from hydro2d.mesh.sums import HALF
-from hydro2d.physics.centroids import box_length, goes_on, within
+from hydro2d.physics.centroids import FILLED, box_length, goes_on, within
 
-#: a body of which a cell has less than this share, and no cell has half, is a crumb there and has no extent
+#: what of a body narrower than a cell fills less than this share of one is a crumb, and has no extent
 CRUMB = 0.01
 
 
@@ -18,8 +20,8 @@ def measure(sim) -> dict[str, dict[str, float | None]]:
 
     Mass, axial momentum, mean axial velocity and kinetic energy are of what is in the mesh. Outflow and inflow are the masses
     that have left and entered through its open edges. The extent is that of the cells that the body fills by half or more, and
-    of the share of the cells beside them that it fills. A body that fills no cell by half is narrower than a cell: its extent
-    is that of its boxes in the cells (explanation/interfaces, equation 7) of which it fills CRUMB or more; None where there are
+    of the share of the cells beside them that it fills. A body by which no cell is FILLED is narrower than one: its extent is
+    that of its boxes in the cells (explanation/interfaces, equation 7) of which it fills CRUMB or more; None where there are
     none such. The radius of its ends is the largest in its lowest and its highest row of these cells.
     """
     grid = sim.grid
@@ -60,30 +62,41 @@ def _extent(sim, m: int, axis: int) -> tuple[np.ndarray, np.ndarray]:
     """Lowest and highest coordinate of body m along r (axis 0) or z (1), m, of each line of cells with it; see `measure`."""
     grid = sim.grid
     fraction, edges = grid.interior(sim.state.vof)[m], (grid.r_edges, grid.z_edges)[axis]
-    if (fraction >= HALF).any():
+    if (fraction >= FILLED).any():
         return _surfaces(fraction if axis == 1 else fraction.T, edges)
     return _boxes(sim, m, axis)
 
 
 def _boxes(sim, m: int, axis: int) -> tuple[np.ndarray, np.ndarray]:
-    """The same for a body that fills no cell by half, from its boxes."""
+    """The same for a body that is narrower than a cell, from its boxes."""
+    found: dict[int, tuple[float, float]] = {}
+    for line, _, first, last in boxes(sim, m, axis):
+        low, high = found.get(line, (np.inf, -np.inf))
+        found[line] = min(low, first), max(high, last)
+    ends = np.array([found[line] for line in sorted(found)]).reshape(-1, 2)
+    return ends[:, 0], ends[:, 1]
+
+
+def boxes(sim, m: int, axis: int, line: int | None = None) -> Iterator[tuple[int, int, float, float]]:
+    """(line of cells along the axis, cell on it, lower and upper end in m) of the boxes of body m, cell by cell.
+
+    axis : 0 along r, 1 along z;  line : the only one to be looked at. Cells of which the body fills less than CRUMB have none.
+    """
     grid = sim.grid
     f, centroid = grid.interior(sim.state.vof)[m], grid.interior(sim.state.centroid)[:, m]
+    f, centroid = (f, centroid) if axis == 0 else (f.T, centroid.swapaxes(1, 2))
     round_axis = axis == 0 and grid.cylindrical
     edges = (0.5 * grid.r_edges**2 if round_axis else grid.r_edges) if axis == 0 else grid.z_edges
-    beside = np.pad(f, 1)
-    found: dict[int, tuple[float, float]] = {}
-    for j, i in np.argwhere(f >= CRUMB).tolist():
-        before, after = (beside[j + 1, i], beside[j + 1, i + 2]) if axis == 0 else (beside[j, i + 1], beside[j + 2, i + 1])
-        along, across = (within(float(offset), f[j, i]) for offset in (centroid[axis, j, i], centroid[1 - axis, j, i]))
-        half = 0.5 * box_length(f[j, i], along, across, goes_on(f[j, i], before, after))
-        line, cell = (j, i) if axis == 0 else (i, j)
-        middle, size = 0.5 * (edges[cell] + edges[cell + 1]), edges[cell + 1] - edges[cell]
-        low, high = found.get(line, (np.inf, -np.inf))
-        found[line] = min(low, middle + (along - half) * size), max(high, middle + (along + half) * size)
-    ends = np.array([found[line] for line in sorted(found)]).reshape(-1, 2)
-    ends = np.sqrt(2.0 * np.maximum(ends, 0.0)) if round_axis else ends
-    return ends[:, 0], ends[:, 1]
+    beside = np.pad(f, ((0, 0), (1, 1)))
+    for row in range(len(f)) if line is None else [line]:
+        for cell in np.nonzero(f[row] >= CRUMB)[0].tolist():
+            share = float(f[row, cell])
+            along, across = (within(float(centroid[n, row, cell]), share) for n in (axis, 1 - axis))
+            half = 0.5 * box_length(share, along, across, goes_on(share, beside[row, cell], beside[row, cell + 2]))
+            middle, size = 0.5 * (edges[cell] + edges[cell + 1]), edges[cell + 1] - edges[cell]
+            ends = (float(middle + (along + side * half) * size) for side in (-1, 1))
+            low, high = ((2.0 * max(end, 0.0)) ** 0.5 if round_axis else end for end in ends)
+            yield row, cell, low, high
 
 
 def _surfaces(fraction: np.ndarray, edges: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
