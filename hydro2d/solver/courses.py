@@ -69,8 +69,12 @@ class Courses:
         self._moved += np.stack([flux @ r, flux @ z], axis=1)
         self._whole += np.maximum(flux, 0.0).sum(axis=1)
 
-    def look(self, time: float) -> None:
-        """Sums up the momentum since the last look, and finds how far every body is off its course; first at the start."""
+    def look(self, time: float, keep: bool = True) -> None:
+        """Finds how far every body is off its course, from its momentum since the last look; first at the start.
+
+        keep : whether later looks go on from this one. A look at the end of a run does not: were it kept, a run that goes on
+            from there would end with other sums than one that was not interrupted.
+        """
         s, grid = self.state, self.state.grid
         for m in range(s.bodies):
             b = s.group[m]
@@ -81,11 +85,14 @@ class Courses:
             self._start, self._whole, self._begun = moment.copy(), mass[:, 0].copy(), True
         else:
             taken = 0.5 * (time - self._last) * (self._momentum + momentum)
-            self._moved += taken
+            moved = self._moved + taken
             there = (mass > 0.0) & np.ones(2, dtype=bool)  # the scale of what has left is what it was
-            self._way += np.divide(np.abs(taken), sizes, out=np.zeros_like(taken), where=there)
+            way = self._way + np.divide(np.abs(taken), sizes, out=np.zeros_like(taken), where=there)
             scale = self._whole[:, None] * np.divide(sizes, mass, out=np.ones_like(sizes), where=there)
-            np.divide(moment - self._start - self._moved, scale, out=self.apart, where=there)
+            np.divide(moment - self._start - moved, scale, out=self.apart, where=there)
+            if not keep:
+                return
+            self._moved, self._way = moved, way
         self._last, self._momentum = time, momentum.copy()
 
     def parted(self, names) -> Iterator[tuple[str, str]]:

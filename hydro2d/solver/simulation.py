@@ -362,7 +362,7 @@ class Simulation:
 
     def refuse_nonsense(self) -> None:
         """Raises UnphysicalState with the first fault of the state, if it has any, and remembers what is doubtful."""
-        self.engine.courses.look(self.time)
+        self.engine.courses.look(self.time, keep=self.cycle % WATCH_EVERY == 0)
         doubtful = doubts(self.state, self.table, self.time, self._reach, self.sources.given)
         for what, sentence in (*doubtful, *self.engine.courses.parted(self.table.names)):
             self._doubts.setdefault(what, f"cycle {self.cycle}, time {self.time:.6g} s: {sentence}")
