@@ -172,6 +172,30 @@ def between(v, j, i, outer, upper):
 
 
 @serial
+def edge_course(di, first, last, at, entering, advance, columns, r, z, zc, dz, face_r, vol_r, fr, fz, flux, moved, whole):
+    """Adds what goes through one edge of the mesh to the first moments of the bodies, and what comes in to their mass.
+
+    What crosses a face lies on average half of the distance away from it by which it is swept.
+
+    di : direction of the sweep, 1 along r;  first, last : places along the edge;  at : its face;  entering : 1.0 at the low
+    edge, -1.0 at the high one;  advance : of the mesh along z, m
+
+    Reads    columns [i], mean radii of the columns; r, z, zc, dz; face_r, vol_r [i]; fr, fz [j, i]; flux [m, place], kg
+    Updates  moved [m, 2], whole [m]
+    """
+    for m in range(flux.shape[0]):
+        for k in range(first, last):
+            mass = entering * flux[m, k]
+            if mass == 0.0:
+                continue
+            at_r = r[at] + 0.5 * fr[k, at] / (face_r[at] * dz[k]) if di == 1 else columns[k]
+            at_z = zc[k] if di == 1 else z[at] + 0.5 * fz[at, k] / vol_r[k]
+            moved[m, 0] += mass * at_r
+            moved[m, 1] += mass * (at_z + advance)
+            whole[m] += max(mass, 0.0)
+
+
+@serial
 def body_course(g, nz, nr, cylindrical, m, middle, width, zc, dr, dz, cm_out, volume, vof, rho, centroid, u, v, sums):
     """Mass of body m, its first moments and momenta along r and z, and sums of mass times cell size along r and z.
 

@@ -122,7 +122,7 @@ def forms(f, no_gap):
     if by_line == 1.0:
         return 1.0, 0.0, 0.0
     by_box = (1.0 - by_line) * (1.0 - own) / ((1.0 - own) + (1.0 - other))
-    return by_line, by_box, (1.0 - by_line) - by_box
+    return by_line, by_box, max((1.0 - by_line) - by_box, 0.0)
 
 
 @point

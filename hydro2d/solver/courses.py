@@ -12,6 +12,7 @@ import numpy as np
 
 from hydro2d.mesh import sums
 from hydro2d.mesh.fields import RHO
+from hydro2d.mesh.grid import FACE_R
 
 #: cells by which the centre of mass of a body may be off, and the share of its way, the larger of both
 PARTED, PARTED_OF_WAY = 0.1, 0.02
@@ -58,16 +59,8 @@ class Courses:
         """
         s, grid = self.state, self.state.grid
         at = grid.g + (0, (grid.nr if di else grid.nz))[side]
-        flux = s.edge_flux[side, RHO, :, first:last] * (-1.0 if side else 1.0)  # what comes in
-        here = slice(first, last)
-        if di:
-            r = grid.r[at] + 0.5 * s.fr[here, at] / (grid.metrics[0, at] * grid.dz[here])
-            z = grid.zc[here] + advance
-        else:
-            r = self._columns[here]
-            z = grid.z[at] + 0.5 * s.fz[at, here] / grid.vol_r[here] + advance
-        self._moved += np.stack([flux @ r, flux @ z], axis=1)
-        self._whole += np.maximum(flux, 0.0).sum(axis=1)
+        sums.edge_course(di, first, last, at, -1.0 if side else 1.0, advance, self._columns, grid.r, grid.z, grid.zc, grid.dz,
+                         grid.metrics[FACE_R], grid.vol_r, s.fr, s.fz, s.edge_flux[side, RHO], self._moved, self._whole)
 
     def look(self, time: float, keep: bool = True) -> None:
         """Finds how far every body is off its course, from its momentum since the last look; first at the start.

@@ -10,6 +10,7 @@ from hydro2d.physics.centroids import FILLED, GROWING
 from tests.physics.continuity import changes_in_proportion, largest_jump
 
 within = centroids.within.py_func
+box_length = centroids.box_length.py_func
 box_piece = centroids.box_piece.py_func
 goes_on = centroids.goes_on.py_func
 beside = centroids.beside.py_func
@@ -202,6 +203,17 @@ def test_the_most_of_the_cells_around_decides_without_those_behind_where_one_is_
     assert most_beside(f) == max(f[:MIDDLE] + f[MIDDLE + 1:9])
     by_all = centroids.smoothstep.py_func((most_around(f) - FILLED) / (1.0 - FILLED))
     assert placed(f) == by_all
+
+
+@settings(deadline=None)
+@given(FRACTION, OFFSET, OFFSET, UNIT)
+def test_a_box_fits_in_its_cell_and_holds_its_fraction(fraction, along, across, continues):
+    along, across = within(along, fraction), within(across, fraction)
+    length = box_length(fraction, along, across, continues)
+    room = (1.0 - 2.0 * abs(along)) * (1.0 - 2.0 * abs(across))
+    assert fraction <= length <= 1.0 - 2.0 * abs(along) + 1e-15
+    assert room < fraction or fraction / length <= 1.0 - 2.0 * abs(across) + 1e-15
+    assert length >= box_length(fraction, along, across, 0.5 * continues)
 
 
 @settings(deadline=None)
