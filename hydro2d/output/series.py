@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from hydro2d.output import derived, vtk
-from hydro2d.output.outlines import outlines
+from hydro2d.output.outlines import Filling
 from hydro2d.strange import own_folder
 
 
@@ -85,9 +85,10 @@ class Series:
 
 
 def _body_lines(sim) -> list[tuple[int, np.ndarray]]:
-    vof = sim.grid.interior(sim.state.vof)
+    cells, grid = derived.Cells(sim), sim.grid
+    offsets = np.stack([cells.centroid_r(), cells.centroid_z()], axis=1)
     return [
         (m + 1, line)
-        for m in range(len(vof))
-        for line in outlines(sim.grid.r_edges, sim.grid.z_edges, vof[m])
+        for m, (fraction, off) in enumerate(zip(cells.vof, offsets, strict=True))
+        for line in Filling(grid.r_edges, grid.z_edges, fraction, off).outlines()
     ]  # fmt: skip

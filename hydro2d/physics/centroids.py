@@ -11,6 +11,8 @@ from hydro2d.physics.traction import smoothstep
 
 #: what fills one of the cells around is placed by them in full, and what fills none of them by more than this not at all
 FILLED = 0.95
+#: what a body fills less of is a crumb, of which no length or outline is taken
+CRUMB = 0.01
 #: by how much a fraction grows from one cell to the next where the body in full goes on to the cell behind it
 GROWING = 0.1
 
@@ -56,6 +58,17 @@ def goes_on(fraction, before, after):
     fraction, before, after : of it in a cell, before that and after it
     """
     return min(max(before, after) / fraction, 1.0)
+
+
+@point
+def box_ends(fraction, along, across, before, after):
+    """Lower and upper end along x of the box of `box_piece`, off the middle of the cell, in cells.
+
+    before, after : fractions of the body in the cells before and after this one along x
+    """
+    along, across = within(along, fraction), within(across, fraction)
+    half = 0.5 * box_length(fraction, along, across, goes_on(fraction, before, after))
+    return along - half, along + half
 
 
 @point

@@ -9,10 +9,7 @@ import numpy as np
 from hydro2d.mesh import sums
 from hydro2d.mesh.measured import BODY
 from hydro2d.mesh.sums import HALF
-from hydro2d.physics.centroids import FILLED, box_length, goes_on, within
-
-#: what of a body narrower than a cell fills less than this share of one is a crumb, and has no extent
-CRUMB = 0.01
+from hydro2d.physics.centroids import CRUMB, FILLED, box_ends
 
 
 def measure(sim) -> dict[str, dict[str, float | None]]:
@@ -90,12 +87,11 @@ def boxes(sim, m: int, axis: int, line: int | None = None) -> Iterator[tuple[int
     beside = np.pad(f, ((0, 0), (1, 1)))
     for row in range(len(f)) if line is None else [line]:
         for cell in np.nonzero(f[row] >= CRUMB)[0].tolist():
-            share = float(f[row, cell])
-            along, across = (within(float(centroid[n, row, cell]), share) for n in (axis, 1 - axis))
-            half = 0.5 * box_length(share, along, across, goes_on(share, beside[row, cell], beside[row, cell + 2]))
+            share, at = float(f[row, cell]), centroid[:, row, cell]
+            ends = box_ends(share, at[axis], at[1 - axis], beside[row, cell], beside[row, cell + 2])
             middle, size = 0.5 * (edges[cell] + edges[cell + 1]), edges[cell + 1] - edges[cell]
-            ends = (float(middle + (along + side * half) * size) for side in (-1, 1))
-            low, high = ((2.0 * max(end, 0.0)) ** 0.5 if round_axis else end for end in ends)
+            low, high = (float(middle + end * size) for end in ends)
+            low, high = ((2.0 * max(end, 0.0)) ** 0.5 if round_axis else end for end in (low, high))
             yield row, cell, low, high
 
 

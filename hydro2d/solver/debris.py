@@ -8,7 +8,7 @@ import numpy as np
 
 from hydro2d.mesh.measured import FRAGMENTS
 from hydro2d.mesh.sums import HALF
-from hydro2d.solver.bodies import CRUMB
+from hydro2d.physics.centroids import CRUMB
 
 #: bins of the axial speed, and of the angle to the axis, 5 degrees each
 SPEEDS, ANGLES = 40, 36

@@ -98,7 +98,8 @@ def sample(g, nr, nz, r, z, own, group, eos_model, memory, eos_par, vof, q, u, v
     """What is in the cell of each point: mixtures over the bodies, as fields of these names have them.
 
     Pressure and stress are sums of volume fraction times value, void bearing none; temperature, strain and damage are means by
-    mass; stresses are total, tension positive. The velocity is that of the point's group at the point. Beyond the mesh all is NaN.
+    mass; stresses are total, tension positive. The velocity is that of the point's group at the point. Beyond the mesh all is
+    NaN.
 
     Reads    r, z edges;  own [n], groups of the points (`group_at`);  group, eos_model, memory [m], eos_par [m, k];
              vof [m, j, i], q [k, m, j, i];  u, v [b, j-1/2, i-1/2];  points [n, 2]
