@@ -132,7 +132,7 @@ def users(library: str) -> set[str]:
         ("vtk", ("hydro2d.output.vtk", "hydro2d.results.cutaway")),
         ("pint", ("hydro2d.units",)),
         ("scipy", ("hydro2d.penetration", "hydro2d.materials.fitting", "hydro2d.solver.crater", "hydro2d.solver.debris",
-                   "hydro2d.solver.reach",
+                   "hydro2d.solver.reach", "hydro2d.output.outlines",
                    "hydro2d.deck.mesh", "hydro2d.study.chance", "hydro2d.study.extrapolation", "hydro2d.study.logit")),
         ("plotly", ("hydro2d.study.charts", "hydro2d.study.page")),
         ("jinja2", ("hydro2d.study.page",)),
