@@ -68,14 +68,14 @@ USER_ERRORS = (
 )
 
 
-def _user_errors() -> tuple[type[Exception], ...]:
-    """Exceptions that are reported as one message, without a traceback."""
-    found: list[type[Exception]] = [UsageError]
-    for module, name in USER_ERRORS:
-        loaded = sys.modules.get(f"hydro2d.{module}")
-        if loaded is not None:
-            found.append(getattr(loaded, name))
-    return tuple(found)
+#: the same for what the machine refuses
+REFUSALS = (("files", "LostPlaceError"),)
+
+
+def _loaded(errors: tuple[tuple[str, str], ...]) -> tuple[type[Exception], ...]:
+    """The exceptions of those modules that are loaded. They are reported as one message, without a traceback."""
+    modules = ((sys.modules.get(f"hydro2d.{module}"), name) for module, name in errors)
+    return tuple(getattr(module, name) for module, name in modules if module is not None)
 
 
 def _set_threads(threads: int | None) -> None:
@@ -310,7 +310,9 @@ def call(arguments: list[str]) -> int:
     except BrokenPipeError:
         lose_output()
         return STATUS["SIGPIPE"]
-    except _user_errors() as error:
+    except _loaded(REFUSALS) as error:
+        return _told(error, REFUSED)
+    except (UsageError, *_loaded(USER_ERRORS)) as error:
         return _told(error, WRONG_INPUT)
     except MemoryError as error:
         return _told(f"not enough memory{f': {error}' if str(error) else ''}", REFUSED)

@@ -15,13 +15,13 @@ import numpy as np
 from hydro2d import checksums, toml
 from hydro2d.deck import keys
 from hydro2d.errors import Error
-from hydro2d.files import read_json
 from hydro2d.mesh.edges.registry import halved
 from hydro2d.output import history, snapshot, vtk
-from hydro2d.results.summaries import plausible
+from hydro2d.results.summaries import summary_of
 from hydro2d.results.viewer.packing import DEFAULT_BITS
-from hydro2d.running.run import DECK, HISTORY, SUMMARY, check_own
+from hydro2d.running.run import DECK, HISTORY, check_own
 from hydro2d.strange import within
+from hydro2d.terminal import shown
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -63,11 +63,11 @@ class Results:
         if not (self.directory / DECK).exists():
             raise ResultsError(_no_run(self.directory))
         try:
-            self.tables = tomllib.loads(checksums.verified_text(self.directory / DECK, ResultsError))
+            text = checksums.verified_text(self.directory / DECK, ResultsError)
+            self.tables = tomllib.loads(text)
         except (ValueError, RecursionError) as error:
             raise ResultsError(f"{self.directory / DECK} cannot be read: {error}") from None
-        file = self.directory / SUMMARY
-        self.summary, _ = plausible(read_json(file, ResultsError) if file.exists() else {})
+        self.summary, _ = summary_of(self.directory, text, ResultsError)
         self._history: tuple[int, dict[str, np.ndarray]] | None = None
 
     @cached_property
@@ -289,7 +289,8 @@ class Results:
         return f"<Results {self.label}: {', '.join(said)}>"
 
     def _repr_html_(self) -> str:
-        rows = "".join(f"<tr><th>{name}</th><td>{html.escape(said)}</td></tr>" for name, said in self._facts().items())
+        rows = "".join(f"<tr><th>{html.escape(shown(name))}</th><td>{html.escape(shown(said))}</td></tr>"
+                       for name, said in self._facts().items())  # fmt: skip
         return f"<table><caption>{html.escape(self.label)}</caption>{rows}</table>"
 
 
