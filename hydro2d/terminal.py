@@ -34,6 +34,11 @@ def one_line(text: object) -> str:
     return shown(text).replace("\n", "\\n")
 
 
+def cell(text: str) -> str:
+    """A text as a cell or a head of a CSV file: none that a spreadsheet would take for a formula."""
+    return f"'{text}" if text.startswith(("=", "+", "-", "@", "\t", "\r")) else text
+
+
 def say(text: object, file: TextIO | None = None, flush: bool = False) -> None:
     """Prints a text; file : default: the standard output."""
     print(shown(text), file=file or sys.stdout, flush=flush)

@@ -35,6 +35,7 @@ app = App(
     version=__version__,
     help="A two-dimensional axisymmetric Eulerian hydrocode for impact: rods, balls and plates.",
     help_format="plaintext",
+    default_parameter=Parameter(json_list=False, json_dict=False),  # "[1]" is the name of a directory
     suppress_keyboard_interrupt=False,  # `call` knows by which signal a command ends
     help_epilogue="Exit status: 0 success; 2 wrong deck or arguments; 3 unphysical state or failed cases; 4 refused by the "
     "machine (disk, memory, permissions); 129, 130, 141, 143 ended by SIGHUP, SIGINT, a closed pipe, SIGTERM.",

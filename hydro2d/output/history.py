@@ -26,6 +26,7 @@ from hydro2d.mesh.measured import FRAGMENTS, in_file, unit
 from hydro2d.output import foreign
 from hydro2d.output.station_arrays import KEYS, KINDS, of_station, stations
 from hydro2d.strange import own
+from hydro2d.terminal import cell
 
 if TYPE_CHECKING:
     import pandas
@@ -298,7 +299,7 @@ def read_debris(path: Path) -> dict[str, dict[str, np.ndarray]]:
 def write_csv(columns: dict[str, np.ndarray], path: Path) -> None:
     """Writes the columns as CSV with 17 digits; the header names quantity and unit."""
     header = io.StringIO()
-    csv.writer(header, lineterminator="").writerow(f"{name} [{unit(name)}]" for name in columns)
+    csv.writer(header, lineterminator="").writerow(cell(f"{name} [{unit(name)}]") for name in columns)
     with replacing(path) as temporary:
         table = np.column_stack(list(columns.values()))
         np.savetxt(temporary, table, fmt="%.17g", delimiter=",", header=header.getvalue(), comments="", encoding="utf-8")

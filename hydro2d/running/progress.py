@@ -353,8 +353,8 @@ def _moving(summary: dict) -> str:
 
 def passed(summary: dict) -> list[str]:
     """Names of the targets where the projectile has gone through all of them, else none."""
-    found = summary.get("targets", {})
-    return [] if any(target["exit_time_s"] is None for target in found.values()) else list(found)
+    found = summary.get("targets") or {}
+    return [] if any(target.get("exit_time_s") is None for target in found.values()) else list(found)
 
 
 def _over_length(summary: dict) -> str:
