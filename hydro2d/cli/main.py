@@ -25,8 +25,8 @@ from hydro2d.cli.status import status
 from hydro2d.cli.study import sweep, transition
 from hydro2d.cli.tabulate import tabulate
 from hydro2d.cli.view import view
-from hydro2d.interrupt import STATUS, Interrupt, ended_by, lose_output, raise_between_imports, signals
-from hydro2d.terminal import say
+from hydro2d.interrupt import STATUS, Interrupt, ended_by, lose_output, open_closed_streams, raise_between_imports, signals
+from hydro2d.terminal import flush, say
 
 WRONG_INPUT, REFUSED = 2, 4
 
@@ -290,6 +290,7 @@ def schema() -> int:
 
 def main(arguments: list[str] | None = None) -> None:
     """Runs the command line and exits with its status."""
+    open_closed_streams()
     raise_between_imports()
     sys.exit(call(sys.argv[1:] if arguments is None else arguments))
 
@@ -302,7 +303,7 @@ def call(arguments: list[str]) -> int:
     try:
         refuse_old_names(arguments)
         status = app(arguments, exit_on_error=False, print_error=False, result_action="return_value")
-        sys.stdout.flush()
+        flush()
         return status if isinstance(status, int) else 0
     except cyclopts.CycloptsError as error:
         return _told(error, WRONG_INPUT)

@@ -326,8 +326,9 @@ def _table(tables: dict, name: str) -> dict:
 def _number(table: dict, key: str) -> float | None:
     """A number of a table that may hold anything; None if it is missing, or of another kind, or beyond all bounds."""
     found = table.get(key)
-    is_number = isinstance(found, (int, float)) and not isinstance(found, bool)
-    return found if is_number and abs(found) <= LARGEST else None
+    if not isinstance(found, (int, float)) or isinstance(found, bool):
+        return None
+    return found if abs(found) <= LARGEST else None
 
 
 def _millimetres(length: float | None) -> str:

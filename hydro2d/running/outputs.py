@@ -62,5 +62,7 @@ class Attempts:
 
 def _said(error: Exception) -> str:
     """The message of an error, with the file but without the number of a system's error."""
+    if isinstance(error, MemoryError):
+        return f"not enough memory{f': {error}' if str(error) else ''}"
     named = isinstance(error, OSError) and error.filename is not None
     return f"{error.filename}: {error.strerror}" if named else str(error)
