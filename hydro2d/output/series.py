@@ -79,7 +79,11 @@ class Series:
         if len(sim.stations.tracers):
             vtk.write_points(self._path("tracers", number), sim.stations.tracers, time)
         self._times.append(time)
-        self._write_series()
+        try:
+            self._write_series()
+        except Exception:
+            self._times.pop()
+            raise
         return path
 
     def _path(self, kind: str, number: int) -> Path:

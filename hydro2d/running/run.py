@@ -18,7 +18,8 @@ import hashlib
 import os
 import time as clock
 import tomllib
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
 from typing import NoReturn
 
@@ -238,10 +239,11 @@ class Run:
     def _outputs(self) -> None:
         """Everything that is due after a cycle."""
         sim, now = self.sim, clock.perf_counter()
-        if self.due["history"](sim.time):
-            self.history.append(row(sim))
-        if self.due["vtk"](sim.time):
-            with writing(self.directory / FOLDER):
+        with self._due("history") as is_due:
+            if is_due:
+                self.history.append(row(sim))
+        with self._due("vtk") as is_due, writing(self.directory / FOLDER):
+            if is_due:
                 self.series.dump(sim)
         if now - self.saved_at >= self.deck.output.restart_interval:
             attempts = Attempts()
@@ -257,6 +259,17 @@ class Run:
                 self._publish()
         with writing(self.directory / LOG):
             self.report.update(self)
+
+    @contextmanager
+    def _due(self, name: str) -> Iterator[bool]:
+        """Whether an output is due now; one that fails within the block is due again when the run goes on."""
+        due = self.due[name]
+        count = due.count
+        try:
+            yield due(self.sim.time)
+        except Exception:
+            due.count = count
+            raise
 
     def _publish(self) -> None:
         """Writes progress.json, which other programs read."""
