@@ -14,6 +14,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from xml.etree import ElementTree
+from xml.sax.saxutils import escape
 
 import numpy as np
 
@@ -61,6 +62,10 @@ def _silence() -> Iterator[None]:
 
 def _write(dataset, path: Path, time: float, writer) -> None:
     _stamp(dataset, time)
+    for data in (dataset.GetCellData(), dataset.GetPointData()):
+        for number in range(data.GetNumberOfArrays()):
+            array = data.GetAbstractArray(number)
+            array.SetName(escape(array.GetName(), {'"': "&quot;"}))  # VTK writes names into its XML as they are
     writer.SetInputData(dataset)
     writer.SetDataModeToAppended()
     writer.EncodeAppendedDataOff()
@@ -263,7 +268,7 @@ class Dump:
 
 def _read(reader, path: Path):
     """The data that a VTK reader reads from a file. Raises VtkError."""
-    checksums.verified(path, VtkError)
+    checksums.verify(path, VtkError)
     with _silence():
         if not reader.CanReadFile(str(path)):
             raise VtkError(f"{path} is not a VTK file of a run")
