@@ -125,7 +125,7 @@ def _bad_targets(deck: Deck) -> Iterator[tuple[tuple, str]]:
         if name == shot.rod:
             yield ("penetration", "targets", number), f'"{name}" is the projectile'
         elif number > 0:
-            before, sign = shot.targets[number - 1], heading(body(deck, shot.rod))
+            before, sign = shot.targets[number - 1], heading(body(deck, shot.rod), body(deck, shot.targets[0]))
             if sign * (faces(deck, shot.rod, name)[0] - faces(deck, shot.rod, before)[0]) < 0.0:
                 path = ("penetration", "targets", number)
                 yield path, f'"{shot.rod}" reaches "{name}" before "{before}"; name them in that order'
@@ -263,14 +263,15 @@ def extent(entry, deck: Deck, axis: str) -> tuple[float, float]:
     return outline(entry, deck.mesh.r_start).extent(axis)
 
 
-def heading(rod) -> int:
-    """1 for a penetrator that flies towards +z, -1 for one that flies towards -z."""
-    return rod.direction if rod.shape == "rod" else (-1 if rod.velocity[1] < 0.0 else 1)
+def heading(rod, target=None) -> int:
+    """1 for a penetrator that flies towards +z, -1 for one that flies towards -z, as its target sees it if that is given."""
+    own = rod.velocity[1] - (target.velocity[1] if target is not None else 0.0)
+    return rod.direction if rod.shape == "rod" else (-1 if own < 0.0 else 1)
 
 
 def faces(deck: Deck, rod: str, target: str) -> tuple[float, float]:
     """Axial positions of a target's front and rear face, as the rod meets them, m."""
-    return extent(body(deck, target), deck, "z")[:: heading(body(deck, rod))]
+    return extent(body(deck, target), deck, "z")[:: heading(body(deck, rod), body(deck, target))]
 
 
 def unsupported(deck: Deck) -> Iterator[tuple[tuple, str]]:

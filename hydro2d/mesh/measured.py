@@ -108,7 +108,7 @@ CRATER = {
 #: what `debris.measure` gives of all that flies behind a target, the projectile included, and its meaning
 DEBRIS = {
     "mass_kg": "mass of all bodies",
-    "momentum_N_s": "axial momentum, along the flight of the projectile",
+    "momentum_N_s": "axial momentum along the flight of the projectile, relative to the undisturbed target, like what follows",
     "kinetic_energy_J": "kinetic energy, of the radial motion as well",
     "velocity_m_s": "mean axial velocity, by mass; null where there is nothing",
     "leading_velocity_m_s": "axial velocity that a hundredth of the mass exceeds",

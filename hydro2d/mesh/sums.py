@@ -68,13 +68,13 @@ def mean_of_vertices(v, j, i):
 
 
 @serial
-def core_sums(g, nr, first, last, m, half, direction, slack, volume, vof, dmg, rho, v, sums):
+def core_sums(g, nr, first, last, m, half, direction, slack, against, volume, vof, dmg, rho, v, sums):
     """Mass and axial momentum of the core of body m: what is intact and hangs together from the axis outward, row by row.
 
     A row ends before the first cell that falls behind the one on the axis, along `direction`, by more than half of the speed
-    of that one and `slack`, m/s: what flies back beside a rod does not count. The first cell
-    that the body does not fill to the share `half` ends a row and still counts, unless it is the one on the axis. A cell moves
-    with the mean of its vertices.
+    of that one, relative to `against`, and `slack`, m/s: what flies back beside a rod does not count. The first cell that the
+    body does not fill to the share `half` ends a row and still counts, unless it is the one on the axis. A cell moves with the
+    mean of its vertices.
 
     Reads    volume [j, i];  vof, dmg, rho [m, j, i];  v [j-1/2, i-1/2] of the body's group
     Writes   sums [2], per radian (per unit depth in planar geometry)
@@ -82,7 +82,7 @@ def core_sums(g, nr, first, last, m, half, direction, slack, volume, vof, dmg, r
     sums[0], sums[1] = 0.0, 0.0
     for j in range(first, last):
         axis = mean_of_vertices(v, j, g)
-        least = direction * axis - 0.5 * abs(axis) - slack
+        least = direction * axis - 0.5 * abs(axis - against) - slack
         for i in range(g, g + nr):
             f = intact(m, j, i, vof, dmg)
             speed = mean_of_vertices(v, j, i)

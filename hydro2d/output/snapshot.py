@@ -23,7 +23,7 @@ from hydro2d.files import check_place, hdf5, replacing, sync
 from hydro2d.output import foreign
 from hydro2d.strange import own
 
-FORMAT = "hydro2d restart 6"
+FORMAT = "hydro2d restart 7"
 NAME, PREVIOUS = "restart.h5", "restart.previous.h5"
 
 

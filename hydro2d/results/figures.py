@@ -348,10 +348,11 @@ def craters(runs: list):
     figure, ((axes,),) = new_figure(9.0, 4.0, 1, 1)
     for run in runs:
         style = {"label": verbatim(run.label)}
+        surface = run.surface_at(run.summary.get("time_s") or 0.0) if run.summary else run.surface
         for z, radius in run.craters.values():
             if not len(z):
                 continue
-            depth = run.direction * (z - run.surface) * 1e3
+            depth = run.direction * (z - surface) * 1e3
             upper, lower = np.column_stack([depth, radius * 1e3]), np.column_stack([depth, -radius * 1e3])[::-1]
             (line,) = axes.plot(*np.concatenate([upper, lower]).T, linewidth=1.2, **style)
             style = {"color": line.get_color()}

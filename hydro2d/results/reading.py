@@ -243,6 +243,14 @@ class Results:
         """Axial position of the target's original surface, m."""
         return _number(_table(self.tables, "penetration"), "surface")
 
+    def surface_at(self, time: float) -> float | None:
+        """Where that surface would be by then had nothing touched the target, which moves with its own velocity, m."""
+        target = _table(self.tables, "penetration").get("target")
+        velocity = next((body.get("velocity") for body in self.bodies if body["name"] == target), None)
+        axial = velocity[-1] if isinstance(velocity, list) and velocity else velocity
+        known = isinstance(axial, (int, float)) and not isinstance(axial, bool)
+        return self.surface if self.surface is None or not known else self.surface + axial * time
+
     @property
     def direction(self) -> int:
         """+1 where the projectile flies along +z, -1 otherwise."""

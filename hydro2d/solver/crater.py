@@ -48,17 +48,21 @@ class Crater:
 
     def __init__(self, sim, target: Target, direction: float):
         self.sim, self.m = sim, target.m
-        self.direction, self.surface = direction, target.surface
-        self.low, self.high = target.low, target.high
-        self.rear = float(self._depth(self.high if self.direction > 0 else self.low))
+        self.direction, self._target = direction, target
+        self.rear = float(direction * ((target.high if direction > 0 else target.low) - target.surface))
         self._left: list[tuple[float, float]] = []
         self._next = self._trailing_edge()
 
     # ------------------------------------------------------------------------------------------------ rows in the mesh
 
+    @property
+    def target(self) -> Target:
+        """The target as it would be now, had nothing touched it."""
+        return self._target.at(self.sim.time)
+
     def _depth(self, z):
         """Depth below the original surface of an axial position, m."""
-        return self.direction * (z - self.surface)
+        return self.direction * (z - self.target.surface)
 
     def _trailing_edge(self) -> float:
         """The mesh's edge behind the rod, as depth below the original surface, m."""
@@ -74,7 +78,7 @@ class Crater:
         size = np.bincount(labels.ravel(), (fraction * grid.volume[grid.inside]).ravel(), count + 1)
         centres = grid.zc[grid.inside[0]]
         at_home = np.zeros(count + 1, dtype=bool)
-        at_home[labels[(centres > self.low) & (centres < self.high)]] = True
+        at_home[labels[(centres > self.target.low) & (centres < self.target.high)]] = True
         at_home[0] = False
         pieces = at_home & (size >= PIECE * np.max(size, where=at_home, initial=0.0))
         wall = pieces[labels]
@@ -134,7 +138,7 @@ class Crater:
         self._next = edge + float(np.diff(self.sim.grid.z_edges)[last])
         radius, _ = self._row(*(cells[last] for cells in self._walls()))
         if np.isfinite(radius):
-            self._left.append((float(self.sim.grid.zc[self.sim.grid.inside[0]][last]), radius))
+            self._left.append((float(self._depth(self.sim.grid.zc[self.sim.grid.inside[0]][last])), radius))
 
     def saved(self) -> dict:
         """What a restart file keeps of it."""
@@ -142,7 +146,7 @@ class Crater:
 
     def resume(self, saved: dict) -> None:
         """Continues from what was saved."""
-        self._next, self._left = saved["next"], [(z, radius) for z, radius in saved["left"]]
+        self._next, self._left = saved["next"], [(depth, radius) for depth, radius in saved["left"]]
 
     # ------------------------------------------------------------------------------------------------ what is known
 
@@ -153,7 +157,7 @@ class Crater:
         bottom, depth = self._bottom(rows)
         live = np.nonzero(np.isfinite(rows.radius[: bottom + 1]))[0]
         edge = rows.near[0]
-        left = np.array([(self._depth(z), radius) for z, radius in self._left]).reshape(-1, 2)
+        left = np.array(self._left).reshape(-1, 2)
         left = left[left[:, 0] < edge]
         between = 0.5 * (left[1:, 0] + left[:-1, 0])
         near = np.concatenate([left[:1, 0] - 0.5 * (rows.far[0] - edge), between, rows.near[live]])
@@ -174,7 +178,7 @@ class Crater:
         Rows of a lip before the target's original face and of a bulge behind its rear are in it; it is empty before impact.
         """
         near, far, radius, _, _ = self._hole(self._walls())
-        return self.surface + self.direction * 0.5 * (near + far), radius
+        return self.target.surface + self.direction * 0.5 * (near + far), radius
 
     def measure(self) -> dict:
         """What summary.json says of the hole; SI, whole circumference, within the target's original faces.
@@ -200,7 +204,7 @@ class Crater:
             "exit_diameter_m": 2.0 * float(radius[end]) if len(radius) and through else None,
             "mean_diameter_m": mean,
             "volume_m3": volume,
-            "volume_per_energy_m3_J": volume / penetrator.energy if penetrator.energy > 0.0 else None,
+            "volume_per_energy_m3_J": volume / penetrator.impact_energy if penetrator.impact_energy > 0.0 else None,
             "efficiency": volume * float(self.sim.table.rho0[self.m]) / penetrator.mass,
             "depth_m": depth,
             **self._ejected(walls[0]),

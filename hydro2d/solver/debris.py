@@ -42,8 +42,9 @@ def find(sim, crater, later: list[int]) -> Debris:
     crater : Crater of the target
     later : indices of the targets that the projectile meets after it, which are no debris
 
-    Each cell has the velocity of its body group, the mean of its four vertices. Fragments are those of `_pieces`, in
-    cylindrical geometry rings unless they reach the axis. Bodies that touch are one fragment.
+    Each cell has the velocity of its body group, the mean of its four vertices. Momentum, energy, speeds and angles
+    are relative to the target as it would move on had nothing touched it; the fragments have velocities of the mesh's frame.
+    They are those of `_pieces`, in cylindrical geometry rings unless they reach the axis. Bodies that touch are one fragment.
     """
     grid, state, table = sim.grid, sim.state, sim.table
     around = 2.0 * np.pi if grid.cylindrical else 1.0
@@ -53,11 +54,11 @@ def find(sim, crater, later: list[int]) -> Debris:
     fraction[chosen.index(crater.m)] *= ~crater.pieces()
     mass = fraction * np.where(fraction > 0.0, grid.interior(state.rho)[chosen], 0.0) * (grid.volume[grid.inside] * around)
     u, v = (np.stack([grid.vertex_mean(field[state.group[m]]) for m in chosen]) for field in (state.u, state.v))
-    axial = crater.direction * v
+    axial = crater.direction * (v - crater.target.velocity)
     present = [k for k in range(len(chosen)) if mass[k].any()]
-    mass, u, axial, fraction = mass[present], u[present], axial[present], fraction[present]
+    mass, u, v, axial, fraction = mass[present], u[present], v[present], axial[present], fraction[present]
     labels, count = _pieces(fraction.sum(axis=0)) if present else (np.zeros((grid.nz, grid.nr), dtype=int), 0)
-    fragments, kinds = _fragments(grid, labels, count, mass, u, crater.direction * axial)
+    fragments, kinds = _fragments(grid, labels, count, mass, u, v)
     top = float(axial.max(where=mass > 0.0, initial=0.0))
     speeds = np.linspace(float(axial.min(where=mass > 0.0, initial=0.0)), top if top > 0.0 else 1.0, SPEEDS + 1)
     angles = np.linspace(0.0, np.pi, ANGLES + 1)

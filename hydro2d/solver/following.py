@@ -132,8 +132,8 @@ class FollowingMesh:
         first, last = self._run
         if first < last:
             first, last = max(first - 1, g.g), min(last + 1, g.g + g.nz)
-        sums.core_sums(g.g, g.nr, first, last, m, HALF, self.direction, np.inf, g.volume, s.vof, s.dmg, s.rho, s.v[s.group[m]],
-                       self._sums)
+        sums.core_sums(g.g, g.nr, first, last, m, HALF, self.direction, np.inf, 0.0, g.volume, s.vof, s.dmg, s.rho,
+                       s.v[s.group[m]], self._sums)
         if self._sums[0] == 0.0:
             rows = np.zeros((2, g.shape[0]))
             sums.body_sums(g.g, g.nz, g.nr, m, g.cm_in, g.cm_out, g.volume, s.vof, s.rho, s.v[s.group[m]], rows)

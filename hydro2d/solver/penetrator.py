@@ -68,6 +68,9 @@ class Penetrator:
     A rod in pieces, with no cell on the axis half full, is through a target when most of it is beyond the rear; behind the last
     target it has left the mesh by the same 1 %, and is gone when a tenth at most is left.
 
+    Depths, rears and exits are measured from where the targets would be, had nothing touched them: a target that flies at the
+    rod takes its face along with its own velocity. Velocities are those of the mesh's frame.
+
     Parameters
     ----------
     sim : Simulation
@@ -81,18 +84,19 @@ class Penetrator:
         body = decks.body(deck, deck.penetration.rod)
         slots = decks.slots(deck)
         self.m = slots.index(body.join or body.name)
-        self.targets, self.surface = targets, targets[0].surface
+        self._targets = targets
         self.radius = getattr(body, "rod_radius", None) or self._largest_radius(slice(None))
         self._around = 2 * np.pi if sim.grid.cylindrical else 1.0
         self.direction = direction
         grid = sim.grid
         self.columns = max(1, int(np.searchsorted(grid.r_edges[1:], 0.5 * self.radius)))
         self.length = self._length()[0]
-        self._rears = [self.direction * (target.rear - self.surface) for target in targets]
         self.mass = float(sim.body_sums(self.m)[0].sum()) * self._around
-        self.energy = bodies.motion(sim, self.m)[2]
+        _, momentum, self.energy, *_ = bodies.motion(sim, self.m)
+        self._against = targets[0].velocity
+        self.impact_energy = self.energy - self._against * momentum + 0.5 * self.mass * self._against**2
         self._run = np.zeros(2, dtype=np.int64)
-        self._slack = DEBRIS_SPEED * abs(sim.mean_velocity(self.m) or 0.0)
+        self._slack = DEBRIS_SPEED * abs((sim.mean_velocity(self.m) or 0.0) - self._against)
         self._ringing = _ringing(sim, self.m)
         self.exit: Exit | None = None
         self.passed: list[Passage] = []
@@ -100,6 +104,22 @@ class Penetrator:
         ends = (deck.boundaries.z_min, (0, -1.0)), (deck.boundaries.z_max, (grid.nz, 1.0))
         behind = -self.direction if deck.mesh.follow == body.name else 0.0
         self._open = [end for kind, end in ends if BY_NAME[kind].flow() and end[1] != behind]
+
+    @property
+    def targets(self) -> list[Target]:
+        """The targets as they would be now, had nothing touched them."""
+        return [target.at(self.sim.time) for target in self._targets]
+
+    @property
+    def surface(self) -> float:
+        """Axial position, m, from which depths are measured: that of the first target's face, had nothing touched it."""
+        return self._targets[0].at(self.sim.time).surface
+
+    @property
+    def _rears(self) -> list[float]:
+        """Depths of the rears of the targets below that face, m."""
+        surface = self.surface
+        return [self.direction * (target.rear - surface) for target in self.targets]
 
     def _fraction(self) -> np.ndarray:
         """Volume fraction of the rod in the cells [j, i]."""
@@ -189,8 +209,8 @@ class Penetrator:
     def _core(self, rows: slice) -> tuple[float, float]:
         """Mass in kg and axial momentum in N s of the core in the given rows, see `sums.core_sums`."""
         g, s, found = self.sim.grid, self.sim.state, np.zeros(2)
-        sums.core_sums(g.g, g.nr, g.g + rows.start, g.g + rows.stop, self.m, HALF, self.direction, self._slack, g.volume, s.vof,
-                       s.dmg, s.rho, s.v[s.group[self.m]], found)
+        sums.core_sums(g.g, g.nr, g.g + rows.start, g.g + rows.stop, self.m, HALF, self.direction, self._slack, self._against,
+                       g.volume, s.vof, s.dmg, s.rho, s.v[s.group[self.m]], found)
         mass, momentum = (found * self._around).tolist()
         return mass, momentum
 
@@ -212,7 +232,8 @@ class Penetrator:
         mass = float(mass_of_rows.sum())
         if mass * self._around <= LEFT_MASS * self.mass:
             return None
-        return self.direction * float(np.maximum(self.direction * momentum, 0.0).sum()) / mass
+        onward = np.maximum(self.direction * (momentum - self._against * mass_of_rows), 0.0)
+        return self._against + self.direction * float(onward.sum()) / mass
 
     def speed(self) -> float | None:
         """Axial velocity, m/s, by which a run ends: of the core, or of the tail while it outruns the core.

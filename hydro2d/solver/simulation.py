@@ -103,7 +103,7 @@ class Simulation:
         if self.deck.penetration is None:
             return None, []
         rod = self.deck.penetration.rod
-        direction = 1.0 if (self.mean_velocity(decks.slots(self.deck).index(rod)) or 0.0) >= 0.0 else -1.0
+        direction = float(decks.heading(decks.body(self.deck, rod), decks.body(self.deck, self.deck.penetration.target)))
         found = targets(self.deck, direction)
         return Penetrator(self, self.deck, found, direction), [Crater(self, target, direction) for target in found]
 

@@ -11,7 +11,8 @@ class Target(NamedTuple):
     """A body that is penetrated.
 
     name, m : of the body;  low, high : its extent along the axis at the start, with all that is joined to it, m
-    surface, rear : axial positions of the face that the rod meets and of the other one, m
+    surface, rear : axial positions of the face that the rod meets and of the other one, m, at the start
+    velocity : axial, m/s, with which the target moves on where nothing has touched it
     """
 
     name: str
@@ -20,6 +21,12 @@ class Target(NamedTuple):
     high: float
     surface: float
     rear: float
+    velocity: float = 0.0
+
+    def at(self, time: float) -> Target:
+        """The target as it would be by then, had nothing touched it."""
+        way = self.velocity * time
+        return self._replace(low=self.low + way, high=self.high + way, surface=self.surface + way, rear=self.rear + way)
 
 
 def targets(deck, direction: float) -> list[Target]:
@@ -33,5 +40,6 @@ def targets(deck, direction: float) -> list[Target]:
         front, rear = (low, high) if direction > 0 else (high, low)
         surface = decks.surface(deck) if number == 0 else front
         joined = [decks.extent(entry, deck, "z") for entry in deck.body if name in (entry.name, entry.join)]
-        found.append(Target(name, names.index(name), min(z for z, _ in joined), max(z for _, z in joined), surface, rear))
+        found.append(Target(name, names.index(name), min(z for z, _ in joined), max(z for _, z in joined), surface, rear,
+                            decks.body(deck, name).velocity[1]))  # fmt: skip
     return found

@@ -106,6 +106,19 @@ def test_the_whole_cell_has_the_fraction_and_the_centroid(fraction, along, acros
 
 
 @settings(deadline=None)
+@given(FRACTION, OFFSET, OFFSET, UNIT, UNIT)
+def test_a_box_lies_about_its_centroid_and_outside_its_ends_there_is_nothing(fraction, along, across, before, after):
+    along, across = within(along, fraction), within(across, fraction)
+    low, high = centroids.box_ends(fraction, along, across, before, after)
+    continues = centroids.goes_on(fraction, before, after)
+    assert 0.5 * (low + high) == pytest.approx(along, abs=1e-14)
+    assert -0.5 - 1e-14 <= low <= high <= 0.5 + 1e-14
+    for strip, at_high, holds in ((0.5 - high, True, 0.0), (0.5 - low, True, fraction), (low + 0.5, False, 0.0)):
+        if strip > 1e-9:
+            assert box_piece(fraction, along, across, continues, strip, at_high)[0] == pytest.approx(holds, abs=1e-9)
+
+
+@settings(deadline=None)
 @given(FRACTION, OFFSET, OFFSET, UNIT, STRIP, st.booleans())
 def test_mirrored_boxes_have_mirrored_pieces_to_the_bit(fraction, along, across, continues, strip, high):
     share, a, c = box_piece(fraction, along, across, continues, strip, high)

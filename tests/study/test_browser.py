@@ -1,5 +1,6 @@
 """The page in a real browser: on a phone, on a desk, on paper."""
 
+import json
 from unicodedata import normalize
 
 import pytest
@@ -126,9 +127,11 @@ SORT = """
 def page(tmp_path_factory):
     """A study with a case that waits and one that failed with a long reason."""
     study = fake.write_study(tmp_path_factory.mktemp("browsed") / "study", AXES)
-    (study / "cases" / "1086m-s_momentum-conserving" / "failed.json").write_text(
-        '{"reason": "%s"}' % ("a_very_long_reason/" * 12)
-    )
+    failed = study / "cases" / "1086m-s_momentum-conserving"
+    (failed / "failed.json").write_text('{"reason": "%s"}' % ("a_very_long_reason/" * 12))
+    summary = json.loads((failed / "summary.json").read_text())
+    del summary["sha256"]
+    (failed / "summary.json").write_text(json.dumps(summary | {"status": "interrupted"}))
     for file in ("summary.json", "deck.toml", "history.h5"):
         (study / "cases" / "1296m-s_momentum-conserving" / file).unlink()
     return report([study], say=lambda line: None)

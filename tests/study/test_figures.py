@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from hydro2d.output.outlines import Filling
 from hydro2d.study import charts, layout, panels, responses, rods, series, theory
 from hydro2d.study.contents import collect
 from tests.study import fake
@@ -205,12 +206,10 @@ def test_a_page_holds_eighteen_rods(contents):
 
 def test_a_hole_in_a_rod_stays_a_hole():
     """Lines of opposite sense: the outer edge of a rod and a void in it, off the axis."""
-    from hydro2d.output.outlines import outlines
-
     r, z = np.linspace(0.0, 1.0, 41), np.linspace(0.0, 3.0, 121)
     rr, zz = np.meshgrid((r[1:] + r[:-1]) / 2, (z[1:] + z[:-1]) / 2)
     inside = (rr < 0.6) & (zz > 0.5) & (zz < 2.5) & (np.hypot(rr - 0.3, zz - 1.5) > 0.15)
-    path = rods._path(outlines(r, z, inside.astype(float)), 0.0)
+    path = rods._path(Filling(r, z, inside.astype(float)).outlines(), 0.0)
     points = 100.0 * np.array([[0.0, 1.0], [0.3, 1.0], [-0.3, 1.0], [0.3, 1.5], [-0.3, 1.5], [0.8, 1.0]])
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure

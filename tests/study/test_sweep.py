@@ -10,6 +10,7 @@ import subprocess
 import sys
 import time
 
+import psutil
 import pytest
 
 import hydro2d
@@ -138,9 +139,8 @@ def test_a_worker_that_dies_as_it_begins(tmp_path, seconds):
     process = tubes.start(file, "--workers", 2, "--out", out)
 
     def workers():
-        listed = ["ps", "-o", "pid=,args=", "--ppid", str(process.pid)]
-        found = subprocess.run(listed, capture_output=True, text=True, check=False).stdout.splitlines()
-        return [int(line.split()[0]) for line in found if "spawn_main" in line]
+        found = psutil.Process(process.pid).children()
+        return [child.pid for child in found if any("spawn_main" in word for word in child.cmdline())]
 
     first = tubes.wait_for(workers)[0]
     time.sleep(seconds)

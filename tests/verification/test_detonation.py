@@ -14,8 +14,8 @@ from tests.verification.running import Line, crossing, finish, speed
 FOLDER = "problems/explosives"
 LENGTH = 50e-3
 #: an explosive whose products are an ideal gas of gamma = 3: Mader's problem, D = 8 km/s, P_CJ = 30 GPa
-GAMMA_LAW = ["materials.charge.eos.model=jwl", "materials.charge.eos.reference_density=1875", "materials.charge.eos.A=1",
-             "materials.charge.eos.B=1", "materials.charge.eos.R1=1", "materials.charge.eos.R2=1",
+GAMMA_LAW = ["materials.charge.eos.model=jwl", "materials.charge.eos.reference_density=1875", "materials.charge.eos.A=1 Pa",
+             "materials.charge.eos.B=1 Pa", "materials.charge.eos.R1=1", "materials.charge.eos.R2=1",
              "materials.charge.eos.omega=2", 'materials.charge.eos.detonation_energy="7.5 GPa"',
              "materials.charge.eos.detonation_velocity=8000", 'materials.charge.eos.cj_pressure="30 GPa"']  # fmt: skip
 EXPLOSIVES = {"TNT": [], "gamma law": GAMMA_LAW}

@@ -1,0 +1,98 @@
+"""What is measured of a shot does not hang on who moves: velocities of all bodies by V more, and roles exchanged."""
+
+import numpy as np
+import pytest
+
+from hydro2d.deck import deck
+from hydro2d.solver.simulation import Simulation
+from tests.decks import body, entry, mesh, plate, rod, stop, table
+
+#: keys that are velocities of the mesh's frame, and V more of them; those of energies, which have no such rule
+VELOCITIES = ("interface_velocity_m_s", "rod_mean_velocity_m_s", "rod_core_velocity_m_s", "rod_nose_velocity_m_s",
+              "rod_tail_velocity_m_s", "rod_residual_velocity_m_s", "exit_velocity_m_s", "ejected_velocity_m_s")  # fmt: skip
+ENERGIES = ("rod_initial_kinetic_energy_J", "rod_kinetic_energy_J")
+
+
+def shot(projectile: float, target: float, *, thickness: str = "20 mm", ball: bool = False) -> Simulation:
+    """A rod of 20 mm, or a ball, and a plate, with axial velocities in m/s, on a mesh that reaches far enough for either."""
+    flying = {"velocity": f"{projectile} m/s"}
+    first = (body("rod", "W_alloy", "sphere", centre="-3 mm", radius="3 mm", **flying) if ball
+             else rod("3 mm", "20 mm", nose="flat", tip=0.0, **flying))
+    return Simulation(deck.loads(
+        mesh(("12 mm", 12), ("-60 mm", "60 mm", "1 mm")) + first + plate(thickness, velocity=f"{target} m/s")
+        + table("penetration", rod="rod", target="plate") + entry("tracer", name="a", r="1 mm", z="5 mm") + stop("14 us")))
+
+
+def outputs(sim: Simulation) -> dict[str, float | None]:
+    """Numbers of the summary that concern the rod and the hole."""
+    found = sim.diagnostics() | {f"hole {key}": value for key, value in sim.of_targets()["plate"]["crater"].items()}
+    found |= {f"debris {key}": value for key, value in sim.of_targets()["plate"]["debris"].items()}
+    return {key: value for key, value in found.items() if isinstance(value, (int, float)) or value is None}
+
+
+def state_of(sim: Simulation, other: Simulation, by: float) -> None:
+    """Gives a simulation at its start the state of another one, with velocities by so much more."""
+    s, o = sim.state, other.state
+    for name in ("vof", "q", "centroid"):
+        getattr(s, name)[...] = getattr(o, name)
+    s.u[...], s.v[...] = o.u, o.v + by
+
+
+@pytest.mark.parametrize("ball", [False, True], ids=["rod", "ball"])
+@pytest.mark.parametrize("by", [-1000.0, 300.0, 2500.0])
+def test_the_same_state_measured_in_another_frame(by, ball):
+    """What is measured of one state, once as it is and once with V more and at the place that V takes the target to."""
+    at_rest, moving = shot(900.0, 0.0, ball=ball), shot(900.0 + by, by, ball=ball)
+    while at_rest.time < 4e-6:
+        at_rest.step()
+    way = round(by * at_rest.time / 1e-3)  # whole cells, so that the state is the same but for its place
+    moving.engine.time = way * 1e-3 / by
+    state_of(moving, at_rest, by)
+    for array in (moving.state.vof, moving.state.q, moving.state.centroid, moving.state.u, moving.state.v):
+        array[...] = np.roll(array, way, axis=-2)
+    one, other = outputs(at_rest), outputs(moving)
+    assert one["penetration_depth_m"] > 1.5e-3
+    for key, value in one.items():
+        name = key.removeprefix("hole ")
+        if name in ENERGIES:
+            continue
+        if value is None:
+            assert other[key] is None, key
+            continue
+        expected = value + by if name in VELOCITIES else value
+        assert other[key] == pytest.approx(expected, rel=1e-6, abs=1e-9 if name not in VELOCITIES else 1e-6), key
+    assert moving.diagnostics()["regime"] == at_rest.diagnostics()["regime"]
+
+
+@pytest.fixture(scope="module")
+def standing():
+    """A plate at rest, after 14 us."""
+    sim = shot(1000.0, 0.0)
+    sim.run()
+    return outputs(sim)
+
+
+@pytest.mark.parametrize("projectile", [500.0, 0.0, -400.0])
+def test_roles_are_exchanged(standing, projectile):
+    """Within 3 % of what comes where the plate is at rest: the mesh is crossed otherwise."""
+    sim = shot(projectile, projectile - 1000.0)
+    sim.run()
+    found = outputs(sim)
+    for key in ("penetration_depth_m", "rod_length_m", "hole depth_m", "hole volume_per_energy_m3_J"):
+        assert found[key] == pytest.approx(standing[key], rel=0.03), key
+    assert found["rod_core_velocity_m_s"] == pytest.approx(standing["rod_core_velocity_m_s"] + projectile - 1000.0, abs=20.0)
+    assert not sim.penetrator.perforates()
+
+
+@pytest.mark.parametrize("projectile", [1500.0, 0.0])
+def test_a_thin_plate_is_perforated_by_whoever_moves(projectile):
+    sim = shot(projectile, projectile - 1500.0, thickness="4 mm")
+    sim.run()
+    assert sim.penetrator.passages()[0]["exit_time_s"] == pytest.approx(6.5e-6, rel=0.15)
+    assert outputs(sim)["debris velocity_m_s"] == pytest.approx(1300.0, rel=0.1)
+
+
+def test_a_shot_in_which_only_the_plate_flies_is_not_over_at_once():
+    sim = shot(0.0, -1000.0)
+    assert not sim.penetrator.perforates()
+    assert sim.penetrator.depth() == 0.0
