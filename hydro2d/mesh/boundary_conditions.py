@@ -41,6 +41,16 @@ class BoundaryConditions:
         for n, edge in self._driven:  # the velocities of the others never change
             self.velocity[n] = edge.constrain(time)
 
+    def least_crossing(self, widths, start: float, end: float) -> tuple[float, str]:
+        """The least time in which what moves with an edge crosses a width, s, and the name of that edge.
+
+        widths : float[4], of the cells beside the edges, m;  start, end : between which the velocity of an edge counts, s
+
+        inf where no edge moves.
+        """
+        return min((width / speed if (speed := edge.fastest(start, end)) > 0.0 else np.inf, name)
+                   for name, edge, width in zip(EDGES, self.edges, widths, strict=True))
+
     @cached_property
     def sinks(self) -> list[str]:
         """Sinks of the edges' own, beside those that every run has."""
@@ -53,9 +63,10 @@ class BoundaryConditions:
             "holds": tuple(edge.holds() for edge in self.edges),
             "opens": tuple(edge.flow() != NOTHING for edge in self.edges),
             "supplies": tuple(edge.flow() == BOTH_WAYS for edge in self.edges),
+            "drives": tuple(any(edge.speeds()) for edge in self.edges),
             "transmits": tuple(edge.traction() == DASHPOTS for edge in self.edges),
         }
 
     def having(self, flag: str) -> tuple[bool, ...]:
-        """For each edge whether it mirrors, holds, opens, supplies or transmits; asked many times a cycle."""
+        """For each edge whether it mirrors, holds, opens, supplies, drives or transmits; asked many times a cycle."""
         return self._flags[flag]

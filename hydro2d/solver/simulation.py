@@ -438,7 +438,7 @@ class Simulation:
         e.box, e.speed_limit, self._sign = list(scalars["box"]), scalars["speed_limit"], scalars["sign"]
         self.grid.move(scalars["mesh_offset"])
         self._doubts = dict(scalars["doubts"])
-        e.audit = Audit.resume(scalars["audit"])
+        e.audit = Audit.resume(scalars["audit"], e.sound_speeds)
         self.sources.resume(scalars.get("sources", 0.0))  # files of earlier versions, which had no sources, say nothing
         if self.penetrator:
             self.penetrator.resume(scalars["penetrator"])
