@@ -61,7 +61,7 @@ def _source(random: np.random.Generator, kind: str) -> str:
     if kind == "heating":
         return entry("source", name="given", kind=kind, body="target", power=[[0.0, 1e11], [1e-6, 0.0]])
     if kind == "acceleration":
-        return entry("source", name="given", kind=kind, body="target", axial=float(random.uniform(-1e9, 1e9)))
+        return entry("source", name="given", kind=kind, body="target", axial=float(random.uniform(-1e8, 1e8)))
     return ""
 
 
@@ -69,11 +69,10 @@ def deck(seed: int, choices: Choices) -> str:
     """A metal that flies into a layer of another one, a gas beside them by chance, all on 10 by 16 to 12 by 24 cells."""
     random = np.random.default_rng([seed, *map(ord, str(choices))])
     geometry = str(random.choice(["planar", "cylindrical"]))
-    nr, nz = int(random.integers(8, 13)), int(random.integers(16, 25))
-    h, r_start = 1e-3, 0.0
+    nr, nz, h = int(random.integers(8, 13)), int(random.integers(16, 25)), 1e-3
     hard, soft = (str(name) for name in random.choice(METALS, 2, replace=False))
     middle = nz // 2 * h + float(random.uniform(-0.5, 0.5)) * h
-    text = mesh((r_start, nr * h, nr), (0.0, nz * h, nz), geometry=geometry,
+    text = mesh((nr * h, nr), (nz * h, nz), geometry=geometry,
                 **({"follow": "rod"} if choices.following else {}))
     radius = float(random.uniform(2.5, 6.0)) * h
     gap = float(random.choice([0.0, random.uniform(0.0, 2.0)])) * h
