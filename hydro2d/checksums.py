@@ -14,6 +14,8 @@ A file without one, of an earlier version or of another program, is read as it i
 from __future__ import annotations
 
 import hashlib
+import os
+from collections.abc import Callable
 from pathlib import Path
 from typing import NamedTuple
 
@@ -42,6 +44,10 @@ HDF5 = ".h5"
 KEY = "sha256"
 #: number of digits, and how many of them must still be digits for a damaged checksum to be known as one
 DIGITS, ENOUGH = 64, 48
+#: bytes in which the place of a checksum can be seen, and of a piece that is read at once
+BEGIN, PIECE = 1 << 10, 1 << 24
+#: bytes that a text and any other file may have
+MOST_TEXT, MOST_DATA = 1 << 28, 1 << 36
 #: offset in an HDF5 file of the address of its end, by the version of its superblock
 _ENDS = {0: 40, 1: 44, 2: 28, 3: 28}
 
@@ -62,25 +68,50 @@ def seal(file: Path, suffix: str) -> None:
     file.write_bytes(sealed(file.read_bytes(), suffix))
 
 
-def verified(path: Path, error: type[Error]) -> bytes:
-    """The contents of a file with their checksum, which fits.
+def verify(path: Path, error: type[Error]) -> None:
+    """Checks a file with its checksum, piece by piece.
 
-    Raises `error` with one line if the file cannot be read, and StrangeFile.
+    Raises `error` with one line if the file cannot be read or does not fit its checksum, and StrangeFile.
     """
+    _verified(path, error, MOST_DATA, lambda piece: None)
 
+
+def verified(path: Path, error: type[Error]) -> bytes:
+    """The contents of a text file with their checksum, which fits. Raises what `verify` raises."""
+    pieces: list[bytes] = []
+    _verified(path, error, MOST_TEXT, pieces.append)
+    return b"".join(pieces)
+
+
+def _verified(path: Path, error: type[Error], most: int, take: Callable[[bytes], object]) -> None:
+    """Checks a file of at most so many bytes and gives away its contents, piece by piece."""
     path = own(Path(path))
     try:
         if path.is_dir():
             raise error(f"{path} cannot be read: it is not a file")
-        data = path.read_bytes()
+        with open(path, "rb") as file:
+            size = os.fstat(file.fileno()).st_size
+            if size > most:
+                raise error(f"{path} cannot be read: it has {size} bytes; at most {most} are allowed")
+            begin = file.read(BEGIN)
+            file.seek(max(size - DIGITS, 0))
+            place, written = _place(begin, file.read(), size, path.suffix), b""
+            file.seek(0)
+            digest = hashlib.sha256()
+            for length, counts in ((size, True),) if place is None else ((place, True), (DIGITS, False), (size, True)):
+                while length and (piece := file.read(min(length, PIECE))):
+                    length -= len(piece)
+                    take(piece)
+                    if counts:
+                        digest.update(piece)
+                    else:
+                        written += piece
     except OSError as problem:
         raise error(f"{path} cannot be read: {problem.strerror}") from None
-    if not data and path.suffix in FORMS:
+    if not size and path.suffix in FORMS:
         raise error(f"{path} cannot be read: it is empty")
-    at = _place(data, path.suffix)
-    if at is not None and _digest(data[:at], data[at + DIGITS :]) != data[at : at + DIGITS]:
+    if place is not None and digest.hexdigest().encode() != written:
         raise error(f"{path} does not fit its checksum: it was damaged or changed since it was written; {_remedy(path.suffix)}")
-    return data
 
 
 def verified_text(path: Path, error: type[Error]) -> str:
@@ -102,17 +133,20 @@ def _digest(*parts: bytes) -> bytes:
     return digest.hexdigest().encode()
 
 
-def _place(data: bytes, suffix: str) -> int | None:
-    """Where a file has the digits of its checksum; None if it has no checksum."""
+def _place(begin: bytes, end: bytes, size: int, suffix: str) -> int | None:
+    """Where a file of a size has the digits of its checksum; None if it has no checksum.
+
+    begin, end : its first and last bytes, BEGIN and DIGITS of them
+    """
     if suffix == HDF5:
-        at = len(data) - DIGITS
-        return at if at > 0 and (_is_digits(data[at:]) or _is_longer(data)) else None
+        at = size - DIGITS
+        return at if at > 0 and (_is_digits(end) or _is_longer(begin, size)) else None
     if suffix not in FORMS:
         return None
     head = FORMS[suffix].begin + FORMS[suffix].before
     at = len(head)
-    begun = data.startswith(head) or (0 < len(data) < at and head.startswith(data))
-    return at if begun or _is_digits(data[at : at + DIGITS]) else None
+    begun = begin.startswith(head) or (0 < len(begin) < at and head.startswith(begin))
+    return at if begun or _is_digits(begin[at : at + DIGITS]) else None
 
 
 def _is_digits(data: bytes) -> bool:
@@ -120,10 +154,10 @@ def _is_digits(data: bytes) -> bool:
     return sum(byte in b"0123456789abcdef" for byte in data) >= ENOUGH
 
 
-def _is_longer(data: bytes) -> bool:
+def _is_longer(begin: bytes, size: int) -> bool:
     """Whether anything stands behind the end of an HDF5 file."""
-    at = _ENDS.get(data[8]) if data.startswith(b"\x89HDF\r\n\x1a\n") else None
-    return at is not None and len(data) > int.from_bytes(data[at : at + 8], "little")
+    at = _ENDS.get(begin[8]) if begin.startswith(b"\x89HDF\r\n\x1a\n") and len(begin) > 8 else None
+    return at is not None and size > int.from_bytes(begin[at : at + 8], "little")
 
 
 def _remedy(suffix: str) -> str:

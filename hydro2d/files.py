@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import fcntl
 import json
 import math
@@ -14,7 +15,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import NamedTuple, TextIO
 
-from hydro2d.checksums import KEY, sealed, verified_text
+from hydro2d.checksums import KEY, MOST_TEXT, sealed, verified_text
 from hydro2d.errors import Error
 from hydro2d.strange import StrangeFile, opened
 
@@ -33,9 +34,11 @@ def replacing(path: Path) -> Iterator[Path]:
     """Gives a temporary name in the same folder, which is renamed to `path` on success and removed on an exception."""
     path = Path(path)
     temporary = path.with_name(f".{path.name}.{os.getpid()}.{secrets.token_hex(4)}.tmp")  # no link can wait at a random name
+    check_place(path)
     try:
         yield temporary
         sync(temporary)
+        check_place(path)
         os.replace(temporary, path)
         sync(path.parent)
     except OSError as error:
@@ -66,6 +69,8 @@ def read_text(path: Path, error: type[Error]) -> str:
     """The text of a file that a user wrote. Raises `error` with one line if it cannot be read, or is not UTF-8 text."""
     try:
         with opened(path, encoding="utf-8-sig", links=True) as file:
+            if (size := os.fstat(file.fileno()).st_size) > MOST_TEXT:
+                raise error(f"{path}: cannot be read: it has {size} bytes; at most {MOST_TEXT} are allowed")
             return file.read()
     except StrangeFile as problem:
         raise error(str(problem)) from None
@@ -82,12 +87,18 @@ def write_text(path: Path, text: str, *, checksum: bool = False) -> None:
         temporary.write_bytes(sealed(data, Path(path).suffix) if checksum else data)
 
 
+#: errors of a file system on which this process may not write
+READ_ONLY = (errno.EROFS, errno.EACCES, errno.EPERM)
 #: letters of a lock file that are read
 MOST_SAID = 1000
 
 
 class LockError(Error):
     """A directory in use by another process; the message is for the user."""
+
+
+class LostPlaceError(Error):
+    """A directory that was removed, renamed or taken by another process while this one worked in it; for the user."""
 
 
 class Holder(NamedTuple):
@@ -131,6 +142,8 @@ def locked(path: Path) -> Iterator[None]:
 
     On one machine, the lock belongs to the operating system (flock). It ends with the process, however that ends, and a process
     number that is used again cannot imitate it. Between machines, the contents of the file count; it is removed at the end.
+    As long as the lock is held, `replacing` and `remove` refuse to touch anything beside or below it that is no longer beside
+    or below this very file.
 
     Raises LockError if another process holds the lock.
     """
@@ -152,11 +165,37 @@ def locked(path: Path) -> Iterator[None]:
             file.truncate(0)
             file.write(f"{socket.gethostname()} {os.getpid()}\n")
             file.flush()
+            place = Path(os.path.abspath(path.parent))
+            _held.setdefault(place, []).append((file, path))
             try:
                 yield
             finally:
-                path.unlink(missing_ok=True)
+                _held[place].remove((file, path))
+                if _is_at(file, path):
+                    path.unlink(missing_ok=True)
             return
+
+
+#: the locks that this process holds, by the absolute path of their directory
+_held: dict[Path, list[tuple[TextIO, Path]]] = {}
+
+
+def check_place(path: Path) -> None:
+    """Raises LostPlaceError if this process has locked a directory in which a path is, and the lock is no longer there.
+
+    The directory is then another one: it was removed or renamed, and may be another process's by now.
+    """
+    for place in Path(os.path.abspath(path)).parents:
+        for file, lock in _held.get(place, ()):
+            if not _is_at(file, lock):
+                raise LostPlaceError(f"{place} was removed, renamed or taken by another process since this one began to write "
+                                     "there; nothing more is written")  # fmt: skip
+
+
+def remove(path: Path) -> None:
+    """Removes a file, if it exists. Raises LostPlaceError."""
+    check_place(path)
+    path.unlink(missing_ok=True)
 
 
 def _said(text: str) -> Holder | None:
@@ -169,7 +208,7 @@ def _is_at(file: TextIO, path: Path) -> bool:
     """Whether an open file is still the file with this name."""
     try:
         return os.path.samestat(os.fstat(file.fileno()), os.stat(path))
-    except FileNotFoundError:
+    except (FileNotFoundError, NotADirectoryError):
         return False
 
 
@@ -214,12 +253,20 @@ def write_json(path: Path, value) -> None:
 def turn(file: Path) -> Iterator[None]:
     """Waits until no other process is in such a block with this file, and makes others wait. Makes the file if necessary.
 
-    The turn ends with the process, however that ends. For short work on one machine.
+    The turn ends with the process, however that ends. For short work on one machine. Where the file cannot be made because
+    nothing may be written, no other process writes either, and there is nothing to wait for.
     """
-    file.parent.mkdir(parents=True, exist_ok=True)
-    handle = os.open(file, os.O_CREAT | os.O_RDWR)
     try:
-        fcntl.flock(handle, fcntl.LOCK_EX)
+        file.parent.mkdir(parents=True, exist_ok=True)
+        handle = os.open(file, os.O_CREAT | os.O_RDWR)
+    except OSError as error:
+        if error.errno not in READ_ONLY:
+            raise
+        handle = None
+    try:
+        if handle is not None:
+            fcntl.flock(handle, fcntl.LOCK_EX)
         yield
     finally:
-        os.close(handle)
+        if handle is not None:
+            os.close(handle)

@@ -104,6 +104,20 @@ def raise_between_imports() -> None:
             signal.signal(number, handle)
 
 
+def open_closed_streams() -> None:
+    """Opens those of the three standard streams that the process was started without: nothing is read, or all is discarded.
+
+    To be called before anything else is opened, which would get their numbers.
+    """
+    for number, (name, mode) in enumerate((("stdin", "r"), ("stdout", "w"), ("stderr", "w"))):
+        if getattr(sys, name) is None:
+            nowhere = os.open(os.devnull, os.O_RDWR)
+            if nowhere != number:
+                os.dup2(nowhere, number)
+                os.close(nowhere)
+            setattr(sys, name, open(number, mode, encoding="utf-8", closefd=False))
+
+
 def lose_output() -> None:
     """Discards all further output, because the reader of the standard output has gone."""
     nowhere = os.open(os.devnull, os.O_WRONLY)

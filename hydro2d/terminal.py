@@ -8,6 +8,8 @@ from __future__ import annotations
 
 import sys
 import unicodedata
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import TextIO
 
 #: categories of characters that are not shown but change what is: control, direction of writing, lines
@@ -34,6 +36,27 @@ def one_line(text: object) -> str:
     return shown(text).replace("\n", "\\n")
 
 
+def cell(text: str) -> str:
+    """A text as a cell or a head of a CSV file: none that a spreadsheet would take for a formula."""
+    return f"'{text}" if text.startswith(("=", "+", "-", "@", "\t", "\r")) else text
+
+
 def say(text: object, file: TextIO | None = None, flush: bool = False) -> None:
-    """Prints a text; file : default: the standard output."""
-    print(shown(text), file=file or sys.stdout, flush=flush)
+    """Prints a text; file : default: the standard output. Raises OSError, which names the stream."""
+    with _named():
+        print(shown(text), file=file or sys.stdout, flush=flush)
+
+
+def flush() -> None:
+    """Writes what was printed and not yet written. Raises OSError, which names the stream."""
+    with _named():
+        sys.stdout.flush()
+
+
+@contextmanager
+def _named() -> Iterator[None]:
+    try:
+        yield
+    except OSError as error:
+        error.filename = error.filename or "the standard output"
+        raise

@@ -67,7 +67,8 @@ class Simulation:
         q = np.zeros((len(BODY), 2, *shape))
         self.state = SimpleNamespace(
             vof=body(), q=q, **{field.symbol: row for field, row in zip(BODY, q, strict=True)},
-            u=vertex(), v=vertex(), mass=vertex() + 1.0, group=np.zeros(2, dtype=np.int64), groups=1,
+            centroid=np.zeros((2, 2, *shape)), u=vertex(), v=vertex(), mass=vertex() + 1.0,
+            group=np.zeros(2, dtype=np.int64), groups=1,
         )  # fmt: skip
         rows = [library.load(name) for name in ("W_alloy", "Al5083")]
         self.table = SimpleNamespace(

@@ -12,6 +12,7 @@ import numpy as np
 from hydro2d.files import replacing
 from hydro2d.materials import curves
 from hydro2d.materials.material import Material
+from hydro2d.terminal import cell
 
 
 @dataclass(frozen=True)
@@ -59,7 +60,7 @@ def write_csv(found: Sequence[Curve], path: Path) -> None:
         writer.writerow(["material", "model", "rate [1/s]", "plastic strain", "flow stress [Pa]", "temperature [K]"])
         for each in found:
             for strain, stress, T in zip(each.strains, each.stress, each.temperature, strict=True):
-                row = [each.material.name, each.material.strength.name, each.rate, strain, float(stress), float(T)]
+                row = [cell(each.material.name), each.material.strength.name, each.rate, strain, float(stress), float(T)]
                 writer.writerow(row)
 
 

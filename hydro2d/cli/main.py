@@ -25,8 +25,8 @@ from hydro2d.cli.status import status
 from hydro2d.cli.study import sweep, transition
 from hydro2d.cli.tabulate import tabulate
 from hydro2d.cli.view import view
-from hydro2d.interrupt import STATUS, Interrupt, ended_by, lose_output, raise_between_imports, signals
-from hydro2d.terminal import say
+from hydro2d.interrupt import STATUS, Interrupt, ended_by, lose_output, open_closed_streams, raise_between_imports, signals
+from hydro2d.terminal import flush, say
 
 WRONG_INPUT, REFUSED = 2, 4
 
@@ -35,6 +35,7 @@ app = App(
     version=__version__,
     help="A two-dimensional axisymmetric Eulerian hydrocode for impact: rods, balls and plates.",
     help_format="plaintext",
+    default_parameter=Parameter(json_list=False, json_dict=False),  # "[1]" is the name of a directory
     suppress_keyboard_interrupt=False,  # `call` knows by which signal a command ends
     help_epilogue="Exit status: 0 success; 2 wrong deck or arguments; 3 unphysical state or failed cases; 4 refused by the "
     "machine (disk, memory, permissions); 129, 130, 141, 143 ended by SIGHUP, SIGINT, a closed pipe, SIGTERM.",
@@ -68,14 +69,14 @@ USER_ERRORS = (
 )
 
 
-def _user_errors() -> tuple[type[Exception], ...]:
-    """Exceptions that are reported as one message, without a traceback."""
-    found: list[type[Exception]] = [UsageError]
-    for module, name in USER_ERRORS:
-        loaded = sys.modules.get(f"hydro2d.{module}")
-        if loaded is not None:
-            found.append(getattr(loaded, name))
-    return tuple(found)
+#: the same for what the machine refuses
+REFUSALS = (("files", "LostPlaceError"),)
+
+
+def _loaded(errors: tuple[tuple[str, str], ...]) -> tuple[type[Exception], ...]:
+    """The exceptions of those modules that are loaded. They are reported as one message, without a traceback."""
+    modules = ((sys.modules.get(f"hydro2d.{module}"), name) for module, name in errors)
+    return tuple(getattr(module, name) for module, name in modules if module is not None)
 
 
 def _set_threads(threads: int | None) -> None:
@@ -289,6 +290,7 @@ def schema() -> int:
 
 def main(arguments: list[str] | None = None) -> None:
     """Runs the command line and exits with its status."""
+    open_closed_streams()
     raise_between_imports()
     sys.exit(call(sys.argv[1:] if arguments is None else arguments))
 
@@ -301,7 +303,7 @@ def call(arguments: list[str]) -> int:
     try:
         refuse_old_names(arguments)
         status = app(arguments, exit_on_error=False, print_error=False, result_action="return_value")
-        sys.stdout.flush()
+        flush()
         return status if isinstance(status, int) else 0
     except cyclopts.CycloptsError as error:
         return _told(error, WRONG_INPUT)
@@ -310,7 +312,9 @@ def call(arguments: list[str]) -> int:
     except BrokenPipeError:
         lose_output()
         return STATUS["SIGPIPE"]
-    except _user_errors() as error:
+    except _loaded(REFUSALS) as error:
+        return _told(error, REFUSED)
+    except (UsageError, *_loaded(USER_ERRORS)) as error:
         return _told(error, WRONG_INPUT)
     except MemoryError as error:
         return _told(f"not enough memory{f': {error}' if str(error) else ''}", REFUSED)

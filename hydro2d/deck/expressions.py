@@ -16,6 +16,7 @@ from fractions import Fraction
 
 from hydro2d import units
 from hydro2d.errors import unknown
+from hydro2d.parsing import parsed
 
 #: exponents of m, kg, s, K
 Dimension = tuple[Fraction, ...]
@@ -88,7 +89,7 @@ def parse(text: str, known: Mapping[str, str]) -> Expression:
     if len(text) > LONGEST:
         raise ExpressionError(f"is longer than {LONGEST} characters")
     try:
-        tree = ast.parse(text.strip(), mode="eval").body
+        tree = parsed(text.strip(), "eval").body
     except (SyntaxError, ValueError, RecursionError, MemoryError):
         raise ExpressionError(f'"{text}" is not a formula, such as "depth / length0"') from None
     parser = _Parser(text, known)

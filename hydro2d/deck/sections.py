@@ -179,7 +179,8 @@ class Failure(Section):
 class Stop(Section):
     """When the run ends: at the first of these conditions. The speed of a body is checked every 10 cycles.
 
-    If the speed of the projectile, its rebound or perforation is watched, the run also ends when it has left the mesh.
+    If the speed of the projectile, its rebound or perforation is watched, the run also ends when it has left the mesh. A body
+    that is slower than `speed_below` at the start is waited for until it has been faster.
     """
 
     time: PositiveTime | None = Field(None, description="end time", examples=["400 us"])
@@ -189,7 +190,7 @@ class Stop(Section):
         None, description="stop when the axial speed of that body's centre of mass, for a rod of its core, falls below this",
         examples=["5 m/s"],
     )
-    rebound: bool = Field(False, description="stop when that body reverses its direction")
+    rebound: bool = Field(False, description="stop when that body reverses the direction in which it first moved")
     perforation: Literal[False, True, "tail"] = Field(
         False, description="stop when the nose of the projectile is its radius beyond the rear face of the last target; tail: "
         "when its tail is beyond that face too"

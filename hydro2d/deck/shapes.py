@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -72,6 +73,13 @@ class Slab:
     inner: Line | Arc
     outer: Line | Arc
 
+    def chords_along_z(self, r: float) -> list[tuple[float, float]]:
+        """The pieces of the line at r that lie in the slab, from one crossing of a curve to the next."""
+        crossings = [curve.z_at(r, self.low, self.high) for curve in (self.inner, self.outer) if not curve.constant]
+        ends = sorted({self.low, self.high, *crossings})
+        middles = [0.5 * (low + high) for low, high in pairwise(ends)]
+        return [piece for piece, z in zip(pairwise(ends), middles, strict=True) if self.inner.r(z) < r < self.outer.r(z)]
+
 
 @dataclass(frozen=True)
 class Outline:
@@ -85,6 +93,12 @@ class Outline:
             return min(slab.low for slab in self.slabs), max(slab.high for slab in self.slabs)
         ends = [(slab, z) for slab in self.slabs for z in (slab.low, slab.high)]
         return min(slab.inner.r(z) for slab, z in ends), max(slab.outer.r(z) for slab, z in ends)
+
+    def chords(self, axis: str, at: float) -> list[tuple[float, float]]:
+        """The pieces of a line along "r" or "z" that lie in the body; ``at`` is the line's other coordinate."""
+        if axis == "r":
+            return [(slab.inner.r(at), slab.outer.r(at)) for slab in self.slabs if slab.low < at < slab.high]
+        return [chord for slab in self.slabs for chord in slab.chords_along_z(at)]
 
 
 def _solid(low: float, high: float, outer: Line | Arc) -> Slab:

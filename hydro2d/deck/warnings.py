@@ -7,8 +7,9 @@ from collections.abc import Iterator
 import numpy as np
 
 from hydro2d.deck.checks import AHEAD, extent, room
-from hydro2d.deck.mesh import axis_edges, body, cells_between, misfits
+from hydro2d.deck.mesh import axis_edges, body, misfits
 from hydro2d.deck.sections import Deck
+from hydro2d.deck.thin import thin_things
 from hydro2d.materials.material import Material
 from hydro2d.mesh.edges.registry import BY_NAME
 from hydro2d.sources.detonation import EXPLOSIVES
@@ -17,13 +18,11 @@ from hydro2d.sources.detonation import EXPLOSIVES
 GAS = 0.01
 #: a rod needs at least this many cells across its radius to behave like one
 CELLS_ACROSS_RADIUS = 5
-#: any other body needs at least this many cells across
-CELLS_ACROSS = 4
 
 
 def warnings(deck: Deck) -> list[str]:
     """What is allowed but unwise, one sentence each, as `hydro2d check` and the start of a run show it."""
-    return [*misfits(deck), *_coarse_rods(deck), *_coarse_bodies(deck), *_leaving(deck), *_jumps(deck), *_short_mesh(deck),
+    return [*misfits(deck), *_coarse_rods(deck), *thin_things(deck), *_leaving(deck), *_jumps(deck), *_short_mesh(deck),
             *_yielding_rods(deck), *_no_failure(deck), *_gases(deck), *_duds(deck)]
 
 
@@ -37,21 +36,6 @@ def _coarse_rods(deck: Deck) -> Iterator[str]:
                     f'body "{entry.name}": {cells:.1f} cells across the radius; below {CELLS_ACROSS_RADIUS} a rod is '
                     "neither rigid nor round"
                 )
-
-
-def _coarse_bodies(deck: Deck) -> Iterator[str]:
-    """Bodies with too few cells across for waves in them. Of bodies that the mesh cuts off, only the part inside counts."""
-    for entry in deck.body:
-        if entry.join is not None:
-            continue
-        for axis in ("r", "z"):
-            if entry.shape == "rod" and axis == "r":
-                continue
-            edges, (low, high) = axis_edges(deck, axis), extent(entry, deck, axis)
-            low, high = np.clip((low, high), edges[0], edges[-1])
-            cells = cells_between(edges, low, high)
-            if 0.0 < cells < CELLS_ACROSS - 1e-9 and not (low == edges[0] and high == edges[-1]):
-                yield f'body "{entry.name}": {cells:.1f} cells across it along {axis}; waves in it need at least {CELLS_ACROSS}'
 
 
 def _leaving(deck: Deck) -> Iterator[str]:

@@ -26,6 +26,7 @@ from types import ModuleType
 import numba
 
 from hydro2d.files import replacing
+from hydro2d.parsing import parsed
 
 #: this package, and the folder that holds hydro2d, eos and strength
 HERE = Path(__file__).resolve().parent
@@ -85,7 +86,7 @@ def folder_for(files: Iterable[Path], models: Iterable[str] = ()) -> str:
 def _imported(file: Path) -> frozenset[Path]:
     """The files of hydro2d, eos and strength that a file imports, and the packages that they are in."""
     names = set()
-    for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
+    for node in ast.walk(parsed(file.read_text(encoding="utf-8"))):
         if isinstance(node, ast.Import):
             names |= {alias.name for alias in node.names}
         elif isinstance(node, ast.ImportFrom) and node.module:

@@ -15,9 +15,10 @@ from hydro2d.physics.waves import impedances
 @apart
 def fill(m, j, i, from_j, from_i, mirror, fields, rules, vof, q, centroid):
     """Makes cell (j, i) of body m a copy or, in a mirror, an image of cell (from_j, from_i)."""
+    if 0.0 < vof[m, j, i] < 1.0 or 0.0 < vof[m, from_j, from_i] < 1.0:  # else it is 0 and stays so
+        centroid[0, m, j, i] = -centroid[0, m, from_j, from_i] if mirror and j == from_j else centroid[0, m, from_j, from_i]
+        centroid[1, m, j, i] = -centroid[1, m, from_j, from_i] if mirror and i == from_i else centroid[1, m, from_j, from_i]
     vof[m, j, i] = vof[m, from_j, from_i]
-    centroid[0, m, j, i] = -centroid[0, m, from_j, from_i] if mirror and j == from_j else centroid[0, m, from_j, from_i]
-    centroid[1, m, j, i] = -centroid[1, m, from_j, from_i] if mirror and i == from_i else centroid[1, m, from_j, from_i]
     for k in range(fields):
         q[k, m, j, i] = -q[k, m, from_j, from_i] if mirror and rules[m, k, PARITY] < 0.0 else q[k, m, from_j, from_i]
 

@@ -6,7 +6,7 @@ explanation/interfaces, thin bodies.
 from hydro2d.jit import kernel, point
 from hydro2d.kernels.interfaces import NOTHING
 from hydro2d.kernels.mixed_scratch import BEFORE, SHIFT_R, SHIFT_Z
-from hydro2d.physics.centroids import pushed, within
+from hydro2d.physics.centroids import side, within
 
 #: share of a cell from which a body filled it before a sweep, to round-off
 FULL = 1.0 - 1e-9
@@ -107,19 +107,28 @@ def push_bodies(j, i, vof, centroid, mix):
         void_r, void_z = within(void_r / void, void), within(void_z / void, void)
     inside = gained * gained / (void + gained) if gained > 0.0 else 0.0  # of the new void, what opens in the bodies
     for m in range(bodies):
-        f = mix[j, BEFORE, m]
         mix[j, SHIFT_R, m], mix[j, SHIFT_Z, m] = 0.0, 0.0
+    for m in range(bodies):
+        f = mix[j, BEFORE, m]
         if f == 0.0:
             continue
-        for k in range(bodies):
+        change = vof[m, j, i] - f
+        change += inside * max(-change, 0.0) / shrunk if inside > 0.0 else 0.0
+        for k in range(m + 1, bodies):
             other = mix[j, BEFORE, k]
-            if k != m and other > 0.0:
-                change = vof[k, j, i] - other
-                change += inside * max(-change, 0.0) / shrunk if inside > 0.0 else 0.0
-                mix[j, SHIFT_R, m] += pushed(centroid[0, m, j, i], centroid[0, k, j, i], f, other, change)
-                mix[j, SHIFT_Z, m] += pushed(centroid[1, m, j, i], centroid[1, k, j, i], f, other, change)
-        mix[j, SHIFT_R, m] += pushed(centroid[0, m, j, i], void_r, f, void, gained - inside)
-        mix[j, SHIFT_Z, m] += pushed(centroid[1, m, j, i], void_z, f, void, gained - inside)
+            if other == 0.0:
+                continue
+            change_other = vof[k, j, i] - other
+            change_other += inside * max(-change_other, 0.0) / shrunk if inside > 0.0 else 0.0
+            along_r = side(centroid[0, m, j, i], centroid[0, k, j, i], f, other)
+            along_z = side(centroid[1, m, j, i], centroid[1, k, j, i], f, other)
+            mix[j, SHIFT_R, m] += 0.5 * change_other * along_r
+            mix[j, SHIFT_Z, m] += 0.5 * change_other * along_z
+            mix[j, SHIFT_R, k] -= 0.5 * change * along_r
+            mix[j, SHIFT_Z, k] -= 0.5 * change * along_z
+        if gained != inside:
+            mix[j, SHIFT_R, m] += 0.5 * (gained - inside) * side(centroid[0, m, j, i], void_r, f, void)
+            mix[j, SHIFT_Z, m] += 0.5 * (gained - inside) * side(centroid[1, m, j, i], void_z, f, void)
     for m in range(bodies):
         if mix[j, BEFORE, m] > 0.0:
             centroid[0, m, j, i] = within(centroid[0, m, j, i] + mix[j, SHIFT_R, m], vof[m, j, i])

@@ -134,7 +134,9 @@ def contact_work(part, parts, dt, metrics, dz, contact_columns, group, aperture_
 
 @kernel
 def contact_shares(part, parts, mesh_box, contact_columns, volume, pre, vof, own_share, size):
-    """Fractions of the cell as it stands on the mesh, in contact-interface cells and two around them.
+    """Fractions of the cell as it stands on the mesh, in contact-interface cells and three around them.
+
+    What flows out of the next cell is worked out as well, from the interfaces in it, for which 5 x 5 fractions are read.
 
     The volume before a sweep is what both groups leave of the cell. Neither is stretched by what the other does: a line that
     follows that volume would move and turn without its body. In void the bodies fill no more than the cell. Both rules come in
@@ -144,8 +146,8 @@ def contact_shares(part, parts, mesh_box, contact_columns, volume, pre, vof, own
     Writes   own_share [m, j, i], the fractions; size [j, i] (m^3), the volume that they are of
     """
     j0, j1 = outer_rows(parts)
-    for j in range(first_row(part, parts, 2), past_row(part, parts, 2)):
-        lo, hi = union(contact_columns, max(j - 2, j0), min(j + 3, j1))
+    for j in range(max(first_row(part, parts, 3), 0), min(past_row(part, parts, 3), vof.shape[1])):
+        lo, hi = union(contact_columns, max(j - 3, j0), min(j + 4, j1))
         for i in range(max(lo - 3, 0), min(hi + 3, vof.shape[2])):
             total, largest = 0.0, 0.0
             for m in range(vof.shape[0]):
@@ -231,11 +233,11 @@ def contact_fluxes(dj, di, part, parts, mesh_box, dr, dz, hard_first, soft_first
                     if contact_columns[row, 0] <= column < contact_columns[row, 1]:
                         w = line[HARD_FIRST if group[m] == 1 else SOFT_AFTER, row, column]
                     if w > 0.0:
-                        fill_strips(row, column, dj == 1, w_low, w_high, 0.0, hard_first, own_share, void, group, gases,
+                        fill_strips(row, column, m, dj == 1, w_low, w_high, 0.0, hard_first, own_share, void, group, gases,
                                     centroid, dr, dz, strips[j])
                         given, along, across = w * strip[SHARE, m], w * strip[ALONG, m], w * strip[ACROSS, m]
                     if w < 1.0:
-                        fill_strips(row, column, dj == 1, w_low, w_high, 0.0, soft_first, own_share, void, group, gases,
+                        fill_strips(row, column, m, dj == 1, w_low, w_high, 0.0, soft_first, own_share, void, group, gases,
                                     centroid, dr, dz, strips[j])
                         given += (1.0 - w) * strip[SHARE, m]
                         along += (1.0 - w) * strip[ALONG, m]

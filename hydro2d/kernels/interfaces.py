@@ -8,7 +8,7 @@ stated order bounds their cumulative fraction, void comes last.
 
 from hydro2d.jit import apart, kernel, point, rowwise
 from hydro2d.kernels.column_ranges import columns, outer_rows, past_row
-from hydro2d.physics.centroids import beside, box_piece, goes_on, piece, placed, within
+from hydro2d.physics.centroids import beside, box_piece, forms, goes_on, piece, placed, within
 from hydro2d.physics.interfaces import add_body, at_most_full, cumulative, nested, surface
 from hydro2d.physics.traction import smoothstep
 
@@ -16,10 +16,16 @@ from hydro2d.physics.traction import smoothstep
 SHARE, ALONG, ACROSS, THIN = range(4)
 #: no fraction of anything in the cells of `add_body`
 NO_BODY = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+#: no normal and no corner (`surface`)
+NO_SURFACE = (0.0, 0.0, 0.0, 0.0, 0.0)
+#: no body is the last of `nest`
+ALL = -1
 #: a share of a cell with less than this lies nowhere in particular
 NOTHING = 1e-14
 #: share of a gas in a cell, or of both groups of a contact around it, from which it is theirs in full
 MEETING = 1e-6
+#: share of void from which bodies of a contact no longer keep their order in a cell
+PARTING = 0.1
 #: share of a cell that leaves it from which its interfaces determine the centroids; of less, none of which may decide, less
 SWEPT = 0.1
 
@@ -85,37 +91,74 @@ def donor_volumes_row(j, dj, di, i0, i1, open_faces, body_ranges, f_face, vof, f
 
 
 @point
-def thinnest_body(j, i, in_order, order, share, thin):
-    """How thin the thinnest body of cell (j, i) is, 0 to 1 (`placed`), as far as bodies do not keep their order.
-
-    0 where no two bodies meet.
-
-    Writes   thin [m], that of each
-    """
-    present, thinnest = 0, 0.0
-    for m in range(order.shape[0]):
-        thin[m] = 0.0
-        if share[m, j, i] > 0.0:
-            present += 1
-            if in_order < 1.0:
-                thin[m] = (1.0 - in_order) * (1.0 - placed(add_body(m, j, i, share, NO_BODY)))
-                thinnest = max(thinnest, thin[m])
-    return thinnest if present > 1 else 0.0
+def most_of(m, j, i, share):
+    """The largest fraction of a body in 3 x 3 cells."""
+    most = 0.0
+    for row in range(j - 1, j + 2):
+        for column in range(i - 1, i + 2):
+            most = max(most, share[m, row, column])
+    return most
 
 
 @point
-def keeps_order(j, i, group, gases, share):
-    """How far, 0 to 1, bodies of a cell keep their order, and void has no box: where a gas is, and beside another group."""
-    gas, hard, soft = 0.0, 0.0, 0.0
+def thinnest_body(j, i, in_order, order, share, thin):
+    """How thin the thinnest body of cell (j, i) is, 0 to 1 (`placed`), as far as bodies do not keep their order.
+
+    0 where only one is in the cell and around it.
+
+    Writes   thin [m], that of each, where some is above 0
+    """
+    if in_order == 1.0:
+        return 0.0
+    near = 0
+    for m in range(order.shape[0]):
+        near += 1 if most_of(m, j, i, share) > 0.0 else 0
+    if near < 2:
+        return 0.0
+    thinnest = 0.0
+    for m in range(order.shape[0]):
+        thin[m] = 0.0
+        if share[m, j, i] > 0.0:
+            thin[m] = (1.0 - in_order) * (1.0 - placed(add_body(m, j, i, share, NO_BODY)))
+            thinnest = max(thinnest, thin[m])
+    return thinnest
+
+
+@point
+def keeps_order(j, i, group, gases, share, void):
+    """How far, 0 to 1, the bodies of a cell keep their order, and how far void has no box in it.
+
+    Both where a gas is, and where the groups of a contact meet in 3 x 3 cells; there the bodies keep their order only as far as
+    no void parts them. void : the share of the cell that is empty
+    """
+    gas, hard, soft, hards = 0.0, 0.0, 0.0, 0
     for m in range(group.shape[0]):
         gas += share[m, j, i] if gases[m] else 0.0
-        most = 0.0
-        for row in range(j - 1, j + 2):
-            for column in range(i - 1, i + 2):
-                most = max(most, share[m, row, column])
-        hard = max(hard, most if group[m] == 1 else 0.0)
-        soft = max(soft, 0.0 if group[m] == 1 else most)
-    return smoothstep(max(gas, min(hard, soft)) / MEETING)
+        hards += group[m]
+    if hards > 0 and hards < group.shape[0]:
+        for m in range(group.shape[0]):
+            hard = max(hard, share[m, j, i] if group[m] == 1 else 0.0)
+            soft = max(soft, 0.0 if group[m] == 1 else share[m, j, i])
+        if min(hard, soft) < MEETING:
+            for m in range(group.shape[0]):
+                most = most_of(m, j, i, share)
+                hard = max(hard, most if group[m] == 1 else 0.0)
+                soft = max(soft, 0.0 if group[m] == 1 else most)
+    of_gas, of_contact = smoothstep(gas / MEETING), smoothstep(min(hard, soft) / MEETING)
+    return max(of_gas, of_contact * (1.0 - smoothstep(void / PARTING))), max(of_gas, of_contact)
+
+
+@point
+def own_box(place, width, high):
+    """What a strip has of a body's box, as `line_piece` gives it; place : fraction, centroid, how far it goes on, or none."""
+    fraction, along, across, continues, boxed = place
+    return box_piece(fraction, along, across, continues, width, high) if boxed else (0.0, 0.0, 0.0)
+
+
+@point
+def beyond(below, box):
+    """What a strip has of the bodies before, as their interface gives it (`next_body`), and of the box of the next one."""
+    return below[1] + box[0], below[2] + box[1], below[3] + box[2]
 
 
 @apart
@@ -148,11 +191,12 @@ def next_body(m, f, thin, box, whole, total, side, width, weight, below, strip):
 
 
 @apart
-def nest(j, i, along_z, w_low, w_high, w_whole, thin_first, weight, order, share, void, in_order, centroid, dr, dz, strips):
+def nest(j, i, last, along_z, w_low, w_high, w_whole, thin_first, weight, order, share, void, no_gap, centroid, dr, dz,
+         strips):
     """Adds what the nested interfaces give of every body in the strips of cell (j, i), times a weight.
 
-    The bodies come in their order, or first those that are thin (strips [0, THIN, m]), each by a box of its own. A strip of no
-    width is left out. in_order : how far void has no box (`keeps_order`)
+    The bodies come in their order, or first those that are thin (strips [0, THIN, m]), each by a box of its own; those after
+    body `last` are left out (ALL: none). A strip of no width is left out. no_gap : how far void has no box (`keeps_order`)
 
     Updates  strips [3, SHARE to ACROSS, m]: of the strips at the low and at the high side, and of the whole cell
     """
@@ -171,61 +215,62 @@ def nest(j, i, along_z, w_low, w_high, w_whole, thin_first, weight, order, share
                 continue
             full = at_most_full(around)
             along, across = centroid[0, m, j, i], centroid[1, m, j, i]
-            n_r, n_z, w, h, corner = surface(j, i, full, dr, dz, void)
+            bound = surface(j, i, full, dr, dz, void) if full[4] < 1.0 else NO_SURFACE
             if along_z:
                 along, across = across, along
-                n_r, n_z, w, h = n_z, n_r, h, w
-            bound = n_r, n_z, w, h, corner
+                bound = bound[1], bound[0], bound[3], bound[2], bound[4]
             moment_along += f * along
             moment_across += f * across
             total = full[4]
             middle_along, middle_across = moment_along / total, moment_across / total
-            continues, box = 0.0, (0.0, 0.0, 0.0)
-            if thin > 0.0:
-                continues = goes_on(f, *beside(add_body(m, j, i, share, NO_BODY), along_z))
+            form = forms(full, no_gap)
+            boxed = thin > 0.0 or form[1] > 0.0
+            continues = goes_on(f, *beside(add_body(m, j, i, share, NO_BODY), along_z)) if boxed else 0.0
+            place = f, along, across, continues, boxed
             if w_low > 0.0:
-                if thin > 0.0:
-                    box = box_piece(f, along, across, continues, w_low, False)
-                all_of_it = piece(full, along_z, middle_along, middle_across, in_order, bound, w_low, False)
+                box = own_box(place, w_low, False)
+                all_of_it = piece(full, along_z, middle_along, middle_across, form, bound, beyond(low, box), w_low, False)
                 low = next_body(m, f, thin, box, all_of_it, total, across, w_low, weight, low, strips[0])
             if w_high > 0.0:
-                if thin > 0.0:
-                    box = box_piece(f, along, across, continues, w_high, True)
-                all_of_it = piece(full, along_z, middle_along, middle_across, in_order, bound, w_high, True)
+                box = own_box(place, w_high, True)
+                all_of_it = piece(full, along_z, middle_along, middle_across, form, bound, beyond(high, box), w_high, True)
                 high = next_body(m, f, thin, box, all_of_it, total, across, w_high, weight, high, strips[1])
             if w_whole > 0.0:
-                if thin > 0.0:
-                    box = box_piece(f, along, across, continues, w_whole, True)
-                all_of_it = piece(full, along_z, middle_along, middle_across, in_order, bound, w_whole, True)
+                box = own_box(place, w_whole, True)
+                all_of_it = piece(full, along_z, middle_along, middle_across, form, bound, beyond(whole, box), w_whole, True)
                 whole = next_body(m, f, thin, box, all_of_it, total, across, w_whole, weight, whole, strips[2])
+            if m == last:
+                return
 
 
 @apart
-def fill_strips(j, i, along_z, w_low, w_high, w_whole, order, share, void, group, gases, centroid, dr, dz, strips):
+def fill_strips(j, i, last, along_z, w_low, w_high, w_whole, order, share, void, group, gases, centroid, dr, dz, strips):
     """What every body has in the strips at the low and at the high side of cell (j, i), and in all of it, and where.
 
     Nested interfaces in the order of the bodies. Where several bodies of one group meet, none of them a gas, and one of them is
     narrower than a cell, so that its neighbours do not place it, it comes first, whatever the order says
     (explanation/interfaces, thin bodies).
 
-    w_low, w_high, w_whole : widths of the strips as shares of the cell, 0 for one that is left out
+    last : the body that is asked for, of those after which nothing is found out; ALL for all of them
+    w_low, w_high, w_whole : widths of the strips as shares of the cell, 0 for one that is left out and stays as it is
 
     Reads    share [m, j, i], the fractions; void, the share of the cell that is empty; centroid [2, m, j, i]
     Writes   strips [3, 4, m]: shares of the cell; times them, where the centroids lie off the middle of the strip, along the
              sweep in widths of the strip and across; how thin the bodies are
     """
-    for n in range(3):
-        for m in range(order.shape[0]):
-            strips[n, SHARE, m] = 0.0
-            strips[n, ALONG, m] = 0.0
-            strips[n, ACROSS, m] = 0.0
-    in_order = keeps_order(j, i, group, gases, share)
-    thinnest = thinnest_body(j, i, in_order, order, share, strips[0, THIN])
+    for n, width in enumerate((w_low, w_high, w_whole)):
+        if width > 0.0:
+            for m in range(order.shape[0]):
+                strips[n, SHARE, m] = 0.0
+                strips[n, ALONG, m] = 0.0
+                strips[n, ACROSS, m] = 0.0
+    ordered, no_gap = keeps_order(j, i, group, gases, share, void)
+    thinnest = thinnest_body(j, i, ordered, order, share, strips[0, THIN])
     if thinnest < 1.0:
-        nest(j, i, along_z, w_low, w_high, w_whole, False, 1.0 - thinnest, order, share, void, in_order, centroid, dr, dz,
+        nest(j, i, last, along_z, w_low, w_high, w_whole, False, 1.0 - thinnest, order, share, void, no_gap, centroid, dr, dz,
              strips)
     if thinnest > 0.0:
-        nest(j, i, along_z, w_low, w_high, w_whole, True, thinnest, order, share, void, in_order, centroid, dr, dz, strips)
+        nest(j, i, last, along_z, w_low, w_high, w_whole, True, thinnest, order, share, void, no_gap, centroid, dr, dz, strips)
 
 
 @point
@@ -237,13 +282,21 @@ def place_of(strip, m):
     return strip[ALONG, m] / given, strip[ACROSS, m] / given
 
 
+@point
+def by_contact(j, i, dj, di, mesh_box, contact_columns):
+    """Whether `contact_fluxes` works out what leaves cell (j, i) through either face: not at the edge of the mesh."""
+    inside = mesh_box[2] < i < mesh_box[3] - 1 if di == 1 else mesh_box[0] < j < mesh_box[1] - 1
+    return inside and contact_columns[j, 0] <= i < contact_columns[j, 1]
+
+
 @rowwise
-def interface_volumes_row(j, dj, di, dr, dz, order, group, gases, mixed_count, mixed, f_face, pre, vof, centroid,
-                          flux_volume, flux_place, strips):
+def interface_volumes_row(j, dj, di, mesh_box, contact_columns, dr, dz, order, group, gases, mixed_count, mixed, f_face, pre,
+                          vof, centroid, flux_volume, flux_place, strips):
     """Volume of each body out of each mixed cell, from the nested interfaces, and where it lies in the strips that leave.
 
-    The cumulative volumes of a strip are kept monotone, each body gives no more than it has, and what two opposite strips
-    ask together beyond that is passed on to the next body.
+    Of contact-interface cells only the centroids are worked out (`by_contact`). The cumulative volumes of a strip are kept
+    monotone, each body gives no more than it has, and what two opposite strips ask together beyond that is passed on to the
+    next body.
 
     Reads    mixed [j, k], order [k], f_face, pre [j, i], vof [m, j, i]
     Updates  flux_volume [m, j, i] and flux_place [2, m, j, i] at the faces through which mixed cells lose volume;
@@ -264,8 +317,10 @@ def interface_volumes_row(j, dj, di, dr, dz, order, group, gases, mixed_count, m
         size = pre[j, i]
         w_low, w_high = out_low / size, out_high / size
         taken = min((w_low + w_high) / SWEPT, 1.0)
+        if by_contact(j, i, dj, di, mesh_box, contact_columns):
+            w_low, w_high = 0.0, 0.0
         void = 1.0 - cumulative(j, i, bodies - 1, order, vof)
-        fill_strips(j, i, along_z, w_low, w_high, 1.0, order, vof, void, group, gases, centroid, dr, dz, strips[j])
+        fill_strips(j, i, ALL, along_z, w_low, w_high, 1.0, order, vof, void, group, gases, centroid, dr, dz, strips[j])
         for m in range(bodies):
             f = vof[m, j, i]
             if f == 0.0:
@@ -308,9 +363,9 @@ def donor_volumes(dj, di, part, parts, i0, i1, first, open_faces, volume, body_r
 
 
 @kernel
-def interface_volumes(dj, di, part, parts, dr, dz, order, group, gases, mixed_count, mixed, face, pre, vof, centroid,
-                      flux_volume, flux_place, strips):
+def interface_volumes(dj, di, part, parts, mesh_box, contact_columns, dr, dz, order, group, gases, mixed_count, mixed, face,
+                      pre, vof, centroid, flux_volume, flux_place, strips):
     """interface_volumes_row for rows j0 to j1."""
     for j in range(parts[part], parts[part + 1]):
-        interface_volumes_row(j, dj, di, dr, dz, order, group, gases, mixed_count, mixed, face, pre, vof, centroid,
-                              flux_volume, flux_place, strips)
+        interface_volumes_row(j, dj, di, mesh_box, contact_columns, dr, dz, order, group, gases, mixed_count, mixed, face, pre,
+                              vof, centroid, flux_volume, flux_place, strips)

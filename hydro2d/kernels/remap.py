@@ -364,7 +364,7 @@ def tidy(part, parts, cutoff, metrics, volume, group, mixed_count, mixed, pre, d
             post = volume[j, i]
             if not second:
                 post = pre[j, i] - (dj * (fz[j + 1, i] - fz[j, i]) + di * (fr[j, i + 1] - fr[j, i]))
-            total, present = 0.0, 0
+            total, present, ended = 0.0, 0, False
             for m in range(bodies):
                 f = vof[m, j, i]
                 rho = q[RHO, m, j, i]
@@ -382,6 +382,7 @@ def tidy(part, parts, cutoff, metrics, volume, group, mixed_count, mixed, pre, d
                     removed[4 + m, j] += mass
                     f = left_over
                     vof[m, j, i] = f
+                    ended = True
                 if f == 0.0:
                     for field in range(q.shape[0]):
                         q[field, m, j, i] = 0.0
@@ -397,7 +398,9 @@ def tidy(part, parts, cutoff, metrics, volume, group, mixed_count, mixed, pre, d
                         f = 1.0 if present == 1 and void == 0.0 else f  # beside a second body, however little, it is not full
                         q[RHO, m, j, i] *= vof[m, j, i] / f
                         vof[m, j, i] = f
-            forget_centroids(j, i, vof, centroid)
+                ended = True
+            if ended:
+                forget_centroids(j, i, vof, centroid)
             for g in range(cell_mass.shape[0]):
                 mass = 0.0
                 for m in range(bodies):

@@ -44,8 +44,8 @@ def carry_bodies(parts, i0, i1, dj, di, second, leading, fr, own_r, fz, own_z, q
         interfaces.donor_volumes(dj, di, part, parts, i0, i1, not second, void_only, volume, body_ranges, active_range, fr, fz,
                                  vof, pre, flux_volume)
         wait(gate, parts)
-        interfaces.interface_volumes(dj, di, part, parts, dr, dz, interface_order, group, gases, mixed_count,
-                                     mixed_columns, face, pre, vof, centroid, flux_volume, flux_place, strips)
+        interfaces.interface_volumes(dj, di, part, parts, mesh_box, contact_columns, dr, dz, interface_order, group, gases,
+                                     mixed_count, mixed_columns, face, pre, vof, centroid, flux_volume, flux_place, strips)
         if cell_mass.shape[0] > 1:
             contact_volumes.contact_shares(part, parts, mesh_box, contact_columns, volume, pre, vof, own_share, size)
             wait(gate, parts)

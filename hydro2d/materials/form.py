@@ -11,6 +11,7 @@ from types import ModuleType
 from hydro2d.mesh import quantities
 from hydro2d.mesh.fields import Field
 from hydro2d.parameters import Parameter
+from hydro2d.parsing import parsed
 
 #: what each model says in words
 WORDS = ("NAME", "EQUATION", "SOURCE", "VALIDITY")
@@ -23,7 +24,7 @@ GROUND = ("hydro2d.jit", "hydro2d.parameters", "hydro2d.mesh.fields")
 def part(text: str, required: Mapping[str, tuple[str, ...]]) -> str | None:
     """The part of a material for which a text is a model, by the functions that each part requires; None if there is none."""
     try:
-        names = {node.name for node in ast.parse(text).body if isinstance(node, ast.FunctionDef)}
+        names = {node.name for node in parsed(text).body if isinstance(node, ast.FunctionDef)}
     except SyntaxError:
         return next(iter(required))  # whose import says what is wrong
     return next((name for name, functions in required.items() if names & set(functions)), None)
@@ -44,7 +45,7 @@ def wrong_import(text: str, package: str) -> tuple[int, str] | None:
 
     What is compiled is kept by the text of the file alone, and the file travels alone.
     """
-    for name, line in _imported(ast.parse(text)):
+    for name, line in _imported(parsed(text)):
         top = name.split(".")[0]
         ours = any(f"{name}.".startswith(f"{place}.") for place in (*GROUND, package))
         late = name.split(".")[:2] in ([package, "dispatch"], [package, "radial_return"])

@@ -81,7 +81,7 @@ BODY = {
     "failed_mass_kg": "mass that has failed by damage",
     "outflow_kg": "mass that has left through open edges of the mesh since the start",
     "inflow_kg": "mass that a mesh that travels has met since the start",
-    "r_min_m": "least radius that it reaches; null where it fills no cell by half",
+    "r_min_m": "least radius that it reaches; null where it is less than a hundredth of any cell",
     "r_max_m": "largest radius that it reaches",
     "z_min_m": "lowest axial position that it reaches",
     "z_max_m": "highest axial position that it reaches",
@@ -113,9 +113,10 @@ DEBRIS = {
     "velocity_m_s": "mean axial velocity, by mass; null where there is nothing",
     "leading_velocity_m_s": "axial velocity that a hundredth of the mass exceeds",
     "cone_angle_rad": "angle to the axis within which nine tenths of the mass fly",
-    "fragments": "number of pieces, each of cells that hang together and are filled by half; one off the axis is a ring",
+    "fragments": "number of pieces, each of cells that hang together and are filled by half, or by less where it is narrower "
+                 "than a cell; one off the axis is a ring",
     "largest_fragment_kg": "mass of the heaviest of them",
-    "dust_kg": "mass in cells that are filled by less than half, and so in none of them",
+    "dust_kg": "mass in none of them: in cells beside them that are filled by less than half, and crumbs",
 }
 
 #: what is known of each fragment and its unit, and of the mass by axial speed and by angle

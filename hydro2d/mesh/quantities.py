@@ -93,6 +93,9 @@ TABLE: tuple[Quantity, ...] = (
     Quantity("contact_pressure", "Contact Pressure", "Pa",
              "normal pressure at the interface of a contact, in its cells", contact=True),
     Quantity("volume_fraction", "Volume Fraction for {body}", "", "share of the cell that the body fills"),
+    Quantity("centroid_r", "Centroid Offset r for {body}", "m",
+             "by how much the centroid of the body lies off that of the cell along r, in cells that it fills in part"),
+    Quantity("centroid_z", "Centroid Offset z for {body}", "m", "the same along z"),
     Quantity("body_density", "Density of {body}", "kg/m3", "mass per volume of the body itself"),
     Quantity("body_pressure", "Pressure of {body}", "Pa", "pressure in the body"),
     Quantity("body_energy", "Specific Internal Energy of {body}", "J/kg", "specific internal energy of the body"),
@@ -107,8 +110,8 @@ RENAMED = {"velocity_rest": "velocity_soft"}
 
 BY_KEY = {quantity.key: quantity for quantity in TABLE}
 
-#: always written: without them a file shows no bodies
-ALWAYS = ("volume_fraction", "material")
+#: always written: without them a file shows no bodies, and nothing that is narrower than a cell
+ALWAYS = ("volume_fraction", "centroid_r", "centroid_z", "material")
 
 #: words that stand for several quantities
 GROUPS = {

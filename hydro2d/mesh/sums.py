@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from hydro2d.jit import plus, point, serial
 
 #: a cell belongs to a body, where its length and its core are asked for, from this share on
@@ -160,3 +162,64 @@ def vertex_totals(g, nz, nr, mass, u, v, sums):
                 kinetic = plus(kinetic, 0.5 * mass_j[i] * (u_j[i] * u_j[i] + v_j[i] * v_j[i]))
             sums[0] += momentum
             sums[1] += kinetic
+
+
+@point
+def between(v, j, i, outer, upper):
+    """A quantity within cell (j, i), from its vertices; outer and upper are shares of the way across it."""
+    return (1.0 - outer) * ((1.0 - upper) * v[j, i] + upper * v[j + 1, i]) + outer * (
+        (1.0 - upper) * v[j, i + 1] + upper * v[j + 1, i + 1])
+
+
+@serial
+def edge_course(di, first, last, at, entering, advance, columns, r, z, zc, dz, face_r, vol_r, fr, fz, flux, moved, whole):
+    """Adds what goes through one edge of the mesh to the first moments of the bodies, and what comes in to their mass.
+
+    What crosses a face lies on average half of the distance away from it by which it is swept.
+
+    di : direction of the sweep, 1 along r;  first, last : places along the edge;  at : its face;  entering : 1.0 at the low
+    edge, -1.0 at the high one;  advance : of the mesh along z, m
+
+    Reads    columns [i], mean radii of the columns; r, z, zc, dz; face_r, vol_r [i]; fr, fz [j, i]; flux [m, place], kg
+    Updates  moved [m, 2], whole [m]
+    """
+    for m in range(flux.shape[0]):
+        for k in range(first, last):
+            mass = entering * flux[m, k]
+            if mass == 0.0:
+                continue
+            at_r = r[at] + 0.5 * fr[k, at] / (face_r[at] * dz[k]) if di == 1 else columns[k]
+            at_z = zc[k] if di == 1 else z[at] + 0.5 * fz[at, k] / vol_r[k]
+            moved[m, 0] += mass * at_r
+            moved[m, 1] += mass * (at_z + advance)
+            whole[m] += max(mass, 0.0)
+
+
+@serial
+def body_course(g, nz, nr, cylindrical, m, middle, width, zc, dr, dz, cm_out, volume, vof, rho, centroid, u, v, sums):
+    """Mass of body m, its first moments and momenta along r and z, and sums of mass times cell size along r and z.
+
+    A body's place in a cell is its centroid; along r that is the offset in r^2/2 (in planar geometry r). There it moves with
+    what lies between the velocities of the vertices; in the middle of a cell that is their mean, weighted by corner masses.
+
+    Reads    middle [i], r^2/2 (planar: r) in the middle of a column, width [i], how much it changes across it; volume [j, i];
+             vof, rho [m, j, i]; centroid [2, m, j, i]; u, v [j-1/2, i-1/2] of the body's group
+    Writes   sums [7]
+    """
+    for k in range(7):
+        sums[k] = 0.0
+    for j in range(g, g + nz):
+        for i in range(g, g + nr):
+            if not vof[m, j, i] > 0.0:
+                continue
+            mass = vof[m, j, i] * rho[m, j, i] * volume[j, i]
+            r = middle[i] + width[i] * centroid[0, m, j, i]
+            r = math.sqrt(2.0 * max(r, 0.0)) if cylindrical else r
+            sums[0] += mass
+            sums[1] += mass * r
+            sums[2] += mass * (zc[j] + dz[j] * centroid[1, m, j, i])
+            outer, upper = 2.0 * cm_out[i] + centroid[0, m, j, i], 0.5 + centroid[1, m, j, i]
+            sums[3] += mass * between(u, j, i, outer, upper)
+            sums[4] += mass * between(v, j, i, outer, upper)
+            sums[5] += mass * dr[i]
+            sums[6] += mass * dz[j]

@@ -106,6 +106,25 @@ class Cells:
         u, v = self._sim.grid.vertex_mean(np.stack([self._sim.state.u[b], self._sim.state.v[b]]))
         return np.stack([u, v, np.zeros_like(u)], axis=-1)
 
+    def centroid_r(self) -> np.ndarray:
+        """By how much the centroid of each body lies off that of the cell along r, m; 0 where it fills all or nothing."""
+        grid, inner, outer = self._sim.grid, self._sim.grid.r_edges[:-1], self._sim.grid.r_edges[1:]
+        offset = grid.interior(self._sim.state.centroid)[0]
+        if not grid.cylindrical:
+            return np.where(self._in_part, offset * (outer - inner), 0.0)
+        square = 0.5 * (inner**2 + outer**2)
+        off = np.sqrt(np.maximum(square + offset * (outer**2 - inner**2), 0.0)) - np.sqrt(square)
+        return np.where(self._in_part, off, 0.0)
+
+    def centroid_z(self) -> np.ndarray:
+        """The same along z."""
+        offset = self._sim.grid.interior(self._sim.state.centroid)[1]
+        return np.where(self._in_part, offset * np.diff(self._sim.grid.z_edges)[:, None], 0.0)
+
+    @functools.cached_property
+    def _in_part(self) -> np.ndarray:
+        return self._there & (self.vof < 1.0)
+
     def contact_pressure(self) -> np.ndarray:
         """Normal pressure at the contact interface in the cells that contain it, and zero elsewhere; Pa."""
         return self._sim.grid.interior(self._sim.state.contact_pressure).copy()
@@ -140,6 +159,8 @@ EVALUATE: dict[str, Callable[[Cells], np.ndarray]] = {
     "hard_share": lambda c: c.group_share(1),
     "contact_pressure": Cells.contact_pressure,
     "volume_fraction": lambda c: c.vof,
+    "centroid_r": Cells.centroid_r,
+    "centroid_z": Cells.centroid_z,
     "body_density": lambda c: c.rho,
     "body_pressure": lambda c: c.p,
     "body_energy": lambda c: c.e,

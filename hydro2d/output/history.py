@@ -26,6 +26,7 @@ from hydro2d.mesh.measured import FRAGMENTS, in_file, unit
 from hydro2d.output import foreign
 from hydro2d.output.station_arrays import KEYS, KINDS, of_station, stations
 from hydro2d.strange import own
+from hydro2d.terminal import cell
 
 if TYPE_CHECKING:
     import pandas
@@ -107,6 +108,7 @@ class History(Columns):
     ----------
     path : where the file is or will be
     rows : number of rows of the existing file to keep (a restart); 0 begins an empty one
+    unwritten : further rows that a file of an earlier process had not, as `unwritten` gave them
 
     Attributes
     ----------
@@ -115,7 +117,7 @@ class History(Columns):
     debris : what flies behind each target, by its name, likewise
     """
 
-    def __init__(self, path: Path, rows: int = 0):
+    def __init__(self, path: Path, rows: int = 0, unwritten: dict[str, list[float]] | None = None):
         super().__init__()
         self.path = Path(path)
         self.craters: dict[str, tuple[np.ndarray, np.ndarray]] = {}
@@ -124,9 +126,23 @@ class History(Columns):
             for name, values in read(self.path).items():
                 self._columns[name] = array("d", values[:rows].astype(float).tobytes())
             self._rows = min(rows, len(self._columns["time"]))
+        self._written = self._rows
+        further = unwritten or {}
+        for number in range(len(further.get("time", ()))):
+            self.append({name: values[number] for name, values in further.items()})
+
+    def unwritten(self, rows: int) -> dict[str, list[float]]:
+        """Those of the first rows that no file has yet, by column."""
+        if self._written >= rows:
+            return {}
+        return {name: column[self._written : rows].tolist() for name, column in self._columns.items()}
 
     def write(self) -> None:
         """Writes all rows."""
+        self._write()
+        self._written = self._rows
+
+    def _write(self) -> None:
         with replacing(self.path) as temporary, hdf5(temporary) as file:
             time = _dataset(file, "time", self._columns.get("time", []))
             time.make_scale("time")
@@ -216,7 +232,7 @@ def _opened(path: Path):
     """A history file opened for reading. Raises HistoryError."""
     import h5py
 
-    checksums.verified(path, HistoryError)
+    checksums.verify(path, HistoryError)
     try:
         with h5py.File(own(path), "r") as file:
             foreign.check_hdf5(file)
@@ -283,7 +299,7 @@ def read_debris(path: Path) -> dict[str, dict[str, np.ndarray]]:
 def write_csv(columns: dict[str, np.ndarray], path: Path) -> None:
     """Writes the columns as CSV with 17 digits; the header names quantity and unit."""
     header = io.StringIO()
-    csv.writer(header, lineterminator="").writerow(f"{name} [{unit(name)}]" for name in columns)
+    csv.writer(header, lineterminator="").writerow(cell(f"{name} [{unit(name)}]") for name in columns)
     with replacing(path) as temporary:
         table = np.column_stack(list(columns.values()))
         np.savetxt(temporary, table, fmt="%.17g", delimiter=",", header=header.getvalue(), comments="", encoding="utf-8")

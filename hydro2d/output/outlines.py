@@ -1,38 +1,198 @@
-"""Outlines of the bodies: lines along which a body fills half of a cell."""
+"""Outlines of the bodies: lines along which a body fills half of a cell, and around what is narrower than a cell."""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from functools import cached_property
+
 import numpy as np
 
+from hydro2d.mesh.sums import HALF
+from hydro2d.physics.centroids import CRUMB, FILLED, box_ends
 
-def outlines(r_edges: np.ndarray, z_edges: np.ndarray, vof: np.ndarray, closed: bool = False) -> list[np.ndarray]:
-    """Contours of vof = 1/2 through the cell centres.
+#: gap, in cells, across which the boxes of neighbouring cells are drawn as one, within a cut and from a cut to the next
+WITHIN, BESIDE = 0.2, 1.0
+#: codes of a matplotlib path: a point that begins a line, one that it leads to, and the last of a closed one
+MOVE, LINE, CLOSE = 1, 2, 79
 
-    r_edges (nr + 1,), z_edges (nz + 1,) in m, vof (nz, nr). The outermost values are carried on to the edges of the
-    mesh, so that lines reach the axis and the boundary; `closed` draws the lines on along the boundary, but for the
-    inner one. Returns arrays (n, 2) of r, z.
+
+@dataclass(frozen=True)
+class Cut:
+    """What boxes in cells one behind the other leave of a line of cells, m.
+
+    low, high : its ends along the line;  first, last : its ends across it;  along, across : its centroid;  width : of the line
+    thickness : along the line, were it as thick all across;  cell : number of the last of the cells;  size : of it
     """
-    import contourpy
 
-    r, z = (np.concatenate([e[:1], 0.5 * (e[1:] + e[:-1]), e[-1:]]) for e in (r_edges, z_edges))
-    values = np.pad(vof, 1, mode="edge")
-    if closed:
-        r, z = np.append(r, _beyond(r[-1], r[-2])), np.concatenate([[_beyond(z[0], z[1])], z, [_beyond(z[-1], z[-2])]])
-        values = np.pad(values, ((1, 1), (0, 1)))
-    return contourpy.contour_generator(r, z, values).lines(0.5)
+    low: float
+    high: float
+    first: float
+    last: float
+    along: float
+    across: float
+    width: float
+    thickness: float
+    cell: int
+    size: float
+
+    def with_next(self, other: Cut) -> Cut:
+        """Both as one."""
+        both = self.thickness + other.thickness
+        along, across = ((mine * self.thickness + its * other.thickness) / both
+                         for mine, its in ((self.along, other.along), (self.across, other.across)))
+        return replace(other, low=self.low, first=min(self.first, other.first), last=max(self.last, other.last), along=along,
+                       across=across, thickness=both)  # fmt: skip
+
+    def near(self, other: Cut, gap: float) -> bool:
+        """Whether both overlap, or are no further apart than a gap in cells."""
+        return max(self.low, other.low) - min(self.high, other.high) <= gap * max(self.size, other.size)
+
+    @property
+    def half_at_an_end(self) -> float:
+        """Half of the thickness where it fills the line only from `first` to `last`."""
+        return 0.5 * min(self.thickness * self.width / (self.last - self.first), self.high - self.low)
 
 
-def regions(r_edges: np.ndarray, z_edges: np.ndarray, vof: np.ndarray) -> list[tuple[np.ndarray, np.ndarray]]:
-    """Areas in which vof is 1/2 or more, bounded by `outlines` and the edges of the mesh.
+@dataclass(frozen=True)
+class Filling:
+    """What a body, or several together, fill of the cells, and where it lies in those that it shares.
 
-    Each is an array (n, 2) of r, z and the codes (n,) of a matplotlib path: an outline, and those of its holes.
+    r_edges (nr + 1,), z_edges (nz + 1,) in m; fraction (nz, nr); offsets (2, nz, nr): along r and z, by which its centroid lies
+    off that of the cell, m. Without them nothing is known of what is narrower than a cell.
     """
-    import contourpy
 
-    r, z = (np.concatenate([e[:1], 0.5 * (e[1:] + e[:-1]), e[-1:]]) for e in (r_edges, z_edges))
-    generator = contourpy.contour_generator(r, z, np.pad(vof, 1, mode="edge"), fill_type="OuterCode")
-    points, codes = generator.filled(0.5, np.inf)
-    return list(zip(points, codes, strict=True))
+    r_edges: np.ndarray
+    z_edges: np.ndarray
+    fraction: np.ndarray
+    offsets: np.ndarray | None = None
+
+    @cached_property
+    def thin(self) -> np.ndarray:
+        """Cells (nz, nr) of something narrower than a cell: filled by CRUMB or more, and none of 5 x 5 around by FILLED."""
+        if self.offsets is None:
+            return np.zeros(self.fraction.shape, dtype=bool)
+        from scipy import ndimage
+
+        return (self.fraction >= CRUMB) & (ndimage.maximum_filter(self.fraction, 5) < FILLED)
+
+    @property
+    def shown(self) -> np.ndarray:
+        """Cells (nz, nr) whose values are shown: filled by half, or of something narrower than a cell."""
+        return (self.fraction >= HALF) | self.thin
+
+    def outlines(self, closed: bool = False) -> list[np.ndarray]:
+        """Contours of the fraction 1/2 through the cell centres, and closed lines around what is narrower than a cell.
+
+        The outermost values are carried on to the edges of the mesh, so that lines reach the axis and the boundary; `closed`
+        draws the lines on along the boundary, but for the inner one. Returns arrays (n, 2) of r, z.
+        """
+        import contourpy
+
+        r, z, values = self._at_centres()
+        if closed:
+            r, z = np.append(r, _beyond(r[-1], r[-2])), np.concatenate([[_beyond(z[0], z[1])], z, [_beyond(z[-1], z[-2])]])
+            values = np.pad(values, ((1, 1), (0, 1)))
+        return [*contourpy.contour_generator(r, z, values).lines(HALF), *self.around_thin]
+
+    def regions(self) -> list[tuple[np.ndarray, np.ndarray]]:
+        """The areas that `outlines` and the edges of the mesh bound.
+
+        Each is an array (n, 2) of r, z and the codes (n,) of a matplotlib path: an outline, and those of its holes.
+        """
+        import contourpy
+
+        points, codes = contourpy.contour_generator(*self._at_centres(), fill_type="OuterCode").filled(HALF, np.inf)
+        thin = [(line, np.array([MOVE, *[LINE] * (len(line) - 2), CLOSE], dtype=np.uint8)) for line in self.around_thin]
+        return [*zip(points, codes, strict=True), *thin]
+
+    @cached_property
+    def around_thin(self) -> list[np.ndarray]:
+        """Closed lines (n, 2) of r, z around what is narrower than a cell, from its boxes (explanation/interfaces, equation 7).
+
+        What hangs together is cut along its shorter side, column by column if it lies and row by row if it stands, and the ends
+        of neighbouring cuts are joined.
+        """
+        if not self.thin.any():
+            return []
+        from scipy import ndimage
+
+        labels, _ = ndimage.label(self.thin, np.ones((3, 3)))
+        found = []
+        for number, (rows, columns) in enumerate(ndimage.find_objects(labels), start=1):
+            cells = np.argwhere(labels[rows, columns] == number) + (rows.start, columns.start)
+            axis = int(columns.stop - columns.start >= rows.stop - rows.start)
+            found += [_around(chain)[:, ::1 if axis else -1] for chain in _chains(self._cuts(cells, axis))]
+        return found
+
+    def _at_centres(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """r and z of the cell centres and of the edges of the mesh, and the fractions there, but for what is thin."""
+        r, z = (np.concatenate([e[:1], 0.5 * (e[1:] + e[:-1]), e[-1:]]) for e in (self.r_edges, self.z_edges))
+        return r, z, np.pad(np.where(self.thin, 0.0, self.fraction), 1, mode="edge")
+
+    def _cuts(self, cells: np.ndarray, axis: int) -> Iterator[tuple[int, list[Cut]]]:
+        """(line, its cuts, the lowest first) of cells (n, 2), row and column, that are cut along r (axis 0) or z (1)."""
+        widths = np.diff((self.z_edges, self.r_edges)[axis])
+        for line in np.unique(cells[:, axis]).tolist():
+            cuts: list[Cut] = []
+            for cell in cells[cells[:, axis] == line].tolist():
+                (low, high, along, size), (first, last, across, _) = self._box(cell, axis), self._box(cell, 1 - axis)
+                cut = Cut(low, high, first, last, along, across, float(widths[line]), float(self.fraction[tuple(cell)]) * size,
+                          cell[1 - axis], size)  # fmt: skip
+                if cuts and cuts[-1].cell == cut.cell - 1 and cuts[-1].near(cut, WITHIN):
+                    cuts[-1] = cuts[-1].with_next(cut)
+                else:
+                    cuts.append(cut)
+            yield line, cuts
+
+    def _box(self, cell: list[int], axis: int) -> tuple[float, float, float, float]:
+        """Ends and middle of the box in a cell (row, column) along r (axis 0) or z (1), and the cell's size, m."""
+        edges = self.r_edges, self.z_edges
+        size, across = (float(edges[n][cell[1 - n] + 1] - edges[n][cell[1 - n]]) for n in (axis, 1 - axis))
+        along = self.fraction[cell[0]] if axis == 0 else self.fraction[:, cell[1]]
+        at, offsets = cell[1 - axis], self.offsets[:, cell[0], cell[1]]
+        before, after = (along[n] if 0 <= n < len(along) else 0.0 for n in (at - 1, at + 1))
+        low, high = box_ends(along[at], offsets[axis] / size, offsets[1 - axis] / across, before, after)
+        middle = 0.5 * float(edges[axis][at] + edges[axis][at + 1])
+        return middle + low * size, middle + high * size, middle + 0.5 * (low + high) * size, size
+
+
+def _chains(lines: Iterator[tuple[int, list[Cut]]]) -> list[list[Cut]]:
+    """Cuts that lie beside one another on lines one after the other, chain by chain."""
+    chains: list[list[Cut]] = []
+    before: list[list[Cut]] = []
+    last = -2
+    for line, cuts in lines:
+        open_ended, before = before if line == last + 1 else [], []
+        for cut in cuts:
+            chain = next((each for each in open_ended if each[-1].near(cut, BESIDE)), None)
+            if chain is None:
+                chain = []
+                chains.append(chain)
+            else:
+                open_ended = [each for each in open_ended if each is not chain]
+            chain.append(cut)
+            before.append(chain)
+        last = line
+    return chains
+
+
+def _around(chain: list[Cut]) -> np.ndarray:
+    """Closed line (n, 2) around cuts: across the lines, and along them."""
+    one, other = chain[0], chain[-1]
+    if len(chain) == 1:
+        places = [(one.first, one.low, one.high), (one.last, one.low, one.high)]
+    else:
+        inner = [(cut.across, cut.along - 0.5 * cut.thickness, cut.along + 0.5 * cut.thickness) for cut in chain[1:-1]]
+        places = [_end(one, chain[1], one.first), *inner, _end(other, chain[-2], other.last)]
+    return np.array([*((x, low) for x, low, _ in places), *((x, high) for x, _, high in reversed(places)), places[0][:2]])
+
+
+def _end(cut: Cut, beside: Cut, at: float) -> tuple[float, float, float]:
+    """(across, low, high) of an end of a chain: of a cut that is drawn on to a place in its line, as the one beside it goes."""
+    slope = (beside.along - cut.along) / (beside.across - cut.across)
+    middle = cut.along + slope * (at - cut.across)
+    return at, middle - cut.half_at_an_end, middle + cut.half_at_an_end
 
 
 def _beyond(edge: float, inside: float) -> float:

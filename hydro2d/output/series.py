@@ -2,14 +2,23 @@
 
 from __future__ import annotations
 
+import re
 from contextlib import suppress
 from pathlib import Path
 
 import numpy as np
 
+from hydro2d.files import check_place, remove
 from hydro2d.output import derived, vtk
-from hydro2d.output.outlines import outlines
+from hydro2d.output.outlines import Filling
 from hydro2d.strange import own_folder
+
+
+def numbered(directory: Path, kind: str) -> list[tuple[int, Path]]:
+    """The dumps of a kind of vtk.SERIES in a run directory, with their numbers; other files in their folder are none."""
+    name = re.compile(rf"{kind}_([0-9]{{6,}})\.vt[rp]")
+    found = ((name.fullmatch(file.name), file) for file in (directory / vtk.FOLDER).glob(f"{kind}_*"))
+    return [(int(match.group(1)), file) for match, file in found if match]
 
 
 class Series:
@@ -33,9 +42,9 @@ class Series:
         if dumps:
             self._times = self._read(dumps)
         for kind in vtk.SERIES:
-            for file in (self.directory / vtk.FOLDER).glob(f"{kind}_*.vt?"):
-                if int(file.stem.split("_")[1]) >= len(self._times):
-                    file.unlink()
+            for number, file in numbered(self.directory, kind):
+                if number >= len(self._times):
+                    remove(file)
         if self._times:
             self._write_series()
 
@@ -62,6 +71,7 @@ class Series:
     def dump(self, sim) -> Path:
         """Writes fields, outlines and tracers of a simulation and lists them in the series."""
         number, time = len(self._times), sim.time
+        check_place(self.directory / vtk.FOLDER)
         own_folder(self.directory / vtk.FOLDER)
         path = self._path("dump", number)
         vtk.write_grid(path, sim.grid.r_edges, sim.grid.z_edges, derived.evaluated(sim, self.fields), time)
@@ -69,7 +79,11 @@ class Series:
         if len(sim.stations.tracers):
             vtk.write_points(self._path("tracers", number), sim.stations.tracers, time)
         self._times.append(time)
-        self._write_series()
+        try:
+            self._write_series()
+        except Exception:
+            self._times.pop()
+            raise
         return path
 
     def _path(self, kind: str, number: int) -> Path:
@@ -85,9 +99,10 @@ class Series:
 
 
 def _body_lines(sim) -> list[tuple[int, np.ndarray]]:
-    vof = sim.grid.interior(sim.state.vof)
+    cells, grid = derived.Cells(sim), sim.grid
+    offsets = np.stack([cells.centroid_r(), cells.centroid_z()], axis=1)
     return [
         (m + 1, line)
-        for m in range(len(vof))
-        for line in outlines(sim.grid.r_edges, sim.grid.z_edges, vof[m])
+        for m, (fraction, off) in enumerate(zip(cells.vof, offsets, strict=True))
+        for line in Filling(grid.r_edges, grid.z_edges, fraction, off).outlines()
     ]  # fmt: skip

@@ -19,11 +19,11 @@ import numpy as np
 
 from hydro2d import checksums
 from hydro2d.errors import Error
-from hydro2d.files import hdf5, replacing, sync
+from hydro2d.files import check_place, hdf5, replacing, sync
 from hydro2d.output import foreign
 from hydro2d.strange import own
 
-FORMAT = "hydro2d restart 5"
+FORMAT = "hydro2d restart 6"
 NAME, PREVIOUS = "restart.h5", "restart.previous.h5"
 
 
@@ -82,6 +82,7 @@ def write(path: Path, snapshot: Snapshot) -> None:
             file.attrs["sha256"] = _checksum(snapshot.arrays, texts)
             file.attrs["complete"] = True
         sync(temporary)
+        check_place(path)
         if path.exists():
             os.replace(path, path.with_name(PREVIOUS))
 
@@ -93,7 +94,7 @@ def read(path: Path) -> Snapshot:
     path = own(Path(path))
     if not path.is_file():
         raise SnapshotError(f"{path}: there is no such restart file")
-    checksums.verified(path, SnapshotError)
+    checksums.verify(path, SnapshotError)
     try:
         with h5py.File(path, "r") as file:
             foreign.check_hdf5(file)

@@ -14,6 +14,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from xml.etree import ElementTree
+from xml.sax.saxutils import escape
 
 import numpy as np
 
@@ -23,7 +24,7 @@ from hydro2d.files import replacing, write_text
 from hydro2d.mesh import quantities
 from hydro2d.mesh.edges.registry import halved
 from hydro2d.output import derived, foreign
-from hydro2d.output.outlines import outlines
+from hydro2d.output.outlines import Filling
 
 FOLDER = "vtk"
 SERIES = {"dump": "series.pvd", "interfaces": "interfaces.pvd", "tracers": "tracers.pvd"}
@@ -61,6 +62,10 @@ def _silence() -> Iterator[None]:
 
 def _write(dataset, path: Path, time: float, writer) -> None:
     _stamp(dataset, time)
+    for data in (dataset.GetCellData(), dataset.GetPointData()):
+        for number in range(data.GetNumberOfArrays()):
+            array = data.GetAbstractArray(number)
+            array.SetName(escape(array.GetName(), {'"': "&quot;"}))  # VTK writes names into its XML as they are
     writer.SetInputData(dataset)
     writer.SetDataModeToAppended()
     writer.EncodeAppendedDataOff()
@@ -231,11 +236,28 @@ class Dump:
         return 0.5 * (self.z_edges[1:] + self.z_edges[:-1])
 
     def outlines(self, body: str) -> list[np.ndarray]:
-        """Lines around a body, each an array (n, 2) of r, z in m; see `outlines.outlines`. Raises VtkError."""
-        if body not in self.bodies:
+        """Lines around a body, each an array (n, 2) of r, z in m; see `Filling.outlines`. Raises VtkError."""
+        return self.filling(body).outlines()
+
+    def filling(self, body: str | None = None) -> Filling:
+        """What a body, or all of them together, fill of the cells, and where. Raises VtkError."""
+        if body is not None and body not in self.bodies:
             raise VtkError(unknown("body", body, self.bodies))
-        share = quantities.BY_KEY["volume_fraction"].name(body)
-        return outlines(self.r_edges, self.z_edges, self.fields[share])
+        found = [self._filling(each) for each in (self.bodies if body is None else [body])]
+        if len(found) == 1:
+            return found[0]
+        fraction = sum(each.fraction for each in found)
+        if any(each.offsets is None for each in found):
+            return Filling(self.r_edges, self.z_edges, fraction)
+        moments = sum(each.fraction * each.offsets for each in found)
+        offsets = np.divide(moments, fraction, out=np.zeros_like(moments), where=fraction > 0.0)
+        return Filling(self.r_edges, self.z_edges, fraction, offsets)
+
+    def _filling(self, body: str) -> Filling:
+        share, *places = (quantities.BY_KEY[key].name(body) for key in ("volume_fraction", "centroid_r", "centroid_z"))
+        known = all(each in self.fields for each in places)  # dumps of older versions have none
+        offsets = np.stack([self.fields[each].astype(float) for each in places]) if known else None
+        return Filling(self.r_edges, self.z_edges, self.fields[share].astype(float), offsets)
 
     @classmethod
     def of(cls, sim, keys=("all",)) -> Dump:
@@ -246,7 +268,7 @@ class Dump:
 
 def _read(reader, path: Path):
     """The data that a VTK reader reads from a file. Raises VtkError."""
-    checksums.verified(path, VtkError)
+    checksums.verify(path, VtkError)
     with _silence():
         if not reader.CanReadFile(str(path)):
             raise VtkError(f"{path} is not a VTK file of a run")

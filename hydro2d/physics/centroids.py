@@ -11,6 +11,8 @@ from hydro2d.physics.traction import smoothstep
 
 #: what fills one of the cells around is placed by them in full, and what fills none of them by more than this not at all
 FILLED = 0.95
+#: what a body fills less of is a crumb, of which no length or outline is taken
+CRUMB = 0.01
 #: by how much a fraction grows from one cell to the next where the body in full goes on to the cell behind it
 GROWING = 0.1
 
@@ -20,6 +22,14 @@ def within(offset, fraction):
     """Offset of a centroid from the middle of the cell, such that the fraction of the cell fits in around it."""
     most = 0.5 * (1.0 - fraction)
     return min(max(offset, -most), most)
+
+
+@point
+def box_length(fraction, along, across, continues):
+    """Length along x of the box of `box_piece`, in cells; (along, across) leave room for the fraction (`within`)."""
+    longest, tallest = 1.0 - 2.0 * abs(along), 1.0 - 2.0 * abs(across)
+    shortest = min(longest, fraction / max(tallest, fraction))
+    return max(shortest + (longest - shortest) * continues, fraction)
 
 
 @point
@@ -33,9 +43,7 @@ def box_piece(fraction, along, across, continues, strip, high):
     along, across = within(along, fraction), within(across, fraction)
     if strip >= 1.0:
         return fraction, fraction * along, fraction * across
-    longest, tallest = 1.0 - 2.0 * abs(along), 1.0 - 2.0 * abs(across)
-    shortest = min(longest, fraction / max(tallest, fraction))
-    length = max(shortest + (longest - shortest) * continues, fraction)
+    length = box_length(fraction, along, across, continues)
     turned = along if high else -along  # as if the strip were at the high side
     beyond = min(max((0.5 - strip) - (turned - 0.5 * length), 0.0), length)  # what of the length does not reach the strip
     share = fraction * ((length - beyond) / length)
@@ -53,6 +61,17 @@ def goes_on(fraction, before, after):
 
 
 @point
+def box_ends(fraction, along, across, before, after):
+    """Lower and upper end along x of the box of `box_piece`, off the middle of the cell, in cells.
+
+    before, after : fractions of the body in the cells before and after this one along x
+    """
+    along, across = within(along, fraction), within(across, fraction)
+    half = 0.5 * box_length(fraction, along, across, goes_on(fraction, before, after))
+    return along - half, along + half
+
+
+@point
 def beside(f, along_z):
     """The fractions before and after the middle of 3 x 3 cells."""
     return (f[1], f[7]) if along_z else (f[3], f[5])
@@ -65,9 +84,15 @@ def reached(here, near, far):
 
 
 @point
+def most_beside(f):
+    """The largest fraction in the eight cells next to the middle one."""
+    return max(max(max(f[0], f[1]), max(f[2], f[3])), max(max(f[5], f[6]), max(f[7], f[8])))
+
+
+@point
 def most_around(f):
     """The largest fraction in the cells around: of the eight next to it, and of those two away as far as they are `reached`."""
-    most = max(max(max(f[0], f[1]), max(f[2], f[3])), max(max(f[5], f[6]), max(f[7], f[8])))
+    most = most_beside(f)
     axes = max(max(reached(f[4], f[3], f[9]), reached(f[4], f[5], f[10])),
                max(reached(f[4], f[1], f[11]), reached(f[4], f[7], f[12])))
     corners = max(max(reached(f[4], f[0], f[13]), reached(f[4], f[2], f[14])),
@@ -88,37 +113,56 @@ def placed(f):
 
     f : its fractions in the 17 cells of `add_body`
     """
+    near = most_beside(f)
+    if near >= 1.0:
+        return 1.0
+    far = max(max(max(f[9], f[10]), max(f[11], f[12])), max(max(f[13], f[14]), max(f[15], f[16])))
+    if max(near, far) <= FILLED:
+        return 0.0
     return smoothstep((most_around(f) - FILLED) / (1.0 - FILLED))
 
 
 @point
-def piece(f, along_z, along, across, in_order, bound, strip, high):
+def forms(f, no_gap):
+    """Weights of the line or the corner, of a box of something, and of a box of what is beside it (`piece`).
+
+    f : its fractions in the 17 cells of `add_body`;  no_gap : how far void has no box, 0 to 1
+    """
+    own, other = placed(f), no_gap
+    if other < 1.0:
+        other = max(other, placed(rest_of(f)))
+    by_line = own * other
+    if by_line == 1.0:
+        return 1.0, 0.0, 0.0
+    by_box = (1.0 - by_line) * (1.0 - own) / ((1.0 - own) + (1.0 - other))
+    return by_line, by_box, max((1.0 - by_line) - by_box, 0.0)
+
+
+@point
+def piece(f, along_z, along, across, form, bound, boxes, strip, high):
     """What lies of something in the strip of given width at the low or high side of a cell, as `line_piece` gives it.
 
-    By the line or the corner where the cells around place both it and what is beside it (`placed`); else by weight by a box of
-    it or by a box of what is beside it, whichever is thinner.
+    By the line or the corner where the cells around place both it and what is beside it (`placed`); else by weight by the boxes
+    of the bodies in it or by a box of what is beside it, whichever is thinner.
 
     f : its fractions in the 17 cells of `add_body`; along, across : its centroid, along the sweep and across;
-    bound : the surface, with the normal along the sweep first;  in_order : how far void has no box, 0 to 1
+    form : the weights, of `forms`;  bound : the surface, with the normal along the sweep first;
+    boxes : what lies in the strip of the bodies' boxes, in the same form
     """
     fraction = f[4]
     if fraction >= 1.0:
         return strip, 0.0, 0.0
-    own, other = placed(f), max(in_order, placed(rest_of(f)))
-    by_line = own * other
+    by_line, by_box, by_gap = form
     share, shift, lift = 0.0, 0.0, 0.0
     if by_line > 0.0:
         share, shift, lift = piece_of_surface(bound[0], bound[1], bound[2], bound[3], bound[4], fraction, strip, high)
         if by_line == 1.0:
             return share, shift, lift
-    before, after = beside(f, along_z)
-    by_box = (1.0 - by_line) * (1.0 - own) / ((1.0 - own) + (1.0 - other))
-    by_gap = (1.0 - by_line) - by_box
     share, shift, lift = by_line * share, by_line * shift, by_line * lift
     if by_box > 0.0:
-        s, a, c = box_piece(fraction, along, across, goes_on(fraction, before, after), strip, high)
-        share, shift, lift = share + by_box * s, shift + by_box * a, lift + by_box * c
+        share, shift, lift = share + by_box * boxes[0], shift + by_box * boxes[1], lift + by_box * boxes[2]
     if by_gap > 0.0:
+        before, after = beside(f, along_z)
         gap = 1.0 - fraction
         continues = goes_on(gap, 1.0 - before, 1.0 - after)
         s, a, c = box_piece(gap, -along * fraction / gap, -across * fraction / gap, continues, strip, high)
@@ -127,12 +171,11 @@ def piece(f, along_z, along, across, in_order, bound, strip, high):
 
 
 @point
-def pushed(own, other, fraction, fraction_other, change):
-    """What an offset of a centroid changes by as something else in the cell grows by `change` of the cell.
+def side(own, other, fraction, fraction_other):
+    """On which side of something else in its cell a body lies along one axis, -1 to 1: what a growth of the other pushes it by.
 
     own and other are the centroids' offsets, fraction and fraction_other the shares of the cell. Two slabs that lie side by
-    side push each other apart, and one that lies in the midst of the other stays where it is: explanation/interfaces,
-    equation 9.
+    side push each other apart by half of what either grows, and one that lies in the midst of the other stays where it is:
+    explanation/interfaces, equation 9.
     """
-    side = (own - other) / (0.5 * (fraction + fraction_other))
-    return 0.5 * change * min(max(side, -1.0), 1.0)
+    return min(max((own - other) / (0.5 * (fraction + fraction_other)), -1.0), 1.0)

@@ -15,9 +15,8 @@ import numpy as np
 
 from hydro2d import children
 from hydro2d.files import replacing
-from hydro2d.output.outlines import outlines
 from hydro2d.output.vtk import Dump
-from hydro2d.results.figures import Shown, body_colours, chosen, cropped, filled
+from hydro2d.results.figures import Shown, body_colours, chosen, cropped
 from hydro2d.results.scales import LINEAR, FigureError
 
 #: time limit of a rendering process, s
@@ -59,7 +58,7 @@ def _render(dump: str, path: str, field: str, window, size) -> None:
     shown = chosen(state, field)
     plotter = pyvista.Plotter(off_screen=True, window_size=list(size))
     count = len(state.bodies)
-    for line in outlines(state.r_edges, state.z_edges, filled(state), closed=True):
+    for line in state.filling().outlines(closed=True):
         points = np.column_stack([line[:, 0], np.zeros(len(line)), line[:, 1]]) * 1e3
         curve = pyvista.lines_from_points(points)
         curve["body"] = _nearest_body(state, line)

@@ -16,7 +16,7 @@ from hydro2d.errors import unknown
 from hydro2d.files import replacing
 from hydro2d.mesh import quantities
 from hydro2d.output import history
-from hydro2d.output.outlines import regions
+from hydro2d.output.outlines import Filling
 from hydro2d.output.vtk import Dump
 from hydro2d.results.scales import LINEAR, FigureError, Scale
 from hydro2d.terminal import shown
@@ -71,17 +71,10 @@ def chosen(dump: Dump, field: str) -> Shown:
         values = values[..., COMPONENTS[part]] if part else np.linalg.norm(values, axis=-1)
     unit, scale = reader_unit(quantity.unit)
     title = quantity.title.format(body=verbatim(part)) if quantity.per_body else quantity.title + (f" {part}" if part else "")
-    solid = dump.fields[f"Volume Fraction for {part}"] if quantity.per_body else filled(dump)
-    if key == "volume_fraction":
-        solid = np.ones_like(values)
-    values = np.where(solid >= 0.5, values * scale, np.nan)
+    solid = dump.filling(part if quantity.per_body else None).shown
+    values = np.where(solid | (key == "volume_fraction"), values * scale, np.nan)
     diverging = np.min(values, where=np.isfinite(values), initial=0.0) < 0
     return Shown(values, f"{title} [{unit}]" if unit else title, "RdBu_r" if diverging else "viridis")
-
-
-def filled(dump: Dump) -> np.ndarray:
-    """Volume fraction of all bodies together, shape (nz, nr)."""
-    return sum(dump.fields[f"Volume Fraction for {body}"] for body in dump.bodies)
 
 
 def verbatim(text: str) -> str:
@@ -110,20 +103,20 @@ def _draw_half(axes, dump: Dump, field: str, sign: int, limits: tuple[float, flo
     if within is None:
         return axes.pcolormesh(z, r, np.ma.masked_invalid(values).T, rasterized=True, **drawn)
     image = axes.pcolormesh(z, r, np.ma.masked_invalid(_widened(values)).T, rasterized=True, **drawn)
-    image.set_clip_path(_path(dump, within, sign), axes.transData)
+    image.set_clip_path(_path(within, sign), axes.transData)
     if field != "material":
         return image
     for m, body in enumerate(dump.bodies):
-        _fill(axes, _path(dump, dump.fields[f"Volume Fraction for {body}"], sign), BODY_COLOURS[m % len(BODY_COLOURS)])
+        _fill(axes, _path(dump.filling(body), sign), BODY_COLOURS[m % len(BODY_COLOURS)])
     return None
 
 
-def _solid(dump: Dump, field: str) -> np.ndarray | None:
-    """The volume fraction to whose outline a field is drawn, (nz, nr): of its body, or of all; None for a volume fraction."""
+def _solid(dump: Dump, field: str) -> Filling | None:
+    """To whose outline a field is drawn: that of its body, or of all; None for a volume fraction."""
     key, _, part = field.partition(":")
     if key == "volume_fraction":
         return None
-    return dump.fields[f"Volume Fraction for {part}"] if part in dump.bodies else filled(dump)
+    return dump.filling(part if part in dump.bodies else None)
 
 
 def _widened(values: np.ndarray) -> np.ndarray:
@@ -136,11 +129,11 @@ def _widened(values: np.ndarray) -> np.ndarray:
     return np.where(np.isfinite(values), values, np.where(known.any(axis=0), mean, np.nan))
 
 
-def _path(dump: Dump, fraction: np.ndarray, sign: int):
-    """The areas that a volume fraction (nz, nr) fills by half, as a path in mm of z and r."""
+def _path(filling: Filling, sign: int):
+    """The areas of `Filling.regions` as a path in mm of z and r."""
     from matplotlib.path import Path as Outline
 
-    found = regions(dump.r_edges, dump.z_edges, fraction)
+    found = filling.regions()
     if not found:
         return Outline(np.zeros((1, 2)))
     points = np.concatenate([np.column_stack([each[:, 1], sign * each[:, 0]]) for each, _ in found]) * 1e3

@@ -75,7 +75,7 @@ def _refuse(path: Path, runs: list, window: Window, follow: str | None) -> None:
     if follow is not None and window is None:
         raise FigureError(f"a film that follows {follow} needs a window, with z0 and z1 measured from its leading end")
     for run in runs if follow is not None else ():
-        names = [body["name"] for body in run.tables.get("body", ())]
+        names = [body["name"] for body in run.bodies]
         if follow not in names:
             raise FigureError(f"{run.directory}: {unknown('body', follow, names)}")
 
@@ -115,8 +115,9 @@ class _Window:
         self.down = {id(run): self._flies_down(run) for run in runs} if follow is not None else {}
 
     def _flies_down(self, run) -> bool:
-        velocity = next(body.get("velocity", 0.0) for body in run.tables["body"] if body["name"] == self.follow)
-        return (velocity[1] if isinstance(velocity, list) else velocity) < 0.0
+        velocity = next(body.get("velocity", 0.0) for body in run.bodies if body["name"] == self.follow)
+        axial = velocity[-1] if isinstance(velocity, list) and velocity else velocity
+        return isinstance(axial, (int, float)) and axial < 0.0
 
     def of(self, run, dump: Dump) -> Window:
         """The window of a run at the time of a dump; the last one if nothing of the body is left."""

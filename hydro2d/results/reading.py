@@ -15,13 +15,13 @@ import numpy as np
 from hydro2d import checksums, toml
 from hydro2d.deck import keys
 from hydro2d.errors import Error
-from hydro2d.files import read_json
 from hydro2d.mesh.edges.registry import halved
 from hydro2d.output import history, snapshot, vtk
-from hydro2d.results.summaries import plausible
+from hydro2d.results.summaries import summary_of
 from hydro2d.results.viewer.packing import DEFAULT_BITS
-from hydro2d.running.run import DECK, HISTORY, SUMMARY, check_own
+from hydro2d.running.run import DECK, HISTORY, check_own
 from hydro2d.strange import within
+from hydro2d.terminal import shown
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -35,6 +35,8 @@ if TYPE_CHECKING:
     from hydro2d.results.viewer.page import View
     from hydro2d.solver.simulation import Simulation
 
+#: the largest number of a deck that is believed
+LARGEST = 1e12
 #: the file of a study directory that lists its cases
 STUDY = "study.json"
 
@@ -63,11 +65,11 @@ class Results:
         if not (self.directory / DECK).exists():
             raise ResultsError(_no_run(self.directory))
         try:
-            self.tables = tomllib.loads(checksums.verified_text(self.directory / DECK, ResultsError))
+            text = checksums.verified_text(self.directory / DECK, ResultsError)
+            self.tables = tomllib.loads(text)
         except (ValueError, RecursionError) as error:
             raise ResultsError(f"{self.directory / DECK} cannot be read: {error}") from None
-        file = self.directory / SUMMARY
-        self.summary, _ = plausible(read_json(file, ResultsError) if file.exists() else {})
+        self.summary, _ = summary_of(self.directory, text, ResultsError)
         self._history: tuple[int, dict[str, np.ndarray]] | None = None
 
     @cached_property
@@ -239,13 +241,29 @@ class Results:
     @property
     def surface(self) -> float | None:
         """Axial position of the target's original surface, m."""
-        return self.tables.get("penetration", {}).get("surface")
+        return _number(_table(self.tables, "penetration"), "surface")
 
     @property
     def direction(self) -> int:
         """+1 where the projectile flies along +z, -1 otherwise."""
-        rod = self.tables.get("penetration", {}).get("rod")
-        return next((body.get("direction", 1) for body in self.tables["body"] if body["name"] == rod), 1)
+        rod = _table(self.tables, "penetration").get("rod")
+        return next((-1 for body in self.bodies if body["name"] == rod and body.get("direction") == -1), 1)
+
+    @property
+    def bodies(self) -> list[dict]:
+        """The tables of those bodies of the deck that have a name."""
+        found = self.tables.get("body")
+        bodies = [body for body in found if isinstance(body, dict)] if isinstance(found, list) else []
+        return [body for body in bodies if isinstance(body.get("name"), str)]
+
+    @property
+    def stop(self) -> dict:
+        """The stop conditions of the deck, without what is of the wrong kind."""
+        table = _table(self.tables, "stop")
+        numbers = {key: _number(table, key) for key in ("time", "cycles", "speed_below")}
+        others = {key: table[key] for key, kind in (("body", str), ("rebound", bool), ("perforation", bool))
+                  if isinstance(table.get(key), kind)}  # fmt: skip
+        return {key: number for key, number in numbers.items() if number is not None} | others
 
     @property
     def projectile(self) -> str:
@@ -255,7 +273,7 @@ class Results:
     @property
     def measured_depth(self) -> float | None:
         """Penetration depth of the experiment, m."""
-        return self.tables.get("experiment", {}).get("penetration")
+        return _number(_table(self.tables, "experiment"), "penetration")
 
     @property
     def measured_position(self) -> float | None:
@@ -289,7 +307,8 @@ class Results:
         return f"<Results {self.label}: {', '.join(said)}>"
 
     def _repr_html_(self) -> str:
-        rows = "".join(f"<tr><th>{name}</th><td>{html.escape(said)}</td></tr>" for name, said in self._facts().items())
+        rows = "".join(f"<tr><th>{html.escape(shown(name))}</th><td>{html.escape(shown(said))}</td></tr>"
+                       for name, said in self._facts().items())  # fmt: skip
         return f"<table><caption>{html.escape(self.label)}</caption>{rows}</table>"
 
 
@@ -302,6 +321,14 @@ def mirrored(deck: dict) -> bool:
 def _table(tables: dict, name: str) -> dict:
     found = tables.get(name)
     return found if isinstance(found, dict) else {}
+
+
+def _number(table: dict, key: str) -> float | None:
+    """A number of a table that may hold anything; None if it is missing, or of another kind, or beyond all bounds."""
+    found = table.get(key)
+    if not isinstance(found, (int, float)) or isinstance(found, bool):
+        return None
+    return found if abs(found) <= LARGEST else None
 
 
 def _millimetres(length: float | None) -> str:

@@ -28,7 +28,7 @@ def lines(run, status: str, message: str, progress: dict) -> list[str]:
         if now.get("wall_s") is not None:
             said["time"] += f", {duration(now['wall_s'])} of computing"
     if not summary:
-        said["end"] = _end(run.tables.get("stop", {}), columns, now, progress, run.projectile)
+        said["end"] = _end(run.stop, columns, now, progress, run.projectile)
     if summary and (through := passed(summary)):
         nose = number(now["penetration_depth_m"], 1e3, ".2f", "mm")
         said["through"] = f"{', '.join(through)}; nose {nose} behind the first face"

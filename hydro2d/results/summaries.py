@@ -1,21 +1,58 @@
-"""Checks summary.json, which may have been changed: values of the right kind are used, and the others reported."""
+"""Reads summary.json, which may have been changed: values of the right kind are used, and the others reported.
+
+progress.json, which has some of the same keys, is judged in the same way.
+"""
 
 from __future__ import annotations
 
 import sys
+from pathlib import Path
+
+from hydro2d.errors import Error
+from hydro2d.files import read_json
+from hydro2d.running.run import DECK, PROGRESS, SUMMARY, deck_hash
 
 #: keys that hold words, lists of words, tables, and yes or no
 WORDS = ("deck", "title", "deck_sha256", "version", "status", "stop_reason", "regime", "qualifier", "source",
-         "body")
+         "body", "host")
 TABLES = ("conservation", "experiment", "provenance", "packages", "crater", "mass", "sinks", "contact_transfers",
-          "bodies", "stations", "targets", "projectile", "debris", "derived")
+          "bodies", "stations", "targets", "projectile", "debris", "derived", "off_course_cells")
 YES_OR_NO = ("trustworthy", "git_dirty")
 #: keys that hold numbers, and what the names of others end in that do
 NUMBERS = ("cycles", "cells", "ns_per_cell_cycle", "axial_momentum", "total_energy", "rod_max_plastic_strain",
-           "max_plastic_strain", "penetration_over_length", "efficiency", "fragments")
+           "max_plastic_strain", "penetration_over_length", "efficiency", "fragments", "fraction", "process")
 UNITS = ("_m", "_m_s", "_s", "_kg", "_J", "_N_s", "_m2", "_m3", "_K", "_Pa", "_rad")
 #: tables that hold numbers alone, or tables alone, whatever their keys are
-OF_NUMBERS, OF_TABLES = ("mass", "derived"), ("sinks", "contact_transfers", "bodies", "stations", "targets")
+OF_NUMBERS, OF_TABLES = ("mass", "derived", "off_course_cells"), ("sinks", "contact_transfers", "bodies", "stations", "targets")
+
+
+def summary_of(directory: Path, deck: str, error: type[Error]) -> tuple[dict, list[str]]:
+    """The summary of a run directory, empty if there is none, and the dotted keys of what is of the wrong kind in it.
+
+    deck : the text of the directory's deck; that the summary is of another one is among the faults that it is given
+
+    Raises `error`.
+    """
+    summary, odd = plausible(table_of(directory / SUMMARY, error))
+    if deck and summary.get("deck_sha256", deck_hash(deck)) != deck_hash(deck):
+        fault = f"{SUMMARY} is of another deck than {DECK}"
+        summary = summary | {"trustworthy": False, "faults": [*(summary.get("faults") or ()), fault]}
+    return summary, odd
+
+
+def progress_of(directory: Path, error: type[Error]) -> dict:
+    """The progress of a run directory, without what is of the wrong kind; empty if there is none. Raises `error`."""
+    return plausible(table_of(directory / PROGRESS, error))[0]
+
+
+def table_of(file: Path, error: type[Error]) -> dict:
+    """The table in a JSON file; empty if there is no such file. Raises `error`."""
+    try:
+        return read_json(file, error)
+    except error:
+        if not file.exists():
+            return {}
+        raise
 
 
 def plausible(summary: dict) -> tuple[dict, list[str]]:

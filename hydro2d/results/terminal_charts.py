@@ -33,7 +33,7 @@ def available() -> bool:
 def chosen(run) -> list[str]:
     """The columns that are drawn of a run (results.Results) if nothing else is asked for."""
     found = [name for name in OF_PROJECTILE if np.isfinite(run.history.get(name, np.nan)).any()]
-    bodies = [str(body["name"]) for body in run.tables.get("body", ()) if "join" not in body]
+    bodies = [body["name"] for body in run.bodies if "join" not in body]
     return found or [f"body_{bodies[0]}_{key}" for key in OF_BODY if bodies and f"body_{bodies[0]}_{key}" in run.history]
 
 

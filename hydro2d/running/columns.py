@@ -68,6 +68,7 @@ SUMMARY: dict[str, str] = {
     "experiment.residual_velocity_m_s": "residual velocity of the experiment; 0 if the projectile did not perforate",
     "experiment.source": "source of the experiment",
     "conservation.mass.BODY": "relative change of the mass of a body that no sink accounts for",
+    "conservation.off_course_cells.BODY": "cells between the centre of mass of a body and where its momentum has taken it",
     "conservation.axial_momentum": "change of the axial momentum that no sink accounts for, over sqrt(2 m E) at the start",
     "conservation.total_energy": "relative change of the total energy that no sink accounts for",
     "conservation.internal_energy_J": "internal energy of all bodies",

@@ -13,7 +13,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from hydro2d import children, jit
-from hydro2d.files import turn
+from hydro2d.files import READ_ONLY, turn
 
 EVENT = "numba:compile"
 #: seconds between lines that count kernels
@@ -161,4 +161,8 @@ def once(key: str, compile: Callable[[], None]) -> None:
     with turn(mark.with_name("compiling.lock")):
         if not mark.exists():
             compile()
-            mark.touch()
+            try:
+                mark.touch()
+            except OSError as error:
+                if error.errno not in READ_ONLY:
+                    raise

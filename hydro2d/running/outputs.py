@@ -47,16 +47,22 @@ class Attempts:
         except (OSError, Error) as error:
             self._errors.append(error)
 
+    @property
+    def told(self) -> str:
+        """What could not be written and why; empty if everything was."""
+        return "; ".join(dict.fromkeys(map(_said, self._errors)))
+
     def conclude(self) -> None:
         """Raises what was kept: one error as it is, several as an OSError that names all files."""
-        said = {_said(error): error for error in self._errors}
-        if len(said) > 1:
-            raise OSError("; ".join(said)) from self._errors[0]
-        for error in said.values():
-            raise error
+        if len(set(map(_said, self._errors))) > 1:
+            raise OSError(self.told) from self._errors[0]
+        if self._errors:
+            raise self._errors[0]
 
 
 def _said(error: Exception) -> str:
     """The message of an error, with the file but without the number of a system's error."""
+    if isinstance(error, MemoryError):
+        return f"not enough memory{f': {error}' if str(error) else ''}"
     named = isinstance(error, OSError) and error.filename is not None
     return f"{error.filename}: {error.strerror}" if named else str(error)

@@ -180,8 +180,7 @@ class Report:
     def line(self, text: str) -> None:
         """A line for the log and the screen."""
         text = one_line(text)
-        self._log.write(f"{datetime.now().isoformat(timespec='seconds')}  {text}\n")
-        self._log.flush()
+        self.note(f"{datetime.now().isoformat(timespec='seconds')}  {text}")
         if not self._quiet:
             try:
                 self.show(text)
@@ -189,6 +188,15 @@ class Report:
                 lose_output()
                 self._quiet = True
                 self._gone()
+
+    def note(self, text: str) -> None:
+        """A line for the log alone. Raises OSError, which names the file."""
+        try:
+            self._log.write(one_line(text) + "\n")
+            self._log.flush()
+        except OSError as error:
+            error.filename = self._log.name
+            raise
 
     def show(self, text: str) -> None:
         say(text, flush=True)
@@ -353,8 +361,8 @@ def _moving(summary: dict) -> str:
 
 def passed(summary: dict) -> list[str]:
     """Names of the targets where the projectile has gone through all of them, else none."""
-    found = summary.get("targets", {})
-    return [] if any(target["exit_time_s"] is None for target in found.values()) else list(found)
+    found = summary.get("targets") or {}
+    return [] if any(target.get("exit_time_s") is None for target in found.values()) else list(found)
 
 
 def _over_length(summary: dict) -> str:

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from hydro2d.running.notebook import Notebook, is_notebook
 from hydro2d.running.progress import Live, Report
 from hydro2d.strange import opened
-from hydro2d.terminal import one_line
 
 
 def _kind() -> type[Report]:
@@ -23,14 +22,16 @@ def _kind() -> type[Report]:
 @contextmanager
 def reporter(log: Path, quiet: bool, gone: Callable[[], None] = lambda: None) -> Iterator[Report]:
     """The report for this kind of output; it appends to the log. ``gone`` is called when the reader of the output has gone."""
-    with opened(log, "a") as file:
-        kind = _kind() if not quiet else Report
-        report = kind(file, quiet, gone)
-        try:
-            yield report
-        except Exception as error:
-            report.close()
-            file.write(one_line(f"stopped by {type(error).__name__}: {error}") + "\n")
-            raise
-        finally:
-            report.close()
+    file = opened(log, "a")
+    report = (Report if quiet else _kind())(file, quiet, gone)
+    try:
+        yield report
+    except Exception as error:
+        report.close()
+        with suppress(OSError):  # whatever stopped the run is told
+            report.note(f"stopped by {type(error).__name__}: {error}")
+        raise
+    finally:
+        report.close()
+        with suppress(OSError):  # lines that could not be written have been told
+            file.close()

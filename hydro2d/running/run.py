@@ -18,7 +18,8 @@ import hashlib
 import os
 import time as clock
 import tomllib
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
 from typing import NoReturn
 
@@ -28,11 +29,11 @@ from hydro2d import __version__
 from hydro2d import interrupt as interrupts
 from hydro2d.deck.warnings import warnings
 from hydro2d.errors import Error, UnphysicalState
-from hydro2d.files import locked, write_json, write_text
+from hydro2d.files import locked, remove, write_json, write_text
 from hydro2d.interrupt import Interrupt, signals
 from hydro2d.output import snapshot
 from hydro2d.output.history import History, HistoryError
-from hydro2d.output.series import Series
+from hydro2d.output.series import Series, numbered
 from hydro2d.output.vtk import FOLDER, SERIES
 from hydro2d.running import provenance
 from hydro2d.running.outputs import Attempts, writing
@@ -94,9 +95,10 @@ def clear(directory: Path) -> None:
     """Removes the files of a run from a directory, and nothing else. Raises StrangeFile."""
     check_own(directory)
     for name in OWN_FILES:
-        (directory / name).unlink(missing_ok=True)
-    for file in (directory / FOLDER).glob("*_[0-9]*.vt?"):
-        file.unlink()
+        remove(directory / name)
+    for kind in SERIES:
+        for _, file in numbered(directory, kind):
+            remove(file)
 
 
 #: sections of a deck that may differ when a run is continued
@@ -147,6 +149,9 @@ class Run:
         self.stepping, self.stepped = 0.0, 0
         self.due = {"history": Due(deck.output.history_interval), "vtk": Due(deck.output.vtk_interval)}
         rows = dumps = 0
+        unwritten: dict[str, list[float]] = {}
+        #: what the history lacks, in words, though it was written once
+        self.lacking: list[str] = []
         if restart:
             saved, problems = snapshot.read_latest(self.directory)
             for problem in problems:
@@ -158,30 +163,34 @@ class Run:
                 for name, due in self.due.items():
                     due.resume(saved.run["due"][name], self.sim.time)
                 rows, dumps, self.wall_before = (saved.run[name] for name in ("rows", "dumps", "wall_s"))
-        self.history = self._history(rows)
+                unwritten, self.lacking = saved.run["unwritten"], saved.run["lacking"]
+        self.history = self._history(rows, unwritten)
         self.series = Series(self.directory, deck.output.fields, dumps)
         if self.series.repaired:
             report.line(f"warning: {self.series.repaired}")
         self.clock, self.team = Clock(deck.stop, self.history), Team(threads())
         self.started = self.flushed = self.saved_at = self.published = clock.perf_counter()
         self.good, self.flush_every = None, FLUSH_SECONDS
-        (self.directory / SUMMARY).unlink(missing_ok=True)
+        remove(self.directory / SUMMARY)
         write_text(self.directory / DECK, self.deck_text, checksum=True)
 
-    def _history(self, rows: int) -> History:
-        """The history to continue; a damaged file is renamed and a new history begun."""
+    def _history(self, rows: int, unwritten: dict[str, list[float]]) -> History:
+        """The history to continue, with the rows that only the restart file has; a damaged file is renamed."""
         path = self.directory / HISTORY
         try:
-            found = History(path, rows)
+            found = History(path, rows - len(unwritten.get("time", ())), unwritten)
             if len(found) < rows:
-                self.report.line(f"warning: {path} lacks the last {rows - len(found)} of {rows} rows before the restart")
+                self.lacking.append(f"{HISTORY} lacks {rows - len(found)} of {rows} rows before a restart")
+                self.report.line(f"warning: {path} lacks {rows - len(found)} of {rows} rows before the restart")
             return found
         except HistoryError as error:
             aside = path.with_name(f"damaged-{HISTORY}")
             if path.exists():
                 path.replace(aside)
+            found = History(path, 0, unwritten)
+            self.lacking.append(f"{HISTORY} lacks {rows - len(found)} of {rows} rows before a restart")
             self.report.line(f"warning: {error}; a new history is begun, the old file is now {aside.name}")
-            return History(path)
+            return found
 
     @property
     def wall(self) -> float:
@@ -230,10 +239,11 @@ class Run:
     def _outputs(self) -> None:
         """Everything that is due after a cycle."""
         sim, now = self.sim, clock.perf_counter()
-        if self.due["history"](sim.time):
-            self.history.append(row(sim))
-        if self.due["vtk"](sim.time):
-            with writing(self.directory / FOLDER):
+        with self._due("history") as is_due:
+            if is_due:
+                self.history.append(row(sim))
+        with self._due("vtk") as is_due, writing(self.directory / FOLDER):
+            if is_due:
                 self.series.dump(sim)
         if now - self.saved_at >= self.deck.output.restart_interval:
             attempts = Attempts()
@@ -249,6 +259,17 @@ class Run:
                 self._publish()
         with writing(self.directory / LOG):
             self.report.update(self)
+
+    @contextmanager
+    def _due(self, name: str) -> Iterator[bool]:
+        """Whether an output is due now; one that fails within the block is due again when the run goes on."""
+        due = self.due[name]
+        count = due.count
+        try:
+            yield due(self.sim.time)
+        except Exception:
+            due.count = count
+            raise
 
     def _publish(self) -> None:
         """Writes progress.json, which other programs read."""
@@ -278,6 +299,7 @@ class Run:
             run={
                 "due": {name: due.saved() for name, due in self.due.items()},
                 "rows": len(self.history),
+                "lacking": self.lacking,
                 "dumps": len(self.series),
                 "wall_s": self.wall,
             },
@@ -293,9 +315,10 @@ class Run:
         self.flush_every = max(FLUSH_SECONDS, (self.flushed - began) / FLUSH_SHARE)
 
     def _save(self, state: snapshot.Snapshot, attempts: Attempts) -> None:
-        """Writes the history and the restart file, which relies on its rows but does without them where it must."""
+        """Writes the history and the restart file, which relies on its rows and has those that could not be written."""
         with attempts.writing(self.directory / HISTORY):
             self._write_history()
+        state.run["unwritten"] = self.history.unwritten(state.run["rows"])
         with attempts.writing(self.directory / snapshot.NAME):
             snapshot.write(self.directory / snapshot.NAME, state)
         self.saved_at = clock.perf_counter()
@@ -306,14 +329,15 @@ class Run:
         if state is not None:
             self._save(state, attempts)
         with attempts.writing(self.directory / PROGRESS):
-            (self.directory / PROGRESS).unlink(missing_ok=True)
+            remove(self.directory / PROGRESS)
         attempts.conclude()
         raise error
 
     def _finish(self, status: str, reason: str) -> dict:
         """The last outputs, of which one that fails does not keep the others from being written.
 
-        A restart file never counts the extra row and dump that are written after the end.
+        The summary comes last, and says that the run was interrupted if anything else could not be written. A restart file
+        never counts the extra row and dump that are written after the end.
         """
         attempts = Attempts()
         with attempts.writing(self.directory / HISTORY):
@@ -328,13 +352,13 @@ class Run:
             if self.series.last_time != self.sim.time:
                 with attempts.writing(self.directory / FOLDER):
                     self.series.dump(self.sim)
-        with attempts.writing(self.directory / SUMMARY):
-            summary = self.summary(status, reason)
-            (self.directory / PROGRESS).unlink(missing_ok=True)
-            write_json(self.directory / SUMMARY, summary)
         with attempts.writing(self.directory / LOG):
             if text := self.team.told():
                 self.report.line(text)
+        with attempts.writing(self.directory / SUMMARY):
+            summary = self.summary(*(("interrupted", attempts.told) if attempts.told else (status, reason)))
+            remove(self.directory / PROGRESS)
+            write_json(self.directory / SUMMARY, summary)
         attempts.conclude()
         with writing(self.directory / LOG):
             self.report.end(self, summary)
@@ -354,7 +378,7 @@ class Run:
         """What summary.json holds."""
         sim, cycles, targets, measured = self.sim, self.stepped - 1, self.sim.of_targets(), self.sim.diagnostics()
         last = row(sim) if sim.formulas else {}
-        faults = (sim.faults() or [reason] * (status == "unphysical")) + sim.doubts()
+        faults = (sim.faults() or [reason] * (status == "unphysical")) + sim.doubts() + self.lacking
         return {
             "deck": self.deck.name,
             "title": self.deck.title,

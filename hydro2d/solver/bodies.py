@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 
 from hydro2d.mesh import sums
 from hydro2d.mesh.measured import BODY
 from hydro2d.mesh.sums import HALF
+from hydro2d.physics.centroids import CRUMB, FILLED, box_ends
 
 
 def measure(sim) -> dict[str, dict[str, float | None]]:
@@ -14,19 +17,19 @@ def measure(sim) -> dict[str, dict[str, float | None]]:
 
     Mass, axial momentum, mean axial velocity and kinetic energy are of what is in the mesh. Outflow and inflow are the masses
     that have left and entered through its open edges. The extent is that of the cells that the body fills by half or more, and
-    of the share of the cells beside them that it fills; None where there are none such. The radius of its ends is the largest
-    in its lowest and its highest row of such cells.
+    of the share of the cells beside them that it fills. A body by which no cell is FILLED is narrower than one: its extent is
+    that of its boxes in the cells (explanation/interfaces, equation 7) of which it fills CRUMB or more; None where there are
+    none such. The radius of its ends is the largest in its lowest and its highest row of these cells.
     """
-    grid, state = sim.grid, sim.state
+    grid = sim.grid
     around = 2 * np.pi if grid.cylindrical else 1.0
     flows = {name: sim.audit.sinks[name].mass if name in sim.audit.sinks else None for name in ("outflow", "inflow")}
     found = {}
     for m, name in enumerate(sim.table.names):
         mass, momentum, kinetic, failed = motion(sim, m)
         went, came = (0.0 if flow is None else abs(float(flow[m])) * around for flow in flows.values())
-        fraction = grid.interior(state.vof)[m]
-        inner, outer = _surfaces(fraction.T, grid.r_edges)
-        extent = (*_ends(inner, outer), *_ends(*_surfaces(fraction, grid.z_edges)))
+        inner, outer = _extent(sim, m, 0)
+        extent = (*_ends(inner, outer), *_ends(*_extent(sim, m, 1)))
         ends = (float(outer[0]), float(outer[-1])) if len(outer) else (None, None)
         values = (mass, momentum, momentum / mass if mass > 0.0 else None, kinetic, failed, went, came, *extent,
                   _between(*extent[2:]), sim.lengths.get(name), *ends)
@@ -35,10 +38,8 @@ def measure(sim) -> dict[str, dict[str, float | None]]:
 
 
 def lengths(sim) -> dict[str, float | None]:
-    """Extent of every body along the axis now, m, by name; None where it fills no cell by half."""
-    grid = sim.grid
-    fractions = zip(sim.table.names, grid.interior(sim.state.vof), strict=True)
-    return {name: _between(*_ends(*_surfaces(fraction, grid.z_edges))) for name, fraction in fractions}
+    """Extent of every body along the axis now, m, by name; None where it fills CRUMB of no cell."""
+    return {name: _between(*_ends(*_extent(sim, m, 1))) for m, name in enumerate(sim.table.names)}
 
 
 def _between(low: float | None, high: float | None) -> float | None:
@@ -52,6 +53,46 @@ def motion(sim, m: int) -> list[float]:
     sums.body_motion(grid.g, grid.nz, grid.nr, m, grid.cm_in, grid.cm_out, grid.volume, state.vof, state.dmg, state.rho,
                      state.u[b], state.v[b], found)
     return ((2 * np.pi if grid.cylindrical else 1.0) * found).tolist()
+
+
+def _extent(sim, m: int, axis: int) -> tuple[np.ndarray, np.ndarray]:
+    """Lowest and highest coordinate of body m along r (axis 0) or z (1), m, of each line of cells with it; see `measure`."""
+    grid = sim.grid
+    fraction, edges = grid.interior(sim.state.vof)[m], (grid.r_edges, grid.z_edges)[axis]
+    if (fraction >= FILLED).any():
+        return _surfaces(fraction if axis == 1 else fraction.T, edges)
+    return _boxes(sim, m, axis)
+
+
+def _boxes(sim, m: int, axis: int) -> tuple[np.ndarray, np.ndarray]:
+    """The same for a body that is narrower than a cell, from its boxes."""
+    found: dict[int, tuple[float, float]] = {}
+    for line, _, first, last in boxes(sim, m, axis):
+        low, high = found.get(line, (np.inf, -np.inf))
+        found[line] = min(low, first), max(high, last)
+    ends = np.array([found[line] for line in sorted(found)]).reshape(-1, 2)
+    return ends[:, 0], ends[:, 1]
+
+
+def boxes(sim, m: int, axis: int, line: int | None = None) -> Iterator[tuple[int, int, float, float]]:
+    """(line of cells along the axis, cell on it, lower and upper end in m) of the boxes of body m, cell by cell.
+
+    axis : 0 along r, 1 along z;  line : the only one to be looked at. Cells of which the body fills less than CRUMB have none.
+    """
+    grid = sim.grid
+    f, centroid = grid.interior(sim.state.vof)[m], grid.interior(sim.state.centroid)[:, m]
+    f, centroid = (f, centroid) if axis == 0 else (f.T, centroid.swapaxes(1, 2))
+    round_axis = axis == 0 and grid.cylindrical
+    edges = (0.5 * grid.r_edges**2 if round_axis else grid.r_edges) if axis == 0 else grid.z_edges
+    beside = np.pad(f, ((0, 0), (1, 1)))
+    for row in range(len(f)) if line is None else [line]:
+        for cell in np.nonzero(f[row] >= CRUMB)[0].tolist():
+            share, at = float(f[row, cell]), centroid[:, row, cell]
+            ends = box_ends(share, at[axis], at[1 - axis], beside[row, cell], beside[row, cell + 2])
+            middle, size = 0.5 * (edges[cell] + edges[cell + 1]), edges[cell + 1] - edges[cell]
+            low, high = (float(middle + end * size) for end in ends)
+            low, high = ((2.0 * max(end, 0.0)) ** 0.5 if round_axis else end for end in (low, high))
+            yield row, cell, low, high
 
 
 def _surfaces(fraction: np.ndarray, edges: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

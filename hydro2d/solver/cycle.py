@@ -25,6 +25,7 @@ from hydro2d.physics import waves
 from hydro2d.solver.arguments import Arguments
 from hydro2d.solver.audit import Audit
 from hydro2d.solver.contact import Contact, NoContact
+from hydro2d.solver.courses import Courses
 from hydro2d.solver.following import StandingMesh
 from hydro2d.solver.method import Method
 from hydro2d.solver.parts import Parts
@@ -80,6 +81,7 @@ class Cycle:
         self.parts, self.rows = Parts(state), self._one_part
         self.sound_speeds = table.sound_speeds(thermodynamics.SOUND_FLOOR)
         self.audit: Audit | None = None
+        self.courses = Courses(state)
         self.speed_limit = 0.0
         self.arguments = Arguments(self, table)
 
@@ -129,6 +131,7 @@ class Cycle:
         self._vertex_mass()
         if self.audit is None:
             self.box = self._first_box() if self._skips_cells else list(self.mesh_box)
+            self.courses.look(self.time)
             self.audit = Audit.open(s, self.sound_speeds, (*self.method.boundaries.sinks, *self.sources.names))
             fastest = float(np.sqrt(np.max(s.u**2 + s.v**2)))
             self.speed_limit = SPEED_LIMIT_FACTOR * max(fastest, float(self.sound_speeds.min()))
@@ -309,7 +312,10 @@ class Cycle:
         return (bool(low) and self.box[n] == self.mesh_box[n], bool(high) and self.box[n + 1] == self.mesh_box[n + 1])
 
     def _audit_outflow(self, di: int) -> None:
-        for opened, (out, back) in zip(self._open_edges(di), self.state.outflow, strict=True):
+        first, last = self.box[:2] if di else self.box[2:]
+        for side, (opened, (out, back)) in enumerate(zip(self._open_edges(di), self.state.outflow, strict=True)):
+            if opened and (out.any() or back.any()):
+                self.courses.crossed(di, side, first, last, self.mesh.velocity * self.dt)
             if opened and out.any():
                 self.audit.add("outflow", mass=out[1:].copy(), energy=float(out[0]))
             if opened and back.any():

@@ -8,6 +8,7 @@ import numpy as np
 
 from hydro2d.mesh.measured import FRAGMENTS
 from hydro2d.mesh.sums import HALF
+from hydro2d.physics.centroids import CRUMB
 
 #: bins of the axial speed, and of the angle to the axis, 5 degrees each
 SPEEDS, ANGLES = 40, 36
@@ -41,12 +42,9 @@ def find(sim, crater, later: list[int]) -> Debris:
     crater : Crater of the target
     later : indices of the targets that the projectile meets after it, which are no debris
 
-    Each cell has the velocity of its body group, the mean of its four vertices. A fragment is a set of cells that the debris
-    fills by half or more and that are joined by faces: in cylindrical geometry a ring, unless it reaches the axis. Bodies
-    that touch are one fragment.
+    Each cell has the velocity of its body group, the mean of its four vertices. Fragments are those of `_pieces`, in
+    cylindrical geometry rings unless they reach the axis. Bodies that touch are one fragment.
     """
-    from scipy import ndimage
-
     grid, state, table = sim.grid, sim.state, sim.table
     around = 2.0 * np.pi if grid.cylindrical else 1.0
     chosen = [m for m in range(len(table.names)) if m not in later]
@@ -58,7 +56,7 @@ def find(sim, crater, later: list[int]) -> Debris:
     axial = crater.direction * v
     present = [k for k in range(len(chosen)) if mass[k].any()]
     mass, u, axial, fraction = mass[present], u[present], axial[present], fraction[present]
-    labels, count = ndimage.label(fraction.sum(axis=0) >= HALF) if present else (np.zeros((grid.nz, grid.nr), dtype=int), 0)
+    labels, count = _pieces(fraction.sum(axis=0)) if present else (np.zeros((grid.nz, grid.nr), dtype=int), 0)
     fragments, kinds = _fragments(grid, labels, count, mass, u, crater.direction * axial)
     top = float(axial.max(where=mass > 0.0, initial=0.0))
     speeds = np.linspace(float(axial.min(where=mass > 0.0, initial=0.0)), top if top > 0.0 else 1.0, SPEEDS + 1)
@@ -68,6 +66,23 @@ def find(sim, crater, later: list[int]) -> Debris:
         [table.names[chosen[k]] for k in present], speeds, _binned(axial, mass, speeds), angles, _binned(angle, mass, angles),
         fragments, kinds, _totals(mass, u, axial, angle, fragments),
     )  # fmt: skip
+
+
+def _pieces(filled: np.ndarray) -> tuple[np.ndarray, int]:
+    """Number of the fragment of each cell (nz, nr), 0 in none, and how many there are; filled : by debris, shape (nz, nr).
+
+    A fragment is a set of cells, joined by faces, that are filled by half or more. One that is narrower than a cell may have
+    no such cell: a set of cells filled by CRUMB or more, none of them by half, is a fragment as well.
+    """
+    from scipy import ndimage
+
+    labels, thick = ndimage.label(filled >= HALF)
+    loose, count = ndimage.label(filled >= CRUMB)
+    most = ndimage.maximum(filled, loose, np.arange(1, count + 1))
+    thin = np.nonzero(np.asarray(most) < HALF)[0] + 1
+    numbers = np.zeros(count + 1, dtype=labels.dtype)
+    numbers[thin] = thick + 1 + np.arange(len(thin))
+    return np.where(labels > 0, labels, numbers[loose]), thick + len(thin)
 
 
 def _binned(values: np.ndarray, mass: np.ndarray, edges: np.ndarray) -> np.ndarray:

@@ -38,6 +38,10 @@ if TYPE_CHECKING:
     from hydro2d.solver.method import Method
 
 
+#: a body that is slower than this, m/s, has not moved yet
+MOVES = 1e-3
+
+
 class Simulation:
     """A deck in memory, to be stepped and looked at. It writes no files: `hydro2d.run` does.
 
@@ -86,7 +90,8 @@ class Simulation:
         self._rows = np.zeros((2, self.grid.shape[0]))
         self.penetrator, self.craters = self._penetration()
         self.watched = slots.index(deck.stop.body) if deck.stop.body else None
-        self._sign: float | None = None
+        #: the body that `stop` watches, the sign of the velocity that it first had, whether it was faster than `speed_below`
+        self._watch: dict = {"body": deck.stop.body, "sign": None, "moved": False}
         self.columns: dict[str, Callable[[Simulation], float]] = {}
         self.lengths = bodies.lengths(self)
         self.formulas = derived.expressions(deck)
@@ -290,12 +295,15 @@ class Simulation:
             v = penetrator.speed() if penetrator is not None and watches_rod else self.mean_velocity(self.watched)
             if v is None:
                 return None
-            if self._sign is None:
-                self._sign = 1.0 if v >= 0 else -1.0
-            if stop.rebound and v * self._sign < 0:
+            watch = self._watch
+            if watch["sign"] is None and abs(v) > MOVES:
+                watch["sign"] = 1.0 if v > 0.0 else -1.0
+            if stop.rebound and v * (watch["sign"] or 0.0) < 0.0:
                 return f"rebound of {stop.body}"
-            if stop.speed_below is not None and abs(v) < stop.speed_below:
-                return f"speed of {stop.body} below {stop.speed_below:g} m/s"
+            if stop.speed_below is not None:
+                watch["moved"] = watch["moved"] or abs(v) >= stop.speed_below
+                if watch["moved"] and abs(v) < stop.speed_below:
+                    return f"speed of {stop.body} below {stop.speed_below:g} m/s"
         return None
 
     # ------------------------------------------------------------------------------------------------ what is known
@@ -334,9 +342,14 @@ class Simulation:
         return bodies.measure(self)
 
     def conservation(self) -> dict:
-        """Relative changes that no sink explains: mass per body, axial momentum, total energy; and every sink by name."""
+        """Relative changes that no sink explains: mass per body, axial momentum, total energy; and every sink by name.
+
+        Beside them by body how far its centre of mass was off its course when it was last looked at (`courses.Courses`).
+        """
         result = self.audit.balance(self.state)
         result["mass"] = dict(zip(self.table.names, (float(x) for x in result["mass"]), strict=True))
+        off = np.abs(self.engine.courses.apart).max(axis=1).tolist()
+        result["off_course_cells"] = dict(zip(self.table.names, off, strict=True))
         return result
 
     def faults(self, share: float = TRUSTED) -> list[str]:
@@ -344,12 +357,14 @@ class Simulation:
         return faults(self.state, self.audit, self.table.names, self._reach, share)
 
     def doubts(self) -> list[str]:
-        """Why what was run so far is not to be trusted: the first time that a body was too hot or too cold in some cell."""
+        """Why what was run is not to be trusted: when a body was first too hot or too cold in some cell, or off its course."""
         return list(self._doubts.values())
 
     def refuse_nonsense(self) -> None:
         """Raises UnphysicalState with the first fault of the state, if it has any, and remembers what is doubtful."""
-        for what, sentence in doubts(self.state, self.table, self.time, self._reach, self.sources.given):
+        self.engine.courses.look(self.time, keep=self.cycle % WATCH_EVERY == 0)
+        doubtful = doubts(self.state, self.table, self.time, self._reach, self.sources.given)
+        for what, sentence in (*doubtful, *self.engine.courses.parted(self.table.names)):
             self._doubts.setdefault(what, f"cycle {self.cycle}, time {self.time:.6g} s: {sentence}")
         if found := self.faults(self.deck.numerics.clip_limit):
             raise UnphysicalState(f"cycle {self.cycle}, time {self.time:.6g} s: {found[0]}")
@@ -426,8 +441,8 @@ class Simulation:
         """What a restart needs beside the arrays; JSON keeps every bit of it."""
         e = self.engine
         return {"time": e.time, "dt": e.dt, "cycle": e.number, "cause": e.cause, "box": [int(x) for x in e.box],
-                "mesh_offset": self.grid.offset, "speed_limit": e.speed_limit, "sign": self._sign, "doubts": self._doubts,
-                "audit": self.audit.saved(), "sources": self.sources.saved(),
+                "mesh_offset": self.grid.offset, "speed_limit": e.speed_limit, "watch": self._watch, "doubts": self._doubts,
+                "audit": self.audit.saved(), "courses": e.courses.saved(), "sources": self.sources.saved(),
                 "penetrator": self.penetrator and self.penetrator.saved(),
                 "craters": [crater.saved() for crater in self.craters]}
 
@@ -435,10 +450,13 @@ class Simulation:
         """Continues from what `restart_scalars` gave; after `load_restart_arrays`."""
         e = self.engine
         e.time, e.dt, e.number, e.cause = (scalars[name] for name in ("time", "dt", "cycle", "cause"))
-        e.box, e.speed_limit, self._sign = list(scalars["box"]), scalars["speed_limit"], scalars["sign"]
+        e.box, e.speed_limit = list(scalars["box"]), scalars["speed_limit"]
+        if scalars["watch"]["body"] == self.deck.stop.body:  # else another one is watched from here on
+            self._watch = dict(scalars["watch"])
         self.grid.move(scalars["mesh_offset"])
         self._doubts = dict(scalars["doubts"])
         e.audit = Audit.resume(scalars["audit"], e.sound_speeds)
+        e.courses.resume(scalars["courses"])
         self.sources.resume(scalars.get("sources", 0.0))  # files of earlier versions, which had no sources, say nothing
         if self.penetrator:
             self.penetrator.resume(scalars["penetrator"])

@@ -5,9 +5,13 @@ from __future__ import annotations
 
 import numpy as np
 
+from hydro2d.deck.shapes import outline
 from hydro2d.mesh.station_columns import NO_PEAKS, PEAKS, QUANTITIES, U, V
 from hydro2d.solver import tracers
 from hydro2d.solver.surfaces import Follower
+
+#: group of a point that begins in no body, or stands still
+NO_GROUP = -1
 
 
 class Stations:
@@ -33,6 +37,8 @@ class Stations:
         self.names = [name for name, _ in (*followed, *fixed)]
         self.places = np.array([place for _, place in (*followed, *fixed)], dtype=float).reshape(-1, 2)
         self.tracers = self.places[: len(followed)]
+        self._groups = np.full(len(self.names), NO_GROUP)
+        self._groups[: len(followed)] = [_group(sim, deck, entry.r, entry.z) for entry in deck.tracer]
         self.peaks = np.tile(np.array(NO_PEAKS), (len(self.names), 1))
         on_surface = {f"gauge_{name}": entry for entry in deck.gauge if entry.surface is not None for name, _ in entry.places()}
         self._followers = {n: Follower(sim, on_surface[name], self.places[n]) for n, name in enumerate(self.names)
@@ -41,20 +47,23 @@ class Stations:
 
     def _look(self) -> None:
         g, s, t = self._sim.grid, self._sim.state, self._sim.table
-        tracers.sample(g.g, g.nr, g.nz, g.r, g.z, s.group, t.eos_model, t.memory, t.eos_par, s.vof, s.q, s.u, s.v, self.places,
-                       self._found)
+        tracers.sample(g.g, g.nr, g.nz, g.r, g.z, self._groups, s.group, t.eos_model, t.memory, t.eos_par, s.vof, s.q, s.u, s.v,
+                       self.places, self._found)
         for n, follower in self._followers.items():
             self._found[n, [U, V]] = follower.velocity()
         tracers.keep_peaks(self._sim.time, self._found, self.peaks)
 
     def record(self) -> None:
-        """After a cycle: tracers follow the velocity of their cell, bilinear, by the midpoint rule; gauges stay on
-        their surfaces; peaks are kept."""
+        """After a cycle: tracers follow the velocity in their cell, bilinear, by the midpoint rule; gauges stay on
+        their surfaces; peaks are kept.
+
+        A tracer that begins in a body moves with that body's group: where the two groups of a contact share its cell as well.
+        """
         if not self.names:
             return
         if len(self.tracers):
             g, s = self._sim.grid, self._sim.state
-            tracers.advect(g.g, g.nr, g.nz, self._sim.dt, g.r, g.z, s.group, s.vof, s.u, s.v, self.tracers)
+            tracers.advect(g.g, g.nr, g.nz, self._sim.dt, g.r, g.z, self._groups, s.group, s.vof, s.u, s.v, self.tracers)
         for follower in self._followers.values():
             follower.follow()
         self._look()
@@ -68,3 +77,11 @@ class Stations:
         rows = np.concatenate([self.places, self._found, self.peaks], axis=1)
         known = np.where(np.isfinite(rows), rows, None).tolist()
         return {name: dict(zip(keys, row, strict=True)) for name, row in zip(self.names, known, strict=True)}
+
+
+def _group(sim, deck, r: float, z: float) -> int:
+    """Body group of the body of the deck that is at (r, z) at the start; NO_GROUP where none is."""
+    for body in deck.body:
+        if any(low <= z <= high for low, high in outline(body, deck.mesh.r_start).chords("z", r)):
+            return int(sim.state.group[sim.table.names.index(body.join or body.name)])
+    return NO_GROUP

@@ -43,6 +43,19 @@ def group_of(group, vof, j, i):
     return int(hard >= 0.5)
 
 
+@point
+def group_at(own, group, vof, j, i):
+    """Body group that a point of group `own` moves with in a cell: its own as long as that is there, else the cell's.
+
+    A point without a group of its own (-1) always moves with the cell's.
+    """
+    if own >= 0:
+        for m in range(group.shape[0]):
+            if group[m] == own and vof[m, j, i] > 0.0:
+                return own
+    return group_of(group, vof, j, i)
+
+
 @serial
 def velocities(g, nr, nz, own, r, z, group, vof, u, v, points, result):
     """Velocity (u, v) at points (r, z), bilinear in the cell; those beyond the mesh have that of its edge.
@@ -61,34 +74,35 @@ def velocities(g, nr, nz, own, r, z, group, vof, u, v, points, result):
 
 
 @serial
-def advect(g, nr, nz, dt, r, z, group, vof, u, v, points):
-    """Moves points (r, z) with the velocity of the body group of their cell over dt, by the midpoint rule.
+def advect(g, nr, nz, dt, r, z, own, group, vof, u, v, points):
+    """Moves points (r, z) with the velocity of their body group over dt, by the midpoint rule.
 
-    Reads    r, z edges;  group [m];  vof [m, j, i];  u, v [b, j-1/2, i-1/2]
+    Reads    r, z edges;  own [n], groups of the points (`group_at`);  group [m];  vof [m, j, i];  u, v [b, j-1/2, i-1/2]
     Updates  points [n, 2]
     """
     for n in range(points.shape[0]):
         i, x = place(r, g, nr, points[n, 0])
         j, y = place(z, g, nz, points[n, 1])
-        b = group_of(group, vof, j, i)
+        b = group_at(own[n], group, vof, j, i)
         half_r = points[n, 0] + 0.5 * dt * between(u[b], j, i, x, y)
         half_z = points[n, 1] + 0.5 * dt * between(v[b], j, i, x, y)
         i, x = place(r, g, nr, half_r)
         j, y = place(z, g, nz, half_z)
-        b = group_of(group, vof, j, i)
+        b = group_at(own[n], group, vof, j, i)
         points[n, 0] += dt * between(u[b], j, i, x, y)
         points[n, 1] += dt * between(v[b], j, i, x, y)
 
 
 @serial
-def sample(g, nr, nz, r, z, group, eos_model, memory, eos_par, vof, q, u, v, points, found):
+def sample(g, nr, nz, r, z, own, group, eos_model, memory, eos_par, vof, q, u, v, points, found):
     """What is in the cell of each point: mixtures over the bodies, as fields of these names have them.
 
     Pressure and stress are sums of volume fraction times value, void bearing none; temperature, strain and damage are means by
-    mass; stresses are total, tension positive. The velocity is that at the point. Beyond the mesh all is NaN.
+    mass; stresses are total, tension positive. The velocity is that of the point's group at the point. Beyond the mesh all is
+    NaN.
 
-    Reads    r, z edges;  group, eos_model, memory [m], eos_par [m, k];  vof [m, j, i], q [k, m, j, i];  u, v [b, j-1/2, i-1/2];
-             points [n, 2]
+    Reads    r, z edges;  own [n], groups of the points (`group_at`);  group, eos_model, memory [m], eos_par [m, k];
+             vof [m, j, i], q [k, m, j, i];  u, v [b, j-1/2, i-1/2];  points [n, 2]
     Writes   found [n, QUANTITIES]
     """
     for n in range(points.shape[0]):
@@ -98,7 +112,7 @@ def sample(g, nr, nz, r, z, group, eos_model, memory, eos_par, vof, q, u, v, poi
             continue
         i, x = place(r, g, nr, at_r)
         j, y = place(z, g, nz, at_z)
-        b = group_of(group, vof, j, i)
+        b = group_at(own[n], group, vof, j, i)
         found[n] = 0.0
         found[n, U] = between(u[b], j, i, x, y)
         found[n, V] = between(v[b], j, i, x, y)

@@ -7,13 +7,13 @@ import socket
 import tempfile
 import time
 import traceback
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 
 from hydro2d import checksums, jit
 from hydro2d.deck import deck as decks
 from hydro2d.errors import DeckError
-from hydro2d.files import LockError, holder
+from hydro2d.files import LockError, LostPlaceError, holder
 from hydro2d.interrupt import Interrupt
 from hydro2d.mesh.quantities import FieldError
 from hydro2d.output import snapshot
@@ -21,14 +21,16 @@ from hydro2d.output.history import HistoryError
 from hydro2d.output.vtk import VtkError
 from hydro2d.running import compilation, run
 from hydro2d.strange import StrangeFile
-from hydro2d.study.layout import DONE, FAILED, FAILED_STATUS, UNPHYSICAL, read_json
+from hydro2d.study.layout import DONE, FAILED, FAILED_STATUS, UNPHYSICAL, state
 
 #: exceptions that are reported in one line, without a traceback
-TOLD = (DeckError, FieldError, HistoryError, LockError, StrangeFile, VtkError, run.RunError, snapshot.SnapshotError)
+TOLD = (DeckError, FieldError, HistoryError, LockError, LostPlaceError, StrangeFile, VtkError, run.RunError,
+        snapshot.SnapshotError)  # fmt: skip
 FULL = "No space left on device"
 #: cycles that call every kernel: more than simulation.WATCH_EVERY
 CYCLES = 11
-#: seconds without progress after which a process on another machine loses its lock; progress.json is written every 3
+#: seconds in which neither lock nor progress of a process on another machine change before it loses its lock; progress.json is
+#: written every 3
 SILENCE = 120.0
 #: longest time in seconds for a worker to end after its sweep was killed
 ENDING = 60.0
@@ -39,7 +41,8 @@ class Outcome:
     """The outcome of an attempt.
 
     status : one of layout.STATUSES;  message : why it is not done;  kind : kind of failure;  wall_s : time of this attempt;
-    fresh : False if the result already existed;  trace : traceback of an unexpected failure
+    fresh : False if the result already existed;  trace : traceback of an unexpected failure;  first : what ended the first of
+    two attempts
     """
 
     status: str
@@ -49,6 +52,7 @@ class Outcome:
     wall_s: float = 0.0
     fresh: bool = True
     trace: str = ""
+    first: str = ""
 
     def plain(self) -> dict:
         return asdict(self)
@@ -64,9 +68,19 @@ def run_case(directory: str | Path, deck_text: str, *, threads: int = 1, overwri
     overwrite : replace a run of another deck in the directory, which otherwise is a failure
     interrupt : may be called from anywhere to stop the run after the cycle, with a restart file
 
-    Never raises; the message of the outcome says what went wrong.
+    A case that fails by neither its physics nor anything that its user can mend is tried once more. Never raises; the message
+    of the outcome says what went wrong.
     """
-    started, directory = time.perf_counter(), Path(directory)
+    directory = Path(directory)
+    outcome = _attempt(directory, deck_text, threads, overwrite, interrupt)
+    if not outcome.trace or (interrupt and interrupt.reason):
+        return outcome
+    again = _attempt(directory, deck_text, threads, overwrite, interrupt)
+    return replace(again, wall_s=outcome.wall_s + again.wall_s, trace=again.trace or outcome.trace, first=outcome.message)
+
+
+def _attempt(directory: Path, deck_text: str, threads: int, overwrite: bool, interrupt: Interrupt | None) -> Outcome:
+    started = time.perf_counter()
     about = {"host": socket.gethostname()}
     try:
         found = _finished(directory, deck_text)
@@ -82,9 +96,10 @@ def run_case(directory: str | Path, deck_text: str, *, threads: int = 1, overwri
 
 def _finished(directory: Path, deck_text: str) -> dict | None:
     """The summary of a finished run of this deck. A run that ended as unphysical counts, because it would do so again."""
-    summary = read_json(directory / run.SUMMARY)
-    same = summary.get("deck_sha256") == run.deck_hash(deck_text)
-    return summary if same and summary["status"] in (DONE, UNPHYSICAL) else None
+    sha256 = run.deck_hash(deck_text)
+    found = state(directory, sha256)
+    ended = found["status"] in (DONE, UNPHYSICAL) and found["summary"].get("deck_sha256") == sha256
+    return found["summary"] if ended else None
 
 
 def _run(directory: Path, deck_text: str, threads: int, overwrite: bool, interrupt: Interrupt | None) -> dict:
@@ -103,22 +118,28 @@ def _run(directory: Path, deck_text: str, threads: int, overwrite: bool, interru
 def _wait_for_silence(directory: Path, interrupt: Interrupt | None) -> None:
     """Waits for a worker on this machine that is still ending, for example after its sweep was killed.
 
-    Removes the lock of a process on another machine that no longer shows progress, because its worker is gone. A process that
-    still shows progress keeps its lock, and the run reports that.
+    Removes the lock of a process on another machine that shows no progress while this one watches, because its worker is gone;
+    what clocks of other machines say does not count. A process that still shows progress keeps its lock, and the run reports
+    that.
     """
     lock, began = directory / run.LOCK, time.monotonic()
+    heard, signs = began, _signs(directory)
     while not (interrupt and interrupt.reason):
         by = holder(lock)
         if by is None or time.monotonic() - began > (ENDING if by.is_here else 2 * SILENCE):
             return
-        if by.is_here:
-            time.sleep(0.2)
-            continue
-        signs = [file.stat().st_mtime for file in (lock, directory / run.PROGRESS) if file.exists()]
-        if time.time() - max(signs, default=0.0) > SILENCE:
+        if (now := _signs(directory)) != signs:
+            heard, signs = time.monotonic(), now
+        if not by.is_here and time.monotonic() - heard > SILENCE:
             lock.unlink(missing_ok=True)
             return
-        time.sleep(1.0)
+        time.sleep(min(0.2, SILENCE))
+
+
+def _signs(directory: Path) -> list[tuple[int, int]]:
+    """What changes as long as the process lives that runs in a directory."""
+    found = (file.stat() for name in (run.LOCK, run.PROGRESS) if (file := directory / name).exists())
+    return [(each.st_ino, each.st_mtime_ns) for each in found]
 
 
 def _can_continue(directory: Path, deck_text: str, overwrite: bool) -> bool:
@@ -152,7 +173,8 @@ def _failure(error: Exception, directory: Path) -> dict:
     """The outcome that describes an exception to the user."""
     text = " ".join(str(error).split())
     if FULL in text:
-        message, trace = f"the disk is full: {directory} could not be written; free some space and continue", ""
+        place = error.filename if isinstance(error, OSError) and error.filename is not None else directory
+        message, trace = f"the disk is full: {place} could not be written; free some space and continue", ""
     elif isinstance(error, TOLD):
         message, trace = text, ""
     elif isinstance(error, OSError):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +17,8 @@ from hydro2d.study.definition import StudyError, explained
 
 #: where a sweep on this machine listens
 HERE = "127.0.0.1"
+#: times that the workers of this machine are started before that is given up
+STARTS = 3
 #: seconds to wait for the scheduler of --scheduler
 ANSWER = 15
 
@@ -89,20 +91,34 @@ def local(workers: int, threads: int) -> Iterator:
     All of them listen on the loopback interface only and communicate by TLS with a certificate made for this sweep, because
     anyone who could connect could run code in the workers.
     """
+    with children.safe(), ExitStack() as stack:
+        yield _begun(stack, workers, threads)
+
+
+def _begun(stack: ExitStack, workers: int, threads: int):
+    """The client of `local`, which ends with the stack. A worker that dies before all are there ends all; they begin anew.
+
+    Raises StudyError.
+    """
     import distributed
     from distributed.security import Security
 
-    with (
-        children.safe(),
-        distributed.LocalCluster(
-            n_workers=workers, threads_per_worker=1, processes=True, memory_limit=0, host=HERE, protocol="tls://",
-            security=Security.temporary(), dashboard_address=None, worker_dashboard_address=None,
-            scheduler_kwargs={"dashboard_address": f"{HERE}:0"},  # another sweep may have the usual port
-            env=environment(threads),
-        ) as cluster,
-        distributed.Client(cluster) as client,
-    ):  # fmt: skip
-        yield _with_checkpoints(client, silent=True)
+    for number in range(STARTS):
+        with ExitStack() as attempt:
+            try:
+                cluster = attempt.enter_context(distributed.LocalCluster(
+                    n_workers=workers, threads_per_worker=1, processes=True, memory_limit=0, host=HERE, protocol="tls://",
+                    security=Security.temporary(), dashboard_address=None, worker_dashboard_address=None,
+                    scheduler_kwargs={"dashboard_address": f"{HERE}:0"},  # another sweep may have the usual port
+                    env=environment(threads),
+                ))  # fmt: skip
+                client = _with_checkpoints(attempt.enter_context(distributed.Client(cluster)), silent=True)
+            except (RuntimeError, OSError) as error:
+                if number == STARTS - 1:
+                    raise StudyError(f"the workers do not start: {' '.join(str(error).split())}") from None
+            else:
+                stack.push(attempt.pop_all())
+                return client
 
 
 def _with_checkpoints(client, *, silent: bool):

@@ -28,7 +28,6 @@ from hydro2d.errors import unknown
 from hydro2d.files import write_text
 from hydro2d.mesh import quantities
 from hydro2d.output import vtk
-from hydro2d.results.figures import filled
 from hydro2d.results.reading import Results, ResultsError
 from hydro2d.study import differences
 from hydro2d.study.table import to_csv
@@ -294,7 +293,7 @@ def _apart(dump: vtk.Dump, other: vtk.Dump, name: str) -> tuple[float, Place]:
     apart = np.nan_to_num(np.abs(dump.fields[name].astype(float) - other.fields[name].astype(float)))
     if apart.ndim == 3:
         apart = np.sqrt((apart**2).sum(axis=-1))
-    apart[(filled(dump) < 0.5) | (filled(other) < 0.5)] = 0.0
+    apart[(dump.filling().fraction < 0.5) | (other.filling().fraction < 0.5)] = 0.0
     j, i = (int(n) for n in np.unravel_index(np.argmax(apart), apart.shape))
     share = quantities.BY_KEY["volume_fraction"]
     body = max(dump.bodies, key=lambda name: dump.fields[share.name(name)][j, i])

@@ -20,12 +20,12 @@ from collections.abc import Sequence
 from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path, PurePosixPath
 
-from hydro2d import __version__, checksums, files
+from hydro2d import __version__, checksums
 from hydro2d.errors import nearest
 from hydro2d.files import holder, write_json, write_text
 from hydro2d.output import snapshot
 from hydro2d.results.reading import STUDY
-from hydro2d.results.summaries import plausible
+from hydro2d.results.summaries import progress_of, summary_of, table_of
 from hydro2d.running import run
 from hydro2d.strange import own, own_folder, within
 from hydro2d.study import velocities
@@ -220,7 +220,7 @@ def read(directory: Path | str) -> Study:
     directory = Path(directory)
     if not own(directory / STUDY).is_file():
         raise StudyError(f"{directory} is not a study directory: it has no {STUDY}")
-    data = read_json(directory / STUDY)
+    data = table_of(directory / STUDY, StudyError)
     try:
         found = _study(directory, data)
     except (KeyError, TypeError, ValueError, AttributeError) as error:
@@ -292,7 +292,7 @@ def _runs(directory: Path) -> list[Case]:
 
 def _alone(place: Path) -> Case:
     """A run directory that no study names."""
-    return Case(place.name, place, **_state(place, None))
+    return Case(place.name, place, **state(place, None))
 
 
 def _text(file: Path) -> str:
@@ -302,16 +302,6 @@ def _text(file: Path) -> str:
     except StudyError:
         if not file.exists():
             return ""
-        raise
-
-
-def read_json(file: Path) -> dict:
-    """The table in a JSON file; empty if there is no such file. Raises StudyError."""
-    try:
-        return files.read_json(file, StudyError)
-    except StudyError:
-        if not file.exists():
-            return {}
         raise
 
 
@@ -327,7 +317,7 @@ def _case(directory: Path, entry: dict, ensemble: Ensemble | None) -> Case:
     }  # fmt: skip
     if entry.get("status0") == INVALID:
         return Case(**common, status=INVALID, message=entry.get("message") or "")
-    return Case(**common, **_state(place, sha256))
+    return Case(**common, **state(place, sha256))
 
 
 def _place(directory: Path, name: str) -> Path:
@@ -337,8 +327,13 @@ def _place(directory: Path, name: str) -> Path:
     return within(directory, name)
 
 
-def _state(place: Path, deck_sha256: str | None) -> dict:
-    """Status, message, summary and progress of a run directory; the message says what cannot be read."""
+def state(place: Path, deck_sha256: str | None) -> dict:
+    """Status, message, summary and progress of a run directory; the message says what cannot be read.
+
+    deck_sha256 : hash of the resolved deck that it should have; None: any
+
+    Nothing else says what a case is: a run that has ended counts, whatever failed before or as its worker died.
+    """
     try:
         return _read_state(place, deck_sha256)
     except StudyError as error:
@@ -348,17 +343,18 @@ def _state(place: Path, deck_sha256: str | None) -> dict:
 def _read_state(place: Path, deck_sha256: str | None) -> dict:
     if place.is_file():
         return {"status": FAILED_STATUS, "message": f"{place} is a file, not a directory"}
-    failed, text = read_json(place / FAILED), _text(place / run.DECK)
-    summary, odd = plausible(read_json(place / run.SUMMARY))
+    failed, text = table_of(place / FAILED, StudyError), _text(place / run.DECK)
+    summary, odd = summary_of(place, text, StudyError)
+    status = str(summary.get("status", INTERRUPTED))
     process = holder(place / run.LOCK)
     if process is not None:
-        return {"status": RUNNING, "message": str(process), "progress": read_json(place / run.PROGRESS)}
-    if failed:
+        return {"status": RUNNING, "message": str(process), "progress": progress_of(place, StudyError)}
+    other = text and deck_sha256 is not None and run.deck_hash(text) != deck_sha256
+    if failed and (other or status not in ENDED):
         return {"status": FAILED_STATUS, "message": str(failed.get("reason", "no reason is given")), "summary": summary}
-    if text and deck_sha256 is not None and run.deck_hash(text) != deck_sha256:
+    if other:
         return {"status": WAITING, "message": "its directory holds a run of another deck"}
     if summary:
-        status = str(summary.get("status", INTERRUPTED))
         why = str(summary.get("stop_reason", ""))
         if status == DONE:
             faults = "; ".join(summary.get("faults") or ())

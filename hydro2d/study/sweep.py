@@ -12,6 +12,7 @@ import time
 import uuid
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import AbstractContextManager, contextmanager
+from dataclasses import replace
 from datetime import UTC, datetime
 from pathlib import Path
 
@@ -221,12 +222,15 @@ class _Sweep:
     def _finish(self, case: layout.Case, outcome: Outcome) -> None:
         """Reports the outcome of a case."""
         self.spent += outcome.wall_s
-        if outcome.status == FAILED_STATUS:
+        if outcome.status == FAILED_STATUS and case.status not in layout.ENDED:  # its worker may die as it ends
             self._record(case, outcome)
             case = self.board.look(case.name)
+        elif outcome.status == FAILED_STATUS:
+            outcome = replace(outcome, status=case.status, message=case.message)
         name, *shown = monitor.row(case)
         depth = "" if shown[1] == "-" else f"depth {shown[1]}"
         words = [outcome.status, depth if outcome.status == DONE else outcome.message]
+        words += [f"in a second attempt after {outcome.first}"] if outcome.first else []
         words += [] if outcome.fresh else ["already finished" if outcome.status == DONE else "not begun"]
         where = f"({duration(outcome.wall_s)}, {outcome.host})" if outcome.host else ""
         self.board.line(f"{name}: {', '.join(filter(None, words))} {where}".rstrip())

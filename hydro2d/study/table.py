@@ -10,6 +10,7 @@ from hydro2d.study.experiments import Measurement
 from hydro2d.study.layout import Axis, Study
 from hydro2d.study.record import Record
 from hydro2d.study.responses import DEPTH, RESIDUAL, Choice, is_velocity, raw, response
+from hydro2d.terminal import cell
 
 #: largest number of sinks named on the page, and the smallest fraction of the start energy of one that is named
 NAMED_SINKS, SMALLEST_SHARE = 3, 1e-6
@@ -127,14 +128,14 @@ def to_csv(table: Sequence[Row]) -> str:
     """The rows as CSV; numbers with all their digits."""
     from pandas import DataFrame
 
-    safe = [{name: _cell(value) for name, value in row.items()} for row in table]
+    safe = [{cell(name): _cell(value) for name, value in row.items()} for row in table]
     return DataFrame(safe, dtype=object).to_csv(index=False, lineterminator="\n")
 
 
 def _cell(value):
-    """A value of the table: empty for None, and no text that a spreadsheet would take for a formula."""
-    if isinstance(value, str) and value.startswith(("=", "+", "-", "@", "\t", "\r")):
-        return f"'{value}"
+    """A value of the table; empty for None."""
+    if isinstance(value, str):
+        return cell(value)
     return "" if value is None else value
 
 

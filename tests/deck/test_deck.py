@@ -388,7 +388,7 @@ FLIGHT = changed('[[body]]\nname = "plate"\nmaterial = "Al5083"\nshape = "plate"
 @pytest.mark.parametrize(
     ("text", "overrides", "warned"),
     [
-        (SHEET, [], 'body "plate": 2.0 cells across it along z; waves in it need at least 4'),
+        (SHEET, [], 'body "plate": 2.0 cells across it along z; stresses and waves in it need at least 4'),
         (SHEET.replace('"1 mm"', '"2 mm"'), [], None),
         (FLIGHT, ['stop.time="40 us"'], 'body "rod": reaches the edge of the mesh after 36.8 us and leaves it before the end'),
         (FLIGHT, ['stop.time="30 us"'], None),

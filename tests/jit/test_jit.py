@@ -102,6 +102,8 @@ RELIED_ON = [
     (numba.core.options.TargetOptions, "Mapping", ("flag_name",)),
     (numba.core.compiler.Flags(), "noalias", ()),
     (caching.IndexDataCacheFile, "save", ("key", "data")),
+    (caching, "_CacheLocator", ()),
+    (caching._CacheLocator, "ensure_cache_path", ("self",)),
     (numba.core, "event", ()),
     (numba.core.event, "Listener", ()),
     (numba.core.event, "register", ("kind", "listener")),

@@ -172,8 +172,8 @@ def corner_of(scale: float, void: float) -> list[float]:
     share, rest = np.where(vof == 1.0, 1.0, vof * scale), 1.0 - vof[:, 2, 2].sum()
     strips, given = np.zeros((3, 4, 2)), []
     for along_z in (False, True):
-        fill_strips(2, 2, along_z, 0.1, 0.1, 0.0, np.arange(2), share, rest, np.zeros(2, dtype=np.int64), SOLIDS,
-                    np.zeros((2, 2, 5, 5)), np.ones(5), np.ones(5), strips)
+        fill_strips(2, 2, interfaces.ALL, along_z, 0.1, 0.1, 0.0, np.arange(2), share, rest, np.zeros(2, dtype=np.int64),
+                    SOLIDS, np.zeros((2, 2, 5, 5)), np.ones(5), np.ones(5), strips)
         given += list(strips[:2, interfaces.SHARE].ravel() / scale)
     return given
 

@@ -154,6 +154,8 @@ def test_sphere_moved_along_the_axis_and_back(n, error):
 #: bodies that are no gases, and of which the second of three is one
 SOLIDS, GAS_BETWEEN = np.zeros(3, dtype=bool), np.array([False, True, False])
 ONE_GROUP = np.zeros(3, dtype=np.int64)
+#: the mesh goes on around the middle one of 5 x 5 cells, and no cell is one of a contact
+INSIDE, NO_CONTACT = np.array([0, 5, 0, 5]), np.zeros((5, 2), dtype=np.int64)
 
 
 def given(dj: int, void: float, w_low: float = 0.1, w_high: float = 0.2, everywhere: bool = False) -> np.ndarray:
@@ -171,9 +173,10 @@ def given(dj: int, void: float, w_low: float = 0.1, w_high: float = 0.2, everywh
     vof = np.array([body, rest])
     mixed, face, flux = np.full((5, 5), 2, dtype=np.int64), np.zeros((5, 5)), np.zeros((2, 5, 5))
     face[2, 2], face[2 + dj, 3 - dj] = -w_low, w_high
-    interfaces.interface_volumes_row.py_func(2, dj, 1 - dj, np.ones(5), np.ones(5), np.arange(2), ONE_GROUP[:2],
-                                             SOLIDS[:2], np.ones(5, dtype=np.int64), mixed, face, np.ones((5, 5)), vof,
-                                             np.zeros((2, 2, 5, 5)), flux, np.zeros((2, 2, 5, 5)), np.zeros((5, 3, 4, 2)))
+    interfaces.interface_volumes_row.py_func(
+        2, dj, 1 - dj, INSIDE, NO_CONTACT, np.ones(5), np.ones(5), np.arange(2), ONE_GROUP[:2], SOLIDS[:2],
+        np.ones(5, dtype=np.int64), mixed, face, np.ones((5, 5)), vof, np.zeros((2, 2, 5, 5)), flux, np.zeros((2, 2, 5, 5)),
+        np.zeros((5, 3, 4, 2)))
     return np.array([flux[:, 2, 2], flux[:, 2 + dj, 3 - dj]])
 
 
@@ -233,10 +236,10 @@ def in_strip(slab, low, high):
     return share, share * (0.5 * (first + last) - 0.5 * (low + high)) / (high - low), 0.0
 
 
-def strips_of(vof, centroid, order, along_z=False, widths=(0.4, 0.6, 1.0), gases=SOLIDS):
+def strips_of(vof, centroid, order, along_z=False, widths=(0.4, 0.6, 1.0), gases=SOLIDS, last=interfaces.ALL):
     strips = np.full((3, 4, len(vof)), np.nan)
     void = 1.0 - vof[:, 2, 2].sum()
-    fill_strips(2, 2, along_z, *widths, np.array(order), vof, void, ONE_GROUP[:len(vof)], gases, centroid, np.ones(5),
+    fill_strips(2, 2, last, along_z, *widths, np.array(order), vof, void, ONE_GROUP[:len(vof)], gases, centroid, np.ones(5),
                 np.ones(5), strips)
     return strips
 
@@ -264,24 +267,26 @@ def test_a_plate_beside_void_lies_where_it_is_too():
         assert strips[2, SHARE] == pytest.approx([0.3, 0.2], abs=1e-14)
 
 
-def test_a_strip_that_is_left_out_is_empty():
+def test_a_strip_that_is_left_out_stays_as_it_is():
     vof, centroid = stack()
     strips = strips_of(vof, centroid, (0, 1, 2), widths=(0.0, 0.6, 0.0))
-    assert not strips[[0, 2], :THIN].any()
+    assert np.isnan(strips[[0, 2], :THIN]).all()
     np.testing.assert_array_equal(strips[1, :THIN], strips_of(vof, centroid, (0, 1, 2))[1, :THIN])
 
 
 def test_no_two_bodies_are_thin_without_each_other():
-    """How thin a body is counts where bodies meet; beside void alone its own `piece` sees to it."""
+    """How thin a body is counts where another is in its cell or around; beside void alone its own `piece` sees to it."""
     vof, _ = stack()
     thin = np.full(3, np.nan)
     assert thinnest_body(2, 2, False, np.arange(3), vof, thin) == 1.0
     assert thin.tolist() == [0.0, 1.0, 0.0]
     assert thinnest_body(2, 1, False, np.arange(3), vof, thin) == 0.0
     assert thin.tolist() == [0.0, 0.0, 0.0]
+    vof[[0, 2], :, 2] = 0.0  # the plate is alone in its cell, between two bodies
+    assert thinnest_body(2, 2, False, np.arange(3), vof, thin) == 1.0
+    assert thin.tolist() == [0.0, 1.0, 0.0]
     vof[[0, 2]] = 0.0
     assert thinnest_body(2, 2, False, np.arange(3), vof, thin) == 0.0
-    assert thin.tolist() == [0.0, 1.0, 0.0]
     vof, _ = stack(((-2.5, 0.0), (0.0, 2.5)))
     vof[0, 2, 1], vof[0, [1, 3], 1], vof[0, :, 0] = 0.975, 0.975, 0.5
     assert thinnest_body(2, 2, False, np.arange(2), vof, thin[:2]) == pytest.approx(0.5)
@@ -290,14 +295,12 @@ def test_no_two_bodies_are_thin_without_each_other():
 def test_where_a_gas_is_no_body_is_thin_and_void_has_no_box():
     vof, centroid = stack()
     thin = np.full(3, np.nan)
-    assert thinnest_body(2, 2, True, np.arange(3), vof, thin) == 0.0
-    assert thin.tolist() == [0.0, 0.0, 0.0]
+    assert thinnest_body(2, 2, 1.0, np.arange(3), vof, thin) == 0.0
     strips = strips_of(vof, centroid, (1, 0, 2), gases=GAS_BETWEEN)  # the stated order holds
-    np.testing.assert_array_equal(strips[0, THIN], [0.0, 0.0, 0.0])
     np.testing.assert_allclose(strips[2, SHARE], [0.3, 0.2, 0.5], atol=1e-14)
-    assert keeps_order(2, 2, ONE_GROUP, GAS_BETWEEN, vof) == 1.0
-    assert keeps_order(2, 1, ONE_GROUP, GAS_BETWEEN, vof) == 0.0
-    assert keeps_order(2, 2, ONE_GROUP, SOLIDS, vof) == 0.0
+    assert keeps_order(2, 2, ONE_GROUP, GAS_BETWEEN, vof, 0.0) == (1.0, 1.0)
+    assert keeps_order(2, 1, ONE_GROUP, GAS_BETWEEN, vof, 0.0) == (0.0, 0.0)
+    assert keeps_order(2, 2, ONE_GROUP, SOLIDS, vof, 0.0) == (0.0, 0.0)
     vof, centroid = np.zeros((2, 5, 5)), np.zeros((2, 2, 5, 5))
     vof[0], vof[:, 2, 2] = 1.0, (0.6, 0.1)  # a body that fills all cells around, a gas, and void
     for gases, low in ((GAS_BETWEEN[:2], [0.06, 0.01]), (SOLIDS[:2], [0.1, 0.0])):
@@ -308,12 +311,54 @@ def test_where_a_gas_is_no_body_is_thin_and_void_has_no_box():
 def test_bodies_keep_their_order_beside_another_group():
     vof, _ = stack()
     two_groups = np.array([1, 0, 0])
-    assert keeps_order(2, 2, two_groups, SOLIDS, vof) == 1.0
-    assert keeps_order(2, 3, two_groups, SOLIDS, vof) == 1.0  # of the first body there is some in the next cell
+    assert keeps_order(2, 2, two_groups, SOLIDS, vof, 0.0) == (1.0, 1.0)
+    assert keeps_order(2, 3, two_groups, SOLIDS, vof, 0.0) == (1.0, 1.0)  # of the first body there is some in the next cell
     vof[0, :, 2] = 0.0
-    assert keeps_order(2, 3, two_groups, SOLIDS, vof) == 0.0
+    assert keeps_order(2, 3, two_groups, SOLIDS, vof, 0.0) == (0.0, 0.0)
     vof[0, 1, 4] = 0.5 * interfaces.MEETING
-    assert keeps_order(2, 3, two_groups, SOLIDS, vof) == pytest.approx(0.5)
+    assert keeps_order(2, 3, two_groups, SOLIDS, vof, 0.0) == pytest.approx((0.5, 0.5))
+
+
+def test_void_parts_the_groups_of_a_contact_and_the_order_ends():
+    """Without a jump; what the gap between them is told by remains."""
+    vof, _ = stack()
+    two_groups = np.array([1, 0, 0])
+
+    def order(void):
+        return keeps_order(2, 2, two_groups, SOLIDS, vof, void)
+
+    assert order(interfaces.PARTING) == order(0.5) == (0.0, 1.0)
+    assert order(0.5 * interfaces.PARTING) == pytest.approx((0.5, 1.0))
+    for void in (0.0, interfaces.PARTING):
+        changes_in_proportion(order, void, 1.5 / interfaces.PARTING, sides=(1.0,))
+    assert keeps_order(2, 2, ONE_GROUP, GAS_BETWEEN, vof, 0.5) == (1.0, 1.0)  # a gas keeps it
+
+
+def test_what_comes_after_the_body_that_is_asked_for_is_left_out():
+    vof, centroid = stack()
+    all_of_them = strips_of(vof, centroid, (0, 1, 2))
+    for m in range(3):
+        found = strips_of(vof, centroid, (0, 1, 2), last=m)
+        np.testing.assert_array_equal(found[:, :THIN, m], all_of_them[:, :THIN, m])
+    assert not strips_of(vof, centroid, (0, 1, 2), gases=GAS_BETWEEN, last=0)[:, :THIN, 1:].any()
+
+
+@pytest.mark.parametrize("along_z", [False, True])
+def test_of_contact_interface_cells_within_the_mesh_only_the_centroids_are_worked_out(along_z):
+    vof, exact = stack(along_z=along_z)
+    dj, di = (1, 0) if along_z else (0, 1)
+    mixed, face = np.full((5, 5), 2, dtype=np.int64), np.zeros((5, 5))
+    face[2, 2], face[2 + dj, 2 + di] = -0.1, 0.6
+    columns = np.tile([2, 3], (5, 1))
+    for mesh_box, left in ((INSIDE, True), (np.array([2, 3, 2, 3]), False)):
+        centroid = exact.copy()
+        centroid[:, [0, 2], 2, 2] = 0.0
+        flux, place = np.zeros((3, 5, 5)), np.zeros((2, 3, 5, 5))
+        interfaces.interface_volumes_row.py_func(
+            2, dj, di, mesh_box, columns, np.ones(5), np.ones(5), np.arange(3), ONE_GROUP, SOLIDS, np.ones(5, dtype=np.int64),
+            mixed, face, np.ones((5, 5)), vof, centroid, flux, place, np.zeros((5, 3, 4, 3)))
+        np.testing.assert_allclose(centroid, exact, atol=1e-14)
+        assert flux.any() != left
 
 
 def test_bodies_become_thin_without_a_jump():
@@ -338,10 +383,10 @@ def test_nested_bodies_come_in_their_order_or_the_thin_ones_first():
     strips = np.zeros((3, 4, 2))
     strips[0, THIN] = 0.0, 1.0
     common = (0.4, 0.0, 0.0), (np.arange(2), vof, 0.5, False, centroid, np.ones(5), np.ones(5), strips)
-    nest(2, 2, False, *common[0], True, 0.25, *common[1])
+    nest(2, 2, interfaces.ALL, False, *common[0], True, 0.25, *common[1])
     np.testing.assert_allclose(strips[0, SHARE], [0.25 * 0.3, 0.0], atol=1e-15)
     assert not strips[1:, :THIN].any()
-    nest(2, 2, False, *common[0], False, 0.75, *common[1])
+    nest(2, 2, interfaces.ALL, False, *common[0], False, 0.75, *common[1])
     np.testing.assert_allclose(strips[0, SHARE], [0.3, 0.75 * 0.1], atol=1e-14)  # the plate follows upon the gas
 
 
@@ -385,8 +430,8 @@ def test_a_mixed_cell_says_where_its_bodies_lie_in_what_it_gives(along_z):
     mixed, face = np.full((5, 5), 2, dtype=np.int64), np.zeros((5, 5))
     face[2, 2], face[2 + dj, 2 + di] = -0.1, 0.6
     flux, place = np.zeros((3, 5, 5)), np.full((2, 3, 5, 5), np.nan)
-    given = (np.ones(5), np.ones(5), np.arange(3), ONE_GROUP, SOLIDS, np.ones(5, dtype=np.int64), mixed, face,
-             np.ones((5, 5)), vof)
+    given = (INSIDE, NO_CONTACT, np.ones(5), np.ones(5), np.arange(3), ONE_GROUP, SOLIDS, np.ones(5, dtype=np.int64), mixed,
+             face, np.ones((5, 5)), vof)
     interfaces.interface_volumes_row.py_func(2, dj, di, *given, centroid, flux, place, np.zeros((5, 3, 4, 3)))
     np.testing.assert_allclose(flux[:, 2, 2], [-0.1, 0.0, 0.0], atol=1e-15)
     np.testing.assert_allclose(flux[:, 2 + dj, 2 + di], [0.0, 0.1, 0.5], atol=1e-15)
@@ -403,8 +448,8 @@ def test_the_less_a_cell_gives_the_less_its_interfaces_say_of_its_centroids():
     for swept, known in ((2.0, 1.0), (1.0, 1.0), (0.5, 0.5), (0.0, 0.0)):
         centroid, face = np.zeros_like(exact), np.zeros((5, 5))
         face[2, 3] = swept * interfaces.SWEPT
-        given = (np.ones(5), np.ones(5), np.arange(1), ONE_GROUP[:1], SOLIDS[:1], np.ones(5, dtype=np.int64), mixed, face,
-                 np.ones((5, 5)), vof)
+        given = (INSIDE, NO_CONTACT, np.ones(5), np.ones(5), np.arange(1), ONE_GROUP[:1], SOLIDS[:1],
+                 np.ones(5, dtype=np.int64), mixed, face, np.ones((5, 5)), vof)
         interfaces.interface_volumes_row.py_func(2, 0, 1, *given, centroid, np.zeros((1, 5, 5)), np.zeros((2, 1, 5, 5)),
                                                  np.zeros((5, 3, 4, 1)))
         assert centroid[:, 0, 2, 2] == pytest.approx([known * -0.25, 0.0], abs=1e-15)

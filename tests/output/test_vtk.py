@@ -69,7 +69,9 @@ def test_void_is_zero(moved):
 
 def test_chosen_fields(moved, tmp_path):
     dump = vtk.read_grid(Series(tmp_path, ["pressure"]).dump(moved))
-    assert set(dump.fields) == {"Pressure [Pa]", "Volume Fraction for rod", "Volume Fraction for plate", "Material"}
+    always = {f"{of} for {body}{unit}" for body in ("rod", "plate")
+              for of, unit in (("Volume Fraction", ""), ("Centroid Offset r", " [m]"), ("Centroid Offset z", " [m]"))}
+    assert set(dump.fields) == {"Pressure [Pa]", "Material", *always}
 
 
 def test_pyvista_opens_the_series(moved, tmp_path):

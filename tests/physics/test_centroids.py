@@ -10,6 +10,7 @@ from hydro2d.physics.centroids import FILLED, GROWING
 from tests.physics.continuity import changes_in_proportion, largest_jump
 
 within = centroids.within.py_func
+box_length = centroids.box_length.py_func
 box_piece = centroids.box_piece.py_func
 goes_on = centroids.goes_on.py_func
 beside = centroids.beside.py_func
@@ -17,8 +18,10 @@ reached = centroids.reached.py_func
 most_around = centroids.most_around.py_func
 rest_of = centroids.rest_of.py_func
 placed = centroids.placed.py_func
-piece = centroids.piece.py_func
-pushed = centroids.pushed.py_func
+forms = centroids.forms.py_func
+piece_by_form = centroids.piece.py_func
+side_of = centroids.side.py_func
+most_beside = centroids.most_beside.py_func
 youngs_normal = interfaces.youngs_normal.py_func
 piece_of_surface = interfaces.piece_of_surface.py_func
 
@@ -32,6 +35,17 @@ CELLS = [*((row, column) for row in (1, 2, 3) for column in (1, 2, 3)), (2, 0), 
 MIDDLE = 4
 #: fractions of these cells
 AROUND = st.tuples(*[UNIT] * 17)
+
+
+def piece(f, along_z, along, across, no_gap, bound, strip, high):
+    """The piece of a single body, whose box is the only one."""
+    box = box_piece(f[MIDDLE], along, across, goes_on(f[MIDDLE], *beside(f, along_z)), strip, high)
+    return piece_by_form(f, along_z, along, across, forms(f, float(no_gap)), bound, box, strip, high)
+
+
+def pushed(own, other, fraction, fraction_other, change):
+    """What an offset changes by as something else in the cell grows by `change`."""
+    return 0.5 * change * side_of(own, other, fraction, fraction_other)
 
 
 def with_middle(f, fraction):
@@ -181,6 +195,41 @@ def test_one_full_cell_around_places_a_body_and_one_empty_cell_what_is_beside_it
             empty = tuple(1.0 - most if k == n else 0.4 for k in range(17))
             assert placed(rest_of(empty)) == pytest.approx(by)
             assert placed(empty) == 0.0
+
+
+@settings(deadline=None)
+@given(AROUND)
+def test_the_most_of_the_cells_around_decides_without_those_behind_where_one_is_full(f):
+    assert most_beside(f) == max(f[:MIDDLE] + f[MIDDLE + 1:9])
+    by_all = centroids.smoothstep.py_func((most_around(f) - FILLED) / (1.0 - FILLED))
+    assert placed(f) == by_all
+
+
+@settings(deadline=None)
+@given(FRACTION, OFFSET, OFFSET, UNIT)
+def test_a_box_fits_in_its_cell_and_holds_its_fraction(fraction, along, across, continues):
+    along, across = within(along, fraction), within(across, fraction)
+    length = box_length(fraction, along, across, continues)
+    room = (1.0 - 2.0 * abs(along)) * (1.0 - 2.0 * abs(across))
+    assert fraction <= length <= 1.0 - 2.0 * abs(along) + 1e-15
+    assert room < fraction or fraction / length <= 1.0 - 2.0 * abs(across) + 1e-15
+    assert length >= box_length(fraction, along, across, 0.5 * continues)
+
+
+@settings(deadline=None)
+@given(AROUND, UNIT)
+def test_the_forms_of_a_piece_share_it(f, no_gap):
+    line, box, gap = forms(f, no_gap)
+    assert line + box + gap == pytest.approx(1.0, abs=1e-15)
+    assert min(line, box, gap) >= 0.0
+    assert line == placed(f) * max(no_gap, placed(rest_of(f)))
+    assert no_gap < 1.0 or gap == pytest.approx(0.0, abs=1e-15)
+
+
+def test_boxes_of_several_bodies_are_put_in_the_place_of_one():
+    f, bound = surround(SPECK, 0.4, False)
+    boxes = 0.3, -0.01, 0.02
+    assert piece_by_form(f, False, 0.05, -0.1, forms(f, 0.0), bound, boxes, 0.35, True) == boxes
 
 
 @settings(deadline=None)

@@ -31,7 +31,7 @@ def test_what_the_page_says_of_the_meshes():
     acoustic = 2.0 * 1.2e9 / (2703.0 * 5240.0)
     assert [PULL_BACK["pulse", "cracks", cells] for cells in (200, 400, 800)] == pytest.approx([acoustic] * 3, rel=0.015)
     assert 0.03 < off("pulse", "cracks", 100) < 0.06
-    assert off("pulse", "plain", 100) < off("pulse", "plain", 200) < -0.01
+    assert max(off("pulse", "plain", 100), off("pulse", "plain", 200)) < -0.01
     assert off("pulse", "plain", 800) > 0.02
 
 

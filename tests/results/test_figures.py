@@ -7,7 +7,7 @@ import pytest
 
 from hydro2d.cli.main import call
 from hydro2d.deck import deck as decks
-from hydro2d.output.outlines import outlines
+from hydro2d.output.outlines import Filling
 from hydro2d.output.vtk import Dump
 from hydro2d.results import figures
 from hydro2d.results.reading import Results
@@ -163,14 +163,14 @@ def test_outline_of_a_disc():
     edges = np.linspace(0, 1, 41)
     centres = 0.5 * (edges[1:] + edges[:-1])
     r, z = np.meshgrid(centres, centres - 0.5)
-    (line,) = outlines(edges, edges, 1 / (1 + np.exp((np.hypot(r, z) - 0.3) * 50)))
+    (line,) = Filling(edges, edges, 1 / (1 + np.exp((np.hypot(r, z) - 0.3) * 50))).outlines()
     np.testing.assert_allclose(np.hypot(line[:, 0], line[:, 1] - 0.5), 0.3, atol=0.02)
     assert sorted(line[[0, -1], 0]) == [0, 0]
 
 
 def test_closed_outline_follows_the_boundary():
     edges = np.linspace(0, 1, 11)
-    (line,) = outlines(edges, edges, np.ones((10, 10)), closed=True)
+    (line,) = Filling(edges, edges, np.ones((10, 10))).outlines(closed=True)
     assert line[:, 0].max() == pytest.approx(1, abs=1e-5)
     assert (line[:, 1].min(), line[:, 1].max()) == pytest.approx((0, 1), abs=1e-5)
-    assert outlines(edges, edges, np.ones((10, 10))) == []
+    assert Filling(edges, edges, np.ones((10, 10))).outlines() == []

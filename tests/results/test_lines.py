@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from hydro2d.cli.main import call
-from hydro2d.output.outlines import regions
+from hydro2d.output.outlines import Filling
 from hydro2d.results import figures, lines
 from hydro2d.results.lines import Line
 from hydro2d.results.reading import Results
@@ -89,13 +89,13 @@ def test_regions_have_holes_and_reach_the_edges():
     r, z = np.linspace(0.0, 1.0, 41), np.linspace(0.0, 2.0, 81)
     zc, rc = np.meshgrid(0.5 * (z[1:] + z[:-1]), 0.5 * (r[1:] + r[:-1]), indexing="ij")
     distance = np.hypot(rc, zc - 1.0)
-    ((points, codes),) = regions(r, z, np.clip((distance - 0.3) / 0.05 + 0.5, 0.0, 1.0))
+    ((points, codes),) = Filling(r, z, np.clip((distance - 0.3) / 0.05 + 0.5, 0.0, 1.0)).regions()
     from matplotlib.path import Path
 
     path = Path(points, codes)
     inside = path.contains_points(np.column_stack([rc.ravel(), zc.ravel()])).reshape(rc.shape)
     assert (inside == (distance > 0.3))[np.abs(distance - 0.3) > 0.03].all()
-    assert regions(r, z, np.zeros((80, 40))) == []
+    assert Filling(r, z, np.zeros((80, 40))).regions() == []
 
 
 def test_colours_end_at_the_outlines():

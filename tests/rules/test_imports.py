@@ -12,7 +12,7 @@ from tests.rules import source
 #: from the bottom to the top; a name stands for itself and for all modules inside it, and a * for what it likes
 LAYERS = (
     ("hydro2d.jit", "hydro2d.units", "hydro2d.files", "hydro2d.checksums", "hydro2d.strange", "hydro2d.parameters",
-     "hydro2d.errors", "hydro2d.toml", "hydro2d.interrupt", "hydro2d.children", "hydro2d.terminal"),
+     "hydro2d.errors", "hydro2d.toml", "hydro2d.interrupt", "hydro2d.children", "hydro2d.parsing", "hydro2d.terminal"),
     ("hydro2d.mesh", "eos", "strength", "hydro2d.penetration", "hydro2d.problems"),
     ("hydro2d.materials",),
     ("hydro2d.physics", "hydro2d.deck", "hydro2d.sources"),
@@ -132,7 +132,7 @@ def users(library: str) -> set[str]:
         ("vtk", ("hydro2d.output.vtk", "hydro2d.results.cutaway")),
         ("pint", ("hydro2d.units",)),
         ("scipy", ("hydro2d.penetration", "hydro2d.materials.fitting", "hydro2d.solver.crater", "hydro2d.solver.debris",
-                   "hydro2d.solver.reach",
+                   "hydro2d.solver.reach", "hydro2d.output.outlines",
                    "hydro2d.deck.mesh", "hydro2d.study.chance", "hydro2d.study.extrapolation", "hydro2d.study.logit")),
         ("plotly", ("hydro2d.study.charts", "hydro2d.study.page")),
         ("jinja2", ("hydro2d.study.page",)),

@@ -36,18 +36,26 @@ def deck(tmp_path):
 
 @pytest.mark.parametrize("error", RAISED, ids=lambda error: type(error).__name__)
 def test_a_history_that_cannot_be_written_at_the_end(simulation, deck, tmp_path, monkeypatch, capsys, error):
+    """The run is not done before all is there, and then goes on to what an undisturbed one gives."""
+    write, out = history.History.write, tmp_path / "out"
     monkeypatch.setattr(history.History, "write", raising(error))
-    out = tmp_path / "out"
     assert call(["run", deck, "--out", str(out), "--quiet"]) == 4
     said = capsys.readouterr().err
     assert said.count("\n") == 1
     assert "history.h5" in said
     assert "Traceback" not in said
     summary = json.loads((out / "summary.json").read_text())
-    assert summary["status"] == "done"
+    assert summary["status"] == "interrupted"
+    assert "history.h5" in summary["stop_reason"]
     assert snapshot.read(out / "restart.h5").scalars["cycle"] == summary["cycles"]
     assert len(vtk.read_series(out / "series.pvd")) > 3
     assert not (out / "progress.json").exists()
+    assert not (out / "history.h5").exists()
+    monkeypatch.setattr(history.History, "write", write)
+    assert call(["run", deck, "--out", str(out), "--quiet", "--restart"]) == 0
+    assert call(["run", deck, "--out", str(tmp_path / "whole"), "--quiet"]) == 0
+    assert outcome(out) == outcome(tmp_path / "whole")
+    assert json.loads((out / "summary.json").read_text())["trustworthy"]
 
 
 @pytest.mark.parametrize("error", RAISED, ids=lambda error: type(error).__name__)
@@ -62,6 +70,12 @@ def test_an_output_that_cannot_be_written_on_the_way(simulation, deck, tmp_path,
     assert said.count("\n") == 1
     assert file in said
     assert snapshot.read(out / "restart.h5").scalars["cycle"] > 0
+
+
+def outcome(out):
+    """The last state and the whole history, to the last bit."""
+    columns = history.read(out / "history.h5")
+    return snapshot.read(out / "restart.h5").arrays["e"].tobytes(), {name: each.tobytes() for name, each in columns.items()}
 
 
 def after(number, method, error):
@@ -87,7 +101,9 @@ def test_all_that_cannot_be_written_is_named(simulation, deck, tmp_path, monkeyp
     assert "history.h5 could not be written: RuntimeError: too large" in said
     assert "restart.h5: Permission denied" in said
     assert "vtk could not be written: ValueError: no lines" in said
-    assert json.loads((out / "summary.json").read_text())["status"] == "done"
+    summary = json.loads((out / "summary.json").read_text())
+    assert summary["status"] == "interrupted"
+    assert f"hydro2d: {summary['stop_reason']}\n" == said
 
 
 def test_a_column_that_fails_in_the_last_row_leaves_the_summary(simulation, tmp_path):
@@ -95,11 +111,14 @@ def test_a_column_that_fails_in_the_last_row_leaves_the_summary(simulation, tmp_
     columns = {"mine": lambda sim: 1 if sim.time < fake.STOP else None}
     with pytest.raises(ColumnError, match="mine fails"):
         run(fake.FakeDeck(history_interval=1.7 * fake.STOP), tmp_path, quiet=True, columns=columns)
-    assert json.loads((tmp_path / "summary.json").read_text())["status"] == "done"
+    summary = json.loads((tmp_path / "summary.json").read_text())
+    assert summary["status"] == "interrupted"
+    assert "mine fails" in summary["stop_reason"]
 
 
-def test_a_restart_without_the_last_rows_goes_on_and_says_so(simulation, tmp_path, monkeypatch):
-    deck = fake.FakeDeck()
+def test_a_restart_file_has_the_rows_that_the_history_lacks(simulation, tmp_path, monkeypatch):
+    deck, whole, tmp_path = fake.FakeDeck(), tmp_path / "whole", tmp_path / "part"
+    run(deck, whole, quiet=True)
     monkeypatch.setattr(runs, "FLUSH_SECONDS", 0.0)
     monkeypatch.setattr(runs, "FLUSH_SHARE", 1e9)
     write = history.History.write
@@ -109,8 +128,32 @@ def test_a_restart_without_the_last_rows_goes_on_and_says_so(simulation, tmp_pat
     monkeypatch.setattr(history.History, "write", write)
     written, saved = history.read(tmp_path / "history.h5"), snapshot.read(tmp_path / "restart.h5")
     assert len(written["time"]) < saved.run["rows"]
-    assert run(deck, tmp_path, restart=True, quiet=True)["status"] == "done"
-    assert "history.h5 lacks the last 1 of " in (tmp_path / "log.txt").read_text()
+    summary = run(deck, tmp_path, restart=True, quiet=True)
+    assert (summary["status"], summary["trustworthy"]) == ("done", True)
+    assert outcome(tmp_path) == outcome(whole)
+
+
+@pytest.mark.parametrize(("spoil", "lacks"), [
+    (lambda file: file.unlink(), "lacks 20 of 20 rows"),
+    (lambda file: file.write_bytes(b"nothing"), "lacks 20 of 20 rows"),
+    (lambda file: shorten(file, 15), "lacks 5 of 20 rows"),
+])  # fmt: skip
+def test_a_history_that_lost_rows_is_not_trusted(simulation, tmp_path, spoil, lacks):
+    """Nor is it after another restart."""
+    deck = fake.FakeDeck()
+    deck.stop.time = 19.5e-6
+    run(deck, tmp_path, quiet=True)
+    spoil(tmp_path / "history.h5")
+    for time in (20e-6, 21e-6):
+        deck.stop.time = time
+        summary = run(deck, tmp_path, restart=True, quiet=True)
+        assert summary["status"] == "done"
+        assert summary["faults"] == [f"history.h5 {lacks} before a restart"]
+
+
+def shorten(file, rows):
+    found = history.History(file, rows)
+    found.write()
 
 
 def test_a_history_that_takes_long_is_written_less_often(simulation, tmp_path, monkeypatch):

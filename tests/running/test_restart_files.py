@@ -51,7 +51,7 @@ def test_a_file_of_another_version_is_named(begun, monkeypatch, capsys):
     spoiled_file = snapshot.Snapshot({}, {}, {}, "", {})
     snapshot.write(begun / snapshot.NAME, spoiled_file)
     monkeypatch.undo()
-    with pytest.raises(SnapshotError, match=r'another version \("hydro2d restart 9"; this one reads "hydro2d restart 5"\)'):
+    with pytest.raises(SnapshotError, match=rf'another version \("hydro2d restart 9"; this one reads "{snapshot.FORMAT}"\)'):
         snapshot.read(begun / snapshot.NAME)
 
 

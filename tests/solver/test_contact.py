@@ -12,7 +12,7 @@ from hydro2d.running import check
 from hydro2d.solver import tracers
 from hydro2d.solver.method import Method
 from hydro2d.solver.simulation import Simulation
-from tests.decks import mesh, plate, rod, stop, table, walls
+from tests.decks import entry, mesh, plate, rod, stop, table, walls
 
 TEXT = (
     mesh(("8 mm", 8), ("-8 mm", "8 mm", 16))
@@ -157,14 +157,31 @@ def test_a_point_moves_with_the_group_that_fills_its_cell(contact, share, expect
     assert contact.velocity_at(points, group=0).tolist() == [[0.1, 1.0]] * 4
 
 
-def test_a_tracer_changes_its_group_with_its_place(contact):
+@pytest.mark.parametrize(("own", "moved"), [(1, 2.0), (0, 1.0), (-1, 1.0)])
+def test_a_tracer_stays_with_the_group_that_it_began_in(contact, own, moved):
+    """A rod that fills a third of the cell: a tracer in it does not go with the plate."""
+    contact.state.vof[:, CUT[0] + 2, CUT[1] + 2] = 0.3, 0.7, 0.0
+    set_velocities(contact, (0.0, 1.0), (0.0, 2.0))
+    points = np.array([centre(contact, CUT)])
+    before, g, s = points.copy(), contact.grid, contact.state
+    tracers.advect(g.g, g.nr, g.nz, 1e-5, g.r, g.z, np.array([own]), s.group, s.vof, s.u, s.v, points)
+    np.testing.assert_allclose(points - before, [[0.0, 1e-5 * moved]], rtol=1e-6)
+
+
+def test_tracers_have_the_group_of_the_body_in_which_they_begin():
+    places = {"rod": (0.0, -1e-3), "plate": (5e-3, 1e-3), "void": (5e-3, -1e-3)}
+    sim = Simulation(deck.loads(TEXT + "".join(entry("tracer", name=name, r=r, z=z) for name, (r, z) in places.items())))
+    assert sim.stations._groups.tolist() == [1, 0, -1]
+
+
+def test_a_tracer_without_a_body_changes_its_group_with_its_place(contact):
     """Half a step at the velocity of the plate takes the point into the rod, with which it moves the whole step."""
     set_velocities(contact, (0.0, -1.0), (0.0, -2.0))
     contact.state.vof[:2, CUT[0] + 2] = 0.0
     contact.state.vof[1, CUT[0] + 2] = 1.0
     points = np.array([[1.5e-3, 0.3e-3], [6.5e-3, 3e-3]])
     g, s = contact.grid, contact.state
-    tracers.advect(g.g, g.nr, g.nz, 1e-3, g.r, g.z, s.group, s.vof, s.u, s.v, points)
+    tracers.advect(g.g, g.nr, g.nz, 1e-3, g.r, g.z, np.full(2, -1), s.group, s.vof, s.u, s.v, points)
     np.testing.assert_allclose(points, [[1.5e-3, -1.7e-3], [6.5e-3, 2e-3]], rtol=1e-12)
 
 

@@ -87,6 +87,17 @@ def test_the_distributions_and_the_fragments():
     assert found.kinds.tolist() == [1, 0]
 
 
+@pytest.mark.parametrize("z", [("8.1 mm", "8.3 mm"), ("8.35 mm", "8.65 mm")], ids=["in a cell", "in two"])
+def test_a_piece_that_is_narrower_than_a_cell_is_a_fragment(z):
+    found = debris(f"body.plug.z={list(z)}")["plate"].totals
+    assert (found["fragments"], found["dust_kg"]) == (2, pytest.approx(0.0, abs=1e-15))
+
+
+def test_crumbs_are_dust():
+    found = debris('body.plug.z=["8.1 mm", "8.104 mm"]')["plate"].totals
+    assert (found["fragments"], found["dust_kg"]) == (1, pytest.approx(PLUG * 0.002, rel=1e-9))
+
+
 def test_the_last_target_has_nothing_behind_it():
     found = debris()["wall"]
     assert (found.bodies, found.totals["mass_kg"], found.totals["fragments"]) == ([], 0.0, 0)

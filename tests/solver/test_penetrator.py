@@ -131,7 +131,7 @@ def ball(*options):
     text = (toml.problems_folder() / "perforation" / "sphere.toml").read_text()
     text = text.replace('{ to = "36 mm", size = "0.4 mm" }', '{ cells = 44, size = "1.1 mm" }')
     text = text.replace("cells = 25", "cells = 9").replace("cells_across = 12.5", "cells_across = 4.5")
-    return Simulation(deck.loads(text.replace("1500 m/s", "5.5 km/s"), options))
+    return Simulation(deck.loads(text.replace("1500 m/s", "5.8 km/s"), options))
 
 
 @pytest.mark.parametrize(

@@ -6,7 +6,7 @@ import pytest
 from hydro2d.deck import deck
 from hydro2d.solver.audit import totals
 from hydro2d.solver.simulation import WATCH_EVERY, Simulation
-from tests.decks import entry, mesh, plate, rod, stop
+from tests.decks import box, entry, mesh, plate, rod, stop
 
 TEXT = (
     mesh(("9 mm", 18), ("-12 mm", "12 mm", 48))
@@ -98,3 +98,49 @@ def test_a_rod_that_perforates_ends_the_run():
     assert reason == "perforation of plate"
     between_looks = WATCH_EVERY * simulation.dt * 2000.0
     assert 6e-3 <= simulation.diagnostics()["penetration_depth_m"] < 6e-3 + between_looks
+
+
+TWO = (
+    mesh(("4 mm", 8), ("-12 mm", "12 mm", 48))
+    + box("first", "Al5083", r=[0.0, "2 mm"], z=["-8 mm", "-2 mm"], velocity="300 m/s")
+    + box("second", "Al5083", r=[0.0, "2 mm"], z=["-1 mm", "3 mm"])
+)
+
+
+def until_it_ends(simulation: Simulation) -> tuple[str, int]:
+    while not (reason := simulation.stop_reason()):
+        simulation.step()
+    return reason, simulation.cycle
+
+
+def test_a_body_at_rest_is_waited_for_until_it_has_moved():
+    """It is hit after 3.3 us; then it is not rid of its velocity any more."""
+    simulation = Simulation(deck.loads(TWO + stop("20 us", body="second", speed_below="5 m/s")))
+    assert until_it_ends(simulation)[0] == "end time"
+    assert simulation.mean_velocity(1) > 100.0
+    simulation = Simulation(deck.loads(TWO + stop("40 us", body="first", speed_below="200 m/s")))
+    reason, cycle = until_it_ends(simulation)
+    assert reason == "speed of first below 200 m/s"
+    assert cycle > 0
+
+
+def test_a_body_that_is_pushed_from_rest_does_not_rebound_by_that():
+    text = TWO.replace("300 m/s", "-300 m/s").replace("-8 mm", "4 mm").replace("-2 mm", "10 mm")
+    simulation = Simulation(deck.loads(text + stop("15 us", body="second", rebound=True)))
+    assert until_it_ends(simulation)[0] == "end time"
+    assert simulation.mean_velocity(1) < -100.0
+
+
+def test_a_run_that_goes_on_with_another_body_takes_its_direction():
+    toward = TWO.replace('z = ["-1 mm", "3 mm"]', 'z = ["-1 mm", "3 mm"]\nvelocity = "-300 m/s"')
+    first = Simulation(deck.loads(toward + stop("20 us", body="first", rebound=True)))
+    while first.cycle < 10:
+        assert first.stop_reason() is None
+        first.step()
+    kept = first.restart_scalars(), first.restart_arrays()
+    for body in ("first", "second"):
+        again = Simulation(deck.loads(toward + stop("20 us", body=body, rebound=True)))
+        again.load_restart_arrays(kept[1])
+        again.load_restart_scalars(kept[0])
+        assert again.stop_reason() is None
+        assert again.restart_scalars()["watch"] == {"body": body, "sign": 1.0 if body == "first" else -1.0, "moved": False}

@@ -142,3 +142,59 @@ def test_what_is_refused(override, said):
 def test_a_body_without_a_surface_on_the_line_is_refused():
     with pytest.raises(DeckError, match='gauge "rear": "target" has no surface within the mesh on the line z = 0.002 m'):
         Simulation(decks.loads(DECK, ["gauge.rear.along=r", "gauge.rear.z=2 mm"]))
+
+
+THIN = """
+[mesh]
+r = [{ to = "0.5 mm", size = "0.1 mm" }]
+z = [{ to = "4 mm", size = "0.1 mm" }]
+[boundaries]
+r_max = "wall"
+[[body]]
+name = "foil"
+material = "Al5083"
+shape = "box"
+z = ["1.03 mm", "END mm"]
+velocity = "1000 m/s"
+[[gauge]]
+name = "front"
+r = "0.2 mm"
+z = "1.2 mm"
+surface = "foil"
+[[gauge]]
+name = "back"
+r = "0.2 mm"
+z = "1 mm"
+surface = "foil"
+[failure]
+tensile = "none"
+[stop]
+time = "2 us"
+"""
+
+
+@pytest.mark.parametrize("thickness", [0.03, 0.06, 0.09, 0.15])
+def test_gauges_stay_on_a_body_narrower_than_a_cell(thickness):
+    """Ten cells of way: both surfaces, and the velocity of the foil between them."""
+    sim = Simulation(decks.loads(THIN.replace("END", f"{1.03 + thickness}")))
+    places = np.array([1.03 + thickness, 1.03]) * 1e-3
+    np.testing.assert_allclose(sim.stations.places[:, 1], places, atol=1e-9)
+    while sim.time < 1e-6:
+        sim.step()
+        off = np.abs(sim.stations.places[:, 1] - places - 1000.0 * sim.time)
+        assert off.max() < 1e-5, "a tenth of a cell"
+    for name in ("front", "back"):
+        assert sim.stations.measure()[f"gauge_{name}"]["velocity_z_m_s"] == pytest.approx(1000.0, rel=1e-9)
+
+
+def test_a_gauge_finds_no_surface_of_a_crumb():
+    with pytest.raises(DeckError, match="has no surface within the mesh"):
+        Simulation(decks.loads(THIN.replace("END", "1.0309")))
+
+
+def test_a_ring_has_two_surfaces_along_r():
+    text = THIN.replace("END", "2").replace('z = ["1.03', 'r = ["0.23 mm", "0.26 mm"]\nz = ["1.03')
+    text = text.replace('r = "0.2 mm"\nz = "1.2 mm"', 'r = "0.3 mm"\nz = "1.5 mm"\nalong = "r"')
+    text = text.replace('z = "1 mm"', 'z = "1.5 mm"\nalong = "r"')
+    sim = Simulation(decks.loads(text))
+    np.testing.assert_allclose(sim.stations.places[:, 0], [0.26e-3, 0.23e-3], atol=1e-9)

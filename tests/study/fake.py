@@ -34,10 +34,11 @@ def write_run(directory: Path, velocity: float = 1086.0, depth: float = 0.31, sh
               overrides: tuple[str, ...] = (), text: str = "", **summary) -> Path:  # fmt: skip
     """A finished run into a directory; ``text`` is another deck's, ``summary`` replaces entries of summary.json."""
     directory.mkdir(parents=True)
-    (directory / "deck.toml").write_text(text or deck_text(f"body.rod.velocity={velocity} m/s", *overrides))
+    text = text or deck_text(f"body.rod.velocity={velocity} m/s", *overrides)
+    (directory / "deck.toml").write_text(text)
     _write_history(directory, velocity, depth, shortened, rows)
     _write_outlines(directory, depth, shortened)
-    write_json(directory / "summary.json", _summary(depth, shortened) | summary)
+    write_json(directory / "summary.json", _summary(depth, shortened, text) | summary)
     return directory
 
 
@@ -67,11 +68,11 @@ def _write_outlines(directory: Path, depth: float, shortened: float) -> None:
     vtk.write_series(directory / "interfaces.pvd", entries)
 
 
-def _summary(depth: float, shortened: float) -> dict:
+def _summary(depth: float, shortened: float, text: str) -> dict:
     energies = {"cutoff": 1e-3, "advection": 300.0, "outflow": 12.0}
     return {
         "status": "done", "stop_reason": "speed of rod below 5 m/s", "time_s": TIME, "cycles": 1000, "cells": 60984,
-        "wall_s": 321.3, "ns_per_cell_cycle": 120.0, "version": "0.1.0", "deck_sha256": "ab" * 32,
+        "wall_s": 321.3, "ns_per_cell_cycle": 120.0, "version": "0.1.0", "deck_sha256": deck_hash(text),
         "penetration_depth_m": depth, "rod_length_m": LENGTH * (1.0 - shortened), "rod_initial_length_m": LENGTH,
         "rod_max_radius_m": RADIUS * (1.0 + shortened), "rod_initial_radius_m": RADIUS, "rod_mass_kg": MASS,
         "rod_tail_velocity_m_s": 3.0, "regime": "rigid" if shortened < 0.02 else "deforming",

@@ -17,6 +17,8 @@ from hydro2d.errors import Error
 from hydro2d.interrupt import Interrupt
 from hydro2d.output import history, snapshot
 from hydro2d.running import compilation
+from hydro2d.running.run import deck_hash
+from hydro2d.study import layout
 from hydro2d.study.case import kernels, run_case
 from tests.cli.test_main import DECK
 from tests.locks import held
@@ -121,6 +123,39 @@ def test_a_fault_is_a_result_with_its_trace(simulation, text, place):
     outcome = run_case(place, text)
     assert (outcome.status, outcome.kind) == ("failed", "ZeroDivisionError")
     assert "test_case.py" in outcome.trace
+    assert outcome.first == outcome.message
+
+
+def test_what_fails_by_chance_is_tried_once_more(simulation, monkeypatch, text, place, tmp_path):
+    """Such as two threads of Python that parse at once."""
+    step, failed = simulation.step, []
+
+    def once(self):
+        if self.cycle == 50 and not failed:
+            failed.append(self)
+            raise SystemError("AST constructor recursion depth mismatch (before=129, after=75)")
+        step(self)
+
+    monkeypatch.setattr(simulation, "step", once)
+    outcome = run_case(place, text)
+    assert outcome.status == "done"
+    assert outcome.first.startswith("SystemError: AST constructor")
+    assert "in once" in outcome.trace
+    run_case(tmp_path / "whole", text)
+    assert bits(place) == bits(tmp_path / "whole")
+
+
+@pytest.mark.parametrize("reason", ["the disk is full", "its worker died 4 times"])
+def test_a_case_that_is_done_is_done(text, place, reason):
+    """Whatever was written down before its user finished it by hand, or as its worker died at its end."""
+    assert run_case(place, text).status == "done"
+    (place / "failed.json").write_text(json.dumps({"reason": reason}))
+    sha256 = deck_hash(text)
+    assert layout.state(place, sha256)["status"] == "done"
+    assert (run_case(place, text).status, run_case(place, text).fresh) == ("done", False)
+    assert layout.state(place, deck_hash("another deck"))["status"] == "failed"
+    (place / "summary.json").unlink()
+    assert layout.state(place, sha256) == {"status": "failed", "message": reason, "summary": {}}
 
 
 def test_a_worker_that_is_still_ending_is_waited_for(text, place):
@@ -146,9 +181,31 @@ def _locked(place, text, age):
     os.utime(place / "run.lock", (time.time() - age,) * 2)
 
 
-def test_the_lock_of_another_machine_that_fell_silent_is_taken_over(text, place):
-    _locked(place, "elsewhere 1", 1e4)
+@pytest.mark.parametrize("skew", [1e4, 0.0, -1e4])
+def test_the_lock_of_another_machine_that_shows_no_sign_is_taken_over(text, place, monkeypatch, skew):
+    monkeypatch.setattr("hydro2d.study.case.SILENCE", 0.5)
+    _locked(place, "elsewhere 1", skew)
+    began = time.monotonic()
     assert run_case(place, text).status == "done"
+    assert time.monotonic() - began > 0.5
+
+
+@contextmanager
+def _alive(place, skew):
+    """A run on another machine, whose clock is ahead of or behind this one's, writes its progress."""
+    _locked(place, "elsewhere 1", skew)
+    ended = threading.Event()
+
+    def live():
+        while not ended.wait(0.05):
+            (place / "progress.json").write_text("{}")
+            os.utime(place / "progress.json", (time.time() - skew,) * 2)
+
+    thread = threading.Thread(target=live)
+    thread.start()
+    yield
+    ended.set()
+    thread.join()
 
 
 @pytest.mark.parametrize(
@@ -157,11 +214,13 @@ def test_the_lock_of_another_machine_that_fell_silent_is_taken_over(text, place)
         (lambda place: place.touch(), "is a file, not a directory"),
         (lambda place: shutil.rmtree(place.parent), "workers need the study's file system"),
         (_in_use, f"in use by process {os.getppid()}"),
-        (lambda place: _locked(place, "elsewhere 1", -1e9), "in use by process 1 on elsewhere"),
+        (lambda place: _alive(place, 1e4), "in use by process 1 on elsewhere"),
+        (lambda place: _alive(place, 0.0), "in use by process 1 on elsewhere"),
+        (lambda place: _alive(place, -1e4), "in use by process 1 on elsewhere"),
     ],
 )
 def test_what_the_user_can_mend_is_one_line(text, tmp_path, monkeypatch, spoil, said):
-    monkeypatch.setattr("hydro2d.study.case.SILENCE", 0.1)
+    monkeypatch.setattr("hydro2d.study.case.SILENCE", 0.5)
     monkeypatch.setattr("hydro2d.study.case.ENDING", 0.1)
     place = tmp_path / "cases" / "case"
     place.parent.mkdir()

@@ -32,7 +32,7 @@ def paths(value, path=()):
             yield from paths(inner, (*path, key))
 
 
-SUMMARY = json.loads(json.dumps(fake._summary(0.31, 0.02))) | {
+SUMMARY = json.loads(json.dumps(fake._summary(0.31, 0.02, fake.deck_text()))) | {
     "trustworthy": True, "faults": [], "experiment": {"penetration_m": 0.4, "qualifier": "measured", "source": "x"},
     "crater": {"depth_m": 0.3, "volume_m3": 1e-5}, "title": "a", "deck": "shot",
     "targets": {"plate": {"exit_time_s": 1e-4, "crater": {"depth_m": 0.3}}}}  # fmt: skip

@@ -131,6 +131,26 @@ def test_a_worker_that_is_told_to_go_writes_a_restart_file_first(tmp_path, undis
     assert all_equal(out, undisturbed)[name]
 
 
+@pytest.mark.parametrize("seconds", [0.0, 0.5, 1.0])
+def test_a_worker_that_dies_as_it_begins(tmp_path, seconds):
+    """Before it has said anything, or while the others are told what to do at their end."""
+    file, out = tubes.write(tmp_path), tmp_path / "out"
+    process = tubes.start(file, "--workers", 2, "--out", out)
+
+    def workers():
+        listed = ["ps", "-o", "pid=,args=", "--ppid", str(process.pid)]
+        found = subprocess.run(listed, capture_output=True, text=True, check=False).stdout.splitlines()
+        return [int(line.split()[0]) for line in found if "spawn_main" in line]
+
+    first = tubes.wait_for(workers)[0]
+    time.sleep(seconds)
+    os.kill(first, signal.SIGKILL)
+    said, _ = process.communicate(timeout=900)
+    assert process.returncode == 0, said
+    assert "Traceback" not in said
+    assert set(statuses(out).values()) == {"done"}
+
+
 def test_what_fails_does_not_sink_the_rest(tmp_path):
     """A case that always kills its worker, one that raises, a full disk, no directory, a wrong and an unphysical deck."""
     text = tubes.STUDY.replace("[0.1, 0.2]", "[0.1, 0.2, 0.3, '2 mm']")

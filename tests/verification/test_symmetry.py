@@ -89,13 +89,13 @@ def test_mirrored_in_z(geometry, options):
             np.testing.assert_array_equal(mine, other, err_msg=name)
 
 
-CONTACT = ('sliding.method="contact"', 'sliding.hard=["rod"]', 'sliding.yield_factor="off"', "stop.cycles=180")
+CONTACT = ('sliding.method="contact"', 'sliding.hard=["rod"]', 'sliding.yield_factor="off"', "stop.cycles=360")
 
 
 def test_contact_of_mirror_images():
-    """Round-off of 1e-15 grows to less than 1e-9 m/s in 180 cycles, since nothing is decided by it.
+    """Round-off of 1e-15 grows to less than 1e-7 m/s in 360 cycles (1.5e-8), since nothing is decided by it.
 
-    In cycle 193 something is, where plate that has been torn moves beside void: 0.1 m/s.
+    From cycle 383 on it grows to some mm/s. Most of the growth comes at once, 1e-11 to 2e-8 m/s in cycles 91 to 95.
     """
     up, down = (impact(sign=sign, options=CONTACT) for sign in (1, -1))
     take_mirror_image(down, up)
@@ -104,7 +104,7 @@ def test_contact_of_mirror_images():
     apart = max(np.abs(np.where(mass > 1e-6 * mass.max(), x - sign * y[:, ::-1], 0.0)).max()
                 for sign, x, y in ((1.0, *(up.grid.interior_vertices(one.state.u) for one in (up, down))),
                                    (-1.0, *(up.grid.interior_vertices(one.state.v) for one in (up, down)))))  # fmt: skip
-    assert 0.0 < apart < 1e-9
+    assert 0.0 < apart < 1e-7
 
 
 def compared(first: Simulation, second: Simulation, order: list[int]) -> dict[str, float]:

@@ -7,15 +7,16 @@ from dataclasses import asdict
 
 import numpy as np
 
-from hydro2d.mesh import quantities
 from hydro2d.output import history, station_arrays
+from hydro2d.output.outlines import Filling
 from hydro2d.output.vtk import Dump, read_grid
-from hydro2d.results import figures
 from hydro2d.results.viewer import packing
 from hydro2d.results.viewer.fields import Ranges, Stored, ViewError, arrays, asked, short, unit_of
 from hydro2d.running.run import HISTORY
 from hydro2d.terminal import shown
 
+#: fields that every page has: what shows the bodies
+SHARES = ("volume_fraction", "material")
 #: largest number of rows of the history in a page
 ROWS = 4000
 #: how far the edges of a dump's mesh may be from those of the first dump that have travelled, as a share of the mesh
@@ -34,7 +35,7 @@ def contents(run, words: Iterable[str], bits: int) -> tuple[dict, str]:
     if not files:
         raise ViewError(f"{run.directory} has no dumps to show; output.vtk_interval of the deck sets when they are written")
     ends = [read_grid(path) for _, path in (files[0], files[-1])]
-    stored = arrays(asked([*words, *quantities.ALWAYS], ends, run), ends)
+    stored = arrays(asked([*words, *SHARES], ends, run), ends)
     store, frames = packing.Store(), _Frames(stored, bits)
     for time, path in files:
         frames.add(time, read_grid(path), store)
@@ -61,6 +62,7 @@ class _Frames:
         self.times: list[float] = []
         self.shifts: list[float] = []
         self.pieces: list[list] = []
+        self.thin: list[list] = []
         self.first: Dump | None = None
 
     def add(self, time: float, dump: Dump, store: packing.Store) -> None:
@@ -73,11 +75,12 @@ class _Frames:
         self.shifts.append(shift)
         values = {each.word: each.values(dump) for each in self.stored}
         self.pieces.append([_piece(values[each.word], each, self.bits, store) for each in self.stored])
-        filled = figures.filled(dump)
+        fillings = {body: dump.filling(body) for body in (None, *dump.bodies)}
+        self.thin.append([_thin(fillings[body], shift) for body in dump.bodies])
         for each in _shown(self.stored):
             found = _magnitude(values, each) if each.is_magnitude else values[each.word]
             if found is not None:
-                self.ranges[each.word].add(found, _solid(dump, each, filled))
+                self.ranges[each.word].add(found, fillings[each.body or None].shown | each.is_share)
 
     def table(self) -> dict:
         """Times in s, how far the mesh has travelled and its first edges in m, fields, and the pieces of each dump."""
@@ -85,7 +88,7 @@ class _Frames:
         return {
             "times": self.times, "shifts": self.shifts, "r_edges": self.first.r_edges.tolist(),
             "z_edges": self.first.z_edges.tolist(), "bits": self.bits,
-            "stored": [shown(each.word) for each in self.stored], "pieces": self.pieces,
+            "stored": [shown(each.word) for each in self.stored], "pieces": self.pieces, "thin": self.thin,
             "fields": [_described(each, self.ranges[each.word]) for each in _shown(self.stored)],
         }  # fmt: skip
 
@@ -110,11 +113,14 @@ def _magnitude(values: dict, each: Stored) -> np.ndarray | None:
     return None if parts[0] is None else np.hypot(*parts)
 
 
-def _solid(dump: Dump, each: Stored, filled: np.ndarray) -> np.ndarray:
-    """Where a field is drawn, (nz, nr): in cells that its body, or all bodies together, fill by half; see figures.chosen."""
-    if each.is_share:
-        return np.ones_like(filled, dtype=bool)
-    return (dump.fields[f"Volume Fraction for {each.body}"] if each.body else filled) >= 0.5
+def _thin(filling: Filling, shift: float) -> list[list]:
+    """Cells, counted row by row, in which a body is narrower than a cell, and the ends r, z, r, z of the lines around it, m.
+
+    shift : how far the mesh has travelled, m: z is where the mesh stood at the first dump
+    """
+    lines = [line - (0.0, shift) for line in filling.around_thin]
+    ends = [number for line in lines for pair in zip(line[:-1], line[1:], strict=True) for number in np.ravel(pair).tolist()]
+    return [np.flatnonzero(filling.thin).tolist(), [short(number) for number in ends]]
 
 
 def _piece(values: np.ndarray | None, each: Stored, bits: int, store: packing.Store) -> list | None:

@@ -170,7 +170,7 @@ def test_colour_ranges_leave_out_void_and_the_outermost_cells(shot):
     pooled = []
     for _, file in shot.dumps:
         dump = vtk.read_grid(file)
-        pooled.append(np.hypot(*np.moveaxis(dump.fields["Velocity [m/s]"][..., :2], -1, 0))[figures.filled(dump) >= 0.5])
+        pooled.append(np.hypot(*np.moveaxis(dump.fields["Velocity [m/s]"][..., :2], -1, 0))[dump.filling().fraction >= 0.5])
     values = np.concatenate(pooled)
     assert fields["velocity"]["parts"] == ["velocity:r", "velocity:z"]
     for clip, (low, high) in zip(CLIPS, fields["velocity"]["ranges"], strict=True):

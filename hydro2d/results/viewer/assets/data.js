@@ -110,7 +110,13 @@ class Run {
     });
   }
 
-  /** The values that are drawn: NaN in cells of which the body, or all bodies together, fill less than half. */
+  /** Cells at dump n in which a body, or any of them, is narrower than a cell. */
+  thinCells(n, body) {
+    return this.thin[n].flatMap(([cells], m) => (!body || this.bodies[m] === body ? cells : []));
+  }
+
+  /** The values that are drawn: NaN in cells of which the body, or all bodies together, fill less than half, but for what is
+      narrower than a cell. */
   drawn(n, word) {
     const field = this.byWord.get(word);
     if (!field) return Promise.resolve(new Float32Array(this.nz * this.nr).fill(NaN));
@@ -119,14 +125,19 @@ class Run {
       if (word.startsWith("volume_fraction:")) return values;
       if (word === "material") return values.map((value) => (value > 0 ? value : NaN));
       const share = await this.share(n, field.body);
-      return values.map((value, k) => (share[k] >= 0.5 ? value : NaN));
+      const drawn = values.map((value, k) => (share[k] >= 0.5 ? value : NaN));
+      for (const k of this.thinCells(n, field.body)) drawn[k] = values[k];
+      return drawn;
     });
   }
 
   /** Outlines of all bodies at dump n: one array of segments r, z, r, z in m for each. */
   outlines(n) {
-    return this.remember(`${n} outlines`, () => Promise.all(this.bodies.map(async (body) =>
-      contour(this.r_edges, this.z_edges, await this.share(n, body)))));
+    return this.remember(`${n} outlines`, () => Promise.all(this.bodies.map(async (body, m) => {
+      const share = Float32Array.from(await this.share(n, body)), [cells, around] = this.thin[n][m];
+      for (const k of cells) share[k] = 0;
+      return Float32Array.from([...contour(this.r_edges, this.z_edges, share), ...around]);
+    })));
   }
 
   /** Times of the history in s, or a column of it in the reader's unit. */

@@ -1,5 +1,6 @@
 "use strict";
-// Outlines of bodies: lines along which a body fills half of a cell, as hydro2d/output/outlines.py draws them.
+// Outlines of bodies: lines along which a body fills half of a cell, as hydro2d/output/outlines.py draws them. Those around
+// what is narrower than a cell come with the page.
 
 /** Centres of cells, with the two edges of the mesh before and behind them. */
 function nodes(edges) {

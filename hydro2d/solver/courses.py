@@ -1,0 +1,109 @@
+"""The course of every body: whether its centre of mass goes where its momentum takes it.
+
+Momentum and velocities can be exact while the body itself moves at another speed, as whatever is narrower than a cell does
+where nothing says where in its cell it lies. No total tells of that (explanation/sanity).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from hydro2d.mesh import sums
+from hydro2d.mesh.fields import RHO
+from hydro2d.mesh.grid import FACE_R
+
+#: cells by which the centre of mass of a body may be off, and the share of its way, the larger of both
+PARTED, PARTED_OF_WAY = 0.1, 0.02
+AXES = "r", "z"
+#: what a restart file keeps of `Courses`
+KEPT = ("_start", "_moved", "_momentum", "_way", "_whole", "apart")
+
+
+class Courses:
+    """What every body's momentum has moved it by since the start, beside where its centre of mass is.
+
+    The first moment of a body's mass changes by its momentum and by what crosses an edge of the mesh:
+    d(sum m x)/dt = sum m v + (what comes in) x (where it comes in). The place of a body in a cell that it shares is its
+    centroid, and it moves there with what lies between the velocities of the vertices. Its momentum is summed up by the
+    trapezoidal rule from look to look.
+
+    Parameters
+    ----------
+    state : State, as it is at the start
+
+    Attributes
+    ----------
+    apart : float64[m, 2], how far the centre of mass is off along r and z, in cells of the mean size where the body is; of all
+        of the body's mass that has been in the mesh
+    """
+
+    def __init__(self, state):
+        self.state, grid = state, state.grid
+        g, n = grid.g, state.bodies
+        inner, outer = grid.r[:-1], grid.r[1:]
+        self._middle = 0.25 * (inner**2 + outer**2) if grid.cylindrical else grid.rc
+        self._columns = np.sqrt(2.0 * self._middle) if grid.cylindrical else grid.rc
+        self._found = np.zeros((n, 7))
+        self._shape = g, grid.nz, grid.nr, grid.cylindrical
+        self._last = 0.0
+        self._momentum = np.zeros((n, 2))
+        self._start, self._moved, self._way, self.apart = (np.zeros((n, 2)) for _ in range(4))
+        self._whole, self._begun = np.zeros(n), False
+
+    def crossed(self, di: int, side: int, first: int, last: int, advance: float) -> None:
+        """Books what went through an edge of the mesh in a sweep, from place `first` to `last` along the edge.
+
+        di, side : direction of the sweep and edge, as in `Cycle.remap_bodies` and in `edge_flux`;  advance : of the mesh, m
+        """
+        s, grid = self.state, self.state.grid
+        at = grid.g + (0, (grid.nr if di else grid.nz))[side]
+        sums.edge_course(di, first, last, at, -1.0 if side else 1.0, advance, self._columns, grid.r, grid.z, grid.zc, grid.dz,
+                         grid.metrics[FACE_R], grid.vol_r, s.fr, s.fz, s.edge_flux[side, RHO], self._moved, self._whole)
+
+    def look(self, time: float, keep: bool = True) -> None:
+        """Finds how far every body is off its course, from its momentum since the last look; first at the start.
+
+        keep : whether later looks go on from this one. A look at the end of a run does not: were it kept, a run that goes on
+            from there would end with other sums than one that was not interrupted.
+        """
+        s, grid = self.state, self.state.grid
+        for m in range(s.bodies):
+            b = s.group[m]
+            sums.body_course(*self._shape, m, self._middle, grid.vol_r, grid.zc, grid.dr, grid.dz, grid.cm_out,
+                             grid.volume, s.vof, s.rho, s.centroid, s.u[b], s.v[b], self._found[m])
+        mass, moment, momentum, sizes = self._found[:, :1], self._found[:, 1:3], self._found[:, 3:5], self._found[:, 5:7]
+        if not self._begun:
+            self._start, self._whole, self._begun = moment.copy(), mass[:, 0].copy(), True
+        else:
+            taken = 0.5 * (time - self._last) * (self._momentum + momentum)
+            moved = self._moved + taken
+            there = (mass > 0.0) & np.ones(2, dtype=bool)  # the scale of what has left is what it was
+            way = self._way + np.divide(np.abs(taken), sizes, out=np.zeros_like(taken), where=there)
+            scale = self._whole[:, None] * np.divide(sizes, mass, out=np.ones_like(sizes), where=there)
+            np.divide(moment - self._start - moved, scale, out=self.apart, where=there)
+            if not keep:
+                return
+            self._moved, self._way = moved, way
+        self._last, self._momentum = time, momentum.copy()
+
+    def parted(self, names) -> Iterator[tuple[str, str]]:
+        """(what, sentence) for each body that is too far off its course."""
+        for m, name in enumerate(names):
+            for axis, off, way in zip(AXES, self.apart[m].tolist(), self._way[m].tolist(), strict=True):
+                if abs(off) > max(PARTED, PARTED_OF_WAY * way):
+                    yield f"{name} off", (
+                        f'body "{name}" is {abs(off):.2g} cells {"ahead of" if off > 0.0 else "behind"} where its momentum has '
+                        f"taken its centre of mass along {axis}, after a way of {way:.3g} cells")
+
+    def saved(self) -> dict:
+        """What a restart file keeps."""
+        return {name: getattr(self, name).tolist() for name in KEPT} | {"last": self._last}
+
+    def resume(self, saved: dict) -> None:
+        """Goes on from what `saved` gave."""
+        for name in KEPT:
+            setattr(self, name, np.array(saved[name]))
+        self._last, self._begun = saved["last"], True
+

@@ -1,0 +1,108 @@
+"""No space at any write of a run or a case: one message, and then what an undisturbed run gives, its history included."""
+
+import errno
+import json
+import os
+
+import pytest
+
+from hydro2d import files
+from hydro2d.output import history, snapshot, vtk
+from hydro2d.running import run as runs
+from hydro2d.running.run import run
+from hydro2d.study.case import run_case
+from hydro2d.study.layout import state
+from tests import fake
+
+STEPS = 3e-7
+
+
+@pytest.fixture
+def deck(monkeypatch, simulation):
+    """A short run that writes everything after every cycle."""
+    for name in ("FLUSH_SECONDS", "PROGRESS_SECONDS"):
+        monkeypatch.setattr(runs, name, 0.0)
+    monkeypatch.setattr(runs, "FLUSH_SHARE", 1e9)
+    monkeypatch.setattr(runs, "GOOD_EVERY", 3)
+    found = fake.FakeDeck(history_interval=1e-7, vtk_interval=2e-7, restart_interval=0.0)
+    found.stop.time = STEPS
+    return found
+
+
+class Disk:
+    """Counts the files that are flushed to disk, and is full from one of them on, or for that one alone."""
+
+    def __init__(self, monkeypatch):
+        self.count, self.full, self.once = 0, 0, False
+        self.sync = files.sync
+        for module in (files, snapshot):
+            monkeypatch.setattr(module, "sync", self)
+
+    def __call__(self, path):
+        self.count += 1
+        if self.full and (self.count == self.full if self.once else self.count >= self.full):
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), str(path))
+        self.sync(path)
+
+    def begin(self, full=0, once=False):
+        self.count, self.full, self.once = 0, full, once
+
+
+def outcome(place):
+    """All that a run leaves: state, history, dumps, and the numbers of its summary that are no times of the wall."""
+    columns = history.read(place / "history.h5")
+    series = [entry for name in vtk.SERIES.values() if (place / name).exists() for entry in vtk.read_series(place / name)]
+    summary = json.loads((place / "summary.json").read_text())
+    kept = {key: value for key, value in summary.items() if key not in ("wall_s", "ns_per_cell_cycle", "provenance", "sha256")}
+    dumps = {file.name: file.read_bytes() for file in (place / "vtk").iterdir()}
+    saved, rows = snapshot.read(place / "restart.h5"), {name: each.tobytes() for name, each in columns.items()}
+    return rows, series, kept, dumps, saved.arrays["e"].tobytes(), saved.scalars
+
+
+def again(deck, place):
+    """As a user goes on: with --restart where there is a restart file, else from the beginning."""
+    restart = any((place / name).exists() for name in (snapshot.NAME, snapshot.PREVIOUS))
+    return run(deck, place, quiet=True, restart=restart, overwrite=not restart)
+
+
+@pytest.mark.parametrize("once", [False, True], ids=["full from then on", "full for one file"])
+def test_no_space_at_any_write_of_a_run(deck, tmp_path, monkeypatch, once):
+    disk = Disk(monkeypatch)
+    run(deck, tmp_path / "whole", quiet=True)
+    number, whole = disk.count, outcome(tmp_path / "whole")
+    assert number > 30
+    for full in range(1, number + 1):
+        place = tmp_path / str(full)
+        disk.begin(full, once)
+        with pytest.raises(OSError, match=r"No space left on device") as refused:
+            run(deck, place, quiet=True)
+        disk.begin()
+        said = f"{refused.value.filename or ''} {refused.value}"
+        assert str(place) in said
+        assert ".tmp" not in said
+        if state(place, None)["status"] == "done":  # only the last flush of the folder failed
+            assert full == number
+            assert outcome(place) == whole
+        assert not list(place.rglob("*.tmp"))
+        summary = again(deck, place)
+        assert summary["trustworthy"]
+        assert outcome(place) == whole, f"no space at write {full} of {number}"
+
+
+def test_no_space_at_any_write_of_a_case(deck, tmp_path, monkeypatch):
+    monkeypatch.setattr("hydro2d.running.compilation.once", lambda key, compile: None)
+    monkeypatch.setattr("hydro2d.study.case.kernels", lambda deck: "")
+    monkeypatch.setattr("hydro2d.study.case.decks.loads", lambda text: deck)
+    text, disk = deck.to_toml(), Disk(monkeypatch)
+    assert run_case(tmp_path / "whole", text).status == "done"
+    number, whole = disk.count, outcome(tmp_path / "whole")
+    for full in range(1, number + 1):
+        place = tmp_path / str(full)
+        disk.begin(full)
+        found = run_case(place, text)
+        disk.begin()
+        assert found.status == "failed"
+        assert found.message.startswith("the disk is full: "), found.message
+        assert "\n" not in found.message + found.trace
+        assert run_case(place, text).status == "done"
+        assert outcome(place) == whole, f"no space at write {full} of {number}"

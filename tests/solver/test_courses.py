@@ -1,0 +1,102 @@
+"""The course of every body: its centre of mass goes where its momentum takes it, through edges of the mesh as well."""
+
+import numpy as np
+import pytest
+
+from hydro2d.deck import deck
+from hydro2d.solver.courses import PARTED, PARTED_OF_WAY
+from hydro2d.solver.simulation import Simulation
+from tests.decks import box, mesh, stop, table, walls
+
+NO_FRACTURE = table("failure", tensile="none")
+PLAIN = mesh(("1 mm", 10), ("4 mm", 40)), mesh(("1 mm", 10), ("4 mm", 40), geometry="planar")
+
+
+def shot(*parts: str) -> Simulation:
+    return Simulation(deck.loads("".join(parts) + NO_FRACTURE + stop("10 us")))
+
+
+def foil(speed: float = 1000.0) -> str:
+    return box("foil", "Al5083", r=["0 mm", "0.4 mm"], z=["1.03 mm", "1.06 mm"], velocity=f"{speed} m/s")
+
+
+def run(simulation: Simulation, end: float) -> np.ndarray:
+    """How far off the bodies are at the most, in cells."""
+    most = np.zeros_like(simulation.engine.courses.apart)
+    while simulation.time < end:
+        simulation.step()
+        np.maximum(most, np.abs(simulation.engine.courses.apart), out=most)
+    assert simulation.cycle > 20  # and was looked at every ten cycles
+    return most
+
+
+@pytest.mark.parametrize("plain", PLAIN)
+def test_a_foil_is_on_its_course_along_z(plain):
+    simulation = shot(plain, walls("r_max"), foil())
+    assert run(simulation, 1e-6).max() < 1e-4
+    assert simulation.engine.courses._way[0, 1] == pytest.approx(10.0, rel=0.1)
+    assert simulation.doubts() == []
+
+
+def test_a_ring_is_on_its_course_along_r():
+    ring = box("ring", "Al5083", r=["0.33 mm", "0.36 mm"], z=["1 mm", "2 mm"], velocity=["300 m/s", "0 m/s"])
+    simulation = shot(PLAIN[0], ring)
+    assert run(simulation, 5e-7).max() < 0.02
+    assert simulation.engine.courses._way[0, 0] > 1.0
+
+
+def test_what_goes_out_through_the_edges_takes_its_part_along():
+    """Half of a block leaves through the upper edge, and a fifth of another through the outer one."""
+    upward = box("upward", "Al5083", r=["0 mm", "0.5 mm"], z=["3 mm", "4 mm"], velocity="1000 m/s")
+    outward = box("outward", "Al5083", r=["0.5 mm", "1 mm"], z=["1 mm", "2 mm"], velocity=["1000 m/s", "0 m/s"])
+    simulation = shot(PLAIN[1], upward, outward)
+    assert run(simulation, 5e-7).max() < 0.05
+    lost = simulation.audit.sinks["outflow"].mass / simulation.audit.start.mass
+    assert (lost > 0.2).all()
+
+
+def test_what_a_travelling_mesh_meets_comes_in_at_its_place():
+    follow = mesh(("1 mm", 10), ("4 mm", 40), follow="rod")
+    rod = box("rod", "W_alloy", r=["0 mm", "0.4 mm"], z=["0.5 mm", "1.5 mm"], velocity="1000 m/s")
+    ahead = box("ahead", "Al5083", r=["0 mm", "1 mm"], z=["3.03 mm", "9 mm"])
+    simulation = shot(follow, rod, ahead)
+    assert run(simulation, 1.4e-6).max() < 1e-3
+    assert -simulation.audit.sinks["inflow"].mass[1] > simulation.audit.start.mass[1]
+
+
+@pytest.mark.parametrize(("row", "axis"), [(0, "r"), (1, "z")])
+def test_a_body_that_is_not_where_its_momentum_takes_it_is_not_trusted(row, axis):
+    simulation = shot(PLAIN[1], walls("r_max"), foil(), box("witness", "Al5083", z=["3 mm", "3.8 mm"]))
+    while simulation.cycle < 15:
+        simulation.step()
+    simulation.state.centroid[row, 0][simulation.state.vof[0] > 0.0] += 0.15
+    for _ in range(6):
+        simulation.step()
+    (doubt,) = simulation.doubts()
+    assert doubt.startswith("cycle 20, time ")
+    assert f'body "foil" is 0.15 cells ahead of where its momentum has taken its centre of mass along {axis}' in doubt
+
+
+def test_how_far_a_body_may_be_off():
+    courses = shot(PLAIN[0], foil()).engine.courses
+    courses.apart[0] = 0.99 * PARTED, -0.99 * PARTED
+    assert list(courses.parted(["foil"])) == []
+    courses.apart[0, 1] = -1.01 * PARTED
+    assert [sentence for _, sentence in courses.parted(["foil"])] == [
+        'body "foil" is 0.1 cells behind where its momentum has taken its centre of mass along z, after a way of 0 cells']
+    courses._way[0, 1] = 1.1 * PARTED / PARTED_OF_WAY
+    assert list(courses.parted(["foil"])) == []
+
+
+def test_a_restart_goes_on_with_the_course():
+    text = "".join((PLAIN[0], walls("r_max"), foil())) + NO_FRACTURE + stop("10 us")
+    first, second = Simulation(deck.loads(text)), Simulation(deck.loads(text))
+    for _ in range(15):
+        first.step()
+    second.load_restart_arrays(first.restart_arrays())
+    second.load_restart_scalars(first.restart_scalars())
+    for simulation in (first, second):
+        while simulation.cycle < 40:
+            simulation.step()
+    assert first.engine.courses.saved() == second.engine.courses.saved()
+    assert first.conservation()["off_course_cells"] == {"foil": np.abs(first.engine.courses.apart).max()}
