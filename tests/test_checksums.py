@@ -3,6 +3,7 @@
 import json
 import os
 import tomllib
+import tracemalloc
 from pathlib import Path
 
 import h5py
@@ -12,6 +13,7 @@ import pytest
 from hydro2d import checksums, files
 from hydro2d.checksums import sealed, verified, verified_text
 from hydro2d.errors import Error
+from hydro2d.files import read_json, read_text
 from hydro2d.output import history, snapshot, vtk
 from hydro2d.output.series import Series
 from hydro2d.results import export
@@ -136,6 +138,32 @@ def test_nothing_but_files_is_read(tmp_path):
                        ("none.vtr", "No such file")):
         with pytest.raises(Error, match=f"{name} cannot be read: {said}"):
             verified(tmp_path / name, Error)
+
+
+@pytest.mark.parametrize("name", ["deck.toml", "summary.json", "progress.json", "study.json", "series.pvd", "history.h5",
+                                  "restart.h5", "dump_000000.vtr"])  # fmt: skip
+def test_the_size_of_a_file_is_looked_at_before_it_is_read(tmp_path, name):
+    """One of a terabyte takes no memory."""
+    file = tmp_path / name
+    with open(file, "wb") as sparse:
+        sparse.truncate(1 << 40)
+    readers = {".toml": verified_text, ".json": read_json, ".pvd": lambda path, _: vtk.read_series(path),
+               ".h5": lambda path, _: history.read(path), ".vtr": lambda path, _: vtk.read_grid(path)}  # fmt: skip
+    with pytest.raises(Error, match=f"{name} cannot be read: it has 1099511627776 bytes; at most "):
+        readers[file.suffix](file, Error)
+    with pytest.raises(Error, match=f"{name}: cannot be read: it has 1099511627776 bytes; at most "):
+        read_text(file, Error)
+
+
+def test_a_large_file_is_checked_piece_by_piece(tmp_path):
+    file = tmp_path / "history.h5"
+    with open(file, "wb") as sparse:
+        sparse.truncate(200_000_000)
+    tracemalloc.start()
+    checksums.verify(file, Error)
+    most = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert most < 60_000_000
 
 
 def test_a_series_that_is_damaged_is_read_from_the_dumps(done):

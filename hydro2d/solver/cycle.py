@@ -314,7 +314,7 @@ class Cycle:
     def _audit_outflow(self, di: int) -> None:
         first, last = self.box[:2] if di else self.box[2:]
         for side, (opened, (out, back)) in enumerate(zip(self._open_edges(di), self.state.outflow, strict=True)):
-            if opened and (out.any() or back.any()):
+            if opened:
                 self.courses.crossed(di, side, first, last, self.mesh.velocity * self.dt)
             if opened and out.any():
                 self.audit.add("outflow", mass=out[1:].copy(), energy=float(out[0]))

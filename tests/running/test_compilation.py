@@ -1,6 +1,8 @@
 """A run says that kernels are being compiled when they are, once, and not when they come from the cache."""
 
+import errno
 import os
+import shutil
 import subprocess
 import sys
 import threading
@@ -13,11 +15,12 @@ import pytest
 from hydro2d import jit
 from hydro2d.deck import deck as decks
 from hydro2d.files import turn
-from hydro2d.jit import recording
+from hydro2d.jit import cache, options, recording
 from hydro2d.kernels import column_ranges, lagrangian_step, remap_step
 from hydro2d.running.compilation import Second, announced, is_compiled, once
 from hydro2d.running.compile_ahead import calls_of_a_cycle
 from hydro2d.solver.simulation import Simulation
+from tests.cli.test_main import DECK
 
 
 def test_what_is_compiled_is_said():
@@ -145,3 +148,45 @@ def test_turns_are_taken(tmp_path):
     for thread in threads:
         thread.join()
     assert count.read_text() == "100"
+
+
+def _can_mount():
+    probe = ["unshare", "--mount", "--map-root-user", "mount", "-t", "tmpfs", "none", "/mnt"]
+    return shutil.which("unshare") is not None and subprocess.run(probe, capture_output=True, check=False).returncode == 0
+
+
+@pytest.mark.skipif(not _can_mount(), reason="no file system can be mounted here")
+def test_a_cache_that_cannot_be_written_is_read(tmp_path):
+    """One of a site, on a file system that is mounted read-only."""
+    (tmp_path / "shot.toml").write_text(DECK)
+    command = [sys.executable, "-m", "hydro2d", "run", str(tmp_path / "shot.toml"), "--quiet", "--set", "stop.cycles=3", "--threads",
+               "1", "--out"]  # fmt: skip
+    subprocess.run([*command, str(tmp_path / "warm")], check=True)
+    folder = cache._cache_root()
+    script = f"mount --bind {folder} {folder} && mount -o remount,bind,ro {folder} && ! touch {folder}/x 2>/dev/null && "
+    words = " ".join(f"'{word}'" for word in [*command, str(tmp_path / "out")])
+    done = subprocess.run(["unshare", "--mount", "--map-root-user", "sh", "-c", script + words], capture_output=True, text=True,
+                          check=False)  # fmt: skip
+    assert (done.returncode, done.stderr) == (0, "")
+
+
+def test_what_cannot_be_kept_is_compiled_all_the_same(tmp_path, monkeypatch, capsys):
+    """Here no file of the cache can be made."""
+
+    def refused(*_arguments, **_options):
+        raise OSError(errno.EROFS, os.strerror(errno.EROFS))
+
+    function = numba.njit(cache=True)(probe)
+    with monkeypatch.context() as full:
+        full.setattr(options, "turn", refused)
+        assert function(1.0) == 8.0
+    assert "cannot be written: what is compiled is not kept" in capsys.readouterr().err
+    with monkeypatch.context() as full:
+        full.setattr(os, "open", refused)
+        with turn(tmp_path / "a.lock"):
+            pass
+    assert not (tmp_path / "a.lock").exists()
+
+
+def probe(x):
+    return x + 7.0

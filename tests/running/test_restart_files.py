@@ -75,6 +75,17 @@ def test_a_damaged_series_is_read_from_its_dumps(begun, capsys, damage):
     assert vtk.read_series(file)[:len(before)] == before
 
 
+@pytest.mark.parametrize("option", ["restart", "overwrite"])
+def test_files_of_the_user_beside_the_dumps_stay(begun, option):
+    names = ("dump_best.vtr", "dump_1.vtr", "dump_000001_copy.vtr", "interfaces_new.vtp", "dump_.vtr", "my_000001.vtr")
+    for name in names:
+        (begun / "vtk" / name).write_text("mine")
+    summary = run(deck.loads(TEXT, FURTHER), begun, quiet=True, **{option: True})
+    assert summary["status"] == "done"
+    assert all((begun / "vtk" / name).read_text() == "mine" for name in names)
+    assert len(vtk.read_series(begun / "series.pvd")) > 1
+
+
 def test_what_a_killed_process_left_goes(begun):
     for left in (begun / ".restart.h5.77.tmp", begun / "vtk" / ".dump_000003.vtr.77.tmp"):
         left.write_bytes(b"half")

@@ -180,3 +180,27 @@ def test_a_reader_that_is_gone(finished, tmp_path, name):
     process.stdout.close()
     assert process.wait(120) in (0, 141)
     assert b"Traceback" not in process.stderr.read()
+
+
+@pytest.mark.parametrize("closed", [">&-", "2>&-", "<&- >&- 2>&-"])
+def test_closed_streams(finished, tmp_path, closed):
+    """As where a program starts hydro2d without them: what would be said is lost, and nothing else."""
+    run = [*shot_arguments(tmp_path), "--out", str(tmp_path / "out")]
+    for arguments in (run, ["status", str(finished / "run")], ["--version"]):
+        command = " ".join(f"'{word}'" for word in (sys.executable, "-m", "hydro2d", *arguments))
+        assert subprocess.run(["bash", "-c", f"{command} {closed}"], cwd=ROOT, capture_output=True, check=False).returncode == 0
+    assert json.loads((tmp_path / "out" / "summary.json").read_text())["status"] == "done"
+
+
+def shot_arguments(folder):
+    (folder / "shot.toml").write_text(DECK)
+    return ["run", str(folder / "shot.toml"), "--set", "stop.cycles=3", "--threads", "1"]
+
+
+def test_an_output_that_is_full(finished, tmp_path):
+    for arguments in ([*shot_arguments(tmp_path), "--out", str(tmp_path / "out")], ["status", str(finished / "run")]):
+        with open("/dev/full", "w") as full:
+            done = subprocess.run([sys.executable, "-m", "hydro2d", *arguments], cwd=ROOT, stdout=full, stderr=subprocess.PIPE,
+                                  text=True, check=False)  # fmt: skip
+        assert done.returncode == 4
+        assert done.stderr == "hydro2d: No space left on device: the standard output\n"
