@@ -4,20 +4,25 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Iterator
-from typing import NamedTuple
+from typing import NamedTuple, get_args
 
 import numpy as np
 
+from hydro2d.deck.sections import Sliding
+from hydro2d.kernels.momentum import ADVECTIONS
+from hydro2d.mesh.edges import registry as edges
 from hydro2d.mesh.edges.base import EDGES
+from hydro2d.sources import registry as sources
 from tests.decks import box, entry, mesh, stop, table
 
-SLIDING = ("none", "slip-layer", "contact")
-ADVECTION = ("momentum", "ke", "both")
-SOURCES = ("none", "heating", "acceleration")
-EDGE_KINDS = ("wall", "outflow", "transmit", "velocity", "piston")
+SLIDING = get_args(Sliding.model_fields["method"].annotation)
+SOURCES = ("none", *sources.KINDS)
+EDGE_KINDS = edges.words("r_max")
+#: the kinds of edges that give a velocity other than zero
+DRIVEN = ("velocity", "piston")
 
-#: what a gas, a metal and another one are called in the library
-METALS, GAS = ("Al5083", "copper_OFHC", "lead", "steel_4340"), "gas_7_5"
+#: what they are called in the library
+METALS, GAS, EXPLOSIVE = ("Al5083", "copper_OFHC", "lead", "steel_4340"), "gas_7_5", "TNT"
 
 
 class Choices(NamedTuple):
@@ -31,16 +36,18 @@ class Choices(NamedTuple):
 
 
 def all_choices() -> Iterator[Choices]:
-    """All combinations that decks may have."""
-    for each in itertools.product(EDGE_KINDS, SLIDING, ADVECTION, SOURCES, (False, True)):
+    """All combinations that decks may have: a contact has neither driven edges nor forces, a detonation no mesh that follows."""
+    for each in itertools.product(EDGE_KINDS, SLIDING, ADVECTIONS, SOURCES, (False, True)):
         found = Choices(*each)
-        if not (found.sliding == "contact" and (found.edge in ("velocity", "piston") or found.source == "acceleration")):
+        if found.sliding == "contact" and (found.edge in DRIVEN or found.source == "acceleration"):
+            continue
+        if not (found.following and found.source == "detonation"):
             yield found
 
 
 def _edges(random: np.random.Generator, choices: Choices, geometry: str) -> dict:
     """The table of boundaries: the kind of the choices at one edge that may have it and at others by chance."""
-    kinds = [kind for kind in EDGE_KINDS if choices.sliding != "contact" or kind not in ("velocity", "piston")]
+    kinds = [kind for kind in EDGE_KINDS if choices.sliding != "contact" or kind not in DRIVEN]
     free = [edge for edge in EDGES if geometry == "planar" or edge != "r_min"]
     open_ended = [kind for kind in kinds if kind in ("outflow", "transmit")]
     sure = random.choice([edge for edge in free
@@ -57,20 +64,26 @@ def _edges(random: np.random.Generator, choices: Choices, geometry: str) -> dict
     return found
 
 
-def _source(random: np.random.Generator, kind: str) -> str:
+def _source(random: np.random.Generator, kind: str, place: list[float]) -> str:
+    """Whatever acts on the target; place : (r, z) within it."""
     if kind == "heating":
         return entry("source", name="given", kind=kind, body="target", power=[[0.0, 1e11], [1e-6, 0.0]])
     if kind == "acceleration":
         return entry("source", name="given", kind=kind, body="target", axial=float(random.uniform(-1e8, 1e8)))
+    if kind == "detonation":
+        return entry("source", name="given", kind=kind, body="target", points=[[*place, 0.0]])
+    assert kind == "none", f"no deck of this test has a source of the kind {kind}"
     return ""
 
 
 def deck(seed: int, choices: Choices) -> str:
-    """A metal that flies into a layer of another one, a gas beside them by chance, all on 10 by 16 to 12 by 24 cells."""
+    """A metal that flies into a layer of another one, or of an explosive, on 8 by 16 to 12 by 24 cells; by chance there is a gas
+    beside them, but not where there is a contact."""
     random = np.random.default_rng([seed, *map(ord, str(choices))])
     geometry = str(random.choice(["planar", "cylindrical"]))
     nr, nz, h = int(random.integers(8, 13)), int(random.integers(16, 25)), 1e-3
     hard, soft = (str(name) for name in random.choice(METALS, 2, replace=False))
+    soft = EXPLOSIVE if choices.source == "detonation" else soft
     middle = nz // 2 * h + float(random.uniform(-0.5, 0.5)) * h
     text = mesh((nr * h, nr), (nz * h, nz), geometry=geometry,
                 **({"follow": "rod"} if choices.following else {}))
@@ -83,11 +96,11 @@ def deck(seed: int, choices: Choices) -> str:
     text += box("target", soft, r=[0.0, float(random.choice([nr + 2, nr - 1.5])) * h],
                 z=[middle, float(random.choice([nz + 2, nz - 3.3])) * h],
                 velocity=[0.0, 0.0] if choices.following else [across, float(random.uniform(-50.0, 50.0))])
-    if random.random() < 0.5:
+    if choices.sliding != "contact" and random.random() < 0.5:
         text += box("gas", GAS, z=[0.0, nz * h], density=float(random.choice([1.2, 100.0])), pressure=1e7)
     text += table("boundaries", **_edges(random, choices, geometry))
     if choices.sliding != "none":
         text += table("sliding", method=choices.sliding, hard=["rod"],
                       **({"friction": 0.1} if choices.sliding == "contact" and random.random() < 0.5 else {}))
     text += table("numerics", advection=choices.advection, ramp_cycles=int(random.choice([0, 20])))
-    return text + _source(random, choices.source) + stop(1e-3)
+    return text + _source(random, choices.source, [0.5 * h, middle + h]) + stop(1e-3)
