@@ -106,7 +106,8 @@ def bar(share: float, rate: float, strain: float, poisson: float, *overrides: st
     j0, j1, i0, i1 = simulation.engine.mesh_box
     for held in (s.u[:, :, i0], s.u[:, :, i1], s.v[:, j0], s.v[:, j1]):
         held[...] = 0.0
-    simulation.engine.audit = Audit.open(s, simulation.engine.sound_speeds)  # the audit begins with the motion that it was given
+    engine = simulation.engine
+    engine.audit = Audit.open(s, engine.sound_speeds)  # the audit begins with the motion that it was given
     strains = np.zeros((2, COLUMN + 1))
     while simulation.time < strain / rate:
         simulation.step()
