@@ -55,17 +55,22 @@ class Body(Section):
         examples=[{"pattern": "spherical", "speed": "-200 m/s"}],
     )
     density: PositiveDensity | None = Field(
-        None, description="initial density; default: the material's", examples=["17.6 g/cm^3"]
+        None, description="initial density; default: the material's, or what `temperature` leaves", examples=["17.6 g/cm^3"]
     )
     energy: SpecificEnergy | None = Field(None, description="initial specific internal energy", examples=["10 kJ/kg"])
     pressure: Pressure | None = Field(None, description="initial pressure, instead of `energy`", examples=["1 GPa"])
-    temperature: Temperature | None = Field(None, description="initial temperature, instead of `energy`", examples=["300 K"])
+    temperature: Temperature | None = Field(
+        None, description="initial temperature, instead of `energy`; without `density` the material has the density of that "
+        "temperature at `pressure`, or at no pressure (a gas: its own density)", examples=["300 K"],
+    )
 
     @model_validator(mode="after")
     def _one_thermal_state(self):
         given = [key for key in ("energy", "pressure", "temperature") if getattr(self, key) is not None]
-        if len(given) > 1:
-            raise ValueError(f"give only one of energy, pressure, temperature, not {' and '.join(given)}")
+        if self.energy is not None and len(given) > 1:
+            raise ValueError(f"give {' or '.join(given)}, not both")
+        if len(given) == 2 and self.density is not None:
+            raise ValueError("give two of density, pressure and temperature; the third follows")
         return self
 
 

@@ -323,7 +323,7 @@ def _in_the_way(deck: Deck, rod, plates: list) -> list[str]:
     here, sign = sum(extent(rod, deck, "z")), heading(rod)
     across = [entry for entry in plates if extent(entry, deck, "r")[0] <= deck.mesh.r_start]
     ahead = [entry for entry in across if sign * (sum(extent(entry, deck, "z")) - here) > 0.0]
-    ahead.sort(key=lambda entry: sign * sum(extent(entry, deck, "z")))
+    ahead.sort(key=lambda entry: sign * faces(deck, rod.name, entry.name)[0])
     return [entry.name for entry in ahead or plates[:1]]
 
 

@@ -14,6 +14,9 @@ from itertools import pairwise
 
 import numpy as np
 
+#: lines along r on which the volume that two bodies share is found
+LINES = 500
+
 
 @dataclass(frozen=True)
 class Line:
@@ -173,3 +176,26 @@ def outline(body, r_start: float) -> Outline:
     if body.shape == "sphere":
         return sphere(*body.centre, body.radius, body.inner_radius or 0.0)
     return polygon(body.points)
+
+
+def shared_volume(one: Outline, other: Outline, r: tuple[float, float], z: tuple[float, float], planar: bool
+                  ) -> tuple[float, float]:
+    """Volume that two outlines share, and that of the first, within a mesh; m^3 (planar: m^2, per depth).
+
+    r, z : lowest and highest of the mesh, m. By the midpoint rule on LINES lines along r, to a few thousandths.
+    """
+    low, high = max(one.extent("z")[0], z[0]), min(one.extent("z")[1], z[1])
+    both = whole = 0.0
+    for k in range(LINES):
+        at = low + (k + 0.5) / LINES * (high - low)
+        mine, others = ([(max(a, r[0]), min(b, r[1])) for a, b in each.chords("r", at)] for each in (one, other))
+        whole += sum(_across(a, b, planar) for a, b in mine)
+        both += sum(_across(max(a, c), min(b, d), planar) for a, b in mine for c, d in others)
+    return both * (high - low) / LINES, whole * (high - low) / LINES
+
+
+def _across(low: float, high: float, planar: bool) -> float:
+    """Area of the ring between two radii, m^2, or planar their distance, m; 0 where there is none."""
+    if not low < high:
+        return 0.0
+    return high - low if planar else math.pi * (high**2 - low**2)

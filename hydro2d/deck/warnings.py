@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import combinations
 
 import numpy as np
 
 from hydro2d.deck.checks import AHEAD, extent, room
 from hydro2d.deck.mesh import axis_edges, body, misfits
 from hydro2d.deck.sections import Deck
+from hydro2d.deck.shapes import outline, shared_volume
 from hydro2d.deck.thin import thin_things
 from hydro2d.materials.material import Material
 from hydro2d.mesh.edges.registry import BY_NAME
@@ -16,6 +18,8 @@ from hydro2d.sources.detonation import EXPLOSIVES
 
 #: a body whose density is below this share of the densest one's is a gas
 GAS = 0.01
+#: share of the earlier of two bodies, and of what is left of it, by which they overlap where it is told
+LEAST_SHARED = 1e-3
 #: a rod needs at least this many cells across its radius to behave like one
 CELLS_ACROSS_RADIUS = 5
 
@@ -23,7 +27,7 @@ CELLS_ACROSS_RADIUS = 5
 def warnings(deck: Deck) -> list[str]:
     """What is allowed but unwise, one sentence each, as `hydro2d check` and the start of a run show it."""
     return [*misfits(deck), *_coarse_rods(deck), *thin_things(deck), *_leaving(deck), *_jumps(deck), *_short_mesh(deck),
-            *_yielding_rods(deck), *_no_failure(deck), *_gases(deck), *_duds(deck)]
+            *_overlaps(deck), *_yielding_rods(deck), *_no_failure(deck), *_gases(deck), *_duds(deck)]
 
 
 def _coarse_rods(deck: Deck) -> Iterator[str]:
@@ -53,6 +57,23 @@ def _leaving(deck: Deck) -> Iterator[str]:
         flight = (edge - front) / speed
         if not ahead and kept.flow() and 0.0 <= flight < deck.stop.time:
             yield f'body "{entry.name}": reaches the edge of the mesh after {flight * 1e6:.3g} us and leaves it before the end'
+
+
+def _overlaps(deck: Deck) -> Iterator[str]:
+    """Bodies that lie partly in an earlier one, which has the place. One that an earlier one lies in altogether is meant."""
+    placed = [(entry, found, found.extent("r"), found.extent("z"))
+              for entry, found in ((entry, outline(entry, deck.mesh.r_start)) for entry in deck.body)]
+    r, z = ((float(edges[0]), float(edges[-1])) for edges in (axis_edges(deck, "r"), axis_edges(deck, "z")))
+    planar = deck.mesh.geometry == "planar"
+    for (other, first, *reach), (entry, second, *its) in combinations(placed, 2):
+        apart = any(max(a[0], b[0]) >= min(a[1], b[1]) for a, b in zip(reach, its, strict=True))
+        if apart or (entry.join or entry.name) == (other.join or other.name):
+            continue
+        both, whole = shared_volume(first, second, r, z, planar)
+        if LEAST_SHARED * whole < both < (1.0 - LEAST_SHARED) * whole:
+            size = f"{both * 1e6:.3g} mm^2" if planar else f"{both * 1e9:.3g} mm^3"
+            yield (f'bodies "{other.name}" and "{entry.name}" overlap by {size}, which belong to "{other.name}", '
+                   "the earlier one in the deck")  # fmt: skip
 
 
 def _jumps(deck: Deck) -> Iterator[str]:
@@ -107,6 +128,11 @@ def _duds(deck: Deck) -> Iterator[str]:
                'behind it are too low; choose "both"')
 
 
+def _bears_any_tension(material: Material) -> bool:
+    """Whether a material without strength is held together by nothing but its equation of state: a liquid, not a gas."""
+    return material.fracture_pressure is None and material.eos.name not in ("ideal-gas", *EXPLOSIVES)
+
+
 def _melts_by_itself(material: Material) -> bool:
     """Whether the strength model of a material has a melting temperature of its own."""
     own = material.strength.numbers.get("melt_temperature")
@@ -124,6 +150,9 @@ def _no_failure(deck: Deck) -> Iterator[str]:
     for entry in deck.body:
         material = deck.materials[entry.material]
         if entry.join is not None or not material.has_strength:
+            if entry.join is None and _bears_any_tension(material) and failure.tensile == "material":
+                yield (f'body "{entry.name}": {material.name} has no fracture_pressure and bears any tension; give it one, '
+                       "at which it cavitates")  # fmt: skip
             continue
         if material.damage.name != "none" and forgotten:
             yield (

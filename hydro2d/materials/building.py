@@ -10,7 +10,7 @@ from types import ModuleType
 
 from hydro2d import units
 from hydro2d.errors import unknown
-from hydro2d.materials.material import CONFIDENCE, Material, Model, Number, solid_model
+from hydro2d.materials.material import CONFIDENCE, Material, Model, Number, questionable, solid_model
 from hydro2d.parameters import Parameter
 from hydro2d.toml import PARTS
 
@@ -20,6 +20,8 @@ _KEYS = (*TABLES, "fracture_pressure", "title", "note", "source", "confidence", 
 ABOUT = ("source", "confidence", "note")
 #: keys of a part that choose the model, the one that it stands over, and its table; the names of files have become two of these
 CHOICE = ("model", "code", "code_from", "solid", "table_data", "table_from")
+#: models whose constants may be of any size, as in problems without units
+SCALED = ("ideal-gas",)
 
 #: makes the error for a key: from its path and a message
 Fail = Callable[[tuple, str], Exception]
@@ -37,6 +39,8 @@ def build(name: str, raw: dict, fail: Fail, trust: bool) -> Material:
     fracture = None
     if "fracture_pressure" in raw:
         fracture = _number(raw["fracture_pressure"], "Pa", ("fracture_pressure",), fail)
+        if said := questionable(raw["fracture_pressure"]["value"], "Pa"):
+            raise fail(("fracture_pressure",), said)
         if fracture.value <= 0:
             raise fail(("fracture_pressure",), f"must be positive (a tension), is {fracture.value:g}")
     melting = _melting(raw.get("melting"), eos, fail)
@@ -151,6 +155,8 @@ def _numbers(
     for key, parameter in parameters.items():
         if key in raw:
             number = _number(raw[key], parameter.unit or "1", (part, key), fail)
+            if name not in SCALED and (said := questionable(raw[key]["value"], parameter.unit)):
+                raise fail((part, key), said)
             try:
                 parameter.check(number.value)
             except ValueError as problem:

@@ -77,10 +77,14 @@ TABLE: tuple[Quantity, ...] = (
     Quantity("energy", "Specific Internal Energy", "J/kg", "mean by mass over the bodies"),
     Quantity("temperature", "Temperature", "K", "mean by mass over the bodies"),
     Quantity("von_mises", "Von Mises Stress", "Pa", "sqrt(3/2 s:s) of the stress deviator of the cell"),
-    Quantity("stress_rr", "Deviatoric Stress rr", "Pa", "sum of volume fraction times deviator, radial"),
-    Quantity("stress_zz", "Deviatoric Stress zz", "Pa", "the same, axial"),
-    Quantity("stress_rz", "Deviatoric Stress rz", "Pa", "the same, shear"),
-    Quantity("stress_tt", "Deviatoric Stress tt", "Pa", "the same, hoop: minus the sum of rr and zz"),
+    Quantity("deviator_rr", "Deviatoric Stress rr", "Pa", "sum of volume fraction times deviator, radial"),
+    Quantity("deviator_zz", "Deviatoric Stress zz", "Pa", "the same, axial"),
+    Quantity("deviator_rz", "Deviatoric Stress rz", "Pa", "the same, shear"),
+    Quantity("deviator_tt", "Deviatoric Stress tt", "Pa", "the same, hoop: minus the sum of rr and zz"),
+    Quantity("stress_rr", "Stress rr", "Pa", "the whole radial stress, tension positive: deviator minus pressure"),
+    Quantity("stress_zz", "Stress zz", "Pa", "the whole axial stress, tension positive: deviator minus pressure"),
+    Quantity("stress_tt", "Stress tt", "Pa", "the whole hoop stress, tension positive: deviator minus pressure"),
+    Quantity("stress_rz", "Stress rz", "Pa", "shear stress"),
     Quantity("plastic_strain", "Plastic Strain", "", "equivalent plastic strain, mean by mass over the bodies"),
     Quantity("damage", "Damage", "", "0 intact, 1 failed; mean by mass over the bodies"),
     Quantity("material", "Material", "", "number of the body, from 1, that fills most of the cell; 0: void"),
@@ -113,10 +117,14 @@ BY_KEY = {quantity.key: quantity for quantity in TABLE}
 #: always written: without them a file shows no bodies, and nothing that is narrower than a cell
 ALWAYS = ("volume_fraction", "centroid_r", "centroid_z", "material")
 
+#: the stress with the pressure in it, which follows from what is standard
+WHOLE_STRESS = ("stress_rr", "stress_zz", "stress_tt", "stress_rz")
+
 #: words that stand for several quantities
 GROUPS = {
     "all": tuple(BY_KEY),
-    "standard": tuple(key for key in BY_KEY if key not in ("body_pressure", "body_energy", "body_damage", *INTERNAL)),
+    "standard": tuple(key for key in BY_KEY
+                      if key not in ("body_pressure", "body_energy", "body_damage", *WHOLE_STRESS, *INTERNAL)),
 }
 
 

@@ -18,6 +18,10 @@ from hydro2d.output.vtk import Dump
 from hydro2d.solver import insertion, memory, sources
 from hydro2d.terminal import one_line
 
+#: motion of a body at rest
+AT_REST = (0.0, 0.0), None
+#: most names of bodies in a line
+LISTED = 5
 #: nanoseconds per cell and cycle on one thread, as a first estimate; `hydro2d bench` measures the machine
 NANOSECONDS = 250.0
 #: seconds to start the program and to load kernels that are compiled
@@ -65,7 +69,7 @@ class Check:
             found += [f"          {each.name} joins it: {self._across(each)}" for each in deck.body if each.join == body]
             found.append(f"          eos {material.eos.title}, strength {material.strength.name}")
         found += self._follow()
-        found += ["", f"sliding   {_sliding(deck)}"]
+        found += ["", f"sliding   {_sliding(deck)}", *(f"          {text}" for text in self._tied())]
         found += [f"stop      {_stop(deck.stop)}"]
         found += [f"cost      about {self.cycles} cycles, {_duration(self.wall(threads))} on {threads} threads "
                   f"(a guess), {self.memory / 2**20:.0f} MiB of memory, {_disk(self)}"]  # fmt: skip
@@ -82,6 +86,23 @@ class Check:
         speeds = made(key, self.deck.boundaries.model_dump()).speeds() if BY_NAME[kind].keys else ()
         shown = " to ".join(f"{speed:g}" for speed in sorted({min(speeds), max(speeds)})) if speeds else ""
         return f"{key} {kind}" + (f" {shown} m/s" if shown else "")
+
+    def _tied(self) -> list[str]:
+        """What holds in tension where it touches: walls, and bodies of one velocity field that begin with different ones."""
+        deck, names = self.deck, self.table.names
+        hard = deck.sliding.hard if deck.sliding.method == "contact" else ()
+        cure = "" if hard else '; sliding.method = "contact" lets them part'
+        motions = [_motion(decks.body(deck, name)) for name in names]
+        found = []
+        for number, name in enumerate(names):
+            others = [m for m, other in enumerate(names) if (name in hard) == (other in hard) and motions[m] != motions[number]
+                      and (m > number or motions[m] == AT_REST)]  # fmt: skip
+            if others and motions[number] != AT_REST:
+                bears = float(min(self.table.fracture_pressure[m] for m in (number, *others)))
+                until = f"until one of them fractures, at {bears * 1e-9:.3g} GPa of tension" if bears < math.inf else "for ever"
+                found.append(f"{name} is tied to {_listed([names[m] for m in others])} where they touch, {until}{cure}")
+        walls = [key for key in EDGES if getattr(deck.boundaries, key) == "wall" and key != "r_min"]
+        return found + [f"what touches a wall ({', '.join(walls)}) is held in tension as well"] * bool(walls)
 
     def _follow(self) -> list[str]:
         """How far a travelling mesh reaches, and which bodies will enter it."""
@@ -212,6 +233,16 @@ def _mass(mass: float, grid) -> str:
 def _speed(entry) -> str:
     radial, axial = entry.velocity
     return f"{axial:g} m/s" + (f" (radial {radial:g} m/s)" if radial else "") + (" and a flow" if entry.flow else "")
+
+
+def _motion(entry) -> tuple:
+    return entry.velocity, entry.flow
+
+
+def _listed(names: list[str]) -> str:
+    """Names, the first LISTED of them."""
+    more = len(names) - LISTED
+    return ", ".join(names[:LISTED]) + (f" and {more} more" if more > 0 else "")
 
 
 def _sliding(deck) -> str:

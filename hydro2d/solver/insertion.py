@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_left, bisect_right
+from contextlib import suppress
 from itertools import islice
 
 import numpy as np
@@ -17,6 +18,8 @@ import numpy as np
 from hydro2d.deck.shapes import Outline, Slab, outline
 from hydro2d.errors import DeckError
 
+#: equation of state of material that has a pressure at any density
+GAS = "ideal-gas"
 _SNAP = 1e-12
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(16)
 _HALF_TURNS = 0.25 * math.pi * (_NODES + 1.0)
@@ -210,9 +213,13 @@ def body_velocity(body, r, z) -> tuple[np.ndarray, np.ndarray]:
 def body_state(body, table, m: int) -> tuple[float, float]:
     """Initial density and specific internal energy of a body in slot m.
 
-    A body about which the deck says nothing is at rest at exactly zero pressure: rho0 and e0 of its material.
-    DeckError where no energy gives the pressure or the temperature asked for.
+    A body about which the deck says nothing is at rest at exactly zero pressure: rho0 and e0 of its material. One of which it
+    says the temperature has the density at which it has its pressure, or none; a gas has its own density.
+    DeckError where no state has the pressure or the temperature asked for.
     """
+    gas = table.materials[m].eos.name == GAS
+    if body.temperature is not None and body.density is None and not (gas and body.pressure is None):
+        return _state_for(body, table, m, body.pressure or 0.0, body.temperature)
     rho = body.density if body.density is not None else float(table.rho0[m])
     if body.energy is not None:
         return rho, body.energy
@@ -221,6 +228,34 @@ def body_state(body, table, m: int) -> tuple[float, float]:
     if body.temperature is not None:
         return rho, _energy_for(body, table, m, rho, 3, body.temperature)
     return rho, float(table.e0[m])
+
+
+def _state_for(body, table, m: int, pressure: float, temperature: float) -> tuple[float, float]:
+    """Density and energy at which a body has a pressure and a temperature: that nearest to its own density.
+
+    DeckError where there is none from a fifth of its own density to five times it.
+    """
+    own = float(table.rho0[m])
+
+    def error(rho: float) -> float:
+        return table.evaluate(m, rho, _energy_for(body, table, m, rho, 3, temperature))[0] - pressure
+
+    inner, at_inner = own, error(own)
+    step = 0.98 if at_inner > 0.0 else 1.02
+    outer, at_outer = inner, at_inner
+    with suppress(DeckError):  # what has no such temperature there has no such state either
+        while at_outer * at_inner > 0.0 and 0.2 * own < outer < 5.0 * own:
+            inner, outer = outer, outer * step
+            at_outer = error(outer)
+    if not at_outer * at_inner <= 0.0:
+        raise DeckError(f'body "{body.name}": at no density has {table.materials[m].name} a pressure of {pressure:g} Pa at '
+                        f"{temperature:g} K; give its density")
+    for _ in range(200):
+        middle = 0.5 * (inner + outer)
+        if middle in (inner, outer):
+            break
+        inner, outer = (middle, outer) if error(middle) * at_inner > 0.0 else (inner, middle)
+    return inner, _energy_for(body, table, m, inner, 3, temperature)
 
 
 def _energy_for(body, table, m: int, rho: float, which: int, target: float) -> float:

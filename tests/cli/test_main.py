@@ -72,7 +72,9 @@ def test_run_plot_export(simulation, deck, tmp_path, capsys):
     assert call(["export", str(out), "-o", str(tmp_path / "e"), "--fields", "pressure", "velocity"]) == 0
     (_, file), *_ = vtk.read_series(tmp_path / "e" / "series.pvd")
     assert set(vtk.read_grid(tmp_path / "e" / file).fields) == {
-        "Pressure [Pa]", "Velocity [m/s]", "Material", "Volume Fraction for rod", "Volume Fraction for plate"
+        "Pressure [Pa]", "Velocity [m/s]", "Material",
+        *(f"{what} for {body}{unit}" for body in ("rod", "plate")
+          for what, unit in (("Volume Fraction", ""), ("Centroid Offset r", " [m]"), ("Centroid Offset z", " [m]"))),
     }  # fmt: skip
     assert (tmp_path / "e" / "history.csv").read_text().startswith("time [s],")
     assert call(["export", str(out)]) == 0

@@ -159,8 +159,8 @@ def _can_mount():
 def test_a_cache_that_cannot_be_written_is_read(tmp_path):
     """One of a site, on a file system that is mounted read-only."""
     (tmp_path / "shot.toml").write_text(DECK)
-    command = [sys.executable, "-m", "hydro2d", "run", str(tmp_path / "shot.toml"), "--quiet", "--set", "stop.cycles=3", "--threads",
-               "1", "--out"]  # fmt: skip
+    command = [sys.executable, "-m", "hydro2d", "run", str(tmp_path / "shot.toml"), "--quiet", "--set", "stop.cycles=3",
+               "--threads", "1", "--out"]  # fmt: skip
     subprocess.run([*command, str(tmp_path / "warm")], check=True)
     folder = cache._cache_root()
     script = f"mount --bind {folder} {folder} && mount -o remount,bind,ro {folder} && ! touch {folder}/x 2>/dev/null && "

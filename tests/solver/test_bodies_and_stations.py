@@ -108,10 +108,11 @@ def test_stations_have_what_the_fields_have(struck):
     for name in ("tracer_mid", "gauge_line_1", "gauge_line_3"):
         station = found[name]
         j = int(np.searchsorted(struck.grid.z_edges, station["z_m"])) - 1
-        at = {key: cells[quantities.BY_KEY[key].name()][j, 0] for key in (*SAME, "stress_zz", "stress_tt")}
+        at = {key: cells[quantities.BY_KEY[key].name()][j, 0] for key in (*SAME, "stress_zz", "stress_tt", "deviator_zz")}
         assert [station[SAME[key]] for key in SAME] == pytest.approx([at[key] for key in SAME], rel=1e-12)
-        assert station["stress_zz_Pa"] == pytest.approx(at["stress_zz"] - at["pressure"], rel=1e-12)
-        assert station["stress_tt_Pa"] == pytest.approx(at["stress_tt"] - at["pressure"], rel=1e-12)
+        assert station["stress_zz_Pa"] == pytest.approx(at["stress_zz"], rel=1e-12)
+        assert station["stress_zz_Pa"] == pytest.approx(at["deviator_zz"] - at["pressure"], rel=1e-12)
+        assert station["stress_tt_Pa"] == pytest.approx(at["stress_tt"], rel=1e-12)
         assert station["peak_pressure_Pa"] >= station["pressure_Pa"] >= station["least_pressure_Pa"]
 
 

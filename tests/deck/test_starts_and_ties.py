@@ -1,0 +1,191 @@
+"""What a deck says before it runs: order of targets, starts, overlaps, numbers without units, what holds in tension."""
+
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from hydro2d.deck import deck
+from hydro2d.deck.shapes import box, shared_volume, sphere
+from hydro2d.deck.warnings import warnings
+from hydro2d.materials import library
+from hydro2d.running import check
+from hydro2d.solver import insertion
+from hydro2d.solver.simulation import Simulation
+from tests.decks import body, entry, mesh, plate, rod, stop, table
+
+ROOT = Path(__file__).parents[2]
+MESH = mesh(("20 mm", 20), ("-14 mm", "26 mm", "1 mm")) + stop("1 us")
+ROD = rod("3 mm", "10 mm", tip=0.0, velocity="1000 m/s")
+SHIPPED = sorted(str(file.relative_to(ROOT)) for file in (ROOT / "problems").glob("*/*.toml") if "[mesh]" in file.read_text())
+
+
+def box_of(name, r, z, material="Al5083", **keys):
+    return body(name, material, "box", r=[f"{x} mm" for x in r], z=[f"{x} mm" for x in z], **keys)
+
+
+@pytest.mark.parametrize("name", SHIPPED)
+def test_a_resolved_deck_is_a_fixed_point(name):
+    found = deck.load(ROOT / name)
+    text = found.to_toml()
+    assert deck.loads(text, name=found.name).to_toml() == text
+
+
+@pytest.mark.parametrize("seed", range(30))
+def test_resolved_decks_of_random_boxes_are_fixed_points(seed):
+    """Nested, side by side, behind one another, in any order, before and behind the rod."""
+    rng = np.random.default_rng(seed)
+    bodies = [ROD]
+    for number in range(int(rng.integers(1, 6))):
+        (r0, r1), (z0, z1) = (np.sort(rng.choice(np.arange(21), 2, replace=False)) for _ in range(2))
+        bodies.append(box_of(f"box {number}", (r0 if rng.random() < 0.3 else 0, r1), (z0, z1)))
+    rng.shuffle(bodies)
+    text = deck.loads(MESH + "".join(bodies)).to_toml()
+    assert deck.loads(text).to_toml() == text
+
+
+def test_an_insert_is_reached_after_the_block_around_it():
+    found = deck.loads(MESH + ROD + box_of("insert", (0, 8), (5, 8)) + plate("20 mm", name="block"))
+    assert found.penetration.targets == ("block", "insert")
+    assert found.penetration.surface == 0.0
+
+
+COPPER = table("materials.copper", based_on="copper_OFHC", variant="johnson-cook")
+
+
+def state(**keys):
+    """Density, pressure and temperature of copper."""
+    found = deck.loads(MESH + COPPER + box_of("bar", (0, 3), (0, 10), material="copper", **keys))
+    slots = library.resolve(found)
+    rho, e = insertion.body_state(found.body[0], slots, 0)
+    return rho, *(slots.evaluate(0, rho, e)[n] for n in (0, 3))
+
+
+def test_a_temperature_alone_means_no_pressure():
+    """Copper at 718 K: 1.7 % lighter than at 298 K, with a linear expansion of 17e-6 /K it would be 2.2 %."""
+    rho, p, temperature = state(temperature="718 K")
+    assert (rho, temperature) == (pytest.approx(8776.0, rel=1e-3), pytest.approx(718.0, rel=1e-9))
+    assert abs(p) < 1.0
+
+
+def test_two_of_density_pressure_and_temperature_give_the_third():
+    rho, p, temperature = state(temperature="718 K", pressure="1 GPa")
+    assert (p, temperature) == (pytest.approx(1e9, rel=1e-7), pytest.approx(718.0, rel=1e-9))
+    assert state(temperature="718 K", density=f"{rho!r} kg/m^3")[1] == pytest.approx(1e9, rel=1e-6)
+    assert state(temperature="718 K", density="8960 kg/m^3")[1] == pytest.approx(2.90e9, rel=0.01)
+    with pytest.raises(deck.DeckError, match="give two of density, pressure and temperature"):
+        state(temperature="718 K", pressure="1 GPa", density="8960 kg/m^3")
+
+
+def test_a_temperature_that_no_density_has_without_pressure_is_told():
+    with pytest.raises(deck.DeckError, match='body "bar": at no density has copper a pressure of -1e.11 Pa at 718 K'):
+        state(temperature="718 K", pressure="-100 GPa")
+
+
+def test_a_gas_has_its_own_density():
+    text = MESH + box_of("air", (0, 3), (0, 10), material="air", temperature="400 K") + (
+        '[materials.air.eos]\nmodel = "ideal-gas"\nreference_density = 1.2\nadiabatic_index = 1.4\n')
+    found = deck.loads(text)
+    assert insertion.body_state(found.body[0], library.resolve(found), 0)[0] == 1.2
+
+
+def test_a_hot_bar_at_rest_stays_at_rest():
+    sim = Simulation(deck.loads(MESH + box_of("bar", (0, 3), (0, 10), material="copper_OFHC", temperature="718 K")))
+    sim.run()
+    assert np.abs(sim.state.v).max() < 1e-3
+
+
+@pytest.mark.parametrize(("first", "second", "told"), [
+    (box_of("plate", (0, 20), (0, 10)), box_of("rod", (0, 3), (-10, 3)), 'bodies "plate" and "rod" overlap by 84.8 mm^3'),
+    (box_of("insert", (0, 8), (5, 8)), box_of("block", (0, 20), (0, 20)), ""),  # in it altogether, and meant
+    (box_of("a", (0, 3), (0, 3)), box_of("b", (3, 6), (0, 3)), ""),
+    (box_of("a", (0, 3), (0, 3)), box_of("b", (0, 3), (2, 5), join="a"), ""),
+])  # fmt: skip
+def test_overlaps_are_told_with_their_volume(first, second, told):
+    found = [text for text in warnings(deck.loads(MESH + first + second)) if "overlap" in text]
+    assert [text.startswith(told) and "the earlier one" in text for text in found] == [True] * bool(told)
+
+
+def test_the_volume_that_two_bodies_share():
+    """A ball and a box that cuts its upper half off; planar, a disc."""
+    ball, upper = sphere(0.0, 0.0, 2.0), box((0.0, 5.0), (0.0, 5.0))
+    found = shared_volume(ball, upper, (0.0, 5.0), (-5.0, 5.0), False)
+    assert found == pytest.approx((2 / 3 * math.pi * 8.0, 4 / 3 * math.pi * 8.0), rel=1e-4)
+    found = shared_volume(ball, upper, (0.0, 5.0), (-5.0, 5.0), True)
+    assert found == pytest.approx((math.pi, 2.0 * math.pi), rel=1e-3)
+    assert shared_volume(ball, upper, (0.0, 5.0), (-5.0, 0.0), False)[0] == 0.0
+
+
+EOS = 'model = "mie-grueneisen", hugoniot_slope = 1.489, grueneisen = 2.02, specific_heat = 383'
+
+
+@pytest.mark.parametrize(("constants", "told"), [
+    ("reference_density = 8.93, sound_speed = 3940", r'density: 8.93 without a unit is 8.93 kg/m\^3; write "8.93 g/cm'),
+    ("reference_density = 8930, sound_speed = 3.94", 'sound_speed: 3.94 without a unit is 3.94 m/s; write "3.94 km/s", or'),
+])  # fmt: skip
+def test_constants_that_lack_their_unit_are_found(constants, told):
+    text = MESH + box_of("a", (0, 3), (0, 3), material="m") + f"[materials.m]\neos = {{ {EOS}, {constants} }}\n"
+    with pytest.raises(deck.DeckError, match=told):
+        deck.loads(text)
+
+
+def test_a_yield_stress_in_gigapascal_is_asked_about():
+    text = MESH + box_of("a", (0, 3), (0, 3), material="m") + '[materials.m]\nbased_on = "Al5083"\n'
+    strength = 'strength = { model = "elastic-plastic", shear_modulus = "27 GPa", yield_stress = 1.506 }\n'
+    with pytest.raises(deck.DeckError, match='strength.yield_stress: 1.506 without a unit is 1.506 Pa; write "1.506 GPa"'):
+        deck.loads(text + strength)
+    with pytest.raises(deck.DeckError, match='fracture_pressure: 1.2 without a unit is 1.2 Pa; write "1.2 GPa"'):
+        deck.loads(text + "fracture_pressure = 1.2\n")
+
+
+def test_a_constant_with_its_unit_is_taken_and_written_with_it():
+    text = MESH + box_of("a", (0, 3), (0, 3), material="m") + (
+        f'[materials.m]\neos = {{ {EOS}, reference_density = "8.93 kg/m^3", sound_speed = "3940 m/s" }}\n')
+    found = deck.loads(text)
+    assert found.materials["m"].reference_density == 8.93
+    assert 'reference_density = "8.93 kg/m^3"' in found.to_toml()
+    assert deck.loads(found.to_toml()).to_toml() == found.to_toml()
+
+
+def lines(text):
+    return "\n".join(check.check(deck.loads(text)).lines(1))
+
+
+def test_ties_are_told():
+    pair = box_of("flyer", (0, 3), (-2, 0), velocity="100 m/s") + box_of("target", (0, 3), (0, 10), material="W_alloy")
+    said = "flyer is tied to target where they touch, until one of them fractures, at "
+    assert said in lines(MESH + pair)
+    assert 'sliding.method = "contact" lets them part' in lines(MESH + pair)
+    assert "is tied to" not in lines(MESH + pair + table("sliding", method="contact", hard=["target"]))
+    assert "is tied to" not in lines(MESH + pair.replace('velocity = "100 m/s"', ""))
+    assert "where they touch, for ever" in lines(MESH + pair + table("failure", tensile="none"))
+
+
+def test_walls_that_hold_are_told():
+    alone = box_of("bar", (0, 3), (-14, 0), velocity="-20 m/s")
+    assert "what touches a wall (z_min) is held in tension as well" in lines(MESH + alone + table("boundaries", z_min="wall"))
+    assert "touches a wall" not in lines(MESH + alone)
+
+
+def test_liquids_that_bear_any_tension_are_told():
+    def told(material, **failure):
+        text = MESH + box_of("a", (0, 3), (0, 3), material=material) + (table("failure", **failure) if failure else "")
+        return [text for text in warnings(deck.loads(text)) if "bears any tension" in text]
+
+    assert told("Al_tillotson") == [
+        'body "a": Al_tillotson has no fracture_pressure and bears any tension; give it one, at which it cavitates']
+    assert told("Al_tillotson", tensile="none") == []
+    assert told("water_tillotson") == []
+
+
+def test_water_cavitates():
+    """Two slabs at 400 m/s: the tension stays near that at which water cavitates, where -108 MPa were borne."""
+    water = entry("body", name="flyer", material="water_tillotson", shape="box", r=[0.0, "0.4 mm"], z=["-2 mm", "0 mm"],
+                  velocity="400 m/s") + entry("body", name="target", material="water_tillotson", shape="box", r=[0.0, "0.4 mm"],
+                                              z=["0 mm", "4 mm"])  # fmt: skip
+    sim = Simulation(deck.loads(
+        mesh(("0.4 mm", 4), ("-6 mm", "12 mm", "0.1 mm")) + water + table("boundaries", r_max="wall") + stop("5 us")
+        + entry("gauge", name="spall", r="0.05 mm", z="2.25 mm")))  # fmt: skip
+    sim.run()
+    assert -15e6 < sim.stations.measure()["gauge_spall"]["least_pressure_Pa"] < 0.0
