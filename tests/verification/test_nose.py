@@ -56,8 +56,12 @@ class Settled:
         contact_velocities.settle(
             np.array([j0, j1]), 1e-9, 0.0, engine.constrained, g.metrics, g.dz, s.contact_columns, s.line, s.contact_node_count,
             s.contact_nodes, s.first_slot, s.contact_normal, np.zeros_like(s.touch), strength, number, where, weights,
-            s.sig_rr, s.sig_zz, s.sig_rz, s.mass, s.u0, s.v0, s.u, s.v, ties.nodes, ties.starts, ties.entries,
-            ties.portions, s.places, ties.impulses, ties.gain, ties.taken, ties.rubbing, s.heat, s.transfer)
+            s.sig_rr, s.sig_zz, s.sig_rz, s.mass, s.u, s.v, ties.nodes, ties.starts, ties.entries, ties.portions, s.places,
+            ties.impulses, ties.gain, ties.taken, ties.rubbing, s.transfer)
+        contact_velocities.warm_contact(
+            np.array([j0, j1]), s.contact_node_count, s.contact_nodes, s.first_slot, strength, number, where, weights, s.mass,
+            s.u0, s.v0, s.u, s.v, ties.nodes, ties.starts, ties.entries, ties.portions, ties.taken, ties.rubbing, s.heat,
+            s.transfer)
         self.after = s.velocity.copy()
 
 
