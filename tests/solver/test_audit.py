@@ -9,6 +9,8 @@ from tests.decks import body, box, contact, entry, mesh, stop, table, walls
 from tests.solver import audited
 
 CLOSES = 1e-12
+#: the same beside products of an explosive, whose modulus may fall by 1e12 below that of the metal in the same cell
+CLOSES_BESIDE_PRODUCTS = 1e-9
 
 
 def after(text: str, cycles: int, *options: str) -> Simulation:
@@ -179,14 +181,13 @@ def test_what_is_at_rest_adds_up(source, sliding):
 # ------------------------------------------------------------------------------------------------ all of them together
 
 
-@pytest.mark.parametrize("sliding", audited.SLIDING)
-@pytest.mark.parametrize("edge", audited.EDGE_KINDS)
+@pytest.mark.parametrize(("edge", "sliding"), sorted({(each.edge, each.sliding) for each in audited.all_choices()}))
 def test_every_choice_beside_every_other(edge, sliding):
     """Edges of all kinds, sliding, advection, sources, a mesh that follows."""
     found = {}
     for choices in audited.all_choices():
         if (choices.edge, choices.sliding) == (edge, sliding):
-            text = audited.deck(1, choices)
+            text = audited.deck(202, choices)
             found[choices] = (unexplained_by_sound(after(text, 60)), text)
-    assert found or sliding == "contact"
-    assert {choices: error for choices, (error, _) in found.items() if not error < CLOSES} == {}
+    bounds = {choices: CLOSES_BESIDE_PRODUCTS if choices.source == "detonation" else CLOSES for choices in found}
+    assert {choices: result for choices, result in found.items() if not result[0] < bounds[choices]} == {}
