@@ -32,7 +32,8 @@ def of(kind, **values):
 def test_flags(kind):
     values = {"velocity": 1.0} if kind == "velocity" else {"piston": PISTON} if kind == "piston" else {}
     found = of(kind, **values)
-    assert tuple(found.having(flag)[0] for flag in ("mirrors", "holds", "opens", "supplies", "drives", "transmits")) == FLAGS[kind]
+    flags = "mirrors", "holds", "opens", "supplies", "drives", "transmits"
+    assert tuple(found.having(flag)[0] for flag in flags) == FLAGS[kind]
 
 
 def test_the_axis_is_an_inner_edge_alone():
