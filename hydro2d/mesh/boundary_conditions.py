@@ -30,6 +30,7 @@ class BoundaryConditions:
         for n, edge in enumerate(edges):
             self.velocity[n] = edge.constrain(0.0) or 0.0
         self._driven = [(n, edge) for n, edge in enumerate(edges) if len(set(edge.speeds())) > 1]
+        self._moving = [(n, edge) for n, edge in enumerate(edges) if any(edge.speeds())]
 
     @classmethod
     def of(cls, boundaries: Mapping[str, Any]) -> BoundaryConditions:
@@ -48,8 +49,8 @@ class BoundaryConditions:
 
         inf where no edge moves.
         """
-        return min((width / speed if (speed := edge.fastest(start, end)) > 0.0 else np.inf, name)
-                   for name, edge, width in zip(EDGES, self.edges, widths, strict=True))
+        return min(((widths[n] / speed if (speed := edge.fastest(start, end)) > 0.0 else np.inf, EDGES[n])
+                    for n, edge in self._moving), default=(np.inf, ""))
 
     @cached_property
     def sinks(self) -> list[str]:
