@@ -134,7 +134,7 @@ def _bad_targets(deck: Deck) -> Iterator[tuple[tuple, str]]:
 def _bad_sources(deck: Deck) -> Iterator[tuple[tuple, str]]:
     """Sources without a body of their own or with the name of a sink, and forces beside a contact.
 
-    The work of a contact's impulses is that at the mean velocities of the step, which a force would change afterwards.
+    A contact finds the velocities of its nodes from the stresses alone.
     """
     bodies = [entry.name for entry in deck.body if entry.join is None]
     for number, entry in enumerate(deck.source):

@@ -2,7 +2,7 @@
 
 from math import sqrt
 
-from hydro2d.jit import kernel, rowwise
+from hydro2d.jit import kernel, point, rowwise
 from hydro2d.kernels.column_ranges import columns, copy_beside, past_row, union
 from hydro2d.kernels.cut_cells import BONDED, KIND, cut_pressure, skin_deviator
 from hydro2d.mesh.fields import SRR, SRZ, SZZ
@@ -117,13 +117,21 @@ def vertex_masses(part, parts, i0, i1, metrics, group_ranges, cell_mass, mass):
                 m_j[i] = metrics[CM_OUT, i - 1] * (below[i - 1] + above[i - 1]) + metrics[CM_IN, i] * (below[i] + above[i])
 
 
+@point
+def accelerated_columns(b, j, i0, i1, occupied):
+    """First vertex of row j that group b may move, and how many there are."""
+    lo, hi = union(occupied[b], j - 1, j + 1)
+    return columns(max(lo, i0), min(hi + 1, i1))
+
+
 @rowwise
-def limit_speed_row(b, j, lo, n, speed_limit, underfilled, metrics, mass, u0, v0, u, v, limited):
+def limit_speed_row(b, j, lo, n, speed_limit, underfilled, metrics, constrained, edge_velocity, mass, u0, v0, u, v, limited):
     """Holds the under-filled nodes of group b in row j to speed_limit; contact nodes are left to the contact.
 
-    underfilled is a quarter of the density below which a node is so, times the height of both rows of cells beside it.
+    underfilled is a quarter of the density below which a node is so, times the height of both rows of cells beside it. The
+    work of an impulse goes by the mean of the velocities at the start and at the end of the step, which edges may give.
 
-    Reads    mass, u0, v0 [b, j, i]
+    Reads    constrained [4], columns (2) and rows (2), -1 for none; edge_velocity [4]; mass, u0, v0 [b, j, i]
     Updates  u, v [b, j, i]; limited [3, j]: momentum and energy taken, and how often
     """
     u_c = u0[b, j]
@@ -133,6 +141,8 @@ def limit_speed_row(b, j, lo, n, speed_limit, underfilled, metrics, mass, u0, v0
     vn = v[b, j]
     other = mass[mass.shape[0] - 1 - b, j]
     alone = mass.shape[0] == 1
+    axial_given = j == constrained[2] or j == constrained[3]
+    axial = edge_velocity[2] if j == constrained[2] else edge_velocity[3]
     lost_p, lost_e, count = 0.0, 0.0, 0.0
     for x in range(n):
         i = lo + x
@@ -144,9 +154,12 @@ def limit_speed_row(b, j, lo, n, speed_limit, underfilled, metrics, mass, u0, v0
         if not alone and other[i] > 0.0:
             continue
         shrink = speed_limit / sqrt(square)
+        radial_given = i == constrained[0] or i == constrained[1]
+        radial = edge_velocity[0] if i == constrained[0] else edge_velocity[1]
+        end_u = radial if radial_given else shrink * un[i]
+        end_v = axial if axial_given else shrink * vn[i]
         lost_p += m * vn[i] * (1.0 - shrink)
-        # what the impulse takes from the work of the step, which goes by the mean of both velocities
-        lost_e += 0.5 * m * (1.0 - shrink) * (un[i] * (u_c[i] + shrink * un[i]) + vn[i] * (v_c[i] + shrink * vn[i]))
+        lost_e += 0.5 * m * (1.0 - shrink) * (un[i] * (u_c[i] + end_u) + vn[i] * (v_c[i] + end_v))
         count += 1.0
         un[i] *= shrink
         vn[i] *= shrink
@@ -155,22 +168,36 @@ def limit_speed_row(b, j, lo, n, speed_limit, underfilled, metrics, mass, u0, v0
     limited[2, j] += count
 
 
+@kernel
+def limit_speed(part, parts, i0, i1, speed_limit, underfilled_density, metrics, dz, occupied, constrained, edge_velocity, mass,
+                u0, v0, u, v, limited):
+    """limit_speed_row for rows j0 to j1, after all forces and before edges give their velocities.
+
+    A node whose dual cell is filled more thinly than underfilled_density is held to speed_limit.
+
+    Writes   limited [3, j]
+    """
+    for j in range(parts[part], past_row(part, parts, 1)):
+        for row in range(3):
+            limited[row, j] = 0.0
+        for b in range(mass.shape[0]):
+            lo, n = accelerated_columns(b, j, i0, i1, occupied)
+            limit_speed_row(b, j, lo, n, speed_limit, underfilled_density * 0.25 * (dz[j - 1] + dz[j]), metrics, constrained,
+                            edge_velocity, mass, u0, v0, u, v, limited)
+
+
 @rowwise
-def accelerate_row(b, j, i0, i1, dt, speed_limit, underfilled_density, metrics, dz, occupied, mass, hg_coefficient, sig_rr,
-                   sig_zz, sig_tt, sig_rz, u0, v0, u, v, limited):
+def accelerate_row(b, j, i0, i1, dt, metrics, dz, occupied, mass, hg_coefficient, sig_rr, sig_zz, sig_tt, sig_rz, u0, v0, u, v):
     """Velocities at the end of the Lagrangian step: u = u0 + dt f/M, f the sum of the corner forces of four cells.
 
     f_r = -[sig_rr (c_r - A/4) + sig_tt A/4 + sig_rz c_z],  f_z = -[sig_zz c_z + sig_rz g] per corner, and the filter of the
-    hourglass mode (explanation/lagrangian-step, equations 4 and 6). The same corner forces do the work in `deform`. A
-    node whose dual cell is filled more thinly than underfilled_density is held to speed_limit. Contact nodes are left to the
-    contact (explanation/sliding).
+    hourglass mode (explanation/lagrangian-step, equations 4 and 6). The same corner forces do the work in `deform`. Contact
+    nodes are left to the contact (explanation/sliding).
 
     Reads    u0, v0, mass [b, j, i]; sig_rr, sig_zz, sig_tt, sig_rz, hg_coefficient (of the hourglass filter) [j, i]
     Writes   u, v [b, j, i] for whole rows
-    Updates  limited [3, j]: momentum and energy taken by the speed limit, and its count
     """
-    lo, hi = union(occupied[b], j - 1, j + 1)
-    lo, n = columns(max(lo, i0), min(hi + 1, i1))
+    lo, n = accelerated_columns(b, j, i0, i1, occupied)
     copy_beside(u0[b, j], u[b, j], i0 - 2, lo, lo + n, i1 + 2)
     copy_beside(v0[b, j], v[b, j], i0 - 2, lo, lo + n, i1 + 2)
     hb = dz[j - 1]
@@ -223,19 +250,23 @@ def accelerate_row(b, j, i0, i1, dt, speed_limit, underfilled_density, metrics, 
         axial = keep * v_c[i] + scale * force_z
         un[i] = radial if abs(radial) > SILENCE else 0.0
         vn[i] = axial if abs(axial) > SILENCE else 0.0
-    limit_speed_row(b, j, lo, n, speed_limit, underfilled_density * 0.25 * (hb + ht), metrics, mass, u0, v0, u, v, limited)
 
 
 @kernel
-def accelerate(part, parts, i0, i1, dt, speed_limit, underfilled_density, metrics, dz, occupied, mass, hg_coefficient, sig_rr,
-               sig_zz, sig_tt, sig_rz, u0, v0, u, v, limited):
-    """accelerate_row for rows j0 to j1."""
+def accelerate(part, parts, i0, i1, dt, metrics, dz, occupied, mass, hg_coefficient, sig_rr, sig_zz, sig_tt, sig_rz, pushed, u0,
+               v0, u, v):
+    """accelerate_row for rows j0 to j1, and the velocities that forces of sources add.
+
+    Reads    pushed [c, b, j, i], m/s, or nothing
+    """
     for j in range(parts[part], past_row(part, parts, 1)):
-        for row in range(3):
-            limited[row, j] = 0.0
         for b in range(mass.shape[0]):
-            accelerate_row(b, j, i0, i1, dt, speed_limit, underfilled_density, metrics, dz, occupied, mass, hg_coefficient,
-                           sig_rr, sig_zz, sig_tt, sig_rz, u0, v0, u, v, limited)
+            accelerate_row(b, j, i0, i1, dt, metrics, dz, occupied, mass, hg_coefficient, sig_rr, sig_zz, sig_tt, sig_rz, u0,
+                           v0, u, v)
+            if pushed.shape[0] > 0:
+                for i in range(i0, i1):
+                    u[b, j, i] += pushed[0, b, j, i]
+                    v[b, j, i] += pushed[1, b, j, i]
 
 
 @kernel

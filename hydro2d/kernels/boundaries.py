@@ -119,7 +119,7 @@ def dashpots(along_r, j, i, metrics, dz, rhobar, cl, bulk):
 
 
 @apart
-def transmit(along_r, at, first, last, crossing, constrained, dt, metrics, dz, rhobar, cl, bulk, mass, u0, v0, u, v, taken):
+def transmit(along_r, at, first, last, crossing, constrained, dt, metrics, dz, rhobar, cl, bulk, mass, u, v, drag):
     """Tractions -rho c_l v_n and -rho c_s v_t on the vertices first to last of an edge: what an endless plate would hold with.
 
     J. Lysmer & R. L. Kuhlemeyer, J. Engng Mech. Div. ASCE 95 (1969) 859: exact for plane waves that meet the edge squarely.
@@ -129,8 +129,8 @@ def transmit(along_r, at, first, last, crossing, constrained, dt, metrics, dz, r
     vertices goes on beyond the edge.
 
     Reads    crossing [2], places along the edge where another transmitting edge crosses it, -1 for none; constrained [4],
-             columns and rows whose normal velocity is given, -1 for none; rhobar, cl, bulk [j, i]; mass, u0, v0 [b, j, i]
-    Updates  u, v [b, j, i]; adds to taken[0] axial momentum, to taken[1] energy
+             columns and rows whose normal velocity is given, -1 for none; rhobar, cl, bulk [j, i]; mass [b, j, i]
+    Updates  u, v [b, j, i];  writes drag [b, c, j or i], the impulses that are taken, where there are any
     """
     groups = mass.shape[0]
     for place in range(first, last):
@@ -152,30 +152,56 @@ def transmit(along_r, at, first, last, crossing, constrained, dt, metrics, dz, r
                 continue
             radial = u[b, j, i] * (m / (m + dt * radial_drag))
             axial = v[b, j, i] * (m / (m + dt * axial_drag))
-            lost_r, lost_z = m * (u[b, j, i] - radial), m * (v[b, j, i] - axial)
-            taken[0] += lost_z
-            taken[1] += 0.5 * (lost_r * (u0[b, j, i] + radial) + lost_z * (v0[b, j, i] + axial))
+            drag[b, 0, place] = m * (u[b, j, i] - radial)
+            drag[b, 1, place] = m * (v[b, j, i] - axial)
             u[b, j, i] = radial
             v[b, j, i] = axial
 
 
 @serial
-def transmit_edges(parts, i0, i1, transmitting, constrained, dt, metrics, dz, rhobar, cl, bulk, mass, u0, v0, u, v, taken):
+def transmit_edges(parts, i0, i1, transmitting, constrained, dt, metrics, dz, rhobar, cl, bulk, mass, u, v, drag):
     """`transmit` for every transmitting edge that the active box has reached.
 
     Reads    transmitting, constrained [4], columns (2) and rows (2), -1 for none; the rest as `transmit`
-    Updates  u, v [b, j, i];  writes taken [2], axial momentum and energy
+    Updates  u, v [b, j, i];  writes drag [edge, b, c, j or i]
+    """
+    j0, j1 = outer_rows(parts)
+    for edge in range(4):
+        at, along_r = transmitting[edge], edge < 2
+        if at < 0:
+            continue
+        for b in range(mass.shape[0]):
+            for place in range(drag.shape[3]):
+                drag[edge, b, 0, place] = 0.0
+                drag[edge, b, 1, place] = 0.0
+        if along_r and (at == i0 or at == i1):
+            transmit(along_r, at, j0, j1 + 1, transmitting[2:4], constrained, dt, metrics, dz, rhobar, cl, bulk, mass, u, v,
+                     drag[edge])
+        elif not along_r and (at == j0 or at == j1):
+            transmit(along_r, at, i0, i1 + 1, transmitting[0:2], constrained, dt, metrics, dz, rhobar, cl, bulk, mass, u, v,
+                     drag[edge])
+
+
+@serial
+def sum_drag(parts, i0, i1, transmitting, drag, u0, v0, u, v, taken):
+    """What transmitting edges have taken, by the velocities at the end of the step.
+
+    Reads    transmitting [4]; drag [edge, b, c, j or i], impulses; u0, v0, u, v [b, j, i]
+    Writes   taken [2], axial momentum and energy
     """
     j0, j1 = outer_rows(parts)
     taken[0], taken[1] = 0.0, 0.0
     for edge in range(4):
-        at, along_r = transmitting[edge], edge < 2
-        if along_r and (at == i0 or at == i1):
-            transmit(along_r, at, j0, j1 + 1, transmitting[2:4], constrained, dt, metrics, dz, rhobar, cl, bulk, mass, u0, v0,
-                     u, v, taken)
-        elif not along_r and (at == j0 or at == j1):
-            transmit(along_r, at, i0, i1 + 1, transmitting[0:2], constrained, dt, metrics, dz, rhobar, cl, bulk, mass, u0, v0,
-                     u, v, taken)
+        at = transmitting[edge]
+        if at < 0:
+            continue
+        first, last = (j0, j1 + 1) if edge < 2 else (i0, i1 + 1)
+        for place in range(first, last):
+            j, i = (place, at) if edge < 2 else (at, place)
+            for b in range(u.shape[0]):
+                radial, axial = drag[edge, b, 0, place], drag[edge, b, 1, place]
+                taken[0] += axial
+                taken[1] += 0.5 * (radial * (u0[b, j, i] + u[b, j, i]) + axial * (v0[b, j, i] + v[b, j, i]))
 
 
 @point

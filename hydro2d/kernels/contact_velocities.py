@@ -313,20 +313,16 @@ def warm_up(g, j, i, x, made, number, where, weights, mass, heat):
 
 @serial
 def settle(parts, dt, friction, constrained, metrics, dz, contact_columns, line, count, contact_nodes, first, normal, touch,
-           strength, number, where, weights, sig_rr, sig_zz, sig_rz, mass, u0, v0, u, v, nodes, starts, entries, portions,
-           places, ties, gain, taken, rubbing, heat, transfer):
+           strength, number, where, weights, sig_rr, sig_zz, sig_rz, mass, u, v, nodes, starts, entries, portions, places, ties,
+           gain, taken, rubbing, transfer):
     """Velocities of both groups at contact nodes, from those that the forces alone would give.
 
-    Slave nodes move with masters of their group, and groups that touch rub: impulses that keep the momentum. An impulse J
-    between two velocities makes the heat J . (w0 + w1)/2, w their difference at either end of the step: that is what the work
-    of the cells and the kinetic energy differ by (explanation/sliding, contact).
+    Slave nodes move with masters of their group, and groups that touch rub: impulses that keep the momentum.
 
-    Reads    what find_extensions wrote; mass, u0, v0 [b, j, i]; normal [3, 2, j, i], touch; line, sig_.. [j, i]
-    Updates  u, v [b, j, i]; heat [b, j, i], J per kg of the group's mass at a vertex; adds to transfer[4, j]
-    Writes   transfer[:4, j]: axial momentum that the soft group gains from the hard one, heat of the ties to the other group,
-             of friction, and of under-filled nodes
-    Scratch  what list_ties writes; ties [t, 12], gain [n, c]; taken [c, x, b], impulses that slaves have given away;
-             rubbing [3, x]
+    Reads    what find_extensions wrote; mass [b, j, i]; normal [3, 2, j, i], touch; line, sig_.. [j, i]
+    Updates  u, v [b, j, i]; adds to transfer[4, j]
+    Writes   taken [c, x, b], impulses that slaves have given away; rubbing [3, x]; what list_ties writes
+    Scratch  ties [t, 12], gain [n, c]
     """
     j0, j1 = outer_rows(parts)
     for x in range(first[j1 + 1]):
@@ -348,6 +344,23 @@ def settle(parts, dt, friction, constrained, metrics, dz, contact_columns, line,
                         transfer)
         meet_ties(tied, vertices, constrained, strength, number, where, weights, mass, u, v, nodes, starts, entries, portions,
                   ties, gain, taken, transfer)
+
+
+@serial
+def warm_contact(parts, count, contact_nodes, first, strength, number, where, weights, mass, u0, v0, u, v, nodes, starts,
+                 entries, portions, taken, rubbing, heat, transfer):
+    """Heat of the impulses at contact nodes.
+
+    An impulse J between two velocities makes the heat J . (w0 + w1)/2, w their difference at either end of the step: that is
+    what the work of the cells and the kinetic energy differ by (explanation/sliding, contact). At the end all has acted, as
+    the dashpots of an edge on which masters lie.
+
+    Reads    what find_extensions and settle wrote; mass, u0, v0, u, v [b, j, i]
+    Updates  heat [b, j, i], J per kg of the group's mass at a vertex
+    Writes   transfer[:4, j]: axial momentum that the soft group gains from the hard one, heat of the ties to the other group,
+             of friction, and of under-filled nodes
+    """
+    j0, j1 = outer_rows(parts)
     t = 0
     for j in range(j0, j1 + 1):
         for row in range(4):

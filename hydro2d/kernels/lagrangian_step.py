@@ -99,7 +99,7 @@ def accelerate(parts, i0, i1, dt, metrics, dz, body_range, active_range, mixed_c
                occupied, hg_coefficient, u, v, limited, group, constrained, contact_node_count, contact_nodes, aperture_r,
                aperture_z, cell_mass, transfer, friction, first_slot, contact_normal, touch, strength, masters, where, weights,
                nodes, starts, entries, portions, places, impulses, gain, taken, rubbing, heat, transmitting, rhobar, cl,
-               held_back, edge_velocity, walls, nr, mirror_r_min, mirror_r_max, nz, mirror_z_min, mirror_z_max):
+               drag, held_back, pushed, edge_velocity, walls, nr, mirror_r_min, mirror_r_max, nz, mirror_z_min, mirror_z_max):
     """Total stress at half the step, and the velocities at its end: forces, contact, friction, edges."""
     for place in prange(parts.shape[0] - 1):
         part = int64(place)  # numba counts without a sign, for which every kernel would be compiled a second time
@@ -110,8 +110,8 @@ def accelerate(parts, i0, i1, dt, metrics, dz, body_range, active_range, mixed_c
             contact_motion.contact_stress(part, parts, dt, contact_columns, group_ranges, line, hard, soft, rate, skin, p, bulk,
                                           solid, ph, sig_rr, sig_zz, sig_tt, sig_rz, contact_pressure)
         wait(gate, parts)
-        acceleration.accelerate(part, parts, i0, i1 + 1, dt, speed_limit, underfilled_density, metrics, dz, occupied, mass,
-                                hg_coefficient, sig_rr, sig_zz, sig_tt, sig_rz, u0, v0, u, v, limited)
+        acceleration.accelerate(part, parts, i0, i1 + 1, dt, metrics, dz, occupied, mass, hg_coefficient, sig_rr, sig_zz,
+                                sig_tt, sig_rz, pushed, u0, v0, u, v)
         if mass.shape[0] > 1:
             contact_motion.contact_node_forces(
                 part, parts, dt, group, by_what_is_solid, metrics, dz, constrained, contact_node_count, contact_nodes,
@@ -121,16 +121,25 @@ def accelerate(parts, i0, i1, dt, metrics, dz, body_range, active_range, mixed_c
             if mass.shape[0] > 1:
                 contact_velocities.settle(
                     parts, dt, friction, constrained, metrics, dz, contact_columns, line, contact_node_count, contact_nodes,
-                    first_slot, contact_normal, touch, strength, masters, where, weights, sig_rr, sig_zz, sig_rz, mass, u0, v0,
-                    u, v, nodes, starts, entries, portions, places, impulses, gain, taken, rubbing, heat, transfer)
-            boundaries.transmit_edges(parts, i0, i1, transmitting, constrained, dt, metrics, dz, rhobar, cl, bulk, mass, u0, v0,
-                                      u, v, held_back)
+                    first_slot, contact_normal, touch, strength, masters, where, weights, sig_rr, sig_zz, sig_rz, mass, u, v,
+                    nodes, starts, entries, portions, places, impulses, gain, taken, rubbing, transfer)
+            boundaries.transmit_edges(parts, i0, i1, transmitting, constrained, dt, metrics, dz, rhobar, cl, bulk, mass, u, v,
+                                      drag)
         wait(gate, parts)
+        acceleration.limit_speed(part, parts, i0, i1 + 1, speed_limit, underfilled_density, metrics, dz, occupied, constrained,
+                                 edge_velocity, mass, u0, v0, u, v, limited)
         boundaries.constrain(part, parts, constrained, edge_velocity, mass, u0, v0, u, v, walls)
         if mass.shape[0] > 1:
             contact_motion.keep_one(part, parts, i0, i1, group_ranges, mass, u, v)
         boundaries.ghost_vertices_r(part, parts, nr, mirror_r_min, mirror_r_max, u, v)
         boundaries.ghost_vertices_z(part, parts, i0 - 2, i1 + 3, nz, mirror_z_min, mirror_z_max, u, v)
+        wait(gate, parts)
+        if part == 0:
+            if mass.shape[0] > 1:
+                contact_velocities.warm_contact(
+                    parts, contact_node_count, contact_nodes, first_slot, strength, masters, where, weights, mass, u0, v0, u, v,
+                    nodes, starts, entries, portions, taken, rubbing, heat, transfer)
+            boundaries.sum_drag(parts, i0, i1, transmitting, drag, u0, v0, u, v, held_back)
 
 
 @phase

@@ -30,6 +30,7 @@ class BoundaryConditions:
         for n, edge in enumerate(edges):
             self.velocity[n] = edge.constrain(0.0) or 0.0
         self._driven = [(n, edge) for n, edge in enumerate(edges) if len(set(edge.speeds())) > 1]
+        self._moving = [(n, edge) for n, edge in enumerate(edges) if any(edge.speeds())]
 
     @classmethod
     def of(cls, boundaries: Mapping[str, Any]) -> BoundaryConditions:
@@ -40,6 +41,16 @@ class BoundaryConditions:
         """Gives `velocity` its values at a time, s."""
         for n, edge in self._driven:  # the velocities of the others never change
             self.velocity[n] = edge.constrain(time)
+
+    def least_crossing(self, widths, start: float, end: float) -> tuple[float, str]:
+        """The least time in which what moves with an edge crosses a width, s, and the name of that edge.
+
+        widths : float[4], of the cells beside the edges, m;  start, end : between which the velocity of an edge counts, s
+
+        inf where no edge moves.
+        """
+        return min(((widths[n] / speed if (speed := edge.fastest(start, end)) > 0.0 else np.inf, EDGES[n])
+                    for n, edge in self._moving), default=(np.inf, ""))
 
     @cached_property
     def sinks(self) -> list[str]:
@@ -53,9 +64,10 @@ class BoundaryConditions:
             "holds": tuple(edge.holds() for edge in self.edges),
             "opens": tuple(edge.flow() != NOTHING for edge in self.edges),
             "supplies": tuple(edge.flow() == BOTH_WAYS for edge in self.edges),
+            "drives": tuple(any(edge.speeds()) for edge in self.edges),
             "transmits": tuple(edge.traction() == DASHPOTS for edge in self.edges),
         }
 
     def having(self, flag: str) -> tuple[bool, ...]:
-        """For each edge whether it mirrors, holds, opens, supplies or transmits; asked many times a cycle."""
+        """For each edge whether it mirrors, holds, opens, supplies, drives or transmits; asked many times a cycle."""
         return self._flags[flag]

@@ -188,6 +188,7 @@ WORK = (
     Work("deposited", "J", "energy that a row of cells is given from its vertices"),
     Work("removed", "4+m J", "what the tidying of a row removes: energies, momentum, void, mass of every body"),
     Work("walls", "4 2 J", "axial momentum and energy that each edge with a given velocity takes in a row"),
+    Work("drag", "4 b 2 L", "impulses that the dashpots of each transmitting edge take, along r and along z"),
     Work("held_back", "2", "axial momentum and energy that the transmitting edges take"),
     Work("gate", "G", "where the threads of a phase wait for one another", int),
     Work("row_moving", "J 2", "columns of the moving vertices of a row", int),

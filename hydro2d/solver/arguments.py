@@ -40,7 +40,7 @@ class Arguments:
     def __init__(self, cycle, table):
         state, method, boundaries = cycle.state, cycle.method, cycle.method.boundaries
         self._contact, self._ties = cycle.contact, cycle.contact.ties
-        self._owners = state, cycle.grid, method
+        self._owners = state, cycle.grid, method, cycle.sources
         order, own = method.interface_order, state.group[method.interface_order]
         soft_first, hard_first = (np.array([*order[own == b], *order[own != b]], dtype=np.int64) for b in range(2))
         models, materials = rows.packed(table, method.strength_cutoff * table.rho0, method.yield_factor)

@@ -81,19 +81,25 @@ class Audit:
     Attributes
     ----------
     start : Totals
+    noise : energy below which all sums are round-off of the stresses, J per radian: the last bit of m c^2, c the speed of sound
     sinks : name -> Sink
     contact_transfers : name -> ContactTransfer, empty without contact
     """
 
     start: Totals
+    noise: float
     sinks: dict[str, Sink] = field(default_factory=dict)
     contact_transfers: dict[str, ContactTransfer] = field(default_factory=dict)
 
     @classmethod
-    def open(cls, state, own: Iterable[str] = ()) -> Audit:
-        """An audit that begins with the state as it is; own : names of the sinks of its edges and
-        sources beside SINKS."""
-        return cls(totals(state), {name: Sink(np.zeros(state.bodies)) for name in (*SINKS, *own)},
+    def open(cls, state, speeds: np.ndarray, own: Iterable[str] = ()) -> Audit:
+        """An audit that begins with the state as it is.
+
+        speeds : of sound in every body at rest, m/s, float64[m];  own : names of the sinks of its edges and sources beside
+        SINKS
+        """
+        start = totals(state)
+        return cls(start, _noise(start, speeds), {name: Sink(np.zeros(state.bodies)) for name in (*SINKS, *own)},
                    {name: ContactTransfer() for name in CONTACT_TRANSFERS if state.groups > 1})
 
     def add(self, name: str, mass=0.0, momentum: float = 0.0, energy: float = 0.0) -> None:
@@ -115,24 +121,28 @@ class Audit:
         entry.momentum += momentum
         entry.energy += energy
 
-    def _unexplained(self, now: Totals, energy: float) -> tuple[np.ndarray, float, float]:
-        """Relative changes of the mass of every body, of momentum and of energy that no sink explains; energy : their scale."""
+    @property
+    def scale(self) -> float:
+        """Energy of the start and what has come in since, and no less than `noise`, J per radian."""
+        return max(abs(self.start.energy), self.start.kinetic, self.noise) + self.came
+
+    def _unexplained(self, now: Totals) -> tuple[np.ndarray, float, float]:
+        """Relative changes of the mass of every body, of momentum and of energy that no sink explains."""
         lost = {kind: sum(getattr(sink, kind) for sink in self.sinks.values()) for kind in ("mass", "momentum", "energy")}
-        momentum = max((2.0 * self.start.mass.sum() * energy) ** 0.5, 1e-300)
         whole = np.maximum(self.start.mass - self.sinks["inflow"].mass, 1e-300)
         return ((now.mass + lost["mass"] - self.start.mass) / whole,
-                (now.momentum + lost["momentum"] - self.start.momentum) / momentum,
-                (now.energy + lost["energy"] - self.start.energy) / max(energy, self.start.kinetic, 1e-300))
+                (now.momentum + lost["momentum"] - self.start.momentum) / (2.0 * self.start.mass.sum() * self.scale) ** 0.5,
+                (now.energy + lost["energy"] - self.start.energy) / self.scale)
 
-    def unexplained(self, now: Totals, energy: float) -> dict[str, float]:
+    def unexplained(self, now: Totals) -> dict[str, float]:
         """The same, of mass the largest, by what they are."""
-        mass, momentum, energy = self._unexplained(now, energy)
+        mass, momentum, energy = self._unexplained(now)
         return {"mass": float(mass[np.argmax(np.abs(mass))]), "axial momentum": momentum, "energy": energy}
 
     def balance(self, state) -> dict:
         """Relative changes that no sink explains, and the sinks; SI, full circumference in cylindrical geometry."""
         now, around = totals(state), 2 * np.pi if state.grid.cylindrical else 1.0
-        mass, momentum, energy = self._unexplained(now, abs(self.start.energy) or self.came)
+        mass, momentum, energy = self._unexplained(now)
         return {
             "mass": mass,
             "axial_momentum": momentum,
@@ -163,10 +173,15 @@ class Audit:
         }
 
     @classmethod
-    def resume(cls, saved: dict) -> Audit:
-        """The audit that `saved` described."""
+    def resume(cls, saved: dict, speeds: np.ndarray) -> Audit:
+        """The audit that `saved` described; speeds as for `open`."""
         arrays = {name: np.array(saved["start"][name]) for name in ("mass", "internal_of")}
         start = Totals(**{**saved["start"], **arrays})
         sinks = {name: Sink(**{**entry, "mass": np.array(entry["mass"])}) for name, entry in saved["sinks"].items()}
         contact_transfers = {name: ContactTransfer(**entry) for name, entry in saved["contact_transfers"].items()}
-        return cls(start, sinks, contact_transfers)
+        return cls(start, _noise(start, speeds), sinks, contact_transfers)
+
+
+def _noise(start: Totals, speeds: np.ndarray) -> float:
+    """The last bit of the sum of m c^2 over the bodies, J per radian; speeds : of sound, m/s, float64[m]."""
+    return float(np.finfo(float).eps * np.sum(start.mass * speeds**2))

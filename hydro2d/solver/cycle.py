@@ -11,7 +11,6 @@ import numpy as np
 from hydro2d.errors import UnphysicalState
 from hydro2d.kernels import (
     acceleration,
-    boundaries,
     column_ranges,
     contact_motion,
     lagrangian_step,
@@ -55,6 +54,7 @@ class Cycle:
     cause : str, what set the last time step, and where
     box : [j0, j1, i0, i1] of the cells that are active
     rows : int64[n + 1], first row of each part of the box and one past the last (`parts`)
+    sound_speeds : float64[m], bulk sound speed of every body at rest, m/s
     audit : Audit
     """
 
@@ -71,6 +71,7 @@ class Cycle:
         self._rows_that_hold = [(edge, j) for edge, j in along_z if j >= 0]
         lines = np.s_[:, 0], np.s_[:, -1], np.s_[0, :], np.s_[-1, :]
         self._held = [(edge.sink, n // 2, lines[n]) for n, edge in enumerate(method.boundaries.edges) if edge.holds()]
+        self._widths = [*grid.dr[[g, g + grid.nr - 1]].tolist(), *grid.dz[[g, g + grid.nz - 1]].tolist()]
         self.transmitting = np.where(method.boundaries.having("transmits"), at, -1)
         self.carried = fields.carried_rows([
             fields.carried(own, bool(strength), bool(damage)) for own, strength, damage in
@@ -78,6 +79,7 @@ class Cycle:
         self.contact = Contact(state) if state.groups > 1 else NoContact()
         self.box = list(self.mesh_box)
         self.parts, self.rows = Parts(state), self._one_part
+        self.sound_speeds = table.sound_speeds(thermodynamics.SOUND_FLOOR)
         self.audit: Audit | None = None
         self.courses = Courses(state)
         self.speed_limit = 0.0
@@ -103,7 +105,6 @@ class Cycle:
         self.choose_step()
 
         self.accelerate()
-        self.push()
         self.deform()
 
         directions = ((0, 1), (1, 0)) if self.number % 2 == 0 else ((1, 0), (0, 1))
@@ -131,10 +132,9 @@ class Cycle:
         if self.audit is None:
             self.box = self._first_box() if self._skips_cells else list(self.mesh_box)
             self.courses.look(self.time)
-            self.audit = Audit.open(s, (*self.method.boundaries.sinks, *self.sources.names))
-            sound = float(self.table.sound_speeds(thermodynamics.SOUND_FLOOR).min())
+            self.audit = Audit.open(s, self.sound_speeds, (*self.method.boundaries.sinks, *self.sources.names))
             fastest = float(np.sqrt(np.max(s.u**2 + s.v**2)))
-            self.speed_limit = SPEED_LIMIT_FACTOR * max(fastest, sound)
+            self.speed_limit = SPEED_LIMIT_FACTOR * max(fastest, float(self.sound_speeds.min()))
         else:
             self.box = every
         self.arguments.limit_speed(self.speed_limit)
@@ -150,7 +150,8 @@ class Cycle:
         return self.method.active_region and self.mesh.leading is None and not self.sources
 
     def _first_box(self) -> list[int]:
-        """Smallest box around everything that moves or is under pressure or stress, and the margin."""
+        """Smallest box around everything that moves or is under pressure or stress, the edges that drive, and the margin; the
+        whole mesh where there is nothing but edges."""
         s, t = self.state, self.table
         loud = np.zeros(self.grid.shape, dtype=bool)
         for m in range(s.bodies):
@@ -158,12 +159,15 @@ class Cycle:
             quiet_p = t.evaluate(m, t.rho0[m], 0.0)[0] == 0.0
             at_rest = (s.rho[m] == t.rho0[m]) & (s.e[m] == 0.0) & (s.q[2:5, m] == 0.0).all(axis=0)
             loud |= present & ~(at_rest & quiet_p)
-        moving = ((s.u != 0) | (s.v != 0)).any(axis=0)
+        moving = (((s.u != 0) | (s.v != 0)) & (s.mass > 0)).any(axis=0)
         loud |= moving[:-1, :-1] | moving[1:, :-1] | moving[:-1, 1:] | moving[1:, 1:]
         j0, j1, i0, i1 = self.mesh_box
-        rows, columns = np.nonzero(loud[j0:j1, i0:i1])
-        if len(rows) == 0:
+        if not loud[j0:j1, i0:i1].any():
             return list(self.mesh_box)
+        beside = np.s_[:, i0], np.s_[:, i1 - 1], np.s_[j0], np.s_[j1 - 1]
+        for cells, drives in zip(beside, self.method.boundaries.having("drives"), strict=True):
+            loud[cells] |= drives
+        rows, columns = np.nonzero(loud[j0:j1, i0:i1])
         return self._clipped([rows.min() + j0, rows.max() + j0 + 1, columns.min() + i0, columns.max() + i0 + 1], MARGIN)
 
     def _clipped(self, box, margin) -> list[int]:
@@ -258,6 +262,9 @@ class Cycle:
             self.cause += " (ramp)"
         if self.dt > 0.0 and dt > method.max_growth * self.dt:
             dt, self.cause = method.max_growth * self.dt, "growth"
+        crossing, edge = method.boundaries.least_crossing(self._widths, self.time, self.time + dt)
+        if dt > method.advective_courant * crossing:
+            dt, self.cause = method.advective_courant * crossing, f"velocity of the edge {edge}"
         if not method.dt_min < dt < 1e300:
             m = int(np.argmax(s.vof[:, j, i]))
             raise UnphysicalState(f"cycle {self.number}, time {self.time:.6g} s: time step {dt:.3g} s, below dt_min = "
@@ -269,6 +276,7 @@ class Cycle:
         s, (j0, j1, i0, i1), phase = self.state, self.box, lagrangian_step.accelerate
         s.swap_velocities()
         self.method.boundaries.drive(self.time + self.dt)
+        self.sources.push(self.time, self.dt, self._held)
         phase(self.rows, i0, i1, self.dt, *self.arguments.of(phase))
         if s.limited[2, j0:j1 + 1].any():
             self.audit.add("speed_limit", momentum=float(s.limited[0, j0:j1 + 1].sum()),
@@ -280,13 +288,7 @@ class Cycle:
         for edge, (momentum_taken, energy_taken) in zip(self.method.boundaries.edges, taken, strict=True):
             if momentum_taken != 0.0 or energy_taken != 0.0:
                 self.audit.add(edge.sink, momentum=momentum_taken, energy=energy_taken)
-
-    def push(self) -> None:
-        """What forces of sources do to the velocities in the step (explanation/lagrangian-step, forces from outside)."""
-        if self.sources.push(self.time, self.dt, self.audit, self._held):
-            s, g, (r_min, r_max, z_min, z_max) = self.state, self.grid, self.method.boundaries.having("mirrors")
-            boundaries.ghost_vertices_r(0, self._one_part, g.nr, r_min, r_max, s.u, s.v)
-            boundaries.ghost_vertices_z(0, self._one_part, 0, s.u.shape[2], g.nz, z_min, z_max, s.u, s.v)
+        self.sources.account(self.audit)
 
     def deform(self) -> None:
         """Volumes that the faces sweep; work, volume, strain: body by body in pure cells, then the mixed cells."""

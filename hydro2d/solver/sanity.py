@@ -39,12 +39,9 @@ def faults(state, audit: Audit, names, reach: Reach, share: float = TRUSTED) -> 
         1 + share/TRUSTED times the energy that it can reach
     """
     now, start = totals(state), audit.start
-    came = audit.came
-    energy = max(abs(start.energy), start.kinetic) + came
-    if not energy > 0.0:
-        return []
+    came, energy = audit.came, audit.scale
     found = []
-    for kind, error in audit.unexplained(now, energy).items():
+    for kind, error in audit.unexplained(now).items():
         if not abs(error) <= CLOSES:
             found.append(f"the {kind} does not add up: {error:.2g} of it is explained by nothing in the audit")
     for m, internal in enumerate(now.internal_of):

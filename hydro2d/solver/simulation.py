@@ -455,7 +455,7 @@ class Simulation:
             self._watch = dict(scalars["watch"])
         self.grid.move(scalars["mesh_offset"])
         self._doubts = dict(scalars["doubts"])
-        e.audit = Audit.resume(scalars["audit"])
+        e.audit = Audit.resume(scalars["audit"], e.sound_speeds)
         e.courses.resume(scalars["courses"])
         self.sources.resume(scalars.get("sources", 0.0))  # files of earlier versions, which had no sources, say nothing
         if self.penetrator:

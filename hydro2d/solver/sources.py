@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from functools import partial
+from typing import NamedTuple
 
 import numpy as np
 
 from hydro2d.mesh.fields import INTERNAL
 from hydro2d.mesh.grid import CM_IN, CM_OUT
 from hydro2d.solver.audit import Audit
-from hydro2d.sources.base import Reached
+from hydro2d.sources.base import Reached, Source
 
 
 def begin(entries, slots: list[int], grid, table, vof, rho, variables: dict[int, np.ndarray]) -> list[str]:
@@ -60,6 +61,21 @@ def at_vertices(grid, cells: np.ndarray) -> np.ndarray:
     return found
 
 
+class Impulse(NamedTuple):
+    """What a source does to one component (0 radial, 1 axial) of the velocities of a body group in a step.
+
+    passed : impulses on the vertices of the mesh, N s, per radian, float64[nz + 1, nr + 1];  gained : the velocities of them
+    taken : (sink, line, impulses) of the edges that hold vertices
+    """
+
+    name: str
+    group: int
+    component: int
+    passed: np.ndarray
+    gained: np.ndarray
+    taken: list[tuple[str, tuple, np.ndarray]]
+
+
 class Sources:
     """What the sources of a deck do to a state.
 
@@ -72,11 +88,15 @@ class Sources:
     Attributes
     ----------
     given : float64[m], the most energy that a cell of each body has been given, J/kg
+    pushed : float64[2, b, j, i], velocity that forces of sources add in the step, m/s; without such sources it is empty
     """
 
     def __init__(self, entries, state, table, slots: list[int]):
         self._all, self.state, self._table = list(zip(entries, slots, strict=True)), state, table
         self.given = np.zeros(state.bodies)
+        pushes = any(type(entry).push is not Source.push for entry in entries)
+        self.pushed = np.zeros_like(state.velocity) if pushes else np.zeros((0,) * state.velocity.ndim)
+        self._impulses: list[Impulse] = []
 
     def __bool__(self) -> bool:
         return bool(self._all)
@@ -108,42 +128,49 @@ class Sources:
             audit.add(entry.name, energy=-float(np.sum(vof * rho * grid.interior(grid.volume) * gained)))
             self.given[m] += float(np.abs(heat).max(initial=0.0))
 
-    def push(self, time: float, dt: float, audit: Audit, held: Iterable[tuple[str, int, tuple]]) -> bool:
-        """Gives the vertices the velocity that sources add from ``time`` to ``time + dt``, and books it. Whether any did.
+    def push(self, time: float, dt: float, held: Iterable[tuple[str, int, tuple]]) -> None:
+        """Finds the velocity that sources add to the vertices from ``time`` to ``time + dt``.
 
         The material of a cell gains it, and a vertex moves with what its cells hold: its velocity changes by the impulse of
-        the corner masses over its mass. An edge that holds its vertices takes their impulse. The work of an impulse is that at
-        the mean of the velocities at the start and at the end of the step, as of the other forces.
+        the corner masses over its mass. An edge that holds its vertices takes their impulse.
 
         held : (sink, component, line) of the edges that hold: 0 for radial velocities and 1 for axial ones;  index of their
         vertices among those of the mesh
         """
+        if self.pushed.size == 0:
+            return
         s, grid = self.state, self.state.grid
+        self.pushed[...] = 0.0
+        self._impulses.clear()
         gains = [(entry.name, m, gain) for entry, m in self._all if (gain := entry.push(grid, time, dt)) is not None]
-        for component, (start, end) in enumerate(((s.u0, s.u), (s.v0, s.v))):
-            pushes = []
+        for component in range(2):
             for name, m, gain in gains:
                 impulse = at_vertices(grid, grid.interior(s.vof[m] * s.rho[m] * grid.volume) * gain[component])
                 taken = [(sink, line, impulse[line].copy()) for sink, of, line in held if of == component]
                 for _, line, _ in taken:
                     impulse[line] = 0.0
-                g = s.group[m]
-                mass, velocity = grid.interior_vertices(s.mass[g]), grid.interior_vertices(end[g])
-                before = velocity.copy()
-                velocity += np.divide(impulse, mass, out=np.zeros_like(mass), where=mass > 0.0)
-                pushes.append((name, g, mass, velocity - before, taken))  # as it is stored
-            for name, g, mass, gained, taken in pushes:
-                mean = 0.5 * (grid.interior_vertices(start[g]) + grid.interior_vertices(end[g]))
-                impulse = mass * gained
-                momentum, energy = component * float(impulse.sum()), float((impulse * mean).sum())
-                for sink, line, lost in taken:
-                    part, work = component * float(lost.sum()), float((lost * mean[line]).sum())
-                    momentum, energy = momentum + part, energy + work
-                    audit.add(sink, momentum=part, energy=work)
-                audit.add(name, momentum=-momentum, energy=-energy)
-                work = np.maximum(np.abs(gained * mean), 0.5 * gained**2)  # at least what it would do alone
-                self.given += float(work.max(initial=0.0))  # what is pushed may meet any of the others
-        return bool(gains)
+                mass = grid.interior_vertices(s.mass[s.group[m]])
+                gained = np.divide(impulse, mass, out=np.zeros_like(mass), where=mass > 0.0)
+                grid.interior_vertices(self.pushed[component, s.group[m]])[...] += gained
+                self._impulses.append(Impulse(name, s.group[m], component, mass * gained, gained, taken))
+
+    def account(self, audit: Audit) -> None:
+        """Books what forces of sources have done, by the velocities at the end of the step.
+
+        The work of an impulse is that at the mean of the velocities at the start and at the end, as of the other forces.
+        """
+        s, grid = self.state, self.state.grid
+        for name, g, component, impulse, gained, taken in self._impulses:
+            start, end = (s.u0, s.u) if component == 0 else (s.v0, s.v)
+            mean = 0.5 * (grid.interior_vertices(start[g]) + grid.interior_vertices(end[g]))
+            momentum, energy = component * float(impulse.sum()), float((impulse * mean).sum())
+            for sink, line, lost in taken:
+                part, work = component * float(lost.sum()), float((lost * mean[line]).sum())
+                momentum, energy = momentum + part, energy + work
+                audit.add(sink, momentum=part, energy=work)
+            audit.add(name, momentum=-momentum, energy=-energy)
+            work = np.maximum(np.abs(gained * mean), 0.5 * gained**2)  # at least what it would do alone
+            self.given += float(work.max(initial=0.0))  # what is pushed may meet any of the others
 
     def saved(self) -> list[float]:
         """What a restart file keeps."""

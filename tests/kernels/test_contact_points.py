@@ -5,7 +5,7 @@ import pytest
 
 from hydro2d.kernels import contact_geometry, contact_velocities, momentum
 from hydro2d.kernels.contact_geometry import REACH
-from hydro2d.kernels.contact_velocities import settle
+from hydro2d.kernels.contact_velocities import settle, warm_contact
 from hydro2d.kernels.contact_volumes import EVENING, even_out, warm_evened
 from hydro2d.kernels.cut_cells import FREE_SURFACE, INTERFACE, KIND
 from hydro2d.kernels.extension import MASTERS, SPAN, TIED
@@ -133,7 +133,7 @@ def test_the_heat_of_a_slave_goes_to_it_and_its_masters():
 
 
 class Settled:
-    """Random velocities of both groups at the vertices of a mesh, before and after `settle`."""
+    """Random velocities of both groups at the vertices of a mesh, before and after `settle`, and the heat of it."""
 
     def __init__(self, found: Extensions, before, strength=None, friction=0.0, constrained=NOWHERE):
         g, slots, vertices, cells = found.grid, int(found.first[-1]), found.grid.vertex_shape, found.grid.shape
@@ -144,12 +144,13 @@ class Settled:
         line[contact_geometry.SHARE] = found.hard
         listed = room_for_ties(slots, vertices)
         rows = np.array([g.g, g.g + N])
+        impulses = np.full((2, slots, 2), np.nan), np.full((3, slots), np.nan)
         settle(rows, 1e-3, friction, constrained, g.metrics, g.dz, np.tile(rows, (cells[0], 1)), line, found.count,
                found.nodes, found.first, found.normal, np.ones(vertices), *ties,
-               pressure, pressure.copy(), np.zeros(cells), self.mass,
-               before[0].copy(), before[1].copy(), w[0], w[1], *listed, np.full((2 * slots, 12), np.nan),
-               np.full((2 * slots * (MASTERS + 2), 2), np.nan), np.full((2, slots, 2), np.nan), np.full((3, slots), np.nan),
-               self.heat, self.transfer)
+               pressure, pressure.copy(), np.zeros(cells), self.mass, w[0], w[1], *listed, np.full((2 * slots, 12), np.nan),
+               np.full((2 * slots * (MASTERS + 2), 2), np.nan), *impulses, self.transfer)
+        warm_contact(rows, found.count, found.nodes, found.first, *ties, self.mass, before[0].copy(), before[1].copy(), w[0],
+                     w[1], *listed[:-1], *impulses, self.heat, self.transfer)
         self.after = w
         slot, group = listed[0][:2]
         #: of every slave: its strength, and by what it differs from its masters before and after

@@ -149,15 +149,26 @@ def test_no_mass_flows_beyond_the_edges_but_on_through_an_open_one():
 
 def test_a_transmitting_edge_holds_with_the_impedance_of_what_is_beside_it():
     """rho c_l = 6: over the step of 0.5 s, 3 kg/s on a vertex between two cells of the edge and half of that at its ends."""
-    cells, taken = Cells(), np.full(2, 9.0)
+    cells, edges = Cells(), np.array([-1, 6, -1, -1])
     cells.rhobar[2:6, 2:6], cells.cl[2:6, 2:6], cells.bulk[2:6, 2:6] = 2.0, 3.0, 18.0
-    cells.mass[...], cells.u[0, :, 6], cells.u0[0, :, 6] = 1.0, 4.0, 4.0
-    cells.call(boundaries.transmit_edges, transmitting=np.array([-1, 6, -1, -1]), dt=0.5, taken=taken)
+    cells.mass[...], cells.u[0, :, 6], cells.drag[...] = 1.0, 4.0, 9.0
+    cells.call(boundaries.transmit_edges, transmitting=edges, dt=0.5)
     assert cells.u[0, 1:8, 6].tolist() == pytest.approx([4.0, 1.6, 1.0, 1.0, 1.0, 1.6, 4.0])
-    assert taken == pytest.approx([0.0, 3 * 0.5 * 3.0 * 5.0 + 2 * 0.5 * 2.4 * 5.6])
+    assert cells.drag[1, 0, 0, 1:8] == pytest.approx([0.0, 2.4, 3.0, 3.0, 3.0, 2.4, 0.0])
+    assert not cells.drag[1, 0, 1].any()
     before = cells.u.copy()
-    cells.call(boundaries.transmit_edges, dt=0.5, taken=taken)
+    cells.call(boundaries.transmit_edges, dt=0.5)
     assert (cells.u == before).all()
+
+
+def test_what_dashpots_take_goes_by_the_velocities_at_the_end():
+    """2 N s along r and 3 N s along z on a vertex that goes from 4 to 1 m/s and from 0 to 5 m/s, whatever changed it."""
+    cells, edges, taken = Cells(), np.array([-1, 6, -1, -1]), np.full(2, 9.0)
+    cells.drag[1, 0, :, 3] = 2.0, 3.0
+    cells.u0[0, 3, 6], cells.u[0, 3, 6], cells.v[0, 3, 6] = 4.0, 1.0, 5.0
+    cells.call(boundaries.sum_drag, transmitting=edges, taken=taken)
+    assert taken.tolist() == [3.0, 2.0 * 2.5 + 3.0 * 2.5]
+    cells.call(boundaries.sum_drag, taken=taken)
     assert not taken.any()
 
 

@@ -11,14 +11,14 @@ from hydro2d.mesh.edges.registry import BY_NAME, KINDS, made, words
 from hydro2d.mesh.sinks import SINKS
 from tests.sources.test_heating import TEXT
 
-#: mirrors, holds, opens, supplies, transmits
+#: mirrors, holds, opens, supplies, drives, transmits
 FLAGS = {
-    "axis": (True, True, False, False, False),
-    "wall": (True, True, False, False, False),
-    "outflow": (False, False, True, False, False),
-    "transmit": (False, False, True, True, True),
-    "velocity": (False, True, True, True, False),
-    "piston": (False, True, True, True, False),
+    "axis": (True, True, False, False, False, False),
+    "wall": (True, True, False, False, False, False),
+    "outflow": (False, False, True, False, False, False),
+    "transmit": (False, False, True, True, False, True),
+    "velocity": (False, True, True, True, True, False),
+    "piston": (False, True, True, True, True, False),
 }
 PISTON = ((0.0, 0.0), (1e-6, 100.0), (3e-6, -50.0))
 
@@ -32,7 +32,8 @@ def of(kind, **values):
 def test_flags(kind):
     values = {"velocity": 1.0} if kind == "velocity" else {"piston": PISTON} if kind == "piston" else {}
     found = of(kind, **values)
-    assert tuple(found.having(flag)[0] for flag in ("mirrors", "holds", "opens", "supplies", "transmits")) == FLAGS[kind]
+    flags = "mirrors", "holds", "opens", "supplies", "drives", "transmits"
+    assert tuple(found.having(flag)[0] for flag in flags) == FLAGS[kind]
 
 
 def test_the_axis_is_an_inner_edge_alone():
@@ -54,6 +55,18 @@ def test_a_piston_moves_by_its_table():
     assert found.sinks == ["piston"]
     assert of("wall").sinks == []
     assert made("z_min", {"z_min": "piston", "z_min_piston": PISTON}).speeds() == (0.0, 100.0, -50.0)
+
+
+def test_what_moves_with_an_edge_crosses_the_cell_beside_it():
+    """The piston is at 50 m/s after 0.5 us and at 75 m/s after 1.33 us, and at 100 m/s between; widths of 1 to 4 mm."""
+    widths, still = [3e-3, 2e-3, 1e-3, 4e-3], of("wall")
+    assert still.least_crossing(widths, 0.0, 1.0)[0] == np.inf
+    assert of("velocity", velocity=-20.0).least_crossing(widths, 0.0, 1e-9) == (1e-3 / 20.0, "z_min")
+    assert not of("velocity", velocity=0.0).having("drives")[0]
+    piston = of("piston", piston=PISTON)
+    assert piston.least_crossing(widths, 0.0, 0.5e-6) == (pytest.approx(1e-3 / 50.0), "z_min")
+    assert piston.least_crossing(widths, 0.5e-6, 4e-6 / 3.0) == (pytest.approx(1e-3 / 100.0), "z_min")
+    assert piston.least_crossing(widths, 4e-6 / 3.0, 1.4e-6)[0] == pytest.approx(1e-3 / 75.0)
 
 
 @pytest.mark.parametrize(("overrides", "words"), [

@@ -56,8 +56,12 @@ class Settled:
         contact_velocities.settle(
             np.array([j0, j1]), 1e-9, 0.0, engine.constrained, g.metrics, g.dz, s.contact_columns, s.line, s.contact_node_count,
             s.contact_nodes, s.first_slot, s.contact_normal, np.zeros_like(s.touch), strength, number, where, weights,
-            s.sig_rr, s.sig_zz, s.sig_rz, s.mass, s.u0, s.v0, s.u, s.v, ties.nodes, ties.starts, ties.entries,
-            ties.portions, s.places, ties.impulses, ties.gain, ties.taken, ties.rubbing, s.heat, s.transfer)
+            s.sig_rr, s.sig_zz, s.sig_rz, s.mass, s.u, s.v, ties.nodes, ties.starts, ties.entries, ties.portions, s.places,
+            ties.impulses, ties.gain, ties.taken, ties.rubbing, s.transfer)
+        contact_velocities.warm_contact(
+            np.array([j0, j1]), s.contact_node_count, s.contact_nodes, s.first_slot, strength, number, where, weights, s.mass,
+            s.u0, s.v0, s.u, s.v, ties.nodes, ties.starts, ties.entries, ties.portions, ties.taken, ties.rubbing, s.heat,
+            s.transfer)
         self.after = s.velocity.copy()
 
 
@@ -106,7 +110,8 @@ def bar(share: float, rate: float, strain: float, poisson: float, *overrides: st
     j0, j1, i0, i1 = simulation.engine.mesh_box
     for held in (s.u[:, :, i0], s.u[:, :, i1], s.v[:, j0], s.v[:, j1]):
         held[...] = 0.0
-    simulation.engine.audit = Audit.open(s)  # the audit begins with the motion that it was given
+    engine = simulation.engine
+    engine.audit = Audit.open(s, engine.sound_speeds)  # the audit begins with the motion that it was given
     strains = np.zeros((2, COLUMN + 1))
     while simulation.time < strain / rate:
         simulation.step()

@@ -74,6 +74,10 @@ class Edge:
         """Whether the normal velocity of its vertices is given."""
         return cls.constrain is not Edge.constrain
 
+    def fastest(self, start: float, end: float) -> float:
+        """The greatest size of the velocity that it gives from one time to another, s, in m/s; 0 where it gives none."""
+        return max((abs(velocity) for velocity in self.speeds()), default=0.0)
+
     def speeds(self) -> tuple[float, ...]:
         """The normal velocities that it may have, m/s, the least and the greatest of them among others."""
         return ()

@@ -17,9 +17,13 @@ class Piston(Velocity):
     sink = "piston"
     sink_meaning = "momentum that pistons take, and the work that they do (negative)"
 
-    def constrain(self, time: float) -> float | None:
+    def constrain(self, time: float) -> float:
         times, velocities = np.array(self.values["piston"]).T
         return float(np.interp(time, times, velocities))
+
+    def fastest(self, start: float, end: float) -> float:
+        between = [velocity for time, velocity in self.values["piston"] if start < time < end]
+        return max(abs(velocity) for velocity in (self.constrain(start), *between, self.constrain(end)))
 
     def speeds(self) -> tuple[float, ...]:
         return tuple(velocity for _, velocity in self.values["piston"])

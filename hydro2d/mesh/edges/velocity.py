@@ -17,7 +17,7 @@ class Velocity(Edge):
     def flow(cls) -> str:
         return BOTH_WAYS
 
-    def constrain(self, time: float) -> float | None:
+    def constrain(self, time: float) -> float:
         return self.values["velocity"]
 
     def speeds(self) -> tuple[float, ...]:

@@ -1,0 +1,108 @@
+"""Small random decks of every kind of edge beside every choice that changes a velocity, for tests of the audit."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterator
+from typing import NamedTuple, get_args
+
+import numpy as np
+
+from hydro2d.deck.sections import Sliding
+from hydro2d.kernels.momentum import ADVECTIONS
+from hydro2d.mesh.edges import registry as edges
+from hydro2d.mesh.edges.base import EDGES
+from hydro2d.sources import registry as sources
+from tests.decks import box, entry, mesh, stop, table
+
+SLIDING = get_args(Sliding.model_fields["method"].annotation)
+SOURCES = ("none", *sources.KINDS)
+EDGE_KINDS = edges.words("r_max")
+#: the kinds of edges that give a velocity other than zero
+DRIVEN = ("velocity", "piston")
+
+#: what they are called in the library
+METALS, GAS, EXPLOSIVE = ("Al5083", "copper_OFHC", "lead", "steel_4340"), "gas_7_5", "TNT"
+
+
+class Choices(NamedTuple):
+    """What a deck is made of; edge : the kind of some of its edges."""
+
+    edge: str
+    sliding: str
+    advection: str
+    source: str
+    following: bool
+
+
+def all_choices() -> Iterator[Choices]:
+    """All combinations that decks may have: no driven edges or forces with a contact, no mesh that follows a detonation."""
+    for each in itertools.product(EDGE_KINDS, SLIDING, ADVECTIONS, SOURCES, (False, True)):
+        found = Choices(*each)
+        if found.sliding == "contact" and (found.edge in DRIVEN or found.source == "acceleration"):
+            continue
+        if not (found.following and found.source == "detonation"):
+            yield found
+
+
+def _edges(random: np.random.Generator, choices: Choices, geometry: str) -> dict:
+    """The table of boundaries: the kind of the choices at one edge that may have it and at others by chance."""
+    kinds = [kind for kind in EDGE_KINDS if choices.sliding != "contact" or kind not in DRIVEN]
+    free = [edge for edge in EDGES if geometry == "planar" or edge != "r_min"]
+    open_ended = [kind for kind in kinds if kind in ("outflow", "transmit")]
+    sure = random.choice([edge for edge in free
+                          if not choices.following or edge[0] == "r" or choices.edge in open_ended])
+    found = {} if geometry == "planar" else {"r_min": "axis"}
+    for edge in free:
+        allowed = open_ended if choices.following and edge[0] == "z" else kinds
+        kind = found[edge] = choices.edge if edge == sure else str(random.choice(allowed))
+        speed = float(random.uniform(-200.0, 200.0))
+        if kind == "velocity":
+            found[f"{edge}_velocity"] = speed
+        if kind == "piston":
+            found[f"{edge}_piston"] = [[0.0, 0.0], [2e-7, speed], [8e-7, speed], [1e-6, -speed]]
+    return found
+
+
+def _source(random: np.random.Generator, kind: str, place: list[float]) -> str:
+    """Whatever acts on the target; place : (r, z) within it."""
+    if kind == "heating":
+        return entry("source", name="given", kind=kind, body="target", power=[[0.0, 1e11], [1e-6, 0.0]])
+    if kind == "acceleration":
+        return entry("source", name="given", kind=kind, body="target", axial=float(random.uniform(-1e8, 1e8)))
+    if kind == "detonation":
+        return entry("source", name="given", kind=kind, body="target", points=[[*place, 0.0]])
+    assert kind == "none", f"no deck of this test has a source of the kind {kind}"
+    return ""
+
+
+def deck(seed: int, choices: Choices) -> str:
+    """A metal that flies into a layer of another one, or of an explosive, on 8 by 16 to 12 by 24 cells.
+
+    By chance there is a gas beside them; in a contact and beside an explosive gases are not computed well enough.
+    """
+    random = np.random.default_rng([seed, *map(ord, str(choices))])
+    geometry = str(random.choice(["planar", "cylindrical"]))
+    nr, nz, h = int(random.integers(8, 13)), int(random.integers(16, 25)), 1e-3
+    hard, soft = (str(name) for name in random.choice(METALS, 2, replace=False))
+    soft = EXPLOSIVE if choices.source == "detonation" else soft
+    middle = nz // 2 * h + float(random.uniform(-0.5, 0.5)) * h
+    text = mesh((nr * h, nr), (nz * h, nz), geometry=geometry,
+                **({"follow": "rod"} if choices.following else {}))
+    radius = float(random.uniform(2.5, 6.0)) * h
+    gap = float(random.choice([0.0, random.uniform(0.0, 2.0)])) * h
+    back = float(random.choice([-1.0 if choices.following is False else 1.0, random.uniform(0.5, 3.0)])) * h
+    velocity = float(random.uniform(20.0, 600.0))
+    text += box("rod", hard, r=[0.0, radius], z=[back, middle - gap], velocity=velocity)
+    across = float(random.uniform(-50.0, 50.0)) if geometry == "planar" else 0.0
+    text += box("target", soft, r=[0.0, float(random.choice([nr + 2, nr - 1.5])) * h],
+                z=[middle, float(random.choice([nz + 2, nz - 3.3])) * h],
+                velocity=[0.0, 0.0] if choices.following else [across, float(random.uniform(-50.0, 50.0))])
+    if choices.sliding != "contact" and choices.source != "detonation" and random.random() < 0.5:
+        text += box("gas", GAS, z=[0.0, nz * h], density=float(random.choice([1.2, 100.0])), pressure=1e7)
+    text += table("boundaries", **_edges(random, choices, geometry))
+    if choices.sliding != "none":
+        text += table("sliding", method=choices.sliding, hard=["rod"],
+                      **({"friction": 0.1} if choices.sliding == "contact" and random.random() < 0.5 else {}))
+    text += table("numerics", advection=choices.advection, ramp_cycles=int(random.choice([0, 20])))
+    return text + _source(random, choices.source, [0.5 * h, middle + h]) + stop(1e-3)
