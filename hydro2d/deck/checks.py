@@ -11,7 +11,7 @@ from hydro2d.deck.mesh import SegmentError, axis_edges, body, body_radius
 from hydro2d.deck.sections import Deck, Sliding
 from hydro2d.deck.shapes import outline
 from hydro2d.errors import unknown
-from hydro2d.mesh.edges.base import EDGES
+from hydro2d.mesh.edges.base import EDGES, PUSH
 from hydro2d.mesh.edges.registry import BY_NAME, KINDS
 from hydro2d.mesh.sinks import SINKS
 from hydro2d.sources.base import Source
@@ -242,8 +242,8 @@ def _bad_follow(deck: Deck, z: np.ndarray) -> Iterator[tuple[tuple, str]]:
         return
     for key in ("z_min", "z_max"):
         kind = getattr(deck.boundaries, key)
-        if BY_NAME[kind].holds():
-            what = "a wall" if kind == "wall" else "an edge with a velocity"
+        if BY_NAME[kind].holds() or BY_NAME[kind].traction() == PUSH:
+            what = {"wall": "a wall", "anvil": "an anvil"}.get(kind, "an edge with a velocity")
             yield ("boundaries", key), f'a mesh that follows "{name}" must have open ends along z; {what} cannot travel with it'
     ahead, behind = room(deck, z)
     radius = extent(body(deck, name), deck, "r")[1]

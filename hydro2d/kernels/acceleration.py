@@ -3,6 +3,7 @@
 from math import sqrt
 
 from hydro2d.jit import kernel, point, rowwise
+from hydro2d.kernels.boundaries import held_at
 from hydro2d.kernels.column_ranges import columns, copy_beside, past_row, union
 from hydro2d.kernels.cut_cells import BONDED, KIND, cut_pressure, skin_deviator
 from hydro2d.mesh.fields import SRR, SRZ, SZZ
@@ -125,13 +126,14 @@ def accelerated_columns(b, j, i0, i1, occupied):
 
 
 @rowwise
-def limit_speed_row(b, j, lo, n, speed_limit, underfilled, metrics, constrained, edge_velocity, mass, u0, v0, u, v, limited):
+def limit_speed_row(b, j, lo, n, speed_limit, underfilled, metrics, constrained, pushing, edge_velocity, mass, u0, v0, u, v,
+                    limited):
     """Holds the under-filled nodes of group b in row j to speed_limit; contact nodes are left to the contact.
 
     underfilled is a quarter of the density below which a node is so, times the height of both rows of cells beside it. The
     work of an impulse goes by the mean of the velocities at the start and at the end of the step, which edges may give.
 
-    Reads    constrained [4], columns (2) and rows (2), -1 for none; edge_velocity [4]; mass, u0, v0 [b, j, i]
+    Reads    constrained, pushing [4], columns (2) and rows (2), -1 for none; edge_velocity [4]; mass, u0, v0 [b, j, i]
     Updates  u, v [b, j, i]; limited [3, j]: momentum and energy taken, and how often
     """
     u_c = u0[b, j]
@@ -142,6 +144,7 @@ def limit_speed_row(b, j, lo, n, speed_limit, underfilled, metrics, constrained,
     other = mass[mass.shape[0] - 1 - b, j]
     alone = mass.shape[0] == 1
     axial_given = j == constrained[2] or j == constrained[3]
+    axial_pushed = 2 if j == pushing[2] else 3 if j == pushing[3] else -1
     axial = edge_velocity[2] if j == constrained[2] else edge_velocity[3]
     lost_p, lost_e, count = 0.0, 0.0, 0.0
     for x in range(n):
@@ -156,8 +159,11 @@ def limit_speed_row(b, j, lo, n, speed_limit, underfilled, metrics, constrained,
         shrink = speed_limit / sqrt(square)
         radial_given = i == constrained[0] or i == constrained[1]
         radial = edge_velocity[0] if i == constrained[0] else edge_velocity[1]
+        radial_pushed = 0 if i == pushing[0] else 1 if i == pushing[1] else -1
         end_u = radial if radial_given else shrink * un[i]
         end_v = axial if axial_given else shrink * vn[i]
+        end_u = held_at(radial_pushed, True, 0.0, end_u) if radial_pushed >= 0 else end_u
+        end_v = held_at(axial_pushed, True, 0.0, end_v) if axial_pushed >= 0 else end_v
         lost_p += m * vn[i] * (1.0 - shrink)
         lost_e += 0.5 * m * (1.0 - shrink) * (un[i] * (u_c[i] + end_u) + vn[i] * (v_c[i] + end_v))
         count += 1.0
@@ -169,8 +175,8 @@ def limit_speed_row(b, j, lo, n, speed_limit, underfilled, metrics, constrained,
 
 
 @kernel
-def limit_speed(part, parts, i0, i1, speed_limit, underfilled_density, metrics, dz, occupied, constrained, edge_velocity, mass,
-                u0, v0, u, v, limited):
+def limit_speed(part, parts, i0, i1, speed_limit, underfilled_density, metrics, dz, occupied, constrained, pushing,
+                edge_velocity, mass, u0, v0, u, v, limited):
     """limit_speed_row for rows j0 to j1, after all forces and before edges give their velocities.
 
     A node whose dual cell is filled more thinly than underfilled_density is held to speed_limit.
@@ -183,7 +189,7 @@ def limit_speed(part, parts, i0, i1, speed_limit, underfilled_density, metrics, 
         for b in range(mass.shape[0]):
             lo, n = accelerated_columns(b, j, i0, i1, occupied)
             limit_speed_row(b, j, lo, n, speed_limit, underfilled_density * 0.25 * (dz[j - 1] + dz[j]), metrics, constrained,
-                            edge_velocity, mass, u0, v0, u, v, limited)
+                            pushing, edge_velocity, mass, u0, v0, u, v, limited)
 
 
 @rowwise

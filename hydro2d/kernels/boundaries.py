@@ -210,13 +210,19 @@ def own_rows(part, parts, rows):
     return 0 if part == 0 else parts[part], rows if part == parts.shape[0] - 2 else parts[part + 1]
 
 
+@point
+def held_at(edge, only_pushes, given, free):
+    """Normal velocity of a vertex at an edge: the one that is given, or its own if it leaves an edge that only pushes."""
+    return free if only_pushes and (free > 0.0 if edge % 2 == 0 else free < 0.0) else given
+
+
 @kernel
-def constrain(part, parts, constrained, velocity, mass, u0, v0, u, v, walls):
-    """The given normal velocity of constrained vertices: axis, walls, edges with a velocity.
+def constrain(part, parts, constrained, pushing, velocity, mass, u0, v0, u, v, walls):
+    """The given normal velocity of constrained vertices: axis, walls, edges with a velocity, anvils that are not left.
 
     The axis and walls along z take no axial momentum and do no work.
 
-    Reads    constrained [4], columns (2) and rows (2), -1 for none; velocity [4], m/s; mass, u0, v0 [b, j, i]
+    Reads    constrained, pushing [4], columns (2) and rows (2), -1 for none; velocity [4], m/s; mass, u0, v0 [b, j, i]
     Updates  u, v [b, j, i]
     Writes   walls [4, 2, j]: axial momentum and energy that each edge takes in a row
     """
@@ -226,17 +232,18 @@ def constrain(part, parts, constrained, velocity, mass, u0, v0, u, v, walls):
             walls[edge, 0, j], walls[edge, 1, j] = 0.0, 0.0
         for b in range(u.shape[0]):
             for edge in range(2):
-                at, given = constrained[edge], velocity[edge]
+                at = max(constrained[edge], pushing[edge])
                 if at < 0:
                     continue
+                given = held_at(edge, pushing[edge] >= 0, velocity[edge], u[b, j, at])
                 impulse = mass[b, j, at] * (u[b, j, at] - given)
                 walls[edge, 1, j] += 0.5 * impulse * (u0[b, j, at] + given)
                 u[b, j, at] = given
             for edge in range(2, 4):
-                if constrained[edge] != j:
+                if max(constrained[edge], pushing[edge]) != j:
                     continue
-                given = velocity[edge]
                 for i in range(u.shape[2]):
+                    given = held_at(edge, pushing[edge] >= 0, velocity[edge], v[b, j, i])
                     impulse = mass[b, j, i] * (v[b, j, i] - given)
                     walls[edge, 0, j] += impulse
                     walls[edge, 1, j] += 0.5 * impulse * (v0[b, j, i] + given)

@@ -99,7 +99,7 @@ def accelerate(parts, i0, i1, dt, metrics, dz, body_range, active_range, mixed_c
                occupied, hg_coefficient, u, v, limited, group, constrained, contact_node_count, contact_nodes, aperture_r,
                aperture_z, cell_mass, transfer, friction, first_slot, contact_normal, touch, strength, masters, where, weights,
                nodes, starts, entries, portions, places, impulses, gain, taken, rubbing, heat, transmitting, rhobar, cl,
-               drag, held_back, pushed, edge_velocity, walls, nr, mirror_r_min, mirror_r_max, nz, mirror_z_min, mirror_z_max):
+               drag, held_back, pushed, pushing, edge_velocity, walls, nr, mirror_r_min, mirror_r_max, nz, mirror_z_min, mirror_z_max):
     """Total stress at half the step, and the velocities at its end: forces, contact, friction, edges."""
     for place in prange(parts.shape[0] - 1):
         part = int64(place)  # numba counts without a sign, for which every kernel would be compiled a second time
@@ -127,8 +127,8 @@ def accelerate(parts, i0, i1, dt, metrics, dz, body_range, active_range, mixed_c
                                       drag)
         wait(gate, parts)
         acceleration.limit_speed(part, parts, i0, i1 + 1, speed_limit, underfilled_density, metrics, dz, occupied, constrained,
-                                 edge_velocity, mass, u0, v0, u, v, limited)
-        boundaries.constrain(part, parts, constrained, edge_velocity, mass, u0, v0, u, v, walls)
+                                 pushing, edge_velocity, mass, u0, v0, u, v, limited)
+        boundaries.constrain(part, parts, constrained, pushing, edge_velocity, mass, u0, v0, u, v, walls)
         if mass.shape[0] > 1:
             contact_motion.keep_one(part, parts, i0, i1, group_ranges, mass, u, v)
         boundaries.ghost_vertices_r(part, parts, nr, mirror_r_min, mirror_r_max, u, v)

@@ -2,7 +2,8 @@
 
 from math import sqrt
 
-from hydro2d.jit import kernel, plus, point, rowwise
+from hydro2d.jit import apart, kernel, plus, point, rowwise
+from hydro2d.kernels.boundaries import held_at
 from hydro2d.kernels.column_ranges import copy_beside, past_row
 from hydro2d.mesh.fields import E
 from hydro2d.mesh.grid import CM_IN, CM_OUT, GHOSTS
@@ -76,9 +77,30 @@ def dual_range(dj, di, i0, i1, j, group_ranges):
     return max(group_ranges[1 + dj, j, 0], i0) - di, min(group_ranges[1 + dj, j, 1] + 1, i1 + 1)
 
 
+@apart
+def rest(edge, g, j, lo, hi, at, new_j, w_old, w, left, sums):
+    """What rests on an edge that only pushes, in column or row `at`, or would go beyond, has no normal velocity.
+
+    Reads    new_j [x], masses of the columns from lo;  w_old = (u, v) [c, b, j, i]
+    Updates  w = (u, v) [c, b, j, i]; left [x], energy that is given to cells, per mass; sums [5, j] as in vertex_row
+    """
+    c = edge // 2
+    if c == 1 and j != at:
+        return
+    for i in range(max(at, lo) if c == 0 else lo, min(at + 1, hi) if c == 0 else hi):
+        after = w[c, g, j, i]
+        if after == 0.0 or (w_old[c, g, j, i] != 0.0 and held_at(edge, True, 0.0, after) != 0.0):
+            continue
+        w[c, g, j, i] = 0.0
+        left[i - lo] += 0.5 * after * after
+        sums[1, j] -= 0.5 * new_j[i - lo] * after * after
+        if c == 1:
+            sums[4, j] += new_j[i - lo] * after
+
+
 @rowwise
-def vertex_row(g, dj, di, j, i0, i1, below, above, advection, bound, constrained, held, metrics, group_ranges, cell_mass, dual,
-               w_old, w, mass, deficit, sums):
+def vertex_row(g, dj, di, j, i0, i1, below, above, advection, bound, constrained, pushing, held, metrics, group_ranges,
+               cell_mass, dual, w_old, w, mass, deficit, sums):
     """Velocities of group g in row j after the sweep, by the kind of advection (explanation/remap, equations 7 to 9).
 
     momentum   u = P/M
@@ -86,7 +108,8 @@ def vertex_row(g, dj, di, j, i0, i1, below, above, advection, bound, constrained
     both       u = P/M, and the deficit K - M u^2/2 is left in `deficit` for `deposit` to give to the cells
     P/M is kept within the velocities of the three vertices that it comes from: this removes round-off, and what a vertex at an
     open edge, which has half a cell's mass, lacks when the whole cell leaves. The normal velocity on the axis, on walls and on
-    edges with a velocity is given: constrained has their columns (2) and rows (2), -1 for none, held what it is.
+    edges with a velocity is given: constrained has their columns (2) and rows (2), -1 for none, held what it is. That on edges
+    that only push, likewise in `pushing`, stays 0 where it is, and is 0 where it would go beyond.
 
     Reads    cell_mass [b, j, i] after the sweep, dual [k, slot, i] in the slots `below` and `above`;
              w_old = (u, v) [c, b, j, i] and mass [b, j, i] before it
@@ -158,11 +181,14 @@ def vertex_row(g, dj, di, j, i0, i1, below, above, advection, bound, constrained
             if c == 1:
                 sums[2, j] += p_gained
                 sums[4, j] += p_wall
+        for edge in range(4):
+            if pushing[edge] >= 0:
+                rest(edge, g, j, lo, hi, pushing[edge], new_j, w_old, w, left, sums)
 
 
 @kernel
-def sweep_momentum(dj, di, part, parts, i0, i1, advection, bound, constrained, held, mesh_box, metrics, group_ranges, cell_mass,
-                   flux_mass, mass, w_old, w, dual, edge_dual, deficit, sums):
+def sweep_momentum(dj, di, part, parts, i0, i1, advection, bound, constrained, pushing, held, mesh_box, metrics, group_ranges,
+                   cell_mass, flux_mass, mass, w_old, w, dual, edge_dual, deficit, sums):
     """Carries the momentum of the vertices j0 to j1 along one direction.
 
     Reads    what dual_row and vertex_row read; mesh_box (j0, j1, i0, i1 of the mesh)
@@ -188,7 +214,7 @@ def sweep_momentum(dj, di, part, parts, i0, i1, advection, bound, constrained, h
                 below = 2 * part + dj * ((j - 1) % 2)
                 for row in range(5):
                     sums[row, j] = 0.0 if g == 0 else sums[row, j]
-                vertex_row(g, dj, di, j, i0, i1 + 1, below, slot, advection, bound, constrained, held, metrics,
+                vertex_row(g, dj, di, j, i0, i1 + 1, below, slot, advection, bound, constrained, pushing, held, metrics,
                            group_ranges, cell_mass, dual, w_old, w, mass, deficit, sums)
 
 

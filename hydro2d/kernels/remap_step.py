@@ -74,8 +74,8 @@ def carry_bodies(parts, i0, i1, dj, di, second, leading, fr, own_r, fz, own_z, q
 
 @phase
 def carry_momentum(parts, i0, i1, dj, di, second, opens_low, opens_high, mesh_box, flux_mass, gate, advection, ke_bound,
-                   constrained, edge_velocity, metrics, group_ranges, cell_mass, mass, velocity0, velocity, dual, edge_dual,
-                   deficit, momentum_sums, nr, mirror_r_min, mirror_r_max, u, v, nz, mirror_z_min, mirror_z_max, active_range,
+                   constrained, pushing, edge_velocity, metrics, group_ranges, cell_mass, mass, velocity0, velocity, dual,
+                   edge_dual, deficit, momentum_sums, nr, mirror_r_min, mirror_r_max, u, v, nz, mirror_z_min, mirror_z_max, active_range,
                    group, vof, q, deposited, cutoff, volume, mixed_count, mixed_columns, pre, fr, fz, removed, body_ranges,
                    occupied, kinetic_outflow, centroid):
     """Velocities after the sweep; then what is left over is tidied away, and the bodies are found anew.
@@ -86,9 +86,9 @@ def carry_momentum(parts, i0, i1, dj, di, second, opens_low, opens_high, mesh_bo
         part = int64(place)  # numba counts without a sign, for which every kernel would be compiled a second time
         boundaries.close_mass_flux(part, parts, di, mesh_box, opens_low, opens_high, flux_mass)
         wait(gate, parts)
-        momentum.sweep_momentum(dj, di, part, parts, i0, i1, advection, ke_bound, constrained, edge_velocity, mesh_box, metrics,
-                                group_ranges, cell_mass, flux_mass, mass, velocity0, velocity, dual, edge_dual, deficit,
-                                momentum_sums)
+        momentum.sweep_momentum(dj, di, part, parts, i0, i1, advection, ke_bound, constrained, pushing, edge_velocity, mesh_box,
+                                metrics, group_ranges, cell_mass, flux_mass, mass, velocity0, velocity, dual, edge_dual,
+                                deficit, momentum_sums)
         boundaries.ghost_vertices_r(part, parts, nr, mirror_r_min, mirror_r_max, u, v)
         boundaries.ghost_vertices_z(part, parts, i0 - 2, i1 + 3, nz, mirror_z_min, mirror_z_max, u, v)
         wait(gate, parts)

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from hydro2d.mesh.edges.base import BOTH_WAYS, DASHPOTS, EDGES, IMAGES, NOTHING, Edge
+from hydro2d.mesh.edges.base import BOTH_WAYS, DASHPOTS, EDGES, IMAGES, NOTHING, PUSH, Edge
 from hydro2d.mesh.edges.registry import made
 from hydro2d.mesh.sinks import SINKS
 
@@ -66,8 +66,9 @@ class BoundaryConditions:
             "supplies": tuple(edge.flow() == BOTH_WAYS for edge in self.edges),
             "drives": tuple(any(edge.speeds()) for edge in self.edges),
             "transmits": tuple(edge.traction() == DASHPOTS for edge in self.edges),
+            "pushes": tuple(edge.traction() == PUSH for edge in self.edges),
         }
 
     def having(self, flag: str) -> tuple[bool, ...]:
-        """For each edge whether it mirrors, holds, opens, supplies, drives or transmits; asked many times a cycle."""
+        """For each edge whether it mirrors, holds, opens, supplies, drives, transmits or only pushes; asked many times a cycle."""
         return self._flags[flag]

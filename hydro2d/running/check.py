@@ -102,7 +102,7 @@ class Check:
                 until = f"until one of them fractures, at {bears * 1e-9:.3g} GPa of tension" if bears < math.inf else "for ever"
                 found.append(f"{name} is tied to {_listed([names[m] for m in others])} where they touch, {until}{cure}")
         walls = [key for key in EDGES if getattr(deck.boundaries, key) == "wall" and key != "r_min"]
-        return found + [f"what touches a wall ({', '.join(walls)}) is held in tension as well"] * bool(walls)
+        return found + [f"what touches a wall ({', '.join(walls)}) is held in tension as well; \"anvil\" only pushes"] * bool(walls)
 
     def _follow(self) -> list[str]:
         """How far a travelling mesh reaches, and which bodies will enter it."""

@@ -67,7 +67,8 @@ class Cycle:
         self.mesh_box = np.array([g, g + grid.nz, g, g + grid.nr], dtype=np.int64)
         at = np.array([g, g + grid.nr, g, g + grid.nz], dtype=np.int64)
         self.constrained = np.where(method.boundaries.having("holds"), at, -1)
-        along_z = zip(method.boundaries.edges[2:], self.constrained[2:].tolist(), strict=True)
+        self.pushing = np.where(method.boundaries.having("pushes"), at, -1)
+        along_z = zip(method.boundaries.edges[2:], np.maximum(self.constrained, self.pushing)[2:].tolist(), strict=True)
         self._rows_that_hold = [(edge, j) for edge, j in along_z if j >= 0]
         lines = np.s_[:, 0], np.s_[:, -1], np.s_[0, :], np.s_[-1, :]
         self._held = [(edge.sink, n // 2, lines[n]) for n, edge in enumerate(method.boundaries.edges) if edge.holds()]
@@ -152,21 +153,22 @@ class Cycle:
     def _first_box(self) -> list[int]:
         """Smallest box around everything that moves or is under pressure or stress, the edges that drive, and the margin; the
         whole mesh where there is nothing but edges."""
-        s, t = self.state, self.table
+        s, t, (j0, j1, i0, i1) = self.state, self.table, self.mesh_box
         loud = np.zeros(self.grid.shape, dtype=bool)
         for m in range(s.bodies):
             present = s.vof[m] > 0
             quiet_p = t.evaluate(m, t.rho0[m], 0.0)[0] == 0.0
             at_rest = (s.rho[m] == t.rho0[m]) & (s.e[m] == 0.0) & (s.q[2:5, m] == 0.0).all(axis=0)
             loud |= present & ~(at_rest & quiet_p)
-        moving = (((s.u != 0) | (s.v != 0)) & (s.mass > 0)).any(axis=0)
+        moving, drives = ((s.u != 0) | (s.v != 0)).any(axis=0), self.method.boundaries.having("drives")
+        for at, edge_drives in zip((np.s_[:, i0], np.s_[:, i1], np.s_[j0], np.s_[j1]), drives, strict=True):
+            moving[at] &= not edge_drives
         loud |= moving[:-1, :-1] | moving[1:, :-1] | moving[:-1, 1:] | moving[1:, 1:]
-        j0, j1, i0, i1 = self.mesh_box
         if not loud[j0:j1, i0:i1].any():
             return list(self.mesh_box)
         beside = np.s_[:, i0], np.s_[:, i1 - 1], np.s_[j0], np.s_[j1 - 1]
-        for cells, drives in zip(beside, self.method.boundaries.having("drives"), strict=True):
-            loud[cells] |= drives
+        for cells, edge_drives in zip(beside, drives, strict=True):
+            loud[cells] |= edge_drives
         rows, columns = np.nonzero(loud[j0:j1, i0:i1])
         return self._clipped([rows.min() + j0, rows.max() + j0 + 1, columns.min() + i0, columns.max() + i0 + 1], MARGIN)
 

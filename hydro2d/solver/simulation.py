@@ -15,6 +15,7 @@ from hydro2d.interrupt import Interrupt, signals
 from hydro2d.materials import library
 from hydro2d.mesh import fields, quantities, sums
 from hydro2d.mesh.boundary_conditions import BoundaryConditions
+from hydro2d.mesh.edges.base import PUSH
 from hydro2d.mesh.grid import Grid
 from hydro2d.mesh.state import State
 from hydro2d.solver import bodies, debris, insertion, reach
@@ -140,9 +141,12 @@ class Simulation:
             np.divide(vertex, dual, out=vertex, where=dual > 0)
             vertex[...] = np.where(dual > 0, vertex, vertex[::-1])
         ends = (g.g, g.g + g.nr, g.g, g.g + g.nz)
-        for edge, (at, holds, velocity) in enumerate(zip(ends, conditions.having("holds"), conditions.velocity, strict=True)):
-            if holds:
-                (s.u[..., at] if edge < 2 else s.v[:, at])[...] = velocity
+        for edge, (at, kind, velocity) in enumerate(zip(ends, conditions.edges, conditions.velocity, strict=True)):
+            normal = s.u[..., at] if edge < 2 else s.v[:, at]
+            if kind.holds():
+                normal[...] = velocity
+            elif kind.traction() == PUSH:
+                (np.maximum if edge % 2 == 0 else np.minimum)(normal, 0.0, out=normal)
 
     def _gather(self, cell: np.ndarray, vertex: np.ndarray) -> None:
         """Adds the corner shares of a cell quantity to the vertices."""

@@ -23,8 +23,8 @@ def ghost_vertices(engine) -> None:
 def constrain(engine) -> None:
     """The given normal velocities of axis, walls and edges."""
     s = engine.state
-    boundaries.constrain(0, rows(engine), engine.constrained, engine.method.boundaries.velocity, s.mass, s.u0, s.v0, s.u, s.v,
-                         s.walls)
+    boundaries.constrain(0, rows(engine), engine.constrained, engine.pushing, engine.method.boundaries.velocity, s.mass, s.u0,
+                         s.v0, s.u, s.v, s.walls)
 
 
 def keep_one(engine) -> None:

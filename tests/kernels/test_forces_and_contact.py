@@ -128,6 +128,15 @@ def test_a_limited_node_ends_the_step_with_the_velocity_that_an_edge_gives():
     assert cells.limited[:, 4] == pytest.approx([2 * (0.4 - end), 0.5 * (0.4 - end) * (0.0 + end + 2 * 0.5), 2.0])
 
 
+def test_a_limited_node_ends_the_step_at_rest_on_an_anvil_that_it_does_not_leave():
+    """The column 3 is the low edge of r, beyond which the first node of a row would go, and the row 4 the low one of z."""
+    end = 0.2 / np.sqrt(2.0)
+    cells = limited(pushing=np.array([3, -1, 4, -1]))
+    assert cells.limited[1, 3] == pytest.approx(0.5 * (0.4 - end) * (0.0 + end + 2 * end))
+    assert cells.limited[1, 4] == pytest.approx(0.5 * (0.4 - end) * (0.0 + end + 2 * end))
+    assert limited(pushing=np.array([-1, 3, -1, 3])).limited[1, 3] == pytest.approx(0.5 * (0.4 - end) * (0.0 + end + 2 * end))
+
+
 def test_faces_sweep_what_their_vertices_move():
     """From 4 to 2 m/s in 0.1 s along r, from 0 to 1 m/s at one end along z."""
     cells = Cells()

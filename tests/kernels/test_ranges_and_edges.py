@@ -133,6 +133,21 @@ def test_an_edge_with_a_velocity_takes_momentum_and_work_and_the_axis_neither():
     assert not cells.walls[:3].any()
 
 
+def test_an_edge_that_only_pushes_lets_go_what_leaves_it():
+    """Inward is up at the low edges and down at the high ones."""
+    cells = Cells()
+    cells.u[0, 3, [2, 6]] = cells.v[0, [2, 6], 3] = 4.0
+    cells.u[0, 4, [2, 6]] = cells.v[0, [2, 6], 4] = -4.0
+    cells.mass[...] = 3.0
+    cells.v0[...] = 2.0
+    cells.call(boundaries.constrain, pushing=np.array([2, 6, 2, 6]), velocity=np.zeros(4))
+    assert cells.u[0, 3, [2, 6]].tolist() == cells.v[0, [2, 6], 3].tolist() == [4.0, 0.0]
+    assert cells.u[0, 4, [2, 6]].tolist() == cells.v[0, [2, 6], 4].tolist() == [0.0, -4.0]
+    assert cells.walls[2, :, 2].tolist() == [3.0 * -4, 0.5 * 3.0 * -4 * 2]
+    assert cells.walls[3, :, 6].tolist() == [3.0 * 4, 0.5 * 3.0 * 4 * 2]
+    assert cells.walls[0, 0].any() == cells.walls[1, 0].any() == False  # noqa: E712 momentum is that along z
+
+
 def test_no_mass_flows_beyond_the_edges_but_on_through_an_open_one():
     flow = np.ones((1, 9, 9))
     Cells().call(boundaries.close_mass_flux, di=1, opens_low=False, opens_high=False, flow=flow)

@@ -195,15 +195,16 @@ def test_what_is_above_twice_the_cutoff_stays():
 # ---------------------------------------------------------------------------------------------------------- momentum
 
 
-def swept(advection: int, dj: int, di: int) -> Cells:
+def swept(advection: int, dj: int, di: int, pushing=None, component: int = 1) -> Cells:
     """Cells of 1 kg through which 0.2 kg flow; what moves along z at 1 m/s has what stands still behind it."""
     cells = Cells(nr=8, nz=8)
     cells.cell_mass[...] = cells.mass[...] = 1.0
     cells.flux_mass[...] = 0.2
     step = (np.arange(13) > 6).astype(float)
-    cells.velocity0[1, 0] = step[:, None] if dj else step[None, :]
-    cells.call(momentum.sweep_momentum, dj=dj, di=di, advection=advection, bound=2.0, held=np.zeros(4), w_old=cells.velocity0,
-               w=cells.velocity, sums=cells.momentum_sums)  # fmt: skip
+    cells.velocity0[component, 0] = step[:, None] if dj else step[None, :]
+    cells.call(momentum.sweep_momentum, dj=dj, di=di, advection=advection, bound=2.0,
+               **({} if pushing is None else {"pushing": pushing}), held=np.zeros(4),
+               w_old=cells.velocity0, w=cells.velocity, sums=cells.momentum_sums)  # fmt: skip
     return cells
 
 
@@ -217,6 +218,30 @@ def test_what_flows_into_a_vertex_takes_the_velocity_from_where_it_was(dj, di, a
     assert not cells.u.any()
     missed = 0.4 - 0.32 if advection == BOTH else 0.0
     assert (cells.deficit[0, 7, 6] if dj else cells.deficit[0, 6, 7]) == pytest.approx(missed)
+
+
+@pytest.mark.parametrize("side", [0, 1], ids=["low", "high"])
+@pytest.mark.parametrize(("dj", "di"), [(0, 1), (1, 0)], ids=["r", "z"])
+def test_what_flows_into_an_edge_that_only_pushes_is_taken_there_if_it_goes_beyond(dj, di, side):
+    """The vertex where 0.2 kg come in moves at 0.8 m/s: into the mesh from its low edge, and beyond its high one."""
+    pushing = np.full(4, -1)
+    pushing[2 * dj + side] = 7
+    cells = swept(MOMENTUM, dj, di, pushing, component=dj)
+    along = cells.v[0, :, 6] if dj else cells.u[0, 6, :]
+    assert along[7] == pytest.approx(0.0 if side else 0.8)
+    assert (cells.momentum_sums[4, 7] > 0.5) == bool(dj and side)
+
+
+def test_what_rests_on_an_edge_that_only_pushes_rests_there_whatever_flows_in():
+    """Only forces lift it: the 0.2 kg come from what moves into the mesh, and the edge takes their momentum."""
+    cells = Cells(nr=8, nz=8)
+    cells.cell_mass[...] = cells.mass[...] = 1.0
+    cells.flux_mass[...] = 0.2
+    cells.velocity0[1, 0] = np.where(np.arange(13) == 7, 0.0, 1.0)[:, None]
+    cells.call(momentum.sweep_momentum, dj=1, di=0, advection=MOMENTUM, bound=2.0, pushing=np.array([-1, -1, 7, -1]),
+               held=np.zeros(4), w_old=cells.velocity0, w=cells.velocity, sums=cells.momentum_sums)  # fmt: skip
+    assert not cells.v[0, 7].any()
+    assert cells.momentum_sums[4, 7] > 0.0
 
 
 def test_vertices_where_nothing_flows_keep_every_bit():

@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 
 from hydro2d.deck import deck as decks
+from hydro2d.errors import DeckError
 from hydro2d.solver.simulation import Simulation
-from tests.decks import body, box, material, mesh, rod, stop, table
+from tests.decks import body, box, contact, material, mesh, rod, stop, table, walls
 from tests.verification.running import ADVECTION, advection
 
 FLIGHT = (
@@ -152,3 +153,99 @@ def test_hot_debris_that_leaves_takes_nothing_unnamed_along(choice, energy):
     assert worst < 1e-12
     assert simulation.audit.sinks["outflow"].mass.sum() > 0.1 * simulation.audit.start.mass.sum()  # there is much to audit
     assert simulation.faults() == []
+
+
+# ------------------------------------------------------------------------------------------------ an anvil
+
+#: an elastic bar of 50 mm meets a rigid surface at 20 m/s: the wave is back after 2 L/c = 19.3 us, c = 5.18 km/s along a bar
+BAR = (
+    mesh(("8 mm", "0.5 mm"), ("56 mm", "0.5 mm"))
+    + material("bar", "steel_4340", strength={"model": "elastic-plastic", "yield_stress": "2 GPa", "shear_modulus": "80 GPa"},
+               fracture_pressure="4 GPa")
+    + body("bar", "bar", "box", r=[0.0, "4.25 mm"], z=[0.0, "50 mm"], velocity="-20 m/s")
+    + stop("30 us")
+)  # fmt: skip
+
+
+def ended(text: str, time: float, *options: str) -> Simulation:
+    simulation = Simulation(decks.loads(text, options))
+    while simulation.time < time:
+        simulation.engine.advance()
+    return simulation
+
+
+def test_a_slab_rebounds_from_an_anvil_as_a_wall_holds_it_until_then():
+    """The wave is back after 2 L/c = 17 us, c = 5.88 km/s along a slab."""
+    slab = BAR.replace('"4.25 mm"', '"8 mm"')
+    wall, anvil = (ended(slab + walls("r_max", z_min=kind), 14e-6) for kind in ("wall", "anvil"))
+    for name in ("q", "vof", "u", "v"):
+        np.testing.assert_array_equal(getattr(wall.state, name), getattr(anvil.state, name))
+    for simulation in (wall, anvil):
+        while simulation.time < 24e-6:
+            simulation.engine.advance()
+    assert 19.0 < anvil.mean_velocity(0) < 20.0  # 19.42: what is lacking is in the front, which is some cells thick
+    assert wall.mean_velocity(0) < 10.0
+
+
+def test_a_bar_rebounds_from_an_anvil():
+    speeds, anvil = [], ended(BAR, 0.0, 'boundaries.z_min="anvil"')
+    for time in (22e-6, 30e-6):
+        while anvil.time < time:
+            anvil.engine.advance()
+        speeds.append(anvil.mean_velocity(0))
+    assert 18.0 < speeds[0] < 20.0  # the rest is in waves that the bar keeps
+    assert speeds[1] == pytest.approx(speeds[0], rel=1e-12)
+    assert np.abs(anvil.audit.sinks["walls"].momentum) > 0.0
+    assert abs(anvil.conservation()["axial_momentum"]) < 1e-12
+    assert abs(anvil.conservation()["total_energy"]) < 1e-12
+    assert anvil.conservation()["off_course_cells"]["bar"] < 0.01
+
+
+@pytest.mark.parametrize("sliding", ["", "contact"], ids=["bonded", "contact"])
+def test_a_ball_goes_about_between_four_anvils(sliding):
+    """It meets one side after another, and beside a block that lies about: nothing leaves, and the audit closes."""
+    text = (
+        mesh(("20 mm", 20), ("20 mm", 20), geometry="planar")
+        + table("boundaries", r_min="anvil", r_max="anvil", z_min="anvil", z_max="anvil")
+        + body("ball", "steel_4340", "sphere", centre=["14 mm", "13 mm"], radius="4 mm", velocity=["400 m/s", "260 m/s"])
+        + (box("block", "Al5083", r=["1 mm", "5 mm"], z=["13 mm", "18 mm"]) + contact("ball") if sliding else "")
+        + stop("200 us")
+    )  # fmt: skip
+    simulation = ended(text, 60e-6)
+    assert simulation.state.u[0].min() >= -400.0
+    assert simulation.audit.sinks["walls"].momentum > 1.0
+    assert simulation.audit.sinks["outflow"].momentum == 0.0
+    found = simulation.conservation()
+    assert max(map(abs, (*found["mass"].values(), found["axial_momentum"], found["total_energy"]))) < 1e-11
+
+
+@pytest.mark.parametrize("edge", ["r_min", "r_max", "z_min", "z_max"])
+def test_every_edge_can_be_an_anvil(edge):
+    """A block that touches it flies off unhindered, and one that flies at it stays in the mesh."""
+    axis, inward = edge[0] == "z", 1.0 if edge.endswith("min") else -1.0
+    across, along = ["3 mm", "9 mm"], (["0 mm", "4 mm"] if inward > 0 else ["8 mm", "12 mm"])
+    r, z = (across, along) if axis else (along, across)
+
+    def flying(speed: float, kind: str) -> Simulation:
+        velocity = [0.0, speed] if axis else [speed, 0.0]
+        text = (mesh(("12 mm", 12), ("12 mm", 12), geometry="planar")
+                + table("boundaries", **({"r_min": "outflow"} | {edge: kind}))
+                + box("block", "Al5083", r=r, z=z, velocity=velocity) + stop("1 ms"))
+        return ended(text, 4e-6)
+
+    free = flying(inward * 100.0, "anvil")
+    velocity = free.state.v if axis else free.state.u
+    mass = free.state.mass
+    np.testing.assert_allclose(velocity[mass > 0.0], inward * 100.0, rtol=1e-9)
+    assert free.audit.sinks["walls"].momentum == 0.0
+    met, open_end = flying(-inward * 100.0, "anvil"), flying(-inward * 100.0, "outflow")
+    assert met.conservation()["mass"]["block"] == pytest.approx(0.0, abs=1e-12)
+    assert met.audit.sinks["outflow"].mass[0] == 0.0 < open_end.audit.sinks["outflow"].mass[0]
+    there = met.state.mass > 0.0
+    assert np.abs((met.state.v if axis else met.state.u)[there]).min() < 20.0
+
+
+def test_a_mesh_that_follows_has_no_anvil_along_z():
+    text = mesh(("12 mm", 12), ("30 mm", 30), follow="rod") + rod("2 mm", "10 mm", tip="12 mm", velocity="500 m/s") + stop("1 us")
+    with pytest.raises(DeckError, match="an anvil cannot travel with it"):
+        decks.loads(text + table("boundaries", z_min="anvil"))

@@ -12,8 +12,9 @@ EDGES = ("r_min", "r_max", "z_min", "z_max")
 IMAGES, COPIES = "images", "copies"
 #: what flows through an edge: nothing; bodies leave, and void comes in; bodies leave, and what stands beside comes in
 NOTHING, OUT, BOTH_WAYS = "", "out", "both ways"
-#: what holds the vertices of an edge from beyond: nothing, or the dashpots of an endless plate
-FREE, DASHPOTS = "", "dashpots"
+#: what holds the vertices of an edge from beyond: nothing, the dashpots of an endless plate, or what they cannot enter and may
+#: leave
+FREE, DASHPOTS, PUSH = "", "dashpots", "push"
 
 
 @dataclass(frozen=True)
@@ -62,7 +63,7 @@ class Edge:
 
     @classmethod
     def traction(cls) -> str:
-        """What holds its vertices from beyond, FREE or DASHPOTS."""
+        """What holds its vertices from beyond, FREE, DASHPOTS or PUSH."""
         return FREE
 
     def constrain(self, time: float) -> float | None:

@@ -9,9 +9,9 @@ from hydro2d.mesh.edges.base import Edge
 from hydro2d.mesh.edges.outflow import Outflow, Transmit
 from hydro2d.mesh.edges.piston import Piston
 from hydro2d.mesh.edges.velocity import Velocity
-from hydro2d.mesh.edges.wall import Axis, Wall
+from hydro2d.mesh.edges.wall import Anvil, Axis, Wall
 
-KINDS: tuple[type[Edge], ...] = (Axis, Wall, Outflow, Transmit, Velocity, Piston)
+KINDS: tuple[type[Edge], ...] = (Axis, Wall, Anvil, Outflow, Transmit, Velocity, Piston)
 
 BY_NAME = {kind.name: kind for kind in KINDS}
 
@@ -29,4 +29,4 @@ def made(edge: str, boundaries: Mapping[str, Any]) -> Edge:
 
 def halved(geometry: str, r_start: float, r_min: str) -> bool:
     """Whether a mesh is one half of a symmetric whole: it is cylindrical, or it starts at r = 0 with a plane of symmetry."""
-    return geometry == "cylindrical" or (r_start == 0.0 and r_min in BY_NAME and BY_NAME[r_min].ghost() == "images")
+    return geometry == "cylindrical" or (r_start == 0.0 and r_min in BY_NAME and BY_NAME[r_min].ghost() == "images" and BY_NAME[r_min].holds())

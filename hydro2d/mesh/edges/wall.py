@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from hydro2d.mesh.edges.base import IMAGES, NOTHING, Edge
+from hydro2d.mesh.edges.base import IMAGES, NOTHING, OUT, PUSH, Edge
 
 
 class Wall(Edge):
@@ -33,3 +33,23 @@ class Axis(Wall):
     name = "axis"
     edges = ("r_min",)
     meaning = "the axis of symmetry, at r = 0"
+
+
+class Anvil(Edge):
+    """Images beyond it, and a normal velocity that never points beyond; where bodies part from it, void comes in."""
+
+    name = "anvil"
+    meaning = "a rigid wall without friction that only pushes: what touches it may leave it"
+    sink = "walls"
+
+    @classmethod
+    def ghost(cls) -> str:
+        return IMAGES
+
+    @classmethod
+    def flow(cls) -> str:
+        return OUT
+
+    @classmethod
+    def traction(cls) -> str:
+        return PUSH
