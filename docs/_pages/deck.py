@@ -11,6 +11,7 @@ from _pages.markdown import NOTE, prose, table
 #: examples of the keys of [materials.NAME] that are no numbers; those of numbers are the library's own
 MATERIAL = {
     "based_on": "W_alloy", "variant": "strain-failure", "title": "tungsten alloy of my tests", "fracture_pressure": "1.5 GPa",
+    "fracture_stress": "1.2 GPa",
     "note": "yield stress of our own tests", "source": "J. Doe, private communication", "confidence": "found",
     "variants": {"soft": {"strength": {"yield_stress": "1.0 GPa"}}}, "eos": {"grueneisen": 1.8},
     "strength": {"yield_stress": "1.3 GPa"}, "damage": {"model": "none"}, "melting": {"melt_temperature": "2300 K"},

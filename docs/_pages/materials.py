@@ -49,8 +49,9 @@ def _rows(material) -> Iterator[tuple[str, str, object]]:
             yield f"{part}: {model.name}", name, number
     for name, number in material.melting.items():
         yield "melting", name, number
-    if material.fracture_pressure is not None:
-        yield "tensile-pressure", "fracture_pressure", material.fracture_pressure
+    for model, name in (("tensile-pressure", "fracture_pressure"), ("tensile-stress", "fracture_stress")):
+        if (number := getattr(material, name)) is not None:
+            yield model, name, number
 
 
 def _cells(number) -> tuple[str, str, str, str]:

@@ -159,7 +159,7 @@ def _no_failure(deck: Deck) -> Iterator[str]:
                 f'body "{entry.name}": the {material.damage.name} damage model of {material.name} is off, because '
                 'failure.damage is not given; "material" switches it on, "none" keeps it off'
             )
-        if material.fracture_pressure is None and failure.tensile == "material":
+        if material.fracture_pressure is None is material.fracture_stress and failure.tensile == "material":
             yield (
                 f'body "{entry.name}": {material.name} has no fracture_pressure and, with failure.tensile = "material", '
                 "never fractures in tension"

@@ -98,8 +98,9 @@ def accelerate(parts, i0, i1, dt, metrics, dz, body_range, active_range, mixed_c
                contact_columns, group_ranges, line, hard, soft, rate, contact_pressure, gate, speed_limit, underfilled_density,
                occupied, hg_coefficient, u, v, limited, group, constrained, contact_node_count, contact_nodes, aperture_r,
                aperture_z, cell_mass, transfer, friction, first_slot, contact_normal, touch, strength, masters, where, weights,
-               nodes, starts, entries, portions, places, impulses, gain, taken, rubbing, heat, transmitting, rhobar, cl,
-               drag, held_back, pushed, pushing, edge_velocity, walls, nr, mirror_r_min, mirror_r_max, nz, mirror_z_min, mirror_z_max):
+               nodes, starts, entries, portions, places, impulses, gain, taken, rubbing, heat, transmitting, rhobar, cl, drag,
+               held_back, pushed, pushing, edge_velocity, walls, nr, mirror_r_min, mirror_r_max, nz, mirror_z_min,
+               mirror_z_max):
     """Total stress at half the step, and the velocities at its end: forces, contact, friction, edges."""
     for place in prange(parts.shape[0] - 1):
         part = int64(place)  # numba counts without a sign, for which every kernel would be compiled a second time

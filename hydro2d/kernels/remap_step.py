@@ -75,9 +75,9 @@ def carry_bodies(parts, i0, i1, dj, di, second, leading, fr, own_r, fz, own_z, q
 @phase
 def carry_momentum(parts, i0, i1, dj, di, second, opens_low, opens_high, mesh_box, flux_mass, gate, advection, ke_bound,
                    constrained, pushing, edge_velocity, metrics, group_ranges, cell_mass, mass, velocity0, velocity, dual,
-                   edge_dual, deficit, momentum_sums, nr, mirror_r_min, mirror_r_max, u, v, nz, mirror_z_min, mirror_z_max, active_range,
-                   group, vof, q, deposited, cutoff, volume, mixed_count, mixed_columns, pre, fr, fz, removed, body_ranges,
-                   occupied, kinetic_outflow, centroid):
+                   edge_dual, deficit, momentum_sums, nr, mirror_r_min, mirror_r_max, u, v, nz, mirror_z_min, mirror_z_max,
+                   active_range, group, vof, q, deposited, cutoff, volume, mixed_count, mixed_columns, pre, fr, fz, removed,
+                   body_ranges, occupied, kinetic_outflow, centroid):
     """Velocities after the sweep; then what is left over is tidied away, and the bodies are found anew.
 
     opens_low, opens_high : whether bodies flow through the edges of this direction that the active box has reached

@@ -1,6 +1,6 @@
 """Pressure, sound speed, artificial viscosity and the local time step, in one pass over the rows."""
 
-from math import sqrt
+from math import inf, sqrt
 
 from eos.dispatch import (
     WITH_MEMORY,
@@ -22,14 +22,16 @@ from hydro2d.materials.rows import (
     FADES,
     MELTING_AT,
     MEMORY,
+    MOST_STRESS,
     STRENGTH,
     STRENGTH_AT,
     TENSILE,
 )
-from hydro2d.mesh.fields import DMG, EP, RHO, SRR, SRZ, SZZ, E
+from hydro2d.mesh.fields import DMG, EP, FAILED, RHO, SRR, SRZ, SZZ, E
 from hydro2d.mesh.grid import VOL_R
 from hydro2d.physics.fracture import share_that_stays, tension_limit
 from hydro2d.physics.kinematics import volume_loss
+from hydro2d.physics.stress import largest_principal
 from hydro2d.physics.viscosity import directional_viscosity, shut, smoothness
 from hydro2d.physics.waves import step_limits
 from strength.dispatch import end_at_melt, feels_temperature, modulus_row
@@ -60,6 +62,26 @@ def insert_void_row(m, j, first, number, model, memory, par, fracture_pressure, 
             q[SZZ, m, j, i] = 0.0
             q[SRZ, m, j, i] = 0.0
     return opened
+
+
+@apart
+def fail_row(m, j, first, number, most_stress, vof, q, pm):
+    """Makes body m fail in the cells of row j in which its largest principal stress is beyond most_stress, Pa.
+
+    Failed material has no deviator and bears no tension, for good (explanation/fracture).
+
+    Reads    vof, pm [m, j, i];  updates  q (damage, deviators) [k, m, j, i]
+    """
+    for x in range(number):
+        i = first + x
+        if not (vof[m, j, i] > 0.0 and q[DMG, m, j, i] < 1.0):
+            continue
+        stress = largest_principal(q[SRR, m, j, i], q[SZZ, m, j, i], q[SRZ, m, j, i]) - pm[m, j, i]
+        if stress > most_stress:
+            q[DMG, m, j, i] = FAILED
+            q[SRR, m, j, i] = 0.0
+            q[SZZ, m, j, i] = 0.0
+            q[SRZ, m, j, i] = 0.0
 
 
 @apart
@@ -119,10 +141,10 @@ def pressures_row(j, b, max_opening, metrics, dz, body_range, active_range, mode
     p = sum f_m p_m;  rhobar = sum f_m rho_m;  1/bulk = sum f_m / K_m (explanation/equation-of-state, mixed-cells);
     A body at or below its cutoff density, and one that has melted, is no solid any more and has no shear modulus.
     cl = max over bodies of sqrt((K + 4 G/3)/rho), for the time step.
-    A pure cell below its fracture pressure is given void (`insert_void_row`).
+    A pure cell below its fracture pressure is given void (`insert_void_row`); what its fracture stress is exceeded in fails.
 
     Reads    q (rho, e, damage) [k, m, j, i], body_range [m, j, 2]
-    Updates  vof [m, j, i], q (rho and deviators where a cell fractures)
+    Updates  vof [m, j, i], q (rho, deviators and damage where a cell fractures)
     Writes   pm, km, tm [m, j, i] (tm of bodies that feel temperature); p, bulk, rhobar, solid, cl [j, i]; opened [j]
              volume of new void; bad [j, :3] count of cells that are not finite, the column and body of the first
     Scratch  scratch [s, b, i]
@@ -164,6 +186,8 @@ def pressures_row(j, b, max_opening, metrics, dz, body_range, active_range, mode
                 pressure_row_with_memory(model, par, SOUND_FLOOR, m, j, memory, first, number, vof, q, pm, km)
             else:
                 pressure_row(model, par, SOUND_FLOOR, first, number, f_j, r_j, e_j, d_j, pm_j, km_j)
+            if attempt == 0 and materials[m, MOST_STRESS] < inf:
+                fail_row(m, j, first, number, materials[m, MOST_STRESS], vof, q, pm)
             fractured = 0
             wrong = 0
             for x in range(number):

@@ -10,13 +10,13 @@ from types import ModuleType
 
 from hydro2d import units
 from hydro2d.errors import unknown
-from hydro2d.materials.material import CONFIDENCE, Material, Model, Number, questionable, solid_model
+from hydro2d.materials.material import CONFIDENCE, FRACTURE, Material, Model, Number, questionable, solid_model
 from hydro2d.parameters import Parameter
 from hydro2d.toml import PARTS
 
 #: tables of numbers of a material: those of its models, and its melting line
 TABLES = (*PARTS, "melting")
-_KEYS = (*TABLES, "fracture_pressure", "title", "note", "source", "confidence", "variants", "variant", "based_on")
+_KEYS = (*TABLES, *FRACTURE, "title", "note", "source", "confidence", "variants", "variant", "based_on")
 ABOUT = ("source", "confidence", "note")
 #: keys of a part that choose the model, the one that it stands over, and its table; the names of files have become two of these
 CHOICE = ("model", "code", "code_from", "solid", "table_data", "table_from")
@@ -36,17 +36,22 @@ def build(name: str, raw: dict, fail: Fail, trust: bool) -> Material:
     own = eos.numbers
     strength = _model(raw.get("strength"), "strength", "hydrodynamic", own, fail, trust)
     damage = _model(raw.get("damage"), "damage", "none", own, fail, trust)
-    fracture = None
-    if "fracture_pressure" in raw:
-        fracture = _number(raw["fracture_pressure"], "Pa", ("fracture_pressure",), fail)
-        if said := questionable(raw["fracture_pressure"]["value"], "Pa"):
-            raise fail(("fracture_pressure",), said)
-        if fracture.value <= 0:
-            raise fail(("fracture_pressure",), f"must be positive (a tension), is {fracture.value:g}")
+    fracture = {key: _tension(raw[key], key, fail) for key in FRACTURE if key in raw}
     melting = _melting(raw.get("melting"), eos, fail)
     variants = {key: str(entry.get("title", "")) for key, entry in raw.get("variants", {}).items()}
     title, note = str(raw.get("title", "")), str(raw.get("note", ""))
-    return Material(name, title, note, eos, strength, damage, fracture, melting, variants, raw.get("damage") is not None)
+    fractures = [fracture.get(key) for key in FRACTURE]
+    return Material(name, title, note, eos, strength, damage, *fractures, melting, variants, raw.get("damage") is not None)
+
+
+def _tension(raw, key: str, fail: Fail) -> Number:
+    """A tension at which the material fractures."""
+    found = _number(raw, "Pa", (key,), fail)
+    if said := questionable(raw["value"], "Pa"):
+        raise fail((key,), said)
+    if found.value <= 0:
+        raise fail((key,), f"must be positive (a tension), is {found.value:g}")
+    return found
 
 
 def _chosen(raw, part: str, fail: Fail) -> tuple[ModuleType, str, str]:

@@ -35,6 +35,16 @@ def cracking_pressure(material: Material, tension: float) -> float:
     return tension
 
 
+def require_that_it_fails(material: Material, damage: ModuleType, strength: ModuleType) -> None:
+    """Raises DeckError where a fracture_stress contradicts the models: failed material has no strength and no cracks."""
+    if opens_cracks(damage):
+        raise DeckError(f"material {material.name}: {material.damage.name} opens cracks at the fracture_pressure; it does not "
+                        "go with a fracture_stress, beyond which material fails at once")
+    if hasattr(strength, "weakened"):
+        raise DeckError(f"material {material.name}: the strength model {material.strength.name} falls with a damage of its own "
+                        "and does not go with a fracture_stress")
+
+
 def over(material: Material, of_solid: np.ndarray) -> tuple[ModuleType, np.ndarray]:
     """The equation of state of the cracked material and its row, from the row of the sound material.
 

@@ -11,7 +11,7 @@ from collections.abc import Mapping
 
 from hydro2d.errors import DeckError, Sources, unknown
 from hydro2d.materials.building import ABOUT, CHOICE, TABLES, Fail, build
-from hydro2d.materials.material import CONFIDENCE, Material, Model, Number
+from hydro2d.materials.material import CONFIDENCE, FRACTURE, Material, Model, Number
 from hydro2d.materials.slots import MaterialTable, resolve
 from hydro2d.toml import PARTS, merge, parse, problems_folder
 
@@ -54,8 +54,7 @@ def _sourced(table: dict, confidence: str, about: dict | None = None) -> dict:
             own = {**about, **_about(table[part])}
             rest = {key: value for key, value in table[part].items() if key not in ABOUT}
             result[part] = {key: value if key in CHOICE else _with(value, own) for key, value in rest.items()}
-    if "fracture_pressure" in table:
-        result["fracture_pressure"] = _with(table["fracture_pressure"], about)
+    result |= {key: _with(table[key], about) for key in FRACTURE if key in table}
     if "variants" in table:
         result["variants"] = {key: _sourced(entry, confidence, about) for key, entry in table["variants"].items()}
     return result
@@ -163,8 +162,8 @@ def describe(name: str, variant: str | None = None) -> str:
     ]
     if material.melting:
         parts.append(("melting line", material.melting))
-    if material.fracture_pressure is not None:
-        parts.append(("failure", {"fracture_pressure": material.fracture_pressure}))
+    if fracture := {key: number for key in FRACTURE if (number := getattr(material, key)) is not None}:
+        parts.append(("failure", fracture))
     for heading, numbers in parts:
         lines += ["", heading] + [_line(key, number) for key, number in numbers.items()]
     if material.variants:

@@ -125,6 +125,10 @@ class Model:
         return {"model": self.name, **solid, **numbers, **code, **table}
 
 
+#: the keys that say at which tension a material fractures
+FRACTURE = ("fracture_pressure", "fracture_stress")
+
+
 @dataclass(frozen=True)
 class Material:
     """A resolved material, with all defaults filled in."""
@@ -136,6 +140,8 @@ class Material:
     strength: Model
     damage: Model
     fracture_pressure: Number | None
+    #: the largest principal stress that it bears
+    fracture_stress: Number | None = None
     #: the parameters of its melting line (strength/melting.py), empty without one
     melting: Mapping[str, Number] = field(default_factory=dict)
     variants: Mapping[str, str] = field(default_factory=dict)
@@ -154,8 +160,9 @@ class Material:
     def as_deck(self) -> dict:
         """The material as a table of a deck, every number in SI."""
         data: dict = {"title": self.title} if self.title else {}
-        if self.fracture_pressure is not None:
-            data["fracture_pressure"] = self.fracture_pressure.as_deck
+        for key in FRACTURE:
+            if (number := getattr(self, key)) is not None:
+                data[key] = number.as_deck
         if self.melting:
             data["melting"] = {key: number.as_deck for key, number in self.melting.items()}
         for part in PARTS:

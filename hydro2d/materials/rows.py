@@ -10,6 +10,7 @@ State.q in which the internal variables of its equation of state begin.
     GAS             1 for a gas beside the other bodies, else 0
     FADES           1 where the tension falls with damage, to 0 in crushed material, else 0
     CRACKS          the tension at which cracks open, Pa, of a body whose damage model opens them, else 0; its TENSILE is inf
+    MOST_STRESS     the largest principal stress that it bears, Pa; beyond it fails for good; inf where it never does
     MELTING_AT      from here on the melting line of the material (strength/melting.py)
 
 and from EOS_AT to the end the row of the equation of state, with zeros behind it where that of another body is longer.
@@ -27,7 +28,7 @@ EOS, STRENGTH, DAMAGE, MEMORY = range(4)
 
 STRENGTH_AT, DAMAGE_AT = 0, STRENGTH_ROW
 TENSILE = DAMAGE_AT + DAMAGE_ROW
-CUTOFF_DENSITY, FACTOR, GAS, FADES, CRACKS, MELTING_AT = range(TENSILE + 1, TENSILE + 7)
+CUTOFF_DENSITY, FACTOR, GAS, FADES, CRACKS, MOST_STRESS, MELTING_AT = range(TENSILE + 1, TENSILE + 8)
 EOS_AT = MELTING_AT + LINE
 
 
@@ -37,6 +38,7 @@ def packed(table, cutoff_density, factor) -> tuple[np.ndarray, np.ndarray]:
     from strength.dispatch import WEAKENS
 
     fades = np.isin(table.strength_model, WEAKENS).astype(float)
-    numbers = table.fracture_pressure, cutoff_density, factor, table.gases().astype(float), fades, table.cracking
+    numbers = (table.fracture_pressure, cutoff_density, factor, table.gases().astype(float), fades, table.cracking,
+               table.fracture_stress)
     own = np.stack(numbers, axis=1)
     return models, np.concatenate([table.strength_par, table.damage_par, own, table.melting, table.eos_par], axis=1)

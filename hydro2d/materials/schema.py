@@ -81,6 +81,8 @@ def _material() -> dict:
             "melting": {"$ref": "#/$defs/Melting", "description": 'melting line; used with failure.melting = "material"'},
             "fracture_pressure": {**_QUANTITY, "x-unit": "Pa", "description": "tension at which the material opens, positive; "
                                   'used with failure.tensile = "material"'},
+            "fracture_stress": {**_QUANTITY, "x-unit": "Pa", "description": "largest principal stress that the material bears, "
+                                'positive; beyond it fails for good; used with failure.tensile = "material"'},
             "title": {**_TEXT, "description": "title for `hydro2d info`"},
             "note": {**_TEXT, "description": "further remarks"},
             **_ABOUT,

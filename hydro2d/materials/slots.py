@@ -8,7 +8,7 @@ from types import ModuleType
 import numpy as np
 
 from hydro2d.errors import DeckError
-from hydro2d.materials.cracking import cracking_pressure, opens_cracks, over
+from hydro2d.materials.cracking import cracking_pressure, opens_cracks, over, require_that_it_fails
 from hydro2d.materials.material import Material, Model, solid_model
 from hydro2d.mesh.fields import INTERNAL, Field
 
@@ -24,8 +24,9 @@ class MaterialTable:
     strength.ROW], ``damage_par`` float64[m, strength.DAMAGE_ROW]; the model ids are int64[m]; ``internal`` holds the internal
     variables of every strength model and then those of its equation of state, ``initial`` what virgin material has of them,
     ``memory`` the row of State.q in which those of the equation of state begin, int64[m]; ``fracture_pressure`` is a positive
-    tension, inf where never, and ``cracking`` that at which cracks open, where the damage model opens them, else 0; ``melting``
-    holds the melting lines that the deck uses, float64[m, strength.melting.ROW], NONE where there is none.
+    tension, inf where never, ``fracture_stress`` a largest principal stress, inf where there is none, and ``cracking`` that at
+    which cracks open, where the damage model opens them, else 0; ``melting`` holds the melting lines that the deck uses,
+    float64[m, strength.melting.ROW], NONE where there is none.
     """
 
     names: tuple[str, ...]
@@ -42,6 +43,7 @@ class MaterialTable:
     damage_model: np.ndarray
     damage_par: np.ndarray
     fracture_pressure: np.ndarray
+    fracture_stress: np.ndarray
     cracking: np.ndarray
     melting: np.ndarray
 
@@ -141,11 +143,13 @@ def resolve(deck) -> MaterialTable:
     damages = [material.damage if deck.failure.damage == "material" else Model("none") for material in chosen]
     damage_modules = [damage.module("damage") for damage in damages]
     eos_rows = [_row(module, material.eos, material) for module, material in zip(eos_modules, chosen, strict=True)]
-    tensile = [c.fracture_pressure.value if c.fracture_pressure else np.inf for c in chosen]
-    if deck.failure.tensile == "none":
-        tensile = [np.inf] * len(chosen)
+    used = deck.failure.tensile == "material"
+    tensile = [c.fracture_pressure.value if used and c.fracture_pressure else np.inf for c in chosen]
+    most_stress = [c.fracture_stress.value if used and c.fracture_stress else np.inf for c in chosen]
     cracking = np.zeros(len(chosen))
     for m, material in enumerate(chosen):
+        if np.isfinite(most_stress[m]):
+            require_that_it_fails(material, damage_modules[m], strength_modules[m])
         if opens_cracks(damage_modules[m]):
             cracking[m], tensile[m] = cracking_pressure(material, tensile[m]), np.inf
             eos_modules[m], eos_rows[m] = over(material, eos_rows[m])
@@ -167,6 +171,7 @@ def resolve(deck) -> MaterialTable:
         damage_model=np.array([m.ID for m in damage_modules], dtype=np.int64),
         damage_par=damage_par,
         fracture_pressure=np.array(tensile),
+        fracture_stress=np.array(most_stress),
         cracking=cracking,
         melting=np.stack([_line_of(material, deck.failure.melting == "material") for material in chosen]),
     )

@@ -70,5 +70,5 @@ class BoundaryConditions:
         }
 
     def having(self, flag: str) -> tuple[bool, ...]:
-        """For each edge whether it mirrors, holds, opens, supplies, drives, transmits or only pushes; asked many times a cycle."""
+        """For each edge whether it mirrors, holds, opens, supplies, drives, transmits or pushes; asked many times a cycle."""
         return self._flags[flag]

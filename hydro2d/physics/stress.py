@@ -24,6 +24,13 @@ def von_mises(rr, zz, rz):
 
 
 @point
+def largest_principal(rr, zz, rz):
+    """Largest principal value of a deviator whose hoop component is -(rr + zz)."""
+    half = 0.5 * (rr - zz)
+    return max(0.5 * (rr + zz) + sqrt(half * half + rz * rz), -(rr + zz))
+
+
+@point
 def stress_scale(solid_mode, solids):
     """Factor on sum f_m s_m of a mixed cell: 1, or in mode `solid` one over the share of solids.
 

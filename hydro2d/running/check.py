@@ -98,11 +98,13 @@ class Check:
             others = [m for m, other in enumerate(names) if (name in hard) == (other in hard) and motions[m] != motions[number]
                       and (m > number or motions[m] == AT_REST)]  # fmt: skip
             if others and motions[number] != AT_REST:
-                bears = float(min(self.table.fracture_pressure[m] for m in (number, *others)))
+                limits = np.minimum(self.table.fracture_pressure, self.table.fracture_stress)
+                bears = float(min(limits[m] for m in (number, *others)))
                 until = f"until one of them fractures, at {bears * 1e-9:.3g} GPa of tension" if bears < math.inf else "for ever"
                 found.append(f"{name} is tied to {_listed([names[m] for m in others])} where they touch, {until}{cure}")
         walls = [key for key in EDGES if getattr(deck.boundaries, key) == "wall" and key != "r_min"]
-        return found + [f"what touches a wall ({', '.join(walls)}) is held in tension as well; \"anvil\" only pushes"] * bool(walls)
+        held = f'what touches a wall ({", ".join(walls)}) is held in tension as well; an "anvil" only pushes'
+        return found + [held] * bool(walls)
 
     def _follow(self) -> list[str]:
         """How far a travelling mesh reaches, and which bodies will enter it."""

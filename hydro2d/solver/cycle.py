@@ -75,8 +75,8 @@ class Cycle:
         self._widths = [*grid.dr[[g, g + grid.nr - 1]].tolist(), *grid.dz[[g, g + grid.nz - 1]].tolist()]
         self.transmitting = np.where(method.boundaries.having("transmits"), at, -1)
         self.carried = fields.carried_rows([
-            fields.carried(own, bool(strength), bool(damage)) for own, strength, damage in
-            zip(table.internal, table.strength_model, table.damage_model, strict=True)])
+            fields.carried(own, bool(strength), bool(damage) or bool(stress < np.inf)) for own, strength, damage, stress in
+            zip(table.internal, table.strength_model, table.damage_model, table.fracture_stress, strict=True)])
         self.contact = Contact(state) if state.groups > 1 else NoContact()
         self.box = list(self.mesh_box)
         self.parts, self.rows = Parts(state), self._one_part

@@ -79,7 +79,7 @@ def test_a_deck_hears_it():
     with pytest.raises(DeckError, match="material dud: jwl: the constants contradict each other"):
         slots._row(jwl, library.Model("jwl", {name: library.Number(value, "", "", "deck") for name, value in
                                               (TNT | {"cj_pressure": 25e9}).items()}),
-                   library.Material("dud", "", "", *[library.Model("none")] * 3, None))
+                   library.Material("dud", "", "", *[library.Model("none")] * 3, None, None))
 
 
 def test_the_unreacted_solid():

@@ -12,6 +12,7 @@ from hydro2d.physics import stress
 turn_and_strain = stress.turn_and_strain.py_func
 von_mises = stress.von_mises.py_func
 stress_scale = stress.stress_scale.py_func
+largest_principal = stress.largest_principal.py_func
 normal_pressure = stress.normal_pressure.py_func
 
 STRESS = st.floats(-1e9, 1e9)
@@ -163,3 +164,9 @@ def test_in_mode_solid_half_a_cell_of_solids_is_as_stiff_as_a_full_one():
 
 def test_in_mode_solid_a_sliver_is_not_made_stiffer_than_twice():
     assert stress_scale(True, 1e-9) == stress_scale(True, 0.49) == 2.0
+
+
+@given(STRESS, STRESS, STRESS)
+def test_the_largest_principal_value_is_the_largest_eigenvalue(rr, zz, rz):
+    tensor = np.array([[rr, 0.0, rz], [0.0, -(rr + zz), 0.0], [rz, 0.0, zz]])
+    assert largest_principal(rr, zz, rz) == pytest.approx(np.linalg.eigvalsh(tensor)[-1], rel=1e-12, abs=1e-6)

@@ -246,6 +246,6 @@ def test_every_edge_can_be_an_anvil(edge):
 
 
 def test_a_mesh_that_follows_has_no_anvil_along_z():
-    text = mesh(("12 mm", 12), ("30 mm", 30), follow="rod") + rod("2 mm", "10 mm", tip="12 mm", velocity="500 m/s") + stop("1 us")
+    text = mesh(("12 mm", 12), ("30 mm", 30), follow="rod") + rod("2 mm", "10 mm", tip="12 mm", velocity=500.0) + stop("1 us")
     with pytest.raises(DeckError, match="an anvil cannot travel with it"):
         decks.loads(text + table("boundaries", z_min="anvil"))

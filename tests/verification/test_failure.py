@@ -4,9 +4,10 @@ import numpy as np
 import pytest
 
 from hydro2d.deck import deck
+from hydro2d.errors import DeckError
 from hydro2d.mesh.fields import FAILED, SRR, SRZ
 from hydro2d.solver.simulation import Simulation
-from tests.decks import box, mesh, plate, rod, stop, walls
+from tests.decks import body, box, mesh, plate, rod, stop, table, walls
 from tests.verification.running import finish
 from tests.verification.test_translation import ROD
 
@@ -117,3 +118,100 @@ def test_debris_bears_no_shear_and_no_tension_and_is_counted(sliding):
     assert 0.02 < rod / found["rod_mass_kg"] < 0.9
     assert plate > 0.02 * found["rod_mass_kg"]
     assert abs(simulation.conservation()["total_energy"]) < 1e-2
+
+
+# ------------------------------------------------------------------------------------------------ the largest principal stress
+
+#: a copper ring that flies apart, all of it at 150 m/s along r: hoop stress alone, E v t/R while it is elastic
+RING = (
+    table("materials.ring",
+          eos={"model": "mie-grueneisen", "reference_density": 8930, "sound_speed": 3940, "hugoniot_slope": 1.489,
+               "grueneisen": 2.02, "specific_heat": 383},
+          strength={"model": "elastic-plastic", "shear_modulus": 47.7e9, "yield_stress": 0.3e9})
+    + mesh(("36 mm", "62 mm", "0.5 mm"), ("-5 mm", "5 mm", "0.5 mm"))
+    + table("boundaries", r_min="outflow")
+    + body("ring", "ring", "box", r=["38.2 mm", "41.9 mm"], z=["-2 mm", "2.1 mm"],
+           flow={"pattern": "cylindrical", "speed": "150 m/s", "radius": "40 mm", "exponent": 0})
+    + stop("40 us")
+)  # fmt: skip
+
+
+def to_the_end(simulation: Simulation) -> Simulation:
+    while simulation.stop_reason() is None:
+        simulation.step()
+    return simulation
+
+
+def share_failed(simulation: Simulation) -> float:
+    s, grid = simulation.state, simulation.grid
+    mass = grid.interior(s.vof[0] * s.rho[0] * grid.volume)
+    return float(mass[grid.interior(s.dmg[0]) >= 1.0].sum() / mass.sum())
+
+
+def test_a_ring_breaks_when_its_hoop_stress_is_due():
+    """At 15 m/s, so that waves across the ring have died down: 0.2 GPa at E v t/R, t = 4.3 us, E = 125 GPa."""
+    ring = Simulation(deck.loads(RING.replace("150 m/s", "15 m/s"), ['materials.ring.fracture_stress="0.2 GPa"']))
+    bulk, shear = 8930 * 3940.0**2, 47.7e9
+    due = 0.2e9 * 0.04 / (9 * bulk * shear / (3 * bulk + shear) * 15.0)
+    while ring.time < 0.85 * due:
+        ring.step()
+    assert share_failed(ring) == 0.0
+    while ring.time < 1.25 * due:
+        ring.step()
+    assert share_failed(ring) > 0.95
+    where = ring.grid.interior(ring.state.dmg[0]) >= 1.0
+    assert not ring.grid.interior(ring.state.srr[0])[where].any()
+
+
+def test_a_ring_breaks_by_its_hoop_stress_and_not_by_its_pressure():
+    """A ring that has failed flies on with what it had; one that holds is braked by its yield stress."""
+    by_stress, by_pressure = (to_the_end(Simulation(deck.loads(RING, [f'materials.ring.fracture_{kind}="0.2 GPa"'])))
+                              for kind in ("stress", "pressure"))
+    for simulation in (by_stress, by_pressure):
+        assert simulation.faults() == []
+        assert abs(simulation.conservation()["total_energy"]) < 1e-12
+    assert share_failed(by_pressure) == 0.0
+    assert share_failed(by_stress) > 0.999  # it is carried, though no damage model is
+    kept = [simulation.conservation()["kinetic_energy_J"] / (2 * np.pi * simulation.audit.start.kinetic)
+            for simulation in (by_stress, by_pressure)]
+    assert kept[0] > 0.99
+    assert kept[1] < 0.75
+
+
+@pytest.mark.parametrize("share", [0.0, 0.4])
+def test_a_bar_of_two_bodies_breaks_where_the_tension_is(share):
+    """Wherever their common face lies in its cell."""
+    middle = f"{0.5 * share} mm"
+    text = (
+        mesh(("2 mm", 4), ("-20 mm", "20 mm", 80))
+        + table("materials.weak", based_on="W_alloy", fracture_stress="0.8 GPa", fracture_pressure="3.5 GPa")
+        + box("low", "weak", r=[0.0, "1.5 mm"], z=["-15 mm", middle], velocity="-20 m/s")
+        + box("high", "weak", r=[0.0, "1.5 mm"], z=[middle, "15 mm"], velocity="20 m/s")
+        + stop("6 us")
+    )
+    simulation = to_the_end(Simulation(deck.loads(text)))
+    places = simulation.grid.zc[np.nonzero(failed(simulation).any(axis=(0, 2)))[0]]
+    assert places.size > 0
+    assert np.abs(places).max() < 3e-3
+    held = to_the_end(Simulation(deck.loads(text, ['materials.weak.fracture_stress="2.5 GPa"'])))
+    assert not failed(held).any()
+
+
+@pytest.mark.parametrize("overrides", [
+    (["failure.damage='material'", "materials.ring.damage={ model = 'cochran-banner', opening = '25 um' }"], "opens cracks"),
+    (["body.ring.material='alumina_995'", "materials.alumina_995.based_on='alumina_995'",
+      "materials.alumina_995.fracture_stress='1 GPa'"], "a damage of its own"),
+    (["materials.ring.fracture_stress='-1 GPa'"], "must be positive"),
+    (["materials.ring.fracture_stress=1.2"], "without a unit"),
+], ids=["cracks", "jh-2", "negative", "bare"])
+def test_what_a_fracture_stress_does_not_go_with(overrides):
+    with pytest.raises(DeckError, match=overrides[1]):
+        Simulation(deck.loads(RING, ["materials.ring.fracture_pressure='1 GPa'", "materials.ring.fracture_stress='1 GPa'",
+                                     *overrides[0]]))
+
+
+def test_tensile_none_switches_a_fracture_stress_off_and_a_resolved_deck_keeps_it():
+    found = deck.loads(RING, ['materials.ring.fracture_stress="0.2 GPa"'])
+    again = deck.loads(found.to_toml())
+    assert again.materials["ring"].fracture_stress.value == 0.2e9
+    assert np.isinf(Simulation(deck.loads(found.to_toml(), ['failure.tensile="none"'])).table.fracture_stress).all()

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from hydro2d.mesh.edges.base import Edge
+from hydro2d.mesh.edges.base import IMAGES, Edge
 from hydro2d.mesh.edges.outflow import Outflow, Transmit
 from hydro2d.mesh.edges.piston import Piston
 from hydro2d.mesh.edges.velocity import Velocity
@@ -29,4 +29,5 @@ def made(edge: str, boundaries: Mapping[str, Any]) -> Edge:
 
 def halved(geometry: str, r_start: float, r_min: str) -> bool:
     """Whether a mesh is one half of a symmetric whole: it is cylindrical, or it starts at r = 0 with a plane of symmetry."""
-    return geometry == "cylindrical" or (r_start == 0.0 and r_min in BY_NAME and BY_NAME[r_min].ghost() == "images" and BY_NAME[r_min].holds())
+    kind = BY_NAME.get(r_min)
+    return geometry == "cylindrical" or (r_start == 0.0 and kind is not None and kind.ghost() == IMAGES and kind.holds())
