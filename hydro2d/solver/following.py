@@ -72,13 +72,15 @@ class UndisturbedSpace:
 
         Shapes (m, nr), of ``centroid`` (2, m, nr).
 
-        Between two heights at which nothing begins, ends or curves they are computed once.
+        Between two heights at which something begins, ends or curves they are computed once, for all of the space between, so
+        that they do not depend on when they are asked for: a run that goes on from a restart has the same bits.
         """
         first, last = np.searchsorted(self._levels, [low, high], side="right")
         if first != last or any(a < high and b > low for a, b in self._curved):
             return self._insert(low, high)
         if first not in self._layers:
-            self._layers = {first: self._insert(low, high)}
+            between = 0 < first < len(self._levels)
+            self._layers = {first: self._insert(*(self._levels[first - 1:first + 1] if between else (low, high)))}
         return self._layers[first]
 
     def _insert(self, low: float, high: float) -> dict[str, np.ndarray]:

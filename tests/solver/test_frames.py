@@ -13,13 +13,14 @@ VELOCITIES = ("interface_velocity_m_s", "rod_mean_velocity_m_s", "rod_core_veloc
 ENERGIES = ("rod_initial_kinetic_energy_J", "rod_kinetic_energy_J")
 
 
-def shot(projectile: float, target: float, *, thickness: str = "20 mm", ball: bool = False) -> Simulation:
+def shot(projectile: float, target: float, *, thickness: str = "20 mm", ball: bool = False, follow: bool = False) -> Simulation:
     """A rod of 20 mm, or a ball, and a plate, with axial velocities in m/s, on a mesh that reaches far enough for either."""
+    following = {"follow": "rod"} if follow else {}
     flying = {"velocity": f"{projectile} m/s"}
     first = (body("rod", "W_alloy", "sphere", centre="-3 mm", radius="3 mm", **flying) if ball
              else rod("3 mm", "20 mm", nose="flat", tip=0.0, **flying))
     return Simulation(deck.loads(
-        mesh(("12 mm", 12), ("-60 mm", "60 mm", "1 mm")) + first + plate(thickness, velocity=f"{target} m/s")
+        mesh(("12 mm", 12), ("-60 mm", "60 mm", "1 mm"), **following) + first + plate(thickness, velocity=f"{target} m/s")
         + table("penetration", rod="rod", target="plate") + entry("tracer", name="a", r="1 mm", z="5 mm") + stop("14 us")))
 
 
@@ -82,6 +83,17 @@ def test_roles_are_exchanged(standing, projectile):
         assert found[key] == pytest.approx(standing[key], rel=0.03), key
     assert found["rod_core_velocity_m_s"] == pytest.approx(standing["rod_core_velocity_m_s"] + projectile - 1000.0, abs=20.0)
     assert not sim.penetrator.perforates()
+
+
+@pytest.mark.parametrize("projectile", [500.0, 1000.0, 1800.0])
+def test_a_mesh_that_follows_the_rod_measures_the_same(standing, projectile):
+    """On a plate at rest, on one that comes to meet the rod, and on one that flies before it."""
+    sim = shot(projectile, projectile - 1000.0, follow=True)
+    sim.run()
+    found = outputs(sim)
+    for key in ("penetration_depth_m", "rod_length_m", "hole depth_m", "hole volume_per_energy_m3_J"):
+        assert found[key] == pytest.approx(standing[key], rel=0.03), key
+    assert found["rod_core_velocity_m_s"] == pytest.approx(standing["rod_core_velocity_m_s"] + projectile - 1000.0, abs=20.0)
 
 
 @pytest.mark.parametrize("projectile", [1500.0, 0.0])

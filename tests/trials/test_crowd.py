@@ -1,0 +1,38 @@
+"""A few of the random decks of `crowd`, and that their twins are what they should be."""
+
+import tomllib
+
+import numpy as np
+import pytest
+
+from hydro2d.deck import deck as decks
+from hydro2d.solver.simulation import Simulation
+from tests.trials import crowd
+
+
+@pytest.mark.parametrize("number", range(2000, 2312, 13))
+def test_a_deck_beside_its_twins(number):
+    text, wrong = crowd.wrong(number)
+    assert not wrong, text
+
+
+def test_an_image_of_an_image_is_the_deck():
+    for number in range(0, 312, 17):
+        text = crowd.text_of(number)
+        once, twice = (tomllib.loads(each) for each in (crowd.mirrored(text), crowd.mirrored(crowd.mirrored(text))))
+        first = tomllib.loads(text)
+        assert once != first
+        assert twice["boundaries"] == first["boundaries"]
+        for one, other in zip(first["body"], twice["body"], strict=True):
+            assert one["z"] == pytest.approx(other["z"], abs=1e-15)
+
+
+def test_sums_are_those_of_the_audit():
+    simulation = Simulation(decks.loads(crowd.text_of(5)))
+    found, start = crowd.sums(simulation), simulation.audit.start
+    assert found["kinetic energy"] == pytest.approx(start.kinetic, rel=1e-12)
+    assert found["momentum"] == pytest.approx(start.momentum, rel=1e-12)
+    for m, name in enumerate(simulation.table.names):
+        assert found[f"mass {name}"] == pytest.approx(start.mass[m], rel=1e-12)
+    simulation.state.vof[0, 6, 6] += 0.01
+    assert not np.isclose(crowd.sums(simulation)["mass rod"], start.mass[0], rtol=1e-9)
