@@ -7,6 +7,7 @@ from eos.dispatch import (
     evaluate,
     pressure_row,
     pressure_row_with_memory,
+    sound_speed_squared,
     temperature_row,
     temperature_row_with_memory,
     zero_pressure_density,
@@ -31,7 +32,7 @@ from hydro2d.mesh.fields import DMG, EP, FAILED, RHO, SRR, SRZ, SZZ, E
 from hydro2d.mesh.grid import VOL_R
 from hydro2d.physics.fracture import share_that_stays, tension_limit
 from hydro2d.physics.kinematics import volume_loss
-from hydro2d.physics.stress import largest_principal
+from hydro2d.physics.stress import largest_principal, von_mises
 from hydro2d.physics.viscosity import directional_viscosity, shut, smoothness
 from hydro2d.physics.waves import step_limits
 from strength.dispatch import end_at_melt, feels_temperature, modulus_row
@@ -330,12 +331,23 @@ def step_cause(j, courant, advective, mesh_speed, dr, dz, metrics, active_range,
                     cause[1] = i
 
 
+@point
+def elastic_energy(m, j, i, shear, model, memory, par, q):
+    """What body m keeps in cell (j, i) as elastic energy, J/kg: p^2/(2 K rho) + q^2/(6 G rho), q its von Mises stress."""
+    rho = q[RHO, m, j, i]
+    p, dpdrho, dpde, _ = evaluate(model, rho, q[E, m, j, i], q[memory:, m, j, i], par)
+    modulus = rho * sound_speed_squared(rho, p, dpdrho, dpde, SOUND_FLOOR)
+    mises = von_mises(q[SRR, m, j, i], q[SZZ, m, j, i], q[SRZ, m, j, i])
+    return (0.5 * p * p / modulus + (mises * mises / (6.0 * shear) if shear > 0.0 else 0.0)) / rho
+
+
 @serial
-def worst_energies(g, nz, nr, m, sliver, lowest, highest, plastic, most_strain, warm, model, memory, par, vof, q,
+def worst_energies(g, nz, nr, m, sliver, lowest, highest, plastic, most_strain, shear, warm, chill, model, memory, par, vof, q,
                    found):
     """The cells in which the energy of body m is farthest above and below what it can reach there, with those at 0 K.
 
-    Cells of which it fills less than `sliver` do not count; a body that does not begin `warm` may be at 0 K.
+    Cells of which it fills less than `sliver` do not count. What a cell keeps as elastic energy by its own stress is no heat;
+    shear is the shear modulus, Pa. A body that begins `warm` may be colder than 0 K by `chill`, J/kg, and any other by more.
 
     Reads    vof [m, j, i]; q [k, m, j, i]
     Writes   found [2, 3], of the hottest and the coldest: J/kg that it is beyond (0 or less within reach), row, column
@@ -348,9 +360,11 @@ def worst_energies(g, nz, nr, m, sliver, lowest, highest, plastic, most_strain, 
                 continue
             e = q[E, m, j, i]
             cold = lowest - e
-            if warm and e < 0.0 and evaluate(model, q[RHO, m, j, i], e, q[memory:, m, j, i], par)[3] <= 0.0:
+            if warm and e < -chill and evaluate(model, q[RHO, m, j, i], e, q[memory:, m, j, i], par)[3] <= 0.0:
                 cold = max(cold, -e)
             hot = e - (highest + plastic * min(q[EP, m, j, i], most_strain))
+            if hot > 0.0:
+                hot -= elastic_energy(m, j, i, shear, model, memory, par, q)
             for side in range(2):
                 beyond = cold if side else hot
                 beyond = beyond if beyond == beyond else 1e300

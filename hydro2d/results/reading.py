@@ -248,8 +248,9 @@ class Results:
         target = _table(self.tables, "penetration").get("target")
         velocity = next((body.get("velocity") for body in self.bodies if body["name"] == target), None)
         axial = velocity[-1] if isinstance(velocity, list) and velocity else velocity
-        known = isinstance(axial, (int, float)) and not isinstance(axial, bool)
-        return self.surface if self.surface is None or not known else self.surface + axial * time
+        if self.surface is None or isinstance(axial, bool) or not isinstance(axial, (int, float)):
+            return self.surface
+        return self.surface + axial * time
 
     @property
     def direction(self) -> int:

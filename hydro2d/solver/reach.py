@@ -14,12 +14,16 @@ import numpy as np
 from scipy.optimize import brentq
 
 from hydro2d.mesh.boundary_conditions import BoundaryConditions
+from hydro2d.mesh.edges.base import FREE
+from hydro2d.solver.audit import Totals
 from hydro2d.solver.insertion import body_state, body_velocity, slot_of
 from strength import SHEAR
 
 #: times the heat of the hottest state that a cell may show, for reflections, convergence and the dissipation of the method, and
 #: share of it by which a cell may be colder than at the start
 CELL_HOTTER, CELL_COLDER = 3.0, 0.25
+#: share of what a body can reach by which a cell may miss a temperature of zero
+CHILL = 1e-3
 #: plastic strain beyond which no more heat of plastic work is believed, and share of the shear modulus that no stress exceeds
 MOST_STRAIN, IDEAL_STRENGTH = 10.0, 0.1
 #: rate of strain, 1/s, and temperature, K, at which the largest flow stress is looked up
@@ -40,8 +44,9 @@ class Reach(NamedTuple):
     lowest, highest : coldest and hottest state, which bound the mean;  cell_lowest, cell_highest : those of a cell
     worked : heat by plastic strain, J/kg, at the largest flow stress of the law;  plastic : what a cell may show instead
     rubbing : heat of friction in a cell by time, W/kg
+    shear : shear modulus, Pa, by which elastic energy counts;  chill : by what a cell may be colder than 0 K, J/kg
     gas : which bodies are gases;  warm : which begin above a temperature of zero; bool[m]
-    speed : the closing speed, m/s;  pressure : the highest pressure of the shot, Pa
+    speed : the closing speed, m/s;  pressure : the highest pressure of the shot, Pa;  energy : `own_energy`, J per radian
     """
 
     lowest: np.ndarray
@@ -51,10 +56,13 @@ class Reach(NamedTuple):
     worked: np.ndarray
     plastic: np.ndarray
     rubbing: np.ndarray
+    shear: np.ndarray
+    chill: np.ndarray
     gas: np.ndarray
     warm: np.ndarray
     speed: float
     pressure: float
+    energy: float
 
 
 class Material(NamedTuple):
@@ -97,8 +105,9 @@ def of(deck, table, state, start) -> Reach:
         cell_highest=np.maximum(first, 0.0) + np.maximum(CELL_HOTTER * (highest - first), speed**2) + noise,
         worked=np.array([strongest(table, m, pressure) for m in range(len(table))]) / density,
         plastic=IDEAL_STRENGTH * shear / density, rubbing=deck.sliding.friction * pressure * speed / (finest * density),
+        shear=shear, chill=CHILL * (highest - lowest),
         gas=table.gases(), warm=np.array([one.evaluate(one.rho, one.e)[3] > 0.0 for one in materials]),
-        speed=speed, pressure=pressure)  # fmt: skip
+        speed=speed, pressure=pressure, energy=own_energy(deck, start))  # fmt: skip
 
 
 def strongest(table, m: int, pressure: float) -> float:
@@ -138,16 +147,33 @@ def _edges(deck):
 
 
 def closing_speed(deck, grid) -> float:
-    """Largest difference of two velocities that a deck gives, of parts of bodies, edges and what is at rest, m/s."""
+    """Largest difference of two velocities that a deck gives, of parts of bodies and of edges that hold or push, m/s.
+
+    What moves as a whole meets nothing: a velocity that all bodies have more changes nothing, unless an edge is there.
+    """
     rows, columns = grid.inside
     r, z = np.meshgrid(grid.rc[columns], grid.zc[rows])
-    given = [(0.0, 0.0)]
+    given = [(0.0, 0.0)] if _stands(deck) else []
     for body in deck.body:
         u, v = body_velocity(body, r, z) if body.flow else body.velocity
         given += [(x, y) for x in (np.min(u), np.max(u)) for y in (np.min(v), np.max(v))]
     for n, edge in enumerate(_edges(deck)):
         given += [(velocity, 0.0) if n < 2 else (0.0, velocity) for velocity in edge.speeds()]
-    return max(math.dist(one, other) for one, other in combinations(given, 2))
+    return max((math.dist(one, other) for one, other in combinations(given, 2)), default=0.0)
+
+
+def _stands(deck) -> bool:
+    """Whether an edge is there that bodies can meet: a wall, an anvil, dashpots, or one with a velocity of its own."""
+    return any((edge.holds() or edge.traction() != FREE) and edge.name != "axis" for edge in _edges(deck))
+
+
+def own_energy(deck, start: Totals) -> float:
+    """Energy at the start that a shot has at its disposal, J per radian: without that of its motion as a whole along z.
+
+    Where bodies can meet an edge, it is all that they have. `Totals` knows no radial momentum.
+    """
+    drift = 0.0 if _stands(deck) else 0.5 * start.momentum**2 / max(float(start.mass.sum()), 1e-300)
+    return max(abs(start.energy - drift), start.kinetic - drift)
 
 
 def hottest(material: Material, speed: float, pressure: float) -> float:

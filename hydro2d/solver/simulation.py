@@ -104,7 +104,8 @@ class Simulation:
         if self.deck.penetration is None:
             return None, []
         rod = self.deck.penetration.rod
-        direction = float(decks.heading(decks.body(self.deck, rod), decks.body(self.deck, self.deck.penetration.target)))
+        first = decks.body(self.deck, self.deck.penetration.targets[0])
+        direction = float(decks.heading(decks.body(self.deck, rod), first))
         found = targets(self.deck, direction)
         return Penetrator(self, self.deck, found, direction), [Crater(self, target, direction) for target in found]
 

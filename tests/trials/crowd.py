@@ -57,7 +57,8 @@ def mirrored(text: str) -> str:
             deck["boundaries"].pop(key, None)
         for key, value in edges.items():
             if key.startswith(high):
-                turned = -value if key.endswith("velocity") else [[t, -v] for t, v in value] if key.endswith("piston") else value
+                turned = [[t, -v] for t, v in value] if key.endswith("piston") else value
+                turned = -value if key.endswith("velocity") else turned
                 deck["boundaries"][low + key.removeprefix(high)] = turned
     for source in deck.get("source", ()):
         if "axial" in source:
@@ -163,7 +164,9 @@ def wrong(number: int) -> tuple[str, dict[str, float | str] | None]:
             scale[key] = size
         if "energy" in key:
             scale[key] = audit.scale
-    twins = {"mirror": image(text, Simulation(decks.loads(text)))} | ({} if "gas" in plain.table.names else {"order": reordered(text)})
+    twins: dict[str, str | Simulation] = {"mirror": image(text, Simulation(decks.loads(text)))}
+    if "gas" not in plain.table.names:
+        twins["order"] = reordered(text)
     for name, other in twins.items():
         try:
             twin = sums(advanced(other))
