@@ -46,7 +46,8 @@ class Reach(NamedTuple):
     rubbing : heat of friction in a cell by time, W/kg
     shear : shear modulus, Pa, by which elastic energy counts;  chill : by what a cell may be colder than 0 K, J/kg
     gas : which bodies are gases;  warm : which begin above a temperature of zero; bool[m]
-    speed : the closing speed, m/s;  pressure : the highest pressure of the shot, Pa;  energy : `own_energy`, J per radian
+    speed : the closing speed, m/s;  pressure : the highest pressure of the shot, Pa
+    stands : whether an edge stands that bodies can meet
     """
 
     lowest: np.ndarray
@@ -62,7 +63,7 @@ class Reach(NamedTuple):
     warm: np.ndarray
     speed: float
     pressure: float
-    energy: float
+    stands: bool
 
 
 class Material(NamedTuple):
@@ -107,7 +108,7 @@ def of(deck, table, state, start) -> Reach:
         plastic=IDEAL_STRENGTH * shear / density, rubbing=deck.sliding.friction * pressure * speed / (finest * density),
         shear=shear, chill=CHILL * (highest - lowest),
         gas=table.gases(), warm=np.array([one.evaluate(one.rho, one.e)[3] > 0.0 for one in materials]),
-        speed=speed, pressure=pressure, energy=own_energy(deck, start))  # fmt: skip
+        speed=speed, pressure=pressure, stands=_stands(deck))  # fmt: skip
 
 
 def strongest(table, m: int, pressure: float) -> float:
@@ -167,13 +168,9 @@ def _stands(deck) -> bool:
     return any((edge.holds() or edge.traction() != FREE) and edge.name != "axis" for edge in _edges(deck))
 
 
-def own_energy(deck, start: Totals) -> float:
-    """Energy at the start that a shot has at its disposal, J per radian: without that of its motion as a whole along z.
-
-    Where bodies can meet an edge, it is all that they have. `Totals` knows no radial momentum.
-    """
-    drift = 0.0 if _stands(deck) else 0.5 * start.momentum**2 / max(float(start.mass.sum()), 1e-300)
-    return max(abs(start.energy - drift), start.kinetic - drift)
+def drift(start: Totals) -> float:
+    """Kinetic energy of the motion of all bodies together along z, J per radian. `Totals` knows no radial momentum."""
+    return 0.5 * start.momentum**2 / max(float(start.mass.sum()), 1e-300)
 
 
 def hottest(material: Material, speed: float, pressure: float) -> float:

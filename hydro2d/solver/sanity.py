@@ -12,12 +12,14 @@ from collections.abc import Iterator
 import numpy as np
 
 from hydro2d.solver.audit import CLIPS, REMEDIES, Audit, Totals, totals
-from hydro2d.solver.reach import MOST_STRAIN, Reach
+from hydro2d.solver.reach import MOST_STRAIN, Reach, drift
 
 #: relative change of mass, momentum or energy that no sink explains, from which the audit does not close
 CLOSES = 1e-6
 #: share of the energy that a clip may take, and that a total may be beyond what is possible, in a run to be trusted
 TRUSTED = 0.02
+#: share of the energy of the motion as a whole that is no less than what is left of all energy beside it
+FLIGHT = 1e-4
 #: cells of which a body fills less than this share are not looked at one by one
 SLIVER = 0.01
 #: a body of which less than this share of its mass is left, as the rest went out through an edge, is not looked at as a whole
@@ -39,8 +41,9 @@ def faults(state, audit: Audit, names, reach: Reach, share: float = TRUSTED) -> 
         1 + share/TRUSTED times the energy that it can reach
     """
     now, start = totals(state), audit.start
+    whole = 0.0 if reach.stands else drift(start)  # which another frame would have otherwise
     came = audit.came
-    energy = max(reach.energy, audit.noise) + came
+    energy = max(abs(start.energy - whole), start.kinetic - whole, FLIGHT * whole, audit.noise) + came
     found = []
     for kind, error in audit.unexplained(now).items():
         if not abs(error) <= CLOSES:
@@ -51,9 +54,8 @@ def faults(state, audit: Audit, names, reach: Reach, share: float = TRUSTED) -> 
                          f"energy{_least_energy(state, m)}")
         if now.mass[m] > LEFT * start.mass[m]:
             found += _mean_beyond_reach(m, names[m], state, now, came, reach, share)
-    whole = audit.scale - energy  # the motion as a whole, which no frame counts twice
-    if not now.kinetic - max(whole, 0.0) <= (1.0 + share) * energy:
-        found.append(f"the kinetic energy is {now.kinetic / energy:.3g} times the energy that was ever put in"
+    if not now.kinetic - whole <= (1.0 + share) * energy:
+        found.append(f"the kinetic energy is {(now.kinetic - whole) / energy:.3g} times the energy that was ever put in"
                      f"{_fastest(state, names)}")
     for name in CLIPS:
         taken = audit.sinks[name].energy

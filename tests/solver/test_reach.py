@@ -153,8 +153,17 @@ def test_a_velocity_that_all_bodies_have_more_changes_no_verdict(by):
     open_ends = ["boundaries.r_max=outflow", "boundaries.r_min=outflow"]
     moved = [f"body.{name}.velocity=[0.0, {by + own}]" for name, own in (("flyer", 1000.0), ("plate", 0.0), ("air", 0.0))]
     here, there = reach(*open_ends), reach(*open_ends, *moved)
-    for name in ("lowest", "highest", "cell_lowest", "cell_highest", "worked", "speed", "pressure", "energy"):
+    for name in ("lowest", "highest", "cell_lowest", "cell_highest", "worked", "speed", "pressure", "stands"):
         np.testing.assert_allclose(getattr(there, name), getattr(here, name), rtol=1e-9, err_msg=name)
+    clipped = []
+    for options in ((), moved):
+        simulation = Simulation(decks.loads(SHOT, [*open_ends, *options]))
+        start = simulation.audit.start
+        available = start.energy - 0.5 * start.momentum**2 / start.mass.sum()
+        simulation.audit.add("cutoff", energy=0.03 * available)
+        clipped.append([fault for fault in simulation.faults() if "went to cutoff" in fault])
+    assert clipped[0][0].startswith("0.03 of the energy went to cutoff")
+    assert clipped[1] == clipped[0]
     meets = max(abs(by), abs(by + 1000.0), 1000.0)
     assert reach(*open_ends, *moved, "boundaries.z_max=anvil").speed == pytest.approx(meets, abs=5.0)
 
