@@ -19,7 +19,7 @@ CLOSES = 1e-6
 #: share of the energy that a clip may take, and that a total may be beyond what is possible, in a run to be trusted
 TRUSTED = 0.02
 #: share of the energy of the motion as a whole that is no less than what is left of all energy beside it
-FLIGHT = 1e-4
+FLIGHT = 0.01
 #: cells of which a body fills less than this share are not looked at one by one
 SLIVER = 0.01
 #: a body of which less than this share of its mass is left, as the rest went out through an edge, is not looked at as a whole

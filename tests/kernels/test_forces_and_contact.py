@@ -134,7 +134,7 @@ def test_a_limited_node_ends_the_step_at_rest_on_an_anvil_that_it_does_not_leave
     cells = limited(pushing=np.array([3, -1, 4, -1]))
     assert cells.limited[1, 3] == pytest.approx(0.5 * (0.4 - end) * (0.0 + end + 2 * end))
     assert cells.limited[1, 4] == pytest.approx(0.5 * (0.4 - end) * (0.0 + end + 2 * end))
-    assert limited(pushing=np.array([-1, 3, -1, 3])).limited[1, 3] == pytest.approx(0.5 * (0.4 - end) * (0.0 + end + 2 * end))
+    assert limited(pushing=np.array([-1, 3, -1, 3])).limited[1, 3] == pytest.approx(0.5 * (0.4 - end) * 4 * end)  # all leave
 
 
 def test_faces_sweep_what_their_vertices_move():

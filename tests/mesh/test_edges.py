@@ -11,14 +11,15 @@ from hydro2d.mesh.edges.registry import BY_NAME, KINDS, made, words
 from hydro2d.mesh.sinks import SINKS
 from tests.sources.test_heating import TEXT
 
-#: mirrors, holds, opens, supplies, drives, transmits
+#: mirrors, holds, opens, supplies, drives, transmits, pushes
 FLAGS = {
-    "axis": (True, True, False, False, False, False),
-    "wall": (True, True, False, False, False, False),
-    "outflow": (False, False, True, False, False, False),
-    "transmit": (False, False, True, True, False, True),
-    "velocity": (False, True, True, True, True, False),
-    "piston": (False, True, True, True, True, False),
+    "axis": (True, True, False, False, False, False, False),
+    "anvil": (True, False, True, False, False, False, True),
+    "wall": (True, True, False, False, False, False, False),
+    "outflow": (False, False, True, False, False, False, False),
+    "transmit": (False, False, True, True, False, True, False),
+    "velocity": (False, True, True, True, True, False, False),
+    "piston": (False, True, True, True, True, False, False),
 }
 PISTON = ((0.0, 0.0), (1e-6, 100.0), (3e-6, -50.0))
 
@@ -32,7 +33,7 @@ def of(kind, **values):
 def test_flags(kind):
     values = {"velocity": 1.0} if kind == "velocity" else {"piston": PISTON} if kind == "piston" else {}
     found = of(kind, **values)
-    flags = "mirrors", "holds", "opens", "supplies", "drives", "transmits"
+    flags = "mirrors", "holds", "opens", "supplies", "drives", "transmits", "pushes"
     assert tuple(found.having(flag)[0] for flag in flags) == FLAGS[kind]
 
 
