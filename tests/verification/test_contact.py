@@ -245,8 +245,8 @@ def test_no_body_flows_out_of_a_cell_in_which_it_is_not():
 # ------------------------------------------------------------------------------------------------ two balls that rebound
 
 
-@pytest.mark.xfail(strict=True, reason="5.1 m/s: what evens out p_c along the surface (sliding, equation 8) makes heat of the pressure "
-                   "of a contact that is a few cells wide; without it, 19.6")
+@pytest.mark.xfail(strict=True, reason="5.1 m/s: what evens out p_c along the surface (sliding, equation 8) makes heat of the "
+                   "pressure of a contact that is a few cells wide; without it, 19.6")
 def test_two_elastic_balls_rebound():
     """Steel balls of 8 cells per radius meet at 20 m/s each, below all yield."""
     elastic = {"model": "elastic-plastic", "yield_stress": "50 GPa", "shear_modulus": "77 GPa"}
