@@ -115,6 +115,11 @@ class Audit:
         own = [name for name in self.sinks if name not in SINKS]
         return -sum(min(self.sinks[name].energy, 0.0) for name in (*BRINGS, *own))
 
+    def work_per_mass(self, own: Iterable[str]) -> float:
+        """Work of edges since the start for every kg that was there, J/kg; own : their sinks beside SINKS."""
+        work = -sum(min(self.sinks[name].energy, 0.0) for name in {"walls", "transmitted", *own})
+        return work / max(float(self.start.mass.sum()), 1e-300)
+
     def transfer(self, name: str, momentum: float = 0.0, energy: float = 0.0) -> None:
         """Adds to what a contact passed on: axial momentum that soft bodies gained from hard ones, and heat."""
         entry = self.contact_transfers[name]

@@ -101,7 +101,7 @@ def doubts(state, table, time: float, reach: Reach, given: np.ndarray) -> Iterat
     table : MaterialTable
     time : since the start, s
     reach : bounds of the energies
-    given : the most energy that sources have given to a cell of each body, J/kg, float64[m]
+    given : the most energy that sources and the work of edges have given to a cell of each body, J/kg, float64[m]
     """
     from hydro2d.kernels.thermodynamics import worst_energies  # after which no model can join
 
