@@ -320,10 +320,10 @@ def _is_the_shot(deck: Deck) -> bool:
 
 def _in_the_way(deck: Deck, rod, plates: list) -> list[str]:
     """Names of the plates and boxes ahead of a rod on its axis, in the order in which it reaches them; else the first one."""
-    here, sign = sum(extent(rod, deck, "z")), heading(rod)
+    here = sum(extent(rod, deck, "z"))
     across = [entry for entry in plates if extent(entry, deck, "r")[0] <= deck.mesh.r_start]
-    ahead = [entry for entry in across if sign * (sum(extent(entry, deck, "z")) - here) > 0.0]
-    ahead.sort(key=lambda entry: sign * faces(deck, rod.name, entry.name)[0])
+    ahead = [entry for entry in across if heading(rod, entry) * (sum(extent(entry, deck, "z")) - here) > 0.0]
+    ahead.sort(key=lambda entry: heading(rod, entry) * faces(deck, rod.name, entry.name)[0])
     return [entry.name for entry in ahead or plates[:1]]
 
 

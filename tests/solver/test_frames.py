@@ -1,4 +1,4 @@
-"""What is measured of a shot does not hang on who moves: velocities of all bodies by V more, and roles exchanged."""
+"""Measurements of a shot do not depend on the frame: all bodies faster by V, roles exchanged, a mesh that follows."""
 
 import numpy as np
 import pytest
@@ -108,3 +108,13 @@ def test_a_shot_in_which_only_the_plate_flies_is_not_over_at_once():
     sim = shot(0.0, -1000.0)
     assert not sim.penetrator.perforates()
     assert sim.penetrator.depth() == 0.0
+
+
+def test_plates_that_catch_a_ball_up_are_its_targets_in_the_order_in_which_they_come():
+    found = deck.loads(
+        mesh(("12 mm", 12), ("-60 mm", "60 mm", "1 mm"))
+        + body("ball", "W_alloy", "sphere", centre="30 mm", radius="3 mm", velocity="100 m/s")
+        + plate("4 mm", name="second", z_front="0 mm", velocity="1000 m/s")
+        + plate("4 mm", name="first", z_front="12 mm", velocity="1000 m/s")
+        + stop("14 us"))
+    assert found.penetration.targets == ("first", "second")
