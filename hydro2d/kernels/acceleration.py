@@ -3,7 +3,7 @@
 from math import sqrt
 
 from hydro2d.jit import kernel, point, rowwise
-from hydro2d.kernels.boundaries import held_at
+from hydro2d.kernels.boundaries import left_by_edges
 from hydro2d.kernels.column_ranges import columns, copy_beside, past_row, union
 from hydro2d.kernels.cut_cells import BONDED, KIND, cut_pressure, skin_deviator
 from hydro2d.mesh.fields import SRR, SRZ, SZZ
@@ -143,9 +143,6 @@ def limit_speed_row(b, j, lo, n, speed_limit, underfilled, metrics, constrained,
     vn = v[b, j]
     other = mass[mass.shape[0] - 1 - b, j]
     alone = mass.shape[0] == 1
-    axial_given = j == constrained[2] or j == constrained[3]
-    axial_pushed = 2 if j == pushing[2] else 3 if j == pushing[3] else -1
-    axial = edge_velocity[2] if j == constrained[2] else edge_velocity[3]
     lost_p, lost_e, count = 0.0, 0.0, 0.0
     for x in range(n):
         i = lo + x
@@ -157,13 +154,8 @@ def limit_speed_row(b, j, lo, n, speed_limit, underfilled, metrics, constrained,
         if not alone and other[i] > 0.0:
             continue
         shrink = speed_limit / sqrt(square)
-        radial_given = i == constrained[0] or i == constrained[1]
-        radial = edge_velocity[0] if i == constrained[0] else edge_velocity[1]
-        radial_pushed = 0 if i == pushing[0] else 1 if i == pushing[1] else -1
-        end_u = radial if radial_given else shrink * un[i]
-        end_v = axial if axial_given else shrink * vn[i]
-        end_u = held_at(radial_pushed, True, 0.0, end_u) if radial_pushed >= 0 else end_u
-        end_v = held_at(axial_pushed, True, 0.0, end_v) if axial_pushed >= 0 else end_v
+        end_u = left_by_edges(i, 0, constrained, pushing, edge_velocity, shrink * un[i])
+        end_v = left_by_edges(j, 2, constrained, pushing, edge_velocity, shrink * vn[i])
         lost_p += m * vn[i] * (1.0 - shrink)
         lost_e += 0.5 * m * (1.0 - shrink) * (un[i] * (u_c[i] + end_u) + vn[i] * (v_c[i] + end_v))
         count += 1.0

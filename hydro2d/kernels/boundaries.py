@@ -216,6 +216,17 @@ def held_at(edge, only_pushes, given, free):
     return free if only_pushes and (free > 0.0 if edge % 2 == 0 else free < 0.0) else given
 
 
+@point
+def left_by_edges(at, low, constrained, pushing, velocity, free):
+    """Normal velocity that the edges leave a vertex in column (low = 0) or row (low = 2) `at`: its own where none is."""
+    for edge in range(low, low + 2):
+        if at == constrained[edge]:
+            return velocity[edge]
+        if at == pushing[edge]:
+            return held_at(edge, True, velocity[edge], free)
+    return free
+
+
 @kernel
 def constrain(part, parts, constrained, pushing, velocity, mass, u0, v0, u, v, walls):
     """The given normal velocity of constrained vertices: axis, walls, edges with a velocity, anvils that are not left.

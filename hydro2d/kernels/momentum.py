@@ -78,8 +78,8 @@ def dual_range(dj, di, i0, i1, j, group_ranges):
 
 
 @apart
-def rest(edge, g, j, lo, hi, at, new_j, w_old, w, left, sums):
-    """What rests on an edge that only pushes, in column or row `at`, or would go beyond, has no normal velocity.
+def rest_on_anvil(edge, g, j, lo, hi, at, new_j, w_old, w, left, sums):
+    """Takes the normal velocity of vertices in column or row `at` that rest on an edge that only pushes or would go beyond it.
 
     Reads    new_j [x], masses of the columns from lo;  w_old = (u, v) [c, b, j, i]
     Updates  w = (u, v) [c, b, j, i]; left [x], energy that is given to cells, per mass; sums [5, j] as in vertex_row
@@ -183,7 +183,7 @@ def vertex_row(g, dj, di, j, i0, i1, below, above, advection, bound, constrained
                 sums[4, j] += p_wall
         for edge in range(4):
             if pushing[edge] >= 0:
-                rest(edge, g, j, lo, hi, pushing[edge], new_j, w_old, w, left, sums)
+                rest_on_anvil(edge, g, j, lo, hi, pushing[edge], new_j, w_old, w, left, sums)
 
 
 @kernel

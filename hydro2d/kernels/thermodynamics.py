@@ -142,7 +142,7 @@ def pressures_row(j, b, max_opening, metrics, dz, body_range, active_range, mode
     p = sum f_m p_m;  rhobar = sum f_m rho_m;  1/bulk = sum f_m / K_m (explanation/equation-of-state, mixed-cells);
     A body at or below its cutoff density, and one that has melted, is no solid any more and has no shear modulus.
     cl = max over bodies of sqrt((K + 4 G/3)/rho), for the time step.
-    A pure cell below its fracture pressure is given void (`insert_void_row`); what its fracture stress is exceeded in fails.
+    A pure cell below its fracture pressure is given void (`insert_void_row`); one beyond its fracture stress fails.
 
     Reads    q (rho, e, damage) [k, m, j, i], body_range [m, j, 2]
     Updates  vof [m, j, i], q (rho, deviators and damage where a cell fractures)
@@ -333,7 +333,7 @@ def step_cause(j, courant, advective, mesh_speed, dr, dz, metrics, active_range,
 
 @point
 def elastic_energy(m, j, i, shear, model, memory, par, q):
-    """What body m keeps in cell (j, i) as elastic energy, J/kg: p^2/(2 K rho) + q^2/(6 G rho), q its von Mises stress."""
+    """Elastic energy of body m in cell (j, i), J/kg: p^2/(2 K rho) + q^2/(6 G rho), with the von Mises stress q."""
     rho = q[RHO, m, j, i]
     p, dpdrho, dpde, _ = evaluate(model, rho, q[E, m, j, i], q[memory:, m, j, i], par)
     modulus = rho * sound_speed_squared(rho, p, dpdrho, dpde, SOUND_FLOOR)
@@ -346,8 +346,8 @@ def worst_energies(g, nz, nr, m, sliver, lowest, highest, plastic, most_strain, 
                    found):
     """The cells in which the energy of body m is farthest above and below what it can reach there, with those at 0 K.
 
-    Cells of which it fills less than `sliver` do not count. What a cell keeps as elastic energy by its own stress is no heat;
-    shear is the shear modulus, Pa. A body that begins `warm` may be colder than 0 K by `chill`, J/kg, and any other by more.
+    Cells of which it fills less than `sliver` do not count. The elastic energy of a cell's own stress, with the shear modulus
+    `shear` in Pa, is no heat. A body that begins `warm` may be `chill` J/kg below 0 K; any other may be at 0 K.
 
     Reads    vof [m, j, i]; q [k, m, j, i]
     Writes   found [2, 3], of the hottest and the coldest: J/kg that it is beyond (0 or less within reach), row, column

@@ -92,13 +92,13 @@ class Check:
         deck, names = self.deck, self.table.names
         hard = deck.sliding.hard if deck.sliding.method == "contact" else ()
         cure = "" if hard else '; sliding.method = "contact" lets them part'
+        limits = np.minimum(self.table.fracture_pressure, self.table.fracture_stress)
         motions = [_motion(decks.body(deck, name)) for name in names]
         found = []
         for number, name in enumerate(names):
             others = [m for m, other in enumerate(names) if (name in hard) == (other in hard) and motions[m] != motions[number]
                       and (m > number or motions[m] == AT_REST)]  # fmt: skip
             if others and motions[number] != AT_REST:
-                limits = np.minimum(self.table.fracture_pressure, self.table.fracture_stress)
                 bears = float(min(limits[m] for m in (number, *others)))
                 until = f"until one of them fractures, at {bears * 1e-9:.3g} GPa of tension" if bears < math.inf else "for ever"
                 found.append(f"{name} is tied to {_listed([names[m] for m in others])} where they touch, {until}{cure}")

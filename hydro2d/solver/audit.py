@@ -112,13 +112,15 @@ class Audit:
     @property
     def came(self) -> float:
         """Energy that edges and sources have brought since the start, J per radian."""
-        own = [name for name in self.sinks if name not in SINKS]
-        return -sum(min(self.sinks[name].energy, 0.0) for name in (*BRINGS, *own))
+        return self._brought((*BRINGS, *(name for name in self.sinks if name not in SINKS)))
 
     def work_per_mass(self, own: Iterable[str]) -> float:
         """Work of edges since the start for every kg that was there, J/kg; own : their sinks beside SINKS."""
-        work = -sum(min(self.sinks[name].energy, 0.0) for name in {"walls", "transmitted", *own})
-        return work / max(float(self.start.mass.sum()), 1e-300)
+        return self._brought(("walls", "transmitted", *own)) / max(float(self.start.mass.sum()), 1e-300)
+
+    def _brought(self, names: Iterable[str]) -> float:
+        """Energy that has come in through sinks, J per radian."""
+        return -sum(min(self.sinks[name].energy, 0.0) for name in names)
 
     def transfer(self, name: str, momentum: float = 0.0, energy: float = 0.0) -> None:
         """Adds to what a contact passed on: axial momentum that soft bodies gained from hard ones, and heat."""

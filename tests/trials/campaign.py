@@ -137,8 +137,9 @@ def run(numbers, note=lambda line: None) -> collections.Counter:
     return count
 
 
-def main(first: str, last: str, file: str) -> None:
-    """The command."""
+@contextlib.contextmanager
+def kept(first: str, last: str, file: str):
+    """(numbers from first up to last that have no line in a file yet, function that adds the line of one, a dict)."""
     path = Path(file)
     done = {json.loads(line)["number"] for line in path.read_text().splitlines()} if path.exists() else set()
     with path.open("a") as out:
@@ -147,7 +148,13 @@ def main(first: str, last: str, file: str) -> None:
             out.write(json.dumps(line) + "\n")
             out.flush()
 
-        print(dict(run([number for number in range(int(first), int(last)) if number not in done], note)))
+        yield [number for number in range(int(first), int(last)) if number not in done], note
+
+
+def main(first: str, last: str, file: str) -> None:
+    """The command."""
+    with kept(first, last, file) as (numbers, note):
+        print(dict(run(numbers, note)))
 
 
 if __name__ == "__main__":

@@ -10,7 +10,6 @@ import collections
 import json
 import sys
 import tomllib
-from pathlib import Path
 
 import numpy as np
 
@@ -21,15 +20,12 @@ from hydro2d.mesh.fields import RHO, SRZ, E
 from hydro2d.solver.simulation import Simulation
 from tests.solver import audited
 from tests.solver.test_audit import unexplained_by_sound
+from tests.trials.campaign import kept
 
 CYCLES = 100
 #: what may not be exceeded: by totals, and beside products of an explosive (tests/solver/test_audit.py); by sums of twins, in
 #: which round-off decides what is tidied away; by the way of a body off its course, in cells
 CLOSES, CLOSES_BESIDE_PRODUCTS, TWINS, COURSE = 1e-12, 1e-9, 1e-3, 0.1
-#: signs of the rows of State.q in a mirror; internal variables are those of P-alpha, which no deck here has
-SIGNS = tuple(-1.0 if row == SRZ else 1.0 for row in range(7))
-
-
 #: arrays of a state that a restart gives back to the bit
 ARRAYS = ("q", "vof", "u", "v", "centroid")
 
@@ -79,11 +75,11 @@ def reordered(text: str) -> str:
 def image(text: str, of: Simulation) -> Simulation:
     """The simulation of a mirrored deck before its first cycle, with the bits of the other, which the deck rounds otherwise."""
     twin = Simulation(decks.loads(mirrored(text)))
-    for name, signs in (("vof", (1.0,)), ("q", SIGNS), ("centroid", (1.0, -1.0))):
+    for name in ("vof", "q", "centroid"):
         here, there = (one.grid.interior(getattr(one.state, name)) for one in (twin, of))
-        for row in range(len(here) if len(signs) > 1 else 1):
-            at = row if len(signs) > 1 else slice(None)
-            here[at] = signs[min(row, len(signs) - 1)] * there[at][..., ::-1, :]
+        here[...] = there[..., ::-1, :]
+    twin.state.q[SRZ] *= -1.0
+    twin.state.centroid[1] *= -1.0
     for name, sign in (("u", 1.0), ("v", -1.0)):
         here, there = (one.grid.interior_vertices(getattr(one.state, name)) for one in (twin, of))
         here[...] = sign * there[..., ::-1, :]
@@ -120,11 +116,6 @@ def restarted(text: str) -> Simulation:
     while second.cycle < CYCLES:
         second.step()
     return second
-
-
-def _apart(one: dict, other: dict, scale: dict) -> dict[str, float]:
-    """Relative differences of sums by name, the largest for each word that the names begin with."""
-    return {key: abs(one[key] - other[key]) / scale[key] for key in one}
 
 
 def text_of(number: int) -> str:
@@ -175,7 +166,7 @@ def wrong(number: int) -> tuple[str, dict[str, float | str] | None]:
             continue
         if name == "mirror":
             twin["momentum"] *= -1.0
-        apart = _apart(now, twin, scale)
+        apart = {key: abs(now[key] - twin[key]) / scale[key] for key in now}
         worst = max(apart, key=apart.get)
         if not apart[worst] < TWINS:
             found[name] = f"{worst}: {apart[worst]:.3g}"
@@ -187,17 +178,12 @@ def wrong(number: int) -> tuple[str, dict[str, float | str] | None]:
 
 def main(first: str, last: str, file: str) -> None:
     """The command."""
-    path = Path(file)
-    done = {json.loads(line)["number"] for line in path.read_text().splitlines()} if path.exists() else set()
     count: collections.Counter = collections.Counter()
-    with path.open("a") as out:
-        for number in range(int(first), int(last)):
-            if number in done:
-                continue
+    with kept(first, last, file) as (numbers, note):
+        for number in numbers:
             text, found = wrong(number)
             count.update(["unphysical"] if found is None else list(found) or ["sound"])
-            out.write(json.dumps({"number": number, "wrong": found} | ({"deck": text} if found else {})) + "\n")
-            out.flush()
+            note({"number": number, "wrong": found} | ({"deck": text} if found else {}))
     print(dict(count))
 
 
