@@ -31,8 +31,8 @@ class Numerics(Section):
     """How the equations are solved."""
 
     advection: Literal["ke", "momentum", "both"] = Field(
-        "momentum", description="what the remap of velocities conserves: kinetic energy, momentum, or momentum and, as heat, "
-        "the energy; ke is clipped in strong shocks, and both overheats cells in which streams meet"
+        "both", description="what the remap of velocities conserves: kinetic energy, momentum, or momentum and, as heat, the "
+        "energy; ke is clipped in strong shocks, and momentum discards kinetic energy there"
     )
     ke_bound: Annotated[float, within(1.0, 1e12, "below 1 a node could not keep the velocity of its own momentum")] = Field(
         1.05, description="upper bound of |u| / |momentum/mass| in the ke remap", examples=[1.1]

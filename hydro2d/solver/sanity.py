@@ -22,6 +22,8 @@ TRUSTED = 0.02
 FLIGHT = 0.01
 #: cells of which a body fills less than this share are not looked at one by one
 SLIVER = 0.01
+#: times the share that a clip may take, which the remap of velocities may discard before that is a fault
+DISCARDS = 5.0
 #: a body of which less than this share of its mass is left, as the rest went out through an edge, is not looked at as a whole
 LEFT = 0.1
 #: what to do about a gas that is too hot
@@ -41,9 +43,8 @@ def faults(state, audit: Audit, names, reach: Reach, share: float = TRUSTED) -> 
         1 + share/TRUSTED times the energy that it can reach
     """
     now, start = totals(state), audit.start
-    whole = 0.0 if reach.stands else drift(start)  # which another frame would have otherwise
     came = audit.came
-    energy = max(abs(start.energy - whole), start.kinetic - whole, FLIGHT * whole, audit.noise) + came
+    energy, whole = _energy(audit, reach)
     found = []
     for kind, error in audit.unexplained(now).items():
         if not abs(error) <= CLOSES:
@@ -62,10 +63,34 @@ def faults(state, audit: Audit, names, reach: Reach, share: float = TRUSTED) -> 
         if not abs(taken) <= share * energy:
             told = f"{taken / energy:.2g} of the energy went to {name} ({CLIPS[name]}), more than {share:g} of it"
             found.append(told + (f"; {REMEDIES[name]}" if name in REMEDIES else ""))
-    gained = -audit.sinks["advection"].energy
-    if not gained <= share * energy:
-        found.append(f"the remap of velocities has gained {gained / energy:.2g} of the energy, more than {share:g} of it")
+    lost = audit.sinks["advection"].energy
+    if not -lost <= share * energy:
+        found.append(f"the remap of velocities has gained {-lost / energy:.2g} of the energy, more than {share:g} of it")
+    if not lost <= DISCARDS * share * energy:
+        found.append(_discarded(lost / energy, DISCARDS * share))
     return found
+
+
+def discards(audit: Audit, reach: Reach) -> Iterator[tuple[str, str]]:
+    """(what, sentence) where the remap of velocities has discarded more of the energy than a run to be trusted may lose.
+
+    audit : of the run so far;  reach : bounds of the energies
+    """
+    share = audit.sinks["advection"].energy / _energy(audit, reach)[0]
+    if share > TRUSTED:
+        yield "advection", _discarded(share, TRUSTED)
+
+
+def _discarded(share: float, limit: float) -> str:
+    return (f"the remap of velocities has discarded {share:.2g} of the energy, more than {limit:g} of it; "
+            'numerics.advection = "both" keeps it as heat')
+
+
+def _energy(audit: Audit, reach: Reach) -> tuple[float, float]:
+    """Energy of which shares are judged: of the start, beside the flight as a whole, and what came; and that of the flight."""
+    start = audit.start
+    whole = 0.0 if reach.stands else drift(start)  # which another frame would have otherwise
+    return max(abs(start.energy - whole), start.kinetic - whole, FLIGHT * whole, audit.noise) + audit.came, whole
 
 
 def _mean_beyond_reach(m: int, name: str, state, now: Totals, came: float, reach: Reach, share: float) -> Iterator[str]:

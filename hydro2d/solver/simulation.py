@@ -26,7 +26,7 @@ from hydro2d.solver.following import FollowingMesh, StandingMesh, UndisturbedSpa
 from hydro2d.solver.memory import refuse_too_large
 from hydro2d.solver.penetrator import LEFT_MASS, WATCH_EVERY, Penetrator
 from hydro2d.solver.record import Recorder
-from hydro2d.solver.sanity import TRUSTED, doubts, faults
+from hydro2d.solver.sanity import TRUSTED, discards, doubts, faults
 from hydro2d.solver.sources import Sources
 from hydro2d.solver.targets import targets
 
@@ -370,7 +370,7 @@ class Simulation:
         self.engine.courses.look(self.time, keep=self.cycle % WATCH_EVERY == 0)
         work = self.audit.work_per_mass(self.engine.method.boundaries.sinks)
         doubtful = doubts(self.state, self.table, self.time, self._reach, self.sources.given + reach.CELL_HOTTER * work)
-        for what, sentence in (*doubtful, *self.engine.courses.parted(self.table.names)):
+        for what, sentence in (*doubtful, *discards(self.audit, self._reach), *self.engine.courses.parted(self.table.names)):
             self._doubts.setdefault(what, f"cycle {self.cycle}, time {self.time:.6g} s: {sentence}")
         if found := self.faults(self.deck.numerics.clip_limit):
             raise UnphysicalState(f"cycle {self.cycle}, time {self.time:.6g} s: {found[0]}")
