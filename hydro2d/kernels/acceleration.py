@@ -5,7 +5,7 @@ from math import sqrt
 from hydro2d.jit import kernel, point, rowwise
 from hydro2d.kernels.boundaries import left_by_edges
 from hydro2d.kernels.column_ranges import columns, copy_beside, past_row, union
-from hydro2d.kernels.cut_cells import BONDED, KIND, cut_pressure, skin_deviator
+from hydro2d.kernels.cut_cells import KIND, WHOLE, cut_pressure, skin_deviator
 from hydro2d.mesh.fields import SRR, SRZ, SZZ
 from hydro2d.mesh.grid import AZ_IN, AZ_OUT, CM_IN, CM_OUT, FACE_R, HOOP, MID_R, VOL_R
 from hydro2d.physics.advection import TINY
@@ -81,11 +81,12 @@ def total_stress_row(j, dt, metrics, dz, body_range, active_range, mixed_count, 
         zz[i] = zz[i] - pressure - qz_j[i]
     for k in range(mixed_count[j]):
         i = mixed[j, k]
-        if skin[KIND, j, i] != BONDED:
+        if skin[KIND, j, i] != WHOLE:
             pressure = cut_pressure(j, i, dt, divergence(i, ub, ut, vb, vt, metrics, h), skin, p, bulk, solid)
-            gain = pressure - ph_j[i] + skin_deviator(j, i, skin, stress_scale(solid_mode, solid[j, i]), vof, q)
+            across, more = skin_deviator(j, i, skin, stress_scale(solid_mode, solid[j, i]), vof, q)
+            gain = pressure - ph_j[i] + across
             ph_j[i] = pressure
-            rr[i] -= gain
+            rr[i] -= gain - more
             zz[i] -= gain
             tt[i] -= gain
 

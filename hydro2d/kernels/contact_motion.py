@@ -5,7 +5,7 @@ from math import sqrt
 from hydro2d.jit import kernel, point
 from hydro2d.kernels.column_ranges import mixed_row, past_row
 from hydro2d.kernels.contact_geometry import HARD_R, HARD_Z, SOFT_R, SOFT_Z
-from hydro2d.kernels.cut_cells import BONDED, FREE_SURFACE, INTERFACE, KIND, cut_pressure, normal_deviator
+from hydro2d.kernels.cut_cells import FREE_SURFACE, INTERFACE, KIND, LEAN, WHOLE, cut_pressure, normal_deviator
 from hydro2d.mesh.fields import RHO, SRR, SRZ, SZZ
 from hydro2d.mesh.grid import AZ_IN, AZ_OUT, FACE_R, HOOP, MID_R, VOL_R
 from hydro2d.physics.closure import stiff_density
@@ -43,7 +43,7 @@ def contact_viscosity(part, parts, mesh_box, linear, quadratic, courant, dr, dz,
     pressure, the cell is given a seed of it.
 
     Reads    what face_apertures wrote; hard, soft, p, bulk [j, i]; u, v [b, j, i]; km [m, j, i]; cl, rhobar [j, i]
-    Updates  vof [m, j, i], q (rho) [k, m, j, i], solid [j, i], skin [3, j, i] (kind), row_step [j], mixed_count [j],
+    Updates  vof [m, j, i], q (rho) [k, m, j, i], solid [j, i], skin [4, j, i] (kind), row_step [j], mixed_count [j],
              mixed [j, k]
     Writes   qr, qz, rate [j, i] (1/s)
     Scratch  scratch [row, i]
@@ -100,7 +100,7 @@ def contact_stress(part, parts, dt, contact_columns, group_ranges, line, hard, s
         for i in range(group_ranges[1, 0, j, 0], group_ranges[1, 0, j, 1]):
             contact_pressure[j, i] = 0.0
         for i in range(contact_columns[j, 0], contact_columns[j, 1]):
-            if skin[KIND, j, i] == BONDED:
+            if skin[KIND, j, i] == WHOLE:
                 pressure = p[j, i] - 0.5 * dt * bulk[j, i] * rate[j, i]
             else:
                 pressure = cut_pressure(j, i, dt, rate[j, i], skin, p, bulk, solid)
@@ -124,9 +124,10 @@ def group_stress(g, j, i, group, solid_mode, solid, skin, vof, q):
         if group[m] == g and vof[m, j, i] > 0.0:
             part = vof[m, j, i] * scale
             across = normal_deviator(m, j, i, skin, q)
-            rr += part * (q[SRR, m, j, i] - across)
+            hoop = -part * (q[SRR, m, j, i] + q[SZZ, m, j, i] + across)
+            rr += part * (q[SRR, m, j, i] - across) + skin[LEAN, j, i] * hoop
             zz += part * (q[SZZ, m, j, i] - across)
-            tt -= part * (q[SRR, m, j, i] + q[SZZ, m, j, i] + across)
+            tt += hoop
             rz += part * q[SRZ, m, j, i]
     return rr, zz, tt, rz
 
@@ -162,7 +163,7 @@ def contact_node_forces(part, parts, dt, group, solid_mode, metrics, dz, constra
     The pressure of a cell acts on each group by the apertures of the cell's faces, the deviators of a group act on it alone
     (explanation/sliding, contact).
 
-    Reads    ph, qr, solid, hg_coefficient [j, i]; skin [3, j, i]; vof, q; cell_mass, mass, u0, v0 [b, j, i]
+    Reads    ph, qr, solid, hg_coefficient [j, i]; skin [4, j, i]; vof, q; cell_mass, mass, u0, v0 [b, j, i]
     Writes   u, v [b, j, i], without what walls and the axis take; transfer[4, j], axial momentum given to walls
     """
     for j in range(parts[part], past_row(part, parts, 1)):

@@ -1,41 +1,107 @@
-"""Cells that a surface cuts, between the two groups of contact or between a body and void: traction instead of pressure.
+"""Cells that a surface cuts, between bodies or between a body and void: traction instead of pressure.
 
 Every body of a cut cell has the normal stress -p_c, and the strain across the surface follows from that
-(explanation/mixed-cells, equations 9 to 12). What bodies of one group do that fill a cell together is in `mixed`.
+(explanation/mixed-cells, equations 9 to 12). What fluids do that fill a cell together is in `mixed`.
 """
 
 from math import sqrt
 
 from hydro2d.jit import apart, kernel, point
 from hydro2d.kernels.mixed_scratch import ACROSS, ALONG, BESIDE, FLOW, GROWTH, HEAT, MODULUS, NORMAL, SIZE
+from hydro2d.materials.rows import GAS, STRENGTH
 from hydro2d.mesh.fields import RHO, SRR, SRZ, SZZ, E
+from hydro2d.mesh.grid import FACE_R, HOOP
 from hydro2d.physics.closure import NO_VOID
 from hydro2d.physics.interfaces import youngs_gradient
 from hydro2d.physics.traction import STEEP, along_normal, half_pressure, pull_left, smoothstep, strain_across
 
-#: kinds of cut cells, in row KIND of `skin`: bonded bodies without void, a surface against void, two groups
-BONDED, FREE_SURFACE, INTERFACE = 0.0, 1.0, 2.0
-#: rows of `skin`
-NORMAL_R, NORMAL_Z, KIND = range(3)
+#: kinds of cells, in row KIND of `skin`: not cut; a surface against void; two groups; bodies of one group that fill the cell
+WHOLE, FREE_SURFACE, INTERFACE, JOINT = 0.0, 1.0, 2.0, 3.0
+#: rows of `skin`: normal and kind, and the share of the hoop stress beside p_c that the mean radial stress has (`lean_of`)
+NORMAL_R, NORMAL_Z, KIND, LEAN = range(4)
+
+
+@point
+def is_beside_gas(j, i, materials, vof):
+    """Whether a gas is in a cell."""
+    found = False
+    for m in range(vof.shape[0]):
+        found = found or (vof[m, j, i] > 0.0 and materials[m, GAS] > 0.0)
+    return found
+
+
+@point
+def firm_share(j, i, total, materials, vof):
+    """Share of a cell that is neither void nor gas; `total`, that of all its bodies, where they are gases."""
+    gas = 0.0
+    for m in range(vof.shape[0]):
+        gas += vof[m, j, i] if vof[m, j, i] > 0.0 and materials[m, GAS] > 0.0 else 0.0
+    return total - gas if gas < total else total
+
+
+@point
+def only_fluids(j, i, models, vof):
+    """Whether no body of a cell has strength, so that pressure is all that they have in common."""
+    solid = False
+    for m in range(vof.shape[0]):
+        solid = solid or (vof[m, j, i] > 0.0 and models[m, STRENGTH] != 0)
+    return not solid
+
+
+@point
+def most_of(j, i, vof):
+    """The body that fills most of a cell."""
+    first = 0
+    for m in range(1, vof.shape[0]):
+        first = m if vof[m, j, i] > vof[first, j, i] else first
+    return first
+
+
+@point
+def side_of_joint(m, j, i, first, gas, materials, vof):
+    """On which side of the surface in cell (j, i) a body is that fills it with others of its group: 1, -1, or 0 for neither.
+
+    Gases are on one side and all others on the other where the cell holds a gas; else the body that fills most of it, `first`,
+    is on one side and the rest of its bodies on the other.
+    """
+    if gas:
+        return -1.0 if materials[m, GAS] > 0.0 else 1.0
+    if vof[m, j, i] == 0.0:
+        return 0.0
+    return 1.0 if m == first else -1.0
+
+
+@point
+def lean_of(i, n_r, n_z, metrics):
+    """Mean radial stress, beside -p_c, of a body against gas, as a share of its hoop stress.
+
+    Across what is in the cell the radial stress rises by the hoop stress, d sigma_rr/dr = (sigma_tt - sigma_rr)/r, so that the
+    hoop stress pulls at the vertices in the body and not at those in the gas (explanation/mixed-cells, equation 13).
+    (n_r, n_z) points out of the body.
+    """
+    return -n_r / (abs(n_r) + abs(n_z)) * metrics[HOOP, i] / (0.5 * metrics[FACE_R, i] + metrics[HOOP, i])
 
 
 @kernel
-def find_surfaces(part, parts, i0, i1, mesh_box, dr, dz, group, hard, hard_threshold, mixed_count, mixed, vof, skin):
+def find_surfaces(part, parts, i0, i1, mesh_box, metrics, dr, dz, tipton, group, hard, hard_threshold, models, materials,
+                  mixed_count, mixed, vof, skin):
     """Normals of the surfaces in mixed cells, with the square root of their weight as length.
 
-    The normal is Youngs', of the hard group's fraction less the soft one's where a cell holds both, else of its one group. It
-    counts in full from a fall of STEEP across the cell on, so that a bubble or a crumb has none, and in the hard zone of a slip
-    layer it does not count. Where void or a group vanishes, a cut cell does what a full one does.
+    The normal is Youngs', of the hard group's fraction less the soft one's where a cell holds both, else of its one group
+    against void, and of `side_of_joint` where bodies of one group fill the cell. It counts in full from a fall of STEEP across
+    the cell on, so that a bubble or a crumb has none, and in the hard zone of a slip layer it does not count. Where void or a
+    group vanishes, a cut cell does what a full one does.
 
-    Reads    vof [m, j, i], group, hard [m], the list of mixed cells
-    Writes   skin [3, j, i]
+    Reads    vof [m, j, i], group, hard, models, materials [m], the list of mixed cells
+    Writes   skin [4, j, i]
     """
     bodies = vof.shape[0]
     for j in range(parts[part], parts[part + 1]):
         for i in range(i0, i1):
+            skin[LEAN, j, i] = 0.0
             skin[NORMAL_R, j, i] = 0.0
             skin[NORMAL_Z, j, i] = 0.0
-            skin[KIND, j, i] = BONDED
+            skin[KIND, j, i] = WHOLE
         below, above = max(j - 1, mesh_box[0]), min(j + 1, mesh_box[1] - 1)
         for k in range(mixed_count[j]):
             i = mixed[j, k]
@@ -47,16 +113,20 @@ def find_surfaces(part, parts, i0, i1, mesh_box, dr, dz, group, hard, hard_thres
                     other += vof[m, j, i] if group[m] != 1 else 0.0
                     zone = zone or (hard[m] and vof[m, j, i] >= hard_threshold)
             void = 1.0 - (own + other)
-            if own + other == 0.0 or (void <= NO_VOID and not (own > 0.0 and other > 0.0)):
+            meet, full = own > 0.0 and other > 0.0, void <= NO_VOID
+            if own + other == 0.0 or (full and not meet and (zone or not tipton or only_fluids(j, i, models, vof))):
                 continue
-            meet = own > 0.0 and other > 0.0
-            skin[KIND, j, i] = INTERFACE if meet else FREE_SURFACE
+            joint = full and not meet
+            skin[KIND, j, i] = INTERFACE if meet else (JOINT if joint else FREE_SURFACE)
             if zone:
                 continue
+            first, gas = most_of(j, i, vof), is_beside_gas(j, i, materials, vof)
             sw, s, se, w, e, nw, n, ne = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
             for m in range(bodies):
                 of_hard = group[m] == 1
                 sign = 1.0 if of_hard == (own > 0.0) else (-1.0 if meet else 0.0)
+                if joint:
+                    sign = side_of_joint(m, j, i, first, gas, materials, vof)
                 sw += sign * vof[m, below, left]
                 s += sign * vof[m, below, i]
                 se += sign * vof[m, below, right]
@@ -73,6 +143,8 @@ def find_surfaces(part, parts, i0, i1, mesh_box, dr, dz, group, hard, hard_thres
             if size > 0.0:
                 skin[NORMAL_R, j, i] = n_r / size * sqrt(weight)
                 skin[NORMAL_Z, j, i] = n_z / size * sqrt(weight)
+                if joint and gas:
+                    skin[LEAN, j, i] = weight * lean_of(i, n_r, n_z, metrics)
 
 
 @point
@@ -94,12 +166,14 @@ def common_traction(j, i, skin, vof, q, pm, km):
 
 @point
 def skin_deviator(j, i, skin, scale, vof, q):
-    """Sum of f n . s . n in a cell: what its stress lacks beside its deviator and p_c."""
-    total = 0.0
+    """(sum of f n . s . n in a cell, what its stress lacks beside its deviator and p_c; what its radial stress has more)."""
+    total, hoop = 0.0, 0.0
     for m in range(vof.shape[0]):
         if vof[m, j, i] > 0.0:
-            total += vof[m, j, i] * normal_deviator(m, j, i, skin, q)
-    return scale * total
+            across = normal_deviator(m, j, i, skin, q)
+            total += vof[m, j, i] * across
+            hoop -= vof[m, j, i] * (q[SRR, m, j, i] + q[SZZ, m, j, i] + across)
+    return scale * total, skin[LEAN, j, i] * scale * hoop
 
 
 @point
@@ -110,7 +184,9 @@ def surface_weight(j, i, skin):
 
 @point
 def pull_of(j, i, void, skin):
-    """Share of a tension that a cut cell carries; none where two groups meet (`pull_left`)."""
+    """Share of a tension that a cut cell carries: none where two groups meet, all where bodies of one fill it (`pull_left`)."""
+    if skin[KIND, j, i] == JOINT:
+        return 1.0
     return 0.0 if skin[KIND, j, i] == INTERFACE else pull_left(void, surface_weight(j, i, skin))
 
 

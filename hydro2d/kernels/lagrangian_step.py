@@ -30,7 +30,8 @@ from hydro2d.kernels import (
 
 @phase
 def close_cells(parts, i0, i1, mesh_speed, nr, mirror_r_min, mirror_r_max, u, v, nz, mirror_z_min, mirror_z_max, mesh_box, dr,
-                dz, group, hard_bodies, threshold, mixed_count, mixed_columns, vof, skin, gate, max_opening, smallest_tension,
+                dz, tipton, group, hard_bodies, threshold, mixed_count, mixed_columns, vof, skin, gate, max_opening,
+                smallest_tension,
                 viscosity_linear, viscosity_quadratic, courant, advective_courant, hourglass, metrics, body_range, active_range,
                 models, materials, q, pm, km, tm, p, bulk, rhobar, solid, cl, qr, qz, hg_coefficient, opened, row_step, bad,
                 scratch, mass, group_ranges, contact_node_count, contact_nodes, hard, soft, heat, warmed, first_slot,
@@ -45,8 +46,8 @@ def close_cells(parts, i0, i1, mesh_speed, nr, mirror_r_min, mirror_r_max, u, v,
         part = int64(place)  # numba counts without a sign, for which every kernel would be compiled a second time
         boundaries.ghost_vertices_r(part, parts, nr, mirror_r_min, mirror_r_max, u, v)
         boundaries.ghost_vertices_z(part, parts, i0 - 2, i1 + 3, nz, mirror_z_min, mirror_z_max, u, v)
-        cut_cells.find_surfaces(part, parts, i0, i1, mesh_box, dr, dz, group, hard_bodies, threshold, mixed_count,
-                                mixed_columns, vof, skin)
+        cut_cells.find_surfaces(part, parts, i0, i1, mesh_box, metrics, dr, dz, tipton, group, hard_bodies, threshold, models,
+                                materials, mixed_count, mixed_columns, vof, skin)
         wait(gate, parts)
         mixed.close_cells(part, parts, max_opening, smallest_tension, viscosity_linear, viscosity_quadratic, courant,
                           advective_courant, mesh_speed, hourglass, metrics, dr, dz, body_range, active_range, mixed_count,

@@ -4,7 +4,18 @@ from eos.dispatch import evaluate, zero_pressure_density
 from hydro2d.jit import kernel, point, rowwise
 from hydro2d.kernels.centroids import push_bodies
 from hydro2d.kernels.column_ranges import mixed_row
-from hydro2d.kernels.cut_cells import BONDED, FREE_SURFACE, INTERFACE, KIND, common_traction, fill_cut_cell, normal_deviator
+from hydro2d.kernels.cut_cells import (
+    FREE_SURFACE,
+    INTERFACE,
+    JOINT,
+    KIND,
+    WHOLE,
+    common_traction,
+    fill_cut_cell,
+    firm_share,
+    is_beside_gas,
+    normal_deviator,
+)
 from hydro2d.kernels.mixed_scratch import (
     BEFORE,
     HEAT,
@@ -31,7 +42,7 @@ from hydro2d.kernels.mixed_strength import (
     work_of_deviators,
 )
 from hydro2d.kernels.thermodynamics import pressures_row, viscosity_row
-from hydro2d.materials.rows import EOS, EOS_AT, FADES, GAS, MEMORY, TENSILE
+from hydro2d.materials.rows import EOS, EOS_AT, FADES, MEMORY, TENSILE
 from hydro2d.mesh.fields import DMG, RHO, SRR, SRZ, SZZ, E
 from hydro2d.mesh.grid import VOL_R
 from hydro2d.physics.closure import NO_VOID, relaxation_bound, relaxation_strain, softness
@@ -53,7 +64,7 @@ def insert_void_mixed_row(j, smallest, max_opening, metrics, dz, mixed_count, mi
     The threshold is the mean of the bodies' by volume fraction, or the smallest (explanation/fracture). Two groups hold
     together by nothing and part by themselves (`meet_traction`).
 
-    Reads    mixed [j, k], skin [3, j, i]
+    Reads    mixed [j, k], skin [4, j, i]
     Updates  vof, pm [m, j, i]; q (rho, deviators); p, solid, bulk [j, i]; opened [j]
     """
     bodies = vof.shape[0]
@@ -94,7 +105,7 @@ def insert_void_mixed_row(j, smallest, max_opening, metrics, dz, mixed_count, mi
             pressure += f * pm[m, j, i]
         p[j, i] = pressure
         solid[j, i] = total
-        if total < 1.0 - NO_VOID and skin[KIND, j, i] == BONDED:
+        if total < 1.0 - NO_VOID and (skin[KIND, j, i] == WHOLE or skin[KIND, j, i] == JOINT):
             skin[KIND, j, i] = FREE_SURFACE
         if skin[KIND, j, i] == FREE_SURFACE:
             p[j, i], bulk[j, i] = common_traction(j, i, skin, vof, q, pm, km)
@@ -116,9 +127,9 @@ def close_cells(part, parts, max_opening, smallest_tension, linear, quadratic, c
             mixed_row(j, active_range, vof, scratch[0], part, mixed_count, mixed)
         for k in range(mixed_count[j]):
             i = mixed[j, k]
-            if skin[KIND, j, i] == BONDED and 0.0 < solid[j, i] < 1.0 - NO_VOID:  # a pure cell that has fractured
+            if skin[KIND, j, i] == WHOLE and 0.0 < solid[j, i] < 1.0 - NO_VOID:  # a pure cell that has fractured
                 skin[KIND, j, i] = FREE_SURFACE
-            if skin[KIND, j, i] != BONDED:
+            if skin[KIND, j, i] != WHOLE:
                 p[j, i], bulk[j, i] = common_traction(j, i, skin, vof, q, pm, km)
         insert_void_mixed_row(j, smallest_tension, max_opening, metrics, dz, mixed_count, mixed, models, materials, skin,
                               vof, q, pm, km, p, solid, bulk, opened)
@@ -183,15 +194,6 @@ def pressure_rise(j, i, middle, vof, pm):
     for m in range(vof.shape[0]):
         before += vof[m, j, i] * pm[m, j, i] if vof[m, j, i] > 0.0 else 0.0
     return middle - before
-
-
-@point
-def is_beside_gas(j, i, materials, vof):
-    """Whether a gas is in a cell."""
-    found = False
-    for m in range(vof.shape[0]):
-        found = found or (vof[m, j, i] > 0.0 and materials[m, GAS] > 0.0)
-    return found
 
 
 @point
@@ -302,10 +304,12 @@ def deform_mixed(part, parts, dt, relaxation, tipton, mode, hard, hard_threshold
             for m in range(vof.shape[0]):
                 mix[j, BEFORE, m] = vof[m, j, i]
                 mix[j, NORMAL, m] = normal_deviator(m, j, i, skin, q) if vof[m, j, i] > 0.0 else 0.0
-            cut, own = skin[KIND, j, i] != BONDED, mode == MATERIAL or dominant >= 0 or meet
+            cut, own = skin[KIND, j, i] != WHOLE, mode == MATERIAL or dominant >= 0 or meet
             target = 0.0
-            work_of_deviators(j, i, dt, dominant, total, stress_scale(mode == SOLID, total), group, motion, vof, q, mix)
-            cell_yield = strain_deviators(j, i, dt / volume, mode, total, skin, group, models, materials, pm, tm, motion,
+            work_of_deviators(j, i, dt, dominant, total, stress_scale(mode == SOLID, total), group, motion, skin, vof,
+                              q, mix)
+            firm = firm_share(j, i, total, materials, vof)
+            cell_yield = strain_deviators(j, i, dt / volume, mode, firm, skin, group, models, materials, pm, tm, motion,
                                           vof, q, mix, internal)
             if cut:
                 target = strain_bodies_across(j, i, own, cell_yield, change / volume, max(1.0 - total, 0.0), skin, p, bulk,

@@ -4,9 +4,11 @@ import numpy as np
 import pytest
 
 from hydro2d.kernels import cut_cells
-from hydro2d.kernels.cut_cells import BONDED, FREE_SURFACE, INTERFACE, KIND, NORMAL_R, NORMAL_Z
+from hydro2d.kernels.cut_cells import FREE_SURFACE, INTERFACE, JOINT, KIND, LEAN, NORMAL_R, NORMAL_Z, WHOLE
 from hydro2d.kernels.mixed_scratch import ACROSS, ALONG, BESIDE, FLOW, GROWTH, HEAT, MODULUS, NORMAL, SIZE
+from hydro2d.materials.rows import EOS_AT, GAS, STRENGTH
 from hydro2d.mesh.fields import INTERNAL, RHO, SRR, SRZ, SZZ, E
+from hydro2d.mesh.grid import FACE_R, HOOP
 from hydro2d.physics.traction import SURE
 from tests.physics.continuity import changes_in_proportion, largest_jump
 
@@ -31,7 +33,7 @@ class Cell:
         f, p, bulk, shear = np.transpose(bodies)
         self.number = len(f)
         self.vof, self.pm, self.km = (x[:, None, None].copy() for x in (f, p, bulk))
-        self.q, self.skin = np.zeros((INTERNAL, self.number, 1, 1)), np.zeros((3, 1, 1))
+        self.q, self.skin = np.zeros((INTERNAL, self.number, 1, 1)), np.zeros((4, 1, 1))
         self.mix = np.zeros((1, 14, self.number))
         self.q[RHO, :, 0, 0] = 2.0 + np.arange(self.number)
         self.mix[0, MODULUS], self.mix[0, FLOW] = shear, flow
@@ -108,7 +110,7 @@ def test_bodies_that_are_strained_apart_open_void_at_no_pressure():
 
 def test_a_crack_without_void_pulls_and_a_wider_one_the_less():
     """Of one group, far from a surface: all of the tension while it is shut, half of it half open."""
-    shut = Cell((0.4, 0.0, *STEEL), (0.6, 0.0, *STEEL), kind=BONDED, weight=0.0)
+    shut = Cell((0.4, 0.0, *STEEL), (0.6, 0.0, *STEEL), kind=WHOLE, weight=0.0)
     assert shut.meet(0.01) == pytest.approx(-0.01, rel=1e-9)
     assert shut.grown == pytest.approx(0.01, rel=1e-9)
     opened = Cell((1.0 - 0.5 * SURE, -0.01 * (1.0 - 0.5 * SURE), *STEEL), kind=FREE_SURFACE, weight=0.0)
@@ -174,7 +176,10 @@ def test_bodies_meet_at_the_mean_of_their_normal_stresses_by_compressibility():
     cell = Cell((0.25, 0.008, 1.0, 0.5), (0.5, 0.002, 0.5, 0.1), (0.0, np.nan, 0.0, 0.0))
     cell.q[SRR, :, 0, 0] = 0.004, -0.003, np.nan
     assert cell.common() == pytest.approx(((0.25 * 0.004 + 1.0 * 0.005) / 1.25, 1.0 / 1.25))
-    assert skin_deviator(0, 0, cell.skin, 2.0, cell.vof, cell.q) == pytest.approx(2.0 * (0.25 * 0.004 - 0.5 * 0.003))
+    cell.skin[LEAN] = 0.1
+    across, more = skin_deviator(0, 0, cell.skin, 2.0, cell.vof, cell.q)
+    assert across == pytest.approx(2.0 * (0.25 * 0.004 - 0.5 * 0.003))
+    assert more == pytest.approx(0.1 * 2.0 * -2.0 * (0.25 * 0.004 - 0.5 * 0.003))  # hoop: -(s_rr + s_zz) - n . s . n
     cell.skin[NORMAL_R], cell.skin[NORMAL_Z] = 0.48, 0.64  # a weight of 0.64
     cell.q[SZZ, 0], cell.q[SRZ, 0] = -0.003, 0.002
     expected = 0.48**2 * 0.004 - 0.64**2 * 0.003 + 2.0 * 0.48 * 0.64 * 0.002
@@ -251,17 +256,21 @@ SIZE_OF_MESH = 9
 MESH_BOX = np.array([2, SIZE_OF_MESH - 2, 2, SIZE_OF_MESH - 2])
 
 
-def surfaces(vof, group=(1, 0), hard=(False, False), dr=1.0, dz=1.0):
-    """`skin` of a mesh of alike cells."""
+def surfaces(vof, group=(1, 0), hard=(False, False), dr=1.0, dz=1.0, gas=(0.0, 0.0), strength=(1, 1), tipton=True):
+    """`skin` of a mesh of alike cells, whose columns begin at r = 10 dr."""
     vof = np.array(vof, dtype=float)
     is_mixed = (vof > 0.0).any(axis=0) & (vof < 1.0).all(axis=0)
     count, mixed, skin = np.zeros(SIZE_OF_MESH, dtype=np.int64), np.zeros((SIZE_OF_MESH,) * 2, dtype=np.int64), np.full(
-        (3, SIZE_OF_MESH, SIZE_OF_MESH), np.nan)
+        (4, SIZE_OF_MESH, SIZE_OF_MESH), np.nan)
+    models, materials, metrics = np.zeros((2, 4), dtype=np.int64), np.zeros((2, EOS_AT)), np.zeros((8, SIZE_OF_MESH))
+    models[:, STRENGTH], materials[:, GAS] = strength, gas
+    metrics[FACE_R], metrics[HOOP] = 10.0 * dr + dr * np.arange(SIZE_OF_MESH), 0.25 * dr
     for j in range(SIZE_OF_MESH):
         count[j] = is_mixed[j].sum()
         mixed[j, : count[j]] = np.nonzero(is_mixed[j])[0]
-    cut_cells.find_surfaces(0, MESH_BOX[:2], 2, SIZE_OF_MESH - 2, MESH_BOX, np.full(SIZE_OF_MESH, dr),
-                            np.full(SIZE_OF_MESH, dz), np.array(group), np.array(hard), 0.5, count, mixed, vof, skin)
+    cut_cells.find_surfaces(0, MESH_BOX[:2], 2, SIZE_OF_MESH - 2, MESH_BOX, metrics, np.full(SIZE_OF_MESH, dr),
+                            np.full(SIZE_OF_MESH, dz), tipton, np.array(group), np.array(hard), 0.5, models, materials, count,
+                            mixed, vof, skin)
     return skin
 
 
@@ -321,9 +330,12 @@ def test_a_bubble_and_a_weak_gradient_have_no_weight():
 def test_kinds_of_cut_cells():
     half, none = np.full((SIZE_OF_MESH,) * 2, 0.5), np.zeros((SIZE_OF_MESH,) * 2)
     assert (surfaces([half, half])[KIND, 2:-2, 2:-2] == INTERFACE).all()
-    assert (surfaces([half, half], group=(0, 0))[KIND, 2:-2, 2:-2] == BONDED).all()
+    assert (surfaces([half, half], group=(0, 0))[KIND, 2:-2, 2:-2] == JOINT).all()
+    assert (surfaces([half, half], group=(0, 0), strength=(0, 0))[KIND, 2:-2, 2:-2] == WHOLE).all()  # fluids have one pressure
+    assert (surfaces([half, half], group=(0, 0), tipton=False)[KIND, 2:-2, 2:-2] == WHOLE).all()
+    assert (surfaces([half, half], group=(0, 0), hard=(True, False))[KIND, 2:-2, 2:-2] == WHOLE).all()
     assert (surfaces([half, none])[KIND, 2:-2, 2:-2] == FREE_SURFACE).all()
-    assert (surfaces([none, none])[KIND, 2:-2, 2:-2] == BONDED).all()
+    assert (surfaces([none, none])[KIND, 2:-2, 2:-2] == WHOLE).all()
 
 
 def test_the_hard_zone_of_a_slip_layer_has_no_normals():
@@ -332,3 +344,28 @@ def test_the_hard_zone_of_a_slip_layer_has_no_normals():
     assert skin[KIND, 4, 4] == FREE_SURFACE
     assert (skin[:2, 4, 4] == 0.0).all()
     assert np.abs(surfaces([body, 0.2 * (1.0 - body)], group=(0, 0))[:2, 4, 4]).max() > 0.5
+
+
+@pytest.mark.parametrize("degrees", [0, 30, 90, 180])
+def test_a_surface_between_bodies_of_one_group_has_a_normal_and_leans_on_the_body_beside_gas(degrees):
+    """Half of the hoop stress pulls at either vertex: the share 2 HOOP / r_middle of it in the radial stress moves that."""
+    angle = np.radians(degrees)
+    body = half_plane(angle)
+    with_void = surfaces([body, np.zeros_like(body)])[:, 4, 4]
+    with_gas = surfaces([body, 1.0 - body], group=(1, 1), gas=(0.0, 1.0), strength=(1, 0))[:, 4, 4]
+    with_solid = surfaces([body, 1.0 - body], group=(1, 1))[:, 4, 4]
+    assert with_gas[KIND] == with_solid[KIND] == JOINT
+    assert abs(with_solid[:2] @ with_void[:2]) == pytest.approx(1.0)
+    assert with_gas[:2] == pytest.approx(with_void[:2])
+    share = np.cos(angle) / (abs(np.cos(angle)) + abs(np.sin(angle)))
+    assert with_gas[LEAN] == pytest.approx(-share * 0.25 / (0.5 * 14.0 + 0.25), abs=1e-3)
+    assert with_solid[LEAN] == with_void[LEAN] == 0.0
+
+
+def test_bodies_that_are_joined_hold_in_tension():
+    cell = Cell((0.4, -0.002, 1.0, 0.5), (0.6, -0.002, 2.0, 0.1), kind=JOINT)
+    assert pull_of(0, 0, 0.0, cell.skin) == 1.0
+    target = cell.meet(0.001)
+    assert target < -0.002
+    assert cell.grown == pytest.approx(0.001, rel=1e-9)
+    assert cell.normal_pressures() == pytest.approx([target] * 2, rel=1e-9)

@@ -9,7 +9,7 @@ import pytest
 from hydro2d.kernels import acceleration, contact_geometry, contact_motion, contact_volumes
 from hydro2d.kernels.contact_geometry import CONSTANT, HARD_FIRST, HARD_R, HARD_Z, LINE_R, LINE_Z, SHARE, SOFT_AFTER, SOFT_R
 from hydro2d.kernels.contact_motion import SEED
-from hydro2d.kernels.cut_cells import BONDED, FREE_SURFACE, INTERFACE, KIND
+from hydro2d.kernels.cut_cells import FREE_SURFACE, INTERFACE, KIND, WHOLE
 from hydro2d.mesh.fields import RHO, SRR, SRZ, SZZ, E
 from tests.kernels.cells import Cells
 
@@ -156,7 +156,7 @@ def halves(nz: int = 4) -> Cells:
     cells.vof[1, :, 2:7], cells.vof[0, :, 2:7] = (1.0, 1.0, 0.5, 0.0, 0.0), (0.0, 0.0, 0.5, 1.0, 1.0)
     cells.q[RHO, 0], cells.q[RHO, 1] = 1.0, 4.0
     cells.cell_mass[:, 2:2 + nz] = (cells.vof * cells.q[RHO])[:, 2:2 + nz]
-    cells.skin[KIND] = BONDED
+    cells.skin[KIND] = WHOLE
     cells.call(acceleration.vertex_masses, i1=8)
     cells.call(contact_geometry.find_contact_nodes, count=cells.contact_node_count)
     cells.call(contact_geometry.contact_lines, count=cells.contact_node_count)
@@ -242,8 +242,8 @@ def test_a_full_cell_whose_groups_part_is_given_room():
     cells.km[...] = cells.bulk[...] = cells.cl[...] = cells.rhobar[...] = cells.solid[...] = 1.0
     cells.u[0] = 1.0  # the soft body leaves the hard one
     seen(cells)
-    assert cells.skin[KIND, 3, 4] == BONDED  # both have been in this cell all along: `find_surfaces` has seen to it
-    assert cells.skin[KIND, 3, 3] == cells.skin[KIND, 3, 5] == BONDED  # nothing is beside them but the cell of both
+    assert cells.skin[KIND, 3, 4] == WHOLE  # both have been in this cell all along: `find_surfaces` has seen to it
+    assert cells.skin[KIND, 3, 3] == cells.skin[KIND, 3, 5] == WHOLE  # nothing is beside them but the cell of both
     cells.vof[:, :, 4], cells.hard[:, 4], cells.soft[:, 4] = [[1.0], [0.0]], 0.0, 1.0
     seen(cells)
     assert cells.skin[KIND, 3, 3] == cells.skin[KIND, 3, 4] == INTERFACE

@@ -6,7 +6,7 @@ import pytest
 from eos import ideal_gas
 from eos.layout import ROW
 from hydro2d.kernels import deformation, mixed
-from hydro2d.kernels.cut_cells import BONDED, KIND
+from hydro2d.kernels.cut_cells import KIND, WHOLE
 from hydro2d.materials.rows import EOS, EOS_AT, TENSILE
 from hydro2d.mesh.fields import RHO, E
 from tests.kernels.cells import Cells
@@ -21,7 +21,7 @@ def gas(**given) -> Cells:
     models, materials = np.zeros((1, 4), dtype=np.int64), np.zeros((1, EOS_AT + ROW))
     models[0, EOS], materials[0, TENSILE] = ideal_gas.ID, np.inf
     materials[0, EOS_AT:] = ideal_gas.row({"adiabatic_index": GAMMA, "reference_density": 1.0})
-    cells.vof[0, *AT], cells.q[RHO, 0, *AT], cells.q[E, 0, *AT], cells.skin[KIND] = 1.0, 2.0, 10.0, BONDED
+    cells.vof[0, *AT], cells.q[RHO, 0, *AT], cells.q[E, 0, *AT], cells.skin[KIND] = 1.0, 2.0, 10.0, WHOLE
     cells.known |= {"models": models, "materials": materials, "group": np.array([0])}
     return cells
 
