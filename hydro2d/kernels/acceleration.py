@@ -5,7 +5,7 @@ from math import sqrt
 from hydro2d.jit import kernel, point, rowwise
 from hydro2d.kernels.boundaries import left_by_edges
 from hydro2d.kernels.column_ranges import columns, copy_beside, past_row, union
-from hydro2d.kernels.cut_cells import KIND, WHOLE, cut_pressure, skin_deviator
+from hydro2d.kernels.cut_cells import KIND, WHOLE, cut_pressure, holds, pull_of_ties, skin_deviator, ties
 from hydro2d.mesh.fields import SRR, SRZ, SZZ
 from hydro2d.mesh.grid import AZ_IN, AZ_OUT, CM_IN, CM_OUT, FACE_R, HOOP, MID_R, VOL_R
 from hydro2d.physics.advection import TINY
@@ -83,10 +83,9 @@ def total_stress_row(j, dt, metrics, dz, body_range, active_range, mixed_count, 
         i = mixed[j, k]
         if skin[KIND, j, i] != WHOLE:
             pressure = cut_pressure(j, i, dt, divergence(i, ub, ut, vb, vt, metrics, h), skin, p, bulk, solid)
-            across, more = skin_deviator(j, i, skin, stress_scale(solid_mode, solid[j, i]), vof, q)
-            gain = pressure - ph_j[i] + across
+            gain = pressure - ph_j[i] + skin_deviator(j, i, skin, stress_scale(solid_mode, solid[j, i]), vof, q)
             ph_j[i] = pressure
-            rr[i] -= gain - more
+            rr[i] -= gain
             zz[i] -= gain
             tt[i] -= gain
 
@@ -251,10 +250,30 @@ def accelerate_row(b, j, i0, i1, dt, metrics, dz, occupied, mass, hg_coefficient
         vn[i] = axial if abs(axial) > SILENCE else 0.0
 
 
+@rowwise
+def tie_row(b, j, i0, i1, metrics, dz, occupied, mass, mixed_count, mixed, group, materials, skin, vof, q, u0, v0, u, v):
+    """Velocities of the vertices of row j after what bodies have of vertices in a gas was tied to them (`ties`).
+
+    Reads    mass, u0, v0 [b, j, i], skin [3, j, i], vof, q, the list of mixed cells
+    Updates  u, v [b, j, i]
+    """
+    lo, n = accelerated_columns(b, j, i0, i1, occupied)
+    for row in range(j - 1, j + 1):
+        for k in range(mixed_count[row]):
+            i = mixed[row, k]
+            by_r, by_z = ties(row, i, metrics, dz[row], skin, materials, vof, q)
+            if by_r + by_z == 0.0 or not holds(b, row, i, group, vof):
+                continue
+            for at in range(i, i + 2):
+                if lo <= at < lo + n and mass[b, j, at] > 0.0:
+                    u[b, j, at] += pull_of_ties(b, j, at, row, i, by_r, by_z, u0) / mass[b, j, at]
+                    v[b, j, at] += pull_of_ties(b, j, at, row, i, by_r, by_z, v0) / mass[b, j, at]
+
+
 @kernel
-def accelerate(part, parts, i0, i1, dt, metrics, dz, occupied, mass, hg_coefficient, sig_rr, sig_zz, sig_tt, sig_rz, pushed, u0,
-               v0, u, v):
-    """accelerate_row for rows j0 to j1, and the velocities that forces of sources add.
+def accelerate(part, parts, i0, i1, dt, metrics, dz, occupied, mass, hg_coefficient, sig_rr, sig_zz, sig_tt, sig_rz,
+               mixed_count, mixed, group, materials, skin, vof, q, pushed, u0, v0, u, v):
+    """accelerate_row and tie_row for rows j0 to j1, and the velocities that forces of sources add.
 
     Reads    pushed [c, b, j, i], m/s, or nothing
     """
@@ -262,6 +281,8 @@ def accelerate(part, parts, i0, i1, dt, metrics, dz, occupied, mass, hg_coeffici
         for b in range(mass.shape[0]):
             accelerate_row(b, j, i0, i1, dt, metrics, dz, occupied, mass, hg_coefficient, sig_rr, sig_zz, sig_tt, sig_rz, u0,
                            v0, u, v)
+            tie_row(b, j, i0, i1, metrics, dz, occupied, mass, mixed_count, mixed, group, materials, skin, vof, q, u0, v0, u,
+                    v)
             if pushed.shape[0] > 0:
                 for i in range(i0, i1):
                     u[b, j, i] += pushed[0, b, j, i]

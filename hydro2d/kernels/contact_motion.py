@@ -5,7 +5,17 @@ from math import sqrt
 from hydro2d.jit import kernel, point
 from hydro2d.kernels.column_ranges import mixed_row, past_row
 from hydro2d.kernels.contact_geometry import HARD_R, HARD_Z, SOFT_R, SOFT_Z
-from hydro2d.kernels.cut_cells import FREE_SURFACE, INTERFACE, KIND, LEAN, WHOLE, cut_pressure, normal_deviator
+from hydro2d.kernels.cut_cells import (
+    FREE_SURFACE,
+    INTERFACE,
+    KIND,
+    WHOLE,
+    cut_pressure,
+    holds,
+    normal_deviator,
+    pull_of_ties,
+    ties,
+)
 from hydro2d.mesh.fields import RHO, SRR, SRZ, SZZ
 from hydro2d.mesh.grid import AZ_IN, AZ_OUT, FACE_R, HOOP, MID_R, VOL_R
 from hydro2d.physics.closure import stiff_density
@@ -43,7 +53,7 @@ def contact_viscosity(part, parts, mesh_box, linear, quadratic, courant, dr, dz,
     pressure, the cell is given a seed of it.
 
     Reads    what face_apertures wrote; hard, soft, p, bulk [j, i]; u, v [b, j, i]; km [m, j, i]; cl, rhobar [j, i]
-    Updates  vof [m, j, i], q (rho) [k, m, j, i], solid [j, i], skin [4, j, i] (kind), row_step [j], mixed_count [j],
+    Updates  vof [m, j, i], q (rho) [k, m, j, i], solid [j, i], skin [3, j, i] (kind), row_step [j], mixed_count [j],
              mixed [j, k]
     Writes   qr, qz, rate [j, i] (1/s)
     Scratch  scratch [row, i]
@@ -124,10 +134,9 @@ def group_stress(g, j, i, group, solid_mode, solid, skin, vof, q):
         if group[m] == g and vof[m, j, i] > 0.0:
             part = vof[m, j, i] * scale
             across = normal_deviator(m, j, i, skin, q)
-            hoop = -part * (q[SRR, m, j, i] + q[SZZ, m, j, i] + across)
-            rr += part * (q[SRR, m, j, i] - across) + skin[LEAN, j, i] * hoop
+            rr += part * (q[SRR, m, j, i] - across)
             zz += part * (q[SZZ, m, j, i] - across)
-            tt += hoop
+            tt -= part * (q[SRR, m, j, i] + q[SZZ, m, j, i] + across)
             rz += part * q[SRZ, m, j, i]
     return rr, zz, tt, rz
 
@@ -156,14 +165,15 @@ def corner_force(g, j, i, at_j, at_i, group, solid_mode, solid, skin, vof, q, hg
 
 
 @kernel
-def contact_node_forces(part, parts, dt, group, solid_mode, metrics, dz, constrained, count, contact_nodes, aperture_r,
-                        aperture_z, ph, qr, solid, skin, vof, q, hg_coefficient, cell_mass, mass, u0, v0, u, v, transfer):
+def contact_node_forces(part, parts, dt, group, materials, solid_mode, metrics, dz, constrained, count, contact_nodes,
+                        aperture_r, aperture_z, ph, qr, solid, skin, vof, q, hg_coefficient, cell_mass, mass, u0, v0, u, v,
+                        transfer):
     """Velocities that the forces alone would give both groups at contact nodes.
 
     The pressure of a cell acts on each group by the apertures of the cell's faces, the deviators of a group act on it alone
     (explanation/sliding, contact).
 
-    Reads    ph, qr, solid, hg_coefficient [j, i]; skin [4, j, i]; vof, q; cell_mass, mass, u0, v0 [b, j, i]
+    Reads    ph, qr, solid, hg_coefficient [j, i]; skin [3, j, i]; vof, q; cell_mass, mass, u0, v0 [b, j, i]
     Writes   u, v [b, j, i], without what walls and the axis take; transfer[4, j], axial momentum given to walls
     """
     for j in range(parts[part], past_row(part, parts, 1)):
@@ -179,14 +189,19 @@ def contact_node_forces(part, parts, dt, group, solid_mode, metrics, dz, constra
                     below, above, left, right = 1.0 - below, 1.0 - above, 1.0 - left, 1.0 - right
                 force_r = 0.5 * metrics[FACE_R, i] * (below * dz[j - 1] * (ll - lr) + above * dz[j] * (ul - ur))
                 force_z = metrics[AZ_OUT, i - 1] * left * (ll - ul) + metrics[AZ_IN, i] * right * (lr - ur)
+                tied_r, tied_z = 0.0, 0.0
                 for row in range(j - 1, j + 1):
                     for column in range(i - 1, i + 1):
+                        by_r, by_z = ties(row, column, metrics, dz[row], skin, materials, vof, q)
+                        if by_r + by_z > 0.0 and holds(g, row, column, group, vof):
+                            tied_r += pull_of_ties(g, j, i, row, column, by_r, by_z, u0)
+                            tied_z += pull_of_ties(g, j, i, row, column, by_r, by_z, v0)
                         more_r, more_z = corner_force(g, j, i, row, column, group, solid_mode, solid, skin, vof, q,
                                                       hg_coefficient, cell_mass, metrics, dz, u0, v0)
                         force_r += more_r
                         force_z += more_z
-                u[g, j, i] = u0[g, j, i] + dt * force_r / mass[g, j, i]
-                v[g, j, i] = v0[g, j, i] + dt * force_z / mass[g, j, i]
+                u[g, j, i] = u0[g, j, i] + (dt * force_r + tied_r) / mass[g, j, i]
+                v[g, j, i] = v0[g, j, i] + (dt * force_z + tied_z) / mass[g, j, i]
                 if i == constrained[0] or i == constrained[1]:
                     u[g, j, i] = 0.0
                 if j == constrained[2] or j == constrained[3]:

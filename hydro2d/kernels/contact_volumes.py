@@ -67,7 +67,7 @@ def even_out(part, parts, contact_columns, volume, skin, bulk, ph, qr, even_r, e
     A pressure that is constant in every cell of the surface, while velocities are linear, has a pattern (up and down from cell
     to cell) that pushes no vertex. The volumes that the faces between these cells sweep are corrected by the difference.
 
-    Reads    ph, qr, bulk, volume [j, i], skin [4, j, i]
+    Reads    ph, qr, bulk, volume [j, i], skin [3, j, i]
     Writes   even_r, even_z [j, i]
     """
     j0, j1 = outer_rows(parts)

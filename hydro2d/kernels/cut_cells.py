@@ -1,7 +1,7 @@
 """Cells that a surface cuts, between bodies or between a body and void: traction instead of pressure.
 
 Every body of a cut cell has the normal stress -p_c, and the strain across the surface follows from that
-(explanation/mixed-cells, equations 9 to 12). What fluids do that fill a cell together is in `mixed`.
+(explanation/mixed-cells, equations 9 to 13). What fluids do that fill a cell together is in `mixed`.
 """
 
 from math import sqrt
@@ -10,15 +10,18 @@ from hydro2d.jit import apart, kernel, point
 from hydro2d.kernels.mixed_scratch import ACROSS, ALONG, BESIDE, FLOW, GROWTH, HEAT, MODULUS, NORMAL, SIZE
 from hydro2d.materials.rows import GAS, STRENGTH
 from hydro2d.mesh.fields import RHO, SRR, SRZ, SZZ, E
-from hydro2d.mesh.grid import FACE_R, HOOP
+from hydro2d.mesh.grid import CM_IN, CM_OUT, VOL_R
 from hydro2d.physics.closure import NO_VOID
 from hydro2d.physics.interfaces import youngs_gradient
 from hydro2d.physics.traction import STEEP, along_normal, half_pressure, pull_left, smoothstep, strain_across
 
-#: kinds of cells, in row KIND of `skin`: not cut; a surface against void; two groups; bodies of one group that fill the cell
-WHOLE, FREE_SURFACE, INTERFACE, JOINT = 0.0, 1.0, 2.0, 3.0
-#: rows of `skin`: normal and kind, and the share of the hoop stress beside p_c that the mean radial stress has (`lean_of`)
-NORMAL_R, NORMAL_Z, KIND, LEAN = range(4)
+#: kinds of cells, in row KIND of `skin`: not cut; a surface against void; two groups; bodies of one group that fill the cell,
+#: and those of which one is a gas
+WHOLE, FREE_SURFACE, INTERFACE, JOINT, BESIDE_GAS = 0.0, 1.0, 2.0, 3.0, 4.0
+#: share of the difference in velocity across the surface that what a body has of a vertex in the gas loses in a step
+MOST_TIED = 0.5
+#: rows of `skin`
+NORMAL_R, NORMAL_Z, KIND = range(3)
 
 
 @point
@@ -72,19 +75,14 @@ def side_of_joint(m, j, i, first, gas, materials, vof):
 
 
 @point
-def lean_of(i, n_r, n_z, metrics):
-    """Mean radial stress, beside -p_c, of a body against gas, as a share of its hoop stress.
-
-    Across what is in the cell the radial stress rises by the hoop stress, d sigma_rr/dr = (sigma_tt - sigma_rr)/r, so that the
-    hoop stress pulls at the vertices in the body and not at those in the gas (explanation/mixed-cells, equation 13).
-    (n_r, n_z) points out of the body.
-    """
-    return -n_r / (abs(n_r) + abs(n_z)) * metrics[HOOP, i] / (0.5 * metrics[FACE_R, i] + metrics[HOOP, i])
+def normal_deviator(m, j, i, skin, q):
+    """n . s . n of body m in cell (j, i), times the weight of its surface."""
+    return along_normal(skin[NORMAL_R, j, i], skin[NORMAL_Z, j, i], q[SRR, m, j, i], q[SZZ, m, j, i], q[SRZ, m, j, i])
 
 
 @kernel
-def find_surfaces(part, parts, i0, i1, mesh_box, metrics, dr, dz, tipton, group, hard, hard_threshold, models, materials,
-                  mixed_count, mixed, vof, skin):
+def find_surfaces(part, parts, i0, i1, mesh_box, dr, dz, tipton, group, hard, hard_threshold, models, materials, mixed_count,
+                  mixed, vof, skin):
     """Normals of the surfaces in mixed cells, with the square root of their weight as length.
 
     The normal is Youngs', of the hard group's fraction less the soft one's where a cell holds both, else of its one group
@@ -93,12 +91,11 @@ def find_surfaces(part, parts, i0, i1, mesh_box, metrics, dr, dz, tipton, group,
     group vanishes, a cut cell does what a full one does.
 
     Reads    vof [m, j, i], group, hard, models, materials [m], the list of mixed cells
-    Writes   skin [4, j, i]
+    Writes   skin [3, j, i]
     """
     bodies = vof.shape[0]
     for j in range(parts[part], parts[part + 1]):
         for i in range(i0, i1):
-            skin[LEAN, j, i] = 0.0
             skin[NORMAL_R, j, i] = 0.0
             skin[NORMAL_Z, j, i] = 0.0
             skin[KIND, j, i] = WHOLE
@@ -116,11 +113,12 @@ def find_surfaces(part, parts, i0, i1, mesh_box, metrics, dr, dz, tipton, group,
             meet, full = own > 0.0 and other > 0.0, void <= NO_VOID
             if own + other == 0.0 or (full and not meet and (zone or not tipton or only_fluids(j, i, models, vof))):
                 continue
-            joint = full and not meet
-            skin[KIND, j, i] = INTERFACE if meet else (JOINT if joint else FREE_SURFACE)
+            joint, first, gas = full and not meet, most_of(j, i, vof), is_beside_gas(j, i, materials, vof)
+            skin[KIND, j, i] = INTERFACE if meet else FREE_SURFACE
+            if joint:
+                skin[KIND, j, i] = BESIDE_GAS if gas else JOINT
             if zone:
                 continue
-            first, gas = most_of(j, i, vof), is_beside_gas(j, i, materials, vof)
             sw, s, se, w, e, nw, n, ne = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
             for m in range(bodies):
                 of_hard = group[m] == 1
@@ -143,14 +141,50 @@ def find_surfaces(part, parts, i0, i1, mesh_box, metrics, dr, dz, tipton, group,
             if size > 0.0:
                 skin[NORMAL_R, j, i] = n_r / size * sqrt(weight)
                 skin[NORMAL_Z, j, i] = n_z / size * sqrt(weight)
-                if joint and gas:
-                    skin[LEAN, j, i] = weight * lean_of(i, n_r, n_z, metrics)
 
 
 @point
-def normal_deviator(m, j, i, skin, q):
-    """n . s . n of body m in cell (j, i), times the weight of its surface."""
-    return along_normal(skin[NORMAL_R, j, i], skin[NORMAL_Z, j, i], q[SRR, m, j, i], q[SZZ, m, j, i], q[SRZ, m, j, i])
+def ties(j, i, metrics, h, skin, materials, vof, q):
+    """Masses by which the vertices of a cell that holds a gas are tied: of every pair along r, and of every pair along z, kg.
+
+    What a body has of its mass at vertices in the gas moves with the body. A pair of vertices on either side of the surface
+    gives the share MOST_TIED of its difference in velocity in every step, by the body's mass at a vertex (explanation/
+    mixed-cells, equation 13). 0 in other cells.
+    """
+    if skin[KIND, j, i] != BESIDE_GAS:
+        return 0.0, 0.0
+    mass = 0.0
+    for m in range(vof.shape[0]):
+        if vof[m, j, i] > 0.0 and materials[m, GAS] == 0.0:
+            mass += q[RHO, m, j, i] * vof[m, j, i]
+    mass *= MOST_TIED * metrics[VOL_R, i] * h * min(metrics[CM_IN, i], metrics[CM_OUT, i])
+    return mass * skin[NORMAL_R, j, i] * skin[NORMAL_R, j, i], mass * skin[NORMAL_Z, j, i] * skin[NORMAL_Z, j, i]
+
+
+@point
+def holds(g, j, i, group, vof):
+    """Whether a cell holds a body of group g."""
+    found = False
+    for m in range(vof.shape[0]):
+        found = found or (group[m] == g and vof[m, j, i] > 0.0)
+    return found
+
+
+@point
+def pull_of_ties(g, j, i, row, column, by_r, by_z, u0):
+    """What the ties of cell (row, column) give one component of the momentum of vertex (j, i) of group g in a step."""
+    own = u0[g, j, i]
+    return by_r * (u0[g, j, 2 * column + 1 - i] - own) + by_z * (u0[g, 2 * row + 1 - j, i] - own)
+
+
+@point
+def tied_work(i, by_r, by_z, b0, t0, b1, t1):
+    """Work of the ties of cell i against one component of its vertices' velocities, J per radian: at the start, at the end."""
+    low, high = b0[i + 1] - b0[i], t0[i + 1] - t0[i]
+    left, right = t0[i] - b0[i], t0[i + 1] - b0[i + 1]
+    along_r = low * (low + (b1[i + 1] - b1[i])) + high * (high + (t1[i + 1] - t1[i]))
+    along_z = left * (left + (t1[i] - b1[i])) + right * (right + (t1[i + 1] - b1[i + 1]))
+    return 0.5 * (by_r * along_r + by_z * along_z)
 
 
 @point
@@ -166,14 +200,12 @@ def common_traction(j, i, skin, vof, q, pm, km):
 
 @point
 def skin_deviator(j, i, skin, scale, vof, q):
-    """(sum of f n . s . n in a cell, what its stress lacks beside its deviator and p_c; what its radial stress has more)."""
-    total, hoop = 0.0, 0.0
+    """Sum of f n . s . n in a cell: what its stress lacks beside its deviator and p_c."""
+    total = 0.0
     for m in range(vof.shape[0]):
         if vof[m, j, i] > 0.0:
-            across = normal_deviator(m, j, i, skin, q)
-            total += vof[m, j, i] * across
-            hoop -= vof[m, j, i] * (q[SRR, m, j, i] + q[SZZ, m, j, i] + across)
-    return scale * total, skin[LEAN, j, i] * scale * hoop
+            total += vof[m, j, i] * normal_deviator(m, j, i, skin, q)
+    return scale * total
 
 
 @point
@@ -185,7 +217,7 @@ def surface_weight(j, i, skin):
 @point
 def pull_of(j, i, void, skin):
     """Share of a tension that a cut cell carries: none where two groups meet, all where bodies of one fill it (`pull_left`)."""
-    if skin[KIND, j, i] == JOINT:
+    if skin[KIND, j, i] == JOINT or skin[KIND, j, i] == BESIDE_GAS:
         return 1.0
     return 0.0 if skin[KIND, j, i] == INTERFACE else pull_left(void, surface_weight(j, i, skin))
 

@@ -46,8 +46,8 @@ def close_cells(parts, i0, i1, mesh_speed, nr, mirror_r_min, mirror_r_max, u, v,
         part = int64(place)  # numba counts without a sign, for which every kernel would be compiled a second time
         boundaries.ghost_vertices_r(part, parts, nr, mirror_r_min, mirror_r_max, u, v)
         boundaries.ghost_vertices_z(part, parts, i0 - 2, i1 + 3, nz, mirror_z_min, mirror_z_max, u, v)
-        cut_cells.find_surfaces(part, parts, i0, i1, mesh_box, metrics, dr, dz, tipton, group, hard_bodies, threshold, models,
-                                materials, mixed_count, mixed_columns, vof, skin)
+        cut_cells.find_surfaces(part, parts, i0, i1, mesh_box, dr, dz, tipton, group, hard_bodies, threshold, models, materials,
+                                mixed_count, mixed_columns, vof, skin)
         wait(gate, parts)
         mixed.close_cells(part, parts, max_opening, smallest_tension, viscosity_linear, viscosity_quadratic, courant,
                           advective_courant, mesh_speed, hourglass, metrics, dr, dz, body_range, active_range, mixed_count,
@@ -97,11 +97,11 @@ def find_contact(parts, i0, i1, mesh_box, dr, dz, contact_node_count, contact_no
 def accelerate(parts, i0, i1, dt, metrics, dz, body_range, active_range, mixed_count, mixed_columns, by_what_is_solid,
                hard_bodies, threshold, u0, v0, vof, q, skin, p, bulk, solid, qr, qz, ph, sig_rr, sig_zz, sig_tt, sig_rz, mass,
                contact_columns, group_ranges, line, hard, soft, rate, contact_pressure, gate, speed_limit, underfilled_density,
-               occupied, hg_coefficient, u, v, limited, group, constrained, contact_node_count, contact_nodes, aperture_r,
-               aperture_z, cell_mass, transfer, friction, first_slot, contact_normal, touch, strength, masters, where, weights,
-               nodes, starts, entries, portions, places, impulses, gain, taken, rubbing, heat, transmitting, rhobar, cl, drag,
-               held_back, pushed, pushing, edge_velocity, walls, nr, mirror_r_min, mirror_r_max, nz, mirror_z_min,
-               mirror_z_max):
+               occupied, hg_coefficient, u, v, limited, group, materials, constrained, contact_node_count, contact_nodes,
+               aperture_r, aperture_z, cell_mass, transfer, friction, first_slot, contact_normal, touch, strength, masters,
+               where, weights, nodes, starts, entries, portions, places, impulses, gain, taken, rubbing, heat, transmitting,
+               rhobar, cl, drag, held_back, pushed, pushing, edge_velocity, walls, nr, mirror_r_min, mirror_r_max, nz,
+               mirror_z_min, mirror_z_max):
     """Total stress at half the step, and the velocities at its end: forces, contact, friction, edges."""
     for place in prange(parts.shape[0] - 1):
         part = int64(place)  # numba counts without a sign, for which every kernel would be compiled a second time
@@ -113,11 +113,13 @@ def accelerate(parts, i0, i1, dt, metrics, dz, body_range, active_range, mixed_c
                                           solid, ph, sig_rr, sig_zz, sig_tt, sig_rz, contact_pressure)
         wait(gate, parts)
         acceleration.accelerate(part, parts, i0, i1 + 1, dt, metrics, dz, occupied, mass, hg_coefficient, sig_rr, sig_zz,
-                                sig_tt, sig_rz, pushed, u0, v0, u, v)
+                                sig_tt, sig_rz, mixed_count, mixed_columns, group, materials, skin, vof, q, pushed, u0,
+                                v0, u, v)
         if mass.shape[0] > 1:
             contact_motion.contact_node_forces(
-                part, parts, dt, group, by_what_is_solid, metrics, dz, constrained, contact_node_count, contact_nodes,
-                aperture_r, aperture_z, ph, qr, solid, skin, vof, q, hg_coefficient, cell_mass, mass, u0, v0, u, v, transfer)
+                part, parts, dt, group, materials, by_what_is_solid, metrics, dz, constrained, contact_node_count,
+                contact_nodes, aperture_r, aperture_z, ph, qr, solid, skin, vof, q, hg_coefficient, cell_mass, mass, u0, v0, u,
+                v, transfer)
         wait(gate, parts)
         if part == 0:
             if mass.shape[0] > 1:

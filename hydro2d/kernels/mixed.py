@@ -7,7 +7,6 @@ from hydro2d.kernels.column_ranges import mixed_row
 from hydro2d.kernels.cut_cells import (
     FREE_SURFACE,
     INTERFACE,
-    JOINT,
     KIND,
     WHOLE,
     common_traction,
@@ -15,6 +14,8 @@ from hydro2d.kernels.cut_cells import (
     firm_share,
     is_beside_gas,
     normal_deviator,
+    tied_work,
+    ties,
 )
 from hydro2d.kernels.mixed_scratch import (
     BEFORE,
@@ -42,7 +43,7 @@ from hydro2d.kernels.mixed_strength import (
     work_of_deviators,
 )
 from hydro2d.kernels.thermodynamics import pressures_row, viscosity_row
-from hydro2d.materials.rows import EOS, EOS_AT, FADES, MEMORY, TENSILE
+from hydro2d.materials.rows import EOS, EOS_AT, FADES, GAS, MEMORY, TENSILE
 from hydro2d.mesh.fields import DMG, RHO, SRR, SRZ, SZZ, E
 from hydro2d.mesh.grid import VOL_R
 from hydro2d.physics.closure import NO_VOID, relaxation_bound, relaxation_strain, softness
@@ -64,7 +65,7 @@ def insert_void_mixed_row(j, smallest, max_opening, metrics, dz, mixed_count, mi
     The threshold is the mean of the bodies' by volume fraction, or the smallest (explanation/fracture). Two groups hold
     together by nothing and part by themselves (`meet_traction`).
 
-    Reads    mixed [j, k], skin [4, j, i]
+    Reads    mixed [j, k], skin [3, j, i]
     Updates  vof, pm [m, j, i]; q (rho, deviators); p, solid, bulk [j, i]; opened [j]
     """
     bodies = vof.shape[0]
@@ -105,7 +106,7 @@ def insert_void_mixed_row(j, smallest, max_opening, metrics, dz, mixed_count, mi
             pressure += f * pm[m, j, i]
         p[j, i] = pressure
         solid[j, i] = total
-        if total < 1.0 - NO_VOID and (skin[KIND, j, i] == WHOLE or skin[KIND, j, i] == JOINT):
+        if total < 1.0 - NO_VOID and skin[KIND, j, i] != INTERFACE:
             skin[KIND, j, i] = FREE_SURFACE
         if skin[KIND, j, i] == FREE_SURFACE:
             p[j, i], bulk[j, i] = common_traction(j, i, skin, vof, q, pm, km)
@@ -159,6 +160,25 @@ def cell_motion(j, i, g, dt, h, metrics, hg_coefficient, u0, v0, u, v, motion):
     motion[j, g, MEAN_ZZ] = 0.5 * (a_zz + zz)
     motion[j, g, MEAN_RZ] = 0.5 * ((a_rbz + rbz) + (a_zbr + zbr))
     motion[j, g, HOURGLASS] = 0.5 * dt * hg_coefficient[j, i] * (h_u0 * (h_u0 + h_u) + h_v0 * (h_v0 + h_v))
+
+
+@point
+def heat_of_ties(j, i, g, h, metrics, materials, skin, vof, q, u0, v0, u, v, mix):
+    """Gives what the ties of a cell beside a gas take of the motion to its bodies that are none, by mass (`ties`).
+
+    Updates  mix [j, HEAT, m]
+    """
+    by_r, by_z = ties(j, i, metrics, h, skin, materials, vof, q)
+    if by_r + by_z == 0.0:
+        return
+    work = tied_work(i, by_r, by_z, u0[g, j], u0[g, j + 1], u[g, j], u[g, j + 1]) + tied_work(
+        i, by_r, by_z, v0[g, j], v0[g, j + 1], v[g, j], v[g, j + 1])
+    mass = 0.0
+    for m in range(vof.shape[0]):
+        mass += q[RHO, m, j, i] * vof[m, j, i] if vof[m, j, i] > 0.0 and materials[m, GAS] == 0.0 else 0.0
+    for m in range(vof.shape[0]):
+        if vof[m, j, i] > 0.0 and materials[m, GAS] == 0.0:
+            mix[j, HEAT, m] += work * q[RHO, m, j, i] * vof[m, j, i] / mass
 
 
 @point
@@ -306,8 +326,10 @@ def deform_mixed(part, parts, dt, relaxation, tipton, mode, hard, hard_threshold
                 mix[j, NORMAL, m] = normal_deviator(m, j, i, skin, q) if vof[m, j, i] > 0.0 else 0.0
             cut, own = skin[KIND, j, i] != WHOLE, mode == MATERIAL or dominant >= 0 or meet
             target = 0.0
-            work_of_deviators(j, i, dt, dominant, total, stress_scale(mode == SOLID, total), group, motion, skin, vof,
-                              q, mix)
+            work_of_deviators(j, i, dt, dominant, total, stress_scale(mode == SOLID, total), group, motion, vof, q, mix)
+            for g in range(groups):
+                if cell_mass[g, j, i] > 0.0:
+                    heat_of_ties(j, i, g, dz[j], metrics, materials, skin, vof, q, u0, v0, u, v, mix)
             firm = firm_share(j, i, total, materials, vof)
             cell_yield = strain_deviators(j, i, dt / volume, mode, firm, skin, group, models, materials, pm, tm, motion,
                                           vof, q, mix, internal)

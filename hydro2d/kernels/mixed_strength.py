@@ -1,7 +1,7 @@
 """Strength in mixed cells: elastic trial of every body, the strain across a surface, and the return to the yield surface."""
 
 from hydro2d.jit import point
-from hydro2d.kernels.cut_cells import LEAN, NORMAL_R, NORMAL_Z, meet_traction, surface_weight
+from hydro2d.kernels.cut_cells import NORMAL_R, NORMAL_Z, meet_traction, surface_weight
 from hydro2d.kernels.mixed_scratch import (
     ACROSS,
     ALONG,
@@ -50,11 +50,10 @@ def dominant_body(j, i, hard, hard_threshold, vof):
 
 
 @point
-def work_of_deviators(j, i, dt, dominant, total, scale, group, motion, skin, vof, q, mix):
+def work_of_deviators(j, i, dt, dominant, total, scale, group, motion, vof, q, mix):
     """What the deviators of every body do in the step: its own, or in the hard zone the dominant body's alone.
 
-    In a cut cell the part across the surface is none of theirs, mix [j, NORMAL, m], and the radial stress has a share of the
-    hoop stress, skin [LEAN, j, i].
+    In a cut cell the part across the surface is none of theirs: mix [j, NORMAL, m].
 
     Writes   mix [j, HEAT, m], J per radian
     """
@@ -70,7 +69,6 @@ def work_of_deviators(j, i, dt, dominant, total, scale, group, motion, skin, vof
         power = deviator_power(q[SRR, m, j, i], q[SZZ, m, j, i], q[SRZ, m, j, i], motion[j, g, MEAN_RR],
                                motion[j, g, MEAN_ZZ], motion[j, g, MEAN_TT], motion[j, g, MEAN_RZ])
         power -= mix[j, NORMAL, m] * (motion[j, g, MEAN_RR] + motion[j, g, MEAN_ZZ] + motion[j, g, MEAN_TT])
-        power -= skin[LEAN, j, i] * (q[SRR, m, j, i] + q[SZZ, m, j, i] + mix[j, NORMAL, m]) * motion[j, g, MEAN_RR]
         mix[j, HEAT, m] = part * dt * power
 
 
@@ -78,9 +76,9 @@ def work_of_deviators(j, i, dt, dominant, total, scale, group, motion, skin, vof
 def strain_deviators(j, i, rate, mode, firm, skin, group, models, materials, pm, tm, motion, vof, q, mix, internal):
     """Elastic trial of every body; returns the yield stress of the cell by mode (explanation/mixed-cells, equation 8).
 
-    rate is the time step over the volume of the cell, firm the share of it that is neither void nor gas, or of all bodies where
-    there are gases only. Internal variables that are tensors turn with the material. In a cut cell
-    the strain across the surface is left out, by the weight of that: `meet_traction` finds it, `strain_across` adds it.
+    rate is the time step over the volume of the cell; firm is the share of it that is neither void nor gas, or that of all
+    bodies where these are gases. Internal variables that are tensors turn with the material. In a cut cell the strain across
+    the surface is left out, by the weight of that: `meet_traction` finds it, `strain_across` adds it.
 
     Updates  q (internal variables) [k, m, j, i]; scratch internal [j, k]
     Writes   mix [j, TRIAL_RR to TRIAL_RZ, m], deviators; mix [j, MODULUS, m], mix [j, YIELD, m], 0 without strength, all in Pa
@@ -102,8 +100,7 @@ def strain_deviators(j, i, rate, mode, firm, skin, group, models, materials, pm,
         line = materials[m, MELTING_AT:EOS_AT]
         if melts(line):
             modulus = solid_modulus(modulus, rho, tm[m, j, i], line)
-        strain_r, strain_z = motion[j, g, RR] * rate, motion[j, g, ZZ] * rate
-        strain_t = (motion[j, g, TT] + skin[LEAN, j, i] * motion[j, g, RR]) * rate  # at the vertices in the body
+        strain_r, strain_z, strain_t = motion[j, g, RR] * rate, motion[j, g, ZZ] * rate, motion[j, g, TT] * rate
         strain_s = 0.5 * (motion[j, g, RBZ] + motion[j, g, ZBR]) * rate
         spin = 0.5 * (motion[j, g, RBZ] - motion[j, g, ZBR]) * rate
         across = along_normal(n_r, n_z, strain_r, strain_z, strain_s) * inverse

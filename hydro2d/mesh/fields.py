@@ -170,7 +170,7 @@ WORK = (
     Work("occupied", "b j 2", "columns that hold anything of a group", int),
     Work("mixed_count", "j", "number of cells in a row that are not full of one body", int),
     Work("mixed", "j i", "their columns", int),
-    Work("skin", "4 j i", "normal of the surface that cuts a cell, its square the weight; kind of cut cell; its lean"),
+    Work("skin", "3 j i", "normal of the surface that cuts a cell, its square the weight; kind of cut cell"),
     Work("mix", "j 17 m", "what a mixed cell knows of each body while it deforms"),
     Work("motion", "j b 10", "velocity gradient of a group in a mixed cell"),
     Work("internal", "j n", "internal variables of a body in a cell while it deforms"),

@@ -335,7 +335,7 @@ def evened(pressure, kind=INTERFACE, viscosity=0.0):
     """(volumes through faces along r and along z, heat of the two bodies of every cell (J)) of 6 x 6 cells of the surface."""
     shape, vertices, columns = (6, 6), (7, 7), np.tile([0, 6], (6, 1))
     volume, bulk, vof = 2.0 + np.add.outer(np.arange(6.0), np.arange(6.0)), np.full(shape, 5.0), np.full((2, *shape), 0.5)
-    qr, q, skin, r, z = np.full(shape, viscosity), np.zeros((INTERNAL, 2, *shape)), np.zeros((4, *shape)), *np.full(
+    qr, q, skin, r, z = np.full(shape, viscosity), np.zeros((INTERNAL, 2, *shape)), np.zeros((3, *shape)), *np.full(
         (2, *vertices), np.nan)
     q[RHO] = np.array([2.0, 6.0])[:, None, None]
     skin[KIND] = kind

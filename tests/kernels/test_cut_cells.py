@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 from hydro2d.kernels import cut_cells
-from hydro2d.kernels.cut_cells import FREE_SURFACE, INTERFACE, JOINT, KIND, LEAN, NORMAL_R, NORMAL_Z, WHOLE
+from hydro2d.kernels.cut_cells import BESIDE_GAS, FREE_SURFACE, INTERFACE, JOINT, KIND, MOST_TIED, NORMAL_R, NORMAL_Z, WHOLE
 from hydro2d.kernels.mixed_scratch import ACROSS, ALONG, BESIDE, FLOW, GROWTH, HEAT, MODULUS, NORMAL, SIZE
 from hydro2d.materials.rows import EOS_AT, GAS, STRENGTH
 from hydro2d.mesh.fields import INTERNAL, RHO, SRR, SRZ, SZZ, E
-from hydro2d.mesh.grid import FACE_R, HOOP
+from hydro2d.mesh.grid import CM_IN, CM_OUT, VOL_R
 from hydro2d.physics.traction import SURE
 from tests.physics.continuity import changes_in_proportion, largest_jump
 
@@ -33,7 +33,7 @@ class Cell:
         f, p, bulk, shear = np.transpose(bodies)
         self.number = len(f)
         self.vof, self.pm, self.km = (x[:, None, None].copy() for x in (f, p, bulk))
-        self.q, self.skin = np.zeros((INTERNAL, self.number, 1, 1)), np.zeros((4, 1, 1))
+        self.q, self.skin = np.zeros((INTERNAL, self.number, 1, 1)), np.zeros((3, 1, 1))
         self.mix = np.zeros((1, 14, self.number))
         self.q[RHO, :, 0, 0] = 2.0 + np.arange(self.number)
         self.mix[0, MODULUS], self.mix[0, FLOW] = shear, flow
@@ -176,10 +176,7 @@ def test_bodies_meet_at_the_mean_of_their_normal_stresses_by_compressibility():
     cell = Cell((0.25, 0.008, 1.0, 0.5), (0.5, 0.002, 0.5, 0.1), (0.0, np.nan, 0.0, 0.0))
     cell.q[SRR, :, 0, 0] = 0.004, -0.003, np.nan
     assert cell.common() == pytest.approx(((0.25 * 0.004 + 1.0 * 0.005) / 1.25, 1.0 / 1.25))
-    cell.skin[LEAN] = 0.1
-    across, more = skin_deviator(0, 0, cell.skin, 2.0, cell.vof, cell.q)
-    assert across == pytest.approx(2.0 * (0.25 * 0.004 - 0.5 * 0.003))
-    assert more == pytest.approx(0.1 * 2.0 * -2.0 * (0.25 * 0.004 - 0.5 * 0.003))  # hoop: -(s_rr + s_zz) - n . s . n
+    assert skin_deviator(0, 0, cell.skin, 2.0, cell.vof, cell.q) == pytest.approx(2.0 * (0.25 * 0.004 - 0.5 * 0.003))
     cell.skin[NORMAL_R], cell.skin[NORMAL_Z] = 0.48, 0.64  # a weight of 0.64
     cell.q[SZZ, 0], cell.q[SRZ, 0] = -0.003, 0.002
     expected = 0.48**2 * 0.004 - 0.64**2 * 0.003 + 2.0 * 0.48 * 0.64 * 0.002
@@ -257,18 +254,17 @@ MESH_BOX = np.array([2, SIZE_OF_MESH - 2, 2, SIZE_OF_MESH - 2])
 
 
 def surfaces(vof, group=(1, 0), hard=(False, False), dr=1.0, dz=1.0, gas=(0.0, 0.0), strength=(1, 1), tipton=True):
-    """`skin` of a mesh of alike cells, whose columns begin at r = 10 dr."""
+    """`skin` of a mesh of alike cells."""
     vof = np.array(vof, dtype=float)
     is_mixed = (vof > 0.0).any(axis=0) & (vof < 1.0).all(axis=0)
     count, mixed, skin = np.zeros(SIZE_OF_MESH, dtype=np.int64), np.zeros((SIZE_OF_MESH,) * 2, dtype=np.int64), np.full(
-        (4, SIZE_OF_MESH, SIZE_OF_MESH), np.nan)
-    models, materials, metrics = np.zeros((2, 4), dtype=np.int64), np.zeros((2, EOS_AT)), np.zeros((8, SIZE_OF_MESH))
+        (3, SIZE_OF_MESH, SIZE_OF_MESH), np.nan)
+    models, materials = np.zeros((2, 4), dtype=np.int64), np.zeros((2, EOS_AT))
     models[:, STRENGTH], materials[:, GAS] = strength, gas
-    metrics[FACE_R], metrics[HOOP] = 10.0 * dr + dr * np.arange(SIZE_OF_MESH), 0.25 * dr
     for j in range(SIZE_OF_MESH):
         count[j] = is_mixed[j].sum()
         mixed[j, : count[j]] = np.nonzero(is_mixed[j])[0]
-    cut_cells.find_surfaces(0, MESH_BOX[:2], 2, SIZE_OF_MESH - 2, MESH_BOX, metrics, np.full(SIZE_OF_MESH, dr),
+    cut_cells.find_surfaces(0, MESH_BOX[:2], 2, SIZE_OF_MESH - 2, MESH_BOX, np.full(SIZE_OF_MESH, dr),
                             np.full(SIZE_OF_MESH, dz), tipton, np.array(group), np.array(hard), 0.5, models, materials, count,
                             mixed, vof, skin)
     return skin
@@ -347,19 +343,36 @@ def test_the_hard_zone_of_a_slip_layer_has_no_normals():
 
 
 @pytest.mark.parametrize("degrees", [0, 30, 90, 180])
-def test_a_surface_between_bodies_of_one_group_has_a_normal_and_leans_on_the_body_beside_gas(degrees):
-    """Half of the hoop stress pulls at either vertex: the share 2 HOOP / r_middle of it in the radial stress moves that."""
-    angle = np.radians(degrees)
-    body = half_plane(angle)
+def test_a_surface_between_bodies_of_one_group_has_the_normal_of_a_free_one(degrees):
+    body = half_plane(np.radians(degrees))
     with_void = surfaces([body, np.zeros_like(body)])[:, 4, 4]
     with_gas = surfaces([body, 1.0 - body], group=(1, 1), gas=(0.0, 1.0), strength=(1, 0))[:, 4, 4]
     with_solid = surfaces([body, 1.0 - body], group=(1, 1))[:, 4, 4]
-    assert with_gas[KIND] == with_solid[KIND] == JOINT
-    assert abs(with_solid[:2] @ with_void[:2]) == pytest.approx(1.0)
+    assert (with_gas[KIND], with_solid[KIND]) == (BESIDE_GAS, JOINT)
     assert with_gas[:2] == pytest.approx(with_void[:2])
-    share = np.cos(angle) / (abs(np.cos(angle)) + abs(np.sin(angle)))
-    assert with_gas[LEAN] == pytest.approx(-share * 0.25 / (0.5 * 14.0 + 0.25), abs=1e-3)
-    assert with_solid[LEAN] == with_void[LEAN] == 0.0
+    assert abs(with_solid[:2] @ with_void[:2]) == pytest.approx(1.0)
+
+
+def test_what_a_body_has_of_vertices_in_a_gas_is_tied_to_it():
+    """A cell of 3 m^2 per radian on r = 1 to 2 m, 2 m high, with 0.25 of 2 kg/m^3 beside gas, and a normal of (0.6, 0.8)."""
+    cell = Cell((0.25, 0.0, 1.0, 0.5), (0.75, 0.0, 0.001, 0.0), kind=BESIDE_GAS)
+    cell.skin[NORMAL_R], cell.skin[NORMAL_Z] = 0.6, 0.8
+    metrics, materials = np.zeros((8, 2)), np.zeros((2, EOS_AT))
+    metrics[VOL_R, 0], metrics[CM_IN, 0], metrics[CM_OUT, 0] = 1.5, 2 / 9, 5 / 18
+    materials[1, GAS] = 1.0
+    given = metrics, 2.0, cell.skin, materials, cell.vof, cell.q
+    at_a_vertex = 0.25 * 2.0 * 3.0 * 2 / 9
+    by_r, by_z = cut_cells.ties.py_func(0, 0, *given)
+    assert (by_r, by_z) == pytest.approx((MOST_TIED * at_a_vertex * 0.36, MOST_TIED * at_a_vertex * 0.64))
+    u0 = np.array([[[1.0, 3.0], [6.0, 10.0]]])
+    pull = cut_cells.pull_of_ties.py_func
+    pulls = [pull(0, j, i, 0, 0, by_r, by_z, u0) for j in (0, 1) for i in (0, 1)]
+    assert pulls == pytest.approx([2 * by_r + 5 * by_z, -2 * by_r + 7 * by_z, 4 * by_r - 5 * by_z, -4 * by_r - 7 * by_z])
+    after = u0[0] + np.reshape(pulls, (2, 2))  # on vertices of 1 kg
+    lost = 0.5 * (u0**2).sum() - 0.5 * (after**2).sum()
+    assert cut_cells.tied_work.py_func(0, by_r, by_z, *u0[0], *after) == pytest.approx(lost)
+    cell.skin[KIND] = JOINT
+    assert cut_cells.ties.py_func(0, 0, *given) == (0.0, 0.0)
 
 
 def test_bodies_that_are_joined_hold_in_tension():

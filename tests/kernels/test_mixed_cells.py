@@ -9,11 +9,10 @@ import pytest
 from eos import ideal_gas, stiffened_gas
 from eos.layout import ROW
 from hydro2d.kernels import cut_cells, mixed, mixed_strength
-from hydro2d.kernels.cut_cells import FREE_SURFACE, INTERFACE, KIND, LEAN, NORMAL_R, WHOLE
+from hydro2d.kernels.cut_cells import FREE_SURFACE, INTERFACE, KIND, NORMAL_R, WHOLE
 from hydro2d.kernels.mixed_scratch import (
     ACROSS,
     ALONG,
-    BESIDE,
     FLOW,
     HEAT,
     HOURGLASS,
@@ -63,7 +62,8 @@ class Cell(Cells):
         self.mixed_count[2], self.mixed[2, 0], self.cell_mass[0, *AT] = 1, 2, 5.0
         nobody = np.array([False, False])
         self.known |= {"j": 2, "i": 2, "dt": 0.1, "h": 1.0, "rate": 0.1, "total": 1.0, "firm": 1.0, "volume": 1.0,
-                       "models": models, "materials": materials, "hard": nobody, "hard_threshold": 0.5, "internal": np.zeros((5, 4))}  # fmt: skip
+                       "models": models, "materials": materials, "hard": nobody, "hard_threshold": 0.5,
+                       "internal": np.zeros((5, 4))}  # fmt: skip
 
     def moving(self, **gradient: float) -> None:
         """A velocity gradient, the same at the end of the step and at its middle, and what the filter does."""
@@ -276,9 +276,6 @@ def test_deviators_work_by_their_share():
     assert cell.mix[2, HEAT] == pytest.approx([0.9 * 0.1 * 11.0, 0.0])
     cell.run(mixed_strength.work_of_deviators, **{**given, "dominant": 1, "total": 0.9})
     assert cell.mix[2, HEAT].tolist() == [0.0, 0.0]
-    cell.skin[LEAN, *AT] = 0.25  # a quarter of the hoop stress of -4 Pa is in the radial stress
-    cell.run(mixed_strength.work_of_deviators, **given)
-    assert cell.mix[2, HEAT] == pytest.approx([0.5 * 0.1 * (11.0 - 0.25 * 4.0 * 2.0), 0.0])
 
 
 @pytest.mark.parametrize(("mode", "total", "flow"), [(VOLUME, 1.0, 4.5), (SOLID, 0.9, 5.0), (MAX, 1.0, 6.0), (ZERO, 1.0, 0.0),
@@ -292,16 +289,6 @@ def test_the_elastic_trial_and_the_yield_stress_of_a_cell(mode, total, flow):
     trial = cell.mix[2, [TRIAL_RR, TRIAL_ZZ, TRIAL_RZ, MODULUS, YIELD]]
     assert trial.T == pytest.approx(np.array([[3, -1, 4, 5, 3], [2, -1, 4, 5, 6]]))
     assert cell.mix[2, SIZE] == pytest.approx([2 * (9 + 1 - 3 + 16), 2 * (4 + 1 - 2 + 16)])
-
-
-def test_beside_gas_the_hoop_strain_is_that_of_the_vertices_in_the_body():
-    """The share of the radial strain in it is that of the hoop stress in the radial stress."""
-    cell = Cell(strong=True)
-    cell.skin[LEAN, *AT] = 0.5
-    cell.moving(rr=3.0)
-    cell.run(mixed_strength.strain_deviators, mode=VOLUME)
-    assert cell.mix[2, [TRIAL_RR, TRIAL_ZZ], 0] == pytest.approx([10 * (0.3 - 0.15), 10 * -0.15])
-    assert cell.mix[2, BESIDE, 0] == pytest.approx(0.45)
 
 
 def test_gas_has_no_part_in_the_yield_stress_of_a_cell():

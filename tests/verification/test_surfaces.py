@@ -26,9 +26,12 @@ SLOW_BARS = {"elastic": (5e-4, 12e-6), "plastic": (6e-3, 30e-6)}  # strain and t
 
 
 
-def simulation(shape: dict, wide: float, high: float, tube: bool = False, *, strong: float = 100.0,
+def simulation(shape: dict, wide: float, high: float, around: str = "void", *, strong: float = 100.0,
                geometry: str = "cylindrical", **edges: str) -> Simulation:  # fmt: skip
-    """A body of the metal in void, or in a fluid in which it slides without friction; elastic if not told otherwise."""
+    """A body of the metal, elastic if not told otherwise.
+
+    around : "void"; "tube", a fluid in which it slides without friction; "glue", the fluid, but bonded to it; or "gas"
+    """
     text = (
         mesh((f"{wide} mm", "0.5 mm"), (f"{high} mm", "0.5 mm"), geometry=geometry)
         + table("boundaries", **{"r_min": "axis", "r_max": "wall", "z_min": "wall", "z_max": "wall", **edges})
@@ -37,12 +40,16 @@ def simulation(shape: dict, wide: float, high: float, tube: bool = False, *, str
         + entry("body", name="bar", material="metal", **shape)
         + stop("1 s")
     )  # fmt: skip
-    if tube:
-        text += (
-            material("fluid", "Al5083", strength={"model": "elastic-plastic", "shear_modulus": "1 MPa", "yield_stress": "1 Pa"})
-            + box("tube", "fluid", r=[0.0, f"{wide} mm"], z=[0.0, f"{high} mm"])
-            + contact("bar", friction=0.0)
-        )
+    if around == "gas":
+        text += material("fluid", eos={"model": "ideal-gas", "reference_density": 1.2, "adiabatic_index": 1.4,
+                                       "specific_heat": 700.0})  # fmt: skip
+    elif around != "void":
+        text += material("fluid", "Al5083",
+                         strength={"model": "elastic-plastic", "shear_modulus": "1 MPa", "yield_stress": "1 Pa"})  # fmt: skip
+    if around != "void":
+        text += box("tube", "fluid", r=[0.0, f"{wide} mm"], z=[0.0, f"{high} mm"])
+    if around == "tube":
+        text += contact("bar", friction=0.0)
     return Simulation(decks.loads(text))
 
 
@@ -55,7 +62,7 @@ class Bar:
     Along z it is a cylinder of 2.5 mm and a share of a cell; inclined it is a band in plane strain, with twice that width.
     """
 
-    def __init__(self, tube: bool, share: float, angle: float, law: str):
+    def __init__(self, around: str, share: float, angle: float, law: str):
         half = 2.5 + 0.5 * share
         strong = YIELD / 1e9 if law == "plastic" else 100.0
         self.along = np.array([np.sin(angle), np.cos(angle)])
@@ -67,9 +74,9 @@ class Bar:
             edges = {"geometry": "planar", "r_min": "outflow", "r_max": "outflow"}
             shape = {"shape": "polygon", "points": points}
         else:
-            wide, high, centre, reach = 6.0 if tube else 4.0, 16.0, np.array([0.0, 8.0]), 1.5e-3
+            wide, high, centre, reach = 4.0 if around == "void" else 6.0, 16.0, np.array([0.0, 8.0]), 1.5e-3
             edges, shape = {}, {"shape": "box", "r": [0.0, f"{half} mm"], "z": [0.0, f"{high} mm"]}
-        self.simulation = simulation(shape, wide, high, tube, z_min="outflow", z_max="outflow", strong=strong, **edges)
+        self.simulation = simulation(shape, wide, high, around, z_min="outflow", z_max="outflow", strong=strong, **edges)
         grid, self.planar, self.law = self.simulation.grid, bool(angle), law
         self.place = self._along(grid.r, grid.z, 1e-3 * centre)
         self.rows = np.abs(grid.interior(self._along(grid.rc, grid.zc, 1e-3 * centre))) < reach
@@ -148,9 +155,9 @@ def beside(cells: np.ndarray) -> np.ndarray:
 
 
 @functools.cache
-def loaded(tube: bool, share: float, angle: int, law: str, cycles: int = 0):
+def loaded(around: str, share: float, angle: int, law: str, cycles: int = 0):
     """What a bar measures under load, and the same again at rest after each cycle of unloading."""
-    bar = Bar(tube, share, np.radians(angle), law)
+    bar = Bar(around, share, np.radians(angle), law)
     strain, time = SLOW_BARS[law]
     bar.compress(strain, time)
     under_load, at_rest = bar.measured(), []
@@ -171,9 +178,9 @@ def expected(found: SimpleNamespace, angle: int, law: str) -> float:
     return 2 * POISSON * found.across - YOUNG * found.strain
 
 
-def held(tube: bool, share: float, angle: int, law: str, cycles: int, force: float, stress: float) -> None:
+def held(around: str, share: float, angle: int, law: str, cycles: int, force: float, stress: float) -> None:
     """Force of the section, and stress of the cut and of the outermost full cells, within shares of what they should be."""
-    found, _ = loaded(tube, share, angle, law, cycles)
+    found, _ = loaded(around, share, angle, law, cycles)
     assert found.force == pytest.approx(expected(found, angle, law), rel=force)
     assert found.exerted == pytest.approx(expected(found, angle, law), rel=force)
     assert found.outer == pytest.approx(found.inner, rel=stress)
@@ -183,25 +190,45 @@ def held(tube: bool, share: float, angle: int, law: str, cycles: int, force: flo
 @pytest.mark.parametrize("share", SHARES)
 def test_elastic_bar(share):
     """Along z in void: force E A eps within 0.03 %, stress of the cut row and of the outermost full one within 0.25 %."""
-    held(False, share, 0, "elastic", 10, 0.001, 0.005)
+    held("void", share, 0, "elastic", 10, 0.001, 0.005)
 
 
 @pytest.mark.parametrize("share", SHARES)
 def test_elastic_bar_in_a_tube(share):
     """Along z in a tube without friction: 0.04 % and 0.02 %, but 0.55 % in the cut row with a share of 0.05."""
-    held(True, share, 0, "elastic", 10, 0.001, 0.008 if share == 0.05 else 0.001)
+    held("tube", share, 0, "elastic", 10, 0.001, 0.008 if share == 0.05 else 0.001)
 
 
 @pytest.mark.parametrize("share", SHARES)
 def test_plastic_bar(share):
     """Along z in void: force Y A within 0.25 %, stress within 1.1 %, by what is left of the bar's breathing."""
-    held(False, share, 0, "plastic", 0, 0.005, 0.015)
+    held("void", share, 0, "plastic", 0, 0.005, 0.015)
 
 
 @pytest.mark.parametrize("share", SHARES)
 def test_plastic_bar_in_a_tube(share):
     """Along z in a tube without friction: 0.11 % and 0.42 %, but 1.84 % in the cut row with a share of 0.05."""
-    held(True, share, 0, "plastic", 0, 0.002, 0.02 if share == 0.05 else 0.008)
+    held("tube", share, 0, "plastic", 0, 0.002, 0.02 if share == 0.05 else 0.008)
+
+
+@pytest.mark.parametrize("share", SHARES)
+def test_elastic_bar_in_gas(share):
+    """Along z in air: force within 0.02 %, stress within 0.5 %; with one pressure in a cell 1 to 13 % and 57 %."""
+    held("gas", share, 0, "elastic", 0, 0.001, 0.006)
+
+
+@pytest.mark.parametrize("share", SHARES)
+def test_elastic_bar_that_is_glued_in(share):
+    """Along z, bonded to a fluid: stress of the cut row within 1 %; with one pressure in a cell 5 to 36 %."""
+    found, _ = loaded("glue", share, 0, "elastic")
+    assert found.outer == pytest.approx(found.inner, rel=0.001)
+    assert found.cut == pytest.approx(found.inner, rel=0.012)
+
+
+@pytest.mark.parametrize("share", SHARES)
+def test_plastic_bar_in_gas(share):
+    """Along z in air: force within 0.6 %, stress within 2.1 %; with one pressure in a cell 2 to 16 % and up to 98 %."""
+    held("gas", share, 0, "plastic", 0, 0.008, 0.025)
 
 
 INCLINED = [(angle, law) for angle in (15, 30, 45) for law in ("elastic", "plastic")]
@@ -210,25 +237,31 @@ INCLINED = [(angle, law) for angle in (15, 30, 45) for law in ("elastic", "plast
 @pytest.mark.parametrize(("angle", "law"), INCLINED)
 def test_inclined_bar(angle, law):
     """In void, by E/(1 - nu^2) and 2 Y/sqrt(3) of plane strain: force within 0.1 %, stress within 0.43 %."""
-    held(False, 0.25, angle, law, 3 if law == "elastic" else 0, 0.002, 0.008)
+    held("void", 0.25, angle, law, 3 if law == "elastic" else 0, 0.002, 0.008)
+
+
+@pytest.mark.parametrize("angle", [15, 30, 45])
+def test_inclined_bar_in_gas(angle):
+    """In air: force within 0.1 %, stress within 0.5 %."""
+    held("gas", 0.25, angle, "elastic", 0, 0.002, 0.008)
 
 
 @pytest.mark.parametrize(("angle", "law"), INCLINED)
 def test_inclined_bar_in_a_tube(angle, law):
     """In a tube without friction: force within 0.06 %, stress within 0.13 %."""
-    held(True, 0.25, angle, law, 3 if law == "elastic" else 0, 0.001, 0.004)
+    held("tube", 0.25, angle, law, 3 if law == "elastic" else 0, 0.001, 0.004)
 
 
-def left_over(tube: bool, share: float, angle: int, cycles: int) -> float:
+def left_over(around: str, share: float, angle: int, cycles: int) -> float:
     """Largest energy per mass of the bar at rest after a cycle, as a share of what it has under load."""
-    under_load, at_rest = loaded(tube, share, angle, "elastic", cycles)
+    under_load, at_rest = loaded(around, share, angle, "elastic", cycles)
     return max(abs(rest.energy) for rest in at_rest) / under_load.energy
 
 
 @pytest.mark.parametrize("share", SHARES)
 def test_energy_of_ten_cycles(share):
     """Loaded and unloaded ten times in void: 2.4e-5 to 4.8e-5 of the elastic energy are left."""
-    assert left_over(False, share, 0, 10) < 1e-3
+    assert left_over("void", share, 0, 10) < 1e-3
 
 
 @pytest.mark.xfail(strict=True, reason="5.7e-3 to 7.5e-3 of the elastic energy are left, 6e-4 to 8e-4 more after every cycle, "
@@ -236,20 +269,20 @@ def test_energy_of_ten_cycles(share):
 @pytest.mark.parametrize("share", SHARES)
 def test_energy_of_ten_cycles_in_a_tube(share):
     """The same in a tube without friction."""
-    assert left_over(True, share, 0, 10) < 1e-3
+    assert left_over("tube", share, 0, 10) < 1e-3
 
 
 @pytest.mark.parametrize("angle", [15, 30, pytest.param(45, marks=pytest.mark.xfail(strict=True, reason="2.4e-3 are left"))])
 def test_energy_of_three_cycles_inclined(angle):
     """Inclined in void: 1.4e-4 at 15 degrees, 1.7e-4 at 30."""
-    assert left_over(False, 0.25, angle, 3) < 1e-3
+    assert left_over("void", 0.25, angle, 3) < 1e-3
 
 
 @pytest.mark.xfail(strict=True, reason="9.8e-3, 1.3e-2 and 9.5e-3 are left, a third of it after every cycle")
 @pytest.mark.parametrize("angle", [15, 30, 45])
 def test_energy_of_three_cycles_inclined_in_a_tube(angle):
     """Inclined in a tube without friction."""
-    assert left_over(True, 0.25, angle, 3) < 1e-3
+    assert left_over("tube", 0.25, angle, 3) < 1e-3
 
 
 # ---------------------------------------------------------------------------------------------------- a bar that is braked
