@@ -302,6 +302,13 @@ def test_a_field_that_is_not_there_is_refused(deck, key, body, told):
         hydro2d.Simulation(deck).field(key, body)
 
 
+def test_a_deviator_asked_for_by_its_old_name_is_told_its_new_one(deck):
+    sim = hydro2d.Simulation(deck)
+    with pytest.raises(FieldError, match="stress_zz is now called deviator_zz"):
+        sim.array("stress_zz")
+    assert sim.array("deviator_zz").shape[0] == len(sim.table.names)
+
+
 # ---------------------------------------------------------------------------------------------------- runs
 
 

@@ -47,14 +47,8 @@ def shot(deck: decks.Deck) -> Shot:
         raise DeckError(f"{deck.name}: the rod penetrates {', '.join(deck.penetration.targets)}; the models allow one target")
     numbers = {**_rod(rod, deck.materials[rod.material]), **_target(target)}
     values = {name: Given(value, f"deck {deck.name}") for name, value in numbers.items()}
-    return Shot(deck.name, deck.materials[rod.material], deck.materials[target.material], impact_velocity(deck),
+    return Shot(deck.name, deck.materials[rod.material], deck.materials[target.material], decks.impact_velocity(deck),
                 NOSES.get(rod.nose, rod.nose), values)  # fmt: skip
-
-
-def impact_velocity(deck: decks.Deck) -> float:
-    """The speed with which the rod meets the target, m/s; the deck must have both."""
-    rod, target = (decks.body(deck, getattr(deck.penetration, key)) for key in ("rod", "target"))
-    return abs(rod.velocity[1] - target.velocity[1])
 
 
 def _rod(rod, material: Material) -> dict[str, float | str]:

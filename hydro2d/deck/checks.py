@@ -14,7 +14,6 @@ from hydro2d.errors import unknown
 from hydro2d.mesh.edges.base import EDGES, PUSH
 from hydro2d.mesh.edges.registry import BY_NAME, KINDS
 from hydro2d.mesh.sinks import SINKS
-from hydro2d.sources.base import Source
 from hydro2d.sources.detonation import EXPLOSIVES
 
 #: rod radii that a mesh should reach ahead of the rod that it follows; at this distance its edge no longer affects the rod
@@ -132,18 +131,13 @@ def _bad_targets(deck: Deck) -> Iterator[tuple[tuple, str]]:
 
 
 def _bad_sources(deck: Deck) -> Iterator[tuple[tuple, str]]:
-    """Sources without a body of their own or with the name of a sink, and forces beside a contact.
-
-    A contact finds the velocities of its nodes from the stresses alone.
-    """
+    """Sources without a body of their own or with the name of a sink."""
     bodies = [entry.name for entry in deck.body if entry.join is None]
     for number, entry in enumerate(deck.source):
         if entry.body not in bodies:
             yield ("source", number, "body"), unknown("body", entry.body, bodies)
         if entry.name in SINKS:
             yield ("source", number, "name"), f'the name "{entry.name}" is that of a sink of the audit: {SINKS[entry.name]}'
-        if type(entry).push is not Source.push and deck.sliding.method == "contact":
-            yield ("source", number, "kind"), f'"{entry.kind}" is a force, which cannot act beside method = "contact"'
 
 
 def _bad_edges(deck: Deck) -> Iterator[tuple[tuple, str]]:

@@ -1,8 +1,8 @@
 """The input deck: reads strict TOML and gives a frozen, validated Deck in SI units.
 
 ``load`` and ``loads`` read a deck with its includes and overrides. Every mistake raises a DeckError that names the file, the
-line, the key and what is allowed. ``edges``, ``slots``, ``body_groups``, ``sliding_widths``, ``yield_factor`` and ``surface``
-derive further values from a deck. ``warnings`` lists what is allowed but unwise.
+line, the key and what is allowed. ``edges``, ``slots``, ``body_groups``, ``sliding_widths``, ``yield_factor``, ``surface`` and
+``impact_velocity`` derive further values from a deck. ``warnings`` lists what is allowed but unwise.
 """
 
 from __future__ import annotations
@@ -35,6 +35,7 @@ __all__ = [
     "edges",
     "extent",
     "find",
+    "impact_velocity",
     "load",
     "loads",
     "of_tables",
@@ -312,10 +313,15 @@ def _is_the_shot(deck: Deck) -> bool:
     shot = deck.experiment
     if shot is None or deck.penetration is None:
         return True
-    rod, target = body(deck, deck.penetration.rod), body(deck, deck.penetration.target)
-    if shot.velocity is not None and abs(abs(rod.velocity[1]) - shot.velocity) > 0.01 * shot.velocity:
+    if shot.velocity is not None and abs(impact_velocity(deck) - shot.velocity) > 0.01 * shot.velocity:
         return False
-    return shot.target is None or target.material == shot.target
+    return shot.target is None or body(deck, deck.penetration.target).material == shot.target
+
+
+def impact_velocity(deck: Deck) -> float:
+    """The speed along z at which the rod meets its target in whatever frame, m/s; the deck must have both."""
+    rod, target = (body(deck, getattr(deck.penetration, key)) for key in ("rod", "target"))
+    return abs(rod.velocity[1] - target.velocity[1])
 
 
 def _in_the_way(deck: Deck, rod, plates: list) -> list[str]:

@@ -291,7 +291,7 @@ class Experiment(Section):
     """
 
     velocity: PositiveSpeed | None = Field(
-        None, description="impact velocity of the shot; default: the velocity of the projectile, whatever it is",
+        None, description="impact velocity of the shot; default: that of the projectile relative to its target, whatever it is",
         examples=["1086 m/s"],
     )
     target: str | None = Field(

@@ -166,14 +166,15 @@ def corner_force(g, j, i, at_j, at_i, group, solid_mode, solid, skin, vof, q, hg
 
 @kernel
 def contact_node_forces(part, parts, dt, group, materials, solid_mode, metrics, dz, constrained, count, contact_nodes,
-                        aperture_r, aperture_z, ph, qr, solid, skin, vof, q, hg_coefficient, cell_mass, mass, u0, v0, u, v,
-                        transfer):
-    """Velocities that the forces alone would give both groups at contact nodes.
+                        aperture_r, aperture_z, ph, qr, solid, skin, vof, q, hg_coefficient, cell_mass, mass, pushed, u0, v0,
+                        u, v, transfer):
+    """Velocities that the forces alone, of stresses and of sources, would give both groups at contact nodes.
 
     The pressure of a cell acts on each group by the apertures of the cell's faces, the deviators of a group act on it alone
     (explanation/sliding, contact).
 
-    Reads    ph, qr, solid, hg_coefficient [j, i]; skin [3, j, i]; vof, q; cell_mass, mass, u0, v0 [b, j, i]
+    Reads    ph, qr, solid, hg_coefficient [j, i]; skin [3, j, i]; vof, q; cell_mass, mass, u0, v0 [b, j, i];
+             pushed [c, b, j, i], m/s, or nothing
     Writes   u, v [b, j, i], without what walls and the axis take; transfer[4, j], axial momentum given to walls
     """
     for j in range(parts[part], past_row(part, parts, 1)):
@@ -202,6 +203,9 @@ def contact_node_forces(part, parts, dt, group, materials, solid_mode, metrics, 
                         force_z += more_z
                 u[g, j, i] = u0[g, j, i] + (dt * force_r + tied_r) / mass[g, j, i]
                 v[g, j, i] = v0[g, j, i] + (dt * force_z + tied_z) / mass[g, j, i]
+                if pushed.shape[0] > 0:
+                    u[g, j, i] += pushed[0, g, j, i]
+                    v[g, j, i] += pushed[1, g, j, i]
                 if i == constrained[0] or i == constrained[1]:
                     u[g, j, i] = 0.0
                 if j == constrained[2] or j == constrained[3]:

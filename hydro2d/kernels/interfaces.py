@@ -31,11 +31,24 @@ SWEPT = 0.1
 
 
 @rowwise
-def sweep_volumes_row(j, dj, di, first, volume, active_range, fr, fz, pre):
+def report_row(j, first, number, vof, before, turned):
+    """Writes down the first cell of row j with a body in it and no volume left (sweep_volumes_row)."""
+    for x in range(number):
+        i = first + number - 1 - x
+        most = 0.0
+        for m in range(vof.shape[0]):
+            if not before[i] > 0.0 and abs(vof[m, j, i]) > most:
+                most = abs(vof[m, j, i])
+                turned[j, 0], turned[j, 1] = i, m
+
+
+@rowwise
+def sweep_volumes_row(j, dj, di, first, volume, active_range, fr, fz, vof, pre, turned):
     """Volume of cells before a sweep: V + dF_r + dF_z for the first sweep, V + dF of its own direction for the second.
 
-    Reads    volume [j, i], fr, fz [j, i]
-    Writes   pre [j, i]
+    Reads    volume [j, i], fr, fz [j, i], vof [m, j, i]
+    Writes   pre [j, i]; turned [j, 2], column of the first cell with a body in it that was turned inside out, -1 for none, and
+             the body that fills the most of it
     """
     lo, n = columns(active_range[j, 0], active_range[j, 1])
     fr_j = fr[j]
@@ -43,11 +56,16 @@ def sweep_volumes_row(j, dj, di, first, volume, active_range, fr, fz, pre):
     fz_t = fz[j + 1]
     volume_j = volume[j]
     out = pre[j]
+    wrong = 0
     for x in range(n):
         i = lo + x
         along_r = fr_j[i + 1] - fr_j[i]
         along_z = fz_t[i] - fz_b[i]
         out[i] = volume_j[i] + (along_r + along_z if first else dj * along_z + di * along_r)
+        wrong += 0 if out[i] > 0.0 else 1
+    turned[j, 0] = -1
+    if wrong > 0:
+        report_row(j, lo, n, vof, out, turned)
 
 
 @point
@@ -350,12 +368,12 @@ def interface_volumes_row(j, dj, di, mesh_box, contact_columns, dr, dz, order, g
 
 @kernel
 def donor_volumes(dj, di, part, parts, i0, i1, first, open_faces, volume, body_ranges, active_range, fr, fz, vof, pre,
-                  flux_volume):
+                  flux_volume, turned):
     """Rows j0 to j1 before a sweep: sweep_volumes_row, and donor_volumes_row, which has one more row of faces along z."""
     j0, j1 = outer_rows(parts)
     for j in range(parts[part], past_row(part, parts, dj)):
         if j < j1:
-            sweep_volumes_row(j, dj, di, first, volume, active_range, fr, fz, pre)
+            sweep_volumes_row(j, dj, di, first, volume, active_range, fr, fz, vof, pre, turned)
         if di == 1:
             donor_volumes_row(j, dj, di, i0, i1, open_faces, body_ranges, fr, vof, flux_volume)
         else:

@@ -118,8 +118,8 @@ def accelerate(parts, i0, i1, dt, metrics, dz, body_range, active_range, mixed_c
         if mass.shape[0] > 1:
             contact_motion.contact_node_forces(
                 part, parts, dt, group, materials, by_what_is_solid, metrics, dz, constrained, contact_node_count,
-                contact_nodes, aperture_r, aperture_z, ph, qr, solid, skin, vof, q, hg_coefficient, cell_mass, mass, u0, v0, u,
-                v, transfer)
+                contact_nodes, aperture_r, aperture_z, ph, qr, solid, skin, vof, q, hg_coefficient, cell_mass, mass, pushed, u0,
+                v0, u, v, transfer)
         wait(gate, parts)
         if part == 0:
             if mass.shape[0] > 1:

@@ -25,7 +25,7 @@ def carry_bodies(parts, i0, i1, dj, di, second, leading, fr, own_r, fz, own_z, q
                  body_range, vof, nz, mirror_z_min, mirror_z_max, active_range, mixed_count, mixed_columns, scratch, gate,
                  void_only, volume, body_ranges, pre, flux_volume, dr, dz, interface_order, strips, cell_mass, mesh_box,
                  contact_columns, own_share, size, hard_first, soft_first, group, line, carried, flux, group_ranges, flux_mass,
-                 edge_flux, outflow, gases, centroid, flux_place):
+                 edge_flux, outflow, gases, centroid, flux_place, turned):
     """Volume of every body through every face, fluxes of what it carries, and the cells after the sweep.
 
     leading : the edge along z that goes ahead with a mesh that travels, 0 low, 1 high, -1 none: its ghost cells are filled
@@ -42,7 +42,7 @@ def carry_bodies(parts, i0, i1, dj, di, second, leading, fr, own_r, fz, own_z, q
             column_ranges.list_mixed(part, parts, active_range, vof, mixed_count, mixed_columns, scratch)
         wait(gate, parts)
         interfaces.donor_volumes(dj, di, part, parts, i0, i1, not second, void_only, volume, body_ranges, active_range, fr, fz,
-                                 vof, pre, flux_volume)
+                                 vof, pre, flux_volume, turned)
         wait(gate, parts)
         interfaces.interface_volumes(dj, di, part, parts, mesh_box, contact_columns, dr, dz, interface_order, group, gases,
                                      mixed_count, mixed_columns, face, pre, vof, centroid, flux_volume, flux_place, strips)

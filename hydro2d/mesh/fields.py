@@ -180,6 +180,7 @@ WORK = (
     Work("normal", "2 j i", "normal of the hard body that a slip layer lies on"),
     Work("opened", "j", "volume of void that opens in a row"),
     Work("bad", "j 4", "cells that are not finite: number, column and body of the first; velocities", int),
+    Work("turned", "j 2", "the first cell that a step turned inside out: column, -1 for none, and body", int),
     Work("row_step", "j", "time step that a row allows"),
     Work("least_row", "3", "row of the least time step; rows with cells or velocities that are not finite, -1 for none", int),
     Work("cause", "2", "what sets the time step, and in which column", int),

@@ -112,6 +112,9 @@ TABLE: tuple[Quantity, ...] = (
 #: keys of older versions, and what they are called now
 RENAMED = {"velocity_rest": "velocity_soft"}
 
+#: what the deviators were called up to version 0.3; but for the shear the words stand for whole stresses now
+DEVIATORS = {f"stress_{part}": f"deviator_{part}" for part in ("rr", "zz", "tt", "rz")}
+
 BY_KEY = {quantity.key: quantity for quantity in TABLE}
 
 #: always written: without them a file shows no bodies, and nothing that is narrower than a cell
@@ -136,6 +139,13 @@ def declare(fields: Iterable[Field]) -> None:
             INTERNAL[field.name] = BY_KEY[field.name] = _internal(field)
     TABLE = tuple(BY_KEY.values())
     GROUPS["all"] = tuple(BY_KEY)
+
+
+def not_written(*keys: str) -> str:
+    """What to do about quantities that a file does not have."""
+    said = ["output.fields of the deck sets which fields are written"]
+    said += [f"up to version 0.3, {key} was the name of {DEVIATORS[key]}" for key in keys if key in DEVIATORS]
+    return "; ".join(said)
 
 
 def expand(keys) -> tuple[str, ...]:

@@ -65,7 +65,7 @@ def chosen(dump: Dump, field: str) -> Shown:
         raise FigureError(f'field "{field}": only {", ".join(VECTORS)} have components, such as velocity:r and velocity:z')
     name = quantity.name(part)
     if name not in dump.fields:
-        raise FigureError(f'the file has no "{name}"; output.fields of the deck sets which fields are written')
+        raise FigureError(f'the file has no "{name}"; {quantities.not_written(key)}')
     values = dump.fields[name].astype(float)
     if values.ndim == 3:
         values = values[..., COMPONENTS[part]] if part else np.linalg.norm(values, axis=-1)

@@ -305,7 +305,22 @@ class Cycle:
         self.mesh.fill_ghosts(self.dt)
         phase(self.rows, i0, i1, dj, di, bool(second), -1 if leading is None else leading,
               *self.arguments.of(phase))
+        self._refuse_turned_cells(second)
         self._audit_outflow(di)
+
+    def _refuse_turned_cells(self, second: int) -> None:
+        """Raises UnphysicalState where what the faces of a cell swept is more than its volume, of both directions or of the
+        second, so that no remap can give back what was in it."""
+        s, g, (j0, j1, _, _) = self.state, self.grid, self.box
+        wrong = s.turned[j0:j1, 0] >= 0
+        if not wrong.any():
+            return
+        j = j0 + int(np.argmax(wrong))
+        i, m = s.turned[j].tolist()
+        raise UnphysicalState(
+            f"cycle {self.number}, time {self.time:.6g} s, cell (r, z) = ({g.rc[i]:.6g}, {g.zc[j]:.6g}) m, body "
+            f'"{self.table.names[m]}": the step of {self.dt:.3g} s turned the cell inside out'
+            f"{' along one direction' if second else ''}, to {s.pre[j, i] / g.volume[j, i]:.3g} of its volume")
 
     def _open_edges(self, di: int) -> tuple[bool, bool]:
         """Whether bodies flow through the low and the high edge of a direction, where the active box has reached them."""

@@ -387,7 +387,9 @@ class Simulation:
         """
         field = next((each for each in fields.FIELDS if name in (each.name, each.symbol)), None)
         if field is None:
-            raise quantities.FieldError(unknown("field", name, (each.name for each in fields.FIELDS)))
+            now = quantities.DEVIATORS.get(name)
+            raise quantities.FieldError(f"{name} is now called {now}" if now else
+                                        unknown("field", name, (each.name for each in fields.FIELDS)))
         values = getattr(self.state, field.symbol)
         inner = self.grid.interior_vertices(values) if field.centring == "vertex" else self.grid.interior(values)
         inner.flags.writeable = False

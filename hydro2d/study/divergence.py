@@ -182,7 +182,7 @@ def compare(one: Results, other: Results, fields: Sequence[str] = ()) -> Diverge
     of_history = list(_histories(one, other))
     of_fields, notes = _fields(one, other, fields or FIELDS)
     if missing := _missing(one, fields):
-        raise ResultsError(f"the dumps have no {', '.join(missing)}; output.fields of the deck sets which fields are written")
+        raise ResultsError(f"the dumps have no {', '.join(missing)}; {quantities.not_written(*missing)}")
     return Divergence((one, other), keys, (*of_history, *of_fields), tuple(notes))
 
 

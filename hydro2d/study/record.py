@@ -268,7 +268,7 @@ def _read_deck(record: Record, trust: bool) -> Place | None:
         record.without_models = str(error).removeprefix(f"{deck.name}: ")
     body = decks.body(deck, deck.penetration.rod)
     direction = int(decks.heading(body, decks.body(deck, deck.penetration.target)))
-    record.velocity = model_deck.impact_velocity(deck)
+    record.velocity = decks.impact_velocity(deck)
     record.setup = _setup(deck, body, record.shot, direction)
     if len(deck.penetration.targets) == 1:
         target = decks.body(deck, deck.penetration.target)

@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from hydro2d import toml
-from hydro2d.analytic import model_deck
 from hydro2d.deck import deck as decks
 from hydro2d.errors import DeckError
 from hydro2d.study import ranges
@@ -96,7 +95,7 @@ def fault(deck: decks.Deck, key: str, label: str) -> str | None:
     """Why a deck with this velocity under the key does not have this impact velocity; None if it has."""
     if deck.penetration is None:
         return "the deck has no projectile and target; [penetration] names them"
-    impact = model_deck.impact_velocity(deck)
+    impact = decks.impact_velocity(deck)
     if math.isclose(impact, speed(label), rel_tol=SAME):
         return None
     return f"with {key} = {label} the projectile hits the target at {impact:g} m/s; the key must set the impact velocity"

@@ -81,6 +81,15 @@ def test_run_plot_export(simulation, deck, tmp_path, capsys):
     assert (out / "export" / "interfaces.pvd").exists()
 
 
+@pytest.mark.parametrize("name", ["[1]", '["a", "b"]', '{"a": 1}', "null"])
+def test_a_directory_may_have_a_name_that_json_would_read(simulation, deck, tmp_path, monkeypatch, name):
+    monkeypatch.chdir(tmp_path)
+    for command in (["run", deck, "--out", name, "--quiet"], ["status", name], ["plot", name, name, "-o", "a.png"],
+                    ["export", name, "-o", f"{name} once more"], ["report", name, "-o", f"{name} as a page"]):
+        assert call(command) == 0, command
+    assert {file.name for file in tmp_path.iterdir() if file.is_dir()} == {name, f"{name} once more", f"{name} as a page"}
+
+
 def test_export_without_dumps_takes_the_restart_file(simulation, deck, tmp_path):
     out = tmp_path / "out"
     call(["run", deck, "--out", str(out), "--quiet"])

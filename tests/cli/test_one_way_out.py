@@ -195,13 +195,23 @@ def refuse(*_):
     raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
 
 
-def test_too_little_memory_is_one_line(simulation, deck, tmp_path, monkeypatch, capsys):
-    def step(self):
-        raise MemoryError("Unable to allocate 8 EiB")
+def test_too_little_memory_is_one_line_and_the_state_is_saved(simulation, deck, tmp_path, monkeypatch, capsys):
+    """At the first cycle there is nothing to save yet; later the last state in memory is, also over an earlier restart file."""
+    out, step, last = tmp_path / "out", simulation.step, [0]
 
-    monkeypatch.setattr(simulation, "step", step)
-    assert call(["run", deck, "--out", str(tmp_path / "out"), "--quiet"]) == 4
-    assert capsys.readouterr().err == "hydro2d: not enough memory: Unable to allocate 8 EiB\n"
+    def short(self):
+        if self.cycle >= last[0]:
+            raise MemoryError("Unable to allocate 8 EiB")
+        step(self)
+
+    monkeypatch.setattr(simulation, "step", short)
+    for last[0], options in ((0, []), (150, ["--overwrite"]), (199, ["--restart"])):
+        assert call(["run", deck, "--out", str(out), "--quiet", *options]) == 4
+        assert capsys.readouterr().err == "hydro2d: not enough memory: Unable to allocate 8 EiB\n"
+        if last[0]:
+            assert snapshot.read(out / "restart.h5").scalars["cycle"] == 100
+        assert not list(out.glob("**/.*"))
+        assert not (out / runs.SUMMARY).exists()
 
 
 @pytest.mark.parametrize(("out", "status"), [("/proc/none", 4), ("{deck}/out", 2)])

@@ -631,3 +631,12 @@ def test_key_lines_of_windows_files():
 def test_an_experiment_goes_with_its_velocity_and_target(override, depth):
     shot = deck.load("cth_nose_shape/hemi_5083_1086.toml", [override]).experiment
     assert (shot and shot.penetration) == depth
+
+
+@pytest.mark.parametrize(("rod", "plate", "depth"), [
+    (700.0, -386.0, 0.448), (0.0, -1086.0, 0.448), (-100.0, -1186.0, 0.448), (1086.0, -100.0, None), (1186.0, 0.0, None),
+])  # fmt: skip
+def test_an_experiment_goes_with_its_velocity_in_any_frame(rod, plate, depth):
+    text = deck.find("cth_nose_shape/hemi_5083_1086.toml").read_text().replace('follow = "rod"\n', "")
+    shot = deck.loads(text, [f"body.rod.velocity={rod}", f"body.plate.velocity={plate}"]).experiment
+    assert (shot and shot.penetration) == depth

@@ -266,7 +266,8 @@ def pushed(**given) -> Cells:
     """Velocities after 0.1 s at the nodes between columns 3 and 4: 10 Pa left of them, 2 Pa on their right."""
     cells = halves()
     cells.ph[:, :4], cells.ph[:, 4:], cells.aperture_r[...] = 10.0, 2.0, 0.5
-    cells.call(contact_motion.contact_node_forces, dt=0.1, solid_mode=False, count=cells.contact_node_count, **given)
+    cells.call(contact_motion.contact_node_forces, dt=0.1, solid_mode=False, count=cells.contact_node_count,
+               **{"pushed": NOTHING, **given})
     return cells
 
 
@@ -276,6 +277,11 @@ def test_pressure_acts_on_each_group_by_its_aperture():
     assert cells.mass[:, 3, 4].tolist() == [0.25, 3.0]
     assert cells.u[:, 3, 4] == pytest.approx([0.1 * 4.0 / 0.25, 0.1 * 4.0 / 3.0])
     assert cells.v[:, 3, 4] == pytest.approx([0.0, 0.0])
+    of_source = np.zeros((2, *cells.u.shape))
+    of_source[:, 1, 3, 4] = 0.5, -7.0
+    both = pushed(pushed=of_source)
+    assert both.u[:, 3, 4] == pytest.approx([0.1 * 4.0 / 0.25, 0.1 * 4.0 / 3.0 + 0.5])
+    assert both.v[:, 3, 4] == pytest.approx([0.0, -7.0])
     held = pushed(constrained=np.array([4, -1, -1, -1]))
     assert held.u[:, 3, 4].tolist() == [0.0, 0.0]
 
@@ -284,7 +290,7 @@ def test_deviators_of_a_group_act_on_it_alone():
     """s_rz = 6 Pa of the hard body left of the nodes pulls them along z: -(-1/2 * 1 * 6) N from each of two cells."""
     cells = halves()
     cells.q[SRZ, 1, :, :4] = 6.0
-    cells.call(contact_motion.contact_node_forces, dt=0.1, solid_mode=False, count=cells.contact_node_count)
+    cells.call(contact_motion.contact_node_forces, dt=0.1, solid_mode=False, count=cells.contact_node_count, pushed=NOTHING)
     assert cells.v[:, 3, 4] == pytest.approx([0.0, -0.1 * 6.0 / 3.0])
 
 
@@ -304,7 +310,7 @@ def test_both_ways_of_summing_the_corner_forces_agree():
     by_rows = np.array([cells.u[inside], cells.v[inside]])
     cells.contact_node_count[3:6], cells.contact_nodes[3:6, :3] = 3, [3, 4, 5]
     cells.mass[1] = 1.0  # divided by, and of no matter
-    cells.call(contact_motion.contact_node_forces, dt=0.1, solid_mode=False, count=cells.contact_node_count)
+    cells.call(contact_motion.contact_node_forces, dt=0.1, solid_mode=False, count=cells.contact_node_count, pushed=NOTHING)
     np.testing.assert_allclose([cells.u[inside], cells.v[inside]], by_rows, rtol=1e-12, atol=1e-13)
     assert np.abs(by_rows - [cells.u0[inside], cells.v0[inside]]).min() > 1e-4
 

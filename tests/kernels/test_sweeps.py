@@ -30,6 +30,19 @@ def test_a_pure_cell_gives_what_its_face_sweeps(dj, di, source, target, face):
     assert not cells.flux_volume.any()
 
 
+@pytest.mark.parametrize("first", [True, False])
+def test_a_cell_that_is_turned_inside_out_is_told_with_its_body(first):
+    """The first of a row that a body is in; void may be swept away, and a cell of no volume is no cell."""
+    cells = Cells(bodies=2)
+    cells.vof[:, 3, 4], cells.vof[:, 3, 5], cells.vof[0, 4, 2] = (0.2, 0.7), (0.6, 0.4), 1.0
+    cells.fr[3, 3:7] = 2.0, 0.5, -0.5, -3.0
+    cells.fr[4, 3] = -0.99
+    cells.call(interfaces.donor_volumes, dj=0, di=1, first=first, open_faces=cells.mesh_box)
+    assert cells.pre[3, 3:6].tolist() == [-0.5, 0.0, -1.5]
+    assert cells.turned[3].tolist() == [4, 1]
+    assert cells.turned[[2, 4, 5], 0].tolist() == [-1, -1, -1]
+
+
 def test_nothing_but_void_flows_in_at_an_edge():
     cells = Cells()
     cells.vof[...] = 1.0

@@ -38,6 +38,14 @@ def test_a_section_is_mirrored_and_in_readers_units(dump):
     assert np.isnan(shown[~filled]).all()
 
 
+@pytest.mark.parametrize("part", ["rr", "zz", "tt", "rz"])
+def test_the_old_name_of_a_deviator_is_told_where_the_whole_stress_was_not_written(dump, part):
+    del dump.fields[f"Stress {part} [Pa]"]
+    with pytest.raises(FigureError, match=f"up to version 0.3, stress_{part} was the name of deviator_{part}"):
+        figures.chosen(dump, f"stress_{part}")
+    assert figures.chosen(dump, f"deviator_{part}").label.startswith(f"Deviatoric Stress {part} ")
+
+
 @pytest.mark.parametrize(
     ("start", "inner", "mirrored"),
     [("0 mm", "wall", True), ("0 mm", "outflow", False), ("-6 mm", "wall", False), ("2 mm", "wall", False)],

@@ -1,18 +1,16 @@
 """No space at any write of a run or a case: one message, and then what an undisturbed run gives, its history included."""
 
-import errno
 import json
-import os
 
 import pytest
 
-from hydro2d import files
 from hydro2d.output import history, snapshot, vtk
 from hydro2d.running import run as runs
 from hydro2d.running.run import run
 from hydro2d.study.case import run_case
 from hydro2d.study.layout import state
 from tests import fake
+from tests.disk import Disk
 
 STEPS = 3e-7
 
@@ -27,25 +25,6 @@ def deck(monkeypatch, simulation):
     found = fake.FakeDeck(history_interval=1e-7, vtk_interval=2e-7, restart_interval=0.0)
     found.stop.time = STEPS
     return found
-
-
-class Disk:
-    """Counts the files that are flushed to disk, and is full from one of them on, or for that one alone."""
-
-    def __init__(self, monkeypatch):
-        self.count, self.full, self.once = 0, 0, False
-        self.sync = files.sync
-        for module in (files, snapshot):
-            monkeypatch.setattr(module, "sync", self)
-
-    def __call__(self, path):
-        self.count += 1
-        if self.full and (self.count == self.full if self.once else self.count >= self.full):
-            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), str(path))
-        self.sync(path)
-
-    def begin(self, full=0, once=False):
-        self.count, self.full, self.once = 0, full, once
 
 
 def outcome(place):

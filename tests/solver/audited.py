@@ -36,10 +36,10 @@ class Choices(NamedTuple):
 
 
 def all_choices() -> Iterator[Choices]:
-    """All combinations that decks may have: no driven edges or forces with a contact, no mesh that follows a detonation."""
+    """All combinations that decks may have: no driven edges with a contact, no mesh that follows a detonation."""
     for each in itertools.product(EDGE_KINDS, SLIDING, ADVECTIONS, SOURCES, (False, True)):
         found = Choices(*each)
-        if found.sliding == "contact" and (found.edge in DRIVEN or found.source == "acceleration"):
+        if found.sliding == "contact" and found.edge in DRIVEN:
             continue
         if not (found.following and found.source == "detonation"):
             yield found

@@ -11,7 +11,7 @@ from hydro2d.errors import DeckError, UnphysicalState
 from hydro2d.running.run import exit_status, run
 from hydro2d.solver.audit import totals
 from hydro2d.solver.simulation import Simulation
-from tests.decks import box, mesh, stop, walls
+from tests.decks import box, contact, entry, mesh, stop, table, walls
 
 TEXT = (
     mesh(("2 mm", 4), ("20 mm", 40), geometry="planar")
@@ -160,6 +160,37 @@ def test_a_collapsed_time_step_names_its_body(shot):
 def step_with(simulation, **changes):
     simulation.engine.method = dataclasses.replace(simulation.engine.method, **changes)
     simulation.step()
+
+
+def test_a_cell_that_a_step_turns_inside_out_ends_the_run_with_its_place():
+    """Half of the flyer is hurled into the other half; the step was chosen by the velocities before that."""
+    text = TEXT + entry("source", name="gun", kind="acceleration", body="flyer", z=["2 mm", "5 mm"], axial="2e12 m/s^2")
+    simulation = Simulation(deck.loads(text, ["numerics.initial_dt_factor=1.0"]))
+    with pytest.raises(UnphysicalState, match=r'cycle 0, time 0 s, cell \(r, z\) = \(0.00025, 0.00475\) m, body "flyer": the '
+                                              r"step of \S+ s turned the cell inside out, to -\S+ of its volume$"):
+        simulation.step()
+
+
+#: products of TNT beside steel: number 46 of the random decks of tests/trials/crowd.py, in which a body lost 7e-8 of its mass
+PRODUCTS = (
+    mesh(("9 mm", 9), ("22 mm", 22))
+    + box("rod", "steel_4340", r=[0.0, 0.0036121999238876903], z=[-0.001, 0.010876512815477373], velocity=213.7214512771238)
+    + box("target", "TNT", r=[0.0, 0.011], z=[0.01099492318395462, 0.0187], velocity=[0.0, 18.517080643138044])
+    + table("boundaries", r_max="wall", z_min="anvil", z_max="transmit")
+    + contact("rod")
+    + table("numerics", advection="momentum", ramp_cycles=0)
+    + entry("source", name="given", kind="detonation", body="target", points=[[0.0005, 0.01199492318395462, 0.0]])
+    + stop("1 ms")
+)
+
+
+def test_no_mass_is_lost_in_a_cell_that_a_contact_turns_inside_out():
+    simulation = Simulation(deck.loads(PRODUCTS))
+    while simulation.cycle < 73:
+        simulation.step()
+        assert max(map(abs, simulation.conservation()["mass"].values())) < 1e-12
+    with pytest.raises(UnphysicalState, match=r'cycle 73, .* \(0.0055, 0.0005\) m, body "target": .* inside out'):
+        simulation.step()
 
 
 def test_a_fault_in_the_last_cycle_is_seen(tmp_path, monkeypatch):

@@ -192,21 +192,58 @@ def test_without_the_source_the_same_column_rises():
     assert abs(simulation.state.v).max() > 1.0
 
 
-def test_a_force_is_refused_beside_a_contact():
-    """The contact has booked its work before the force acts."""
-    contact = FALL + """
+#: a block that the plate falls on
+BLOCK = """
 [[body]]
-name = "ball"
+name = "block"
 material = "W_alloy"
-shape = "sphere"
-radius = "1 mm"
-centre = "-10 mm"
+shape = "box"
+r = ["0 mm", "2 mm"]
+z = ["5.2 mm", "11.9 mm"]
 [sliding]
 method = "contact"
-hard = ["ball"]
+hard = ["block"]
 """
-    with pytest.raises(DeckError, match='"acceleration" is a force, which cannot act beside method = "contact"'):
-        deck.loads(contact)
+
+
+@pytest.mark.parametrize("pushed", ["plate", "block"])
+def test_a_force_beside_a_contact_passes_on_through_it(pushed):
+    """A plate falls onto a block, or the block is driven into the plate: momentum of both, but for crumbs, and the audit."""
+    push = G if pushed == "plate" else -G
+    text = FALL.replace('body = "plate"', f'body = "{pushed}"').replace("axial = -2e8", f"axial = {push}")
+    text = text.replace('velocity = "100 m/s"', "velocity = 0.0")
+    simulation = Simulation(deck.loads(text + BLOCK))
+    simulation.run(2e-6)
+    mass = dict(zip(simulation.table.names, simulation.audit.start.mass, strict=True))
+    means = {name: simulation.mean_velocity(m) for m, name in enumerate(simulation.table.names)}
+    given = push * simulation.time * mass[pushed]
+    assert sum(mass[name] * means[name] for name in mass) == pytest.approx(given, rel=1e-8)
+    (other,) = set(mass) - {pushed}
+    assert means[other] * given > 0.0
+    assert abs(means[other]) > 0.01 * abs(means[pushed])
+    found = simulation.conservation()
+    assert abs(found["total_energy"]) < 1e-12
+    assert abs(found["axial_momentum"]) < 1e-12
+    assert simulation.audit.sinks["gravity"].momentum == pytest.approx(-given, rel=1e-8)
+
+
+def test_a_force_on_both_bodies_of_a_contact_is_free_fall():
+    """Nothing presses: both groups fall together, at contact nodes as elsewhere."""
+    both = """
+[[source]]
+name = "of the block"
+kind = "acceleration"
+body = "block"
+axial = -2e8
+"""
+    text = FALL.replace('velocity = "100 m/s"', "velocity = 0.0") + BLOCK.replace("11.9 mm", "12 mm") + both
+    simulation = Simulation(deck.loads(text))
+    simulation.run(2e-6)
+    state = simulation.state
+    assert state.groups == 2
+    moving = simulation.grid.interior_vertices(state.mass) > 1e-6 * state.mass.max()
+    np.testing.assert_allclose(simulation.grid.interior_vertices(state.v)[moving], G * simulation.time, rtol=1e-9)
+    assert abs(simulation.grid.interior(state.p)).max() < 1e3
 
 
 def test_a_restart_goes_on_falling_to_the_same_bits():

@@ -66,7 +66,10 @@ class Client:
         found = self.outcome(deck["body"][0]["velocity"][1], deck)
         if isinstance(found, Outcome):
             return found
-        write(place, text, **found)
+        try:
+            write(place, text, **found)
+        except OSError as error:
+            return Outcome("failed", f"{place}: {error.strerror}", type(error).__name__, host="here")
         return Outcome("done", host="here", wall_s=1.0)
 
 

@@ -136,6 +136,7 @@ def test_fields_that_cannot_be_compared_are_told(tmp_path, capsys, change, said)
         (["--size", "nan"], "--size nan: must lie between 0 and 1"),
         (["--field", "presure"], '--field: unknown field "presure"; did you mean "pressure"'),
         (["--field", "temperature"], "the dumps have no temperature; output.fields of the deck sets which fields are written"),
+        (["--field", "stress_tt"], "; up to version 0.3, stress_tt was the name of deviator_tt"),
         (["-o", "x.gif"], "x.gif is a film"),
     ],
 )

@@ -10,15 +10,15 @@ from hydro2d.solver.simulation import Simulation
 from tests.trials import crowd
 
 
-@pytest.mark.parametrize("number", range(2000, 2312, 13))
+@pytest.mark.parametrize("number", range(2000, 2336, 13))
 def test_a_deck_beside_its_twins(number):
-    """A run that is off its course says so itself."""
+    """A run that is off its course says so itself; friction of a contact has an order (explanation/sliding)."""
     text, wrong = crowd.wrong(number)
-    assert set(wrong or ()) <= {"course"}, (wrong, text)
+    assert set(wrong or ()) <= ({"course", "mirror"} if "friction" in text else {"course"}), (wrong, text)
 
 
 def test_an_image_of_an_image_is_the_deck():
-    for number in range(0, 312, 17):
+    for number in range(0, 336, 17):
         text = crowd.text_of(number)
         once, twice = (tomllib.loads(each) for each in (crowd.mirrored(text), crowd.mirrored(crowd.mirrored(text))))
         first = tomllib.loads(text)

@@ -41,7 +41,7 @@ def test_lengths_times_a_power_of_two(kind):
     one = shot(0, kind)
     assert one.state.vof[:, 2:-2, 2:-2].min() == 0.0
     assert np.abs(one.state.v).max() > 1000.0
-    for power in (-10, -9, -7, -6, -4, -1, 1, 3, 6, 8, 10):
+    for power in (*range(-10, 0), *range(1, 11)):
         other = shot(power, kind)
         assert other.time == one.time * 2.0**power
         for name in ("vof", "q", "centroid", "u", "v", "pm"):

@@ -71,8 +71,8 @@ def asked(words: Iterable[str], dumps: list[Dump], run) -> list[Quantity]:
     held = {quantity.key for quantity in there}
     for word in words:
         if word in quantities.BY_KEY and word not in held:
-            raise ViewError(f'{run.directory}: the dumps have no "{word}", but {", ".join(sorted(held))}; output.fields of the '
-                            "deck sets which fields are written")
+            raise ViewError(f'{run.directory}: the dumps have no "{word}", but {", ".join(sorted(held))}; '
+                            f"{quantities.not_written(word)}")
     return [quantity for quantity in there if quantity.key in keys]
 
 

@@ -250,6 +250,7 @@ def no_dumps(tmp_path):
         (["{empty}"], "is not a run directory: it has no deck.toml"),
         (["{bare}"], "bare has no dumps to show; output.vtk_interval of the deck sets when they are written"),
         (["{run}", "--fields", "damage"], 'the dumps have no "damage", but density, material, pressure'),
+        (["{run}", "--fields", "stress_rr"], "; up to version 0.3, stress_rr was the name of deviator_rr"),
         (["{run}", "--fields", "presure"], 'unknown field "presure"; did you mean "pressure"?'),
         (["{run}", "{run}", "{run}"], "a page shows one run, or two side by side: 3 are given"),
         (["{run}", "--bits", "9"], 'Invalid value "9" for --bits'),

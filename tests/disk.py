@@ -1,0 +1,30 @@
+"""A disk that is full from some write on, for tests of what then becomes of files."""
+
+from __future__ import annotations
+
+import errno
+import os
+from pathlib import Path
+
+from hydro2d import files
+from hydro2d.output import snapshot
+
+
+class Disk:
+    """Counts the files that are flushed to disk, and is full from one of them on, or for that one alone."""
+
+    def __init__(self, monkeypatch):
+        self.count, self.full, self.once = 0, 0, False
+        self.sync = files.sync
+        for module in (files, snapshot):
+            monkeypatch.setattr(module, "sync", self)
+
+    def __call__(self, path: Path) -> None:
+        self.count += 1
+        if self.full and (self.count == self.full if self.once else self.count >= self.full):
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), str(path))
+        self.sync(path)
+
+    def begin(self, full: int = 0, once: bool = False) -> None:
+        """Counts anew. full : number of the first file for which there is no space, 0 for none;  once : for no other"""
+        self.count, self.full, self.once = 0, full, once
