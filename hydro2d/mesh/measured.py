@@ -28,10 +28,11 @@ def in_file(name: str) -> str:
 
 #: what `penetrator.Penetrator.measure` gives of a projectile, and its meaning; the names say rod, whatever its shape
 QUANTITIES = {
-    "penetration_depth_m": "from the target's original surface to the projectile's deepest part near the axis",
-    "penetration_over_length": "that depth over the projectile's length at the start: P/L",
-    "interface_velocity_m_s": "axial velocity on the axis at that depth: u of the theory of penetration, whose v is of the "
-    "tail",
+    "penetration_depth_m": "largest depth so far, from the target's original surface to the projectile's deepest part near the "
+    "axis",
+    "nose_depth_m": "the same of now: less than that once a projectile has rebounded; in a summary, at the end",
+    "penetration_over_length": "the largest depth over the projectile's length at the start: P/L",
+    "interface_velocity_m_s": "axial velocity on the axis at the nose: u of the theory of penetration, whose v is of the tail",
     "rod_length_m": "of the longest run of intact material on the axis",
     "rod_initial_length_m": "the same at the start",
     "rod_mass_kg": "mass of the projectile in the mesh",
