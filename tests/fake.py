@@ -116,7 +116,8 @@ class Simulation:
 
     def diagnostics(self) -> dict:
         return {
-            "penetration_depth_m": SPEED * self.time, "penetration_over_length": SPEED * self.time / LENGTH,
+            "penetration_depth_m": SPEED * self.time, "nose_depth_m": SPEED * self.time,
+            "penetration_over_length": SPEED * self.time / LENGTH,
             "rod_length_m": LENGTH, "rod_mass_kg": 0.06,
             "rod_max_plastic_strain": float(self.state.ep.max()), "rod_tail_velocity_m_s": SPEED,
             "rod_nose_velocity_m_s": SPEED, "rod_mean_velocity_m_s": SPEED, "rod_kinetic_energy_J": 3e4,

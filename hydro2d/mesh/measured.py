@@ -28,10 +28,11 @@ def in_file(name: str) -> str:
 
 #: what `penetrator.Penetrator.measure` gives of a projectile, and its meaning; the names say rod, whatever its shape
 QUANTITIES = {
-    "penetration_depth_m": "from the target's original surface to the projectile's deepest part near the axis",
-    "penetration_over_length": "that depth over the projectile's length at the start: P/L",
-    "interface_velocity_m_s": "axial velocity on the axis at that depth: u of the theory of penetration, whose v is of the "
-    "tail",
+    "penetration_depth_m": "largest depth so far, from the target's original surface to the projectile's deepest part near the "
+    "axis",
+    "nose_depth_m": "the same of now: less than that once a projectile has rebounded; in a summary, at the end",
+    "penetration_over_length": "the largest depth over the projectile's length at the start: P/L",
+    "interface_velocity_m_s": "axial velocity on the axis at the nose: u of the theory of penetration, whose v is of the tail",
     "rod_length_m": "of the longest run of intact material on the axis",
     "rod_initial_length_m": "the same at the start",
     "rod_mass_kg": "mass of the projectile in the mesh",
@@ -91,16 +92,17 @@ BODY = {
     "radius_at_z_max_m": "radius of its highest row of cells",
 }
 
-#: what `crater.Crater.measure` gives of the hole in a target, and its meaning
+#: what `crater.Crater.measure` gives of the hole in a target, as it would be had the target not bent, and its meaning
 CRATER = {
-    "entrance_diameter_m": "in the first row below the original surface from which the wall is steeper than 45 degrees",
-    "exit_diameter_m": "in the last such row, also beyond the original rear face; null while the hole is not open at its end",
+    "entrance_diameter_m": "in the first row below the surface from which the wall is steeper than 45 degrees; 0: no hole",
+    "exit_diameter_m": "in the last such row, also beyond the rear face; null while the hole is not open at its end",
     "mean_diameter_m": "of the cylinder with the volume and depth of the hole; null where there is none",
     "volume_m3": "of the hole, the whole circumference; in planar geometry of the meshed half, per metre",
     "volume_per_energy_m3_J": "that volume over the kinetic energy of the projectile at the start",
     "efficiency": "mass of the target that filled that volume at first, over the projectile's mass at the start: pi_V of the "
     "scaling of craters",
-    "depth_m": "from the original surface to the bottom on the axis; the target's thickness where that is shot through",
+    "depth_m": "from the surface to the bottom on the axis, or the thickness that a target that has bent lacks there; all of "
+    "its thickness where it is shot through",
     "ejected_mass_kg": "mass of the target beyond its rear face that no longer hangs together with it: plug and debris",
     "ejected_velocity_m_s": "mean axial velocity of that mass; null where there is none",
 }

@@ -30,7 +30,7 @@ def lines(run, status: str, message: str, progress: dict) -> list[str]:
     if not summary:
         said["end"] = _end(run.stop, columns, now, progress, run.projectile)
     if summary and (through := passed(summary)):
-        nose = number(now["penetration_depth_m"], 1e3, ".2f", "mm")
+        nose = number(now.get("nose_depth_m", now["penetration_depth_m"]), 1e3, ".2f", "mm")
         said["through"] = f"{', '.join(through)}; nose {nose} behind the first face"
     elif now.get("penetration_depth_m") is not None:
         said["depth"] = number(now["penetration_depth_m"], 1e3, ".2f", "mm")

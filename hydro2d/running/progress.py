@@ -380,10 +380,12 @@ def _rod(summary: dict) -> list[str]:
     depth, experiment, shape = summary["penetration_depth_m"], summary["experiment"], summary["projectile"]
     body = shape["body"]
     bound = "at least " if summary["regime"] == LEFT else ""
+    largest, at_end = (number(each, 1e2, ".2f", "cm") for each in (depth, summary["nose_depth_m"]))
     if through := passed(summary):
-        lines = [f"gone through          {', '.join(through)}; nose {number(depth, 1e2, '.2f', 'cm')} behind the first face"]
+        lines = [f"gone through          {', '.join(through)}; nose {at_end} behind the first face"]
     else:
-        lines = [f"penetration depth     {bound}{number(depth, 1e2, '.2f', 'cm')}{_over_length(summary)}"]
+        back = "" if at_end == largest else f"; {at_end} at the end"
+        lines = [f"penetration depth     {bound}{largest}{_over_length(summary)}{back}"]
     if experiment and experiment["penetration_m"]:
         measured = experiment["penetration_m"]
         error = f" (error {(depth - measured) * 1e2:+.2f} cm, {100 * (depth / measured - 1):+.1f} %)"

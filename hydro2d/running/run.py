@@ -61,8 +61,8 @@ DONE, WRONG_INPUT, UNPHYSICAL = 0, 2, 3
 
 #: results that every summary has; null for a deck without rod and target
 ROD_RESULTS = (
-    "penetration_depth_m", "penetration_over_length", "rod_length_m", "rod_mass_kg", "rod_max_plastic_strain",
-    "rod_tail_velocity_m_s", "regime",
+    "penetration_depth_m", "nose_depth_m", "penetration_over_length", "rod_length_m", "rod_mass_kg",
+    "rod_max_plastic_strain", "rod_tail_velocity_m_s", "regime",
     "rod_residual_velocity_m_s", "rod_residual_mass_kg", "rod_residual_length_m", "exit_time_s",
 )  # fmt: skip
 

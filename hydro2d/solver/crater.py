@@ -39,6 +39,10 @@ class Crater:
     planar geometry the width, with the row's area from the axis to there, less what the target fills of the wall's own
     cells and of those next to them: exact for any straight wall, and smooth in time.
 
+    A plate that the rod has dished has no hole where its face has left its plane, but where metal of it is missing. Its columns
+    of cells count as moved back by as much as they have gone along with the plate, as far as their rear has moved. Where the
+    rear lies as it did, or is not in the mesh, as of a thick target, that changes nothing.
+
     Parameters
     ----------
     sim : Simulation
@@ -91,6 +95,38 @@ class Crater:
     def beyond(self) -> np.ndarray:
         """Which rows of cells are beyond the target's original rear face, [j, 1]."""
         return (self._depth(self.sim.grid.zc[self.sim.grid.inside[0]]) > self.rear)[:, None]
+
+    def _unbent(self, walls: tuple[np.ndarray, np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
+        """The same, with every column of cells moved back by as much as it has gone along with the plate: as far as its rear.
+
+        A column that lacks less than half of a cell of the target's thickness is whole, and what it lacks is no hole. Gaps in
+        it, as of a spall, have not moved its face; one that is less than half full goes with the next one outside of it.
+        """
+        order = slice(None, None, 1 if self.direction > 0 else -1)
+        wall, filled = (cells[order].copy() for cells in walls)
+        edges = self._depth(self.sim.grid.z_edges)[order]
+        height = np.diff(edges)
+        way, moved, whole = 0.0, 0.0, False
+        for i in range(wall.shape[1] - 1, -1, -1):
+            cells = np.nonzero(wall[:, i])[0]
+            if len(cells):
+                first, last = cells[0], cells[-1]
+                metal = filled[:, i] / filled[:, i].max() * height
+                face, rear = edges[first + 1] - metal[: first + 1].sum(), edges[last] + metal[last:].sum()
+                gap = np.sum(height[first : last + 1], where=~wall[first : last + 1, i])
+                way = rear - gap - self.rear
+                whole = rear - gap - face > self.rear - HALF * height[first]
+                moved = face if whole else way
+            if way <= (1.0 - FULL) * height[0] or moved <= 0.0:
+                continue
+            if whole:
+                behind = filled[:, i].max() * np.clip(edges, 0.0, self.rear)
+            else:
+                behind = np.concatenate([[0.0], np.cumsum(filled[:, i] * height)])
+                behind = np.interp(edges + moved, np.maximum(edges, face), behind)
+            filled[:, i] = np.diff(behind) / height
+            wall[:, i] = filled[:, i] >= HALF
+        return wall[order], filled[order]
 
     def _row(self, wall: np.ndarray, filled: np.ndarray) -> tuple[float, float]:
         """(radius, share on the axis) of a row, shapes (nr,); (NaN, 0) where it has no wall."""
@@ -153,7 +189,7 @@ class Crater:
     def _hole(self, walls: tuple[np.ndarray, np.ndarray]) -> tuple[np.ndarray, np.ndarray, np.ndarray, float, bool]:
         """Near and far ends of the hole's rows as depths and their radii, all (n,), and the depth of the bottom; m. Last,
         whether the hole is open at its end."""
-        rows = self._rows(walls)
+        rows = self._rows(self._unbent(walls))
         bottom, depth = self._bottom(rows)
         live = np.nonzero(np.isfinite(rows.radius[: bottom + 1]))[0]
         edge = rows.near[0]
@@ -183,7 +219,7 @@ class Crater:
     def measure(self) -> dict:
         """What summary.json says of the hole; SI, whole circumference, within the target's original faces.
 
-        A target that has bent has no hole where the rod first touched it, so that the entrance is where the wall becomes
+        All lengths are those of the plate as it was before it bent, see `_unbent`. The entrance is where the wall becomes
         steeper than 45 degrees, and the exit where it was so last. The mean diameter is that of the cylinder (in planar
         geometry: the slot) with the hole's volume and depth, None where there is no hole.
         """
@@ -207,13 +243,13 @@ class Crater:
             "volume_per_energy_m3_J": volume / penetrator.impact_energy if penetrator.impact_energy > 0.0 else None,
             "efficiency": volume * float(self.sim.table.rho0[self.m]) / penetrator.mass,
             "depth_m": depth,
-            **self._ejected(walls[0]),
+            **self._ejected(walls[1] > 0.0),
         }
 
-    def _ejected(self, wall: np.ndarray) -> dict[str, float | None]:
-        """Mass and mean axial velocity of what of the target has left it through its rear; ``wall`` are its pieces."""
+    def _ejected(self, pieces: np.ndarray) -> dict[str, float | None]:
+        """Mass and mean axial velocity of what of the target has left it through its rear; pieces : see `pieces`."""
         grid, s = self.sim.grid, self.sim.state
-        mass = np.where(~wall & self.beyond(), grid.interior(s.vof)[self.m] * grid.interior(s.rho)[self.m], 0.0)
+        mass = np.where(~pieces & self.beyond(), grid.interior(s.vof)[self.m] * grid.interior(s.rho)[self.m], 0.0)
         mass *= grid.volume[grid.inside]
         mean = grid.vertex_mean(s.v[s.group[self.m]])
         total = float(mass.sum())

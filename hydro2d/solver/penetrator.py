@@ -57,12 +57,14 @@ class Penetrator:
     length from the longest run on the axis that has not failed. Its core is what has not failed and hangs together from the
     axis outward, row by row, along that run, as far as it keeps up with the axis: debris behind the tail, a skirt of
     turned-back material and debris that flies back against the flank do not belong to it.
+    The depth that is told is the largest that the rod has had, of every tenth cycle and of now; where its deepest part is now,
+    as of a ball that has rebounded, is the depth of its nose.
     The regime is "rigid" while the rod has lost less than 2 % of its length and no section has swollen beyond 1.1 of its
     radius, "eroding" once more than 10 % of its mass has left the core, else "deforming".
 
     A rod can leave the mesh through an open edge in z. Its core has reached the edge when it fills half of the edge's cell on
     the axis and moves outwards there, as the mesh sees it. When more than 1 % of the rod's mass has flowed out since, the
-    regime is "left the mesh" for good, and the depth stays what it was when the core reached the edge. Debris that leaves
+    regime is "left the mesh" for good, and the nose stays where it was when the core reached the edge. Debris that leaves
     through any edge changes nothing as long as the core is inside. The edge behind the rod of a mesh that follows it does not
     count: what flows out there is debris, even where it fills the hole up to the axis and so hangs together with the core.
     A rod in pieces, with no cell on the axis half full, is through a target when most of it is beyond the rear; behind the last
@@ -100,6 +102,7 @@ class Penetrator:
         self._ringing = _ringing(sim, self.m)
         self.exit: Exit | None = None
         self.passed: list[Passage] = []
+        self._deepest = 0.0
         self._offset = grid.offset
         ends = (deck.boundaries.z_min, (0, -1.0)), (deck.boundaries.z_max, (grid.nz, 1.0))
         behind = -self.direction if deck.mesh.follow == body.name else 0.0
@@ -158,8 +161,8 @@ class Penetrator:
         low, high = max(ends, key=lambda pair: pair[1] - pair[0])
         return high - low, low, high
 
-    def depth(self) -> float:
-        """Deepest rod material near the axis, from the original surface, m; 0 before impact.
+    def nose(self) -> float:
+        """Depth of the deepest rod material near the axis, from the original surface, now, m; 0 before impact.
 
         Of a rod in pieces that fill no cell near the axis by half, the depth that a hundredth of their mass has reached. Of a
         rod that has left the mesh, what it was when it reached the edge.
@@ -288,20 +291,22 @@ class Penetrator:
         if self.left:
             return
         if any(self._reaches(vertex, sign, drift) for vertex, sign in self._open):
-            self.exit = self.exit or Exit(*self._whole_core(), self.depth(), self._outflow())
+            self.exit = self.exit or Exit(*self._whole_core(), self.nose(), self._outflow())
         elif self.exit and not self.exit.pieces:
             self.exit = None
         if looks and self._open and (self.exit is None or self.exit.pieces):
             self._watch_pieces()
+        if looks and self.exit is None:
+            self._deepest = max(self._deepest, self.nose())
 
     def _is_through(self, number: int) -> bool:
         """Whether the rod, or most of its pieces, is through a target; quick where it is far from that."""
-        return (self._near_exit() and self._through(self.depth(), number)) or self._pieces_through(number)
+        return (self._near_exit() and self._through(self.nose(), number)) or self._pieces_through(number)
 
     def _watch_pieces(self) -> None:
         """Remembers a rod in pieces behind the last target, until the first of it flows out."""
         if self._pieces_through() and (self.exit is None or self.exit.outflow == self._outflow()):
-            self.exit = Exit(*self._whole(), self.depth(), self._outflow(), pieces=True)
+            self.exit = Exit(*self._whole(), self.nose(), self._outflow(), pieces=True)
 
     def _reaches(self, vertex: int, sign: float, drift: float) -> bool:
         """Whether the core fills half of the edge's cell on the axis and moves out of a mesh that drifts, m/s, along z."""
@@ -332,12 +337,14 @@ class Penetrator:
 
     def saved(self) -> dict:
         """What a restart file keeps of it."""
-        return {"exit": self.exit and self.exit._asdict(), "offset": self._offset, "passed": self.passed}
+        return {"exit": self.exit and self.exit._asdict(), "offset": self._offset, "passed": self.passed,
+                "deepest": self._deepest}
 
     def resume(self, saved: dict) -> None:
         """Continues from what was saved."""
         self.exit = Exit(**saved["exit"]) if saved["exit"] else None
         self._offset, self.passed = saved["offset"], [Passage(*one) for one in saved["passed"]]
+        self._deepest = saved["deepest"]
 
     # ------------------------------------------------------------------------------------------------ what is known
 
@@ -358,7 +365,7 @@ class Penetrator:
 
     def perforates(self) -> bool:
         """Whether the nose is the rod's radius beyond the rear of the last target, or most of a rod in pieces is behind it."""
-        return self._through(self.depth()) or len(self.passed) == len(self.targets)
+        return self._through(self.nose()) or len(self.passed) == len(self.targets)
 
     def cleared(self) -> bool:
         """Whether the tail is beyond the original rear of the last target; of a rod in pieces, nine tenths of them."""
@@ -368,21 +375,21 @@ class Penetrator:
         tail = self.direction * ((low if self.direction > 0 else high) - self.surface)
         return tail >= self._rears[-1]
 
-    def _through(self, depth: float, number: int = -1) -> bool:
-        return depth >= self._rears[number] + self.radius
+    def _through(self, nose: float, number: int = -1) -> bool:
+        return nose >= self._rears[number] + self.radius
 
     def passages(self) -> list[dict[str, float | None]]:
         """The rod as it was through each target, in their order; None for those it is not through."""
         missing = [(None,) * len(PASSAGE)] * (len(self.targets) - len(self.passed))
         return [dict(zip(PASSAGE, one, strict=True)) for one in (*self.passed, *missing)]
 
-    def _residual(self, depth: float, core: float, momentum: float) -> tuple[float | None, float | None]:
-        """Velocity in m/s and mass in kg of what flies on, from the depth and the core's mass and momentum: of a rod that has
-        left the mesh, those at its edge; of one that has perforated the last target, those of now; else None. Of a rod in
-        pieces, those of all of it."""
+    def _residual(self, nose: float, core: float, momentum: float) -> tuple[float | None, float | None]:
+        """Velocity in m/s and mass in kg of what flies on, from the nose's depth and the core's mass and momentum: of a rod
+        that has left the mesh, those at its edge; of one that has perforated the last target, those of now; else None. Of a
+        rod in pieces, those of all of it."""
         if self.left:
             return self.exit.velocity, self.exit.mass
-        if core > 0.0 and self._through(depth):
+        if core > 0.0 and self._through(nose):
             return momentum / core, core
         if core == 0.0 and len(self.passed) == len(self.targets):
             return self._whole()
@@ -410,10 +417,12 @@ class Penetrator:
         mean = float(momentum_of_rows.sum()) / mass if mass > 0.0 else None
         mass *= self._around
         front = self._front()
-        depth = self.exit.depth if self.left else max(front, 0.0)
-        residual_velocity, residual_mass = self._residual(depth, core, core_momentum)
+        nose_depth = self.exit.depth if self.left else max(front, 0.0)
+        depth = max(self._deepest, nose_depth)
+        residual_velocity, residual_mass = self._residual(nose_depth, core, core_momentum)
         return {
             "penetration_depth_m": depth,
+            "nose_depth_m": nose_depth,
             "penetration_over_length": depth / self.length if self.length > 0.0 else None,
             "interface_velocity_m_s": None if self.left or mass == 0.0 else
             self._axis_velocity(self.surface + self.direction * front),

@@ -52,7 +52,7 @@ _BY_DEPTH = {
     LIMIT: f"as for experiments: {model_transition.RULE}; also from the same runs, without those slower than every deeper one",
 }
 _ERODING = f"more than {100 * penetrator.ERODED_MASS:g} % of the mass has left the core"
-_OF_DEPTH = {DEEP: "the depth at the end is at least `depth` of the study", SHALLOW: "it is less"}
+_OF_DEPTH = {DEEP: "the largest depth of the run is at least `depth` of the study", SHALLOW: "it is less"}
 #: what the terms of a search mean
 CRITERIA = {
     "regime": {
@@ -257,7 +257,7 @@ def _transitions(study: Study, title: str, members: Sequence[Record]) -> Transit
     known = [run for run in runs if run.regime is not None]
     values = {name: value for name, value in members[0].case.values.items() if name != velocities.AXIS}
     cut = [f"{run.velocity:g} m/s" for run in known if run.record.cut]
-    moving = [f"runs that did not end at rest, whose regime and depth are those at their end: {', '.join(cut)}"] if cut else []
+    moving = [f"runs that did not end at rest, whose regime is that at their end: {', '.join(cut)}"] if cut else []
     if study.search.budget is None:
         brackets, settled, notes = _by_bisection(study.search, runs, known)
         estimate = None

@@ -110,6 +110,76 @@ def test_a_plate_that_has_bent():
     assert found["exit_diameter_m"] == pytest.approx(6e-3, rel=0.02)
 
 
+THICKNESS = 6e-3
+
+
+def dish(sim, bend, *hole):
+    """Fills the mesh with a plate of 6 mm bent by ``bend(r)`` m; hole : (radius, missing thickness) from the axis out."""
+    r = np.linspace(0.0, 11.9e-3, 500)
+    missing = np.interp(r, *np.array(hole).T) if hole else 0.0 * r
+    face, rear = bend(r) + missing, bend(r) + THICKNESS
+    there = rear - face > 1e-9
+    corners = np.concatenate([np.column_stack([r, face])[there], np.column_stack([r, rear])[there][::-1]])
+    sign = sim.penetrator.direction
+    fraction = sim.grid.interior(sim.state.vof)
+    fraction[0] = 0.0
+    fraction[1] = fractions([polygon([(x, sign * z) for x, z in corners])], sim.grid.r_edges, sim.grid.z_edges,
+                            sim.grid.cylindrical)[0]
+
+
+def bowl(depth):
+    """A dish that falls off from the axis, so deep there, its slope below 45 degrees."""
+    return lambda r: depth * (1.0 - np.sin(0.5 * np.pi * r / 11.9e-3))
+
+
+THIN = ['body.plate.thickness="6 mm"']
+THIN_BACK = [*BACK, *THIN, 'body.plate.z_front="-6 mm"']
+
+
+@pytest.mark.parametrize("options", [THIN, THIN_BACK], ids=["to +z", "to -z"])
+@pytest.mark.parametrize("depth", [0.2e-3, 1.4e-3, 4.9e-3])
+def test_a_dish_is_no_hole(depth, options):
+    """A plate that has bent as a whole lacks nothing, and nothing of it has been ejected."""
+    sim = simulation(*options)
+    dish(sim, bowl(depth))
+    found = sim.craters[0].measure()
+    assert (found["entrance_diameter_m"], found["exit_diameter_m"], found["mean_diameter_m"]) == (0.0, None, None)
+    assert (found["depth_m"], found["volume_m3"], found["ejected_mass_kg"]) == pytest.approx((0.0, 0.0, 0.0), abs=1e-20)
+    assert [len(values) for values in sim.craters[0].profile()] == [0, 0]
+
+
+@pytest.mark.parametrize("options", [THIN, THIN_BACK], ids=["to +z", "to -z"])
+@pytest.mark.parametrize("depth", [0.0, 0.2e-3, 1.4e-3, 4.9e-3])
+def test_a_hole_through_a_dish_is_the_hole(depth, options):
+    sim = simulation(*options)
+    dish(sim, bowl(depth), (0.0, THICKNESS), (RADIUS, THICKNESS), (RADIUS + 1e-6, 0.0))
+    found = sim.craters[0].measure()
+    for key in ("entrance_diameter_m", "exit_diameter_m", "mean_diameter_m"):
+        assert found[key] == pytest.approx(2 * RADIUS, rel=0.03)
+    assert found["depth_m"] == pytest.approx(THICKNESS)
+    assert found["volume_m3"] == pytest.approx(np.pi * RADIUS**2 * THICKNESS, rel=0.06)
+
+
+@pytest.mark.parametrize("depth", [0.0, 0.2e-3, 1.4e-3, 4.9e-3])
+def test_a_dent_in_a_dish_is_the_dent(depth):
+    """A dent of 2.2 mm with a flat bottom, also where the dish around it is deeper than the dent."""
+    sim = simulation(*THIN)
+    dish(sim, bowl(depth), (0.0, 2.2e-3), (RADIUS, 2.2e-3), (RADIUS + 1e-6, 0.0))
+    found = sim.craters[0].measure()
+    assert found["depth_m"] == pytest.approx(2.2e-3, abs=0.25e-3)
+    assert found["entrance_diameter_m"] == pytest.approx(2 * RADIUS, rel=0.06)
+    assert found["volume_m3"] == pytest.approx(np.pi * RADIUS**2 * 2.2e-3, rel=0.1)
+
+
+def test_a_thick_target_is_measured_as_it_lies():
+    """Its rear has not moved, or is not in the mesh: nothing is moved back, to the last bit, lip and crater as they are."""
+    for options in ((), ['body.plate.thickness="60 mm"']):
+        sim = simulation(*options)
+        carve(sim, (0.0, 9.3e-3), (RADIUS, 7.1e-3), (4.4e-3, 0.0), lip=1.3e-3)
+        for found, before in zip(sim.craters[0]._unbent(walls := sim.craters[0]._walls()), walls, strict=True):
+            np.testing.assert_array_equal(found, before)
+
+
 def test_a_bulge_closes_the_hole():
     sim = simulation()
     fraction = carve(sim, *cylinder(24e-3))

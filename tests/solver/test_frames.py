@@ -107,7 +107,7 @@ def test_a_thin_plate_is_perforated_by_whoever_moves(projectile):
 def test_a_shot_in_which_only_the_plate_flies_is_not_over_at_once():
     sim = shot(0.0, -1000.0)
     assert not sim.penetrator.perforates()
-    assert sim.penetrator.depth() == 0.0
+    assert sim.penetrator.nose() == 0.0
 
 
 def test_plates_that_catch_a_ball_up_are_its_targets_in_the_order_in_which_they_come():

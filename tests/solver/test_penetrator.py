@@ -53,6 +53,25 @@ def test_depth_counts_the_share_of_the_last_cell(simulation):
     assert simulation.diagnostics()["penetration_depth_m"] == pytest.approx(4.125e-3, rel=1e-9)
 
 
+def test_the_depth_of_a_rod_that_rebounds_is_the_largest(simulation):
+    """It was 4 mm deep and is at 1 mm again, by steps of a cell: both are told, also after a restart."""
+    sim = simulation
+    fraction, z = cells(sim)
+    fraction[(z > -0.5e-3) & (z < 4e-3), :6] = 1.0
+    sim.penetrator.watch()
+    fraction[z > 1e-3] = 0.0
+    found = sim.diagnostics()
+    assert (found["penetration_depth_m"], found["nose_depth_m"]) == pytest.approx((4e-3, 1e-3), rel=1e-9)
+    assert found["penetration_over_length"] == pytest.approx(4.0 / 20.2, rel=1e-9)
+    assert (sim.penetrator.nose(), sim.penetrator.perforates()) == (found["nose_depth_m"], False)
+    again = Simulation(sim.deck)
+    again.penetrator.resume(json.loads(json.dumps(sim.penetrator.saved())))
+    assert again.diagnostics()["penetration_depth_m"] == found["penetration_depth_m"]
+    fraction[z > -5e-3] = 0.0
+    sim.penetrator.watch()
+    assert (sim.diagnostics()["penetration_depth_m"], sim.diagnostics()["nose_depth_m"]) == (found["penetration_depth_m"], 0.0)
+
+
 def test_fragments_behind_the_tail_do_not_count(simulation):
     fraction, z = cells(simulation)
     fraction[(z > -23.5e-3) & (z < -22.9e-3), :4] = 1.0

@@ -341,7 +341,7 @@ def test_a_rod_that_left_a_short_mesh_has_no_regime_either(tmp_path):
 def test_a_run_that_was_cut_short_is_told(tmp_path, capsys):
     cut = {"stop_reason": "end time", "rod_core_velocity_m_s": 300.0}
     search(tmp_path, made_up.Client(lambda velocity, deck: usual(velocity, deck) | cut), ALONE)
-    assert "runs that did not end at rest, whose regime and depth are those at their end: 900 m/s, " in capsys.readouterr().out
+    assert "runs that did not end at rest, whose regime is that at their end: 900 m/s, " in capsys.readouterr().out
 
 
 def test_another_rod_than_the_experiments_is_told(tmp_path, capsys):
