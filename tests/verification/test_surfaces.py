@@ -41,8 +41,8 @@ def simulation(shape: dict, wide: float, high: float, around: str = "void", *, s
         + stop("1 s")
     )  # fmt: skip
     if around == "gas":
-        text += material("fluid", eos={"model": "ideal-gas", "reference_density": 1.2, "adiabatic_index": 1.4,
-                                       "specific_heat": 700.0})  # fmt: skip
+        air = {"model": "ideal-gas", "reference_density": 1.2, "adiabatic_index": 1.4, "specific_heat": 700.0}
+        text += table("materials.fluid", eos=air)
     elif around != "void":
         text += material("fluid", "Al5083",
                          strength={"model": "elastic-plastic", "shear_modulus": "1 MPa", "yield_stress": "1 Pa"})  # fmt: skip
