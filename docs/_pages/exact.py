@@ -21,7 +21,7 @@ Each problem has an exact solution, the dashed line, and was run on three meshes
 
 ```text
 python -m problems.verification.table runs/verification --keep
-python -m problems.verification.figures FOLDER
+python -m problems.verification.figures .
 ```
 """
 

@@ -84,18 +84,19 @@ def test_extrema_give_period_and_decay():
 
 
 @pytest.fixture(scope="module")
-def blast():
+def collapse():
     problem = BY_NAME["collapse"]
     return Cells(Simulation(decks.load(str(accuracy.FOLDER / problem.deck), problem.overrides("both", 20))))
 
 
-def test_rays_and_shells(blast):
+def test_rays_and_shells(collapse):
     """A field that is the distance itself is that along every ray and in every shell."""
     for angle in (0.0, 30.0, 90.0):
-        distance, found = blast.ray(blast.distance, angle)
-        inside = (distance > 2.0 * blast.size) & (distance < 0.9)
-        np.testing.assert_allclose(found[inside], distance[inside], atol=0.1 * blast.size)
-    radius, mean = blast.shells(blast.distance, 0.9)
-    np.testing.assert_allclose(mean, radius, atol=0.25 * blast.size)
-    assert float(blast.volume.sum()) == pytest.approx(0.5, rel=1e-12)
-    assert float(np.abs(blast.outward + blast.distance).max()) < 0.05
+        distance, found = collapse.ray(collapse.distance, angle)
+        inside = (distance > 2.0 * collapse.size) & (distance < 0.9)
+        np.testing.assert_allclose(found[inside], distance[inside], atol=0.1 * collapse.size)
+    radius, mean = collapse.shells(collapse.distance, 0.9)
+    np.testing.assert_allclose(mean, radius, atol=0.25 * collapse.size)
+    assert float(collapse.volume.sum()) == pytest.approx(0.5, rel=1e-12)
+    far = (collapse.r > 0.3) & (collapse.distance < 0.9)  # beside the axis a vertex has the mean over its share of both cells
+    np.testing.assert_allclose(collapse.outward[far], -1e3 * collapse.distance[far], rtol=0.01)
