@@ -2,7 +2,7 @@
 
     python docs/gallery.py              # runs all kinds and draws the studies: half an hour on one core
     python docs/gallery.py spall rod    # runs these again, and keeps the numbers of the others
-    python docs/gallery.py --studies    # draws the studies again, from the results that problems/ keeps
+    python docs/gallery.py --studies    # draws studies and exact solutions again, from the results that problems/ keeps
 
 Numbers are kept in docs/gallery.json, so that the page can be written again without a run.
 """
@@ -20,13 +20,14 @@ import tempfile
 from pathlib import Path
 
 import figures
-from _pages import kinds, studies
+from _pages import exact, kinds, studies
 
 HERE = Path(__file__).resolve().parent
 NUMBERS, PAGE = HERE / "gallery.json", HERE / "gallery.md"
 LEAD = """# Gallery
 
-Nine shots to start from, with what each gives beside what was measured or is expected, and every study of the repository.
+Nine shots to start from, with what each gives beside what was measured or is expected; problems with exact solutions; and every
+study of the repository.
 `hydro2d new KIND` writes the deck. Times are those of one core of an AMD EPYC, without the compilation that the first run of
 all needs.
 
@@ -60,7 +61,8 @@ def run_kind(kind: kinds.Kind, folder: Path, settings: tuple[str, ...] = ()) -> 
 
 def page(numbers: dict[str, dict]) -> str:
     """The text of the page from the numbers of docs/gallery.json."""
-    parts = [LEAD, *(kind.section(numbers[kind.name]) for kind in kinds.KINDS), *studies.sections()]
+    shots = (kind.section(numbers[kind.name]) for kind in kinds.KINDS)
+    parts = [LEAD, *shots, *exact.sections(), *studies.sections()]
     return "\n".join(parts)
 
 
@@ -68,7 +70,8 @@ def main(arguments: list[str] | None = None) -> int:
     """Runs what is asked for, and writes page, pictures and numbers."""
     parser = argparse.ArgumentParser(description="Writes docs/gallery.md, its pictures and docs/gallery.json.")
     parser.add_argument("kinds", nargs="*", choices=[[], *(kind.name for kind in kinds.KINDS)], metavar="KIND")
-    parser.add_argument("--studies", action="store_true", help="draws the studies and runs no kind that is not named")
+    parser.add_argument("--studies", action="store_true",
+                        help="draws studies and exact solutions, and runs no kind that is not named")
     given = parser.parse_args(arguments)
     numbers = json.loads(NUMBERS.read_text(encoding="utf-8")) if NUMBERS.is_file() else {}
     chosen = given.kinds or ([] if given.studies else [kind.name for kind in kinds.KINDS])
@@ -80,6 +83,7 @@ def main(arguments: list[str] | None = None) -> int:
         print(f"{kind.name}: {numbers[kind.name]}", flush=True)
     if given.studies or not given.kinds:
         studies.draw(figures.STATIC)
+        exact.draw(figures.STATIC)
     if set(numbers) >= {kind.name for kind in kinds.KINDS}:
         PAGE.write_text(page(numbers), encoding="utf-8")
     return 0

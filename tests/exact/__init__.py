@@ -1,1 +1,1 @@
-"""Exact solutions, independent of the solver: they import nothing of hydro2d."""
+"""Exact solutions against printed values, and against the equations that they solve."""

@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from tests.exact.elastic_plastic import ALUMINIUM, ALUMINIUM_EXACTPACK, COPPER, piston
+from problems.verification.exact.elastic_plastic import ALUMINIUM, ALUMINIUM_EXACTPACK, COPPER, elastic, piston
 
 
 def test_wilkins_flyer_at_800():
@@ -56,3 +56,13 @@ def test_linear_limit():
 def test_elastic_piston_is_refused():
     with pytest.raises(ValueError, match="stays elastic"):
         piston(*ALUMINIUM, 30.0)
+
+
+def test_an_elastic_piston():
+    """At the elastic limit it is the precursor; in the limit of a slow piston the wave of longitudinal sound."""
+    solid, shear_modulus, yield_stress = ALUMINIUM
+    limit = piston(solid, shear_modulus, yield_stress, 400.0).elastic
+    found = elastic(solid, shear_modulus, limit.u)
+    assert (found.sigma, found.speed, found.rho) == pytest.approx((limit.sigma, limit.speed, limit.rho), rel=1e-9)
+    slow, sound = elastic(solid, shear_modulus, 1e-3), math.sqrt(solid.c0**2 + 4 * shear_modulus / 3 / solid.rho0)
+    assert (slow.speed, slow.sigma) == pytest.approx((sound, solid.rho0 * sound * 1e-3), rel=1e-6)

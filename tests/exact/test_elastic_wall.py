@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tests.exact.elastic_wall import displacements
+from problems.verification.exact.elastic_wall import displacements
 
 #: density, bulk and shear modulus of the rock of ExactPack's Blake problem: 3000 kg/m^3, Young's modulus 62.5 GPa, Poisson 0.25
 ROCK = 3000.0, 125e9 / 3, 25e9

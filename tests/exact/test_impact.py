@@ -2,7 +2,7 @@
 
 import pytest
 
-from tests.exact.impact import (
+from problems.verification.exact.impact import (
     AL_5083,
     AL_7039,
     TUNGSTEN,

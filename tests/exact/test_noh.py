@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tests.exact.noh import Noh
+from problems.verification.exact.noh import Noh
 
 
 @pytest.mark.parametrize(("j", "rho", "p"), [(1, 4, 4 / 3), (2, 16, 16 / 3), (3, 64, 64 / 3)])

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tests.exact.riemann import Gas, sod, solve
+from problems.verification.exact.riemann import Gas, sod, solve
 
 # p*, u*, rho*L, rho*R: Toro, table 4.3 (tests 1 to 3), to the digits an independent iteration agrees in.
 TORO = {

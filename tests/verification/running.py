@@ -8,6 +8,7 @@ import numpy as np
 
 from hydro2d.deck import deck as decks
 from hydro2d.solver.simulation import Simulation
+from problems.verification.cells import crossing as crossing
 
 FOLDER = "problems/verification"
 ADVECTION = ("ke", "momentum", "both")
@@ -85,18 +86,6 @@ class Line:
     def filled(self) -> np.ndarray:
         """Share of a cell that is not void."""
         return self._inside(np.sum(self.simulation.state.vof, axis=0))
-
-
-def crossing(x: np.ndarray, values: np.ndarray, level: float, side: int = 1) -> float:
-    """Outermost position on side +1 or -1 where values falls through level, interpolated; nan if it does not."""
-    above = np.nonzero(values > level)[0]
-    if len(above) == 0:
-        return float("nan")
-    k = above[-1] if side > 0 else above[0]
-    if not 0 <= k + side < len(x):
-        return float("nan")
-    share = (values[k] - level) / (values[k] - values[k + side])
-    return float(x[k] + share * (x[k + side] - x[k]))
 
 
 def between(x: np.ndarray, low: float, high: float, margin: float = 0.15) -> np.ndarray:

@@ -10,8 +10,8 @@ import pytest
 from hydro2d.deck import deck as decks
 from hydro2d.materials import library, sesame, tabulate
 from hydro2d.mesh.fields import INTERNAL
+from problems.verification.exact.compaction import Porous
 from tests.eos.test_p_alpha_over_table import compacted
-from tests.exact.compaction import Porous
 from tests.verification.running import FOLDER, Line, between, crossing, finish, speed
 
 DECK = f"{FOLDER}/porous_compaction.toml"

@@ -8,7 +8,7 @@ from eos import jwl
 from hydro2d.deck import deck as decks
 from hydro2d.mesh.fields import INTERNAL
 from problems.explosives.read import GURNEY, gurney
-from tests.exact.detonation import Taylor, mader, wall_pressure
+from problems.verification.exact.detonation import Taylor, mader, wall_pressure
 from tests.verification.running import Line, crossing, finish, speed
 
 FOLDER = "problems/explosives"

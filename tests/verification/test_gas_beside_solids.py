@@ -10,7 +10,7 @@ from scipy import interpolate
 from hydro2d.deck import deck as decks
 from hydro2d.solver.simulation import Simulation
 from tests.decks import box, entry, mesh, stop, table, walls
-from tests.exact.elastic_wall import displacements
+from problems.verification.exact.elastic_wall import displacements
 
 DENSITY, SHEAR = 3000.0, 25e9
 BULK = 125e9 / 3

@@ -1,17 +1,22 @@
 """Noh's problem in one, two and three dimensions: a shock of infinite strength, and symmetry about the origin.
 
 With 100 cells to the metre only 20 are behind the shock at the end. The smearing of the shock heats what converges
-through it, and the error of the plateau falls in proportion to the cell: this is what is asserted. The accuracy that
-one would wish for at 100 cells stands below as expected failures.
+through it, and with `both` the error of the plateau falls in proportion to the cell: this is what is asserted. The
+accuracy that one would wish for at 100 cells stands below as expected failures. The gas falls at 1 km/s: at 1 m/s it would
+meet the floor of the sound speed.
 """
 
 import numpy as np
 import pytest
 
-from tests.exact.noh import Noh
+from problems.verification.exact.noh import Noh
 from tests.verification.running import ADVECTION, Line, advection, crossing, run
 
 PLATEAU = (0.08, 0.17)  # between the heated core and the smeared shock at R = 0.2
+
+
+def noh(j: int) -> Noh:
+    return Noh(j, speed=1000.0)
 
 
 def line(name: str, choice: str, cells: int) -> Line:
@@ -21,14 +26,14 @@ def line(name: str, choice: str, cells: int) -> Line:
 def plateau(profile: Line, j: int) -> float:
     """Relative error of the mean density behind the shock."""
     here = (profile.x > PLATEAU[0]) & (profile.x < PLATEAU[1])
-    return float(profile.body("rho")[here].mean() / Noh(j).rho - 1)
+    return float(profile.body("rho")[here].mean() / noh(j).rho - 1)
 
 
 def front(profile: Line, j: int) -> float:
     """Position of the shock less the exact one, in cells."""
     ahead = 4.0 ** (j - 1)
-    found = crossing(profile.x, profile.body("rho"), 0.5 * (Noh(j).rho + ahead))
-    return (found - profile.simulation.time / 3) / profile.dx[0]
+    found = crossing(profile.x, profile.body("rho"), 0.5 * (noh(j).rho + ahead))
+    return (found - profile.simulation.time * 1e3 / 3) / profile.dx[0]
 
 
 def test_planar():
@@ -37,17 +42,17 @@ def test_planar():
     assert abs(front(profile, 1)) < 1.5
     ahead = (profile.x > 0.24) & (profile.x < 0.35)
     assert profile.body("rho")[ahead] == pytest.approx(1.0, rel=2e-3)
-    assert np.max(np.abs(profile.simulation.state.v)) < 1e-12
+    assert np.max(np.abs(profile.simulation.state.v)) < 1e-9
 
 
 def test_planar_does_not_converge_without_conservation():
-    """At an infinite shock `momentum` discards 5 % of the energy, the bound of `ke` 3 %; both end up 6 % too dense."""
-    for choice, energy in (("momentum", (0.04, 0.06)), ("ke", (0.02, 0.03))):
+    """At an infinite shock `momentum` discards 5.5 % of the energy, the bound of `ke` 1.6 %; they are 5 and 7 % too dense."""
+    for choice, energy, dense in (("momentum", (0.05, 0.06), (0.05, 0.06)), ("ke", (0.014, 0.018), (0.065, 0.08))):
         profile = line("noh_planar", choice, 200)
         audit = profile.simulation.audit
         sink = sum(audit.sinks[name].energy for name in ("advection", "ke_bound")) / audit.start.energy
         assert energy[0] < sink < energy[1]
-        assert 0.04 < plateau(profile, 1) < 0.07
+        assert dense[0] < plateau(profile, 1) < dense[1]
         assert abs(profile.simulation.conservation()["total_energy"]) < 1e-12
 
 
@@ -72,13 +77,13 @@ class Wedge:
 
     def plateau(self) -> float:
         here = (self.distance > PLATEAU[0]) & (self.distance < PLATEAU[1])
-        return float(self.density[here].mean() / Noh(3).rho - 1)
+        return float(self.density[here].mean() / noh(3).rho - 1)
 
     def front(self) -> float:
         """Position of the shock less the exact one, in cells, from densities averaged over shells two cells thick."""
         shells = np.arange(0.1, 0.4, self.dx) + self.dx / 2
         means = [self.density[np.abs(self.distance - shell) < self.dx].mean() for shell in shells]
-        return (crossing(shells, np.array(means), 0.5 * (Noh(3).rho + 16)) - self.time / 3) / self.dx
+        return (crossing(shells, np.array(means), 0.5 * (noh(3).rho + 16)) - self.time * 1e3 / 3) / self.dx
 
 
 WEDGES = {"axis": (0, 10), "middle": (35, 55), "equator": (80, 90)}
@@ -90,19 +95,25 @@ def sphere(choice: str, cells: int, wedge: str) -> Wedge:
     return Wedge(simulation, *WEDGES[wedge])
 
 
-@pytest.mark.parametrize("choice", ADVECTION)
 @pytest.mark.parametrize("wedge", WEDGES)
-def test_spherical_converges(choice, wedge):
-    coarse, fine = (sphere(choice, n, wedge) for n in (100, 200))
-    order = 1.0 if choice != "both" else 0.55
-    assert np.log2(coarse.plateau() / fine.plateau()) > order - 0.15
-    assert 0 < fine.front() * fine.dx < coarse.front() * coarse.dx < 0.04
+def test_spherical_converges(wedge):
+    coarse, fine = (sphere("both", n, wedge) for n in (100, 200))
+    assert np.log2(coarse.plateau() / fine.plateau()) > 0.7
+    assert 0 < fine.front() * fine.dx < coarse.front() * coarse.dx < 0.03
+
+
+@pytest.mark.parametrize("choice", ["ke", "momentum"])
+def test_spherical_does_not_converge_without_conservation(choice):
+    """The density behind the shock grows beyond the exact one with the number of cells."""
+    for wedge in WEDGES:
+        coarse, fine = (sphere(choice, n, wedge).plateau() for n in (100, 200))
+        assert fine > max(coarse, 0.05)
 
 
 def test_spherical_front_is_a_sphere():
-    """The shock is at one distance from the origin to a cell, from the axis to the equator; the ends are alike."""
+    """The shock is at one distance from the origin to 1.1 cells, from the axis to the equator; the ends are alike."""
     fronts = {wedge: sphere("both", 100, wedge).front() for wedge in WEDGES}
-    assert max(fronts.values()) - min(fronts.values()) < 1.0
+    assert max(fronts.values()) - min(fronts.values()) < 1.2
     assert abs(fronts["axis"] - fronts["equator"]) < 0.2
 
 
@@ -114,9 +125,10 @@ def test_spherical_conserves():
 
 
 REASON = "first-order heating in the smeared shock; needs about {} cells to the metre (problems/verification/README.md)"
+AHEAD = "the smeared shock is two cells ahead on any mesh"
 
 
-@pytest.mark.xfail(strict=True, reason=REASON.format("1000"))
+@pytest.mark.xfail(strict=True, reason=REASON.format("600"))
 def test_wish_cylindrical():
     assert abs(plateau(line("noh_cylindrical", "both", 100), 2)) < 0.02
 
@@ -124,10 +136,10 @@ def test_wish_cylindrical():
 @pytest.mark.xfail(strict=True, reason=REASON.format("600"))
 @pytest.mark.parametrize("wedge", WEDGES)
 def test_wish_spherical(wedge):
-    assert abs(sphere("ke", 100, wedge).plateau()) < 0.05
+    assert abs(sphere("both", 100, wedge).plateau()) < 0.05
 
 
-@pytest.mark.xfail(strict=True, reason=REASON.format("300"))
-@pytest.mark.parametrize("wedge", WEDGES)
+@pytest.mark.xfail(strict=True, reason=AHEAD)
+@pytest.mark.parametrize("wedge", ["axis", "equator"])
 def test_wish_spherical_front(wedge):
-    assert abs(sphere("ke", 100, wedge).front()) < 1.5
+    assert abs(sphere("both", 100, wedge).front()) < 1.5

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tests.exact.riemann import sod
+from problems.verification.exact.riemann import sod
 from tests.verification.running import ADVECTION, Line, advection, between, crossing, run
 
 EXACT = sod()

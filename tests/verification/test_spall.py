@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from hydro2d.deck import deck as decks
-from tests.exact.impact import AL_5083, AL_7039, TUNGSTEN, Solid, pull_back
+from problems.verification.exact.impact import AL_5083, AL_7039, TUNGSTEN, Solid, pull_back
 from tests.verification.running import ADVECTION, Line, advection, finish
 
 CELL, LENGTH, FRONT, REAR = 0.025e-3, 16e-3, 17e-3, 18e-3

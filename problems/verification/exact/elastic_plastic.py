@@ -17,7 +17,7 @@ from dataclasses import dataclass
 
 from scipy.optimize import brentq
 
-from tests.exact.impact import Solid
+from problems.verification.exact.impact import Solid
 
 
 @dataclass(frozen=True)
@@ -73,6 +73,17 @@ def piston(solid: Solid, shear_modulus: float, yield_stress: float, u: float) ->
         raise ValueError("the plastic shock overruns the precursor")
     bulk = solid.sound_speed_squared(plastic.rho, plastic.e)
     return Piston(elastic, plastic, math.sqrt(bulk + 4 * shear_modulus / (3 * plastic.rho)), math.sqrt(bulk))
+
+
+def elastic(solid: Solid, shear_modulus: float, u: float) -> Stress:
+    """The one jump before a piston that is too slow for the solid to yield, at u > 0; its deviator follows the true strain."""
+    rest = Stress(solid.rho0, 0.0, 0.0, 0.0, 0.0, 0.0)
+
+    def behind(rho: float) -> Stress:
+        return _behind(solid, rest, rho, 4 / 3 * shear_modulus * math.log(rho / solid.rho0))
+
+    squeezed = 1.0 + 2.0 * u / solid.c0
+    return behind(brentq(lambda rho: behind(rho).u - u, solid.rho0 * (1 + 1e-12), solid.rho0 * squeezed, rtol=1e-15))
 
 
 #: Wilkins' aluminium, Lieberman's aluminium, and copper: solid, shear modulus, yield stress.

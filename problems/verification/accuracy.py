@@ -1,0 +1,662 @@
+"""Problems with exact solutions: how each is run on three meshes, what is measured, and the curve that is drawn.
+
+`table.py` runs them and prints the tables, `figures.py` draws them. A measure takes the results of a run that has ended and
+gives quantities; the exact values are those of the modules in `exact`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+from scipy.optimize import curve_fit
+
+from eos import jwl
+from hydro2d.deck.deck import Deck
+from hydro2d.results.reading import Results
+from hydro2d.solver.simulation import Simulation
+from problems.verification.cells import Cells, crossing
+from problems.verification.exact import blake, elastic_plastic, guderley, riemann_jwl, shell, vibration
+from problems.verification.exact.collapse import Collapse
+from problems.verification.exact.detonation import Taylor
+from problems.verification.exact.impact import AL_5083
+from problems.verification.exact.noh import Noh
+from problems.verification.exact.sedov import Sedov
+
+FOLDER = Path(__file__).parent
+#: the choices of numerics.advection, the default of this folder first
+ADVECTION = ("both", "momentum", "ke")
+#: angles of rays from the axis, degrees
+RAYS = (0.0, 15.0, 30.0, 45.0, 60.0, 75.0, 90.0)
+
+Curve = tuple[np.ndarray, np.ndarray]
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """A number of a run and its exact value; the error is told in per cent of `of`, or of the exact value where `of` is 0."""
+
+    name: str
+    unit: str
+    exact: float
+    found: float
+    of: float = 0.0
+
+    @property
+    def error(self) -> float:
+        """Per cent."""
+        return 100.0 * (self.found - self.exact) / abs(self.of or self.exact)
+
+
+@dataclass(frozen=True)
+class Problem:
+    """A problem, its deck and how its mesh is refined.
+
+    cells : number of cells of each mesh, in the sense of `resolution`
+    refine : cells -> overrides of the deck
+    variants : overrides by the name of what is compared, the first of them drawn
+    measure : a run that has ended, its number of cells -> quantities
+    curve : a run that has ended -> what is drawn; exact : x of the curve -> y, and labels of both axes
+    columns : further columns of the history
+    """
+
+    name: str
+    title: str
+    deck: str
+    resolution: str
+    cells: tuple[int, ...]
+    refine: Callable[[int], list[str]]
+    measure: Callable[[Results, int], list[Quantity]]
+    curve: Callable[[Results], Curve]
+    exact: Callable[[np.ndarray], np.ndarray]
+    axes: tuple[str, str]
+    variants: dict[str, tuple[str, ...]] = field(default_factory=lambda: {"both": ('numerics.advection="both"',)})
+    columns: dict[str, Callable[[Simulation], float]] = field(default_factory=dict)
+
+    def overrides(self, variant: str, cells: int) -> list[str]:
+        """Overrides of the deck of a run."""
+        return [*self.variants[variant], *self.refine(cells)]
+
+
+def cells_of(run: Results) -> Cells:
+    """The cells of a run at its end."""
+    return Cells(run.simulation())
+
+
+def advection(*choices: str) -> dict[str, tuple[str, ...]]:
+    """Variants by advection."""
+    return {choice: (f'numerics.advection="{choice}"',) for choice in choices or ADVECTION}
+
+
+def square(to: float, cells: int, z_start: float = 0.0) -> list[str]:
+    """A mesh of so many cells in both directions."""
+    return [f"mesh.r=[{{to={to}, cells={cells}}}]", f"mesh.z=[{{to={to}, cells={cells}}}]", f"mesh.z_start={z_start}"]
+
+
+def column(to: float, cells: int, start: float = 0.0) -> list[str]:
+    """Four columns of so many cells along z."""
+    size = (to - start) / cells
+    return [f"mesh.r=[{{to={4 * size}, cells=4}}]", f"mesh.z=[{{to={to}, cells={cells}}}]", f"mesh.z_start={start}"]
+
+
+def difference(found: np.ndarray, exact: np.ndarray, weight: np.ndarray | float = 1.0) -> float:
+    """L1 of the difference over L1 of the exact values, in per cent."""
+    return float(100.0 * np.sum(weight * np.abs(found - exact)) / np.sum(weight * np.abs(exact)))
+
+
+def profile(name: str, found: np.ndarray, exact: np.ndarray, weight: np.ndarray | float = 1.0) -> Quantity:
+    """The L1 error of a profile."""
+    return Quantity(f"L1 error of {name}", "%", 0.0, difference(found, exact, weight), 100.0)
+
+
+def lost(run: Results) -> Quantity:
+    """What the advection of velocities discarded or clipped, of the energy at the start."""
+    told = run.summary["conservation"]
+    taken = sum(told["sinks"][name]["energy_J"] for name in ("advection", "ke_bound"))
+    return Quantity("energy discarded", "%", 0.0, 100.0 * taken / told["start_energy_J"], 100.0)
+
+
+def front_of(cells: Cells, values: np.ndarray, angle: float) -> float:
+    """Where the front of a blast is on a ray: the values fall through half of the largest on that ray."""
+    distance, found = cells.ray(values, angle)
+    return crossing(distance, found, 0.5 * found.max())
+
+
+# Sedov
+
+SEDOV = {3: Sedov(3, 1.4, 0.8510718546e6), 2: Sedov(2, 1.4, 0.9840740168e6)}
+
+
+def _sedov_refine(j: int, cells: int) -> list[str]:
+    radius = 3.6 / cells
+    size = {2: math.pi * radius**2, 3: 4.0 / 3.0 * math.pi * radius**3}[j]
+    return [*square(1.2, cells), f"body.hot.radius={radius!r}", f"body.hot.energy={SEDOV[j].energy / size!r}"]
+
+
+def _sedov(j: int, run: Results, cells: int) -> list[Quantity]:
+    exact, found, time = SEDOV[j], cells_of(run), run.summary["time_s"]
+    radius = exact.radius(time)
+    fronts = np.array([front_of(found, found.mean_pressure, angle) for angle in RAYS])
+    centre = found.distance < 0.25 * radius
+    rho, _, p = exact.sample(found.distance, time)
+    inside = found.distance < 1.15 * radius
+    return [
+        Quantity("radius of the front", "m", radius, float(fronts.mean())),
+        Quantity("radius at the axis", "m", radius, float(fronts[0])),
+        Quantity("radius at 45 degrees", "m", radius, float(fronts[3])),
+        Quantity("spread over seven rays", "m", 0.0, float(np.ptp(fronts)), radius),
+        Quantity("largest density", "kg/m3", exact.behind(time)[0], float(found.density.max())),
+        Quantity("pressure within R/4", "MPa", 1e-6 * exact.central_pressure(time),
+                 1e-6 * float(np.average(found.mean_pressure[centre], weights=found.volume[centre]))),
+        profile("density", found.density[inside], rho[inside], found.volume[inside]),
+        profile("pressure", found.mean_pressure[inside], p[inside], found.volume[inside]),
+        lost(run),
+    ]  # fmt: skip
+
+
+def _sedov_curve(run: Results) -> Curve:
+    cells = cells_of(run)
+    return cells.shells(cells.density, 1.2)
+
+
+def sedov(j: int) -> Problem:
+    where = {3: ("sedov", "Sedov's blast in r-z"), 2: ("sedov_plane", "Sedov's blast in the plane")}[j]
+    return Problem(*where, f"{where[0]}.toml", "on 1.2 m", (50, 100, 200), partial(_sedov_refine, j), partial(_sedov, j),
+                   _sedov_curve, lambda x: SEDOV[j].sample(x, 1e-3)[0], ("distance [m]", "density [kg/m$^3$]"),
+                   advection())  # fmt: skip
+
+
+# Noh
+
+NOH_PLATEAU = (0.08, 0.17)  # between the heated core and the smeared shock at 0.2 m
+
+
+def _noh(j: int, run: Results, cells: int) -> list[Quantity]:
+    exact, found, time = Noh(j, speed=1000.0), cells_of(run), run.summary["time_s"]
+    place = found.distance if j == 3 else found.r
+    here = (place > NOH_PLATEAU[0]) & (place < NOH_PLATEAU[1])
+    rho, middle = exact.rho, 0.5 * (exact.rho + 4.0 ** (j - 1))
+    density = found.density
+    if j == 3:
+        fronts = np.array([crossing(*found.ray(density, angle), middle) for angle in RAYS])
+    else:
+        fronts = np.array([crossing(*found.along(density, "r"), middle)])
+    quantities = [
+        Quantity("density behind the shock", "kg/m3", rho, float(np.average(density[here], weights=found.volume[here]))),
+        Quantity("place of the shock", "m", exact.shock_speed * time, float(fronts.mean())),
+    ]
+    if j == 3:
+        quantities.append(Quantity("spread over seven rays", "m", 0.0, float(np.ptp(fronts)), exact.shock_speed * time))
+    inside = place < 0.35
+    exact_density = exact.sample(place, time)[0]
+    return [*quantities, profile("density", density[inside], exact_density[inside], found.volume[inside]), lost(run)]
+
+
+def _noh_curve(j: int, run: Results) -> Curve:
+    cells = cells_of(run)
+    x, y = cells.shells(cells.density, 0.4) if j == 3 else cells.along(cells.density, "r")
+    return x[x < 0.4], y[x < 0.4]
+
+
+def noh(j: int) -> Problem:
+    name = {1: "planar", 2: "cylindrical", 3: "spherical"}[j]
+
+    def refine(cells: int) -> list[str]:
+        return square(1.0, cells) if j == 3 else [f"mesh.r=[{{to=1.0, cells={cells}}}]"]
+
+    return Problem(f"noh_{name}", f"Noh's problem, {name}", f"noh_{name}.toml", "on 1 m",
+                   (50, 100, 200) if j == 3 else (100, 200, 400), refine, partial(_noh, j), partial(_noh_curve, j),
+                   lambda x: Noh(j, speed=1000.0).sample(x, 6e-4)[0], ("distance [m]", "density [kg/m$^3$]"),
+                   advection("both"))  # fmt: skip
+
+
+# The uniform collapse
+
+COLLAPSE = Collapse(e0=5e4, end=1e-3)
+
+
+def _collapse(run: Results, cells: int) -> list[Quantity]:
+    found, time = cells_of(run), run.summary["time_s"]
+    rho, p, e = COLLAPSE.at(time)
+    here = found.distance < 0.8 * COLLAPSE.untouched(1.0, time)
+    core = found.distance < 0.1
+    weights = found.volume[here]
+
+    def mean(values: np.ndarray, where: np.ndarray) -> float:
+        return float(np.average(values[where], weights=found.volume[where]))
+
+    return [
+        Quantity("mean density", "kg/m3", rho, mean(found.density, here)),
+        Quantity("density within 0.1 m", "kg/m3", rho, mean(found.density, core)),
+        Quantity("mean pressure", "MPa", 1e-6 * p, 1e-6 * mean(found.mean_pressure, here)),
+        Quantity("pressure within 0.1 m", "MPa", 1e-6 * p, 1e-6 * mean(found.mean_pressure, core)),
+        profile("density", found.density[here], np.full(weights.shape, rho), weights),
+        profile("velocity", found.outward[here], COLLAPSE.velocity(found.distance[here], time), weights),
+        lost(run),
+    ]
+
+
+def _collapse_curve(run: Results) -> Curve:
+    cells = cells_of(run)
+    return cells.shells(cells.density, 0.3)
+
+
+# Guderley
+
+GUDERLEY_WINDOW = (0.1, 0.4)
+IMPLOSION = ("axis", 0.0), ("middle", 45.0), ("equator", 90.0)
+
+
+def _implosion(angle: float, simulation: Simulation) -> float:
+    """Radius of the imploding front on a ray: the density falls inward through the middle of 1 and 6."""
+    cells = Cells(simulation)
+    return crossing(*cells.ray(cells.density, angle), 3.5, -1)
+
+
+def power_law(time, scale, end, exponent):
+    """R = scale (end - t)^exponent."""
+    return scale * np.maximum(end - time, 1e-12) ** exponent
+
+
+def implosion_fit(time: np.ndarray, radius: np.ndarray, window: tuple[float, float] = GUDERLEY_WINDOW) -> np.ndarray:
+    """(scale, end, exponent) of the power law through the radii within a window."""
+    with np.errstate(invalid="ignore"):
+        first = np.nonzero(~(radius > 0.0))[0]
+        here = (radius > window[0]) & (radius < window[1])
+    if len(first):
+        here[first[first > np.argmax(here)][:1].min(initial=len(here)):] = False
+    took, first = np.ptp(time[here]), time[here][0]
+    scale, end, exponent = curve_fit(power_law, (time[here] - first) / took, radius[here], (window[1], 1.2, 0.7))[0]
+    return np.array([scale * took**-exponent, first + end * took, exponent])
+
+
+def _guderley(run: Results, cells: int) -> list[Quantity]:
+    history = run.history
+    fits = {name: implosion_fit(history["time"], history[f"front_{name}_m"]) for name, _ in IMPLOSION}
+    mean = np.mean([history[f"front_{name}_m"] for name, _ in IMPLOSION], axis=0)
+    alpha, size = guderley.exponent(3, 1.4), 1.4 / cells
+    at = np.nonzero(mean > 0.2)[0][-1]
+    fronts = [history[f"front_{name}_m"][at] for name, _ in IMPLOSION]
+    ends = [fit[1] for fit in fits.values()]
+    return [
+        Quantity("exponent, mean of the rays", "", alpha, float(np.mean([fit[2] for fit in fits.values()]))),
+        *(Quantity(f"exponent, {name}", "", alpha, float(fit[2])) for name, fit in fits.items()),
+        Quantity("rays apart at 0.2 m", "cells", 0.0, float(np.ptp(fronts) / size), 0.2 / size),
+        Quantity("time of collapse, spread", "s", 0.0, float(np.ptp(ends)), float(np.mean(ends))),
+        lost(run),
+    ]  # fmt: skip
+
+
+def _guderley_curve(run: Results) -> Curve:
+    """Mean radius over the time that is left to the collapse of the power law, which is 1 at 0.25 m."""
+    time = run.history["time"]
+    mean = np.mean([run.history[f"front_{name}_m"] for name, _ in IMPLOSION], axis=0)
+    scale, end, exponent = implosion_fit(time, mean)
+    there = (mean > 0.02) & (time < end)
+    return (end - time[there]) / (0.25 / scale) ** (1.0 / exponent), mean[there]
+
+
+# Cavities
+
+CAVITY = blake.Cavity()
+
+
+def _moved(run: Results) -> tuple[np.ndarray, np.ndarray]:
+    """Places of the tracers at the start, (r, z), and their displacement away from the axis or the origin."""
+    simulation = run.simulation()
+    start = np.array([(each.r, each.z) for each in simulation.deck.tracer])
+    return start, simulation.stations.tracers[: len(start)] - start
+
+
+def _blake(run: Results, cells: int) -> list[Quantity]:
+    time, found = run.summary["time_s"], cells_of(run)
+    start, moved = _moved(run)
+    distance = np.hypot(*start.T)
+    moved = np.sum(moved * start, axis=1) / distance
+    gas = float(np.sum(found.vof[0] * found.volume))
+    grown = (3.0 * gas) ** (1.0 / 3.0) - CAVITY.radius
+    here = (found.distance > 1.2 * CAVITY.radius) & (found.distance < CAVITY.radius + CAVITY.longitudinal * time)
+    exact = CAVITY.displacement(distance, time)
+    wall = 1e9 * float(CAVITY.displacement(CAVITY.radius, time))
+    quantities = [Quantity("displacement of the wall", "nm", wall, 1e9 * grown)]
+    for radii in (1.5, 3.0):
+        near = np.abs(distance / CAVITY.radius - radii) < 0.01
+        quantities.append(Quantity(f"displacement at {radii:g} radii", "nm", 1e9 * float(exact[near].mean()),
+                                   1e9 * float(moved[near].mean())))  # fmt: skip
+        quantities.append(Quantity(f"spread of three rays at {radii:g} radii", "nm", 0.0, 1e9 * float(np.ptp(moved[near])),
+                                   1e9 * float(exact[near].mean())))  # fmt: skip
+    weight = found.volume[here] / found.distance[here] ** 2
+    return [
+        *quantities,
+        profile("radial velocity", found.outward[here], CAVITY.velocity(found.distance[here], time), weight),
+        profile("mean pressure", found.mean_pressure[here], CAVITY.mean_pressure(found.distance[here], time), weight),
+    ]
+
+
+def _blake_curve(run: Results) -> Curve:
+    cells = cells_of(run)
+    x, y = cells.shells(cells.outward, 1.0)
+    return x[x > CAVITY.radius], 1e3 * y[x > CAVITY.radius]
+
+
+def _cylinder(run: Results, cells: int) -> list[Quantity]:
+    start, moved = _moved(run)
+    exact = blake.cylindrical(CAVITY, start[:, 0], run.summary["time_s"])
+    return [Quantity(f"displacement at {r / CAVITY.radius:g} radii", "nm", 1e9 * right, 1e9 * found)
+            for r, right, found in zip(start[:, 0], exact, moved[:, 0], strict=True)]  # fmt: skip
+
+
+def _cylinder_curve(run: Results) -> Curve:
+    start, moved = _moved(run)
+    return start[:, 0] / CAVITY.radius, 1e9 * moved[:, 0]
+
+
+# Pistons
+
+METAL = elastic_plastic.ALUMINIUM_EXACTPACK
+
+
+def _elastic_piston(run: Results, cells: int) -> list[Quantity]:
+    found, time = cells_of(run), run.summary["time_s"]
+    wave = elastic_plastic.elastic(METAL[0], METAL[1], 20.0)
+    x, stress = found.along(found.axial_stress, "z")
+    front, velocity = crossing(x, stress, 0.5 * wave.sigma), found.along(found.v, "z")[1]
+    flat = (x > 0.2 * front) & (x < 0.8 * front)
+    return [
+        Quantity("speed of the wave", "m/s", wave.speed, front / time),
+        Quantity("axial stress", "GPa", 1e-9 * wave.sigma, 1e-9 * float(stress[flat].mean())),
+        Quantity("velocity", "m/s", wave.u, float(velocity[flat].mean())),
+        Quantity("largest axial stress", "GPa", 1e-9 * wave.sigma, 1e-9 * float(stress.max())),
+        profile("axial stress", stress, np.where(x < wave.speed * time, wave.sigma, 0.0)),
+    ]
+
+
+def _elastic_plastic_piston(run: Results, cells: int) -> list[Quantity]:
+    found, time = cells_of(run), run.summary["time_s"]
+    exact = elastic_plastic.piston(*METAL, 100.0)
+    first, second = exact.elastic, exact.plastic
+    x, stress = found.along(found.axial_stress, "z")
+    pressure = found.along(found.mean_pressure, "z")[1]
+    ends = second.speed * time, first.speed * time
+    shelf = (x > 0.6 * ends[0] + 0.4 * ends[1]) & (x < 0.2 * ends[0] + 0.8 * ends[1])
+    flat = (x > 0.2 * second.speed * time) & (x < 0.8 * second.speed * time)
+    return [
+        Quantity("speed of the precursor", "m/s", first.speed, crossing(x, stress, 0.5 * first.sigma) / time),
+        Quantity("stress of the precursor", "GPa", 1e-9 * first.sigma, 1e-9 * float(stress[shelf].mean())),
+        Quantity("speed of the plastic shock", "m/s", second.speed,
+                 crossing(x, stress, 0.5 * (first.sigma + second.sigma)) / time),
+        Quantity("stress behind it", "GPa", 1e-9 * second.sigma, 1e-9 * float(stress[flat].mean())),
+        Quantity("pressure behind it", "GPa", 1e-9 * second.p, 1e-9 * float(pressure[flat].mean())),
+        profile("axial stress", stress, _two_waves(x, time)),
+    ]  # fmt: skip
+
+
+def _two_waves(x: np.ndarray, time: float) -> np.ndarray:
+    exact = elastic_plastic.piston(*METAL, 100.0)
+    ahead = np.where(x < exact.elastic.speed * time, exact.elastic.sigma, 0.0)
+    return np.where(x < exact.plastic.speed * time, exact.plastic.sigma, ahead)
+
+
+def _stress_curve(run: Results) -> Curve:
+    cells = cells_of(run)
+    x, y = cells.along(cells.axial_stress, "z")
+    return 1e3 * x, 1e-9 * y
+
+
+# The breathing sphere
+
+SPHERE, SPHERE_RADIUS = vibration.Elastic(2785.0, 5328.0, 27.6e9), 0.01
+
+
+def _breathes(simulation: Simulation) -> float:
+    """The velocity of the surface in the gravest mode, by the projection of the radial velocity on its shape, m/s."""
+    cells = Cells(simulation)
+    shape = vibration.shape(vibration.sphere(SPHERE), cells.distance / SPHERE_RADIUS)
+    mass = cells.volume * cells.density
+    return float(np.sum(mass * shape * cells.outward) / np.sum(mass * shape**2))
+
+
+def extrema(time: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Times and values of the extrema inside a record, by the parabola through three points."""
+    turns = np.nonzero((np.diff(values)[1:] * np.diff(values)[:-1]) < 0.0)[0] + 1
+    found = []
+    for k in turns:
+        a, b, _ = np.polyfit(time[k - 1 : k + 2] - time[k], values[k - 1 : k + 2], 2)
+        found.append((time[k] - 0.5 * b / a, np.polyval((a, b, values[k]), -0.5 * b / a)))
+    return tuple(np.array(found).T)
+
+
+def _sphere(run: Results, cells: int) -> list[Quantity]:
+    period = vibration.period(SPHERE, SPHERE_RADIUS, vibration.sphere(SPHERE))
+    times, values = extrema(run.history["time"], run.history["mode_m_s"])
+    loss = np.polyfit(times, np.log(np.abs(values)), 1)[0]
+    half = np.polyfit(np.arange(len(times)), times, 1)[0]
+    return [
+        Quantity("period", "us", 1e6 * period, 2e6 * float(half)),
+        Quantity("amplitude after seven periods", "", 1.0, math.exp(7.0 * period * loss)),
+    ]
+
+
+def _sphere_curve(run: Results) -> Curve:
+    return 1e6 * run.history["time"], run.history["mode_m_s"]
+
+
+def _sphere_exact(x: np.ndarray) -> np.ndarray:
+    """The velocity of the mode that a velocity of 2 m/s times the share of the radius has."""
+    gravest = vibration.sphere(SPHERE)
+    share = np.linspace(0.0, 1.0, 2001)
+    shape = vibration.shape(gravest, share)
+    start = 2.0 * np.trapezoid(share**3 * shape, share) / np.trapezoid(share**2 * shape**2, share)
+    return start * np.cos(2e-6 * math.pi * x / vibration.period(SPHERE, SPHERE_RADIUS, gravest))
+
+
+# Shells
+
+BERYLLIUM = (1845.0, 0.33e9)
+SHELLS = {3: (shell.Shell(3, 0.08, 0.1, *BERYLLIUM), 619.787), 2: (shell.Shell(2, 0.08, 0.1, *BERYLLIUM), 490.299)}
+
+
+def _cavity(j: int, simulation: Simulation) -> float:
+    """Radius of the empty space within the shell, by its volume, m."""
+    cells = Cells(simulation)
+    place = cells.distance if j == 3 else cells.r
+    mass = cells.vof[0] * cells.rho[0] * cells.volume
+    inside = place < np.sum(mass * place) / np.sum(mass)
+    empty = float(np.sum(((1.0 - cells.vof[0]) * cells.volume)[inside]))
+    return (3.0 * empty) ** (1.0 / 3.0) if j == 3 else math.sqrt(2.0 * empty / 0.008)
+
+
+def _cavity_along(axis: str, simulation: Simulation) -> float:
+    """Empty space within the shell along the axis ("z") or the equator ("r"), m."""
+    cells = Cells(simulation)
+    x, filled = (cells.rows, cells.vof[0][:, 0]) if axis == "z" else (cells.columns, cells.vof[0][0])
+    inside = x < np.sum(x * filled) / np.sum(filled)
+    return float(np.sum((1.0 - filled)[inside]) * cells.size)
+
+
+def _shell(j: int, run: Results, cells: int) -> list[Quantity]:
+    exact, speed = SHELLS[j]
+    stop, time = exact.stop(speed), run.history["time"]
+    radius = run.history["cavity_m"]
+    last = int(np.argmin(radius))
+    told = run.summary["conservation"]
+    quantities = [
+        Quantity("inner radius at the stop", "mm", 1e3 * stop, 1e3 * float(radius[last])),
+        Quantity("kinetic energy that the remap discarded", "%", 0.0,
+                 100.0 * told["sinks"]["advection"]["energy_J"] / told["start_energy_J"], 100.0),
+    ]  # fmt: skip
+    if j == 3:
+        axis, equator = (run.history[f"cavity_{name}_m"][last] for name in ("axis", "equator"))
+        quantities.append(Quantity("axis less equator", "mm", 0.0, 1e3 * float(axis - equator), 1e3 * stop))
+    assert time[last] < run.summary["time_s"], "the shell has not stopped"
+    return quantities
+
+
+def _shell_exact(j: int, x: np.ndarray) -> np.ndarray:
+    exact, speed = SHELLS[j]
+    time, radius = exact.path(speed)
+    return 1e3 * np.interp(1e-6 * x, time, radius)
+
+
+def _shell_curve(run: Results) -> Curve:
+    return 1e6 * run.history["time"], 1e3 * run.history["cavity_m"]
+
+
+# The Riemann problem with products
+
+DRIVEN = riemann_jwl.drive(riemann_jwl.burnt(*riemann_jwl.PBX9404), AL_5083)
+
+
+def _riemann(run: Results, cells: int) -> list[Quantity]:
+    found, time = cells_of(run), run.summary["time_s"]
+    x, pressure = found.along(found.mean_pressure, "z")
+    velocity, density = found.along(found.v, "z")[1], found.along(found.density, "z")[1]
+    rho, u, p = DRIVEN.sample(x / time)
+    contact, shock = DRIVEN.u * time, DRIVEN.shocked.speed * time
+    left = (x > 0.5 * (contact - 5e-3)) & (x < contact - 1e-3)
+    right = (x > contact + 1e-3) & (x < 0.85 * shock)
+    return [
+        Quantity("pressure of the products at the metal", "GPa", 1e-9 * DRIVEN.p, 1e-9 * float(pressure[left].mean())),
+        Quantity("pressure of the metal", "GPa", 1e-9 * DRIVEN.p, 1e-9 * float(pressure[right].mean())),
+        Quantity("velocity between the waves", "m/s", DRIVEN.u, float(velocity[left | right].mean())),
+        Quantity("speed of the shock", "m/s", DRIVEN.shocked.speed, crossing(x, pressure, 0.5 * DRIVEN.p) / time),
+        Quantity("density of the products at the metal", "kg/m3", DRIVEN.products.behind(DRIVEN.p)[0],
+                 float(density[left].mean())),
+        profile("density", density, rho),
+        profile("pressure", pressure, p),
+        profile("velocity", velocity, u),
+    ]  # fmt: skip
+
+
+def _riemann_curve(run: Results) -> Curve:
+    cells = cells_of(run)
+    x, y = cells.along(cells.mean_pressure, "z")
+    return 1e3 * x, 1e-9 * y
+
+
+# The plane detonation
+
+CHARGE = 0.05
+
+
+def _detonation_refine(cells: int) -> list[str]:
+    size = CHARGE / cells
+    return [*column(CHARGE, cells), f"source.fuse.points={[[(k + 0.5) * size, 0.0, 0.0] for k in range(4)]}"]
+
+
+def _lit(simulation: Simulation) -> float:
+    """Where half of the charge has burnt, m."""
+    cells = Cells(simulation)
+    return crossing(*cells.along(cells.internal(jwl.BURNT), "z"), 0.5)
+
+
+def _products(deck: Deck) -> tuple[np.ndarray, Taylor]:
+    """Constants of the explosive, and the rarefaction behind its detonation."""
+    row = jwl.row(deck.materials["charge"].eos.values)
+    speed, pressure, _ = jwl.cj_state(row)
+
+    def sound(rho: float, p: float) -> float:
+        cold, _, slope, _ = jwl.products(rho, 0.0, row)
+        _, dpdrho, dpde, _ = jwl.products(rho, (p - cold) / slope, row)
+        return float(np.sqrt(dpdrho + p * dpde / rho**2))
+
+    return row, Taylor(speed, float(row[0]), pressure, sound)
+
+
+def _detonation(run: Results, cells: int) -> list[Quantity]:
+    row, flow = _products(run.deck)
+    speed, cj, _ = jwl.cj_state(row)
+    found, time, history = cells_of(run), run.summary["time_s"], run.history
+    x, pressure = found.along(found.mean_pressure, "z")
+    velocity = found.along(found.v, "z")[1]
+    late = history["time"] > 0.5 * time
+    end, size = speed * time, x[1] - x[0]
+    behind = (x < end - 6.0 * size) & (x > 0.88 * end - 6.0 * size)
+    burnt = x < end - 3.0 * size
+    rho, u, p = flow.at(x[burnt], time)
+    u_cj = cj / (row[0] * speed)
+
+    def at_front(values: np.ndarray) -> float:
+        return float(np.polyfit(x[behind] - end, values[behind], 2)[2])
+
+    return [
+        Quantity("speed of the front", "m/s", speed, float(np.polyfit(history["time"][late], history["front_m"][late], 1)[0])),
+        Quantity("front behind D t", "cells", 0.0, float((end - history["front_m"][-1]) / size), end / size),
+        Quantity("pressure of Chapman and Jouguet", "GPa", 1e-9 * cj, 1e-9 * at_front(pressure)),
+        Quantity("velocity of Chapman and Jouguet", "m/s", u_cj, at_front(velocity)),
+        Quantity("pressure at the wall", "GPa", 1e-9 * float(flow.p[0]), 1e-9 * float(pressure[x < 0.2 * end].mean())),
+        profile("pressure", pressure[burnt], p),
+        profile("velocity", velocity[burnt], u),
+    ]
+
+
+def _detonation_exact(x: np.ndarray) -> np.ndarray:
+    problem = BY_NAME["detonation"]
+    deck = Deck.from_file(FOLDER / problem.deck, problem.overrides("both", problem.cells[0]))
+    _, flow = _products(deck)
+    time = deck.stop.time
+    return np.where(1e-3 * x < flow.speed * time, 1e-9 * flow.at(1e-3 * x, time)[2], 0.0)
+
+
+def _detonation_curve(run: Results) -> Curve:
+    cells = cells_of(run)
+    x, y = cells.along(cells.mean_pressure, "z")
+    return 1e3 * x, 1e-9 * y
+
+
+
+PROBLEMS = (
+    sedov(3),
+    sedov(2),
+    noh(1),
+    noh(2),
+    noh(3),
+    Problem("collapse", "Uniform collapse (Noh's second problem)", "collapse.toml", "on 1 m", (50, 100, 200),
+            partial(square, 1.0), _collapse, _collapse_curve, lambda x: np.full(x.shape, COLLAPSE.at(5e-4)[0]),
+            ("distance [m]", "density [kg/m$^3$]"), advection("both")),
+    Problem("guderley", "Guderley's implosion", "guderley.toml", "on 1.4 m", (50, 100, 200), partial(square, 1.4), _guderley,
+            _guderley_curve, lambda x: 0.25 * x ** guderley.exponent(3, 1.4),
+            ("time that is left, over that at 0.25 m", "radius of the front [m]"), advection("both"),
+            {f"front_{name}_m": partial(_implosion, angle) for name, angle in IMPLOSION}),
+    Problem("blake", "Blake's problem", "blake.toml", "per radius of the cavity", (10, 20, 40),
+            lambda cells: square(1.02, round(10.2 * cells)), _blake, _blake_curve, lambda x: 1e3 * CAVITY.velocity(x, 160e-6),
+            ("distance [m]", "radial velocity [mm/s]"), advection("both")),
+    Problem("cavity_cylinder", "The same cavity as a cylinder", "cavity_cylinder.toml", "per radius of the cavity",
+            (10, 20, 40),
+            lambda cells: [f"mesh.r=[{{to=0.5, cells={5 * cells}}}]", f"mesh.z=[{{to={0.3 / cells}, cells=3}}]",
+                           f"body.gas.z=[0, {0.3 / cells}]", f"body.rock.z=[0, {0.3 / cells}]",
+                           *(f"tracer.at_{place}.z={0.15 / cells}" for place in (15, 20, 25))],
+            _cylinder, _cylinder_curve, lambda x: 1e9 * blake.cylindrical(CAVITY, x * CAVITY.radius, 60e-6),
+            ("distance [radii]", "displacement [nm]"), advection("both")),
+    Problem("elastic_piston", "Elastic piston", "elastic_piston.toml", "on 40 mm", (100, 200, 400), partial(column, 0.04),
+            _elastic_piston, _stress_curve,
+            lambda x: np.where(1e-3 * x < 5e-6 * elastic_plastic.elastic(METAL[0], METAL[1], 20.0).speed,
+                               1e-9 * elastic_plastic.elastic(METAL[0], METAL[1], 20.0).sigma, 0.0),
+            ("z [mm]", "axial stress [GPa]"), advection("both")),
+    Problem("elastic_plastic_piston", "Elastic-plastic piston", "elastic_plastic_piston.toml", "on 40 mm", (100, 200, 400),
+            partial(column, 0.04), _elastic_plastic_piston, _stress_curve, lambda x: 1e-9 * _two_waves(1e-3 * x, 5e-6),
+            ("z [mm]", "axial stress [GPa]"), advection("both")),
+    Problem("breathing_sphere", "A free elastic sphere", "breathing_sphere.toml", "per radius", (10, 20, 40),
+            lambda cells: square(0.0125, round(1.25 * cells)), _sphere, _sphere_curve, _sphere_exact,
+            ("time [us]", "velocity of the mode [m/s]"), advection("both"), {"mode_m_s": _breathes}),
+    Problem("shell_sphere", "A spherical shell that stops", "shell_sphere.toml", "across the wall", (5, 10, 20),
+            lambda cells: square(0.108, round(5.4 * cells)), partial(_shell, 3), _shell_curve,
+            partial(_shell_exact, 3), ("time [us]", "inner radius [mm]"),
+            advection("both"), {"cavity_m": partial(_cavity, 3), "cavity_axis_m": partial(_cavity_along, "z"),
+                                "cavity_equator_m": partial(_cavity_along, "r")}),
+    Problem("shell_cylinder", "A cylindrical shell that stops", "shell_cylinder.toml", "across the wall", (5, 10, 20),
+            lambda cells: [f"mesh.r=[{{to=0.108, cells={round(5.4 * cells)}}}]"], partial(_shell, 2), _shell_curve,
+            partial(_shell_exact, 2), ("time [us]", "inner radius [mm]"),
+            advection("both"), {"cavity_m": partial(_cavity, 2)}),
+    Problem("riemann_jwl", "Products and aluminium", "riemann_jwl.toml", "on 80 mm", (80, 160, 320),
+            lambda cells: column(0.04, cells, -0.04), _riemann, _riemann_curve,
+            lambda x: 1e-9 * DRIVEN.sample(1e-3 * x / 4e-6)[2], ("z [mm]", "pressure [GPa]"), advection("both")),
+    Problem("detonation", "Plane detonation of TNT", "../explosives/plane_charge.toml", "on 50 mm", (100, 200, 400),
+            _detonation_refine, _detonation, _detonation_curve, _detonation_exact,
+            ("z [mm]", "pressure [GPa]"), advection("both"), {"front_m": _lit}),
+)  # fmt: skip
+BY_NAME = {problem.name: problem for problem in PROBLEMS}
