@@ -25,7 +25,7 @@ ID = 6
 EQUATION = """\
 p = (1 - F) rho0 c0^2 mu + F p_JWL(V, E),  V = rho0/rho,  mu = 1/V - 1,  E = rho0 e
 p_JWL = A (1 - omega/(R1 V)) exp(-R1 V) + B (1 - omega/(R2 V)) exp(-R2 V) + omega E/V
-F = max(F, (t - t_light)/t_burn, beta (1 - V)/(1 - V_CJ)) up to 1
+F = max(F, 0.64 + (t - t_light)/t_burn, beta (1 - V)/(1 - V_CJ)) up to 1
 T = (1 - F) (T0 + (e - E0/rho0)/cv) + F (E - A/R1 exp(-R1 V) - B/R2 exp(-R2 V))/(rho0 cv)"""
 SOURCE = (
     "Lee, Finger & Collins, UCID-16189 (1973); burn fraction: Wilkins, and LS-DYNA's *MAT_HIGH_EXPLOSIVE_BURN [recalled]"
@@ -57,12 +57,16 @@ NEVER = 1e3
 INTERNAL = (
     Field("burn_fraction", "", "body", "1", 1, "mass", True, "share of the explosive that has burnt", 0.0, 1.0),
     Field("light_time", "", "body", "s", 1, "mass", True, "time at which the detonation arrives", 0.0, initial=NEVER),
-    Field("burn_time", "", "body", "s", 1, "mass", True, "time from there until all has burnt", 0.0, initial=1.0),
+    Field("burn_time", "", "body", "s", 1, "mass", True, "time in which all of it burns", 0.0, initial=1.0),
 )
 #: internal variables of what the material becomes at most: products
 SPENT = 1.0, NEVER, 1.0
 #: places of the internal variables
 BURNT, LIGHT, BURN_TIME = range(3)
+
+#: share of the burning time that lies before the light time, which is that of the middle of a cell: half of the explosive has
+#: burnt before the detonation arrives there and half of the pressure is reached after it, both within half a cell
+LEAD = 0.64
 
 #: slots of the row; the common ones are RHO0 and E0
 FIRST, SECOND, R1, R2, OMEGA, C0_SQUARED, COMPRESSED, HEAT, T0 = range(2, 11)
@@ -101,11 +105,11 @@ def evaluate(rho, e, internal, par):
 
 @point
 def update(rho0, rho, e, dep, work, damage0, damage, released, time, dt, par, internal):
-    """Burns by the time since the material was lit and by its compression, and never less than before.
+    """Burns by the time before and after the detonation arrives and by its compression, and never less than before.
 
     explanation/explosives, (3)
     """
-    lit = (time - internal[LIGHT]) / internal[BURN_TIME]
+    lit = LEAD + (time - internal[LIGHT]) / internal[BURN_TIME]
     compressed = par[COMPRESSED] * (1.0 - par[RHO0] / rho)
     internal[BURNT] = min(max(max(internal[BURNT], lit), compressed), 1.0)
 

@@ -96,35 +96,43 @@ class Crater:
         """Which rows of cells are beyond the target's original rear face, [j, 1]."""
         return (self._depth(self.sim.grid.zc[self.sim.grid.inside[0]]) > self.rear)[:, None]
 
-    def _unbent(self, walls: tuple[np.ndarray, np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
-        """The same, with every column of cells moved back by as much as it has gone along with the plate: as far as its rear.
+    def _bends(self, wall: np.ndarray, filled: np.ndarray, edges: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Of every column of cells the depth of its face and the way of its rear, m, and whether it is whole; (nr,) each.
 
         A column that lacks less than half of a cell of the target's thickness is whole, and what it lacks is no hole. Gaps in
         it, as of a spall, have not moved its face; one that is less than half full goes with the next one outside of it.
+
+        wall, filled : as of `_walls`, along the rod's flight;  edges : of their rows, as depths
         """
+        height = np.diff(edges)
+        face, way, whole = np.zeros(wall.shape[1]), np.zeros(wall.shape[1]), np.zeros(wall.shape[1], dtype=bool)
+        for i in range(wall.shape[1] - 1, -1, -1):
+            cells = np.nonzero(wall[:, i])[0]
+            if not len(cells):
+                face[i], way[i], whole[i] = (face[i + 1], way[i + 1], whole[i + 1]) if i + 1 < len(way) else (0.0, 0.0, False)
+                continue
+            first, last = cells[0], cells[-1]
+            metal = filled[:, i] / filled[:, i].max() * height
+            gap = height[first : last + 1].sum(where=~wall[first : last + 1, i])
+            face[i] = edges[first + 1] - metal[: first + 1].sum()
+            way[i] = edges[last] + metal[last:].sum() - gap - self.rear
+            whole[i] = way[i] - face[i] > -HALF * height[first]
+        way[way <= (1.0 - FULL) * height[0]] = 0.0
+        return face, way, whole
+
+    def _unbent(self, walls: tuple[np.ndarray, np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
+        """The same, with every column of cells moved back by as much as it has gone along with the plate: as its rear has."""
         order = slice(None, None, 1 if self.direction > 0 else -1)
         wall, filled = (cells[order].copy() for cells in walls)
         edges = self._depth(self.sim.grid.z_edges)[order]
-        height = np.diff(edges)
-        way, moved, whole = 0.0, 0.0, False
-        for i in range(wall.shape[1] - 1, -1, -1):
-            cells = np.nonzero(wall[:, i])[0]
-            if len(cells):
-                first, last = cells[0], cells[-1]
-                metal = filled[:, i] / filled[:, i].max() * height
-                face, rear = edges[first + 1] - metal[: first + 1].sum(), edges[last] + metal[last:].sum()
-                gap = np.sum(height[first : last + 1], where=~wall[first : last + 1, i])
-                way = rear - gap - self.rear
-                whole = rear - gap - face > self.rear - HALF * height[first]
-                moved = face if whole else way
-            if way <= (1.0 - FULL) * height[0] or moved <= 0.0:
-                continue
-            if whole:
+        face, way, whole = self._bends(wall, filled, edges)
+        for i in np.nonzero(way * np.where(whole, face, 1.0) > 0.0)[0]:
+            if whole[i]:
                 behind = filled[:, i].max() * np.clip(edges, 0.0, self.rear)
             else:
-                behind = np.concatenate([[0.0], np.cumsum(filled[:, i] * height)])
-                behind = np.interp(edges + moved, np.maximum(edges, face), behind)
-            filled[:, i] = np.diff(behind) / height
+                behind = np.concatenate([[0.0], np.cumsum(filled[:, i] * np.diff(edges))])
+                behind = np.interp(edges + way[i], np.maximum(edges, face[i]), behind)
+            filled[:, i] = np.diff(behind) / np.diff(edges)
             wall[:, i] = filled[:, i] >= HALF
         return wall[order], filled[order]
 
@@ -172,9 +180,22 @@ class Crater:
             return
         last = 0 if self.direction > 0 else -1
         self._next = edge + float(np.diff(self.sim.grid.z_edges)[last])
-        radius, _ = self._row(*(cells[last] for cells in self._walls()))
-        if np.isfinite(radius):
-            self._left.append((float(self._depth(self.sim.grid.zc[self.sim.grid.inside[0]][last])), radius))
+        depth, radius = self._last_row(last, *self._walls())
+        if np.isfinite(radius) and not (self._left and depth <= self._left[-1][0]):
+            self._left.append((depth, radius))
+
+    def _last_row(self, last: int, wall: np.ndarray, filled: np.ndarray) -> tuple[float, float]:
+        """Depth and radius of the hole in a row that leaves the mesh, in the plate as it was before it bent, m.
+
+        NaN for the radius where there is no wall, and while the row is no deeper than the plate has bent.
+        """
+        order = slice(None, None, 1 if self.direction > 0 else -1)
+        _, way, _ = self._bends(wall[order], filled[order], self._depth(self.sim.grid.z_edges)[order])
+        depth = float(self._depth(self.sim.grid.zc[self.sim.grid.inside[0]][last]))
+        if 0.0 < way.max() and depth <= way.max():
+            return depth, np.nan
+        radius, _ = self._row(wall[last], filled[last])
+        return depth - float(way[np.argmax(wall[last])]), radius
 
     def saved(self) -> dict:
         """What a restart file keeps of it."""

@@ -8,6 +8,7 @@ from typing import Annotated, Literal
 import numpy as np
 from pydantic import BeforeValidator, Field, WithJsonSchema
 
+from eos.jwl import LEAD
 from hydro2d import units
 from hydro2d.deck.base import PositiveNumber, PositiveSpeed
 from hydro2d.errors import DeckError
@@ -82,11 +83,24 @@ class Detonation(Source):
         there = (reached.share > 0.0) & (self.share(grid) >= HALF)
         duration = self.widths * np.minimum.outer(np.diff(grid.z_edges), np.diff(grid.r_edges)) / speed
         first = there & lit & (light < before)
+        light, duration = self._not_before(grid, light, duration, speed)
         before[first] = light[first]
         reached.variables["burn_time"][first] = duration[first]
         dark = float(np.sum(reached.mass[there & ~lit]) / max(np.sum(reached.mass), 1e-300))
         return [f'source "{self.name}": no detonation reaches {dark:.2%} of body "{self.body}", which does not burn'
                 ] if dark > 0.0 else []
+
+    def _not_before(self, grid, light: np.ndarray, duration: np.ndarray, speed: float) -> tuple[np.ndarray, np.ndarray]:
+        """Light and burning times, s, of cells that would begin to burn before their point is lit: they begin with it and end
+        as before."""
+        light, duration = light.copy(), duration.copy()
+        z, r = np.meshgrid(grid.zc[grid.inside[0]], grid.rc[grid.inside[1]], indexing="ij")
+        for at_r, at_z, time in self.points:
+            near = np.isclose(light, time + np.hypot(r - at_r, z - at_z) / speed, rtol=1e-9, atol=0.0)
+            near &= light - LEAD * duration < time
+            duration[near] = light[near] + (1.0 - LEAD) * duration[near] - time
+            light[near] = time + LEAD * duration[near]
+        return light, duration
 
     @staticmethod
     def _holds(grid, share: np.ndarray, r: float, z: float) -> bool:

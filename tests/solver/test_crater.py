@@ -285,6 +285,21 @@ def test_rows_that_leave_the_mesh_are_kept(options):
     assert found["entrance_diameter_m"] == pytest.approx(8e-3, rel=0.01)
 
 
+@pytest.mark.parametrize("options", [THIN, THIN_BACK], ids=["to +z", "to -z"])
+@pytest.mark.parametrize("end", [11.3e-3, 13.2e-3, 15.1e-3])
+def test_rows_of_a_dish_that_leave_the_mesh(options, end):
+    """A mesh that travels leaves the mouth of the hole in a dished plate behind: what it keeps of it is the hole."""
+    sim = simulation(*options)
+    for offset in np.arange(0.0, end, 0.17e-3):
+        sim.grid.move(sim.penetrator.direction * offset)
+        dish(sim, bowl(2.3e-3), (0.0, THICKNESS), (RADIUS, THICKNESS), (RADIUS + 1e-6, 0.0))
+        sim.craters[0].record()
+    found = sim.craters[0].measure()
+    for key in ("entrance_diameter_m", "exit_diameter_m", "mean_diameter_m"):
+        assert found[key] == pytest.approx(2 * RADIUS, rel=0.03)
+    assert found["volume_m3"] == pytest.approx(np.pi * RADIUS**2 * THICKNESS, rel=0.06)
+
+
 def test_a_mesh_at_rest_records_nothing():
     sim = simulation()
     carve(sim, *cylinder(10e-3))

@@ -76,51 +76,88 @@ def test_the_exact_reflection():
     assert reflected(row_of(charge("TNT", 10))) == pytest.approx(2.266, abs=1e-3)
 
 
+def misses(line, flow: Taylor, front: float, rest: float) -> list[float]:
+    """Mean errors of density, velocity and pressure over the largest exact value; mean of the pressure over the exact one in
+    the tenth of the way behind the front that is 6 cells from it."""
+    time, found = line.simulation.time, []
+    for values, x, which, ahead in ((line.body("rho"), line.x, 0, rest), (line.velocity, line.xv, 1, 0.0),
+                                    (line.pressure, line.x, 2, 0.0)):  # fmt: skip
+        exact = flow.at(x, time)[which]
+        found.append(np.abs(values - np.where(x < front * time, exact, ahead)).mean() / exact.max())
+    near = front * time - 6 * line.dx[0] - line.x
+    near = (near > 0.0) & (near < 0.1 * front * time)
+    return [*found, (line.pressure[near] / flow.at(line.x[near], time)[2]).mean()]
+
+
 @pytest.mark.parametrize("explosive", EXPLOSIVES)
 def test_the_rarefaction_behind_a_detonation(explosive):
-    """First order in pressure, density and velocity; the front within 4e-4 of D; P_CJ, carried on to the front, within 2 %."""
+    """First order in pressure, density and velocity, by the means over the last four cells of the front's way; the front
+    within 4e-4 of D; the pressure behind it within 1 %."""
     errors = []
     for cells in (100, 200, 400):
-        deck, track = charge(explosive, cells), []
+        deck, track, found = charge(explosive, cells), [], []
         row = row_of(deck)
         front, cj, _ = jwl.cj_state(row)
+        flow, late = Taylor(front, row[0], cj, sound(row)), deck.stop.time - 4 * LENGTH / cells / front
 
-        def watch(simulation, track=track, cj=cj):
+        def watch(simulation, track=track, found=found, cj=cj, flow=flow, front=front, row=row, late=late):
+            if simulation.time < 0.5 * LENGTH / front:
+                return
             line = Line(simulation)
             burnt = simulation.grid.interior(simulation.state.q[INTERNAL + jwl.BURNT, 0])[:, 2]
             track.append((simulation.time, crossing(line.x, burnt, 0.5), crossing(line.x, line.pressure, 0.5 * cj)))
+            if simulation.time > late:
+                found.append(misses(line, flow, front, row[0]))
 
-        flow = Taylor(front, row[0], cj, sound(row))
         simulation = finish(deck, watch)
-        line, time = Line(simulation), simulation.time
-        burnt = line.x < front * time
-        rest = row[0], 0.0, 0.0
-        errors.append([
-            np.abs(found - np.where(x < front * time, exact, ahead)).mean() / exact.max() for found, x, exact, ahead in (
-                (line.body("rho"), line.x, flow.at(line.x, time)[0], rest[0]),
-                (line.velocity, line.xv, flow.at(line.xv, time)[1], rest[1]),
-                (line.pressure, line.x, flow.at(line.x, time)[2], rest[2]))])
+        errors.append(np.mean(found, axis=0))
         assert abs(simulation.conservation()["total_energy"]) < 1e-13
         assert simulation.doubts() == []
-    times, by_fraction, by_pressure = np.array(track[len(track) // 2:]).T
+    times, by_fraction, by_pressure = np.array(track).T
     assert speed(times, by_fraction) == pytest.approx(front, rel=4e-4)
     assert speed(times, by_pressure) == pytest.approx(front, rel=1e-3)
-    size, end = line.x[1] - line.x[0], front * time
-    behind = burnt & (line.x < end - 6 * size) & (line.x > 0.9 * end - 6 * size)
-    assert np.polyfit(line.x[behind] - end, line.pressure[behind], 2)[2] == pytest.approx(cj, rel=2e-2)
-    orders = np.log2(np.array(errors[0]) / np.array(errors[2])) / 2.0
+    assert errors[2][3] == pytest.approx(1.0, abs=1e-2)
+    orders = np.log2(errors[0][:3] / errors[2][:3]) / 2.0
     assert (orders > 0.75).all(), orders
-    assert (np.array(errors[2]) < (2.5e-3, 8e-3, 8e-3)).all(), errors
+    assert (errors[2][:3] < (2e-3, 5e-3, 4e-3)).all(), errors
+
+
+def lit(form: str, cells: int):
+    """50 mm of LX-14, lit in the middle of a sphere, along the axis of a cylinder, or over a plane, 0.9 of the way later."""
+    size = LENGTH / cells
+    across = {"plane": (4, cells), "cylinder": (cells, 4), "sphere": (cells, cells)}[form]
+    points = {"plane": [[(k + 0.5) * size, 0.0, 0.0] for k in range(4)],
+              "cylinder": [[0.0, (k + 0.5) * size, 0.0] for k in range(4)], "sphere": [[0.0, 0.0, 0.0]]}[form]  # fmt: skip
+    mesh = [f"mesh.{axis}=[{{to={n * size}, cells={n}}}]" for axis, n in zip("rz", across, strict=True)]
+    return decks.load(f"{FOLDER}/plane_charge.toml", [
+        *mesh, "mesh.geometry=cylindrical", "materials.charge.based_on=LX14", f"source.fuse.points={points}",
+        f"stop.time={0.9 * LENGTH / 8800.0}"])
+
+
+@pytest.mark.parametrize("cells", [50, 100, pytest.param(200, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("form", ["plane", "cylinder", "sphere"])
+def test_the_front_is_where_the_light_times_say(form, cells):
+    """Half of the burning and half of the largest pressure lie within half a cell of D t, in a sphere on both axes."""
+    simulation = finish(lit(form, cells))
+    grid, s = simulation.grid, simulation.state
+    burnt, p = grid.interior(s.q[INTERNAL + jwl.BURNT, 0]), grid.interior(s.p)
+    rows, columns = grid.inside
+    ways = {"plane": [((slice(None), 2), grid.zc[rows])], "cylinder": [((2, slice(None)), grid.rc[columns])]}
+    ways["sphere"] = [((slice(None), 0), np.hypot(grid.zc[rows], grid.rc[columns][0])),
+                      ((0, slice(None)), np.hypot(grid.rc[columns], grid.zc[rows][0]))]  # fmt: skip
+    for line, x in ways[form]:
+        for values in (burnt[line], p[line] / p[line].max()):
+            assert abs(crossing(x, values, 0.5) - 8800.0 * simulation.time) < 0.5 * LENGTH / cells
 
 
 @pytest.mark.parametrize(("explosive", "low", "high"), [("TNT", 2.25, 2.28), ("gamma law", 2.37, 2.40)])
 def test_a_driven_detonation_and_its_reflection(explosive, low, high):
     """A piston at the velocity of Chapman and Jouguet: their state all the way behind the front, then a shock from the wall."""
-    deck = charge(explosive, 200)
+    deck = charge(explosive, 400)
     row = row_of(deck)
     front, cj, volume = jwl.cj_state(row)
     u = cj / (row[0] * front)
-    deck = charge(explosive, 200, "boundaries.z_min=velocity", f"boundaries.z_min_velocity={u}",
+    deck = charge(explosive, 400, "boundaries.z_min=velocity", f"boundaries.z_min_velocity={u}",
                   f"stop.time={1.2 * LENGTH / front}")
     state = []
 
@@ -131,11 +168,11 @@ def test_a_driven_detonation_and_its_reflection(explosive, low, high):
             state.extend((line.pressure[flat].mean(), line.body("rho")[flat].mean(), line.velocity[1:][flat].mean()))
 
     simulation = finish(deck, watch)
-    assert state == pytest.approx([cj, row[0] / volume, u], rel=4e-3)
+    assert state == pytest.approx([cj, row[0] / volume, u], rel=1e-3)
     line = Line(simulation)
     wall = line.pressure[(line.x > 0.88 * LENGTH) & (line.x < LENGTH - 1e-3)].mean() / cj
     assert low < wall < high
-    assert wall == pytest.approx(reflected(row), rel=5e-3)
+    assert wall == pytest.approx(reflected(row), rel=1e-3)
 
 
 def test_discarded_kinetic_energy_makes_a_detonation_weak():
