@@ -52,6 +52,10 @@ class Numerics(Section):
         0.1, gt=0, description="ratio of the first time step to the stable one", examples=[0.05]
     )
     dt_min: Time = Field(1e-14, description="a time step below this ends the run as unphysical", examples=["1e-13 s"])
+    viscosity_along: Literal["mesh", "compression"] = Field(
+        "mesh", description="what the artificial viscosity resists: compression along r and along z, each by itself, or along "
+        "the direction in which a cell is compressed most, which keeps strong shocks round"
+    )
     viscosity_linear: Annotated[float, within(0.0, 2.0, "a larger viscosity is unstable at this time step")] = Field(
         0.5, description="linear coefficient of the artificial viscosity", examples=[0.2]
     )
@@ -59,6 +63,10 @@ class Numerics(Section):
         1.3, description="quadratic coefficient of the artificial viscosity", examples=[2.0]
     )
     hourglass: NotNegative = Field(0.05, le=1, description="coefficient of the hourglass filter", examples=[0.1])
+    steepness: Annotated[float, within(1.0, 2.0, "a steeper slope makes new extremes, a flatter one is of first order")] = (
+        Field(2.0, description="largest slope of what the remap carries, in units of the smaller difference to a neighbour; 1 "
+              "keeps strong shocks round, 2 keeps waves sharp", examples=[1.0])
+    )
     mixed_cell: Literal["tipton", "uniform"] = Field(
         "tipton", description="how the materials of a mixed cell share its volume change"
     )

@@ -18,14 +18,14 @@ SILENCE = 1e-20
 
 @rowwise
 def total_stress_row(j, dt, metrics, dz, body_range, active_range, mixed_count, mixed, solid_mode, hard, hard_threshold, u, v,
-                     vof, q, skin, p, bulk, solid, qr, qz, ph, sig_rr, sig_zz, sig_tt, sig_rz):
-    """sigma = s - (p + q) I with the pressure at half the step, p^(n+1/2) = p - (dt/2) K div u^n.
+                     vof, q, skin, p, bulk, solid, qr, qz, qt, qrz, ph, sig_rr, sig_zz, sig_tt, sig_rz):
+    """sigma = s - p I - q with the pressure at half the step, p^(n+1/2) = p - (dt/2) K div u^n.
 
     The cell's deviator is sum f_m s_m, in mode `solid` divided by the share of solids; in the hard zone of a slip layer it is
     the hard body's own times the share of solids (explanation/mixed-cells, sliding). A cut cell has p_c and, of each body,
     s - (n . s . n) I.
 
-    Reads    u, v [b, j, i]; vof [m, j, i]; q (deviators) [k, m, j, i]; p, bulk, solid, qr, qz [j, i]; hard [m]
+    Reads    u, v [b, j, i]; vof [m, j, i]; q (deviators) [k, m, j, i]; p, bulk, solid, qr, qz, qt, qrz [j, i]; hard [m]
     Writes   ph, sig_rr, sig_zz, sig_tt, sig_rz [j, i]
     """
     bodies = vof.shape[0]
@@ -70,15 +70,18 @@ def total_stress_row(j, dt, metrics, dz, body_range, active_range, mixed_count, 
     k_j = bulk[j]
     qr_j = qr[j]
     qz_j = qz[j]
+    qt_j = qt[j]
+    qrz_j = qrz[j]
     h = dz[j]
     for x in range(n):
         i = lo + x
         div = divergence(i, ub, ut, vb, vt, metrics, h)
         pressure = p_j[i] - 0.5 * dt * k_j[i] * div
         ph_j[i] = pressure
-        tt[i] = -(rr[i] + zz[i]) - pressure - qr_j[i]
+        tt[i] = -(rr[i] + zz[i]) - pressure - qt_j[i]
         rr[i] = rr[i] - pressure - qr_j[i]
         zz[i] = zz[i] - pressure - qz_j[i]
+        rz[i] -= qrz_j[i]
     for k in range(mixed_count[j]):
         i = mixed[j, k]
         if skin[KIND, j, i] != WHOLE:
@@ -92,11 +95,11 @@ def total_stress_row(j, dt, metrics, dz, body_range, active_range, mixed_count, 
 
 @kernel
 def total_stress(part, parts, dt, metrics, dz, body_range, active_range, mixed_count, mixed, solid_mode, hard, hard_threshold,
-                 u, v, vof, q, skin, p, bulk, solid, qr, qz, ph, sig_rr, sig_zz, sig_tt, sig_rz):
+                 u, v, vof, q, skin, p, bulk, solid, qr, qz, qt, qrz, ph, sig_rr, sig_zz, sig_tt, sig_rz):
     """total_stress_row for rows j0 to j1."""
     for j in range(parts[part], parts[part + 1]):
         total_stress_row(j, dt, metrics, dz, body_range, active_range, mixed_count, mixed, solid_mode, hard, hard_threshold,
-                         u, v, vof, q, skin, p, bulk, solid, qr, qz, ph, sig_rr, sig_zz, sig_tt, sig_rz)
+                         u, v, vof, q, skin, p, bulk, solid, qr, qz, qt, qrz, ph, sig_rr, sig_zz, sig_tt, sig_rz)
 
 
 @kernel

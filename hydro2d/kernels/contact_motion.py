@@ -44,7 +44,7 @@ def come_apart(j, i, normal, u, v):
 @kernel
 def contact_viscosity(part, parts, mesh_box, linear, quadratic, courant, dr, dz, metrics, contact_columns, line, group_ranges,
                       normal, aperture_r, aperture_z, hard, soft, u, v, cl, rhobar, vof, q, km, skin, p, solid, bulk, qr,
-                      qz, rate, row_step, mixed_count, mixed, scratch):
+                      qz, qt, qrz, rate, row_step, mixed_count, mixed, scratch):
     """Volume rate and viscosity of the contact-interface cells, the step they allow, and room where their groups part.
 
     A cell of both groups has the density of its mean by compressibility: the stiffer body's mass must not push the other. One q
@@ -55,7 +55,7 @@ def contact_viscosity(part, parts, mesh_box, linear, quadratic, courant, dr, dz,
     Reads    what face_apertures wrote; hard, soft, p, bulk [j, i]; u, v [b, j, i]; km [m, j, i]; cl, rhobar [j, i]
     Updates  vof [m, j, i], q (rho) [k, m, j, i], solid [j, i], skin [3, j, i] (kind), row_step [j], mixed_count [j],
              mixed [j, k]
-    Writes   qr, qz, rate [j, i] (1/s)
+    Writes   qr, qz, qt, qrz, rate [j, i] (1/s)
     Scratch  scratch [row, i]
     """
     for j in range(parts[part], parts[part + 1]):
@@ -81,6 +81,8 @@ def contact_viscosity(part, parts, mesh_box, linear, quadratic, courant, dr, dz,
             rate[j, i] = -loss
             qr[j, i] = 0.0
             qz[j, i] = 0.0
+            qt[j, i] = 0.0
+            qrz[j, i] = 0.0
             if rho > 0.0:
                 shock = shut(solid[j, i])
                 c = bulk[j, i] / rho
@@ -92,6 +94,7 @@ def contact_viscosity(part, parts, mesh_box, linear, quadratic, courant, dr, dz,
                 viscosity = shock * directional_viscosity(rho, c, -max(loss, 0.0) * length, 0.0, linear, quadratic)
                 qr[j, i] = viscosity
                 qz[j, i] = viscosity
+                qt[j, i] = viscosity
                 sound = sound_step(courant, min(dr[i], h), rho, cl[j, i], viscosity)
                 row_step[j] = min(row_step[j], min(sound, volume_step(loss)))
         if seeded:

@@ -31,11 +31,10 @@ from hydro2d.kernels import (
 @phase
 def close_cells(parts, i0, i1, mesh_speed, nr, mirror_r_min, mirror_r_max, u, v, nz, mirror_z_min, mirror_z_max, mesh_box, dr,
                 dz, tipton, group, hard_bodies, threshold, mixed_count, mixed_columns, vof, skin, gate, max_opening,
-                smallest_tension,
-                viscosity_linear, viscosity_quadratic, courant, advective_courant, hourglass, metrics, body_range, active_range,
-                models, materials, q, pm, km, tm, p, bulk, rhobar, solid, cl, qr, qz, hg_coefficient, opened, row_step, bad,
-                scratch, mass, group_ranges, contact_node_count, contact_nodes, hard, soft, heat, warmed, first_slot,
-                least_row):
+                smallest_tension, along_compression, viscosity_linear, viscosity_quadratic, courant, advective_courant,
+                hourglass, metrics, body_range, active_range, models, materials, q, pm, km, tm, p, bulk, rhobar, solid, cl, qr,
+                qz, qt, qrz, hg_coefficient, opened, row_step, bad, scratch, mass, group_ranges, contact_node_count,
+                contact_nodes, hard, soft, heat, warmed, first_slot, least_row):
     """Pressure, sound speed, artificial viscosity and allowed step of every cell, void where a cell fractures; contact nodes.
 
     Without contact, least_row says where the step is least; with it, first_slot how many slots the nodes need.
@@ -49,10 +48,10 @@ def close_cells(parts, i0, i1, mesh_speed, nr, mirror_r_min, mirror_r_max, u, v,
         cut_cells.find_surfaces(part, parts, i0, i1, mesh_box, dr, dz, tipton, group, hard_bodies, threshold, models, materials,
                                 mixed_count, mixed_columns, vof, skin)
         wait(gate, parts)
-        mixed.close_cells(part, parts, max_opening, smallest_tension, viscosity_linear, viscosity_quadratic, courant,
-                          advective_courant, mesh_speed, hourglass, metrics, dr, dz, body_range, active_range, mixed_count,
-                          mixed_columns, models, materials, u, v, vof, q, pm, km, tm, skin, p, bulk, rhobar, solid, cl, qr, qz,
-                          hg_coefficient, opened, row_step, bad, scratch)
+        mixed.close_cells(part, parts, max_opening, smallest_tension, along_compression, viscosity_linear, viscosity_quadratic,
+                          courant, advective_courant, mesh_speed, hourglass, metrics, dr, dz, body_range, active_range,
+                          mixed_count, mixed_columns, models, materials, u, v, vof, q, pm, km, tm, skin, p, bulk, rhobar, solid,
+                          cl, qr, qz, qt, qrz, hg_coefficient, opened, row_step, bad, scratch)
         wait(gate, parts)
         if mass.shape[0] > 1:
             contact_geometry.find_contact_nodes(part, parts, mesh_box, group_ranges, mass, group, vof, contact_node_count,
@@ -68,8 +67,8 @@ def close_cells(parts, i0, i1, mesh_speed, nr, mirror_r_min, mirror_r_max, u, v,
 def find_contact(parts, i0, i1, mesh_box, dr, dz, contact_node_count, contact_nodes, hard, soft, contact_columns, line, gate,
                  constrained, mass, aperture_r, aperture_z, contact_normal, touch, volume, metrics, filled, most_squares, r, z,
                  first_slot, group, vof, dmg, strength, masters, where, weights, viscosity_linear, viscosity_quadratic, courant,
-                 group_ranges, u, v, cl, rhobar, q, km, skin, p, solid, bulk, qr, qz, rate, row_step, mixed_count,
-                 mixed_columns, kinds, bad, least_row):
+                 group_ranges, u, v, cl, rhobar, q, km, skin, p, solid, bulk, qr, qz, qt, qrz, rate, row_step,
+                 mixed_count, mixed_columns, kinds, bad, least_row):
     """Where two groups meet: face apertures, normals, slave nodes; volume rate and viscosity of contact-interface cells."""
     for place in prange(parts.shape[0] - 1):
         part = int64(place)  # numba counts without a sign, for which every kernel would be compiled a second time
@@ -87,7 +86,7 @@ def find_contact(parts, i0, i1, mesh_box, dr, dz, contact_node_count, contact_no
         contact_motion.contact_viscosity(
             part, parts, mesh_box, viscosity_linear, viscosity_quadratic, courant, dr, dz, metrics, contact_columns, line,
             group_ranges, contact_normal, aperture_r, aperture_z, hard, soft, u, v, cl, rhobar, vof, q, km, skin, p, solid,
-            bulk, qr, qz, rate, row_step, mixed_count, mixed_columns, kinds)
+            bulk, qr, qz, qt, qrz, rate, row_step, mixed_count, mixed_columns, kinds)
         wait(gate, parts)
         if part == 0:
             thermodynamics.least_step(parts, row_step, bad, least_row)
@@ -95,19 +94,19 @@ def find_contact(parts, i0, i1, mesh_box, dr, dz, contact_node_count, contact_no
 
 @phase
 def accelerate(parts, i0, i1, dt, metrics, dz, body_range, active_range, mixed_count, mixed_columns, by_what_is_solid,
-               hard_bodies, threshold, u0, v0, vof, q, skin, p, bulk, solid, qr, qz, ph, sig_rr, sig_zz, sig_tt, sig_rz, mass,
-               contact_columns, group_ranges, line, hard, soft, rate, contact_pressure, gate, speed_limit, underfilled_density,
-               occupied, hg_coefficient, u, v, limited, group, materials, constrained, contact_node_count, contact_nodes,
-               aperture_r, aperture_z, cell_mass, transfer, friction, first_slot, contact_normal, touch, strength, masters,
-               where, weights, nodes, starts, entries, portions, places, impulses, gain, taken, rubbing, heat, transmitting,
-               rhobar, cl, drag, held_back, pushed, pushing, edge_velocity, walls, nr, mirror_r_min, mirror_r_max, nz,
-               mirror_z_min, mirror_z_max):
+               hard_bodies, threshold, u0, v0, vof, q, skin, p, bulk, solid, qr, qz, qt, qrz, ph, sig_rr, sig_zz, sig_tt,
+               sig_rz, mass, contact_columns, group_ranges, line, hard, soft, rate, contact_pressure, gate, speed_limit,
+               underfilled_density, occupied, hg_coefficient, u, v, limited, group, materials, constrained, contact_node_count,
+               contact_nodes, aperture_r, aperture_z, cell_mass, transfer, friction, first_slot, contact_normal, touch,
+               strength, masters, where, weights, nodes, starts, entries, portions, places, impulses, gain, taken, rubbing,
+               heat, transmitting, rhobar, cl, drag, held_back, pushed, pushing, edge_velocity, walls, nr, mirror_r_min,
+               mirror_r_max, nz, mirror_z_min, mirror_z_max):
     """Total stress at half the step, and the velocities at its end: forces, contact, friction, edges."""
     for place in prange(parts.shape[0] - 1):
         part = int64(place)  # numba counts without a sign, for which every kernel would be compiled a second time
         acceleration.total_stress(part, parts, dt, metrics, dz, body_range, active_range, mixed_count, mixed_columns,
-                                  by_what_is_solid, hard_bodies, threshold, u0, v0, vof, q, skin, p, bulk, solid, qr, qz, ph,
-                                  sig_rr, sig_zz, sig_tt, sig_rz)
+                                  by_what_is_solid, hard_bodies, threshold, u0, v0, vof, q, skin, p, bulk, solid, qr, qz, qt,
+                                  qrz, ph, sig_rr, sig_zz, sig_tt, sig_rz)
         if mass.shape[0] > 1:
             contact_motion.contact_stress(part, parts, dt, contact_columns, group_ranges, line, hard, soft, rate, skin, p, bulk,
                                           solid, ph, sig_rr, sig_zz, sig_tt, sig_rz, contact_pressure)
@@ -151,8 +150,8 @@ def deform(parts, i0, i1, time, dt, travels, advance, metrics, dr, dz, group_ran
            contact_columns, volume, skin, bulk, ph, qr, even_r, even_z, mesh_box, group, vof, inside, gate, q, aperture_r,
            aperture_z, own_r, own_z, pm, checkerboard, hg_coefficient, km, room, body_range, models, materials, sig_rr, sig_zz,
            sig_tt, sig_rz, tm, scratch, internal, relaxation, tipton, mixed_strength, hard_bodies, threshold, mixed_count,
-           mixed_columns, qz, p, solid, mix, motion, warmed, heat, deposited, slip_layer, shear, friction, occupied, zone,
-           normal, carried, lanes, before, centroid):
+           mixed_columns, qz, qt, qrz, p, solid, mix, motion, warmed, heat, deposited, slip_layer, shear, friction, occupied,
+           zone, normal, carried, lanes, before, centroid):
     """Volumes that faces sweep, work, and strain of every body; what faces sweep relative to a mesh that advances.
 
     time : at the end of the step, s;  travels, advance : whether the mesh does, and by how much in the step, m
@@ -184,8 +183,8 @@ def deform(parts, i0, i1, time, dt, travels, advance, metrics, dr, dz, group_ran
                            sig_zz, sig_tt, sig_rz, hg_coefficient, vof, pm, tm, scratch, q, internal, lanes)
         mixed.deform_mixed(part, parts, dt, relaxation, tipton, mixed_strength, hard_bodies, threshold, metrics, dz,
                            mixed_count, mixed_columns, group, contact_columns, cell_mass, models, materials, u0, v0, u, v, fr,
-                           fz, ph, qr, qz, hg_coefficient, skin, p, bulk, solid, pm, km, tm, vof, q, mix, motion, internal,
-                           centroid)
+                           fz, ph, qr, qz, qt, qrz, hg_coefficient, skin, p, bulk, solid, pm, km, tm, vof, q, mix, motion,
+                           internal, centroid)
         if cell_mass.shape[0] > 1:
             momentum.deposit(part, parts, metrics, warmed, group, heat, cell_mass, vof, q, deposited)
         if slip_layer:

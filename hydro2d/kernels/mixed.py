@@ -42,7 +42,7 @@ from hydro2d.kernels.mixed_strength import (
     strain_deviators,
     work_of_deviators,
 )
-from hydro2d.kernels.thermodynamics import pressures_row, viscosity_row
+from hydro2d.kernels.thermodynamics import compression_viscosity_row, pressures_row, steps_row, viscosity_row
 from hydro2d.materials.rows import EOS, EOS_AT, FADES, GAS, MEMORY, TENSILE
 from hydro2d.mesh.fields import DMG, RHO, SRR, SRZ, SZZ, E
 from hydro2d.mesh.grid import VOL_R
@@ -113,12 +113,16 @@ def insert_void_mixed_row(j, smallest, max_opening, metrics, dz, mixed_count, mi
 
 
 @kernel
-def close_cells(part, parts, max_opening, smallest_tension, linear, quadratic, courant, advective, mesh_speed, hourglass,
-                metrics, dr, dz, body_range, active_range, mixed_count, mixed, models, materials, u, v, vof, q, pm, km, tm,
-                skin, p, bulk, rhobar, solid, cl, qr, qz, hg_coefficient, opened, row_step, bad, scratch):
+def close_cells(part, parts, max_opening, smallest_tension, along_compression, linear, quadratic, courant, advective,
+                mesh_speed, hourglass, metrics, dr, dz, body_range, active_range, mixed_count, mixed, models, materials, u, v,
+                vof, q, pm, km, tm, skin, p, bulk, rhobar, solid, cl, qr, qz, qt, qrz, hg_coefficient, opened, row_step, bad,
+                scratch):
     """Equation of state, void where a cell fractures, artificial viscosity and the time step that every cell allows.
 
-    Reads, updates and writes what pressures_row, insert_void_mixed_row and viscosity_row do, and the list of mixed cells
+    The viscosity takes the directions of the mesh, or along_compression that of the strongest compression.
+
+    Reads, updates and writes what pressures_row, insert_void_mixed_row, viscosity_row or compression_viscosity_row, and
+             steps_row do, and the list of mixed cells
     Scratch  scratch [s, part, i]
     """
     for j in range(parts[part], parts[part + 1]):
@@ -134,8 +138,13 @@ def close_cells(part, parts, max_opening, smallest_tension, linear, quadratic, c
                 p[j, i], bulk[j, i] = common_traction(j, i, skin, vof, q, pm, km)
         insert_void_mixed_row(j, smallest_tension, max_opening, metrics, dz, mixed_count, mixed, models, materials, skin,
                               vof, q, pm, km, p, solid, bulk, opened)
-        viscosity_row(j, part, linear, quadratic, courant, advective, mesh_speed, hourglass, dr, dz, metrics, active_range, u,
-                      v, rhobar, bulk, solid, cl, qr, qz, hg_coefficient, row_step, bad, scratch)
+        if along_compression:
+            compression_viscosity_row(j, linear, quadratic, dr, dz, metrics, active_range, u, v, rhobar, bulk, solid, cl, qr,
+                                      qz, qt, qrz)
+        else:
+            viscosity_row(j, linear, quadratic, dr, dz, metrics, active_range, u, v, rhobar, bulk, solid, cl, qr, qz, qt)
+        steps_row(j, part, courant, advective, mesh_speed, hourglass, dr, dz, metrics, active_range, u, v, rhobar, cl, qr, qz,
+                  hg_coefficient, row_step, bad, scratch)
 
 
 @point
@@ -286,8 +295,8 @@ def fill_cell(j, i, change, volume, total, inverse, mean_p, work_p, work_q, midd
 
 @kernel
 def deform_mixed(part, parts, dt, relaxation, tipton, mode, hard, hard_threshold, metrics, dz, mixed_count, mixed, group,
-                 contact_columns, cell_mass, models, materials, u0, v0, u, v, fr, fz, ph, qr, qz, hg_coefficient, skin, p, bulk,
-                 solid, pm, km, tm, vof, q, mix, motion, internal, centroid):
+                 contact_columns, cell_mass, models, materials, u0, v0, u, v, fr, fz, ph, qr, qz, qt, qrz, hg_coefficient, skin,
+                 p, bulk, solid, pm, km, tm, vof, q, mix, motion, internal, centroid):
     """The Lagrangian step of the bodies in mixed cells.
 
     Where bodies of one group fill a cell, by compressibility: w_m = R_m/Rbar with R_m = f_m/K_m, then relaxation of the
@@ -297,7 +306,7 @@ def deform_mixed(part, parts, dt, relaxation, tipton, mode, hard, hard_threshold
     Strength: by mode, see STRENGTH_MODES; every body moves with its group. In contact-interface cells pressure and
     viscosity do the work of the one change of volume, and each body has its own strength where two groups meet.
 
-    Reads    velocities, swept volumes, stresses as `deform`; ph, qr, qz, solid [j, i]; contact_columns [j, 2];
+    Reads    velocities, swept volumes, stresses as `deform`; ph, qr, qz, qt, qrz, solid [j, i]; contact_columns [j, 2];
              cell_mass [b, j, i]; group, hard [m]
     Updates  vof [m, j, i] (share of the volume after the step), q [k, m, j, i], centroid [2, m, j, i]
     Scratch  mix [j, 17, m] (rows SOFT to SHIFT_Z), motion [j, b, 10], internal [j, k]
@@ -314,7 +323,8 @@ def deform_mixed(part, parts, dt, relaxation, tipton, mode, hard, hard_threshold
                     held += 1
                     cell_motion(j, i, g, dt, dz[j], metrics, hg_coefficient, u0, v0, u, v, motion)
                     across = motion[j, g, MEAN_RR] + motion[j, g, MEAN_TT]
-                    work_q = -dt * (qr[j, i] * across + qz[j, i] * motion[j, g, MEAN_ZZ])
+                    work_q = -dt * ((qr[j, i] * across + qz[j, i] * motion[j, g, MEAN_ZZ])
+                                    + ((qt[j, i] - qr[j, i]) * motion[j, g, MEAN_TT] + qrz[j, i] * motion[j, g, MEAN_RZ]))
                     work_p = -ph[j, i] * dt * (across + motion[j, g, MEAN_ZZ])
             if groups > 1 and contact_columns[j, 0] <= i < contact_columns[j, 1]:
                 work_q = -qr[j, i] * change

@@ -18,12 +18,14 @@ SLIGHT = 1e-4
 
 
 @rowwise
-def dual_row(g, dj, di, j, i0, i1, slot, metrics, group_ranges, flux_mass, mass, w, dual):
+def dual_row(g, dj, di, j, i0, i1, slot, metrics, group_ranges, flux_mass, steepness, mass, w, dual):
     """Mass, momentum and kinetic energy of group g that flow between the vertices of row j and those at higher r or z.
 
     r-sweep: Phi = cm_out (F_left) + cm_in (F_right) of the column between, summed over the two rows beside the vertex;
     z-sweep: the column's share of the vertex times (F_bottom + F_top). With these the dual masses after the sweep are again
     the corner sums of the cell masses (explanation/remap, equation 6). Of second order where no vertex is next to massless.
+
+    No slope is larger than steepness times the smaller difference to a neighbour.
 
     Reads    flux_mass, mass [b, j, i], w = (u, v) [c, b, j, i]
     Writes   dual [k, slot, i]: mass, radial and axial momentum, and kinetic energy of each component
@@ -64,10 +66,10 @@ def dual_row(g, dj, di, j, i0, i1, slot, metrics, group_ranges, flux_mass, mass,
             kinetic = dual[3 + c, slot, lo:hi]
             for x in range(n):
                 up = flow[x] > 0.0
-                donor, slope = upwind(up, a_ll[x], a_l[x], a_r[x], a_rr[x])
+                donor, slope = upwind(up, a_ll[x], a_l[x], a_r[x], a_rr[x], steepness)
                 carried[x] = flow[x] * (donor + half[x] * slope)
                 donor, slope = upwind(up, 0.5 * a_ll[x] * a_ll[x], 0.5 * a_l[x] * a_l[x], 0.5 * a_r[x] * a_r[x],
-                                      0.5 * a_rr[x] * a_rr[x])
+                                      0.5 * a_rr[x] * a_rr[x], steepness)
                 kinetic[x] = flow[x] * (donor + half[x] * slope)
 
 
@@ -188,7 +190,7 @@ def vertex_row(g, dj, di, j, i0, i1, below, above, advection, bound, constrained
 
 @kernel
 def sweep_momentum(dj, di, part, parts, i0, i1, advection, bound, constrained, pushing, held, mesh_box, metrics, group_ranges,
-                   cell_mass, flux_mass, mass, w_old, w, dual, edge_dual, deficit, sums):
+                   cell_mass, flux_mass, steepness, mass, w_old, w, dual, edge_dual, deficit, sums):
     """Carries the momentum of the vertices j0 to j1 along one direction.
 
     Reads    what dual_row and vertex_row read; mesh_box (j0, j1, i0, i1 of the mesh)
@@ -200,7 +202,7 @@ def sweep_momentum(dj, di, part, parts, i0, i1, advection, bound, constrained, p
     for g in range(mass.shape[0]):
         for j in range(first - dj, last):
             slot = 2 * part + dj * (j % 2)
-            dual_row(g, dj, di, j, i0, i1, slot, metrics, group_ranges, flux_mass, mass, w_old, dual)
+            dual_row(g, dj, di, j, i0, i1, slot, metrics, group_ranges, flux_mass, steepness, mass, w_old, dual)
             lo, hi = dual_range(dj, di, i0, i1, j, group_ranges[g])
             for side in range(2):
                 at = mesh_box[2 * di + side] + side - 1  # the edge from a ghost vertex to the mesh, or from the mesh to one

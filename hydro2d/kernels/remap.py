@@ -22,11 +22,12 @@ FILLED = 0.9
 
 
 @rowwise
-def flux_row(dj, di, j, i0, i1, m, carried, rules, slot, b, body_ranges, pre, flux_volume, vof, q, scratch, flux):
+def flux_row(dj, di, j, i0, i1, m, carried, rules, slot, b, body_ranges, pre, flux_volume, steepness, vof, q, scratch, flux):
     """Fluxes of what body m carries through the faces of row j.
 
     Second order, monotone, in cells whose neighbours are full of the same body; the donor's own value in and next to cells
-    filled by less than FILLED, and less and less of the slope towards that. Specific quantities in the mass coordinate,
+    filled by less than FILLED, and less and less of the slope towards that; no slope is larger than steepness times the smaller
+    difference to a neighbour. Specific quantities in the mass coordinate,
     deviators in the volume coordinate (explanation/remap, equation 4), both of the body alone: it leaves no cell with more than
     it has there.
 
@@ -56,7 +57,7 @@ def flux_row(dj, di, j, i0, i1, m, carried, rules, slot, b, body_ranges, pre, fl
             both = min(f_l[x], f_r[x])
             least = min(both, f_ll[x]) if up else min(both, f_rr[x])
             clean = 0.5 * smoothstep((least - FILLED) / (1.0 - FILLED))
-            donor, slope = upwind(up, r_ll[x], r_l[x], r_r[x], r_rr[x])
+            donor, slope = upwind(up, r_ll[x], r_l[x], r_r[x], r_rr[x], steepness)
             volume = max(f_l[x] * pre_l[x] if up else f_r[x] * pre_r[x], TINY)
             half_v[x] = clean * (1.0 - abs(swept[x]) / volume)
             flow = swept[x] * (donor + half_v[x] * slope)
@@ -73,7 +74,7 @@ def flux_row(dj, di, j, i0, i1, m, carried, rules, slot, b, body_ranges, pre, fl
             carrier = flux[RHO, m, slot, lo:hi] if by_mass else flux_volume[m, j, lo:hi]
             weight = scratch[1 if by_mass else 0, b, lo:hi]
             for x in range(n):
-                donor, slope = upwind(swept[x] > 0.0, a_ll[x], a_l[x], a_r[x], a_rr[x])
+                donor, slope = upwind(swept[x] > 0.0, a_ll[x], a_l[x], a_r[x], a_rr[x], steepness)
                 out[x] = carrier[x] * (donor + weight[x] * slope)
 
 
@@ -236,7 +237,7 @@ def sweep_row(dj, di, j, i0, i1, below, above, b, carried, rules, group, body_ra
 
 @kernel
 def sweep_r(part, parts, i0, i1, carried, rules, group, mesh_box, body_ranges, group_ranges, face, pre, volume, second,
-            flux_volume, scratch, flux, flux_mass, edge_flux, vof, q, cell_mass, mixed_count, mixed, centroid):
+            flux_volume, steepness, scratch, flux, flux_mass, edge_flux, vof, q, cell_mass, mixed_count, mixed, centroid):
     """Carries every body along r: fluxes and update row by row.
 
     Reads    carried [m, n]; group [m]; rules [m, k, 4]; mesh_box (j0, j1, i0, i1 of the mesh), body_ranges, group_ranges; face,
@@ -248,7 +249,8 @@ def sweep_r(part, parts, i0, i1, carried, rules, group, mesh_box, body_ranges, g
     slot = 6 * part + 3
     for j in range(parts[part], parts[part + 1]):
         for m in range(body_ranges.shape[1]):
-            flux_row(0, 1, j, i0, i1, m, carried[m], rules, slot, part, body_ranges, pre, flux_volume, vof, q, scratch, flux)
+            flux_row(0, 1, j, i0, i1, m, carried[m], rules, slot, part, body_ranges, pre, flux_volume, steepness, vof, q,
+                     scratch, flux)
             lo, hi = flux_range(0, 1, i0, i1, m, j, body_ranges)
             for side in range(2):
                 i = mesh_box[2 + side]
@@ -280,7 +282,7 @@ def slot_of(f, part, parts):
 
 
 @kernel
-def shared_fluxes(part, parts, i0, i1, carried, rules, body_ranges, pre, flux_volume, vof, q, scratch, flux):
+def shared_fluxes(part, parts, i0, i1, carried, rules, body_ranges, pre, flux_volume, steepness, vof, q, scratch, flux):
     """Fluxes along z through the faces that a part shares with the part below, before either changes.
 
     Reads    as sweep_z;  writes flux [k, m, slot, i];  scratch [s, part, i]
@@ -289,12 +291,12 @@ def shared_fluxes(part, parts, i0, i1, carried, rules, body_ranges, pre, flux_vo
         for f in range(parts[part] - 1, parts[part] + 2):
             for m in range(body_ranges.shape[1]):
                 flux_row(1, 0, f, i0, i1, m, carried[m], rules, slot_of(f, part, parts), part, body_ranges, pre, flux_volume,
-                         vof, q, scratch, flux)
+                         steepness, vof, q, scratch, flux)
 
 
 @kernel
 def sweep_z(part, parts, i0, i1, carried, rules, group, mesh_box, body_ranges, group_ranges, face, pre, volume, second,
-            flux_volume, scratch, flux, flux_mass, edge_flux, vof, q, cell_mass, mixed_count, mixed, centroid):
+            flux_volume, steepness, scratch, flux, flux_mass, edge_flux, vof, q, cell_mass, mixed_count, mixed, centroid):
     """Carries every body along z: a row is updated as soon as the fluxes of the faces that need it are known.
 
     Reads    flux of the faces that two parts share (shared_fluxes), and what sweep_r reads
@@ -307,8 +309,8 @@ def sweep_z(part, parts, i0, i1, carried, rules, group, mesh_box, body_ranges, g
             slot = slot_of(f, part, parts)
             if shared_slot(f, part, parts) < 0:
                 for m in range(body_ranges.shape[1]):
-                    flux_row(1, 0, f, i0, i1, m, carried[m], rules, slot, part, body_ranges, pre, flux_volume, vof, q, scratch,
-                             flux)
+                    flux_row(1, 0, f, i0, i1, m, carried[m], rules, slot, part, body_ranges, pre, flux_volume, steepness, vof,
+                             q, scratch, flux)
             if f < last or last == end:
                 mass_flux_row(1, 0, f, i0, i1, slot, group_ranges, body_ranges, group, flux, flux_mass)
             for side in range(2):

@@ -25,7 +25,7 @@ def carry_bodies(parts, i0, i1, dj, di, second, leading, fr, own_r, fz, own_z, q
                  body_range, vof, nz, mirror_z_min, mirror_z_max, active_range, mixed_count, mixed_columns, scratch, gate,
                  void_only, volume, body_ranges, pre, flux_volume, dr, dz, interface_order, strips, cell_mass, mesh_box,
                  contact_columns, own_share, size, hard_first, soft_first, group, line, carried, flux, group_ranges, flux_mass,
-                 edge_flux, outflow, gases, centroid, flux_place, turned):
+                 steepness, edge_flux, outflow, gases, centroid, flux_place, turned):
     """Volume of every body through every face, fluxes of what it carries, and the cells after the sweep.
 
     leading : the edge along z that goes ahead with a mesh that travels, 0 low, 1 high, -1 none: its ghost cells are filled
@@ -56,14 +56,15 @@ def carry_bodies(parts, i0, i1, dj, di, second, leading, fr, own_r, fz, own_z, q
             contact_volumes.limit_fluxes(dj, di, part, parts, mesh_box, contact_columns, pre, vof, flux_volume)
         wait(gate, parts)
         if dj == 1:
-            remap.shared_fluxes(part, parts, i0, i1, carried, rules, body_ranges, pre, flux_volume, vof, q, scratch, flux)
+            remap.shared_fluxes(part, parts, i0, i1, carried, rules, body_ranges, pre, flux_volume, steepness, vof, q, scratch,
+                                flux)
             wait(gate, parts)
             remap.sweep_z(part, parts, i0, i1, carried, rules, group, mesh_box, body_ranges, group_ranges, face, pre, volume,
-                          second, flux_volume, scratch, flux, flux_mass, edge_flux, vof, q, cell_mass, mixed_count,
+                          second, flux_volume, steepness, scratch, flux, flux_mass, edge_flux, vof, q, cell_mass, mixed_count,
                           mixed_columns, centroid)
         else:
             remap.sweep_r(part, parts, i0, i1, carried, rules, group, mesh_box, body_ranges, group_ranges, face, pre, volume,
-                          second, flux_volume, scratch, flux, flux_mass, edge_flux, vof, q, cell_mass, mixed_count,
+                          second, flux_volume, steepness, scratch, flux, flux_mass, edge_flux, vof, q, cell_mass, mixed_count,
                           mixed_columns, centroid)
         wait(gate, parts)
         centroids.carry_centroids(dj, di, part, parts, second, mesh_box, group, contact_columns, mixed_count, mixed_columns,
@@ -73,11 +74,11 @@ def carry_bodies(parts, i0, i1, dj, di, second, leading, fr, own_r, fz, own_z, q
 
 
 @phase
-def carry_momentum(parts, i0, i1, dj, di, second, opens_low, opens_high, mesh_box, flux_mass, gate, advection, ke_bound,
-                   constrained, pushing, edge_velocity, metrics, group_ranges, cell_mass, mass, velocity0, velocity, dual,
-                   edge_dual, deficit, momentum_sums, nr, mirror_r_min, mirror_r_max, u, v, nz, mirror_z_min, mirror_z_max,
-                   active_range, group, vof, q, deposited, cutoff, volume, mixed_count, mixed_columns, pre, fr, fz, removed,
-                   body_ranges, occupied, kinetic_outflow, centroid):
+def carry_momentum(parts, i0, i1, dj, di, second, opens_low, opens_high, mesh_box, flux_mass, steepness, gate, advection,
+                   ke_bound, constrained, pushing, edge_velocity, metrics, group_ranges, cell_mass, mass, velocity0, velocity,
+                   dual, edge_dual, deficit, momentum_sums, nr, mirror_r_min, mirror_r_max, u, v, nz, mirror_z_min,
+                   mirror_z_max, active_range, group, vof, q, deposited, cutoff, volume, mixed_count, mixed_columns, pre, fr,
+                   fz, removed, body_ranges, occupied, kinetic_outflow, centroid):
     """Velocities after the sweep; then what is left over is tidied away, and the bodies are found anew.
 
     opens_low, opens_high : whether bodies flow through the edges of this direction that the active box has reached
@@ -87,8 +88,8 @@ def carry_momentum(parts, i0, i1, dj, di, second, opens_low, opens_high, mesh_bo
         boundaries.close_mass_flux(part, parts, di, mesh_box, opens_low, opens_high, flux_mass)
         wait(gate, parts)
         momentum.sweep_momentum(dj, di, part, parts, i0, i1, advection, ke_bound, constrained, pushing, edge_velocity, mesh_box,
-                                metrics, group_ranges, cell_mass, flux_mass, mass, velocity0, velocity, dual, edge_dual,
-                                deficit, momentum_sums)
+                                metrics, group_ranges, cell_mass, flux_mass, steepness, mass, velocity0, velocity, dual,
+                                edge_dual, deficit, momentum_sums)
         boundaries.ghost_vertices_r(part, parts, nr, mirror_r_min, mirror_r_max, u, v)
         boundaries.ghost_vertices_z(part, parts, i0 - 2, i1 + 3, nz, mirror_z_min, mirror_z_max, u, v)
         wait(gate, parts)

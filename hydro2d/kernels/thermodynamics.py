@@ -34,7 +34,7 @@ from hydro2d.mesh.grid import VOL_R
 from hydro2d.physics.fracture import share_that_stays, tension_limit
 from hydro2d.physics.kinematics import volume_loss
 from hydro2d.physics.stress import largest_principal, von_mises
-from hydro2d.physics.viscosity import directional_viscosity, shut, smoothness
+from hydro2d.physics.viscosity import directional_viscosity, length_along, shut, smoothness, strongest_compression
 from hydro2d.physics.waves import step_limits
 from strength.dispatch import end_at_melt, feels_temperature, modulus_row
 
@@ -238,20 +238,16 @@ def row_minimum(a, first, number):
 
 
 @rowwise
-def viscosity_row(j, b, linear, quadratic, courant, advective, mesh_speed, hourglass, dr, dz, metrics, active_range, u, v,
-                  rhobar, bulk, solid, cl, qr, qz, hg_coefficient, row_step, bad, scratch):
-    """Artificial viscosity direction by direction, and the time step that every cell allows.
+def viscosity_row(j, linear, quadratic, dr, dz, metrics, active_range, u, v, rhobar, bulk, solid, cl, qr, qz, qt):
+    """Artificial viscosity direction by direction of the mesh.
 
     q_r answers only to the radial difference du, q_z only to the axial one (a shock along z must not see dr), and neither to
     more than the loss of volume, |div u| dx: at a stagnation point, where one direction gives what the other takes, there is
     no shock and no q. Christensen's limiter switches both off where the velocity is smooth, and void, which shuts before
-    anything is compressed, where there is more than a little of it (`shut`). dt <= courant min(dr,
-    dz)/sqrt(c_l^2 + 2 q/rho), |u| dt <= advective dx, |div u| dt <= 0.2 in compression (explanation/lagrangian-step).
+    anything is compressed, where there is more than a little of it (`shut`). The hoop bears q_r (explanation/lagrangian-step).
 
     Reads    u, v [b, j, i]; rhobar, bulk, solid, cl [j, i]
-    Writes   qr, qz [j, i]; hg_coefficient [j, i], coefficient of the hourglass filter, kg/s; row_step [j], the least of a row;
-             bad [j, 3] velocities that are not finite
-    Scratch  scratch [s, b, i]
+    Writes   qr, qz, qt [j, i]
     """
     lo, n = columns(active_range[j, 0], active_range[j, 1])
     ub = u[0, j]
@@ -262,14 +258,12 @@ def viscosity_row(j, b, linear, quadratic, courant, advective, mesh_speed, hourg
     vtt = v[0, j + 2]
     qr_j = qr[j]
     qz_j = qz[j]
+    qt_j = qt[j]
     rho_j = rhobar[j]
     cl_j = cl[j]
     bulk_j = bulk[j]
     solid_j = solid[j]
-    step_j = scratch[1, b]
-    hg_j = hg_coefficient[j]
     h = dz[j]
-    wrong = 0
     for x in range(n):
         i = lo + x
         void = rho_j[i] == 0.0
@@ -288,11 +282,111 @@ def viscosity_row(j, b, linear, quadratic, courant, advective, mesh_speed, hourg
         full = shut(solid_j[i])
         q_r = full * directional_viscosity(rho, c, du_q, smoothness(du_l, du, du_r), linear, quadratic)
         q_z = full * directional_viscosity(rho, c, dv_q, smoothness(dv_b, dv, dv_t), linear, quadratic)
-        sound, radial, axial, volume = step_limits(
-            i, ub, ut, vb, vt, courant, advective, mesh_speed, dr, h, rho, cl_j[i], max(q_r, q_z), loss)
-        hg_j[i] = 0.25 * hourglass * rho_j[i] * cl_j[i] * metrics[VOL_R, i] * h / max(dr[i], h)
         qr_j[i] = 0.0 if void else q_r
         qz_j[i] = 0.0 if void else q_z
+        qt_j[i] = qr_j[i]
+
+
+@rowwise
+def compression_viscosity_row(j, linear, quadratic, dr, dz, metrics, active_range, u, v, rhobar, bulk, solid, cl, qr, qz, qt,
+                              qrz):
+    """Artificial viscosity along the direction n of the strongest compression in the plane: the stress q n n, none on the hoop.
+
+    q answers to the difference of the velocity along n over the cell, at most to the loss of volume times its length, and is
+    switched off where the velocity along n is smooth along r and z, each by its share of n. A shock that is oblique to the mesh
+    has the width of one along it, and a front that converges heats nothing that it has not reached (explanation/
+    lagrangian-step, equation 11a).
+
+    Reads    u, v [b, j, i]; rhobar, bulk, solid, cl [j, i]
+    Writes   qr, qz, qt, qrz [j, i]
+    """
+    lo, n = columns(active_range[j, 0], active_range[j, 1])
+    ubb = u[0, j - 1]
+    ub = u[0, j]
+    ut = u[0, j + 1]
+    utt = u[0, j + 2]
+    vbb = v[0, j - 1]
+    vb = v[0, j]
+    vt = v[0, j + 1]
+    vtt = v[0, j + 2]
+    qr_j = qr[j]
+    qz_j = qz[j]
+    qt_j = qt[j]
+    qrz_j = qrz[j]
+    rho_j = rhobar[j]
+    cl_j = cl[j]
+    bulk_j = bulk[j]
+    solid_j = solid[j]
+    h = dz[j]
+    for x in range(n):
+        i = lo + x
+        void = rho_j[i] == 0.0
+        rho = 1.0 if void else rho_j[i]
+        du = 0.5 * ((ub[i + 1] - ub[i]) + (ut[i + 1] - ut[i]))
+        du_l = 0.5 * ((ub[i] - ub[i - 1]) + (ut[i] - ut[i - 1]))
+        du_r = 0.5 * ((ub[i + 2] - ub[i + 1]) + (ut[i + 2] - ut[i + 1]))
+        dv = 0.5 * ((vt[i] - vb[i]) + (vt[i + 1] - vb[i + 1]))
+        dv_b = 0.5 * ((vb[i] - vbb[i]) + (vb[i + 1] - vbb[i + 1]))
+        dv_t = 0.5 * ((vtt[i] - vt[i]) + (vtt[i + 1] - vt[i + 1]))
+        # what the other component changes by: u along z, v along r
+        su = 0.5 * ((ut[i] - ub[i]) + (ut[i + 1] - ub[i + 1]))
+        su_b = 0.5 * ((ub[i] - ubb[i]) + (ub[i + 1] - ubb[i + 1]))
+        su_t = 0.5 * ((utt[i] - ut[i]) + (utt[i + 1] - ut[i + 1]))
+        sv = 0.5 * ((vb[i + 1] - vb[i]) + (vt[i + 1] - vt[i]))
+        sv_l = 0.5 * ((vb[i] - vb[i - 1]) + (vt[i] - vt[i - 1]))
+        sv_r = 0.5 * ((vb[i + 2] - vb[i + 1]) + (vt[i + 2] - vt[i + 1]))
+        rate, n_r, n_z = strongest_compression(du / dr[i], dv / h, 0.5 * (su / h + sv / dr[i]))
+        loss = volume_loss(i, ub, ut, vb, vt, metrics, h)
+        jump = max(rate, -max(loss, 0.0)) * length_along(n_r, n_z, dr[i], h)
+        psi_r = smoothness(n_r * du_l + n_z * sv_l, n_r * du + n_z * sv, n_r * du_r + n_z * sv_r)
+        psi_z = smoothness(n_r * su_b + n_z * dv_b, n_r * su + n_z * dv, n_r * su_t + n_z * dv_t)
+        psi = n_r * n_r * psi_r + n_z * n_z * psi_z
+        c = bulk_j[i] / rho
+        c = sqrt(c) if c > 0.0 else cl_j[i]
+        q = shut(solid_j[i]) * directional_viscosity(rho, c, jump, psi, linear, quadratic)
+        q = 0.0 if void else q
+        qr_j[i] = q * (n_r * n_r)
+        qz_j[i] = q * (n_z * n_z)
+        qrz_j[i] = q * (n_r * n_z)
+        qt_j[i] = 0.0
+
+
+@rowwise
+def steps_row(j, b, courant, advective, mesh_speed, hourglass, dr, dz, metrics, active_range, u, v, rhobar, cl, qr, qz,
+              hg_coefficient, row_step, bad, scratch):
+    """The time step that every cell allows, and the coefficient of its hourglass filter.
+
+    dt <= courant min(dr, dz)/sqrt(c_l^2 + 2 q/rho), |u| dt <= advective dx, |div u| dt <= 0.2 in compression
+    (explanation/lagrangian-step).
+
+    Reads    u, v [b, j, i]; rhobar, cl, qr, qz [j, i]
+    Writes   hg_coefficient [j, i], coefficient of the hourglass filter, kg/s; row_step [j], the least of a row;
+             bad [j, 3] velocities that are not finite
+    Scratch  scratch [s, b, i]
+    """
+    lo, n = columns(active_range[j, 0], active_range[j, 1])
+    ub = u[0, j]
+    ut = u[0, j + 1]
+    vb = v[0, j]
+    vt = v[0, j + 1]
+    qr_j = qr[j]
+    qz_j = qz[j]
+    rho_j = rhobar[j]
+    cl_j = cl[j]
+    step_j = scratch[1, b]
+    hg_j = hg_coefficient[j]
+    h = dz[j]
+    wrong = 0
+    for x in range(n):
+        i = lo + x
+        void = rho_j[i] == 0.0
+        rho = 1.0 if void else rho_j[i]
+        du = (ub[i + 1] - ub[i]) + (ut[i + 1] - ut[i])
+        dv = (vt[i] - vb[i]) + (vt[i + 1] - vb[i + 1])
+        loss = volume_loss(i, ub, ut, vb, vt, metrics, h)
+        sound, radial, axial, volume = step_limits(
+            i, ub, ut, vb, vt, courant, advective, mesh_speed, dr, h, rho, cl_j[i], max(qr_j[i], qz_j[i]), loss)
+        hg_j[i] = 0.25 * hourglass * rho_j[i] * cl_j[i] * metrics[VOL_R, i] * h / max(dr[i], h)
         step_j[i] = 1e300 if void else min(min(sound, radial), min(axial, volume))
         wrong += 0 if void or (abs(du) < 1e300 and abs(dv) < 1e300) else 1
     row_step[j] = row_minimum(step_j, lo, n)
@@ -318,7 +412,7 @@ def least_step(parts, row_step, bad, found):
 def step_cause(j, courant, advective, mesh_speed, dr, dz, metrics, active_range, u, v, rhobar, cl, qr, qz, cause):
     """Which cell of row j allows the least step, and which of the bounds it is.
 
-    Reads    what viscosity_row read and wrote
+    Reads    what steps_row read
     Writes   cause [2]: index into CAUSES, column
     """
     best = 1e300

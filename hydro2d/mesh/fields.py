@@ -78,6 +78,8 @@ FIELDS = (
     Field("longitudinal_sound_speed", "cl", "cell", "m/s", 1, "", False, "largest of the bodies' longitudinal sound speeds"),
     Field("viscosity_r", "qr", "cell", "Pa", 1, "", False, "artificial viscosity against radial compression"),
     Field("viscosity_z", "qz", "cell", "Pa", 1, "", False, "artificial viscosity against axial compression"),
+    Field("viscosity_tt", "qt", "cell", "Pa", 1, "", False, "artificial viscosity against a hoop that shrinks"),
+    Field("viscosity_rz", "qrz", "cell", "Pa", -1, "", False, "shear component of the artificial viscosity"),
     Field("total_stress_rr", "sig_rr", "cell", "Pa", 1, "", False, "radial stress at half the step, viscosity included"),
     Field("total_stress_zz", "sig_zz", "cell", "Pa", 1, "", False, "axial stress at half the step, viscosity included"),
     Field("total_stress_tt", "sig_tt", "cell", "Pa", 1, "", False, "hoop stress at half the step, viscosity included"),

@@ -7,19 +7,23 @@ TINY = 1e-300
 
 
 @point
-def limited_difference(a, b):
-    """Monotonized central difference from those to both neighbours (van Leer, J. Comput. Phys. 23 (1977) 276)."""
-    size = min(min(2.0 * abs(a), 2.0 * abs(b)), 0.5 * abs(a + b))
+def limited_difference(a, b, steepness):
+    """Central difference from those to both neighbours, no larger than steepness times the smaller of them.
+
+    steepness 2 is the monotonized central difference (van Leer, J. Comput. Phys. 23 (1977) 276), 1 the smaller of the two
+    ("minmod", Roe 1986).
+    """
+    size = min(min(steepness * abs(a), steepness * abs(b)), 0.5 * abs(a + b))
     size = size if a * b > 0.0 else 0.0
     return size if a > 0.0 else -size
 
 
 @point
-def upwind(up, ll, l, r, rr):
+def upwind(up, ll, l, r, rr, steepness):
     """(donor, limited difference towards the other side of the face) of a face between l and r that l feeds where ``up``.
 
     Differences first: a choice between two values in memory is a slow gather, one between two numbers is not.
     """
     across = r - l
     behind = l - ll if up else r - rr
-    return l if up else r, limited_difference(behind, across if up else -across)
+    return l if up else r, limited_difference(behind, across if up else -across, steepness)

@@ -1,5 +1,7 @@
 """Artificial viscosity."""
 
+from math import sqrt
+
 from hydro2d.jit import point
 from hydro2d.physics.traction import smoothstep
 
@@ -23,6 +25,26 @@ def directional_viscosity(rho, c, du, psi, linear, quadratic):
     """q = (1 - psi) rho (c2 du^2 + c1 c |du|) against a compression du < 0; von Neumann-Richtmyer with Landshoff's term."""
     jump = max(-du, 0.0)
     return (1.0 - psi) * rho * jump * (quadratic * jump + linear * c)
+
+
+@point
+def strongest_compression(rr, zz, rz):
+    """The least principal value of a rate of strain in the plane, 1/s, and its direction n: (value, n_r, n_z), n_r >= 0.
+
+    rr, zz, rz are D_rr, D_zz and D_rz (explanation/lagrangian-step, equation 11a). Without shear, n is a direction of the mesh
+    to the last bit.
+    """
+    mean, half = 0.5 * (rr + zz), 0.5 * (rr - zz)
+    radius = sqrt(half * half + rz * rz)
+    turned = half / radius if radius > 0.0 else 0.0
+    n_r, n_z = sqrt(max(0.5 * (1.0 - turned), 0.0)), sqrt(max(0.5 * (1.0 + turned), 0.0))
+    return mean - radius, n_r, n_z if rz <= 0.0 else -n_z
+
+
+@point
+def length_along(n_r, n_z, dr, dz):
+    """Length of a cell along n, m: that of the ellipse with its sides dr and dz, so that a shock along z does not see dr."""
+    return dr * dz / sqrt((n_r * dz) * (n_r * dz) + (n_z * dr) * (n_z * dr))
 
 
 @point

@@ -23,9 +23,11 @@ class Method:
     ramp_cycles: int
     initial_dt_factor: float
     dt_min: float
+    along_compression: bool
     viscosity_linear: float
     viscosity_quadratic: float
     hourglass: float
+    steepness: float
     tipton: bool
     relaxation: float
     mixed_strength: int
@@ -68,9 +70,11 @@ class Method:
             ramp_cycles=n.ramp_cycles,
             initial_dt_factor=n.initial_dt_factor,
             dt_min=n.dt_min,
+            along_compression=n.viscosity_along == "compression",
             viscosity_linear=n.viscosity_linear,
             viscosity_quadratic=n.viscosity_quadratic,
             hourglass=n.hourglass,
+            steepness=n.steepness,
             tipton=n.mixed_cell == "tipton",
             relaxation=n.relaxation,
             mixed_strength=mixed_strength.STRENGTH_MODES.index(n.mixed_strength),

@@ -26,9 +26,9 @@ def gas(**given) -> Cells:
     return cells
 
 
-def closed(cells: Cells) -> Cells:
+def closed(cells: Cells, **given) -> Cells:
     cells.call(mixed.close_cells, max_opening=0.5, smallest_tension=False, linear=0.5, quadratic=2.0, courant=0.5,
-               advective=1.0, mesh_speed=0.0, hourglass=0.1)  # fmt: skip
+               advective=1.0, mesh_speed=0.0, hourglass=0.1, **given)  # fmt: skip
     return cells
 
 
@@ -50,6 +50,40 @@ def test_viscosity_along_the_one_direction_that_is_pressed_together():
     q = 2.0 * (2.0 * 4.0 + 0.5 * np.sqrt(7.5) * 2.0)
     assert (cells.qr[AT], cells.qz[AT]) == (0.0, pytest.approx(q))
     assert cells.row_step[3] == pytest.approx(min(0.5 / np.sqrt(7.5 + q), 0.2 / 2.0))
+
+
+@pytest.mark.parametrize(("along", "across"), [("u", "v"), ("v", "u")])
+def test_viscosity_along_the_strongest_compression_is_the_same_where_that_is_a_direction_of_the_mesh(along, across):
+    """And the hoop bears none of it."""
+    mesh, own = gas(), gas()
+    for cells in (mesh, own):
+        velocity = getattr(cells, along)[0]
+        velocity[(slice(None), slice(4, None)) if along == "u" else slice(4, None)] = -2.0
+    closed(mesh), closed(own, along_compression=True)
+    assert own.qr[AT] == pytest.approx(mesh.qr[AT], rel=1e-14)
+    assert own.qz[AT] == pytest.approx(mesh.qz[AT], rel=1e-14)
+    assert mesh.qr[AT] + mesh.qz[AT] == pytest.approx(2.0 * (2.0 * 4.0 + 0.5 * np.sqrt(7.5) * 2.0))
+    assert own.row_step.tolist() == pytest.approx(mesh.row_step.tolist())
+    assert (mesh.qt[AT], own.qt[AT], mesh.qrz[AT], own.qrz[AT]) == (mesh.qr[AT], 0.0, 0.0, 0.0)
+
+
+def test_an_oblique_shock_meets_the_same_viscosity_as_one_along_the_mesh():
+    """The velocity along n = (1, 1)/sqrt 2 falls by 2 m/s in 1 m along n, half as steeply beside: psi = 1/2, du = -2 m/s."""
+    cells = gas()
+    j, i = np.indices(cells.u[0].shape)
+    cells.u[0] = cells.v[0] = -2.0 / np.sqrt(2.0) * np.clip((i + j - 6) / np.sqrt(2.0), 0.0, np.sqrt(2.0))
+    closed(cells, along_compression=True)
+    jump = 2.0
+    q = 0.5 * 2.0 * (2.0 * jump * jump + 0.5 * np.sqrt(7.5) * jump)
+    assert (cells.qr[AT], cells.qz[AT], cells.qrz[AT]) == pytest.approx((q / 2, q / 2, q / 2))
+    assert cells.qt[AT] == 0.0
+
+
+def test_shear_alone_has_no_viscosity():
+    cells = gas()
+    cells.u[0, 4:] = 3.0
+    closed(cells, along_compression=True)
+    assert (cells.qr[AT], cells.qz[AT], cells.qrz[AT]) == (0.0, 0.0, 0.0)
 
 
 def test_what_is_not_finite_is_counted():

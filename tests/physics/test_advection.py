@@ -6,8 +6,16 @@ from hypothesis import strategies as st
 
 from hydro2d.physics import advection
 
-limited_difference = advection.limited_difference.py_func
-upwind = advection.upwind.py_func
+STEEP = 2.0
+
+
+def limited_difference(a, b, steepness=STEEP):
+    return advection.limited_difference.py_func(a, b, steepness)
+
+
+def upwind(up, ll, l, r, rr, steepness=STEEP):
+    return advection.upwind.py_func(up, ll, l, r, rr, steepness)
+
 
 VALUE = st.floats(-1e6, 1e6)
 #: nothing so small that a product of two is zero
@@ -21,6 +29,13 @@ DIFFERENCE = st.just(0.0) | st.floats(1e-100, 1e6) | st.floats(-1e6, -1e-100)
 def test_where_it_is_smooth_the_difference_is_central(a, b):
     assert limited_difference(a, b) == (a + b) / 2
     assert limited_difference(-a, -b) == -(a + b) / 2
+
+
+@pytest.mark.parametrize(("a", "b"), [(1.0, 10.0), (10.0, 1.0), (2.0, 3.0), (1.0, 1.0)])
+def test_with_a_steepness_of_one_the_difference_is_the_smaller(a, b):
+    assert limited_difference(a, b, 1.0) == min(a, b)
+    assert limited_difference(-a, -b, 1.0) == -min(a, b)
+    assert upwind(True, 1.0, 1.0 + a, 1.0 + a + b, 0.0, 1.0) == (1.0 + a, min(a, b))
 
 
 @pytest.mark.parametrize(("a", "b"), [(1.0, 10.0), (10.0, 1.0)])

@@ -1,5 +1,7 @@
 """Artificial viscosity and the limiter that switches it off."""
 
+from math import cos, hypot, pi, sin
+
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -11,10 +13,14 @@ from tests.physics.continuity import changes_in_proportion, largest_jump
 smoothness = viscosity.smoothness.py_func
 directional_viscosity = viscosity.directional_viscosity.py_func
 shut = viscosity.shut.py_func
+strongest_compression = viscosity.strongest_compression.py_func
+length_along = viscosity.length_along.py_func
 
 DIFFERENCE = st.floats(-1e3, 1e3)
 #: nothing so small that its inverse overflows
 SLOPE = st.floats(1e-6, 1e3) | st.floats(-1e3, -1e-6)
+#: nothing so small that its square is zero
+RATE = st.just(0.0) | SLOPE
 
 
 # -------------------------------------------------------------------------------------------------------- limiter
@@ -130,3 +136,53 @@ def test_viscosity_does_not_jump_as_void_shuts():
     for solids in (OPEN, 1.0):
         changes_in_proportion(shut, solids, 1.5 / (1.0 - OPEN))
     assert largest_jump(shut, 0.5, 1.0) < 1e-11
+
+
+# -------------------------------------------------------------------------------- the direction of the strongest compression
+
+
+@pytest.mark.parametrize("turn", [0.0, 0.3, pi / 4, 1.2, pi / 2, 2.0, 3.0])
+def test_a_plane_compression_is_found_in_its_own_direction(turn):
+    """A rate of -2/s along n and 1/s across: D = -2 n n + 1 t t."""
+    r, z = sin(turn), cos(turn)
+    rate, n_r, n_z = strongest_compression(-2.0 * r * r + z * z, -2.0 * z * z + r * r, -3.0 * r * z)
+    sign = 1.0 if r * n_r + z * n_z > 0.0 else -1.0
+    assert rate == pytest.approx(-2.0)
+    assert (n_r, n_z) == pytest.approx((sign * r, sign * z), abs=1e-7)
+
+
+@pytest.mark.parametrize(("rr", "zz", "expected"), [
+    (0.0, -3.0, (-3.0, 0.0, 1.0)), (-3.0, 0.0, (-3.0, 1.0, 0.0)), (2.0, -1.0, (-1.0, 0.0, 1.0)), (-5.0, -1.0, (-5.0, 1.0, 0.0)),
+])  # fmt: skip
+def test_without_shear_it_is_a_direction_of_the_mesh_to_the_last_bit(rr, zz, expected):
+    assert strongest_compression(rr, zz, 0.0) == expected
+
+
+def test_what_is_compressed_alike_on_all_sides_has_a_direction():
+    rate, n_r, n_z = strongest_compression(-1.0, -1.0, 0.0)
+    assert rate == -1.0
+    assert hypot(n_r, n_z) == pytest.approx(1.0)
+
+
+@settings(deadline=None)
+@given(RATE, RATE, RATE)
+def test_the_mirror_image_has_the_mirrored_direction(rr, zz, rz):
+    rate, n_r, n_z = strongest_compression(rr, zz, rz)
+    other, m_r, m_z = strongest_compression(rr, zz, -rz)
+    assert (other, m_r, abs(m_z)) == (rate, n_r, abs(n_z))
+    assert rz == 0.0 or n_z == 0.0 or m_z == -n_z
+
+
+@settings(deadline=None)
+@given(RATE, RATE, RATE)
+def test_no_direction_is_compressed_more(rr, zz, rz):
+    rate, n_r, n_z = strongest_compression(rr, zz, rz)
+    size = abs(rr) + abs(zz) + abs(rz)
+    assert rate <= min(rr, zz) + 1e-12 * size
+    assert n_r * n_r * rr + n_z * n_z * zz + 2.0 * n_r * n_z * rz == pytest.approx(rate, abs=1e-7 * size + 1e-12)
+
+
+def test_the_length_along_a_side_does_not_see_the_other_side():
+    assert length_along(0.0, 1.0, 7.0, 0.5) == pytest.approx(0.5, rel=1e-15)
+    assert length_along(1.0, 0.0, 7.0, 0.5) == pytest.approx(7.0, rel=1e-15)
+    assert length_along(0.6, -0.8, 2.0, 2.0) == pytest.approx(2.0)

@@ -9,8 +9,8 @@ from scipy import interpolate
 
 from hydro2d.deck import deck as decks
 from hydro2d.solver.simulation import Simulation
-from tests.decks import box, entry, mesh, stop, table, walls
 from problems.verification.exact.elastic_wall import displacements
+from tests.decks import box, entry, mesh, stop, table, walls
 
 DENSITY, SHEAR = 3000.0, 25e9
 BULK = 125e9 / 3
