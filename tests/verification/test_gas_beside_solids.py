@@ -21,9 +21,9 @@ GAS_SPEED = np.sqrt(1.4 * 1e6 / 1000.0)
 def rock_and_gas() -> str:
     """An elastic rock, a gas under 1 MPa in it, and no failure."""
     return (
-        table("materials.rock", eos={"model": "mie-grueneisen", "reference_density": DENSITY, "hugoniot_slope": 1.3, "grueneisen": 1.5,
-                              "sound_speed": np.sqrt(BULK / DENSITY), "specific_heat": 900.0},
-                 strength={"model": "elastic-plastic", "shear_modulus": SHEAR, "yield_stress": 1e11})
+        table("materials.rock", eos={"model": "mie-grueneisen", "reference_density": DENSITY, "hugoniot_slope": 1.3,
+                                     "grueneisen": 1.5, "sound_speed": np.sqrt(BULK / DENSITY), "specific_heat": 900.0},
+              strength={"model": "elastic-plastic", "shear_modulus": SHEAR, "yield_stress": 1e11})
         + table("materials.gas", eos={"model": "ideal-gas", "reference_density": 1000.0, "adiabatic_index": 1.4,
                                "specific_heat": 700.0})
         + table("failure", tensile="none", strength_cutoff=0.0)
