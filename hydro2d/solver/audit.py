@@ -114,9 +114,10 @@ class Audit:
         """Energy that edges and sources have brought since the start, J per radian."""
         return self._brought((*BRINGS, *(name for name in self.sinks if name not in SINKS)))
 
-    def work_per_mass(self, own: Iterable[str]) -> float:
-        """Work of edges since the start for every kg that was there, J/kg; own : their sinks beside SINKS."""
-        return self._brought(("walls", "transmitted", *own)) / max(float(self.start.mass.sum()), 1e-300)
+    @property
+    def worked(self) -> float:
+        """Work of edges and energy of sources since the start, J per radian: what came in, but for what flowed in."""
+        return self.came - self._brought(("inflow",))
 
     def _brought(self, names: Iterable[str]) -> float:
         """Energy that has come in through sinks, J per radian."""

@@ -7,6 +7,7 @@ bounds follow from its equation of state (explanation/sanity).
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from itertools import combinations
 from typing import NamedTuple
 
@@ -47,7 +48,9 @@ class Reach(NamedTuple):
     shear : shear modulus, Pa, by which elastic energy counts;  chill : by what a cell may be colder than 0 K, J/kg
     gas : which bodies are gases;  warm : which begin above a temperature of zero; bool[m]
     speed : the closing speed, m/s;  pressure : the highest pressure of the shot, Pa
-    stands : whether an edge stands that bodies can meet
+    stands : whether an edge across z is there that bodies can meet
+    squeezed : heat of every body, J/kg, float64[m, k], where all are compressed to one pressure by so much work
+    work : that work, J per radian, float64[k], rising;  mass : of all bodies at the start, kg per radian
     """
 
     lowest: np.ndarray
@@ -64,6 +67,17 @@ class Reach(NamedTuple):
     speed: float
     pressure: float
     stands: bool
+    squeezed: np.ndarray
+    work: np.ndarray
+    mass: float
+
+    def given_by(self, work: float) -> np.ndarray:
+        """Heat of every body, J/kg, float64[m], by so much work of edges and sources, in J per radian.
+
+        The work compresses all of them to one pressure, or is spread over their mass, as by shocks.
+        """
+        squeezed = np.array([np.interp(work, self.work, each) for each in self.squeezed])
+        return np.maximum(squeezed, work / self.mass)
 
 
 class Material(NamedTuple):
@@ -100,6 +114,7 @@ def of(deck, table, state, start) -> Reach:
     noise = AT_REST * 0.5 * speed**2 + OF_SOUND * table.sound_speeds() ** 2
     shear = np.where(table.strength_model > 0, table.strength_par[:, SHEAR], 0.0)
     finest = min(state.grid.dr[state.grid.inside[1]].min(), state.grid.dz[state.grid.inside[0]].min())
+    squeezed = _squeezed([compressed(one) for one in materials])
     return Reach(
         lowest=lowest, highest=highest,
         cell_lowest=np.minimum(first, 0.0) - CELL_COLDER * (highest - first) - noise,
@@ -108,7 +123,8 @@ def of(deck, table, state, start) -> Reach:
         plastic=IDEAL_STRENGTH * shear / density, rubbing=deck.sliding.friction * pressure * speed / (finest * density),
         shear=shear, chill=CHILL * (highest - lowest),
         gas=table.gases(), warm=np.array([one.evaluate(one.rho, one.e)[3] > 0.0 for one in materials]),
-        speed=speed, pressure=pressure, stands=_stands(deck))  # fmt: skip
+        speed=speed, pressure=pressure, stands=_stands(deck),
+        squeezed=squeezed, work=mass @ squeezed, mass=max(float(mass.sum()), 1e-300))  # fmt: skip
 
 
 def strongest(table, m: int, pressure: float) -> float:
@@ -150,22 +166,25 @@ def _edges(deck):
 def closing_speed(deck, grid) -> float:
     """Largest difference of two velocities that a deck gives, of parts of bodies and of edges that hold or push, m/s.
 
-    What moves as a whole meets nothing: a velocity that all bodies have more changes nothing, unless an edge is there.
+    An edge meets what moves along its normal, and has no friction: in a tube or beside the axis, bodies may fly along z at any
+    speed. What moves as a whole meets nothing.
     """
     rows, columns = grid.inside
     r, z = np.meshgrid(grid.rc[columns], grid.zc[rows])
-    given = [(0.0, 0.0)] if _stands(deck) else []
+    given: list[tuple[float, float]] = []
     for body in deck.body:
         u, v = body_velocity(body, r, z) if body.flow else body.velocity
         given += [(x, y) for x in (np.min(u), np.max(u)) for y in (np.min(v), np.max(v))]
+    along = [[velocity[n] for velocity in given] for n in range(2)]
     for n, edge in enumerate(_edges(deck)):
-        given += [(velocity, 0.0) if n < 2 else (0.0, velocity) for velocity in edge.speeds()]
-    return max((math.dist(one, other) for one, other in combinations(given, 2)), default=0.0)
+        along[n // 2] += edge.speeds() or ((0.0,) if edge.traction() != FREE else ())
+    between = [math.dist(one, other) for one, other in combinations(given, 2)]
+    return float(max([*between, *(max(each) - min(each) for each in along if each)], default=0.0))
 
 
 def _stands(deck) -> bool:
-    """Whether an edge is there that bodies can meet: a wall, an anvil, dashpots, or one with a velocity of its own."""
-    return any((edge.holds() or edge.traction() != FREE) and edge.name != "axis" for edge in _edges(deck))
+    """Whether an edge across z is there that bodies can meet: a wall, an anvil, dashpots, or one with its own velocity."""
+    return any(edge.holds() or edge.traction() != FREE for edge in _edges(deck)[2:])
 
 
 def drift(start: Totals) -> float:
@@ -215,21 +234,44 @@ def stagnation(material: Material, speed: float) -> tuple[float, float, float]:
     return rho0, e0 + 0.5 * speed**2, p0 + rho0 * speed * (sound + 2.0 * speed)
 
 
-def _along_isentrope(material: Material, rho: float, e: float, step: float, ends) -> float:
-    """Energy where the pressure on an isentrope, de = p/rho d(ln rho), ends a walk in the logarithm of density, J/kg.
+def compressed(material: Material) -> tuple[np.ndarray, np.ndarray]:
+    """(pressures, heats) of a material that is compressed along its isentrope from the start, Pa and J/kg, float64[k].
 
-    The walk ends as well where a table does, beyond which no run goes.
+    As far as the pressure rises on the way.
+    """
+    along = [(p, e) for p, e in _isentrope(material, material.rho, material.e, STEP) if not math.isnan(p)]
+    pressures, energies = np.array(along).reshape(-1, 2).T
+    rises = int(np.argmax(np.append(np.diff(pressures) <= 0.0, True))) + 1
+    return pressures[:rises], energies[:rises] - material.e
+
+
+def _squeezed(curves: list[tuple[np.ndarray, np.ndarray]]) -> np.ndarray:
+    """Heat of every body at one pressure of all, at each of the pressures of `compressed`, J/kg, float64[m, k]."""
+    together = np.unique(np.concatenate([pressures for pressures, _ in curves]))
+    return np.array([np.interp(together, *curve) for curve in curves])
+
+
+def _isentrope(material: Material, rho: float, e: float, step: float) -> Iterator[tuple[float, float]]:
+    """(pressure, energy) on an isentrope, de = p/rho d(ln rho), in steps of the logarithm of density, Pa and J/kg.
+
+    It ends as well where a table does, beyond which no run goes. The pressure of the last point is NaN.
     """
     farthest = FARTHEST if step > 0.0 else THINNEST
     for _ in range(round(farthest / abs(step))):
         p = material.evaluate(rho, e)[0]
         half = rho * math.exp(0.5 * step)
         in_middle = material.evaluate(half, e + 0.5 * step * p / rho)[0]
-        if ends(p) or math.isnan(p + in_middle):
+        if math.isnan(p + in_middle):
             break
+        yield p, e
         e += step * in_middle / half
         rho *= math.exp(step)
-    return e
+    yield math.nan, e
+
+
+def _along_isentrope(material: Material, rho: float, e: float, step: float, ends) -> float:
+    """Energy where the pressure on an isentrope ends a walk along it, or where that comes to its own end, J/kg."""
+    return next(now for p, now in _isentrope(material, rho, e, step) if ends(p) or math.isnan(p))
 
 
 def coldest(material: Material) -> float:

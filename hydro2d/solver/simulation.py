@@ -368,8 +368,8 @@ class Simulation:
     def refuse_nonsense(self) -> None:
         """Raises UnphysicalState with the first fault of the state, if it has any, and remembers what is doubtful."""
         self.engine.courses.look(self.time, keep=self.cycle % WATCH_EVERY == 0)
-        work = self.audit.work_per_mass(self.engine.method.boundaries.sinks)
-        doubtful = doubts(self.state, self.table, self.time, self._reach, self.sources.given + reach.CELL_HOTTER * work)
+        given = self.sources.given + reach.CELL_HOTTER * self._reach.given_by(self.audit.worked)
+        doubtful = doubts(self.state, self.table, self.time, self._reach, given)
         for what, sentence in (*doubtful, *discards(self.audit, self._reach), *self.engine.courses.parted(self.table.names)):
             self._doubts.setdefault(what, f"cycle {self.cycle}, time {self.time:.6g} s: {sentence}")
         if found := self.faults(self.deck.numerics.clip_limit):

@@ -8,10 +8,11 @@ import pytest
 from hydro2d.deck import deck as decks
 from hydro2d.errors import UnphysicalState
 from hydro2d.running.run import exit_status, run
+from hydro2d.solver.audit import totals
 from hydro2d.solver.sanity import doubts
 from hydro2d.solver.simulation import Simulation
 from strength import SHEAR
-from tests.decks import box, mesh, plate, stop, table, walls
+from tests.decks import box, entry, mesh, plate, stop, table, walls
 
 SHOT = (
     mesh(("1 mm", 4), ("-4 mm", "8 mm", "0.25 mm"), geometry="planar")
@@ -158,17 +159,59 @@ def test_an_elastic_element_that_a_piston_squeezes_is_sound():
     while simulation.stop_reason() is None:
         simulation.step()
     assert simulation.faults() == simulation.doubts() == []
-    work = simulation.audit.work_per_mass(["piston"])
+    (work,) = simulation._reach.given_by(simulation.audit.worked)
     assert work == pytest.approx(89e3, rel=0.05)
     s = simulation.state
     s.e[0, 8, 3] = 1.5 * (simulation._reach.cell_highest[0] + 3.0 * work)
     assert len(list(doubts(s, simulation.table, simulation.time, simulation._reach, np.array([3.0 * work])))) == 1
 
 
+#: two gases that a piston or a source presses, in a closed tube of 40 mm
+GASES = (
+    mesh(("4 mm", 4), ("40 mm", 40), geometry="planar")
+    + walls("r_max", "z_min", "z_max")
+    + box("light", "gas_7_5", z=[0.0, "20 mm"], density=0.1, pressure="0.1 MPa")
+    + box("heavy", "gas_5_3", z=["20 mm", "40 mm"], density=10.0, pressure="0.2 MPa")
+    + stop("1 ms")
+)
+
+
+@pytest.mark.parametrize("to", [3e5, 1e7])
+def test_work_compresses_all_bodies_to_one_pressure(to):
+    """e ~ p^((g - 1)/g) along the isentrope of each. A light gas has more of it for every kg than what is beside it."""
+    simulation = Simulation(decks.loads(GASES))
+    gamma, p0, rho = np.array([1.4, 5 / 3]), np.array([1e5, 2e5]), np.array([0.1, 10.0])
+    heat = p0 / rho / (gamma - 1) * ((to / p0) ** ((gamma - 1) / gamma) - 1)
+    work = simulation.audit.start.mass @ heat
+    found = simulation._reach.given_by(work)
+    assert found == pytest.approx(np.maximum(heat, work / simulation.audit.start.mass.sum()), rel=2e-3)
+    assert found[0] == pytest.approx(heat[0], rel=2e-3)
+
+
+def test_what_a_source_gives_to_one_body_reaches_the_others():
+    """A gas that is heated presses the one beside it, to eight times its energy: no doubt, but where nothing was heated."""
+    beam = entry("source", name="beam", kind="heating", body="heavy", power=[[0.0, 0.0], [1.0, 1.0]])
+    simulation = Simulation(decks.loads(GASES + beam))
+    s, audit, found = simulation.state, simulation.audit, simulation._reach
+    s.e[0, 8, 3] *= 8.0
+    gained = totals(s).energy - audit.start.energy
+    needs = np.interp(7.0 * 2.5e6 / 3.0, found.squeezed[0], found.work)  # three times the heat is within reach
+    assert s.e[0, 8, 3] > 1.5 * found.cell_highest[0]
+    for given, doubtful in ((1.1 * needs, False), (0.1 * needs, True)):
+        audit.sinks["beam"].energy, audit.sinks["outflow"].energy = -given, given - gained
+        simulation.refuse_nonsense()
+        assert bool(simulation.doubts()) == doubtful
+
+
+#: edges beside which bodies fly along z and meet nothing: none, the walls of a tube, the axis and a wall
+BESIDE = {"nothing": ["boundaries.r_max=outflow", "boundaries.r_min=outflow"], "tube": [],
+          "axis": ["mesh.geometry=cylindrical"]}
+
+
+@pytest.mark.parametrize("open_ends", BESIDE.values(), ids=BESIDE)
 @pytest.mark.parametrize("by", [3000.0, -500.0])
-def test_a_velocity_that_all_bodies_have_more_changes_no_verdict(by):
-    """But where an edge stands, which they meet."""
-    open_ends = ["boundaries.r_max=outflow", "boundaries.r_min=outflow"]
+def test_a_velocity_that_all_bodies_have_more_changes_no_verdict(by, open_ends):
+    """But where an edge stands across their way, which they meet."""
     moved = [f"body.{name}.velocity=[0.0, {by + own}]" for name, own in (("flyer", 1000.0), ("plate", 0.0), ("air", 0.0))]
     here, there = reach(*open_ends), reach(*open_ends, *moved)
     for name in ("lowest", "highest", "cell_lowest", "cell_highest", "worked", "speed", "pressure", "stands"):

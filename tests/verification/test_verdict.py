@@ -1,0 +1,30 @@
+"""The verdict on a run beside its error: what is wrong is not trusted, and what is right is.
+
+A run that is wrongly judged is an expected failure that says why. It fails here when it comes to be judged rightly, or when
+its error comes to the other side of its bound (`verdicts`).
+"""
+
+from pathlib import Path
+
+import pytest
+
+from tests.verification.verdicts import ROWS, judged, table_of
+
+PAGE = Path(__file__).parents[2] / "docs/explanation/sanity.md"
+
+
+@pytest.mark.parametrize("row", ROWS, ids=lambda row: f"{row.family}: {row.name}")
+def test_the_verdict_beside_the_error(row):
+    error, said = judged(row)
+    assert (error <= row.bound) == row.right, f"an error of {error:.3g}, where {row.bound:g} is the bound"
+    assert (not said) == row.trusted, said
+    if row.missed:
+        pytest.xfail(row.missed)
+
+
+def test_the_page_has_the_table():
+    assert table_of(ROWS) in PAGE.read_text(encoding="utf-8")
+
+
+def test_rows_have_names_of_their_own():
+    assert len({(row.family, row.name) for row in ROWS}) == len(ROWS)
