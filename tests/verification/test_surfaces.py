@@ -213,8 +213,8 @@ def test_plastic_bar_in_a_tube(share):
 
 @pytest.mark.parametrize("share", SHARES)
 def test_elastic_bar_in_gas(share):
-    """Along z in air: force within 0.02 %, stress within 0.5 %; with one pressure in a cell 1 to 13 % and 57 %."""
-    held("gas", share, 0, "elastic", 0, 0.001, 0.006)
+    """Along z in air: force within 0.13 %, stress within 0.5 %; with one pressure in a cell 1 to 13 % and 57 %."""
+    held("gas", share, 0, "elastic", 0, 0.002, 0.006)
 
 
 @pytest.mark.parametrize("share", SHARES)
