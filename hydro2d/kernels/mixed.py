@@ -106,9 +106,9 @@ def insert_void_mixed_row(j, smallest, max_opening, metrics, dz, mixed_count, mi
             pressure += f * pm[m, j, i]
         p[j, i] = pressure
         solid[j, i] = total
-        if total < 1.0 - NO_VOID and skin[KIND, j, i] != INTERFACE:
+        if total < 1.0 - NO_VOID:
             skin[KIND, j, i] = FREE_SURFACE
-        if skin[KIND, j, i] == FREE_SURFACE:
+        if skin[KIND, j, i] != WHOLE:
             p[j, i], bulk[j, i] = common_traction(j, i, skin, vof, q, pm, km)
 
 
@@ -299,10 +299,11 @@ def deform_mixed(part, parts, dt, relaxation, tipton, mode, hard, hard_threshold
                  p, bulk, solid, pm, km, tm, vof, q, mix, motion, internal, centroid):
     """The Lagrangian step of the bodies in mixed cells.
 
-    Where bodies of one group fill a cell, by compressibility: w_m = R_m/Rbar with R_m = f_m/K_m, then relaxation of the
+    Where fluids fill a cell together, by compressibility: w_m = R_m/Rbar with R_m = f_m/K_m, then relaxation of the
     pressures, df_m = gamma R_m (p_m - pbar), with pbar = sum R_m p_m/Rbar; pressure work by w_m, viscous and hourglass work by
     volume fraction, deviatoric work by what each body's stress did; beside a gas as work_beside_gas has it (explanation/
-    mixed-cells). In cut cells by the traction: `strain_bodies_across`, `fill_cut_cell`.
+    mixed-cells). So do all bodies with `uniform`, and in the hard zone of a slip layer. In cut cells by the traction:
+    `strain_bodies_across`, `fill_cut_cell`.
     Strength: by mode, see STRENGTH_MODES; every body moves with its group. In contact-interface cells pressure and
     viscosity do the work of the one change of volume, and each body has its own strength where two groups meet.
 
