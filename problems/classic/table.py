@@ -126,8 +126,9 @@ def _of(case: layout.Case) -> Result:
 
 
 def _short(fault: str) -> str:
-    """The clip that a fault names; "a hot cell" or "a cold cell"; or the fault."""
+    """The clip that a fault names; "a hot cell", "a cold cell", "energy discarded"; or the fault."""
     doubts = {f"a {what} cell": f'" is too {what} with ' for what in ("hot", "cold")}
+    doubts["energy discarded"] = "velocities has discarded "
     told = {**{name: f" went to {name} " for name in CLIPS}, **doubts}
     return next((name for name, part in told.items() if part in fault), fault)
 

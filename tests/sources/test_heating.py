@@ -99,8 +99,8 @@ def test_what_is_not_within_reach_stays_cold():
         simulation.step()
     e = simulation.grid.interior(simulation.state.e)[0]
     assert e[11, 1] > 4e3
-    assert np.all(e[20:] == 0.0)
-    assert np.all(e[:9] == 0.0)
+    assert np.all(np.abs(e[20:]) < 1e-30)  # what sound of a few bits leaves of its motion as heat
+    assert np.all(np.abs(e[:9]) < 1e-30)
 
 
 def test_a_restart_goes_on_heating_to_the_same_bits():
