@@ -2,7 +2,6 @@
 
 from math import inf, sqrt
 
-from eos import ideal_gas
 from eos.dispatch import (
     WITH_MEMORY,
     evaluate,
@@ -38,8 +37,8 @@ from hydro2d.physics.viscosity import directional_viscosity, length_along, shut,
 from hydro2d.physics.waves import step_limits
 from strength.dispatch import end_at_melt, feels_temperature, modulus_row
 
-#: least square of the speed of sound, (m/s)^2: of what may be torn, and of an ideal gas, which is slow only where it is cold
-SOUND_FLOOR, GAS_FLOOR = 1.0, 1e-12
+#: least square of the speed of sound, (m/s)^2
+SOUND_FLOOR = 1.0
 
 
 @apart
@@ -173,7 +172,6 @@ def pressures_row(j, b, max_opening, metrics, dz, body_range, active_range, mode
         model = models[m, EOS]
         memory = models[m, MEMORY]
         par = materials[m, EOS_AT:]
-        floor = GAS_FLOOR if model == ideal_gas.ID else SOUND_FLOOR
         tensile, fades = materials[m, TENSILE], materials[m, FADES]
         cutoff_density = materials[m, CUTOFF_DENSITY]
         f_j = vof[m, j]
@@ -187,9 +185,9 @@ def pressures_row(j, b, max_opening, metrics, dz, body_range, active_range, mode
         first, number = columns(body_range[m, j, 0], body_range[m, j, 1])
         for attempt in range(2):  # once more where a cell has fractured
             if model in WITH_MEMORY:
-                pressure_row_with_memory(model, par, floor, m, j, memory, first, number, vof, q, pm, km)
+                pressure_row_with_memory(model, par, SOUND_FLOOR, m, j, memory, first, number, vof, q, pm, km)
             else:
-                pressure_row(model, par, floor, first, number, f_j, r_j, e_j, d_j, pm_j, km_j)
+                pressure_row(model, par, SOUND_FLOOR, first, number, f_j, r_j, e_j, d_j, pm_j, km_j)
             if attempt == 0 and materials[m, MOST_STRESS] < inf:
                 fail_row(m, j, first, number, materials[m, MOST_STRESS], vof, q, pm)
             fractured = 0
