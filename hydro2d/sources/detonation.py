@@ -8,7 +8,6 @@ from typing import Annotated, Literal
 import numpy as np
 from pydantic import BeforeValidator, Field, WithJsonSchema
 
-from eos.jwl import LEAD
 from hydro2d import units
 from hydro2d.deck.base import PositiveNumber, PositiveSpeed
 from hydro2d.errors import DeckError
@@ -93,6 +92,8 @@ class Detonation(Source):
     def _not_before(self, grid, light: np.ndarray, duration: np.ndarray, speed: float) -> tuple[np.ndarray, np.ndarray]:
         """Light and burning times, s, of cells that would begin to burn before their point is lit: they begin with it and end
         as before."""
+        from eos.jwl import LEAD  # decks are read without kernels
+
         light, duration = light.copy(), duration.copy()
         z, r = np.meshgrid(grid.zc[grid.inside[0]], grid.rc[grid.inside[1]], indexing="ij")
         for at_r, at_z, time in self.points:
