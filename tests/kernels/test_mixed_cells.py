@@ -9,7 +9,7 @@ import pytest
 from eos import ideal_gas, stiffened_gas
 from eos.layout import ROW
 from hydro2d.kernels import cut_cells, mixed, mixed_strength
-from hydro2d.kernels.cut_cells import FREE_SURFACE, INTERFACE, KIND, NORMAL_R, WHOLE
+from hydro2d.kernels.cut_cells import BESIDE_GAS, FREE_SURFACE, INTERFACE, KIND, NORMAL_R, WHOLE
 from hydro2d.kernels.mixed_scratch import (
     ACROSS,
     ALONG,
@@ -124,11 +124,51 @@ def test_the_rise_of_the_pressure_of_a_cell():
 
 def test_a_gas_counts_where_it_is():
     cell = Cell()
-    assert not cell.run(mixed.is_beside_gas)
+    assert not cell.run(cut_cells.is_beside_gas)
     cell.known["materials"][1, GAS] = 1.0
-    assert cell.run(mixed.is_beside_gas)
+    assert cell.run(cut_cells.is_beside_gas)
     cell.vof[1, *AT] = 0.0
-    assert not cell.run(mixed.is_beside_gas)
+    assert not cell.run(cut_cells.is_beside_gas)
+
+
+def test_what_is_in_a_cell():
+    """Its groups, whether any of its bodies has strength, which fills most of it, and which of them are on either side."""
+    cell = Cell(strong=True, group=(0, 1))
+    assert cell.run(cut_cells.holds, g=0)
+    assert cell.run(cut_cells.holds, g=1)
+    assert not cell.run(cut_cells.only_fluids)
+    cell.known["models"][0, STRENGTH] = 0
+    assert not cell.run(cut_cells.only_fluids)
+    cell.vof[:, *AT] = 1.0, 0.0
+    assert not cell.run(cut_cells.holds, g=1)
+    assert cell.run(cut_cells.only_fluids)
+    assert cell.run(cut_cells.most_of) == 0
+    cell.vof[:, *AT] = 0.4, 0.6
+    assert cell.run(cut_cells.most_of) == 1
+
+
+def test_sides_of_a_joint():
+    """Gases are on one side; without one, what fills most of the cell is, and what is not there is on neither."""
+    cell = Cell()
+    cell.known["materials"][1, GAS] = 1.0
+    assert [cell.run(cut_cells.side_of_joint, m=m, first=1, gas=True) for m in (0, 1)] == [1.0, -1.0]
+    assert [cell.run(cut_cells.side_of_joint, m=m, first=1, gas=False) for m in (0, 1)] == [-1.0, 1.0]
+    cell.vof[0, *AT] = 0.0
+    assert cell.run(cut_cells.side_of_joint, m=0, first=1, gas=False) == 0.0
+
+
+def test_what_ties_take_of_the_motion_is_heat_of_the_body_beside_the_gas():
+    """Half of 1 kg of the body is tied: 0.125 kg by (4 m/s)^2 for the pair below, at the start and at the end alike."""
+    cell = Cell()
+    cell.known["materials"][1, GAS] = 1.0
+    cell.skin[[NORMAL_R, KIND], *AT] = 1.0, BESIDE_GAS
+    cell.u0[0, 2, 2:4] = cell.u[0, 2, 2:4] = 0.0, 4.0
+    cell.run(mixed.heat_of_ties, g=0)
+    assert cell.mix[2, HEAT] == pytest.approx([0.125 * 16.0, 0.0])
+    cell.skin[KIND] = WHOLE
+    cell.mix[2, HEAT] = 0.0
+    cell.run(mixed.heat_of_ties, g=0)
+    assert cell.mix[2, HEAT].tolist() == [0.0, 0.0]
 
 
 def test_beside_a_gas_each_pressure_works_on_its_own_change_of_volume():
