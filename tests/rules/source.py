@@ -19,7 +19,7 @@ PACKAGES = ("hydro2d", "eos", "strength")
 @functools.cache
 def problems() -> tuple[list[Path], list[Path]]:
     """The decks and the studies in problems."""
-    files = sorted(file for file in PROBLEMS.rglob("*.toml") if file.parent.name != "materials" and not file.name.startswith("_"))
+    files = sorted(file for file in PROBLEMS.rglob("*.toml") if file.parent.name != "materials")
     studies = [file for file in files if is_study(tomllib.loads(file.read_text(encoding="utf-8")))]
     return [file for file in files if file not in studies], studies
 
