@@ -17,11 +17,11 @@ from hydro2d.deck import deck as decks
 from hydro2d.errors import UnphysicalState
 from hydro2d.solver.penetrator import WATCH_EVERY
 from hydro2d.solver.simulation import Simulation
+from problems.verification.exact import impact, riemann
+from problems.verification.exact.detonation import mader
+from problems.verification.exact.elastic_plastic import ALUMINIUM, piston
+from problems.verification.exact.noh import Noh
 from tests.decks import body, box, entry, material, mesh, stop, table, walls
-from tests.exact import impact, riemann
-from tests.exact.detonation import mader
-from tests.exact.elastic_plastic import ALUMINIUM, piston
-from tests.exact.noh import Noh
 from tests.verification.running import ADVECTION, Line, between, crossing
 
 Measure = Callable[[Simulation], float]
