@@ -88,8 +88,9 @@ def cells_of(run: Results) -> Cells:
 
 
 def advection(*choices: str) -> dict[str, tuple[str, ...]]:
-    """Variants by advection."""
-    return {choice: (f'numerics.advection="{choice}"',) for choice in choices or ADVECTION}
+    """Variants by advection; a run by `momentum` goes on whatever it discards, to see what comes of it."""
+    goes_on = {"momentum": ("numerics.clip_limit=1.0",)}
+    return {choice: (f'numerics.advection="{choice}"', *goes_on.get(choice, ())) for choice in choices or ADVECTION}
 
 
 def square(to: float, cells: int, z_start: float = 0.0) -> list[str]:

@@ -40,8 +40,9 @@ BANDS = [
     ("collapse", 50, "L1 error of velocity", 0.0, 3.0),
     ("guderley", 100, "exponent, mean of the rays", -4.0, -1.0),
     ("guderley", 100, "rays apart at 0.2 m", 7.0, 14.0),
-    ("blake", 10, "displacement at 3 radii", 5.0, 20.0),
-    ("cavity_cylinder", 10, "displacement at 1.5 radii", 5.0, 15.0),
+    ("blake", 10, "displacement at 1.5 radii", 1.0, 3.0),
+    ("blake", 10, "displacement at 3 radii", 2.0, 4.5),
+    ("cavity_cylinder", 10, "displacement at 1.5 radii", 0.0, 2.0),
     ("elastic_piston", 100, "speed of the wave", -0.3, 0.3),
     ("elastic_piston", 100, "axial stress", -0.3, 0.3),
     ("elastic_piston", 100, "largest axial stress", -0.3, 0.3),
@@ -59,7 +60,7 @@ BANDS = [
     ("riemann_jwl", 80, "velocity between the waves", -0.5, 0.5),
     ("riemann_jwl", 80, "density of the products at the metal", -0.5, 0.5),
     ("detonation", 200, "speed of the front", -0.1, 0.1),
-    ("detonation", 200, "pressure of Chapman and Jouguet", -2.5, 0.0),
+    ("detonation", 200, "pressure of Chapman and Jouguet", -6.0, 0.0),
     ("detonation", 200, "pressure at the wall", -0.3, 0.3),
     ("detonation", 200, "L1 error of pressure", 0.5, 2.0),
 ]
@@ -74,8 +75,7 @@ def test_errors_of_today(errors, name, cells, quantity, low, high):
 WISHES = [
     ("sedov", 100, "spread over seven rays", 1.0, "a blast is not round on a square mesh"),
     ("guderley", 100, "rays apart at 0.2 m", 7.0, "the smeared front is not on all rays alike; a cell is 7 %"),
-    ("blake", 10, "displacement at 3 radii", 3.0, "cells that gas and rock share have one pressure"),
-    ("cavity_cylinder", 10, "displacement at 1.5 radii", 3.0, "cells that gas and rock share have one pressure"),
+    ("blake", 10, "displacement at 3 radii", 3.0, "the cells of the wall follow a sphere in steps"),
     ("breathing_sphere", 20, "amplitude after seven periods", 3.5, "elastic waves lose energy at the cut surface"),
     ("collapse", 50, "pressure within 0.1 m", 1.0, "the density is of first order in the time step"),
 ]
