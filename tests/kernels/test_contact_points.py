@@ -393,7 +393,7 @@ def carried(last_mass: float) -> list[float]:
     w[0, 0], w[1, 0] = 3.0 * np.arange(columns) ** 2, -np.arange(columns) ** 2
     w[:, :, :, :4] = 0.0
     dual = np.zeros((6, 2, columns))
-    momentum.dual_row.py_func(0, 0, 1, 5, 4, 7, 0, g.metrics, ranges, flux, mass, w, dual)
+    momentum.dual_row.py_func(0, 0, 1, 5, 4, 7, 0, g.metrics, ranges, flux, 2.0, mass, w, dual)
     return list(dual[:5, 0, 5:7].ravel())
 
 

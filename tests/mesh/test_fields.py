@@ -33,7 +33,7 @@ def test_the_state_has_a_view_of_either_offset_of_the_centroids_which_a_restart_
 
 def test_what_has_an_offset_along_r_or_a_direction_of_r_changes_its_sign_in_a_mirror():
     odd = {field.symbol for field in fields.FIELDS if field.parity < 0}
-    assert odd == {"srz", "centroid_r", "sig_rz", "u", "u0"}
+    assert odd == {"srz", "centroid_r", "qrz", "sig_rz", "u", "u0"}
 
 
 def test_the_rules_are_the_table_and_the_internal_variables_behind_it():
