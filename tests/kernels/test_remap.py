@@ -235,7 +235,7 @@ def carried_along(share: float, swept: float = 0.2, steep: float = 1.0) -> np.nd
     flux = np.zeros((5, 1, 1, columns))
     carried = np.array([4, 1, 2, 3, 4])
     remap.flux_row.py_func(0, 1, 2, 2, columns - 2, 0, carried, rules, 0, 0, body_ranges, np.ones((5, columns)),
-                           np.full((1, 5, columns), swept), vof, q, np.zeros((4, 1, columns)), flux)
+                           np.full((1, 5, columns), swept), 2.0, vof, q, np.zeros((4, 1, columns)), flux)
     return flux[:, 0, 0]
 
 
