@@ -184,13 +184,12 @@ PRODUCTS = (
 )
 
 
-def test_no_mass_is_lost_in_a_cell_that_a_contact_turns_inside_out():
+def test_no_mass_is_lost_where_a_contact_might_turn_a_cell_inside_out():
+    """One did in cycle 73, when the burning of the explosive lagged behind its front."""
     simulation = Simulation(deck.loads(PRODUCTS))
-    while simulation.cycle < 73:
+    while simulation.cycle < 120:
         simulation.step()
         assert max(map(abs, simulation.conservation()["mass"].values())) < 1e-12
-    with pytest.raises(UnphysicalState, match=r'cycle 73, .* \(0.0055, 0.0005\) m, body "target": .* inside out'):
-        simulation.step()
 
 
 def test_a_fault_in_the_last_cycle_is_seen(tmp_path, monkeypatch):
