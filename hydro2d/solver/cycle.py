@@ -312,10 +312,9 @@ class Cycle:
         """Raises UnphysicalState where what the faces of a cell swept is more than its volume, of both directions or of the
         second, so that no remap can give back what was in it."""
         s, g, (j0, j1, _, _) = self.state, self.grid, self.box
-        wrong = s.turned[j0:j1, 0] >= 0
-        if not wrong.any():
+        if s.turned[j0:j1, 0].max() < 0:
             return
-        j = j0 + int(np.argmax(wrong))
+        j = j0 + int(np.argmax(s.turned[j0:j1, 0] >= 0))
         i, m = s.turned[j].tolist()
         raise UnphysicalState(
             f"cycle {self.number}, time {self.time:.6g} s, cell (r, z) = ({g.rc[i]:.6g}, {g.zc[j]:.6g}) m, body "
