@@ -43,12 +43,13 @@ def firm_share(j, i, total, materials, vof):
 
 
 @point
-def only_fluids(j, i, models, vof):
-    """Whether no body of a cell has strength, so that pressure is all that they have in common."""
-    solid = False
+def joins_solids(j, i, models, vof):
+    """Whether a cell holds several bodies of which one has strength, so that more than pressure acts between them."""
+    number, solid = 0, False
     for m in range(vof.shape[0]):
+        number += 1 if vof[m, j, i] > 0.0 else 0
         solid = solid or (vof[m, j, i] > 0.0 and models[m, STRENGTH] != 0)
-    return not solid
+    return solid and number > 1
 
 
 @point
@@ -111,7 +112,7 @@ def find_surfaces(part, parts, i0, i1, mesh_box, dr, dz, tipton, group, hard, ha
                     zone = zone or (hard[m] and vof[m, j, i] >= hard_threshold)
             void = 1.0 - (own + other)
             meet, full = own > 0.0 and other > 0.0, void <= NO_VOID
-            if own + other == 0.0 or (full and not meet and (zone or not tipton or only_fluids(j, i, models, vof))):
+            if own + other == 0.0 or (full and not meet and (zone or not tipton or not joins_solids(j, i, models, vof))):
                 continue
             joint, first, gas = full and not meet, most_of(j, i, vof), is_beside_gas(j, i, materials, vof)
             skin[KIND, j, i] = INTERFACE if meet else FREE_SURFACE

@@ -132,16 +132,18 @@ def test_a_gas_counts_where_it_is():
 
 
 def test_what_is_in_a_cell():
-    """Its groups, whether any of its bodies has strength, which fills most of it, and which of them are on either side."""
+    """Its groups, whether several bodies of which one has strength are in it, which fills most of it, and which of them are on either side."""
     cell = Cell(strong=True, group=(0, 1))
     assert cell.run(cut_cells.holds, g=0)
     assert cell.run(cut_cells.holds, g=1)
-    assert not cell.run(cut_cells.only_fluids)
+    assert cell.run(cut_cells.joins_solids)
     cell.known["models"][0, STRENGTH] = 0
-    assert not cell.run(cut_cells.only_fluids)
+    assert cell.run(cut_cells.joins_solids)
+    cell.vof[:, *AT] = 0.0, 1.0
+    assert not cell.run(cut_cells.joins_solids)  # there is one body
     cell.vof[:, *AT] = 1.0, 0.0
     assert not cell.run(cut_cells.holds, g=1)
-    assert cell.run(cut_cells.only_fluids)
+    assert not cell.run(cut_cells.joins_solids)
     assert cell.run(cut_cells.most_of) == 0
     cell.vof[:, *AT] = 0.4, 0.6
     assert cell.run(cut_cells.most_of) == 1
