@@ -132,7 +132,7 @@ def test_a_gas_counts_where_it_is():
 
 
 def test_what_is_in_a_cell():
-    """Its groups, whether several bodies of which one has strength are in it, which fills most of it, and which of them are on either side."""
+    """Its groups, whether several bodies of which one has strength are in it, and which fills most of it."""
     cell = Cell(strong=True, group=(0, 1))
     assert cell.run(cut_cells.holds, g=0)
     assert cell.run(cut_cells.holds, g=1)
