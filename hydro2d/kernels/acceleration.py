@@ -254,7 +254,7 @@ def accelerate_row(b, j, i0, i1, dt, metrics, dz, occupied, mass, hg_coefficient
 
 
 @rowwise
-def tie_row(b, j, i0, i1, metrics, dz, occupied, mass, mixed_count, mixed, group, materials, skin, vof, q, u0, v0, u, v):
+def tie_row(b, j, i0, i1, metrics, dz, occupied, mass, mixed_count, mixed, group, gases, skin, vof, q, u0, v0, u, v):
     """Velocities of the vertices of row j after what bodies have of vertices in a gas was tied to them (`ties`).
 
     Reads    mass, u0, v0 [b, j, i], skin [3, j, i], vof, q, the list of mixed cells
@@ -264,7 +264,7 @@ def tie_row(b, j, i0, i1, metrics, dz, occupied, mass, mixed_count, mixed, group
     for row in range(j - 1, j + 1):
         for k in range(mixed_count[row]):
             i = mixed[row, k]
-            by_r, by_z = ties(row, i, metrics, dz[row], skin, materials, vof, q)
+            by_r, by_z = ties(row, i, metrics, dz[row], skin, gases, vof, q)
             if by_r + by_z == 0.0 or not holds(b, row, i, group, vof):
                 continue
             for at in range(i, i + 2):
@@ -275,7 +275,7 @@ def tie_row(b, j, i0, i1, metrics, dz, occupied, mass, mixed_count, mixed, group
 
 @kernel
 def accelerate(part, parts, i0, i1, dt, metrics, dz, occupied, mass, hg_coefficient, sig_rr, sig_zz, sig_tt, sig_rz,
-               mixed_count, mixed, group, materials, skin, vof, q, pushed, u0, v0, u, v):
+               mixed_count, mixed, group, gases, skin, vof, q, pushed, u0, v0, u, v):
     """accelerate_row and tie_row for rows j0 to j1, and the velocities that forces of sources add.
 
     Reads    pushed [c, b, j, i], m/s, or nothing
@@ -284,7 +284,7 @@ def accelerate(part, parts, i0, i1, dt, metrics, dz, occupied, mass, hg_coeffici
         for b in range(mass.shape[0]):
             accelerate_row(b, j, i0, i1, dt, metrics, dz, occupied, mass, hg_coefficient, sig_rr, sig_zz, sig_tt, sig_rz, u0,
                            v0, u, v)
-            tie_row(b, j, i0, i1, metrics, dz, occupied, mass, mixed_count, mixed, group, materials, skin, vof, q, u0, v0, u,
+            tie_row(b, j, i0, i1, metrics, dz, occupied, mass, mixed_count, mixed, group, gases, skin, vof, q, u0, v0, u,
                     v)
             if pushed.shape[0] > 0:
                 for i in range(i0, i1):

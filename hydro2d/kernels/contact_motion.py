@@ -168,7 +168,7 @@ def corner_force(g, j, i, at_j, at_i, group, solid_mode, solid, skin, vof, q, hg
 
 
 @kernel
-def contact_node_forces(part, parts, dt, group, materials, solid_mode, metrics, dz, constrained, count, contact_nodes,
+def contact_node_forces(part, parts, dt, group, gases, solid_mode, metrics, dz, constrained, count, contact_nodes,
                         aperture_r, aperture_z, ph, qr, solid, skin, vof, q, hg_coefficient, cell_mass, mass, pushed, u0, v0,
                         u, v, transfer):
     """Velocities that the forces alone, of stresses and of sources, would give both groups at contact nodes.
@@ -196,7 +196,7 @@ def contact_node_forces(part, parts, dt, group, materials, solid_mode, metrics, 
                 tied_r, tied_z = 0.0, 0.0
                 for row in range(j - 1, j + 1):
                     for column in range(i - 1, i + 1):
-                        by_r, by_z = ties(row, column, metrics, dz[row], skin, materials, vof, q)
+                        by_r, by_z = ties(row, column, metrics, dz[row], skin, gases, vof, q)
                         if by_r + by_z > 0.0 and holds(g, row, column, group, vof):
                             tied_r += pull_of_ties(g, j, i, row, column, by_r, by_z, u0)
                             tied_z += pull_of_ties(g, j, i, row, column, by_r, by_z, v0)

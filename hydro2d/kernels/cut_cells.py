@@ -8,7 +8,6 @@ from math import sqrt
 
 from hydro2d.jit import apart, kernel, point
 from hydro2d.kernels.mixed_scratch import ACROSS, ALONG, BESIDE, FLOW, GROWTH, HEAT, MODULUS, NORMAL, SIZE
-from hydro2d.materials.rows import GAS, STRENGTH
 from hydro2d.mesh.fields import RHO, SRR, SRZ, SZZ, E
 from hydro2d.mesh.grid import CM_IN, CM_OUT, VOL_R
 from hydro2d.physics.closure import NO_VOID
@@ -25,30 +24,30 @@ NORMAL_R, NORMAL_Z, KIND = range(3)
 
 
 @point
-def is_beside_gas(j, i, materials, vof):
+def is_beside_gas(j, i, gases, vof):
     """Whether a gas is in a cell."""
     found = False
     for m in range(vof.shape[0]):
-        found = found or (vof[m, j, i] > 0.0 and materials[m, GAS] > 0.0)
+        found = found or (vof[m, j, i] > 0.0 and gases[m])
     return found
 
 
 @point
-def firm_share(j, i, total, materials, vof):
+def firm_share(j, i, total, gases, vof):
     """Share of a cell that is neither void nor gas; `total`, that of all its bodies, where they are gases."""
     gas = 0.0
     for m in range(vof.shape[0]):
-        gas += vof[m, j, i] if vof[m, j, i] > 0.0 and materials[m, GAS] > 0.0 else 0.0
+        gas += vof[m, j, i] if vof[m, j, i] > 0.0 and gases[m] else 0.0
     return total - gas if gas < total else total
 
 
 @point
-def joins_solids(j, i, models, vof):
+def joins_solids(j, i, strong, vof):
     """Whether a cell holds several bodies of which one has strength, so that more than pressure acts between them."""
     number, solid = 0, False
     for m in range(vof.shape[0]):
         number += 1 if vof[m, j, i] > 0.0 else 0
-        solid = solid or (vof[m, j, i] > 0.0 and models[m, STRENGTH] != 0)
+        solid = solid or (vof[m, j, i] > 0.0 and strong[m])
     return solid and number > 1
 
 
@@ -62,14 +61,14 @@ def most_of(j, i, vof):
 
 
 @point
-def side_of_joint(m, j, i, first, gas, materials, vof):
+def side_of_joint(m, j, i, first, gas, gases, vof):
     """On which side of the surface in cell (j, i) a body is that fills it with others of its group: 1, -1, or 0 for neither.
 
     Gases are on one side and all others on the other where the cell holds a gas; else the body that fills most of it, `first`,
     is on one side and the rest of its bodies on the other.
     """
     if gas:
-        return -1.0 if materials[m, GAS] > 0.0 else 1.0
+        return -1.0 if gases[m] else 1.0
     if vof[m, j, i] == 0.0:
         return 0.0
     return 1.0 if m == first else -1.0
@@ -82,8 +81,8 @@ def normal_deviator(m, j, i, skin, q):
 
 
 @kernel
-def find_surfaces(part, parts, i0, i1, mesh_box, dr, dz, tipton, group, hard, hard_threshold, models, materials, mixed_count,
-                  mixed, vof, skin):
+def find_surfaces(part, parts, i0, i1, mesh_box, dr, dz, tipton, group, hard, hard_threshold, strong, gases, mixed_count, mixed,
+                  vof, skin):
     """Normals of the surfaces in mixed cells, with the square root of their weight as length.
 
     The normal is Youngs', of the hard group's fraction less the soft one's where a cell holds both, else of its one group
@@ -91,7 +90,7 @@ def find_surfaces(part, parts, i0, i1, mesh_box, dr, dz, tipton, group, hard, ha
     the cell on, so that a bubble or a crumb has none, and in the hard zone of a slip layer it does not count. Where void or a
     group vanishes, a cut cell does what a full one does.
 
-    Reads    vof [m, j, i], group, hard, models, materials [m], the list of mixed cells
+    Reads    vof [m, j, i], group, hard, strong, gases [m], the list of mixed cells
     Writes   skin [3, j, i]
     """
     bodies = vof.shape[0]
@@ -112,9 +111,9 @@ def find_surfaces(part, parts, i0, i1, mesh_box, dr, dz, tipton, group, hard, ha
                     zone = zone or (hard[m] and vof[m, j, i] >= hard_threshold)
             void = 1.0 - (own + other)
             meet, full = own > 0.0 and other > 0.0, void <= NO_VOID
-            if own + other == 0.0 or (full and not meet and (zone or not tipton or not joins_solids(j, i, models, vof))):
+            if own + other == 0.0 or (full and not meet and (zone or not tipton or not joins_solids(j, i, strong, vof))):
                 continue
-            joint, first, gas = full and not meet, most_of(j, i, vof), is_beside_gas(j, i, materials, vof)
+            joint, first, gas = full and not meet, most_of(j, i, vof), is_beside_gas(j, i, gases, vof)
             skin[KIND, j, i] = INTERFACE if meet else FREE_SURFACE
             if joint:
                 skin[KIND, j, i] = BESIDE_GAS if gas else JOINT
@@ -125,7 +124,7 @@ def find_surfaces(part, parts, i0, i1, mesh_box, dr, dz, tipton, group, hard, ha
                 of_hard = group[m] == 1
                 sign = 1.0 if of_hard == (own > 0.0) else (-1.0 if meet else 0.0)
                 if joint:
-                    sign = side_of_joint(m, j, i, first, gas, materials, vof)
+                    sign = side_of_joint(m, j, i, first, gas, gases, vof)
                 sw += sign * vof[m, below, left]
                 s += sign * vof[m, below, i]
                 se += sign * vof[m, below, right]
@@ -145,7 +144,16 @@ def find_surfaces(part, parts, i0, i1, mesh_box, dr, dz, tipton, group, hard, ha
 
 
 @point
-def ties(j, i, metrics, h, skin, materials, vof, q):
+def firm_density(j, i, gases, vof, q):
+    """Mass of the bodies of a cell that are no gases, by the volume of the cell, kg/m^3."""
+    mass = 0.0
+    for m in range(vof.shape[0]):
+        mass += q[RHO, m, j, i] * vof[m, j, i] if vof[m, j, i] > 0.0 and not gases[m] else 0.0
+    return mass
+
+
+@point
+def ties(j, i, metrics, h, skin, gases, vof, q):
     """Masses by which the vertices of a cell that holds a gas are tied: of every pair along r, and of every pair along z, kg.
 
     What a body has of its mass at vertices in the gas moves with the body. A pair of vertices on either side of the surface
@@ -154,10 +162,7 @@ def ties(j, i, metrics, h, skin, materials, vof, q):
     """
     if skin[KIND, j, i] != BESIDE_GAS:
         return 0.0, 0.0
-    mass = 0.0
-    for m in range(vof.shape[0]):
-        if vof[m, j, i] > 0.0 and materials[m, GAS] == 0.0:
-            mass += q[RHO, m, j, i] * vof[m, j, i]
+    mass = firm_density(j, i, gases, vof, q)
     mass *= MOST_TIED * metrics[VOL_R, i] * h * min(metrics[CM_IN, i], metrics[CM_OUT, i])
     return mass * skin[NORMAL_R, j, i] * skin[NORMAL_R, j, i], mass * skin[NORMAL_Z, j, i] * skin[NORMAL_Z, j, i]
 

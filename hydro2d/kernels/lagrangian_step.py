@@ -32,9 +32,9 @@ from hydro2d.kernels import (
 def close_cells(parts, i0, i1, mesh_speed, nr, mirror_r_min, mirror_r_max, u, v, nz, mirror_z_min, mirror_z_max, mesh_box, dr,
                 dz, tipton, group, hard_bodies, threshold, mixed_count, mixed_columns, vof, skin, gate, max_opening,
                 smallest_tension, along_compression, viscosity_linear, viscosity_quadratic, courant, advective_courant,
-                hourglass, metrics, body_range, active_range, models, materials, q, pm, km, tm, p, bulk, rhobar, solid, cl, qr,
-                qz, qt, qrz, hg_coefficient, opened, row_step, bad, scratch, mass, group_ranges, contact_node_count,
-                contact_nodes, hard, soft, heat, warmed, first_slot, least_row):
+                hourglass, metrics, body_range, active_range, models, materials, strong, gases, q, pm, km, tm, p, bulk, rhobar,
+                solid, cl, qr, qz, qt, qrz, hg_coefficient, opened, row_step, bad, scratch, mass, group_ranges,
+                contact_node_count, contact_nodes, hard, soft, heat, warmed, first_slot, least_row):
     """Pressure, sound speed, artificial viscosity and allowed step of every cell, void where a cell fractures; contact nodes.
 
     Without contact, least_row says where the step is least; with it, first_slot how many slots the nodes need.
@@ -45,7 +45,7 @@ def close_cells(parts, i0, i1, mesh_speed, nr, mirror_r_min, mirror_r_max, u, v,
         part = int64(place)  # numba counts without a sign, for which every kernel would be compiled a second time
         boundaries.ghost_vertices_r(part, parts, nr, mirror_r_min, mirror_r_max, u, v)
         boundaries.ghost_vertices_z(part, parts, i0 - 2, i1 + 3, nz, mirror_z_min, mirror_z_max, u, v)
-        cut_cells.find_surfaces(part, parts, i0, i1, mesh_box, dr, dz, tipton, group, hard_bodies, threshold, models, materials,
+        cut_cells.find_surfaces(part, parts, i0, i1, mesh_box, dr, dz, tipton, group, hard_bodies, threshold, strong, gases,
                                 mixed_count, mixed_columns, vof, skin)
         wait(gate, parts)
         mixed.close_cells(part, parts, max_opening, smallest_tension, along_compression, viscosity_linear, viscosity_quadratic,
@@ -96,7 +96,7 @@ def find_contact(parts, i0, i1, mesh_box, dr, dz, contact_node_count, contact_no
 def accelerate(parts, i0, i1, dt, metrics, dz, body_range, active_range, mixed_count, mixed_columns, by_what_is_solid,
                hard_bodies, threshold, u0, v0, vof, q, skin, p, bulk, solid, qr, qz, qt, qrz, ph, sig_rr, sig_zz, sig_tt,
                sig_rz, mass, contact_columns, group_ranges, line, hard, soft, rate, contact_pressure, gate, speed_limit,
-               underfilled_density, occupied, hg_coefficient, u, v, limited, group, materials, constrained, contact_node_count,
+               underfilled_density, occupied, hg_coefficient, u, v, limited, group, gases, constrained, contact_node_count,
                contact_nodes, aperture_r, aperture_z, cell_mass, transfer, friction, first_slot, contact_normal, touch,
                strength, masters, where, weights, nodes, starts, entries, portions, places, impulses, gain, taken, rubbing,
                heat, transmitting, rhobar, cl, drag, held_back, pushed, pushing, edge_velocity, walls, nr, mirror_r_min,
@@ -112,11 +112,11 @@ def accelerate(parts, i0, i1, dt, metrics, dz, body_range, active_range, mixed_c
                                           solid, ph, sig_rr, sig_zz, sig_tt, sig_rz, contact_pressure)
         wait(gate, parts)
         acceleration.accelerate(part, parts, i0, i1 + 1, dt, metrics, dz, occupied, mass, hg_coefficient, sig_rr, sig_zz,
-                                sig_tt, sig_rz, mixed_count, mixed_columns, group, materials, skin, vof, q, pushed, u0,
+                                sig_tt, sig_rz, mixed_count, mixed_columns, group, gases, skin, vof, q, pushed, u0,
                                 v0, u, v)
         if mass.shape[0] > 1:
             contact_motion.contact_node_forces(
-                part, parts, dt, group, materials, by_what_is_solid, metrics, dz, constrained, contact_node_count,
+                part, parts, dt, group, gases, by_what_is_solid, metrics, dz, constrained, contact_node_count,
                 contact_nodes, aperture_r, aperture_z, ph, qr, solid, skin, vof, q, hg_coefficient, cell_mass, mass, pushed, u0,
                 v0, u, v, transfer)
         wait(gate, parts)
@@ -148,10 +148,10 @@ def accelerate(parts, i0, i1, dt, metrics, dz, body_range, active_range, mixed_c
 @phase
 def deform(parts, i0, i1, time, dt, travels, advance, metrics, dr, dz, group_ranges, u0, v0, u, v, fr, fz, cell_mass,
            contact_columns, volume, skin, bulk, ph, qr, even_r, even_z, mesh_box, group, vof, inside, gate, q, aperture_r,
-           aperture_z, own_r, own_z, pm, checkerboard, hg_coefficient, km, room, body_range, models, materials, sig_rr, sig_zz,
-           sig_tt, sig_rz, tm, scratch, internal, relaxation, tipton, mixed_strength, hard_bodies, threshold, mixed_count,
-           mixed_columns, qz, qt, qrz, p, solid, mix, motion, warmed, heat, deposited, slip_layer, shear, friction, occupied,
-           zone, normal, carried, lanes, before, centroid):
+           aperture_z, own_r, own_z, pm, checkerboard, hg_coefficient, km, room, body_range, models, materials, gases, sig_rr,
+           sig_zz, sig_tt, sig_rz, tm, scratch, internal, relaxation, tipton, mixed_strength, hard_bodies, threshold,
+           mixed_count, mixed_columns, qz, qt, qrz, p, solid, mix, motion, warmed, heat, deposited, slip_layer, shear,
+           friction, occupied, zone, normal, carried, lanes, before, centroid):
     """Volumes that faces sweep, work, and strain of every body; what faces sweep relative to a mesh that advances.
 
     time : at the end of the step, s;  travels, advance : whether the mesh does, and by how much in the step, m
@@ -182,9 +182,9 @@ def deform(parts, i0, i1, time, dt, travels, advance, metrics, dr, dz, group_ran
         deformation.deform(part, parts, dt, metrics, dz, body_range, group, models, materials, u0, v0, u, v, fr, fz, sig_rr,
                            sig_zz, sig_tt, sig_rz, hg_coefficient, vof, pm, tm, scratch, q, internal, lanes)
         mixed.deform_mixed(part, parts, dt, relaxation, tipton, mixed_strength, hard_bodies, threshold, metrics, dz,
-                           mixed_count, mixed_columns, group, contact_columns, cell_mass, models, materials, u0, v0, u, v, fr,
-                           fz, ph, qr, qz, qt, qrz, hg_coefficient, skin, p, bulk, solid, pm, km, tm, vof, q, mix, motion,
-                           internal, centroid)
+                           mixed_count, mixed_columns, group, contact_columns, cell_mass, models, materials, gases, u0, v0, u,
+                           v, fr, fz, ph, qr, qz, qt, qrz, hg_coefficient, skin, p, bulk, solid, pm, km, tm, vof, q, mix,
+                           motion, internal, centroid)
         if cell_mass.shape[0] > 1:
             momentum.deposit(part, parts, metrics, warmed, group, heat, cell_mass, vof, q, deposited)
         if slip_layer:

@@ -11,6 +11,7 @@ from hydro2d.kernels.cut_cells import (
     WHOLE,
     common_traction,
     fill_cut_cell,
+    firm_density,
     firm_share,
     is_beside_gas,
     normal_deviator,
@@ -43,7 +44,7 @@ from hydro2d.kernels.mixed_strength import (
     work_of_deviators,
 )
 from hydro2d.kernels.thermodynamics import compression_viscosity_row, pressures_row, steps_row, viscosity_row
-from hydro2d.materials.rows import EOS, EOS_AT, FADES, GAS, MEMORY, TENSILE
+from hydro2d.materials.rows import EOS, EOS_AT, FADES, MEMORY, TENSILE
 from hydro2d.mesh.fields import DMG, RHO, SRR, SRZ, SZZ, E
 from hydro2d.mesh.grid import VOL_R
 from hydro2d.physics.closure import NO_VOID, relaxation_bound, relaxation_strain, softness
@@ -172,21 +173,19 @@ def cell_motion(j, i, g, dt, h, metrics, hg_coefficient, u0, v0, u, v, motion):
 
 
 @point
-def heat_of_ties(j, i, g, h, metrics, materials, skin, vof, q, u0, v0, u, v, mix):
+def heat_of_ties(j, i, g, h, metrics, gases, skin, vof, q, u0, v0, u, v, mix):
     """Gives what the ties of a cell beside a gas take of the motion to its bodies that are none, by mass (`ties`).
 
     Updates  mix [j, HEAT, m]
     """
-    by_r, by_z = ties(j, i, metrics, h, skin, materials, vof, q)
+    by_r, by_z = ties(j, i, metrics, h, skin, gases, vof, q)
     if by_r + by_z == 0.0:
         return
     work = tied_work(i, by_r, by_z, u0[g, j], u0[g, j + 1], u[g, j], u[g, j + 1]) + tied_work(
         i, by_r, by_z, v0[g, j], v0[g, j + 1], v[g, j], v[g, j + 1])
-    mass = 0.0
+    mass = firm_density(j, i, gases, vof, q)
     for m in range(vof.shape[0]):
-        mass += q[RHO, m, j, i] * vof[m, j, i] if vof[m, j, i] > 0.0 and materials[m, GAS] == 0.0 else 0.0
-    for m in range(vof.shape[0]):
-        if vof[m, j, i] > 0.0 and materials[m, GAS] == 0.0:
+        if vof[m, j, i] > 0.0 and not gases[m]:
             mix[j, HEAT, m] += work * q[RHO, m, j, i] * vof[m, j, i] / mass
 
 
@@ -254,7 +253,7 @@ def work_beside_gas(j, i, volume, change, inverse, work, rise, target, relaxed, 
 
 @point
 def fill_cell(j, i, change, volume, total, inverse, mean_p, work_p, work_q, middle, relaxation, tipton, group, motion,
-              cell_mass, materials, pm, km, vof, q, mix):
+              cell_mass, gases, pm, km, vof, q, mix):
     """Volumes, densities and energies after the step in a cell that bodies of one group fill: by compressibility, then
     relaxation of the pressures.
 
@@ -268,7 +267,7 @@ def fill_cell(j, i, change, volume, total, inverse, mean_p, work_p, work_q, midd
     for m in range(bodies):
         if vof[m, j, i] > 0.0 and tipton:
             bound = min(bound, relaxation_bound(relaxation_strain(relaxation, pm[m, j, i], mean_p, km[m, j, i])))
-    gas = is_beside_gas(j, i, materials, vof)
+    gas = is_beside_gas(j, i, gases, vof)
     if gas:
         work = work_p + work_q + filter_work(j, i, motion, cell_mass)
         relaxed = bound * relaxation if tipton else 0.0
@@ -295,8 +294,8 @@ def fill_cell(j, i, change, volume, total, inverse, mean_p, work_p, work_q, midd
 
 @kernel
 def deform_mixed(part, parts, dt, relaxation, tipton, mode, hard, hard_threshold, metrics, dz, mixed_count, mixed, group,
-                 contact_columns, cell_mass, models, materials, u0, v0, u, v, fr, fz, ph, qr, qz, qt, qrz, hg_coefficient, skin,
-                 p, bulk, solid, pm, km, tm, vof, q, mix, motion, internal, centroid):
+                 contact_columns, cell_mass, models, materials, gases, u0, v0, u, v, fr, fz, ph, qr, qz, qt, qrz,
+                 hg_coefficient, skin, p, bulk, solid, pm, km, tm, vof, q, mix, motion, internal, centroid):
     """The Lagrangian step of the bodies in mixed cells.
 
     Where fluids fill a cell together, by compressibility: w_m = R_m/Rbar with R_m = f_m/K_m, then relaxation of the
@@ -308,7 +307,7 @@ def deform_mixed(part, parts, dt, relaxation, tipton, mode, hard, hard_threshold
     viscosity do the work of the one change of volume, and each body has its own strength where two groups meet.
 
     Reads    velocities, swept volumes, stresses as `deform`; ph, qr, qz, qt, qrz, solid [j, i]; contact_columns [j, 2];
-             cell_mass [b, j, i]; group, hard [m]
+             cell_mass [b, j, i]; group, hard, gases [m]
     Updates  vof [m, j, i] (share of the volume after the step), q [k, m, j, i], centroid [2, m, j, i]
     Scratch  mix [j, 17, m] (rows SOFT to SHIFT_Z), motion [j, b, 10], internal [j, k]
     """
@@ -340,8 +339,8 @@ def deform_mixed(part, parts, dt, relaxation, tipton, mode, hard, hard_threshold
             work_of_deviators(j, i, dt, dominant, total, stress_scale(mode == SOLID, total), group, motion, vof, q, mix)
             for g in range(groups):
                 if cell_mass[g, j, i] > 0.0:
-                    heat_of_ties(j, i, g, dz[j], metrics, materials, skin, vof, q, u0, v0, u, v, mix)
-            firm = firm_share(j, i, total, materials, vof)
+                    heat_of_ties(j, i, g, dz[j], metrics, gases, skin, vof, q, u0, v0, u, v, mix)
+            firm = firm_share(j, i, total, gases, vof)
             cell_yield = strain_deviators(j, i, dt / volume, mode, firm, skin, group, models, materials, pm, tm, motion,
                                           vof, q, mix, internal)
             if cut:
@@ -355,5 +354,5 @@ def deform_mixed(part, parts, dt, relaxation, tipton, mode, hard, hard_threshold
             else:
                 inverse, mean_p = soften(j, i, tipton, vof, pm, km, mix)
                 fill_cell(j, i, change, volume, total, inverse, mean_p, work_p, work_q, ph[j, i], relaxation, tipton, group,
-                          motion, cell_mass, materials, pm, km, vof, q, mix)
+                          motion, cell_mass, gases, pm, km, vof, q, mix)
             push_bodies(j, i, vof, centroid, mix)

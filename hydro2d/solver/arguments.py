@@ -49,7 +49,7 @@ class Arguments:
             "mesh_box": cycle.mesh_box, "constrained": cycle.constrained, "pushing": cycle.pushing,
             "edge_velocity": boundaries.velocity, "void_only": cycle.edges_with_void_beyond(),
             "transmitting": cycle.transmitting, "models": models, "materials": materials,
-            "carried": cycle.carried, "gases": materials[:, rows.GAS] > 0.0,
+            "carried": cycle.carried, "gases": materials[:, rows.GAS] > 0.0, "strong": models[:, rows.STRENGTH] != 0,
             "hard_bodies": method.hard, "hard_first": hard_first,
             "soft_first": soft_first, "slip_layer": method.slip_widths is not None, "mixed_columns": state.mixed,
             "underfilled_density": method.mass_floor * float(np.max(table.rho0)),

@@ -6,7 +6,6 @@ import inspect
 
 import numpy as np
 
-from hydro2d.materials.rows import EOS_AT
 from hydro2d.mesh import fields
 from hydro2d.mesh.grid import GHOSTS, Grid
 from hydro2d.mesh.state import State
@@ -28,7 +27,7 @@ class Cells:
         self.known = {"part": 0, "parts": np.array([first, past_z]), "i0": first, "i1": past_r, "j0": first, "j1": past_z,
                       "g": GHOSTS, "nr": nr, "nz": nz, "b": 0, "mesh_box": self.mesh_box, "constrained": none, "pushing": none,
                       "transmitting": none, "along_compression": False, "steepness": 2.0,
-                      "materials": np.zeros((bodies, EOS_AT)),
+                      "gases": np.zeros(bodies, dtype=bool),
                       "carried": fields.carried_rows([range(1, self.state.q.shape[0])] * bodies)}  # fmt: skip
 
     def __getattr__(self, name: str):

@@ -6,7 +6,6 @@ import pytest
 from hydro2d.kernels import cut_cells
 from hydro2d.kernels.cut_cells import BESIDE_GAS, FREE_SURFACE, INTERFACE, JOINT, KIND, MOST_TIED, NORMAL_R, NORMAL_Z, WHOLE
 from hydro2d.kernels.mixed_scratch import ACROSS, ALONG, BESIDE, FLOW, GROWTH, HEAT, MODULUS, NORMAL, SIZE
-from hydro2d.materials.rows import EOS_AT, GAS, STRENGTH
 from hydro2d.mesh.fields import INTERNAL, RHO, SRR, SRZ, SZZ, E
 from hydro2d.mesh.grid import CM_IN, CM_OUT, VOL_R
 from hydro2d.physics.traction import SURE
@@ -253,20 +252,18 @@ SIZE_OF_MESH = 9
 MESH_BOX = np.array([2, SIZE_OF_MESH - 2, 2, SIZE_OF_MESH - 2])
 
 
-def surfaces(vof, group=(1, 0), hard=(False, False), dr=1.0, dz=1.0, gas=(0.0, 0.0), strength=(1, 1), tipton=True):
+def surfaces(vof, group=(1, 0), hard=(False, False), dr=1.0, dz=1.0, gas=(False, False), strong=(True, True), tipton=True):
     """`skin` of a mesh of alike cells."""
     vof = np.array(vof, dtype=float)
     is_mixed = (vof > 0.0).any(axis=0) & (vof < 1.0).all(axis=0)
     count, mixed, skin = np.zeros(SIZE_OF_MESH, dtype=np.int64), np.zeros((SIZE_OF_MESH,) * 2, dtype=np.int64), np.full(
         (3, SIZE_OF_MESH, SIZE_OF_MESH), np.nan)
-    models, materials = np.zeros((2, 4), dtype=np.int64), np.zeros((2, EOS_AT))
-    models[:, STRENGTH], materials[:, GAS] = strength, gas
     for j in range(SIZE_OF_MESH):
         count[j] = is_mixed[j].sum()
         mixed[j, : count[j]] = np.nonzero(is_mixed[j])[0]
     cut_cells.find_surfaces(0, MESH_BOX[:2], 2, SIZE_OF_MESH - 2, MESH_BOX, np.full(SIZE_OF_MESH, dr),
-                            np.full(SIZE_OF_MESH, dz), tipton, np.array(group), np.array(hard), 0.5, models, materials, count,
-                            mixed, vof, skin)
+                            np.full(SIZE_OF_MESH, dz), tipton, np.array(group), np.array(hard), 0.5, np.array(strong), np.array(gas),
+                            count, mixed, vof, skin)
     return skin
 
 
@@ -327,7 +324,7 @@ def test_kinds_of_cut_cells():
     half, none = np.full((SIZE_OF_MESH,) * 2, 0.5), np.zeros((SIZE_OF_MESH,) * 2)
     assert (surfaces([half, half])[KIND, 2:-2, 2:-2] == INTERFACE).all()
     assert (surfaces([half, half], group=(0, 0))[KIND, 2:-2, 2:-2] == JOINT).all()
-    assert (surfaces([half, half], group=(0, 0), strength=(0, 0))[KIND, 2:-2, 2:-2] == WHOLE).all()  # fluids have one pressure
+    assert (surfaces([half, half], group=(0, 0), strong=(False, False))[KIND, 2:-2, 2:-2] == WHOLE).all()  # fluids have one pressure
     assert (surfaces([half, half], group=(0, 0), tipton=False)[KIND, 2:-2, 2:-2] == WHOLE).all()
     assert (surfaces([half, half], group=(0, 0), hard=(True, False))[KIND, 2:-2, 2:-2] == WHOLE).all()
     assert (surfaces([half, none])[KIND, 2:-2, 2:-2] == FREE_SURFACE).all()
@@ -346,7 +343,7 @@ def test_the_hard_zone_of_a_slip_layer_has_no_normals():
 def test_a_surface_between_bodies_of_one_group_has_the_normal_of_a_free_one(degrees):
     body = half_plane(np.radians(degrees))
     with_void = surfaces([body, np.zeros_like(body)])[:, 4, 4]
-    with_gas = surfaces([body, 1.0 - body], group=(1, 1), gas=(0.0, 1.0), strength=(1, 0))[:, 4, 4]
+    with_gas = surfaces([body, 1.0 - body], group=(1, 1), gas=(False, True), strong=(True, False))[:, 4, 4]
     with_solid = surfaces([body, 1.0 - body], group=(1, 1))[:, 4, 4]
     assert (with_gas[KIND], with_solid[KIND]) == (BESIDE_GAS, JOINT)
     assert with_gas[:2] == pytest.approx(with_void[:2])
@@ -357,10 +354,9 @@ def test_what_a_body_has_of_vertices_in_a_gas_is_tied_to_it():
     """A cell of 3 m^2 per radian on r = 1 to 2 m, 2 m high, with 0.25 of 2 kg/m^3 beside gas, and a normal of (0.6, 0.8)."""
     cell = Cell((0.25, 0.0, 1.0, 0.5), (0.75, 0.0, 0.001, 0.0), kind=BESIDE_GAS)
     cell.skin[NORMAL_R], cell.skin[NORMAL_Z] = 0.6, 0.8
-    metrics, materials = np.zeros((8, 2)), np.zeros((2, EOS_AT))
+    metrics, gases = np.zeros((8, 2)), np.array([False, True])
     metrics[VOL_R, 0], metrics[CM_IN, 0], metrics[CM_OUT, 0] = 1.5, 2 / 9, 5 / 18
-    materials[1, GAS] = 1.0
-    given = metrics, 2.0, cell.skin, materials, cell.vof, cell.q
+    given = metrics, 2.0, cell.skin, gases, cell.vof, cell.q
     at_a_vertex = 0.25 * 2.0 * 3.0 * 2 / 9
     by_r, by_z = cut_cells.ties.py_func(0, 0, *given)
     assert (by_r, by_z) == pytest.approx((MOST_TIED * at_a_vertex * 0.36, MOST_TIED * at_a_vertex * 0.64))

@@ -35,7 +35,7 @@ from hydro2d.kernels.mixed_scratch import (
     ZZ,
 )
 from hydro2d.kernels.mixed_strength import MATERIAL, MAX, SOLID, VOLUME, ZERO
-from hydro2d.materials.rows import CUTOFF_DENSITY, DAMAGE_AT, EOS, EOS_AT, FACTOR, GAS, STRENGTH, STRENGTH_AT, TENSILE
+from hydro2d.materials.rows import CUTOFF_DENSITY, DAMAGE_AT, EOS, EOS_AT, FACTOR, STRENGTH, STRENGTH_AT, TENSILE
 from hydro2d.mesh.fields import DMG, EP, RHO, SRR, SRZ, SZZ, E
 from strength import STRENGTH_MODELS
 from tests.kernels.cells import Cells
@@ -62,7 +62,8 @@ class Cell(Cells):
         self.mixed_count[2], self.mixed[2, 0], self.cell_mass[0, *AT] = 1, 2, 5.0
         nobody = np.array([False, False])
         self.known |= {"j": 2, "i": 2, "dt": 0.1, "h": 1.0, "rate": 0.1, "total": 1.0, "firm": 1.0, "volume": 1.0,
-                       "models": models, "materials": materials, "hard": nobody, "hard_threshold": 0.5,
+                       "models": models, "materials": materials, "gases": nobody.copy(), "strong": models[:, STRENGTH] != 0,
+                       "hard": nobody, "hard_threshold": 0.5,
                        "internal": np.zeros((5, 4))}  # fmt: skip
 
     def moving(self, **gradient: float) -> None:
@@ -125,7 +126,7 @@ def test_the_rise_of_the_pressure_of_a_cell():
 def test_a_gas_counts_where_it_is():
     cell = Cell()
     assert not cell.run(cut_cells.is_beside_gas)
-    cell.known["materials"][1, GAS] = 1.0
+    cell.known["gases"][1] = True
     assert cell.run(cut_cells.is_beside_gas)
     cell.vof[1, *AT] = 0.0
     assert not cell.run(cut_cells.is_beside_gas)
@@ -137,7 +138,7 @@ def test_what_is_in_a_cell():
     assert cell.run(cut_cells.holds, g=0)
     assert cell.run(cut_cells.holds, g=1)
     assert cell.run(cut_cells.joins_solids)
-    cell.known["models"][0, STRENGTH] = 0
+    cell.known["strong"][0] = False
     assert cell.run(cut_cells.joins_solids)
     cell.vof[:, *AT] = 0.0, 1.0
     assert not cell.run(cut_cells.joins_solids)  # there is one body
@@ -152,7 +153,7 @@ def test_what_is_in_a_cell():
 def test_sides_of_a_joint():
     """Gases are on one side; without one, what fills most of the cell is, and what is not there is on neither."""
     cell = Cell()
-    cell.known["materials"][1, GAS] = 1.0
+    cell.known["gases"][1] = True
     assert [cell.run(cut_cells.side_of_joint, m=m, first=1, gas=True) for m in (0, 1)] == [1.0, -1.0]
     assert [cell.run(cut_cells.side_of_joint, m=m, first=1, gas=False) for m in (0, 1)] == [-1.0, 1.0]
     cell.vof[0, *AT] = 0.0
@@ -162,7 +163,7 @@ def test_sides_of_a_joint():
 def test_what_ties_take_of_the_motion_is_heat_of_the_body_beside_the_gas():
     """Half of 1 kg of the body is tied: 0.125 kg by (4 m/s)^2 for the pair below, at the start and at the end alike."""
     cell = Cell()
-    cell.known["materials"][1, GAS] = 1.0
+    cell.known["gases"][1] = True
     cell.skin[[NORMAL_R, KIND], *AT] = 1.0, BESIDE_GAS
     cell.u0[0, 2, 2:4] = cell.u[0, 2, 2:4] = 0.0, 4.0
     cell.run(mixed.heat_of_ties, g=0)
@@ -238,7 +239,7 @@ def test_a_cell_without_change_keeps_its_bits():
 def test_a_gas_makes_a_cell_go_by_its_own_rule():
     """As in `work_beside_gas`: 0.08 (10 + 1) J and 0.02 (10 + 1) J of 1.5 + 0.2; the rest by mass."""
     cell = Cell()
-    cell.known["materials"][0, GAS], cell.pm[:, *AT] = 1.0, 12.0
+    cell.known["gases"][0], cell.pm[:, *AT] = True, 12.0
     cell.moving(filter=0.2)
     filled(cell)
     own = 13.0 * np.array([0.08, 0.02])
@@ -336,9 +337,9 @@ def test_the_elastic_trial_and_the_yield_stress_of_a_cell(mode, total, flow):
 def test_gas_has_no_part_in_the_yield_stress_of_a_cell():
     cell = Cell()
     assert cell.run(cut_cells.firm_share) == 1.0
-    cell.known["materials"][1, GAS] = 1.0
+    cell.known["gases"][1] = True
     assert cell.run(cut_cells.firm_share) == 0.5
-    cell.known["materials"][0, GAS] = 1.0
+    cell.known["gases"][0] = True
     assert cell.run(cut_cells.firm_share) == 1.0
 
 
