@@ -261,9 +261,9 @@ def surfaces(vof, group=(1, 0), hard=(False, False), dr=1.0, dz=1.0, gas=(False,
     for j in range(SIZE_OF_MESH):
         count[j] = is_mixed[j].sum()
         mixed[j, : count[j]] = np.nonzero(is_mixed[j])[0]
-    cut_cells.find_surfaces(0, MESH_BOX[:2], 2, SIZE_OF_MESH - 2, MESH_BOX, np.full(SIZE_OF_MESH, dr),
-                            np.full(SIZE_OF_MESH, dz), tipton, np.array(group), np.array(hard), 0.5, np.array(strong), np.array(gas),
-                            count, mixed, vof, skin)
+    cut_cells.find_surfaces(0, MESH_BOX[:2], 2, SIZE_OF_MESH - 2, MESH_BOX, np.full(SIZE_OF_MESH, dr), np.full(SIZE_OF_MESH, dz),
+                            tipton, np.array(group), np.array(hard), 0.5, np.array(strong), np.array(gas), count, mixed, vof,
+                            skin)
     return skin
 
 
@@ -324,7 +324,8 @@ def test_kinds_of_cut_cells():
     half, none = np.full((SIZE_OF_MESH,) * 2, 0.5), np.zeros((SIZE_OF_MESH,) * 2)
     assert (surfaces([half, half])[KIND, 2:-2, 2:-2] == INTERFACE).all()
     assert (surfaces([half, half], group=(0, 0))[KIND, 2:-2, 2:-2] == JOINT).all()
-    assert (surfaces([half, half], group=(0, 0), strong=(False, False))[KIND, 2:-2, 2:-2] == WHOLE).all()  # fluids have one pressure
+    fluids = surfaces([half, half], group=(0, 0), strong=(False, False))  # they have one pressure
+    assert (fluids[KIND, 2:-2, 2:-2] == WHOLE).all()
     assert (surfaces([half, half], group=(0, 0), tipton=False)[KIND, 2:-2, 2:-2] == WHOLE).all()
     assert (surfaces([half, half], group=(0, 0), hard=(True, False))[KIND, 2:-2, 2:-2] == WHOLE).all()
     assert (surfaces([half, none])[KIND, 2:-2, 2:-2] == FREE_SURFACE).all()
