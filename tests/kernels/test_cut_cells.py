@@ -261,9 +261,9 @@ def surfaces(vof, group=(1, 0), hard=(False, False), dr=1.0, dz=1.0, gas=(False,
     for j in range(SIZE_OF_MESH):
         count[j] = is_mixed[j].sum()
         mixed[j, : count[j]] = np.nonzero(is_mixed[j])[0]
-    cut_cells.find_surfaces(0, MESH_BOX[:2], 2, SIZE_OF_MESH - 2, MESH_BOX, np.full(SIZE_OF_MESH, dr), np.full(SIZE_OF_MESH, dz),
-                            tipton, np.array(group), np.array(hard), 0.5, np.array(strong), np.array(gas), count, mixed, vof,
-                            skin)
+    cut_cells.find_surfaces(0, MESH_BOX[:2], 2, SIZE_OF_MESH - 2, MESH_BOX, np.full(SIZE_OF_MESH, dr),
+                            np.full(SIZE_OF_MESH, dz), tipton, np.array(group), np.array(hard), 0.5, np.array(strong),
+                            np.array(gas), count, mixed, vof, skin)
     return skin
 
 
