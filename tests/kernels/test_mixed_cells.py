@@ -337,8 +337,10 @@ def test_the_elastic_trial_and_the_yield_stress_of_a_cell(mode, total, flow):
 def test_gas_has_no_part_in_the_yield_stress_of_a_cell():
     cell = Cell()
     assert cell.run(cut_cells.firm_share) == 1.0
+    assert cell.run(cut_cells.firm_density) == 0.5 * 2.0 + 0.5 * 8.0
     cell.known["gases"][1] = True
     assert cell.run(cut_cells.firm_share) == 0.5
+    assert cell.run(cut_cells.firm_density) == 0.5 * 2.0
     cell.known["gases"][0] = True
     assert cell.run(cut_cells.firm_share) == 1.0
 
