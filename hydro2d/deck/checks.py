@@ -248,6 +248,12 @@ def _bad_follow(deck: Deck, z: np.ndarray) -> Iterator[tuple[tuple, str]]:
         yield path, f'the mesh is too short: it ends {-behind:g} m before the tail of "{name}"'
 
 
+def bars_to_follow(deck: Deck, name: str) -> list[str]:
+    """Why the mesh of a valid deck, which stands still, could not follow this body; empty where it could."""
+    following = deck.model_copy(update={"mesh": deck.mesh.model_copy(update={"follow": name})})
+    return [problem for _, problem in _bad_mesh(following)]
+
+
 def _outside(name: str, axis: str, low: float, high: float, mesh: np.ndarray, how: str = "lies outside") -> str:
     return f'"{name}" {how} the mesh: {axis} from {low:g} to {high:g} m, the mesh from {mesh[0]:g} to {mesh[-1]:g} m'
 

@@ -86,17 +86,17 @@ def _jumps(deck: Deck) -> Iterator[str]:
 
 def _short_mesh(deck: Deck) -> Iterator[str]:
     if deck.mesh.follow is not None:
-        ahead = room(deck, axis_edges(deck, "z"))[0] / extent(body(deck, deck.mesh.follow), deck, "r")[1]
-        if ahead < AHEAD and not _within_the_mesh(deck):
-            yield f'mesh.follow: the mesh ends {ahead:.3g} radii ahead of "{deck.mesh.follow}"; below {AHEAD} its edge is felt'
+        ahead = room(deck, axis_edges(deck, "z"))[0]
+        radii = ahead / extent(body(deck, deck.mesh.follow), deck, "r")[1]
+        if radii < AHEAD and not _whole_when_hit(deck, ahead):
+            yield f'mesh.follow: the mesh ends {radii:.3g} radii ahead of "{deck.mesh.follow}"; below {AHEAD} its edge is felt'
 
 
-def _within_the_mesh(deck: Deck) -> bool:
-    """Whether all targets end before the mesh does, so that its edge cuts none of them."""
-    edges = axis_edges(deck, "z")
+def _whole_when_hit(deck: Deck, ahead: float) -> bool:
+    """Whether all of every target lies in the mesh when the body that this follows, ahead m behind its edge, reaches it."""
     named = deck.penetration.targets if deck.penetration else ()
     extents = [extent(body(deck, name), deck, "z") for name in named]
-    return bool(extents) and all(edges[0] < low and high < edges[-1] for low, high in extents)
+    return bool(extents) and all(high - low < ahead for low, high in extents)
 
 
 def _yielding_rods(deck: Deck) -> Iterator[str]:

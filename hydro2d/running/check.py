@@ -68,7 +68,7 @@ class Check:
             found.append(f"          {self._across(entry)}")
             found += [f"          {each.name} joins it: {self._across(each)}" for each in deck.body if each.join == body]
             found.append(f"          eos {material.eos.title}, strength {material.strength.name}")
-        found += self._follow()
+        found += self._follow() if deck.mesh.follow else self._crosses()
         found += ["", f"sliding   {_sliding(deck)}", *(f"          {text}" for text in self._tied())]
         found += [f"stop      {_stop(deck.stop)}"]
         found += [f"cost      about {self.cycles} cycles, {_duration(self.wall(threads))} on {threads} threads "
@@ -109,8 +109,6 @@ class Check:
     def _follow(self) -> list[str]:
         """How far a travelling mesh reaches, and which bodies will enter it."""
         deck, z = self.deck, self.grid.z_edges
-        if deck.mesh.follow is None:
-            return []
         entry, direction = decks.body(deck, deck.mesh.follow), decks.travel(deck)
         ahead, behind = decks.room(deck, z)
         radius = decks.extent(entry, deck, "r")[1]
@@ -125,6 +123,25 @@ class Check:
                 found.append(f"          enters: {other.name}, from {first * 1e3:.4g} to {ends[1] * 1e3:.4g} mm of the way, at "
                              f"{first / abs(entry.velocity[1]) * 1e6:.4g} us")  # fmt: skip
         return found
+
+    def _crosses(self) -> list[str]:
+        """How far the projectile flies through a mesh that stands still, and whether the mesh could follow it instead."""
+        deck = self.deck
+        if deck.penetration is None:
+            return []
+        entry = decks.body(deck, deck.penetration.rod)
+        radius, speed = decks.extent(entry, deck, "r")[1], entry.velocity[1]
+        way = speed * (deck.stop.time if deck.stop.time is not None else math.inf)
+        if speed == 0.0 or not 2.0 * radius < abs(way):
+            return []
+        low, high = decks.extent(entry, deck, "z")
+        tip = high if speed > 0.0 else low
+        cells = decks.cells_between(self.grid.z_edges, *sorted((tip, tip + way)))
+        told = f"up to {cells:.0f} cells of the mesh, which stands still"
+        bars = decks.bars_to_follow(deck, entry.name)
+        advice = (f"the mesh cannot follow it: {bars[0]}" if bars else
+                  f'if it stays whole, its results scatter less with mesh.follow = "{entry.name}"')
+        return ["", f"crosses   {entry.name}: {told};", f"          {advice}"]
 
     def _across(self, entry) -> str:
         """How many cells lie across a body: its radius and its length, or its thickness."""
