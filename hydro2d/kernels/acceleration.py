@@ -16,6 +16,24 @@ from hydro2d.physics.stress import stress_scale
 SILENCE = 1e-20
 
 
+@point
+def mixed_deviator(j, i, solid_mode, solid, hard, hard_threshold, vof, q):
+    """(s_rr, s_zz, s_rz) of a mixed cell, Pa: that of its bodies by share, or of the hard body in the hard zone of a layer."""
+    scale = stress_scale(solid_mode, solid[j, i])
+    rr, zz, rz = 0.0, 0.0, 0.0
+    for m in range(vof.shape[0]):
+        rr += vof[m, j, i] * q[SRR, m, j, i]
+        zz += vof[m, j, i] * q[SZZ, m, j, i]
+        rz += vof[m, j, i] * q[SRZ, m, j, i]
+    rr, zz, rz = scale * rr, scale * zz, scale * rz
+    for m in range(vof.shape[0]):
+        if hard[m] and vof[m, j, i] >= hard_threshold:
+            rr = solid[j, i] * q[SRR, m, j, i]
+            zz = solid[j, i] * q[SZZ, m, j, i]
+            rz = solid[j, i] * q[SRZ, m, j, i]
+    return rr, zz, rz
+
+
 @rowwise
 def total_stress_row(j, dt, metrics, dz, body_range, active_range, mixed_count, mixed, solid_mode, hard, hard_threshold, u, v,
                      vof, q, skin, p, bulk, solid, qr, qz, qt, qrz, ph, sig_rr, sig_zz, sig_tt, sig_rz):
@@ -53,15 +71,7 @@ def total_stress_row(j, dt, metrics, dz, body_range, active_range, mixed_count, 
             rz[i] += f_j[i] * c_j[i]
     for k in range(mixed_count[j]):
         i = mixed[j, k]
-        scale = stress_scale(solid_mode, solid[j, i])
-        rr[i] *= scale
-        zz[i] *= scale
-        rz[i] *= scale
-        for m in range(bodies):
-            if hard[m] and vof[m, j, i] >= hard_threshold:
-                rr[i] = solid[j, i] * q[SRR, m, j, i]
-                zz[i] = solid[j, i] * q[SZZ, m, j, i]
-                rz[i] = solid[j, i] * q[SRZ, m, j, i]
+        rr[i], zz[i], rz[i] = mixed_deviator(j, i, solid_mode, solid, hard, hard_threshold, vof, q)
     ub = u[0, j]
     ut = u[0, j + 1]
     vb = v[0, j]
@@ -86,11 +96,13 @@ def total_stress_row(j, dt, metrics, dz, body_range, active_range, mixed_count, 
         i = mixed[j, k]
         if skin[KIND, j, i] != WHOLE:
             pressure = cut_pressure(j, i, dt, divergence(i, ub, ut, vb, vt, metrics, h), skin, p, bulk, solid)
-            gain = pressure - ph_j[i] + skin_deviator(j, i, skin, stress_scale(solid_mode, solid[j, i]), vof, q)
             ph_j[i] = pressure
-            rr[i] -= gain
-            zz[i] -= gain
-            tt[i] -= gain
+            pressure += skin_deviator(j, i, skin, stress_scale(solid_mode, solid[j, i]), vof, q)
+            # from the deviator anew: the pressure above, of a full cell, may have swallowed that of a crumb
+            s_rr, s_zz, _ = mixed_deviator(j, i, solid_mode, solid, hard, hard_threshold, vof, q)
+            tt[i] = -(s_rr + s_zz) - pressure - qt_j[i]
+            rr[i] = s_rr - pressure - qr_j[i]
+            zz[i] = s_zz - pressure - qz_j[i]
 
 
 @kernel

@@ -28,6 +28,9 @@ LINE_R, LINE_Z, CONSTANT, SHARE, HARD_R, HARD_Z, SOFT_R, SOFT_Z, SOFT_AFTER, HAR
 #: square of the ratio of the slope of all that is solid to those of the groups, below which void lies between them
 BETWEEN = 0.25
 
+#: share of void in a cell from which its bodies lie each by its own surface, and from which all of them do
+APART, FAR_APART = 0.5, 0.75
+
 #: how many vertices away a node's body may be for the node to move with it
 REACH = 3
 
@@ -83,7 +86,8 @@ def parted(void, whole, less):
     """
     if less == 0.0:
         return 0.0
-    return smoothstep(void / GAP - 1.0) * smoothstep(2.0 - 2.0 * whole / (BETWEEN * less))
+    opposed = smoothstep(void / GAP - 1.0) * smoothstep(2.0 - 2.0 * whole / (BETWEEN * less))
+    return max(opposed, smoothstep((void - APART) / (FAR_APART - APART)))
 
 
 @serial
@@ -179,6 +183,17 @@ def face_aperture(j, i, x0, y0, x1, y1, inside, line, hard, soft):
     return 1.0, first, last
 
 
+@point
+def weight_beside(j, i, row, column, hard, soft):
+    """Weight of the word of cell (j, i) on the face that it shares with (row, column), which may be full of one group.
+
+    A surface that lies in the face of a full cell, with a gap beside it, is that cell's own: void cannot press it.
+    """
+    gap = smoothstep((1.0 - hard[j, i] - soft[j, i]) / GAP - 0.5)
+    full = smoothstep(1.0 - (1.0 - max(hard[row, column], soft[row, column])) / GAP)
+    return 1.0 - gap * full
+
+
 @kernel
 def face_apertures(part, parts, mesh_box, constrained, contact_columns, line, hard, soft, mass, count, contact_nodes,
                    aperture_r, aperture_z, normal, touch):
@@ -204,9 +219,14 @@ def face_apertures(part, parts, mesh_box, constrained, contact_columns, line, ha
                 if i < mesh_box[3]:
                     solid_r, low_r, high_r = face_aperture(j, i, 0.0, 0.0, 0.0, 1.0, i < contact_columns[j, 1], line, hard,
                                                            soft)
+                if solid_l > 0.0 and solid_r > 0.0:
+                    solid_l = weight_beside(j, i - 1, j, i, hard, soft)
+                    solid_r = weight_beside(j, i, j, i - 1, hard, soft)
                 number = max(solid_l + solid_r, 1.0)
-                aperture_r[0, j, i] = known((low_l + low_r) / number, mass[0, j, i], mass[1, j, i])
-                aperture_r[1, j, i] = known((high_l + high_r) / number, mass[0, j + 1, i], mass[1, j + 1, i])
+                low = (solid_l * low_l + solid_r * low_r) / number
+                high = (solid_l * high_l + solid_r * high_r) / number
+                aperture_r[0, j, i] = known(low, mass[0, j, i], mass[1, j, i])
+                aperture_r[1, j, i] = known(high, mass[0, j + 1, i], mass[1, j + 1, i])
         lo, hi = union(contact_columns, max(j - 1, j0), min(j + 1, j1))
         for i in range(lo, hi):
             solid_b, in_b, out_b = 0.0, 0.0, 0.0
@@ -217,9 +237,12 @@ def face_apertures(part, parts, mesh_box, constrained, contact_columns, line, ha
             if j < mesh_box[1]:
                 inside = contact_columns[j, 0] <= i < contact_columns[j, 1]
                 solid_t, in_t, out_t = face_aperture(j, i, 0.0, 0.0, 1.0, 0.0, inside, line, hard, soft)
+            if solid_b > 0.0 and solid_t > 0.0:
+                solid_b = weight_beside(j - 1, i, j, i, hard, soft)
+                solid_t = weight_beside(j, i, j - 1, i, hard, soft)
             number = max(solid_b + solid_t, 1.0)
-            aperture_z[0, j, i] = known((in_b + in_t) / number, mass[0, j, i], mass[1, j, i])
-            aperture_z[1, j, i] = known((out_b + out_t) / number, mass[0, j, i + 1], mass[1, j, i + 1])
+            aperture_z[0, j, i] = known((solid_b * in_b + solid_t * in_t) / number, mass[0, j, i], mass[1, j, i])
+            aperture_z[1, j, i] = known((solid_b * out_b + solid_t * out_t) / number, mass[0, j, i + 1], mass[1, j, i + 1])
         for k in range(count[j]):
             i = contact_nodes[j, k]
             hard_r, hard_z, soft_r, soft_z = 0.0, 0.0, 0.0, 0.0
