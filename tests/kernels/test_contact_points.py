@@ -306,6 +306,20 @@ def test_an_edge_of_a_void_cell_has_no_weight():
         assert face_aperture(0, 0, 0.0, 0.0, 1.0, 0.0, inside, line, nothing, nothing) == (0.0, 0.0, 0.0)
 
 
+@pytest.mark.parametrize(("other", "void"), [(1.0, 0.5 * GAP), (1.0, 1.5 * GAP), (1.0 - GAP, 0.5), (1.0, 0.5)])
+def test_a_full_cell_has_the_face_to_a_gap_for_itself(other, void):
+    """The weight of a cell with void on its face to a cell of the other group is nil, and becomes so without a jump."""
+    def weight(void: float, other: float) -> float:
+        hard, soft = np.array([[1.0 - void, 0.0]]), np.array([[0.0, other]])
+        assert contact_geometry.weight_beside.py_func(0, 1, 0, 0, hard, soft) == 1.0 or other < 1.0 - 0.5 * GAP
+        return contact_geometry.weight_beside.py_func(0, 0, 0, 1, hard, soft)
+
+    changes_in_proportion(lambda x: weight(x, other), void, 2.0 / GAP)
+    changes_in_proportion(lambda x: weight(void, x), other, 2.0 / GAP)
+    assert weight(0.5, 1.0) == 0.0
+    assert weight(0.5, 1.0 - GAP) == weight(0.5 * GAP, 1.0) == weight(0.5, 0.5) == 1.0
+
+
 # --------------------------------------------------------------------------------------- which surface draws the line
 
 
@@ -325,6 +339,10 @@ def test_void_parts_the_groups_without_a_jump(void, whole):
     changes_in_proportion(lambda x: parted(x, 0.1 * whole, 1.0), void, 2.0 / GAP)
     changes_in_proportion(lambda x: parted(0.1, x, 1.0), whole, 4.0 / contact_geometry.BETWEEN)
     assert parted(0.1, 0.0, 1.0) == 1.0
+    for void in (contact_geometry.APART, contact_geometry.FAR_APART):
+        changes_in_proportion(lambda x: parted(x, 1.0, 1.0), void, 2.0 / (contact_geometry.FAR_APART - contact_geometry.APART))
+    assert parted(0.49, 1.0, 1.0) == 0.0
+    assert parted(0.76, 1.0, 1.0) == 1.0
     assert parted(0.5 * GAP, 0.0, 1.0) == parted(0.1, 2.0 * contact_geometry.BETWEEN, 1.0) == parted(0.1, 0.0, 0.0) == 0.0
 
 

@@ -65,6 +65,16 @@ def test_the_stress_of_a_mixed_cell_is_that_of_its_bodies_by_volume():
     assert sums(cells, hard=np.array([False, True]), hard_threshold=0.2)[1] == pytest.approx(0.5 * 30 - 90 - 5)
 
 
+def test_the_deviator_of_a_crumb_is_not_swallowed_by_the_pressure_of_a_full_cell():
+    """A crumb with a free surface in a cell whose bulk modulus and flow would give 1e17 Pa: once its deviator was lost in it."""
+    cells = stressed()
+    crumb = 1e-9
+    cells.mixed_count[3], cells.mixed[3, 0], cells.skin[KIND, 3, 3] = 1, 3, FREE_SURFACE
+    cells.vof[:, 3, 3], cells.solid[3, 3], cells.bulk[3, 3] = (crumb, 0.0), crumb, 1e20
+    cells.q[SRR, 0], cells.q[SZZ, 0], cells.p[3, 3], cells.qr[3, 3], cells.qz[3, 3] = 3e9, -2e9, 0.0, 0.0, 0.0
+    assert sums(cells)[:3] == pytest.approx([0.0, 3.0, -2.0], rel=1e-12)
+
+
 NOTHING = np.zeros((0, 0, 0, 0))
 
 

@@ -14,6 +14,7 @@ from hydro2d.output import history
 from hydro2d.results import figures
 from hydro2d.results.reading import Results
 from hydro2d.running.run import run
+from hydro2d.solver.penetrator import WATCH_EVERY
 from hydro2d.solver.simulation import Simulation
 from tests.decks import body, contact, mesh, plate, stop, table
 
@@ -22,7 +23,6 @@ TEXT = (
     + body("ball", "steel_4340", "sphere", centre="-6 mm", radius="5 mm", velocity="1500 m/s")
     + plate("4 mm", name="rear", material="Al6061_T6", z_front="12 mm")
     + plate("3 mm", name="front", material="Al6061_T6")
-    + table("numerics", advection="ke")
     + contact("ball")
     + stop("30 us", perforation=True)
     + table("output", history_interval="0.05 us", vtk_interval="10 us")
@@ -94,7 +94,9 @@ def test_the_rod_behind_each_target(shot):
     assert 10e-3 > front["exit_length_m"] > rear["exit_length_m"] > 5e-3
     times, depths = shot.history["time"], shot.history["penetration_depth_m"]
     for found, rear_face in ((front, 3e-3), (rear, 16e-3)):
-        assert np.interp(found["exit_time_s"], times, depths) == pytest.approx(rear_face + 5e-3, abs=0.4e-3)
+        seen = int(np.argmin(np.abs(times - found["exit_time_s"])))
+        assert times[seen] == pytest.approx(found["exit_time_s"], rel=1e-12)
+        assert depths[seen - WATCH_EVERY] < rear_face + 5e-3 <= depths[seen]  # the history has every cycle
     assert shot.summary["exit_time_s"] == rear["exit_time_s"]
     assert shot.summary["rod_residual_velocity_m_s"] == pytest.approx(rear["exit_velocity_m_s"], rel=1e-3)
 
@@ -104,7 +106,7 @@ def test_the_hole_in_each_target(shot):
     assert shot.summary["crater"] == front
     assert 10e-3 < front["exit_diameter_m"] < 16e-3
     assert 10e-3 < rear["entrance_diameter_m"] < 20e-3
-    assert rear["exit_diameter_m"] is None  # the bulge still caps the hole
+    assert 10e-3 < rear["exit_diameter_m"] < 16e-3
     assert list(shot.craters) == ["front", "rear"]
     assert [0.0 <= z[0] and z[-1] < 11e-3 or z[0] > 9e-3 for z, _ in shot.craters.values()] == [True, True]
     assert shot.crater[0] is not None
