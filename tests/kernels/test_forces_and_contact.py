@@ -66,7 +66,7 @@ def test_the_stress_of_a_mixed_cell_is_that_of_its_bodies_by_volume():
 
 
 def test_the_deviator_of_a_crumb_is_not_swallowed_by_the_pressure_of_a_full_cell():
-    """A crumb with a free surface in a cell whose bulk modulus and flow would give 1e17 Pa: once its deviator was lost in it."""
+    """A crumb with a free surface in a cell that would have 1e17 Pa if it were full: once its deviator was lost in that."""
     cells = stressed()
     crumb = 1e-9
     cells.mixed_count[3], cells.mixed[3, 0], cells.skin[KIND, 3, 3] = 1, 3, FREE_SURFACE
