@@ -13,7 +13,7 @@ from hydro2d import toml
 from hydro2d.deck import deck as decks
 from hydro2d.deck import plain_numbers
 from hydro2d.deck.deck import Deck
-from hydro2d.errors import UnphysicalState
+from hydro2d.errors import UnphysicalState, from_extra
 from hydro2d.files import plain, write_text
 from hydro2d.results.reading import Results
 from hydro2d.running import run as runs
@@ -105,8 +105,11 @@ class Study(layout.Study):
             members under the names that single runs have, the 10 and 90 % quantiles beside them (``depth_low_m``,
             ``depth_high_m``), and for each regime its fraction with a 90 % Wilson interval (``rigid_fraction``,
             ``rigid_fraction_low``, ``rigid_fraction_high``); ``as_experiment_fraction`` is that of the experiment's outcome
+
+        Raises MissingPackage.
         """
-        import pandas
+        with from_extra("data", "the table of a study"):
+            import pandas
 
         found = contents.collect(self)
         repeated = self.ensembles and not members
@@ -144,14 +147,16 @@ def sweep(study: str | Path | Deck, axes: Mapping[str, Sequence[Any]] | None = N
         One row for each case, indexed by its name: the axes as text, ``status``, depths, lengths and the other columns that
         `hydro2d report` lists, in SI units. For a case that failed, or whose deck is wrong, ``message`` has the reason.
 
-    Raises StudyError, also if no case has a valid deck, DeckError, LockError; KeyboardInterrupt if the sweep was interrupted,
-    which ``resume=True`` continues.
+    Raises MissingPackage, StudyError, also if no case has a valid deck, DeckError, LockError; KeyboardInterrupt if the sweep
+    was interrupted, which ``resume=True`` continues.
 
     Worker processes are spawned, so a script must call this below ``if __name__ == "__main__":``.
     """
     for name, number in (("workers", workers), ("threads", threads)):
         if number is not None and number < 1:
             raise StudyError(f"{name} = {number}: at least one is needed")
+    with from_extra("data", "the table of a study"):
+        import pandas  # noqa: F401  (a table that cannot be made is refused before the runs, not after them)
     plan = _plan(study, axes, overrides, directory)
     place = Path(directory or plan.out)
     choice = Choice(plan, only)

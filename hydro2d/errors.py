@@ -8,6 +8,7 @@ from __future__ import annotations
 import difflib
 import functools
 from collections.abc import Iterable
+from contextlib import contextmanager
 
 #: largest number of lines of a message, and of characters of a line
 MOST_LINES, LONGEST_LINE = 50, 2000
@@ -30,6 +31,24 @@ class Error(Exception):
 
 class DeckError(Error):
     """A deck, a material or a command line is wrong; the message is for its author."""
+
+
+class MissingPackage(Error, ImportError):
+    """A package that an extra of hydro2d brings is not installed; the message has the command that installs it."""
+
+
+@contextmanager
+def from_extra(extra: str, wanted: str):
+    """For imports of packages that only an extra brings. Raises MissingPackage.
+
+    extra : its name in pyproject.toml
+    wanted : what needs the package, at the beginning of the message
+    """
+    try:
+        yield
+    except ModuleNotFoundError as error:
+        package = (error.name or "a package").partition(".")[0]
+        raise MissingPackage(f"{wanted} needs {package}, which is not installed: pip install 'hydro2d[{extra}]'") from None
 
 
 class UnphysicalState(Error):

@@ -515,3 +515,18 @@ def test_reprs_are_short(deck, shot):
     assert len(repr(hydro2d.open_study(shot.directory).cases[0])) < 250
     assert len(repr(shot)) < 120
     assert repr(shot.view()).startswith("<View: a page of ")
+
+
+# ---------------------------------------------------------------------------------------------------- extras
+
+
+def test_without_xarray_and_pandas_the_extra_is_told(shot, deck, tmp_path, monkeypatch):
+    """Results are read without them; what needs them says which extra brings them, a sweep before it runs anything."""
+    for name in ("pandas", "xarray"):
+        monkeypatch.setitem(sys.modules, name, None)
+    assert shot.history["time"].size > 1
+    for wanted in (lambda: shot.to_pandas(), lambda: shot.to_xarray(), lambda: shot.fields,
+                   lambda: hydro2d.sweep(deck, {"stop.time": [1e-6]}, directory=tmp_path / "sweep")):  # fmt: skip
+        with pytest.raises(ImportError, match=r"needs (pandas|xarray), which is not installed: pip install 'hydro2d\[data\]'"):
+            wanted()
+    assert not (tmp_path / "sweep").exists()

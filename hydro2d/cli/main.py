@@ -60,10 +60,10 @@ app.command(view)
 
 #: modules, and their exceptions that tell the user what to correct
 USER_ERRORS = (
-    ("errors", "DeckError"), ("files", "LockError"), ("strange", "StrangeFile"), ("penetration.model", "InputError"),
-    ("output.snapshot", "SnapshotError"), ("output.history", "HistoryError"), ("output.vtk", "VtkError"),
-    ("mesh.quantities", "FieldError"), ("running.run", "RunError"), ("results.reading", "ResultsError"),
-    ("results.scales", "FigureError"), ("results.viewer.fields", "ViewError"),
+    ("errors", "DeckError"), ("errors", "MissingPackage"), ("files", "LockError"), ("strange", "StrangeFile"),
+    ("penetration.model", "InputError"), ("output.snapshot", "SnapshotError"), ("output.history", "HistoryError"),
+    ("output.vtk", "VtkError"), ("mesh.quantities", "FieldError"), ("running.run", "RunError"),
+    ("results.reading", "ResultsError"), ("results.scales", "FigureError"), ("results.viewer.fields", "ViewError"),
     ("results.terminal_charts", "ChartError"),
     ("study.definition", "StudyError"),
 )

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from hydro2d.errors import from_extra
 from hydro2d.mesh import quantities
 from hydro2d.mesh.quantities import Quantity
 from hydro2d.output.vtk import Dump, VtkError, read_grid
@@ -71,8 +72,9 @@ def quantities_of(*dumps: Dump) -> list[Quantity]:
 
 
 def of_state(dump: Dump) -> xarray.Dataset:
-    """A state as a dataset over z and r; the time in s is a coordinate without dimension."""
-    import xarray
+    """A state as a dataset over z and r; the time in s is a coordinate without dimension. Raises MissingPackage."""
+    with from_extra("data", "a dataset of fields"):
+        import xarray
 
     variables = {}
     for quantity in quantities_of(dump):
@@ -99,11 +101,13 @@ def of_dumps(dumps: Sequence[tuple[float, Path]]) -> xarray.Dataset:
 
     dumps : times in s and files, at least one
 
-    Raises VtkError, also later where a file is damaged or gone.
+    Raises MissingPackage, and VtkError, also later where a file is damaged or gone.
     """
     import dask
     import dask.array
-    import xarray
+
+    with from_extra("data", "a dataset of fields"):
+        import xarray
 
     first, last = read_grid(dumps[0][1]), read_grid(dumps[-1][1])
     opened = [dask.delayed(_read)(path, first.shape) for _, path in dumps]  # all variables of a dump share one reading of it

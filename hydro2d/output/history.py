@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from hydro2d import checksums
-from hydro2d.errors import Error
+from hydro2d.errors import Error, from_extra
 from hydro2d.files import hdf5, replacing
 from hydro2d.mesh.measured import FRAGMENTS, in_file, unit
 from hydro2d.output import foreign
@@ -201,8 +201,12 @@ def _numbers(name: str, values) -> np.ndarray:
 
 
 def frame(columns: dict[str, np.ndarray]) -> pandas.DataFrame:
-    """Columns as a pandas.DataFrame with time in s as index and the regime in words; `attrs["units"]` has every unit."""
-    import pandas
+    """Columns as a pandas.DataFrame with time in s as index and the regime in words; `attrs["units"]` has every unit.
+
+    Raises MissingPackage.
+    """
+    with from_extra("data", "a history as a table"):
+        import pandas
 
     shown: dict = dict(columns) or {"time": np.empty(0)}
     if "regime" in shown:
@@ -213,8 +217,9 @@ def frame(columns: dict[str, np.ndarray]) -> pandas.DataFrame:
 
 
 def dataset(columns: dict[str, np.ndarray]) -> xarray.Dataset:
-    """Columns as an xarray.Dataset over the time in s, every variable with its unit."""
-    import xarray
+    """Columns as an xarray.Dataset over the time in s, every variable with its unit. Raises MissingPackage."""
+    with from_extra("data", "a history as a dataset"):
+        import xarray
 
     variables = {name: ("time", column, attributes(name)) for name, column in columns.items()}
     return xarray.Dataset({name: entry for name, entry in variables.items() if name != "time"},

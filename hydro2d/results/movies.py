@@ -102,7 +102,7 @@ def _writer(path: Path, rate: float):
     if FORMATS[path.suffix.lower()] == "pillow":
         return animation.PillowWriter(fps=rate)
     if not has_ffmpeg():
-        raise FigureError(f"{path}: ffmpeg is missing; `pip install imageio-ffmpeg` installs it, and a .gif needs none")
+        raise FigureError(f"{path}: ffmpeg is not installed: pip install 'hydro2d[movie]'; a .gif does not need it")
     return animation.FFMpegWriter(fps=rate, extra_args=["-pix_fmt", "yuv420p", "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2"])
 
 

@@ -15,7 +15,7 @@ from hydro2d.terminal import shown
 OF_PROJECTILE, OF_BODY = ("penetration_depth_m", "rod_tail_velocity_m_s"), ("velocity_m_s", "z_max_m")
 #: lines of a chart, and the fewest and most characters in one
 LINES, LEAST, MOST = 12, 40, 100
-MISSING = "histories are drawn by plotext 5, which is not installed; `pip install 'plotext<6'` adds it"
+MISSING = "a history in the terminal needs plotext 5, which is not installed: pip install 'hydro2d[terminal]'"
 
 
 class ChartError(Error):

@@ -10,6 +10,7 @@ from datetime import UTC, datetime
 
 from hydro2d import __version__
 from hydro2d.analytic import model_transition
+from hydro2d.errors import from_extra
 from hydro2d.study import differences, ensembles, regimes
 from hydro2d.study.contents import Contents
 from hydro2d.study.panels import Chart
@@ -29,7 +30,6 @@ def page(contents: Contents, choice: Choice, charts: Sequence[Chart], pictures: 
          views: Mapping[str, str] | None = None) -> str:  # fmt: skip
     """The whole file; ``fitted``: curves of a search with a budget; ``views``: links to the pages of runs, by case."""
     from jinja2 import Environment, PackageLoader, StrictUndefined
-    from plotly.offline import get_plotlyjs
 
     env = Environment(loader=PackageLoader(__package__), autoescape=True, undefined=StrictUndefined, trim_blocks=True,
                       lstrip_blocks=True)  # fmt: skip
@@ -38,7 +38,7 @@ def page(contents: Contents, choice: Choice, charts: Sequence[Chart], pictures: 
     states = Counter(each.case.status for each in contents.records)
     return env.get_template("report.html.j2").render(
         contents=contents, study=contents.study, table=TABLE, csv=to_csv(contents.rows), charts=charts, pictures=pictures,
-        films=films, fitted=fitted, views=views or {}, plotly=get_plotlyjs() if charts else "",
+        films=films, fitted=fitted, views=views or {}, plotly=charts_script() if charts else "",
         made=f"hydro2d {__version__}, {datetime.now(UTC):%Y-%m-%d %H:%M} UTC",
         states=", ".join(f"{number} {status}" for status, number in states.items()),
         transitions=_transitions(contents) if contents.study.search else None,
@@ -46,6 +46,13 @@ def page(contents: Contents, choice: Choice, charts: Sequence[Chart], pictures: 
         results=columns_of_results(contents.study, contents.rows, choice), audit=columns_of_audit(),
         decks=_decks(contents), origins=[_origin(each) for each in contents.records],
     )  # fmt: skip
+
+
+def charts_script() -> str:
+    """The script that draws the charts of a page. Raises MissingPackage."""
+    with from_extra("report", "a report"):
+        from plotly.offline import get_plotlyjs
+    return get_plotlyjs()
 
 
 def breakable(text: str):

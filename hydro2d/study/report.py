@@ -17,7 +17,7 @@ from hydro2d.results.viewer.packing import DEFAULT_BITS
 from hydro2d.strange import own
 from hydro2d.study import ensembles, layout, panels, pictures, responses, table
 from hydro2d.study.contents import Contents, collect
-from hydro2d.study.page import PAGE, TABLE, page
+from hydro2d.study.page import PAGE, TABLE, charts_script, page
 from hydro2d.terminal import say
 
 
@@ -50,8 +50,9 @@ def report(directories: Sequence[Path], out: Path | None = None, say: Callable[[
     view : whether the page of `hydro2d view` is made for every run with dumps; the report links to those that there are
     trust : whether the code of models from outside that the decks of the runs carry may be run
 
-    Returns the path of the page. Raises StudyError, FigureError, OSError.
+    Returns the path of the page. Raises MissingPackage, StudyError, FigureError, OSError.
     """
+    charts_script()  # what cannot be drawn is refused before the pictures are
     study = layout.load(directories[0]) if len(directories) == 1 else layout.gather(directories)
     folder = Path(out or own(Path(directories[0]) / "report"))
     if folder.exists() and not folder.is_dir():

@@ -75,7 +75,7 @@ def test_without_ffmpeg_the_cure_is_told(finished, tmp_path, monkeypatch, capsys
     monkeypatch.setattr(animation.FFMpegWriter, "isAvailable", classmethod(lambda _: False))
     monkeypatch.setitem(sys.modules, "imageio_ffmpeg", None)
     assert call(["movie", str(finished), "-o", str(tmp_path / "film.mp4")]) == 2
-    assert "pip install imageio-ffmpeg" in capsys.readouterr().err
+    assert "pip install 'hydro2d[movie]'" in capsys.readouterr().err
     assert not any(path.is_file() for path in tmp_path.iterdir())
 
 

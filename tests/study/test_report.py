@@ -3,6 +3,7 @@
 import csv
 import json
 import shutil
+import sys
 
 import pytest
 
@@ -350,6 +351,14 @@ def test_the_command(study, tmp_path, capsys):
         assert call(["report", str(study), "--out", str(tmp_path / "none"), option, "nothing"]) == 2
         assert capsys.readouterr().err.startswith(f"hydro2d: {option}: unknown {what}")
     assert not (tmp_path / "none").exists()
+
+
+def test_without_plotly_the_extra_is_told_and_nothing_is_written(study, tmp_path, monkeypatch, capsys):
+    monkeypatch.setitem(sys.modules, "plotly", None)
+    monkeypatch.setitem(sys.modules, "plotly.offline", None)
+    assert call(["report", str(study), "--out", str(tmp_path / "page")]) == 2
+    assert "a report needs plotly, which is not installed: pip install 'hydro2d[report]'" in capsys.readouterr().err
+    assert not (tmp_path / "page").exists()
 
 
 def test_reading_leaves_a_study_as_it_is(study):
