@@ -91,6 +91,8 @@ class Prediction:
     @property
     def in_words(self) -> str:
         """The velocity, or why there is none."""
+        if self.velocity == 0.0:
+            return "none: the rod is weaker than the target"
         return self.note or "rigid at any velocity" if self.velocity is None else f"{self.velocity:.0f} m/s"
 
     @property
@@ -172,7 +174,7 @@ def geometry(rod: str, nose: str) -> dict[str, Given]:
         "rod.mass": Given(sum(shot.mass for shot in shots) / len(shots), f"{source}, mean"),
     }
     if nose == "ogival":
-        found["nose.crh"] = Given(OGIVE_CRH, "tangent ogive of the study's mass and length; its figure is lost")
+        found["nose.crh"] = Given(OGIVE_CRH, "assumed: tangent ogive of the study's mass and length")
     return found
 
 

@@ -24,7 +24,7 @@ def status(
     plot: bool | None = None,
     watch: bool | None = None,
 ) -> int:
-    """Says where a run stands: time, what will end it and when, depth, dumps. A study has `hydro2d sweep STUDY --status`.
+    """Says how far a run has got, and when and why it will stop; depth and dumps. A study has `hydro2d sweep STUDY --status`.
 
     On a terminal it draws histories as well, and looks again every two seconds while the run goes on.
 

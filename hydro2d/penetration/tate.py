@@ -244,7 +244,7 @@ MODEL = Model(
         Output("transition_velocity", "m/s", "velocity up to which the rod is rigid; 0 for Y_p <= R_t", "v_tr"),
         Output("rod_strength", "Pa", "strength of the rod, with dynamic effects", "Y_p"),
         Output("resistance", "Pa", "resistance of the target", "R_t"),
-        Output("regime", "", f"{NO_PENETRATION}; {RIGID}; {ERODING}; or {ERODING_THEN_RIGID}"),
+        Output("regime", "", f"one of: {NO_PENETRATION}; {RIGID}; {ERODING}; {ERODING_THEN_RIGID}"),
     ),
     main="depth_over_length",
     example=Example(

@@ -126,7 +126,7 @@ MODEL = Model(
         Output("plastic_extent", "1", "radius of the plastic flow just after impact, in crater radii", "alpha"),
         Output("resistance", "Pa", "(7/3) Yt ln(alpha) just after impact", "R_t"),
         Output("crater_radius", "m", "radius of the crater", "R_c"),
-        Output("regime", "", "eroding; consumed; or eroding, then rigid"),
+        Output("regime", "", "one of: eroding; consumed; eroding, then rigid"),
     ),
     main="depth_over_length",
     example=Example(

@@ -1,4 +1,4 @@
-"""Where a run stands: how far it is, what it has written, what is likely to end it, and when."""
+"""How far a run has got, what it has written, and when and why it is likely to stop."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ def _end(stop: dict, columns: dict[str, np.ndarray], now: dict, progress: dict, 
     if first is None:
         return "not known: no stop condition can be foreseen"
     share, left = progress.get("fraction"), progress.get("left_s")
-    said = f"{first.reason}, at {moment(first.time)}"
+    said = f"should stop at {moment(first.time)} ({first.reason})"
     if share and left is not None and 0.0 < time <= first.time:  # left_s is the rest of the time that `fraction` is a share of
-        said += f", in about {duration(left * share / (1.0 - share) * (first.time - time) / time)}" if share < 1.0 else ""
-    return said + (f", unless the {projectile} goes through before" if stop.get("perforation") else "")
+        said += f", {duration(left * share / (1.0 - share) * (first.time - time) / time)} from now" if share < 1.0 else ""
+    return said + (f", unless the {projectile} perforates first" if stop.get("perforation") else "")

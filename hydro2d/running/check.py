@@ -120,8 +120,9 @@ class Check:
             ends = sorted(direction * (end - edge) for end in decks.extent(other, deck, "z"))
             if ends[1] > 0:
                 first = max(ends[0], 0.0)
-                found.append(f"          enters: {other.name}, from {first * 1e3:.4g} to {ends[1] * 1e3:.4g} mm of the way, at "
-                             f"{first / abs(entry.velocity[1]) * 1e6:.4g} us")  # fmt: skip
+                begin = first / abs(entry.velocity[1])
+                found.append(f"          {other.name} enters the mesh from {begin * 1e6:.4g} us on, over "
+                             f"{(ends[1] - first) * 1e3:.4g} mm of its travel")  # fmt: skip
         return found
 
     def _crosses(self) -> list[str]:

@@ -211,7 +211,7 @@ class Report:
         self.line(f"{origin['cpu']}, {origin['threads']} threads; results in {run.directory}")
         self.line(
             f"{grid.nr} x {grid.nz} cells ({grid.geometry}; r is x and the axis is r = 0, z is y), "
-            f"bodies in the order of their interfaces: {', '.join(run.sim.table.names)}"
+            f"interface order: {', '.join(run.sim.table.names)}"
         )
         if run.sim.cycle:
             self.line(f"continuing at cycle {run.sim.cycle}, t = {moment(run.sim.time)}")
@@ -304,7 +304,7 @@ def result(summary: dict) -> list[str]:
     lines += _derived(summary)
     lines += _peaks(summary)
     if moving := _moving(summary):
-        lines.append(f"moving at the end     {moving}")
+        lines.append(f"residual motion       {moving}")
     return [
         *lines,
         f"relative changes      mass {worst_mass(conserved):+.1e}, momentum {conserved['axial_momentum']:+.1e}, "
@@ -315,7 +315,7 @@ def result(summary: dict) -> list[str]:
 def _bars(summary: dict) -> list[str]:
     """Lengths of the bodies that were longer than wide at the start, and have changed, with the radii of their ends.
 
-    A body of which something has left the mesh has no length that could be told.
+    No length is reported once part of a body has left the mesh.
     """
     lines = []
     for name, body in summary["bodies"].items():
@@ -339,8 +339,8 @@ def _derived(summary: dict) -> list[str]:
 def _peaks(summary: dict) -> list[str]:
     """The largest pressure and speed that tracers and gauges have had."""
     found = {name: station for name, station in summary["stations"].items() if station.get("peak_pressure_Pa") is not None}
-    lines = [f"{name.replace('_', ' ', 1):<21} at most {found[name]['peak_pressure_Pa'] / 1e9:.4g} GPa, at "
-             f"{moment(found[name]['peak_pressure_time_s'])}, and {found[name]['peak_speed_m_s']:.1f} m/s"
+    lines = [f"{name.replace('_', ' ', 1):<21} peak pressure {found[name]['peak_pressure_Pa'] / 1e9:.3g} GPa at "
+             f"{moment(found[name]['peak_pressure_time_s'])}, peak speed {found[name]['peak_speed_m_s']:.0f} m/s"
              for name in list(found)[:MOST_STATIONS]]
     more = len(found) - len(lines)
     return lines + ([f"{more} more tracers and gauges are in summary.json"] if more else [])

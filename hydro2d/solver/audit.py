@@ -17,7 +17,7 @@ CLIPS = {name: SINKS[name] for name in ("cutoff", "ke_bound", "speed_limit")}
 BRINGS = ("inflow", "walls", "transmitted")
 
 #: what keeps a clip from taking much, where runs have shown it (problems/classic/README.md)
-REMEDIES = {"ke_bound": 'numerics.advection = "both" has no such bound'}
+REMEDIES = {"ke_bound": 'try numerics.advection = "both"'}
 
 #: what a contact passes on within the balance: axial momentum from the hard bodies to the soft ones, and the heat that it makes
 CONTACT_TRANSFERS = {

@@ -178,7 +178,7 @@ class Cycle:
                 int(min(box[3] + margin, i1))]
 
     def activate(self) -> None:
-        """Lets the active box grow ahead of whatever moves (explanation/active-region)."""
+        """Lets the active box grow ahead of whatever moves (explanation/speed, equation 1)."""
         if self.box == list(self.mesh_box):
             return
         s, (j0, j1, i0, i1) = self.state, self.box

@@ -61,7 +61,7 @@ def faults(state, audit: Audit, names, reach: Reach, share: float = TRUSTED) -> 
     for name in CLIPS:
         taken = audit.sinks[name].energy
         if not abs(taken) <= share * energy:
-            told = f"{taken / energy:.2g} of the energy went to {name} ({CLIPS[name]}), more than {share:g} of it"
+            told = f"{name} has removed {100 * taken / energy:.2g} % of the energy ({CLIPS[name]}; limit {100 * share:g} %)"
             found.append(told + (f"; {REMEDIES[name]}" if name in REMEDIES else ""))
     lost = audit.sinks["advection"].energy
     if not -lost <= share * energy:

@@ -129,7 +129,7 @@ def _short(fault: str) -> str:
     """The clip that a fault names; "a hot cell", "a cold cell", "energy discarded"; or the fault."""
     doubts = {f"a {what} cell": f'" is too {what} with ' for what in ("hot", "cold")}
     doubts["energy discarded"] = "velocities has discarded "
-    told = {**{name: f" went to {name} " for name in CLIPS}, **doubts}
+    told = {**{name: f"{name} has removed " for name in CLIPS}, **doubts}
     return next((name for name, part in told.items() if part in fault), fault)
 
 

@@ -3,6 +3,7 @@
 import csv
 import json
 import math
+import re
 import shlex
 
 import pytest
@@ -316,6 +317,11 @@ def test_how_far_from_a_bracket():
     assert model_transition.extent(above) == "above 1000 m/s"
     assert model_transition.extent(model_transition.Bracket("a", None, 900.0, "")) == "below 900 m/s"
     assert model_transition.extent(model_transition.Bracket("a", 1000.0, 900.0, "")).startswith("none")
+
+
+def test_a_rod_weaker_than_its_target_has_no_transition(capsys):
+    assert call(["model", "transition", "--rod", "copper_OFHC", "--target", "steel_4340"]) == 0
+    assert re.search(r"tate +none: the rod is weaker than the target +not an input", capsys.readouterr().out)
 
 
 def run_directory(folder, velocity, regime, overrides=()):

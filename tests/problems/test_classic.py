@@ -81,8 +81,8 @@ def study(tmp_path, monkeypatch):
     bodies = {"block": {"velocity_m_s": 151.26}}
     found = [
         case(tmp_path / "a", "block_in_hole", "both", bodies=bodies),
-        case(tmp_path / "b", "block_in_hole", "ke", bodies=bodies, clipped=1.2, fault="0.03 of the energy went to cutoff (k)"),
-        case(tmp_path / "c", "crater", "ke", "unphysical", 0.9, "0.022 of the energy went to ke_bound (k), more; a remedy"),
+        case(tmp_path / "b", "block_in_hole", "ke", bodies=bodies, clipped=1.2, fault="cutoff has removed 3 % of it (k)"),
+        case(tmp_path / "c", "crater", "ke", "unphysical", 0.9, "ke_bound has removed 2.2 % of it (k; limit 2 %); a remedy"),
         case(tmp_path / "d", "crater", "both", "running"),
     ]
     monkeypatch.setattr(table.layout, "read", lambda directory: SimpleNamespace(cases=found))

@@ -36,7 +36,7 @@ def test_a_run_under_way(under_way, capsys):
     assert found["run"] == "A made shot"
     assert found["state"].startswith("running: process ")
     assert found["time"] == "40.000 us, cycle 1000, 1 min 40 s of computing"
-    assert found["end"] == "end time, at 80.000 us, in about 1 min 30 s, unless the rod goes through before"
+    assert found["end"] == "should stop at 80.000 us (end time), 1 min 30 s from now, unless the rod perforates first"
     assert found["depth"] == "40.00 mm, in the experiment 30.00 mm"
     assert found["rod"] == "rigid, 26.00 mm long"
     assert found["dumps"] == "3, the last at 40.000 us"
@@ -68,7 +68,7 @@ def test_a_projectile_that_has_gone_through_has_no_depth(under_way, capsys):
 def test_a_run_that_was_left(under_way, capsys):
     found = said(under_way, capsys)
     assert found["state"].startswith("waiting: ")
-    assert found["end"] == "end time, at 80.000 us, unless the rod goes through before"  # nobody computes
+    assert found["end"] == "should stop at 80.000 us (end time), unless the rod perforates first"  # nobody computes
 
 
 def test_a_run_without_anything_yet(under_way, capsys):

@@ -57,7 +57,7 @@ def test_check_says_how_far_the_mesh_reaches_and_what_enters():
     said = [line for line in lines if "follow " in line or "enters" in line]
     assert said == [
         "follow    rod: the mesh reaches 8.3 mm (3.77 radii) ahead of it and 2.6 mm behind",
-        "          enters: second, from 12 to 22 mm of the way, at 12 us",
+        "          second enters the mesh from 12 us on, over 10 mm of its travel",
     ]
     assert any('the mesh ends 3.77 radii ahead of "rod"; below 20 its edge is felt' in line for line in lines)
 

@@ -98,7 +98,7 @@ def test_a_clip_that_took_much(shot, clip):
     shot.state.e[0] -= 0.05 * start / totals(shot.state).mass[0]
     shot.audit.add(clip, energy=0.05 * start)
     (fault,) = shot.faults()
-    assert fault.startswith(f"0.05 of the energy went to {clip} (")
+    assert fault.startswith(f"{clip} has removed 5 % of the energy (")
     assert shot.faults(share=0.06) == []
 
 

@@ -40,7 +40,7 @@ def test_a_shot_begins_with_all_defaults(name):
 
 @pytest.mark.parametrize("name", ["crater", "bumper"])
 def test_the_scheme_that_clips_fails_and_the_message_names_the_remedy(name):
-    with pytest.raises(UnphysicalState, match='went to ke_bound .*; numerics.advection = "both" has no such'):
+    with pytest.raises(UnphysicalState, match='ke_bound has removed .*; try numerics.advection = "both"'):
         begin(name, advection("ke"))
 
 
