@@ -158,10 +158,3 @@ def test_results_on_a_page_are_kept_ones(page, least):
     told = set(CELL.findall((source.ROOT / f"docs/explanation/{page}.md").read_text(encoding="utf-8")))
     assert len(told) > least
     assert sorted(told - {str(result) for file in KEPT for result in rigid_rod.read(file)}) == []
-
-
-def test_every_kept_result_is_on_the_page_of_all_runs():
-    page = (source.ROOT / "docs/explanation/rigid-rod-runs.md").read_text(encoding="utf-8")
-    shown = re.findall(r"^:file: ../../(.*)$", page, flags=re.M)
-    assert sorted(shown) == sorted(str(file.relative_to(source.ROOT)) for file in KEPT)
-    assert f"The {sum(len(rigid_rod.read(file)) for file in KEPT)} runs behind" in page

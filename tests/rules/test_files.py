@@ -83,12 +83,38 @@ def test_the_installed_problems_are_the_shipped_ones():
     assert Path(next(iter(import_module("hydro2d.problems").__path__))) == source.PROBLEMS
 
 
+EXTRAS = project()["project"]["optional-dependencies"]
+
+
+def test_every_dependency_says_what_it_is_for():
+    text = (source.ROOT / "pyproject.toml").read_text()
+    lines = text[text.index("\ndependencies = ["): text.index("[project.optional-dependencies]")].splitlines()
+    entries = [line for line in lines if line.startswith('    "')]
+    assert len(entries) == len(project()["project"]["dependencies"])
+    assert [line for line in entries if not re.search(r",\s+# \w", line)] == []
+
+
+def test_messages_and_pages_name_extras_that_there_are():
+    files = [file for file in TEXT_FILES if file.suffix in (".py", ".md") and "tests" not in file.parts]
+    text = "\n".join(file.read_text(encoding="utf-8") for file in files)
+    named = {*re.findall(r'from_extra\("(\w+)"', text), *re.findall(r"'hydro2d\[(\w+)\]'", text)}
+    assert named >= {"report", "data", "slurm", "movie", "terminal"}
+    assert named - set(EXTRAS) == set()
+
+
 def test_versions_agree():
     from hydro2d import __version__
 
     assert project()["project"]["version"] == __version__
     assert f"\nversion: {__version__}\n" in (source.ROOT / "CITATION.cff").read_text()
     assert f"## [{__version__}]" in (source.ROOT / "CHANGELOG.md").read_text()
+
+
+def test_the_readme_is_one_screen_and_a_page():
+    """Words before its first heading, which a reader gets at once, and after it."""
+    first, rest = (source.ROOT / "README.md").read_text().split("\n## ", 1)
+    assert len(first.split()) <= 300
+    assert len(rest.split()) <= 600
 
 
 def test_the_readme_commands_exist():
