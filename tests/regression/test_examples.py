@@ -68,7 +68,6 @@ FILLED = {
 }
 #: what a page takes for granted in its folder: a deck or a study that has run, or a file that it gives as its first toml block
 PRESUMED = {
-    "README.md": {"runs/shot": DECK},
     "docs/tutorials/first-study.md": {"first_study.toml": ""},
     "docs/how-to/depth-curves.md": {"curve.toml": ""},
     "docs/how-to/find-a-transition.md": {"limit.toml": ""},
