@@ -69,7 +69,7 @@ def test_no_space_at_any_write_of_a_run(deck, tmp_path, monkeypatch, once):
 
 
 def test_no_space_at_any_write_of_a_case(deck, tmp_path, monkeypatch):
-    monkeypatch.setattr("hydro2d.running.compilation.once", lambda key, compile: None)
+    monkeypatch.setattr("hydro2d.compilation.once", lambda key, compile: None)
     monkeypatch.setattr("hydro2d.study.case.kernels", lambda deck: "")
     monkeypatch.setattr("hydro2d.study.case.decks.loads", lambda text: deck)
     text, disk = deck.to_toml(), Disk(monkeypatch)
