@@ -382,6 +382,19 @@ class Run:
         never counts the extra row and dump that are written after the end.
         """
         attempts = Attempts()
+        with self._spending("outputs_s"):
+            self._last_outputs(status, attempts)
+        with attempts.writing(self.directory / SUMMARY):
+            summary = self.summary(*(("interrupted", attempts.told) if attempts.told else (status, reason)))
+            remove(self.directory / PROGRESS)
+            write_json(self.directory / SUMMARY, summary)
+        attempts.conclude()
+        with writing(self.directory / LOG):
+            self.report.end(self, summary)
+        return summary
+
+    def _last_outputs(self, status: str, attempts: Attempts) -> None:
+        """Restart file, last row and last dump."""
         with attempts.writing(self.directory / HISTORY):
             self.history.craters, self.history.debris = self.sim.holes(), self.sim.debris()
         state = self.good if status == "unphysical" else self._snapshot()
@@ -397,14 +410,6 @@ class Run:
         with attempts.writing(self.directory / LOG):
             if text := self.team.told():
                 self.report.line(text)
-        with attempts.writing(self.directory / SUMMARY):
-            summary = self.summary(*(("interrupted", attempts.told) if attempts.told else (status, reason)))
-            remove(self.directory / PROGRESS)
-            write_json(self.directory / SUMMARY, summary)
-        attempts.conclude()
-        with writing(self.directory / LOG):
-            self.report.end(self, summary)
-        return summary
 
     def _last_row(self, status: str) -> None:
         """Writes the row of the end. An unphysical state may be one that a column of the user's cannot bear."""
