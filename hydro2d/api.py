@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from hydro2d import toml
+from hydro2d.analytic import beside
 from hydro2d.deck import deck as decks
 from hydro2d.deck import plain_numbers
 from hydro2d.deck.deck import Deck
@@ -64,7 +65,8 @@ def run(deck: Deck | str | Path, directory: str | Path | None = None, *, threads
     deck = deck if isinstance(deck, Deck) else Deck.from_file(deck)
     directory = Path(directory or str(deck.output.directory))
     with at_most(threads):
-        summary = runs.run(deck, directory, restart=restart, overwrite=overwrite, quiet=quiet, columns=columns)
+        summary = runs.run(deck, directory, restart=restart, overwrite=overwrite, quiet=quiet, columns=columns,
+                           theory=beside.lines)  # fmt: skip
     if summary["status"] == "interrupted":
         raise KeyboardInterrupt(f"{directory}: {summary['stop_reason']}")
     if summary["status"] == "unphysical":

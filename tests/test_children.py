@@ -9,7 +9,7 @@ import pytest
 
 import hydro2d
 from hydro2d import children
-from hydro2d.running.compilation import Second
+from hydro2d.compilation import Second
 from hydro2d.study import cluster
 from tests.materials.made_models import DECK, VOCE
 
@@ -60,7 +60,7 @@ def test_the_second_compiler(planted, monkeypatch):
 
     monkeypatch.setattr(os, "sched_getaffinity", lambda _: {0, 1}, raising=False)
     second = Second(NoDeck())
-    second.start()
+    second.start(print)
     assert second._process.wait(timeout=60) == 1  # it has come as far as the deck, which is wrong
     assert found(planted) == ""
 

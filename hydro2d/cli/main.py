@@ -99,6 +99,13 @@ def _load(deck: Path, overrides: list[str] | None):
     return decks.load(deck, overrides or [])
 
 
+def _theory(deck, summary: dict) -> list[str]:
+    """What analytic models say of a run that is done."""
+    from hydro2d.analytic import beside
+
+    return beside.lines(deck, summary)
+
+
 @app.command
 def run(
     deck: Path,
@@ -131,7 +138,7 @@ def run(
         Overrides a value of the deck, as key=value; can be repeated.
     threads
         Largest number of threads; default: all cores. A run uses fewer where that is faster, for example on a small mesh or a
-        busy machine. The results do not depend on the number of threads.
+        busy machine, and compiles kernels with a second process unless it is 1. The results do not depend on it.
     restart
         Continues the run in the directory from its restart file; the results are bitwise the same.
     overwrite
@@ -163,7 +170,7 @@ def run(
         from hydro2d.running import run as runs
 
         resolved = _load(deck, set_ if member is None else chosen.overrides(deck, set_ or []))
-        found = runs.run(resolved, out, restart=restart, overwrite=overwrite, quiet=quiet, interrupt=interrupt)
+        found = runs.run(resolved, out, restart=restart, overwrite=overwrite, quiet=quiet, interrupt=interrupt, theory=_theory)
     status = runs.exit_status(found)
     if quiet and status == runs.UNPHYSICAL:
         return _told(f"{out or resolved.output.directory}: unphysical: {found['stop_reason']}", status)

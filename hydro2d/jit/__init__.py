@@ -38,10 +38,11 @@ from hydro2d.jit.calls import (
 )
 from hydro2d.jit.elementary import exp, log, power
 from hydro2d.jit.options import compiler_events, host_cpu
-from hydro2d.jit.recording import Call, profiling, recorded, timings
+from hydro2d.jit.recording import FIRST_CALL, Call, is_recording, profiling, recorded, timings
 
 __all__ = [
-    "Call", "GATE", "add_model", "all_folder", "apart", "by_id", "compiler_events", "exp", "host_cpu", "kernel", "late", "log",
-    "max_threads", "module_of", "modules", "parts_at_once", "phase", "plus", "point", "power", "prange", "profiling",
-    "recorded", "returns", "rows_by_id", "rowwise", "serial", "set_threads", "threaded", "threads", "timings", "wait",
+    "Call", "FIRST_CALL", "GATE", "add_model", "all_folder", "apart", "by_id", "compiler_events", "exp", "host_cpu",
+    "is_recording", "kernel", "late", "log", "max_threads", "module_of", "modules", "parts_at_once", "phase", "plus", "point",
+    "power", "prange", "profiling", "recorded", "returns", "rows_by_id", "rowwise", "serial", "set_threads", "threaded",
+    "threads", "timings", "wait",
 ]  # fmt: skip

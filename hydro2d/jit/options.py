@@ -103,6 +103,12 @@ _one_writes_at_a_time()
 compiler_events = numba.core.event
 
 
+def is_cached(compiled, types: tuple) -> bool:
+    """Whether the cache has a compiled function for these types of its arguments."""
+    index = compiled._cache
+    return index._index_key(types, compiled.targetctx.codegen()) in index._cache_file._load_index()
+
+
 def host_cpu() -> str:
     """The processor that code is compiled for, as LLVM names it."""
     return llvmlite.binding.get_host_cpu_name()

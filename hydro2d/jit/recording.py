@@ -11,7 +11,11 @@ from pathlib import Path
 
 from hydro2d.files import turn
 from hydro2d.jit.cache import all_folder
+from hydro2d.jit.options import compiler_events, is_cached
 
+#: the event of a kernel's first call in a process, in which it is compiled, read from the cache, or waited for while another
+#: process compiles it; its data has the name as "kernel"
+FIRST_CALL = "hydro2d:first-call"
 #: wall seconds and calls by the name of a phase, or of a kernel that Python calls, filled while `profiling(True)` is on
 timings: dict[str, list[float]] = {}
 _profiling, _each_kernel = False, False
@@ -42,8 +46,12 @@ class Call:
 
     def compile(self) -> None:
         """Compiles the kernel for these types, or takes it from the cache, while no other process does."""
-        with turn(_kernel_lock(self.name)):
+        with _first_call(self.name):
             self.compiled.compile(self.types)
+
+    def is_compiled(self) -> bool:
+        """Whether the kernel is compiled for these types: it is known to this process or in the cache."""
+        return self.types in self.compiled.overloads or is_cached(self.compiled, self.types)
 
 
 #: calls of kernels, while they are written down and not done
@@ -61,8 +69,16 @@ def recorded() -> Iterator[list[Call]]:
         _calls = None
 
 
-def _kernel_lock(name: str) -> Path:
-    return Path(all_folder()) / f"{name}.lock"
+def is_recording() -> bool:
+    """Whether calls of kernels are written down and not done."""
+    return _calls is not None
+
+
+@contextmanager
+def _first_call(name: str) -> Iterator[None]:
+    """The first call of a kernel in this process, while no other process makes its own; whoever listens is told."""
+    with compiler_events.trigger_event(FIRST_CALL, data={"kernel": name}), turn(Path(all_folder()) / f"{name}.lock"):
+        yield
 
 
 def called(function, compiled, of_kernels=False):
@@ -85,7 +101,7 @@ def called(function, compiled, of_kernels=False):
             result = compiled(*arguments)
         else:
             known = True
-            with turn(_kernel_lock(name)):
+            with _first_call(name):
                 result = compiled(*arguments)
         if _profiling:
             entry = timings.setdefault(function.__name__, [0.0, 0])

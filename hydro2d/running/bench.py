@@ -19,12 +19,12 @@ from pathlib import Path
 
 import numpy as np
 
-from hydro2d import jit
+from hydro2d import jit, moving
+from hydro2d.compilation import announced
 from hydro2d.deck import deck as decks
 from hydro2d.interrupt import Interrupt
 from hydro2d.kernels.triad import triad
 from hydro2d.running import provenance, reporting, run
-from hydro2d.running.compilation import announced
 from hydro2d.solver.simulation import Simulation
 from hydro2d.terminal import say
 
@@ -342,7 +342,7 @@ def _tell(case: dict, result: dict, say: Callable[[str], None], *, phases: bool)
 
 def main(json: Path | None = None, *, shot: bool = False) -> int:
     """Runs every case on one thread and on all, prints a table, and writes it as JSON if a file is named."""
-    with announced(say):
+    with announced(moving.place()):
         result = collect(shot=shot)
     if json is not None:
         Path(json).write_text(json_format.dumps(result, indent=1))

@@ -13,6 +13,8 @@ RECENT, FEWEST = 0.25, 5
 ROUNDING = 1e-6
 #: the end that is not foreseen but known
 END_TIME = "end time"
+#: how the time of an end is foreseen that is not that of the clock
+AS_IT_SLOWS = "as it slows now"
 
 
 @dataclass(frozen=True)
@@ -41,7 +43,7 @@ def ends(stop: Mapping, columns: Mapping[str, np.ndarray]) -> Iterator[End]:
         speed = columns.get("rod_core_velocity_m_s", columns.get(f"body_{body}_velocity_m_s"))
         reason = "rebound" if slow is None else f"speed below {slow:g} m/s"
         if speed is not None:
-            yield from _reached(f"{reason} as it slows now", time, -np.abs(speed[-rows:]), -(slow or 0.0))
+            yield from _reached(f"{reason} {AS_IT_SLOWS}", time, -np.abs(speed[-rows:]), -(slow or 0.0))
 
 
 def needed(stop: Mapping) -> tuple[str, ...]:

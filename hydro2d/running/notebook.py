@@ -2,42 +2,12 @@
 
 from __future__ import annotations
 
-import html
-import sys
 import time as clock
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
+from hydro2d.moving import Page
 from hydro2d.running.progress import TABLE_SECONDS, Report, values
-from hydro2d.terminal import shown
-
-
-def is_notebook() -> bool:
-    """Whether this process is the kernel of a notebook, which shows HTML."""
-    found = sys.modules.get("IPython")
-    shell = found.get_ipython() if found is not None else None
-    return shell is not None and hasattr(shell, "kernel")
-
-
-class Page:
-    """What stands below the cell, as HTML for notebooks and as text for what shows no HTML."""
-
-    def __init__(self, lines: list[str], done: float | None = None, table: dict[str, str] | None = None):
-        self._lines, self._done, self._table = lines, done, table or {}
-
-    def __repr__(self) -> str:
-        return "\n".join([*map(shown, self._lines), *(f"{name}  {value}" for name, value in self._table.items())])
-
-    def _repr_html_(self) -> str:
-        text = html.escape("\n".join(map(shown, self._lines)))
-        parts = [f"<pre>{text}</pre>"] if text else []
-        if self._table:
-            share = "" if self._done is None else f' value="{self._done:.4f}"'
-            rows = "".join(f"<tr><th>{html.escape(name)}</th><td>{html.escape(shown(value))}</td></tr>"
-                           for name, value in self._table.items())  # fmt: skip
-            parts.append(f'<progress max="1"{share} style="width: 30em" aria-label="share of the run that is done"></progress>'
-                         f"<table>{rows}</table>")  # fmt: skip
-        return "".join(parts)
 
 
 class Notebook(Report):
@@ -53,6 +23,12 @@ class Notebook(Report):
 
     def show(self, text: str) -> None:
         self._lines.append(text)
+        self._draw(Page(self._lines))
+
+    def move(self, text: str, share: float | None) -> None:
+        self._draw(Page([*self._lines, text], share, bar=True))
+
+    def rest(self, text: str) -> None:
         self._draw(Page(self._lines))
 
     def begin(self, run) -> None:

@@ -5,6 +5,8 @@ The report in a notebook is in `notebook.py`; `reporting.py` chooses among them.
 
 from __future__ import annotations
 
+import re
+import shlex
 import sys
 import time as clock
 from collections import deque
@@ -14,6 +16,7 @@ from typing import NamedTuple, TypeVar
 
 from hydro2d.interrupt import lose_output
 from hydro2d.mesh.measured import unit
+from hydro2d.moving import LINE_SECONDS
 from hydro2d.output.history import Columns
 from hydro2d.running import ending
 from hydro2d.running.ending import End
@@ -21,13 +24,15 @@ from hydro2d.terminal import one_line, say
 
 T = TypeVar("T")
 
-#: seconds between lines, and between refreshes of the table
-LINE_SECONDS, TABLE_SECONDS = 5.0, 0.5
+#: seconds between refreshes of the table
+TABLE_SECONDS = 0.5
 #: bodies with more than this share of the largest kinetic energy are told to move at the end, and this many of them
 SHOWN, MOST_SHOWN = 1e-3, 6
 #: bodies whose length has changed by less than this share of it are told no length; tracers and gauges that are told
 SAME_LENGTH, MOST_STATIONS = 1e-3, 12
 AS_LONG = 1e-2  # projectiles whose length and diameter differ by less than this share are as long as they are thick
+#: what a run spends time on beside its cycles, by key of the summary; less than this many seconds are not told
+OTHER_COSTS, LEAST_COST = {"compilation": "compilation_s", "set-up": "set_up_s", "outputs": "outputs_s"}, 0.05
 #: seconds over which the pace is measured
 PACE_SECONDS = 60.0
 
@@ -134,7 +139,7 @@ class Clock:
 
 
 def how_far(sim, found: Outlook) -> str:
-    """'12.300 us of 200.000 us (6.2 %)', or '12.300 us of about 61.000 us (20.2 %; speed below 5 m/s as it slows now)'."""
+    """'12.300 us of 200.000 us (6.2 %)', or '12.300 us of about 61.000 us (20.2 %; speed below 5 m/s)'."""
     said = moment(sim.time)
     if found.share is None:
         return said
@@ -142,7 +147,8 @@ def how_far(sim, found: Outlook) -> str:
         return f"{said} ({100 * found.share:.1f} % of the cycles)"
     if found.end.reason == ending.END_TIME:
         return f"{said} of {moment(found.end.time)} ({100 * found.share:.1f} %)"
-    return f"{said} of about {moment(found.end.time)} ({100 * found.share:.1f} %; {found.end.reason})"
+    reason = found.end.reason.removesuffix(f" {ending.AS_IT_SLOWS}")  # "about" says it
+    return f"{said} of about {moment(found.end.time)} ({100 * found.share:.1f} %; {reason})"
 
 
 def values(run, outlook: Outlook) -> dict[str, str]:
@@ -175,12 +181,15 @@ class Report:
 
     def __init__(self, log, quiet: bool, gone: Callable[[], None] = lambda: None):
         self._log, self._quiet, self._gone = log, quiet, gone
-        self._last = 0.0
+        self._last, self._moved = 0.0, float("-inf")
 
     def line(self, text: str) -> None:
         """A line for the log and the screen."""
         text = one_line(text)
         self.note(f"{datetime.now().isoformat(timespec='seconds')}  {text}")
+        self._show_safely(text)
+
+    def _show_safely(self, text: str) -> None:
         if not self._quiet:
             try:
                 self.show(text)
@@ -200,6 +209,16 @@ class Report:
 
     def show(self, text: str) -> None:
         say(text, flush=True)
+
+    def move(self, text: str, share: float | None) -> None:
+        """The state of something that takes long; where it cannot be redrawn, a line now and then. The log gets none."""
+        now = clock.monotonic()
+        if now - self._moved >= LINE_SECONDS:
+            self._moved = now
+            self._show_safely(text)
+
+    def rest(self, text: str) -> None:
+        """The state is no longer shown."""
 
     def begin(self, run) -> None:
         grid, origin = run.sim.grid, run.provenance
@@ -233,7 +252,7 @@ class Report:
         )
 
     def end(self, run, summary: dict) -> None:
-        for text in result(summary):
+        for text in result(summary, run.theory(summary)):
             self.line(text)
 
     def close(self) -> None:
@@ -248,11 +267,26 @@ class Live(Report):
 
         super().__init__(log, quiet, gone)
         self._live = RichLive(refresh_per_second=4, transient=True)
-        self._drawn = 0.0
+        self._drawn, self._table = 0.0, None
 
     def begin(self, run) -> None:
         super().begin(run)
         self._live.start()
+
+    def move(self, text: str, share: float | None) -> None:
+        self._live.start()
+        self._live.update(self._with_line(one_line(text)))
+
+    def rest(self, text: str) -> None:
+        self._live.update(self._with_line(""))
+
+    def _with_line(self, text: str):
+        """The table, if there is one yet, with a line below it."""
+        from rich.console import Group
+        from rich.text import Text
+
+        line = [Text(text, overflow="ellipsis", no_wrap=True)] if text else []
+        return Group(*([self._table] if self._table else []), *line)
 
     def show(self, text: str) -> None:
         self._live.console.print(text, highlight=False, markup=False, soft_wrap=True)
@@ -266,11 +300,12 @@ class Live(Report):
         super().update(run)
         now = clock.perf_counter()
         if now - self._drawn >= TABLE_SECONDS:
-            self._drawn = now
-            self._live.update(self._picture(run))
+            self._drawn, self._table = now, self._picture(run)
+            self._live.update(self._table)
 
     def _picture(self, run):
         from rich.console import Group
+        from rich.padding import Padding
         from rich.progress_bar import ProgressBar
         from rich.table import Table
         from rich.text import Text
@@ -278,7 +313,8 @@ class Live(Report):
         table, outlook = Table.grid(padding=(0, 2)), run.clock.look(run.sim)
         for name, value in values(run, outlook).items():
             table.add_row(Text(one_line(name), no_wrap=True), Text(one_line(value), overflow="fold"))
-        return Group(ProgressBar(total=1.0, completed=outlook.share or 0.0, width=60, pulse=outlook.share is None), table)
+        bar = ProgressBar(total=1.0, completed=outlook.share or 0.0, width=60, pulse=outlook.share is None)
+        return Group(Padding(bar, 0, expand=False), table)  # a bar alone does not end its line
 
     def close(self) -> None:
         self._live.stop()
@@ -288,17 +324,19 @@ class Live(Report):
         super().end(run, summary)
 
 
-def result(summary: dict) -> list[str]:
-    """The final lines: the result beside that of the experiment."""
+def result(summary: dict, theory: Sequence[str] = ()) -> list[str]:
+    """The final lines: the result beside that of the experiment.
+
+    theory : lines that stand below the depth
+    """
     conserved = summary["conservation"]
     lines = [
-        f"{summary['status']}: {summary['stop_reason']}",
+        _how_it_ended(summary),
         *(f"NOT TRUSTWORTHY: {fault}" for fault in summary["faults"] if fault not in summary["stop_reason"]),
-        f"{summary['cycles']} cycles to {moment(summary['time_s'])} in {duration(summary['wall_s'])}"
-        + (f", {summary['ns_per_cell_cycle']:.1f} ns per cell and cycle" if summary["ns_per_cell_cycle"] else ""),
+        _costs(summary),
     ]
     if summary["penetration_depth_m"] is not None:
-        lines += _rod(summary)
+        lines += _rod(summary, theory)
     else:
         lines += _bars(summary)
     lines += _derived(summary)
@@ -310,6 +348,38 @@ def result(summary: dict) -> list[str]:
         f"relative changes      mass {worst_mass(conserved):+.1e}, momentum {conserved['axial_momentum']:+.1e}, "
         f"energy {conserved['total_energy']:+.1e}",
     ]
+
+
+def _how_it_ended(summary: dict) -> str:
+    """'done: end time', or 'interrupted at 26.800 us (SIGINT); continue with: hydro2d run shot.toml --restart'."""
+    why = re.fullmatch(r"interrupted \((.*)\)", summary["stop_reason"])
+    if summary["status"] != "interrupted" or why is None:
+        return f"{summary['status']}: {summary['stop_reason']}"
+    return (f"interrupted at {moment(summary['time_s'])} ({why[1]}); "
+            f"continue with: {continuing(summary['provenance']['command'])}")
+
+
+def continuing(command: str) -> str:
+    """What continues a run that was begun by a command: that command with --restart, or the argument of `hydro2d.run`."""
+    words = [word for word in shlex.split(command) if word not in ("--overwrite", "--restart")]
+    start = 3 if words[:2] == ["python", "-m"] else 1
+    if words[start - 1 : start + 1] != ["hydro2d", "run"]:
+        return "hydro2d.run(..., restart=True)"
+    return shlex.join([*words, "--restart"])
+
+
+def spent(seconds: float) -> str:
+    """'0.4 s', '3.1 s', '77 s', '4 min 09 s': short times with a tenth of a second."""
+    return f"{seconds:.1f} s" if seconds < 9.95 else f"{seconds:.0f} s" if seconds < 99.5 else duration(seconds)
+
+
+def _costs(summary: dict) -> str:
+    """'450 cycles to 26.800 us in 3.1 s (31.2 ns per cell and cycle, cycles alone); compilation 77 s, outputs 0.4 s'."""
+    pace = summary["ns_per_cell_cycle"]
+    others = [f"{name} {spent(summary[key])}" for name, key in OTHER_COSTS.items() if summary[key] >= LEAST_COST]
+    return (f"{summary['cycles']} cycles to {moment(summary['time_s'])} in {spent(summary['cycles_s'])}"
+            + (f" ({pace:.1f} ns per cell and cycle, cycles alone)" if pace else "")
+            + (f"; {', '.join(others)}" if others else ""))
 
 
 def _bars(summary: dict) -> list[str]:
@@ -374,7 +444,7 @@ def _over_length(summary: dict) -> str:
     return f", P/{'D' if abs(thick - shape['initial_length_m']) < AS_LONG * thick else 'L'} {ratio:.3f}"
 
 
-def _rod(summary: dict) -> list[str]:
+def _rod(summary: dict, theory: Sequence[str]) -> list[str]:
     from hydro2d.solver.penetrator import LEFT
 
     depth, experiment, shape = summary["penetration_depth_m"], summary["experiment"], summary["projectile"]
@@ -391,6 +461,7 @@ def _rod(summary: dict) -> list[str]:
         error = f" (error {(depth - measured) * 1e2:+.2f} cm, {100 * (depth / measured - 1):+.1f} %)"
         qualifier = "" if experiment["qualifier"] == "measured" else f"{experiment['qualifier']} "
         lines.append(f"  experiment          {qualifier}{measured * 1e2:.2f} cm{error}  {experiment['source']}")
+    lines += theory
     if shape.get("residual_mass_kg") is not None:
         velocity, mass = (shape[f"residual_{name}"] for name in ("velocity_m_s", "mass_kg"))
         lines.append(f"{f'residual {body}':<21} {number(velocity, 1, '.1f', 'm/s')}, {number(mass, 1e3, '.2f', 'g')}")

@@ -7,7 +7,8 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from hydro2d.running.notebook import Notebook, is_notebook
+from hydro2d.moving import is_notebook
+from hydro2d.running.notebook import Notebook
 from hydro2d.running.progress import Live, Report
 from hydro2d.strange import opened
 

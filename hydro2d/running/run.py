@@ -21,7 +21,7 @@ import tomllib
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
-from typing import NoReturn
+from typing import TYPE_CHECKING, Any, NoReturn
 
 import numpy as np
 
@@ -45,6 +45,9 @@ from hydro2d.solver.record import ColumnError, check, row
 from hydro2d.strange import own
 from hydro2d.toml import model_tables
 
+if TYPE_CHECKING:
+    from hydro2d.compilation import Compilation
+
 DECK, SUMMARY, HISTORY, LOG, LOCK = "deck.toml", "summary.json", "history.h5", "log.txt", "run.lock"
 PROGRESS = "progress.json"
 OWN_FILES = (DECK, SUMMARY, HISTORY, LOG, PROGRESS, snapshot.NAME, snapshot.PREVIOUS, *SERIES.values())
@@ -57,7 +60,11 @@ FLUSH_SECONDS, FLUSH_SHARE = 10.0, 0.1
 PROGRESS_SECONDS = 3.0
 
 DONE, WRONG_INPUT, UNPHYSICAL = 0, 2, 3
+#: what the time of a run is spent on, as keys of the summary
+COSTS = ("cycles_s", "compilation_s", "outputs_s", "set_up_s")
 
+#: makes lines from a deck and the summary of its run
+Theory = Callable[[Any, dict], list[str]]
 
 #: results that every summary has; null for a deck without rod and target
 ROD_RESULTS = (
@@ -132,12 +139,18 @@ class Run:
     restart : continue from restart.h5 of the directory
     report : see reporting.reporter
     columns : further columns of the history, see Simulation.columns
+    compiled : listens to compilation, see compilation.announced
+    theory : lines for the end of the run, from its deck and its summary
     """
 
-    def __init__(self, deck, directory: Path, *, restart: bool, report, columns: Mapping[str, Callable] | None = None):
+    def __init__(self, deck, directory: Path, *, restart: bool, report, columns: Mapping[str, Callable] | None = None,
+                 compiled: Compilation | None = None, theory: Theory | None = None):  # fmt: skip
         from hydro2d.jit import threads
         from hydro2d.solver.simulation import Simulation
 
+        self.started = clock.perf_counter()
+        self.compiled, self._theory = compiled, theory
+        self.spent = dict.fromkeys(COSTS, 0.0)
         self.deck, self.directory, self.report = deck, Path(directory), report
         self.deck_text = deck.to_toml()
         self.warnings = warnings(deck)
@@ -146,7 +159,7 @@ class Run:
         self.warnings += self.sim.warnings
         self.sim.columns.update(columns or {})
         self.wall_before = 0.0
-        self.stepping, self.stepped = 0.0, 0
+        self.stepped, self.timed_from = 0, 0.0
         self.due = {"history": Due(deck.output.history_interval), "vtk": Due(deck.output.vtk_interval)}
         rows = dumps = 0
         unwritten: dict[str, list[float]] = {}
@@ -163,16 +176,38 @@ class Run:
                 for name, due in self.due.items():
                     due.resume(saved.run["due"][name], self.sim.time)
                 rows, dumps, self.wall_before = (saved.run[name] for name in ("rows", "dumps", "wall_s"))
+                self.spent |= saved.run.get("spent", {})  # files of earlier versions say nothing of it
                 unwritten, self.lacking = saved.run["unwritten"], saved.run["lacking"]
         self.history = self._history(rows, unwritten)
         self.series = Series(self.directory, deck.output.fields, dumps)
         if self.series.repaired:
             report.line(f"warning: {self.series.repaired}")
         self.clock, self.team = Clock(deck.stop, self.history), Team(threads())
-        self.started = self.flushed = self.saved_at = self.published = clock.perf_counter()
+        self.flushed = self.saved_at = self.published = clock.perf_counter()
         self.good, self.flush_every = None, FLUSH_SECONDS
         remove(self.directory / SUMMARY)
         write_text(self.directory / DECK, self.deck_text, checksum=True)
+        self.spent["set_up_s"] += clock.perf_counter() - self.started - self._first_calls()
+
+    def _first_calls(self) -> float:
+        """Seconds so far in first calls of kernels, in which they are compiled or read from the cache."""
+        return self.compiled.seconds if self.compiled else 0.0
+
+    @contextmanager
+    def _spending(self, on: str) -> Iterator[None]:
+        """Adds the time of the block, without first calls of kernels, to that spent on something."""
+        began = clock.perf_counter() - self._first_calls()
+        yield
+        self.spent[on] += clock.perf_counter() - self._first_calls() - began
+
+    def costs(self) -> dict[str, float]:
+        """Seconds spent on each of COSTS, in this process and in earlier ones."""
+        kind = "compilation_s" if self.compiled and self.compiled.happened else "set_up_s"
+        return self.spent | {kind: self.spent[kind] + self._first_calls()}
+
+    def theory(self, summary: dict) -> list[str]:
+        """Lines that stand below the depth of a run that is done."""
+        return self._theory(self.deck, summary) if self._theory and summary["status"] == "done" else []
 
     def _history(self, rows: int, unwritten: dict[str, list[float]]) -> History:
         """The history to continue, with the rows that only the restart file has; a damaged file is renamed."""
@@ -197,20 +232,20 @@ class Run:
         """Seconds spent on the run, in this process and in earlier ones."""
         return self.wall_before + clock.perf_counter() - self.started
 
-    def execute(self, interrupt: Interrupt, compiled=None) -> dict:
-        """Runs until there is a reason to stop. Returns the summary, which is also in summary.json.
-
-        compiled : reports after the first cycle how long compilation took, see compilation.announced
-        """
+    def execute(self, interrupt: Interrupt) -> dict:
+        """Runs until there is a reason to stop. Returns the summary, which is also in summary.json."""
         self.report.begin(self)
         reason = self.sim.stop_reason()
-        self._outputs()
+        with self._spending("outputs_s"):
+            self._outputs()
         try:
             while reason is None and not interrupt.reason:
-                self._step()
-                if compiled and self.stepped == 1:
-                    compiled.report()
-                self._outputs()
+                with self._spending("cycles_s"):
+                    self._step()
+                if self.stepped == 1:
+                    self._begun()
+                with self._spending("outputs_s"):
+                    self._outputs()
                 reason = self.sim.stop_reason()
             self.sim.refuse_nonsense()
         except UnphysicalState as error:
@@ -225,13 +260,19 @@ class Run:
             return self._finish("interrupted", f"interrupted ({interrupt.reason})")
         return self._finish("done", reason)
 
+    def _begun(self) -> None:
+        """After the first cycle, in which kernels are loaded: the pace is measured from here on."""
+        self.timed_from = self.spent["cycles_s"]
+        for text in self.compiled.settled() if self.compiled else ():
+            self.report.line(text)
+
     def _step(self) -> None:
-        """One cycle. Adds its wall time, except that of the first, which compiles."""
+        """One cycle."""
         if self.stepped == 0:
             self.sim.step()
             self.clock.begin(self.sim)
         else:
-            self.stepping += self.team.run(self.sim.step)
+            self.team.run(self.sim.step)
         self.stepped += 1
 
     # ------------------------------------------------------------------------------------------------ outputs
@@ -302,6 +343,7 @@ class Run:
                 "lacking": self.lacking,
                 "dumps": len(self.series),
                 "wall_s": self.wall,
+                "spent": self.costs(),
             },
             deck=self.deck_text,
             provenance=self.provenance,
@@ -340,6 +382,19 @@ class Run:
         never counts the extra row and dump that are written after the end.
         """
         attempts = Attempts()
+        with self._spending("outputs_s"):
+            self._last_outputs(status, attempts)
+        with attempts.writing(self.directory / SUMMARY):
+            summary = self.summary(*(("interrupted", attempts.told) if attempts.told else (status, reason)))
+            remove(self.directory / PROGRESS)
+            write_json(self.directory / SUMMARY, summary)
+        attempts.conclude()
+        with writing(self.directory / LOG):
+            self.report.end(self, summary)
+        return summary
+
+    def _last_outputs(self, status: str, attempts: Attempts) -> None:
+        """Restart file, last row and last dump."""
         with attempts.writing(self.directory / HISTORY):
             self.history.craters, self.history.debris = self.sim.holes(), self.sim.debris()
         state = self.good if status == "unphysical" else self._snapshot()
@@ -355,14 +410,6 @@ class Run:
         with attempts.writing(self.directory / LOG):
             if text := self.team.told():
                 self.report.line(text)
-        with attempts.writing(self.directory / SUMMARY):
-            summary = self.summary(*(("interrupted", attempts.told) if attempts.told else (status, reason)))
-            remove(self.directory / PROGRESS)
-            write_json(self.directory / SUMMARY, summary)
-        attempts.conclude()
-        with writing(self.directory / LOG):
-            self.report.end(self, summary)
-        return summary
 
     def _last_row(self, status: str) -> None:
         """Writes the row of the end. An unphysical state may be one that a column of the user's cannot bear."""
@@ -377,7 +424,7 @@ class Run:
     def summary(self, status: str, reason: str) -> dict:
         """What summary.json holds."""
         sim, cycles, targets, measured = self.sim, self.stepped - 1, self.sim.of_targets(), self.sim.diagnostics()
-        last = row(sim) if sim.formulas else {}
+        last, pace = row(sim) if sim.formulas else {}, self.spent["cycles_s"] - self.timed_from
         faults = (sim.faults() or [reason] * (status == "unphysical")) + sim.doubts() + self.lacking
         return {
             "deck": self.deck.name,
@@ -391,7 +438,8 @@ class Run:
             "time_s": sim.time,
             "cycles": sim.cycle,
             "wall_s": self.wall,
-            "ns_per_cell_cycle": 1e9 * self.stepping / (sim.grid.cells * cycles) if cycles > 0 else None,
+            **self.costs(),
+            "ns_per_cell_cycle": 1e9 * pace / (sim.grid.cells * cycles) if cycles > 0 else None,
             "cells": sim.grid.cells,
             **dict.fromkeys(ROD_RESULTS),
             **measured,
@@ -438,7 +486,8 @@ def projectile(body: str | None, measured: dict) -> dict | None:
 
 
 def run(deck, directory: Path | None = None, *, restart=False, overwrite=False, quiet=False,
-        interrupt: Interrupt | None = None, columns: Mapping[str, Callable] | None = None) -> dict:  # fmt: skip
+        interrupt: Interrupt | None = None, columns: Mapping[str, Callable] | None = None, second: bool | None = None,
+        theory: Theory | None = None) -> dict:  # fmt: skip
     """Runs a deck in a directory and returns its summary.
 
     deck : a resolved deck, from deck.load
@@ -447,10 +496,13 @@ def run(deck, directory: Path | None = None, *, restart=False, overwrite=False, 
     quiet : prints nothing (log.txt is written)
     interrupt : may be called from anywhere to stop the run after the cycle, with a restart file
     columns : further columns of the history, functions of the simulation by name
+    second : whether a second process helps to compile the kernels; default: if the run may use more than one thread
+    theory : lines for the end of a run that is done, from its deck and its summary; they stand below the depth
 
     Raises RunError, SnapshotError, LockError (another process uses the directory), StrangeFile.
     """
-    from hydro2d.running.compilation import announced
+    from hydro2d.compilation import announced
+    from hydro2d.jit import threads
 
     directory = Path(directory or deck.output.directory)
     interrupt = interrupt or Interrupt()
@@ -466,10 +518,10 @@ def run(deck, directory: Path | None = None, *, restart=False, overwrite=False, 
         with (
             reporter(directory / LOG, quiet=quiet, gone=lambda: interrupt("SIGPIPE")) as report,
             signals(interrupt),
-            announced(report.line, deck) as compiled,
+            announced(report, deck if (threads() > 1 if second is None else second) else None) as compiled,
         ):
-            found = Run(deck, directory, restart=restart, report=report, columns=columns)
-            return found.execute(interrupt, compiled)
+            found = Run(deck, directory, restart=restart, report=report, columns=columns, compiled=compiled, theory=theory)
+            return found.execute(interrupt)
 
 
 def exit_status(summary: dict) -> int:

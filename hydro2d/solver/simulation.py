@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from hydro2d import units
+from hydro2d import compilation, units
 from hydro2d.deck import deck as decks
 from hydro2d.deck import derived
 from hydro2d.errors import UnphysicalState, unknown
@@ -22,6 +22,7 @@ from hydro2d.solver import bodies, debris, insertion, reach
 from hydro2d.solver.audit import Audit
 from hydro2d.solver.crater import Crater
 from hydro2d.solver.debris import Debris
+from hydro2d.solver.first_cycle import calls_of_a_cycle, kernels
 from hydro2d.solver.following import FollowingMesh, StandingMesh, UndisturbedSpace
 from hydro2d.solver.memory import refuse_too_large
 from hydro2d.solver.penetrator import LEFT_MASS, WATCH_EVERY, Penetrator
@@ -45,6 +46,8 @@ MOVES = 1e-3
 
 class Simulation:
     """A deck in memory, to be stepped and looked at. It writes no files: `hydro2d.run` does.
+
+    While kernels are compiled, a line on the error output or below the cell of a notebook says how far that is.
 
     Parameters
     ----------
@@ -72,6 +75,7 @@ class Simulation:
         from hydro2d.solver.stations import Stations
 
         refuse_too_large(deck)
+        compilation.expect(kernels(deck), lambda: calls_of_a_cycle(lambda: Simulation(deck)))
         self.deck = deck
         self.grid = Grid(*decks.edges(deck), deck.mesh.geometry)
         self.table = library.resolve(deck)

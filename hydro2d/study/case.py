@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import socket
 import tempfile
 import time
@@ -10,7 +9,7 @@ import traceback
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 
-from hydro2d import checksums, jit
+from hydro2d import checksums, compilation, jit
 from hydro2d.deck import deck as decks
 from hydro2d.errors import DeckError
 from hydro2d.files import LockError, LostPlaceError, holder
@@ -19,7 +18,8 @@ from hydro2d.mesh.quantities import FieldError
 from hydro2d.output import snapshot
 from hydro2d.output.history import HistoryError
 from hydro2d.output.vtk import VtkError
-from hydro2d.running import compilation, run
+from hydro2d.running import run
+from hydro2d.solver.first_cycle import kernels
 from hydro2d.strange import StrangeFile
 from hydro2d.study.layout import DONE, FAILED, FAILED_STATUS, UNPHYSICAL, state
 
@@ -155,18 +155,14 @@ def _can_continue(directory: Path, deck_text: str, overwrite: bool) -> bool:
     return any((directory / name).is_file() for name in (snapshot.NAME, snapshot.PREVIOUS))
 
 
-def kernels(deck) -> str:
-    """Name of the set of kernels that a deck needs, from the names of its methods."""
-    words = {name: getattr(deck, name).model_dump() for name in ("numerics", "sliding", "failure")}
-    chosen = {name: {k: v for k, v in table.items() if isinstance(v, str | bool)} for name, table in words.items()}
-    return json.dumps([deck.mesh.geometry, bool(deck.tracer), deck.penetration is not None, chosen], sort_keys=True)
-
-
 def _compile(deck) -> None:
-    """Runs a few cycles in a temporary directory, so that the kernels are in the cache."""
+    """Runs a few cycles in a temporary directory, so that the kernels are in the cache.
+
+    A second process helps: the other workers of the study wait meanwhile.
+    """
     few = deck.model_copy(update={"stop": deck.stop.model_copy(update={"cycles": CYCLES})})
     with tempfile.TemporaryDirectory() as folder:
-        run.run(few, Path(folder) / "compile", quiet=True)
+        run.run(few, Path(folder) / "compile", quiet=True, second=True)
 
 
 def _failure(error: Exception, directory: Path) -> dict:

@@ -88,6 +88,7 @@ class Board:
     workers : returns the number of workers
     further : number of cases expected to be added
     left_out : names of cases that this sweep does not run
+    compiling : how far a worker is that compiles kernels, while the cases wait for it; empty at other times
     """
 
     def __init__(self, study: Study, log, quiet: bool):
@@ -96,6 +97,7 @@ class Board:
         self.further = 0
         self.left_out: Collection[str] = ()
         self.workers: Callable[[], int] = lambda: 0
+        self.compiling: Callable[[], str] = lambda: ""
         self._log, self._quiet, self._last = log, quiet, time.monotonic()
 
     def watch(self, study: Study) -> None:
@@ -136,7 +138,8 @@ class Board:
             self.look(name)
         seconds = left([case for case in self.cases if case.name not in self.left_out], self.workers(), self.further)
         coming = f", about {self.further} to come" if self.further else ""
-        return counts(self.cases) + coming + ("" if seconds is None else f"; {duration(seconds)} left")
+        compiling = f"; {told}" if (told := self.compiling()) else ""
+        return counts(self.cases) + coming + ("" if seconds is None else f"; {duration(seconds)} left") + compiling
 
     def update(self) -> None:
         """Called twice a second; prints when output is due."""

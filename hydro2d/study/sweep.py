@@ -14,16 +14,18 @@ from collections.abc import Iterable, Iterator, Sequence
 from contextlib import AbstractContextManager, contextmanager
 from dataclasses import replace
 from datetime import UTC, datetime
+from functools import partial
 from pathlib import Path
 
+from hydro2d import compilation
 from hydro2d.deck import deck as decks
 from hydro2d.files import locked, write_json
 from hydro2d.interrupt import Interrupt, signals, status
-from hydro2d.running import compilation
 from hydro2d.running.progress import duration
 from hydro2d.running.run import clear
+from hydro2d.solver.first_cycle import kernels
 from hydro2d.study import layout, monitor
-from hydro2d.study.case import Outcome, kernels
+from hydro2d.study.case import Outcome
 from hydro2d.study.cases import Plan
 from hydro2d.study.choice import Choice
 from hydro2d.study.definition import StudyError
@@ -169,7 +171,9 @@ class _Sweep:
             todo = [case for name in names if (case := self.board.look(name)).status not in layout.ENDED]
             if todo and not self.compiling:
                 self.compiling = True
-                if not compilation.is_compiled(kernels(decks.loads(self.texts[todo[0].name]))):
+                key = kernels(decks.loads(self.texts[todo[0].name]))
+                if not compilation.is_compiled(key):
+                    self.board.compiling = partial(compilation.told_of, key)
                     self.board.line("kernels not compiled by earlier runs are compiled first: a minute or more")
             for case in todo:
                 self._give(case)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hydro2d.analytic import model_deck, models
+from hydro2d.analytic import beside, model_deck, models
 from hydro2d.penetration.model import InputError
 
 #: models of a rod into a thick target, from rigid to consumed
@@ -33,21 +33,15 @@ class Curve:
 def curves(shot: model_deck.Shot, low: float, high: float) -> list[Curve]:
     """Every model of ``MODELS`` between two impact velocities, in m/s."""
     velocity = np.linspace(low, high, POINTS)
-    request = models.Request(rod=shot.rod, target=shot.target, geometry=shot.values)
-    return [_curve(name, request, velocity) for name in MODELS]
+    return [_curve(name, shot, velocity) for name in MODELS]
 
 
-def _curve(name: str, request: models.Request, velocity: np.ndarray) -> Curve:
-    model = models.named(name)
-    title = model.title.split(":")[0]
+def _curve(name: str, shot: model_deck.Shot, velocity: np.ndarray) -> Curve:
+    title = models.named(name).title.split(":")[0]
     try:
-        case = models.resolve(model, request)
+        case = beside.case(name, shot)
     except InputError as error:
         return Curve(name, title, velocity, np.full(len(velocity), np.nan), str(error))
-    borrowed = sorted(key for key, given in case.inputs.items() if models.EXAMPLE in given.source)
-    if borrowed:
-        note = f"the deck and its materials do not give {', '.join(borrowed)}"
-        return Curve(name, title, velocity, np.full(len(velocity), np.nan), note)
     depths, problems = zip(*(_depth(case, float(speed)) for speed in velocity), strict=True)
     return Curve(name, title, velocity, np.array(depths, dtype=float), _first_problem(velocity, problems))
 

@@ -6,7 +6,7 @@ import pytest
 
 from hydro2d.output import history, snapshot, vtk
 from hydro2d.running import run as runs
-from hydro2d.running.run import run
+from hydro2d.running.run import COSTS, run
 from hydro2d.study.case import run_case
 from hydro2d.study.layout import state
 from tests import fake
@@ -32,7 +32,8 @@ def outcome(place):
     columns = history.read(place / "history.h5")
     series = [entry for name in vtk.SERIES.values() if (place / name).exists() for entry in vtk.read_series(place / name)]
     summary = json.loads((place / "summary.json").read_text())
-    kept = {key: value for key, value in summary.items() if key not in ("wall_s", "ns_per_cell_cycle", "provenance", "sha256")}
+    own = ("wall_s", *COSTS, "ns_per_cell_cycle", "provenance", "sha256")
+    kept = {key: value for key, value in summary.items() if key not in own}
     dumps = {file.name: file.read_bytes() for file in (place / "vtk").iterdir()}
     saved, rows = snapshot.read(place / "restart.h5"), {name: each.tobytes() for name, each in columns.items()}
     return rows, series, kept, dumps, saved.arrays["e"].tobytes(), saved.scalars
@@ -69,7 +70,7 @@ def test_no_space_at_any_write_of_a_run(deck, tmp_path, monkeypatch, once):
 
 
 def test_no_space_at_any_write_of_a_case(deck, tmp_path, monkeypatch):
-    monkeypatch.setattr("hydro2d.running.compilation.once", lambda key, compile: None)
+    monkeypatch.setattr("hydro2d.compilation.once", lambda key, compile: None)
     monkeypatch.setattr("hydro2d.study.case.kernels", lambda deck: "")
     monkeypatch.setattr("hydro2d.study.case.decks.loads", lambda text: deck)
     text, disk = deck.to_toml(), Disk(monkeypatch)

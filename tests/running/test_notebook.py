@@ -4,7 +4,7 @@ import nbformat
 import pytest
 from nbclient import NotebookClient
 
-from hydro2d.running import notebook
+from hydro2d import moving
 
 CELLS = [
     "import hydro2d\n"
@@ -13,6 +13,12 @@ CELLS = [
     "shot = hydro2d.run(deck, 'shot', threads=1)",
     "shot",
     "hydro2d.run(deck, 'quiet', threads=1, quiet=True);",
+    "import time\n"
+    "from hydro2d import compilation, jit\n"
+    "compilation.BEAT = 0.1\n"
+    "compilation.expect('none', lambda: [])\n"
+    "with compilation.events.trigger_event(jit.FIRST_CALL, data={'kernel': 'a'}):\n"
+    "    time.sleep(0.5)",
 ]
 
 
@@ -41,13 +47,25 @@ def test_the_results_are_one_line_and_a_quiet_run_shows_nothing(cells):
     assert cells[3].outputs == []
 
 
+def test_a_line_below_the_cell_tells_what_a_program_compiles(cells):
+    """Here nothing is: the first call of a kernel takes long."""
+    (shown,) = cells[4].outputs
+    assert shown.data["text/html"].startswith("<pre>compiled kernels: ")
+    assert shown.data["text/plain"].endswith(", 1 s") or shown.data["text/plain"].endswith(", 0 s")
+
+
+def test_the_page_of_a_line_has_a_bar():
+    page = moving.Page(["compiling kernels: 1 of 2, 3 s"], 0.5, bar=True)
+    assert page._repr_html_().startswith('<pre>compiling kernels: 1 of 2, 3 s</pre><progress max="1" value="0.5000"')
+
+
 def test_the_page_has_a_bar_and_a_table_and_escapes_names():
-    page = notebook.Page(["<b>"], 0.25, {"time": "1 & 2"})
+    page = moving.Page(["<b>"], 0.25, {"time": "1 & 2"})
     assert page._repr_html_().startswith('<pre>&lt;b&gt;</pre><progress max="1" value="0.2500"')
     assert "<tr><th>time</th><td>1 &amp; 2</td></tr>" in page._repr_html_()
     assert repr(page) == "<b>\ntime  1 & 2"
-    assert " value=" not in notebook.Page([], None, {"time": "1"})._repr_html_()
+    assert " value=" not in moving.Page([], None, {"time": "1"})._repr_html_()
 
 
 def test_a_test_is_no_notebook():
-    assert not notebook.is_notebook()
+    assert not moving.is_notebook()

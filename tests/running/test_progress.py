@@ -1,6 +1,15 @@
 """How long a run still takes."""
 
+import fcntl
 import io
+import os
+import pty
+import re
+import struct
+import subprocess
+import sys
+import termios
+from contextlib import suppress
 from types import SimpleNamespace
 
 import pytest
@@ -63,7 +72,7 @@ def test_the_end_is_that_which_status_foresees():
         found = clock.look(sim)
         if number == 2:  # too few rows
             assert progress.how_far(sim, found) == "5.000 us of 1000.000 us (0.5 %)"
-    assert progress.how_far(sim, found) == "100.000 us of about 495.000 us (20.2 %; speed below 10 m/s as it slows now)"
+    assert progress.how_far(sim, found) == "100.000 us of about 495.000 us (20.2 %; speed below 10 m/s)"
     assert found.left == pytest.approx(395.0 / 1.25)
     assert found.end == next(iter(sorted(ending.ends(stop, columns.arrays()), key=lambda each: each.time)))
 
@@ -90,17 +99,94 @@ def test_the_table_is_whole_on_a_narrow_terminal(tmp_path):
     assert cause.replace(" ", "") in shown.replace(" ", "")
 
 
-def closing(**changes):
+#: two states of a run, and a line that moves, on a terminal
+ON_A_TERMINAL = """
+import io, sys, time
+from types import SimpleNamespace
+from hydro2d.running import ending, progress
+progress.TABLE_SECONDS = 0.0
+sim = SimpleNamespace(time=1.23e-5, cycle=1234567, dt=1.234e-9, dt_cause="rod at r = 1.3 mm: sound", projectile="rod",
+                      diagnostics=lambda: {}, conservation=lambda: {"mass": {}, "axial_momentum": 0.0, "total_energy": 0.0})
+look = progress.Outlook(ending.End("speed below 12.5 m/s as it slows now", 123.456e-6), 0.2, 1000.0)
+run = SimpleNamespace(sim=sim, clock=SimpleNamespace(look=lambda sim: look))
+report = progress.Live(io.StringIO(), quiet=False)
+report._last = 1e9
+report.move("compiling kernels: 1 of 3, 2 s", 0.3)
+time.sleep(0.4)
+report.rest("")
+for _ in range(2):
+    report.update(run)
+    time.sleep(0.4)
+report.move("compiling kernels: 2 of 3, 3 s", 0.6)
+time.sleep(0.4)
+report.close()
+"""
+
+
+def recorded(code, columns):
+    """The lines that a program writes to a terminal of so many columns, without what moves its cursor."""
+    leader, follower = pty.openpty()
+    fcntl.ioctl(follower, termios.TIOCSWINSZ, struct.pack("HHHH", 40, columns, 0, 0))
+    about = {name: value for name, value in os.environ.items() if name not in ("COLUMNS", "LINES", "NO_COLOR")}
+    child = subprocess.Popen([sys.executable, "-c", code], stdin=follower, stdout=follower, stderr=follower,
+                             env=about | {"TERM": "xterm"})  # fmt: skip
+    os.close(follower)
+    data = b""
+    with suppress(OSError):  # the terminal is gone with the last process that has it
+        while more := os.read(leader, 65536):
+            data += more
+    os.close(leader)
+    assert child.wait(60) == 0
+    text = re.sub(r"\x1b\[[0-9;?]*[A-Za-z]", "", data.decode())
+    return [line for part in text.split("\n") for line in part.split("\r") if line.strip()]
+
+
+@pytest.mark.parametrize("columns", [80, 120])
+def test_bar_and_rows_have_lines_of_their_own_on_a_terminal(columns):
+    lines = recorded(ON_A_TERMINAL, columns)
+    bars = [line for line in lines if "━" in line]
+    assert bars
+    assert {len(line.rstrip()) for line in bars} == {60}
+    times = {line.rstrip() for line in lines if line.startswith("time ")}
+    assert times == {"time      12.300 us of about 123.456 us (20.0 %; speed below 12.5 m/s)"}
+    assert "compiling kernels: 1 of 3, 2 s" in [line.rstrip() for line in lines]
+    assert "compiling kernels: 2 of 3, 3 s" in [line.rstrip() for line in lines]
+    assert max(map(len, lines)) <= columns
+
+
+def closing(theory=(), **changes):
     """The last lines of a bar that was 25.4 mm long, with a gauge and a derived quantity."""
     body = {"velocity_m_s": 0.0, "kinetic_energy_J": 0.0, "initial_length_m": 25.4e-3, "length_m": 17.43e-3, "r_max_m": 6.6e-3,
             "outflow_kg": 0.0, "radius_at_z_min_m": 6.6e-3, "radius_at_z_max_m": 3.81e-3}  # fmt: skip
     station = {"peak_pressure_Pa": 3.21e9, "peak_pressure_time_s": 1.5e-6, "peak_speed_m_s": 190.0}
     return result({
         "status": "done", "stop_reason": "end time", "faults": [], "cycles": 9, "time_s": 6e-5, "wall_s": 3.0,
+        "cycles_s": 2.5, "compilation_s": 0.0, "outputs_s": 0.01, "set_up_s": 0.0,
         "ns_per_cell_cycle": None, "penetration_depth_m": None, "projectile": None, "bodies": {"bar": body},
         "stations": {"gauge_wall": station}, "derived": {"P/L": 0.5, "hole_m": None},
         "conservation": {"mass": {"bar": 0.0}, "axial_momentum": 0.0, "total_energy": 0.0}, **changes,
-    })  # fmt: skip
+    }, theory)  # fmt: skip
+
+
+def test_the_last_lines_name_compilation_cycles_and_outputs_apart():
+    """The pace is that of the cycles; what took no time is not named."""
+    assert closing()[:2] == ["done: end time", "9 cycles to 60.000 us in 2.5 s"]
+    costs = {"cycles": 450, "time_s": 26.8e-6, "cycles_s": 3.14, "compilation_s": 77.2, "outputs_s": 0.41, "set_up_s": 151.0,
+             "ns_per_cell_cycle": 31.24}  # fmt: skip
+    assert closing(**costs)[1] == (
+        "450 cycles to 26.800 us in 3.1 s (31.2 ns per cell and cycle, cycles alone); "
+        "compilation 77 s, set-up 2 min 31 s, outputs 0.4 s")
+
+
+@pytest.mark.parametrize(("command", "again"), [
+    ("hydro2d run shot.toml --out 'a b' --set x=1 --overwrite", "hydro2d run shot.toml --out 'a b' --set x=1 --restart"),
+    ("python -m hydro2d run shot.toml --restart", "python -m hydro2d run shot.toml --restart"),
+    ("python shot.py", "hydro2d.run(..., restart=True)"), ("pytest run", "hydro2d.run(..., restart=True)")])  # fmt: skip
+def test_the_last_lines_of_an_interrupted_run_say_how_it_continues(command, again):
+    said = closing(status="interrupted", stop_reason="interrupted (SIGINT)", time_s=26.8e-6, provenance={"command": command})
+    assert said[0] == f"interrupted at 26.800 us (SIGINT); continue with: {again}"
+    full = "history.h5: No space left on device"
+    assert closing(status="interrupted", stop_reason=full)[0] == f"interrupted: {full}"
 
 
 def test_the_last_lines_give_the_length_and_the_ends_of_a_bar():
@@ -123,6 +209,9 @@ def test_the_last_lines_tell_a_ball_from_a_rod_and_a_depth_from_a_hole():
             "targets": {"first": {"exit_time_s": None}}}  # fmt: skip
     assert "penetration depth     1.47 cm, P/D 1.473" in closing(**shot)
     assert "penetration depth     1.47 cm, P/D 1.473; 0.81 cm at the end" in closing(**shot | {"nose_depth_m": 8.1e-3})
+    theory = "analytic, at rest     Tate 1.83 cm"
+    said = closing([theory], **shot)
+    assert said[said.index(theory) - 1].startswith("penetration depth")
     rod = shot | {"projectile": shot["projectile"] | {"initial_length_m": 50e-3}}
     assert "penetration depth     1.47 cm, P/L 1.473" in closing(**rod)
     through = {"exit_time_s": 1e-6, "exit_velocity_m_s": 9.0, "exit_mass_kg": 1e-3}

@@ -3,10 +3,14 @@
 import json
 import os
 import socket
+import time
+from contextlib import nullcontext
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
+from hydro2d import compilation, jit
 from hydro2d.deck.sections import Sliding
 from hydro2d.files import LockError
 from hydro2d.interrupt import Interrupt
@@ -169,3 +173,50 @@ def test_plain_lines(simulation, tmp_path, capsys):
     assert "experiment          1.21 cm" in shown
     assert "rod at r = 0.5 mm" in shown
     assert "r is x" in shown
+
+
+@pytest.mark.parametrize(("threads", "second", "helped"), [(1, None, False), (2, None, True), (1, True, True)])
+def test_a_run_on_one_thread_compiles_in_one_process(simulation, tmp_path, monkeypatch, threads, second, helped):
+    """A study asks for the second process, because its other workers wait meanwhile."""
+    found = []
+
+    def announced(place, helped=None):
+        found.append(helped)
+        return nullcontext()
+
+    monkeypatch.setattr("hydro2d.jit.threads", lambda: threads)
+    monkeypatch.setattr("hydro2d.compilation.announced", announced)
+    monkeypatch.setattr("hydro2d.running.run.Run", lambda *args, **named: SimpleNamespace(execute=lambda interrupt: {}))
+    run(fake.FakeDeck(), tmp_path / "a", quiet=True, second=second)
+    assert [deck is not None for deck in found] == [helped]
+
+
+def test_what_a_run_spends_its_time_on_is_named(simulation, tmp_path, monkeypatch):
+    """Each cycle takes 2 ms; the first one waits a further 50 ms for a kernel that another process compiles; a restart adds."""
+    monkeypatch.setattr(compilation, "BEAT", 0.02)
+    step = fake.Simulation.step
+
+    def slow(self):
+        if self.cycle in (0, 100):
+            with compilation.events.trigger_event(jit.FIRST_CALL, data={"kernel": "a"}):
+                time.sleep(0.05)
+        time.sleep(0.002)
+        step(self)
+
+    monkeypatch.setattr(fake.Simulation, "step", slow)
+    interrupt, deck = Interrupt(), fake.FakeDeck()
+    first = run(deck, tmp_path / "a", quiet=True, interrupt=interrupt, columns={"x": lambda sim: _stop(sim, interrupt)})
+    assert 0.05 < first["compilation_s"] < 0.2
+    assert 0.002 * first["cycles"] < first["cycles_s"] < first["wall_s"]
+    assert first["cycles_s"] + first["compilation_s"] + first["outputs_s"] + first["set_up_s"] < first["wall_s"] + 0.01
+    steps = 1e-9 * first["ns_per_cell_cycle"] * first["cells"] * (first["cycles"] - 1)
+    assert first["cycles_s"] * (1 - 3 / first["cycles"]) < steps < first["cycles_s"]
+    last = run(deck, tmp_path / "a", quiet=True, restart=True, columns={"x": lambda sim: 0.0})
+    assert last["cycles_s"] > first["cycles_s"] + 0.002 * (last["cycles"] - first["cycles"])
+    assert last["compilation_s"] >= first["compilation_s"]
+
+
+def _stop(sim, interrupt):
+    if sim.cycle > 40:
+        interrupt("SIGINT")
+    return 0.0

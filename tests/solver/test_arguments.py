@@ -1,13 +1,15 @@
 """What the phases of a step are given: every parameter is found, always the array that is in use, and of the same types."""
 
+from functools import partial
+
 import numpy as np
 import pytest
 
 from hydro2d.deck import deck
 from hydro2d.kernels import lagrangian_step, remap_step
-from hydro2d.running.compile_ahead import calls_of_a_cycle
 from hydro2d.solver.arguments import OF_THE_CALL, Arguments, names
 from hydro2d.solver.contact import slots
+from hydro2d.solver.first_cycle import calls_of_a_cycle
 from hydro2d.solver.simulation import Simulation
 from tests.regression.test_bitwise import CONTACT, FOLLOWING, SHOT
 
@@ -65,7 +67,7 @@ def test_one_compiled_phase_serves_all_decks():
     """What is written down for compilation ahead of time has one tuple of types for each phase, whatever the deck."""
     types: dict[str, set] = {name: set() for name in PHASES}
     for options in DECKS.values():
-        for call in calls_of_a_cycle(deck.loads(SHOT, options)):
+        for call in calls_of_a_cycle(partial(started, options)):
             name = call.name.split(".")[-1]
             if call.compiled is getattr(PHASES.get(name), "compiled", None):
                 types[name].add(call.types)

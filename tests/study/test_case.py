@@ -11,12 +11,12 @@ from contextlib import ExitStack, contextmanager, nullcontext
 
 import pytest
 
+from hydro2d import compilation
 from hydro2d.checksums import verified_text
 from hydro2d.deck import deck as decks
 from hydro2d.errors import Error
 from hydro2d.interrupt import Interrupt
 from hydro2d.output import history, snapshot
-from hydro2d.running import compilation
 from hydro2d.running.run import deck_hash
 from hydro2d.study import layout
 from hydro2d.study.case import kernels, run_case

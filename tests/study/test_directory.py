@@ -170,3 +170,12 @@ def test_the_live_table_fits_the_terminal(plan, written):
     assert shown[0].split() == ["case", "status", "depth", "done", "time", "left", "worker"]
     assert shown[-2].strip() == "... and 4 more"
     assert shown[-1].startswith("1 of 6 done")
+
+
+def test_the_board_says_how_far_compilation_is(tmp_path):
+    """The cases wait for it meanwhile."""
+    board = monitor.Board(layout.Study(tmp_path, "", "a", (), ()), io.StringIO(), quiet=True)
+    board.compiling = lambda: "compiling kernels: 14 of 23, 21 s"
+    assert board.summary() == "0 of 0 done; compiling kernels: 14 of 23, 21 s"
+    board.compiling = lambda: ""
+    assert board.summary() == "0 of 0 done"
