@@ -12,7 +12,7 @@ from hydro2d.physics.advection import TINY
 from hydro2d.physics.kinematics import divergence
 from hydro2d.physics.stress import stress_scale
 
-#: speeds below this are no signal: set to zero, so that the active region has an edge (explanation/active-region)
+#: speeds below this are no signal: set to zero, so that the active region has an edge (explanation/speed)
 SILENCE = 1e-20
 
 
