@@ -18,7 +18,7 @@ from pydantic import PrivateAttr, ValidationError, ValidationInfo, model_validat
 
 from hydro2d import toml, units
 from hydro2d.deck import keys, plain_numbers, sections
-from hydro2d.deck.checks import bars_to_follow, extent, faces, heading, inconsistencies, room, travel, unsupported
+from hydro2d.deck.checks import axial_length, bars_to_follow, extent, faces, heading, inconsistencies, room, travel, unsupported
 from hydro2d.deck.generated_mesh import ReachError, as_segments, with_segments
 from hydro2d.deck.mesh import axis_edges, body, body_radius, cells_between
 from hydro2d.deck.warnings import warnings
@@ -29,6 +29,7 @@ from hydro2d.materials import from_files, library
 __all__ = [
     "Deck",
     "DeckError",
+    "axial_length",
     "bars_to_follow",
     "body",
     "body_groups",
