@@ -28,10 +28,10 @@ from tests.rules import source
 def text(**keys):
     """A deck: a rod of 20.2 mm with these keys, before a plate."""
     return (
-        rod("3 mm", "20.2 mm", velocity="1 km/s", **keys)
-        + plate("24 mm")
-        + mesh(("12 mm", 24), ("-25 mm", "25 mm", 100))
+        mesh(("12 mm", 24), ("-25 mm", "25 mm", 100))
         + table("numerics", advection="ke")
+        + rod("3 mm", "20.2 mm", velocity="1 km/s", **keys)
+        + plate("24 mm")
         + stop("1 us")
     )
 
