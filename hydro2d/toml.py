@@ -185,13 +185,23 @@ def key_parts(key: str) -> list[str]:
     return [part.strip('"') for part in re.findall(r'"[^"]*"|[^.\[\]\s]+', key)]
 
 
+def assigned(key: str, value) -> str:
+    """The override that gives a key a value, or removes it where the value is None."""
+    return f"{key}=" if value is None else f"{key}={inline(value)}"
+
+
 def assignment(text: str) -> tuple[str, Any]:
-    """Key and value of ``key=value``. The value is read as TOML, or as a plain string if it is not valid TOML."""
+    """Key and value of ``key=value``. The value is read as TOML, or as a plain string if it is not valid TOML.
+
+    Of ``key=``, which removes a key, the value is None.
+    """
     key, equals, value_text = text.partition("=")
     if len(text) > MOST_TEXT or len(key) > LONGEST_KEY or _DOTTED.search(value_text):
         raise DeckError(f"--set {text}: has more characters or parts than an override can")
     if not equals or not key_parts(key):
         raise DeckError(f"--set {text}: expected key=value, such as numerics.advection=momentum")
+    if not value_text.strip():
+        return key.strip(), None
     try:
         return key.strip(), within_limits(tomllib.loads(f"value = {value_text}")["value"], f"--set {text}")
     except tomllib.TOMLDecodeError:
@@ -214,6 +224,22 @@ def override(data: dict, key: str, value, said: str, sources: Sources) -> dict:
         raise DeckError(f"{said}: {_TOO_DEEP}")
     result = copy.deepcopy(data)
     sources.add_override(_override_path(_put(result, keys, value, said), result), said)
+    return result
+
+
+def removed(data: dict, key: str, said: str) -> dict:
+    """The deck without a key, which then has its default; the same deck where it has no such key."""
+    *keys, last = key_parts(key)
+    result = copy.deepcopy(data)
+    place: Any = result
+    for part in keys:
+        place = place[_index(place, part, said)] if isinstance(place, list) else place.get(part)
+        if not isinstance(place, (dict, list)):
+            return result
+    if isinstance(place, list):
+        del place[_index(place, last, said)]
+    else:
+        place.pop(last, None)
     return result
 
 

@@ -20,12 +20,6 @@ class Given:
     source: str
 
 
-def load(text: str) -> library.Material:
-    """A material by NAME or NAME:VARIANT. Raises DeckError with the nearest name."""
-    name, colon, variant = text.partition(":")
-    return library.load(name, variant if colon else None)
-
-
 def quantities(material: library.Material, strain: float = 0.0) -> dict[str, Given]:
     """Inputs by the last part of their name (``inputs.FROM_LIBRARY``), as far as the material has them.
 

@@ -14,6 +14,7 @@ from hydro2d import units
 from hydro2d.analytic import model_materials
 from hydro2d.analytic.model_materials import Given
 from hydro2d.errors import unknown
+from hydro2d.materials import library
 from hydro2d.materials.material import Material
 from hydro2d.penetration import catalogue
 from hydro2d.penetration.inputs import FROM_LIBRARY, ROD_DIAMETER, ROD_LENGTH, ROD_MASS
@@ -134,7 +135,7 @@ def _library(model: Model, request: Request) -> dict[str, Given]:
             found.update((name, value) for name in wanted if (value := _example(model, name)) is not None)
             wanted -= set(found)
             name, about = getattr(model.example, side), f"; {EXAMPLE}"
-            material = model_materials.load(name) if name else None
+            material = library.load(name) if name else None
         if material is not None:
             for last, given in model_materials.quantities(material, request.strain).items():
                 if f"{side}.{last}" in wanted:

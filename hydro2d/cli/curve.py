@@ -42,7 +42,7 @@ def curve(
     figure
         Draws the curves up to the largest strain and saves them as this file (.png, .pdf, .svg).
     """
-    from hydro2d.analytic import model_materials
+    from hydro2d.materials import library
 
     rates = [quantity(text, "1/s", "--rate") for text in rate or RATES]
     strains = sorted(strain or STRAINS)
@@ -50,7 +50,7 @@ def curve(
         raise UsageError("--rate and --strain must not be negative")
     from hydro2d.analytic import flow_curves
 
-    found = [flow_curves.Curve.of(material, each, strains, isothermal) for material in map(model_materials.load, materials)
+    found = [flow_curves.Curve.of(material, each, strains, isothermal) for material in map(library.load, materials)
              for each in rates]
     for line in flow_curves.lines(found):
         say(line)

@@ -59,13 +59,13 @@ def fit_strength(
     figure
         Draws the measured points and the fit and saves them as this file (.png, .pdf, .svg).
     """
-    from hydro2d.analytic import fit_text, model_materials
-    from hydro2d.materials import fitting
+    from hydro2d.analytic import fit_text
+    from hydro2d.materials import fitting, library
 
     data = fitting.read_points(points, columns.split(",") if columns else None,
                                quantity(f"1 {stress_unit}", "Pa", "--stress-unit"))
     data = _chosen(data, group, temperature)
-    base = model_materials.load(material)
+    base = library.load(material)
     law = fitting.law(model)
     given = fitting.from_material(law, base) | {name: quantity(text, law.unit(name), f"--fix {name}")
                                                 for name, text in map(_assignment, fix or [])}

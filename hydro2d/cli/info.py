@@ -88,7 +88,7 @@ def page(name: str) -> str:
 
     packaged = [each for part in outside.KINDS if (each := outside.from_package(part, name))]
     found = [str(described(each.module, each.kind.title)) for each in packaged]
-    if name in library.names():
+    if library.parted(name)[0] in library.names():
         found.append(library.describe(name))
     for models, describe in (
         (eos.MODELS, eos.describe),

@@ -98,11 +98,12 @@ def _without_name(help_: bool, *options) -> int:
 
 def _request(known, rod, target, set_, deck, strain):
     """The user's choices, and the impact velocity of the deck or None."""
-    from hydro2d.analytic import model_deck, model_materials, models
+    from hydro2d.analytic import model_deck, models
+    from hydro2d.materials import library
 
     shot = model_deck.read(deck) if deck is not None else None
     sides = {
-        side: model_materials.load(name) if name is not None else getattr(shot, side, None)
+        side: library.load(name) if name is not None else getattr(shot, side, None)
         for side, name in (("rod", rod), ("target", target))
     }
     geometry = shot.values if shot else {}

@@ -30,11 +30,10 @@ def tabulate(material: str, *, out: Out, density: str | None = None, temperature
         Greatest temperature and how many temperatures from zero on, as HIGH:NUMBER; that at rest is among them. Default:
         20000 K and 101.
     """
-    from hydro2d.analytic import model_materials
     from hydro2d.files import write_text
-    from hydro2d.materials import sesame, tabulate
+    from hydro2d.materials import library, sesame, tabulate
 
-    chosen = model_materials.load(material)
+    chosen = library.load(material)
     rest, at_rest = chosen.reference_density, chosen.eos.numbers.get("reference_temperature")
     T = at_rest.value if at_rest else 0.0
     (low, high), rows = _range("--density", density, "kg/m^3", 2) or (

@@ -47,7 +47,8 @@ class Body(Section):
     """The keys that all bodies have. Where bodies overlap, the first of them in the deck is there."""
 
     name: Name = Field(description="name of the body in fields, tables and other sections", examples=["rod"])
-    material: str = Field(description="a material of the library or of [materials]", examples=["W_alloy"])
+    material: str = Field(description="a material of the library or of [materials]; NAME:VARIANT is a variant of it",
+                          examples=["W_alloy"])
     join: str | None = Field(None, description="an earlier body of the same material to merge with", examples=["shank"])
     velocity: Velocity = Field((0.0, 0.0), description="axial velocity, or [radial, axial]", examples=["1086 m/s"])
     flow: Flow | None = Field(

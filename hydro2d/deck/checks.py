@@ -18,6 +18,8 @@ from hydro2d.sources.detonation import EXPLOSIVES
 
 #: rod radii that a mesh should reach ahead of the rod that it follows; at this distance its edge no longer affects the rod
 AHEAD = 20
+#: a radius that stands for the axis, m
+BESIDE_AXIS = 1e-9
 
 #: keys of `sliding` that have no meaning in a contact
 OF_SLIP_LAYER = ("boundary_layer", "slip_layer", "threshold", "shear", "refresh")
@@ -261,6 +263,21 @@ def _outside(name: str, axis: str, low: float, high: float, mesh: np.ndarray, ho
 def extent(entry, deck: Deck, axis: str) -> tuple[float, float]:
     """Smallest and largest coordinate of a body along an axis."""
     return outline(entry, deck.mesh.r_start).extent(axis)
+
+
+def axial_length(deck: Deck, entry) -> float | None:
+    """Length along the axis, m, of a rod or a solid ball on it that lies in the mesh whole and by itself; None for all others.
+
+    It does not lie by itself where another body is joined to it, or an earlier one has some of its place on the axis.
+    """
+    ball = entry.shape == "sphere" and entry.centre[0] == 0.0 and entry.inner_radius is None
+    joined = entry.join or any(other.join == entry.name for other in deck.body)
+    if not (ball or entry.shape == "rod") or joined or deck.mesh.r_start != 0.0:
+        return None
+    (low, high), z = extent(entry, deck, "z"), axis_edges(deck, "z")
+    before = [chord for other in deck.body[: deck.body.index(entry)] for chord in outline(other, 0.0).chords("z", BESIDE_AXIS)]
+    apart = all(min(end, high) - max(start, low) <= BESIDE_AXIS for start, end in before)
+    return high - low if apart and z[0] <= low and high <= z[-1] else None
 
 
 def heading(rod, target=None) -> int:

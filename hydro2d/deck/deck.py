@@ -18,7 +18,7 @@ from pydantic import PrivateAttr, ValidationError, ValidationInfo, model_validat
 
 from hydro2d import toml, units
 from hydro2d.deck import keys, plain_numbers, sections
-from hydro2d.deck.checks import bars_to_follow, extent, faces, heading, inconsistencies, room, travel, unsupported
+from hydro2d.deck.checks import axial_length, bars_to_follow, extent, faces, heading, inconsistencies, room, travel, unsupported
 from hydro2d.deck.generated_mesh import ReachError, as_segments, with_segments
 from hydro2d.deck.mesh import axis_edges, body, body_radius, cells_between
 from hydro2d.deck.warnings import warnings
@@ -29,6 +29,7 @@ from hydro2d.materials import from_files, library
 __all__ = [
     "Deck",
     "DeckError",
+    "axial_length",
     "bars_to_follow",
     "body",
     "body_groups",
@@ -153,6 +154,7 @@ def load(path: str | Path, overrides: Overrides = (), *, trust: bool = True) -> 
         A file, or the path of a shipped deck below ``problems``.
     overrides : list of str, or dict
         ``key=value`` with dotted keys, applied to the deck in order: ``body.rod.velocity=1200 m/s``; or values by such keys.
+        ``key=``, or the value None, removes a key, which then has its default.
     trust : bool
         Whether the code of models that the deck carries or names may be run; a deck that is only read needs it in few cases.
 
@@ -193,11 +195,17 @@ def _laid_over(data: dict, overrides: Overrides, sources: Sources) -> dict:
     if isinstance(overrides, Mapping):
         toml.within_limits(overrides, "overrides")
         entries = [(key, value, f"override {key} = {value!r}") for key, value in plain(overrides).items()]
-        if wrong := [f"{said}: {text}" for key, value, said in entries for text in plain_numbers.of_override(key, value)]:
+        if wrong := [f"{said}: {text}" for key, value, said in entries if value is not None
+                     for text in plain_numbers.of_override(key, value)]:
             raise DeckError("\n".join(wrong[:MOST_LINES]))
     else:
         entries = [(*toml.assignment(text), f"--set {text}") for text in overrides]
     for key, value, said in entries:
+        if value is None:
+            if wrong := keys.key_problem(data, key):
+                raise DeckError(f"{said}: {wrong}")
+            data = toml.removed(data, key, said)
+            continue
         data = toml.override(data, key, toml.placed_value(key, value, Path()), said, sources)
     return data
 
@@ -229,7 +237,7 @@ def _resolve(data: dict, name: str, overrides: Overrides, sources: Sources, trus
     problems += wrong
     if problems:
         raise DeckError("\n".join(problems))
-    deck = deck.model_copy(update={"materials": _materials(deck, own)})
+    deck = deck.model_copy(update={"materials": _materials(deck, own, complaint, trust)})
     deck = _with_defaults(deck)
     problems = [str(complaint(path, message)) for path, message in unsupported(deck)]
     if problems:
@@ -253,23 +261,26 @@ def _own_materials(deck: Deck, complaint, trust: bool) -> tuple[dict[str, librar
     return own, list(dict.fromkeys(problems))
 
 
-def _materials(deck: Deck, own: dict[str, library.Material]) -> dict[str, library.Material]:
+def _materials(deck: Deck, own: dict[str, library.Material], complaint, trust: bool) -> dict[str, library.Material]:
     """The materials that bodies use, and those that the deck defines."""
     chosen = dict(own)
-    for entry in deck.body:
+    for number, entry in enumerate(deck.body):
+        def fail(path: tuple, message: str, number=number, name=entry.material) -> DeckError:
+            return complaint(("body", number, "material"), f"{name}: {message}")
+
         if entry.material not in chosen:
-            chosen[entry.material] = library.load(entry.material)
+            chosen[entry.material] = library.from_deck(entry.material, deck.materials, fail, trust)
     return chosen
 
 
 def _unknown_materials(data: dict) -> Iterator[tuple[tuple, str]]:
     """Bodies with an unknown material, in a deck as it was read, which may be wrong in other ways."""
     bodies, own = data.get("body"), data.get("materials")
-    known = {*(own if isinstance(own, dict) else ()), *library.names()}
     for number, entry in enumerate(bodies if isinstance(bodies, list) else ()):
         material = entry.get("material") if isinstance(entry, dict) else None
-        if isinstance(material, str) and material not in known:
-            yield ("body", number, "material"), unknown("material", material, known)
+        wrong = library.problem(material, own if isinstance(own, dict) else {}) if isinstance(material, str) else None
+        if wrong:
+            yield ("body", number, "material"), wrong
 
 
 def _with_defaults(deck: Deck) -> Deck:

@@ -12,7 +12,7 @@ from hydro2d.deck.mesh import axis_edges, body, misfits
 from hydro2d.deck.sections import Deck
 from hydro2d.deck.shapes import outline, shared_volume
 from hydro2d.deck.thin import thin_things
-from hydro2d.materials.material import Material
+from hydro2d.materials.material import FRACTURE, Material
 from hydro2d.mesh.edges.registry import BY_NAME
 from hydro2d.sources.detonation import EXPLOSIVES
 
@@ -139,6 +139,16 @@ def _melts_by_itself(material: Material) -> bool:
     return own is not None and np.isfinite(own.value)
 
 
+def _answer(name: str, material: Material, *keys: str) -> str:
+    """The variants of a body's material that have what it lacks, and how to write the first; empty where none has."""
+    found = material.variants_with(*keys)
+    if not found:
+        return ""
+    names = " and ".join(f'"{variant}"' for variant in found)
+    words = f"variants {names} have one" if found[1:] else f"variant {names} has one"
+    return f'; {words}: material = "{name}:{found[0]}"'
+
+
 def _no_failure(deck: Deck) -> Iterator[str]:
     """Bodies with strength that cannot fail in a way that the deck or their material provides for.
 
@@ -152,7 +162,7 @@ def _no_failure(deck: Deck) -> Iterator[str]:
         if entry.join is not None or not material.has_strength:
             if entry.join is None and _bears_any_tension(material) and failure.tensile == "material":
                 yield (f'body "{entry.name}": {material.name} has no fracture_pressure and bears any tension; give it one, '
-                       "at which it cavitates")  # fmt: skip
+                       f"at which it cavitates{_answer(entry.material, material, *FRACTURE)}")  # fmt: skip
             continue
         if material.damage.name != "none" and forgotten:
             yield (
@@ -162,15 +172,15 @@ def _no_failure(deck: Deck) -> Iterator[str]:
         if material.fracture_pressure is None is material.fracture_stress and failure.tensile == "material":
             yield (
                 f'body "{entry.name}": {material.name} has no fracture_pressure and, with failure.tensile = "material", '
-                "never fractures in tension"
+                f"never fractures in tension{_answer(entry.material, material, *FRACTURE)}"
             )
         if not material.melting and failure.melting == "material" and not _melts_by_itself(material):
             yield (
                 f'body "{entry.name}": {material.name} has no melting line and, with failure.melting = "material", '
-                "never melts"
+                f'never melts{_answer(entry.material, material, "melting")}'
             )
         if material.damage.name == "none" and failure.damage == "material" and not material.says_damage:
             yield (
                 f'body "{entry.name}": {material.name} has no damage model and, with failure.damage = "material", '
-                "is never damaged"
+                f'is never damaged{_answer(entry.material, material, "damage")}'
             )

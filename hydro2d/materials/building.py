@@ -41,7 +41,9 @@ def build(name: str, raw: dict, fail: Fail, trust: bool) -> Material:
     variants = {key: str(entry.get("title", "")) for key, entry in raw.get("variants", {}).items()}
     title, note = str(raw.get("title", "")), str(raw.get("note", ""))
     fractures = [fracture.get(key) for key in FRACTURE]
-    return Material(name, title, note, eos, strength, damage, *fractures, melting, variants, raw.get("damage") is not None)
+    own_keys = {key: tuple(entry) for key, entry in raw.get("variants", {}).items()}
+    return Material(name, title, note, eos, strength, damage, *fractures, melting, variants, raw.get("damage") is not None,
+                    own_keys)  # fmt: skip
 
 
 def _tension(raw, key: str, fail: Fail) -> Number:

@@ -73,27 +73,50 @@ def names() -> list[str]:
     return sorted(_library()[0])
 
 
-def load(name: str, variant: str | None = None) -> Material:
-    """A material of the library, or one of its variants. Raises DeckError if there is none."""
+def parted(text: str) -> tuple[str, list[str]]:
+    """Name and variants of NAME:VARIANT, or of NAME:VARIANT:VARIANT; without a colon there are none."""
+    name, *variants = text.split(":")
+    return name, variants
+
+
+def load(text: str, variant: str | None = None) -> Material:
+    """A material of the library by NAME or NAME:VARIANT, which it is then called. Raises DeckError if there is none."""
     tables, sources = _library()
+    name, named = parted(text)
 
     def fail(path: tuple, message: str) -> DeckError:
         return DeckError(f"{sources.where((name, *path), tables)}: material {name}: {message}")
 
     if name not in tables:
         raise DeckError(unknown("material", name, tables))
-    return build(name, _varied(tables[name], variant, fail), fail, True)
+    return build(text, _varied(tables[name], named or variant, fail), fail, True)
+
+
+def problem(text: str, own: Mapping[str, object]) -> str | None:
+    """Why a body cannot be of a material NAME or NAME:VARIANT of the library or of a deck's own tables; None if it can."""
+    name, variants = parted(text)
+    if text in own or name in own:
+        return None  # its own tables are looked at by themselves
+    if name not in names():
+        return unknown("material", name, {*own, *names()})
+    known = _library()[0][name].get("variants", {})
+    return next((f"{name}: {unknown('variant', variant, known)}" for variant in variants if variant not in known), None)
 
 
 def from_deck(name: str, tables: Mapping[str, dict], fail: Fail, trust: bool = True) -> Material:
-    """The material ``name`` of a deck: one of its own tables, or one of the library.
+    """The material ``name`` of a deck, or NAME:VARIANT: one of its own tables, or one of the library.
 
     ``fail(path, message)`` makes the error for a key of [materials]; it is raised here. Without ``trust`` no code of the deck
     is run, unless this process has run it before.
     """
-    if name not in tables:
+    base, variants = (name, []) if name in tables else parted(name)
+    if base not in tables:
         return load(name)
-    return build(name, _based(name, tables, fail, ()), lambda path, text: fail((name, *path), text), trust)
+
+    def told(path: tuple, text: str) -> Exception:
+        return fail((base, *path), text)
+
+    return build(name, _varied(_based(base, tables, fail, ()), variants, told), told, trust)
 
 
 def _based(name: str, tables: Mapping[str, dict], fail: Fail, chain: tuple[str, ...]) -> dict:
@@ -116,8 +139,10 @@ def _based(name: str, tables: Mapping[str, dict], fail: Fail, chain: tuple[str, 
         if base in chain:
             raise fail((name, "based_on"), f"are based on each other in a circle: {' -> '.join((*chain, name, base))}")
         raw = _overlaid(_based(base, tables, fail, (*chain, name)), own)
-    elif base in names():
-        raw = _overlaid(_library()[0][base], own)
+    elif parted(base)[0] in names():
+        of_library, variants = parted(base)
+        raw = _varied(_library()[0][of_library], variants, lambda path, text: fail((name, "based_on"), text))
+        raw = _overlaid(raw, own)
     else:
         raise fail((name, "based_on"), unknown("material", str(base), {*names(), *tables} - {name}))
     return _varied(raw, own.get("variant"), lambda path, text: fail((name, *path), text), own)
@@ -153,9 +178,9 @@ def _varied(raw: dict, variant, fail: Fail, own: dict | None = None) -> dict:
     return _overlaid(raw, own) if own and chosen else raw
 
 
-def describe(name: str, variant: str | None = None) -> str:
-    """The page of a material for ``hydro2d info``: every number with its unit, source and confidence."""
-    material = load(name, variant)
+def describe(text: str) -> str:
+    """The page of a material, NAME or NAME:VARIANT, for ``hydro2d info``: every number with unit, source and confidence."""
+    material = load(text)
     lines = [f"{material.name}: {material.title}"] + ([material.note] if material.note else [])
     parts: list[tuple[str, Mapping[str, Number]]] = [
         (f"{part}: {getattr(material, part).title}", getattr(material, part).numbers) for part in PARTS

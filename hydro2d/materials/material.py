@@ -147,6 +147,8 @@ class Material:
     variants: Mapping[str, str] = field(default_factory=dict)
     #: whether it sets its damage model itself, even to none
     says_damage: bool = field(default=False, compare=False)
+    #: what each of its variants sets: parts, and tensions at which it fractures
+    variant_keys: Mapping[str, tuple[str, ...]] = field(default_factory=dict, compare=False)
 
     @property
     def reference_density(self) -> float:
@@ -156,6 +158,10 @@ class Material:
     @property
     def has_strength(self) -> bool:
         return self.strength.name != "hydrodynamic"
+
+    def variants_with(self, *keys: str) -> list[str]:
+        """Names of the variants that set one of these keys."""
+        return [name for name, own in self.variant_keys.items() if set(own) & set(keys)]
 
     def as_deck(self) -> dict:
         """The material as a table of a deck, every number in SI."""

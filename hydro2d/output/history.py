@@ -23,6 +23,7 @@ from hydro2d import checksums
 from hydro2d.errors import Error, from_extra
 from hydro2d.files import hdf5, replacing
 from hydro2d.mesh.measured import FRAGMENTS, in_file, unit
+from hydro2d.mesh.regime import REGIMES
 from hydro2d.output import foreign
 from hydro2d.output.station_arrays import KEYS, KINDS, of_station, stations
 from hydro2d.strange import own
@@ -33,10 +34,6 @@ if TYPE_CHECKING:
     import xarray
 
     from hydro2d.solver.debris import Debris
-
-#: regimes of a rod in the order of impact velocity, and all regimes by their number in the file
-GROWING = ("rigid", "deforming", "eroding")
-REGIMES = (*GROWING, "left the mesh")
 
 #: prefix of the groups of what flies behind a target
 DEBRIS = "debris"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from hydro2d.output import history
+from hydro2d.mesh.regime import REGIMES
 from hydro2d.running import ending
 from hydro2d.running.progress import duration, moment, number, passed
 from hydro2d.running.run import HISTORY
@@ -50,7 +50,7 @@ def _last(columns: dict[str, np.ndarray]) -> dict:
         return {}
     row = {name: values[-1].item() for name, values in columns.items()}
     regime = row.pop("regime", -1)
-    found = {"time_s": row["time"], "cycles": row.get("cycle", 0), "regime": history.REGIMES[regime] if regime >= 0 else None}
+    found = {"time_s": row["time"], "cycles": row.get("cycle", 0), "regime": REGIMES[regime] if regime >= 0 else None}
     return found | {name: row[name] for name in ("penetration_depth_m", "rod_length_m") if np.isfinite(row.get(name, np.nan))}
 
 

@@ -445,7 +445,7 @@ def _over_length(summary: dict) -> str:
 
 
 def _rod(summary: dict, theory: Sequence[str]) -> list[str]:
-    from hydro2d.solver.penetrator import LEFT
+    from hydro2d.mesh.regime import LEFT
 
     depth, experiment, shape = summary["penetration_depth_m"], summary["experiment"], summary["projectile"]
     body = shape["body"]

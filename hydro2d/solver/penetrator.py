@@ -10,22 +10,17 @@ from hydro2d.deck import deck as decks
 from hydro2d.mesh import sums
 from hydro2d.mesh.edges.registry import BY_NAME
 from hydro2d.mesh.measured import PASSAGE
+from hydro2d.mesh.regime import ERODED_MASS, LEFT, regime
 from hydro2d.mesh.sums import HALF
 from hydro2d.solver import bodies
 from hydro2d.solver.targets import Target
 
-#: the rod is rigid while it has lost less than this share of its length and its radius has grown by less than that
-RIGID_LENGTH, RIGID_RADIUS = 0.02, 0.10
-#: it is eroding once more than this share of its mass has left its core
-ERODED_MASS = 0.10
-#: it has left the mesh once more than this share of its mass has flowed out since its core reached an open edge
+#: a rod has left the mesh once more than this share of its mass has flowed out since its core reached an open edge
 LEFT_MASS = 0.01
 #: what falls behind the axis by more than half of its speed and this share of the first speed is debris and not of the core
 DEBRIS_SPEED = 0.05
 #: cycles between looks at whether it is through the target, at what ends a run, and at whether the state makes sense
 WATCH_EVERY = 10
-#: the regime of such a rod
-LEFT = "left the mesh"
 
 
 class Exit(NamedTuple):
@@ -59,8 +54,12 @@ class Penetrator:
     turned-back material and debris that flies back against the flank do not belong to it.
     The depth that is told is the largest that the rod has had, of every tenth cycle and of now; where its deepest part is now,
     as of a ball that has rebounded, is the depth of its nose.
-    The regime is "rigid" while the rod has lost less than 2 % of its length and no section has swollen beyond 1.1 of its
-    radius, "eroding" once more than 10 % of its mass has left the core, else "deforming".
+    A rod or a ball that lies in the mesh whole has the length of the deck at the start. Its cells show less: the tip of an
+    ogive is thinner than half a cell. What they show later is told in the same proportion, so that a rod that keeps its shape
+    keeps its length, and losses are shares of what they showed first. Of a head that has become blunt this tells too much, by
+    less than the tip was short, and the less the shorter the rod is.
+
+    The regime is that of `mesh/regime.py`, from the length, the largest radius and the mass of the core.
 
     A rod can leave the mesh through an open edge in z. Its core has reached the edge when it fills half of the edge's cell on
     the axis and moves outwards there, as the mesh sees it. When more than 1 % of the rod's mass has flowed out since, the
@@ -92,7 +91,9 @@ class Penetrator:
         self.direction = direction
         grid = sim.grid
         self.columns = max(1, int(np.searchsorted(grid.r_edges[1:], 0.5 * self.radius)))
-        self.length = self._length()[0]
+        shown = self._length()[0]
+        self.length = decks.axial_length(deck, body) or shown
+        self._stretch = self.length / shown if shown > 0.0 else 1.0
         self.mass = float(sim.body_sums(self.m)[0].sum()) * self._around
         _, momentum, self.energy, *_ = bodies.motion(sim, self.m)
         self._against = targets[0].velocity
@@ -153,7 +154,7 @@ class Penetrator:
         return float(low), float(high)
 
     def _length(self) -> tuple[float, float, float]:
-        """Length, lower and upper end of the longest run on the axis, m; zeros where there is none."""
+        """Length, lower and upper end of the longest run on the axis as its cells show it, m; zeros where there is none."""
         column = self._intact(slice(None), 0)
         ends = [self._ends(column, run) for run in self._runs(column)]
         if not ends:
@@ -284,7 +285,7 @@ class Penetrator:
         looks = self.sim.cycle % WATCH_EVERY == 0
         while looks and len(self.passed) < len(self.targets) and self._is_through(len(self.passed)):
             flying = self._whole() if self._in_pieces() else self._whole_core()
-            self.passed.append(Passage(self.sim.time, *flying, self._length()[0]))
+            self.passed.append(Passage(self.sim.time, *flying, self._stretch * self._length()[0]))
         grid, dt = self.sim.grid, self.sim.dt
         drift = (grid.offset - self._offset) / dt if dt > 0.0 else 0.0
         self._offset = grid.offset
@@ -399,16 +400,13 @@ class Penetrator:
         """"rigid", "deforming", "eroding" or "left the mesh"; length and largest radius in m, mass of the core in kg."""
         if self.left:
             return LEFT
-        if core < (1.0 - ERODED_MASS) * self.mass:
-            return "eroding"
-        if length > (1.0 - RIGID_LENGTH) * self.length and radius < (1.0 + RIGID_RADIUS) * self.radius:
-            return "rigid"
-        return "deforming"
+        return regime(_share(length, self.length), _share(radius, self.radius), _share(core, self.mass))
 
     def measure(self) -> dict:
         """The keys of summary.json that concern the rod; SI, whole circumference."""
         length, low, high = self._length()
         tail, nose = (low, high) if self.direction > 0 else (high, low)
+        length *= self._stretch
         rows = self._rows(low, high)
         radius = self._largest_radius(rows)
         core, core_momentum = self._core(rows)
@@ -448,6 +446,11 @@ class Penetrator:
             "exit_time_s": self.passages()[-1]["exit_time_s"],
             "regime": self.regime(length, radius, core),
         }
+
+
+def _share(now: float, first: float) -> float:
+    """What is left over what there was at the start; 0 where there was nothing."""
+    return now / first if first > 0.0 else 0.0
 
 
 def _ringing(sim, m: int) -> float:

@@ -27,7 +27,10 @@ LONGEST = 40
 
 @dataclass(frozen=True)
 class Option:
-    """One value or variant of an axis: its label, its part of the name of a case, and the keys that it sets."""
+    """One value or variant of an axis: its label, its part of the name of a case, and the keys that it sets.
+
+    A key whose value is None is removed.
+    """
 
     label: str
     short: str
@@ -294,7 +297,7 @@ class _Planner:
         names = [*(axis.name for axis in self.definition.axis), velocities.AXIS]
         labels = {name: choice.label for name, choice in zip(names, combination, strict=False)}
         placed = {key: toml.placed_value(key, value, self.path.parent) for key, value in settings.items()}
-        return labels, base, [f"{key}={toml.inline(value)}" for key, value in placed.items()]
+        return labels, base, [toml.assigned(key, value) for key, value in placed.items()]
 
     def _files(self, cases: list[tuple]) -> dict[str, Path]:
         """The file of every base deck."""

@@ -217,7 +217,7 @@ def histories(series: Sequence[Series]):
     figure = _figure(len(names))
     for number, (each, record) in enumerate(drawn):
         how = style(number) if few else each.style
-        label = record.case.name + (f" (unfinished: {record.unfinished})" if record.unfinished else "") if few else each.label
+        label = record.case.name + (f" ({record.unfinished})" if record.unfinished else "") if few else each.label
         for row, name in enumerate(names, 1):
             if name not in record.history:
                 continue

@@ -16,8 +16,8 @@ from hydro2d.files import plain, read_text
 #: overrides of the decks of a study: "key=value" of a command line, or values by their dotted keys
 Overrides = Sequence[str] | Mapping[str, Any]
 
-#: the key of a variant that names another base deck
-DECK = "deck"
+#: the key of a variant that names another base deck, and that which lists the deck keys that it removes
+DECK, REMOVE = "deck", "remove"
 
 
 class StudyError(Error):
@@ -43,7 +43,17 @@ def _flat(table: Any, prefix: str = "") -> dict[str, Any]:
     return flat
 
 
-Keys = Annotated[dict[str, Any], AfterValidator(_flat)]
+def _removing(flat: dict[str, Any]) -> dict[str, Any]:
+    """Deck keys and values, with None for those that `remove` lists."""
+    removed = flat.pop(REMOVE, [])
+    if not isinstance(removed, (list, tuple)) or not all(isinstance(key, str) and key for key in removed):
+        raise ValueError(f'{REMOVE}: expected a list of deck keys, such as ["body.rod.crh"]')
+    if both := [key for key in removed if key in flat]:
+        raise ValueError(f"{REMOVE}: {both[0]} is given a value as well")
+    return flat | dict.fromkeys(removed)
+
+
+Keys = Annotated[dict[str, Any], AfterValidator(_flat), AfterValidator(_removing)]
 
 
 class Range(Section):
@@ -69,7 +79,7 @@ class Axis(Section):
     values: Annotated[tuple[Any, ...], AfterValidator(_filled)] | None = Field(None, description="values of the key")
     range: Range | None = Field(None, description="values of the key, by from, to and step or count")
     variants: Annotated[dict[str, Annotated[Keys, AfterValidator(_filled)]], AfterValidator(_filled)] | None = Field(
-        None, description="named sets of deck keys; the key `deck` names another base deck"
+        None, description="named sets of deck keys; `deck` names another base deck, `remove` lists deck keys to take out"
     )
 
     @model_validator(mode="after")
@@ -167,7 +177,7 @@ class Definition(Section):
     title: str = Field("", description="title for tables and reports")
     deck: str | None = Field(None, description="base deck: beside the study file, or as `hydro2d run` finds decks")
     out: str | None = Field(None, description="directory of the study; default: runs/<name of the study file>")
-    set: Keys = Field({}, description="deck keys and values for every case")
+    set: Keys = Field({}, description="deck keys and values for every case; `remove` lists keys to take out")
     axis: Annotated[tuple[Axis, ...], AfterValidator(_filled)] = Field((), description="what is varied, the first axis slowest")
     transition: Transition | None = Field(None, description="the search of `hydro2d transition`")
     ensemble: Ensemble | None = Field(None, description="repeats of every case")
@@ -213,7 +223,13 @@ def _with(data: dict, overrides: Overrides) -> dict:
     if isinstance(overrides, str):
         raise StudyError(f'overrides are a dict of values by key or a list of "key=value", not the text "{overrides}"')
     given = plain(overrides) if isinstance(overrides, Mapping) else dict(_assigned(entry) for entry in overrides)
-    return {**data, "set": {**_settings(data), **{key: toml.placed_value(key, value, Path()) for key, value in given.items()}}}
+    settings = _settings(data)
+    removed = settings.pop(REMOVE, [])
+    if isinstance(removed, list):
+        removed = [key for key in removed if key not in given] + [key for key, value in given.items() if value is None]
+        settings = {key: value for key, value in settings.items() if key not in removed}
+    settings |= {key: toml.placed_value(key, value, Path()) for key, value in given.items() if value is not None}
+    return {**data, "set": settings | ({REMOVE: removed} if removed else {})}
 
 
 def _settings(data: dict) -> dict:

@@ -29,7 +29,7 @@ def _hover(record: Record, x: Variable, y: Response) -> str:
     if record.value("regime"):
         told.append(verbatim(record.value("regime")))
     if record.unfinished:
-        told.append(f"unfinished: {verbatim(record.unfinished)}")
+        told.append(verbatim(record.unfinished))
     return "<br>".join(told)
 
 

@@ -15,9 +15,10 @@ from hydro2d.analytic import model_deck
 from hydro2d.deck import deck as decks
 from hydro2d.deck import keys
 from hydro2d.errors import DeckError
+from hydro2d.mesh.regime import LEFT, REGIMES
 from hydro2d.output import history, vtk
 from hydro2d.running.run import DECK, HISTORY, check_own
-from hydro2d.solver import penetrator, targets
+from hydro2d.solver import targets
 from hydro2d.strange import within
 from hydro2d.study.definition import StudyError
 from hydro2d.study.differences import flatten
@@ -30,6 +31,8 @@ DRAWN_OF_BODY = ("velocity_m_s", "kinetic_energy_J", "z_max_m")
 POINTS = 300
 #: stop reasons of runs that were cut short; fraction of the impact velocity above which a projectile still moves
 CUT, MOVING = ("end time", "number of cycles"), 0.01
+#: speed from which it is told in whole m/s
+WHOLE_SPEED = 10.0
 
 
 class Setup(NamedTuple):
@@ -137,7 +140,10 @@ class Record:
             return self.case.status
         if not self.case.summary:
             return "no summary"
-        return f"cut at {self._speed:.3g} m/s" if self.cut and not self.at_least else ""
+        if not self.cut or self.at_least:
+            return ""
+        speed = f"{self._speed:.0f}" if self._speed >= WHOLE_SPEED else f"{self._speed:.3g}"
+        return f"reached its {self.case.summary['stop_reason']}, still moving at {speed} m/s"
 
     @property
     def cut(self) -> bool:
@@ -203,7 +209,7 @@ class Record:
     @property
     def left(self) -> bool:
         """Whether the rod left the mesh."""
-        return self.value("regime") == penetrator.LEFT
+        return self.value("regime") == LEFT
 
     @property
     def at_least(self) -> bool:
@@ -322,8 +328,8 @@ def _read_history(record: Record) -> None:
         found.update((name, float(column[row])) for name, column in columns.items() if np.isfinite(column[row]))
     if "regime" in record.last:
         number = int(record.last.pop("regime"))
-        if 0 <= number < len(history.REGIMES):
-            record.last["regime"] = history.REGIMES[number]
+        if 0 <= number < len(REGIMES):
+            record.last["regime"] = REGIMES[number]
 
 
 def _read_rod(record: Record, place: Place) -> None:

@@ -11,9 +11,8 @@ from hydro2d.analytic import model_transition, models
 from hydro2d.analytic.model_text import columns
 from hydro2d.analytic.model_transition import Bracket, Comparison, Prediction, extent
 from hydro2d.files import write_json
-from hydro2d.output.history import GROWING
+from hydro2d.mesh.regime import DEFORMING, ERODED_MASS, ERODING, GROWING, LEAST_KEPT, RULE
 from hydro2d.penetration.model import InputError
-from hydro2d.solver import penetrator
 from hydro2d.study import bisection, experiments, record, v50, velocities
 from hydro2d.study.layout import Interval, Study
 from hydro2d.study.record import Record
@@ -31,12 +30,10 @@ class Scheme:
 
 STOPPED, PERFORATED = "stopped", "perforated"
 KEPT, USED_UP = "kept", "used up"
-HOLDS, ERODES = "not eroding", "eroding"
+HOLDS, ERODES = "not eroding", ERODING
 SHALLOW, DEEP = "shallower", "deeper"
-#: smallest part of the length that is left of a rod that is kept; what erosion leaves, with a needle or two, is less
-LEAST_KEPT = 2.0 / 3.0
 SCHEMES = {
-    "regime": Scheme(GROWING, {"deforming": "rigid to deforming", "eroding": "to eroding"}),
+    "regime": Scheme(GROWING, {DEFORMING: "rigid to deforming", ERODING: "to eroding"}),
     "length": Scheme((KEPT, USED_UP), {USED_UP: "a third of the length lost"}),
     "perforation": Scheme((STOPPED, PERFORATED), {PERFORATED: "ballistic limit"}),
     "erosion": Scheme((HOLDS, ERODES), {ERODES: "to eroding"}),
@@ -51,16 +48,10 @@ _BY_DEPTH = {
     FALL: "between the deepest run and the next faster one, however far apart; it prompts no further runs",
     LIMIT: f"as for experiments: {model_transition.RULE}; also from the same runs, without those slower than every deeper one",
 }
-_ERODING = f"more than {100 * penetrator.ERODED_MASS:g} % of the mass has left the core"
 _OF_DEPTH = {DEEP: "the largest depth of the run is at least `depth` of the study", SHALLOW: "it is less"}
 #: what the terms of a search mean
 CRITERIA = {
-    "regime": {
-        "rigid": f"less than {100 * penetrator.RIGID_LENGTH:g} % of the length lost, no section beyond "
-                 f"{1 + penetrator.RIGID_RADIUS:g} of the radius",
-        "eroding": f"{_ERODING}; else it is deforming",
-        **_BY_DEPTH,
-    },
+    "regime": RULE | _BY_DEPTH,
     "length": {
         KEPT: "at least two thirds of the projectile's length are left at the end", USED_UP: "less is left", **_BY_DEPTH,
     },
@@ -68,7 +59,7 @@ CRITERIA = {
         PERFORATED: "the leading end is at least the radius of the projectile beyond the rear face of the target",
         "ballistic limit": "between the fastest run that is stopped and the slowest that perforates",
     },
-    "erosion": {ERODES: _ERODING, HOLDS: "less has, whether the projectile is rigid or deforming", **_BY_DEPTH},
+    "erosion": {ERODES: RULE[ERODING], HOLDS: "less has, whether the projectile is rigid or deforming", **_BY_DEPTH},
     "deeper": _OF_DEPTH,
     "shallower": _OF_DEPTH,
 }  # fmt: skip
@@ -151,7 +142,7 @@ def judge(found: Record, of: str = "regime", depth: float | None = None) -> Run:
     if depth is not None:
         return _by_threshold(found, velocity, depth)
     first, mass = found.first.get("rod_mass_kg"), found.value("rod_mass_kg")
-    if found.perforated and (found.left or (first and mass < (1.0 - penetrator.ERODED_MASS) * first)):
+    if found.perforated and (found.left or (first and mass < (1.0 - ERODED_MASS) * first)):
         why = "the projectile went through the target and left the mesh; stop.perforation = true ends a run before that"
         return Run(found, velocity, None, why)
     if found.left:
@@ -161,7 +152,7 @@ def judge(found: Record, of: str = "regime", depth: float | None = None) -> Run:
         return Run(found, velocity, KEPT if kept else USED_UP)
     regime = case.summary.get("regime")
     if of == "erosion":
-        return Run(found, velocity, ERODES if regime == GROWING[-1] else HOLDS)
+        return Run(found, velocity, ERODES if regime == ERODING else HOLDS)
     return Run(found, velocity, regime)
 
 

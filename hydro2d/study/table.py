@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from hydro2d.mesh.measured import unit
 from hydro2d.study.experiments import Measurement
-from hydro2d.study.layout import Axis, Study
+from hydro2d.study.layout import DONE, Axis, Study
 from hydro2d.study.record import Record
 from hydro2d.study.responses import DEPTH, RESIDUAL, Choice, is_velocity, raw, response
 from hydro2d.terminal import cell
@@ -157,6 +157,11 @@ def _word(name: str) -> Callable[[Row], str]:
     return lambda row: str(row.get(name) or "")
 
 
+def _standing(row: Row) -> str:
+    """The status of a case; of one that is done, but was cut while its projectile moved, that."""
+    return str(row["status"] == DONE and row.get("unfinished") or row["status"])
+
+
 SIGNS = {"at least": "≥ ", "at most": "≤ ", "estimated": "≈ "}
 
 
@@ -220,7 +225,7 @@ def columns_of_results(study: Study, table: Sequence[Row], choice: Choice) -> li
     return [
         *(_of_axis(axis, table[0]) for axis in study.axes),
         *(column for column in optional if column.name in known),
-        Column("Status", "status", _word("status"), number=False),
+        Column("Status", "status", _standing, number=False),
     ]
 
 

@@ -21,9 +21,10 @@ from pathlib import Path
 
 from hydro2d.analytic import model_transition
 from hydro2d.errors import DeckError
+from hydro2d.mesh.regime import LEAST_KEPT
 from hydro2d.study import bisection, layout
 from hydro2d.study.layout import StudyError
-from hydro2d.study.regimes import DEPTHS, KEPT, LEAST_KEPT, NOT_DEEPER, USED_UP, by_depth
+from hydro2d.study.regimes import DEPTHS, KEPT, NOT_DEEPER, USED_UP, by_depth
 from hydro2d.study.velocities import speed
 from problems import kept
 

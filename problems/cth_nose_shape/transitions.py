@@ -13,9 +13,9 @@ import argparse
 import sys
 from pathlib import Path
 
+from hydro2d.mesh.regime import LEAST_KEPT
 from hydro2d.study import layout, logit, velocities
 from hydro2d.study.layout import StudyError
-from hydro2d.study.regimes import LEAST_KEPT
 from problems import kept as results
 
 HERE = Path(__file__).parent

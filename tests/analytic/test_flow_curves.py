@@ -6,10 +6,9 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from hydro2d.analytic import model_materials
 from hydro2d.cli.main import call
 from hydro2d.errors import DeckError
-from hydro2d.materials import curves
+from hydro2d.materials import curves, library
 from strength import STRENGTH_MODELS
 
 STRAINS = [0.0, 0.1, 0.5, 1.5]
@@ -18,7 +17,7 @@ STRAINS = [0.0, 0.1, 0.5, 1.5]
 @pytest.mark.parametrize("name", ["W_alloy", "W_sintered", "Al7039", "iron_Armco:zerilli-armstrong", "Al6061_T651"])
 def test_plastic_work_heats(name):
     """Against an integration of rho c dT = Y d(ep) by scipy."""
-    material = model_materials.load(name)
+    material = library.load(name)
     model = STRENGTH_MODELS[material.strength.name]
     row, rho = model.row(material.strength.values), material.reference_density
     heat = material.eos.numbers["specific_heat"].value
@@ -35,7 +34,7 @@ def test_plastic_work_heats(name):
 
 
 def test_isothermal_keeps_the_temperature():
-    material = model_materials.load("Al7039")
+    material = library.load("Al7039")
     stress, T = curves.flow_stress(material, 1.0, STRAINS, isothermal=True)
     assert len(set(T)) == 1
     assert stress == pytest.approx(337e6 + 343e6 * np.array(STRAINS) ** 0.41, rel=1e-12)
@@ -43,7 +42,7 @@ def test_isothermal_keeps_the_temperature():
 
 def test_a_gas_has_no_curve():
     with pytest.raises(DeckError, match="gas_7_5 has no strength"):
-        curves.flow_stress(model_materials.load("gas_7_5"), 1.0, STRAINS)
+        curves.flow_stress(library.load("gas_7_5"), 1.0, STRAINS)
 
 
 def test_the_command(tmp_path, capsys):
@@ -55,7 +54,7 @@ def test_the_command(tmp_path, capsys):
     assert len([line for line in out if "johnson-cook" in line]) == 4
     rows = list(csv.DictReader(table.open()))
     assert len(rows) == 8
-    stress, _ = curves.flow_stress(model_materials.load("W_sintered"), 1e3, [0.0, 0.5])
+    stress, _ = curves.flow_stress(library.load("W_sintered"), 1e3, [0.0, 0.5])
     assert [float(row["flow stress [Pa]"]) for row in rows[:2]] == list(stress)
     assert picture.read_bytes()[:4] == b"\x89PNG"
     assert call(["curve", "W_sintered", "--rate", "-1"]) == 2

@@ -68,7 +68,7 @@ def test_numbers_of_a_power_law():
 def test_johnson_cook_at_a_strain_and_a_variant():
     assert model_materials.quantities(library.load("Al7039"), 0.2)["strength"].value == pytest.approx(
         337e6 + 343e6 * 0.2**0.41, rel=1e-12)  # fmt: skip
-    assert model_materials.quantities(model_materials.load("Al5083:c0-5240"))["sound_speed"].value == 5240.0
+    assert model_materials.quantities(library.load("Al5083:c0-5240"))["sound_speed"].value == 5240.0
 
 
 @pytest.mark.parametrize("strain", [-0.1, math.nan, math.inf])

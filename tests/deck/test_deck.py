@@ -432,6 +432,18 @@ def test_gas_beside_solids_is_warned_of(density):
     assert not any("a gas" in text for text in deck.warnings(deck.load("problems/verification/sod_z.toml")))
 
 
+def test_an_override_removes_a_key():
+    """It then has its default; one that is not there stays away, and one that no deck has is told."""
+    file = "problems/cth_nose_shape/ogive_7039_1291.toml"
+    flat = [["body.rod.nose=flat", "body.rod.crh="], {"body.rod.nose": "flat", "body.rod.crh": None}]
+    for overrides in (*flat, [*flat[0], "body.rod.half_angle="]):
+        assert (deck.load(file, overrides).body[0].nose, deck.load(file, overrides).body[0].crh) == ("flat", None)
+    with pytest.raises(deck.DeckError, match=r'--set body\.rod\.chr=: body\[0\]: unknown key "chr"'):
+        deck.load(file, ["body.rod.chr="])
+    with pytest.raises(deck.DeckError, match="there is no entry|unknown entry"):
+        deck.load(file, ["body.rd.crh="])
+
+
 DAMAGED = changed("W_alloy", "alloy") + """\
 [materials.alloy]
 based_on = "W_alloy"
@@ -448,11 +460,14 @@ BARE = changed("W_alloy", "Al7075_T6")
         (DAMAGED + '[failure]\ndamage = "none"', None),
         (DAMAGED.replace("Al5083", "alloy") + '[failure]\ndamage = "material"', None),
         (DAMAGED + '[failure]\ndamage = "material"',
-         'body "plate": Al5083 has no damage model and, with failure.damage = "material", is never damaged'),
+         'body "plate": Al5083 has no damage model and, with failure.damage = "material", is never damaged; variants '
+         '"strain-failure" and "johnson-cook-failure" have one: material = "Al5083:strain-failure"'),
+        (DAMAGED.replace('"Al5083"', '"Al5083:strain-failure"') + '[failure]\ndamage = "material"', None),
         (DAMAGED.replace('material = "Al5083"', 'material = "plate_alloy"') + '[materials.plate_alloy]\nbased_on = "Al5083"\n'
          'damage.model = "none"\n[failure]\ndamage = "material"', None),
         (BARE, 'body "rod": Al7075_T6 has no fracture_pressure and, with failure.tensile = "material", never '
-               "fractures in tension"),
+               'fractures in tension; variant "spall" has one: material = "Al7075_T6:spall"'),
+        (changed("W_alloy", "Al7075_T6:spall"), None),
         (BARE + '[failure]\ntensile = "none"', None),
     ],
 )  # fmt: skip

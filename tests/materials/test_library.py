@@ -1,12 +1,14 @@
 """The library of materials, materials of decks, and the rows that kernels read."""
 
 import math
+import re
 
 import numpy as np
 import pytest
 
 import eos
 import strength
+from hydro2d.cli import info
 from hydro2d.deck import deck
 from hydro2d.materials import library
 from strength.layout import SHEAR, YIELD
@@ -200,6 +202,49 @@ def test_unknown_names():
         library.load("W_aloy")
     with pytest.raises(deck.DeckError, match=r"tungsten\.toml:\d+: material W_alloy: unknown variant \"cv\""):
         library.load("W_alloy", "cv")
+
+
+def of_body(material, own=""):
+    """The deck whose rod is of a material, and its own tables of materials."""
+    return deck.loads(TEXT.removesuffix("[materials.A]\n").replace('material = "A"', f'material = "{material}"') + own)
+
+
+def test_a_body_of_a_variant():
+    """As in commands; the resolved deck has its numbers and is read as it stands."""
+    name = "W_alloy:cv-printed:strain-failure"
+    found = of_body(name)
+    material = found.materials[name]
+    assert (material.name, material.eos.values["specific_heat"], material.damage.values["D1"]) == (name, 1430.5, 1.5)
+    again = deck.loads(found.to_toml())
+    assert again.to_toml() == found.to_toml()
+    assert again.materials[name].eos.values == material.eos.values
+    assert library.load(name) == material
+
+
+def test_variants_of_a_material_of_the_deck():
+    own = '[materials.mine]\nbased_on = "W_alloy:cv-printed"\n[materials.mine.variants.hot]\neos.specific_heat = 200.0\n'
+    assert of_body("mine", own).materials["mine"].eos.values["specific_heat"] == 1430.5
+    assert of_body("mine:hot", own).materials["mine:hot"].eos.values["specific_heat"] == 200.0
+    assert of_body("mine:strain-failure", own).materials["mine:strain-failure"].damage.values["D1"] == 1.5
+
+
+@pytest.mark.parametrize(("material", "own", "said"), [
+    ("W_alloy:cv-prined", "", 'W_alloy: unknown variant "cv-prined"; did you mean "cv-printed"?'),
+    ("W_alloy:", "", 'W_alloy: unknown variant ""'),
+    ("W_aloy:cv-printed", "", 'unknown material "W_aloy"; did you mean "W_alloy"?'),
+    ("mine:cv-prined", '[materials.mine]\nbased_on = "W_alloy"\n',
+     'mine:cv-prined: unknown variant "cv-prined"; did you mean "cv-printed"?'),
+])  # fmt: skip
+def test_a_body_of_an_unknown_variant(material, own, said):
+    with pytest.raises(deck.DeckError, match=r"body\[0\]\.material: ") as raised:
+        of_body(material, own)
+    assert said in str(raised.value)
+
+
+def test_a_page_of_a_variant():
+    assert re.search(r"specific_heat +1430\.5 ", info.page("W_alloy:cv-printed"))
+    with pytest.raises(deck.DeckError, match='did you mean "cv-printed"'):
+        info.page("W_alloy:cv-prined")
 
 
 def test_a_material_based_on_another():

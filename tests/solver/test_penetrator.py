@@ -7,18 +7,36 @@ import pytest
 
 from hydro2d import toml
 from hydro2d.deck import deck
-from hydro2d.output import history
-from hydro2d.solver.penetrator import LEFT
-from hydro2d.solver.simulation import WATCH_EVERY, Simulation
-from tests.decks import mesh, plate, rod, stop, table
-
-TEXT = (
-    mesh(("12 mm", 24), ("-25 mm", "25 mm", 100))
-    + table("numerics", advection="ke")
-    + rod("3 mm", "20.2 mm", nose="flat", tip="TIP mm", velocity="1 km/s")
-    + plate("24 mm")
-    + stop("1 us")
+from hydro2d.mesh.regime import (
+    DEFORMING,
+    ERODED_LENGTH,
+    ERODED_MASS,
+    ERODING,
+    GROWING,
+    LEFT,
+    REGIMES,
+    RIGID,
+    RIGID_LENGTH,
+    RIGID_RADIUS,
+    regime,
 )
+from hydro2d.solver.simulation import WATCH_EVERY, Simulation
+from tests.decks import box, mesh, plate, rod, stop, table
+from tests.rules import source
+
+
+def text(**keys):
+    """A deck: a rod of 20.2 mm with these keys, before a plate."""
+    return (
+        mesh(("12 mm", 24), ("-25 mm", "25 mm", 100))
+        + table("numerics", advection="ke")
+        + rod("3 mm", "20.2 mm", velocity="1 km/s", **keys)
+        + plate("24 mm")
+        + stop("1 us")
+    )
+
+
+TEXT = text(nose="flat", tip="TIP mm")
 
 
 @pytest.fixture
@@ -42,6 +60,33 @@ def test_a_rod_before_impact(simulation):
     assert found["rod_mean_velocity_m_s"] == pytest.approx(1000.0, rel=2e-3)  # its tip shares a cell with the plate
     assert found["rod_tail_velocity_m_s"] == pytest.approx(1000.0, rel=1e-9)
     assert found["regime"] == "rigid"
+
+
+@pytest.mark.parametrize(("keys", "length"), [
+    ({"nose": "ogive", "crh": 3.0}, 20.2e-3),  # its tip is thinner than half a cell
+    ({"nose": "hemispherical"}, 20.2e-3),
+])  # fmt: skip
+def test_a_rod_has_the_length_of_the_deck(keys, length):
+    """And loses none of it while its cells show what they showed at the start; what they lose counts in proportion."""
+    own = Simulation(deck.loads(text(tip="-0.3 mm", **keys)))
+    found = own.diagnostics()
+    shown = own.penetrator._length()[0]
+    assert (found["rod_initial_length_m"], found["rod_length_m"]) == pytest.approx((length, length), rel=1e-12)
+    assert length - 1.5e-3 < shown < length - 1e-5
+    fraction, z = cells(own)
+    fraction[z < -15.4e-3] = 0.0
+    left = own.diagnostics()["rod_length_m"]
+    assert left / length == pytest.approx(own.penetrator._length()[0] / shown, rel=1e-12)
+    assert left == pytest.approx(length * (1.0 - 5e-3 / shown), rel=1e-2)
+
+
+@pytest.mark.parametrize(("before", "after", "length"), [
+    (box("bore", "Al5083", r=["0 mm", "1 mm"], z=["-25 mm", "-18 mm"]), "", 17.7e-3),  # an earlier body has its place
+    ("", box("tail", "W_alloy", r=["0 mm", "3 mm"], z=["-22.5 mm", "-20.5 mm"], join="rod", velocity="1 km/s"), 22.2e-3),
+])  # fmt: skip
+def test_a_rod_that_is_not_by_itself_has_the_length_of_its_cells(before, after, length):
+    found = Simulation(deck.loads(before + text(nose="flat", tip="-0.3 mm") + after))
+    assert found.penetrator.length == found.penetrator._length()[0] == pytest.approx(length, rel=1e-9)
 
 
 def test_depth_counts_the_share_of_the_last_cell(simulation):
@@ -78,9 +123,29 @@ def test_fragments_behind_the_tail_do_not_count(simulation):
     assert simulation.diagnostics()["rod_length_m"] == pytest.approx(20.2e-3, rel=1e-9)
 
 
+@pytest.mark.parametrize(("length", "radius", "core", "found"), [
+    (1.0, 1.0, 1.0, RIGID), (0.951, 1.099, 0.901, RIGID), (1.0, 1.101, 1.0, DEFORMING), (0.949, 1.0, 1.0, DEFORMING),
+    (0.667, 1.5, 0.901, DEFORMING), (0.666, 1.0, 1.0, ERODING), (0.22, 1.3, 1.0, ERODING), (1.0, 1.0, 0.899, ERODING),
+    (0.0, 0.0, 0.0, ERODING),
+])  # fmt: skip
+def test_the_rule_of_the_regimes(length, radius, core, found):
+    assert regime(length, radius, core) == found
+
+
+def test_the_rule_stands_among_the_words():
+    """The page that explains the words has the numbers of the rule."""
+    page = " ".join((source.ROOT / "docs/reference/words.md").read_text(encoding="utf-8").split())
+    numbers = (f"{100 * RIGID_LENGTH:g} %", f"{1 + RIGID_RADIUS:g} times", f"{100 * ERODED_MASS:g} %",
+               "more than a third of its length")  # fmt: skip
+    assert [number for number in numbers if number not in page] == []
+    assert ERODED_LENGTH == pytest.approx(1.0 / 3.0, abs=1e-15)
+
+
 def test_regimes(simulation):
     fraction, z = cells(simulation)
     fraction[z < -19.9e-3] = 0.0  # 0.6 mm of the tail are gone: 3 % of length and mass
+    assert simulation.diagnostics()["regime"] == "rigid"
+    fraction[z < -19.1e-3] = 0.0  # 1.6 mm: 8 %
     assert simulation.diagnostics()["regime"] == "deforming"
     skirt = (z > -15e-3) & (z < -9e-3)
     fraction[np.ix_(skirt, np.arange(24) == 5)] = 0.0  # a gap, and outside of it what was turned back
@@ -324,5 +389,5 @@ def test_a_restart_remembers_the_exit():
 
 
 def test_the_word_is_known_to_the_history():
-    assert history.REGIMES.index(LEFT) == 3
-    assert history.REGIMES[:3] == history.GROWING == ("rigid", "deforming", "eroding")
+    assert REGIMES.index(LEFT) == 3
+    assert REGIMES[:3] == GROWING == ("rigid", "deforming", "eroding")

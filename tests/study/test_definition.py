@@ -1,10 +1,14 @@
 """Study files: what is wrong is told in one line with file, line, key and the nearest name; the cases that come out."""
 
+import re
+import tomllib
+
 import pytest
 
 from hydro2d.cli.main import call
 from hydro2d.study import cases, ranges
 from hydro2d.study.definition import Range, StudyError
+from tests.rules import source
 from tests.study import tubes
 
 
@@ -46,6 +50,50 @@ def test_variants_set_several_keys_and_other_decks(tmp_path):
     assert other.deck == "other.toml"
     assert "cells = 100" in other.text
     assert other.values == {"method": "other_one"}
+
+
+NOSES = ["ogive", "hemispherical", "conical"]
+
+
+def noses(folder, more="", overrides=(), change=("", "")):
+    """The cases of the axis over noses in the guide, of a deck with an ogive."""
+    page = (source.ROOT / "docs/how-to/run-a-study.md").read_text(encoding="utf-8")
+    axis = next(block for block in re.findall(r"```toml\n(.*?)```", page, flags=re.S) if 'name = "nose"' in block)
+    text = 'deck = "problems/cth_nose_shape/ogive_7039_1291.toml"\n' + more + axis.replace(*change)
+    return cases.plan(tubes.write(folder, text), overrides)
+
+
+def test_an_axis_over_noses_removes_the_keys_of_the_others(tmp_path):
+    """The example of the guide: all of its decks are valid, and only the ogive has a crh."""
+    found = noses(tmp_path).cases
+    assert [case.message for case in found] == ["", "", ""]
+    rods = [tomllib.loads(case.text)["body"][0] for case in found]
+    assert [rod["nose"] for rod in rods] == NOSES
+    assert [rod.get("crh") for rod in rods] == [3.0, None, None]
+    assert "body.rod.crh=" in found[1].overrides
+
+
+def test_keys_are_removed_for_every_case(tmp_path):
+    """By [set] and by --set, which is written into the file of the study."""
+    whole = noses(tmp_path, change=("body.rod.crh = 3.0", 'body.rod.crh = 3.0\nremove = ["title"]'))
+    by_set = noses(tmp_path, '[set]\nremove = ["title"]\n')
+    given = noses(tmp_path, "[set]\ntitle = 'another'\n", ["title="])
+    titles = [[tomllib.loads(case.text).get("title", "") for case in plan.cases] for plan in (whole, by_set, given)]
+    assert titles[1] == titles[2] == ["", "", ""]
+    assert titles[0][0] == ""
+    assert titles[0][1] == titles[0][2] != ""
+    assert cases.plan(tubes.write(tmp_path, given.text)).cases == given.cases
+
+
+@pytest.mark.parametrize(("change", "said"), [
+    (('["body.rod.crh"]', '["body.rod.chr"]'), 'no deck has the key body.rod.chr: body[0]: unknown key "chr"'),
+    (('["body.rod.crh"]', '"body.rod.crh"'), "remove: expected a list of deck keys"),
+    (('["body.rod.crh"]', '["body.rod.nose"]'), "remove: body.rod.nose is given a value as well"),
+])  # fmt: skip
+def test_what_cannot_be_removed(tmp_path, change, said):
+    with pytest.raises(StudyError) as raised:
+        noses(tmp_path, change=change)
+    assert said in str(raised.value)
 
 
 def test_overrides_of_the_command_line_reach_every_case_and_the_file(tmp_path):

@@ -99,17 +99,21 @@ def test_runs_experiments_rear_and_models_are_drawn(contents, panel):
         assert title in found
 
 
+#: what is said of a run that ended before its projectile stood
+CUT = "reached its end time, still moving at 80 m/s"
+
+
 def test_unfinished_runs_are_open_and_bounds_stand_in_a_triangle(tmp_path):
     runs = tmp_path / "runs"
     fake.write_run(runs / "a", 1086.0, 0.30)
     fake.write_run(runs / "b", 1200.0, 0.31, stop_reason="end time", rod_core_velocity_m_s=80.0)
     fake.write_run(runs / "c", 1296.0, 0.54)
     found = collect(layout.load(runs))
-    assert [each.unfinished for each in found.records] == ["", "cut at 80 m/s", ""]
+    assert [each.unfinished for each in found.records] == ["", CUT, ""]
     traces = drawn(found, panels.panels(found, choose(found))[0])
     assert list(traces["hydro2d"].x) == [1086, 1296]
     assert (list(traces["unfinished"].x), traces["unfinished"].marker.symbol) == ([1200], "circle-open")
-    assert "unfinished: cut at 80 m/s" in traces["unfinished"].text[0]
+    assert CUT in traces["unfinished"].text[0]
     assert "open: unfinished, as far as it went" in traces
     assert list(next(trace for trace in traces.values() if trace.meta == "bound").x) == [1296]
     assert [row["depth_error_m"] is None for row in found.rows] == [False, True, False]

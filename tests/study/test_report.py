@@ -264,8 +264,23 @@ def test_a_run_that_was_cut_has_no_error(study):
     fake.edit_json(study / "cases" / "1086m-s_ke" / "summary.json", stop_reason="end time", rod_core_velocity_m_s=300.0)
     page, _ = page_of(study)
     row = table(study / "report")["1086m-s_ke"]
-    assert (row["status"], row["unfinished"], row["depth_error_m"], row["depth_m"]) == ("done", "cut at 300 m/s", "", "0.35")
-    assert "done unfinished cut at 300 m/s" in page.text
+    told = "reached its end time, still moving at 300 m/s"
+    assert (row["status"], row["unfinished"], row["depth_error_m"], row["depth_m"]) == ("done", told, "", "0.35")
+    assert told in page.text
+    assert "done unfinished" not in page.text
+    assert f"unfinished {told}" not in page.text
+
+
+@pytest.mark.parametrize(("reason", "speed", "told"), [
+    ("end time", 1250.4, "reached its end time, still moving at 1250 m/s"),
+    ("number of cycles", -90.6, "reached its number of cycles, still moving at 91 m/s"),
+    ("speed of rod below 5 m/s", 1250.4, ""),
+    ("end time", 0.9, ""),  # less than a hundredth of the impact velocity
+])  # fmt: skip
+def test_why_a_run_is_not_at_its_end(study, reason, speed, told):
+    case = study / "cases" / "1086m-s_ke"
+    fake.edit_json(case / "summary.json", stop_reason=reason, rod_core_velocity_m_s=speed)
+    assert next(each for each in collect(layout.load(study)).records if each.case.name == "1086m-s_ke").unfinished == told
 
 
 @pytest.mark.parametrize("ending", ["gif", "mp4"])

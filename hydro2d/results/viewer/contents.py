@@ -7,6 +7,7 @@ from dataclasses import asdict
 
 import numpy as np
 
+from hydro2d.mesh.regime import REGIMES
 from hydro2d.output import history, station_arrays
 from hydro2d.output.outlines import Filling
 from hydro2d.output.vtk import Dump, read_grid
@@ -157,7 +158,7 @@ def _history(run, store: packing.Store) -> dict:
                 for kind in station_arrays.KINDS for name in station_arrays.stations(columns, kind)]  # fmt: skip
     kept = [_column(name, column[rows], store) for name, column in columns.items() if name != "time"]
     table = {"rows": len(rows), "step": step, "time": store.add(packing.packed_column(columns["time"][rows], "<f8")),
-             "columns": kept, "regimes": list(history.REGIMES)}  # fmt: skip
+             "columns": kept, "regimes": list(REGIMES)}  # fmt: skip
     return {"history": table, "stations": stations}
 
 
