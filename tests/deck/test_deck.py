@@ -134,7 +134,7 @@ def test_a_deck_does_not_change():
         ("[stop]", '[output]\nfields = ["velocity_rest"]\n[stop]', 29, ["velocity_rest is now called velocity_soft"]),
         ("[stop]", '[numerics]\ninterface_order = ["rod"]\n[stop]', 29, ["must name every body once: rod, plate"]),
         ("[stop]", '[failure]\ndamage = "yes"\n[stop]', 29, ['unknown value "yes"', "material, none"]),
-        ("[stop]", '[[tracer]]\nname = "t"\nr = 1.0\nz = 0.0\n[stop]', 28, ['"t" at r = 1 m, z = 0 m lies outside']),
+        ("[stop]", '[[tracer]]\nname = "t"\nr = "1 m"\nz = 0.0\n[stop]', 28, ['"t" at r = 1 m, z = 0 m lies outside']),
         ("[stop]", "[experiment]\npenetration = 0.4\n[stop]", 28, ["experiment.source: is missing"]),
         ("[stop]", '[experiment]\nresidual_velocity = 0\nsource = "x"\n[stop]', 28, ["residual_velocity needs velocity"]),
         ("z_front = 0.0", "z_front = 0.0\nenergy = 1.0\npressure = 0.0", 18, ["energy or pressure, not both"]),
@@ -268,7 +268,7 @@ def test_include_merges_tables_by_key_and_bodies_by_name(tmp_path):
 
 
 def test_mistakes_are_traced_through_includes(tmp_path):
-    write(tmp_path, base=changed('thickness = "30 mm"', "thickness = -1"))
+    write(tmp_path, base=changed('thickness = "30 mm"', 'thickness = "-1 m"'))
     write(tmp_path, shot='include = "base.toml"\n\n[[body]]\nname = "plate"\nz_frnt = 0.0\n')
     with pytest.raises(deck.DeckError) as caught:
         deck.load(tmp_path / "shot.toml")
@@ -300,7 +300,7 @@ def test_shipped_decks_are_found_from_anywhere(tmp_path, monkeypatch):
     ("override", "value"),
     [
         ("body.rod.velocity=1200 m/s", lambda d: d.body[0].velocity[1] == 1200.0),
-        ("body.0.velocity=1300", lambda d: d.body[0].velocity[1] == 1300.0),
+        ("body.0.velocity=1300 m/s", lambda d: d.body[0].velocity[1] == 1300.0),
         ('body[1].thickness="20 mm"', lambda d: d.body[1].thickness == 0.02),
         ("numerics.advection=momentum", lambda d: d.numerics.advection == "momentum"),
         ("numerics.active_region=false", lambda d: d.numerics.active_region is False),
@@ -499,7 +499,7 @@ def test_bodies_that_join_are_warned_of_once():
 )
 def test_segments(segments, sizes):
     text = changed('z = [ { to = "40 mm", size = "0.5 mm" } ]', f"z = [ {segments} ]")
-    text = text.replace('"-20 mm"', "0.0").replace("tip = 0.0", "tip = 0.05")
+    text = 'numbers = "SI"\n' + text.replace('"-20 mm"', "0.0").replace("tip = 0.0", "tip = 0.05")
     z = axis_edges(deck.loads(text), "z")
     assert np.allclose(np.diff(z), sizes, rtol=1e-9)
     assert z[0] == 0.0

@@ -125,6 +125,7 @@ def test_what_has_memory_is_not_tabulated(name):
 
 DECK = """
 title = "Two plates"
+numbers = "SI"
 [mesh]
 r = [{ to = "0.2 mm", cells = 4 }]
 z_start = "-3 mm"
