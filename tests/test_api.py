@@ -97,7 +97,7 @@ def test_all_is_what_is_there():
 def test_the_three_ways_to_a_deck_give_the_same(tmp_path, deck):
     file = tmp_path / "shot.toml"
     file.write_text(TEXT)
-    changes = {"stop.time": "4 us", "output.vtk_interval": 1e-6}
+    changes = {"stop.time": "4 us", "output.vtk_interval": "1 us"}
     by_file = hydro2d.Deck.from_file(file, changes)
     by_dict = hydro2d.Deck.from_dict(tomllib.loads(TEXT), changes, name="shot")
     by_list = hydro2d.Deck.from_file(file, ["stop.time=4 us", "output.vtk_interval=1 us"])
@@ -107,14 +107,14 @@ def test_the_three_ways_to_a_deck_give_the_same(tmp_path, deck):
 
 def test_numbers_of_numpy_and_tuples_are_values():
     mesh = {"r": [{"to": np.float64(9e-3), "cells": np.int64(18)}], "z_start": -12e-3, "z": ({"to": 12e-3, "cells": 48},)}
-    found = hydro2d.Deck.from_dict({**tomllib.loads(TEXT), "mesh": mesh}, {"body.rod.velocity": np.array([0.0, 80.0])})
+    found = hydro2d.Deck.from_dict({"numbers": "SI", **tomllib.loads(TEXT), "mesh": mesh}, {"body.rod.velocity": np.array([0.0, 80.0])})
     assert found.body[0].velocity == (0.0, 80.0)
     assert found.mesh.r[0].cells == 18
 
 
 def test_a_dict_is_not_changed():
     tables = tomllib.loads(TEXT)
-    hydro2d.Deck.from_dict(tables, {"body.rod.velocity": 80.0})
+    hydro2d.Deck.from_dict(tables, {"body.rod.velocity": "80 m/s"})
     assert tables == tomllib.loads(TEXT)
 
 
@@ -456,6 +456,10 @@ def test_what_is_no_study_is_refused(tmp_path):
 # ---------------------------------------------------------------------------------------------------- plain numbers, threads
 
 
+#: the shot as it stands, without the line that lets numbers be in SI units
+WITH_UNITS = TEXT.replace('numbers = "SI"\n', "")
+
+
 @pytest.mark.parametrize(("changes", "told"), [
     ({"body.rod.radius": 2.5}, r'2.5: body\[0\].radius: 2.5 has no unit; write "2.5 mm" \(or numbers = "SI"'),
     ({"stop.time": 60}, 'stop.time: 60 has no unit; write "60 us"'),
@@ -465,11 +469,12 @@ def test_what_is_no_study_is_refused(tmp_path):
 ])  # fmt: skip
 def test_a_number_that_lacks_its_unit_is_refused(changes, told):
     with pytest.raises(hydro2d.DeckError, match=told):
-        hydro2d.Deck.from_toml(TEXT, changes)
+        hydro2d.Deck.from_toml(WITH_UNITS, changes)
 
 
-def test_a_ball_of_radius_two_and_a_half_is_refused_in_a_dict_and_an_axis(deck, tmp_path):
-    tables = tomllib.loads(TEXT)
+def test_a_ball_of_radius_two_and_a_half_is_refused_in_a_dict_and_an_axis(tmp_path):
+    deck = hydro2d.Deck.from_toml(WITH_UNITS)
+    tables = tomllib.loads(WITH_UNITS)
     tables["body"][0]["radius"] = 2.5
     with pytest.raises(hydro2d.DeckError, match=r"^shot: body\[0\].radius: 2.5 has no unit"):
         hydro2d.Deck.from_dict(tables, name="shot")
@@ -479,14 +484,14 @@ def test_a_ball_of_radius_two_and_a_half_is_refused_in_a_dict_and_an_axis(deck, 
 
 def test_numbers_of_programs_are_in_si_where_they_say_so():
     changes = {"body.rod.radius": 2e-3, "stop.speed_below": 5, "body.rod.velocity": np.float64(5.0), "stop.time": 1e-5}
-    for found in (hydro2d.Deck.from_toml(TEXT, {"numbers": "SI", **changes}),
-                  hydro2d.Deck.from_toml('numbers = "SI"\n' + TEXT, changes),
-                  hydro2d.Deck.from_dict({"numbers": "SI", **tomllib.loads(TEXT)}, changes)):
+    for found in (hydro2d.Deck.from_toml(WITH_UNITS, {"numbers": "SI", **changes}),
+                  hydro2d.Deck.from_toml('numbers = "SI"\n' + WITH_UNITS, changes),
+                  hydro2d.Deck.from_dict({"numbers": "SI", **tomllib.loads(WITH_UNITS)}, changes)):
         assert (found.body[0].radius, found.stop.speed_below, found.body[0].velocity) == (2e-3, 5.0, (0.0, 5.0))
 
 
 def test_zero_and_what_has_no_unit_need_none():
-    found = hydro2d.Deck.from_toml(TEXT, {"body.plate.velocity": 0.0, "numerics.courant": 0.3, "mesh.r.0.cells": 20})
+    found = hydro2d.Deck.from_toml(WITH_UNITS, {"body.plate.velocity": 0.0, "numerics.courant": 0.3, "mesh.r.0.cells": 20})
     assert (found.body[1].velocity, found.numerics.courant) == ((0.0, 0.0), 0.3)
 
 

@@ -137,7 +137,7 @@ def test_a_deck_does_not_change():
         ("[stop]", '[[tracer]]\nname = "t"\nr = "1 m"\nz = 0.0\n[stop]', 28, ['"t" at r = 1 m, z = 0 m lies outside']),
         ("[stop]", "[experiment]\npenetration = 0.4\n[stop]", 28, ["experiment.source: is missing"]),
         ("[stop]", '[experiment]\nresidual_velocity = 0\nsource = "x"\n[stop]', 28, ["residual_velocity needs velocity"]),
-        ("z_front = 0.0", "z_front = 0.0\nenergy = 1.0\npressure = 0.0", 18, ["energy or pressure, not both"]),
+        ("z_front = 0.0", "z_front = 0.0\nenergy = \"1 J/kg\"\npressure = 0.0", 18, ["energy or pressure, not both"]),
     ],
 )
 def test_mistakes_are_named_with_their_line(old, new, line, fragments):
@@ -224,8 +224,8 @@ def test_the_hard_bodies_of_a_contact_come_first_in_mixed_cells():
         ('nose = "ogive"\ncrh = 3\nnose_length = "9 mm"', "given: crh, nose_length"),
         ('nose = "ogive"\ncrh = 0.4', "at least 0.5"),
         ('nose = "ogive"\nnose_length = "3 mm"', "must be at least the radius"),
-        ('nose = "ogive"\nhalf_angle = 0.4', "an ogive has no half_angle"),
-        ('nose = "conical"\nhalf_angle = 30', 'write "30 deg"'),
+        ('nose = "ogive"\nhalf_angle = "23 deg"', "an ogive has no half_angle"),
+        ('nose = "conical"\nhalf_angle = 30', 'half_angle: 30 has no unit; write "30 deg"'),
         ('nose = "conical"\ncrh = 3', "a cone has no crh"),
         ('nose = "flat"\ncrh = 3', "a flat nose has no crh"),
     ],
@@ -247,7 +247,7 @@ def test_impossible_noses(nose, fragment):
     ],
 )
 def test_impossible_shapes(body, fragment):
-    text = changed('shape = "plate"\nz_front = 0.0\nthickness = "30 mm"', body)
+    text = 'numbers = "SI"\n' + changed('shape = "plate"\nz_front = 0.0\nthickness = "30 mm"', body)
     assert fragment in message(text)
 
 
@@ -337,7 +337,9 @@ def test_a_resolved_deck_of_an_older_version_gets_the_keys_of_today():
         old[section][key] = old[place].pop(name)
     assert old != now
     assert keys.renewed(old) == now
-    assert keys.renewed({"numerics": 3}) == {"numerics": 3}
+    del old["numbers"]
+    assert keys.renewed(old) == now
+    assert keys.renewed({"numerics": 3}) == {"numerics": 3, "numbers": "SI"}
 
 
 def test_the_resolved_deck_is_complete_and_loads_to_the_same():
@@ -402,7 +404,7 @@ def test_thin_bodies_and_bodies_that_leave_are_warned_of(text, overrides, warned
 
 @pytest.mark.parametrize(("speed", "surface"), [(800.0, 0.0), (-800.0, 0.03), (0.0, None)])
 def test_a_sphere_that_flies_is_a_penetrator(speed, surface):
-    sphere = f'shape = "sphere"\ncentre = [0.0, "-10 mm"]\nradius = "4 mm"\nvelocity = {speed}\n'
+    sphere = f'shape = "sphere"\ncentre = [0.0, "-10 mm"]\nradius = "4 mm"\nvelocity = "{speed} m/s"\n'
     i, j = TEXT.index('shape = "rod"'), TEXT.index('[[body]]\nname = "plate"')
     d = deck.loads((TEXT[:i] + sphere + TEXT[j:]).replace('yield_factor = "radius"\n', ""))
     assert (d.penetration and (d.penetration.rod, d.penetration.target)) == (("rod", "plate") if speed else None)
@@ -638,5 +640,5 @@ def test_an_experiment_goes_with_its_velocity_and_target(override, depth):
 ])  # fmt: skip
 def test_an_experiment_goes_with_its_velocity_in_any_frame(rod, plate, depth):
     text = deck.find("cth_nose_shape/hemi_5083_1086.toml").read_text().replace('follow = "rod"\n', "")
-    shot = deck.loads(text, [f"body.rod.velocity={rod}", f"body.plate.velocity={plate}"]).experiment
+    shot = deck.loads(text, [f"body.rod.velocity={rod} m/s", f"body.plate.velocity={plate} m/s"]).experiment
     assert (shot and shot.penetration) == depth
