@@ -107,7 +107,7 @@ def test_the_three_ways_to_a_deck_give_the_same(tmp_path, deck):
 
 def test_numbers_of_numpy_and_tuples_are_values():
     mesh = {"r": [{"to": np.float64(9e-3), "cells": np.int64(18)}], "z_start": -12e-3, "z": ({"to": 12e-3, "cells": 48},)}
-    found = hydro2d.Deck.from_dict({"numbers": "SI", **tomllib.loads(TEXT), "mesh": mesh}, {"body.rod.velocity": np.array([0.0, 80.0])})
+    found = hydro2d.Deck.from_dict({**tomllib.loads(TEXT), "mesh": mesh}, {"body.rod.velocity": np.array([0.0, 80.0])})
     assert found.body[0].velocity == (0.0, 80.0)
     assert found.mesh.r[0].cells == 18
 
