@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING, Any
 from hydro2d import toml
 from hydro2d.analytic import beside
 from hydro2d.deck import deck as decks
-from hydro2d.deck import plain_numbers
 from hydro2d.deck.deck import Deck
 from hydro2d.errors import UnphysicalState, from_extra
 from hydro2d.files import plain, write_text
@@ -181,8 +180,6 @@ def _plan(study: str | Path | Deck, axes: Mapping[str, Sequence[Any]] | None, ov
             raise StudyError("axes: a key is empty")
         if isinstance(values, str) or not isinstance(values, Iterable):
             raise StudyError(f"axes: {key}: expected a list of values, is {values!r}")
-        if wrong := [text for value in plain({key: list(values)})[key] for text in plain_numbers.of_override(key, value)]:
-            raise StudyError(f"axes: {wrong[0]}")
     file = _base(study, directory) if isinstance(study, Deck) else decks.find(study)
     tables = {"deck": str(file.resolve()), "axis": [{"name": _name(key, axes), "key": key, "values": list(values)}
                                                     for key, values in axes.items()]}  # fmt: skip

@@ -126,6 +126,11 @@ def verified_text(path: Path, error: type[Error]) -> str:
         raise error(f"{path} cannot be read: it is not UTF-8 text") from None
 
 
+def begins_with_one(text: str) -> bool:
+    """Whether the text of a deck begins with a checksum, as those have that hydro2d wrote."""
+    return text.startswith(FORMS[".toml"].before.decode())
+
+
 def _digest(*parts: bytes) -> bytes:
     digest = hashlib.sha256()
     for part in parts:

@@ -14,9 +14,12 @@ from typing import Any
 
 import tomli_w
 
+from hydro2d import checksums, units
 from hydro2d.errors import DeckError, Sources, entry_index
 from hydro2d.files import read_text
 
+#: what `numbers` of a deck is where numbers without a unit are in SI units
+SI = "SI"
 #: the parts of a material that are described by a model
 PARTS = ("eos", "strength", "damage")
 _BARE = re.compile(r"[A-Za-z0-9_-]+")
@@ -97,12 +100,17 @@ def read(path: Path, sources: Sources, chain: tuple[Path, ...] = ()) -> dict:
 def assemble(text: str, name: str, folder: Path, sources: Sources, chain: tuple[Path, ...] = ()) -> dict:
     """Deck text merged with its includes, which are searched for in its folder and among the shipped decks."""
     data = parse(text, name)
+    if checksums.begins_with_one(text):  # a resolved deck, of whatever version
+        data.setdefault("numbers", SI)
     sources.add(name, data, text)
     return with_included(data, folder, sources, chain)
 
 
 def with_included(data: dict, folder: Path, sources: Sources, chain: tuple[Path, ...] = ()) -> dict:
-    """The tables of a deck merged with its includes, which are searched for in a folder and among the shipped decks."""
+    """The tables of a deck merged with its includes, which are searched for in a folder and among the shipped decks.
+
+    Numbers of a file that does not say numbers = "SI" are marked as bare.
+    """
     included = data.get("include", [])
     included = [included] if isinstance(included, str) else included
     if not isinstance(included, list) or not all(isinstance(entry, str) for entry in included):
@@ -113,7 +121,8 @@ def with_included(data: dict, folder: Path, sources: Sources, chain: tuple[Path,
         if target is None:
             raise DeckError(f"{sources.where(('include',), data)}: include: there is no file {folder / entry}")
         base = merge(base, read(target, sources, chain))
-    return merge(base, {key: value for key, value in placed(data, folder).items() if key != "include"})
+    own = {key: value for key, value in placed(data, folder).items() if key != "include"}
+    return merge(base, own if own.get("numbers") == SI else units.bare(own))
 
 
 def model_tables(data: dict) -> Iterator[tuple[tuple, dict]]:

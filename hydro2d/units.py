@@ -1,6 +1,9 @@
 """Conversion of quantities: "1086 m/s" to SI on input, SI to the reader's unit on output.
 
 A table holds the common units. Pint, which takes long to import, converts all others.
+
+A number without a unit is in SI where a program gives it. In a deck that does not say numbers = "SI" it is refused: `bare`
+marks the numbers of such a deck, and `to_si` refuses a number that is marked, unless it is 0 or the quantity is a plain number.
 """
 
 from __future__ import annotations
@@ -55,6 +58,18 @@ REACH = {
     "rad/s": (1e-12, 1e9, "no body spins so fast"),
 }
 
+#: by SI unit: the unit in which a number below the first bound, or from the second one on, is probably meant
+MEANT = {
+    "m": ((0.0, ""), (0.2, "mm")),
+    "s": ((0.0, ""), (1e-2, "us")),
+    "kg": ((0.0, ""), (0.1, "g")),
+    "m/s": ((20.0, "km/s"), (math.inf, "")),
+    "kg/m^3": ((30.0, "g/cm^3"), (math.inf, "")),
+    "Pa": ((1e4, "GPa"), (math.inf, "")),
+    "J/kg": ((1e3, "kJ/kg"), (math.inf, "")),
+    "rad": ((0.0, ""), (1.6, "deg")),
+}
+
 #: characters of a quantity
 LONGEST = 200
 #: a power of a unit; a power of a power, which may be a number without end; a digit other than the 1 of 1/s
@@ -72,6 +87,38 @@ def in_reach(value: float, unit: str, reach: Mapping[str, tuple[float, float, st
         bound = f"beyond {most:g}" if abs(value) > most else f"nearer to 0 than {least:g}"
         raise ValueError(f"is {value:g} {unit}, {bound}: {reason}")
     return value
+
+
+class BareFloat(float):
+    """A number without a unit, of a deck that does not say that such numbers are in SI units."""
+
+
+class BareInt(int):
+    """The same as a whole number."""
+
+
+def bare(value):
+    """The same tables, lists or value with every number marked as one that needs a unit if its quantity has one."""
+    if isinstance(value, Mapping):
+        return {key: bare(entry) for key, entry in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [bare(entry) for entry in value]
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
+        return value
+    return BareInt(value) if isinstance(value, int) else BareFloat(value)
+
+
+def without_unit(value: float, unit: str) -> str:
+    """What is said of a number that lacks its unit: the text that is probably meant, or the key that takes it as SI."""
+    (low, small), (high, large) = MEANT.get(unit, ((0.0, ""), (math.inf, "")))
+    meant = small if abs(value) < low else large if abs(value) >= high else ""
+    if_si = f", if {value:.12g} {unit} is meant" if meant else ""
+    return f'{value:.12g} has no unit; write "{value:.12g} {meant or unit}" (or numbers = "SI" at the top of the deck{if_si})'
+
+
+def exact(value: float, unit: str) -> str:
+    """A number in an SI unit as text that gives the same number, to the last bit."""
+    return f"{float(value)!r} {unit}"
 
 
 def kind(unit: str) -> str:
@@ -100,6 +147,8 @@ def _parsed(text: str, unit: str) -> float:
             return number
         raise ValueError(f'"{text}" has no unit; {_expected(unit)}')
     known, factor = COMMON.get(name, ("", 0.0))
+    if known == unit and factor == 1.0:
+        return number
     si = number * factor if known == unit else _by_pint(text, number, name, unit)
     return float(f"{si:.15g}")  # 18.16 g/cm^3 is 18160, not 18159.999999999996
 
@@ -149,7 +198,7 @@ def _expected(unit: str) -> str:
 
 
 def to_si(value, unit: str) -> float:
-    """SI value of a number (taken as SI) or of a string with a unit.
+    """SI value of a number (taken as SI, unless it is marked as bare) or of a string with a unit.
 
     Parameters
     ----------
@@ -162,6 +211,8 @@ def to_si(value, unit: str) -> float:
     ValueError
         The value is not finite, has no unit, or has a unit of another dimension; the message says what was expected.
     """
+    if isinstance(value, (BareFloat, BareInt)) and value != 0 and unit != "1" and math.isfinite(value):
+        raise ValueError(without_unit(value, unit))
     if isinstance(value, bool) or not isinstance(value, (int, float, str)):
         raise ValueError(f"{value!r} is not a quantity; {_expected(unit)}")
     number = _parsed(value, unit) if isinstance(value, str) else float(value)

@@ -2,8 +2,8 @@
 
 ``mesh((...), (...)) + rod("3 mm", "10 mm", tip=0.0, velocity="1000 m/s") + plate("20 mm") + stop("1 us")``
 
-Every key that a table of the deck may have can be given by its own name; numbers are in SI units, as in decks. Decks that are a
-subject themselves (how they are read, what is said of them) stand as text where they are tested.
+Every key that a table of the deck may have can be given by its own name; numbers are in SI units. The mesh comes first. Decks
+that are a subject themselves (how they are read, what is said of them) stand as text where they are tested.
 """
 
 from __future__ import annotations
@@ -38,9 +38,10 @@ def entry(name: str, /, **keys: Value) -> str:
 
 
 def mesh(r: Axis, z: Axis, **keys: Value) -> str:
-    """The mesh. An axis is (end, cells), (start, end, cells), or the list of its segments as in a deck.
+    """The mesh, which comes first, with what the whole deck says of its numbers: that they are in SI units.
 
-    In place of the number of cells, an int, may stand the size of a cell, a text or a float.
+    An axis is (end, cells), (start, end, cells), or the list of its segments as in a deck. In place of the number of
+    cells, an int, may stand the size of a cell, a text or a float.
     """
     for name, axis in (("r", r), ("z", z)):
         if isinstance(axis, tuple):
@@ -48,7 +49,7 @@ def mesh(r: Axis, z: Axis, **keys: Value) -> str:
             keys |= {f"{name}_start": each for each in start}
             axis = [{"to": end, ("cells" if isinstance(cells, int) else "size"): cells}]
         keys[name] = axis
-    return table("mesh", **keys)
+    return 'numbers = "SI"\n' + table("mesh", **keys)
 
 
 def walls(*edges: str, **others: Value) -> str:

@@ -97,7 +97,7 @@ def test_all_is_what_is_there():
 def test_the_three_ways_to_a_deck_give_the_same(tmp_path, deck):
     file = tmp_path / "shot.toml"
     file.write_text(TEXT)
-    changes = {"stop.time": "4 us", "output.vtk_interval": 1e-6}
+    changes = {"stop.time": "4 us", "output.vtk_interval": "1 us"}
     by_file = hydro2d.Deck.from_file(file, changes)
     by_dict = hydro2d.Deck.from_dict(tomllib.loads(TEXT), changes, name="shot")
     by_list = hydro2d.Deck.from_file(file, ["stop.time=4 us", "output.vtk_interval=1 us"])
@@ -114,7 +114,7 @@ def test_numbers_of_numpy_and_tuples_are_values():
 
 def test_a_dict_is_not_changed():
     tables = tomllib.loads(TEXT)
-    hydro2d.Deck.from_dict(tables, {"body.rod.velocity": 80.0})
+    hydro2d.Deck.from_dict(tables, {"body.rod.velocity": "80 m/s"})
     assert tables == tomllib.loads(TEXT)
 
 
@@ -456,32 +456,43 @@ def test_what_is_no_study_is_refused(tmp_path):
 # ---------------------------------------------------------------------------------------------------- plain numbers, threads
 
 
+#: the shot as it stands, without the line that lets numbers be in SI units
+WITH_UNITS = TEXT.replace('numbers = "SI"\n', "")
+
+
 @pytest.mark.parametrize(("changes", "told"), [
-    ({"body.rod.radius": 2.5}, r'body.rod.radius: 2.5 without a unit is 2.5 m; write "2.5 mm", or "2.5 m" if that is meant'),
-    ({"stop.time": 60}, 'stop.time: 60 without a unit is 60 s; write "60 us"'),
-    ({"body.rod.velocity": 1.086}, 'write "1.086 km/s"'),
-    ({"mesh.z": [{"to": 40, "cells": 20}]}, r"mesh.z\[0\].to: 40 without a unit is 40 m"),
-    ({"gauge": [{"name": "a", "r": np.float64(3.0), "z": 0.0}]}, r"gauge\[0\].r: 3 without a unit"),
+    ({"body.rod.radius": 2.5}, r'2.5: body\[0\].radius: 2.5 has no unit; write "2.5 mm" \(or numbers = "SI"'),
+    ({"stop.time": 60}, 'stop.time: 60 has no unit; write "60 us"'),
+    ({"body.rod.velocity": 1086.0}, 'write "1086 m/s"'),
+    ({"mesh.z": [{"to": 40, "cells": 20}]}, r"mesh.z\[0\].to: 40 has no unit"),
+    ({"gauge": [{"name": "a", "r": np.float64(3.0), "z": 0.0}]}, r"gauge\[0\].r: 3 has no unit"),
 ])  # fmt: skip
-def test_a_number_that_lacks_its_unit_is_found(changes, told):
+def test_a_number_that_lacks_its_unit_is_refused(changes, told):
     with pytest.raises(hydro2d.DeckError, match=told):
-        hydro2d.Deck.from_toml(TEXT, changes)
+        hydro2d.Deck.from_toml(WITH_UNITS, changes)
 
 
-def test_a_ball_of_radius_two_and_a_half_is_found_in_a_dict_and_an_axis(deck):
-    tables = tomllib.loads(TEXT)
+def test_a_ball_of_radius_two_and_a_half_is_refused_in_a_dict_and_an_axis(tmp_path):
+    deck = hydro2d.Deck.from_toml(WITH_UNITS)
+    tables = tomllib.loads(WITH_UNITS)
     tables["body"][0]["radius"] = 2.5
-    with pytest.raises(hydro2d.DeckError, match=r"^shot: body\[0\].radius: 2.5 without a unit is 2.5 m"):
+    with pytest.raises(hydro2d.DeckError, match=r"^shot: body\[0\].radius: 2.5 has no unit"):
         hydro2d.Deck.from_dict(tables, name="shot")
-    with pytest.raises(hydro2d.StudyError, match=r"axes: body.rod.radius: 2.5 without a unit"):
-        hydro2d.sweep(deck, {"body.rod.radius": [2e-3, 2.5]}, directory="nowhere")
+    with pytest.raises(hydro2d.StudyError, match=r"no case has a valid deck; .*body\[0\].radius: 0.002 has no unit"):
+        hydro2d.sweep(deck, {"body.rod.radius": [2e-3, 2.5]}, directory=tmp_path)
 
 
-def test_plain_numbers_that_can_be_meant_are_taken():
-    """In SI units: a rod of 2 mm, no velocity, a speed to compare with, a time on the wall; and what names its unit."""
-    found = hydro2d.Deck.from_toml(TEXT, {"body.rod.radius": 2e-3, "body.plate.velocity": 0.0, "stop.speed_below": 5,
-                                          "output.restart_interval": 300, "body.rod.velocity": "5 m/s", "stop.time": 1e-5})
-    assert (found.body[0].radius, found.stop.speed_below, found.body[0].velocity) == (2e-3, 5.0, (0.0, 5.0))
+def test_numbers_of_programs_are_in_si_where_they_say_so():
+    changes = {"body.rod.radius": 2e-3, "stop.speed_below": 5, "body.rod.velocity": np.float64(5.0), "stop.time": 1e-5}
+    for found in (hydro2d.Deck.from_toml(WITH_UNITS, {"numbers": "SI", **changes}),
+                  hydro2d.Deck.from_toml('numbers = "SI"\n' + WITH_UNITS, changes),
+                  hydro2d.Deck.from_dict({"numbers": "SI", **tomllib.loads(WITH_UNITS)}, changes)):
+        assert (found.body[0].radius, found.stop.speed_below, found.body[0].velocity) == (2e-3, 5.0, (0.0, 5.0))
+
+
+def test_zero_and_what_has_no_unit_need_none():
+    found = hydro2d.Deck.from_toml(WITH_UNITS, {"body.plate.velocity": 0.0, "numerics.courant": 0.3, "mesh.r.0.cells": 20})
+    assert (found.body[1].velocity, found.numerics.courant) == ((0.0, 0.0), 0.3)
 
 
 def test_the_deck_of_a_run_is_a_deck(deck, shot):

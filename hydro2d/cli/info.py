@@ -1,9 +1,15 @@
-"""`hydro2d info`: explains a material, a model, a field or a deck key in words."""
+"""`hydro2d info`: explains a material, a model, a field, a deck key or a word that people use."""
 
 from __future__ import annotations
 
-from hydro2d.errors import DeckError, unknown
+import difflib
+
+from hydro2d.cli import words
+from hydro2d.errors import DeckError, nearest
 from hydro2d.mesh import quantities
+
+#: names that are told as near an unknown one, and characters of it that are compared
+MOST_NEAR, LONGEST_NAME = 6, 200
 
 
 def deck_keys() -> dict[str, dict]:
@@ -77,7 +83,7 @@ def _table(rows: list[tuple[str, str]]) -> list[str]:
 
 
 def page(name: str) -> str:
-    """Everything that has this name. Raises DeckError with the nearest name if nothing has."""
+    """Everything that has this name, or that people call so. Raises DeckError with the names near it if nothing has."""
     import eos
     import strength
     from hydro2d.analytic import model_text
@@ -87,7 +93,8 @@ def page(name: str) -> str:
     from strength import melting
 
     packaged = [each for part in outside.KINDS if (each := outside.from_package(part, name))]
-    found = [str(described(each.module, each.kind.title)) for each in packaged]
+    found = [said] if (said := words.page(name)) else []
+    found += [str(described(each.module, each.kind.title)) for each in packaged]
     if library.parted(name)[0] in library.names():
         found.append(library.describe(name))
     for models, describe in (
@@ -110,8 +117,19 @@ def page(name: str) -> str:
         others = {other for part in outside.KINDS for other in outside.in_packages(part)}
         known = {*others, *library.names(), *eos.MODELS, *strength.STRENGTH_MODELS, *strength.DAMAGE_MODELS,
                  *catalogue.MODELS, *quantities.BY_KEY, *keys, *(key.rsplit(".", 1)[-1] for key in keys)}  # fmt: skip
-        raise DeckError(unknown("name", name, known).split(" (allowed")[0] + "; `hydro2d info` lists all names")
+        raise DeckError(_unknown(name, {*known, *words.WORDS, *words.ALSO}))
     return "\n\n".join(text.rstrip() for text in found)
+
+
+def _unknown(name: str, known: set[str]) -> str:
+    """What is said of a name that nothing has: the one that is probably meant, and others near it."""
+    lower = {each.lower(): each for each in sorted(known)}
+    near = [lower[each] for each in difflib.get_close_matches(name.lower()[:LONGEST_NAME], lower, n=MOST_NEAR)]
+    likely = [f'"{each}"' for each in dict.fromkeys([*filter(None, [nearest(name, known)]), *near])]
+    *most, last = likely or [""]
+    either = f"{', '.join(most)} or {last}" if most else last
+    hint = f"did you mean {either}? " if likely else ""
+    return f'unknown name "{name}"; {hint}`hydro2d info` lists all names'
 
 
 def _same_last(keys: dict[str, dict], name: str) -> dict[str, list[str]]:
@@ -142,6 +160,7 @@ def overview() -> str:
         ("penetration models", [(model.name, model.title) for model in catalogue.MODELS.values()]),
         ("fields", [(entry.key, entry.meaning) for entry in quantities.TABLE]),
         ("sections of a deck", [(key, keys[key].get("description", "")) for key in keys if "." not in key]),
+        ("words that have another name here", [(word, entry.said) for word, entry in words.WORDS.items()]),
     )
     lines = []
     for heading, rows in parts:

@@ -17,7 +17,7 @@ import numpy as np
 from pydantic import PrivateAttr, ValidationError, ValidationInfo, model_validator
 
 from hydro2d import toml, units
-from hydro2d.deck import keys, plain_numbers, sections
+from hydro2d.deck import keys, sections
 from hydro2d.deck.checks import axial_length, bars_to_follow, extent, faces, heading, inconsistencies, room, travel, unsupported
 from hydro2d.deck.generated_mesh import ReachError, as_segments, with_segments
 from hydro2d.deck.mesh import axis_edges, body, body_radius, cells_between
@@ -93,9 +93,8 @@ class Deck(sections.Deck):
             A TOML file, or the path of a deck that hydro2d ships, such as ``problems/perforation/sphere.toml``.
         overrides : dict or list of str
             Values by dotted key that replace those of the deck: ``{"body.rod.velocity": "1200 m/s", "stop.time": 50e-6}``. A
-            list holds ``"key=value"``, as for the option ``--set`` of the command line. Numbers are in SI units; text may name
-            its unit. Numbers that are probably meant in another unit are refused: lengths above 1 m, times above 0.1 s and
-            velocities below 10 m/s must name theirs.
+            list holds ``"key=value"``, as for the option ``--set`` of the command line. A number of a quantity with a unit must
+            be text that names it, unless the deck or the overrides have ``numbers = "SI"``.
 
         Raises
         ------
@@ -123,7 +122,7 @@ class Deck(sections.Deck):
                   folder: str | Path = ".") -> Deck:  # fmt: skip
         """Makes a deck from nested dicts and lists with the contents of a TOML file.
 
-        tables : numbers are in SI units; those that are probably meant in another are refused, as in overrides
+        tables : with ``"numbers": "SI"`` numbers without a unit are in SI units; without it, quantities are text with a unit
         name, folder, overrides : as in `from_toml`
 
         Raises DeckError.
@@ -182,31 +181,28 @@ def of_tables(tables: Mapping[str, Any], overrides: Overrides = (), name: str = 
     """Makes a deck from nested dicts and lists, as a TOML file would give them. Raises DeckError as ``load`` does."""
     sources = Sources()
     sources.add(name, {}, "")
-    given = plain(toml.within_limits(tables, name))
-    if wrong := [f"{name}: {spelled(path)}: {said}" for path, said in islice(plain_numbers.questionable(given), MOST_LINES)]:
-        raise DeckError("\n".join(wrong))
-    data = toml.with_included(given, Path(folder), sources)
+    data = toml.with_included(plain(toml.within_limits(tables, name)), Path(folder), sources)
     return _resolve(data, name, overrides, sources, True)
 
 
 def _laid_over(data: dict, overrides: Overrides, sources: Sources) -> dict:
+    """The deck with overrides, whose numbers are in SI units if the deck or one of them says so."""
     if isinstance(overrides, str):
         raise DeckError(f'overrides must be a list of "key=value" or a dict of values by key, not the text "{overrides}"')
     if isinstance(overrides, Mapping):
         toml.within_limits(overrides, "overrides")
         entries = [(key, value, f"override {key} = {value!r}") for key, value in plain(overrides).items()]
-        if wrong := [f"{said}: {text}" for key, value, said in entries if value is not None
-                     for text in plain_numbers.of_override(key, value)]:
-            raise DeckError("\n".join(wrong[:MOST_LINES]))
     else:
         entries = [(*toml.assignment(text), f"--set {text}") for text in overrides]
+    in_si = toml.SI in (data.get("numbers"), *(value for key, value, _ in entries if key == "numbers"))
     for key, value, said in entries:
         if value is None:
             if wrong := keys.key_problem(data, key):
                 raise DeckError(f"{said}: {wrong}")
             data = toml.removed(data, key, said)
             continue
-        data = toml.override(data, key, toml.placed_value(key, value, Path()), said, sources)
+        placed = toml.placed_value(key, value, Path())
+        data = toml.override(data, key, placed if in_si else units.bare(placed), said, sources)
     return data
 
 
@@ -285,7 +281,7 @@ def _unknown_materials(data: dict) -> Iterator[tuple[tuple, str]]:
 
 def _with_defaults(deck: Deck) -> Deck:
     """The deck with the defaults that follow from other keys."""
-    update: dict[str, Any] = {}
+    update: dict[str, Any] = {"numbers": toml.SI}
     data = copy.deepcopy(deck.model_dump(exclude={"materials"}))
     if deck.boundaries.r_min is None:
         axis = deck.mesh.geometry == "cylindrical" and deck.mesh.r_start == 0

@@ -8,9 +8,10 @@ from __future__ import annotations
 
 import math
 
+from hydro2d import units
 from hydro2d.deck.checks import extent, heading
 from hydro2d.deck.mesh import body
-from hydro2d.deck.mesh_sections import GENERATED, Mesh, radii
+from hydro2d.deck.mesh_sections import GENERATED, Mesh, as_text, radii
 from hydro2d.deck.sections import Deck
 from hydro2d.errors import unknown
 
@@ -61,7 +62,8 @@ def as_segments(deck: Deck, written: dict) -> dict[str, object]:
     if written.get("mesh", {}).get("reach") in (None, "none"):
         return {}
     mesh = deck.mesh.model_dump(exclude_none=True)
-    return {"mesh.reach": "none", "mesh.z_start": mesh["z_start"], "mesh.r": list(mesh["r"]), "mesh.z": list(mesh["z"])}
+    return {"mesh.reach": "none", "mesh.z_start": units.exact(mesh["z_start"], "m"),
+            "mesh.r": [as_text(each) for each in mesh["r"]], "mesh.z": [as_text(each) for each in mesh["z"]]}
 
 
 def _moves(entry) -> bool:

@@ -64,7 +64,8 @@ def _key_path(loc: tuple, data: Any) -> tuple:
 
 
 def renewed(data: dict) -> dict:
-    """The tables of a deck that an older version may have written, with the keys of today."""
+    """The tables of the deck of a run, which an older version may have written, with the keys of today; numbers are in SI."""
+    data.setdefault("numbers", toml.SI)
     for old, new in RENAMED.items():
         (section, key), (place, name) = old.split("."), new.split(".")
         if isinstance(data.get(section), dict) and key in data[section]:

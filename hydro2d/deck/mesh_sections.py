@@ -75,6 +75,15 @@ class Segment(Section):
         return self
 
 
+#: keys of a segment that are lengths
+LENGTHS = ("to", "size", "first", "last")
+
+
+def as_text(segment: dict[str, Any]) -> dict[str, Any]:
+    """A segment with its lengths, in m, as text that gives the same lengths to the last bit."""
+    return {key: units.exact(value, "m") if key in LENGTHS else value for key, value in segment.items()}
+
+
 #: keys of a mesh that is described in words
 GENERATED = ("cells_across", "reach", "across")
 

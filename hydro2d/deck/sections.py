@@ -354,6 +354,10 @@ class Deck(Section):
     title: str = Field(
         "", description="title for logs and pictures", examples=["Shot 4344: hemispherical nose, 5083 aluminium, 1086 m/s"]
     )
+    numbers: Literal["SI"] | None = Field(
+        None, description="SI: numbers without a unit are in SI units; without this key every quantity of this file, and of "
+        "`--set`, names its unit, except 0", examples=["SI"],
+    )
     mesh: Mesh
     boundaries: Boundaries = Boundaries()
     body: tuple[AnyBody, ...] = Field(min_length=1, description="bodies; where they overlap, the first of them is there")

@@ -10,7 +10,7 @@ from types import ModuleType
 
 from hydro2d import units
 from hydro2d.errors import unknown
-from hydro2d.materials.material import CONFIDENCE, FRACTURE, Material, Model, Number, questionable, solid_model
+from hydro2d.materials.material import CONFIDENCE, FRACTURE, Material, Model, Number, solid_model
 from hydro2d.parameters import Parameter
 from hydro2d.toml import PARTS
 
@@ -20,8 +20,6 @@ _KEYS = (*TABLES, *FRACTURE, "title", "note", "source", "confidence", "variants"
 ABOUT = ("source", "confidence", "note")
 #: keys of a part that choose the model, the one that it stands over, and its table; the names of files have become two of these
 CHOICE = ("model", "code", "code_from", "solid", "table_data", "table_from")
-#: models whose constants may be of any size, as in problems without units
-SCALED = ("ideal-gas",)
 
 #: makes the error for a key: from its path and a message
 Fail = Callable[[tuple, str], Exception]
@@ -49,8 +47,6 @@ def build(name: str, raw: dict, fail: Fail, trust: bool) -> Material:
 def _tension(raw, key: str, fail: Fail) -> Number:
     """A tension at which the material fractures."""
     found = _number(raw, "Pa", (key,), fail)
-    if said := questionable(raw["value"], "Pa"):
-        raise fail((key,), said)
     if found.value <= 0:
         raise fail((key,), f"must be positive (a tension), is {found.value:g}")
     return found
@@ -162,8 +158,6 @@ def _numbers(
     for key, parameter in parameters.items():
         if key in raw:
             number = _number(raw[key], parameter.unit or "1", (part, key), fail)
-            if name not in SCALED and (said := questionable(raw[key]["value"], parameter.unit)):
-                raise fail((part, key), said)
             try:
                 parameter.check(number.value)
             except ValueError as problem:

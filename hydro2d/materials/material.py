@@ -28,18 +28,6 @@ CONFIDENCE = {
 }
 
 
-#: by SI unit: the smallest constant of a material that is taken without its unit, zero aside, and the unit that else was meant
-TAKEN = {"kg/m^3": (30.0, "g/cm^3"), "m/s": (20.0, "km/s"), "Pa": (1e4, "GPa")}
-
-
-def questionable(value: float | str, unit: str) -> str:
-    """Why a constant that is given without its unit is probably meant in another one; empty if it is not."""
-    least, meant = TAKEN.get(unit, (0.0, ""))
-    if isinstance(value, str) or not 0.0 < value < least:
-        return ""
-    return f'{value:g} without a unit is {value:g} {unit}; write "{value:g} {meant}", or "{value:g} {unit}" if that is meant'
-
-
 @dataclass(frozen=True)
 class Number:
     """A parameter in SI, with its source."""
@@ -49,11 +37,6 @@ class Number:
     source: str
     confidence: str
     note: str = ""
-
-    @property
-    def as_deck(self) -> float | str:
-        """The number as a deck has it, in SI; with its unit where a deck would not take it without."""
-        return f"{self.value!r} {self.unit}" if questionable(self.value, self.unit) else self.value
 
 
 @dataclass(frozen=True)
@@ -121,7 +104,7 @@ class Model:
         code = {"code_from": self.file, "code": self.code} if self.code else {}
         solid = {"solid": self.solid} if self.solid else {}
         table = {"table_from": self.table_from, "table_data": self.table} if self.table else {}
-        numbers = {name: number.as_deck for name, number in self.numbers.items()}
+        numbers = {name: number.value for name, number in self.numbers.items()}
         return {"model": self.name, **solid, **numbers, **code, **table}
 
 
@@ -168,9 +151,9 @@ class Material:
         data: dict = {"title": self.title} if self.title else {}
         for key in FRACTURE:
             if (number := getattr(self, key)) is not None:
-                data[key] = number.as_deck
+                data[key] = number.value
         if self.melting:
-            data["melting"] = {key: number.as_deck for key, number in self.melting.items()}
+            data["melting"] = {key: number.value for key, number in self.melting.items()}
         for part in PARTS:
             data[part] = getattr(self, part).as_deck()
         return data

@@ -180,7 +180,8 @@ class Results:
         from hydro2d.deck import deck as decks
 
         saved, _ = snapshot.read_latest(self.directory)
-        deck = decks.loads(saved.deck, trust=self.trust)  # before the kernels are loaded: it may have models from outside
+        text = toml.dumps(keys.renewed(tomllib.loads(saved.deck)))
+        deck = decks.loads(text, trust=self.trust)  # before the kernels are loaded: it may have models from outside
         for material in deck.materials.values():
             material.from_outside()  # refuses what is not trusted
         from hydro2d.solver.simulation import Simulation

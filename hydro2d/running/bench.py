@@ -89,8 +89,8 @@ LAYER = """
 name = "{name}"
 material = "Al5083"
 shape = "plate"
-z_front = {front!r}
-thickness = {thickness!r}
+z_front = "{front!r} m"
+thickness = "{thickness!r} m"
 """
 
 

@@ -8,7 +8,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, Field, ValidationError, model_validator
 
-from hydro2d import toml
+from hydro2d import toml, units
 from hydro2d.deck.base import PositiveLength, PositiveSpeed, Section, Speed
 from hydro2d.errors import DeckError, Error, Sources, in_words, spelled, unknown
 from hydro2d.files import plain, read_text
@@ -16,8 +16,8 @@ from hydro2d.files import plain, read_text
 #: overrides of the decks of a study: "key=value" of a command line, or values by their dotted keys
 Overrides = Sequence[str] | Mapping[str, Any]
 
-#: the key of a variant that names another base deck, and that which lists the deck keys that it removes
-DECK, REMOVE = "deck", "remove"
+#: the key of a variant that names another base deck, that which lists the deck keys that it removes, and the table of a search
+DECK, REMOVE, SEARCH = "deck", "remove", "transition"
 
 
 class StudyError(Error):
@@ -245,8 +245,10 @@ def _assigned(text: str) -> tuple[str, Any]:
 
 
 def _validated(data: dict, sources: Sources) -> Definition:
+    """The study; numbers of its search need their units, as those of its decks do, unless [set] has numbers = "SI"."""
+    in_si = _settings(data).get("numbers") == toml.SI
     try:
-        found = Definition.model_validate(data)
+        found = Definition.model_validate(data if in_si else {**data, **units.bare({k: data[k] for k in data if k == SEARCH})})
     except ValidationError as error:
         raise StudyError(explained(error, data, sources, _TABLES)) from None
     if not (found.axis or found.transition or found.ensemble):

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hydro2d import toml
+from hydro2d import toml, units
 from hydro2d.deck import deck as decks
 from hydro2d.errors import DeckError
 from hydro2d.mesh.edges.registry import BY_NAME
@@ -54,7 +54,8 @@ def _segments(deck: decks.Deck, axis: str, changed: Callable[[str, float], float
         for key in (*POSITIONS, *SIZES, "cells_across"):
             value = getattr(segment, key)
             if value is not None and (new := changed(key, value)) != value:
-                found.append(f"mesh.{axis}.{number}.{key}={toml.inline(new)}")
+                written = new if key == "cells_across" else units.exact(new, "m")
+                found.append(f"mesh.{axis}.{number}.{key}={toml.inline(written)}")
     return found
 
 
@@ -70,7 +71,7 @@ def _shifted(deck: decks.Deck, fraction: float) -> list[str]:
     """The mesh shifted along z by a fraction of its smallest cell."""
     _free(deck, "mesh offset", ("z_min", "z_max"))
     shift = fraction * float(np.min(np.diff(decks.edges(deck)[1])))
-    start = f"mesh.z_start={toml.inline(deck.mesh.z_start + shift)}"
+    start = f"mesh.z_start={toml.inline(units.exact(deck.mesh.z_start + shift, 'm'))}"
     return [start, *_segments(deck, "z", lambda key, value: value + shift if key in POSITIONS else value)]
 
 

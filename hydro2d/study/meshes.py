@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from hydro2d.deck import deck as decks
-from hydro2d.deck.mesh_sections import Segment
+from hydro2d.deck.mesh_sections import Segment, as_text
 from hydro2d.errors import DeckError
 from hydro2d.study.members import cells_across, projectile
 
@@ -29,8 +29,8 @@ def settings(deck: decks.Deck, cells: float) -> dict[str, Any]:
     across = {"across": name, "cells_across": cells} if rest else {"to": end}
     first = {"cells": max(round(end * cells / radius), 1), **across}
     return {**decks.written_segments(deck),
-            "mesh.r": [first, *(_scaled(*each, factor) for each in rest)],
-            "mesh.z": [_scaled(*each, factor) for each in _laid(deck, "z")]}  # fmt: skip
+            "mesh.r": [as_text(each) for each in (first, *(_scaled(*each, factor) for each in rest))],
+            "mesh.z": [as_text(_scaled(*each, factor)) for each in _laid(deck, "z")]}  # fmt: skip
 
 
 def _laid(deck: decks.Deck, axis: str) -> Iterator[tuple[Segment, int, float]]:

@@ -78,8 +78,8 @@ class Problem:
     columns: dict[str, Callable[[Simulation], float]] = field(default_factory=dict)
 
     def overrides(self, variant: str, cells: int) -> list[str]:
-        """Overrides of the deck of a run."""
-        return [*self.variants[variant], *self.refine(cells)]
+        """Overrides of the deck of a run, their numbers in SI units."""
+        return ["numbers=SI", *self.variants[variant], *self.refine(cells)]
 
 
 def cells_of(run: Results) -> Cells:

@@ -273,7 +273,7 @@ def test_kill_leaves_whole_files(deck, tmp_path):
     """
     out = tmp_path / "out"
     root = Path(__file__).parents[2]
-    options = ["--set", "output.restart_interval=1e-9", "--set", "output.vtk_interval=1e-7", "--set", "stop.time=1 ms"]
+    options = ["--set", "output.restart_interval=1 ns", "--set", "output.vtk_interval=100 ns", "--set", "stop.time=1 ms"]
     child = subprocess.Popen([sys.executable, "-c", textwrap.dedent(code), "run", deck, "--out", str(out), *options],
                              cwd=root, stdout=subprocess.DEVNULL)  # fmt: skip
     until = time.monotonic() + 60

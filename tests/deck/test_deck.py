@@ -134,10 +134,10 @@ def test_a_deck_does_not_change():
         ("[stop]", '[output]\nfields = ["velocity_rest"]\n[stop]', 29, ["velocity_rest is now called velocity_soft"]),
         ("[stop]", '[numerics]\ninterface_order = ["rod"]\n[stop]', 29, ["must name every body once: rod, plate"]),
         ("[stop]", '[failure]\ndamage = "yes"\n[stop]', 29, ['unknown value "yes"', "material, none"]),
-        ("[stop]", '[[tracer]]\nname = "t"\nr = 1.0\nz = 0.0\n[stop]', 28, ['"t" at r = 1 m, z = 0 m lies outside']),
+        ("[stop]", '[[tracer]]\nname = "t"\nr = "1 m"\nz = 0.0\n[stop]', 28, ['"t" at r = 1 m, z = 0 m lies outside']),
         ("[stop]", "[experiment]\npenetration = 0.4\n[stop]", 28, ["experiment.source: is missing"]),
         ("[stop]", '[experiment]\nresidual_velocity = 0\nsource = "x"\n[stop]', 28, ["residual_velocity needs velocity"]),
-        ("z_front = 0.0", "z_front = 0.0\nenergy = 1.0\npressure = 0.0", 18, ["energy or pressure, not both"]),
+        ("z_front = 0.0", "z_front = 0.0\nenergy = \"1 J/kg\"\npressure = 0.0", 18, ["energy or pressure, not both"]),
     ],
 )
 def test_mistakes_are_named_with_their_line(old, new, line, fragments):
@@ -224,8 +224,8 @@ def test_the_hard_bodies_of_a_contact_come_first_in_mixed_cells():
         ('nose = "ogive"\ncrh = 3\nnose_length = "9 mm"', "given: crh, nose_length"),
         ('nose = "ogive"\ncrh = 0.4', "at least 0.5"),
         ('nose = "ogive"\nnose_length = "3 mm"', "must be at least the radius"),
-        ('nose = "ogive"\nhalf_angle = 0.4', "an ogive has no half_angle"),
-        ('nose = "conical"\nhalf_angle = 30', 'write "30 deg"'),
+        ('nose = "ogive"\nhalf_angle = "23 deg"', "an ogive has no half_angle"),
+        ('nose = "conical"\nhalf_angle = 30', 'half_angle: 30 has no unit; write "30 deg"'),
         ('nose = "conical"\ncrh = 3', "a cone has no crh"),
         ('nose = "flat"\ncrh = 3', "a flat nose has no crh"),
     ],
@@ -247,7 +247,7 @@ def test_impossible_noses(nose, fragment):
     ],
 )
 def test_impossible_shapes(body, fragment):
-    text = changed('shape = "plate"\nz_front = 0.0\nthickness = "30 mm"', body)
+    text = 'numbers = "SI"\n' + changed('shape = "plate"\nz_front = 0.0\nthickness = "30 mm"', body)
     assert fragment in message(text)
 
 
@@ -268,7 +268,7 @@ def test_include_merges_tables_by_key_and_bodies_by_name(tmp_path):
 
 
 def test_mistakes_are_traced_through_includes(tmp_path):
-    write(tmp_path, base=changed('thickness = "30 mm"', "thickness = -1"))
+    write(tmp_path, base=changed('thickness = "30 mm"', 'thickness = "-1 m"'))
     write(tmp_path, shot='include = "base.toml"\n\n[[body]]\nname = "plate"\nz_frnt = 0.0\n')
     with pytest.raises(deck.DeckError) as caught:
         deck.load(tmp_path / "shot.toml")
@@ -300,7 +300,7 @@ def test_shipped_decks_are_found_from_anywhere(tmp_path, monkeypatch):
     ("override", "value"),
     [
         ("body.rod.velocity=1200 m/s", lambda d: d.body[0].velocity[1] == 1200.0),
-        ("body.0.velocity=1300", lambda d: d.body[0].velocity[1] == 1300.0),
+        ("body.0.velocity=1300 m/s", lambda d: d.body[0].velocity[1] == 1300.0),
         ('body[1].thickness="20 mm"', lambda d: d.body[1].thickness == 0.02),
         ("numerics.advection=momentum", lambda d: d.numerics.advection == "momentum"),
         ("numerics.active_region=false", lambda d: d.numerics.active_region is False),
@@ -337,7 +337,9 @@ def test_a_resolved_deck_of_an_older_version_gets_the_keys_of_today():
         old[section][key] = old[place].pop(name)
     assert old != now
     assert keys.renewed(old) == now
-    assert keys.renewed({"numerics": 3}) == {"numerics": 3}
+    del old["numbers"]
+    assert keys.renewed(old) == now
+    assert keys.renewed({"numerics": 3}) == {"numerics": 3, "numbers": "SI"}
 
 
 def test_the_resolved_deck_is_complete_and_loads_to_the_same():
@@ -402,7 +404,7 @@ def test_thin_bodies_and_bodies_that_leave_are_warned_of(text, overrides, warned
 
 @pytest.mark.parametrize(("speed", "surface"), [(800.0, 0.0), (-800.0, 0.03), (0.0, None)])
 def test_a_sphere_that_flies_is_a_penetrator(speed, surface):
-    sphere = f'shape = "sphere"\ncentre = [0.0, "-10 mm"]\nradius = "4 mm"\nvelocity = {speed}\n'
+    sphere = f'shape = "sphere"\ncentre = [0.0, "-10 mm"]\nradius = "4 mm"\nvelocity = "{speed} m/s"\n'
     i, j = TEXT.index('shape = "rod"'), TEXT.index('[[body]]\nname = "plate"')
     d = deck.loads((TEXT[:i] + sphere + TEXT[j:]).replace('yield_factor = "radius"\n', ""))
     assert (d.penetration and (d.penetration.rod, d.penetration.target)) == (("rod", "plate") if speed else None)
@@ -514,7 +516,7 @@ def test_bodies_that_join_are_warned_of_once():
 )
 def test_segments(segments, sizes):
     text = changed('z = [ { to = "40 mm", size = "0.5 mm" } ]', f"z = [ {segments} ]")
-    text = text.replace('"-20 mm"', "0.0").replace("tip = 0.0", "tip = 0.05")
+    text = 'numbers = "SI"\n' + text.replace('"-20 mm"', "0.0").replace("tip = 0.0", "tip = 0.05")
     z = axis_edges(deck.loads(text), "z")
     assert np.allclose(np.diff(z), sizes, rtol=1e-9)
     assert z[0] == 0.0
@@ -653,5 +655,5 @@ def test_an_experiment_goes_with_its_velocity_and_target(override, depth):
 ])  # fmt: skip
 def test_an_experiment_goes_with_its_velocity_in_any_frame(rod, plate, depth):
     text = deck.find("cth_nose_shape/hemi_5083_1086.toml").read_text().replace('follow = "rod"\n', "")
-    shot = deck.loads(text, [f"body.rod.velocity={rod}", f"body.plate.velocity={plate}"]).experiment
+    shot = deck.loads(text, [f"body.rod.velocity={rod} m/s", f"body.plate.velocity={plate} m/s"]).experiment
     assert (shot and shot.penetration) == depth

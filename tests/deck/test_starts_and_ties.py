@@ -117,37 +117,6 @@ def test_the_volume_that_two_bodies_share():
     assert shared_volume(ball, upper, (0.0, 5.0), (-5.0, 0.0), False)[0] == 0.0
 
 
-EOS = 'model = "mie-grueneisen", hugoniot_slope = 1.489, grueneisen = 2.02, specific_heat = 383'
-
-
-@pytest.mark.parametrize(("constants", "told"), [
-    ("reference_density = 8.93, sound_speed = 3940", r'density: 8.93 without a unit is 8.93 kg/m\^3; write "8.93 g/cm'),
-    ("reference_density = 8930, sound_speed = 3.94", 'sound_speed: 3.94 without a unit is 3.94 m/s; write "3.94 km/s", or'),
-])  # fmt: skip
-def test_constants_that_lack_their_unit_are_found(constants, told):
-    text = MESH + box_of("a", (0, 3), (0, 3), material="m") + f"[materials.m]\neos = {{ {EOS}, {constants} }}\n"
-    with pytest.raises(deck.DeckError, match=told):
-        deck.loads(text)
-
-
-def test_a_yield_stress_in_gigapascal_is_asked_about():
-    text = MESH + box_of("a", (0, 3), (0, 3), material="m") + '[materials.m]\nbased_on = "Al5083"\n'
-    strength = 'strength = { model = "elastic-plastic", shear_modulus = "27 GPa", yield_stress = 1.506 }\n'
-    with pytest.raises(deck.DeckError, match='strength.yield_stress: 1.506 without a unit is 1.506 Pa; write "1.506 GPa"'):
-        deck.loads(text + strength)
-    with pytest.raises(deck.DeckError, match='fracture_pressure: 1.2 without a unit is 1.2 Pa; write "1.2 GPa"'):
-        deck.loads(text + "fracture_pressure = 1.2\n")
-
-
-def test_a_constant_with_its_unit_is_taken_and_written_with_it():
-    text = MESH + box_of("a", (0, 3), (0, 3), material="m") + (
-        f'[materials.m]\neos = {{ {EOS}, reference_density = "8.93 kg/m^3", sound_speed = "3940 m/s" }}\n')
-    found = deck.loads(text)
-    assert found.materials["m"].reference_density == 8.93
-    assert 'reference_density = "8.93 kg/m^3"' in found.to_toml()
-    assert deck.loads(found.to_toml()).to_toml() == found.to_toml()
-
-
 def lines(text):
     return "\n".join(check.check(deck.loads(text)).lines(1))
 

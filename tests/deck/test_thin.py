@@ -77,7 +77,7 @@ def test_the_wall_of_a_shell_counts_and_not_its_diameter():
         ([box("rear", (0.2, 1.03), 1000), box("front", (1.15, 2), 1000)], []),
         ([box("rear", (0.2, 1.03), 1000), box("front", (1.03, 2), 1000)], []),
         ([ball("ball", 1, 0.9), box("plate", (1.9, 3))], []),
-        ([body("cone", 'shape = "polygon"\npoints = [[0, 0.0005], [0, 0.0019], [0.002, 0.00185], [0.002, 0.0005]]'),
+        ([body("cone", 'shape = "polygon"\npoints = [[0, "0.5 mm"], [0, "1.9 mm"], ["2 mm", "1.85 mm"], ["2 mm", "0.5 mm"]]'),
           box("plate", (1.9, 3))], []),
         ([box("rear", (0.2, 1.03)), box("filler", (1.03, 1.09)), box("front", (1.09, 2))],
          [f'body "filler": 0.6 cells across it along z{ALWAYS}']),

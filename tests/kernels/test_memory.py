@@ -106,6 +106,7 @@ def test_the_variables_of_strength_come_first():
 
 
 MOVES = f"""
+numbers = "SI"
 [mesh]
 geometry = "planar"
 r = [{{ to = 0.2, cells = 4 }}]

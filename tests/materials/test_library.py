@@ -14,6 +14,7 @@ from hydro2d.materials import library
 from strength.layout import SHEAR, YIELD
 
 TEXT = """\
+numbers = "SI"
 [mesh]
 r = [ { to = 0.01, cells = 5 } ]
 z = [ { to = 0.02, cells = 10 } ]
@@ -282,23 +283,23 @@ def test_strength_takes_what_the_eos_has():
 @pytest.mark.parametrize(
     ("text", "line", "fragment"),
     [
-        ('based_on = "W_aloy"', 17, 'based_on: unknown material "W_aloy"; did you mean "W_alloy"?'),
-        ('based_on = "B"\n[materials.B]\nbased_on = "A"', 19, "are based on each other in a circle: A -> B -> A"),
-        ('based_on = "W_alloy"\nvariant = "cv-prined"', 18, 'did you mean "cv-printed"?'),
-        ('based_on = "W_alloy"\nvariant = 3', 18, "must be the name of a variant or a list of names"),
-        ('based_on = ["W_alloy"]', 17, "must be the name of a material"),
-        ('based_on = "W_alloy"\nvariants.x = 3', 18, "must hold a table for each variant"),
-        ('title = "x"', 16, "materials.A: has no eos"),
-        ('based_on = "W_alloy"\neos.sound_sped = 1.0', 18, 'did you mean "sound_speed"?'),
-        ('based_on = "W_alloy"\neos.c0 = 1.0', 18, 'its name is "sound_speed"'),
-        ('based_on = "W_alloy"\neos.sound_speed = "4 km"', 18, '"4 km" is a length; expected a velocity'),
-        ('based_on = "W_alloy"\neos.sound_speed = -4.0', 18, "sound_speed = -4.0: must be positive"),
-        ('based_on = "W_alloy"\neos.sound_speed = { valu = 1 }', 18, 'unknown key "valu"; did you mean "value"?'),
-        ('based_on = "W_alloy"\neos.sound_speed = { value = 1, confidence = "high" }', 18, 'unknown confidence "high"'),
-        ('based_on = "W_alloy"\nstrength.model = "steinberg"', 18, 'did you mean "steinberg-guinan"?'),
-        ('based_on = "W_alloy"\nstrenth.model = "hydrodynamic"', 18, 'did you mean "strength"?'),
-        ('based_on = "W_alloy"\nfracture_pressure = "-3 GPa"', 18, "must be positive (a tension)"),
-        ('[materials.A.eos]\nmodel = "ideal-gas"\nreference_density = 1.0', 17, "ideal-gas needs adiabatic_index"),
+        ('based_on = "W_aloy"', 18, 'based_on: unknown material "W_aloy"; did you mean "W_alloy"?'),
+        ('based_on = "B"\n[materials.B]\nbased_on = "A"', 20, "are based on each other in a circle: A -> B -> A"),
+        ('based_on = "W_alloy"\nvariant = "cv-prined"', 19, 'did you mean "cv-printed"?'),
+        ('based_on = "W_alloy"\nvariant = 3', 19, "must be the name of a variant or a list of names"),
+        ('based_on = ["W_alloy"]', 18, "must be the name of a material"),
+        ('based_on = "W_alloy"\nvariants.x = 3', 19, "must hold a table for each variant"),
+        ('title = "x"', 17, "materials.A: has no eos"),
+        ('based_on = "W_alloy"\neos.sound_sped = 1.0', 19, 'did you mean "sound_speed"?'),
+        ('based_on = "W_alloy"\neos.c0 = 1.0', 19, 'its name is "sound_speed"'),
+        ('based_on = "W_alloy"\neos.sound_speed = "4 km"', 19, '"4 km" is a length; expected a velocity'),
+        ('based_on = "W_alloy"\neos.sound_speed = -4.0', 19, "sound_speed = -4.0: must be positive"),
+        ('based_on = "W_alloy"\neos.sound_speed = { valu = 1 }', 19, 'unknown key "valu"; did you mean "value"?'),
+        ('based_on = "W_alloy"\neos.sound_speed = { value = 1, confidence = "high" }', 19, 'unknown confidence "high"'),
+        ('based_on = "W_alloy"\nstrength.model = "steinberg"', 19, 'did you mean "steinberg-guinan"?'),
+        ('based_on = "W_alloy"\nstrenth.model = "hydrodynamic"', 19, 'did you mean "strength"?'),
+        ('based_on = "W_alloy"\nfracture_pressure = "-3 GPa"', 19, "must be positive (a tension)"),
+        ('[materials.A.eos]\nmodel = "ideal-gas"\nreference_density = 1.0', 18, "ideal-gas needs adiabatic_index"),
     ],
 )
 def test_mistakes_in_materials(text, line, fragment):

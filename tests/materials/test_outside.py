@@ -124,7 +124,7 @@ def test_a_restart_with_another_text_is_refused(folder):
 def test_its_flow_stress_can_be_drawn(folder):
     from hydro2d.materials import curves
 
-    found = deck.load(folder / "shot.toml", ["materials.Al5083.strength.saturation=1e8"]).materials["Al5083"]
+    found = deck.load(folder / "shot.toml", ["materials.Al5083.strength.saturation=100 MPa"]).materials["Al5083"]
     stresses, _ = curves.flow_stress(found, 1.0, [0.0, 0.1], isothermal=True)
     assert stresses == pytest.approx([240e6, 240e6 + 1e8 * (1 - 0.36787944)], rel=1e-7)
 

@@ -125,6 +125,7 @@ def test_what_has_memory_is_not_tabulated(name):
 
 DECK = """
 title = "Two plates"
+numbers = "SI"
 [mesh]
 r = [{ to = "0.2 mm", cells = 4 }]
 z_start = "-3 mm"
@@ -185,14 +186,14 @@ def test_a_restart_with_another_table_is_refused(folder):
 
 
 @pytest.mark.parametrize(("old", "new", "said"), [
-    ('"al.301"', '"no.301"', "shot.toml:24: materials.al.eos.table: "),
+    ('"al.301"', '"no.301"', "shot.toml:25: materials.al.eos.table: "),
     ('"al.301"', "3", "must be the name of a file with a table"),
     ('table = "al.301"', "", "tabular needs table, the name of a file with a table of the SESAME type 301"),
-    ('model = "tabular"', 'model = "tillotson"', "shot.toml:24: materials.al.eos.table: tillotson has no table"),
+    ('model = "tabular"', 'model = "tillotson"', "shot.toml:25: materials.al.eos.table: tillotson has no table"),
     ('table = "al.301"', 'table = "al.301"\nspecific_heat = 3', 'unknown parameter of tabular "specific_heat"'),
     ('"al.301"', '"shot.toml"', "materials.al.eos.table: shot.toml: line 2: 'title' is not a number"),
     ('"tabular"\ntable = "al.301"', '"p-alpha"\nsolid = "tabular"', "tabular needs table, the name of a file"),
-    ('"tabular"', '"p-alpha"\nsolid = "tillotson"', "shot.toml:25: materials.al.eos.table: tillotson has no table"),
+    ('"tabular"', '"p-alpha"\nsolid = "tillotson"', "shot.toml:26: materials.al.eos.table: tillotson has no table"),
     ('"tabular"', '"p-alpha"\nsolid = "tabular"', "p-alpha needs solid_density"),
 ])
 def test_a_mistake_in_the_deck_says_where(folder, old, new, said):

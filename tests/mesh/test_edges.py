@@ -73,8 +73,8 @@ def test_what_moves_with_an_edge_crosses_the_cell_beside_it():
 @pytest.mark.parametrize(("overrides", "words"), [
     (['boundaries.z_min="piston"'], "a piston needs z_min_piston"),
     (['boundaries.z_min="velocity"'], "an edge with a velocity needs z_min_velocity"),
-    (["boundaries.z_min_piston=[[0, 0], [1, 1]]"], 'has no meaning without z_min = "piston"'),
-    (['boundaries.z_min="velocity"', "boundaries.z_min_velocity=1", "boundaries.z_min_piston=[[0, 0], [1, 1]]"],
+    (["boundaries.z_min_piston=[[0, 0], ['1 s', '1 m/s']]"], 'has no meaning without z_min = "piston"'),
+    (['boundaries.z_min="velocity"', "boundaries.z_min_velocity=1 m/s", "boundaries.z_min_piston=[[0, 0], ['1 s', '1 m/s']]"],
      'z_min_piston: has no meaning without z_min = "piston"'),
     (['boundaries.z_min="piston"', 'boundaries.z_min_piston=[[0, 0], ["1 us", "1e7 m/s"]]'], "row 1: is 1e[+]07 m/s, beyond"),
     (['boundaries.z_min="axis"'], "unknown value .axis."),

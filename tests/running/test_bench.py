@@ -53,7 +53,7 @@ def test_one_case(quick):
 
 
 def test_whole_shot(quick):
-    options = (*SMALL, "stop.cycles=12", "output.vtk_interval=1e-7", "output.history_interval=1e-8")
+    options = (*SMALL, "stop.cycles=12", "output.vtk_interval=100 ns", "output.history_interval=10 ns")
     result = bench.collect([], threads=[1], shot=True, shot_overrides=options, say=lambda line: None)
     (case,) = result["cases"]
     assert case["name"] == "whole shot"

@@ -8,7 +8,7 @@ from hydro2d import moving
 
 CELLS = [
     "import hydro2d\n"
-    "deck = hydro2d.Deck.from_file('problems/templates/taylor.toml', {'stop.time': 2e-6, 'mesh.cells_across': 3})\n"
+    "deck = hydro2d.Deck.from_file('problems/templates/taylor.toml', {'stop.time': '2 us', 'mesh.cells_across': 3})\n"
     "deck",
     "shot = hydro2d.run(deck, 'shot', threads=1)",
     "shot",

@@ -10,6 +10,7 @@ from hydro2d.output.history import History, read, read_craters, read_debris
 from hydro2d.solver.simulation import Simulation
 
 DECK = """
+numbers = "SI"
 [mesh]
 r = [{ to = "20 mm", cells = 40 }]
 z_start = "-15 mm"

@@ -26,20 +26,20 @@ def message(*options: str, text: str = TEXT) -> str:
 
 
 @pytest.mark.parametrize(("old", "new", "said"), [
-    ('follow = "rod"', 'follow = "rood"', 'deck.toml:2: mesh.follow: unknown body "rood"; did you mean "rod"?'),
+    ('follow = "rod"', 'follow = "rood"', 'deck.toml:3: mesh.follow: unknown body "rood"; did you mean "rod"?'),
     ('follow = "rod"', 'follow = "plate"',
-     'deck.toml:2: mesh.follow: "plate" has no velocity along z for the mesh to follow'),
-    ('"1000 m/s"', "[300.0, 0.0]", 'deck.toml:2: mesh.follow: "rod" has no velocity along z for the mesh to follow'),
+     'deck.toml:3: mesh.follow: "plate" has no velocity along z for the mesh to follow'),
+    ('"1000 m/s"', "[300.0, 0.0]", 'deck.toml:3: mesh.follow: "rod" has no velocity along z for the mesh to follow'),
     ('to = "8 mm", cells = 40', 'to = "1 mm", cells = 26',
-     "deck.toml:2: mesh.follow: the mesh is too short: it reaches 0.0013 m ahead of"),
+     "deck.toml:3: mesh.follow: the mesh is too short: it reaches 0.0013 m ahead of"),
     ('z_start = "-12 mm"', 'z_start = "-9 mm"',
-     'deck.toml:2: mesh.follow: the mesh is too short: it ends 0.0004 m before the tail of "rod"'),
+     'deck.toml:3: mesh.follow: the mesh is too short: it ends 0.0004 m before the tail of "rod"'),
     ("[stop]", 'velocity = "-100 m/s"\n[stop]',
-     'deck.toml:21: body[2]: "second" reaches beyond the end of the travelling mesh'),
+     'deck.toml:22: body[2]: "second" reaches beyond the end of the travelling mesh'),
     ("[stop]", '[boundaries]\nz_min = "wall"\n[stop]',
-     'deck.toml:28: boundaries.z_min: a mesh that follows "rod" must have open ends along z; a wall cannot travel with it'),
-    ("[stop]", '[boundaries]\nz_max = "wall"\n[stop]', "deck.toml:28: boundaries.z_max: a mesh that follows"),
-    ('z_front = "20 mm"', 'z_front = "-40 mm"', 'deck.toml:21: body[2]: "second" lies outside the mesh'),
+     'deck.toml:29: boundaries.z_min: a mesh that follows "rod" must have open ends along z; a wall cannot travel with it'),
+    ("[stop]", '[boundaries]\nz_max = "wall"\n[stop]', "deck.toml:29: boundaries.z_max: a mesh that follows"),
+    ('z_front = "20 mm"', 'z_front = "-40 mm"', 'deck.toml:22: body[2]: "second" lies outside the mesh'),
 ])  # fmt: skip
 def test_what_a_following_mesh_cannot_do_is_one_error_with_its_line(old, new, said):
     assert TEXT.count(old) == 1

@@ -10,6 +10,7 @@ from hydro2d.solver.simulation import Simulation
 
 G = -2e8
 FALL = """
+numbers = "SI"
 [mesh]
 geometry = "planar"
 r = [{ to = "2 mm", cells = 4 }]
@@ -122,6 +123,7 @@ def column(names):
 def standing(names, extra=""):
     """A deck of a column of cells, of the materials given from the top down, on a wall."""
     text = f"""
+numbers = "SI"
 [mesh]
 geometry = "planar"
 r = [{{ to = "2 mm", cells = 4 }}]

@@ -64,7 +64,7 @@ def test_light_times_are_straight_and_bend_around_the_plug():
 def test_an_own_speed_and_width_and_several_sources():
     second = TEXT[TEXT.index("[[source]]"): TEXT.index("[numerics]")].replace("fuse", "other").replace(
         '["0 mm", "0 mm", "0 us"]', '["8 mm", "18 mm", "1 us"]')
-    simulation = Simulation(deck.loads(TEXT + second, ["source.fuse.speed=4000", "source.fuse.widths=3"]))
+    simulation = Simulation(deck.loads(TEXT + second, ["source.fuse.speed=4000 m/s", "source.fuse.widths=3"]))
     found, duration = light(simulation), light(simulation, jwl.BURN_TIME)
     assert found[0, 2] == pytest.approx(math.hypot(1.25e-3, 0.25e-3) / 4000.0, rel=1e-12)
     assert duration[0, 2] == pytest.approx(3 * 0.5e-3 / 4000.0)
@@ -93,9 +93,9 @@ def test_the_reach_limits_what_is_lit():
     ("source.fuse.points=[]", r"source\[0\].points: .*expected a table of 1 to 1000 rows"),
     ("source.fuse.points=[[0, 0]]", r"row 0 is not \[r, z, time\]"),
     ('source.fuse.points=[[0, 0, "1 mm"]]', "row 0: .*is a length; expected a time"),
-    ("source.fuse.points=[[0, 0, 0], [0, 0, -1e-6]]", "the time of row 1 must not be negative"),
+    ("source.fuse.points=[[0, 0, 0], [0, 0, '-1 us']]", "the time of row 1 must not be negative"),
     ("source.fuse.speed=0", "must be positive"),
-    ("body.charge.energy=1e6", r"body\[1\].energy: would replace the energy of the detonation"),
+    ("body.charge.energy=1 MJ/kg", r"body\[1\].energy: would replace the energy of the detonation"),
     ("source.fuse.kind=burn", r"unknown kind .burn. \(allowed: acceleration, detonation, heating\)"),
 ])  # fmt: skip
 def test_wrong_tables(override, words):
@@ -134,7 +134,7 @@ def test_parts_that_no_detonation_reaches():
 
 def test_a_mesh_that_follows_is_refused():
     with pytest.raises(DeckError, match=r"source\[0\].kind: a detonation lights what is in the mesh at the start"):
-        deck.loads(TEXT, ["mesh.follow=plug", "body.plug.velocity=100", "boundaries.z_min=outflow"])
+        deck.loads(TEXT, ["mesh.follow=plug", "body.plug.velocity=100 m/s", "boundaries.z_min=outflow"])
 
 
 def test_energy_closes_and_what_is_not_lit_stays():

@@ -54,10 +54,10 @@ def test_the_value_of_a_table(time, expected):
     ('source.beam.body="plat"', "unknown body .plat.; did you mean"),
     ('source.beam.name="walls"', "is that of a sink of the audit"),
     ("source.beam.power=[[0, 1]]", "expected a table of 2 to 100000 rows"),
-    ("source.beam.power=[[0, 1], [0, 2]]", "the time of row 1, 0 s, is not after that of the row before"),
-    ('source.beam.power=[[0, 1], ["1 us", "2 m"]]', "row 1: .*is a length; expected a power per mass"),
-    ("source.beam.power=[[0, 1], [1]]", "row 1 is not a pair"),
-    ("source.beam.z=[2, 1]", "the second must be greater than the first"),
+    ("source.beam.power=[[0, '1 W/kg'], [0, '2 W/kg']]", "the time of row 1, 0 s, is not after that of the row before"),
+    ('source.beam.power=[[0, 0], ["1 us", "2 m"]]', "row 1: .*is a length; expected a power per mass"),
+    ("source.beam.power=[[0, 0], [1]]", "row 1 is not a pair"),
+    ("source.beam.z=['2 m', '1 m']", "the second must be greater than the first"),
     ("source.beam.pover=1", 'unknown key "pover"; did you mean "power"'),
 ])  # fmt: skip
 def test_wrong_tables(override, words):

@@ -17,6 +17,7 @@ LINE = melting.row(ALUMINIUM)
 WITH_LINE = [name for name in library.names() if library.load(name).melting]
 #: decks of one body
 DECK = """
+numbers = "SI"
 [mesh]
 r = [{ to = 0.01, cells = 5 }]
 z = [{ to = 0.02, cells = 10 }]

@@ -115,7 +115,7 @@ def test_meshes_without_a_value_are_one_line(tmp_path):
     (["--cells", "5.5"], "2 to 20 different numbers"), (["--cells", "5,5"], "different"),
     (["--cells", "a"], "expected numbers"), (["--cells", "5,inf"], "from 0.5 to 1000"),
     (["--cells", "3,4", "--repeats", "0"], "from 2 to 1000"),
-    (["--cells", "3,4", "--set", "mesh.r=[{first=1e-3,ratio=1.1,to=0.08}]"], "not all of one size"),
+    (["--cells", "3,4", "--set", "mesh.r=[{first='1 mm',ratio=1.1,to='80 mm'}]"], "not all of one size"),
 ])  # fmt: skip
 def test_wrong_options_are_one_message(options, said, capsys, tmp_path):
     assert call(["converge", SHOT, "--out", str(tmp_path / "out"), *options]) == 2

@@ -104,7 +104,7 @@ def test_an_axis_must_not_set_what_the_ensemble_changes(key, by):
 
 
 def test_an_axis_of_whole_meshes_may_be_combined_with_an_offset():
-    mesh = {"z_start": -0.11, "z": [{"to": 0.15, "size": 1e-3}]}
+    mesh = {"z_start": "-110 mm", "z": [{"to": "150 mm", "size": "1 mm"}]}
     found = planned(axes=[{"name": "mesh", "variants": {"coarse": {"mesh": mesh}}}], by=["mesh offset"])
     assert decks.loads(found[1].text).mesh.z_start == pytest.approx(-0.11 + 1e-3 * found[1].changed["mesh offset"])
 
@@ -121,13 +121,16 @@ def test_too_many_members_of_too_many_cases():
     assert "101000 cases" in refused(axes=[axis], repeats=1000)
 
 
+SPEEDS = {"from": "900 m/s", "to": "1000 m/s"}
+
+
 @pytest.mark.parametrize(("search", "said"), [
     ({}, "give [transition] a `budget` of runs instead"),
     ({"of": "erosion", "budget": 8}, "every run is another draw already; leave it out. `seed` in [transition]"),
 ])  # fmt: skip
 def test_a_search_takes_no_ensemble_and_says_what_to_do_instead(search, said):
     with pytest.raises(StudyError) as caught:
-        cases.plan_of({"deck": SHOT, "ensemble": {"repeats": 2}, "transition": {"from": 900, "to": 1000, **search}}, "shot")
+        cases.plan_of({"deck": SHOT, "ensemble": {"repeats": 2}, "transition": {**SPEEDS, **search}}, "shot")
     assert str(caught.value).startswith("shot: ensemble: ")
     assert said in str(caught.value)
     assert "\n" not in str(caught.value)

@@ -19,6 +19,7 @@ friction = 0.05
 advection = "both"
 """
 GAS = """
+numbers = "SI"
 [mesh]
 r = [{ cells = 6, size = "1 mm" }, { to = "20 mm", ratio = 1.2 }]
 z = [{ to = "30 mm", first = "1 mm", last = "2 mm" }]

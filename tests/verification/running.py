@@ -31,8 +31,8 @@ def finish(deck, watch=None) -> Simulation:
 
 @functools.cache
 def run(name: str, *overrides: str) -> Simulation:
-    """A shipped verification deck at its end; each combination of overrides runs once. Not to be written to."""
-    return finish(decks.load(f"{FOLDER}/{name}.toml", list(overrides)))
+    """A shipped verification deck at its end; each combination of overrides, in SI units, runs once. Not to be written to."""
+    return finish(decks.load(f"{FOLDER}/{name}.toml", ["numbers=SI", *overrides]))
 
 
 class Line:

@@ -42,7 +42,7 @@ def foam(number):
 
 def deck_of(velocity, number=None, **changes):
     """The deck with a velocity, m/s; number : of points of the table of the solid, in place of its model."""
-    given = {"body.block.velocity": -velocity, "numerics.advection": "both", **changes}
+    given = {"numbers": "SI", "body.block.velocity": -velocity, "numerics.advection": "both", **changes}
     if number:
         given |= {"body.block.material": "foam", "materials.foam": foam(number)}
     return decks.loads(Path(DECK).read_text(encoding="utf-8"), given)

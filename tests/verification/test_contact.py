@@ -36,7 +36,7 @@ def cut_at(end: float) -> str:
 @functools.cache
 def run(name: str, *overrides: str):
     """A deck of problems/sliding at its end; each combination of overrides runs once. Not to be written to."""
-    return finish(decks.load(f"{FOLDER}/{name}.toml", list(overrides)))
+    return finish(decks.load(f"{FOLDER}/{name}.toml", ["numbers=SI", *overrides]))
 
 
 def velocities(simulation, m: int):
@@ -214,7 +214,7 @@ def test_rod_leaves_its_hole_as_it_was():
 
 def test_bodies_that_touch_beyond_the_active_cells_are_no_contact_yet():
     """A ball on two plates that lie on one another: where nothing has arrived, no pressure can be shared. Once it was NaN."""
-    options = ['sliding.hard=["ball", "second"]', "body.plate.thickness=3e-3", "body.second.z_front=3e-3", 'mesh.follow="none"']
+    options = ['sliding.hard=["ball", "second"]', "body.plate.thickness=3 mm", "body.second.z_front=3 mm", 'mesh.follow="none"']
     simulation = Simulation(decks.load("problems/perforation/two_plates.toml", options))
     assert simulation.engine.box != simulation.engine.mesh_box.tolist()
     for _ in range(40):

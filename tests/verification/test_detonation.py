@@ -25,7 +25,7 @@ def charge(explosive: str, cells: int, *overrides: str):
     """The plane charge on its rigid wall, with so many cells along it and four columns as wide."""
     size = LENGTH / cells
     points = [[(column + 0.5) * size, 0.0, 0.0] for column in range(4)]
-    return decks.load(f"{FOLDER}/plane_charge.toml", [
+    return decks.load(f"{FOLDER}/plane_charge.toml", ["numbers=SI",
         f"mesh.z=[{{to={LENGTH}, cells={cells}}}]", f"mesh.r=[{{to={4 * size}, cells=4}}]", f"source.fuse.points={points}",
         *EXPLOSIVES[explosive], *overrides])
 
@@ -129,7 +129,7 @@ def lit(form: str, cells: int):
     points = {"plane": [[(k + 0.5) * size, 0.0, 0.0] for k in range(4)],
               "cylinder": [[0.0, (k + 0.5) * size, 0.0] for k in range(4)], "sphere": [[0.0, 0.0, 0.0]]}[form]  # fmt: skip
     mesh = [f"mesh.{axis}=[{{to={n * size}, cells={n}}}]" for axis, n in zip("rz", across, strict=True)]
-    return decks.load(f"{FOLDER}/plane_charge.toml", [
+    return decks.load(f"{FOLDER}/plane_charge.toml", ["numbers=SI",
         *mesh, "mesh.geometry=cylindrical", "materials.charge.based_on=LX14", f"source.fuse.points={points}",
         f"stop.time={0.9 * LENGTH / 8800.0}"])
 
@@ -204,7 +204,7 @@ def test_plates_have_gurneys_velocity(deck):
 def test_a_cylinder_has_gurneys_velocity():
     """TNT in copper, on half of the deck's cells each way and 140 mm, at 19 mm of expansion within 5 %."""
     track = []
-    simulation = finish(decks.load(f"{FOLDER}/cylinder.toml", [
+    simulation = finish(decks.load(f"{FOLDER}/cylinder.toml", ["numbers=SI",
         "mesh.r=[{to=0.04, cells=64}]", "mesh.z=[{to=0.14, cells=140}]", "body.charge.z=[0, 0.14]", "body.tube.z=[0, 0.14]",
         "tracer.wall.z=0.07", "stop.time=28e-6"]), lambda run: track.append((run.time, run.stations.tracers[0, 0])))
     times, radii = np.array(track).T

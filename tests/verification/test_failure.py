@@ -21,21 +21,23 @@ variant = "strain-failure"
 [failure]
 damage = "material"
 """
-FLIGHT = STRAIN_FAILURE + ROD.replace("W_alloy", "rod_fails")
+FLIGHT = ROD.replace("W_alloy", "rod_fails") + STRAIN_FAILURE
 #: two halves of a bar of one material, which part in the middle, at r = const nothing happens
-BAR = STRAIN_FAILURE + (
+BAR = (
     mesh(("2 mm", 4), ("-20 mm", "20 mm", 80))
     + walls("r_max")
     + box("low", "rod_fails", z=["-15 mm", "0 mm"], velocity="-20 m/s")
     + box("high", "rod_fails", z=["0 mm", "15 mm"], velocity="20 m/s", join="low")
     + stop("5 us")
+    + STRAIN_FAILURE
 )
 #: a short rod that fails at a strain of 0.5, so that much of it does within a few microseconds
-SHOT = STRAIN_FAILURE.replace('[materials.plate', 'damage.D1 = 0.5\n[materials.plate') + (
+SHOT = (
     mesh(("9 mm", 18), ("-12 mm", "18 mm", 60))
     + rod("2 mm", "10 mm", material="rod_fails", nose="flat", tip=0.0, velocity="2000 m/s")
     + plate("16 mm", material="plate_fails")
     + stop("9 us")
+    + STRAIN_FAILURE.replace("[materials.plate", "damage.D1 = 0.5\n[materials.plate")
 )
 SLIP_LAYER = """
 [sliding]
@@ -124,11 +126,11 @@ def test_debris_bears_no_shear_and_no_tension_and_is_counted(sliding):
 
 #: a copper ring that flies apart, all of it at 150 m/s along r: hoop stress alone, E v t/R while it is elastic
 RING = (
-    table("materials.ring",
-          eos={"model": "mie-grueneisen", "reference_density": 8930, "sound_speed": 3940, "hugoniot_slope": 1.489,
-               "grueneisen": 2.02, "specific_heat": 383},
-          strength={"model": "elastic-plastic", "shear_modulus": 47.7e9, "yield_stress": 0.3e9})
-    + mesh(("36 mm", "62 mm", "0.5 mm"), ("-5 mm", "5 mm", "0.5 mm"))
+    mesh(("36 mm", "62 mm", "0.5 mm"), ("-5 mm", "5 mm", "0.5 mm"))
+    + table("materials.ring",
+            eos={"model": "mie-grueneisen", "reference_density": 8930, "sound_speed": 3940, "hugoniot_slope": 1.489,
+                 "grueneisen": 2.02, "specific_heat": 383},
+            strength={"model": "elastic-plastic", "shear_modulus": 47.7e9, "yield_stress": 0.3e9})
     + table("boundaries", r_min="outflow")
     + body("ring", "ring", "box", r=["38.2 mm", "41.9 mm"], z=["-2 mm", "2.1 mm"],
            flow={"pattern": "cylindrical", "speed": "150 m/s", "radius": "40 mm", "exponent": 0})
@@ -202,8 +204,7 @@ def test_a_bar_of_two_bodies_breaks_where_the_tension_is(share):
     (["body.ring.material='alumina_995'", "materials.alumina_995.based_on='alumina_995'",
       "materials.alumina_995.fracture_stress='1 GPa'"], "a damage of its own"),
     (["materials.ring.fracture_stress='-1 GPa'"], "must be positive"),
-    (["materials.ring.fracture_stress=1.2"], "without a unit"),
-], ids=["cracks", "jh-2", "negative", "bare"])
+], ids=["cracks", "jh-2", "negative"])
 def test_what_a_fracture_stress_does_not_go_with(overrides):
     with pytest.raises(DeckError, match=overrides[1]):
         Simulation(deck.loads(RING, ["materials.ring.fracture_pressure='1 GPa'", "materials.ring.fracture_stress='1 GPa'",

@@ -26,6 +26,7 @@ def blast(geometry: str) -> str:
     energy = SPEED**2 * ENERGY[geometry] / radius ** (3 if geometry == "cylindrical" else 2)
     segments = f"[{{to = {SIZE}, cells = {CELLS}}}]"
     return f"""
+    numbers = "SI"
     mesh = {{geometry = "{geometry}", r = {segments}, z = {segments}}}
     boundaries = {{z_min = "wall"{', r_min = "wall"' if geometry == "planar" else ""}}}
     numerics = {{advection = "both"}}
@@ -104,6 +105,7 @@ def fronts(cells: int, *options: str) -> dict[int, np.ndarray]:
     """
     segments = f"[{{to = 1.4, cells = {cells}}}]"
     simulation = Simulation(decks.loads(f"""
+    numbers = "SI"
     mesh = {{r = {segments}, z = {segments}}}
     boundaries = {{z_min = "wall"}}
     numerics = {{advection = "both"}}

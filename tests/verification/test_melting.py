@@ -90,6 +90,7 @@ def test_steinberg_and_guinans_own_melt_loses_its_deviator_too():
 
 
 CORNER = """
+numbers = "SI"
 [mesh]
 geometry = "planar"
 r = [{ to = 1.0, cells = 6 }]

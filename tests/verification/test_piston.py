@@ -8,6 +8,7 @@ from hydro2d.solver.simulation import Simulation
 from tests.verification.running import Line, advection
 
 GAS = """
+numbers = "SI"
 [mesh]
 geometry = "planar"
 r = [{ to = 0.04, cells = 4 }]

@@ -38,7 +38,8 @@ def test_hugoniot(pair, velocity, choice):
             track.append((simulation.time, crossing(line.x, pressure, p / 2), crossing(line.x, pressure, p / 2, -1)))
 
     simulation = finish(decks.load(f"{FOLDER}/plate_impact_{pair}.toml",
-                                   [f"body.flyer.velocity={velocity}.0", f"stop.time={END}", advection(choice)]), watch)
+                                   ["numbers=SI", f"body.flyer.velocity={velocity}.0", f"stop.time={END}",
+                                    advection(choice)]), watch)
     plateau, shock, energy = AT_2_KM_S[choice] if velocity == 2000 else TOLERANCE
     line, time = Line(simulation), simulation.time
     flyer_front, contact, target_front = (velocity - speed_flyer) * time, u * time, speed_target * time

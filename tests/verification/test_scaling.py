@@ -22,13 +22,14 @@ KINDS = {
 def shot(power: int, kind: str, cycles: int = 60) -> Simulation:
     """A ball that hits a plate with a foil behind it, everything 2^power times as long."""
     size = 2.0**power
-    text = METALS + KINDS[kind] + (
+    text = (
         mesh([{"to": 0.012 * size, "cells": 12}], [{"to": 0.024 * size, "cells": 24}])
         + table("boundaries", z_max="transmit")
         + body("ball", "hard", "sphere", centre=0.0081 * size, radius=0.0037 * size, velocity=1200.0)
         + box("plate", "soft", r=[0.0, 0.0102 * size], z=[0.0121 * size, 0.0163 * size])
         + box("foil", "soft", r=[0.0, 0.0102 * size], z=[0.0171 * size, 0.0174 * size], velocity=200.0)
         + stop(1.0, cycles=cycles)
+        + METALS + KINDS[kind]
     )
     simulation = Simulation(deck.loads(text))
     while simulation.stop_reason() is None:

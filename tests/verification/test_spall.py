@@ -27,6 +27,7 @@ def pulse(material: str, solid: Solid, peak: float) -> str:
     box = '[[body]]\nname = "{}"\n{}material = "metal"\nshape = "box"\nz = [{:.9g}, {:.9g}]\n'
     join = 'join = "plate"\n'
     text = f"""
+        numbers = "SI"
         [mesh]
         r = [{{ cells = 2, size = {CELL} }}]
         z_start = -1e-3

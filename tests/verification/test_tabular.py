@@ -16,6 +16,7 @@ REST = 2700.0
 MATERIAL = library.load("Al_tillotson")
 DECK = """
 title = "Aluminium onto a wall"
+numbers = "SI"
 [mesh]
 r = [{ to = "0.2 mm", cells = 4 }]
 z = [{ to = "5 mm", size = "0.05 mm" }]

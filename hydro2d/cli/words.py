@@ -1,0 +1,130 @@
+"""Words that people use for what has another name in hydro2d, or that it does not have, for `hydro2d info`."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Word:
+    """What a word is in hydro2d.
+
+    said : an answer in one or two sentences
+    names : what `hydro2d info` explains further
+    pages : of the documentation, below docs
+    command : to type, if there is one
+    """
+
+    said: str
+    names: tuple[str, ...] = ()
+    pages: tuple[str, ...] = ()
+    command: str = ""
+
+
+WORDS = {
+    "anvil": Word(
+        "A rigid wall that only pushes: what touches it may leave it again. It is a kind of edge of the mesh, as in "
+        '[boundaries] z_min = "anvil"; an edge "wall" also holds what touches it.',
+        ("boundaries.z_min", "boundaries"), ("how-to/write-a-deck.md#choose-the-edges",), "hydro2d new taylor"),
+    "ballistic limit": Word(
+        'The velocity at which half of the shots perforate. A search with of = "perforation" in its [transition] finds it.',
+        ("stop.perforation",), ("how-to/find-a-transition.md", "how-to/perforate-a-plate.md")),
+    "blint": Word(
+        "CTH's boundary layer interface. Here it is sliding.method = \"slip-layer\", with the widths of its two layers; "
+        '"contact" is the other way to let bodies slide.',
+        ("sliding.method", "sliding.boundary_layer", "sliding.slip_layer"), ("explanation/sliding.md#the-slip-layer",)),
+    "cavitation": Word(
+        'Void that opens in tension: where it exceeds the fracture_pressure of a material, with failure.tensile = "material". '
+        "Water of the library cavitates by its equation of state. The models of an expanding cavity are something else.",
+        ("failure.tensile", "fracture_pressure", "water_tillotson", "cavity"), ("explanation/fracture.md",)),
+    "cfl": Word(
+        "The ratio of the time step to the time in which a wave crosses a cell is numerics.courant.",
+        ("numerics.courant", "numerics.advective_courant")),
+    "concrete": Word(
+        "There is none: neither a material nor a strength model that was made for it, and no shot into concrete has been "
+        "compared. The models of ceramics are not a substitute. A model of your own is a Python file; for a rigid projectile "
+        "there is a formula whose constants are fitted to measured depths.",
+        ("poncelet",), ("how-to/add-a-model.md",)),
+    "debris": Word(
+        "What flies behind a plate: targets.NAME.debris in summary.json has its mass, momentum, energy, velocities, cone and "
+        "fragments.", ("penetration.targets",), ("how-to/results.md#debris-behind-a-plate",),
+        "hydro2d plot RUN -o debris.png --kind debris"),
+    "detonator": Word(
+        "A [[source]] of kind = \"detonation\" whose points light an explosive, each [r, z, time].",
+        ("source", "jwl", "TNT"), ("explanation/explosives.md",), "hydro2d new cylinder-test"),
+    "erosion": Word(
+        "No cell is ever deleted: material flows through the mesh, and a rod becomes shorter as its head is used up. "
+        '`regime` in summary.json says whether it was eroding; a search with of = "erosion" finds the velocity of the change.',
+        ("sliding.method", "failure"), ("how-to/find-a-transition.md", "explanation/rigid-rod.md")),
+    "gap": Word(
+        "Whatever no body covers is void, so a gap is the distance that the deck leaves between bodies. It may close, and it "
+        "opens again where the tension exceeds fracture_pressure. `hydro2d check` warns of gaps of less than a cell.",
+        ("body", "failure.tensile", "penetration.targets"), ("how-to/perforate-a-plate.md", "how-to/hypervelocity.md")),
+    "gravity": Word(
+        'There is none by default. A [[source]] of kind = "acceleration" with axial = "-9.81 m/s^2" gives it to a body.',
+        ("source",), ("how-to/write-a-deck.md",)),
+    "principal": Word(
+        "The largest principal stress that a material bears is its fracture_stress; beyond it the material fails for good.",
+        ("fracture_stress", "failure.tensile"), ("explanation/fracture.md#the-largest-principal-stress",)),
+    "restitution": Word(
+        "There is no coefficient to set: how fast a body rebounds follows from the materials. stop.rebound ends a run at "
+        "the rebound; for the ratio of the velocities give a formula, such as [derived] restitution = "
+        "\"abs(velocity) / '300 m/s'\".",
+        ("stop.rebound", "derived"), ("how-to/results.md",)),
+    "rigid": Word(
+        "No body is rigid by decree; a high yield_stress comes near it. `regime` in summary.json says whether a rod stayed "
+        "rigid. A rigid wall is an edge of the mesh, \"wall\" or \"anvil\". Analytic models have rigid rods.",
+        ("yield_stress", "boundaries", "rigid-axial", "forrestal", "chen-li"),
+        ("reference/words.md", "explanation/rigid-rod.md", "how-to/find-a-transition.md")),
+    "segmented": Word(
+        "A rod of segments is a [[body]] for each of them, one behind the other, with the velocity of the rod; `join` makes "
+        "those of one material a single body.",
+        ("body.rod", "join", "body.box"), ("how-to/write-a-deck.md",)),
+    "spall": Word(
+        'Tensile failure: fracture_pressure of the material with failure.tensile = "material", or cochran-banner, whose cracks '
+        "take energy to open.",
+        ("fracture_pressure", "failure.tensile", "cochran-banner"), ("how-to/spall.md", "explanation/fracture.md"),
+        "hydro2d new spall"),
+    "units": Word(
+        'A quantity of a deck names its unit: "8.12 mm", "17.6 g/cm^3". Numbers alone are refused, except 0, unless the deck '
+        'has numbers = "SI" at its top. Results are in SI units, which end the names of their columns.',
+        ("numbers",), ("reference/units.md",)),
+    "us-up": Word(
+        "The straight line between shock and particle velocity, Us = c0 + s up, is the equation of state mie-grueneisen: c0 is "
+        "sound_speed, s is hugoniot_slope.",
+        ("mie-grueneisen", "sound_speed", "hugoniot_slope"), ("explanation/equation-of-state.md",)),
+}  # fmt: skip
+
+#: other forms of these words
+ALSO = {
+    "bounce": "restitution", "rebound velocity": "restitution", "coefficient of restitution": "restitution",
+    "v50": "ballistic limit", "slip line": "blint", "eroding": "erosion", "eroded": "erosion", "fragment": "debris",
+    "fragments": "debris", "igniter": "detonator", "primer": "detonator", "gaps": "gap", "standoff": "gap",
+    "principal stress": "principal", "rigid body": "rigid", "rigid wall": "anvil", "segments": "segmented",
+    "segmented rod": "segmented", "spallation": "spall", "scabbing": "spall", "unit": "units", "hugoniot": "us-up",
+    "usup": "us-up", "shock velocity": "us-up", "time step": "cfl", "courant number": "cfl",
+}  # fmt: skip
+
+
+def plain(name: str) -> str:
+    """A word as it is looked up: small letters, one blank or hyphen between its parts."""
+    word = re.sub(r"[\s_]+", " ", name.strip().lower())
+    return word if word in WORDS or word in ALSO else word.replace("-", " ")
+
+
+def page(name: str) -> str | None:
+    """What a word is called here, and where to read on; None for a word that is not known."""
+    key = plain(name)
+    key = key if key in WORDS else ALSO.get(key) or key.replace(" ", "-")
+    word = WORDS.get(key)
+    if word is None:
+        return None
+    lines = [f"{name} (a word): {word.said}"]
+    if word.names:
+        lines.append(f"  info     {', '.join(word.names)}")
+    if word.pages:
+        lines.append(f"  read     {', '.join(f'docs/{page}' for page in word.pages)}")
+    if word.command:
+        lines.append(f"  try      {word.command}")
+    return "\n".join(lines)
