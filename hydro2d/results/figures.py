@@ -203,7 +203,7 @@ def section(axes, dump: Dump, field: str = "pressure", mirror: str | None = None
         axes.axvline(depth_line * 1e3, color="crimson", linestyle="--", linewidth=1.0)
         word = axes.text(depth_line * 1e3, 0.02 if below else 0.98, "experiment", transform=axes.get_xaxis_transform(),
                          color="crimson", fontsize=7, rotation=90, ha="right", va="bottom" if below else "top",
-                         clip_on=True)  # fmt: skip
+                         clip_on=True, bbox={"facecolor": "white", "alpha": 0.8, "linewidth": 0.0, "pad": 1.0})  # fmt: skip
         word.set_in_layout(False)  # a line outside the window must not stretch the figure
     if dump.mirrored:
         axes.axhline(0, color="black", linewidth=0.3, linestyle="-.")
