@@ -83,7 +83,11 @@ def response(setup: Setup | None, series: Sequence[Series], x: Variable, y: Resp
     """
     figure = _figure()
     if y.name == DEPTH:
-        _models(figure, [(curve.title, "", curve.velocity, curve.depth * y.factor) for curve in curves if curve.drawable], y)
+        drawn = [(curve.title, "", curve.velocity, curve.depth * y.factor) for curve in curves if curve.drawable]
+        if x.order is None:
+            _models(figure, drawn, y)
+        else:
+            _levels(figure, drawn, x, y)
     _models(figure, [(curve.title, curve.colour, curve.velocity, curve.residual * y.factor) for curve in left], y)
     _runs(figure, series, x, y)
     if y.name == DEPTH:
@@ -120,6 +124,15 @@ def _models(figure, lines: Sequence[tuple[str, str, np.ndarray, np.ndarray]], y:
         shape = {"color": colour or MUTED, "width": 1.5, "dash": THEORY_DASHES[number % len(THEORY_DASHES)]}
         figure.add_scatter(x=velocity.tolist(), y=values, mode="lines", name=name, line=shape, meta="model",
                            hovertemplate=f"{name}<br>%{{x:.0f}} m/s: %{{y:.4g}} {y.unit}<extra></extra>")  # fmt: skip
+
+
+def _levels(figure, lines: Sequence[tuple[str, str, np.ndarray, np.ndarray]], x: Variable, y: Response) -> None:
+    """Values at one velocity as lines across all words of x."""
+    for number, (name, _, velocity, value) in enumerate(lines):
+        shape = {"color": MUTED, "width": 1.5, "dash": THEORY_DASHES[number % len(THEORY_DASHES)]}
+        figure.add_scatter(x=list(x.order), y=[float(f"{value[0]:.5g}")] * len(x.order), mode="lines", name=name, line=shape,
+                           meta="model",
+                           hovertemplate=f"{name}<br>{velocity[0]:.0f} m/s: %{{y:.4g}} {y.unit}<extra></extra>")  # fmt: skip
 
 
 def _runs(figure, series: Sequence[Series], x: Variable, y: Response) -> None:

@@ -11,7 +11,7 @@ from hydro2d.study.contents import Contents
 from hydro2d.study.ensembles import grouped
 from hydro2d.study.experiments import Measurement
 from hydro2d.study.record import Record, Setup
-from hydro2d.study.responses import DEPTH, RESIDUAL, Choice, Response
+from hydro2d.study.responses import CASE, DEPTH, RESIDUAL, Choice, Response, Variable
 
 #: fraction by which lines of models extend beyond the velocities of runs and experiments
 BEYOND = 0.05
@@ -119,7 +119,7 @@ def _panel(contents: Contents, choice: Choice, setups: Sequence[Setup]) -> Panel
 
 def _response(contents: Contents, choice: Choice, y: Response, panel: Panel, name: str) -> Chart:
     x, members = choice.x, panel.members
-    curves, left, notes = _models(x.impact, y, panel)
+    curves, left, notes = _models(x, y, panel)
     figure = charts.response(panel.setup, panel.series, x, y, contents.belonging, panel.shots, curves, left)
     about, against = y.title.split(" [")[0], x.title.split(" [")[0]
     shown = [each for each in members if _drawn(each, choice, y)]
@@ -169,9 +169,19 @@ def _modelled(panel: Panel) -> Record | None:
     return next((each for each in panel.members if each.shot), None)
 
 
-def _models(velocities: bool, y: Response, panel: Panel):
-    """Depths and residual velocities by analytic models, where x is the impact velocity, and notes on them."""
-    if not velocities or y.name not in (DEPTH, RESIDUAL):
+def _one_velocity(panel: Panel) -> bool:
+    return len({each.velocity for each in panel.members}) == 1
+
+
+def _models(x: Variable, y: Response, panel: Panel):
+    """Depths and residual velocities by analytic models, where x is the impact velocity, and notes on them.
+
+    In a strip of cases at one velocity, depths at that velocity.
+    """
+    if x.name == CASE and y.name == DEPTH and (first := _modelled(panel)) and panel.setup and _one_velocity(panel):
+        curves = theory.curves(first.shot, first.velocity, first.velocity)
+        return curves, [], [f"{curve.title}: {curve.note}." for curve in curves if curve.note]
+    if not x.impact or y.name not in (DEPTH, RESIDUAL):
         return [], [], []
     speeds = [each.velocity for each in panel.members if each.velocity is not None] + [shot.velocity for shot in panel.shots]
     beyond = BEYOND * ((max(speeds) - min(speeds)) or max(speeds))

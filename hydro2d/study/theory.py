@@ -31,8 +31,8 @@ class Curve:
 
 
 def curves(shot: model_deck.Shot, low: float, high: float) -> list[Curve]:
-    """Every model of ``MODELS`` between two impact velocities, in m/s."""
-    velocity = np.linspace(low, high, POINTS)
+    """Every model of ``MODELS`` between two impact velocities in m/s, or at one if they are the same."""
+    velocity = np.linspace(low, high, POINTS if high > low else 1)
     request = models.Request(rod=shot.rod, target=shot.target, geometry=shot.values)
     return [_curve(name, request, velocity) for name in MODELS]
 

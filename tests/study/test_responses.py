@@ -96,6 +96,28 @@ def test_a_wrong_name_is_said_with_the_nearest(tmp_path, options, said):
     assert said in str(caught.value)
 
 
+def test_runs_at_one_velocity_are_a_strip_with_the_models_at_that_velocity(tmp_path):
+    for name, depth in (("a", 0.30), ("b", 0.31), ("c", 0.28)):
+        fake.write_run(tmp_path / "runs" / name, 1086.0, depth)
+    contents = collect(layout.load(tmp_path / "runs"))
+    choice = chosen(contents)
+    assert (choice.x.name, choice.x.order) == ("case", ("a", "b", "c"))
+    (panel,) = panels.panels(contents, choice)
+    curves, left, _ = panels._models(choice.x, choice.y[0], panel)
+    figure = charts.response(panel.setup, panel.series, choice.x, choice.y[0], contents.belonging, panel.shots, curves, left)
+    traces = {trace.name or trace.meta: trace for trace in figure.data}
+    runs = next(trace for trace in figure.data if trace.name == panel.series[0].label)
+    assert dict(zip(runs.x, runs.y, strict=True)) == pytest.approx({"a": 30.0, "b": 31.0, "c": 28.0})
+    assert runs.mode == "markers", "no line joins cases"
+    (tate,) = (curve for curve in curves if curve.name == "tate")
+    assert tate.velocity.tolist() == [1086.0]
+    level = traces[tate.title]
+    assert level.x == ("a", "b", "c")
+    assert level.y == pytest.approx([100 * tate.depth[0]] * 3, rel=1e-4)
+    single = fake.write_run(tmp_path / "alone" / "a", 1086.0, 0.3)
+    assert chosen(collect(layout.load(single.parent))).x.impact, "one run alone stays at its velocity"
+
+
 def test_an_unfinished_run_has_the_last_of_its_history(tmp_path):
     run = fake.write_run(tmp_path / "runs" / "a", 1086.0, 0.3)
     (run / "summary.json").unlink()
