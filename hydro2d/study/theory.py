@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from hydro2d.analytic import model_deck, models
+from hydro2d.penetration import tate
 from hydro2d.penetration.model import InputError
 
 #: models of a rod into a thick target, from rigid to consumed
@@ -35,6 +36,17 @@ def curves(shot: model_deck.Shot, low: float, high: float) -> list[Curve]:
     velocity = np.linspace(low, high, POINTS if high > low else 1)
     request = models.Request(rod=shot.rod, target=shot.target, geometry=shot.values)
     return [_curve(name, request, velocity) for name in MODELS]
+
+
+def motion(shot: model_deck.Shot, velocity: float) -> tate.Track | None:
+    """The motion of Tate and Alekseevskii at an impact velocity in m/s; None where the deck does not give what it needs."""
+    try:
+        case = models.resolve(tate.MODEL, models.Request(rod=shot.rod, target=shot.target, geometry=shot.values))
+        if any(models.EXAMPLE in given.source for given in case.inputs.values()):
+            return None
+        return tate.motion(velocity, **tate.MODEL.collect(case.values))
+    except InputError:
+        return None
 
 
 def _curve(name: str, request: models.Request, velocity: np.ndarray) -> Curve:
