@@ -16,6 +16,7 @@ from hydro2d import api
 from hydro2d.mesh.quantities import FieldError
 from hydro2d.output import datasets
 from hydro2d.output.vtk import read_grid
+from tests.results import made_run
 from tests.solver.test_simulation import TEXT
 from tests.study import tubes
 
@@ -359,8 +360,26 @@ def test_a_mesh_that_travels_says_where_it_is(tmp_path):
     travelled = fields.mesh_position.values
     assert travelled[0] == 0.0
     assert (np.diff(travelled) > 0).all()
+    assert fields.pressure.dims == ("time", "mesh_z", "r")
+    assert fields.volume_fraction.dims == ("time", "body", "mesh_z", "r")
+    assert fields.z.dims == ("time", "mesh_z")
+    np.testing.assert_allclose(fields.mesh_z + fields.mesh_position, fields.z.T, atol=1e-12)
     for number, (_, file) in enumerate(found.dumps):
-        np.testing.assert_allclose(fields.z + fields.mesh_position[number], read_grid(file).z_centres, atol=1e-12)
+        np.testing.assert_array_equal(fields.z[number], read_grid(file).z_centres)
+    last = fields.isel(time=-1).swap_dims(mesh_z="z")
+    place = float(last.z[7]) + 1e-6
+    np.testing.assert_array_equal(last.pressure.sel(z=place, method="nearest"), fields.pressure[-1, 7])
+
+
+def test_a_mesh_that_will_travel_has_its_dimensions_from_the_first_dump_on(tmp_path):
+    """A script must not break on how far a run has come."""
+    directory = made_run.write(tmp_path / "run", dumps=1)
+    assert hydro2d.open_run(directory).fields.pressure.dims == ("time", "z", "r")
+    (directory / "deck.toml").write_text(made_run.DECK_TEXT.format(geometry="cylindrical").replace(
+        "[boundaries]", 'follow = "rod"\n[boundaries]'))  # fmt: skip
+    fields = hydro2d.open_run(directory).fields
+    assert fields.pressure.dims == ("time", "mesh_z", "r")
+    np.testing.assert_array_equal(fields.z[0], fields.mesh_z)
 
 
 def test_a_run_without_dumps_has_no_fields(tmp_path, shot):

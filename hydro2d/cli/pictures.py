@@ -11,6 +11,9 @@ from cyclopts import Parameter, validators
 from hydro2d.cli.base import Out, UsageError, import_matplotlib, quantity
 from hydro2d.terminal import say
 
+#: kinds of pictures whose numbers can be written as a table
+TABLES = ("line", "history", "crater")
+
 
 def plot(
     runs: list[Path],
@@ -30,18 +33,22 @@ def plot(
 ) -> int:
     """Draws runs as sections, histories, values along a line, holes in their targets, debris, or a cut-away.
 
+    The numbers of a line, a history or a hole are written as a table where the file is a .csv.
+
     Sections are mirrored at the axis, and on a planar mesh at a wall that stands at r = 0; others are drawn as they are.
 
     Example: hydro2d plot runs/a runs/b -o both.png --field von_mises --mirror material --time "80 us"
 
     Example: hydro2d plot runs/a -o waves.png --kind xt --field pressure --clip 1
 
+    Example: hydro2d plot runs/a -o axis.csv --kind line --field pressure --time "20 us" --time "40 us"
+
     Parameters
     ----------
     runs
         Run directories. Sections of several runs are drawn below one another, histories and craters in the same axes.
     out
-        Picture file; its suffix sets the format.
+        Picture file; its suffix sets the format. With .csv a table, for --kind line, history and crater.
     kind
         What to draw. line: a field along a line, a curve for each run and time; xt: a field along a line, in colours over place
         and time; crater: the holes in the targets; debris: what flies behind them.
@@ -68,14 +75,22 @@ def plot(
         Colour map of matplotlib, such as magma; default: viridis, and blue to red for fields with negative values.
     """
     import_matplotlib()
-    from hydro2d.results import cutaway, figures, lines
+    from hydro2d.results import cutaway, figures, lines, tables
     from hydro2d.results.reading import Results
     from hydro2d.results.scales import Scale
 
     opened, times = [Results(path) for path in runs], _times(time)
     scale, limits = Scale(clip, log, map_), _range(colours)
     _refuse_scale(kind, scale != Scale() or limits is not None, line is not None)
-    if kind == "cutaway":
+    if out.suffix.lower() == tables.ENDING:
+        if kind not in TABLES:
+            raise UsageError(f"--kind {kind} has no table; a .csv is for --kind {', '.join(TABLES)}")
+        if scale != Scale() or limits is not None:
+            raise UsageError("--colours, --clip, --log and --map are for pictures, not for a table")
+        tables.save({"line": lambda: tables.line_outs(opened, field, _line(line), times),
+                     "history": lambda: tables.histories(opened, quantity or figures.HISTORIES),
+                     "crater": lambda: tables.craters(opened)}[kind](), out)  # fmt: skip
+    elif kind == "cutaway":
         if len(opened) != 1 or len(times) != 1 or out.suffix != ".png":
             raise UsageError("--kind cutaway draws one run at one time, as a .png")
         if opened[0].planar:

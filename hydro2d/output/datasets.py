@@ -1,8 +1,9 @@
 """Fields as xarray datasets, by the keys of the table of quantities: of one state, or of all dumps of a run.
 
 Dimensions are z and r, preceded by `body` for quantities of each body and followed by `component` for vectors. Dumps of a run
-have `time` as the first dimension and are read when their values are used. Coordinates are the centres of the cells in m. A
-travelling mesh keeps the z of the first dump, and `mesh_position` is its displacement: a cell is at z + mesh_position.
+have `time` as the first dimension and are read when their values are used. Coordinates are the centres of the cells in m, in
+the frame of the laboratory. On a mesh that follows a body z depends on time, shape (time, mesh_z), and the dimension along the
+axis is `mesh_z`, the z of the cell in the first dump: z = mesh_z + mesh_position.
 """
 
 from __future__ import annotations
@@ -23,6 +24,8 @@ if TYPE_CHECKING:
 
 #: components of vectors; the third, which the files have for ParaView, is zero
 COMPONENTS = ("r", "z")
+#: dimension along the axis of a mesh that travels
+MESH_Z = "mesh_z"
 
 
 def _names(quantity: Quantity, dump: Dump) -> list[str]:
@@ -84,6 +87,11 @@ def of_state(dump: Dump) -> xarray.Dataset:
     return xarray.Dataset(variables, coords={**_coordinates(dump), "time": time})
 
 
+def _travelling(dimensions: tuple[str, ...]) -> tuple[str, ...]:
+    """Dimensions as they are named on a mesh that travels."""
+    return tuple(MESH_Z if name == "z" else name for name in dimensions)
+
+
 def _read(path: Path, shape: tuple[int, ...]) -> Dump:
     """A dump whose mesh has this shape, (nz, nr). Raises VtkError."""
     dump = read_grid(path)
@@ -96,10 +104,11 @@ def _travel(dump: Dump, start: float) -> np.ndarray:
     return np.array(dump.z_edges[0] - start)
 
 
-def of_dumps(dumps: Sequence[tuple[float, Path]]) -> xarray.Dataset:
+def of_dumps(dumps: Sequence[tuple[float, Path]], follows: bool = False) -> xarray.Dataset:
     """All dumps of a run as one dataset over time, z and r, whose values are read from the files when they are needed.
 
     dumps : times in s and files, at least one
+    follows : the mesh travels with a body; the dimensions are then time, `mesh_z` and r, and z depends on time
 
     Raises MissingPackage, and VtkError, also later where a file is damaged or gone.
     """
@@ -115,12 +124,31 @@ def of_dumps(dumps: Sequence[tuple[float, Path]]) -> xarray.Dataset:
     for quantity in quantities_of(first, last):
         like = _values(quantity, last)
         parts = [dask.array.from_delayed(dask.delayed(_values)(quantity, dump), like.shape, like.dtype) for dump in opened]
-        variables[quantity.key] = (("time", *_dimensions(quantity, like)), dask.array.stack(parts), _attributes(quantity))
+        names = _dimensions(quantity, like)
+        variables[quantity.key] = (("time", *(_travelling(names) if follows else names)), dask.array.stack(parts),
+                                   _attributes(quantity))  # fmt: skip
     start = first.z_edges[0]
     travelled = [dask.array.from_delayed(dask.delayed(_travel)(dump, start), (), float) for dump in opened]
     coordinates = {
         **_coordinates(first),
+        **(_places(first, opened) if follows else {}),
         "time": ("time", [time for time, _ in dumps], {"units": "s"}),
         "mesh_position": ("time", dask.array.stack(travelled), {"units": "m", "long_name": "how far the mesh has travelled"}),
     }
     return xarray.Dataset(variables, coords=coordinates)
+
+
+def _places(first: Dump, opened: list) -> dict:
+    """z of a mesh that travels, from its dumps as dask opens them, and the coordinate that stays the same."""
+    import dask
+    import dask.array
+
+    places = [dask.array.from_delayed(dask.delayed(_middles)(dump), first.z_centres.shape, float) for dump in opened]
+    return {
+        "z": (("time", MESH_Z), dask.array.stack(places), {"units": "m", "long_name": "axial position"}),
+        MESH_Z: (MESH_Z, first.z_centres, {"units": "m", "long_name": "axial position in the first dump"}),
+    }
+
+
+def _middles(dump: Dump) -> np.ndarray:
+    return dump.z_centres

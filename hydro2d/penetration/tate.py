@@ -194,6 +194,11 @@ def pair_of(*, rod_density: float, rod_strength: float, rod_dynamic_factor: floa
     return Pair(rod_density, (1.0 + rod_dynamic_factor) * rod_strength, target_density, resistance_of(**target))
 
 
+def motion(velocity: float, *, rod_length: float, **values: float | str | None) -> Track:
+    """The track of an impact at a velocity in m/s; keywords are those of ``MODEL.inputs``, in SI."""
+    return penetrate(velocity, rod_length=rod_length, **vars(pair_of(**values)))
+
+
 def evaluate(velocity: float, *, rod_length: float, **values: float | str | None) -> dict[str, float | str]:
     """Depth and regime at an impact velocity in m/s; keywords are those of ``MODEL.inputs``, in SI."""
     pair = pair_of(**values)

@@ -7,6 +7,7 @@ colour scale.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -38,11 +39,17 @@ TALLEST, NARROWEST = 9.0, 2.5
 
 @dataclass(frozen=True)
 class Shown:
-    """A field ready to draw: values (nz, nr) in the reader's unit (NaN in void), label and colour map."""
+    """A field ready to draw: values (nz, nr) in the reader's unit (NaN in void), title, that unit, and colour map."""
 
     values: np.ndarray
-    label: str
+    title: str
+    unit: str
     colours: str
+
+    @property
+    def label(self) -> str:
+        """Title and unit as matplotlib draws them."""
+        return verbatim(self.title) + (f" [{self.unit}]" if self.unit else "")
 
 
 def reader_unit(unit: str) -> tuple[str, float]:
@@ -70,11 +77,11 @@ def chosen(dump: Dump, field: str) -> Shown:
     if values.ndim == 3:
         values = values[..., COMPONENTS[part]] if part else np.linalg.norm(values, axis=-1)
     unit, scale = reader_unit(quantity.unit)
-    title = quantity.title.format(body=verbatim(part)) if quantity.per_body else quantity.title + (f" {part}" if part else "")
+    title = quantity.title.format(body=part) if quantity.per_body else quantity.title + (f" {part}" if part else "")
     solid = dump.filling(part if quantity.per_body else None).shown
     values = np.where(solid | (key == "volume_fraction"), values * scale, np.nan)
     diverging = np.min(values, where=np.isfinite(values), initial=0.0) < 0
-    return Shown(values, f"{title} [{unit}]" if unit else title, "RdBu_r" if diverging else "viridis")
+    return Shown(values, title, unit, "RdBu_r" if diverging else "viridis")
 
 
 def verbatim(text: str) -> str:
@@ -158,11 +165,13 @@ def _draw_outlines(axes, dump: Dump) -> None:
     axes.add_collection(LineCollection(lines, colors="black", linewidths=0.6))
 
 
-def _legend(axes, dump: Dump) -> None:
+def _legend(axes, dump: Dump, half: str) -> None:
+    """The names of the bodies; half : the half of the section that shows them ("upper" or "lower"), "" for all of it."""
     from matplotlib.patches import Patch
 
     patches = [Patch(color=BODY_COLOURS[m % len(BODY_COLOURS)], label=verbatim(body)) for m, body in enumerate(dump.bodies)]
-    axes.legend(handles=patches, fontsize=7, loc="upper right", framealpha=0.7)
+    axes.legend(handles=patches, fontsize=7, loc=f"{half or 'upper'} right", framealpha=0.7,
+                title=_of_half(half), title_fontsize=7)  # fmt: skip
 
 
 def section(axes, dump: Dump, field: str = "pressure", mirror: str | None = None, limits=None, *, title: str = "",
@@ -186,12 +195,15 @@ def section(axes, dump: Dump, field: str = "pressure", mirror: str | None = None
             limits = {**limits, word: scale.limits([chosen(seen, word).values])}
         drawn.append((word, _draw_half(axes, dump, word, sign, limits.get(word), scale)))
     _draw_outlines(axes, dump)
-    if "material" in (field, mirror):
-        _legend(axes, dump)
+    halves = _halves(drawn)
+    if "material" in halves:
+        _legend(axes, dump, halves["material"])
     if depth_line is not None:
+        below = "material" in halves and halves["material"] != "lower"  # where no legend covers it
         axes.axvline(depth_line * 1e3, color="crimson", linestyle="--", linewidth=1.0)
-        word = axes.text(depth_line * 1e3, 0.98, "experiment ", transform=axes.get_xaxis_transform(), color="crimson",
-                         fontsize=7, rotation=90, ha="right", va="top", clip_on=True)  # fmt: skip
+        word = axes.text(depth_line * 1e3, 0.02 if below else 0.98, "experiment", transform=axes.get_xaxis_transform(),
+                         color="crimson", fontsize=7, rotation=90, ha="right", va="bottom" if below else "top",
+                         clip_on=True, bbox={"facecolor": "white", "alpha": 0.8, "linewidth": 0.0, "pad": 1.0})  # fmt: skip
         word.set_in_layout(False)  # a line outside the window must not stretch the figure
     if dump.mirrored:
         axes.axhline(0, color="black", linewidth=0.3, linestyle="-.")
@@ -206,13 +218,27 @@ def section(axes, dump: Dump, field: str = "pressure", mirror: str | None = None
     return drawn
 
 
+def _halves(drawn: list) -> dict[str, str]:
+    """The half of a section that shows each field, "upper" or "lower"; "" for a field that is shown everywhere."""
+    words = [word for word, _ in drawn]
+    return dict(zip(words, ("upper", "lower"), strict=True)) if len(set(words)) == 2 else dict.fromkeys(words, "")
+
+
+def _of_half(half: str) -> str:
+    return f"{half.capitalize()} half" if half else ""
+
+
 def colour_bars(axes, dump: Dump, drawn: list) -> None:
-    """Adds a colour bar for every field that `section` has drawn; ``axes`` is one or an array that share the bars."""
-    figure = np.ravel(axes)[0].figure
+    """Adds a colour bar for every field that `section` has drawn; ``axes`` is one or an array that share the bars.
+
+    Where the halves show different fields, a bar says which half it belongs to.
+    """
+    figure, halves = np.ravel(axes)[0].figure, _halves(drawn)
     for word, mappable in dict(drawn).items():
         if mappable is not None:
             bar = figure.colorbar(mappable, ax=axes, fraction=0.03, pad=0.01)
-            bar.set_label(chosen(dump, word).label, fontsize=8)
+            half = _of_half(halves[word])
+            bar.set_label((f"{half}: " if half else "") + chosen(dump, word).label, fontsize=8)
             bar.ax.tick_params(labelsize=7)
 
 
@@ -339,6 +365,14 @@ def histories(runs: list, quantities=HISTORIES):
     return figure
 
 
+def holes(run) -> Iterator[tuple[str, np.ndarray, np.ndarray]]:
+    """The holes of a run that are not empty: the target's name, depth below the first target's surface and radius, mm, (n,)."""
+    surface = run.surface_at(run.summary.get("time_s") or 0.0) if run.summary else run.surface
+    for target, (z, radius) in run.craters.items():
+        if len(z):
+            yield target, run.direction * (z - surface) * 1e3, radius * 1e3
+
+
 def craters(runs: list):
     """The holes in all targets of runs, mirrored at the axis: radius against depth below the first target's surface, in mm.
 
@@ -348,12 +382,8 @@ def craters(runs: list):
     figure, ((axes,),) = new_figure(9.0, 4.0, 1, 1)
     for run in runs:
         style = {"label": verbatim(run.label)}
-        surface = run.surface_at(run.summary.get("time_s") or 0.0) if run.summary else run.surface
-        for z, radius in run.craters.values():
-            if not len(z):
-                continue
-            depth = run.direction * (z - surface) * 1e3
-            upper, lower = np.column_stack([depth, radius * 1e3]), np.column_stack([depth, -radius * 1e3])[::-1]
+        for _, depth, radius in holes(run):
+            upper, lower = np.column_stack([depth, radius]), np.column_stack([depth, -radius])[::-1]
             (line,) = axes.plot(*np.concatenate([upper, lower]).T, linewidth=1.2, **style)
             style = {"color": line.get_color()}
     if not axes.lines:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -46,6 +46,19 @@ def axis_of(run) -> Line:
     return Line(inner, min(float(dump.z_edges[0]) for dump in ends), inner, max(float(dump.z_edges[-1]) for dump in ends))
 
 
+class Curve(NamedTuple):
+    """A field along a line in one dump: r, z and coordinate along the line in m, values in the reader's unit, shapes (n,)."""
+
+    run: object
+    time: float
+    line: Line
+    shown: figures.Shown
+    r: np.ndarray
+    z: np.ndarray
+    along: np.ndarray
+    values: np.ndarray
+
+
 def _cells(dump: Dump, r: np.ndarray, z: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Row and column of the cells at points, and which points are in the mesh."""
     j, i = np.searchsorted(dump.z_edges, z, "right") - 1, np.searchsorted(dump.r_edges, r, "right") - 1
@@ -53,23 +66,36 @@ def _cells(dump: Dump, r: np.ndarray, z: np.ndarray) -> tuple[np.ndarray, np.nda
     return np.where(inside, j, 0), np.where(inside, i, 0), inside
 
 
-def values(dump: Dump, field: str, line: Line) -> tuple[np.ndarray, np.ndarray]:
-    """Coordinate along a line in m and value of a field in the reader's unit, one point for each cell that the line crosses.
-
-    Raises FigureError for a line that misses the mesh.
-    """
+def _middles(dump: Dump, line: Line) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """r, z and coordinate along a line, m, in the middle of its part in each cell that it crosses."""
     crossings = [np.zeros(1), np.ones(1)]
     for edges, first, last in ((dump.r_edges, line.r0, line.r1), (dump.z_edges, line.z0, line.z1)):
         if first != last:
             crossings.append((edges - first) / (last - first))
     shares = np.unique(np.clip(np.concatenate(crossings), 0.0, 1.0))
-    middles = 0.5 * (shares[1:] + shares[:-1])
-    r, z, along = line.at(middles)
+    return line.at(0.5 * (shares[1:] + shares[:-1]))
+
+
+def curve(run, dump: Dump, field: str, line: Line) -> Curve:
+    """A field along a line, one point for each cell that the line crosses; NaN in void and beyond the mesh.
+
+    Raises FigureError for a line that misses the mesh.
+    """
+    r, z, along = _middles(dump, line)
     j, i, inside = _cells(dump, r, z)
     if not inside.any():
         raise FigureError(f"the line from r = {line.r0:g} m, z = {line.z0:g} m to r = {line.r1:g} m, z = {line.z1:g} m misses "
                           "the mesh")
-    return along, np.where(inside, figures.chosen(dump, field).values[j, i], np.nan)
+    shown = figures.chosen(dump, field)
+    return Curve(run, dump.time, line, shown, r, z, along, np.where(inside, shown.values[j, i], np.nan))
+
+
+def curves(runs: list, field: str, line: Line | None, times: Sequence[float | None]) -> Iterator[Curve]:
+    """A curve for each run (results.Results) and time in s (None: the last dump); line : default: the axis of the run."""
+    for run in runs:
+        chosen = line or axis_of(run)
+        for time in times:
+            yield curve(run, run.dump(time), field, chosen)
 
 
 def line_outs(runs: list, field: str, line: Line | None = None, times: Sequence[float | None] = (None,), *,
@@ -79,20 +105,14 @@ def line_outs(runs: list, field: str, line: Line | None = None, times: Sequence[
     line : default: the axis;  limits : of the values, in the reader's unit;  scale : `log` makes that axis logarithmic
     """
     figure, ((axes,),) = figures.new_figure(7.0, 4.0, 1, 1)
-    shown = None
-    for run in runs:
-        chosen = line or axis_of(run)
-        for time in times:
-            dump = run.dump(time)
-            along, found = values(dump, field, chosen)
-            name = f"{figures.verbatim(run.label)}, " if len(runs) > 1 else ""
-            axes.plot(along * 1e3, found, linewidth=1.2, label=f"{name}{dump.time * 1e6:.2f} µs")
-            shown = figures.chosen(dump, field).label
+    for each in curves(runs, field, line, times):
+        name = f"{figures.verbatim(each.run.label)}, " if len(runs) > 1 else ""
+        axes.plot(each.along * 1e3, each.values, linewidth=1.2, label=f"{name}{each.time * 1e6:.2f} µs")
+        _labels(axes, f"{each.line.label} [mm]", each.shown.label)
     if scale.log:
         axes.set_yscale("log")
     if limits is not None:
         axes.set_ylim(*limits)
-    _labels(axes, f"{chosen.label} [mm]", shown)
     axes.grid(alpha=0.3)
     axes.legend(fontsize=7)
     return figure

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 import html
+import re
 import tomllib
 from dataclasses import replace
 from functools import cached_property
@@ -37,6 +38,8 @@ if TYPE_CHECKING:
 
 #: the largest number of a deck that is believed
 LARGEST = 1e12
+#: a velocity in the name of a directory, which can have no slash
+VELOCITY = re.compile(r"(?<=\d) ?(km|m|cm|mm|in|ft)-(s|ms|us|µs)(?![A-Za-z0-9])")
 #: the file of a study directory that lists its cases
 STUDY = "study.json"
 
@@ -84,8 +87,8 @@ class Results:
 
     @property
     def label(self) -> str:
-        """The name of the run in figures, which is that of its directory."""
-        return self.directory.resolve().name
+        """The name of the run in figures: that of its directory, in which 1086m-s stands for 1086 m/s."""
+        return VELOCITY.sub(r" \1/\2", self.directory.resolve().name)
 
     @property
     def history(self) -> dict[str, np.ndarray]:
@@ -144,13 +147,16 @@ class Results:
     def fields(self) -> xarray.Dataset:
         """The fields of all dumps as one dataset over time, z and r, read from the files when their values are used.
 
-        See `output/datasets.py`. Raises ResultsError if no dump was written, VtkError if one is damaged.
+        On a mesh that follows a body the dimension along the axis is `mesh_z`, the z of a cell in the first dump, and the
+        coordinate z, the place in the laboratory, has the shape (time, mesh_z). See `output/datasets.py`.
+
+        Raises ResultsError if no dump was written, VtkError if one is damaged.
         """
         from hydro2d.output import datasets
 
         if not self.dumps:
             raise ResultsError(f"{self.directory} has no fields: no dump was written yet")
-        return datasets.of_dumps(self.dumps)
+        return datasets.of_dumps(self.dumps, self.follows)
 
     @property
     def dumps(self) -> list[tuple[float, Path]]:
@@ -238,6 +244,11 @@ class Results:
     def planar(self) -> bool:
         """Whether the mesh has no axis."""
         return _table(self.tables, "mesh").get("geometry") == "planar"
+
+    @property
+    def follows(self) -> bool:
+        """Whether the mesh travels with a body."""
+        return _table(self.tables, "mesh").get("follow", "none") != "none"
 
     @property
     def surface(self) -> float | None:

@@ -7,10 +7,12 @@ saved pictures keep the stand-ins, which are those of paper.
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from types import MappingProxyType
 
 import numpy as np
 
+from hydro2d.penetration.tate import Track
 from hydro2d.study import residual, theory
 from hydro2d.study.experiments import AT_LEAST, Measurement
 from hydro2d.study.marks import SIZE, ensembles, points, verbatim
@@ -31,6 +33,8 @@ MOST_ACROSS = 4
 #: markers of measurements: qualifier -> marker and word
 MEASURED = {"measured": ("diamond-tall", "experiment"), "estimated": ("diamond-tall-open", "experiment, estimated"),
             AT_LEAST: ("star-triangle-up", "experiment, at least (plate perforated)")}  # fmt: skip
+#: columns of the history that a model of a rod gives as well, and what they are called there
+OF_TRACK = {DEPTH: "depth", "rod_tail_velocity_m_s": "velocity", "rod_length_m": "length"}
 THEORY_DASHES = ("solid", "dash", "dashdot", "dot", "8px,2px,2px,2px,2px,2px")
 
 
@@ -83,7 +87,11 @@ def response(setup: Setup | None, series: Sequence[Series], x: Variable, y: Resp
     """
     figure = _figure()
     if y.name == DEPTH:
-        _models(figure, [(curve.title, "", curve.velocity, curve.depth * y.factor) for curve in curves if curve.drawable], y)
+        drawn = [(curve.title, "", curve.velocity, curve.depth * y.factor) for curve in curves if curve.drawable]
+        if x.order is None:
+            _models(figure, drawn, y)
+        else:
+            _levels(figure, drawn, x, y)
     _models(figure, [(curve.title, curve.colour, curve.velocity, curve.residual * y.factor) for curve in left], y)
     _runs(figure, series, x, y)
     if y.name == DEPTH:
@@ -120,6 +128,15 @@ def _models(figure, lines: Sequence[tuple[str, str, np.ndarray, np.ndarray]], y:
         shape = {"color": colour or MUTED, "width": 1.5, "dash": THEORY_DASHES[number % len(THEORY_DASHES)]}
         figure.add_scatter(x=velocity.tolist(), y=values, mode="lines", name=name, line=shape, meta="model",
                            hovertemplate=f"{name}<br>%{{x:.0f}} m/s: %{{y:.4g}} {y.unit}<extra></extra>")  # fmt: skip
+
+
+def _levels(figure, lines: Sequence[tuple[str, str, np.ndarray, np.ndarray]], x: Variable, y: Response) -> None:
+    """Values at one velocity as lines across all words of x."""
+    for number, (name, _, velocity, value) in enumerate(lines):
+        shape = {"color": MUTED, "width": 1.5, "dash": THEORY_DASHES[number % len(THEORY_DASHES)]}
+        figure.add_scatter(x=list(x.order), y=[float(f"{value[0]:.5g}")] * len(x.order), mode="lines", name=name, line=shape,
+                           meta="model",
+                           hovertemplate=f"{name}<br>{velocity[0]:.0f} m/s: %{{y:.4g}} {y.unit}<extra></extra>")  # fmt: skip
 
 
 def _runs(figure, series: Sequence[Series], x: Variable, y: Response) -> None:
@@ -206,10 +223,26 @@ def few_lines(drawn: Sequence[tuple[Series, Record]]) -> bool:
     return len(drawn) <= MOST_LINES and not any(each.repeated for each, _ in drawn)
 
 
-def histories(series: Sequence[Series]):
+def _motions(figure, tracks: Mapping[float, tuple[float, Track]], names: Sequence[str]) -> None:
+    """What a model gives of the columns, from the touch in s on, by impact velocity in m/s."""
+    for number, (speed, (touch, track)) in enumerate(tracks.items()):
+        label = "Tate-Alekseevskii" + (f", {speed:.0f} m/s" if len(tracks) > 1 else "")
+        for row, name in enumerate(names, 1):
+            if name in OF_TRACK:
+                values = getattr(track, OF_TRACK[name]) * readers(name)[1]
+                figure.add_scatter(
+                    x=((track.time + touch) * 1e6).astype(np.float32), y=values.astype(np.float32), mode="lines", name=label,
+                    legendgroup=label, showlegend=name == DEPTH, row=row, col=1, meta="model",
+                    line={"color": MUTED, "width": 1.5, "dash": THEORY_DASHES[number % len(THEORY_DASHES)]},
+                    hovertemplate=f"{label}<br>%{{x:.5g}} µs: %{{y:.5g}} {readers(name)[0]}<extra></extra>",
+                )  # fmt: skip
+
+
+def histories(series: Sequence[Series], tracks: Mapping[float, tuple[float, Track]] = MappingProxyType({})):
     """Columns of the history against time, one panel each. Few runs each have a line style; many have that of their series.
 
-    So have members of ensembles; all but the first are thin.
+    So have members of ensembles; all but the first are thin. tracks : of a model beside them, with the time of the first touch
+    in s, by impact velocity in m/s
     """
     drawn = [(each, record) for each in series for record in each.records if record.history]
     names = list(dict.fromkeys(name for _, record in drawn for name in record.history if name != "time"))
@@ -232,6 +265,7 @@ def histories(series: Sequence[Series]):
                               "<extra></extra>",
             )  # fmt: skip
             told.add(label)
+    _motions(figure, tracks, names)
     for row, name in enumerate(names, 1):
         figure.update_yaxes(title={"text": f"{verbatim(title(name))}<br>[{readers(name)[0] or '1'}]"}, row=row, col=1)
     figure.update_xaxes(title={"text": "t [µs]"}, row=len(names), col=1)

@@ -6,15 +6,18 @@ import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from hydro2d.study import charts, experiments, record, residual, series, theory
+from hydro2d.penetration.tate import Track
+from hydro2d.study import charts, experiments, record, residual, responses, series, theory
 from hydro2d.study.contents import Contents
 from hydro2d.study.ensembles import grouped
 from hydro2d.study.experiments import Measurement
 from hydro2d.study.record import Record, Setup
-from hydro2d.study.responses import DEPTH, RESIDUAL, Choice, Response
+from hydro2d.study.responses import CASE, DEPTH, RESIDUAL, Choice, Response, Variable
 
 #: fraction by which lines of models extend beyond the velocities of runs and experiments
 BEYOND = 0.05
+#: largest number of impact velocities whose histories stand beside those of a model
+MOST_MOTIONS = 4
 #: largest number of runs in the text for readers who cannot see a figure
 MOST_WORDS = 12
 
@@ -119,7 +122,7 @@ def _panel(contents: Contents, choice: Choice, setups: Sequence[Setup]) -> Panel
 
 def _response(contents: Contents, choice: Choice, y: Response, panel: Panel, name: str) -> Chart:
     x, members = choice.x, panel.members
-    curves, left, notes = _models(x.impact, y, panel)
+    curves, left, notes = _models(x, y, panel)
     figure = charts.response(panel.setup, panel.series, x, y, contents.belonging, panel.shots, curves, left)
     about, against = y.title.split(" [")[0], x.title.split(" [")[0]
     shown = [each for each in members if _drawn(each, choice, y)]
@@ -169,9 +172,19 @@ def _modelled(panel: Panel) -> Record | None:
     return next((each for each in panel.members if each.shot), None)
 
 
-def _models(velocities: bool, y: Response, panel: Panel):
-    """Depths and residual velocities by analytic models, where x is the impact velocity, and notes on them."""
-    if not velocities or y.name not in (DEPTH, RESIDUAL):
+def _one_velocity(panel: Panel) -> bool:
+    return len({each.velocity for each in panel.members}) == 1
+
+
+def _models(x: Variable, y: Response, panel: Panel):
+    """Depths and residual velocities by analytic models, where x is the impact velocity, and notes on them.
+
+    In a strip of cases at one velocity, depths at that velocity.
+    """
+    if x.name == CASE and y.name == DEPTH and (first := _modelled(panel)) and panel.setup and _one_velocity(panel):
+        curves = theory.curves(first.shot, first.velocity, first.velocity)
+        return curves, [], [f"{curve.title}: {curve.note}." for curve in curves if curve.note]
+    if not x.impact or y.name not in (DEPTH, RESIDUAL):
         return [], [], []
     speeds = [each.velocity for each in panel.members if each.velocity is not None] + [shot.velocity for shot in panel.shots]
     beyond = BEYOND * ((max(speeds) - min(speeds)) or max(speeds))
@@ -194,10 +207,27 @@ def _models(velocities: bool, y: Response, panel: Panel):
     return [], left, notes
 
 
+def _motions(panel: Panel, drawn: Sequence[Record]) -> dict[float, tuple[float, Track]]:
+    """When the rod touches the target, s, and its motion by Tate and Alekseevskii, by impact velocity; none of many."""
+    first, found = _modelled(panel), {}
+    speeds = {each.velocity: each for each in reversed(drawn) if each.velocity is not None and responses.DEPTH in each.history}
+    if first is None or panel.setup is None or len(speeds) > MOST_MOTIONS:
+        return {}
+    for speed, each in sorted(speeds.items()):
+        track = theory.motion(first.shot, speed)
+        if track is not None and len(track.time) > 1:
+            deep = each.history[responses.DEPTH] > 0.0
+            row = int(deep.argmax())
+            touch = each.history["time"][row] - each.history[responses.DEPTH][row] / speed if deep.any() else 0.0
+            found[speed] = max(float(touch), 0.0), track
+    return found
+
+
 def _histories(contents: Contents, choice: Choice, panel: Panel, name: str) -> Chart:
     drawn = [each for each in panel.members if each.history]
     lines = series.grouped(drawn, contents.study.axes, choice)
-    figure = charts.histories(lines)
+    tracks = _motions(panel, drawn)
+    figure = charts.histories(lines, tracks)
     ends = [each.history["time"][-1] * 1e6 for each in drawn]
     few = charts.few_lines([(each, record) for each in lines for record in each.records])
     told = "one line style a run" if few else "one line style a series of runs"
@@ -205,5 +235,7 @@ def _histories(contents: Contents, choice: Choice, panel: Panel, name: str) -> C
     columns = ", ".join(axis.title.text.split("<br>")[0] for axis in figure.select_yaxes())
     runs = f"{len(drawn)} runs, {panel.words}"
     caption = f"Histories of {columns}: {runs}; {told}, at most {record.POINTS} points of each history."
+    if tracks:
+        caption += f" Grey: Tate-Alekseevskii from the first touch on, with the deck of {_modelled(panel).case.name}."
     alt = f"{columns} against time, {runs}. The runs end between {min(ends):.0f} and {max(ends):.0f} µs."
     return Chart(name, charts.markup(figure, name), f"Histories: {panel.heading}", caption, alt)

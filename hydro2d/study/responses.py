@@ -144,10 +144,13 @@ def is_velocity(axis: Axis) -> bool:
 
 
 def usual_variable(study: Study, records: Sequence[Record]) -> Variable:
-    """The impact velocity if it varies, else the first numeric axis, else the first axis; without axes velocity or case."""
+    """The impact velocity if it varies, else the first numeric axis, else the first axis; without axes the case.
+
+    At one velocity the cases side by side are a strip of results, where all marks would stand above one another.
+    """
     speeds = {record.velocity for record in records} - {None}
     axes = [of_axis(axis, study) for axis in study.axes if len(axis.values) > 1]
-    if len(speeds) > 1 or (speeds and not axes):
+    if len(speeds) > 1 or len(records) == 1 and speeds and not axes:
         return impact(records)
     numeric = [axis for axis in axes if axis.order is None]
     return (numeric or axes or [_cases(records)])[0]

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from hydro2d.analytic import beside, model_deck, models
+from hydro2d.penetration import tate
 from hydro2d.penetration.model import InputError
 
 #: models of a rod into a thick target, from rigid to consumed
@@ -31,9 +32,17 @@ class Curve:
 
 
 def curves(shot: model_deck.Shot, low: float, high: float) -> list[Curve]:
-    """Every model of ``MODELS`` between two impact velocities, in m/s."""
-    velocity = np.linspace(low, high, POINTS)
+    """Every model of ``MODELS`` between two impact velocities in m/s, or at one if they are the same."""
+    velocity = np.linspace(low, high, POINTS if high > low else 1)
     return [_curve(name, shot, velocity) for name in MODELS]
+
+
+def motion(shot: model_deck.Shot, velocity: float) -> tate.Track | None:
+    """The motion of Tate and Alekseevskii at an impact velocity in m/s; None where the deck does not give what it needs."""
+    try:
+        return tate.motion(velocity, **tate.MODEL.collect(beside.case(tate.MODEL.name, shot).values))
+    except InputError:
+        return None
 
 
 def _curve(name: str, shot: model_deck.Shot, velocity: np.ndarray) -> Curve:

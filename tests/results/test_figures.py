@@ -38,6 +38,33 @@ def test_a_section_is_mirrored_and_in_readers_units(dump):
     assert np.isnan(shown[~filled]).all()
 
 
+def labels(dump, field, mirror):
+    """Labels of the colour bars, and the title and place of the legend if there is one."""
+    axes, *bars = figures.draw_sections([[(dump, "", None)]], field, mirror).axes
+    legend = axes.get_legend()
+    said = () if legend is None else (legend.get_title().get_text(), legend._loc)
+    return [bar.get_ylabel() for bar in bars], *said
+
+
+def test_a_colour_bar_says_which_half_it_belongs_to(dump):
+    right = {"upper": 1, "lower": 4}
+    assert labels(dump, "pressure", "velocity") == (["Upper half: Pressure [GPa]", "Lower half: Velocity [m/s]"],)
+    assert labels(dump, "pressure", "material") == (["Upper half: Pressure [GPa]"], "Lower half", right["lower"])
+    assert labels(dump, "material", "pressure") == (["Lower half: Pressure [GPa]"], "Upper half", right["upper"])
+    assert labels(dump, "pressure", None) == (["Pressure [GPa]"],)
+    assert labels(dump, "material", None) == ([], "", right["upper"])
+
+
+def test_the_word_at_the_experiments_line_is_not_below_the_legend(dump):
+    for field, mirror, place in (("pressure", None, "top"), ("pressure", "material", "top"), ("material", None, "bottom")):
+        axes = figures.draw_sections([[(dump, "", 0.0121)]], field, mirror).axes[0]
+        (word,) = axes.texts
+        assert (word.get_text(), word.get_va()) == ("experiment", place)
+        if legend := axes.get_legend():
+            axes.figure.draw_without_rendering()
+            assert not legend.get_window_extent().overlaps(word.get_window_extent())
+
+
 @pytest.mark.parametrize("part", ["rr", "zz", "tt", "rz"])
 def test_the_old_name_of_a_deviator_is_told_where_the_whole_stress_was_not_written(dump, part):
     del dump.fields[f"Stress {part} [Pa]"]

@@ -19,7 +19,7 @@ def run(tmp_path_factory):
 
 def test_a_line_along_z_has_each_cell_once(run):
     dump = run.dump()
-    along, found = lines.values(dump, "pressure", Line(1e-3, -1.0, 1e-3, 1.0))
+    *_, along, found = lines.curve(run, dump, "pressure", Line(1e-3, -1.0, 1e-3, 1.0))
     inside = (along > dump.z_edges[0]) & (along < dump.z_edges[-1])
     np.testing.assert_allclose(along[inside], 0.5 * (dump.z_edges[1:] + dump.z_edges[:-1]))
     column = int(np.searchsorted(dump.r_edges, 1e-3, "right")) - 1
@@ -30,7 +30,7 @@ def test_a_line_along_z_has_each_cell_once(run):
 def test_a_line_across_has_the_cells_that_it_crosses(run):
     dump = run.dump()
     line = Line(0.0, -5e-3, 4e-3, 5e-3)
-    along, found = lines.values(dump, "velocity:z", line)
+    *_, along, found = lines.curve(run, dump, "velocity:z", line)
     assert line.label == "distance"
     assert 0.0 < along[0] < along[-1] < np.hypot(4e-3, 10e-3)
     values = figures.chosen(dump, "velocity:z").values
@@ -62,7 +62,7 @@ def test_a_diagram_of_place_and_time_follows_the_nose(run):
 
 def test_what_cannot_be_drawn_is_told(run, tmp_path):
     with pytest.raises(FigureError, match="misses the mesh"):
-        lines.values(run.dump(), "pressure", Line(1.0, 0.0, 1.0, 1.0))
+        lines.curve(run, run.dump(), "pressure", Line(1.0, 0.0, 1.0, 1.0))
     single = Results(made_run.write(tmp_path / "one", dumps=1))
     with pytest.raises(FigureError, match="has 1 dumps; a diagram of place and time needs two"):
         lines.space_time([single], "pressure")

@@ -33,7 +33,7 @@ def test_a_section_goes_into_the_axes_that_are_given(shot):
     assert left.get_title() == f"shot  t = {shot.dump(5e-6).time * 1e6:.2f} µs"
     assert not right.has_data()
     bars = [axes.get_ylabel() for axes in left.figure.axes[2:]]
-    assert bars == ["Pressure [GPa]", "Velocity [m/s]"]
+    assert bars == ["Upper half: Pressure [GPa]", "Lower half: Velocity [m/s]"]
 
 
 def test_a_section_is_the_one_that_figures_draws(shot):
@@ -111,6 +111,14 @@ def test_a_run_says_what_it_is(shot):
 def test_titles_are_escaped(shot):
     shot.tables["title"] = "<b>1 & 2</b>"
     assert "&lt;b&gt;1 &amp; 2&lt;/b&gt;" in shot._repr_html_()
+
+
+@pytest.mark.parametrize(("directory", "label"), [
+    ("1086m-s", "1086 m/s"), ("1086 m-s", "1086 m/s"), ("1.3km-s_soft", "1.3 km/s_soft"), ("ke_1086m-s-2", "ke_1086 m/s-2"),
+    ("m-s", "m-s"), ("5083-1086", "5083-1086"), ("12m-seconds", "12m-seconds"), ("form-s", "form-s")])  # fmt: skip
+def test_velocities_in_names_of_directories_have_their_slash_back(shot, directory, label):
+    shot.directory = shot.directory.parent / directory
+    assert shot.label == label
 
 
 def test_a_run_that_has_not_ended_says_so(shot):

@@ -4,7 +4,7 @@ import shutil
 
 import pytest
 
-from hydro2d.study import charts, layout, panels, residual, responses, series, table
+from hydro2d.study import charts, layout, panels, residual, responses, series, table, theory
 from hydro2d.study.contents import collect
 from hydro2d.study.definition import StudyError
 from tests.study import fake
@@ -94,6 +94,48 @@ def test_a_wrong_name_is_said_with_the_nearest(tmp_path, options, said):
     with pytest.raises(StudyError) as caught:
         chosen(contents, **options)
     assert said in str(caught.value)
+
+
+def test_runs_at_one_velocity_are_a_strip_with_the_models_at_that_velocity(tmp_path):
+    for name, depth in (("a", 0.30), ("b", 0.31), ("c", 0.28)):
+        fake.write_run(tmp_path / "runs" / name, 1086.0, depth)
+    contents = collect(layout.load(tmp_path / "runs"))
+    choice = chosen(contents)
+    assert (choice.x.name, choice.x.order) == ("case", ("a", "b", "c"))
+    (panel,) = panels.panels(contents, choice)
+    curves, left, _ = panels._models(choice.x, choice.y[0], panel)
+    figure = charts.response(panel.setup, panel.series, choice.x, choice.y[0], contents.belonging, panel.shots, curves, left)
+    traces = {trace.name or trace.meta: trace for trace in figure.data}
+    runs = next(trace for trace in figure.data if trace.name == panel.series[0].label)
+    assert dict(zip(runs.x, runs.y, strict=True)) == pytest.approx({"a": 30.0, "b": 31.0, "c": 28.0})
+    assert runs.mode == "markers", "no line joins cases"
+    (tate,) = (curve for curve in curves if curve.name == "tate")
+    assert tate.velocity.tolist() == [1086.0]
+    level = traces[tate.title]
+    assert level.x == ("a", "b", "c")
+    assert level.y == pytest.approx([100 * tate.depth[0]] * 3, rel=1e-4)
+    single = fake.write_run(tmp_path / "alone" / "a", 1086.0, 0.3)
+    assert chosen(collect(layout.load(single.parent))).x.impact, "one run alone stays at its velocity"
+
+
+def test_the_motion_of_tate_stands_beside_the_histories(tmp_path):
+    for name, velocity in (("a", 1086.0), ("b", 1086.0), ("c", 1200.0)):
+        fake.write_run(tmp_path / "runs" / name, velocity, 0.3, text=fake.deck_text(f"body.rod.velocity={velocity} m/s"))
+    contents = collect(layout.load(tmp_path / "runs"))
+    (panel,) = panels.panels(contents, chosen(contents))
+    tracks = panels._motions(panel, panel.members)
+    assert list(tracks) == [1086.0, 1200.0]
+    curves = theory.curves(panel.members[0].shot, 1086.0, 1086.0)
+    (tate,) = (curve for curve in curves if curve.name == "tate")
+    touch, track = tracks[1086.0]
+    assert 0.0 <= touch < 5e-6
+    assert track.depth[-1] == pytest.approx(tate.depth[0], rel=1e-12)
+    lines = [trace for trace in charts.histories(panel.series, tracks).data if trace.meta == "model"]
+    depth = next(trace for trace in lines if trace.name == "Tate-Alekseevskii, 1086 m/s")
+    assert depth.y[-1] == pytest.approx(100 * tate.depth[0], rel=1e-5)
+    assert depth.x[-1] == pytest.approx(1e6 * (touch + track.time[-1]), rel=1e-5)
+    assert {trace.line.dash for trace in lines} == {"solid", "dash"}
+    assert "Grey: Tate-Alekseevskii" in list(panels.draw(contents, chosen(contents)))[-1].caption
 
 
 def test_an_unfinished_run_has_the_last_of_its_history(tmp_path):

@@ -37,7 +37,7 @@ def contents(run, words: Iterable[str], bits: int) -> tuple[dict, str]:
         raise ViewError(f"{run.directory} has no dumps to show; output.vtk_interval of the deck sets when they are written")
     ends = [read_grid(path) for _, path in (files[0], files[-1])]
     stored = arrays(asked([*words, *SHARES], ends, run), ends)
-    store, frames = packing.Store(), _Frames(stored, bits)
+    store, frames = packing.Store(), _Frames(stored, bits, run.projectile)
     for time, path in files:
         frames.add(time, read_grid(path), store)
     state = run.dump(files[-1][0])
@@ -57,13 +57,14 @@ def contents(run, words: Iterable[str], bits: int) -> tuple[dict, str]:
 class _Frames:
     """The dumps of a run, packed one after the other."""
 
-    def __init__(self, stored: list[Stored], bits: int):
-        self.stored, self.bits = stored, bits
+    def __init__(self, stored: list[Stored], bits: int, projectile: str):
+        self.stored, self.bits, self.projectile = stored, bits, projectile
         self.ranges = {each.word: Ranges() for each in _shown(stored)}
         self.times: list[float] = []
         self.shifts: list[float] = []
         self.pieces: list[list] = []
         self.thin: list[list] = []
+        self.boxes: list[list[float] | None] = []
         self.first: Dump | None = None
 
     def add(self, time: float, dump: Dump, store: packing.Store) -> None:
@@ -78,6 +79,7 @@ class _Frames:
         self.pieces.append([_piece(values[each.word], each, self.bits, store) for each in self.stored])
         fillings = {body: dump.filling(body) for body in (None, *dump.bodies)}
         self.thin.append([_thin(fillings[body], shift) for body in dump.bodies])
+        self.boxes.append(_box(fillings[self.projectile], dump, shift) if self.projectile in fillings else None)
         for each in _shown(self.stored):
             found = _magnitude(values, each) if each.is_magnitude else values[each.word]
             if found is not None:
@@ -89,7 +91,7 @@ class _Frames:
         return {
             "times": self.times, "shifts": self.shifts, "r_edges": self.first.r_edges.tolist(),
             "z_edges": self.first.z_edges.tolist(), "bits": self.bits,
-            "stored": [shown(each.word) for each in self.stored], "pieces": self.pieces, "thin": self.thin,
+            "stored": [shown(each.word) for each in self.stored], "pieces": self.pieces, "thin": self.thin, "boxes": self.boxes,
             "fields": [_described(each, self.ranges[each.word]) for each in _shown(self.stored)],
         }  # fmt: skip
 
@@ -112,6 +114,15 @@ def _magnitude(values: dict, each: Stored) -> np.ndarray | None:
     """Length of a vector whose components were packed."""
     parts = [values[word] for word in each.parts]
     return None if parts[0] is None else np.hypot(*parts)
+
+
+def _box(filling: Filling, dump: Dump, shift: float) -> list[float] | None:
+    """Lowest and highest z and r of the cells in which a body is shown, m, with z where the mesh stood at the first dump."""
+    rows, columns = filling.shown.any(axis=1).nonzero()[0], filling.shown.any(axis=0).nonzero()[0]
+    if not len(rows):
+        return None
+    ends = [*(dump.z_edges[[rows[0], rows[-1] + 1]] - shift), *dump.r_edges[[columns[0], columns[-1] + 1]]]
+    return [short(float(end)) for end in ends]
 
 
 def _thin(filling: Filling, shift: float) -> list[list]:

@@ -190,6 +190,94 @@ def test_a_click_shows_the_numbers_of_the_cell(browser, page, shot):
     assert "Temperature of rod,K," in answer["csv"]
 
 
+TAP = r"""
+      plain();
+      const [x, y] = middle(J, 3), place = onCanvas(x, -y), box = canvas().getBoundingClientRect();
+      pointer("pointerdown", ...place, { pointerType: "touch" });
+      pointer("pointerup", ...place, { pointerType: "touch" });
+      await pause(100);
+      await update();
+      const tip = document.querySelector(".tip"), { left, right, top, bottom } = tip.getBoundingClientRect();
+      const texts = (line) => [...line.children].map((part) => part.textContent);
+      const lines = () => Object.fromEntries([...tip.children].map(texts));
+      const finger = [box.left + place[0], box.top + place[1]];
+      const first = lines(), beside = { left: left - finger[0], right: right - finger[0], top: top - finger[1],
+        bottom: bottom - finger[1] }, within = left >= box.left && right <= box.right && top >= box.top && bottom <= box.bottom;
+      const table = Math.round(document.querySelector("#probe table").getBoundingClientRect().top - finger[1]);
+      await goTo(2);
+      const later = lines();
+      key("Escape");
+      await pause(50);
+      return { first, later, beside, within, table, shown: getComputedStyle(tip).display, hidden: tip.hidden, faults };
+"""
+
+
+@pytest.mark.parametrize("j", [14, 30, 40])
+def test_a_tap_on_a_phone_shows_numbers_beside_the_finger(browser, page, shot, j):
+    found = ask(browser, page, TAP.replace("J", str(j), 1), PHONE)
+    assert found["faults"] == []
+    assert found["within"]
+    gaps = found["beside"]
+    away = max(gaps["left"], -gaps["right"], gaps["top"], -gaps["bottom"])  # below zero where it covers the finger
+    assert 5 < away < 40
+    assert found["table"] > 500, "where all numbers are"
+    for n, told in ((4, found["first"]), (2, found["later"])):
+        read = dump(shot, n)
+        assert told["z, r [mm]"].replace("−", "-") == f"{1e3 * read.z_centres[j]:.4g}, {1e3 * read.r_centres[3]:.4g}"
+        assert told["body"] == ("void", "rod", "plate")[read.fields["Material"][j, 3]]
+        assert float(told["Pressure [GPa]"].replace("−", "-")) == pytest.approx(
+            read.fields["Pressure [Pa]"][j, 3] * 1e-9, abs=2e-3)  # fmt: skip
+        assert "Velocity [m/s]" in told
+    assert found["first"] != found["later"]
+    assert found["hidden"], "with the mark"
+
+
+def test_on_a_desk_the_table_stands_beside_the_picture_alone(browser, page):
+    assert ask(browser, page, TAP.replace("J", "30", 1), DESK)["shown"] == "none"
+
+
+@pytest.mark.parametrize("width", [PHONE, DESK])
+def test_the_first_view_is_the_projectile(browser, page, shot, width):
+    """The rod at all times with a rod's diameter around it, and not the mesh, whose fine part alone is half as wide again."""
+    script = r"""
+      const { box } = SECTIONS[0], first = { ...state.view };
+      const seen = [SECTIONS[0].x(box.left), SECTIONS[0].x(box.left + box.width)];
+      const asked = SECTIONS[0].window("projectile");
+      key("w");
+      const whole = state.view.scale;
+      key("m");
+      const fine = state.view.scale;
+      at("projectile").click();
+      return { seen, asked, first, whole, fine, again: state.view, hidden: at("projectile").hidden, faults };
+    """
+    found = ask(browser, page, script, width)
+    assert found["faults"] == []
+    ends = []
+    for n in range(len(shot.dumps)):
+        read = dump(shot, n)
+        rows = np.nonzero((read.fields["Volume Fraction for rod"] >= 0.5).any(axis=1))[0]
+        moved = read.z_edges[0] - dump(shot, 0).z_edges[0]
+        ends += [1e3 * (read.z_edges[rows[0]] - moved), 1e3 * (read.z_edges[rows[-1] + 1] - moved)]
+    low, high = found["asked"][:2]
+    assert 3.0 < min(ends) - low < 10.0
+    assert 3.0 < high - max(ends) < 10.0
+    assert found["seen"][0] <= low + 0.5
+    assert found["seen"][1] >= high - 0.5
+    assert found["again"] == pytest.approx(found["first"])
+    assert found["whole"] < 0.9 * found["first"]["scale"]
+    assert not found["hidden"]
+
+
+def test_a_run_without_a_projectile_begins_with_the_fine_mesh(browser, tmp_path):
+    directory = made_run.write(tmp_path / "run")
+    deck = directory / "deck.toml"
+    deck.write_text(deck.read_text().replace('rod = "rod"', 'rod = "none"'))
+    page = hydro2d.open_run(directory).view().save(tmp_path / "view.html")
+    found = ask(browser, page, """return { same: SECTIONS[0].window("projectile").join() === SECTIONS[0].window("fine").join(),
+      hidden: at("projectile").hidden, faults };""")
+    assert found == {"same": True, "hidden": True, "faults": []}
+
+
 def test_a_drag_plots_along_the_line_and_follows_the_slider(browser, page, shot):
     script = r"""
       drag(onCanvas(-20, 1.2), onCanvas(15, 1.2));

@@ -79,12 +79,14 @@ function chooseRange(mode) {
 function prepareView() {
   for (const [id, action] of Object.entries({
     "zoom-in": () => zoom(FACTOR), "zoom-out": () => zoom(1 / FACTOR),
-    fit: () => { fit(true); redraw(); }, whole: () => { fit(false); redraw(); },
+    projectile: () => { fit("projectile"); redraw(); }, fit: () => { fit("fine"); redraw(); },
+    whole: () => { fit("whole"); redraw(); },
   })) at(id).addEventListener("click", action);
   at("drag").addEventListener("change", (event) => { state.drag = event.target.value; showDrag(); });
   for (const id of ["outlines", "stations", "cells"])
     at(id).addEventListener("change", (event) => { state[id] = event.target.checked; update(); });
   at("travel").addEventListener("change", (event) => travel(event.target.checked));
+  at("projectile").hidden = !RUNS.some((run) => run.boxes.some(Boolean));
   at("travel-label").hidden = !RUNS.some((run) => run.travels);
   at("stations-label").hidden = !RUNS.some((run) => run.stations.length);
 }
@@ -178,7 +180,7 @@ function probeMiddle() {
 const KEYS = {
   " ": () => play(!state.playing), ArrowLeft: () => goTo(state.step - 1), ArrowRight: () => goTo(state.step + 1),
   Home: () => goTo(0), End: () => goTo(TIMES.length - 1), "+": () => zoom(FACTOR), "=": () => zoom(FACTOR),
-  "-": () => zoom(1 / FACTOR), 0: () => { fit(true); redraw(); }, w: () => { fit(false); redraw(); },
+  "-": () => zoom(1 / FACTOR), 0: () => { fit("projectile"); redraw(); }, m: () => { fit("fine"); redraw(); }, w: () => { fit("whole"); redraw(); },
   f: () => stepField(0, 1), F: () => stepField(0, -1), g: () => stepField(1, 1), G: () => stepField(1, -1),
   r: () => chooseRange(state.range === "all" ? "now" : "all"), l: () => flip("log"), p: probeMiddle, d: dark,
   "?": () => at("help").showModal(), Escape: () => { state.line = state.probe = null; update(); },

@@ -24,9 +24,9 @@ function pan(dx, dy) {
   redraw();
 }
 
-/** Shows the whole mesh or its fine part, of all runs, at equal scales. */
-function fit(fine) {
-  const windows = SECTIONS.map((section) => section.window(fine)), { box } = SECTIONS[0];
+/** Shows a part of all runs at equal scales: the "projectile", the "fine" part of the mesh or the "whole" mesh. */
+function fit(part) {
+  const windows = SECTIONS.map((section) => section.window(part)), { box } = SECTIONS[0];
   const [x0, , y0] = [0, 1, 2].map((k) => Math.min(...windows.map((window) => window[k])));
   const [, x1, , y1] = [0, 1, 2, 3].map((k) => Math.max(...windows.map((window) => window[k])));
   const scale = Math.min(box.width / (x1 - x0), box.height / (y1 - y0)) * 0.98;
@@ -44,7 +44,7 @@ class Gesture {
     listen("pointerup", (event) => this.release(event));
     listen("pointercancel", (event) => this.cancel(event));
     listen("contextmenu", (event) => event.preventDefault());
-    listen("dblclick", () => { fit(true); redraw(); });
+    listen("dblclick", () => { fit("projectile"); redraw(); });
     canvas.addEventListener("wheel", (event) => this.wheel(event), { passive: false });
   }
 

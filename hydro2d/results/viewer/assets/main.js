@@ -72,6 +72,7 @@ function redraw() {
     const { arrays, outlines, places } = drawn.found[number], { run, n } = section;
     section.draw(arrays, drawn.scales, outlines, places);
     const last = n === run.times.length - 1 && TIMES[state.step] > run.times[n] * 1.001 ? ", its last" : "";
+    section.placeTip();
     section.when.textContent = `t = ${timeText(run.times[n])}${last}`;
     section.canvas.setAttribute("aria-label", `Section of ${run.label} at ${section.when.textContent}: ${shownWords()
       .map((word) => titleOf(word)).join(" above, ")} below`);
@@ -86,8 +87,10 @@ function makeSections() {
     name.style.setProperty("--chip", `var(${CURVES[run.number]})`);
     const canvas = element("canvas", { tabIndex: 0 });
     canvas.setAttribute("role", "img");
+    const tip = element("button", { type: "button", className: "tip", hidden: true, title: "All numbers of the cell" });
+    tip.addEventListener("click", () => at("probe").scrollIntoView({ behavior: "smooth" }));
     const figure = element("figure", { className: "section" }, element("figcaption", {}, name,
-      element("span", { className: "when" })), canvas);
+      element("span", { className: "when" })), canvas, tip);
     place.append(figure);
     const section = new Section(run, figure);
     new Gesture(section);
@@ -113,7 +116,7 @@ function makeHeading() {
 /** Makes the pictures as high as what they show at first is, within the bounds of the style. */
 function setHeight() {
   const canvas = SECTIONS[0].canvas, width = canvas.clientWidth - MARGINS.across;
-  const shapes = SECTIONS.map((section) => section.window(true)).map(([x0, x1, y0, y1]) => (y1 - y0) / (x1 - x0));
+  const shapes = SECTIONS.map((section) => section.window("projectile")).map(([x0, x1, y0, y1]) => (y1 - y0) / (x1 - x0));
   at("sections").style.setProperty("--height", `${Math.round(width * Math.max(...shapes)) + MARGINS.along}px`);
 }
 
@@ -122,7 +125,7 @@ function resize() {
   setHeight();
   const before = SECTIONS[0].box.width;
   SECTIONS.forEach((section) => section.measure());
-  if (before <= 1) fit(true);
+  if (before <= 1) fit("projectile");
   else state.view.scale *= SECTIONS[0].box.width / before;
 }
 

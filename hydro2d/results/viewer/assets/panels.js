@@ -1,7 +1,7 @@
 "use strict";
 // What stands beside the sections: the numbers of a cell, the plot along a line, the histories.
 
-const SAMPLES = 500, USUAL = ["penetration_depth_m", "rod_tail_velocity_m_s", "rod_length_m", "rod_max_plastic_strain"];
+const SAMPLES = 500, TIPPED = 4, USUAL = ["penetration_depth_m", "rod_tail_velocity_m_s", "rod_length_m", "rod_max_plastic_strain"];
 /** Beginnings of names of columns, and what the columns belong to. */
 const KINDS = { body: "Bodies", tracer: "Tracers", gauge: "Gauges", sink: "Sinks of the audit" };
 
@@ -95,6 +95,7 @@ function probeParts() {
 async function drawProbe() {
   const place = document.querySelector("#probe .scroll"), found = await Promise.all(SECTIONS.map(probed));
   drawProbe.rows = found;
+  SECTIONS.forEach((section, number) => fillTip(section, found[number]));
   if (found.every((rows) => !rows)) {
     place.replaceChildren(element("p", { className: "hint", textContent: "Click into a section for all numbers of a cell." }));
     return;
@@ -111,6 +112,21 @@ async function drawProbe() {
   const top = place.scrollTop;
   place.replaceChildren(element("table", {}, element("thead", {}, head), body));
   place.scrollTop = top;
+}
+
+/** The first numbers of the marked cell, which stand beside it where the table of all numbers is out of sight. */
+function fillTip(section, rows) {
+  const { run, tip } = section, line = (name, value) => element("span", {}, element("span", { textContent: name }),
+    element("b", { textContent: value }));
+  const words = [...new Set([...shownWords(), "velocity", ...FIRST_WORDS])]
+    .filter((word) => word !== "material" && rows && rows.has(word)).slice(0, TIPPED);
+  const place = rows ? [line("z, r [mm]", ["z", "r"].map((key) => plainNumber(rows.get(key).value, 4)).join(", ")),
+    line("body", run.bodies[rows.get("material").value - 1] || "void")] : [];
+  tip.replaceChildren(...place, ...words.map((word) => {
+    const { value, error } = rows.get(word);
+    return line(titleOf(word), plainNumber(Number(measured(value, error).replace("−", "-")), 4));
+  }));
+  section.placeTip();
 }
 
 function probeRow([key, name, unit], found) {

@@ -3,6 +3,8 @@
 // Places on the page are in mm: x is z, measured from the mesh where the view moves with it, and y is r, negative below.
 
 const MM = 1e3, BAR = 84, LEFT = 44, TOP = 10;
+/** How far from the marked place its numbers are, pixels: as wide as a finger covers. */
+const FINGER = 16;
 /** What a canvas is wider and higher than its picture, pixels. */
 const MARGINS = { across: LEFT + BAR + 12, along: TOP + 40 };
 
@@ -11,6 +13,7 @@ class Section {
     this.run = run;
     this.canvas = figure.querySelector("canvas");
     this.when = figure.querySelector(".when");
+    this.tip = figure.querySelector(".tip");
     this.n = 0;
     this.box = { left: 0, top: 0, width: 1, height: 1 };
   }
@@ -21,12 +24,32 @@ class Section {
     return state.travel && leader ? leader.run.shifts[leader.n] * MM : 0;
   }
 
-  /** Lowest and highest x and y, mm, of the whole mesh or of its fine part. */
-  window(fine) {
-    const { run } = this, [z0, z1] = fine ? finePart(run.z_edges) : ends(run.z_edges);
+  /** Lowest and highest x and y, mm, of the places of the projectile at all times, of the fine part of the mesh where there
+      is none, or if `part` says so of the "fine" part or of the "whole" mesh. */
+  window(part) {
+    const path = part === "projectile" && this.path();
+    if (path) return path;
+    const { run } = this, fine = part !== "whole", [z0, z1] = fine ? finePart(run.z_edges) : ends(run.z_edges);
     const [r0, r1] = fine ? finePart(run.r_edges) : ends(run.r_edges);
     const moved = state.travel && run.travels ? [0, 0] : [Math.min(...run.shifts), Math.max(...run.shifts)];
     return [(z0 + moved[0]) * MM, (z1 + moved[1]) * MM, (run.mirrored ? -r1 : r0) * MM, r1 * MM];
+  }
+
+  /** The window around the projectile, as wide about it as it is thick; none if there is no projectile. */
+  path() {
+    const { run } = this, found = run.boxes.map((box, n) => box && [...box.slice(0, 2).map((z) => (z + this.shiftOf(n)) * MM),
+      ...box.slice(2).map((r) => r * MM)]).filter(Boolean);
+    if (!found.length) return null;
+    const least = (k) => Math.min(...found.map((box) => box[k])), most = (k) => Math.max(...found.map((box) => box[k]));
+    const [z0, z1, r0, r1] = [least(0), most(1), least(2), most(3)], width = run.mirrored ? 2 * r1 : r1 - r0;
+    const margin = Math.max(width, 0.1 * (z1 - z0)), whole = this.window("whole");
+    return [Math.max(z0 - margin, whole[0]), Math.min(z1 + margin, whole[1]),
+            Math.max((run.mirrored ? -r1 : r0) - width, whole[2]), Math.min(r1 + width, whole[3])];
+  }
+
+  /** How far x of the mesh of dump n lies from where it is at the first dump, m. */
+  shiftOf(n) {
+    return state.travel && this.run.travels ? 0 : this.run.shifts[n];
   }
 
   /** Sizes the picture on its canvas. */
@@ -180,6 +203,21 @@ class Section {
     const least = Math.max(0, 6 - Math.abs(x1 - x0)) / 2;
     context.strokeRect(Math.min(x0, x1) - least, Math.min(y0, y1) - least, Math.abs(x1 - x0) + 2 * least,
                        Math.abs(y1 - y0) + 2 * least);
+  }
+
+  /** Puts the numbers of the marked cell beside it, or above or below it where there is no room, so that it stays seen. */
+  placeTip() {
+    const { tip } = this, shown = Boolean(state.probe && this.cellAt(state.probe) && tip.childElementCount);
+    tip.hidden = !shown;
+    if (!shown) return;
+    const within = (at, size, most) => Math.min(Math.max(at, 2), Math.max(most - size - 2, 2));
+    const px = this.px(state.probe.x), py = this.py(state.probe.y), { clientWidth, clientHeight, offsetTop } = this.canvas;
+    const { offsetWidth: width, offsetHeight: height } = tip, onLeft = px > clientWidth / 2, above = py > clientHeight / 2;
+    const beside = [onLeft ? px - FINGER - width : px + FINGER, py - height / 2];
+    const over = [px - width / 2, above ? py - FINGER - height : py + FINGER];
+    const fits = Math.max(px, clientWidth - px) >= width + FINGER, [x, y] = fits ? beside : over;
+    tip.style.transform = `translate(${Math.round(within(x, width, clientWidth))}px, ${
+      Math.round(offsetTop + within(y, height, clientHeight))}px)`;
   }
 
   drawAxes(context, ink) {
