@@ -150,7 +150,7 @@ def test_a_deck_gives_the_geometry():
 def test_a_nose_of_a_deck(nose, key, value):
     from hydro2d.deck import deck
 
-    given = f"{'crh' if nose == 'ogive' else 'half_angle'}={value}"
+    given = f"crh={value}" if nose == "ogive" else f"half_angle={value} rad"
     loaded = deck.load(HEMI, [f"body.rod.nose={nose}", f"body.rod.{given}"])
     found = model_deck.shot(loaded).values
     assert found[key].value == pytest.approx(value, rel=1e-12)
@@ -329,7 +329,7 @@ def run_directory(folder, velocity, regime, overrides=()):
     from hydro2d.deck import deck
 
     folder.mkdir()
-    (folder / "deck.toml").write_text(deck.load(HEMI, [f"body.rod.velocity={velocity}", *overrides]).to_toml())
+    (folder / "deck.toml").write_text(deck.load(HEMI, [f"body.rod.velocity={velocity} m/s", *overrides]).to_toml())
     (folder / "summary.json").write_text(json.dumps({"regime": regime} if regime else {}))
     return folder
 

@@ -120,12 +120,12 @@ DECK = "problems/verification/porous_compaction.toml"
 
 
 @pytest.mark.parametrize(("override", "words"), [
-    ('materials.Al_porous={based_on="Al_porous", eos={reference_density=2800}}',
+    ('materials.Al_porous={based_on="Al_porous", eos={reference_density="2800 kg/m^3"}}',
      "reference_density = 2800, with the pores, must be below solid_density = 2700"),
     ('materials.Al_porous={based_on="Al_porous", eos={model="p-alpha", solid="p-alpha"}}',
      "unknown equation of state without memory .*allowed: ideal-gas, mie-grueneisen, stiffened-gas"),
     ('materials.Al_porous={based_on="Al_porous", eos={hardness=1}}', 'unknown parameter of p-alpha "hardness"'),
-    ('materials.Al_porous={based_on="Al_porous", eos={sound_speed=-1}}', "must be non-negative|must be positive"),
+    ('materials.Al_porous={based_on="Al_porous", eos={sound_speed="-1 m/s"}}', "must be non-negative|must be positive"),
     ('materials.Al_porous={eos={model="p-alpha", reference_density=2000}}', "p-alpha needs solid"),
     ('materials.Al_porous={based_on="Al5083", eos={solid="ideal-gas"}}', "mie-grueneisen stands over no other"),
 ])  # fmt: skip

@@ -65,7 +65,7 @@ deck = "shot.toml"
 [[axis]]
 name = "law"
 [axis.variants.own]
-"materials.Al5083.strength" = { file = "law.py", shear_modulus = 1e10, yield_stress = 1e8 }
+"materials.Al5083.strength" = { file = "law.py", shear_modulus = "10 GPa", yield_stress = "0.1 GPa" }
 """
 
 
@@ -86,7 +86,7 @@ def test_a_model_replaces_the_whole_part_and_numbers_are_laid_over_it(folder):
     further = """
 [materials]
 soft = { based_on = "Al5083", strength = { yield_stress = "100 MPa" } }
-plain = { based_on = "Al5083", strength = { model = "elastic-plastic", shear_modulus = 1e9, yield_stress = 1e6 } }
+plain = { based_on = "Al5083", strength = { model = "elastic-plastic", shear_modulus = "1 GPa", yield_stress = "1 MPa" } }
 """
     found = deck.loads(DECK + further, folder=folder).materials
     assert (found["soft"].strength.name, found["soft"].strength.values["yield_stress"]) == ("voce", 1e8)

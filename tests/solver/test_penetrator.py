@@ -85,7 +85,8 @@ def test_a_rod_has_the_length_of_the_deck(keys, length):
     ("", box("tail", "W_alloy", r=["0 mm", "3 mm"], z=["-22.5 mm", "-20.5 mm"], join="rod", velocity="1 km/s"), 22.2e-3),
 ])  # fmt: skip
 def test_a_rod_that_is_not_by_itself_has_the_length_of_its_cells(before, after, length):
-    found = Simulation(deck.loads(before + text(nose="flat", tip="-0.3 mm") + after))
+    whole = text(nose="flat", tip="-0.3 mm").replace("[[body]]", before + "[[body]]", 1) + after
+    found = Simulation(deck.loads(whole))
     assert found.penetrator.length == found.penetrator._length()[0] == pytest.approx(length, rel=1e-9)
 
 

@@ -193,7 +193,8 @@ def test_measured_residual_velocities_stand_beside_those_of_the_runs(tmp_path):
     for velocity, left, measured in ((600, 500.0, 470.0), (900, 820.0, 835.0), (400, 0.0, 0.0), (700, 610.0, None)):
         shot = [f"body.sphere.velocity={velocity} m/s", "body.plate.thickness=4 mm"]
         if measured is not None:
-            shot += ["experiment.source=made up", f"experiment.velocity={velocity}", f"experiment.residual_velocity={measured}"]
+            shot += ["experiment.source=made up", f"experiment.velocity={velocity} m/s",
+                     f"experiment.residual_velocity={measured} m/s"]
         through = {"rod_residual_velocity_m_s": left, "exit_time_s": 1e-5, "stop_reason": "perforation of plate"}
         fake.write_run(runs / f"{velocity}", velocity, 0.003, text=fake.resolved(SPHERE, *shot), **(through if left else {}))
     contents = collect(layout.load(runs))

@@ -92,7 +92,7 @@ WRONG = [
     ('"50 m/s"', '"50 m/s"\nkey = "body.plate.thickness"', 'body[1].thickness: "900 m/s" is a velocity; expected a length'),
     ('"50 m/s"', '"50 m/s"\nkey = "body.rod.velocity"\n[set]\n"body.plate.velocity" = "-9 m/s"',
      "search.toml:8: transition.key: with body.rod.velocity = 900 m/s the projectile hits the target at 909 m/s"),
-    ('"numerics.advection"\nvalues = ["ke", "momentum"]', '"body.rod.velocity"\nvalues = [900, 1000]',
+    ('"numerics.advection"\nvalues = ["ke", "momentum"]', '"body.rod.velocity"\nvalues = ["900 m/s", "1000 m/s"]',
      'search.toml:8: axis "advection" sets body.rod.velocity, and the search varies body.rod.velocity'),
     ('name = "advection"', 'name = "velocity"',
      'search.toml:8: axis[0].name: "velocity" is the name of the axis that [transition] adds'),

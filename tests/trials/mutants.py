@@ -92,12 +92,12 @@ def mutant(number: int) -> tuple[str, list[str], str]:
     for _ in range(chance.choice((1, 1, 2, 2, 3, 4))):
         change = chance.choice(changes.CHANGES)
         told.append(f"{change.__name__}: {change(tables, chance)}")
-    return name, told, toml.dumps(tables)
+    return name, told, toml.dumps({"numbers": "SI", **tables})
 
 
 def unchanged(name: str) -> str:
     """The text of a shipped deck as it is before it is changed."""
-    return toml.dumps(_base(name))
+    return toml.dumps({"numbers": "SI", **_base(name)})
 
 
 if __name__ == "__main__":

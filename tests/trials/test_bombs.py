@@ -35,7 +35,7 @@ AXES = "".join(f'\n[[axis]]\nname = "a{n}"\nkey = "numerics.courant"\nvalues = {
 def polygon(number, turns=1):
     angles = [2 * math.pi * turns * n / number for n in range(number)]
     points = ", ".join(f"[{2e-3 + 1e-3 * math.cos(a)!r}, {-1e-2 + 1e-3 * math.sin(a)!r}]" for a in angles)
-    return f'{DECK}\n[[body]]\nname = "round"\nmaterial = "Al5083"\nshape = "polygon"\npoints = [{points}]\n'
+    return f'numbers = "SI"\n{DECK}\n[[body]]\nname = "round"\nmaterial = "Al5083"\nshape = "polygon"\npoints = [{points}]\n'
 
 
 BOMBS = {

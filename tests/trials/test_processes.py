@@ -24,7 +24,7 @@ ROOT = Path(__file__).parents[2]
 #: what a signal ends a command with: hydro2d's status, or the signal itself before anything of hydro2d has begun
 STATUS = {signal.SIGHUP: 129, signal.SIGINT: 130, signal.SIGTERM: 143, signal.SIGKILL: -9}
 STOPPING = (signal.SIGHUP, signal.SIGINT, signal.SIGTERM)
-CYCLES = ["--set", "stop.cycles=400", "--set", "output.restart_interval=0.05", "--set", "output.vtk_interval='1 us'"]
+CYCLES = ["--set", "stop.cycles=400", "--set", "output.restart_interval='0.05 s'", "--set", "output.vtk_interval='1 us'"]
 
 
 def begun(arguments, **options):
