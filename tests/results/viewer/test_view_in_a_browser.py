@@ -490,7 +490,7 @@ def test_keys(browser, page):
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 def test_dark_and_light_can_be_chosen(browser, page, scheme):
     script = """
-      key("m");
+      key("w");
       await pause(100);
       const paper = () => getComputedStyle(document.body).backgroundColor, before = paper(), void_ = colour(-40, 6);
       at("dark").click();
