@@ -69,9 +69,6 @@ def total_stress_row(j, dt, metrics, dz, body_range, active_range, mixed_count, 
             rr[i] += f_j[i] * a_j[i]
             zz[i] += f_j[i] * b_j[i]
             rz[i] += f_j[i] * c_j[i]
-    for k in range(mixed_count[j]):
-        i = mixed[j, k]
-        rr[i], zz[i], rz[i] = mixed_deviator(j, i, solid_mode, solid, hard, hard_threshold, vof, q)
     ub = u[0, j]
     ut = u[0, j + 1]
     vb = v[0, j]
@@ -92,17 +89,18 @@ def total_stress_row(j, dt, metrics, dz, body_range, active_range, mixed_count, 
         rr[i] = rr[i] - pressure - qr_j[i]
         zz[i] = zz[i] - pressure - qz_j[i]
         rz[i] -= qrz_j[i]
-    for k in range(mixed_count[j]):
+    for k in range(mixed_count[j]):  # anew, since the pressure of a full cell may have swallowed the deviator of a crumb
         i = mixed[j, k]
+        s_rr, s_zz, s_rz = mixed_deviator(j, i, solid_mode, solid, hard, hard_threshold, vof, q)
+        pressure = ph_j[i]
         if skin[KIND, j, i] != WHOLE:
             pressure = cut_pressure(j, i, dt, divergence(i, ub, ut, vb, vt, metrics, h), skin, p, bulk, solid)
             ph_j[i] = pressure
             pressure += skin_deviator(j, i, skin, stress_scale(solid_mode, solid[j, i]), vof, q)
-            # from the deviator anew: the pressure above, of a full cell, may have swallowed that of a crumb
-            s_rr, s_zz, _ = mixed_deviator(j, i, solid_mode, solid, hard, hard_threshold, vof, q)
-            tt[i] = -(s_rr + s_zz) - pressure - qt_j[i]
-            rr[i] = s_rr - pressure - qr_j[i]
-            zz[i] = s_zz - pressure - qz_j[i]
+        tt[i] = -(s_rr + s_zz) - pressure - qt_j[i]
+        rr[i] = s_rr - pressure - qr_j[i]
+        zz[i] = s_zz - pressure - qz_j[i]
+        rz[i] = s_rz - qrz_j[i]
 
 
 @kernel
