@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import csv
+import io
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
@@ -126,17 +128,19 @@ def with_responses(table: Sequence[Row], records: Sequence[Record], choice: Choi
 
 def to_csv(table: Sequence[Row]) -> str:
     """The rows as CSV; numbers with all their digits."""
-    from pandas import DataFrame
-
     safe = [{cell(name): _cell(value) for name, value in row.items()} for row in table]
-    return DataFrame(safe, dtype=object).to_csv(index=False, lineterminator="\n")
+    text = io.StringIO()
+    writer = csv.DictWriter(text, dict.fromkeys(name for row in safe for name in row), lineterminator="\n")
+    writer.writeheader()
+    writer.writerows(safe)
+    return text.getvalue()
 
 
 def _cell(value):
-    """A value of the table; empty for None."""
+    """A value of the table; empty for None and for what is not a number."""
     if isinstance(value, str):
         return cell(value)
-    return "" if value is None else value
+    return "" if value is None or value != value else value
 
 
 @dataclass(frozen=True)
