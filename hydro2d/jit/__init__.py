@@ -5,12 +5,14 @@
 ``@apart``   a function that kernels call for what is rare
 ``@rowwise`` one row of one phase, a piece of kernels
 ``@kernel``  loops over the rows of one part of the mesh
-``@phase``   a phase of the step: kernels, one after another, for all parts at the same time
 ``@threaded`` loops over the mesh outside of the step, threaded over rows by one outermost ``prange``
 ``@serial``  loops over a short list, one thread
 
+A `Phase` of the step is a list of kernels, one after another, for all parts at the same time.
+
 What numba is told is in `options`, where compiled code is kept in `cache`, the decorators are in `calls`, exp, log and x^y for
-several cells at once in `elementary`, and what is known of the calls of kernels in `recording`. Other files import from here.
+several cells at once in `elementary`, phases in `phases`, the names of their arrays in `handle`, and what is known of the calls
+of kernels in `recording`. Other files import from here.
 """
 
 from hydro2d.jit.cache import add_model, all_folder, module_of
@@ -23,7 +25,6 @@ from hydro2d.jit.calls import (
     max_threads,
     modules,
     parts_at_once,
-    phase,
     plus,
     point,
     prange,
@@ -37,12 +38,14 @@ from hydro2d.jit.calls import (
     wait,
 )
 from hydro2d.jit.elementary import exp, log, power
+from hydro2d.jit.handle import Handle, declare, declared
 from hydro2d.jit.options import compiler_events, host_cpu
+from hydro2d.jit.phases import WAIT, Phase, alone, given, unless, when
 from hydro2d.jit.recording import FIRST_CALL, Call, is_recording, profiling, recorded, timings
 
 __all__ = [
-    "Call", "FIRST_CALL", "GATE", "add_model", "all_folder", "apart", "by_id", "compiler_events", "exp", "host_cpu",
-    "is_recording", "kernel", "late", "log", "max_threads", "module_of", "modules", "parts_at_once", "phase", "plus", "point",
-    "power", "prange", "profiling", "recorded", "returns", "rows_by_id", "rowwise", "serial", "set_threads", "threaded",
-    "threads", "timings", "wait",
+    "Call", "FIRST_CALL", "GATE", "Handle", "Phase", "WAIT", "add_model", "all_folder", "alone", "apart", "by_id",
+    "compiler_events", "declare", "declared", "exp", "given", "host_cpu", "is_recording", "kernel", "late", "log",
+    "max_threads", "module_of", "modules", "parts_at_once", "plus", "point", "power", "prange", "profiling", "recorded",
+    "returns", "rows_by_id", "rowwise", "serial", "set_threads", "threaded", "threads", "timings", "unless", "wait", "when",
 ]  # fmt: skip

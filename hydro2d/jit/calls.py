@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import functools
 import importlib
-from types import ModuleType
+from types import FunctionType, ModuleType
 
 import numba
 import numpy as np
 
 from hydro2d.jit import barrier, recording
 from hydro2d.jit.cache import all_folder, folder_of, module_of
-from hydro2d.jit.options import ONLY_CALLS, OPTIONS
+from hydro2d.jit.handle import call_at
+from hydro2d.jit.options import INNER, OPTIONS
 from hydro2d.jit.recording import called
 
 
@@ -21,6 +22,37 @@ def _compile(function, **options):
     return numba.njit(function, **{**OPTIONS, **options})
 
 
+class Inner:
+    """A function that compiled code calls: part of the machine code of its callers, without any of its own.
+
+    Python may call it as well; then it is compiled a second time, by itself, and kept in the cache.
+    """
+
+    def __init__(self, function, **options):
+        functools.update_wrapper(self, function)
+        INNER.add(function)
+        without = {"cache": False, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
+        self._options = options
+        self.inner = numba.njit(function, **{**OPTIONS, **without, **options})
+        self._numba_type_ = self.inner._numba_type_
+
+    @functools.cached_property
+    def whole(self):
+        """What Python calls."""
+        function = self.__wrapped__
+        twin = FunctionType(function.__code__, function.__globals__, function.__name__, function.__defaults__)
+        twin.__module__, twin.__qualname__, twin.__doc__ = function.__module__, function.__qualname__, function.__doc__
+        return _compile(twin, **self._options)
+
+    def __call__(self, *arguments):
+        return self.whole(*arguments)
+
+    def __getattr__(self, name: str):
+        if name.startswith("__"):
+            raise AttributeError(name)
+        return getattr(self.whole, name)
+
+
 def rowwise(function):
     """A piece of kernels: one row of one phase. Its text becomes part of each kernel that calls it."""
     return _compile(function, inline="always")
@@ -28,21 +60,21 @@ def rowwise(function):
 
 def point(function):
     """Compiles a scalar function of physics."""
-    return _compile(function, forceinline=True)
+    return Inner(function, forceinline=True)
 
 
 def late(function):
-    """`point` for a function that calls what is chosen only when kernels are loaded: it is not kept in the cache.
+    """`point` for a function that calls what is chosen only when kernels are loaded: by itself it is not kept in the cache.
 
     The folder of the cache is named when a function is defined, before models from outside are added. Kernels that such a
     function is part of are kept as others are.
     """
-    return _compile(function, forceinline=True, cache=False)
+    return Inner(function, forceinline=True, cache=False)
 
 
 def apart(function):
     """Compiles a function that is called, not inlined: what runs rarely need not be compiled again at every place."""
-    return _compile(function)
+    return Inner(function)
 
 
 def modules(package: str, *names: str) -> tuple[ModuleType, ...]:
@@ -107,7 +139,7 @@ def returns(function, arguments: str) -> tuple[str, ...]:
     return () if found == numba.types.none else (str(found),)
 
 
-@functools.partial(_compile, forceinline=True, fastmath={"reassoc"})
+@functools.partial(Inner, forceinline=True, fastmath={"reassoc"})
 def plus(total, term):
     """total + term, the terms of a loop in any order: what lets the compiler sum in lanes. It hides no NaN."""
     return total + term
@@ -118,7 +150,7 @@ def kernel(function):
 
     The compiler takes for granted that no two of its arrays overlap, as a test asserts of every call.
     """
-    return called(function, _compile(function, noalias=True))
+    return called(function, Inner(function, noalias=True))
 
 
 def threaded(function):
@@ -126,18 +158,9 @@ def threaded(function):
     return called(function, _compile(function, parallel=True))
 
 
-def phase(function):
-    """Compiles a phase of the step: its outermost ``prange`` runs over the parts of the mesh, and in it are calls of kernels.
-
-    While each kernel is timed it runs as Python, with one part.
-    """
-    ONLY_CALLS.add(function)
-    return called(function, _compile(function, parallel=True), of_kernels=True)
-
-
 def serial(function):
     """Compiles loops that one thread runs: short lists, boundaries."""
-    return called(function, _compile(function))
+    return called(function, Inner(function))
 
 
 @point
@@ -164,6 +187,16 @@ def threads() -> int:
 def max_threads() -> int:
     """The number of threads numba was started with; scratch memory is sized by it."""
     return numba.config.NUMBA_NUM_THREADS
+
+
+@functools.partial(_compile, parallel=True)
+def run_parts(number, function, address):
+    """Calls compiled code, at an address, once for each part of the mesh, all at the same time: a phase of the step.
+
+    The one parallel loop of all phases.
+    """
+    for part in numba.prange(number):
+        call_at(function, numba.int64(part), address)
 
 
 @functools.partial(_compile, parallel=True)

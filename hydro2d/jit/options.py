@@ -37,10 +37,13 @@ cpu.CPUTargetOptions.noalias = TargetOptions.Mapping("noalias")
 
 #: the functions that do nothing but call kernels: a compiler has nothing to gain in them
 ONLY_CALLS: set = set()
+#: the functions that only compiled code calls, which have no machine code of their own
+INNER: set = set()
 
 
-def _kernels_are_optimised_once() -> None:
-    """Keeps LLVM from optimising kernels again, several times over, in what only calls them."""
+def _compile_once() -> None:
+    """Keeps LLVM from optimising kernels again, several times over, in what only calls them, and from making machine code of
+    what is part of the code of others."""
     compiling: list = []
 
     class Compiling(numba.core.event.Listener):
@@ -51,17 +54,34 @@ def _kernels_are_optimised_once() -> None:
             compiling.pop()
 
     numba.core.event.register("numba:compile", Compiling())
-    optimise = codegen.CPUCodeLibrary._optimize_final_module
+    library = codegen.CPUCodeLibrary
+    optimise, finalise, executable = library._optimize_final_module, library._finalize_final_module, cpu.CPUContext.get_executable
 
     @functools.wraps(optimise)
     def unless_it_only_calls(self):
         if not (compiling and compiling[-1] in ONLY_CALLS):
             optimise(self)
 
-    codegen.CPUCodeLibrary._optimize_final_module = unless_it_only_calls
+    @functools.wraps(finalise)
+    def unless_it_is_part_of_others(self):
+        if not (compiling and compiling[-1] in INNER):
+            return finalise(self)
+        self._finalize_dynamic_globals()
+        self._verify_declare_only_symbols()
+        self._finalized = True
+
+    @functools.wraps(executable)
+    def none_for_part_of_others(self, library, fndesc, env):
+        if compiling and compiling[-1] in INNER:
+            return [].append  # stands for the function, which Python never calls; one of its own for each
+        return executable(self, library, fndesc, env)
+
+    library._optimize_final_module = unless_it_only_calls
+    library._finalize_final_module = unless_it_is_part_of_others
+    cpu.CPUContext.get_executable = none_for_part_of_others
 
 
-_kernels_are_optimised_once()
+_compile_once()
 
 
 def _one_writes_at_a_time() -> None:

@@ -46,7 +46,7 @@ class Call:
 
     def compile(self) -> None:
         """Compiles the kernel for these types, or takes it from the cache, while no other process does."""
-        with _first_call(self.name):
+        with first_call(self.name):
             self.compiled.compile(self.types)
 
     def is_compiled(self) -> bool:
@@ -75,17 +75,32 @@ def is_recording() -> bool:
 
 
 @contextmanager
-def _first_call(name: str) -> Iterator[None]:
+def first_call(name: str) -> Iterator[None]:
     """The first call of a kernel in this process, while no other process makes its own; whoever listens is told."""
     with compiler_events.trigger_event(FIRST_CALL, data={"kernel": name}), turn(Path(all_folder()) / f"{name}.lock"):
         yield
 
 
-def called(function, compiled, of_kernels=False):
-    """What the rest of the code calls in a kernel's place: timed, written down, and the first time alone of all processes.
+def write_down(call: Call) -> bool:
+    """Writes a call down if calls are not to be done; whether they are not."""
+    if _calls is not None:
+        _calls.append(call)
+    return _calls is not None
 
-    of_kernels : it is a phase, which runs as Python while each kernel is timed
-    """
+
+@contextmanager
+def clocked(name: str) -> Iterator[None]:
+    """Times what is called in the block, while `profiling(True)` is on."""
+    start = time.perf_counter()
+    yield
+    if _profiling:
+        entry = timings.setdefault(name, [0.0, 0])
+        entry[0] += time.perf_counter() - start
+        entry[1] += 1
+
+
+def called(function, compiled):
+    """What the rest of the code calls in a kernel's place: timed, written down, and the first time alone of all processes."""
     name, known = f"{function.__module__}.{function.__name__}", False
 
     @functools.wraps(function)
@@ -94,20 +109,12 @@ def called(function, compiled, of_kernels=False):
         if _calls is not None:
             _calls.append(Call(name, compiled, tuple(compiled.typeof_pyval(value) for value in arguments)))
             return None
-        if of_kernels and _each_kernel:
-            return function(*arguments)
-        start = time.perf_counter()
-        if known:
-            result = compiled(*arguments)
-        else:
+        with clocked(function.__name__):
+            if known:
+                return compiled(*arguments)
             known = True
-            with _first_call(name):
-                result = compiled(*arguments)
-        if _profiling:
-            entry = timings.setdefault(function.__name__, [0.0, 0])
-            entry[0] += time.perf_counter() - start
-            entry[1] += 1
-        return result
+            with first_call(name):
+                return compiled(*arguments)
 
     call.compiled, call._numba_type_ = compiled, compiled._numba_type_  # which lets compiled functions call it
     return call

@@ -104,12 +104,12 @@ def total_stress_row(j, dt, metrics, dz, body_range, active_range, mixed_count, 
 
 
 @kernel
-def total_stress(part, parts, dt, metrics, dz, body_range, active_range, mixed_count, mixed, solid_mode, hard, hard_threshold,
-                 u, v, vof, q, skin, p, bulk, solid, qr, qz, qt, qrz, ph, sig_rr, sig_zz, sig_tt, sig_rz):
+def total_stress(part, parts, dt, metrics, dz, body_range, active_range, mixed_count, mixed, by_what_is_solid, hard_bodies, hard_threshold,
+                 u0, v0, vof, q, skin, p, bulk, solid, qr, qz, qt, qrz, ph, sig_rr, sig_zz, sig_tt, sig_rz):
     """total_stress_row for rows j0 to j1."""
     for j in range(parts[part], parts[part + 1]):
-        total_stress_row(j, dt, metrics, dz, body_range, active_range, mixed_count, mixed, solid_mode, hard, hard_threshold,
-                         u, v, vof, q, skin, p, bulk, solid, qr, qz, qt, qrz, ph, sig_rr, sig_zz, sig_tt, sig_rz)
+        total_stress_row(j, dt, metrics, dz, body_range, active_range, mixed_count, mixed, by_what_is_solid, hard_bodies, hard_threshold,
+                         u0, v0, vof, q, skin, p, bulk, solid, qr, qz, qt, qrz, ph, sig_rr, sig_zz, sig_tt, sig_rz)
 
 
 @kernel
@@ -122,7 +122,7 @@ def vertex_masses(part, parts, i0, i1, metrics, group_ranges, cell_mass, mass):
     for j in range(parts[part], past_row(part, parts, 1)):
         for b in range(mass.shape[0]):
             lo, hi = group_ranges[b, 1, j, 0], group_ranges[b, 1, j, 1]
-            lo, n = columns(max(lo, i0), min(hi + 1, i1))
+            lo, n = columns(max(lo, i0), min(hi, i1) + 1)
             below = cell_mass[b, j - 1]
             above = cell_mass[b, j]
             m_j = mass[b, j]
@@ -192,7 +192,7 @@ def limit_speed(part, parts, i0, i1, speed_limit, underfilled_density, metrics, 
         for row in range(3):
             limited[row, j] = 0.0
         for b in range(mass.shape[0]):
-            lo, n = accelerated_columns(b, j, i0, i1, occupied)
+            lo, n = accelerated_columns(b, j, i0, i1 + 1, occupied)
             limit_speed_row(b, j, lo, n, speed_limit, underfilled_density * 0.25 * (dz[j - 1] + dz[j]), metrics, constrained,
                             pushing, edge_velocity, mass, u0, v0, u, v, limited)
 
@@ -292,12 +292,12 @@ def accelerate(part, parts, i0, i1, dt, metrics, dz, occupied, mass, hg_coeffici
     """
     for j in range(parts[part], past_row(part, parts, 1)):
         for b in range(mass.shape[0]):
-            accelerate_row(b, j, i0, i1, dt, metrics, dz, occupied, mass, hg_coefficient, sig_rr, sig_zz, sig_tt, sig_rz, u0,
+            accelerate_row(b, j, i0, i1 + 1, dt, metrics, dz, occupied, mass, hg_coefficient, sig_rr, sig_zz, sig_tt, sig_rz, u0,
                            v0, u, v)
-            tie_row(b, j, i0, i1, metrics, dz, occupied, mass, mixed_count, mixed, group, gases, skin, vof, q, u0, v0, u,
+            tie_row(b, j, i0, i1 + 1, metrics, dz, occupied, mass, mixed_count, mixed, group, gases, skin, vof, q, u0, v0, u,
                     v)
             if pushed.shape[0] > 0:
-                for i in range(i0, i1):
+                for i in range(i0, i1 + 1):
                     u[b, j, i] += pushed[0, b, j, i]
                     v[b, j, i] += pushed[1, b, j, i]
 

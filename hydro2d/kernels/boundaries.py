@@ -24,13 +24,16 @@ def fill(m, j, i, from_j, from_i, mirror, fields, rules, vof, q, centroid):
 
 
 @kernel
-def ghost_columns(part, parts, nr, mirror_low, mirror_high, fields, rules, body_range, vof, q, centroid):
-    """Ghost cells left and right of rows j0 to j1, of bodies that are near or were: fractions and the first `fields` of q.
+def ghost_columns(di, part, parts, nr, mirror_r_min, mirror_r_max, rules, body_range, vof, q, centroid):
+    """Ghost cells left and right of rows j0 to j1, of bodies that are near or were: fractions and, before a sweep along r, q.
+
+    Interfaces of a sweep along z need the fractions alone.
 
     Reads    rules [m, k, 4]; body_range [m, j, 2]
     Updates  vof [m, j, i], q [k, m, j, i], centroid [2, m, j, i]
     """
     g = GHOSTS
+    fields = di * q.shape[0]
     for j in range(parts[part], parts[part + 1]):
         for m in range(vof.shape[0]):
             for side in range(2):
@@ -39,7 +42,7 @@ def ghost_columns(part, parts, nr, mirror_low, mirror_high, fields, rules, body_
                 near = body_range[m, j, 1] > nr if side else body_range[m, j, 0] < 2 * g
                 if not (near or vof[m, j, edge + out] > 0.0 or vof[m, j, edge + 2 * out] > 0.0):
                     continue
-                mirror = mirror_high if side else mirror_low
+                mirror = mirror_r_max if side else mirror_r_min
                 for n in range(g):
                     ghost = edge + (n + 1) * out
                     source = edge - n * out if mirror else edge
@@ -47,8 +50,9 @@ def ghost_columns(part, parts, nr, mirror_low, mirror_high, fields, rules, body_
 
 
 @kernel
-def ghost_rows(part, parts, i0, i1, nz, mirror_low, mirror_high, leading, fields, rules, vof, q, centroid):
-    """Ghost cells below and above the mesh, columns i0 to i1, likewise; the first and the last part have one side each.
+def ghost_rows(dj, part, parts, i0, i1, nz, mirror_z_min, mirror_z_max, leading, rules, vof, q, centroid):
+    """Ghost cells below and above columns i0 - 2 to i1 + 2, likewise, q before a sweep along z; the first and the last part
+    have one side each.
 
     The side `leading` of a mesh that travels (0 low, 1 high, -1 none) is left as it is: what flows in has been placed there.
 
@@ -56,22 +60,23 @@ def ghost_rows(part, parts, i0, i1, nz, mirror_low, mirror_high, leading, fields
     Updates  vof [m, j, i], q [k, m, j, i], centroid [2, m, j, i]
     """
     g = GHOSTS
+    fields = dj * q.shape[0]
     for side in range(2):
         if side == leading or part != (parts.shape[0] - 2 if side else 0):
             continue
         edge = g + nz - 1 if side else g
         out = 1 if side else -1
-        mirror = mirror_high if side else mirror_low
+        mirror = mirror_z_max if side else mirror_z_min
         for m in range(vof.shape[0]):
             for n in range(g):
                 ghost = edge + (n + 1) * out
                 source = edge - n * out if mirror else edge
-                for i in range(i0, i1):
+                for i in range(i0 - g, i1 + g):
                     fill(m, ghost, i, source, i, mirror, fields, rules, vof, q, centroid)
 
 
 @kernel
-def ghost_vertices_r(part, parts, nr, mirror_low, mirror_high, u, v):
+def ghost_vertices_r(part, parts, nr, mirror_r_min, mirror_r_max, u, v):
     """Ghost vertices left and right of rows j0 to j1; u changes its sign in a mirror.
 
     Updates  u, v [b, j, i]
@@ -80,14 +85,14 @@ def ghost_vertices_r(part, parts, nr, mirror_low, mirror_high, u, v):
     for j in range(parts[part], past_row(part, parts, 1)):
         for b in range(u.shape[0]):
             for n in range(1, g + 1):
-                u[b, j, g - n] = -u[b, j, g + n] if mirror_low else u[b, j, g]
-                v[b, j, g - n] = v[b, j, g + n] if mirror_low else v[b, j, g]
-                u[b, j, g + nr + n] = -u[b, j, g + nr - n] if mirror_high else u[b, j, g + nr]
-                v[b, j, g + nr + n] = v[b, j, g + nr - n] if mirror_high else v[b, j, g + nr]
+                u[b, j, g - n] = -u[b, j, g + n] if mirror_r_min else u[b, j, g]
+                v[b, j, g - n] = v[b, j, g + n] if mirror_r_min else v[b, j, g]
+                u[b, j, g + nr + n] = -u[b, j, g + nr - n] if mirror_r_max else u[b, j, g + nr]
+                v[b, j, g + nr + n] = v[b, j, g + nr - n] if mirror_r_max else v[b, j, g + nr]
 
 
 @kernel
-def ghost_vertices_z(part, parts, i0, i1, nz, mirror_low, mirror_high, u, v):
+def ghost_vertices_z(part, parts, i0, i1, nz, mirror_z_min, mirror_z_max, u, v):
     """Ghost vertices below and above the mesh, by the first and the last part; v changes its sign in a mirror.
 
     Updates  u, v [b, j, i]
@@ -95,13 +100,13 @@ def ghost_vertices_z(part, parts, i0, i1, nz, mirror_low, mirror_high, u, v):
     g = GHOSTS
     for b in range(u.shape[0]):
         for n in range(1, g + 1):
-            for i in range(i0, i1):
+            for i in range(i0 - g, i1 + g + 1):
                 if part == 0:
-                    u[b, g - n, i] = u[b, g + n, i] if mirror_low else u[b, g, i]
-                    v[b, g - n, i] = -v[b, g + n, i] if mirror_low else v[b, g, i]
+                    u[b, g - n, i] = u[b, g + n, i] if mirror_z_min else u[b, g, i]
+                    v[b, g - n, i] = -v[b, g + n, i] if mirror_z_min else v[b, g, i]
                 if part == parts.shape[0] - 2:
-                    u[b, g + nz + n, i] = u[b, g + nz - n, i] if mirror_high else u[b, g + nz, i]
-                    v[b, g + nz + n, i] = -v[b, g + nz - n, i] if mirror_high else v[b, g + nz, i]
+                    u[b, g + nz + n, i] = u[b, g + nz - n, i] if mirror_z_max else u[b, g + nz, i]
+                    v[b, g + nz + n, i] = -v[b, g + nz - n, i] if mirror_z_max else v[b, g + nz, i]
 
 
 @point
@@ -183,14 +188,14 @@ def transmit_edges(parts, i0, i1, transmitting, constrained, dt, metrics, dz, rh
 
 
 @serial
-def sum_drag(parts, i0, i1, transmitting, drag, u0, v0, u, v, taken):
+def sum_drag(parts, i0, i1, transmitting, drag, u0, v0, u, v, held_back):
     """What transmitting edges have taken, by the velocities at the end of the step.
 
     Reads    transmitting [4]; drag [edge, b, c, j or i], impulses; u0, v0, u, v [b, j, i]
-    Writes   taken [2], axial momentum and energy
+    Writes   held_back [2], axial momentum and energy
     """
     j0, j1 = outer_rows(parts)
-    taken[0], taken[1] = 0.0, 0.0
+    held_back[0], held_back[1] = 0.0, 0.0
     for edge in range(4):
         at = transmitting[edge]
         if at < 0:
@@ -200,8 +205,8 @@ def sum_drag(parts, i0, i1, transmitting, drag, u0, v0, u, v, taken):
             j, i = (place, at) if edge < 2 else (at, place)
             for b in range(u.shape[0]):
                 radial, axial = drag[edge, b, 0, place], drag[edge, b, 1, place]
-                taken[0] += axial
-                taken[1] += 0.5 * (radial * (u0[b, j, i] + u[b, j, i]) + axial * (v0[b, j, i] + v[b, j, i]))
+                held_back[0] += axial
+                held_back[1] += 0.5 * (radial * (u0[b, j, i] + u[b, j, i]) + axial * (v0[b, j, i] + v[b, j, i]))
 
 
 @point
@@ -228,12 +233,12 @@ def left_by_edges(at, low, constrained, pushing, velocity, free):
 
 
 @kernel
-def constrain(part, parts, constrained, pushing, velocity, mass, u0, v0, u, v, walls):
+def constrain(part, parts, constrained, pushing, edge_velocity, mass, u0, v0, u, v, walls):
     """The given normal velocity of constrained vertices: axis, walls, edges with a velocity, anvils that are not left.
 
     The axis and walls along z take no axial momentum and do no work.
 
-    Reads    constrained, pushing [4], columns (2) and rows (2), -1 for none; velocity [4], m/s; mass, u0, v0 [b, j, i]
+    Reads    constrained, pushing [4], columns (2) and rows (2), -1 for none; edge_velocity [4], m/s; mass, u0, v0 [b, j, i]
     Updates  u, v [b, j, i]
     Writes   walls [4, 2, j]: axial momentum and energy that each edge takes in a row
     """
@@ -246,7 +251,7 @@ def constrain(part, parts, constrained, pushing, velocity, mass, u0, v0, u, v, w
                 at = max(constrained[edge], pushing[edge])
                 if at < 0:
                     continue
-                given = held_at(edge, pushing[edge] >= 0, velocity[edge], u[b, j, at])
+                given = held_at(edge, pushing[edge] >= 0, edge_velocity[edge], u[b, j, at])
                 impulse = mass[b, j, at] * (u[b, j, at] - given)
                 walls[edge, 1, j] += 0.5 * impulse * (u0[b, j, at] + given)
                 u[b, j, at] = given
@@ -254,7 +259,7 @@ def constrain(part, parts, constrained, pushing, velocity, mass, u0, v0, u, v, w
                 if max(constrained[edge], pushing[edge]) != j:
                     continue
                 for i in range(u.shape[2]):
-                    given = held_at(edge, pushing[edge] >= 0, velocity[edge], v[b, j, i])
+                    given = held_at(edge, pushing[edge] >= 0, edge_velocity[edge], v[b, j, i])
                     impulse = mass[b, j, i] * (v[b, j, i] - given)
                     walls[edge, 0, j] += impulse
                     walls[edge, 1, j] += 0.5 * impulse * (v0[b, j, i] + given)
@@ -262,34 +267,34 @@ def constrain(part, parts, constrained, pushing, velocity, mass, u0, v0, u, v, w
 
 
 @kernel
-def close_mass_flux(part, parts, di, mesh_box, opens_low, opens_high, flow):
+def close_mass_flux(part, parts, di, mesh_box, opens_low, opens_high, flux_mass):
     """Mass flux beyond the edges of the mesh, where the sweep along the other direction has left its own: there is none.
 
     Beyond an open edge of this direction it goes on as it was.
 
     Reads    mesh_box [4], rows j0, j1 and columns i0, i1 of the mesh
-    Updates  flow [b, j, i]
+    Updates  flux_mass [b, j, i]
     """
-    first, last = own_rows(part, parts, flow.shape[1])
+    first, last = own_rows(part, parts, flux_mass.shape[1])
     j0, j1, i0, i1 = mesh_box[0], mesh_box[1], mesh_box[2], mesh_box[3]
-    for b in range(flow.shape[0]):
+    for b in range(flux_mass.shape[0]):
         if di == 1:
-            for i in range(flow.shape[2]):
+            for i in range(flux_mass.shape[2]):
                 if part == 0:
-                    flow[b, j0 - 1, i] = 0.0
+                    flux_mass[b, j0 - 1, i] = 0.0
                 if part == parts.shape[0] - 2:
-                    flow[b, j1, i] = 0.0
+                    flux_mass[b, j1, i] = 0.0
             for j in range(first, last):
                 if opens_low:
-                    flow[b, j, i0 - 1] = flow[b, j, i0]
+                    flux_mass[b, j, i0 - 1] = flux_mass[b, j, i0]
                 if opens_high:
-                    flow[b, j, i1 + 1] = flow[b, j, i1]
+                    flux_mass[b, j, i1 + 1] = flux_mass[b, j, i1]
         else:
             for j in range(first, last):
-                flow[b, j, i0 - 1] = 0.0
-                flow[b, j, i1] = 0.0
-            for i in range(flow.shape[2]):
+                flux_mass[b, j, i0 - 1] = 0.0
+                flux_mass[b, j, i1] = 0.0
+            for i in range(flux_mass.shape[2]):
                 if opens_low and part == 0:
-                    flow[b, j0 - 1, i] = flow[b, j0, i]
+                    flux_mass[b, j0 - 1, i] = flux_mass[b, j0, i]
                 if opens_high and part == parts.shape[0] - 2:
-                    flow[b, j1 + 1, i] = flow[b, j1, i]
+                    flux_mass[b, j1 + 1, i] = flux_mass[b, j1, i]

@@ -156,45 +156,47 @@ def mixed_row(j, active_range, vof, scratch, row, count, mixed):
 
 
 @kernel
-def list_mixed(part, parts, active_range, vof, count, mixed, scratch):
+def list_mixed(part, parts, active_range, vof, mixed_count, mixed, scratch):
     """mixed_row for rows j0 to j1.
 
     Scratch  scratch [s, part, i]
     """
     for j in range(parts[part], parts[part + 1]):
-        mixed_row(j, active_range, vof, scratch[0], part, count, mixed)
+        mixed_row(j, active_range, vof, scratch[0], part, mixed_count, mixed)
 
 
 @kernel
-def moving_columns(part, parts, i0, i1, u, v, limits):
+def moving_columns(part, parts, i0, i1, u, v, row_moving):
     """First and one past the last vertex of each row that moves; what a second group has next to the first follows it.
 
     Reads    u, v [b, j, i]
-    Writes   limits [j, 2]
+    Writes   row_moving [j, 2]
     """
     for j in range(parts[part], past_row(part, parts, 1)):
         first = i0
-        while first < i1 and u[0, j, first] == 0.0 and v[0, j, first] == 0.0:
+        while first <= i1 and u[0, j, first] == 0.0 and v[0, j, first] == 0.0:
             first += 1
-        last = i1
+        last = i1 + 1
         while last > first and u[0, j, last - 1] == 0.0 and v[0, j, last - 1] == 0.0:
             last -= 1
-        limits[j, 0] = first if first < last else NOTHING
-        limits[j, 1] = last if first < last else 0
+        row_moving[j, 0] = first if first < last else NOTHING
+        row_moving[j, 1] = last if first < last else 0
 
 
 @serial
-def moving_box(j0, j1, limits, box):
+def moving_box(parts, row_moving, moving):
     """Rows and columns of the vertices that move: what moving_columns found, joined over the rows.
 
-    Reads    limits [j, 2]
-    Writes   box [4]: first row and one past the last, first column and one past the last; the rows are equal if none moves
+    Reads    row_moving [j, 2]
+    Writes   moving [4]: first row and one past the last, first column and one past the last; the rows are equal if none moves
     """
-    box[0], box[1], box[2], box[3] = j1, j1, NOTHING, 0
+    j0, last = outer_rows(parts)
+    j1 = last + 1  # vertices
+    moving[0], moving[1], moving[2], moving[3] = j1, j1, NOTHING, 0
     for j in range(j0, j1):
-        if limits[j, 1] > 0:
-            box[0] = min(box[0], j)
-            box[1] = j + 1
-            box[2] = min(box[2], limits[j, 0])
-            box[3] = max(box[3], limits[j, 1])
-    box[1] = max(box[1], box[0])
+        if row_moving[j, 1] > 0:
+            moving[0] = min(moving[0], j)
+            moving[1] = j + 1
+            moving[2] = min(moving[2], row_moving[j, 0])
+            moving[3] = max(moving[3], row_moving[j, 1])
+    moving[1] = max(moving[1], moving[0])

@@ -31,7 +31,7 @@ def checkerboard_of(j, i, a):
 
 
 @kernel
-def find_insides(part, parts, i0, i1, group, group_ranges, vof, inside):
+def find_insides(part, parts, mesh_box, group, group_ranges, vof, inside):
     """How much cells lie inside of a body of the hard group: those that it fills, by what the least of their neighbours holds.
 
     A cell that has just filled has a neighbour without any of the body, so that it comes in without a jump. Beyond the edges
@@ -49,13 +49,13 @@ def find_insides(part, parts, i0, i1, group, group_ranges, vof, inside):
                     continue
                 least = 1.0
                 for row in range(max(j - 1, j0), min(j + 2, j1)):
-                    for column in range(max(i - 1, i0), min(i + 2, i1)):
+                    for column in range(max(i - 1, mesh_box[2]), min(i + 2, mesh_box[3])):
                         least = min(least, vof[m, row, column])
                 inside[j, i] = smoothstep(least / INSIDE)
 
 
 @kernel
-def find_checkerboards(part, parts, i0, i1, group, group_ranges, vof, q, pm, inside, checkerboard):
+def find_checkerboards(part, parts, mesh_box, group, group_ranges, vof, q, pm, inside, checkerboard):
     """Checkerboards around the vertices between four cells that one body of the hard group fills.
 
     Reads    group [m]; vof, pm [m, j, i]; q (deviators) [k, m, j, i]; inside [j, i]
@@ -67,7 +67,7 @@ def find_checkerboards(part, parts, i0, i1, group, group_ranges, vof, q, pm, ins
         for i in range(lo, hi + 1):
             for row in range(5):
                 checkerboard[row, j, i] = 0.0
-            if j == j0 or j == j1 or i <= i0 or i >= i1:
+            if j == j0 or j == j1 or i <= mesh_box[2] or i >= mesh_box[3]:
                 continue
             least = min(min(inside[j - 1, i - 1], inside[j - 1, i]), min(inside[j, i - 1], inside[j, i]))
             for m in range(vof.shape[0]):
@@ -145,7 +145,7 @@ def lower_face(m, j, i, vof, room):
 
 
 @kernel
-def fade_pressures(part, parts, i0, i1, group, group_ranges, contact_columns, cell_mass, room, vof, pm, fr, fz, own_r, own_z,
+def fade_pressures(part, parts, mesh_box, group, group_ranges, contact_columns, cell_mass, room, vof, pm, fr, fz, own_r, own_z,
                    q):
     """Lets faces sweep volume from cells whose pressure stands out to their neighbours.
 
@@ -162,9 +162,9 @@ def fade_pressures(part, parts, i0, i1, group, group_ranges, contact_columns, ce
             for m in range(vof.shape[0]):
                 if group[m] != 1 or vof[m, j, i] != 1.0:
                     continue
-                left = left_face(m, j, i, vof, room) if i > i0 else 0.0
+                left = left_face(m, j, i, vof, room) if i > mesh_box[2] else 0.0
                 lower = lower_face(m, j, i, vof, room) if j > j0 else 0.0
-                right = left_face(m, j, i + 1, vof, room) if i + 1 < i1 else 0.0
+                right = left_face(m, j, i + 1, vof, room) if i + 1 < mesh_box[3] else 0.0
                 upper = lower_face(m, j + 1, i, vof, room) if j + 1 < j1 else 0.0
                 if left == 0.0 and lower == 0.0 and right == 0.0 and upper == 0.0:
                     continue

@@ -36,11 +36,11 @@ REACH = 3
 
 
 @kernel
-def find_contact_nodes(part, parts, mesh_box, group_ranges, mass, group, vof, count, contact_nodes, hard, soft, heat, warmed):
+def find_contact_nodes(part, parts, mesh_box, group_ranges, mass, group, vof, contact_node_count, contact_nodes, hard, soft, heat, warmed):
     """Contact nodes of rows j0 to j1, and what hard and soft bodies fill of the cells near hard ones.
 
     Reads    group_ranges[1] [n, j, 2], the columns near hard bodies; mass [b, j, i]; vof [m, j, i]; group [m]
-    Writes   count [j], contact_nodes [j, k] (columns, ascending); hard, soft [j, i]; zero in heat [b, j, i];
+    Writes   contact_node_count [j], contact_nodes [j, k] (columns, ascending); hard, soft [j, i]; zero in heat [b, j, i];
              warmed [j, 2], the cells around vertices that can be masters of a contact node
     """
     j0, j1 = outer_rows(parts)
@@ -54,7 +54,7 @@ def find_contact_nodes(part, parts, mesh_box, group_ranges, mass, group, vof, co
             if mass[0, j, i] > 0.0 and mass[1, j, i] > 0.0:
                 contact_nodes[j, found] = i
                 found += 1
-        count[j] = found
+        contact_node_count[j] = found
         lo, hi = union(group_ranges[1, 0], j - REACH - 1, j + REACH + 2)
         warmed[j, 0] = max(lo - REACH - 1, mesh_box[2])
         warmed[j, 1] = min(hi + REACH + 1, mesh_box[3])
@@ -91,20 +91,20 @@ def parted(void, whole, less):
 
 
 @serial
-def number_nodes(parts, count, first_slot):
+def number_nodes(parts, contact_node_count, first_slot):
     """The slot of every row's first contact node, and behind the last row how many slots there are.
 
-    Reads    count [j], contact nodes
+    Reads    contact_node_count [j], contact nodes
     Writes   first_slot [j]
     """
     j0, j1 = outer_rows(parts)
     first_slot[j0] = 0
     for j in range(j0, j1 + 1):
-        first_slot[j + 1] = first_slot[j] + count[j]
+        first_slot[j + 1] = first_slot[j] + contact_node_count[j]
 
 
 @kernel
-def contact_lines(part, parts, i0, i1, mesh_box, dr, dz, count, contact_nodes, hard, soft, contact_columns, line):
+def contact_lines(part, parts, i0, i1, mesh_box, dr, dz, contact_node_count, contact_nodes, hard, soft, contact_columns, line):
     """The contact-interface columns of every row, from i0 to i1, and in them the line that parts the hard side of a cell from
     the soft one.
 
@@ -113,15 +113,15 @@ def contact_lines(part, parts, i0, i1, mesh_box, dr, dz, count, contact_nodes, h
     lies on the other side. Where there is more than GAP of void and the two slopes all but cancel, it lies between the groups.
     Each of these comes in with a weight. Beyond the edges of the mesh the cells beside them are repeated.
 
-    Reads    count [j], contact_nodes [j, k]; hard, soft [j, i]
+    Reads    contact_node_count [j], contact_nodes [j, k]; hard, soft [j, i]
     Writes   contact_columns [j, 2]; line [10, j, i]
     """
     for j in range(parts[part], parts[part + 1]):
         lo, hi = 1 << 30, 0
         for row in range(j, j + 2):
-            if count[row] > 0:
+            if contact_node_count[row] > 0:
                 lo = min(lo, contact_nodes[row, 0] - 1)
-                hi = max(hi, contact_nodes[row, count[row] - 1] + 1)
+                hi = max(hi, contact_nodes[row, contact_node_count[row] - 1] + 1)
         if lo < hi:
             lo = max(lo, i0)
             hi = min(hi, i1)
@@ -195,8 +195,8 @@ def weight_beside(j, i, row, column, hard, soft):
 
 
 @kernel
-def face_apertures(part, parts, mesh_box, constrained, contact_columns, line, hard, soft, mass, count, contact_nodes,
-                   aperture_r, aperture_z, normal, touch):
+def face_apertures(part, parts, mesh_box, constrained, contact_columns, line, hard, soft, mass, contact_node_count, contact_nodes,
+                   aperture_r, aperture_z, contact_normal, touch):
     """Apertures of the hard group on the faces around contact nodes, and normals and contact at these.
 
     The aperture of a face is the mean of what the lines of both neighbours leave open of it. A normal is the mean of the
@@ -204,8 +204,8 @@ def face_apertures(part, parts, mesh_box, constrained, contact_columns, line, ha
     which differ where void is near. Groups touch where a cell holds both and no more than GAP of void, or where
     a full cell of one is a neighbour of a full cell of the other.
 
-    Reads    contact_columns [j, 2], line [10, j, i], hard, soft [j, i], mass [b, j, i], count [j], contact_nodes [j, k]
-    Writes   aperture_r, aperture_z [end, j, i]; normal [3, 2, j, i], touch [j, i] at contact nodes
+    Reads    contact_columns [j, 2], line [10, j, i], hard, soft [j, i], mass [b, j, i], contact_node_count [j], contact_nodes [j, k]
+    Writes   aperture_r, aperture_z [end, j, i]; contact_normal [3, 2, j, i], touch [j, i] at contact nodes
     """
     j0, j1 = outer_rows(parts)
     for j in range(parts[part], past_row(part, parts, 1)):
@@ -243,7 +243,7 @@ def face_apertures(part, parts, mesh_box, constrained, contact_columns, line, ha
             number = max(solid_b + solid_t, 1.0)
             aperture_z[0, j, i] = known((solid_b * in_b + solid_t * in_t) / number, mass[0, j, i], mass[1, j, i])
             aperture_z[1, j, i] = known((solid_b * out_b + solid_t * out_t) / number, mass[0, j, i + 1], mass[1, j, i + 1])
-        for k in range(count[j]):
+        for k in range(contact_node_count[j]):
             i = contact_nodes[j, k]
             hard_r, hard_z, soft_r, soft_z = 0.0, 0.0, 0.0, 0.0
             both, full_hard, full_soft = 1.0, 0, 0
@@ -264,6 +264,6 @@ def face_apertures(part, parts, mesh_box, constrained, contact_columns, line, ha
                 n_r = free_r * ((hard_r if way != 2 else 0.0) + (soft_r if way != 1 else 0.0))
                 n_z = free_z * ((hard_z if way != 2 else 0.0) + (soft_z if way != 1 else 0.0))
                 size = sqrt(n_r * n_r + n_z * n_z)
-                normal[way, 0, j, i] = n_r / size if size > 0.0 else 0.0
-                normal[way, 1, j, i] = n_z / size if size > 0.0 else 0.0
+                contact_normal[way, 0, j, i] = n_r / size if size > 0.0 else 0.0
+                contact_normal[way, 1, j, i] = n_z / size if size > 0.0 else 0.0
             touch[j, i] = 1.0 if both <= GAP or (full_hard > 0 and full_soft > 0) else 0.0

@@ -42,9 +42,9 @@ def come_apart(j, i, normal, u, v):
 
 
 @kernel
-def contact_viscosity(part, parts, mesh_box, linear, quadratic, courant, dr, dz, metrics, contact_columns, line, group_ranges,
-                      normal, aperture_r, aperture_z, hard, soft, u, v, cl, rhobar, vof, q, km, skin, p, solid, bulk, qr,
-                      qz, qt, qrz, rate, row_step, mixed_count, mixed, scratch):
+def contact_viscosity(part, parts, mesh_box, viscosity_linear, viscosity_quadratic, courant, dr, dz, metrics, contact_columns, line, group_ranges,
+                      contact_normal, aperture_r, aperture_z, hard, soft, u, v, cl, rhobar, vof, q, km, skin, p, solid, bulk, qr,
+                      qz, qt, qrz, rate, row_step, mixed_count, mixed, kinds):
     """Volume rate and viscosity of the contact-interface cells, the step they allow, and room where their groups part.
 
     A cell of both groups has the density of its mean by compressibility: the stiffer body's mass must not push the other. One q
@@ -56,7 +56,7 @@ def contact_viscosity(part, parts, mesh_box, linear, quadratic, courant, dr, dz,
     Updates  vof [m, j, i], q (rho) [k, m, j, i], solid [j, i], skin [3, j, i] (kind), row_step [j], mixed_count [j],
              mixed [j, k]
     Writes   qr, qz, qt, qrz, rate [j, i] (1/s)
-    Scratch  scratch [row, i]
+    Scratch  kinds [row, i]
     """
     for j in range(parts[part], parts[part + 1]):
         seeded = False
@@ -67,7 +67,7 @@ def contact_viscosity(part, parts, mesh_box, linear, quadratic, courant, dr, dz,
             elif skin[KIND, j, i] == FREE_SURFACE and meeting(j, i, mesh_box, hard, soft):
                 skin[KIND, j, i] = INTERFACE
             elif solid[j, i] > 1.0 - SEED and p[j, i] <= 0.0 and meeting(j, i, mesh_box, hard, soft) and come_apart(
-                    j, i, normal, u, v):
+                    j, i, contact_normal, u, v):
                 for m in range(vof.shape[0]):
                     if vof[m, j, i] > 0.0:
                         vof[m, j, i] *= 1.0 - SEED
@@ -91,14 +91,14 @@ def contact_viscosity(part, parts, mesh_box, linear, quadratic, courant, dr, dz,
                 slope_z = abs(line[HARD_Z, j, i] + line[SOFT_Z, j, i])
                 steep = sqrt(slope_r * slope_r + slope_z * slope_z)
                 length = steep / (slope_r / dr[i] + slope_z / h) if steep > 0.0 else min(dr[i], h)
-                viscosity = shock * directional_viscosity(rho, c, -max(loss, 0.0) * length, 0.0, linear, quadratic)
+                viscosity = shock * directional_viscosity(rho, c, -max(loss, 0.0) * length, 0.0, viscosity_linear, viscosity_quadratic)
                 qr[j, i] = viscosity
                 qz[j, i] = viscosity
                 qt[j, i] = viscosity
                 sound = sound_step(courant, min(dr[i], h), rho, cl[j, i], viscosity)
                 row_step[j] = min(row_step[j], min(sound, volume_step(loss)))
         if seeded:
-            mixed_row(j, group_ranges[0, 0], vof, scratch, j, mixed_count, mixed)
+            mixed_row(j, group_ranges[0, 0], vof, kinds, j, mixed_count, mixed)
 
 
 @kernel
@@ -168,7 +168,7 @@ def corner_force(g, j, i, at_j, at_i, group, solid_mode, solid, skin, vof, q, hg
 
 
 @kernel
-def contact_node_forces(part, parts, dt, group, gases, solid_mode, metrics, dz, constrained, count, contact_nodes,
+def contact_node_forces(part, parts, dt, group, gases, by_what_is_solid, metrics, dz, constrained, contact_node_count, contact_nodes,
                         aperture_r, aperture_z, ph, qr, solid, skin, vof, q, hg_coefficient, cell_mass, mass, pushed, u0, v0,
                         u, v, transfer):
     """Velocities that the forces alone, of stresses and of sources, would give both groups at contact nodes.
@@ -182,7 +182,7 @@ def contact_node_forces(part, parts, dt, group, gases, solid_mode, metrics, dz, 
     """
     for j in range(parts[part], past_row(part, parts, 1)):
         transfer[4, j] = 0.0
-        for k in range(count[j]):
+        for k in range(contact_node_count[j]):
             i = contact_nodes[j, k]
             ll, lr = ph[j - 1, i - 1] + qr[j - 1, i - 1], ph[j - 1, i] + qr[j - 1, i]
             ul, ur = ph[j, i - 1] + qr[j, i - 1], ph[j, i] + qr[j, i]
@@ -200,7 +200,7 @@ def contact_node_forces(part, parts, dt, group, gases, solid_mode, metrics, dz, 
                         if by_r + by_z > 0.0 and holds(g, row, column, group, vof):
                             tied_r += pull_of_ties(g, j, i, row, column, by_r, by_z, u0)
                             tied_z += pull_of_ties(g, j, i, row, column, by_r, by_z, v0)
-                        more_r, more_z = corner_force(g, j, i, row, column, group, solid_mode, solid, skin, vof, q,
+                        more_r, more_z = corner_force(g, j, i, row, column, group, by_what_is_solid, solid, skin, vof, q,
                                                       hg_coefficient, cell_mass, metrics, dz, u0, v0)
                         force_r += more_r
                         force_z += more_z

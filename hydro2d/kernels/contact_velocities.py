@@ -312,42 +312,42 @@ def warm_up(g, j, i, x, made, number, where, weights, mass, heat):
 
 
 @serial
-def settle(parts, dt, friction, constrained, metrics, dz, contact_columns, line, count, contact_nodes, first, normal, touch,
-           strength, number, where, weights, sig_rr, sig_zz, sig_rz, mass, u, v, nodes, starts, entries, portions, places, ties,
+def settle(parts, dt, friction, constrained, metrics, dz, contact_columns, line, contact_node_count, contact_nodes, first_slot, contact_normal, touch,
+           strength, masters, where, weights, sig_rr, sig_zz, sig_rz, mass, u, v, nodes, starts, entries, portions, places, impulses,
            gain, taken, rubbing, transfer):
     """Velocities of both groups at contact nodes, from those that the forces alone would give.
 
     Slave nodes move with masters of their group, and groups that touch rub: impulses that keep the momentum.
 
-    Reads    what find_extensions wrote; mass [b, j, i]; normal [3, 2, j, i], touch; line, sig_.. [j, i]
+    Reads    what find_extensions wrote; mass [b, j, i]; contact_normal [3, 2, j, i], touch; line, sig_.. [j, i]
     Updates  u, v [b, j, i]; adds to transfer[4, j]
     Writes   taken [c, x, b], impulses that slaves have given away; rubbing [3, x]; what list_ties writes
-    Scratch  ties [t, 12], gain [n, c]
+    Scratch  impulses [t, 12], gain [n, c]
     """
     j0, j1 = outer_rows(parts)
-    for x in range(first[j1 + 1]):
+    for x in range(first_slot[j1 + 1]):
         for c in range(2):
             for g in range(2):
                 taken[c, x, g] = 0.0
         for c in range(3):
             rubbing[c, x] = 0.0
-    tied, vertices = list_ties(j0, j1, constrained, count, contact_nodes, first, strength, number, where, weights, mass, nodes,
+    tied, vertices = list_ties(j0, j1, constrained, contact_node_count, contact_nodes, first_slot, strength, masters, where, weights, mass, nodes,
                                starts, entries, portions, places)
-    meet_ties(tied, vertices, constrained, strength, number, where, weights, mass, u, v, nodes, starts, entries, portions, ties,
+    meet_ties(tied, vertices, constrained, strength, masters, where, weights, mass, u, v, nodes, starts, entries, portions, impulses,
               gain, taken, transfer)
     for _ in range(ROUNDS if friction > 0.0 else 0):
         for j in range(j0, j1 + 1):
-            for k in range(count[j]):
+            for k in range(contact_node_count[j]):
                 if touch[j, contact_nodes[j, k]] > 0.0:
-                    rub(j, contact_nodes[j, k], first[j] + k, dt, friction, constrained, strength, number, where, weights,
-                        metrics, dz, contact_columns, line, normal, sig_rr, sig_zz, sig_rz, mass, u, v, taken, rubbing,
+                    rub(j, contact_nodes[j, k], first_slot[j] + k, dt, friction, constrained, strength, masters, where, weights,
+                        metrics, dz, contact_columns, line, contact_normal, sig_rr, sig_zz, sig_rz, mass, u, v, taken, rubbing,
                         transfer)
-        meet_ties(tied, vertices, constrained, strength, number, where, weights, mass, u, v, nodes, starts, entries, portions,
-                  ties, gain, taken, transfer)
+        meet_ties(tied, vertices, constrained, strength, masters, where, weights, mass, u, v, nodes, starts, entries, portions,
+                  impulses, gain, taken, transfer)
 
 
 @serial
-def warm_contact(parts, count, contact_nodes, first, strength, number, where, weights, mass, u0, v0, u, v, nodes, starts,
+def warm_contact(parts, contact_node_count, contact_nodes, first_slot, strength, masters, where, weights, mass, u0, v0, u, v, nodes, starts,
                  entries, portions, taken, rubbing, heat, transfer):
     """Heat of the impulses at contact nodes.
 
@@ -365,13 +365,13 @@ def warm_contact(parts, count, contact_nodes, first, strength, number, where, we
     for j in range(j0, j1 + 1):
         for row in range(4):
             transfer[row, j] = 0.0
-        for k in range(count[j]):
-            i, x = contact_nodes[j, k], first[j] + k
+        for k in range(contact_node_count[j]):
+            i, x = contact_nodes[j, k], first_slot[j] + k
             w_r = 0.5 * ((u0[1, j, i] - u0[0, j, i]) + (u[1, j, i] - u[0, j, i]))
             w_z = 0.5 * ((v0[1, j, i] - v0[0, j, i]) + (v[1, j, i] - v[0, j, i]))
             made = rubbing[RUB_R, x] * w_r + rubbing[RUB_Z, x] * w_z
             if made != 0.0:
-                warm_up(0, j, i, x, made, number, where, weights, mass, heat)
+                warm_up(0, j, i, x, made, masters, where, weights, mass, heat)
             transfer[0, j] += rubbing[RUB_Z, x]
             transfer[2, j] += made
             for g in range(2):
@@ -381,8 +381,8 @@ def warm_contact(parts, count, contact_nodes, first, strength, number, where, we
                 after_r, after_z = mismatch(t, nodes, starts, entries, portions, u, v)
                 t += 1
                 made = 0.5 * (taken[0, x, g] * (before_r + after_r) + taken[1, x, g] * (before_z + after_z))
-                warm_up(g, j, i, x, made, number, where, weights, mass, heat)
-                tied = weights[x, g, number[x, g] - 1] if where[x, g, number[x, g] - 1] == TIED else 0.0
+                warm_up(g, j, i, x, made, masters, where, weights, mass, heat)
+                tied = weights[x, g, masters[x, g] - 1] if where[x, g, masters[x, g] - 1] == TIED else 0.0
                 transfer[0, j] += tied * (taken[1, x, g] if g == 1 else -taken[1, x, g])
                 transfer[1, j] += tied * made
                 transfer[3, j] += (1.0 - tied) * made

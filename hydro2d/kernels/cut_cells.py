@@ -81,7 +81,7 @@ def normal_deviator(m, j, i, skin, q):
 
 
 @kernel
-def find_surfaces(part, parts, i0, i1, mesh_box, dr, dz, tipton, group, hard, hard_threshold, strong, gases, mixed_count, mixed,
+def find_surfaces(part, parts, i0, i1, mesh_box, dr, dz, tipton, group, hard_bodies, hard_threshold, strong, gases, mixed_count, mixed,
                   vof, skin):
     """Normals of the surfaces in mixed cells, with the square root of their weight as length.
 
@@ -90,7 +90,7 @@ def find_surfaces(part, parts, i0, i1, mesh_box, dr, dz, tipton, group, hard, ha
     the cell on, so that a bubble or a crumb has none, and in the hard zone of a slip layer it does not count. Where void or a
     group vanishes, a cut cell does what a full one does.
 
-    Reads    vof [m, j, i], group, hard, strong, gases [m], the list of mixed cells
+    Reads    vof [m, j, i], group, hard_bodies, strong, gases [m], the list of mixed cells
     Writes   skin [3, j, i]
     """
     bodies = vof.shape[0]
@@ -108,7 +108,7 @@ def find_surfaces(part, parts, i0, i1, mesh_box, dr, dz, tipton, group, hard, ha
                 if vof[m, j, i] > 0.0:
                     own += vof[m, j, i] if group[m] == 1 else 0.0
                     other += vof[m, j, i] if group[m] != 1 else 0.0
-                    zone = zone or (hard[m] and vof[m, j, i] >= hard_threshold)
+                    zone = zone or (hard_bodies[m] and vof[m, j, i] >= hard_threshold)
             void = 1.0 - (own + other)
             meet, full = own > 0.0 and other > 0.0, void <= NO_VOID
             if own + other == 0.0 or (full and not meet and (zone or not tipton or not joins_solids(j, i, strong, vof))):

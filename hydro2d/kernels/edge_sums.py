@@ -26,22 +26,22 @@ def sum_outflow(di, parts, i0, i1, edge_flux, outflow):
 
 
 @serial
-def sum_kinetic_outflow(di, parts, i0, i1, edge_dual, outflow):
+def sum_kinetic_outflow(di, parts, i0, i1, edge_dual, kinetic_outflow):
     """Momentum and kinetic energy that went through either edge of a sweep, out and in.
 
     Reads    edge_dual [b, side, k, j or i], towards higher r or z
-    Writes   outflow [side, way, 2]: axial momentum and kinetic energy; way 0 out, 1 in
+    Writes   kinetic_outflow [side, way, 2]: axial momentum and kinetic energy; way 0 out, 1 in
     """
     j0, j1 = outer_rows(parts)
     first, last = (j0, j1 + 1) if di == 1 else (i0, i1 + 1)
     for side in range(2):
         sign = 1.0 if side == 1 else -1.0
         for way in range(2):
-            outflow[side, way, 0], outflow[side, way, 1] = 0.0, 0.0
+            kinetic_outflow[side, way, 0], kinetic_outflow[side, way, 1] = 0.0, 0.0
         for g in range(edge_dual.shape[0]):
             for place in range(first, last):
                 mass = sign * edge_dual[g, side, 0, place]
                 if mass != 0.0:
                     way = 0 if mass > 0.0 else 1
-                    outflow[side, way, 0] += sign * edge_dual[g, side, 2, place]
-                    outflow[side, way, 1] += sign * (edge_dual[g, side, 3, place] + edge_dual[g, side, 4, place])
+                    kinetic_outflow[side, way, 0] += sign * edge_dual[g, side, 2, place]
+                    kinetic_outflow[side, way, 1] += sign * (edge_dual[g, side, 3, place] + edge_dual[g, side, 4, place])

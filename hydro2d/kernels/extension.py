@@ -52,7 +52,7 @@ def in_debris(g, j, i, mesh_box, group, vof, dmg):
 
 
 @kernel
-def find_filled(part, parts, mesh_box, volume, metrics, count, contact_nodes, hard, soft, mass, filled):
+def find_filled(part, parts, mesh_box, volume, metrics, contact_node_count, contact_nodes, hard, soft, mass, filled):
     """filled_share of both groups at all vertices from which a contact node can be extended.
 
     Reads    hard, soft [j, i]; mass [b, j, i]; the list of contact nodes of rows j0 to j1
@@ -62,9 +62,9 @@ def find_filled(part, parts, mesh_box, volume, metrics, count, contact_nodes, ha
     for j in range(max(first_row(part, parts, REACH), mesh_box[0]), min(past_row(part, parts, REACH + 1), mesh_box[1] + 1)):
         lo, hi = NOTHING, 0
         for row in range(max(j - REACH, j0), min(j + REACH, j1) + 1):
-            if count[row] > 0:
+            if contact_node_count[row] > 0:
                 lo = min(lo, contact_nodes[row, 0])
-                hi = max(hi, contact_nodes[row, count[row] - 1])
+                hi = max(hi, contact_nodes[row, contact_node_count[row] - 1])
         for i in range(max(lo - REACH, mesh_box[2]), min(hi + REACH, mesh_box[3]) + 1):
             for g in range(2):
                 filled[g, j, i] = filled_share(g, j, i, mesh_box, volume, metrics, hard, soft, mass)
@@ -159,8 +159,8 @@ def tied_weight(x, g, number, where, weights):
 
 
 @kernel
-def find_extensions(part, parts, mesh_box, most_squares, r, z, count, contact_nodes, first, normal, hard, soft, filled, group,
-                    vof, dmg, strength, number, where, weights):
+def find_extensions(part, parts, mesh_box, most_squares, r, z, contact_node_count, contact_nodes, first_slot, contact_normal, hard, soft, filled, group,
+                    vof, dmg, strength, masters, where, weights):
     """Which contact nodes are slaves, how firmly they are tied, and to what.
 
     To the mean of the linear fields of cells that most_squares allows; where there are none (or hardly any, ENOUGH), of cells
@@ -168,23 +168,23 @@ def find_extensions(part, parts, mesh_box, most_squares, r, z, count, contact_no
     material of the other group asks two vertices away, others three. Two nodes that are tied to each other let go by SLACK, so
     that no master with hardly any weight holds both of them.
 
-    Reads    first [j], the slot of a row's first contact node; normal [3, 2, j, i]; hard, soft [j, i]; filled [b, j, i];
+    Reads    first_slot [j], the slot of a row's first contact node; contact_normal [3, 2, j, i]; hard, soft [j, i]; filled [b, j, i];
              vof, dmg [m, j, i]
-    Writes   strength [x, b], 0 for a node that moves by itself to 1; number [x, b] of masters; where [x, b, n], their places
+    Writes   strength [x, b], 0 for a node that moves by itself to 1; masters [x, b], how many; where [x, b, n], their places
              SPAN (dj + REACH) + (di + REACH), or TIED; weights [x, b, n], which add up to 1
     """
     for j in range(parts[part], past_row(part, parts, 1)):
-        for k in range(count[j]):
-            i, x = contact_nodes[j, k], first[j] + k
+        for k in range(contact_node_count[j]):
+            i, x = contact_nodes[j, k], first_slot[j] + k
             for g in range(2):
-                number[x, g] = 0
+                masters[x, g] = 0
                 strength[x, g] = 1.0 - sureness(filled[g, j, i])
                 if strength[x, g] == 0.0:
                     continue
                 for n in range(MASTERS + 1):
                     weights[x, g, n] = 0.0
                 sign = 1.0 if g == 0 else -1.0
-                inward_r, inward_z = sign * normal[0, 0, j, i], sign * normal[0, 1, j, i]
+                inward_r, inward_z = sign * contact_normal[0, 0, j, i], sign * contact_normal[0, 1, j, i]
                 reach = REACH - 1 if in_debris(g, j, i, mesh_box, group, vof, dmg) else REACH
                 left = 1.0 - extend_cells(x, g, j, i, reach, inward_r, inward_z, mesh_box, 0.0, most_squares, 1.0, r, z, hard,
                                           soft, filled, weights)
@@ -201,7 +201,7 @@ def find_extensions(part, parts, mesh_box, most_squares, r, z, count, contact_no
                         where[x, g, found] = n
                         weights[x, g, found] = w
                         found += 1
-                number[x, g] = found
-            slack = SLACK * tied_weight(x, 0, number, where, weights) * tied_weight(x, 1, number, where, weights)
+                masters[x, g] = found
+            slack = SLACK * tied_weight(x, 0, masters, where, weights) * tied_weight(x, 1, masters, where, weights)
             for g in range(2):
                 strength[x, g] *= 1.0 - slack

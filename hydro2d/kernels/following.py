@@ -14,11 +14,11 @@ def leave(part, parts, advance, metrics, group_ranges, fz):
 
     A is the axial area of the column (explanation/following-mesh, equation 1).
 
-    Reads    group_ranges [n, j, 2]
+    Reads    group_ranges [b, n, j, 2]
     Updates  fz [j, i]
     """
     for j in range(parts[part], past_row(part, parts, 1)):
-        lo, n = columns(group_ranges[1, j, 0], group_ranges[1, j, 1])
+        lo, n = columns(group_ranges[0, 1, j, 0], group_ranges[0, 1, j, 1])
         face = fz[j]
         area = metrics[VOL_R]
         for x in range(n):
@@ -41,18 +41,18 @@ def leave_contact(part, parts, advance, metrics, contact_columns, own_z):
 
 
 @kernel
-def silence(part, parts, carried, body_ranges, q):
+def silence(part, parts, carried, body_range, q):
     """Sets what has faded to nothing to zero: numbers too small to be normal cost the processor a hundred times as much.
 
     Material that flows through a travelling mesh takes a share of its neighbours' stress along in every step, also ahead of
     all waves, where this makes a tail that falls below the smallest normal number.
 
-    Reads    carried [m, n], body_ranges [m, j, 2]
+    Reads    carried [m, n], body_range [m, j, 2]
     Updates  q (all but the density) [k, m, j, i]
     """
     for j in range(parts[part], parts[part + 1]):
-        for m in range(body_ranges.shape[0]):
-            lo, n = columns(body_ranges[m, j, 0], body_ranges[m, j, 1])
+        for m in range(body_range.shape[0]):
+            lo, n = columns(body_range[m, j, 0], body_range[m, j, 1])
             for place in range(1, carried[m, 0] + 1):
                 k = carried[m, place]
                 row = q[k, m, j]

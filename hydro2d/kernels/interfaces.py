@@ -367,23 +367,23 @@ def interface_volumes_row(j, dj, di, mesh_box, contact_columns, dr, dz, order, g
 
 
 @kernel
-def donor_volumes(dj, di, part, parts, i0, i1, first, open_faces, volume, body_ranges, active_range, fr, fz, vof, pre,
+def donor_volumes(dj, di, part, parts, i0, i1, second, void_only, volume, body_ranges, active_range, fr, fz, vof, pre,
                   flux_volume, turned):
     """Rows j0 to j1 before a sweep: sweep_volumes_row, and donor_volumes_row, which has one more row of faces along z."""
     j0, j1 = outer_rows(parts)
     for j in range(parts[part], past_row(part, parts, dj)):
         if j < j1:
-            sweep_volumes_row(j, dj, di, first, volume, active_range, fr, fz, vof, pre, turned)
+            sweep_volumes_row(j, dj, di, not second, volume, active_range, fr, fz, vof, pre, turned)
         if di == 1:
-            donor_volumes_row(j, dj, di, i0, i1, open_faces, body_ranges, fr, vof, flux_volume)
+            donor_volumes_row(j, dj, di, i0, i1, void_only, body_ranges, fr, vof, flux_volume)
         else:
-            donor_volumes_row(j, dj, di, i0, i1, open_faces, body_ranges, fz, vof, flux_volume)
+            donor_volumes_row(j, dj, di, i0, i1, void_only, body_ranges, fz, vof, flux_volume)
 
 
 @kernel
-def interface_volumes(dj, di, part, parts, mesh_box, contact_columns, dr, dz, order, group, gases, mixed_count, mixed, face,
+def interface_volumes(dj, di, part, parts, mesh_box, contact_columns, dr, dz, interface_order, group, gases, mixed_count, mixed, face,
                       pre, vof, centroid, flux_volume, flux_place, strips):
     """interface_volumes_row for rows j0 to j1."""
     for j in range(parts[part], parts[part + 1]):
-        interface_volumes_row(j, dj, di, mesh_box, contact_columns, dr, dz, order, group, gases, mixed_count, mixed, face, pre,
+        interface_volumes_row(j, dj, di, mesh_box, contact_columns, dr, dz, interface_order, group, gases, mixed_count, mixed, face, pre,
                               vof, centroid, flux_volume, flux_place, strips)

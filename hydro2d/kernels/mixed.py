@@ -114,7 +114,7 @@ def insert_void_mixed_row(j, smallest, max_opening, metrics, dz, mixed_count, mi
 
 
 @kernel
-def close_cells(part, parts, max_opening, smallest_tension, along_compression, linear, quadratic, courant, advective,
+def close_cells(part, parts, max_opening, smallest_tension, along_compression, viscosity_linear, viscosity_quadratic, courant, advective_courant,
                 mesh_speed, hourglass, metrics, dr, dz, body_range, active_range, mixed_count, mixed, models, materials, u, v,
                 vof, q, pm, km, tm, skin, p, bulk, rhobar, solid, cl, qr, qz, qt, qrz, hg_coefficient, opened, row_step, bad,
                 scratch):
@@ -140,11 +140,11 @@ def close_cells(part, parts, max_opening, smallest_tension, along_compression, l
         insert_void_mixed_row(j, smallest_tension, max_opening, metrics, dz, mixed_count, mixed, models, materials, skin,
                               vof, q, pm, km, p, solid, bulk, opened)
         if along_compression:
-            compression_viscosity_row(j, linear, quadratic, dr, dz, metrics, active_range, u, v, rhobar, bulk, solid, cl, qr,
+            compression_viscosity_row(j, viscosity_linear, viscosity_quadratic, dr, dz, metrics, active_range, u, v, rhobar, bulk, solid, cl, qr,
                                       qz, qt, qrz)
         else:
-            viscosity_row(j, linear, quadratic, dr, dz, metrics, active_range, u, v, rhobar, bulk, solid, cl, qr, qz, qt)
-        steps_row(j, part, courant, advective, mesh_speed, hourglass, dr, dz, metrics, active_range, u, v, rhobar, cl, qr, qz,
+            viscosity_row(j, viscosity_linear, viscosity_quadratic, dr, dz, metrics, active_range, u, v, rhobar, bulk, solid, cl, qr, qz, qt)
+        steps_row(j, part, courant, advective_courant, mesh_speed, hourglass, dr, dz, metrics, active_range, u, v, rhobar, cl, qr, qz,
                   hg_coefficient, row_step, bad, scratch)
 
 
@@ -293,7 +293,7 @@ def fill_cell(j, i, change, volume, total, inverse, mean_p, work_p, work_q, midd
 
 
 @kernel
-def deform_mixed(part, parts, dt, relaxation, tipton, mode, hard, hard_threshold, metrics, dz, mixed_count, mixed, group,
+def deform_mixed(part, parts, dt, relaxation, tipton, strength_mode, hard_bodies, hard_threshold, metrics, dz, mixed_count, mixed, group,
                  contact_columns, cell_mass, models, materials, gases, u0, v0, u, v, fr, fz, ph, qr, qz, qt, qrz,
                  hg_coefficient, skin, p, bulk, solid, pm, km, tm, vof, q, mix, motion, internal, centroid):
     """The Lagrangian step of the bodies in mixed cells.
@@ -303,11 +303,11 @@ def deform_mixed(part, parts, dt, relaxation, tipton, mode, hard, hard_threshold
     volume fraction, deviatoric work by what each body's stress did; beside a gas as work_beside_gas has it (explanation/
     mixed-cells). So do all bodies with `uniform`, and in the hard zone of a slip layer. In cut cells by the traction:
     `strain_bodies_across`, `fill_cut_cell`.
-    Strength: by mode, see STRENGTH_MODES; every body moves with its group. In contact-interface cells pressure and
+    Strength: by strength_mode, see STRENGTH_MODES; every body moves with its group. In contact-interface cells pressure and
     viscosity do the work of the one change of volume, and each body has its own strength where two groups meet.
 
     Reads    velocities, swept volumes, stresses as `deform`; ph, qr, qz, qt, qrz, solid [j, i]; contact_columns [j, 2];
-             cell_mass [b, j, i]; group, hard, gases [m]
+             cell_mass [b, j, i]; group, hard_bodies, gases [m]
     Updates  vof [m, j, i] (share of the volume after the step), q [k, m, j, i], centroid [2, m, j, i]
     Scratch  mix [j, 17, m] (rows SOFT to SHIFT_Z), motion [j, b, 10], internal [j, k]
     """
@@ -330,18 +330,18 @@ def deform_mixed(part, parts, dt, relaxation, tipton, mode, hard, hard_threshold
                 work_q = -qr[j, i] * change
                 work_p = -ph[j, i] * change
             total, meet = solid[j, i], held > 1
-            dominant = dominant_body(j, i, hard, hard_threshold, vof)
+            dominant = dominant_body(j, i, hard_bodies, hard_threshold, vof)
             for m in range(vof.shape[0]):
                 mix[j, BEFORE, m] = vof[m, j, i]
                 mix[j, NORMAL, m] = normal_deviator(m, j, i, skin, q) if vof[m, j, i] > 0.0 else 0.0
-            cut, own = skin[KIND, j, i] != WHOLE, mode == MATERIAL or dominant >= 0 or meet
+            cut, own = skin[KIND, j, i] != WHOLE, strength_mode == MATERIAL or dominant >= 0 or meet
             target = 0.0
-            work_of_deviators(j, i, dt, dominant, total, stress_scale(mode == SOLID, total), group, motion, vof, q, mix)
+            work_of_deviators(j, i, dt, dominant, total, stress_scale(strength_mode == SOLID, total), group, motion, vof, q, mix)
             for g in range(groups):
                 if cell_mass[g, j, i] > 0.0:
                     heat_of_ties(j, i, g, dz[j], metrics, gases, skin, vof, q, u0, v0, u, v, mix)
             firm = firm_share(j, i, total, gases, vof)
-            cell_yield = strain_deviators(j, i, dt / volume, mode, firm, skin, group, models, materials, pm, tm, motion,
+            cell_yield = strain_deviators(j, i, dt / volume, strength_mode, firm, skin, group, models, materials, pm, tm, motion,
                                           vof, q, mix, internal)
             if cut:
                 target = strain_bodies_across(j, i, own, cell_yield, change / volume, max(1.0 - total, 0.0), skin, p, bulk,

@@ -115,7 +115,7 @@ def vertex_row(g, dj, di, j, i0, i1, below, above, advection, bound, constrained
 
     Reads    cell_mass [b, j, i] after the sweep, dual [k, slot, i] in the slots `below` and `above`;
              w_old = (u, v) [c, b, j, i] and mass [b, j, i] before it
-    Writes   w = (u, v) [c, b, j, i] for the whole row; deficit [b, j, i]
+    Writes   velocity = (u, v) [c, b, j, i] for the whole row; deficit [b, j, i]
     Updates  sums [5, j]: kinetic energy before and after; axial momentum after less P; kinetic energy cut by the bound;
              axial momentum given to walls
     """
@@ -189,12 +189,12 @@ def vertex_row(g, dj, di, j, i0, i1, below, above, advection, bound, constrained
 
 
 @kernel
-def sweep_momentum(dj, di, part, parts, i0, i1, advection, bound, constrained, pushing, held, mesh_box, metrics, group_ranges,
-                   cell_mass, flux_mass, steepness, mass, w_old, w, dual, edge_dual, deficit, sums):
+def sweep_momentum(dj, di, part, parts, i0, i1, advection, ke_bound, constrained, pushing, edge_velocity, mesh_box, metrics, group_ranges,
+                   cell_mass, flux_mass, steepness, mass, velocity0, velocity, dual, edge_dual, deficit, momentum_sums):
     """Carries the momentum of the vertices j0 to j1 along one direction.
 
     Reads    what dual_row and vertex_row read; mesh_box (j0, j1, i0, i1 of the mesh)
-    Writes   w = (u, v) [c, b, j, i]; deficit [b, j, i], sums [5, j]; edge_dual [b, side, k, j or i],
+    Writes   velocity = (u, v) [c, b, j, i]; deficit [b, j, i], momentum_sums [5, j]; edge_dual [b, side, k, j or i],
              what flows over the mesh's edges
     Scratch  dual [k, slot, i], two slots to a part; in z they take turns
     """
@@ -202,7 +202,7 @@ def sweep_momentum(dj, di, part, parts, i0, i1, advection, bound, constrained, p
     for g in range(mass.shape[0]):
         for j in range(first - dj, last):
             slot = 2 * part + dj * (j % 2)
-            dual_row(g, dj, di, j, i0, i1, slot, metrics, group_ranges, flux_mass, steepness, mass, w_old, dual)
+            dual_row(g, dj, di, j, i0, i1, slot, metrics, group_ranges, flux_mass, steepness, mass, velocity0, dual)
             lo, hi = dual_range(dj, di, i0, i1, j, group_ranges[g])
             for side in range(2):
                 at = mesh_box[2 * di + side] + side - 1  # the edge from a ghost vertex to the mesh, or from the mesh to one
@@ -215,9 +215,9 @@ def sweep_momentum(dj, di, part, parts, i0, i1, advection, bound, constrained, p
             if j >= first:
                 below = 2 * part + dj * ((j - 1) % 2)
                 for row in range(5):
-                    sums[row, j] = 0.0 if g == 0 else sums[row, j]
-                vertex_row(g, dj, di, j, i0, i1 + 1, below, slot, advection, bound, constrained, pushing, held, metrics,
-                           group_ranges, cell_mass, dual, w_old, w, mass, deficit, sums)
+                    momentum_sums[row, j] = 0.0 if g == 0 else momentum_sums[row, j]
+                vertex_row(g, dj, di, j, i0, i1 + 1, below, slot, advection, ke_bound, constrained, pushing, edge_velocity, metrics,
+                           group_ranges, cell_mass, dual, velocity0, velocity, mass, deficit, momentum_sums)
 
 
 @kernel

@@ -3,6 +3,7 @@
 from math import sqrt
 
 from hydro2d.jit import kernel, point, serial
+from hydro2d.kernels.column_ranges import outer_rows
 from hydro2d.mesh.fields import SRR, SRZ, SZZ
 from hydro2d.physics.interfaces import line_centre, youngs_difference
 
@@ -54,21 +55,22 @@ def paint(j, i, r0, z0, n_r, n_z, half, reach, rc, zc, low_j, high_j, low_i, hig
 
 
 @serial
-def slip_zones(j0, j1, i0, i1, width_bl, width_sl, threshold, rc, zc, dr, dz, hard_body, vof, hard, distance, zone, normal):
+def slip_zones(parts, i0, i1, width_bl, width_sl, hard_threshold, rc, zc, dr, dz, hard_bodies, vof, hard, distance, zone, normal):
     """Zones of the slip layer from the distance to the reconstructed surface of the hard bodies.
 
     zone is HARD where the hard fraction reaches the threshold, BOUNDARY_LAYER up to a distance width_bl, SLIP_LAYER up to
     width_bl + width_sl (measured to the cell's centre), else OUTSIDE.
 
-    Reads    vof [m, j, i], hard_body [m]
+    Reads    vof [m, j, i], hard_bodies [m]
     Writes   hard, distance, zone [j, i]; normal [2, j, i], outward from the hard body
     """
+    j0, j1 = outer_rows(parts)
     reach = width_bl + width_sl
     for j in range(j0 - 1, j1 + 1):
         for i in range(i0 - 1, i1 + 1):
             total = 0.0
             for m in range(vof.shape[0]):
-                total += vof[m, j, i] if hard_body[m] else 0.0
+                total += vof[m, j, i] if hard_bodies[m] else 0.0
             hard[j, i] = total if total < 1.0 - 1e-12 else 1.0
             distance[j, i] = 1e300
             zone[j, i] = OUTSIDE
@@ -111,7 +113,7 @@ def slip_zones(j0, j1, i0, i1, width_bl, width_sl, threshold, rc, zc, dr, dz, ha
                   0.5 * max(dr[i], dz[j]), reach, rc, zc, j0, j1, i0, i1, hard, distance, normal)
     for j in range(j0, j1):
         for i in range(i0, i1):
-            if hard[j, i] >= threshold:
+            if hard[j, i] >= hard_threshold:
                 zone[j, i] = HARD
             elif distance[j, i] <= width_bl:
                 zone[j, i] = BOUNDARY_LAYER
@@ -120,7 +122,7 @@ def slip_zones(j0, j1, i0, i1, width_bl, width_sl, threshold, rc, zc, dr, dz, ha
 
 
 @kernel
-def cut_shear(part, parts, treatment, friction, occupied, zone, normal, hard_body, vof, pm, q):
+def cut_shear(part, parts, shear, friction, occupied, zone, normal, hard_bodies, vof, pm, q):
     """Takes the shear from soft material in the slip layer: all of the deviator, or what the surface carries beyond friction.
 
     `shear`: with s turned to (n, t), |s_nt| <= friction max(-sigma_nn, 0).
@@ -129,15 +131,15 @@ def cut_shear(part, parts, treatment, friction, occupied, zone, normal, hard_bod
     Updates  q (deviators) [k, m, j, i]
     """
     for j in range(parts[part], parts[part + 1]):
-        for i in range(occupied[j, 0], occupied[j, 1]):
+        for i in range(occupied[0, j, 0], occupied[0, j, 1]):
             if zone[j, i] != SLIP_LAYER:
                 continue
             n_r = normal[0, j, i]
             n_z = normal[1, j, i]
             for m in range(vof.shape[0]):
-                if hard_body[m] or vof[m, j, i] == 0.0:
+                if hard_bodies[m] or vof[m, j, i] == 0.0:
                     continue
-                if treatment == FLUID:
+                if shear == FLUID:
                     q[SRR, m, j, i] = 0.0
                     q[SZZ, m, j, i] = 0.0
                     q[SRZ, m, j, i] = 0.0

@@ -392,32 +392,33 @@ def steps_row(j, b, courant, advective, mesh_speed, hourglass, dr, dz, metrics, 
 
 
 @serial
-def least_step(parts, row_step, bad, found):
+def least_step(parts, row_step, bad, least_row):
     """Row of the least time step, and the first rows with cells and with velocities that are not finite, -1 for none.
 
     Reads    row_step [j], bad [j, 4]
-    Writes   found [3]
+    Writes   least_row [3]
     """
     j0, j1 = outer_rows(parts)
-    found[0], found[1], found[2] = j0, -1, -1
+    least_row[0], least_row[1], least_row[2] = j0, -1, -1
     for j in range(j1 - 1, j0 - 1, -1):
-        found[0] = j if row_step[j] <= row_step[found[0]] else found[0]
-        found[1] = j if bad[j, 0] > 0 else found[1]
-        found[2] = j if bad[j, 3] > 0 else found[2]
+        least_row[0] = j if row_step[j] <= row_step[least_row[0]] else least_row[0]
+        least_row[1] = j if bad[j, 0] > 0 else least_row[1]
+        least_row[2] = j if bad[j, 3] > 0 else least_row[2]
 
 
 @serial
-def step_cause(j, courant, advective, mesh_speed, dr, dz, metrics, active_range, u, v, rhobar, cl, qr, qz, cause):
-    """Which cell of row j allows the least step, and which of the bounds it is.
+def step_cause(courant, advective_courant, mesh_speed, dr, dz, metrics, least_row, active_range, u, v, rhobar, cl, qr, qz, cause):
+    """Which cell of the row with the least step allows it, and which of the bounds it is.
 
-    Reads    what steps_row read
+    Reads    what steps_row read; least_row [3]
     Writes   cause [2]: index into CAUSES, column
     """
+    j = least_row[0]
     best = 1e300
     for i in range(active_range[j, 0], active_range[j, 1]):
         if rhobar[j, i] > 0.0:
             loss = volume_loss(i, u[0, j], u[0, j + 1], v[0, j], v[0, j + 1], metrics, dz[j])
-            limits = step_limits(i, u[0, j], u[0, j + 1], v[0, j], v[0, j + 1], courant, advective, mesh_speed, dr, dz[j],
+            limits = step_limits(i, u[0, j], u[0, j + 1], v[0, j], v[0, j + 1], courant, advective_courant, mesh_speed, dr, dz[j],
                                  rhobar[j, i], cl[j, i], max(qr[j, i], qz[j, i]), loss)
             for k in range(4):
                 if limits[k] < best:

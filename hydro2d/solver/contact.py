@@ -69,8 +69,8 @@ class NoContact:
     def __init__(self):
         self.ties = slots()
 
-    def find(self, parts, i0: int, i1: int, arguments) -> None:
-        """Where the groups meet; parts : int64[n + 1], rows;  i0, i1 : columns of the active box;  arguments : Arguments."""
+    def find(self, parts, given) -> None:
+        """Where the groups meet; parts : int64[n + 1], rows;  given : Given."""
 
     def account(self, j0: int, j1: int, audit: Audit) -> None:
         """What contact moved between groups and walls in the rows j0 to j1 of the step goes into the audit."""
@@ -83,14 +83,14 @@ class Contact(NoContact):
         super().__init__()
         self.state = state
 
-    def find(self, parts, i0: int, i1: int, arguments) -> None:
+    def find(self, parts, given) -> None:
         """Where the groups meet: face apertures, normals, slave nodes; volume rate and viscosity of contact-interface cells.
 
         Beyond the active box bodies that touch have no pressure to exchange yet.
         """
         if (needed := int(self.state.first_slot[parts[-1] + 1])) > len(self.ties.strength):
             self.ties = slots(2 * needed)
-        lagrangian_step.find_contact(parts, i0, i1, *arguments.of(lagrangian_step.find_contact))
+        given.run(lagrangian_step.find_contact)
 
     def account(self, j0: int, j1: int, audit: Audit) -> None:
         """What contact moved between groups and walls in the rows j0 to j1 of the step goes into the audit."""

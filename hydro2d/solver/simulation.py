@@ -462,7 +462,7 @@ class Simulation:
         """Continues from what `restart_scalars` gave; after `load_restart_arrays`."""
         e = self.engine
         e.time, e.dt, e.number, e.cause = (scalars[name] for name in ("time", "dt", "cycle", "cause"))
-        e.box, e.speed_limit = list(scalars["box"]), scalars["speed_limit"]
+        e.active.box, e.speed_limit = list(scalars["box"]), scalars["speed_limit"]
         if scalars["watch"]["body"] == self.deck.stop.body:  # else another one is watched from here on
             self._watch = dict(scalars["watch"])
         self.grid.move(scalars["mesh_offset"])

@@ -1,0 +1,166 @@
+"""A handle: one word in place of a hundred arguments, through which compiled code finds arrays and numbers by their names.
+
+The word is the address of a table with eight words for each name: the address and the shape of an array, or a number. In
+compiled code the names are attributes of the handle, ``w.u[b, j, i]`` and ``w.dt``, with types that `declare` states once and
+for all; in Python a `Handle` keeps the values and fills the table.
+"""
+
+from __future__ import annotations
+
+import llvmlite.ir as ir
+import numba
+import numpy as np
+from numba import types
+from numba.core.imputils import lower_getattr_generic
+from numba.core.typing.templates import AttributeTemplate, infer_getattr
+from numba.extending import intrinsic, models, register_model
+from numba.np import arrayobj
+
+#: words of a row of the table: the address of an array and its shape, or a number
+WORDS = 8
+
+#: row, kind and number of axes of every name
+_rows: dict[str, tuple[int, type, int]] = {}
+
+
+def declare(names: dict[str, tuple[type, int]]) -> None:
+    """Names that handles have: what numbers a name stands for (float, int, bool, numpy.int8), and its number of axes.
+
+    Compiled code holds the row of a name and its type: whoever declares names does so in a file that all compiled code
+    imports which uses them.
+
+    Raises ValueError for a name that has a meaning already.
+    """
+    for name, (kind, axes) in names.items():
+        if name in _rows:
+            raise ValueError(f"the name {name} is declared twice")
+        _rows[name] = len(_rows), kind, axes
+
+
+def declared() -> dict[str, tuple[type, int]]:
+    """Kind and number of axes of every name."""
+    return {name: (kind, axes) for name, (_, kind, axes) in _rows.items()}
+
+
+class Handle:
+    """Values by their names, and the table of them that compiled code reads.
+
+    Attributes
+    ----------
+    address : int, of the table
+    values : the arrays and numbers, by name
+    """
+
+    def __init__(self):
+        self._words = np.zeros((len(_rows), WORDS), dtype=np.int64)
+        self._floats = self._words.view(np.float64)
+        self.values: dict[str, object] = {}
+        self.address: int = self._words.ctypes.data
+
+    def give(self, **values) -> None:
+        """Values of names from now on.
+
+        Raises KeyError for a name that is not declared, TypeError for a value of another type, axes or order in memory.
+        """
+        for name, value in values.items():
+            row, kind, axes = _rows[name]
+            if axes:
+                if not (isinstance(value, np.ndarray) and value.dtype == kind and value.ndim == axes
+                        and value.flags.c_contiguous):
+                    raise TypeError(f"{name} is an array of {np.dtype(kind)} with {axes} axes, in the order of C, not {value!r:.80}")
+                self._words[row, 0] = value.__array_interface__["data"][0]
+                self._words[row, 1:1 + axes] = value.shape
+            elif kind is float:
+                self._floats[row, 0] = value
+            else:
+                self._words[row, 0] = value
+            self.values[name] = value
+
+    def __getattr__(self, name: str):
+        try:
+            return self.values[name]
+        except KeyError:
+            raise AttributeError(name) from None
+
+
+class _HandleType(types.Type):
+    """The type of a handle in compiled code."""
+
+    def __init__(self):
+        super().__init__(name="hydro2d handle")
+
+
+handle_type = _HandleType()
+
+
+@register_model(_HandleType)
+class _HandleModel(models.PrimitiveModel):
+    def __init__(self, manager, kind):
+        super().__init__(manager, kind, ir.IntType(64))
+
+
+def _type_of(kind: type, axes: int):
+    scalar = numba.from_dtype(np.dtype(kind))
+    return types.Array(scalar, axes, "C") if axes else scalar
+
+
+@infer_getattr
+class _HandleAttributes(AttributeTemplate):
+    key = _HandleType
+
+    def generic_resolve(self, handle, name):
+        if name in _rows:
+            return _type_of(*_rows[name][1:])
+        return None
+
+
+@lower_getattr_generic(_HandleType)
+def _look_up(context, builder, handle, value, name):
+    """Reads a row of the table. While compiled code runs nobody writes there, which the compiler is told."""
+    row, kind, axes = _rows[name]
+    found, word = _type_of(kind, axes), ir.IntType(64)
+    table = builder.inttoptr(value, word.as_pointer())
+
+    def read(place: int, as_type=word):
+        pointer = builder.gep(table, [ir.Constant(word, row * WORDS + place)])
+        load = builder.load(builder.bitcast(pointer, as_type.as_pointer()) if as_type is not word else pointer)
+        load.set_metadata("invariant.load", builder.module.add_metadata([]))
+        return load
+
+    if not axes:
+        if kind is bool:
+            return builder.icmp_signed("!=", read(0), ir.Constant(word, 0))
+        return read(0, context.get_value_type(found))
+    array = arrayobj.make_array(found)(context, builder)
+    size = context.get_abi_sizeof(context.get_data_type(found.dtype))
+    shape = [read(1 + axis) for axis in range(axes)]
+    strides, step = [], ir.Constant(word, size)
+    for length in reversed(shape):
+        strides.insert(0, step)
+        step = builder.mul(step, length, flags=["nsw"])
+    arrayobj.populate_array(array, data=builder.inttoptr(read(0), context.get_data_type(found.dtype).as_pointer()), shape=shape,
+                            strides=strides, itemsize=ir.Constant(word, size), meminfo=None)
+    return array._getvalue()
+
+
+@intrinsic
+def as_handle(context, address):
+    """The handle whose table has this address."""
+
+    def code(context, builder, signature, arguments):
+        return arguments[0]
+
+    return handle_type(types.int64), code
+
+
+@intrinsic
+def call_at(context, function, part, address):
+    """Calls compiled code at an address with two numbers, as C does."""
+
+    def code(context, builder, signature, arguments):
+        word = ir.IntType(64)
+        kind = ir.FunctionType(ir.VoidType(), [word, word])
+        builder.call(builder.inttoptr(arguments[0], kind.as_pointer()), arguments[1:])
+        return context.get_dummy_value()
+
+    return types.void(types.int64, types.int64, types.int64), code

@@ -1,0 +1,206 @@
+"""Phases of the step as lists that one reads, and the compiled functions that are made from them.
+
+A phase is a list of kernels, in order, with barriers between them (`WAIT`), what one part of the mesh runs alone (`alone`), and
+what runs only if a number is not zero (`when`, `unless`). Every kernel takes its arrays and numbers by the names of its
+parameters, of a `Handle`; a kernel that is used in two places is told by `given` which arrays it has there. From the list the
+text of a function is written, as `by_id` does, which calls the kernels; a thread for each part of the mesh runs it.
+"""
+
+from __future__ import annotations
+
+import functools
+import inspect
+import sys
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import numba
+import numpy as np
+
+from hydro2d.jit import recording
+from hydro2d.jit.cache import folder_for, module_of, seen_by
+from hydro2d.jit.calls import _compile, run_parts
+from hydro2d.jit.handle import Handle
+from hydro2d.jit.options import ONLY_CALLS
+
+#: a barrier: no part goes on before all have come here
+WAIT = "wait"
+#: what compiled phases are called with: the number of the part, and the address of the handle's table
+TYPES = (numba.int64, numba.int64)
+
+
+@dataclass(frozen=True)
+class Run:
+    """A kernel of a phase; for all parts, or for one alone; ``names`` are those that its parameters have another name for."""
+
+    kernel: object
+    alone: bool = False
+    names: tuple[tuple[str, str], ...] = ()
+
+    @property
+    def takes(self) -> tuple[str, ...]:
+        """The names in the handle of what the kernel takes, in order; "part" is the number of the part."""
+        other = dict(self.names)
+        return tuple(other.get(name, name) for name in inspect.signature(self.kernel).parameters)
+
+
+@dataclass(frozen=True)
+class When:
+    """Steps of a phase that run only if the number of this name is not zero, or if it is."""
+
+    name: str
+    steps: tuple
+    zero: bool = False
+
+
+def alone(kernel) -> Run:
+    """A kernel that one part runs, for all."""
+    return Run(kernel, alone=True)
+
+
+def given(kernel, **names: str) -> Run:
+    """A kernel, some of whose parameters have another name in the handle."""
+    return Run(kernel, names=tuple(names.items()))
+
+
+def when(name: str, *steps) -> When:
+    """Steps that run if a number of the handle is not zero."""
+    return When(name, _runs(steps))
+
+
+def unless(name: str, *steps) -> When:
+    """Steps that run if a number of the handle is zero."""
+    return When(name, _runs(steps), zero=True)
+
+
+def _runs(steps) -> tuple:
+    return tuple(step if step == WAIT or isinstance(step, Run | When) else Run(step) for step in steps)
+
+
+class Phase:
+    """A phase of the step, which Python calls with a handle.
+
+    Parameters
+    ----------
+    name : str
+    meaning : str
+    steps : kernels, `WAIT`, and what `alone`, `given`, `when` and `unless` give
+
+    Attributes
+    ----------
+    steps : tuple of Run, When and `WAIT`
+    compiled : numba's function of the number of the part and the address of the handle's table
+    """
+
+    def __init__(self, name: str, meaning: str, *steps):
+        self.__name__, self.__doc__ = name, meaning
+        self.steps = _runs(steps)
+        self._address = 0
+
+    def runs(self) -> Iterator[Run]:
+        """The kernels of the phase, in order."""
+        return _all_runs(self.steps)
+
+    @functools.cached_property
+    def takes(self) -> frozenset[str]:
+        """The names in the handle that the phase uses."""
+        kernels = {name for run in self.runs() for name in run.takes if name != "part"}
+        return frozenset(kernels | set(_conditions(self.steps)) | {"parts", "gate"})
+
+    @functools.cached_property
+    def compiled(self):
+        kernels = list(dict.fromkeys(run.kernel for run in self.runs()))
+        files = frozenset().union(*(seen_by(Path(kernel.__wrapped__.__code__.co_filename).resolve()) for kernel in kernels))
+        module = module_of(f"hydro2d_phase_{self.__name__}", self._text(kernels), folder_for(files))
+        return getattr(module, self.__name__)
+
+    def _text(self, kernels: list) -> str:
+        """The function that calls the kernels."""
+        number = {kernel: f"_{k}" for k, kernel in enumerate(kernels)}
+        lines = [f'"""{self.__doc__}"""', "", "from hydro2d.jit import wait", "from hydro2d.jit.handle import as_handle",
+                 "from hydro2d.jit.phases import compiled_phase"]  # fmt: skip
+        lines += [f"from {kernel.__module__} import {kernel.__name__} as _{k}" for k, kernel in enumerate(kernels)]
+        lines += ["", "", "@compiled_phase", f"def {self.__name__}(part, address):", f'    """{self.__doc__}"""',
+                  "    w = as_handle(address)", *_lines(self.steps, number, 1), ""]  # fmt: skip
+        return "\n".join(lines)
+
+    def __call__(self, handle: Handle) -> None:
+        if recording.write_down(recording.Call(self._full_name, self.compiled, TYPES)):
+            return
+        if recording.sees_each_kernel():
+            self.as_python(handle)
+            return
+        with recording.clocked(self.__name__):
+            if not self._address:
+                with recording.first_call(self._full_name):
+                    self._address = self._found_address()
+            run_parts(len(handle.parts) - 1, self._address, handle.address)
+
+    @property
+    def _full_name(self) -> str:
+        return f"hydro2d.{self.__name__}"
+
+    def _found_address(self) -> int:
+        """Compiles the phase, or takes it from the cache; the address of its code."""
+        self.compiled.compile(TYPES)
+        found = self.compiled.overloads[TYPES]
+        return found.library.get_pointer_to_function(found.fndesc.llvm_cfunc_wrapper_name)
+
+    def as_python(self, handle: Handle, part: int = 0, wait=lambda: None) -> None:
+        """Calls one kernel after another for one part; ``wait`` is what a barrier calls."""
+        for step in _chosen(self.steps, handle):
+            if step == WAIT:
+                wait()
+            elif not step.alone or part == 0:
+                kernel = getattr(sys.modules[step.kernel.__module__], step.kernel.__name__)
+                kernel(*(part if name == "part" else handle.values[name] for name in step.takes))
+
+
+def compiled_phase(function):
+    """Compiles the text of a phase."""
+    ONLY_CALLS.add(function)
+    return _compile(function)
+
+
+def _all_runs(steps) -> Iterator[Run]:
+    for step in steps:
+        if isinstance(step, When):
+            yield from _all_runs(step.steps)
+        elif step != WAIT:
+            yield step
+
+
+def _conditions(steps) -> Iterator[str]:
+    for step in steps:
+        if isinstance(step, When):
+            yield step.name
+            yield from _conditions(step.steps)
+
+
+def _chosen(steps, handle: Handle) -> Iterator:
+    """The steps that the numbers of a handle choose."""
+    for step in steps:
+        if not isinstance(step, When):
+            yield step
+        elif bool(handle.values[step.name]) != step.zero:
+            yield from _chosen(step.steps, handle)
+
+
+def _lines(steps, number: dict, depth: int) -> list[str]:
+    """The lines of some steps of a phase."""
+    at, lines = "    " * depth, []
+    for step in steps:
+        if step == WAIT:
+            lines.append(f"{at}wait(w.gate, w.parts)")
+        elif isinstance(step, When):
+            lines += [f"{at}if {'not ' if step.zero else ''}w.{step.name}:", *_lines(step.steps, number, depth + 1)]
+        else:
+            call = f"{number[step.kernel]}({', '.join(name if name == 'part' else f'w.{name}' for name in step.takes)})"
+            lines += [f"{at}if part == 0:", f"{at}    {call}"] if step.alone else [f"{at}{call}"]
+    return lines
+
+
+def whole(rows) -> np.ndarray:
+    """Rows as one part."""
+    return np.array(rows, dtype=np.int64)

@@ -1,0 +1,86 @@
+"""What the phases of a step leave for the audit: every sum of the state, under the name of its sink."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from hydro2d.kernels import momentum
+from hydro2d.solver.audit import Audit
+
+
+class Books:
+    """Enters what a cycle takes from the totals into its audit.
+
+    Parameters
+    ----------
+    cycle : Cycle, whose audit is open
+    """
+
+    def __init__(self, cycle):
+        self._cycle, self._state = cycle, cycle.state
+        self._edges, self._opens = cycle.method.boundaries.edges, cycle.method.boundaries.having("opens")
+        self._both = cycle.method.advection == momentum.BOTH
+        rows = np.maximum(cycle.constrained, cycle.pushing)[2:].tolist()
+        self._rows_that_hold = [(edge, j) for edge, j in zip(self._edges[2:], rows, strict=True) if j >= 0]
+
+    @property
+    def audit(self) -> Audit:
+        """Where everything is entered."""
+        return self._cycle.audit
+
+    def acceleration(self) -> None:
+        """What the speed limit, contact, dashpots, edges and sources took or gave."""
+        s, (j0, j1, _, _), cycle = self._state, self._cycle.box, self._cycle
+        if s.limited[2, j0:j1 + 1].any():
+            self.audit.add("speed_limit", momentum=float(s.limited[0, j0:j1 + 1].sum()),
+                           energy=float(s.limited[1, j0:j1 + 1].sum()))
+        cycle.contact.account(j0, j1, self.audit)
+        if s.held_back.any():
+            self.audit.add("transmitted", momentum=float(s.held_back[0]), energy=float(s.held_back[1]))
+        for edge, (taken, energy) in zip(self._edges, s.walls.sum(axis=2).tolist(), strict=True):
+            if taken != 0.0 or energy != 0.0:
+                self.audit.add(edge.sink, momentum=taken, energy=energy)
+        cycle.sources.account(self.audit)
+
+    def open_edges(self, di: int) -> tuple[bool, bool]:
+        """Whether bodies flow through the low and the high edge of a direction, where the active box has reached them."""
+        (low, high), reached = (self._opens[0:2], [2, 3]) if di else (self._opens[2:4], [0, 1])
+        there = self._cycle.active.reaches()
+        return bool(low) and there[reached[0]], bool(high) and there[reached[1]]
+
+    def outflow(self, di: int) -> None:
+        """What left through the edges of a sweep, and came in."""
+        cycle = self._cycle
+        first, last = cycle.box[:2] if di else cycle.box[2:]
+        for side, (opened, (out, back)) in enumerate(zip(self.open_edges(di), self._state.outflow, strict=True)):
+            if opened:
+                cycle.courses.crossed(di, side, first, last, cycle.mesh.velocity * cycle.dt)
+            if opened and out.any():
+                self.audit.add("outflow", mass=out[1:].copy(), energy=float(out[0]))
+            if opened and back.any():
+                self.audit.add("inflow", mass=back[1:].copy(), energy=float(back[0]))
+
+    def momentum(self, di: int) -> None:
+        """What the advection of momentum dropped, and what was tidied away."""
+        s, (j0, j1, _, _) = self._state, self._cycle.box
+        before, after, p_gained, k_cut, _ = s.momentum_sums[:, j0:j1 + 1].sum(axis=1)
+        lost = before - after - self._kinetic_outflow(di)
+        if self._both:
+            lost -= s.deposited[j0:j1].sum()
+        self.audit.add("advection", momentum=-float(p_gained), energy=float(lost - k_cut))
+        self.audit.add("ke_bound", energy=float(k_cut))
+        for edge, j in self._rows_that_hold:
+            if j0 <= j <= j1:
+                self.audit.add(edge.sink, momentum=float(s.momentum_sums[4, j]))
+        internal, kinetic, axial, _, *mass = s.removed[:, j0:j1].sum(axis=1)
+        self.audit.add("cutoff", mass=np.array(mass), momentum=float(axial), energy=float(internal + kinetic))
+
+    def _kinetic_outflow(self, di: int) -> float:
+        """Enters the momentum that went through open edges and returns the kinetic energy that left with it."""
+        total = 0.0
+        for opened, ways in zip(self.open_edges(di), self._state.kinetic_outflow.tolist(), strict=True):
+            for name, (axial, energy) in zip(("outflow", "inflow"), ways, strict=True):
+                if opened and energy != 0.0:
+                    self.audit.add(name, momentum=axial, energy=energy)
+                    total += energy
+        return total

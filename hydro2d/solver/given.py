@@ -1,0 +1,83 @@
+"""What the phases of a step are given: the handle in which they find arrays and numbers of state, mesh, materials and method.
+
+What the names mean stands in `hydro2d.kernels.names`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import numpy as np
+
+from hydro2d.jit import Handle, Phase
+from hydro2d.kernels import momentum, names
+from hydro2d.materials import rows
+from hydro2d.mesh import fields
+from hydro2d.mesh.edges.base import EDGES
+from hydro2d.solver.contact import most_squares
+
+#: what takes turns: the velocities at the beginning and at the end of a step
+TURNS = ("velocity", "velocity0", "u", "v", "u0", "v0")
+
+
+def _of(owner, some: Iterable[fields.Work]) -> dict:
+    """The attributes of an owner that have these names."""
+    return {name.symbol: getattr(owner, name.symbol) for name in some if hasattr(owner, name.symbol)}
+
+
+class Given:
+    """The handle of an engine, kept up to date.
+
+    Parameters
+    ----------
+    cycle : Cycle, with its edges set
+    table : MaterialTable
+
+    Attributes
+    ----------
+    handle : Handle
+    """
+
+    def __init__(self, cycle, table):
+        self._state, self._contact, self.handle = cycle.state, cycle.contact, Handle()
+        state, method = cycle.state, cycle.method
+        arrays = _of(state, [name for name in names.NAMES if name not in names.TIES])
+        absent = (*(fields.CONTACT_WORK if state.groups == 1 else ()), *(() if table.remembers else fields.MEMORY_WORK))
+        arrays |= {work.symbol: np.zeros((0,) * len(work.axes.split()), dtype=work.kind) for work in absent}
+        order, own = method.interface_order, state.group[method.interface_order]
+        models, materials = rows.packed(table, method.strength_cutoff * table.rho0, method.yield_factor)
+        bodies = {
+            "models": models, "materials": materials, "carried": cycle.carried, "gases": materials[:, rows.GAS] > 0.0,
+            "strong": models[:, rows.STRENGTH] != 0, "hard_bodies": method.hard, "interface_order": order,
+            "hard_first": np.concatenate([order[own != 0], order[own == 0]]),
+            "soft_first": np.concatenate([order[own == 0], order[own != 0]]),
+        }
+        edges = {
+            **{f"mirror_{edge}": mirrors for edge, mirrors in zip(EDGES, method.boundaries.having("mirrors"), strict=True)},
+            "mesh_box": cycle.mesh_box, "constrained": cycle.constrained, "pushing": cycle.pushing,
+            "transmitting": cycle.transmitting, "edge_velocity": method.boundaries.velocity,
+            "void_only": cycle.edges_with_void_beyond(), "pushed": cycle.sources.pushed,
+        }
+        choices = _of(method, [name for name in names.METHOD]) | {
+            "contact": state.groups > 1, "remembers": table.remembers, "slip_layer": method.slip_widths is not None,
+            "both": method.advection == momentum.BOTH, "strength_mode": method.mixed_strength,
+            "hard_threshold": method.threshold, "underfilled_density": method.mass_floor * float(np.max(table.rho0)),
+            "most_squares": most_squares(table, method.courant) if state.groups > 1 else 1.0,
+        }
+        if method.slip_widths is not None:
+            choices["width_bl"], choices["width_sl"] = method.slip_widths
+        self.handle.give(**arrays, **_of(cycle.grid, names.MESH), **bodies, **edges, **choices, anew=False)
+        self._keep_up()
+
+    def _keep_up(self) -> None:
+        """Velocities take turns, and ties may have got more slots."""
+        if self.handle.values.get("masters") is not self._contact.ties.masters:
+            self.handle.give(**self._contact.ties._asdict())
+        if self.handle.values["velocity"] is not self._state.velocity:
+            self.handle.give(**{name: getattr(self._state, name) for name in TURNS})
+
+    def run(self, phase: Phase, **given) -> None:
+        """Runs a phase with what is given from now on."""
+        self._keep_up()
+        self.handle.give(**given)
+        phase(self.handle)
