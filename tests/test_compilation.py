@@ -16,8 +16,9 @@ from hydro2d import compilation, jit
 from hydro2d.compilation import Second, announced, expect, is_compiled, once, told_of
 from hydro2d.deck import deck as decks
 from hydro2d.files import turn
-from hydro2d.jit import cache, options, recording
-from hydro2d.kernels import column_ranges, lagrangian_step, remap_step
+from hydro2d.jit import cache, options, phases, recording
+from hydro2d.kernels import lagrangian_step, remap_step
+from hydro2d.mesh import sums
 from hydro2d.solver.first_cycle import calls_of_a_cycle
 from hydro2d.solver.simulation import Simulation
 from tests.cli.test_main import DECK
@@ -190,22 +191,25 @@ def test_the_second_process_knows_the_kernels_of_a_cycle(name):
     called = set()
 
     def look(frame, event, _):
-        if event == "call" and frame.f_code.co_filename == recording.__file__ and frame.f_code.co_name == "call":
+        place = frame.f_code.co_filename, frame.f_code.co_name
+        if event == "call" and place == (recording.__file__, "call"):
             called.add(frame.f_locals["name"])
+        if event == "call" and place == (phases.__file__, "__call__"):
+            called.add(frame.f_locals["self"].full_name)
 
     sys.setprofile(look)
     try:
         Simulation(deck).step()
     finally:
         sys.setprofile(None)
-    assert {f"{remap_step.__name__}.carry_momentum", f"{column_ranges.__name__}.widen_ranges"} < called
-    assert (f"{lagrangian_step.__name__}.find_contact" in called) == (deck.sliding.method == "contact")
+    assert {remap_step.carry_momentum.full_name, f"{sums.__name__}.body_totals"} < called
+    assert (lagrangian_step.find_contact.full_name in called) == (deck.sliding.method == "contact")
     assert called <= found
 
 
 def test_a_call_that_was_written_down_is_compiled_for_its_types():
     deck = decks.load("problems/sliding/block_level.toml")
-    call = next(call for call in calls_of_a_cycle(lambda: Simulation(deck)) if call.name.endswith("find_active_ranges"))
+    call = next(call for call in calls_of_a_cycle(lambda: Simulation(deck)) if call.name.endswith("find_bodies"))
     call.compile()
     assert call.is_compiled()
     assert not recording.Call("other", call.compiled, call.types[:-1]).is_compiled()

@@ -19,6 +19,9 @@ from numba.np import arrayobj
 #: words of a row of the table: the address of an array and its shape, or a number
 WORDS = 8
 
+#: what may be given as a number of each kind
+NUMBERS: dict[type, tuple[type, ...]] = {float: (float, int, np.floating), int: (int, np.integer), bool: (bool, np.bool_)}
+
 #: row, kind and number of axes of every name
 _rows: dict[str, tuple[int, type, int]] = {}
 
@@ -67,13 +70,14 @@ class Handle:
             if axes:
                 if not (isinstance(value, np.ndarray) and value.dtype == kind and value.ndim == axes
                         and value.flags.c_contiguous):
-                    raise TypeError(f"{name} is an array of {np.dtype(kind)} with {axes} axes, in the order of C, not {value!r:.80}")
+                    raise TypeError(f"{name} is an array of {np.dtype(kind)} with {axes} axes, in the order of C, "
+                                    f"not {value!r:.80}")
                 self._words[row, 0] = value.__array_interface__["data"][0]
                 self._words[row, 1:1 + axes] = value.shape
-            elif kind is float:
-                self._floats[row, 0] = value
+            elif not isinstance(value, NUMBERS[kind]):
+                raise TypeError(f"{name} is a number, {kind.__name__}, not {value!r:.80}")
             else:
-                self._words[row, 0] = value
+                (self._floats if kind is float else self._words)[row, 0] = value
             self.values[name] = value
 
     def __getattr__(self, name: str):

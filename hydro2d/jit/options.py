@@ -55,7 +55,8 @@ def _compile_once() -> None:
 
     numba.core.event.register("numba:compile", Compiling())
     library = codegen.CPUCodeLibrary
-    optimise, finalise, executable = library._optimize_final_module, library._finalize_final_module, cpu.CPUContext.get_executable
+    optimise, finalise = library._optimize_final_module, library._finalize_final_module
+    executable = cpu.CPUContext.get_executable
 
     @functools.wraps(optimise)
     def unless_it_only_calls(self):

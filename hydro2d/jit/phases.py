@@ -16,12 +16,11 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numba
-import numpy as np
 
 from hydro2d.jit import recording
 from hydro2d.jit.cache import folder_for, module_of, seen_by
 from hydro2d.jit.calls import _compile, run_parts
-from hydro2d.jit.handle import Handle
+from hydro2d.jit.handle import Handle, declared
 from hydro2d.jit.options import ONLY_CALLS
 
 #: a barrier: no part goes on before all have come here
@@ -75,7 +74,38 @@ def unless(name: str, *steps) -> When:
 
 
 def _runs(steps) -> tuple:
-    return tuple(step if step == WAIT or isinstance(step, Run | When) else Run(step) for step in steps)
+    return tuple(step if isinstance(step, str | Run | When) else Run(step) for step in steps)
+
+
+def _refuse(steps) -> None:
+    """Raises ValueError for steps that make no sense."""
+    known = declared()
+    for step in steps:
+        if isinstance(step, When):
+            if known.get(step.name, (None, 1))[1] != 0:
+                raise ValueError(f"{step.name} is no number that handles have")
+            _refuse(step.steps)
+        elif isinstance(step, Run):
+            _refuse_kernel(step, set(known))
+        elif step != WAIT:
+            raise ValueError(f"{step!r} is no step of a phase")
+
+
+def _refuse_kernel(step: Run, known: set[str]) -> None:
+    """Raises ValueError for a kernel that cannot run as it is meant to."""
+    if not hasattr(step.kernel, "compiled"):
+        raise ValueError(f"{step.kernel!r} is no kernel")
+    name = step.kernel.__name__
+    for parameter, _ in step.names:
+        if parameter not in inspect.signature(step.kernel).parameters:
+            raise ValueError(f"{name} has no parameter {parameter}")
+    for taken in step.takes:
+        if taken not in known and taken != "part":
+            raise ValueError(f"{name} takes {taken}, which is no name that handles have")
+    if step.alone and "part" in step.takes:
+        raise ValueError(f"{name} takes a part: it is not for one alone")
+    if not step.alone and "part" not in step.takes:
+        raise ValueError(f"{name} takes no part: only one part can run it")
 
 
 class Phase:
@@ -87,6 +117,9 @@ class Phase:
     meaning : str
     steps : kernels, `WAIT`, and what `alone`, `given`, `when` and `unless` give
 
+    Raises ValueError for a list that makes no sense: names that are not declared, kernels that take no part and are not for one
+    alone, or the other way round.
+
     Attributes
     ----------
     steps : tuple of Run, When and `WAIT`
@@ -97,6 +130,7 @@ class Phase:
         self.__name__, self.__doc__ = name, meaning
         self.steps = _runs(steps)
         self._address = 0
+        _refuse(self.steps)
 
     def runs(self) -> Iterator[Run]:
         """The kernels of the phase, in order."""
@@ -126,19 +160,20 @@ class Phase:
         return "\n".join(lines)
 
     def __call__(self, handle: Handle) -> None:
-        if recording.write_down(recording.Call(self._full_name, self.compiled, TYPES)):
+        if recording.write_down(recording.Call(self.full_name, self.compiled, TYPES)):
             return
         if recording.sees_each_kernel():
             self.as_python(handle)
             return
         with recording.clocked(self.__name__):
             if not self._address:
-                with recording.first_call(self._full_name):
+                with recording.first_call(self.full_name):
                     self._address = self._found_address()
             run_parts(len(handle.parts) - 1, self._address, handle.address)
 
     @property
-    def _full_name(self) -> str:
+    def full_name(self) -> str:
+        """Its name among all that is compiled."""
         return f"hydro2d.{self.__name__}"
 
     def _found_address(self) -> int:
@@ -149,7 +184,7 @@ class Phase:
 
     def as_python(self, handle: Handle, part: int = 0, wait=lambda: None) -> None:
         """Calls one kernel after another for one part; ``wait`` is what a barrier calls."""
-        for step in _chosen(self.steps, handle):
+        for step in chosen(self.steps, handle):
             if step == WAIT:
                 wait()
             elif not step.alone or part == 0:
@@ -178,13 +213,13 @@ def _conditions(steps) -> Iterator[str]:
             yield from _conditions(step.steps)
 
 
-def _chosen(steps, handle: Handle) -> Iterator:
+def chosen(steps, handle: Handle) -> Iterator:
     """The steps that the numbers of a handle choose."""
     for step in steps:
         if not isinstance(step, When):
             yield step
         elif bool(handle.values[step.name]) != step.zero:
-            yield from _chosen(step.steps, handle)
+            yield from chosen(step.steps, handle)
 
 
 def _lines(steps, number: dict, depth: int) -> list[str]:
@@ -199,8 +234,3 @@ def _lines(steps, number: dict, depth: int) -> list[str]:
             call = f"{number[step.kernel]}({', '.join(name if name == 'part' else f'w.{name}' for name in step.takes)})"
             lines += [f"{at}if part == 0:", f"{at}    {call}"] if step.alone else [f"{at}{call}"]
     return lines
-
-
-def whole(rows) -> np.ndarray:
-    """Rows as one part."""
-    return np.array(rows, dtype=np.int64)

@@ -104,12 +104,13 @@ def total_stress_row(j, dt, metrics, dz, body_range, active_range, mixed_count, 
 
 
 @kernel
-def total_stress(part, parts, dt, metrics, dz, body_range, active_range, mixed_count, mixed, by_what_is_solid, hard_bodies, hard_threshold,
-                 u0, v0, vof, q, skin, p, bulk, solid, qr, qz, qt, qrz, ph, sig_rr, sig_zz, sig_tt, sig_rz):
+def total_stress(part, parts, dt, metrics, dz, body_range, active_range, mixed_count, mixed, by_what_is_solid, hard_bodies,
+                 hard_threshold, u0, v0, vof, q, skin, p, bulk, solid, qr, qz, qt, qrz, ph, sig_rr, sig_zz, sig_tt, sig_rz):
     """total_stress_row for rows j0 to j1."""
     for j in range(parts[part], parts[part + 1]):
-        total_stress_row(j, dt, metrics, dz, body_range, active_range, mixed_count, mixed, by_what_is_solid, hard_bodies, hard_threshold,
-                         u0, v0, vof, q, skin, p, bulk, solid, qr, qz, qt, qrz, ph, sig_rr, sig_zz, sig_tt, sig_rz)
+        total_stress_row(j, dt, metrics, dz, body_range, active_range, mixed_count, mixed, by_what_is_solid, hard_bodies,
+                         hard_threshold, u0, v0, vof, q, skin, p, bulk, solid, qr, qz, qt, qrz, ph, sig_rr, sig_zz, sig_tt,
+                         sig_rz)
 
 
 @kernel
@@ -292,8 +293,8 @@ def accelerate(part, parts, i0, i1, dt, metrics, dz, occupied, mass, hg_coeffici
     """
     for j in range(parts[part], past_row(part, parts, 1)):
         for b in range(mass.shape[0]):
-            accelerate_row(b, j, i0, i1 + 1, dt, metrics, dz, occupied, mass, hg_coefficient, sig_rr, sig_zz, sig_tt, sig_rz, u0,
-                           v0, u, v)
+            accelerate_row(b, j, i0, i1 + 1, dt, metrics, dz, occupied, mass, hg_coefficient, sig_rr, sig_zz, sig_tt, sig_rz,
+                           u0, v0, u, v)
             tie_row(b, j, i0, i1 + 1, metrics, dz, occupied, mass, mixed_count, mixed, group, gases, skin, vof, q, u0, v0, u,
                     v)
             if pushed.shape[0] > 0:

@@ -36,7 +36,8 @@ REACH = 3
 
 
 @kernel
-def find_contact_nodes(part, parts, mesh_box, group_ranges, mass, group, vof, contact_node_count, contact_nodes, hard, soft, heat, warmed):
+def find_contact_nodes(part, parts, mesh_box, group_ranges, mass, group, vof, contact_node_count, contact_nodes, hard, soft,
+                       heat, warmed):
     """Contact nodes of rows j0 to j1, and what hard and soft bodies fill of the cells near hard ones.
 
     Reads    group_ranges[1] [n, j, 2], the columns near hard bodies; mass [b, j, i]; vof [m, j, i]; group [m]
@@ -195,8 +196,8 @@ def weight_beside(j, i, row, column, hard, soft):
 
 
 @kernel
-def face_apertures(part, parts, mesh_box, constrained, contact_columns, line, hard, soft, mass, contact_node_count, contact_nodes,
-                   aperture_r, aperture_z, contact_normal, touch):
+def face_apertures(part, parts, mesh_box, constrained, contact_columns, line, hard, soft, mass, contact_node_count,
+                   contact_nodes, aperture_r, aperture_z, contact_normal, touch):
     """Apertures of the hard group on the faces around contact nodes, and normals and contact at these.
 
     The aperture of a face is the mean of what the lines of both neighbours leave open of it. A normal is the mean of the
@@ -204,7 +205,8 @@ def face_apertures(part, parts, mesh_box, constrained, contact_columns, line, ha
     which differ where void is near. Groups touch where a cell holds both and no more than GAP of void, or where
     a full cell of one is a neighbour of a full cell of the other.
 
-    Reads    contact_columns [j, 2], line [10, j, i], hard, soft [j, i], mass [b, j, i], contact_node_count [j], contact_nodes [j, k]
+    Reads    contact_columns [j, 2], line [10, j, i], hard, soft [j, i], mass [b, j, i], contact_node_count [j],
+             contact_nodes [j, k]
     Writes   aperture_r, aperture_z [end, j, i]; contact_normal [3, 2, j, i], touch [j, i] at contact nodes
     """
     j0, j1 = outer_rows(parts)

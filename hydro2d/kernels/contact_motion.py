@@ -42,9 +42,9 @@ def come_apart(j, i, normal, u, v):
 
 
 @kernel
-def contact_viscosity(part, parts, mesh_box, viscosity_linear, viscosity_quadratic, courant, dr, dz, metrics, contact_columns, line, group_ranges,
-                      contact_normal, aperture_r, aperture_z, hard, soft, u, v, cl, rhobar, vof, q, km, skin, p, solid, bulk, qr,
-                      qz, qt, qrz, rate, row_step, mixed_count, mixed, kinds):
+def contact_viscosity(part, parts, mesh_box, viscosity_linear, viscosity_quadratic, courant, dr, dz, metrics, contact_columns,
+                      line, group_ranges, contact_normal, aperture_r, aperture_z, hard, soft, u, v, cl, rhobar, vof, q, km,
+                      skin, p, solid, bulk, qr, qz, qt, qrz, rate, row_step, mixed_count, mixed, kinds):
     """Volume rate and viscosity of the contact-interface cells, the step they allow, and room where their groups part.
 
     A cell of both groups has the density of its mean by compressibility: the stiffer body's mass must not push the other. One q
@@ -91,7 +91,8 @@ def contact_viscosity(part, parts, mesh_box, viscosity_linear, viscosity_quadrat
                 slope_z = abs(line[HARD_Z, j, i] + line[SOFT_Z, j, i])
                 steep = sqrt(slope_r * slope_r + slope_z * slope_z)
                 length = steep / (slope_r / dr[i] + slope_z / h) if steep > 0.0 else min(dr[i], h)
-                viscosity = shock * directional_viscosity(rho, c, -max(loss, 0.0) * length, 0.0, viscosity_linear, viscosity_quadratic)
+                viscosity = shock * directional_viscosity(rho, c, -max(loss, 0.0) * length, 0.0, viscosity_linear,
+                                                         viscosity_quadratic)
                 qr[j, i] = viscosity
                 qz[j, i] = viscosity
                 qt[j, i] = viscosity
@@ -168,9 +169,9 @@ def corner_force(g, j, i, at_j, at_i, group, solid_mode, solid, skin, vof, q, hg
 
 
 @kernel
-def contact_node_forces(part, parts, dt, group, gases, by_what_is_solid, metrics, dz, constrained, contact_node_count, contact_nodes,
-                        aperture_r, aperture_z, ph, qr, solid, skin, vof, q, hg_coefficient, cell_mass, mass, pushed, u0, v0,
-                        u, v, transfer):
+def contact_node_forces(part, parts, dt, group, gases, by_what_is_solid, metrics, dz, constrained, contact_node_count,
+                        contact_nodes, aperture_r, aperture_z, ph, qr, solid, skin, vof, q, hg_coefficient, cell_mass, mass,
+                        pushed, u0, v0, u, v, transfer):
     """Velocities that the forces alone, of stresses and of sources, would give both groups at contact nodes.
 
     The pressure of a cell acts on each group by the apertures of the cell's faces, the deviators of a group act on it alone

@@ -312,9 +312,9 @@ def warm_up(g, j, i, x, made, number, where, weights, mass, heat):
 
 
 @serial
-def settle(parts, dt, friction, constrained, metrics, dz, contact_columns, line, contact_node_count, contact_nodes, first_slot, contact_normal, touch,
-           strength, masters, where, weights, sig_rr, sig_zz, sig_rz, mass, u, v, nodes, starts, entries, portions, places, impulses,
-           gain, taken, rubbing, transfer):
+def settle(parts, dt, friction, constrained, metrics, dz, contact_columns, line, contact_node_count, contact_nodes, first_slot,
+           contact_normal, touch, strength, masters, where, weights, sig_rr, sig_zz, sig_rz, mass, u, v, nodes, starts, entries,
+           portions, places, impulses, gain, taken, rubbing, transfer):
     """Velocities of both groups at contact nodes, from those that the forces alone would give.
 
     Slave nodes move with masters of their group, and groups that touch rub: impulses that keep the momentum.
@@ -331,10 +331,10 @@ def settle(parts, dt, friction, constrained, metrics, dz, contact_columns, line,
                 taken[c, x, g] = 0.0
         for c in range(3):
             rubbing[c, x] = 0.0
-    tied, vertices = list_ties(j0, j1, constrained, contact_node_count, contact_nodes, first_slot, strength, masters, where, weights, mass, nodes,
-                               starts, entries, portions, places)
-    meet_ties(tied, vertices, constrained, strength, masters, where, weights, mass, u, v, nodes, starts, entries, portions, impulses,
-              gain, taken, transfer)
+    tied, vertices = list_ties(j0, j1, constrained, contact_node_count, contact_nodes, first_slot, strength, masters, where,
+                               weights, mass, nodes, starts, entries, portions, places)
+    meet_ties(tied, vertices, constrained, strength, masters, where, weights, mass, u, v, nodes, starts, entries, portions,
+              impulses, gain, taken, transfer)
     for _ in range(ROUNDS if friction > 0.0 else 0):
         for j in range(j0, j1 + 1):
             for k in range(contact_node_count[j]):
@@ -347,8 +347,8 @@ def settle(parts, dt, friction, constrained, metrics, dz, contact_columns, line,
 
 
 @serial
-def warm_contact(parts, contact_node_count, contact_nodes, first_slot, strength, masters, where, weights, mass, u0, v0, u, v, nodes, starts,
-                 entries, portions, taken, rubbing, heat, transfer):
+def warm_contact(parts, contact_node_count, contact_nodes, first_slot, strength, masters, where, weights, mass, u0, v0, u, v,
+                 nodes, starts, entries, portions, taken, rubbing, heat, transfer):
     """Heat of the impulses at contact nodes.
 
     An impulse J between two velocities makes the heat J . (w0 + w1)/2, w their difference at either end of the step: that is

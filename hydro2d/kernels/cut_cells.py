@@ -81,8 +81,8 @@ def normal_deviator(m, j, i, skin, q):
 
 
 @kernel
-def find_surfaces(part, parts, i0, i1, mesh_box, dr, dz, tipton, group, hard_bodies, hard_threshold, strong, gases, mixed_count, mixed,
-                  vof, skin):
+def find_surfaces(part, parts, i0, i1, mesh_box, dr, dz, tipton, group, hard_bodies, hard_threshold, strong, gases, mixed_count,
+                  mixed, vof, skin):
     """Normals of the surfaces in mixed cells, with the square root of their weight as length.
 
     The normal is Youngs', of the hard group's fraction less the soft one's where a cell holds both, else of its one group

@@ -159,8 +159,8 @@ def tied_weight(x, g, number, where, weights):
 
 
 @kernel
-def find_extensions(part, parts, mesh_box, most_squares, r, z, contact_node_count, contact_nodes, first_slot, contact_normal, hard, soft, filled, group,
-                    vof, dmg, strength, masters, where, weights):
+def find_extensions(part, parts, mesh_box, most_squares, r, z, contact_node_count, contact_nodes, first_slot, contact_normal,
+                    hard, soft, filled, group, vof, dmg, strength, masters, where, weights):
     """Which contact nodes are slaves, how firmly they are tied, and to what.
 
     To the mean of the linear fields of cells that most_squares allows; where there are none (or hardly any, ENOUGH), of cells
@@ -168,8 +168,8 @@ def find_extensions(part, parts, mesh_box, most_squares, r, z, contact_node_coun
     material of the other group asks two vertices away, others three. Two nodes that are tied to each other let go by SLACK, so
     that no master with hardly any weight holds both of them.
 
-    Reads    first_slot [j], the slot of a row's first contact node; contact_normal [3, 2, j, i]; hard, soft [j, i]; filled [b, j, i];
-             vof, dmg [m, j, i]
+    Reads    first_slot [j], the slot of a row's first contact node; contact_normal [3, 2, j, i]; hard, soft [j, i];
+             filled [b, j, i]; vof, dmg [m, j, i]
     Writes   strength [x, b], 0 for a node that moves by itself to 1; masters [x, b], how many; where [x, b, n], their places
              SPAN (dj + REACH) + (di + REACH), or TIED; weights [x, b, n], which add up to 1
     """

@@ -381,9 +381,9 @@ def donor_volumes(dj, di, part, parts, i0, i1, second, void_only, volume, body_r
 
 
 @kernel
-def interface_volumes(dj, di, part, parts, mesh_box, contact_columns, dr, dz, interface_order, group, gases, mixed_count, mixed, face,
-                      pre, vof, centroid, flux_volume, flux_place, strips):
+def interface_volumes(dj, di, part, parts, mesh_box, contact_columns, dr, dz, interface_order, group, gases, mixed_count, mixed,
+                      face, pre, vof, centroid, flux_volume, flux_place, strips):
     """interface_volumes_row for rows j0 to j1."""
     for j in range(parts[part], parts[part + 1]):
-        interface_volumes_row(j, dj, di, mesh_box, contact_columns, dr, dz, interface_order, group, gases, mixed_count, mixed, face, pre,
-                              vof, centroid, flux_volume, flux_place, strips)
+        interface_volumes_row(j, dj, di, mesh_box, contact_columns, dr, dz, interface_order, group, gases, mixed_count, mixed,
+                              face, pre, vof, centroid, flux_volume, flux_place, strips)

@@ -114,10 +114,10 @@ def insert_void_mixed_row(j, smallest, max_opening, metrics, dz, mixed_count, mi
 
 
 @kernel
-def close_cells(part, parts, max_opening, smallest_tension, along_compression, viscosity_linear, viscosity_quadratic, courant, advective_courant,
-                mesh_speed, hourglass, metrics, dr, dz, body_range, active_range, mixed_count, mixed, models, materials, u, v,
-                vof, q, pm, km, tm, skin, p, bulk, rhobar, solid, cl, qr, qz, qt, qrz, hg_coefficient, opened, row_step, bad,
-                scratch):
+def close_cells(part, parts, max_opening, smallest_tension, along_compression, viscosity_linear, viscosity_quadratic, courant,
+                advective_courant, mesh_speed, hourglass, metrics, dr, dz, body_range, active_range, mixed_count, mixed, models,
+                materials, u, v, vof, q, pm, km, tm, skin, p, bulk, rhobar, solid, cl, qr, qz, qt, qrz, hg_coefficient, opened,
+                row_step, bad, scratch):
     """Equation of state, void where a cell fractures, artificial viscosity and the time step that every cell allows.
 
     The viscosity takes the directions of the mesh, or along_compression that of the strongest compression.
@@ -140,12 +140,13 @@ def close_cells(part, parts, max_opening, smallest_tension, along_compression, v
         insert_void_mixed_row(j, smallest_tension, max_opening, metrics, dz, mixed_count, mixed, models, materials, skin,
                               vof, q, pm, km, p, solid, bulk, opened)
         if along_compression:
-            compression_viscosity_row(j, viscosity_linear, viscosity_quadratic, dr, dz, metrics, active_range, u, v, rhobar, bulk, solid, cl, qr,
-                                      qz, qt, qrz)
+            compression_viscosity_row(j, viscosity_linear, viscosity_quadratic, dr, dz, metrics, active_range, u, v, rhobar,
+                                      bulk, solid, cl, qr, qz, qt, qrz)
         else:
-            viscosity_row(j, viscosity_linear, viscosity_quadratic, dr, dz, metrics, active_range, u, v, rhobar, bulk, solid, cl, qr, qz, qt)
-        steps_row(j, part, courant, advective_courant, mesh_speed, hourglass, dr, dz, metrics, active_range, u, v, rhobar, cl, qr, qz,
-                  hg_coefficient, row_step, bad, scratch)
+            viscosity_row(j, viscosity_linear, viscosity_quadratic, dr, dz, metrics, active_range, u, v, rhobar, bulk, solid,
+                          cl, qr, qz, qt)
+        steps_row(j, part, courant, advective_courant, mesh_speed, hourglass, dr, dz, metrics, active_range, u, v, rhobar, cl,
+                  qr, qz, hg_coefficient, row_step, bad, scratch)
 
 
 @point
@@ -293,8 +294,8 @@ def fill_cell(j, i, change, volume, total, inverse, mean_p, work_p, work_q, midd
 
 
 @kernel
-def deform_mixed(part, parts, dt, relaxation, tipton, strength_mode, hard_bodies, hard_threshold, metrics, dz, mixed_count, mixed, group,
-                 contact_columns, cell_mass, models, materials, gases, u0, v0, u, v, fr, fz, ph, qr, qz, qt, qrz,
+def deform_mixed(part, parts, dt, relaxation, tipton, strength_mode, hard_bodies, hard_threshold, metrics, dz, mixed_count,
+                 mixed, group, contact_columns, cell_mass, models, materials, gases, u0, v0, u, v, fr, fz, ph, qr, qz, qt, qrz,
                  hg_coefficient, skin, p, bulk, solid, pm, km, tm, vof, q, mix, motion, internal, centroid):
     """The Lagrangian step of the bodies in mixed cells.
 
@@ -336,13 +337,14 @@ def deform_mixed(part, parts, dt, relaxation, tipton, strength_mode, hard_bodies
                 mix[j, NORMAL, m] = normal_deviator(m, j, i, skin, q) if vof[m, j, i] > 0.0 else 0.0
             cut, own = skin[KIND, j, i] != WHOLE, strength_mode == MATERIAL or dominant >= 0 or meet
             target = 0.0
-            work_of_deviators(j, i, dt, dominant, total, stress_scale(strength_mode == SOLID, total), group, motion, vof, q, mix)
+            work_of_deviators(j, i, dt, dominant, total, stress_scale(strength_mode == SOLID, total), group, motion, vof, q,
+                              mix)
             for g in range(groups):
                 if cell_mass[g, j, i] > 0.0:
                     heat_of_ties(j, i, g, dz[j], metrics, gases, skin, vof, q, u0, v0, u, v, mix)
             firm = firm_share(j, i, total, gases, vof)
-            cell_yield = strain_deviators(j, i, dt / volume, strength_mode, firm, skin, group, models, materials, pm, tm, motion,
-                                          vof, q, mix, internal)
+            cell_yield = strain_deviators(j, i, dt / volume, strength_mode, firm, skin, group, models, materials, pm, tm,
+                                          motion, vof, q, mix, internal)
             if cut:
                 target = strain_bodies_across(j, i, own, cell_yield, change / volume, max(1.0 - total, 0.0), skin, p, bulk,
                                               models, vof, pm, km, q, mix)

@@ -189,8 +189,9 @@ def vertex_row(g, dj, di, j, i0, i1, below, above, advection, bound, constrained
 
 
 @kernel
-def sweep_momentum(dj, di, part, parts, i0, i1, advection, ke_bound, constrained, pushing, edge_velocity, mesh_box, metrics, group_ranges,
-                   cell_mass, flux_mass, steepness, mass, velocity0, velocity, dual, edge_dual, deficit, momentum_sums):
+def sweep_momentum(dj, di, part, parts, i0, i1, advection, ke_bound, constrained, pushing, edge_velocity, mesh_box, metrics,
+                   group_ranges, cell_mass, flux_mass, steepness, mass, velocity0, velocity, dual, edge_dual, deficit,
+                   momentum_sums):
     """Carries the momentum of the vertices j0 to j1 along one direction.
 
     Reads    what dual_row and vertex_row read; mesh_box (j0, j1, i0, i1 of the mesh)
@@ -216,8 +217,8 @@ def sweep_momentum(dj, di, part, parts, i0, i1, advection, ke_bound, constrained
                 below = 2 * part + dj * ((j - 1) % 2)
                 for row in range(5):
                     momentum_sums[row, j] = 0.0 if g == 0 else momentum_sums[row, j]
-                vertex_row(g, dj, di, j, i0, i1 + 1, below, slot, advection, ke_bound, constrained, pushing, edge_velocity, metrics,
-                           group_ranges, cell_mass, dual, velocity0, velocity, mass, deficit, momentum_sums)
+                vertex_row(g, dj, di, j, i0, i1 + 1, below, slot, advection, ke_bound, constrained, pushing, edge_velocity,
+                           metrics, group_ranges, cell_mass, dual, velocity0, velocity, mass, deficit, momentum_sums)
 
 
 @kernel

@@ -3,8 +3,6 @@
 The arrays of the state are those of the tables of fields and of work (`hydro2d.mesh.fields`); what stands here is the rest.
 """
 
-import numpy as np
-
 from hydro2d.jit import declare
 from hydro2d.mesh import fields
 from hydro2d.mesh.fields import Work
@@ -25,7 +23,7 @@ OF_THE_CALL = (
     Work("second", "", "whether the sweep is the second of the step", bool),
     Work("face", "J I", "volume that the faces of a sweep's direction sweep, fr or fz"),
     Work("own", "2 J I", "the same with each group's velocity, own_r or own_z"),
-    Work("opens_low", "", "whether bodies flow through the low edge of a sweep's direction, which the active box has reached", bool),
+    Work("opens_low", "", "whether bodies flow through the low edge of a sweep, which the active box has reached", bool),
     Work("opens_high", "", "the same of the high edge", bool),
     Work("anew", "", "whether bodies are looked for in all columns, not around those that they were in", bool),
     Work("speed_limit", "", "bound of the speed of thinly filled vertices, m/s"),

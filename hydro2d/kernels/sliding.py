@@ -55,7 +55,8 @@ def paint(j, i, r0, z0, n_r, n_z, half, reach, rc, zc, low_j, high_j, low_i, hig
 
 
 @serial
-def slip_zones(parts, i0, i1, width_bl, width_sl, hard_threshold, rc, zc, dr, dz, hard_bodies, vof, hard, distance, zone, normal):
+def slip_zones(parts, i0, i1, width_bl, width_sl, hard_threshold, rc, zc, dr, dz, hard_bodies, vof, hard, distance, zone,
+               normal):
     """Zones of the slip layer from the distance to the reconstructed surface of the hard bodies.
 
     zone is HARD where the hard fraction reaches the threshold, BOUNDARY_LAYER up to a distance width_bl, SLIP_LAYER up to

@@ -407,7 +407,8 @@ def least_step(parts, row_step, bad, least_row):
 
 
 @serial
-def step_cause(courant, advective_courant, mesh_speed, dr, dz, metrics, least_row, active_range, u, v, rhobar, cl, qr, qz, cause):
+def step_cause(courant, advective_courant, mesh_speed, dr, dz, metrics, least_row, active_range, u, v, rhobar, cl, qr, qz,
+               cause):
     """Which cell of the row with the least step allows it, and which of the bounds it is.
 
     Reads    what steps_row read; least_row [3]
@@ -418,8 +419,8 @@ def step_cause(courant, advective_courant, mesh_speed, dr, dz, metrics, least_ro
     for i in range(active_range[j, 0], active_range[j, 1]):
         if rhobar[j, i] > 0.0:
             loss = volume_loss(i, u[0, j], u[0, j + 1], v[0, j], v[0, j + 1], metrics, dz[j])
-            limits = step_limits(i, u[0, j], u[0, j + 1], v[0, j], v[0, j + 1], courant, advective_courant, mesh_speed, dr, dz[j],
-                                 rhobar[j, i], cl[j, i], max(qr[j, i], qz[j, i]), loss)
+            limits = step_limits(i, u[0, j], u[0, j + 1], v[0, j], v[0, j + 1], courant, advective_courant, mesh_speed, dr,
+                                 dz[j], rhobar[j, i], cl[j, i], max(qr[j, i], qz[j, i]), loss)
             for k in range(4):
                 if limits[k] < best:
                     best = limits[k]

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from hydro2d.kernels import momentum
 from hydro2d.solver.audit import Audit
 
 
@@ -19,7 +18,6 @@ class Books:
     def __init__(self, cycle):
         self._cycle, self._state = cycle, cycle.state
         self._edges, self._opens = cycle.method.boundaries.edges, cycle.method.boundaries.having("opens")
-        self._both = cycle.method.advection == momentum.BOTH
         rows = np.maximum(cycle.constrained, cycle.pushing)[2:].tolist()
         self._rows_that_hold = [(edge, j) for edge, j in zip(self._edges[2:], rows, strict=True) if j >= 0]
 
@@ -65,7 +63,7 @@ class Books:
         s, (j0, j1, _, _) = self._state, self._cycle.box
         before, after, p_gained, k_cut, _ = s.momentum_sums[:, j0:j1 + 1].sum(axis=1)
         lost = before - after - self._kinetic_outflow(di)
-        if self._both:
+        if self._cycle.method.both:
             lost -= s.deposited[j0:j1].sum()
         self.audit.add("advection", momentum=-float(p_gained), energy=float(lost - k_cut))
         self.audit.add("ke_bound", energy=float(k_cut))

@@ -10,7 +10,7 @@ from collections.abc import Iterable
 import numpy as np
 
 from hydro2d.jit import Handle, Phase
-from hydro2d.kernels import momentum, names
+from hydro2d.kernels import names
 from hydro2d.materials import rows
 from hydro2d.mesh import fields
 from hydro2d.mesh.edges.base import EDGES
@@ -60,7 +60,7 @@ class Given:
         }
         choices = _of(method, [name for name in names.METHOD]) | {
             "contact": state.groups > 1, "remembers": table.remembers, "slip_layer": method.slip_widths is not None,
-            "both": method.advection == momentum.BOTH, "strength_mode": method.mixed_strength,
+            "strength_mode": method.mixed_strength,
             "hard_threshold": method.threshold, "underfilled_density": method.mass_floor * float(np.max(table.rho0)),
             "most_squares": most_squares(table, method.courant) if state.groups > 1 else 1.0,
         }

@@ -53,6 +53,11 @@ class Method:
         """Whether the strength of a mixed cell is the mean over the volume of the materials, not over that of the cell."""
         return self.mixed_strength == mixed_strength.SOLID
 
+    @property
+    def both(self) -> bool:
+        """Whether the advection keeps kinetic energy and momentum."""
+        return self.advection == momentum.BOTH
+
     @classmethod
     def from_deck(cls, deck, slots: list[str], widths: tuple[float, float], factor: float) -> Method:
         """Translates the words of a deck; slots are the bodies in their order in the arrays."""

@@ -15,7 +15,9 @@ import llvmlite.binding
 import numba
 import numpy as np
 import pytest
-from numba.core import caching, codegen, cpu
+from numba.core import caching, codegen, cpu, imputils
+from numba.core.typing import templates
+from numba.np import arrayobj
 
 from hydro2d import jit
 from hydro2d.jit import cache, options
@@ -97,6 +99,17 @@ def test_constants_of_any_folder_are_among_the_sources():
 #: what numba does not promise to keep: (object, attribute, words that its signature must have)
 RELIED_ON = [
     (codegen.CPUCodeLibrary, "_optimize_final_module", ("self",)),
+    (codegen.CPUCodeLibrary, "_finalize_final_module", ("self",)),
+    (codegen.CPUCodeLibrary, "_finalize_dynamic_globals", ("self",)),
+    (codegen.CPUCodeLibrary, "_verify_declare_only_symbols", ("self",)),
+    (codegen.CPUCodeLibrary, "get_pointer_to_function", ("name",)),
+    (cpu.CPUContext, "get_executable", ("library", "fndesc", "env")),
+    (numba.core.funcdesc.FunctionDescriptor, "llvm_cfunc_wrapper_name", ()),
+    (imputils, "lower_getattr_generic", ("ty",)),
+    (templates, "infer_getattr", ("template",)),
+    (templates, "AttributeTemplate", ()),
+    (arrayobj, "make_array", ("array_type",)),
+    (arrayobj, "populate_array", ("array", "data", "shape", "strides", "itemsize", "meminfo")),
     (cpu, "CPUTargetOptions", ()),
     (numba.core.options, "TargetOptions", ()),
     (numba.core.options.TargetOptions, "Mapping", ("flag_name",)),
@@ -214,10 +227,42 @@ def test_kernels_are_not_optimised_again_in_what_only_calls_them(only_calls, mon
     assert len(re.findall(r"call [^\n]*named_kernel", text)) == (1 if only_calls else 0)
 
 
+@pytest.mark.parametrize("inner", [True, False])
+def test_what_only_compiled_code_calls_has_no_code_of_its_own(inner, monkeypatch):
+    """A kernel is part of the machine code of the phase that calls it, and is not made into code by itself."""
+    def kernel_of_a_phase(a):
+        a[0] += 2.0
+
+    def phase_of_a_kernel(a):
+        kernel(a)
+
+    own = {**options.OPTIONS, "cache": False}
+    kernel, phase = numba.njit(**own, no_cfunc_wrapper=True, no_cpython_wrapper=inner)(kernel_of_a_phase), numba.njit(**own)(
+        phase_of_a_kernel)
+    monkeypatch.setattr(options, "INNER", {kernel_of_a_phase} if inner else set())
+    a = np.zeros(1)
+    phase(a)
+    assert a[0] == 2.0
+    (overload,) = kernel.overloads.values()
+    assert (overload.library.get_pointer_to_function(overload.fndesc.llvm_func_name) == 0) == inner
+
+
+def test_python_gets_code_of_its_own_when_it_asks():
+    def twice(x):
+        return 2.0 * x
+
+    point = jit.point(twice)
+    assert "whole" not in vars(point)
+    assert point(3.0) == 6.0
+    assert point.py_func.__code__ is twice.__code__
+    assert point.__name__ == "twice"
+    assert not hasattr(point, "__nonsense__")
+
+
 def test_every_phase_only_calls_kernels():
     """As the option takes for granted: what is not a kernel, or the barrier, would not be optimised at all."""
     for name in ("lagrangian_step", "remap_step"):
         module = importlib.import_module(f"hydro2d.kernels.{name}")
-        phases = [value for value in vars(module).values() if getattr(value, "__module__", "") == module.__name__]
+        phases = [value for value in vars(module).values() if isinstance(value, jit.Phase)]
         assert phases
         assert {phase.compiled.py_func for phase in phases} <= options.ONLY_CALLS

@@ -17,7 +17,7 @@ def ghost_vertices(engine) -> None:
     s, g, (_, _, i0, i1) = engine.state, engine.grid, engine.box
     low_r, high_r, low_z, high_z = engine.method.boundaries.having("mirrors")
     boundaries.ghost_vertices_r(0, rows(engine), g.nr, low_r, high_r, s.u, s.v)
-    boundaries.ghost_vertices_z(0, rows(engine), i0 - 2, i1 + 3, g.nz, low_z, high_z, s.u, s.v)
+    boundaries.ghost_vertices_z(0, rows(engine), i0, i1, g.nz, low_z, high_z, s.u, s.v)
 
 
 def constrain(engine) -> None:

@@ -4,13 +4,14 @@ import functools
 import inspect
 import sys
 import threading
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from hydro2d import jit
 from hydro2d.deck import deck
-from hydro2d.kernels import contact_motion, extension, lagrangian_step, remap_step
+from hydro2d.kernels import contact_motion, extension
 from hydro2d.mesh import state
 from hydro2d.solver.simulation import Simulation
 from tests.kernels.test_compiled_equals_source import CONTACT, LAYER, text_of
@@ -70,11 +71,7 @@ class Races:
                     if source is not None and (module, name) not in PHASES and not name.startswith(("exp", "log", "power")):
                         monkeypatch.setattr(module, name, source)
         for module, name in PHASES:
-            phase = getattr(module, name)
-            monkeypatch.setattr(module, name, functools.wraps(phase)(functools.partial(self, phase.compiled.py_func)))
-        for module in (lagrangian_step, remap_step):
-            monkeypatch.setattr(module, "prange", lambda _: [self.own.place])
-            monkeypatch.setattr(module, "wait", lambda gate, parts: self._wait())
+            monkeypatch.setattr(module, name, functools.partial(self, getattr(module, name)))
 
     def _wait(self):
         self.own.waits += 1
@@ -87,18 +84,19 @@ class Races:
         self.stopped.release()
         self.own.turn.acquire()
 
-    def __call__(self, phase, parts, *arguments):
-        number, failed = len(parts) - 1, []
+    def __call__(self, phase, handle):
+        number, failed = len(handle.parts) - 1, []
         turns, logs, running = [threading.Semaphore(0) for _ in range(number)], [[] for _ in range(number)], set(range(number))
-        watched = [each.view(Watched) if isinstance(each, np.ndarray) else each for each in arguments]
+        watched = SimpleNamespace(values={name: each.view(Watched) if isinstance(each, np.ndarray) else each
+                                          for name, each in handle.values.items()})
 
         def work(place):
-            self.own.place, self.own.turn, self.own.log = place, turns[place], logs[place]
+            self.own.turn, self.own.log = turns[place], logs[place]
             self.own.phase, self.own.waits = phase.__name__, 0
             turns[place].acquire()
             try:
                 with np.errstate(all="ignore"):
-                    phase(parts, *watched)
+                    phase.as_python(watched, place, self._wait)
             except BaseException as error:
                 failed.append(error)
             running.discard(place)
@@ -113,24 +111,22 @@ class Races:
                 self.stopped.acquire()
                 if failed:
                     raise failed[0]
-        names = phase.__code__.co_varnames[1:]
-        arrays = [(names[k], each) for k, each in enumerate(arguments) if isinstance(each, np.ndarray)]
+        arrays = [(name, handle.values[name]) for name in phase.takes if isinstance(handle.values[name], np.ndarray)]
         for interval, touched in enumerate(zip(*logs, strict=True)):
             for one, (_, written) in enumerate(touched):
                 for other, (read, also_written) in enumerate(touched):
                     for address in written & (read | also_written) if one != other else ():
-                        self.found.add((phase.__name__, interval, owner(address, arrays)))
+                        self.found |= {(phase.__name__, interval, name) for name in owners(address, arrays)}
         for turn in turns:
             turn.release()
 
 
-def owner(address: int, arrays: list) -> str:
-    """The array of an address."""
-    for name, array in arrays:
-        first = array.__array_interface__["data"][0]
-        if first <= address < first + array.nbytes:
-            return name
-    raise AssertionError("an address of no array")
+def owners(address: int, arrays: list) -> list[str]:
+    """The names of the arrays that an address lies in."""
+    found = [name for name, array in arrays
+             if 0 <= address - array.__array_interface__["data"][0] < array.nbytes]
+    assert found, "an address of no array"
+    return found
 
 
 def everything_happens(monkeypatch) -> None:
@@ -170,10 +166,20 @@ def test_no_part_touches_what_another_one_writes(monkeypatch, case):
 
 
 def barrier_before(phase: str, kernel: str) -> tuple[str, int]:
-    """The last barrier in the text of a phase before it calls a kernel: which of its barriers it is, from 1."""
+    """The last barrier in a phase before it calls a kernel: which of its barriers it is, from 1, with contact."""
     module = next(module for module, name in PHASES if name == phase)
-    text = inspect.getsource(getattr(module, phase).compiled.py_func)
-    return phase, text[: text.index(f"{kernel}(")].count("wait(gate, parts)")
+    steps = [step if step == jit.WAIT else f"{step.kernel.__module__.split('.')[-1]}.{step.kernel.__name__}"
+             for step in flat(getattr(module, phase).steps)]
+    return phase, steps[: steps.index(kernel)].count(jit.WAIT)
+
+
+def flat(steps):
+    """The steps of a phase, those of its branches in their places."""
+    for step in steps:
+        if hasattr(step, "steps"):
+            yield from flat(step.steps)
+        else:
+            yield step
 
 
 #: barriers without which bits rarely change, and what is then touched by two parts

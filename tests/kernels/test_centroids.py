@@ -57,12 +57,12 @@ def sweep(cells, dj, swept, order) -> None:
     face = cells.fz if dj else cells.fr
     face[:-1, :-1] = swept * (cells.grid.volume if dj else 1.0)  # rows have a height of 1
     way = {"dj": dj, "di": 1 - dj, "face": face}
-    ghosts = {"mirror_low": True, "mirror_high": True, "fields": cells.q.shape[0]}
-    cells.call(boundaries.ghost_columns, **ghosts)
-    cells.call(boundaries.ghost_rows, leading=-1, **ghosts | {"i0": 0, "i1": cells.vof.shape[2]})
-    cells.call(column_ranges.list_mixed, count=cells.mixed_count)
-    cells.call(interfaces.donor_volumes, dj=dj, di=1 - dj, first=False, open_faces=cells.mesh_box)
-    cells.call(interfaces.interface_volumes, order=order, gases=np.zeros(len(order), dtype=bool), **way)
+    mirrors = {f"mirror_{edge}": True for edge in ("r_min", "r_max", "z_min", "z_max")}
+    cells.call(boundaries.ghost_columns, di=1, **{name: mirrors[name] for name in ("mirror_r_min", "mirror_r_max")})
+    cells.call(boundaries.ghost_rows, dj=1, leading=-1, **{name: mirrors[name] for name in ("mirror_z_min", "mirror_z_max")})
+    cells.call(column_ranges.list_mixed)
+    cells.call(interfaces.donor_volumes, dj=dj, di=1 - dj, second=True, void_only=cells.mesh_box)
+    cells.call(interfaces.interface_volumes, interface_order=order, gases=np.zeros(len(order), dtype=bool), **way)
     cells.call(remap.sweep_z if dj else remap.sweep_r, second=True, face=face)
     cells.call(centroids.carry_centroids, second=True, own=ONE_GROUP, contact_columns=NO_CONTACT, **way)
     cells.call(remap.tidy, cutoff=1e-13, dj=dj, di=1 - dj, second=True)
@@ -463,22 +463,22 @@ def with_centroids() -> Cells:
 
 def test_centroids_beyond_the_ends_of_a_row_are_mirrored_along_it_or_copied():
     cells = with_centroids()
-    cells.call(boundaries.ghost_columns, mirror_low=True, mirror_high=False, fields=0)
+    cells.call(boundaries.ghost_columns, mirror_r_min=True, mirror_r_max=False, di=0)
     assert cells.centroid[0, 0, 3].tolist() == [-6, -5, 5, 6, 7, 8, 8, 8]
     assert cells.centroid[1, 0, 3].tolist() == [106, 105, 105, 106, 107, 108, 108, 108]
-    cells.call(boundaries.ghost_columns, mirror_low=False, mirror_high=True, fields=0)
+    cells.call(boundaries.ghost_columns, mirror_r_min=False, mirror_r_max=True, di=0)
     assert cells.centroid[0, 0, 3].tolist() == [5, 5, 5, 6, 7, 8, -8, -7]
     assert cells.centroid[1, 0, 3].tolist() == [105, 105, 105, 106, 107, 108, 108, 107]
 
 
 def test_centroids_below_and_above_the_mesh_are_mirrored_along_z_or_copied():
     cells = with_centroids()
-    cells.call(boundaries.ghost_rows, mirror_low=True, mirror_high=False, leading=-1, fields=0)
+    cells.call(boundaries.ghost_rows, mirror_z_min=True, mirror_z_max=False, leading=-1, dj=0)
     assert cells.centroid[0, 0, :, 4].tolist() == [7, 3, 3, 7, 11, 15, 15, 15]
     assert cells.centroid[1, 0, :, 4].tolist() == [-107, -103, 103, 107, 111, 115, 115, 115]
-    cells.call(boundaries.ghost_rows, mirror_low=False, mirror_high=True, leading=-1, fields=0)
+    cells.call(boundaries.ghost_rows, mirror_z_min=False, mirror_z_max=True, leading=-1, dj=0)
     assert cells.centroid[0, 0, :, 4].tolist() == [3, 3, 3, 7, 11, 15, 15, 11]
     assert cells.centroid[1, 0, :, 4].tolist() == [103, 103, 103, 107, 111, 115, -115, -111]
     cells = with_centroids()
-    cells.call(boundaries.ghost_rows, mirror_low=True, mirror_high=True, leading=0, fields=0)
+    cells.call(boundaries.ghost_rows, mirror_z_min=True, mirror_z_max=True, leading=0, dj=0)
     assert not cells.centroid[:, 0, :2, 4].any()

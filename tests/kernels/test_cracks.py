@@ -29,7 +29,7 @@ class Block:
     def __init__(self):
         self.simulation = Simulation(deck.loads(TEXT))
         self.state, self.engine = self.simulation.state, self.simulation.engine
-        find = self.engine.arguments._look_up
+        find = self.engine.given.handle.values.get
         self.models, self.materials, self.mesh_box = find("models"), find("materials"), find("mesh_box")
         self.parts = np.array([2, 14], dtype=np.int64)
         self.q, self.vof = self.state.q, self.state.vof

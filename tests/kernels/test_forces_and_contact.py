@@ -44,7 +44,7 @@ def stressed(**q) -> Cells:
 
 
 def sums(cells: Cells, **given) -> list:
-    cells.call(acceleration.total_stress, **{"dt": 0.4, "solid_mode": False, "hard": np.array([False, False]),
+    cells.call(acceleration.total_stress, **{"dt": 0.4, "by_what_is_solid": False, "hard_bodies": np.array([False, False]),
                                              "hard_threshold": 0.5, **given})  # fmt: skip
     return [getattr(cells, name)[3, 3] for name in ("ph", "sig_rr", "sig_zz", "sig_tt", "sig_rz")]
 
@@ -61,8 +61,8 @@ def test_the_stress_of_a_mixed_cell_is_that_of_its_bodies_by_volume():
     cells.q[SRR, 1] = 30.0
     cells.mixed_count[3], cells.mixed[3, 0] = 1, 3
     assert sums(cells)[1] == pytest.approx(0.25 * (10 + 30) - 90 - 5)
-    assert sums(cells, solid_mode=True)[1] == pytest.approx(0.5 * (10 + 30) - 90 - 5)
-    assert sums(cells, hard=np.array([False, True]), hard_threshold=0.2)[1] == pytest.approx(0.5 * 30 - 90 - 5)
+    assert sums(cells, by_what_is_solid=True)[1] == pytest.approx(0.5 * (10 + 30) - 90 - 5)
+    assert sums(cells, hard_bodies=np.array([False, True]), hard_threshold=0.2)[1] == pytest.approx(0.5 * 30 - 90 - 5)
 
 
 def test_the_deviator_of_a_crumb_is_not_swallowed_by_the_pressure_of_a_full_cell():
@@ -169,9 +169,9 @@ def halves(nz: int = 4) -> Cells:
     cells.cell_mass[:, 2:2 + nz] = (cells.vof * cells.q[RHO])[:, 2:2 + nz]
     cells.skin[KIND] = WHOLE
     cells.call(acceleration.vertex_masses, i1=8)
-    cells.call(contact_geometry.find_contact_nodes, count=cells.contact_node_count)
-    cells.call(contact_geometry.contact_lines, count=cells.contact_node_count)
-    cells.call(contact_geometry.face_apertures, count=cells.contact_node_count, normal=cells.contact_normal)
+    cells.call(contact_geometry.find_contact_nodes)
+    cells.call(contact_geometry.contact_lines)
+    cells.call(contact_geometry.face_apertures)
     return cells
 
 
@@ -182,7 +182,7 @@ def test_contact_nodes_are_where_both_groups_have_mass():
     assert cells.hard[3, 2:7].tolist() == [1, 1, 0.5, 0, 0]
     assert cells.soft[3, 2:7].tolist() == [0, 0, 0.5, 1, 1]
     assert cells.warmed[4].tolist() == [2, 7]
-    cells.call(contact_geometry.number_nodes, count=cells.contact_node_count)
+    cells.call(contact_geometry.number_nodes)
     assert cells.first_slot[2:8].tolist() == [0, 2, 4, 6, 8, 10]
 
 
@@ -213,7 +213,7 @@ def test_apertures_are_what_the_line_leaves_of_a_face():
     assert cells.touch[3, 4:6].tolist() == [1, 1]
     cells.soft[ROWS, 4] = 0.45  # a twentieth of void between them
     cells.soft[ROWS, 3] = cells.hard[ROWS, 5] = 0.0
-    cells.call(contact_geometry.face_apertures, count=cells.contact_node_count, normal=cells.contact_normal)
+    cells.call(contact_geometry.face_apertures)
     assert not cells.touch[3, 4:6].any()
 
 
@@ -229,8 +229,8 @@ def test_the_contact_cell_has_the_stress_of_its_one_rate_of_volume():
 
 def seen(cells: Cells) -> np.ndarray:
     step = np.full(8, 1e300)
-    cells.call(contact_motion.contact_viscosity, linear=0.5, quadratic=2.0, courant=0.5, normal=cells.contact_normal,
-               row_step=step, scratch=cells.kinds)  # fmt: skip
+    cells.call(contact_motion.contact_viscosity, viscosity_linear=0.5, viscosity_quadratic=2.0, courant=0.5,
+               row_step=step)  # fmt: skip
     return step
 
 
@@ -277,7 +277,7 @@ def pushed(**given) -> Cells:
     """Velocities after 0.1 s at the nodes between columns 3 and 4: 10 Pa left of them, 2 Pa on their right."""
     cells = halves()
     cells.ph[:, :4], cells.ph[:, 4:], cells.aperture_r[...] = 10.0, 2.0, 0.5
-    cells.call(contact_motion.contact_node_forces, dt=0.1, solid_mode=False, count=cells.contact_node_count,
+    cells.call(contact_motion.contact_node_forces, dt=0.1, by_what_is_solid=False,
                **{"pushed": NOTHING, **given})
     return cells
 
@@ -301,7 +301,7 @@ def test_deviators_of_a_group_act_on_it_alone():
     """s_rz = 6 Pa of the hard body left of the nodes pulls them along z: -(-1/2 * 1 * 6) N from each of two cells."""
     cells = halves()
     cells.q[SRZ, 1, :, :4] = 6.0
-    cells.call(contact_motion.contact_node_forces, dt=0.1, solid_mode=False, count=cells.contact_node_count, pushed=NOTHING)
+    cells.call(contact_motion.contact_node_forces, dt=0.1, by_what_is_solid=False, pushed=NOTHING)
     assert cells.v[:, 3, 4] == pytest.approx([0.0, -0.1 * 6.0 / 3.0])
 
 
@@ -321,7 +321,7 @@ def test_both_ways_of_summing_the_corner_forces_agree():
     by_rows = np.array([cells.u[inside], cells.v[inside]])
     cells.contact_node_count[3:6], cells.contact_nodes[3:6, :3] = 3, [3, 4, 5]
     cells.mass[1] = 1.0  # divided by, and of no matter
-    cells.call(contact_motion.contact_node_forces, dt=0.1, solid_mode=False, count=cells.contact_node_count, pushed=NOTHING)
+    cells.call(contact_motion.contact_node_forces, dt=0.1, by_what_is_solid=False, pushed=NOTHING)
     np.testing.assert_allclose([cells.u[inside], cells.v[inside]], by_rows, rtol=1e-12, atol=1e-13)
     assert np.abs(by_rows - [cells.u0[inside], cells.v0[inside]]).min() > 1e-4
 

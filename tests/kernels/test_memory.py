@@ -65,7 +65,7 @@ def test_a_body_with_memory_alone_carries_no_deviators():
 def test_no_memory_is_taken_where_no_equation_of_state_has_any():
     sim = Simulation(deck.loads(BLOCK))
     assert not hasattr(sim.state, "before")
-    assert sim.engine.arguments._look_up("before").size == 0
+    assert sim.engine.given.handle.before.size == 0
 
 
 def test_a_model_is_told_what_has_happened(monkeypatch):
@@ -80,7 +80,7 @@ def test_a_model_is_told_what_has_happened(monkeypatch):
     e = sim.engine
     monkeypatch.setitem(memory.update_memory.compiled.py_func.__globals__, "update", update)
     j, i = 4, 3
-    arguments = e.arguments._look_up
+    arguments = e.given.handle.values.get
     part, parts = 0, np.array([j, j + 1])
     s.body_range[0, j] = i, i + 1
     s.rho[0, j, i], s.q[SRR, 0, j, i], s.q[SZZ, 0, j, i] = 2000.0, 1e8, -2e8
@@ -100,8 +100,8 @@ def test_the_variables_of_strength_come_first():
     plain = 'model = "elastic-plastic"\nshear_modulus = "26 GPa"\nyield_stress = "1e6 GPa"'
     assert plain in POROUS
     own = simulation(POROUS.replace(plain, plain.replace("elastic-plastic", "kinematic-hardening")))
-    assert own.engine.arguments._look_up("models")[0, MEMORY] == INTERNAL + 3
-    assert own.engine.arguments._look_up("models")[0, EOS] == p_alpha.ID
+    assert own.engine.given.handle.models[0, MEMORY] == INTERNAL + 3
+    assert own.engine.given.handle.models[0, EOS] == p_alpha.ID
     assert np.all(own.state.q[INTERNAL + 3, 0] == 1.35)
 
 

@@ -251,7 +251,7 @@ def test_the_whole_step_of_a_cell_of_two_gases():
     cell = Cell()
     cell.fr[2, 2], cell.ph[AT], cell.pm[:, *AT] = 0.1, 10.0, 10.0
     cell.u0[0, 2:4, 2], cell.u[0, 2:4, 2] = 1.0, 1.0  # the left face at 1 m/s for 0.1 s
-    cell.call(mixed.deform_mixed, relaxation=0.25, tipton=True, mode=VOLUME)
+    cell.call(mixed.deform_mixed, relaxation=0.25, tipton=True, strength_mode=VOLUME)
     assert cell.vof[:, *AT] * 0.9 == pytest.approx([0.42, 0.48])
     assert cell.q[E, :, *AT] == pytest.approx([1.8, 1 + 0.2 / 4])
 

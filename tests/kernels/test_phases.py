@@ -26,7 +26,7 @@ DECKS = {**{name: text_of(*case) for name, case in CASES.items()}, "both, contac
 #: two cuts into parts, and contact for most of them
 CYCLES = 20
 PHASES = [(module, name) for module in (lagrangian_step, remap_step) for name, value in vars(module).items()
-          if hasattr(value, "compiled") and value.__module__ == module.__name__]
+          if isinstance(value, jit.Phase)]
 
 
 def bits(case: str, *parts: int) -> str:
@@ -76,25 +76,22 @@ class Turns:
         self.order, self.own = order, threading.local()
         self.stopped = threading.Semaphore(0)  # released by a part that waits or has finished
         for module, name in PHASES:
-            monkeypatch.setattr(module, name, functools.wraps(phase := getattr(module, name))(functools.partial(self, phase)))
-        for module in (lagrangian_step, remap_step):
-            monkeypatch.setattr(module, "prange", lambda _: [self.own.place])
-            monkeypatch.setattr(module, "wait", lambda gate, parts: self._wait())
+            monkeypatch.setattr(module, name, functools.partial(self, getattr(module, name)))
 
     def _wait(self):
         self.own.waits.append(True)
         self.stopped.release()
         self.own.may_go_on.acquire()
 
-    def __call__(self, phase, parts, *arguments):
-        number, failed = len(parts) - 1, []
+    def __call__(self, phase, handle):
+        number, failed = len(handle.parts) - 1, []
         turns, waits = [threading.Semaphore(0) for _ in range(number)], [[] for _ in range(number)]
 
         def work(place):
-            self.own.place, self.own.may_go_on, self.own.waits = place, turns[place], waits[place]
+            self.own.may_go_on, self.own.waits = turns[place], waits[place]
             turns[place].acquire()
             try:
-                phase.compiled.py_func(parts, *arguments)
+                phase.as_python(handle, place, self._wait)
             except BaseException as error:
                 failed.append(error)
             self.stopped.release()

@@ -63,20 +63,21 @@ def test_ranges_are_joined_with_those_of_the_rows_beside():
 def test_cells_are_mixed_where_a_body_and_something_else_meet():
     cells = Cells(bodies=2)
     cells.vof[:, 3, 2:6] = [[1.0, 0.5, 0.25, 0.0], [0.0, 0.5, 0.0, 0.0]]
-    cells.call(column_ranges.list_mixed, count=cells.mixed_count)
+    cells.call(column_ranges.list_mixed)
     assert cells.mixed_count[2:6].tolist() == [0, 2, 0, 0]
     assert cells.mixed[3, :2].tolist() == [3, 4]
 
 
 def test_the_box_of_what_moves():
-    cells, limits, box = Cells(), np.zeros((9, 2), dtype=np.int64), np.zeros(4, dtype=np.int64)
+    cells = Cells()
+    limits, box = cells.row_moving, cells.moving
     cells.u[0, 3, 4], cells.v[0, 4, 2] = 1e-300, -1.0
-    cells.call(column_ranges.moving_columns, i1=7, limits=limits)
+    cells.call(column_ranges.moving_columns)
     assert limits[2:7].tolist() == [EMPTY, [4, 5], [2, 3], EMPTY, EMPTY]
-    column_ranges.moving_box(2, 7, limits, box)
+    cells.call(column_ranges.moving_box)
     assert box.tolist() == [3, 5, 2, 5]
     limits[...] = EMPTY
-    column_ranges.moving_box(2, 7, limits, box)
+    cells.call(column_ranges.moving_box)
     assert box[0] == box[1] == 7
 
 
@@ -92,7 +93,7 @@ def ghosts() -> Cells:
 
 def test_ghost_columns_are_images_at_a_mirror_and_copies_at_an_open_edge():
     cells = ghosts()
-    cells.call(boundaries.ghost_columns, mirror_low=True, mirror_high=False, fields=cells.q.shape[0])
+    cells.call(boundaries.ghost_columns, mirror_r_min=True, mirror_r_max=False, di=1)
     row = 32 * cells.vof[0, 3]
     assert row.tolist() == [6, 5, 5, 6, 7, 8, 8, 8]
     assert (32 * cells.q[RHO, 0, 3]).tolist() == row.tolist()
@@ -101,11 +102,11 @@ def test_ghost_columns_are_images_at_a_mirror_and_copies_at_an_open_edge():
 
 def test_ghost_rows_likewise_but_at_the_edge_that_leads():
     cells = ghosts()
-    cells.call(boundaries.ghost_rows, mirror_low=False, mirror_high=True, leading=-1, fields=cells.q.shape[0])
+    cells.call(boundaries.ghost_rows, mirror_z_min=False, mirror_z_max=True, leading=-1, dj=1)
     assert (32 * cells.vof[0, :, 4]).tolist() == [3, 3, 3, 7, 11, 15, 15, 11]
     assert (32 * cells.q[SRZ, 0, :, 4]).tolist() == [3, 3, 3, 7, 11, 15, -15, -11]
     cells = ghosts()
-    cells.call(boundaries.ghost_rows, mirror_low=True, mirror_high=True, leading=1, fields=0)
+    cells.call(boundaries.ghost_rows, mirror_z_min=True, mirror_z_max=True, leading=1, dj=0)
     assert (32 * cells.vof[0, :, 4]).tolist() == [7, 3, 3, 7, 11, 15, 0, 0]
     assert not cells.q[:, 0, :2].any()
 
@@ -113,10 +114,10 @@ def test_ghost_rows_likewise_but_at_the_edge_that_leads():
 def test_ghost_vertices_are_images_at_a_mirror_and_copies_at_an_open_edge():
     cells = Cells()
     cells.u[0] = cells.v[0] = 10.0 * np.arange(9.0)[:, None] + np.arange(9.0)
-    cells.call(boundaries.ghost_vertices_r, mirror_low=True, mirror_high=False)
+    cells.call(boundaries.ghost_vertices_r, mirror_r_min=True, mirror_r_max=False)
     assert cells.u[0, 3].tolist() == [-34, -33, 32, 33, 34, 35, 36, 36, 36]
     assert cells.v[0, 3].tolist() == [34, 33, 32, 33, 34, 35, 36, 36, 36]
-    cells.call(boundaries.ghost_vertices_z, mirror_low=False, mirror_high=True)
+    cells.call(boundaries.ghost_vertices_z, mirror_z_min=False, mirror_z_max=True)
     assert cells.u[0, :, 4].tolist() == [24, 24, 24, 34, 44, 54, 64, 54, 44]
     assert cells.v[0, :, 4].tolist() == [24, 24, 24, 34, 44, 54, 64, -54, -44]
 
@@ -124,7 +125,7 @@ def test_ghost_vertices_are_images_at_a_mirror_and_copies_at_an_open_edge():
 def test_an_edge_with_a_velocity_takes_momentum_and_work_and_the_axis_neither():
     cells, velocity = Cells(), np.array([0.0, 0.0, 0.0, 5.0])
     cells.u[...], cells.v[...], cells.v0[...], cells.mass[0, 6, 3], cells.mass[0, 4, 2] = 1.0, 7.0, 6.0, 3.0, 3.0
-    cells.call(boundaries.constrain, constrained=np.array([2, -1, -1, 6]), velocity=velocity)
+    cells.call(boundaries.constrain, constrained=np.array([2, -1, -1, 6]), edge_velocity=velocity)
     assert not cells.u[0, :, 2].any()
     assert cells.u[0, :, 3].all()
     assert cells.v[0, 4:8, 3].tolist() == [7, 7, 5, 7]
@@ -140,7 +141,7 @@ def test_an_edge_that_only_pushes_lets_go_what_leaves_it():
     cells.u[0, 4, [2, 6]] = cells.v[0, [2, 6], 4] = -4.0
     cells.mass[...] = 3.0
     cells.v0[...] = 2.0
-    cells.call(boundaries.constrain, pushing=np.array([2, 6, 2, 6]), velocity=np.zeros(4))
+    cells.call(boundaries.constrain, pushing=np.array([2, 6, 2, 6]), edge_velocity=np.zeros(4))
     assert cells.u[0, 3, [2, 6]].tolist() == cells.v[0, [2, 6], 3].tolist() == [4.0, 0.0]
     assert cells.u[0, 4, [2, 6]].tolist() == cells.v[0, [2, 6], 4].tolist() == [0.0, -4.0]
     assert cells.walls[2, :, 2].tolist() == [3.0 * -4, 0.5 * 3.0 * -4 * 2]
@@ -150,14 +151,14 @@ def test_an_edge_that_only_pushes_lets_go_what_leaves_it():
 
 def test_no_mass_flows_beyond_the_edges_but_on_through_an_open_one():
     flow = np.ones((1, 9, 9))
-    Cells().call(boundaries.close_mass_flux, di=1, opens_low=False, opens_high=False, flow=flow)
+    Cells().call(boundaries.close_mass_flux, di=1, opens_low=False, opens_high=False, flux_mass=flow)
     assert not flow[0, [1, 6]].any()
     assert flow[0, 2:6].all()
     flow[0, 2:6] = np.arange(9.0)
-    Cells().call(boundaries.close_mass_flux, di=1, opens_low=True, opens_high=True, flow=flow)
+    Cells().call(boundaries.close_mass_flux, di=1, opens_low=True, opens_high=True, flux_mass=flow)
     assert flow[0, 3].tolist() == [0, 2, 2, 3, 4, 5, 6, 6, 8]
     flow[...] = np.arange(9.0)[:, None]
-    Cells().call(boundaries.close_mass_flux, di=0, opens_low=True, opens_high=False, flow=flow)
+    Cells().call(boundaries.close_mass_flux, di=0, opens_low=True, opens_high=False, flux_mass=flow)
     assert flow[0, :, 4].tolist() == [0, 2, 2, 3, 4, 5, 6, 7, 8]
     assert not flow[0, :, [1, 6]].any()
 
@@ -181,9 +182,9 @@ def test_what_dashpots_take_goes_by_the_velocities_at_the_end():
     cells, edges, taken = Cells(), np.array([-1, 6, -1, -1]), np.full(2, 9.0)
     cells.drag[1, 0, :, 3] = 2.0, 3.0
     cells.u0[0, 3, 6], cells.u[0, 3, 6], cells.v[0, 3, 6] = 4.0, 1.0, 5.0
-    cells.call(boundaries.sum_drag, transmitting=edges, taken=taken)
+    cells.call(boundaries.sum_drag, transmitting=edges, held_back=taken)
     assert taken.tolist() == [3.0, 2.0 * 2.5 + 3.0 * 2.5]
-    cells.call(boundaries.sum_drag, taken=taken)
+    cells.call(boundaries.sum_drag, held_back=taken)
     assert not taken.any()
 
 
@@ -204,7 +205,7 @@ def test_momentum_that_goes_out_and_that_comes_in():
     cells = Cells()
     cells.edge_dual[0, 1, :, 6] = 2.0, 7.0, 3.0, 1.0, 0.5  # the last vertex of the box counts
     cells.edge_dual[0, 0, :, 2] = 1.0, 7.0, -4.0, 0.25, 1.0
-    cells.call(edge_sums.sum_kinetic_outflow, di=1, outflow=cells.kinetic_outflow)
+    cells.call(edge_sums.sum_kinetic_outflow, di=1)
     assert cells.kinetic_outflow.tolist() == [[[0, 0], [4, -1.25]], [[3, 1.5], [0, 0]]]
 
 

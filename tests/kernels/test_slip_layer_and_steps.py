@@ -15,7 +15,7 @@ def zoned() -> Cells:
     """A hard body in the columns 2 and 3, a boundary layer and a slip layer of 1 m each beside it."""
     cells = Cells(nr=6, nz=4, bodies=2)
     cells.vof[1, :, 2:4], cells.vof[0, :, 4:8] = 1.0, 1.0
-    cells.call(sliding.slip_zones, width_bl=1.0, width_sl=1.0, threshold=0.5, hard_body=np.array([False, True]),
+    cells.call(sliding.slip_zones, width_bl=1.0, width_sl=1.0, hard_threshold=0.5, hard_bodies=np.array([False, True]),
                normal=cells.normal)  # fmt: skip
     return cells
 
@@ -31,7 +31,7 @@ def test_the_surface_in_a_mixed_cell_lies_where_its_fraction_says():
     """Column 4 is filled by 0.25: its surface is at 2.25 m, a quarter of a metre before its middle."""
     cells = zoned()
     cells.vof[1, :, 4] = 0.25
-    cells.call(sliding.slip_zones, width_bl=1.0, width_sl=1.0, threshold=0.5, hard_body=np.array([False, True]),
+    cells.call(sliding.slip_zones, width_bl=1.0, width_sl=1.0, hard_threshold=0.5, hard_bodies=np.array([False, True]),
                normal=cells.normal)  # fmt: skip
     assert cells.distance[3, 4:6] == pytest.approx([0.25, 1.25])
     assert cells.zone[3, 4:7].tolist() == [BOUNDARY_LAYER, SLIP_LAYER, OUTSIDE]
@@ -43,8 +43,8 @@ def test_soft_material_of_the_slip_layer_loses_its_shear(treatment, rz, after):
     """Friction of 0.1 bears 0.1 (100 + 20) Pa of the shear beside a wall along z."""
     cells = zoned()
     cells.q[SRR], cells.q[SZZ], cells.q[SRZ], cells.pm[...] = -20.0, 5.0, rz, 100.0
-    cells.call(sliding.cut_shear, treatment=treatment, friction=0.1, occupied=cells.occupied[0],
-               hard_body=np.array([False, True]))  # fmt: skip
+    cells.call(sliding.cut_shear, shear=treatment, friction=0.1,
+               hard_bodies=np.array([False, True]))
     assert cells.q[[SRR, SZZ, SRZ], 0, 3, 5] == pytest.approx(after)
     for column in (3, 4, 6):
         assert cells.q[[SRR, SZZ, SRZ], 0, 3, column].tolist() == [-20, 5, rz]
@@ -57,12 +57,12 @@ def test_the_row_of_the_least_step_and_of_what_is_not_finite():
     cells = Cells()
     cells.row_step[...] = 1.0
     cells.row_step[[4, 5]] = 0.5
-    cells.call(thermodynamics.least_step, found=cells.least_row)
+    cells.call(thermodynamics.least_step)
     assert cells.least_row[0] in (4, 5)
     assert cells.least_row[1:].tolist() == [-1, -1]
     cells.bad[3, 0], cells.bad[[3, 2], 3] = 1, 4
     cells.row_step[5] = 0.4
-    cells.call(thermodynamics.least_step, found=cells.least_row)
+    cells.call(thermodynamics.least_step)
     assert cells.least_row.tolist() == [5, 3, 2]
 
 

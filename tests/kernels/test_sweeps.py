@@ -19,7 +19,7 @@ def test_a_pure_cell_gives_what_its_face_sweeps(dj, di, source, target, face):
     cells.vof[0, *source] = 1.0
     getattr(cells, face)[target] = 0.25
     whole_mesh = np.array([2, 6, 2, 6])
-    cells.call(interfaces.donor_volumes, dj=dj, di=di, first=True, open_faces=whole_mesh, body_ranges=cells.body_ranges)
+    cells.call(interfaces.donor_volumes, dj=dj, di=di, second=False, void_only=whole_mesh, body_ranges=cells.body_ranges)
     assert cells.pre[source] == 1.25
     assert cells.pre[target] == 0.75
     assert cells.flux_volume[0, *target] == 0.25
@@ -37,7 +37,7 @@ def test_a_cell_that_is_turned_inside_out_is_told_with_its_body(first):
     cells.vof[:, 3, 4], cells.vof[:, 3, 5], cells.vof[0, 4, 2] = (0.2, 0.7), (0.6, 0.4), 1.0
     cells.fr[3, 3:7] = 2.0, 0.5, -0.5, -3.0
     cells.fr[4, 3] = -0.99
-    cells.call(interfaces.donor_volumes, dj=0, di=1, first=first, open_faces=cells.mesh_box)
+    cells.call(interfaces.donor_volumes, dj=0, di=1, second=not first, void_only=cells.mesh_box)
     assert cells.pre[3, 3:6].tolist() == [-0.5, 0.0, -1.5]
     assert cells.turned[3].tolist() == [4, 1]
     assert cells.turned[[2, 4, 5], 0].tolist() == [-1, -1, -1]
@@ -47,7 +47,7 @@ def test_nothing_but_void_flows_in_at_an_edge():
     cells = Cells()
     cells.vof[...] = 1.0
     cells.fr[3, [2, 6]] = 0.1
-    cells.call(interfaces.donor_volumes, dj=0, di=1, first=True, open_faces=cells.mesh_box)
+    cells.call(interfaces.donor_volumes, dj=0, di=1, second=False, void_only=cells.mesh_box)
     assert cells.flux_volume[0, 3, [2, 6]].tolist() == [0.0, 0.1]
 
 
@@ -59,10 +59,12 @@ def test_a_mixed_cell_gives_what_lies_at_its_face(dj, di, source, target, face):
     cells.vof[0] = np.clip(0.5 - along, 0.0, 1.0)[:, None] if dj else np.clip(0.5 - along, 0.0, 1.0)[None, :]
     cells.mixed_count[3], cells.mixed[3, 0] = 1, 3
     getattr(cells, face)[target] = 0.6
-    cells.call(interfaces.interface_volumes, dj=dj, di=di, order=np.array([0]), gases=NO_GAS, face=getattr(cells, face))
+    cells.call(interfaces.interface_volumes, dj=dj, di=di, interface_order=np.array([0]), gases=NO_GAS,
+               face=getattr(cells, face))
     assert cells.flux_volume[0, *target] == pytest.approx(0.1)
     getattr(cells, face)[target], getattr(cells, face)[source] = 0.0, -0.3
-    cells.call(interfaces.interface_volumes, dj=dj, di=di, order=np.array([0]), gases=NO_GAS, face=getattr(cells, face))
+    cells.call(interfaces.interface_volumes, dj=dj, di=di, interface_order=np.array([0]), gases=NO_GAS,
+               face=getattr(cells, face))
     assert cells.flux_volume[0, *source] == pytest.approx(-0.3)
 
 

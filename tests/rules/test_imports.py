@@ -128,7 +128,7 @@ def users(library: str) -> set[str]:
     ("library", "allowed"),
     [
         ("numba", ("hydro2d.jit.options", "hydro2d.jit.cache", "hydro2d.jit.calls", "hydro2d.jit.bits",
-                   "hydro2d.jit.barrier")),
+                   "hydro2d.jit.barrier", "hydro2d.jit.handle", "hydro2d.jit.phases")),
         ("pyvista", ("hydro2d.output.vtk", "hydro2d.results.cutaway")),
         ("vtk", ("hydro2d.output.vtk", "hydro2d.results.cutaway")),
         ("pint", ("hydro2d.units",)),
@@ -140,7 +140,7 @@ def users(library: str) -> set[str]:
         ("pandas", ("hydro2d.study.table", "hydro2d.api", "hydro2d.output.history")),
         ("xarray", ("hydro2d.output.datasets", "hydro2d.output.history")),
         ("hydro2d.kernels", ("hydro2d.kernels", "hydro2d.solver.method", "hydro2d.solver.contact", "hydro2d.solver.following",
-                             "hydro2d.solver.cycle", "hydro2d.solver.sanity", "hydro2d.solver.sources",
+                             "hydro2d.solver.cycle", "hydro2d.solver.given", "hydro2d.solver.sanity", "hydro2d.solver.sources",
                              "hydro2d.running.bench")),
     ],
 )

@@ -1,15 +1,16 @@
-"""What the phases of a step are given: every parameter is found, always the array that is in use, and of the same types."""
+"""What the phases of a step are given: every name has a value, always the array that is in use, and of one type."""
 
 from functools import partial
 
 import numpy as np
 import pytest
 
+from hydro2d import jit
 from hydro2d.deck import deck
-from hydro2d.kernels import lagrangian_step, remap_step
-from hydro2d.solver.arguments import OF_THE_CALL, Arguments, names
-from hydro2d.solver.contact import slots
+from hydro2d.kernels import lagrangian_step, names, remap_step
+from hydro2d.solver.contact import Ties, slots
 from hydro2d.solver.first_cycle import calls_of_a_cycle
+from hydro2d.solver.given import Given
 from hydro2d.solver.simulation import Simulation
 from tests.regression.test_bitwise import CONTACT, FOLLOWING, SHOT
 
@@ -28,8 +29,7 @@ DECKS = {
     "planar": ('mesh.geometry="planar"', "numerics.active_region=false"),
 }
 PHASES = {name: value for module in (lagrangian_step, remap_step) for name, value in vars(module).items()
-          if hasattr(value, "compiled") and value.__module__ == module.__name__}
-every_phase = pytest.mark.parametrize("phase", PHASES.values(), ids=PHASES)
+          if isinstance(value, jit.Phase)}
 every_deck = pytest.mark.parametrize("options", DECKS.values(), ids=DECKS)
 
 
@@ -37,53 +37,39 @@ def started(options) -> Simulation:
     return Simulation(deck.loads(SHOT, options))
 
 
-def given(engine, phase) -> dict:
-    """The arguments of a phase that stay, by the names of its parameters."""
-    return dict(zip(names(phase), engine.arguments.of(phase), strict=True))
+def test_every_name_is_taken_by_a_phase():
+    """What no kernel asks for is no name of the step; the rows of q have names for those who read results."""
+    taken = frozenset().union(*(phase.takes for phase in PHASES.values()))
+    assert taken <= {name.symbol for name in names.NAMES}
+    stated = (*names.OF_THE_CALL, *names.MESH, *names.BODIES, *names.METHOD, *names.TIES)
+    assert {name.symbol for name in stated} - taken == set()
 
 
-@every_phase
-def test_what_changes_from_call_to_call_comes_first(phase):
-    parameters = phase.compiled.py_func.__code__.co_varnames[:phase.compiled.py_func.__code__.co_argcount]
-    number = len(parameters) - len(names(phase))
-    assert number > 2
-    assert set(parameters[:number]) <= set(OF_THE_CALL)
-    assert parameters[number:] == names(phase)
+def test_ties_are_those_of_the_table():
+    assert tuple(name.symbol for name in names.TIES) == Ties._fields
 
 
 @every_deck
-@every_phase
-def test_every_parameter_is_found(phase, options):
-    engine = started(options).engine
-    found = given(engine, phase)
-    assert set(found) == set(names(phase))
-    for name, value in found.items():
-        assert isinstance(value, (np.ndarray, bool, int, float, np.generic)), name
+def test_every_name_has_a_value(options):
+    simulation = started(options)
+    simulation.step()
+    engine, values = simulation.engine, simulation.engine.given.handle.values
+    missing = {name.symbol for name in names.NAMES} - set(values)
+    assert missing <= {"width_bl", "width_sl"}
+    assert (missing == set()) == (engine.method.slip_widths is not None)
+    for name in (each.symbol for each in names.NAMES):
         if getattr(engine.state, name, np.zeros(0)).size:
-            assert np.shares_memory(value, getattr(engine.state, name)), name
+            assert np.shares_memory(values[name], getattr(engine.state, name)), name
 
 
 def test_one_compiled_phase_serves_all_decks():
     """What is written down for compilation ahead of time has one tuple of types for each phase, whatever the deck."""
-    types: dict[str, set] = {name: set() for name in PHASES}
+    types: dict[str, set] = {}
     for options in DECKS.values():
         for call in calls_of_a_cycle(partial(started, options)):
-            name = call.name.split(".")[-1]
-            if call.compiled is getattr(PHASES.get(name), "compiled", None):
-                types[name].add(call.types)
+            if call.types == jit.PHASE_TYPES:
+                types.setdefault(call.name.split(".")[-1], set()).add(call.compiled)
     assert {name: len(found) for name, found in types.items()} == dict.fromkeys(PHASES, 1)
-
-
-@every_deck
-def test_no_cycle_compiles_a_phase_again(options):
-    simulation = started(options)
-    for _ in range(4):
-        simulation.step()
-    simulation.load_restart_arrays({name: array.copy() for name, array in simulation.restart_arrays().items()})
-    simulation.load_restart_scalars(simulation.restart_scalars())
-    simulation.step()
-    called = [phase for name, phase in PHASES.items() if name != "find_contact" or simulation.state.groups > 1]
-    assert [len(phase.compiled.signatures) for phase in called] == [1] * len(called)
 
 
 def same(one, other) -> bool:
@@ -94,17 +80,16 @@ def same(one, other) -> bool:
 
 
 @every_deck
-def test_arguments_are_those_of_now(options):
+def test_values_are_those_of_now(options):
     """After cycles, in which velocities take turns and ties need more slots, and after a restart."""
     simulation = started(options)
     engine = simulation.engine
 
     def assert_as_found_anew():
-        anew = Arguments(engine, engine.table)
-        anew.limit_speed(engine.speed_limit)
-        for phase in PHASES.values():
-            for name, value, now in zip(names(phase), engine.arguments.of(phase), anew.of(phase), strict=True):
-                assert same(value, now), f"{phase.__name__}: {name}"
+        engine.given.run(lambda handle: None)
+        anew = Given(engine, engine.table).handle.values
+        for name, value in anew.items():
+            assert name == "anew" or same(engine.given.handle.values[name], value), name
 
     for _ in range(6):
         simulation.step()
@@ -118,4 +103,4 @@ def test_arguments_are_those_of_now(options):
     scalars["speed_limit"] *= 2.0
     simulation.load_restart_scalars(scalars)
     assert_as_found_anew()
-    assert given(engine, PHASES["accelerate"])["speed_limit"] == scalars["speed_limit"]
+    assert engine.given.handle.values["speed_limit"] == scalars["speed_limit"]
