@@ -12,7 +12,7 @@ from types import MappingProxyType
 
 import numpy as np
 
-from hydro2d.penetration.tate import Track
+from hydro2d.penetration.model import Motion
 from hydro2d.study import residual, theory
 from hydro2d.study.experiments import AT_LEAST, Measurement
 from hydro2d.study.marks import SIZE, ensembles, points, verbatim
@@ -34,8 +34,10 @@ MOST_ACROSS = 4
 MEASURED = {"measured": ("diamond-tall", "experiment"), "estimated": ("diamond-tall-open", "experiment, estimated"),
             AT_LEAST: ("star-triangle-up", "experiment, at least (plate perforated)")}  # fmt: skip
 #: columns of the history that a model of a rod gives as well, and what they are called there
-OF_TRACK = {DEPTH: "depth", "rod_tail_velocity_m_s": "velocity", "rod_length_m": "length"}
+OF_MOTION = {DEPTH: "depth", "rod_tail_velocity_m_s": "velocity", "rod_length_m": "length"}
 THEORY_DASHES = ("solid", "dash", "dashdot", "dot", "8px,2px,2px,2px,2px,2px")
+#: how strong the line of a model is for the slowest of several impacts
+FAINTEST = 0.45
 
 
 def _figure(rows: int = 1):
@@ -223,26 +225,34 @@ def few_lines(drawn: Sequence[tuple[Series, Record]]) -> bool:
     return len(drawn) <= MOST_LINES and not any(each.repeated for each, _ in drawn)
 
 
-def _motions(figure, tracks: Mapping[float, tuple[float, Track]], names: Sequence[str]) -> None:
-    """What a model gives of the columns, from the touch in s on, by impact velocity in m/s."""
-    for number, (speed, (touch, track)) in enumerate(tracks.items()):
-        label = "Tate-Alekseevskii" + (f", {speed:.0f} m/s" if len(tracks) > 1 else "")
-        for row, name in enumerate(names, 1):
-            if name in OF_TRACK:
-                values = getattr(track, OF_TRACK[name]) * readers(name)[1]
+def _motions(figure, motions: Mapping[float, tuple[float, Mapping[str, Motion]]], names: Sequence[str]) -> None:
+    """What models give of the columns, from the touch in s on, by impact velocity in m/s and name.
+
+    A model has its dashes, and the fastest impact the strongest line.
+    """
+    dashes = dict(zip(dict.fromkeys(name for _, by in motions.values() for name in by), THEORY_DASHES, strict=False))
+    strengths = np.linspace(1.0, FAINTEST, len(motions))
+    for strength, (speed, (touch, by)) in zip(strengths, sorted(motions.items(), reverse=True), strict=True):
+        for model, motion in by.items():
+            label = model + (f", {speed:.0f} m/s" if len(motions) > 1 else "")
+            given = [(row, name, getattr(motion, OF_MOTION[name])) for row, name in enumerate(names, 1) if name in OF_MOTION]
+            for row, name, values in given:
+                if values is None:
+                    continue
                 figure.add_scatter(
-                    x=((track.time + touch) * 1e6).astype(np.float32), y=values.astype(np.float32), mode="lines", name=label,
-                    legendgroup=label, showlegend=name == DEPTH, row=row, col=1, meta="model",
-                    line={"color": MUTED, "width": 1.5, "dash": THEORY_DASHES[number % len(THEORY_DASHES)]},
+                    x=((motion.time + touch) * 1e6).astype(np.float32), y=(values * readers(name)[1]).astype(np.float32),
+                    mode="lines", name=label, legendgroup=label, showlegend=name == DEPTH, row=row, col=1, meta="model",
+                    opacity=strength, line={"color": MUTED, "width": 1.5, "dash": dashes[model]},
                     hovertemplate=f"{label}<br>%{{x:.5g}} µs: %{{y:.5g}} {readers(name)[0]}<extra></extra>",
                 )  # fmt: skip
 
 
-def histories(series: Sequence[Series], tracks: Mapping[float, tuple[float, Track]] = MappingProxyType({})):
+def histories(series: Sequence[Series],
+              motions: Mapping[float, tuple[float, Mapping[str, Motion]]] = MappingProxyType({})):  # fmt: skip
     """Columns of the history against time, one panel each. Few runs each have a line style; many have that of their series.
 
-    So have members of ensembles; all but the first are thin. tracks : of a model beside them, with the time of the first touch
-    in s, by impact velocity in m/s
+    So have members of ensembles; all but the first are thin. motions : of models beside them, by impact velocity in m/s: the
+    time of the first touch in s, and the motions by name
     """
     drawn = [(each, record) for each in series for record in each.records if record.history]
     names = list(dict.fromkeys(name for _, record in drawn for name in record.history if name != "time"))
@@ -265,7 +275,7 @@ def histories(series: Sequence[Series], tracks: Mapping[float, tuple[float, Trac
                               "<extra></extra>",
             )  # fmt: skip
             told.add(label)
-    _motions(figure, tracks, names)
+    _motions(figure, motions, names)
     for row, name in enumerate(names, 1):
         figure.update_yaxes(title={"text": f"{verbatim(title(name))}<br>[{readers(name)[0] or '1'}]"}, row=row, col=1)
     figure.update_xaxes(title={"text": "t [µs]"}, row=len(names), col=1)

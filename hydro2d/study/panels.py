@@ -6,7 +6,8 @@ import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from hydro2d.penetration.tate import Track
+from hydro2d.mesh.regime import ERODING
+from hydro2d.penetration.model import Motion
 from hydro2d.study import charts, experiments, record, residual, responses, series, theory
 from hydro2d.study.contents import Contents
 from hydro2d.study.ensembles import grouped
@@ -207,27 +208,28 @@ def _models(x: Variable, y: Response, panel: Panel):
     return [], left, notes
 
 
-def _motions(panel: Panel, drawn: Sequence[Record]) -> dict[float, tuple[float, Track]]:
-    """When the rod touches the target, s, and its motion by Tate and Alekseevskii, by impact velocity; none of many."""
+def _motions(panel: Panel, drawn: Sequence[Record]) -> dict[float, tuple[float, dict[str, Motion]]]:
+    """When the rod touches the target, s, and its motion by each analytic model, by impact velocity; none of many."""
     first, found = _modelled(panel), {}
     speeds = {each.velocity: each for each in reversed(drawn) if each.velocity is not None and responses.DEPTH in each.history}
     if first is None or panel.setup is None or len(speeds) > MOST_MOTIONS:
         return {}
     for speed, each in sorted(speeds.items()):
-        track = theory.motion(first.shot, speed)
-        if track is not None and len(track.time) > 1:
+        eroding = any(run.velocity == speed and run.value("regime") == ERODING for run in drawn)
+        motions = theory.motions(first.shot, speed, eroding=eroding, thickness=panel.setup.thickness)
+        if motions:
             deep = each.history[responses.DEPTH] > 0.0
             row = int(deep.argmax())
             touch = each.history["time"][row] - each.history[responses.DEPTH][row] / speed if deep.any() else 0.0
-            found[speed] = max(float(touch), 0.0), track
+            found[speed] = max(float(touch), 0.0), motions
     return found
 
 
 def _histories(contents: Contents, choice: Choice, panel: Panel, name: str) -> Chart:
     drawn = [each for each in panel.members if each.history]
     lines = series.grouped(drawn, contents.study.axes, choice)
-    tracks = _motions(panel, drawn)
-    figure = charts.histories(lines, tracks)
+    motions = _motions(panel, drawn)
+    figure = charts.histories(lines, motions)
     ends = [each.history["time"][-1] * 1e6 for each in drawn]
     few = charts.few_lines([(each, record) for each in lines for record in each.records])
     told = "one line style a run" if few else "one line style a series of runs"
@@ -235,7 +237,9 @@ def _histories(contents: Contents, choice: Choice, panel: Panel, name: str) -> C
     columns = ", ".join(axis.title.text.split("<br>")[0] for axis in figure.select_yaxes())
     runs = f"{len(drawn)} runs, {panel.words}"
     caption = f"Histories of {columns}: {runs}; {told}, at most {record.POINTS} points of each history."
-    if tracks:
-        caption += f" Grey: Tate-Alekseevskii from the first touch on, with the deck of {_modelled(panel).case.name}."
+    if motions:
+        named = ", ".join(dict.fromkeys(name for _, by in motions.values() for name in by))
+        fainter = "; the slower the impact, the fainter" if len(motions) > 1 else ""
+        caption += f" Grey: {named}, from the first touch on, with the deck of {_modelled(panel).case.name}{fainter}."
     alt = f"{columns} against time, {runs}. The runs end between {min(ends):.0f} and {max(ends):.0f} µs."
     return Chart(name, charts.markup(figure, name), f"Histories: {panel.heading}", caption, alt)

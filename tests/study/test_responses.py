@@ -2,6 +2,7 @@
 
 import shutil
 
+import numpy as np
 import pytest
 
 from hydro2d.study import charts, layout, panels, residual, responses, series, table, theory
@@ -118,24 +119,44 @@ def test_runs_at_one_velocity_are_a_strip_with_the_models_at_that_velocity(tmp_p
     assert chosen(collect(layout.load(single.parent))).x.impact, "one run alone stays at its velocity"
 
 
-def test_the_motion_of_tate_stands_beside_the_histories(tmp_path):
+def test_the_motions_of_models_stand_beside_the_histories(tmp_path):
     for name, velocity in (("a", 1086.0), ("b", 1086.0), ("c", 1200.0)):
         fake.write_run(tmp_path / "runs" / name, velocity, 0.3, text=fake.deck_text(f"body.rod.velocity={velocity} m/s"))
     contents = collect(layout.load(tmp_path / "runs"))
     (panel,) = panels.panels(contents, chosen(contents))
-    tracks = panels._motions(panel, panel.members)
-    assert list(tracks) == [1086.0, 1200.0]
-    curves = theory.curves(panel.members[0].shot, 1086.0, 1086.0)
-    (tate,) = (curve for curve in curves if curve.name == "tate")
-    touch, track = tracks[1086.0]
+    motions = panels._motions(panel, panel.members)
+    assert list(motions) == [1086.0, 1200.0]
+    depths = {curve.title: curve.depth[0] for curve in theory.curves(panel.members[0].shot, 1086.0, 1086.0)}
+    touch, by = motions[1086.0]
     assert 0.0 <= touch < 5e-6
-    assert track.depth[-1] == pytest.approx(tate.depth[0], rel=1e-12)
-    lines = [trace for trace in charts.histories(panel.series, tracks).data if trace.meta == "model"]
+    assert list(by) == ["Forrestal's rigid rod", "Tate-Alekseevskii", "Walker-Anderson"]
+    assert {name: motion.depth[-1] for name, motion in by.items()} == pytest.approx({name: depths[name] for name in by})
+    lines = [trace for trace in charts.histories(panel.series, motions).data if trace.meta == "model"]
     depth = next(trace for trace in lines if trace.name == "Tate-Alekseevskii, 1086 m/s")
-    assert depth.y[-1] == pytest.approx(100 * tate.depth[0], rel=1e-5)
-    assert depth.x[-1] == pytest.approx(1e6 * (touch + track.time[-1]), rel=1e-5)
-    assert {trace.line.dash for trace in lines} == {"solid", "dash"}
-    assert "Grey: Tate-Alekseevskii" in list(panels.draw(contents, chosen(contents)))[-1].caption
+    assert depth.y[-1] == pytest.approx(100 * depths["Tate-Alekseevskii"], rel=1e-5)
+    assert depth.x[-1] == pytest.approx(1e6 * (touch + by["Tate-Alekseevskii"].time[-1]), rel=1e-5)
+    assert len({(trace.name, trace.line.dash, trace.opacity) for trace in lines if trace.showlegend}) == 6
+    assert {trace.line.dash for trace in lines if "Tate" in trace.name} == {"dash"}, "a model has its own dashes"
+    assert {trace.opacity for trace in lines if "1200" in trace.name} == {1.0}
+    assert len([trace for trace in lines if "Forrestal" in trace.name]) == 2 * 2, "its rod has no length"
+    caption = list(panels.draw(contents, chosen(contents)))[-1].caption
+    assert "Grey: Forrestal's rigid rod, Tate-Alekseevskii, Walker-Anderson, from" in caption
+
+
+def test_a_motion_stands_only_where_its_model_applies(tmp_path):
+    """No rigid rod beside one that erodes; no motion beyond the rear of the target."""
+    fake.write_run(tmp_path / "runs" / "a", 1086.0, 0.3, regime="eroding")
+    (panel,) = panels.panels(contents := collect(layout.load(tmp_path / "runs")), chosen(contents))
+    _, by = panels._motions(panel, panel.members)[1086.0]
+    assert list(by) == ["Tate-Alekseevskii", "Walker-Anderson"]
+    shot = panel.members[0].shot
+    whole, thin = (theory.motions(shot, 1086.0, eroding=False, thickness=each) for each in (None, 0.1))
+    for name, motion in thin.items():
+        assert motion.depth[-1] == pytest.approx(0.1)
+        assert len(motion.time) > 2
+        for column in ("time", "velocity"):
+            through = np.interp(0.1, whole[name].depth, getattr(whole[name], column))
+            assert getattr(motion, column)[-1] == pytest.approx(through)
 
 
 def test_an_unfinished_run_has_the_last_of_its_history(tmp_path):
