@@ -24,6 +24,10 @@ from hydro2d.study.series import Series, style
 INK, MUTED, GRID, PAPER = "rgb(1, 2, 3)", "rgb(90, 91, 92)", "rgb(221, 222, 223)", "rgb(254, 254, 254)"
 #: heights in pixels: of a panel, of what is below it, of a line of the legend; letters in such a line
 PANEL, BELOW, LINE, LETTERS = 300, 74, 19, 40
+#: pixels between the words of two rows of a strip
+GAP = 14
+#: how far a strip reaches for the line of a model, in largest depths of runs and experiments
+FARTHEST = 1.5
 #: entries of a legend beyond which the rest is left to the values that a pointer shows
 MOST_ENTRIES = 24
 #: runs beyond which histories are told apart by series only
@@ -56,10 +60,10 @@ def _figure(rows: int = 1):
     return figure
 
 
-def _finished(figure, rows: int = 1, labels: int = 0):
+def _finished(figure, rows: int = 1, labels: int = 0, panel: float = PANEL):
     """Room for the legend, one entry a line below the panels, so that no entry is cut off on a narrow screen.
 
-    labels : pixels that the labels of the x axis take beyond one line
+    labels : pixels that the labels of the x axis take beyond one line;  panel : height of a single panel in pixels
     """
     shown = []
     for trace in figure.data:
@@ -70,7 +74,7 @@ def _finished(figure, rows: int = 1, labels: int = 0):
             trace.name = "<br>".join(map(verbatim, textwrap.wrap(trace.name, LETTERS)))
             shown.append(trace)
     lines = sum(trace.name.count("<br>") + 1 for trace in shown)
-    panel, below = rows * PANEL * (0.72 if rows > 1 else 1.0), LINE * lines + BELOW + labels
+    panel, below = rows * panel * (0.72 if rows > 1 else 1.0), LINE * lines + BELOW + labels
     legend = {"x": 0.0, "y": -(BELOW + labels - 12) / panel, "xanchor": "left", "yanchor": "top", "maxheight": 4000,
               "tracegroupgap": 0, "itemsizing": "constant", "groupclick": "togglegroup", "font": {"size": 12}}  # fmt: skip
     figure.update_layout(height=int(panel + below + 34), legend=legend, showlegend=bool(shown),
@@ -110,6 +114,36 @@ def response(setup: Setup | None, series: Sequence[Series], x: Variable, y: Resp
     if y.name in (DEPTH, RESIDUAL):
         figure.update_yaxes(range=[0.0, 1.1 * _highest(figure)])
     return _finished(figure, labels=labels)
+
+
+def strip(series: Sequence[Series], rows: Variable, y: Response, measured: dict[str, Measurement],
+          curves: Sequence[theory.Curve]):  # fmt: skip
+    """Depths at one velocity across, a row of marks for each word of ``rows``; models and marks as in ``response``."""
+    figure = _figure()
+    drawn = [(f"{curve.title}: {curve.depth[0] * y.factor:.3g} {y.unit}", "", curve.velocity, curve.depth * y.factor)
+             for curve in curves if curve.drawable]
+    _levels(figure, drawn, rows, y)
+    _runs(figure, series, rows, y)
+    _bounds(figure, series, rows, y)
+    _depths(figure, series, rows, y, measured, [])
+    there = {rows.value(record) for each in series for record in each.records if y.value(record) is not None}
+    order = [word for word in rows.order if word in there]
+    highest = _highest(figure)
+    shown = max([highest, *(values[0] for *_, values in drawn if values[0] < FARTHEST * highest)])
+    for trace in figure.data:  # what was drawn over the words is turned
+        values, places = trace.y, [order.index(word) if word in order else None for word in trace.x]
+        if trace.meta == "model":
+            values, places = trace.y[:1] * 2, [-0.5, len(order) - 0.5]
+        hover = trace.hovertemplate and trace.hovertemplate.replace("%{y", "%{x")
+        trace.update(x=values, y=places, error_x=trace.error_y.to_plotly_json(), hovertemplate=hover)
+        trace.error_y = {"array": None}
+        if trace.meta == "bound":
+            trace.marker.symbol = "triangle-right-open"
+    wrapped = [textwrap.wrap(word, LETTERS // 2) or [""] for word in order]
+    figure.update_yaxes(range=[len(order) - 0.5, -0.5], tickmode="array", tickvals=list(range(len(order))),
+                        ticktext=["<br>".join(map(verbatim, lines)) for lines in wrapped])  # fmt: skip
+    figure.update_xaxes(title={"text": verbatim(y.title)}, range=[0.0, 1.1 * shown])
+    return _finished(figure, panel=sum(LINE * len(lines) + GAP for lines in wrapped))
 
 
 def _words_below(figure, order: Sequence[str]) -> int:

@@ -63,6 +63,9 @@ def draw(contents: Contents, choice: Choice) -> Iterator[Chart]:
             stopped = y.name == RESIDUAL and through and not any(each.perforated for each in panel.members)
             if not stopped and any(_drawn(each, choice, y) for each in panel.members):
                 yield _response(contents, choice, y, panel, _id(y.name, base))
+        rows = _rows(contents, choice, panel)
+        if rows is not None:
+            yield _strip(contents, rows, panel, _id("strip", base))
         if any(each.history for each in panel.members):
             yield _histories(contents, choice, panel, _id("histories", base))
 
@@ -151,6 +154,37 @@ def _response(contents: Contents, choice: Choice, y: Response, panel: Panel, nam
                                          if each.velocity is not None and each.measured_residual is not None}):  # fmt: skip
         alt += f" Experiments: {'; '.join(f'{speed:.0f} m/s {left:.0f} m/s' for speed, left in sorted(found.items()))}."
     return Chart(name, charts.markup(figure, name), f"{head}: {panel.heading}", caption, alt, tuple(notes))
+
+
+def _rows(contents: Contents, choice: Choice, panel: Panel) -> Variable | None:
+    """What the rows of a strip of final depths are: the combinations of the axes, if the runs have one velocity.
+
+    None where a figure against the only axis, or against the cases, is such a strip already.
+    """
+    found = responses.combinations(contents.study, panel.members)
+    depth = responses.response(DEPTH)
+    if found is None or depth not in choice.y or panel.members[0].velocity is None or not _one_velocity(panel):
+        return None
+    if not any(depth.value(each) is not None for each in panel.members):
+        return None
+    already = choice.x.order is not None and len(choice.x.order) == len(found.order or ())
+    return None if already else found
+
+
+def _strip(contents: Contents, rows: Variable, panel: Panel, name: str) -> Chart:
+    y, speed = responses.response(DEPTH), panel.members[0].velocity
+    curves, _, notes = _models(rows, y, panel)
+    figure = charts.strip(panel.series, rows, y, contents.belonging, curves)
+    shown = [each for each in panel.members if y.value(each) is not None]
+    caption = f"Final depths at {speed:.0f} m/s, a row for each combination of {rows.title}: {panel.words}."
+    caption += " Marks as in the figure of the depth."
+    if any(curve.drawable for curve in curves):
+        drawn = ", ".join(curve.title for curve in curves if curve.drawable)
+        caption += f" Grey lines: {drawn}, with the deck of {_modelled(panel).case.name}."
+    said = [f"{rows.value(each)} {_value(each, y)}" for each in shown]
+    more = f" and {len(said) - MOST_WORDS} more" if len(said) > MOST_WORDS else ""
+    alt = f"Final depths at {speed:.0f} m/s by {rows.title}, {panel.words}: {'; '.join(said[:MOST_WORDS])}{more}."
+    return Chart(name, charts.markup(figure, name), f"Final depths: {panel.heading}", caption, alt, tuple(notes))
 
 
 def _ensembles(shown: Sequence[Record], y: Response) -> list[str]:

@@ -119,6 +119,49 @@ def test_runs_at_one_velocity_are_a_strip_with_the_models_at_that_velocity(tmp_p
     assert chosen(collect(layout.load(single.parent))).x.impact, "one run alone stays at its velocity"
 
 
+def test_combinations_of_axes_at_one_velocity_have_a_strip_of_depths(tmp_path):
+    """A row for each combination, with the depths of all of its runs, beside the figure against an axis."""
+    axes = {"law": LAWS, "courant": {"0.3": ("numerics.courant=0.3",), "0.6": ("numerics.courant=0.6",)}}
+    contents = study(tmp_path, axes)
+    (panel,) = panels.panels(contents, choice := chosen(contents))
+    rows = panels._rows(contents, choice, panel)
+    order = ("soft, courant 0.3", "soft, courant 0.6", "hard, courant 0.3", "hard, courant 0.6")
+    assert rows.order == order
+    y = choice.y[0]
+    curves, _, _ = panels._models(rows, y, panel)
+    figure = charts.strip(panel.series, rows, y, contents.belonging, curves)
+    assert figure.layout.yaxis.ticktext == tuple("<br>".join(word.rsplit(" ", 1)) if len(word) > 20 else word for word in order)
+    runs = [trace for trace in figure.data if trace.legendgroup and trace.meta is None]
+    found = {order[row]: depth for trace in runs for row, depth in zip(trace.y, trace.x, strict=True)}
+    assert found == pytest.approx({rows.value(each): y.value(each) for each in contents.records})
+    (tate,) = (trace for trace in figure.data if str(trace.name).startswith("Tate-Alekseevskii: "))
+    depth = next(each.depth[0] for each in curves if each.name == "tate")
+    assert tate.x == pytest.approx([100 * depth] * 2, rel=1e-4)
+    assert tate.y == (-0.5, 3.5)
+    assert figure.layout.xaxis.range[1] > 49.0, "the rigid rod's line is seen"
+    (chart,) = (each for each in panels.draw(contents, choice) if each.name.startswith("strip"))
+    assert "at 1086 m/s, a row for each combination of law, courant" in chart.caption
+
+
+def test_a_strip_of_ensembles_has_bars_across(tmp_path):
+    fake.write_study(tmp_path / "study", {"law": LAWS, "mesh": {"a": (), "b": ()}}, repeats=3)
+    contents = collect(layout.load(tmp_path / "study"))
+    (panel,) = panels.panels(contents, choice := chosen(contents))
+    figure = charts.strip(panel.series, panels._rows(contents, choice, panel), choice.y[0], contents.belonging, ())
+    medians = [trace for trace in figure.data if trace.error_x.array is not None]
+    assert sum(len(trace.x) for trace in medians) == 4
+    assert all(trace.error_y.array is None for trace in figure.data)
+
+
+@pytest.mark.parametrize("axes", [
+    {"law": LAWS},  # a figure against words is a strip already
+    {"velocity": VELOCITIES, "law": LAWS},
+])
+def test_no_second_strip(tmp_path, axes):
+    contents = study(tmp_path, axes)
+    assert not [each for each in panels.draw(contents, chosen(contents)) if each.name.startswith("strip")]
+
+
 def test_the_motions_of_models_stand_beside_the_histories(tmp_path):
     for name, velocity in (("a", 1086.0), ("b", 1086.0), ("c", 1200.0)):
         fake.write_run(tmp_path / "runs" / name, velocity, 0.3, text=fake.deck_text(f"body.rod.velocity={velocity} m/s"))
