@@ -269,7 +269,7 @@ def _histories(contents: Contents, choice: Choice, panel: Panel, name: str) -> C
     told = "one line style a run" if few else "one line style a series of runs"
     told += "; thin: members of ensembles but the first" if any(each.repeated for each in lines) else ""
     columns = ", ".join(axis.title.text.split("<br>")[0] for axis in figure.select_yaxes())
-    runs = f"{len(drawn)} runs, {panel.words}"
+    runs = f"{len(drawn)} run{'s' * (len(drawn) > 1)}, {panel.words}"
     caption = f"Histories of {columns}: {runs}; {told}, at most {record.POINTS} points of each history."
     if motions:
         named = ", ".join(dict.fromkeys(name for _, by in motions.values() for name in by))

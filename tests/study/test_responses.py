@@ -192,6 +192,7 @@ def test_a_motion_stands_only_where_its_model_applies(tmp_path):
     (panel,) = panels.panels(contents := collect(layout.load(tmp_path / "runs")), chosen(contents))
     _, by = panels._motions(panel, panel.members)[1086.0]
     assert list(by) == ["Tate-Alekseevskii", "Walker-Anderson"]
+    assert ": 1 run, " in list(panels.draw(contents, chosen(contents)))[-1].caption
     shot = panel.members[0].shot
     whole, thin = (theory.motions(shot, 1086.0, eroding=False, thickness=each) for each in (None, 0.1))
     for name, motion in thin.items():
