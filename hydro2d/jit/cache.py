@@ -45,12 +45,15 @@ def _source_files() -> frozenset[Path]:
 def _cache_root() -> str:
     """The folder under which all that is compiled is kept: HYDRO2D_CACHE_DIR, in the user's cache, or a `_private` one.
 
-    What is in it is executed, so it must be nobody else's to write to.
+    What is in it is executed, so it must be nobody else's to write to. An empty variable counts as not set. A relative
+    HYDRO2D_CACHE_DIR is the user's own choice of a place below the current directory; a relative XDG_CACHE_HOME counts as not
+    set, as its specification asks: it would be a folder of whatever directory a command happens to run in.
     """
-    root = os.environ.get("HYDRO2D_CACHE_DIR")
-    if root is not None:
-        return root
-    home = Path(os.environ.get("XDG_CACHE_HOME", Path.home() / ".cache"))
+    if root := os.environ.get("HYDRO2D_CACHE_DIR"):
+        return os.path.abspath(root)
+    home = Path(os.environ.get("XDG_CACHE_HOME", ""))
+    if not home.is_absolute():
+        home = Path.home() / ".cache"
     if not os.access(home if home.exists() else home.parent, os.W_OK):
         return _private(os.path.join(tempfile.gettempdir(), f"hydro2d-{os.getuid()}"))
     return str(home / "hydro2d")

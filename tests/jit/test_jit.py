@@ -180,6 +180,19 @@ def test_a_home_that_cannot_be_written_to_has_a_private_cache(tmp_path, monkeypa
     assert cache._cache_root.__wrapped__() == str(tmp_path / f"hydro2d-{os.getuid()}")
 
 
+@pytest.mark.parametrize(("own", "home"), [("", ""), ("", "here"), ("", "./here"), (None, ""), (None, "here")])
+def test_a_cache_in_the_current_directory_is_only_used_where_the_user_asks_for_it(own, home, tmp_path, monkeypatch):
+    """What is kept there is executed, and the directory can be anybody's."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("HOME", str(tmp_path / "home"))
+    (tmp_path / "home" / ".cache").mkdir(parents=True)
+    monkeypatch.setenv("XDG_CACHE_HOME", home)
+    monkeypatch.delenv("HYDRO2D_CACHE_DIR", raising=False) if own is None else monkeypatch.setenv("HYDRO2D_CACHE_DIR", own)
+    assert cache._cache_root.__wrapped__() == str(tmp_path / "home" / ".cache" / "hydro2d")
+    monkeypatch.setenv("HYDRO2D_CACHE_DIR", "here")
+    assert cache._cache_root.__wrapped__() == str(tmp_path / "here")
+
+
 @pytest.mark.parametrize("apart", [True, False])
 def test_arrays_of_kernels_are_promised_to_be_apart(apart):
     """The option is numba's own; a compiler that is not told compares addresses before every loop."""
