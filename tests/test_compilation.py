@@ -1,6 +1,5 @@
 """A run says that kernels are being compiled when they are, once, and not when they come from the cache."""
 
-import errno
 import os
 import shutil
 import subprocess
@@ -16,7 +15,7 @@ from hydro2d import compilation, jit
 from hydro2d.compilation import Second, announced, expect, is_compiled, once, told_of
 from hydro2d.deck import deck as decks
 from hydro2d.files import turn
-from hydro2d.jit import cache, options, recording
+from hydro2d.jit import cache, recording
 from hydro2d.kernels import column_ranges, lagrangian_step, remap_step
 from hydro2d.solver.first_cycle import calls_of_a_cycle
 from hydro2d.solver.simulation import Simulation
@@ -299,25 +298,3 @@ def test_a_cache_that_cannot_be_written_is_read(tmp_path):
     done = subprocess.run(["unshare", "--mount", "--map-root-user", "sh", "-c", script + words], capture_output=True, text=True,
                           check=False)  # fmt: skip
     assert (done.returncode, done.stderr) == (0, "")
-
-
-def test_what_cannot_be_kept_is_compiled_all_the_same(tmp_path, monkeypatch, capsys):
-    """Here no file of the cache can be made."""
-
-    def refused(*_arguments, **_options):
-        raise OSError(errno.EROFS, os.strerror(errno.EROFS))
-
-    function = numba.njit(cache=True)(probe)
-    with monkeypatch.context() as full:
-        full.setattr(options, "turn", refused)
-        assert function(1.0) == 8.0
-    assert "cannot be written: what is compiled is not kept" in capsys.readouterr().err
-    with monkeypatch.context() as full:
-        full.setattr(os, "open", refused)
-        with turn(tmp_path / "a.lock"):
-            pass
-    assert not (tmp_path / "a.lock").exists()
-
-
-def probe(x):
-    return x + 7.0

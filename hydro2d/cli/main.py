@@ -60,7 +60,8 @@ app.command(view)
 
 #: modules, and their exceptions that tell the user what to correct
 USER_ERRORS = (
-    ("errors", "DeckError"), ("errors", "MissingPackage"), ("files", "LockError"), ("strange", "StrangeFile"),
+    ("errors", "DeckError"), ("errors", "MissingPackage"), ("errors", "TargetError"), ("files", "LockError"),
+    ("strange", "StrangeFile"),
     ("penetration.model", "InputError"), ("output.snapshot", "SnapshotError"), ("output.history", "HistoryError"),
     ("output.vtk", "VtkError"), ("mesh.quantities", "FieldError"), ("running.run", "RunError"),
     ("results.reading", "ResultsError"), ("results.scales", "FigureError"), ("results.viewer.fields", "ViewError"),
