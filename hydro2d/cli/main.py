@@ -13,6 +13,7 @@ from cyclopts import App, Parameter
 from hydro2d import __version__
 from hydro2d.cli.base import Count, Out, Overrides, Trust, UsageError, import_matplotlib, refuse_old_names
 from hydro2d.cli.check_model import check_model
+from hydro2d.cli.compile import compile_kernels
 from hydro2d.cli.curve import curve
 from hydro2d.cli.diverge import diverge
 from hydro2d.cli.ensemble import By, Chosen, Member, Repeats, Seed, converge, run_all
@@ -42,6 +43,7 @@ app = App(
 )
 
 app.command(check_model)
+app.command(compile_kernels, name="compile")
 app.command(converge)
 app.command(curve)
 app.command(diverge)

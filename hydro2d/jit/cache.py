@@ -12,7 +12,6 @@ import ast
 import atexit
 import functools
 import hashlib
-import json
 import linecache
 import os
 import shutil
@@ -24,6 +23,8 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from types import ModuleType
 
+from hydro2d.errors import Error
+from hydro2d.files import read_json
 from hydro2d.jit import target
 from hydro2d.parsing import parsed
 from hydro2d.terminal import say
@@ -46,15 +47,15 @@ def _source_files() -> frozenset[Path]:
 
 
 @functools.cache
-def _cache_root() -> str:
+def root() -> str:
     """The folder under which all that is compiled is kept: HYDRO2D_CACHE_DIR, in the user's cache, or a `_private` one.
 
     What is in it is executed, so it must be nobody else's to write to. An empty variable counts as not set. A relative
     HYDRO2D_CACHE_DIR is the user's own choice of a place below the current directory; a relative XDG_CACHE_HOME counts as not
     set, as its specification asks: it would be a folder of whatever directory a command happens to run in.
     """
-    if root := os.environ.get("HYDRO2D_CACHE_DIR"):
-        return os.path.abspath(root)
+    if chosen := os.environ.get("HYDRO2D_CACHE_DIR"):
+        return os.path.abspath(chosen)
     home = Path(os.environ.get("XDG_CACHE_HOME", ""))
     if not home.is_absolute():
         home = Path.home() / ".cache"
@@ -90,7 +91,7 @@ def kept_if_possible() -> Iterator[None]:
     try:
         yield
     except OSError as error:
-        say_once(f"{_cache_root()} cannot be written ({error.strerror or error}): what is compiled is not kept "
+        say_once(f"{root()} cannot be written ({error.strerror or error}): what is compiled is not kept "
                  "(HYDRO2D_CACHE_DIR names another place)")
 
 
@@ -102,7 +103,7 @@ def folder_for(files: Iterable[Path], models: Iterable[str] = ()) -> str:
         digest.update(file.read_bytes())
     for model in sorted(models):
         digest.update(model.encode())
-    return os.path.join(_cache_root(), digest.hexdigest()[:16])
+    return os.path.join(root(), digest.hexdigest()[:16])
 
 
 def _relative(file: Path) -> str:
@@ -182,13 +183,13 @@ def about() -> dict[str, str]:
 @functools.cache
 def say_if_shipped_in_vain() -> None:
     """Says why the compiled code of the package is of no use here, if there is some and it is not."""
-    try:
-        shipped = json.loads((SHIPPED / ABOUT).read_text(encoding="utf-8"))
-        other = next(((what, shipped[what], here) for what, here in about().items() if shipped[what] != here), None)
-    except FileNotFoundError:
+    if not (SHIPPED / ABOUT).exists():
         return
-    except (OSError, ValueError, KeyError, TypeError) as problem:
-        say_once(f"the compiled code of the package is not used: {SHIPPED / ABOUT} cannot be read ({problem})")
+    try:
+        shipped = read_json(SHIPPED / ABOUT, Error)
+        other = next(((what, shipped[what], here) for what, here in about().items() if shipped[what] != here), None)
+    except (Error, KeyError) as problem:
+        say_once(f"the compiled code of the package is not used: {SHIPPED / ABOUT} does not say what it is for ({problem})")
         return
     if other is None:
         return

@@ -150,7 +150,7 @@ def keep_ours() -> None:
 
     def chosen(function):
         folder, source = Path(numba.config.CACHE_DIR or os.curdir), inspect.getfile(function)
-        ours = folder.parent == Path(cache._cache_root()) and (cache.generated(source) is not None or os.path.exists(source))
+        ours = folder.parent == Path(cache.root()) and (cache.generated(source) is not None or os.path.exists(source))
         return Kept(function, *cache.places(str(folder))) if ours else numbas(function)
 
     dispatcher.FunctionCache = chosen

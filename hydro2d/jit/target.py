@@ -106,6 +106,7 @@ def name() -> str:
 
 def description() -> dict[str, str]:
     """All that the code of a function depends on beside its sources, by what it is."""
-    options = ", ".join(f"{option}={getattr(numba.config, option, None)}" for option in OPTIONS)
+    options = {f"numba.config.{option}": repr(getattr(numba.config, option, None)) for option in OPTIONS}
+    options["numba.config.OPT.is_opt_max"] = repr(getattr(numba.config.OPT, "is_opt_max", False))  # "max" is a 3 as well
     return {"numba": numba.__version__, "llvmlite": llvmlite.__version__, "Python": sys.implementation.cache_tag,
-            "system": SYSTEM, "processor": PROCESSOR, "features": FEATURES, "options of numba": options}
+            "system": SYSTEM, "processor": PROCESSOR, "features": FEATURES, **options}

@@ -192,7 +192,7 @@ def test_a_home_that_cannot_be_written_to_has_a_private_cache(tmp_path, monkeypa
     monkeypatch.delenv("HYDRO2D_CACHE_DIR", raising=False)
     monkeypatch.setenv("XDG_CACHE_HOME", "/proc/none/cache")
     monkeypatch.setattr(tempfile, "gettempdir", lambda: str(tmp_path))
-    assert cache._cache_root.__wrapped__() == str(tmp_path / f"hydro2d-{os.getuid()}")
+    assert cache.root.__wrapped__() == str(tmp_path / f"hydro2d-{os.getuid()}")
 
 
 @pytest.mark.parametrize(("own", "home"), [("", ""), ("", "here"), ("", "./here"), (None, ""), (None, "here")])
@@ -203,9 +203,9 @@ def test_a_cache_in_the_current_directory_is_only_used_where_the_user_asks_for_i
     (tmp_path / "home" / ".cache").mkdir(parents=True)
     monkeypatch.setenv("XDG_CACHE_HOME", home)
     monkeypatch.delenv("HYDRO2D_CACHE_DIR", raising=False) if own is None else monkeypatch.setenv("HYDRO2D_CACHE_DIR", own)
-    assert cache._cache_root.__wrapped__() == str(tmp_path / "home" / ".cache" / "hydro2d")
+    assert cache.root.__wrapped__() == str(tmp_path / "home" / ".cache" / "hydro2d")
     monkeypatch.setenv("HYDRO2D_CACHE_DIR", "here")
-    assert cache._cache_root.__wrapped__() == str(tmp_path / "here")
+    assert cache.root.__wrapped__() == str(tmp_path / "here")
 
 
 @pytest.mark.parametrize("apart", [True, False])
