@@ -32,7 +32,8 @@ def runs(site: Path, home: Path, **environment: str) -> tuple[str, list[str], se
     own = {name: value for name, value in os.environ.items() if not name.startswith("HYDRO2D_")}
     own |= {"HYDRO2D_CACHE_DIR": str(home / "cache"), "PYTHONPATH": str(site), **environment}
     done = subprocess.run([sys.executable, str(home / "program.py")], env=own, text=True, capture_output=True, check=True)
-    return done.stdout.strip(), done.stderr.splitlines(), {f"{file.parent.name}/{file.name}" for file in (home / "cache").glob("*/*.code")}
+    found = {f"{file.parent.name}/{file.name}" for file in (home / "cache").glob("*/*.code")}
+    return done.stdout.strip(), done.stderr.splitlines(), found
 
 
 def ship(site: Path, home: Path) -> None:
