@@ -9,10 +9,12 @@
 ``@threaded`` loops over the mesh outside of the step, threaded over rows by one outermost ``prange``
 ``@serial``  loops over a short list, one thread
 
-What numba is told is in `options`, where compiled code is kept in `cache`, the decorators are in `calls`, exp, log and x^y for
+What numba is told is in `options`, the processor that code is made for in `target`, where compiled code is kept in `cache` and
+how in `store`, the decorators are in `calls`, exp, log and x^y for
 several cells at once in `elementary`, and what is known of the calls of kernels in `recording`. Other files import from here.
 """
 
+from hydro2d.jit import store, target
 from hydro2d.jit.cache import add_model, all_folder, module_of
 from hydro2d.jit.calls import (
     GATE,
@@ -37,12 +39,12 @@ from hydro2d.jit.calls import (
     wait,
 )
 from hydro2d.jit.elementary import exp, log, power
-from hydro2d.jit.options import compiler_events, host_cpu
+from hydro2d.jit.options import compiler_events
 from hydro2d.jit.recording import FIRST_CALL, Call, is_recording, profiling, recorded, timings
 
 __all__ = [
-    "Call", "FIRST_CALL", "GATE", "add_model", "all_folder", "apart", "by_id", "compiler_events", "exp", "host_cpu",
+    "Call", "FIRST_CALL", "GATE", "add_model", "all_folder", "apart", "by_id", "compiler_events", "exp",
     "is_recording", "kernel", "late", "log", "max_threads", "module_of", "modules", "parts_at_once", "phase", "plus", "point",
-    "power", "prange", "profiling", "recorded", "returns", "rows_by_id", "rowwise", "serial", "set_threads", "threaded",
-    "threads", "timings", "wait",
+    "power", "prange", "profiling", "recorded", "returns", "rows_by_id", "rowwise", "serial", "set_threads", "store", "target",
+    "threaded", "threads", "timings", "wait",
 ]  # fmt: skip

@@ -15,7 +15,8 @@ import llvmlite.binding
 import numba
 import numpy as np
 import pytest
-from numba.core import caching, codegen, cpu
+from numba.core import caching, codegen, compiler, cpu, registry
+from numba.core import dispatcher as dispatchers
 
 from hydro2d import jit
 from hydro2d.jit import cache, options
@@ -48,14 +49,14 @@ def test_models_without_the_function_are_left_out():
     assert 0 < len(with_it) < len(dispatch.STRENGTH_MODULES)
 
 
-def test_the_chain_is_a_file_that_does_not_change_between_imports():
-    """numba caches what is compiled by the file's name, time and size."""
-    file = dispatch.flow_stress.py_func.__code__.co_filename
-    before = os.stat(file)
-    again = jit.by_id(dispatch.STRENGTH_MODULES, "flow_stress", "ep, rate, T, p, rho, par",
-                      dispatch.flow_stress.__doc__)
-    after = os.stat(again.py_func.__code__.co_filename)
-    assert (before.st_mtime, before.st_size, before.st_ino) == (after.st_mtime, after.st_size, after.st_ino)
+def test_the_chain_has_one_name_for_the_same_text():
+    """What is compiled of it is found again by that name and by the text, of which no file exists."""
+    function = dispatch.flow_stress.py_func
+    again = jit.by_id(dispatch.STRENGTH_MODULES, "flow_stress", "ep, rate, T, p, rho, par", dispatch.flow_stress.__doc__)
+    assert again.py_func.__code__.co_filename == (file := function.__code__.co_filename)
+    assert again._cache.file_name(()) == dispatch.flow_stress._cache.file_name(())
+    assert not os.path.exists(file)
+    assert inspect.getsource(function).startswith("@point\ndef flow_stress(model, ")  # as tracebacks show it
 
 
 def test_two_models_with_one_id_are_an_error():
@@ -101,9 +102,23 @@ RELIED_ON = [
     (numba.core.options, "TargetOptions", ()),
     (numba.core.options.TargetOptions, "Mapping", ("flag_name",)),
     (numba.core.compiler.Flags(), "noalias", ()),
-    (caching.IndexDataCacheFile, "save", ("key", "data")),
-    (caching, "_CacheLocator", ()),
-    (caching._CacheLocator, "ensure_cache_path", ("self",)),
+    (caching, "_Cache", ()),
+    (dispatchers, "FunctionCache", ()),
+    (numba.core.dispatcher.Dispatcher, "enable_caching", ("self",)),
+    (compiler, "CompileResult", ()),
+    (compiler.CompileResult, "_reduce", ("self",)),
+    (compiler.CompileResult, "_rebuild", ("target_context", "reload_init", "referenced_envs")),
+    (compiler.CompileResult, "_fields", ()),
+    (compiler.CompileResult, "lifted", ()),
+    (compiler.CompileResult, "type_annotation", ()),
+    (codegen.CodeLibrary, "has_dynamic_globals", ()),
+    (numba.core.serialize, "dumps", ("obj",)),
+    (numba.core.sigutils, "normalize_signature", ("sig",)),
+    (registry.cpu_target, "target_context", ()),
+    (codegen.JITCPUCodegen, "magic_tuple", ("self",)),
+    (numba.config, "CPU_NAME", ()),
+    (numba.config, "CPU_FEATURES", ()),
+    (numba.config, "ENABLE_AVX", ()),
     (numba.core, "event", ()),
     (numba.core.event, "Listener", ()),
     (numba.core.event, "register", ("kind", "listener")),
@@ -177,7 +192,20 @@ def test_a_home_that_cannot_be_written_to_has_a_private_cache(tmp_path, monkeypa
     monkeypatch.delenv("HYDRO2D_CACHE_DIR", raising=False)
     monkeypatch.setenv("XDG_CACHE_HOME", "/proc/none/cache")
     monkeypatch.setattr(tempfile, "gettempdir", lambda: str(tmp_path))
-    assert cache._cache_root.__wrapped__() == str(tmp_path / f"hydro2d-{os.getuid()}")
+    assert cache.root.__wrapped__() == str(tmp_path / f"hydro2d-{os.getuid()}")
+
+
+@pytest.mark.parametrize(("own", "home"), [("", ""), ("", "here"), ("", "./here"), (None, ""), (None, "here")])
+def test_a_cache_in_the_current_directory_is_only_used_where_the_user_asks_for_it(own, home, tmp_path, monkeypatch):
+    """What is kept there is executed, and the directory can be anybody's."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("HOME", str(tmp_path / "home"))
+    (tmp_path / "home" / ".cache").mkdir(parents=True)
+    monkeypatch.setenv("XDG_CACHE_HOME", home)
+    monkeypatch.delenv("HYDRO2D_CACHE_DIR", raising=False) if own is None else monkeypatch.setenv("HYDRO2D_CACHE_DIR", own)
+    assert cache.root.__wrapped__() == str(tmp_path / "home" / ".cache" / "hydro2d")
+    monkeypatch.setenv("HYDRO2D_CACHE_DIR", "here")
+    assert cache.root.__wrapped__() == str(tmp_path / "here")
 
 
 @pytest.mark.parametrize("apart", [True, False])

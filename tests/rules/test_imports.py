@@ -127,8 +127,8 @@ def users(library: str) -> set[str]:
 @pytest.mark.parametrize(
     ("library", "allowed"),
     [
-        ("numba", ("hydro2d.jit.options", "hydro2d.jit.cache", "hydro2d.jit.calls", "hydro2d.jit.bits",
-                   "hydro2d.jit.barrier")),
+        ("numba", ("hydro2d.jit.options", "hydro2d.jit.target", "hydro2d.jit.store", "hydro2d.jit.calls",
+                   "hydro2d.jit.bits", "hydro2d.jit.barrier")),
         ("pyvista", ("hydro2d.output.vtk", "hydro2d.results.cutaway")),
         ("vtk", ("hydro2d.output.vtk", "hydro2d.results.cutaway")),
         ("pint", ("hydro2d.units",)),
