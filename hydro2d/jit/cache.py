@@ -26,7 +26,7 @@ from types import ModuleType
 from hydro2d.errors import Error
 from hydro2d.files import read_json
 from hydro2d.jit import target
-from hydro2d.parsing import parsed
+from hydro2d.parsing import executed, parsed
 from hydro2d.terminal import say
 
 #: this package, and the folder that holds hydro2d, eos and strength
@@ -244,7 +244,7 @@ def module_of(stem: str, text: str, folder: str = "") -> ModuleType:
     linecache.cache[file] = len(text), None, text.splitlines(keepends=True), file
     sys.modules[name] = module
     try:
-        exec(compile(text, file, "exec"), vars(module))
+        executed(text, file, vars(module))
     except BaseException:
         del sys.modules[name]
         raise
