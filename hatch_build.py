@@ -27,7 +27,7 @@ class CompiledKernels(BuildHookInterface):
         return self.target_name == "wheel" and os.environ.get("HYDRO2D_BUILD_COMPILED", "") not in ("", "0")
 
     def dependencies(self) -> list[str]:
-        """What hydro2d needs to run, as its users get it: the newest versions that are allowed."""
+        """The dependencies of hydro2d, in the newest versions that are allowed; none without the variable."""
         return list(self.metadata.core.dependencies) if self._wanted() else []
 
     def initialize(self, version: str, build_data: dict) -> None:

@@ -10,8 +10,8 @@
 ``@serial``  loops over a short list, one thread
 
 What numba is told is in `options`, the processor that code is made for in `target`, where compiled code is kept in `cache` and
-how in `store`, the decorators are in `calls`, exp, log and x^y for
-several cells at once in `elementary`, and what is known of the calls of kernels in `recording`. Other files import from here.
+how in `store`, the decorators are in `calls`, exp, log and x^y for several cells at once in `elementary`, and what is known of
+the calls of kernels in `recording`. Other files import from here.
 """
 
 from hydro2d.jit import store, target

@@ -96,12 +96,8 @@ def _fix() -> tuple[str, str, str]:
     return found
 
 
+#: what code is compiled for, as LLVM names it
 SYSTEM, PROCESSOR, FEATURES = _fix()
-
-
-def name() -> str:
-    """The processor that code is compiled for, as LLVM names it."""
-    return PROCESSOR
 
 
 def description() -> dict[str, str]:

@@ -137,10 +137,9 @@ def _response(contents: Contents, choice: Choice, y: Response, panel: Panel, nam
     caption += f"; open marks: {len(shown) - len(ended)} unfinished." if len(shown) > len(ended) else "."
     if repeated:
         caption += " A mark is the median of the members of an ensemble, its bar reaches from 10 to 90 %, dots are the members."
-    if any(curve.drawable for curve in curves):
-        drawn = ", ".join(curve.title for curve in curves if curve.drawable)
-        caption += f" Grey lines: {drawn}, with the deck of {_modelled(panel).case.name}."
-    elif left:
+    grey = _grey_lines(curves, panel)
+    caption += grey
+    if left and not grey:
         caption += f" Lines without marks: {'; '.join(curve.title for curve in left)}."
     said = _ensembles(shown, y) if repeated else [f"{each.case.name} {_value(each, y)}" for each in shown]
     more = f" and {len(said) - MOST_WORDS} more" if len(said) > MOST_WORDS else ""
@@ -171,6 +170,12 @@ def _rows(contents: Contents, choice: Choice, panel: Panel) -> Variable | None:
     return None if already else found
 
 
+def _grey_lines(curves: Sequence[theory.Curve], panel: Panel) -> str:
+    """The sentence of a caption on the lines of models; empty if none is drawn."""
+    drawn = ", ".join(curve.title for curve in curves if curve.drawable)
+    return f" Grey lines: {drawn}, with the deck of {_modelled(panel).case.name}." if drawn else ""
+
+
 def _strip(contents: Contents, rows: Variable, panel: Panel, name: str) -> Chart:
     y, speed = responses.response(DEPTH), panel.members[0].velocity
     curves, _, notes = _models(rows, y, panel)
@@ -178,9 +183,7 @@ def _strip(contents: Contents, rows: Variable, panel: Panel, name: str) -> Chart
     shown = [each for each in panel.members if y.value(each) is not None]
     caption = f"Final depths at {speed:.0f} m/s, a row for each combination of {rows.title}: {panel.words}."
     caption += " Marks as in the figure of the depth."
-    if any(curve.drawable for curve in curves):
-        drawn = ", ".join(curve.title for curve in curves if curve.drawable)
-        caption += f" Grey lines: {drawn}, with the deck of {_modelled(panel).case.name}."
+    caption += _grey_lines(curves, panel)
     said = [f"{rows.value(each)} {_value(each, y)}" for each in shown]
     more = f" and {len(said) - MOST_WORDS} more" if len(said) > MOST_WORDS else ""
     alt = f"Final depths at {speed:.0f} m/s by {rows.title}, {panel.words}: {'; '.join(said[:MOST_WORDS])}{more}."
