@@ -19,7 +19,7 @@ from pathlib import Path
 import numpy as np
 
 from hydro2d import children, jit, moving
-from hydro2d.files import READ_ONLY, turn, write_text
+from hydro2d.files import turn, write_text
 
 COMPILE = "numba:compile"
 #: seconds between two states of the line; a first call that has taken as long is more than the reading of a kernel
@@ -241,23 +241,20 @@ def _missing(calls: Callable[[], Iterable[jit.Call]]) -> list[str] | None:
 
 def _mark(key: str) -> Path:
     """The file that marks the kernels of a kind of deck as cached, for these sources and this processor."""
-    name = hashlib.sha256(f"{key} {jit.host_cpu()}".encode()).hexdigest()[:16]
+    name = hashlib.sha256(key.encode()).hexdigest()[:16]
     return Path(jit.all_folder()) / f"{name}.compiled"
 
 
 def _touch(mark: Path) -> None:
-    """Makes the file, where anything may be written."""
-    try:
+    """Makes the file; where nothing can be written, the kernels are listed again each time."""
+    with suppress(OSError):
         mark.parent.mkdir(parents=True, exist_ok=True)
         mark.touch()
-    except OSError as error:
-        if error.errno not in READ_ONLY:
-            raise
 
 
 def is_compiled(key: str) -> bool:
     """Whether `once` has seen this key."""
-    return _mark(key).exists()
+    return os.path.exists(_mark(key))
 
 
 def once(key: str, compile: Callable[[], None]) -> None:
@@ -265,11 +262,11 @@ def once(key: str, compile: Callable[[], None]) -> None:
 
     key : name of the set of kernels
     """
-    mark = _mark(key)
-    if mark.exists():
+    if is_compiled(key):
         return
+    mark = _mark(key)
     with turn(mark.with_name("compiling.lock")):
-        if not mark.exists():
+        if not is_compiled(key):
             state = _Shared(_state(key))
             try:
                 with announced(state):
@@ -292,7 +289,8 @@ class _Shared:
         pass
 
     def remove(self) -> None:
-        self._path.unlink(missing_ok=True)
+        with suppress(OSError):
+            self._path.unlink(missing_ok=True)
 
 
 def _state(key: str) -> Path:

@@ -33,6 +33,10 @@ class DeckError(Error):
     """A deck, a material or a command line is wrong; the message is for its author."""
 
 
+class TargetError(Error):
+    """Code cannot be compiled for the processor that HYDRO2D_TARGET asks for."""
+
+
 class MissingPackage(Error, ImportError):
     """A package that an extra of hydro2d brings is not installed; the message has the command that installs it."""
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import errno
 import fcntl
 import json
 import math
@@ -11,7 +10,7 @@ import secrets
 import socket
 import time
 from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import NamedTuple, TextIO
 
@@ -87,8 +86,6 @@ def write_text(path: Path, text: str, *, checksum: bool = False) -> None:
         temporary.write_bytes(sealed(data, Path(path).suffix) if checksum else data)
 
 
-#: errors of a file system on which this process may not write
-READ_ONLY = (errno.EROFS, errno.EACCES, errno.EPERM)
 #: letters of a lock file that are read
 MOST_SAID = 1000
 
@@ -253,16 +250,13 @@ def write_json(path: Path, value) -> None:
 def turn(file: Path) -> Iterator[None]:
     """Waits until no other process is in such a block with this file, and makes others wait. Makes the file if necessary.
 
-    The turn ends with the process, however that ends. For short work on one machine. Where the file cannot be made because
-    nothing may be written, no other process writes either, and there is nothing to wait for.
+    The turn ends with the process, however that ends. For short work on one machine, of which two processes at once only do
+    more than necessary: where the file cannot be made (on a full disk, in a folder that is read-only), nobody waits.
     """
-    try:
+    handle = None
+    with suppress(OSError):
         file.parent.mkdir(parents=True, exist_ok=True)
         handle = os.open(file, os.O_CREAT | os.O_RDWR)
-    except OSError as error:
-        if error.errno not in READ_ONLY:
-            raise
-        handle = None
     try:
         if handle is not None:
             fcntl.flock(handle, fcntl.LOCK_EX)

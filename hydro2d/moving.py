@@ -15,6 +15,8 @@ from hydro2d.terminal import one_line, say, shown
 
 #: seconds between lines where nothing can be redrawn
 LINE_SECONDS = 5.0
+#: characters of a bar on a terminal
+BAR = 30
 
 
 class Place(Protocol):
@@ -44,11 +46,12 @@ class Lines:
 
 
 class Terminal:
-    """One line of the error output, redrawn in place and erased when it rests."""
+    """One line of the error output with a bar, redrawn in place and erased when it rests."""
 
     def move(self, text: str, share: float | None) -> None:
         width = shutil.get_terminal_size().columns - 1
-        self._write(one_line(text)[:width])
+        bar = "" if share is None else f"  [{'#' * round(share * BAR):-<{BAR}}]"
+        self._write(f"{one_line(text)}{bar}"[:width])
 
     def rest(self, text: str) -> None:
         self._write("")

@@ -4,6 +4,7 @@ A table holds the common units. Pint, which takes long to import, converts all o
 
 A number without a unit is in SI where a program gives it. In a deck that does not say numbers = "SI" it is refused: `bare`
 marks the numbers of such a deck, and `to_si` refuses a number that is marked, unless it is 0 or the quantity is a plain number.
+`of_argument` refuses it in the arguments of commands.
 """
 
 from __future__ import annotations
@@ -41,7 +42,7 @@ COMMON = {
     "kg/m^3": ("kg/m^3", 1.0), "kg/m3": ("kg/m^3", 1.0), "g/cm^3": ("kg/m^3", 1e3), "g/cm3": ("kg/m^3", 1e3),
     "Pa": ("Pa", 1.0), "kPa": ("Pa", 1e3), "MPa": ("Pa", 1e6), "GPa": ("Pa", 1e9), "Mbar": ("Pa", 1e11),
     "/Mbar": ("1/Pa", 1e-11), "K": ("K", 1.0), "/K": ("1/K", 1.0), "J/kg": ("J/kg", 1.0), "rad": ("rad", 1.0),
-    "kg": ("kg", 1.0), "g": ("kg", 1e-3), "J": ("J", 1.0), "1/s": ("1/s", 1.0),
+    "kg": ("kg", 1.0), "g": ("kg", 1e-3), "J": ("J", 1.0), "1/s": ("1/s", 1.0), "/s": ("1/s", 1.0),
 }  # fmt: skip
 
 #: smallest nonzero and largest meaningful value in each unit for an impact, and the reason
@@ -109,11 +110,18 @@ def bare(value):
 
 
 def without_unit(value: float, unit: str) -> str:
-    """What is said of a number that lacks its unit: the text that is probably meant, or the key that takes it as SI."""
+    """What is said of a number of a deck that lacks its unit: what is probably meant, or the key that takes it as SI."""
+    meant, si = _meant(value, unit)
+    if_si = f", if {si} is meant" if meant != si else ""
+    return f'{value:.12g} has no unit; write "{meant}" (or numbers = "SI" at the top of the deck{if_si})'
+
+
+def _meant(value: float, unit: str) -> tuple[str, str]:
+    """A number without a unit as it is probably meant, and as it is in SI: "95.25 mm" and "95.25 m"."""
     (low, small), (high, large) = MEANT.get(unit, ((0.0, ""), (math.inf, "")))
+    si = f"{value:.12g} {unit.removeprefix('1')}"
     meant = small if abs(value) < low else large if abs(value) >= high else ""
-    if_si = f", if {value:.12g} {unit} is meant" if meant else ""
-    return f'{value:.12g} has no unit; write "{value:.12g} {meant or unit}" (or numbers = "SI" at the top of the deck{if_si})'
+    return f"{value:.12g} {meant}" if meant else si, si
 
 
 def exact(value: float, unit: str) -> str:
@@ -219,6 +227,22 @@ def to_si(value, unit: str) -> float:
     if not math.isfinite(number):
         raise ValueError(f"{value!r} is not finite; {_expected(unit)}")
     return number
+
+
+def of_argument(text: str, unit: str) -> float:
+    """SI value of an argument of a command: a number with its unit; a bare one only if it is 0 or the quantity a plain number.
+
+    Raises ValueError, whose message says what to type.
+    """
+    try:
+        number = float(text)
+    except ValueError:
+        return to_si(text, unit)
+    if number != 0 and unit != "1" and math.isfinite(number):
+        meant, si = _meant(number, unit)
+        or_si = f' (or "{si}", if that is meant)' if meant != si else ""
+        raise ValueError(f'{number:.12g} has no unit; write "{meant}"{or_si}')
+    return to_si(number, unit)
 
 
 def of_kinds(text: str, kinds: Iterable[str]) -> tuple[float, str]:

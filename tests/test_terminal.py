@@ -100,7 +100,7 @@ def test_names_in_charts_are_no_markup():
 
 
 def test_only_one_function_prints():
-    """`say`; hydro2d.jit has two sentences of its own, on where it keeps what is compiled."""
+    """`say`."""
     found = [name for name, file in source.modules().items() if name.startswith("hydro2d")
              for node in ast.walk(source.tree(file)) if isinstance(node, ast.Name) and node.id == "print"]  # fmt: skip
-    assert sorted(found) == ["hydro2d.jit.cache", "hydro2d.jit.options", "hydro2d.terminal"]
+    assert sorted(found) == ["hydro2d.terminal"]

@@ -81,3 +81,26 @@ def test_the_table_of_common_units_agrees_with_pint(name):
     for number in (1.0, 8.12, 0.422275, 1086.0, 5.25e-4):
         si = units.to_si(f"{number!r} {name}", unit)
         assert si == float(f"{units._by_pint('', number, name, unit):.15g}")
+
+
+@pytest.mark.parametrize(
+    ("text", "unit", "si"),
+    [("1086m/s", "m/s", 1086.0), ("0", "m", 0.0), ("-2 cm", "m", -0.02), ("0.5", "1", 0.5), ("1e4 /s", "1/s", 1e4)],
+)
+def test_an_argument_has_its_unit(text, unit, si):
+    assert units.of_argument(text, unit) == si
+
+
+@pytest.mark.parametrize(
+    ("text", "unit", "said"),
+    [
+        ("1086", "m/s", '1086 has no unit; write "1086 m/s"'),
+        ("1.2", "m/s", '1.2 has no unit; write "1.2 km/s" (or "1.2 m/s", if that is meant)'),
+        ("1000", "1/s", '1000 has no unit; write "1000 /s"'),
+        ("inf", "m/s", "inf is not finite; expected a velocity"),
+    ],
+)
+def test_an_argument_without_its_unit_is_told_what_to_type(text, unit, said):
+    with pytest.raises(ValueError, match="has no unit|not finite") as caught:
+        units.of_argument(text, unit)
+    assert str(caught.value).startswith(said)

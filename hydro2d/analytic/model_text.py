@@ -16,6 +16,8 @@ from hydro2d.penetration import catalogue
 from hydro2d.penetration.inputs import FROM_LIBRARY
 from hydro2d.penetration.model import Input, Model, Value
 
+#: units in which quantities are typed in commands, by SI unit
+TYPED = {"m": "mm", "kg": "g", "Pa": "MPa"}
 
 def shown(value: Value, unit: str) -> str:
     """A value with its unit; a word as it is."""
@@ -64,8 +66,15 @@ def example_command(model: Model) -> str:
     words += ["--velocity", f"{example.velocity:g}m/s"]
     for name, value in example.values.items():
         if value is not None:
-            words += ["--set", f"{name}={value if isinstance(value, str) else f'{value:.6g}'}"]
+            unit = next(entry.unit for entry in model.inputs if entry.name == name)
+            words += ["--set", f"{name}={value if isinstance(value, str) else _typed(value, unit)}"]
     return shlex.join(words)
+
+
+def _typed(value: float, unit: str) -> str:
+    """A quantity as it is typed in a command: a length in mm, a mass in g, a stress in MPa."""
+    name = TYPED.get(unit, "" if unit == "1" else unit)
+    return f"{value / units.COMMON[name][1] if unit in TYPED else value:.6g}{name}"
 
 
 def page(model: Model) -> str:

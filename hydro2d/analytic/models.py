@@ -98,16 +98,9 @@ def _si(entry: Input, text: str) -> Value:
     if entry.choices or entry.unit == "":
         return text
     try:
-        return units.to_si(_number(text), entry.unit)
+        return units.of_argument(text, entry.unit)
     except ValueError as error:
         raise InputError(f"{entry.name}: {error}") from None
-
-
-def _number(text: str) -> float | str:
-    try:
-        return float(text)
-    except ValueError:
-        return text
 
 
 def resolve(model: Model, request: Request) -> Case:

@@ -44,11 +44,11 @@ def refuse_old_names(arguments: list[str]) -> None:
 
 
 def quantity(text: str, unit: str, option: str) -> float:
-    """A number in SI or with a unit."""
+    """The SI value of an argument. Raises UsageError, also for a number that lacks its unit."""
     from hydro2d import units
 
     try:
-        return units.to_si(float(text) if _is_number(text) else text, unit)
+        return units.of_argument(text, unit)
     except ValueError as error:
         raise UsageError(f"{option}: {error}") from None
 
@@ -63,10 +63,3 @@ def import_matplotlib() -> None:
         os.fchdir(here)
         os.close(here)
 
-
-def _is_number(text: str) -> bool:
-    try:
-        float(text)
-    except ValueError:
-        return False
-    return True

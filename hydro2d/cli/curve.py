@@ -17,7 +17,7 @@ STRAINS, RATES = (0.0, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 1.5), ("1e3 /s", "1e4 /s"
 def curve(
     materials: list[str],
     *,
-    rate: Annotated[list[str] | None, Parameter(negative="")] = None,
+    rate: Annotated[list[str] | None, Parameter(negative="", allow_leading_hyphen=True)] = None,
     strain: Annotated[list[float] | None, Parameter(negative="")] = None,
     isothermal: bool = False,
     csv: Path | None = None,
@@ -25,14 +25,14 @@ def curve(
 ) -> int:
     """Prints flow stress against plastic strain at constant strain rates, with the heat of the plastic work.
 
-    Example: hydro2d curve W_alloy W_sintered --rate 1e4 --figure flow_stress.png
+    Example: hydro2d curve W_alloy W_sintered --rate "1e4 /s" --figure flow_stress.png
 
     Parameters
     ----------
     materials
         Materials of the library: NAME or NAME:VARIANT.
     rate
-        Plastic strain rate, 1/s; can be repeated; default: 1e3, 1e4 and 1e5.
+        Plastic strain rate, such as "1e4 /s"; can be repeated; default: 1e3, 1e4 and 1e5 /s.
     strain
         Plastic strain of a row of the table; can be repeated; default: eight strains from 0 to 1.5.
     isothermal

@@ -41,7 +41,7 @@ def fit_strength(
         Material of the library, NAME or NAME:VARIANT. It gives the density and specific heat for --heated-from, and those
         constants of the model that are not fitted and that its own law has too.
     fix
-        Keeps a constant, as name=value with or without a unit; can be repeated.
+        Keeps a constant, as name=value, with its unit if it has one; can be repeated.
     share
         A constant that all groups have in common; can be repeated. The others are fitted for each group.
     group
@@ -51,9 +51,9 @@ def fit_strength(
     stress_unit
         Unit of the stresses.
     temperature
-        Range of temperatures of the points that are fitted, in K, as LOW:HIGH.
+        Range of temperatures of the points that are fitted, as LOW:HIGH, such as "150 K:800 K".
     heated_from
-        Strain rate, in 1/s, from which plastic work heats the specimen during a test.
+        Strain rate, such as "100 /s", from which plastic work heats the specimen during a test.
     csv
         Writes every point with the fitted stress and the difference to this file.
     figure
@@ -103,11 +103,9 @@ def _chosen(data, groups: list[float] | None, temperature: str | None):
             raise UsageError(f"--group {unknown[0]:g}: the file has the groups {', '.join(f'{g:g}' for g in data.groups)}")
         mask &= np.isin(data.group, groups)
     if temperature is not None:
-        low, _, high = temperature.partition(":")
-        try:
-            low, high = float(low), float(high)
-        except ValueError:
-            raise UsageError(f"--temperature {temperature}: expected LOW:HIGH in K") from None
+        if temperature.count(":") != 1:
+            raise UsageError(f'--temperature {temperature}: expected LOW:HIGH, such as "150 K:800 K"')
+        low, high = (quantity(end.strip(), "K", "--temperature") for end in temperature.split(":"))
         mask &= (data.temperature >= low) & (data.temperature <= high)
     if not mask.any():
         raise UsageError("no points are left to fit")

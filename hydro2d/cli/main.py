@@ -13,6 +13,7 @@ from cyclopts import App, Parameter
 from hydro2d import __version__
 from hydro2d.cli.base import Count, Out, Overrides, Trust, UsageError, import_matplotlib, refuse_old_names
 from hydro2d.cli.check_model import check_model
+from hydro2d.cli.compile import compile_kernels
 from hydro2d.cli.curve import curve
 from hydro2d.cli.diverge import diverge
 from hydro2d.cli.ensemble import By, Chosen, Member, Repeats, Seed, converge, run_all
@@ -42,6 +43,7 @@ app = App(
 )
 
 app.command(check_model)
+app.command(compile_kernels, name="compile")
 app.command(converge)
 app.command(curve)
 app.command(diverge)
@@ -60,7 +62,8 @@ app.command(view)
 
 #: modules, and their exceptions that tell the user what to correct
 USER_ERRORS = (
-    ("errors", "DeckError"), ("errors", "MissingPackage"), ("files", "LockError"), ("strange", "StrangeFile"),
+    ("errors", "DeckError"), ("errors", "MissingPackage"), ("errors", "TargetError"), ("files", "LockError"),
+    ("strange", "StrangeFile"),
     ("penetration.model", "InputError"), ("output.snapshot", "SnapshotError"), ("output.history", "HistoryError"),
     ("output.vtk", "VtkError"), ("mesh.quantities", "FieldError"), ("running.run", "RunError"),
     ("results.reading", "ResultsError"), ("results.scales", "FigureError"), ("results.viewer.fields", "ViewError"),

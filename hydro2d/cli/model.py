@@ -23,7 +23,7 @@ def evaluate(
     *,
     rod: str | None = None,
     target: str | None = None,
-    velocity: str | None = None,
+    velocity: Annotated[str | None, Parameter(allow_leading_hyphen=True)] = None,
     set_: Overrides = None,
     deck: Path | None = None,
     strain: float = 0.0,

@@ -10,11 +10,12 @@
 
 A `Phase` of the step is a list of kernels, one after another, for all parts at the same time.
 
-What numba is told is in `options`, where compiled code is kept in `cache`, the decorators are in `calls`, exp, log and x^y for
-several cells at once in `elementary`, phases in `phases`, the names of their arrays in `handle`, and what is known of the calls
-of kernels in `recording`. Other files import from here.
+What numba is told is in `options`, the processor that code is made for in `target`, where compiled code is kept in `cache` and
+how in `store`, the decorators are in `calls`, exp, log and x^y for several cells at once in `elementary`, phases in `phases`,
+the names of their arrays in `handle`, and what is known of the calls of kernels in `recording`. Other files import from here.
 """
 
+from hydro2d.jit import store, target
 from hydro2d.jit.cache import add_model, all_folder, module_of
 from hydro2d.jit.calls import (
     GATE,
@@ -39,14 +40,15 @@ from hydro2d.jit.calls import (
 )
 from hydro2d.jit.elementary import exp, log, power
 from hydro2d.jit.handle import Handle, declare, declared
-from hydro2d.jit.options import compiler_events, host_cpu
+from hydro2d.jit.options import compiler_events
 from hydro2d.jit.phases import TYPES as PHASE_TYPES
 from hydro2d.jit.phases import WAIT, Phase, alone, given, unless, when
 from hydro2d.jit.recording import FIRST_CALL, Call, is_recording, profiling, recorded, timings
 
 __all__ = [
     "Call", "FIRST_CALL", "GATE", "Handle", "PHASE_TYPES", "Phase", "WAIT", "add_model", "all_folder", "alone", "apart",
-    "by_id", "compiler_events", "declare", "declared", "exp", "given", "host_cpu", "is_recording", "kernel", "late", "log",
+    "by_id", "compiler_events", "declare", "declared", "exp", "given", "is_recording", "kernel", "late", "log",
     "max_threads", "module_of", "modules", "parts_at_once", "plus", "point", "power", "prange", "profiling", "recorded",
-    "returns", "rows_by_id", "rowwise", "serial", "set_threads", "threaded", "threads", "timings", "unless", "wait", "when",
+    "returns", "rows_by_id", "rowwise", "serial", "set_threads", "store", "target", "threaded", "threads", "timings",
+    "unless", "wait", "when",
 ]  # fmt: skip

@@ -2,8 +2,8 @@
 
 numba's own cache notices an edit of the file that holds a function, not of the files that this one calls. What is compiled of
 a file is therefore kept in a folder with a hash of this package, of the file, of all of hydro2d that it imports, itself or
-through others, and of the models from outside that it can see: it is never stale, and an edit compiles anew what can see it and
-nothing else.
+through others, of the models from outside that it can see, and of the compiler, its options and the processor that it compiles
+for: it is never stale, and an edit compiles anew what can see it and nothing else. How it is kept there is in `store`.
 """
 
 from __future__ import annotations
@@ -12,27 +12,32 @@ import ast
 import atexit
 import functools
 import hashlib
-import importlib.util
+import linecache
 import os
 import shutil
 import stat
 import sys
 import tempfile
-from collections.abc import Iterable
-from contextlib import suppress
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from types import ModuleType
 
-import numba
-
-from hydro2d.files import replacing
-from hydro2d.parsing import parsed
+from hydro2d.errors import Error
+from hydro2d.files import read_json
+from hydro2d.jit import target
+from hydro2d.parsing import executed, parsed
+from hydro2d.terminal import say
 
 #: this package, and the folder that holds hydro2d, eos and strength
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
+#: compiled code that the package brings, in a wheel that was made so, and the file that says what it is for
+SHIPPED, ABOUT = ROOT / "hydro2d" / "_compiled", "about.json"
 #: folders of which the texts that are written at run time may see all
 COMPILED = ("hydro2d/physics", "hydro2d/kernels", "eos", "strength")
+#: files of this package that change no code: they say where it is kept
+NO_CODE = ("cache.py", "store.py", "target.py")
 
 
 @functools.cache
@@ -42,15 +47,18 @@ def _source_files() -> frozenset[Path]:
 
 
 @functools.cache
-def _cache_root() -> str:
+def root() -> str:
     """The folder under which all that is compiled is kept: HYDRO2D_CACHE_DIR, in the user's cache, or a `_private` one.
 
-    What is in it is executed, so it must be nobody else's to write to.
+    What is in it is executed, so it must be nobody else's to write to. An empty variable counts as not set. A relative
+    HYDRO2D_CACHE_DIR is the user's own choice of a place below the current directory; a relative XDG_CACHE_HOME counts as not
+    set, as its specification asks: it would be a folder of whatever directory a command happens to run in.
     """
-    root = os.environ.get("HYDRO2D_CACHE_DIR")
-    if root is not None:
-        return root
-    home = Path(os.environ.get("XDG_CACHE_HOME", Path.home() / ".cache"))
+    if chosen := os.environ.get("HYDRO2D_CACHE_DIR"):
+        return os.path.abspath(chosen)
+    home = Path(os.environ.get("XDG_CACHE_HOME", ""))
+    if not home.is_absolute():
+        home = Path.home() / ".cache"
     if not os.access(home if home.exists() else home.parent, os.W_OK):
         return _private(os.path.join(tempfile.gettempdir(), f"hydro2d-{os.getuid()}"))
     return str(home / "hydro2d")
@@ -66,20 +74,41 @@ def _private(folder: str) -> str:
     fresh = tempfile.mkdtemp(prefix="hydro2d-")
     atexit.register(shutil.rmtree, fresh, ignore_errors=True)
     os.environ["HYDRO2D_CACHE_DIR"] = fresh
-    print(f"hydro2d: {folder} is not a private folder of this user: what is compiled is not kept (HYDRO2D_CACHE_DIR names one)",
-          file=sys.stderr)
+    say_once(f"{folder} is not a private folder of this user: what is compiled is not kept (HYDRO2D_CACHE_DIR names one)")
     return fresh
+
+
+@functools.cache
+def say_once(text: str) -> None:
+    """A line on the error output, the first time in this process."""
+    with suppress(OSError):  # nobody reads it; the run goes on
+        say(f"hydro2d: {text}", file=sys.stderr, flush=True)
+
+
+@contextmanager
+def kept_if_possible() -> Iterator[None]:
+    """Says once that what the block writes cannot be kept, if that is so: the disk may be full, or nobody may write there."""
+    try:
+        yield
+    except OSError as error:
+        say_once(f"{root()} cannot be written ({error.strerror or error}): what is compiled is not kept "
+                 "(HYDRO2D_CACHE_DIR names another place)")
 
 
 def folder_for(files: Iterable[Path], models: Iterable[str] = ()) -> str:
     """The folder for what depends on these files and models from outside: named by a hash of their text."""
-    digest = hashlib.sha256(numba.__version__.encode())
-    for file in sorted(files):
-        digest.update(file.name.encode())
+    digest = hashlib.sha256(repr(sorted(target.description().items())).encode())
+    for name, file in sorted((_relative(file), file) for file in files):
+        digest.update(name.encode())
         digest.update(file.read_bytes())
     for model in sorted(models):
         digest.update(model.encode())
-    return os.path.join(_cache_root(), digest.hexdigest()[:16])
+    return os.path.join(root(), digest.hexdigest()[:16])
+
+
+def _relative(file: Path) -> str:
+    """The path of a file of ours from the folder that holds hydro2d: it is the same wherever that is. The name of another."""
+    return file.relative_to(ROOT).as_posix() if ROOT in file.parents else file.name
 
 
 @functools.cache
@@ -112,7 +141,7 @@ def seen_by(file: Path) -> frozenset[Path]:
 
     Models are chosen by lists of names: who sees the `dispatch` of `eos` or `strength` sees all of the folder.
     """
-    found, waiting = set(HERE.glob("*.py")), [file]
+    found, waiting = {each for each in HERE.glob("*.py") if each.name not in NO_CODE}, [file]
     while waiting:
         each = waiting.pop()
         if each in found:
@@ -126,9 +155,11 @@ def seen_by(file: Path) -> frozenset[Path]:
 
 @functools.cache
 def folder_of(file: str) -> str:
-    """The folder for what is compiled of a file."""
+    """The folder for what is compiled of a file: for a text that was made at run time, the one that its path names, if any."""
     path = Path(file).resolve()
-    if ROOT not in path.parents:
+    if generated(file) is not None and path.parent.parent == Path(root()).resolve():
+        return str(path.parent)
+    if generated(file) is not None or ROOT not in path.parents:
         return all_folder()
     seen = seen_by(path)
     return folder_for(seen, [model for package, models in _added.items() if ROOT / package / "dispatch.py" in seen
@@ -139,6 +170,40 @@ def folder_of(file: str) -> str:
 def all_folder() -> str:
     """The folder for what depends on all sources and all models from outside."""
     return folder_for(_source_files(), [model for models in _added.values() for model in models])
+
+
+def places(folder: str) -> tuple[Path, Path]:
+    """Where what belongs into a folder of the cache is looked for: in the package first, then in the cache."""
+    return SHIPPED / os.path.basename(folder), Path(folder)
+
+
+def about() -> dict[str, str]:
+    """What compiled code depends on, with the sources that all processes have (those without models from outside)."""
+    return {**target.description(), "sources": os.path.basename(folder_for(_source_files()))}
+
+
+@functools.cache
+def say_if_shipped_in_vain() -> None:
+    """Says why the compiled code of the package is of no use here, if there is some and it is not."""
+    if not (SHIPPED / ABOUT).exists():
+        return
+    try:
+        shipped = read_json(SHIPPED / ABOUT, Error)
+        other = next(((what, shipped[what], here) for what, here in about().items() if shipped[what] != here), None)
+    except (Error, KeyError) as problem:
+        say_once(f"the compiled code of the package is not used: {SHIPPED / ABOUT} does not say what it is for ({problem})")
+        return
+    if other is None:
+        return
+    what, theirs, here = other
+    if what == "sources":
+        say_once("the compiled code of the package is used in part: its sources were changed")
+    elif what in ("processor", "features") and shipped["processor"] in {each.name for each in target.NAMED.values()}:
+        name = shipped["processor"]
+        say_once(f"the compiled code of the package is not used: it is for {name}, and what is compiled here is for "
+                 f"{target.PROCESSOR} (HYDRO2D_TARGET={name} uses it)")
+    else:
+        say_once(f"the compiled code of the package is not used: it is for {what} {theirs}, here is {here}")
 
 
 #: names of the models from outside, by the package whose `dispatch` chooses among them
@@ -160,23 +225,28 @@ def add_model(package: str, name: str) -> bool:
     return True
 
 
-def module_of(stem: str, text: str, folder: str | None = None) -> ModuleType:
-    """The module of a Python text, whose name is the stem and a hash of the text: it is written to a file, then imported.
+#: texts that were made at run time, by the path that their functions name as their file
+_generated: dict[str, str] = {}
 
-    folder : where the file is kept; default: that of the texts of models from outside
+
+def generated(file: str) -> str | None:
+    """The text of a file that exists only here; None for any other."""
+    return _generated.get(file)
+
+
+def module_of(stem: str, text: str, folder: str = "") -> ModuleType:
+    """The module of a Python text, whose name is the stem and a hash of the text. No file is written: none can be spoiled.
+
+    folder : of the path that tracebacks name, at which there is no file
     """
     name = f"{stem}_{hashlib.sha256(text.encode()).hexdigest()[:16]}"
-    file = Path(folder or os.path.join(_cache_root(), "models")) / f"{name}.py"
-    if not file.exists():
-        file.parent.mkdir(parents=True, exist_ok=True)
-        with replacing(file) as temporary:
-            temporary.write_text(text, encoding="utf-8")
-            os.utime(temporary, (0, 0))  # numba takes a file with another time for another file
-    spec = importlib.util.spec_from_file_location(name, file)
-    module = importlib.util.module_from_spec(spec)
+    module = ModuleType(name)
+    module.__file__ = file = os.path.join(folder or "models", f"{name}.py")
+    _generated[file] = text
+    linecache.cache[file] = len(text), None, text.splitlines(keepends=True), file
     sys.modules[name] = module
     try:
-        spec.loader.exec_module(module)
+        executed(text, file, vars(module))
     except BaseException:
         del sys.modules[name]
         raise

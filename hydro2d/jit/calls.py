@@ -9,17 +9,19 @@ from types import FunctionType, ModuleType
 import numba
 import numpy as np
 
-from hydro2d.jit import barrier, recording
-from hydro2d.jit.cache import all_folder, folder_of, module_of
+from hydro2d.jit import barrier, recording, store
+from hydro2d.jit.cache import all_folder, folder_of, module_of, places
 from hydro2d.jit.handle import call_at
 from hydro2d.jit.options import INNER, OPTIONS
 from hydro2d.jit.recording import called
 
 
-def _compile(function, **options):
-    """numba's compilation, with the cache in the folder that belongs to the function's file."""
-    numba.config.CACHE_DIR = folder_of(function.__code__.co_filename)
-    return numba.njit(function, **{**OPTIONS, **options})
+def _compile(function, kept: bool = True, **options):
+    """numba's compilation; if the code is kept, it is in the folder that belongs to the function's file."""
+    compiled = numba.njit(function, **{**OPTIONS, **options})
+    if kept:
+        compiled._cache = store.Kept(function, *places(folder_of(function.__code__.co_filename)))
+    return compiled
 
 
 class Inner:
@@ -28,12 +30,11 @@ class Inner:
     Python may call it as well; then it is compiled a second time, by itself, and kept in the cache.
     """
 
-    def __init__(self, function, **options):
+    def __init__(self, function, kept: bool = True, **options):
         functools.update_wrapper(self, function)
         INNER.add(function)
-        without = {"cache": False, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
-        self._options = options
-        self.inner = numba.njit(function, **{**OPTIONS, **without, **options})
+        self._options = {"kept": kept, **options}
+        self.inner = _compile(function, kept=False, no_cpython_wrapper=True, no_cfunc_wrapper=True, **options)
         self._numba_type_ = self.inner._numba_type_
 
     @functools.cached_property
@@ -69,7 +70,7 @@ def late(function):
     The folder of the cache is named when a function is defined, before models from outside are added. Kernels that such a
     function is part of are kept as others are.
     """
-    return Inner(function, forceinline=True, cache=False)
+    return Inner(function, forceinline=True, kept=False)
 
 
 def apart(function):

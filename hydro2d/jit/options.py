@@ -7,15 +7,11 @@ from __future__ import annotations
 
 import functools
 import os
-import sys
-from pathlib import Path
 
 import llvmlite.binding
 import numba
-from numba.core import caching, codegen, cpu
+from numba.core import codegen, cpu
 from numba.core.options import TargetOptions
-
-from hydro2d.files import READ_ONLY, turn
 
 numba.config.THREADING_LAYER = "omp"
 
@@ -27,7 +23,7 @@ llvmlite.binding.set_option("hydro2d", "-vectorize-memory-check-threshold=1024")
 
 #: without NRT numba counts no references to arrays. Nothing here makes or keeps one, and the counts, atomic operations around
 #: each call, took a third of the time of a shot with contact
-OPTIONS = {"cache": True, "error_model": "numpy", "fastmath": False, "nogil": True, "_nrt": False}
+OPTIONS = {"error_model": "numpy", "fastmath": False, "nogil": True, "_nrt": False}
 
 
 # an option that numba has for its own functions only: no two arrays that a function is given overlap. Without it every vector
@@ -85,51 +81,9 @@ def _compile_once() -> None:
 _compile_once()
 
 
-def _one_writes_at_a_time() -> None:
-    """Lets one process at a time add to a folder of numba's cache: two at once can give one name to two functions.
-
-    A folder that cannot be written is read all the same; what is not in it is compiled by every process.
-    """
-    save, ensure = caching.IndexDataCacheFile.save, caching._CacheLocator.ensure_cache_path
-    told: set[str] = set()
-
-    @functools.wraps(save)
-    def alone(self, key, data):
-        folder = Path(self._cache_path)
-        try:
-            with turn(folder / "saving.lock"):
-                save(self, key, data)
-        except OSError as error:
-            if error.errno not in READ_ONLY:
-                raise
-            if not told:
-                print(f"hydro2d: {folder.parent} cannot be written: what is compiled is not kept (HYDRO2D_CACHE_DIR names "
-                      "another place)", file=sys.stderr)  # fmt: skip
-            told.add(str(folder.parent))
-
-    @functools.wraps(ensure)
-    def as_it_is(self):
-        try:
-            ensure(self)
-        except OSError as error:
-            if error.errno not in READ_ONLY:
-                raise
-
-    caching.IndexDataCacheFile.save = alone
-    caching._CacheLocator.ensure_cache_path = as_it_is
-
-
-_one_writes_at_a_time()
-
 compiler_events = numba.core.event
 
 
 def is_cached(compiled, types: tuple) -> bool:
     """Whether the cache has a compiled function for these types of its arguments."""
-    index = compiled._cache
-    return index._index_key(types, compiled.targetctx.codegen()) in index._cache_file._load_index()
-
-
-def host_cpu() -> str:
-    """The processor that code is compiled for, as LLVM names it."""
-    return llvmlite.binding.get_host_cpu_name()
+    return compiled._cache.has(types)

@@ -12,10 +12,15 @@ import math
 from dataclasses import dataclass
 from types import MappingProxyType
 
+import numpy as np
+
 from hydro2d.penetration import inputs
 from hydro2d.penetration.cavity import CAVITY_VELOCITY, given_or_fitted
-from hydro2d.penetration.model import Example, Input, Model, Output, non_negative, positive
+from hydro2d.penetration.model import Example, Input, Model, Motion, Output, non_negative, positive
 from hydro2d.penetration.surface import SHAPES, checked_half_angle, nose_length, radius_of_ogive
+
+#: points of a motion under the force on the whole nose
+POINTS = 33
 
 
 @dataclass(frozen=True)
@@ -106,12 +111,18 @@ def deep(velocity: float, mass: float, nose: Nose, target: Target) -> tuple[floa
 
 def entering(velocity: float, mass: float, nose: Nose, target: Target) -> tuple[float, float]:
     """Depth and time to rest with the force on the immersed part of the nose only; explanation/penetration/forrestal, (9)."""
-    from scipy.integrate import solve_ivp
-
     positive(mass=mass)
     non_negative(velocity=velocity)
     if velocity == 0.0 or nose.length == 0.0:
         return deep(velocity, mass, nose, target)
+    time, depth, left = (row[-1] for row in immersion(velocity, mass, nose, target))
+    further, longer = deep(left, mass, nose, target) if left > 0.0 else (0.0, 0.0)
+    return float(depth) + further, float(time) + longer
+
+
+def immersion(velocity: float, mass: float, nose: Nose, target: Target) -> np.ndarray:
+    """Times (s), depths (m) and velocities (m/s) until the nose is inside or, with a last velocity of 0, the rod at rest."""
+    from scipy.integrate import solve_ivp
 
     def slopes(_, state):
         return state[1], -force(state[1], nose, target, state[0]) / mass
@@ -125,8 +136,10 @@ def entering(velocity: float, mass: float, nose: Nose, target: Target) -> tuple[
     buried.terminal = stopped.terminal = True
     small = (1e-12 * nose.length, 1e-12 * velocity)
     done = solve_ivp(slopes, (0.0, math.inf), (0.0, velocity), events=(buried, stopped), rtol=1e-10, atol=small)
-    further, longer = deep(max(float(done.y[1, -1]), 0.0), mass, nose, target) if done.t_events[0].size else (0.0, 0.0)
-    return float(done.y[0, -1]) + further, float(done.t[-1]) + longer
+    rows = np.vstack([done.t, done.y])
+    if not done.t_events[0].size:
+        rows[2, -1] = 0.0
+    return rows
 
 
 def of_inputs(
@@ -156,6 +169,20 @@ def evaluate(velocity, *, rod_mass, nose_entry, **shot):
         "cavity_a": target.static / shot["target_strength"],
         "cavity_b": target.dynamic / shot["target_density"],
     }
+
+
+def motion(velocity, *, rod_mass, nose_entry, **shot) -> Motion:
+    """The rod after an impact at ``velocity``; keywords are those of ``MODEL.inputs``, in SI."""
+    nose, target = of_inputs(**shot)
+    rows = np.array([[0.0], [0.0], [velocity]])
+    if nose_entry == "resisted" and nose.length > 0.0:
+        rows = immersion(velocity, rod_mass, nose, target)
+    time, depth, left = rows[:, -1]
+    slower = np.linspace(left, 0.0, POINTS)[1:] if left > 0.0 else np.array([])
+    ways = np.array([deep(speed, rod_mass, nose, target) for speed in (left, *slower)])  # to rest
+    further = np.array([time + ways[0, 1] - ways[1:, 1], depth + ways[0, 0] - ways[1:, 0], slower])
+    time, depth, speed = np.hstack([rows, further])
+    return Motion(time, speed, depth)
 
 
 NOSE_ENTRY = Input(
@@ -191,4 +218,5 @@ MODEL = Model(
         values=MappingProxyType({"rod.mass": 0.023, "rod.diameter": 7.11e-3}),
     ),
     evaluate=evaluate,
+    motion=motion,
 )  # fmt: skip

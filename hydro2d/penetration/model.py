@@ -95,6 +95,20 @@ class Output:
 
 
 @dataclass(frozen=True)
+class Motion:
+    """A rod from the first touch to the end of its penetration, float64[n] each.
+
+    ``time`` (s), ``velocity`` of its tail (m/s), ``depth`` of penetration (m), ``length`` of the rod (m), None if it is not an
+    input of the model.
+    """
+
+    time: np.ndarray
+    velocity: np.ndarray
+    depth: np.ndarray
+    length: np.ndarray | None = None
+
+
+@dataclass(frozen=True)
 class Example:
     """A shot that illustrates the model: names from the material library, and whatever else the figure on its page uses."""
 
@@ -112,6 +126,7 @@ class Model:
     ``evaluate(velocity, **values)`` takes the impact velocity in m/s and every input by keyword, in SI, and gives a
     mapping with the outputs by name. ``main`` is the output that a figure shows. ``transition(**values)``, where there
     is one, gives the impact velocity above which the rod no longer stays rigid, m/s, or None where it always does.
+    ``motion``, with the arguments of ``evaluate``, gives the rod in time, where the model has that.
     """
 
     name: str
@@ -124,6 +139,7 @@ class Model:
     example: Example
     evaluate: Callable[..., Mapping[str, float | str]]
     transition: Callable[..., float | None] | None = None
+    motion: Callable[..., Motion] | None = None
 
     def collect(self, values: Mapping[str, Value]) -> dict[str, Value]:
         """Every input by keyword, defaults filled in; InputError for a missing, unknown or impossible value."""
@@ -158,6 +174,12 @@ class Model:
         """``transition`` of these inputs by name; InputError for what the model cannot take."""
         given = self.collect(values)
         return self._computed(lambda: self.transition(**given))
+
+    def moves(self, velocity: float, values: Mapping[str, Value]) -> Motion:
+        """``motion`` at one impact velocity, with inputs by name; InputError for what the model cannot take."""
+        complain("velocity", velocity)
+        given = self.collect(values)
+        return self._computed(lambda: self.motion(velocity, **given))
 
     def _computed(self, evaluation: Callable[[], T]) -> T:
         """The result of the equations. Where they have none, as when numbers overflow, this is an InputError or nan."""

@@ -20,7 +20,7 @@ import numpy as np
 
 from hydro2d.penetration import inputs
 from hydro2d.penetration.hydrodynamic import interface_velocity
-from hydro2d.penetration.model import NON_NEGATIVE, Example, Input, Model, Output, non_negative, positive
+from hydro2d.penetration.model import NON_NEGATIVE, Example, Input, Model, Motion, Output, non_negative, positive
 from hydro2d.penetration.target_resistance import RESISTANCE_INPUTS, resistance_of
 
 NO_PENETRATION, RIGID, ERODING, ERODING_THEN_RIGID = "no penetration", "rigid", "eroding", "eroding, then rigid"
@@ -194,9 +194,10 @@ def pair_of(*, rod_density: float, rod_strength: float, rod_dynamic_factor: floa
     return Pair(rod_density, (1.0 + rod_dynamic_factor) * rod_strength, target_density, resistance_of(**target))
 
 
-def motion(velocity: float, *, rod_length: float, **values: float | str | None) -> Track:
+def motion(velocity: float, *, rod_length: float, **values: float | str | None) -> Motion:
     """The track of an impact at a velocity in m/s; keywords are those of ``MODEL.inputs``, in SI."""
-    return penetrate(velocity, rod_length=rod_length, **vars(pair_of(**values)))
+    track = penetrate(velocity, rod_length=rod_length, **vars(pair_of(**values)))
+    return Motion(track.time, track.velocity, track.depth, track.length)
 
 
 def evaluate(velocity: float, *, rod_length: float, **values: float | str | None) -> dict[str, float | str]:
@@ -258,4 +259,5 @@ MODEL = Model(
     ),
     evaluate=evaluate,
     transition=transition,
+    motion=motion,
 )  # fmt: skip

@@ -14,7 +14,7 @@ from types import MappingProxyType
 
 from hydro2d.penetration import inputs
 from hydro2d.penetration.centreline import LAST_SPEED, Centreline, Rod, Target, Track, plastic_extent
-from hydro2d.penetration.model import Example, Input, Model, Output
+from hydro2d.penetration.model import Example, Input, Model, Motion, Output
 
 #: highest impact velocity at which a transition is looked for, and the step of the search, m/s
 FASTEST, SEARCH_STEP = 6000.0, 50.0
@@ -87,6 +87,13 @@ def evaluate(velocity: float, **values: float) -> dict[str, float | str]:
     }
 
 
+def motion(velocity: float, **values: float) -> Motion:
+    """The rod after an impact at a velocity in m/s; keywords are those of ``MODEL.inputs``, in SI."""
+    track = penetrate(velocity, *materials(values))
+    tail, _, length, depth = track.states[:4]
+    return Motion(track.times, tail, depth, length)
+
+
 def transition(**values: float) -> float | None:
     """``transition_velocity`` from the keywords of ``MODEL.inputs``."""
     return transition_velocity(*materials(values))
@@ -138,4 +145,5 @@ MODEL = Model(
     ),
     evaluate=evaluate,
     transition=transition,
+    motion=motion,
 )

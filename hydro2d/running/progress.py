@@ -33,6 +33,8 @@ SAME_LENGTH, MOST_STATIONS = 1e-3, 12
 AS_LONG = 1e-2  # projectiles whose length and diameter differ by less than this share are as long as they are thick
 #: what a run spends time on beside its cycles, by key of the summary; less than this many seconds are not told
 OTHER_COSTS, LEAST_COST = {"compilation": "compilation_s", "set-up": "set_up_s", "outputs": "outputs_s"}, 0.05
+#: commands and paths, which a terminal wraps where its line is full, so that they can be copied; other lines break at words
+WHOLE = re.compile(r"\bhydro2d [a-z]|results in |\S/\S+/")
 #: seconds over which the pace is measured
 PACE_SECONDS = 60.0
 
@@ -289,7 +291,8 @@ class Live(Report):
         return Group(*([self._table] if self._table else []), *line)
 
     def show(self, text: str) -> None:
-        self._live.console.print(text, highlight=False, markup=False, soft_wrap=True)
+        whole = bool(WHOLE.search(text))
+        self._live.console.print(text, highlight=False, markup=False, soft_wrap=whole)
 
     def status(self, shown: dict[str, str]) -> None:
         show, self.show = self.show, lambda text: None  # the table shows it: only the log gets the line

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import socket
-import tempfile
 import time
 import traceback
 from dataclasses import asdict, dataclass, replace
@@ -18,7 +17,7 @@ from hydro2d.mesh.quantities import FieldError
 from hydro2d.output import snapshot
 from hydro2d.output.history import HistoryError
 from hydro2d.output.vtk import VtkError
-from hydro2d.running import run
+from hydro2d.running import compile_all, run
 from hydro2d.solver.first_cycle import kernels
 from hydro2d.strange import StrangeFile
 from hydro2d.study.layout import DONE, FAILED, FAILED_STATUS, UNPHYSICAL, state
@@ -27,8 +26,6 @@ from hydro2d.study.layout import DONE, FAILED, FAILED_STATUS, UNPHYSICAL, state
 TOLD = (DeckError, FieldError, HistoryError, LockError, LostPlaceError, StrangeFile, VtkError, run.RunError,
         snapshot.SnapshotError)  # fmt: skip
 FULL = "No space left on device"
-#: cycles that call every kernel: more than simulation.WATCH_EVERY
-CYCLES = 11
 #: seconds in which neither lock nor progress of a process on another machine change before it loses its lock; progress.json is
 #: written every 3
 SILENCE = 120.0
@@ -109,7 +106,8 @@ def _run(directory: Path, deck_text: str, threads: int, overwrite: bool, interru
     deck = decks.loads(deck_text)
     restart = _can_continue(directory, deck_text, overwrite)
     jit.set_threads(min(threads, jit.max_threads()))
-    compilation.once(kernels(deck), lambda: _compile(deck))
+    # a second process helps: the other workers of the study wait meanwhile
+    compilation.once(kernels(deck), lambda: compile_all.run_briefly(deck, second=True))
     summary = run.run(deck, directory, restart=restart, overwrite=not restart, quiet=True, interrupt=interrupt)
     (directory / FAILED).unlink(missing_ok=True)  # not before: dask may repeat a case whose failure the sweep has written down
     return summary
@@ -153,16 +151,6 @@ def _can_continue(directory: Path, deck_text: str, overwrite: bool) -> bool:
             raise run.RunError(f"{directory} holds a run of another deck; --overwrite removes it")
         return False
     return any((directory / name).is_file() for name in (snapshot.NAME, snapshot.PREVIOUS))
-
-
-def _compile(deck) -> None:
-    """Runs a few cycles in a temporary directory, so that the kernels are in the cache.
-
-    A second process helps: the other workers of the study wait meanwhile.
-    """
-    few = deck.model_copy(update={"stop": deck.stop.model_copy(update={"cycles": CYCLES})})
-    with tempfile.TemporaryDirectory() as folder:
-        run.run(few, Path(folder) / "compile", quiet=True, second=True)
 
 
 def _failure(error: Exception, directory: Path) -> dict:

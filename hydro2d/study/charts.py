@@ -12,7 +12,7 @@ from types import MappingProxyType
 
 import numpy as np
 
-from hydro2d.penetration.tate import Track
+from hydro2d.penetration.model import Motion
 from hydro2d.study import residual, theory
 from hydro2d.study.experiments import AT_LEAST, Measurement
 from hydro2d.study.marks import SIZE, ensembles, points, verbatim
@@ -24,6 +24,10 @@ from hydro2d.study.series import Series, style
 INK, MUTED, GRID, PAPER = "rgb(1, 2, 3)", "rgb(90, 91, 92)", "rgb(221, 222, 223)", "rgb(254, 254, 254)"
 #: heights in pixels: of a panel, of what is below it, of a line of the legend; letters in such a line
 PANEL, BELOW, LINE, LETTERS = 300, 74, 19, 40
+#: pixels between the words of two rows of a strip
+GAP = 14
+#: how far a strip reaches for the line of a model, in largest depths of runs and experiments
+FARTHEST = 1.5
 #: entries of a legend beyond which the rest is left to the values that a pointer shows
 MOST_ENTRIES = 24
 #: runs beyond which histories are told apart by series only
@@ -34,8 +38,10 @@ MOST_ACROSS = 4
 MEASURED = {"measured": ("diamond-tall", "experiment"), "estimated": ("diamond-tall-open", "experiment, estimated"),
             AT_LEAST: ("star-triangle-up", "experiment, at least (plate perforated)")}  # fmt: skip
 #: columns of the history that a model of a rod gives as well, and what they are called there
-OF_TRACK = {DEPTH: "depth", "rod_tail_velocity_m_s": "velocity", "rod_length_m": "length"}
+OF_MOTION = {DEPTH: "depth", "rod_tail_velocity_m_s": "velocity", "rod_length_m": "length"}
 THEORY_DASHES = ("solid", "dash", "dashdot", "dot", "8px,2px,2px,2px,2px,2px")
+#: how strong the line of a model is for the slowest of several impacts
+FAINTEST = 0.45
 
 
 def _figure(rows: int = 1):
@@ -54,10 +60,10 @@ def _figure(rows: int = 1):
     return figure
 
 
-def _finished(figure, rows: int = 1, labels: int = 0):
+def _finished(figure, rows: int = 1, labels: int = 0, panel: float = PANEL):
     """Room for the legend, one entry a line below the panels, so that no entry is cut off on a narrow screen.
 
-    labels : pixels that the labels of the x axis take beyond one line
+    labels : pixels that the labels of the x axis take beyond one line;  panel : height of a single panel in pixels
     """
     shown = []
     for trace in figure.data:
@@ -68,7 +74,7 @@ def _finished(figure, rows: int = 1, labels: int = 0):
             trace.name = "<br>".join(map(verbatim, textwrap.wrap(trace.name, LETTERS)))
             shown.append(trace)
     lines = sum(trace.name.count("<br>") + 1 for trace in shown)
-    panel, below = rows * PANEL * (0.72 if rows > 1 else 1.0), LINE * lines + BELOW + labels
+    panel, below = rows * panel * (0.72 if rows > 1 else 1.0), LINE * lines + BELOW + labels
     legend = {"x": 0.0, "y": -(BELOW + labels - 12) / panel, "xanchor": "left", "yanchor": "top", "maxheight": 4000,
               "tracegroupgap": 0, "itemsizing": "constant", "groupclick": "togglegroup", "font": {"size": 12}}  # fmt: skip
     figure.update_layout(height=int(panel + below + 34), legend=legend, showlegend=bool(shown),
@@ -108,6 +114,36 @@ def response(setup: Setup | None, series: Sequence[Series], x: Variable, y: Resp
     if y.name in (DEPTH, RESIDUAL):
         figure.update_yaxes(range=[0.0, 1.1 * _highest(figure)])
     return _finished(figure, labels=labels)
+
+
+def strip(series: Sequence[Series], rows: Variable, y: Response, measured: dict[str, Measurement],
+          curves: Sequence[theory.Curve]):  # fmt: skip
+    """Depths at one velocity across, a row of marks for each word of ``rows``; models and marks as in ``response``."""
+    figure = _figure()
+    drawn = [(f"{curve.title}: {curve.depth[0] * y.factor:.3g} {y.unit}", "", curve.velocity, curve.depth * y.factor)
+             for curve in curves if curve.drawable]
+    _levels(figure, drawn, rows, y)
+    _runs(figure, series, rows, y)
+    _bounds(figure, series, rows, y)
+    _depths(figure, series, rows, y, measured, [])
+    there = {rows.value(record) for each in series for record in each.records if y.value(record) is not None}
+    order = [word for word in rows.order if word in there]
+    highest = _highest(figure)
+    shown = max([highest, *(values[0] for *_, values in drawn if values[0] < FARTHEST * highest)])
+    for trace in figure.data:  # what was drawn over the words is turned
+        values, places = trace.y, [order.index(word) if word in order else None for word in trace.x]
+        if trace.meta == "model":
+            values, places = trace.y[:1] * 2, [-0.5, len(order) - 0.5]
+        hover = trace.hovertemplate and trace.hovertemplate.replace("%{y", "%{x")
+        trace.update(x=values, y=places, error_x=trace.error_y.to_plotly_json(), hovertemplate=hover)
+        trace.error_y = {"array": None}
+        if trace.meta == "bound":
+            trace.marker.symbol = "triangle-right-open"
+    wrapped = [textwrap.wrap(word, LETTERS // 2) or [""] for word in order]
+    figure.update_yaxes(range=[len(order) - 0.5, -0.5], tickmode="array", tickvals=list(range(len(order))),
+                        ticktext=["<br>".join(map(verbatim, lines)) for lines in wrapped])  # fmt: skip
+    figure.update_xaxes(title={"text": verbatim(y.title)}, range=[0.0, 1.1 * shown])
+    return _finished(figure, panel=sum(LINE * len(lines) + GAP for lines in wrapped))
 
 
 def _words_below(figure, order: Sequence[str]) -> int:
@@ -223,26 +259,34 @@ def few_lines(drawn: Sequence[tuple[Series, Record]]) -> bool:
     return len(drawn) <= MOST_LINES and not any(each.repeated for each, _ in drawn)
 
 
-def _motions(figure, tracks: Mapping[float, tuple[float, Track]], names: Sequence[str]) -> None:
-    """What a model gives of the columns, from the touch in s on, by impact velocity in m/s."""
-    for number, (speed, (touch, track)) in enumerate(tracks.items()):
-        label = "Tate-Alekseevskii" + (f", {speed:.0f} m/s" if len(tracks) > 1 else "")
-        for row, name in enumerate(names, 1):
-            if name in OF_TRACK:
-                values = getattr(track, OF_TRACK[name]) * readers(name)[1]
+def _motions(figure, motions: Mapping[float, tuple[float, Mapping[str, Motion]]], names: Sequence[str]) -> None:
+    """What models give of the columns, from the touch in s on, by impact velocity in m/s and name.
+
+    A model has its dashes, and the fastest impact the strongest line.
+    """
+    dashes = dict(zip(dict.fromkeys(name for _, by in motions.values() for name in by), THEORY_DASHES, strict=False))
+    strengths = np.linspace(1.0, FAINTEST, len(motions))
+    for strength, (speed, (touch, by)) in zip(strengths, sorted(motions.items(), reverse=True), strict=True):
+        for model, motion in by.items():
+            label = model + (f", {speed:.0f} m/s" if len(motions) > 1 else "")
+            given = [(row, name, getattr(motion, OF_MOTION[name])) for row, name in enumerate(names, 1) if name in OF_MOTION]
+            for row, name, values in given:
+                if values is None:
+                    continue
                 figure.add_scatter(
-                    x=((track.time + touch) * 1e6).astype(np.float32), y=values.astype(np.float32), mode="lines", name=label,
-                    legendgroup=label, showlegend=name == DEPTH, row=row, col=1, meta="model",
-                    line={"color": MUTED, "width": 1.5, "dash": THEORY_DASHES[number % len(THEORY_DASHES)]},
+                    x=((motion.time + touch) * 1e6).astype(np.float32), y=(values * readers(name)[1]).astype(np.float32),
+                    mode="lines", name=label, legendgroup=label, showlegend=name == DEPTH, row=row, col=1, meta="model",
+                    opacity=strength, line={"color": MUTED, "width": 1.5, "dash": dashes[model]},
                     hovertemplate=f"{label}<br>%{{x:.5g}} µs: %{{y:.5g}} {readers(name)[0]}<extra></extra>",
                 )  # fmt: skip
 
 
-def histories(series: Sequence[Series], tracks: Mapping[float, tuple[float, Track]] = MappingProxyType({})):
+def histories(series: Sequence[Series],
+              motions: Mapping[float, tuple[float, Mapping[str, Motion]]] = MappingProxyType({})):  # fmt: skip
     """Columns of the history against time, one panel each. Few runs each have a line style; many have that of their series.
 
-    So have members of ensembles; all but the first are thin. tracks : of a model beside them, with the time of the first touch
-    in s, by impact velocity in m/s
+    So have members of ensembles; all but the first are thin. motions : of models beside them, by impact velocity in m/s: the
+    time of the first touch in s, and the motions by name
     """
     drawn = [(each, record) for each in series for record in each.records if record.history]
     names = list(dict.fromkeys(name for _, record in drawn for name in record.history if name != "time"))
@@ -265,7 +309,7 @@ def histories(series: Sequence[Series], tracks: Mapping[float, tuple[float, Trac
                               "<extra></extra>",
             )  # fmt: skip
             told.add(label)
-    _motions(figure, tracks, names)
+    _motions(figure, motions, names)
     for row, name in enumerate(names, 1):
         figure.update_yaxes(title={"text": f"{verbatim(title(name))}<br>[{readers(name)[0] or '1'}]"}, row=row, col=1)
     figure.update_xaxes(title={"text": "t [µs]"}, row=len(names), col=1)

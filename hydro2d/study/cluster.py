@@ -79,9 +79,7 @@ def needed(workers: int | None, threads: int, cases: int) -> int:
 def environment(threads: int) -> dict[str, str]:
     """Variables of a worker process."""
     found = {"NUMBA_NUM_THREADS": str(threads), "OMP_NUM_THREADS": str(threads), children.SAFE: "1"}
-    if "HYDRO2D_CACHE_DIR" in os.environ:
-        found["HYDRO2D_CACHE_DIR"] = os.environ["HYDRO2D_CACHE_DIR"]
-    return found
+    return {**found, **{name: os.environ[name] for name in ("HYDRO2D_CACHE_DIR", "HYDRO2D_TARGET") if name in os.environ}}
 
 
 @contextmanager

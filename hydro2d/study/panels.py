@@ -6,7 +6,8 @@ import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from hydro2d.penetration.tate import Track
+from hydro2d.mesh.regime import ERODING
+from hydro2d.penetration.model import Motion
 from hydro2d.study import charts, experiments, record, residual, responses, series, theory
 from hydro2d.study.contents import Contents
 from hydro2d.study.ensembles import grouped
@@ -62,6 +63,9 @@ def draw(contents: Contents, choice: Choice) -> Iterator[Chart]:
             stopped = y.name == RESIDUAL and through and not any(each.perforated for each in panel.members)
             if not stopped and any(_drawn(each, choice, y) for each in panel.members):
                 yield _response(contents, choice, y, panel, _id(y.name, base))
+        rows = _rows(contents, choice, panel)
+        if rows is not None:
+            yield _strip(contents, rows, panel, _id("strip", base))
         if any(each.history for each in panel.members):
             yield _histories(contents, choice, panel, _id("histories", base))
 
@@ -133,10 +137,9 @@ def _response(contents: Contents, choice: Choice, y: Response, panel: Panel, nam
     caption += f"; open marks: {len(shown) - len(ended)} unfinished." if len(shown) > len(ended) else "."
     if repeated:
         caption += " A mark is the median of the members of an ensemble, its bar reaches from 10 to 90 %, dots are the members."
-    if any(curve.drawable for curve in curves):
-        drawn = ", ".join(curve.title for curve in curves if curve.drawable)
-        caption += f" Grey lines: {drawn}, with the deck of {_modelled(panel).case.name}."
-    elif left:
+    grey = _grey_lines(curves, panel)
+    caption += grey
+    if left and not grey:
         caption += f" Lines without marks: {'; '.join(curve.title for curve in left)}."
     said = _ensembles(shown, y) if repeated else [f"{each.case.name} {_value(each, y)}" for each in shown]
     more = f" and {len(said) - MOST_WORDS} more" if len(said) > MOST_WORDS else ""
@@ -150,6 +153,41 @@ def _response(contents: Contents, choice: Choice, y: Response, panel: Panel, nam
                                          if each.velocity is not None and each.measured_residual is not None}):  # fmt: skip
         alt += f" Experiments: {'; '.join(f'{speed:.0f} m/s {left:.0f} m/s' for speed, left in sorted(found.items()))}."
     return Chart(name, charts.markup(figure, name), f"{head}: {panel.heading}", caption, alt, tuple(notes))
+
+
+def _rows(contents: Contents, choice: Choice, panel: Panel) -> Variable | None:
+    """What the rows of a strip of final depths are: the combinations of the axes, if the runs have one velocity.
+
+    None where a figure against the only axis, or against the cases, is such a strip already.
+    """
+    found = responses.combinations(contents.study, panel.members)
+    depth = responses.response(DEPTH)
+    if found is None or depth not in choice.y or panel.members[0].velocity is None or not _one_velocity(panel):
+        return None
+    if not any(depth.value(each) is not None for each in panel.members):
+        return None
+    already = choice.x.order is not None and len(choice.x.order) == len(found.order or ())
+    return None if already else found
+
+
+def _grey_lines(curves: Sequence[theory.Curve], panel: Panel) -> str:
+    """The sentence of a caption on the lines of models; empty if none is drawn."""
+    drawn = ", ".join(curve.title for curve in curves if curve.drawable)
+    return f" Grey lines: {drawn}, with the deck of {_modelled(panel).case.name}." if drawn else ""
+
+
+def _strip(contents: Contents, rows: Variable, panel: Panel, name: str) -> Chart:
+    y, speed = responses.response(DEPTH), panel.members[0].velocity
+    curves, _, notes = _models(rows, y, panel)
+    figure = charts.strip(panel.series, rows, y, contents.belonging, curves)
+    shown = [each for each in panel.members if y.value(each) is not None]
+    caption = f"Final depths at {speed:.0f} m/s, a row for each combination of {rows.title}: {panel.words}."
+    caption += " Marks as in the figure of the depth."
+    caption += _grey_lines(curves, panel)
+    said = [f"{rows.value(each)} {_value(each, y)}" for each in shown]
+    more = f" and {len(said) - MOST_WORDS} more" if len(said) > MOST_WORDS else ""
+    alt = f"Final depths at {speed:.0f} m/s by {rows.title}, {panel.words}: {'; '.join(said[:MOST_WORDS])}{more}."
+    return Chart(name, charts.markup(figure, name), f"Final depths: {panel.heading}", caption, alt, tuple(notes))
 
 
 def _ensembles(shown: Sequence[Record], y: Response) -> list[str]:
@@ -207,35 +245,38 @@ def _models(x: Variable, y: Response, panel: Panel):
     return [], left, notes
 
 
-def _motions(panel: Panel, drawn: Sequence[Record]) -> dict[float, tuple[float, Track]]:
-    """When the rod touches the target, s, and its motion by Tate and Alekseevskii, by impact velocity; none of many."""
+def _motions(panel: Panel, drawn: Sequence[Record]) -> dict[float, tuple[float, dict[str, Motion]]]:
+    """When the rod touches the target, s, and its motion by each analytic model, by impact velocity; none of many."""
     first, found = _modelled(panel), {}
     speeds = {each.velocity: each for each in reversed(drawn) if each.velocity is not None and responses.DEPTH in each.history}
     if first is None or panel.setup is None or len(speeds) > MOST_MOTIONS:
         return {}
     for speed, each in sorted(speeds.items()):
-        track = theory.motion(first.shot, speed)
-        if track is not None and len(track.time) > 1:
+        eroding = any(run.velocity == speed and run.value("regime") == ERODING for run in drawn)
+        motions = theory.motions(first.shot, speed, eroding=eroding, thickness=panel.setup.thickness)
+        if motions:
             deep = each.history[responses.DEPTH] > 0.0
             row = int(deep.argmax())
             touch = each.history["time"][row] - each.history[responses.DEPTH][row] / speed if deep.any() else 0.0
-            found[speed] = max(float(touch), 0.0), track
+            found[speed] = max(float(touch), 0.0), motions
     return found
 
 
 def _histories(contents: Contents, choice: Choice, panel: Panel, name: str) -> Chart:
     drawn = [each for each in panel.members if each.history]
     lines = series.grouped(drawn, contents.study.axes, choice)
-    tracks = _motions(panel, drawn)
-    figure = charts.histories(lines, tracks)
+    motions = _motions(panel, drawn)
+    figure = charts.histories(lines, motions)
     ends = [each.history["time"][-1] * 1e6 for each in drawn]
     few = charts.few_lines([(each, record) for each in lines for record in each.records])
     told = "one line style a run" if few else "one line style a series of runs"
     told += "; thin: members of ensembles but the first" if any(each.repeated for each in lines) else ""
     columns = ", ".join(axis.title.text.split("<br>")[0] for axis in figure.select_yaxes())
-    runs = f"{len(drawn)} runs, {panel.words}"
+    runs = f"{len(drawn)} run{'s' * (len(drawn) > 1)}, {panel.words}"
     caption = f"Histories of {columns}: {runs}; {told}, at most {record.POINTS} points of each history."
-    if tracks:
-        caption += f" Grey: Tate-Alekseevskii from the first touch on, with the deck of {_modelled(panel).case.name}."
+    if motions:
+        named = ", ".join(dict.fromkeys(name for _, by in motions.values() for name in by))
+        fainter = "; the slower the impact, the fainter" if len(motions) > 1 else ""
+        caption += f" Grey: {named}, from the first touch on, with the deck of {_modelled(panel).case.name}{fainter}."
     alt = f"{columns} against time, {runs}. The runs end between {min(ends):.0f} and {max(ends):.0f} µs."
     return Chart(name, charts.markup(figure, name), f"Histories: {panel.heading}", caption, alt)

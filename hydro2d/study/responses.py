@@ -189,6 +189,16 @@ def _cases(records: Sequence[Record]) -> Variable:
     return Variable(CASE, CASE, names, tuple(dict.fromkeys(names.values())))
 
 
+def combinations(study: Study, records: Sequence[Record]) -> Variable | None:
+    """The combinations of the axes of a study in words, in the order of its cases; None if no axis varies among the runs."""
+    axes = [axis for axis in study.axes if len({record.case.values.get(axis.name) for record in records}) > 1]
+    if not axes:
+        return None
+    words = {record.case.name: ", ".join(axis.said(record.case.values.get(axis.name, "")) for axis in axes)
+             for record in records}  # fmt: skip
+    return Variable(CASE, ", ".join(axis.name for axis in axes), words, tuple(dict.fromkeys(words.values())))
+
+
 def of_axis(axis: Axis, study: Study) -> Variable:
     """An axis of a study: numbers if all its labels are numbers of one quantity, else words."""
     labels = {case.name: case.values[axis.name] for case in study.cases if axis.name in case.values}

@@ -1,4 +1,4 @@
-"""Depth against impact velocity by the analytic models, for the rod and target of a setup."""
+"""Depth against impact velocity, and the motion in time, by the analytic models for the rod and target of a setup."""
 
 from __future__ import annotations
 
@@ -8,12 +8,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from hydro2d.analytic import beside, model_deck, models
-from hydro2d.penetration import tate
-from hydro2d.penetration.model import InputError
+from hydro2d.penetration.model import InputError, Motion
 
 #: models of a rod into a thick target, from rigid to consumed
 MODELS = ("forrestal", "tate", "walker-anderson", "anderson-riegel", "hydrodynamic")
 POINTS = 31
+#: those that give the motion of a rod in time; the first is of a rod that stays rigid
+OF_RIGID, *OF_ERODING = MOVING = ("forrestal", "tate", "walker-anderson")
 
 
 @dataclass(frozen=True)
@@ -37,16 +38,44 @@ def curves(shot: model_deck.Shot, low: float, high: float) -> list[Curve]:
     return [_curve(name, shot, velocity) for name in MODELS]
 
 
-def motion(shot: model_deck.Shot, velocity: float) -> tate.Track | None:
-    """The motion of Tate and Alekseevskii at an impact velocity in m/s; None where the deck does not give what it needs."""
-    try:
-        return tate.motion(velocity, **tate.MODEL.collect(beside.case(tate.MODEL.name, shot).values))
-    except InputError:
-        return None
+def motions(shot: model_deck.Shot, velocity: float, *, eroding: bool, thickness: float | None = None) -> dict[str, Motion]:
+    """The motion at an impact velocity in m/s by every model of ``MOVING`` that applies, by its name in words.
+
+    eroding : whether rods of the runs erode, to which the model of a rigid rod does not apply
+    thickness : of the target, m; a motion ends where it reaches the rear, from which on no model here applies
+    """
+    found = {}
+    for name in OF_ERODING if eroding else MOVING:
+        try:
+            motion = models.named(name).moves(velocity, beside.case(name, shot).values)
+        except InputError:
+            continue
+        motion = motion if thickness is None else _up_to(motion, thickness)
+        if len(motion.time) > 1:
+            found[_title(name)] = motion
+    return found
+
+
+def _up_to(motion: Motion, depth: float) -> Motion:
+    """The part of a motion up to a depth in m."""
+    if motion.depth[-1] <= depth:
+        return motion
+    last = int((motion.depth >= depth).argmax())
+    share = (depth - motion.depth[last - 1]) / (motion.depth[last] - motion.depth[last - 1])
+
+    def part(values: np.ndarray) -> np.ndarray:
+        return np.append(values[:last], values[last - 1] + share * (values[last] - values[last - 1]))
+
+    return Motion(*(part(each) for each in (motion.time, motion.velocity, motion.depth)),
+                  None if motion.length is None else part(motion.length))
+
+
+def _title(name: str) -> str:
+    return models.named(name).title.split(":")[0]
 
 
 def _curve(name: str, shot: model_deck.Shot, velocity: np.ndarray) -> Curve:
-    title = models.named(name).title.split(":")[0]
+    title = _title(name)
     try:
         case = beside.case(name, shot)
     except InputError as error:

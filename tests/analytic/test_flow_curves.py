@@ -47,7 +47,7 @@ def test_a_gas_has_no_curve():
 
 def test_the_command(tmp_path, capsys):
     table, picture = tmp_path / "t.csv", tmp_path / "p.png"
-    arguments = ["curve", "W_sintered", "W_90_7_3", "--rate", "1e3", "--rate", "1e5 /s", "--strain", "0.5", "--strain", "0"]
+    arguments = ["curve", "W_sintered", "W_90_7_3", "--rate", "1e3 /s", "--rate", "1e5 /s", "--strain", "0.5", "--strain", "0"]
     assert call([*arguments, "--csv", str(table), "--figure", str(picture)]) == 0
     out = capsys.readouterr().out.splitlines()
     assert out[2].split() == ["material", "rate", "[1/s]", "0", "0.5"]
@@ -57,5 +57,8 @@ def test_the_command(tmp_path, capsys):
     stress, _ = curves.flow_stress(library.load("W_sintered"), 1e3, [0.0, 0.5])
     assert [float(row["flow stress [Pa]"]) for row in rows[:2]] == list(stress)
     assert picture.read_bytes()[:4] == b"\x89PNG"
-    assert call(["curve", "W_sintered", "--rate", "-1"]) == 2
+    assert call(["curve", "W_sintered", "--rate", "-1 /s"]) == 2
+    assert "must not be negative" in capsys.readouterr().err
+    assert call(["curve", "W_sintered", "--rate", "1e3"]) == 2
+    assert '--rate: 1000 has no unit; write "1000 /s"' in capsys.readouterr().err
     assert call(["curve", "W_sinterd"]) == 2

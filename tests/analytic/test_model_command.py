@@ -159,12 +159,13 @@ def test_a_nose_of_a_deck(nose, key, value):
 
 def test_settings_are_checked():
     model = toy()
-    assert models.settings(["rod.diameter=8.12 mm", "rod.mass=0.1", "nose.shape=flat"], [model]) == {
+    assert models.settings(["rod.diameter=8.12 mm", "rod.mass=0.1 kg", "nose.shape=flat"], [model]) == {
         "rod.diameter": pytest.approx(0.00812), "rod.mass": 0.1, "nose.shape": "flat"
     }  # fmt: skip
     for text, message in (
         ("rod.diameter", "expected key=value"), ("rod.diametre=1", "did you mean .rod.diameter"),
-        ("rod.diameter=1 s", "a time"), ("rod.diameter=-1", "must be positive"), ("nose.shape=flad", "did you mean flat"),
+        ("rod.diameter=1 s", "a time"), ("rod.diameter=1", "has no unit; write .1 mm."),
+        ("rod.diameter=-1 m", "must be positive"), ("nose.shape=flad", "did you mean flat"),
     ):  # fmt: skip
         with pytest.raises(InputError, match=message):
             models.settings([text], [model])
@@ -246,26 +247,31 @@ def test_a_deck_stands_for_materials_geometry_and_velocity(capsys):
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (["tat", "--velocity", "1"], 'did you mean "tate"'),
-        (["tate", "--rod", "W_aloy", "--velocity", "1000"], 'did you mean "W_alloy"'),
-        (["tate", "--target", "Al5083:c0-524", "--velocity", "1000"], 'did you mean "c0-5240"'),
+        (["tat", "--velocity", "1km/s"], 'did you mean "tate"'),
+        (["tate", "--rod", "W_aloy", "--velocity", "1000m/s"], 'did you mean "W_alloy"'),
+        (["tate", "--target", "Al5083:c0-524", "--velocity", "1000m/s"], 'did you mean "c0-5240"'),
         (["tate", *W_INTO_5083, "--velocity", "1000 kg"], "is a mass"),
-        (["tate", *W_INTO_5083, "--velocity", "-1000"], "velocity = -1000: must be"),
-        (["tate", *W_INTO_5083, "--velocity", "1000:500:3"], "A must be less than B"),
-        (["tate", *W_INTO_5083, "--velocity", "500:1000"], "A:B:N"),
-        (["tate", *W_INTO_5083, "--velocity", "1000", "--set", "target.strength=-1"], "target.strength"),
-        (["tate", *W_INTO_5083, "--velocity", "1000", "--set", "rod.strength=-1 GPa"], "rod.strength = -1e+09: must be"),
-        (["tate", *W_INTO_5083, "--velocity", "1000", "--set", "rod.lenght=1"], 'did you mean "rod.length"'),
-        (["tate", *W_INTO_5083, "--velocity", "1000", "--strain", "-1"], "strain = -1"),
-        (["tate", *W_INTO_5083, "--velocity", "1000", "--figure", "a.png"], "A:B:N"),
-        (["tate", *W_INTO_5083, "--velocity", "1000:1100:3", "--figure", "a.nothing"], "unknown picture format"),
-        (["tate", *W_INTO_5083, "--velocity", "1000", "--csv", "no/such/folder/a.csv"], "no such directory"),
+        (["tate", *W_INTO_5083, "--velocity", "-1000 m/s"], "velocity = -1000: must be"),
+        (["tate", *W_INTO_5083, "--velocity", "1086"], '--velocity: 1086 has no unit; write "1086 m/s"'),
+        (["tate", *W_INTO_5083, "--velocity", "500:1km/s:3"], '--velocity: 500 has no unit; write "500 m/s"'),
+        (["tate", *W_INTO_5083, "--velocity", "1.2"], '1.2 has no unit; write "1.2 km/s" (or "1.2 m/s", if that is meant)'),
+        (["tate", *W_INTO_5083, "--velocity", "1km/s", "--set", "rod.strength=2e9"], 'rod.strength: 2000000000 has no unit'),
+        (["transition", *W_INTO_5083, "--set", "rod.strength=2.1"], '2.1 has no unit; write "2.1 GPa"'),
+        (["tate", *W_INTO_5083, "--velocity", "1000m/s:500m/s:3"], "A must be less than B"),
+        (["tate", *W_INTO_5083, "--velocity", "500m/s:1km/s"], "A:B:N"),
+        (["tate", *W_INTO_5083, "--velocity", "1000m/s", "--set", "target.strength=-1 Pa"], "target.strength"),
+        (["tate", *W_INTO_5083, "--velocity", "1000m/s", "--set", "rod.strength=-1 GPa"], "rod.strength = -1e+09: must be"),
+        (["tate", *W_INTO_5083, "--velocity", "1000m/s", "--set", "rod.lenght=1 m"], 'did you mean "rod.length"'),
+        (["tate", *W_INTO_5083, "--velocity", "1000m/s", "--strain", "-1"], "strain = -1"),
+        (["tate", *W_INTO_5083, "--velocity", "1000m/s", "--figure", "a.png"], "A:B:N"),
+        (["tate", *W_INTO_5083, "--velocity", "1000m/s:1100m/s:3", "--figure", "a.nothing"], "unknown picture format"),
+        (["tate", *W_INTO_5083, "--velocity", "1000m/s", "--csv", "no/such/folder/a.csv"], "no such directory"),
         (["tate", "--deck", "no_such_deck.toml"], "there is no such file"),
         (["tate", "--deck", "problems/verification/sod_z.toml"], "a rod on the axis"),
         (["--rod", "W_alloy"], "the name of a model is missing"),
         (["transition", "--rod", "W_alloy"], "--target"),
         (["transition", *W_INTO_5083, "--nose", "ogiva"], "did you mean ogival"),
-        (["transition", *W_INTO_5083, "--set", "rod.strength=-1"], "rod.strength"),
+        (["transition", *W_INTO_5083, "--set", "rod.strength=-1 Pa"], "rod.strength"),
         (["transition", *W_INTO_5083, "--runs", "problems"], "is not a run directory"),
     ],
 )

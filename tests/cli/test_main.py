@@ -81,6 +81,26 @@ def test_run_plot_export(simulation, deck, tmp_path, capsys):
     assert (out / "export" / "interfaces.pvd").exists()
 
 
+def test_kernels_are_compiled_before_they_are_needed(simulation, deck, monkeypatch, capsys):
+    """Nothing is left of the runs that compile them; without a deck, shipped ones are run."""
+    from hydro2d.running import compile_all
+
+    monkeypatch.chdir(Path(deck).parent)
+    before = set(Path().iterdir())
+    assert call(["compile", deck]) == 0
+    told, kept = capsys.readouterr().out.splitlines()
+    assert told == "shot.toml: was compiled already"  # a fake simulation has no kernels
+    assert kept.startswith("compiled for ")
+    assert set(Path().iterdir()) == before
+    assert call(["compile", "none.toml", deck]) == 2
+    assert capsys.readouterr().out == ""
+    files = []
+    monkeypatch.setattr(compile_all, "compile_decks", files.extend)
+    assert call(["compile"]) == 0
+    assert files == compile_all.shipped_decks()
+    assert all(file.is_file() for file in files)
+
+
 @pytest.mark.parametrize("name", ["[1]", '["a", "b"]', '{"a": 1}', "null"])
 def test_a_directory_may_have_a_name_that_json_would_read(simulation, deck, tmp_path, monkeypatch, name):
     monkeypatch.chdir(tmp_path)

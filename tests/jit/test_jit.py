@@ -15,7 +15,7 @@ import llvmlite.binding
 import numba
 import numpy as np
 import pytest
-from numba.core import caching, codegen, cpu, imputils
+from numba.core import caching, codegen, compiler, cpu, imputils, registry
 from numba.core.typing import templates
 from numba.np import arrayobj
 
@@ -50,14 +50,14 @@ def test_models_without_the_function_are_left_out():
     assert 0 < len(with_it) < len(dispatch.STRENGTH_MODULES)
 
 
-def test_the_chain_is_a_file_that_does_not_change_between_imports():
-    """numba caches what is compiled by the file's name, time and size."""
-    file = dispatch.flow_stress.py_func.__code__.co_filename
-    before = os.stat(file)
-    again = jit.by_id(dispatch.STRENGTH_MODULES, "flow_stress", "ep, rate, T, p, rho, par",
-                      dispatch.flow_stress.__doc__)
-    after = os.stat(again.py_func.__code__.co_filename)
-    assert (before.st_mtime, before.st_size, before.st_ino) == (after.st_mtime, after.st_size, after.st_ino)
+def test_the_chain_has_one_name_for_the_same_text():
+    """What is compiled of it is found again by that name and by the text, of which no file exists."""
+    function = dispatch.flow_stress.py_func
+    again = jit.by_id(dispatch.STRENGTH_MODULES, "flow_stress", "ep, rate, T, p, rho, par", dispatch.flow_stress.__doc__)
+    assert again.py_func.__code__.co_filename == (file := function.__code__.co_filename)
+    assert again._cache.file_name(()) == dispatch.flow_stress._cache.file_name(())
+    assert not os.path.exists(file)
+    assert inspect.getsource(function).startswith("@point\ndef flow_stress(model, ")  # as tracebacks show it
 
 
 def test_two_models_with_one_id_are_an_error():
@@ -102,11 +102,11 @@ RELIED_ON = [
     (codegen.CPUCodeLibrary, "_finalize_final_module", ("self",)),
     (codegen.CPUCodeLibrary, "_finalize_dynamic_globals", ("self",)),
     (codegen.CPUCodeLibrary, "_verify_declare_only_symbols", ("self",)),
-    (codegen.CPUCodeLibrary, "get_pointer_to_function", ("name",)),
+    (codegen.JITCodeLibrary, "get_pointer_to_function", ("name",)),
     (cpu.CPUContext, "get_executable", ("library", "fndesc", "env")),
     (numba.core.funcdesc.FunctionDescriptor, "llvm_cfunc_wrapper_name", ()),
     (imputils, "lower_getattr_generic", ("ty",)),
-    (templates, "infer_getattr", ("template",)),
+    (templates, "infer_getattr", ()),
     (templates, "AttributeTemplate", ()),
     (arrayobj, "make_array", ("array_type",)),
     (arrayobj, "populate_array", ("array", "data", "shape", "strides", "itemsize", "meminfo")),
@@ -114,16 +114,27 @@ RELIED_ON = [
     (numba.core.options, "TargetOptions", ()),
     (numba.core.options.TargetOptions, "Mapping", ("flag_name",)),
     (numba.core.compiler.Flags(), "noalias", ()),
-    (caching.IndexDataCacheFile, "save", ("key", "data")),
-    (caching, "_CacheLocator", ()),
-    (caching._CacheLocator, "ensure_cache_path", ("self",)),
+    (caching, "_Cache", ()),
+    (compiler, "CompileResult", ()),
+    (compiler.CompileResult, "_reduce", ("self",)),
+    (compiler.CompileResult, "_rebuild", ("target_context", "reload_init", "referenced_envs")),
+    (compiler.CompileResult, "_fields", ()),
+    (compiler.CompileResult, "lifted", ()),
+    (compiler.CompileResult, "type_annotation", ()),
+    (codegen.CodeLibrary, "has_dynamic_globals", ()),
+    (numba.core.serialize, "dumps", ("obj",)),
+    (numba.core.sigutils, "normalize_signature", ("sig",)),
+    (registry.cpu_target, "target_context", ()),
+    (codegen.JITCPUCodegen, "magic_tuple", ("self",)),
+    (numba.config, "CPU_NAME", ()),
+    (numba.config, "CPU_FEATURES", ()),
+    (numba.config, "ENABLE_AVX", ()),
     (numba.core, "event", ()),
     (numba.core.event, "Listener", ()),
     (numba.core.event, "register", ("kind", "listener")),
     (numba.core.dispatcher.Dispatcher, "typeof_pyval", ("val",)),
     (numba.core.dispatcher.Dispatcher, "compile", ("sig",)),
     (numba.core.options.DefaultOptions, "_nrt", ()),
-    (numba.config, "CACHE_DIR", ()),
     (numba.config, "THREADING_LAYER", ()),
     (llvmlite.binding, "set_option", ("name", "option")),
 ]
@@ -190,7 +201,20 @@ def test_a_home_that_cannot_be_written_to_has_a_private_cache(tmp_path, monkeypa
     monkeypatch.delenv("HYDRO2D_CACHE_DIR", raising=False)
     monkeypatch.setenv("XDG_CACHE_HOME", "/proc/none/cache")
     monkeypatch.setattr(tempfile, "gettempdir", lambda: str(tmp_path))
-    assert cache._cache_root.__wrapped__() == str(tmp_path / f"hydro2d-{os.getuid()}")
+    assert cache.root.__wrapped__() == str(tmp_path / f"hydro2d-{os.getuid()}")
+
+
+@pytest.mark.parametrize(("own", "home"), [("", ""), ("", "here"), ("", "./here"), (None, ""), (None, "here")])
+def test_a_cache_in_the_current_directory_is_only_used_where_the_user_asks_for_it(own, home, tmp_path, monkeypatch):
+    """What is kept there is executed, and the directory can be anybody's."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("HOME", str(tmp_path / "home"))
+    (tmp_path / "home" / ".cache").mkdir(parents=True)
+    monkeypatch.setenv("XDG_CACHE_HOME", home)
+    monkeypatch.delenv("HYDRO2D_CACHE_DIR", raising=False) if own is None else monkeypatch.setenv("HYDRO2D_CACHE_DIR", own)
+    assert cache.root.__wrapped__() == str(tmp_path / "home" / ".cache" / "hydro2d")
+    monkeypatch.setenv("HYDRO2D_CACHE_DIR", "here")
+    assert cache.root.__wrapped__() == str(tmp_path / "here")
 
 
 @pytest.mark.parametrize("apart", [True, False])
@@ -201,7 +225,7 @@ def test_arrays_of_kernels_are_promised_to_be_apart(apart):
             a[i] += b[i]
 
     assert jit.kernel(add).compiled.targetoptions["noalias"]
-    made = numba.njit(**{**options.OPTIONS, "cache": False}, noalias=apart)(add)
+    made = numba.njit(**options.OPTIONS, noalias=apart)(add)
     made.compile((numba.int64, numba.float64[::1], numba.float64[::1]))
     (text,) = made.inspect_llvm().values()
     (head,) = [line for line in text.splitlines() if line.startswith("define ") and "%arg.a.4" in line]
@@ -219,7 +243,7 @@ def test_kernels_are_not_optimised_again_in_what_only_calls_them(only_calls, mon
         for place in numba.prange(parts.shape[0] - 1):
             kernel(np.int64(place), parts, a)
 
-    own = {**options.OPTIONS, "cache": False}
+    own = options.OPTIONS
     kernel, phase = numba.njit(**own)(named_kernel), numba.njit(**own, parallel=True)(over_parts)
     monkeypatch.setattr(options, "ONLY_CALLS", {over_parts} if only_calls else set())
     phase.compile((numba.int64[::1], numba.float64[::1]))
@@ -236,7 +260,7 @@ def test_what_only_compiled_code_calls_has_no_code_of_its_own(inner, monkeypatch
     def phase_of_a_kernel(a):
         kernel(a)
 
-    own = {**options.OPTIONS, "cache": False}
+    own = options.OPTIONS
     kernel, phase = numba.njit(**own, no_cfunc_wrapper=True, no_cpython_wrapper=inner)(kernel_of_a_phase), numba.njit(**own)(
         phase_of_a_kernel)
     monkeypatch.setattr(options, "INNER", {kernel_of_a_phase} if inner else set())
@@ -244,7 +268,7 @@ def test_what_only_compiled_code_calls_has_no_code_of_its_own(inner, monkeypatch
     phase(a)
     assert a[0] == 2.0
     (overload,) = kernel.overloads.values()
-    assert (overload.library.get_pointer_to_function(overload.fndesc.llvm_func_name) == 0) == inner
+    assert (overload.entry_point.__name__ == "append") == inner, "append of a list stands for what Python would call"
 
 
 def test_python_gets_code_of_its_own_when_it_asks():

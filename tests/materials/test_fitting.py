@@ -138,7 +138,7 @@ def test_the_command(tmp_path, capsys):
     rows = zip(points.strain, points.rate, points.temperature, points.stress / 1e6, strict=True)
     path.write_text("".join(f"{a} {b} {c} 38 {d!r}\n" for a, b, c, d in ((*map(float, row),) for row in rows)))
     arguments = ["fit-strength", str(path), "--columns", "strain,rate,temperature,group,stress", "--stress-unit", "MPa",
-                 "--model", "johnson-cook", "--material", "steel_4340", "--temperature", "290:600",
+                 "--model", "johnson-cook", "--material", "steel_4340", "--temperature", "290 K:600 K",
                  "--fix", "rate_coefficient=0.012"]
     assert call([*arguments, "--group", "38", "--csv", str(table), "--figure", str(picture)]) == 0
     out = capsys.readouterr().out
@@ -150,6 +150,12 @@ def test_the_command(tmp_path, capsys):
     assert call([*arguments, "--group", "49"]) == 2
     assert "--group 49: the file has the groups 38" in capsys.readouterr().err
     assert call([*arguments, "--fix", "rate_coefficient"]) == 2
+    given, others = arguments[:2] + arguments[4:10], {"--columns": arguments[3]}
+    for option, bare, wanted in (("--fix", "yield_stress=0.8", "0.8 GPa"), ("--temperature", "290:600", "290 K"),
+                                 ("--heated-from", "100", "100 /s")):  # fmt: skip
+        capsys.readouterr()
+        assert call([*given, *sum((others | {option: bare}).items(), ())]) == 2
+        assert f'has no unit; write "{wanted}"' in capsys.readouterr().err
 
 
 #: measured flow stress of 4340 steel, MPa: Rockwell C, strain rate in 1/s, temperature of the test in K, and the stresses at

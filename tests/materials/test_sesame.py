@@ -261,8 +261,9 @@ def test_the_commands_write_and_check_a_table(tmp_path, capsys):
 
 @pytest.mark.parametrize(("arguments", "words"), [
     (["tabulate", "Al_tillotson", "-o", "x", "--density", "1:2"], "expected LOW:HIGH:NUMBER, with a NUMBER from 3 to 1000"),
-    (["tabulate", "Al_tillotson", "-o", "x", "--density", "3000:4000:9"], "must have 2700, the density at rest, between"),
-    (["tabulate", "Al_tillotson", "-o", "x", "--temperature", "100:9"], "must be above 298 K, the temperature at rest"),
+    (["tabulate", "Al_tillotson", "-o", "x", "--density", "3 g/cm^3:4 g/cm^3:9"], "must have 2700, the density at rest"),
+    (["tabulate", "Al_tillotson", "-o", "x", "--density", "3000:4000:9"], '--density: 3000 has no unit; write "3000 kg/m^3"'),
+    (["tabulate", "Al_tillotson", "-o", "x", "--temperature", "100 K:9"], "must be above 298 K, the temperature at rest"),
     (["check-model", "plain.301", "--temperature", "2000 K"], "2000 K is not within its temperatures, 0 to 1000 K"),
 ])
 def test_wrong_arguments_are_one_line(tmp_path, arguments, words):

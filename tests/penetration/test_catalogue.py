@@ -10,6 +10,7 @@ import sys
 import time
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from hydro2d.analytic import models
@@ -216,3 +217,26 @@ def test_a_rod_without_end_is_refused_at_once():
     for length, message in ((1e30, "1000 km"), (1e5, "not at an end after")):
         with pytest.raises(InputError, match=message):
             model(model.example.velocity, {**values_of(model), "rod.length": length})
+
+
+@pytest.mark.parametrize(("name", "change"), [
+    *((model.name, {}) for model in MODELS if model.motion is not None),
+    ("forrestal", {"nose.entry": "resisted"}), ("forrestal", {"nose.entry": "resisted", "nose.shape": "flat"}),
+    ("forrestal", {"nose.entry": "resisted", "cavity.a": 1e5}),  # it stops before its nose is inside
+])
+def test_a_motion_ends_where_the_model_says(name, change):
+    """From the touch at the impact velocity to the depth and the duration of the model; slower and deeper all the way."""
+    model, values = catalogue.MODELS[name], values_of(catalogue.MODELS[name]) | change
+    speed = model.example.velocity
+    motion, end = model.moves(speed, values), model(speed, values)
+    assert (motion.time[0], motion.velocity[0], motion.depth[0]) == (0.0, speed, 0.0)
+    assert motion.depth[-1] == pytest.approx(end["depth"])
+    assert motion.time[-1] == pytest.approx(end["duration"])
+    assert (np.diff(motion.time) >= 0.0).all()
+    assert (np.diff(motion.depth) >= 0.0).all()
+    assert (np.diff(motion.velocity) <= 1e-9 * speed).all()
+    if motion.length is None:  # a rigid rod: its depth is what its velocity makes of the time
+        steps = np.diff(motion.time) * 0.5 * (motion.velocity[1:] + motion.velocity[:-1])
+        assert np.cumsum(steps)[-1] == pytest.approx(motion.depth[-1], rel=2e-3)
+    else:
+        assert motion.length[-1] == pytest.approx(end["residual_length"])

@@ -93,7 +93,7 @@ def test_the_walk(folder):
     said = re.search(r"bar is (\S+) mm long and its foot (\S+) mm.*?hardening (\S+) and (\S+) mm", WALK, re.S).groups()
     assert tuple(f"{1e3 * value:.1f}" for value in (voce["length"], voce["foot"], soft["length"], soft["foot"])) == said
     strength = "--set materials.copper.strength"
-    typed(f"hydro2d run bar.toml --out linear {strength}.saturation=100e9 {strength}.hardening_rate=1e-3", folder)
+    typed(f"hydro2d run bar.toml --out linear {strength}.saturation='100 GPa' {strength}.hardening_rate=1e-3", folder)
     own = 'model = "elastic-plastic"\nhardening_modulus = "100 MPa"'
     plain = re.sub("(saturation|hardening_rate).*", "", (folder / "bar.toml").read_text().replace('file = "my_model.py"', own))
     (folder / "plain.toml").write_text(plain)

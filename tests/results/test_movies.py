@@ -85,7 +85,7 @@ def test_without_ffmpeg_the_cure_is_told(finished, tmp_path, monkeypatch, capsys
         (["-o", "x.avi"], "unknown film format"),
         (["-o", "missing/x.gif"], "no such directory"),
         (["-o", "x.gif", "--follow", "rod"], "needs a window"),
-        (["-o", "x.gif", "--follow", "rot", "--window", "0,1,1"], 'did you mean "rod"'),
+        (["-o", "x.gif", "--follow", "rot", "--window", "0,1 m,1 m"], 'did you mean "rod"'),
         (["-o", "x.gif", "--field", "presure"], 'did you mean "pressure"'),
         (["-o", "x.gif", "--colours", "2,1"], "low must be less than high"),
         (["-o", "x.gif", "--colours", "red"], "two numbers"),

@@ -87,7 +87,7 @@ def test_what_has_no_table_is_refused(run, tmp_path, capsys):
                             (["--kind", "xt"], "--kind xt has no table"),
                             (["--kind", "line", "--log"], "are for pictures, not for a table"),
                             (["--kind", "line", "--colours", "0,1"], "are for pictures, not for a table"),
-                            (["--kind", "line", "--line", "1,0,1,1"], "misses the mesh"),
+                            (["--kind", "line", "--line", "1 m,0,1 m,1 m"], "misses the mesh"),
                             (["--kind", "crater"], "has no crater")):  # fmt: skip
         assert call(["plot", str(run.directory), "-o", str(tmp_path / "x.csv"), *arguments]) == 2
         assert said in " ".join(capsys.readouterr().err.split())

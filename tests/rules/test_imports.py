@@ -127,7 +127,7 @@ def users(library: str) -> set[str]:
 @pytest.mark.parametrize(
     ("library", "allowed"),
     [
-        ("numba", ("hydro2d.jit.options", "hydro2d.jit.cache", "hydro2d.jit.calls", "hydro2d.jit.bits",
+        ("numba", ("hydro2d.jit.options", "hydro2d.jit.target", "hydro2d.jit.store", "hydro2d.jit.calls", "hydro2d.jit.bits",
                    "hydro2d.jit.barrier", "hydro2d.jit.handle", "hydro2d.jit.phases")),
         ("pyvista", ("hydro2d.output.vtk", "hydro2d.results.cutaway")),
         ("vtk", ("hydro2d.output.vtk", "hydro2d.results.cutaway")),

@@ -154,6 +154,26 @@ def test_bar_and_rows_have_lines_of_their_own_on_a_terminal(columns):
     assert max(map(len, lines)) <= columns
 
 
+#: a closing line and a command that are longer than a line
+LONG = """
+import io
+from hydro2d.running import progress
+report = progress.Live(io.StringIO(), quiet=False)
+report.line("450 cycles to 12.249 us in 1.2 s (535.1 ns per cell and cycle, cycles alone); "
+            "compilation 6 min 30 s, outputs 1.4 s")
+report.line("interrupted at 26.800 us; continue with: hydro2d run problems/perforation/sphere.toml --out runs/ball --restart")
+report.close()
+"""
+
+
+def test_lines_break_at_words_on_a_terminal_and_commands_stay_whole():
+    lines = recorded(LONG, 80)
+    assert [line.rstrip() for line in lines[:2]] == [
+        "450 cycles to 12.249 us in 1.2 s (535.1 ns per cell and cycle, cycles alone);",
+        "compilation 6 min 30 s, outputs 1.4 s"]
+    assert lines[2].endswith("hydro2d run problems/perforation/sphere.toml --out runs/ball --restart")
+
+
 def closing(theory=(), **changes):
     """The last lines of a bar that was 25.4 mm long, with a gauge and a derived quantity."""
     body = {"velocity_m_s": 0.0, "kinetic_energy_J": 0.0, "initial_length_m": 25.4e-3, "length_m": 17.43e-3, "r_max_m": 6.6e-3,

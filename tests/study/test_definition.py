@@ -59,7 +59,7 @@ def noses(folder, more="", overrides=(), change=("", "")):
     """The cases of the axis over noses in the guide, of a deck with an ogive."""
     page = (source.ROOT / "docs/how-to/run-a-study.md").read_text(encoding="utf-8")
     axis = next(block for block in re.findall(r"```toml\n(.*?)```", page, flags=re.S) if 'name = "nose"' in block)
-    text = 'deck = "problems/cth_nose_shape/ogive_7039_1291.toml"\n' + more + axis.replace(*change)
+    text = 'deck = "problems/cth_nose_shape/ogive_7039_1291.toml"\n' + more + re.sub("^deck = .*", "", axis).replace(*change)
     return cases.plan(tubes.write(folder, text), overrides)
 
 

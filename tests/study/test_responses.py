@@ -2,6 +2,7 @@
 
 import shutil
 
+import numpy as np
 import pytest
 
 from hydro2d.study import charts, layout, panels, residual, responses, series, table, theory
@@ -118,24 +119,88 @@ def test_runs_at_one_velocity_are_a_strip_with_the_models_at_that_velocity(tmp_p
     assert chosen(collect(layout.load(single.parent))).x.impact, "one run alone stays at its velocity"
 
 
-def test_the_motion_of_tate_stands_beside_the_histories(tmp_path):
+def test_combinations_of_axes_at_one_velocity_have_a_strip_of_depths(tmp_path):
+    """A row for each combination, with the depths of all of its runs, beside the figure against an axis."""
+    axes = {"law": LAWS, "courant": {"0.3": ("numerics.courant=0.3",), "0.6": ("numerics.courant=0.6",)}}
+    contents = study(tmp_path, axes)
+    (panel,) = panels.panels(contents, choice := chosen(contents))
+    rows = panels._rows(contents, choice, panel)
+    order = ("soft, courant 0.3", "soft, courant 0.6", "hard, courant 0.3", "hard, courant 0.6")
+    assert rows.order == order
+    y = choice.y[0]
+    curves, _, _ = panels._models(rows, y, panel)
+    figure = charts.strip(panel.series, rows, y, contents.belonging, curves)
+    assert figure.layout.yaxis.ticktext == tuple("<br>".join(word.rsplit(" ", 1)) if len(word) > 20 else word for word in order)
+    runs = [trace for trace in figure.data if trace.legendgroup and trace.meta is None]
+    found = {order[row]: depth for trace in runs for row, depth in zip(trace.y, trace.x, strict=True)}
+    assert found == pytest.approx({rows.value(each): y.value(each) for each in contents.records})
+    (tate,) = (trace for trace in figure.data if str(trace.name).startswith("Tate-Alekseevskii: "))
+    depth = next(each.depth[0] for each in curves if each.name == "tate")
+    assert tate.x == pytest.approx([100 * depth] * 2, rel=1e-4)
+    assert tate.y == (-0.5, 3.5)
+    assert figure.layout.xaxis.range[1] > 49.0, "the rigid rod's line is seen"
+    (chart,) = (each for each in panels.draw(contents, choice) if each.name.startswith("strip"))
+    assert "at 1086 m/s, a row for each combination of law, courant" in chart.caption
+
+
+def test_a_strip_of_ensembles_has_bars_across(tmp_path):
+    fake.write_study(tmp_path / "study", {"law": LAWS, "mesh": {"a": (), "b": ()}}, repeats=3)
+    contents = collect(layout.load(tmp_path / "study"))
+    (panel,) = panels.panels(contents, choice := chosen(contents))
+    figure = charts.strip(panel.series, panels._rows(contents, choice, panel), choice.y[0], contents.belonging, ())
+    medians = [trace for trace in figure.data if trace.error_x.array is not None]
+    assert sum(len(trace.x) for trace in medians) == 4
+    assert all(trace.error_y.array is None for trace in figure.data)
+
+
+@pytest.mark.parametrize("axes", [
+    {"law": LAWS},  # a figure against words is a strip already
+    {"velocity": VELOCITIES, "law": LAWS},
+])
+def test_no_second_strip(tmp_path, axes):
+    contents = study(tmp_path, axes)
+    assert not [each for each in panels.draw(contents, chosen(contents)) if each.name.startswith("strip")]
+
+
+def test_the_motions_of_models_stand_beside_the_histories(tmp_path):
     for name, velocity in (("a", 1086.0), ("b", 1086.0), ("c", 1200.0)):
         fake.write_run(tmp_path / "runs" / name, velocity, 0.3, text=fake.deck_text(f"body.rod.velocity={velocity} m/s"))
     contents = collect(layout.load(tmp_path / "runs"))
     (panel,) = panels.panels(contents, chosen(contents))
-    tracks = panels._motions(panel, panel.members)
-    assert list(tracks) == [1086.0, 1200.0]
-    curves = theory.curves(panel.members[0].shot, 1086.0, 1086.0)
-    (tate,) = (curve for curve in curves if curve.name == "tate")
-    touch, track = tracks[1086.0]
+    motions = panels._motions(panel, panel.members)
+    assert list(motions) == [1086.0, 1200.0]
+    depths = {curve.title: curve.depth[0] for curve in theory.curves(panel.members[0].shot, 1086.0, 1086.0)}
+    touch, by = motions[1086.0]
     assert 0.0 <= touch < 5e-6
-    assert track.depth[-1] == pytest.approx(tate.depth[0], rel=1e-12)
-    lines = [trace for trace in charts.histories(panel.series, tracks).data if trace.meta == "model"]
+    assert list(by) == ["Forrestal's rigid rod", "Tate-Alekseevskii", "Walker-Anderson"]
+    assert {name: motion.depth[-1] for name, motion in by.items()} == pytest.approx({name: depths[name] for name in by})
+    lines = [trace for trace in charts.histories(panel.series, motions).data if trace.meta == "model"]
     depth = next(trace for trace in lines if trace.name == "Tate-Alekseevskii, 1086 m/s")
-    assert depth.y[-1] == pytest.approx(100 * tate.depth[0], rel=1e-5)
-    assert depth.x[-1] == pytest.approx(1e6 * (touch + track.time[-1]), rel=1e-5)
-    assert {trace.line.dash for trace in lines} == {"solid", "dash"}
-    assert "Grey: Tate-Alekseevskii" in list(panels.draw(contents, chosen(contents)))[-1].caption
+    assert depth.y[-1] == pytest.approx(100 * depths["Tate-Alekseevskii"], rel=1e-5)
+    assert depth.x[-1] == pytest.approx(1e6 * (touch + by["Tate-Alekseevskii"].time[-1]), rel=1e-5)
+    assert len({(trace.name, trace.line.dash, trace.opacity) for trace in lines if trace.showlegend}) == 6
+    assert {trace.line.dash for trace in lines if "Tate" in trace.name} == {"dash"}, "a model has its own dashes"
+    assert {trace.opacity for trace in lines if "1200" in trace.name} == {1.0}
+    assert len([trace for trace in lines if "Forrestal" in trace.name]) == 2 * 2, "its rod has no length"
+    caption = list(panels.draw(contents, chosen(contents)))[-1].caption
+    assert "Grey: Forrestal's rigid rod, Tate-Alekseevskii, Walker-Anderson, from" in caption
+
+
+def test_a_motion_stands_only_where_its_model_applies(tmp_path):
+    """No rigid rod beside one that erodes; no motion beyond the rear of the target."""
+    fake.write_run(tmp_path / "runs" / "a", 1086.0, 0.3, regime="eroding")
+    (panel,) = panels.panels(contents := collect(layout.load(tmp_path / "runs")), chosen(contents))
+    _, by = panels._motions(panel, panel.members)[1086.0]
+    assert list(by) == ["Tate-Alekseevskii", "Walker-Anderson"]
+    assert ": 1 run, " in list(panels.draw(contents, chosen(contents)))[-1].caption
+    shot = panel.members[0].shot
+    whole, thin = (theory.motions(shot, 1086.0, eroding=False, thickness=each) for each in (None, 0.1))
+    for name, motion in thin.items():
+        assert motion.depth[-1] == pytest.approx(0.1)
+        assert len(motion.time) > 2
+        for column in ("time", "velocity"):
+            through = np.interp(0.1, whole[name].depth, getattr(whole[name], column))
+            assert getattr(motion, column)[-1] == pytest.approx(through)
 
 
 def test_an_unfinished_run_has_the_last_of_its_history(tmp_path):

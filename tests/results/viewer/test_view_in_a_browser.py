@@ -139,6 +139,36 @@ def test_the_slider_changes_the_picture_and_colours_are_those_of_the_values(brow
     assert early["colour"] != late["colour"]
 
 
+@pytest.mark.parametrize("width", [PHONE, DESK])
+def test_each_half_has_its_own_bar_which_says_so(browser, page, width):
+    """One bar where both halves show one field; else one beside each half, with its name above and its unit along it."""
+    script = r"""
+      const words = [], plainFill = CanvasRenderingContext2D.prototype.fillText;
+      CanvasRenderingContext2D.prototype.fillText = function (text, x, y) {
+        const { a, b, c, d, e, f } = this.getTransform(), density = SECTIONS[0].canvas.width / SECTIONS[0].canvas.clientWidth;
+        const place = [a * x + c * y + e, b * x + d * y + f].map((at) => at / density);
+        if (this.canvas === SECTIONS[0].canvas) words.push([text, ...place]);
+        plainFill.call(this, text, x, y);
+      };
+      const told = async (...chosen) => { state.words = chosen; await update(); words.length = 0; redraw();
+        const { left, width } = SECTIONS[0].box; return words.filter(([, x]) => x > left + width + 5); };
+      return { two: await told("pressure", "von_mises"), one: await told("pressure", "pressure"), axis: SECTIONS[0].py(
+        SECTIONS[0].y(SECTIONS[0].box.top + SECTIONS[0].box.height / 2)), box: SECTIONS[0].box, faults };
+    """
+    found = ask(browser, page, script, width)
+    assert found["faults"] == []
+    top, middle, bottom = found["box"]["top"], found["axis"], found["box"]["top"] + found["box"]["height"]
+    at = {text: y for text, _, y in found["two"]}
+    assert top <= at["upper half"] < top + 20
+    assert middle <= at["lower half"] < middle + 20
+    units = sorted(y for text, _, y in found["two"] if text.endswith("[GPa]"))
+    assert len(units) == 2
+    assert at["upper half"] < units[0] < middle < at["lower half"] < units[1] < bottom
+    assert not {"upper half", "lower half"} & {text for text, *_ in found["one"]}
+    assert len([text for text, *_ in found["one"] if text.endswith("[GPa]")]) == 1
+    assert max(x for _, x, _ in found["two"]) < width
+
+
 def test_what_comes_late_is_not_drawn_over_what_is_shown(browser, page):
     script = """
       const run = RUNS[0], values = run.drawn.bind(run);

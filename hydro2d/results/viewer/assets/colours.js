@@ -71,6 +71,18 @@ function cellColours(values, scale, empty) {
   return colours;
 }
 
+/** What stands above a colour bar where each half of the picture has its own, and its height in pixels. */
+const HALVES = ["upper half", "lower half"], HEAD = 16;
+
+function drawHead(context, box, text, ink) {
+  context.save();
+  context.fillStyle = ink.soft;
+  context.textBaseline = "middle";
+  context.textAlign = "left";
+  context.fillText(text, box.x, box.y - 6);
+  context.restore();
+}
+
 /** Draws a colour bar, or the colours of the bodies, into a box of the canvas. */
 function drawBar(context, box, scale, field, run, ink) {
   context.save();

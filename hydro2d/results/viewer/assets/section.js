@@ -250,12 +250,14 @@ class Section {
     context.restore();
   }
 
-  /** One colour bar, or one for each half. */
+  /** One colour bar, or one for each half, beside it and with its name. */
   drawBars(context, scales, ink) {
     const { left, top, width, height } = this.box, x = left + width + 14, words = shownWords();
     const halves = this.run.mirrored && words[0] !== words[1] ? [0, 1] : [0];
     halves.forEach((half) => {
-      const part = height / halves.length, box = { x, y: top + half * part, width: BAR - 4, height: part };
+      const part = height / halves.length, head = halves.length > 1 ? HEAD : 0;
+      const box = { x, y: top + half * part + head, width: BAR - 4, height: part - head };
+      if (head) drawHead(context, box, HALVES[half], ink);
       drawBar(context, box, scales[half], fieldOf(words[half]), this.run, ink);
     });
   }

@@ -1,0 +1,108 @@
+"""The processor that code is compiled for: the one at hand, or by HYDRO2D_TARGET a named one.
+
+All processors that have the features of a named target get the same code: it can be shipped, and gives the same bits on each of
+them. The code for the processor at hand is a few per cent faster, so it is what one gets without asking (docs/explanation/
+speed.md).
+"""
+
+from __future__ import annotations
+
+import os
+import platform
+import sys
+from typing import NamedTuple
+
+import llvmlite
+import llvmlite.binding
+import numba
+from numba.core import registry
+
+from hydro2d.errors import TargetError
+from hydro2d.terminal import say
+
+
+class Target(NamedTuple):
+    """A processor by LLVM's name, and the features beyond the oldest of its kind that code for it uses."""
+
+    name: str
+    features: tuple[str, ...] = ()
+
+    @property
+    def flags(self) -> str:
+        """The features as LLVM takes them."""
+        return ",".join(f"+{feature}" for feature in self.features)
+
+    def missing(self) -> list[str]:
+        """The features that this processor does not have."""
+        here = llvmlite.binding.get_host_cpu_features()
+        return [feature for feature in self.features if not here.get(feature)]
+
+
+#: the processor at hand: what is compiled for by default
+NATIVE = "native"
+#: named targets by the kind of machine (`platform.machine`). x86-64-v3 is what x86 processors have had since 2013 (Intel) and
+#: 2015 (AMD); NEON belongs to every aarch64
+_X86 = Target("x86-64-v3", (
+    "cx16", "sahf", "popcnt", "sse3", "sse4.1", "sse4.2", "ssse3",
+    "avx", "avx2", "bmi", "bmi2", "f16c", "fma", "lzcnt", "movbe", "xsave",
+))  # fmt: skip
+NAMED = {"x86_64": _X86, "AMD64": _X86, "aarch64": Target("generic", ("neon",)), "arm64": Target("generic", ("neon",))}
+
+#: numba's options that change the code; those for reports do not
+OPTIONS = (
+    "OPT", "LOOP_VECTORIZE", "SLP_VECTORIZE", "ENABLE_AVX", "BOUNDSCHECK", "DEBUGINFO_DEFAULT", "EXTEND_VARIABLE_LIFETIMES",
+    "ENABLE_PROFILING", "USING_SVML", "LLVM_REFPRUNE_PASS", "LLVM_REFPRUNE_FLAGS", "DEBUG_NRT", "PARFOR_MAX_TUPLE_SIZE",
+    "DEBUG_ARRAY_OPT", "DEBUG_ARRAY_OPT_RUNTIME", "USE_LLVMLITE_MEMORY_MANAGER",
+)  # fmt: skip
+
+
+def named() -> Target | None:
+    """The named target of this kind of machine; None if there is none."""
+    return NAMED.get(platform.machine())
+
+
+def _chosen() -> Target | None:
+    """The target that HYDRO2D_TARGET asks for; None: numba's own choice, the processor at hand or that of NUMBA_CPU_NAME.
+
+    Raises TargetError.
+    """
+    asked, found = os.environ.get("HYDRO2D_TARGET"), named()
+    if not asked or asked == NATIVE:
+        return None
+    if found is None or asked != found.name:
+        known = " or ".join([NATIVE, *([found.name] if found else [])])
+        raise TargetError(f"HYDRO2D_TARGET={asked}: must be {known} on this machine ({platform.machine()})")
+    if lacking := found.missing():
+        raise TargetError(f"HYDRO2D_TARGET={asked}: this processor has no {', '.join(lacking)}")
+    return found
+
+
+def _fix() -> tuple[str, str, str]:
+    """Tells numba what to compile for. Returns what it does compile for: system, processor and features.
+
+    numba looks once, when its first function is declared. In a program that has declared one before, the target stays what it
+    was then, and that is said.
+    """
+    target, config = _chosen(), numba.config
+    before = config.CPU_NAME, config.CPU_FEATURES
+    if target is not None:
+        config.CPU_NAME, config.CPU_FEATURES = target.name, target.flags
+    found = registry.cpu_target.target_context.codegen().magic_tuple()
+    if target is not None and found[2] != target.flags:
+        config.CPU_NAME, config.CPU_FEATURES = before
+        found = registry.cpu_target.target_context.codegen().magic_tuple()
+        say(f"hydro2d: code is compiled for {found[1]}, not for {target.name}: numba was used before hydro2d was imported",
+            file=sys.stderr, flush=True)
+    return found
+
+
+#: what code is compiled for, as LLVM names it
+SYSTEM, PROCESSOR, FEATURES = _fix()
+
+
+def description() -> dict[str, str]:
+    """All that the code of a function depends on beside its sources, by what it is."""
+    options = {f"numba.config.{option}": repr(getattr(numba.config, option, None)) for option in OPTIONS}
+    options["numba.config.OPT.is_opt_max"] = repr(getattr(numba.config.OPT, "is_opt_max", False))  # "max" is a 3 as well
+    return {"numba": numba.__version__, "llvmlite": llvmlite.__version__, "Python": sys.implementation.cache_tag,
+            "system": SYSTEM, "processor": PROCESSOR, "features": FEATURES, **options}

@@ -1,0 +1,72 @@
+"""Compiles the kernels of decks before they are needed: for `hydro2d compile`, and for a wheel that brings compiled code.
+
+    HYDRO2D_CACHE_DIR=FOLDER HYDRO2D_TARGET=x86-64-v3 python -m hydro2d.running.compile_all
+
+makes FOLDER what `hydro2d/_compiled` of a wheel is; the wheel's build hook does this.
+"""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Sequence
+from pathlib import Path
+
+from hydro2d import jit, moving
+from hydro2d.compilation import announced
+from hydro2d.deck import deck as decks
+from hydro2d.errors import TargetError
+from hydro2d.files import write_json
+from hydro2d.jit import cache, store, target
+from hydro2d.running import run
+from hydro2d.terminal import say
+from hydro2d.toml import problems_folder
+
+#: decks that together call every kernel: contact; tracers and a mesh that moves; light points of an explosive; a slip layer
+DECKS = ("cth_nose_shape/hemi_5083_1086_quick", "spall/flyer", "explosives/sandwich", "verification/translation")
+#: cycles that call every kernel: more than simulation.WATCH_EVERY
+CYCLES = 11
+
+
+def shipped_decks() -> list[Path]:
+    """The decks that are compiled where none is named."""
+    return [problems_folder() / f"{name}.toml" for name in DECKS]
+
+
+def run_briefly(deck, second: bool = False) -> None:
+    """Runs a few cycles of a deck in a temporary directory, so that its kernels are in the cache.
+
+    second : whether a second process helps to compile
+    """
+    few = deck.model_copy(update={"stop": deck.stop.model_copy(update={"cycles": CYCLES})})
+    with tempfile.TemporaryDirectory() as folder:
+        run.run(few, Path(folder) / "compile", quiet=True, second=second)
+
+
+def compile_decks(files: Sequence[Path]) -> None:
+    """Compiles what the decks call, and says of each how long that took. Raises DeckError before anything is compiled."""
+    for file, deck in [(file, decks.load(file)) for file in files]:
+        with announced(moving.place(), deck if jit.threads() > 1 else None) as compiled:
+            run_briefly(deck)
+            lines = compiled.settled()
+        say(f"{file.name}: {'; '.join(lines) or 'was compiled already'}", flush=True)
+
+
+def main() -> None:
+    """Compiles for a wheel: leaves in the cache, which must be empty, nothing but the code and what it is for.
+
+    Raises TargetError for code that only this processor could run.
+    """
+    root = Path(cache.root())
+    if target.named() is None or target.named().name != target.PROCESSOR:
+        raise TargetError(f"code for {target.PROCESSOR} is of no use elsewhere: HYDRO2D_TARGET must name a target")
+    if root.is_dir() and any(root.iterdir()):
+        raise FileExistsError(f"{root} is not empty: HYDRO2D_CACHE_DIR must name a new folder")
+    compile_decks(shipped_decks())
+    for file in root.glob("*/*"):
+        if file.suffix != store.ENDING:
+            file.unlink()
+    write_json(root / cache.ABOUT, cache.about())
+
+
+if __name__ == "__main__":
+    main()
