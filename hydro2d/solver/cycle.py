@@ -12,7 +12,6 @@ import numpy as np
 from hydro2d.kernels import lagrangian_step, remap_step, thermodynamics
 from hydro2d.mesh import fields
 from hydro2d.physics import waves
-from hydro2d.solver import refusals
 from hydro2d.solver.active import ActiveBox
 from hydro2d.solver.audit import Audit
 from hydro2d.solver.books import Books
@@ -22,6 +21,7 @@ from hydro2d.solver.following import StandingMesh
 from hydro2d.solver.given import Given
 from hydro2d.solver.method import Method
 from hydro2d.solver.parts import Parts
+from hydro2d.solver.refusals import Refusals
 from hydro2d.solver.sources import Sources
 
 #: vertices may be this much faster than the fastest body was at the start, or than the slowest wave
@@ -70,7 +70,7 @@ class Cycle:
         self.sound_speeds = table.sound_speeds(thermodynamics.SOUND_FLOOR)
         self.speed_limit = 0.0
         self.audit: Audit | None = None
-        self.books, self.given = Books(self), Given(self, table)
+        self.books, self.refusals, self.given = Books(self), Refusals(self), Given(self, table)
 
     @property
     def box(self) -> list[int]:
@@ -169,7 +169,7 @@ class Cycle:
         """Pressure and sound speed of every body, void where a cell fractures, viscosity, contact, the step a cell allows."""
         self.given.run(lagrangian_step.close_cells, mesh_speed=self.mesh.velocity)
         self.contact.find(self.rows, self.given)
-        refusals.refuse_bad(self)
+        self.refusals.bad_cells()
 
     def choose_step(self) -> None:
         """The time step, with the cell and the term that set it."""
@@ -186,7 +186,7 @@ class Cycle:
         crossing, edge = method.boundaries.least_crossing(self._widths, self.time, self.time + dt)
         if dt > method.advective_courant * crossing:
             dt, self.cause = method.advective_courant * crossing, f"velocity of the edge {edge}"
-        refusals.refuse_small(self, dt, self.cause)
+        self.refusals.small_step(dt, self.cause)
         self.dt = dt
 
     def accelerate(self) -> None:
@@ -211,7 +211,7 @@ class Cycle:
         face, own = (s.fr, "own_r") if di else (s.fz, "own_z")
         self.given.run(remap_step.carry_bodies, dj=dj, di=di, second=bool(second), leading=-1 if leading is None else leading,
                        face=face, own=self.given.handle.values[own])
-        refusals.refuse_turned(self, second)
+        self.refusals.turned_cells(second)
         self.books.outflow(di)
 
     def remap_momentum(self, dj: int, di: int, second: int) -> None:

@@ -28,9 +28,10 @@ def calls_of_a_cycle(make: Callable[[], Any]) -> list[jit.Call]:
     """
     with jit.recorded() as calls:
         simulation = make()
-        for part in (simulation, simulation.engine, simulation.engine.mesh, simulation.engine.contact):
+        engine = simulation.engine
+        for part in (simulation, engine, engine.mesh, engine.contact, engine.books, engine.refusals):
             _go_on_after_failure(part)
-        simulation.engine.dt = 1e-9
+        engine.dt = 1e-9
         simulation.step()
     return list(dict.fromkeys(calls))
 

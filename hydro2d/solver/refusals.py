@@ -7,47 +7,55 @@ import numpy as np
 from hydro2d.errors import UnphysicalState
 
 
-def refuse_bad(cycle) -> None:
-    """Raises UnphysicalState for cells or velocities that are not finite."""
-    s, g, row = cycle.state, cycle.grid, cycle.state.least_row
-    if row[1] >= 0:
-        j = row[1]
-        i, m = int(s.bad[j, 1]), int(s.bad[j, 2])
-        limits = cycle.table.limits(m, s.rho[m, j, i], s.q[cycle.table.memory[m]:, m, j, i])
+class Refusals:
+    """Ends a run that has become unphysical.
+
+    Parameters
+    ----------
+    cycle : Cycle
+    """
+
+    def __init__(self, cycle):
+        self._cycle = cycle
+
+    def bad_cells(self) -> None:
+        """Raises UnphysicalState for cells or velocities that are not finite."""
+        s, g, row = self._cycle.state, self._cycle.grid, self._cycle.state.least_row
+        if row[1] >= 0:
+            j = row[1]
+            i, m = int(s.bad[j, 1]), int(s.bad[j, 2])
+            limits = self._cycle.table.limits(m, s.rho[m, j, i], s.q[self._cycle.table.memory[m]:, m, j, i])
+            raise UnphysicalState(
+                f"{self._where(j, i, m)}: volume fraction {s.vof[m, j, i]:.6g}, density {s.rho[m, j, i]:.6g} kg/m^3, energy "
+                f"{s.e[m, j, i]:.6g} J/kg, pressure {s.pm[m, j, i]:.6g} Pa ({int(s.bad[j, 0])} such cells in its row)"
+                + (f"; material {self._cycle.table.materials[m].name}: {limits}" if limits else ""))
+        if row[2] >= 0:
+            raise UnphysicalState(f"{self._when}: velocities that are not finite near z = {g.zc[row[2]]:.6g} m")
+
+    def small_step(self, dt: float, cause: str) -> None:
+        """Raises UnphysicalState for a time step below the least one; cause : what set it."""
+        s, dt_min = self._cycle.state, self._cycle.method.dt_min
+        if not dt_min < dt < 1e300:
+            m = int(np.argmax(s.vof[:, int(s.least_row[0]), s.cause[1]]))
+            raise UnphysicalState(f"{self._when}: time step {dt:.3g} s, below dt_min = {dt_min:.3g} s, set by {cause}, in body "
+                                  f'"{self._cycle.table.names[m]}"')
+
+    def turned_cells(self, second: int) -> None:
+        """Raises UnphysicalState where what the faces of a cell swept is more than its volume, of both directions or of the
+        second, so that no remap can give back what was in it."""
+        s, (j0, j1, _, _) = self._cycle.state, self._cycle.box
+        if s.turned[j0:j1, 0].max() < 0:
+            return
+        j = j0 + int(np.argmax(s.turned[j0:j1, 0] >= 0))
+        i, m = s.turned[j].tolist()
         raise UnphysicalState(
-            f"{_where(cycle, j, i, m)}: volume fraction {s.vof[m, j, i]:.6g}, density {s.rho[m, j, i]:.6g} kg/m^3, energy "
-            f"{s.e[m, j, i]:.6g} J/kg, pressure {s.pm[m, j, i]:.6g} Pa ({int(s.bad[j, 0])} such cells in its row)"
-            + (f"; material {cycle.table.materials[m].name}: {limits}" if limits else ""))
-    if row[2] >= 0:
-        raise UnphysicalState(f"{_when(cycle)}: velocities that are not finite near z = {g.zc[row[2]]:.6g} m")
+            f"{self._where(j, i, m)}: the step of {self._cycle.dt:.3g} s turned the cell inside out"
+            f"{' along one direction' if second else ''}, to {s.pre[j, i] / self._cycle.grid.volume[j, i]:.3g} of its volume")
 
+    @property
+    def _when(self) -> str:
+        return f"cycle {self._cycle.number}, time {self._cycle.time:.6g} s"
 
-def refuse_small(cycle, dt: float, cause: str) -> None:
-    """Raises UnphysicalState for a time step below the least one; cause : what set it."""
-    s, dt_min = cycle.state, cycle.method.dt_min
-    if not dt_min < dt < 1e300:
-        m = int(np.argmax(s.vof[:, int(s.least_row[0]), s.cause[1]]))
-        raise UnphysicalState(f"{_when(cycle)}: time step {dt:.3g} s, below dt_min = {dt_min:.3g} s, set by {cause}, in body "
-                              f'"{cycle.table.names[m]}"')
-
-
-def refuse_turned(cycle, second: int) -> None:
-    """Raises UnphysicalState where what the faces of a cell swept is more than its volume, of both directions or of the
-    second, so that no remap can give back what was in it."""
-    s, (j0, j1, _, _) = cycle.state, cycle.box
-    if s.turned[j0:j1, 0].max() < 0:
-        return
-    j = j0 + int(np.argmax(s.turned[j0:j1, 0] >= 0))
-    i, m = s.turned[j].tolist()
-    raise UnphysicalState(
-        f"{_where(cycle, j, i, m)}: the step of {cycle.dt:.3g} s turned the cell inside out"
-        f"{' along one direction' if second else ''}, to {s.pre[j, i] / cycle.grid.volume[j, i]:.3g} of its volume")
-
-
-def _when(cycle) -> str:
-    return f"cycle {cycle.number}, time {cycle.time:.6g} s"
-
-
-def _where(cycle, j: int, i: int, m: int) -> str:
-    g = cycle.grid
-    return f'{_when(cycle)}, cell (r, z) = ({g.rc[i]:.6g}, {g.zc[j]:.6g}) m, body "{cycle.table.names[m]}"'
+    def _where(self, j: int, i: int, m: int) -> str:
+        g = self._cycle.grid
+        return f'{self._when}, cell (r, z) = ({g.rc[i]:.6g}, {g.zc[j]:.6g}) m, body "{self._cycle.table.names[m]}"'
