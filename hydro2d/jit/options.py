@@ -69,9 +69,10 @@ def _compile_once() -> None:
 
     @functools.wraps(executable)
     def none_for_part_of_others(self, library, fndesc, env):
-        if compiling and compiling[-1] in INNER:
-            return [].append  # stands for the function, which Python never calls; one of its own for each
-        return executable(self, library, fndesc, env)
+        if not (compiling and compiling[-1] in INNER):
+            return executable(self, library, fndesc, env)
+        library._ensure_finalized()  # now, while it is known what it is
+        return [].append  # stands for the function, which Python never calls; one of its own for each
 
     library._optimize_final_module = unless_it_only_calls
     library._finalize_final_module = unless_it_is_part_of_others

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import gc
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -77,8 +78,21 @@ def is_recording() -> bool:
 @contextmanager
 def first_call(name: str) -> Iterator[None]:
     """The first call of a kernel in this process, while no other process makes its own; whoever listens is told."""
-    with compiler_events.trigger_event(FIRST_CALL, data={"kernel": name}), turn(Path(all_folder()) / f"{name}.lock"):
+    with (compiler_events.trigger_event(FIRST_CALL, data={"kernel": name}), turn(Path(all_folder()) / f"{name}.lock"),
+          _no_garbage_looked_for()):
         yield
+
+
+@contextmanager
+def _no_garbage_looked_for() -> Iterator[None]:
+    """numba makes millions of objects that live as long as a compilation; Python looks through all of them again and again."""
+    was_on = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if was_on:
+            gc.enable()
 
 
 def write_down(call: Call) -> bool:
