@@ -43,40 +43,40 @@ def report_row(j, first, number, vof, before, turned):
 
 
 @rowwise
-def sweep_volumes_row(j, dj, di, first, volume, active_range, fr, fz, vof, pre, turned):
+def sweep_volumes_row(j, first, w):
     """Volume of cells before a sweep: V + dF_r + dF_z for the first sweep, V + dF of its own direction for the second.
 
     Reads    volume [j, i], fr, fz [j, i], vof [m, j, i]
     Writes   pre [j, i]; turned [j, 2], column of the first cell with a body in it that was turned inside out, -1 for none, and
              the body that fills the most of it
     """
-    lo, n = columns(active_range[j, 0], active_range[j, 1])
-    fr_j = fr[j]
-    fz_b = fz[j]
-    fz_t = fz[j + 1]
-    volume_j = volume[j]
-    out = pre[j]
+    lo, n = columns(w.active_range[j, 0], w.active_range[j, 1])
+    fr_j = w.fr[j]
+    fz_b = w.fz[j]
+    fz_t = w.fz[j + 1]
+    volume_j = w.volume[j]
+    out = w.pre[j]
     wrong = 0
     for x in range(n):
         i = lo + x
         along_r = fr_j[i + 1] - fr_j[i]
         along_z = fz_t[i] - fz_b[i]
-        out[i] = volume_j[i] + (along_r + along_z if first else dj * along_z + di * along_r)
+        out[i] = volume_j[i] + (along_r + along_z if first else w.dj * along_z + w.di * along_r)
         wrong += 0 if out[i] > 0.0 else 1
-    turned[j, 0] = -1
+    w.turned[j, 0] = -1
     if wrong > 0:
-        report_row(j, lo, n, vof, out, turned)
+        report_row(j, lo, n, w.vof, out, w.turned)
 
 
 @point
-def flux_range(dj, di, i0, i1, m, j, body_ranges):
+def flux_range(dj, di, m, j, w):
     """Faces of row j through which body m may flow within the active columns: one beyond its own; empty is (0, 0)."""
-    lo, hi = max(body_ranges[2 * dj, m, j, 0] - 1, i0), min(body_ranges[2 * dj, m, j, 1] + 2, i1 + di)
+    lo, hi = max(w.body_ranges[2 * dj, m, j, 0] - 1, w.i0), min(w.body_ranges[2 * dj, m, j, 1] + 2, w.i1 + di)
     return (lo, hi) if lo < hi else (0, 0)
 
 
 @rowwise
-def donor_volumes_row(j, dj, di, i0, i1, open_faces, body_ranges, f_face, vof, flux_volume):
+def donor_volumes_row(j, f_face, w):
     """Volume of each body through each face, taken as if the donor cell were filled evenly: right where it is pure.
 
     Nothing but void flows in through the faces of the mesh's edge.
@@ -84,28 +84,28 @@ def donor_volumes_row(j, dj, di, i0, i1, open_faces, body_ranges, f_face, vof, f
     Reads    f_face (fr or fz) [j, i], vof [m, j, i], open_faces (j0, j1, i0, i1 of the mesh)
     Writes   flux_volume [m, j, i]
     """
-    bodies = vof.shape[0]
+    bodies = w.vof.shape[0]
     for m in range(bodies):
-        lo, hi = flux_range(dj, di, i0, i1, m, j, body_ranges)
+        lo, hi = flux_range(w.dj, w.di, m, j, w)
         if lo >= hi:
             continue
         swept = f_face[j, lo:hi]
-        given = flux_volume[m, j, lo:hi]
-        here = vof[m, j, lo:hi]
-        before = vof[m, j - dj, lo - di:hi - di]
+        given = w.flux_volume[m, j, lo:hi]
+        here = w.vof[m, j, lo:hi]
+        before = w.vof[m, j - w.dj, lo - w.di:hi - w.di]
         for x in range(hi - lo):
             given[x] = max(swept[x], 0.0) * before[x] + min(swept[x], 0.0) * here[x]
         swept = f_face[j]
-        out = flux_volume[m, j]
-        if dj == 1:
+        out = w.flux_volume[m, j]
+        if w.dj == 1:
             for i in range(lo, hi):
-                if (j == open_faces[0] and swept[i] > 0.0) or (j == open_faces[1] and swept[i] < 0.0):
+                if (j == w.void_only[0] and swept[i] > 0.0) or (j == w.void_only[1] and swept[i] < 0.0):
                     out[i] = 0.0
         else:
-            if lo <= open_faces[2] < hi and swept[open_faces[2]] > 0.0:
-                out[open_faces[2]] = 0.0
-            if lo <= open_faces[3] < hi and swept[open_faces[3]] < 0.0:
-                out[open_faces[3]] = 0.0
+            if lo <= w.void_only[2] < hi and swept[w.void_only[2]] > 0.0:
+                out[w.void_only[2]] = 0.0
+            if lo <= w.void_only[3] < hi and swept[w.void_only[3]] < 0.0:
+                out[w.void_only[3]] = 0.0
 
 
 @point
@@ -209,8 +209,7 @@ def next_body(m, f, thin, box, whole, total, side, width, weight, below, strip):
 
 
 @apart
-def nest(j, i, last, along_z, w_low, w_high, w_whole, thin_first, weight, order, share, void, no_gap, centroid, dr, dz,
-         strips):
+def nest(j, i, last, along_z, w_low, w_high, w_whole, thin_first, weight, order, share, void, no_gap, strips, w):
     """Adds what the nested interfaces give of every body in the strips of cell (j, i), times a weight.
 
     The bodies come in their order, or first those that are thin (strips [0, THIN, m]), each by a box of its own; those after
@@ -232,8 +231,8 @@ def nest(j, i, last, along_z, w_low, w_high, w_whole, thin_first, weight, order,
             if f == 0.0:
                 continue
             full = at_most_full(around)
-            along, across = centroid[0, m, j, i], centroid[1, m, j, i]
-            bound = surface(j, i, full, dr, dz, void) if full[4] < 1.0 else NO_SURFACE
+            along, across = w.centroid[0, m, j, i], w.centroid[1, m, j, i]
+            bound = surface(j, i, full, w.dr, w.dz, void) if full[4] < 1.0 else NO_SURFACE
             if along_z:
                 along, across = across, along
                 bound = bound[1], bound[0], bound[3], bound[2], bound[4]
@@ -262,7 +261,7 @@ def nest(j, i, last, along_z, w_low, w_high, w_whole, thin_first, weight, order,
 
 
 @apart
-def fill_strips(j, i, last, along_z, w_low, w_high, w_whole, order, share, void, group, gases, centroid, dr, dz, strips):
+def fill_strips(j, i, last, along_z, w_low, w_high, w_whole, order, share, void, strips, w):
     """What every body has in the strips at the low and at the high side of cell (j, i), and in all of it, and where.
 
     Nested interfaces in the order of the bodies. Where several bodies of one group meet, none of them a gas, and one of them is
@@ -282,13 +281,12 @@ def fill_strips(j, i, last, along_z, w_low, w_high, w_whole, order, share, void,
                 strips[n, SHARE, m] = 0.0
                 strips[n, ALONG, m] = 0.0
                 strips[n, ACROSS, m] = 0.0
-    ordered, no_gap = keeps_order(j, i, group, gases, share, void)
+    ordered, no_gap = keeps_order(j, i, w.group, w.gases, share, void)
     thinnest = thinnest_body(j, i, ordered, order, share, strips[0, THIN])
     if thinnest < 1.0:
-        nest(j, i, last, along_z, w_low, w_high, w_whole, False, 1.0 - thinnest, order, share, void, no_gap, centroid, dr, dz,
-             strips)
+        nest(j, i, last, along_z, w_low, w_high, w_whole, False, 1.0 - thinnest, order, share, void, no_gap, strips, w)
     if thinnest > 0.0:
-        nest(j, i, last, along_z, w_low, w_high, w_whole, True, thinnest, order, share, void, no_gap, centroid, dr, dz, strips)
+        nest(j, i, last, along_z, w_low, w_high, w_whole, True, thinnest, order, share, void, no_gap, strips, w)
 
 
 @point
@@ -301,15 +299,14 @@ def place_of(strip, m):
 
 
 @point
-def by_contact(j, i, dj, di, mesh_box, contact_columns):
+def by_contact(j, i, w):
     """Whether `contact_fluxes` works out what leaves cell (j, i) through either face: not at the edge of the mesh."""
-    inside = mesh_box[2] < i < mesh_box[3] - 1 if di == 1 else mesh_box[0] < j < mesh_box[1] - 1
-    return inside and contact_columns[j, 0] <= i < contact_columns[j, 1]
+    inside = w.mesh_box[2] < i < w.mesh_box[3] - 1 if w.di == 1 else w.mesh_box[0] < j < w.mesh_box[1] - 1
+    return inside and w.contact_columns[j, 0] <= i < w.contact_columns[j, 1]
 
 
 @rowwise
-def interface_volumes_row(j, dj, di, mesh_box, contact_columns, dr, dz, order, group, gases, mixed_count, mixed, f_face, pre,
-                          vof, centroid, flux_volume, flux_place, strips):
+def interface_volumes_row(j, w):
     """Volume of each body out of each mixed cell, from the nested interfaces, and where it lies in the strips that leave.
 
     Of contact-interface cells only the centroids are worked out (`by_contact`). The cumulative volumes of a strip are kept
@@ -321,69 +318,66 @@ def interface_volumes_row(j, dj, di, mesh_box, contact_columns, dr, dz, order, g
              centroid [2, m, j, i] of these cells: that of what the interfaces enclose, in full where SWEPT of the cell leaves
     Scratch  strips [j, 3, 4, m]
     """
-    bodies = order.shape[0]
-    left = strips[j, 0]
-    right = strips[j, 1]
-    whole = strips[j, 2]
-    along_z = dj == 1
-    for k in range(mixed_count[j]):
-        i = mixed[j, k]
-        out_low = max(-f_face[j, i], 0.0)
-        out_high = max(f_face[j + dj, i + di], 0.0)
+    bodies = w.interface_order.shape[0]
+    left = w.strips[j, 0]
+    right = w.strips[j, 1]
+    whole = w.strips[j, 2]
+    along_z = w.dj == 1
+    for k in range(w.mixed_count[j]):
+        i = w.mixed[j, k]
+        out_low = max(-w.face[j, i], 0.0)
+        out_high = max(w.face[j + w.dj, i + w.di], 0.0)
         if out_low == 0.0 and out_high == 0.0:
             continue
-        size = pre[j, i]
+        size = w.pre[j, i]
         w_low, w_high = out_low / size, out_high / size
         taken = min((w_low + w_high) / SWEPT, 1.0)
-        if by_contact(j, i, dj, di, mesh_box, contact_columns):
+        if by_contact(j, i, w):
             w_low, w_high = 0.0, 0.0
-        void = 1.0 - cumulative(j, i, bodies - 1, order, vof)
-        fill_strips(j, i, ALL, along_z, w_low, w_high, 1.0, order, vof, void, group, gases, centroid, dr, dz, strips[j])
+        void = 1.0 - cumulative(j, i, bodies - 1, w.interface_order, w.vof)
+        fill_strips(j, i, ALL, along_z, w_low, w_high, 1.0, w.interface_order, w.vof, void, w.strips[j], w)
         for m in range(bodies):
-            f = vof[m, j, i]
+            f = w.vof[m, j, i]
             if f == 0.0:
                 continue
             if w_low > 0.0:
-                flux_place[0, m, j, i], flux_place[1, m, j, i] = place_of(left, m)
+                w.flux_place[0, m, j, i], w.flux_place[1, m, j, i] = place_of(left, m)
             if w_high > 0.0:
-                flux_place[0, m, j + dj, i + di], flux_place[1, m, j + dj, i + di] = place_of(right, m)
+                w.flux_place[0, m, j + w.dj, i + w.di], w.flux_place[1, m, j + w.dj, i + w.di] = place_of(right, m)
             along, across = place_of(whole, m)
-            centroid[di, m, j, i] = within(centroid[di, m, j, i] + taken * (across - centroid[di, m, j, i]), f)
-            centroid[dj, m, j, i] = within(centroid[dj, m, j, i] + taken * (along - centroid[dj, m, j, i]), f)
+            w.centroid[w.di, m, j, i] = within(w.centroid[w.di, m, j, i] + taken * (across - w.centroid[w.di, m, j, i]), f)
+            w.centroid[w.dj, m, j, i] = within(w.centroid[w.dj, m, j, i] + taken * (along - w.centroid[w.dj, m, j, i]), f)
         # two strips together may not take more of a body than there is; the excess moves on to the next body
         if w_low > 0.0 and w_high > 0.0:
             excess = 0.0
             for n in range(bodies):
-                m = order[n]
+                m = w.interface_order[n]
                 right[SHARE, m] += excess
-                kept = min(right[SHARE, m], max(vof[m, j, i] - left[SHARE, m], 0.0))
+                kept = min(right[SHARE, m], max(w.vof[m, j, i] - left[SHARE, m], 0.0))
                 excess = right[SHARE, m] - kept
                 right[SHARE, m] = kept
         for m in range(bodies):
             if w_low > 0.0:
-                flux_volume[m, j, i] = -left[SHARE, m] * size
+                w.flux_volume[m, j, i] = -left[SHARE, m] * size
             if w_high > 0.0:
-                flux_volume[m, j + dj, i + di] = right[SHARE, m] * size
+                w.flux_volume[m, j + w.dj, i + w.di] = right[SHARE, m] * size
 
 
 @kernel
-def donor_volumes(dj, di, part, parts, i0, i1, second, void_only, volume, body_ranges, active_range, fr, fz, vof, pre,
-                  flux_volume, turned):
+def donor_volumes(part, w):
     """Rows j0 to j1 before a sweep: sweep_volumes_row, and donor_volumes_row, which has one more row of faces along z."""
-    j0, j1 = outer_rows(parts)
-    for j in range(parts[part], past_row(part, parts, dj)):
+    j0, j1 = outer_rows(w.parts)
+    for j in range(w.parts[part], past_row(part, w.parts, w.dj)):
         if j < j1:
-            sweep_volumes_row(j, dj, di, not second, volume, active_range, fr, fz, vof, pre, turned)
-        if di == 1:
-            donor_volumes_row(j, dj, di, i0, i1, void_only, body_ranges, fr, vof, flux_volume)
+            sweep_volumes_row(j, not w.second, w)
+        if w.di == 1:
+            donor_volumes_row(j, w.fr, w)
         else:
-            donor_volumes_row(j, dj, di, i0, i1, void_only, body_ranges, fz, vof, flux_volume)
+            donor_volumes_row(j, w.fz, w)
 
 
 @kernel
-def interface_volumes(dj, di, part, parts, mesh_box, contact_columns, dr, dz, interface_order, group, gases, mixed_count, mixed,
-                      face, pre, vof, centroid, flux_volume, flux_place, strips):
+def interface_volumes(part, w):
     """interface_volumes_row for rows j0 to j1."""
-    for j in range(parts[part], parts[part + 1]):
-        interface_volumes_row(j, dj, di, mesh_box, contact_columns, dr, dz, interface_order, group, gases, mixed_count, mixed,
-                              face, pre, vof, centroid, flux_volume, flux_place, strips)
+    for j in range(w.parts[part], w.parts[part + 1]):
+        interface_volumes_row(j, w)

@@ -115,7 +115,7 @@ deform = Phase(
     WAIT,
     deformation.deform,
     mixed.deform_mixed,
-    when("contact", given(momentum.deposit, ranges="warmed", deficit="heat", sums="deposited")),
+    when("contact", given(momentum.deposit, ranges="warmed", deficit="heat")),
     when("slip_layer", sliding.cut_shear),
     when("remembers",
          memory.update_memory,

@@ -54,7 +54,7 @@ carry_momentum = Phase(
     boundaries.ghost_vertices_r,
     boundaries.ghost_vertices_z,
     WAIT,
-    when("both", given(momentum.deposit, ranges="active_range", sums="deposited")),
+    when("both", given(momentum.deposit, ranges="active_range")),
     remap.tidy,
     WAIT,
     alone(edge_sums.sum_kinetic_outflow),
