@@ -2,9 +2,9 @@
 
 from math import sqrt
 
-from hydro2d.jit import kernel, point, rowwise
+from hydro2d.jit import cell_rows, point, rowwise, vertex_rows
 from hydro2d.kernels.boundaries import left_by_edges
-from hydro2d.kernels.column_ranges import columns, copy_beside, past_row, union
+from hydro2d.kernels.column_ranges import columns, copy_beside, union
 from hydro2d.kernels.cut_cells import KIND, WHOLE, cut_pressure, holds, pull_of_ties, skin_deviator, ties
 from hydro2d.mesh.fields import SRR, SRZ, SZZ
 from hydro2d.mesh.grid import AZ_IN, AZ_OUT, CM_IN, CM_OUT, FACE_R, HOOP, MID_R, VOL_R
@@ -102,30 +102,28 @@ def total_stress_row(j, w):
         rz[i] = s_rz - qrz_j[i]
 
 
-@kernel
-def total_stress(part, w):
+@cell_rows
+def total_stress(j, w):
     """total_stress_row for rows j0 to j1."""
-    for j in range(w.parts[part], w.parts[part + 1]):
-        total_stress_row(j, w)
+    total_stress_row(j, w)
 
 
-@kernel
-def vertex_masses(part, w):
+@vertex_rows
+def vertex_masses(j, w):
     """Mass of the dual cells: corner shares of the four cells around a vertex, weighted by radius.
 
     Reads    cell_mass [b, j, i]
     Writes   mass [b, j, i]
     """
-    for j in range(w.parts[part], past_row(part, w.parts, 1)):
-        for b in range(w.mass.shape[0]):
-            lo, hi = w.group_ranges[b, 1, j, 0], w.group_ranges[b, 1, j, 1]
-            lo, n = columns(max(lo, w.i0), min(hi, w.i1) + 1)
-            below = w.cell_mass[b, j - 1]
-            above = w.cell_mass[b, j]
-            m_j = w.mass[b, j]
-            for x in range(n):
-                i = lo + x
-                m_j[i] = w.metrics[CM_OUT, i - 1] * (below[i - 1] + above[i - 1]) + w.metrics[CM_IN, i] * (below[i] + above[i])
+    for b in range(w.mass.shape[0]):
+        lo, hi = w.group_ranges[b, 1, j, 0], w.group_ranges[b, 1, j, 1]
+        lo, n = columns(max(lo, w.i0), min(hi, w.i1) + 1)
+        below = w.cell_mass[b, j - 1]
+        above = w.cell_mass[b, j]
+        m_j = w.mass[b, j]
+        for x in range(n):
+            i = lo + x
+            m_j[i] = w.metrics[CM_OUT, i - 1] * (below[i - 1] + above[i - 1]) + w.metrics[CM_IN, i] * (below[i] + above[i])
 
 
 @point
@@ -175,20 +173,19 @@ def limit_speed_row(b, j, lo, n, underfilled, w):
     w.limited[2, j] += count
 
 
-@kernel
-def limit_speed(part, w):
+@vertex_rows
+def limit_speed(j, w):
     """limit_speed_row for rows j0 to j1, after all forces and before edges give their velocities.
 
     A node whose dual cell is filled more thinly than underfilled_density is held to speed_limit.
 
     Writes   limited [3, j]
     """
-    for j in range(w.parts[part], past_row(part, w.parts, 1)):
-        for row in range(3):
-            w.limited[row, j] = 0.0
-        for b in range(w.mass.shape[0]):
-            lo, n = accelerated_columns(b, j, w.i0, w.i1 + 1, w.occupied)
-            limit_speed_row(b, j, lo, n, w.underfilled_density * 0.25 * (w.dz[j - 1] + w.dz[j]), w)
+    for row in range(3):
+        w.limited[row, j] = 0.0
+    for b in range(w.mass.shape[0]):
+        lo, n = accelerated_columns(b, j, w.i0, w.i1 + 1, w.occupied)
+        limit_speed_row(b, j, lo, n, w.underfilled_density * 0.25 * (w.dz[j - 1] + w.dz[j]), w)
 
 
 @rowwise
@@ -277,24 +274,23 @@ def tie_row(b, j, i1, w):
                     w.v[b, j, at] += pull_of_ties(b, j, at, row, i, by_r, by_z, w.v0) / w.mass[b, j, at]
 
 
-@kernel
-def accelerate(part, w):
+@vertex_rows
+def accelerate(j, w):
     """accelerate_row and tie_row for rows j0 to j1, and the velocities that forces of sources add.
 
     Reads    pushed [c, b, j, i], m/s, or nothing
     """
-    for j in range(w.parts[part], past_row(part, w.parts, 1)):
-        for b in range(w.mass.shape[0]):
-            accelerate_row(b, j, w.i1 + 1, w)
-            tie_row(b, j, w.i1 + 1, w)
-            if w.pushed.shape[0] > 0:
-                for i in range(w.i0, w.i1 + 1):
-                    w.u[b, j, i] += w.pushed[0, b, j, i]
-                    w.v[b, j, i] += w.pushed[1, b, j, i]
+    for b in range(w.mass.shape[0]):
+        accelerate_row(b, j, w.i1 + 1, w)
+        tie_row(b, j, w.i1 + 1, w)
+        if w.pushed.shape[0] > 0:
+            for i in range(w.i0, w.i1 + 1):
+                w.u[b, j, i] += w.pushed[0, b, j, i]
+                w.v[b, j, i] += w.pushed[1, b, j, i]
 
 
-@kernel
-def swept_volumes(part, w):
+@vertex_rows
+def swept_volumes(j, w):
     """Volumes swept by the faces in the step, from the velocity at mid-step (explanation/remap, equation 1).
 
     F_r = dt r h <u>,  F_z = dt (a v_inner + b v_outer), with the areas of the cell vectors, so that their sum over a cell is
@@ -303,22 +299,21 @@ def swept_volumes(part, w):
     Reads    u0, v0, u, v [b, j, i]
     Writes   fr, fz [j, i]
     """
-    for j in range(w.parts[part], past_row(part, w.parts, 1)):
-        lo, hi = w.group_ranges[0, 1, j, 0], w.group_ranges[0, 1, j, 1]
-        lo, n = columns(max(lo, w.i0), min(hi, w.i1))
-        ub = w.u[0, j]
-        ub0 = w.u0[0, j]
-        ut = w.u[0, j + 1]
-        ut0 = w.u0[0, j + 1]
-        vb = w.v[0, j]
-        vb0 = w.v0[0, j]
-        fr_j = w.fr[j]
-        fz_j = w.fz[j]
-        h = w.dz[j]
-        for x in range(n):
-            i = lo + x
-            fr_j[i] = 0.25 * w.dt * w.metrics[FACE_R, i] * h * ((ub[i] + ub0[i]) + (ut[i] + ut0[i]))
-            fz_j[i] = 0.5 * w.dt * (w.metrics[AZ_IN, i] * (vb[i] + vb0[i]) + w.metrics[AZ_OUT, i] * (vb[i + 1] + vb0[i + 1]))
-        if n > 0:
-            i = lo + n
-            fr_j[i] = 0.25 * w.dt * w.metrics[FACE_R, i] * h * ((ub[i] + ub0[i]) + (ut[i] + ut0[i]))
+    lo, hi = w.group_ranges[0, 1, j, 0], w.group_ranges[0, 1, j, 1]
+    lo, n = columns(max(lo, w.i0), min(hi, w.i1))
+    ub = w.u[0, j]
+    ub0 = w.u0[0, j]
+    ut = w.u[0, j + 1]
+    ut0 = w.u0[0, j + 1]
+    vb = w.v[0, j]
+    vb0 = w.v0[0, j]
+    fr_j = w.fr[j]
+    fz_j = w.fz[j]
+    h = w.dz[j]
+    for x in range(n):
+        i = lo + x
+        fr_j[i] = 0.25 * w.dt * w.metrics[FACE_R, i] * h * ((ub[i] + ub0[i]) + (ut[i] + ut0[i]))
+        fz_j[i] = 0.5 * w.dt * (w.metrics[AZ_IN, i] * (vb[i] + vb0[i]) + w.metrics[AZ_OUT, i] * (vb[i + 1] + vb0[i + 1]))
+    if n > 0:
+        i = lo + n
+        fr_j[i] = 0.25 * w.dt * w.metrics[FACE_R, i] * h * ((ub[i] + ub0[i]) + (ut[i] + ut0[i]))

@@ -5,8 +5,8 @@ travels, what the deck has placed there (hydro2d/following). A transmitting edge
 """
 
 
-from hydro2d.jit import apart, kernel, point, serial
-from hydro2d.kernels.column_ranges import outer_rows, past_row
+from hydro2d.jit import apart, cell_rows, kernel, point, serial, vertex_rows
+from hydro2d.kernels.column_ranges import outer_rows
 from hydro2d.mesh.fields import PARITY
 from hydro2d.mesh.grid import AZ_IN, AZ_OUT, FACE_R, GHOSTS
 from hydro2d.physics.waves import impedances
@@ -23,8 +23,8 @@ def fill(m, j, i, from_j, from_i, mirror, fields, w):
         w.q[k, m, j, i] = -w.q[k, m, from_j, from_i] if mirror and w.rules[m, k, PARITY] < 0.0 else w.q[k, m, from_j, from_i]
 
 
-@kernel
-def ghost_columns(part, w):
+@cell_rows
+def ghost_columns(j, w):
     """Ghost cells left and right of rows j0 to j1, of bodies that are near or were: fractions and, before a sweep along r, q.
 
     Interfaces of a sweep along z need the fractions alone.
@@ -34,19 +34,18 @@ def ghost_columns(part, w):
     """
     g = GHOSTS
     fields = w.di * w.q.shape[0]
-    for j in range(w.parts[part], w.parts[part + 1]):
-        for m in range(w.vof.shape[0]):
-            for side in range(2):
-                edge = g + w.nr - 1 if side else g  # the last cell of the mesh
-                out = 1 if side else -1
-                near = w.body_range[m, j, 1] > w.nr if side else w.body_range[m, j, 0] < 2 * g
-                if not (near or w.vof[m, j, edge + out] > 0.0 or w.vof[m, j, edge + 2 * out] > 0.0):
-                    continue
-                mirror = w.mirror_r_max if side else w.mirror_r_min
-                for n in range(g):
-                    ghost = edge + (n + 1) * out
-                    source = edge - n * out if mirror else edge
-                    fill(m, j, ghost, j, source, mirror, fields, w)
+    for m in range(w.vof.shape[0]):
+        for side in range(2):
+            edge = g + w.nr - 1 if side else g  # the last cell of the mesh
+            out = 1 if side else -1
+            near = w.body_range[m, j, 1] > w.nr if side else w.body_range[m, j, 0] < 2 * g
+            if not (near or w.vof[m, j, edge + out] > 0.0 or w.vof[m, j, edge + 2 * out] > 0.0):
+                continue
+            mirror = w.mirror_r_max if side else w.mirror_r_min
+            for n in range(g):
+                ghost = edge + (n + 1) * out
+                source = edge - n * out if mirror else edge
+                fill(m, j, ghost, j, source, mirror, fields, w)
 
 
 @kernel
@@ -75,20 +74,19 @@ def ghost_rows(part, w):
                     fill(m, ghost, i, source, i, mirror, fields, w)
 
 
-@kernel
-def ghost_vertices_r(part, w):
+@vertex_rows
+def ghost_vertices_r(j, w):
     """Ghost vertices left and right of rows j0 to j1; u changes its sign in a mirror.
 
     Updates  u, v [b, j, i]
     """
     g = GHOSTS
-    for j in range(w.parts[part], past_row(part, w.parts, 1)):
-        for b in range(w.u.shape[0]):
-            for n in range(1, g + 1):
-                w.u[b, j, g - n] = -w.u[b, j, g + n] if w.mirror_r_min else w.u[b, j, g]
-                w.v[b, j, g - n] = w.v[b, j, g + n] if w.mirror_r_min else w.v[b, j, g]
-                w.u[b, j, g + w.nr + n] = -w.u[b, j, g + w.nr - n] if w.mirror_r_max else w.u[b, j, g + w.nr]
-                w.v[b, j, g + w.nr + n] = w.v[b, j, g + w.nr - n] if w.mirror_r_max else w.v[b, j, g + w.nr]
+    for b in range(w.u.shape[0]):
+        for n in range(1, g + 1):
+            w.u[b, j, g - n] = -w.u[b, j, g + n] if w.mirror_r_min else w.u[b, j, g]
+            w.v[b, j, g - n] = w.v[b, j, g + n] if w.mirror_r_min else w.v[b, j, g]
+            w.u[b, j, g + w.nr + n] = -w.u[b, j, g + w.nr - n] if w.mirror_r_max else w.u[b, j, g + w.nr]
+            w.v[b, j, g + w.nr + n] = w.v[b, j, g + w.nr - n] if w.mirror_r_max else w.v[b, j, g + w.nr]
 
 
 @kernel

@@ -3,7 +3,7 @@
 explanation/interfaces, thin bodies.
 """
 
-from hydro2d.jit import kernel, point
+from hydro2d.jit import cell_rows, point
 from hydro2d.kernels.interfaces import NOTHING
 from hydro2d.kernels.mixed_scratch import BEFORE, SHIFT_R, SHIFT_Z
 from hydro2d.physics.centroids import side, within
@@ -35,8 +35,8 @@ def donor_place(m, j, i, face_j, face_i, w):
     return w.flux_place[0, m, face_j, face_i], w.flux_place[1, m, face_j, face_i]
 
 
-@kernel
-def carry_centroids(part, w):
+@cell_rows
+def carry_centroids(j, w):
     """Centroids of the bodies in mixed cells after a sweep: those of what stays and what comes, by volume.
 
     What stays moves with the cell, or with the volumes that the faces sweep with the velocity of the body's group
@@ -47,37 +47,36 @@ def carry_centroids(part, w):
     Updates  centroid [2, m, j, i]
     """
     contact = w.own.shape[0] > 1
-    for j in range(w.parts[part], w.parts[part + 1]):
-        for k in range(w.mixed_count[j]):
-            i = w.mixed[j, k]
-            after = size_after(j, i, w)
-            for m in range(w.vof.shape[0]):
-                if not 0.0 < w.vof[m, j, i] < 1.0:
-                    continue
-                left = w.vof[m, j, i] * after
-                s_low, s_high = w.face[j, i], w.face[j + w.dj, i + w.di]
-                if contact and w.contact_columns[j, 0] <= i < w.contact_columns[j, 1]:
-                    s_low, s_high = w.own[w.group[m], j, i], w.own[w.group[m], j + w.dj, i + w.di]
-                drift = 0.5 * (s_low + s_high)
-                v_low, v_high = w.flux_volume[m, j, i], w.flux_volume[m, j + w.dj, i + w.di]
-                stood = left + (v_high - v_low)
-                low, side_low, high, side_high = 0.0, 0.0, 0.0, 0.0
-                if v_low != 0.0:
-                    row, column = (j - w.dj, i - w.di) if v_low > 0.0 else (j, i)
-                    x, y = donor_place(m, row, column, j, i, w)
-                    low = (0.5 + x) * abs(s_low) - (0.5 * after if v_low > 0.0 else 0.5 * w.pre[j, i] - drift)
-                    low *= v_low
-                    side_low = v_low * y
-                if v_high != 0.0:
-                    row, column = (j + w.dj, i + w.di) if v_high < 0.0 else (j, i)
-                    x, y = donor_place(m, row, column, j + w.dj, i + w.di, w)
-                    high = (0.5 * after if v_high < 0.0 else 0.5 * w.pre[j, i] + drift) - (0.5 - x) * abs(s_high)
-                    high *= -v_high
-                    side_high = -v_high * y
-                along = stood * (w.centroid[w.dj, m, j, i] * w.pre[j, i] + drift) + (low + high)
-                across = stood * w.centroid[w.di, m, j, i] + (side_low + side_high)
-                w.centroid[w.dj, m, j, i] = within(along / (left * after), w.vof[m, j, i])
-                w.centroid[w.di, m, j, i] = within(across / left, w.vof[m, j, i])
+    for k in range(w.mixed_count[j]):
+        i = w.mixed[j, k]
+        after = size_after(j, i, w)
+        for m in range(w.vof.shape[0]):
+            if not 0.0 < w.vof[m, j, i] < 1.0:
+                continue
+            left = w.vof[m, j, i] * after
+            s_low, s_high = w.face[j, i], w.face[j + w.dj, i + w.di]
+            if contact and w.contact_columns[j, 0] <= i < w.contact_columns[j, 1]:
+                s_low, s_high = w.own[w.group[m], j, i], w.own[w.group[m], j + w.dj, i + w.di]
+            drift = 0.5 * (s_low + s_high)
+            v_low, v_high = w.flux_volume[m, j, i], w.flux_volume[m, j + w.dj, i + w.di]
+            stood = left + (v_high - v_low)
+            low, side_low, high, side_high = 0.0, 0.0, 0.0, 0.0
+            if v_low != 0.0:
+                row, column = (j - w.dj, i - w.di) if v_low > 0.0 else (j, i)
+                x, y = donor_place(m, row, column, j, i, w)
+                low = (0.5 + x) * abs(s_low) - (0.5 * after if v_low > 0.0 else 0.5 * w.pre[j, i] - drift)
+                low *= v_low
+                side_low = v_low * y
+            if v_high != 0.0:
+                row, column = (j + w.dj, i + w.di) if v_high < 0.0 else (j, i)
+                x, y = donor_place(m, row, column, j + w.dj, i + w.di, w)
+                high = (0.5 * after if v_high < 0.0 else 0.5 * w.pre[j, i] + drift) - (0.5 - x) * abs(s_high)
+                high *= -v_high
+                side_high = -v_high * y
+            along = stood * (w.centroid[w.dj, m, j, i] * w.pre[j, i] + drift) + (low + high)
+            across = stood * w.centroid[w.di, m, j, i] + (side_low + side_high)
+            w.centroid[w.dj, m, j, i] = within(along / (left * after), w.vof[m, j, i])
+            w.centroid[w.di, m, j, i] = within(across / left, w.vof[m, j, i])
 
 
 @point

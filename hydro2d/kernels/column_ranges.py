@@ -4,7 +4,7 @@ A range (lo, hi) means lo <= i < hi; an empty range is (2**30, 0), so that the u
 other kernel loops over these ranges: a row of void costs nothing, and a pure cell pays for the one body in it.
 """
 
-from hydro2d.jit import kernel, point, rowwise, serial
+from hydro2d.jit import cell_rows, kernel, point, rowwise, serial, vertex_rows
 
 NOTHING = 1 << 30
 
@@ -57,8 +57,8 @@ def copy_beside(old, new, first, lo, hi, last):
         new[i] = old[i]
 
 
-@kernel
-def find_body_ranges(part, w):
+@cell_rows
+def find_body_ranges(j, w):
     """First column and one past the last in which each body lies, for the rows and columns of the active box.
 
     A body moves by no more than a cell: unless `anew`, it is looked for around the columns body_ranges[1] that it was in.
@@ -68,43 +68,41 @@ def find_body_ranges(part, w):
     Writes   occupied [b, j, 2], the union over the bodies: for b = 0 all of them, for b = 1 those of group 1
     """
     bodies = w.vof.shape[0]
-    for j in range(w.parts[part], w.parts[part + 1]):
-        for b in range(w.occupied.shape[0]):
-            w.occupied[b, j, 0] = NOTHING
-            w.occupied[b, j, 1] = 0
-        for m in range(bodies):
-            row = w.vof[m, j]
-            lo = w.i0 if w.anew else max(w.body_ranges[1, m, j, 0] - 1, w.i0)
-            end = w.i1 if w.anew else min(w.body_ranges[1, m, j, 1] + 1, w.i1)
-            while lo < end and row[lo] == 0.0:
-                lo += 1
-            hi = max(end, lo)
-            while hi > lo and row[hi - 1] == 0.0:
-                hi -= 1
-            if lo == hi:
-                lo, hi = NOTHING, 0
-            w.body_ranges[0, m, j, 0] = lo
-            w.body_ranges[0, m, j, 1] = hi
-            for b in range(w.group[m] + 1):
-                w.occupied[b, j, 0] = min(w.occupied[b, j, 0], lo)
-                w.occupied[b, j, 1] = max(w.occupied[b, j, 1], hi)
+    for b in range(w.occupied.shape[0]):
+        w.occupied[b, j, 0] = NOTHING
+        w.occupied[b, j, 1] = 0
+    for m in range(bodies):
+        row = w.vof[m, j]
+        lo = w.i0 if w.anew else max(w.body_ranges[1, m, j, 0] - 1, w.i0)
+        end = w.i1 if w.anew else min(w.body_ranges[1, m, j, 1] + 1, w.i1)
+        while lo < end and row[lo] == 0.0:
+            lo += 1
+        hi = max(end, lo)
+        while hi > lo and row[hi - 1] == 0.0:
+            hi -= 1
+        if lo == hi:
+            lo, hi = NOTHING, 0
+        w.body_ranges[0, m, j, 0] = lo
+        w.body_ranges[0, m, j, 1] = hi
+        for b in range(w.group[m] + 1):
+            w.occupied[b, j, 0] = min(w.occupied[b, j, 0], lo)
+            w.occupied[b, j, 1] = max(w.occupied[b, j, 1], hi)
 
 
-@kernel
-def find_active_ranges(part, w):
+@cell_rows
+def find_active_ranges(j, w):
     """Columns that a body can touch within one cycle: those occupied in rows j-2 to j+2, and two more on either side.
 
     Reads    occupied [b, j, 2]
     Writes   group_ranges[b, 0], the active range [j, 2]
     """
-    for j in range(w.parts[part], w.parts[part + 1]):
-        for b in range(w.occupied.shape[0]):
-            lo, hi = union(w.occupied[b], j - 2, j + 3)
-            if lo < hi:
-                lo = max(lo - 2, w.i0)
-                hi = min(hi + 2, w.i1)
-            w.group_ranges[b, 0, j, 0] = lo
-            w.group_ranges[b, 0, j, 1] = hi
+    for b in range(w.occupied.shape[0]):
+        lo, hi = union(w.occupied[b], j - 2, j + 3)
+        if lo < hi:
+            lo = max(lo - 2, w.i0)
+            hi = min(hi + 2, w.i1)
+        w.group_ranges[b, 0, j, 0] = lo
+        w.group_ranges[b, 0, j, 1] = hi
 
 
 @kernel
@@ -155,32 +153,30 @@ def mixed_row(j, active_range, scratch, row, w):
     w.mixed_count[j] = found
 
 
-@kernel
-def list_mixed(part, w):
+@cell_rows
+def list_mixed(j, part, w):
     """mixed_row for rows j0 to j1.
 
     Scratch  scratch [s, part, i]
     """
-    for j in range(w.parts[part], w.parts[part + 1]):
-        mixed_row(j, w.active_range, w.scratch[0], part, w)
+    mixed_row(j, w.active_range, w.scratch[0], part, w)
 
 
-@kernel
-def moving_columns(part, w):
+@vertex_rows
+def moving_columns(j, w):
     """First and one past the last vertex of each row that moves; what a second group has next to the first follows it.
 
     Reads    u, v [b, j, i]
     Writes   row_moving [j, 2]
     """
-    for j in range(w.parts[part], past_row(part, w.parts, 1)):
-        first = w.i0
-        while first <= w.i1 and w.u[0, j, first] == 0.0 and w.v[0, j, first] == 0.0:
-            first += 1
-        last = w.i1 + 1
-        while last > first and w.u[0, j, last - 1] == 0.0 and w.v[0, j, last - 1] == 0.0:
-            last -= 1
-        w.row_moving[j, 0] = first if first < last else NOTHING
-        w.row_moving[j, 1] = last if first < last else 0
+    first = w.i0
+    while first <= w.i1 and w.u[0, j, first] == 0.0 and w.v[0, j, first] == 0.0:
+        first += 1
+    last = w.i1 + 1
+    while last > first and w.u[0, j, last - 1] == 0.0 and w.v[0, j, last - 1] == 0.0:
+        last -= 1
+    w.row_moving[j, 0] = first if first < last else NOTHING
+    w.row_moving[j, 1] = last if first < last else 0
 
 
 @serial

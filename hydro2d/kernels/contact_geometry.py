@@ -11,8 +11,8 @@ equation 1; that of the soft group is what is missing to 1.
 
 from math import sqrt
 
-from hydro2d.jit import kernel, point, serial
-from hydro2d.kernels.column_ranges import outer_rows, past_row, union
+from hydro2d.jit import cell_rows, point, serial, vertex_rows
+from hydro2d.kernels.column_ranges import outer_rows, union
 from hydro2d.physics.contact import GAP, end_apertures, known
 from hydro2d.physics.interfaces import line_constant, youngs_gradient
 from hydro2d.physics.traction import smoothstep
@@ -35,8 +35,8 @@ APART, FAR_APART = 0.5, 0.75
 REACH = 3
 
 
-@kernel
-def find_contact_nodes(part, w):
+@vertex_rows
+def find_contact_nodes(j, w):
     """Contact nodes of rows j0 to j1, and what hard and soft bodies fill of the cells near hard ones.
 
     Reads    group_ranges[1] [n, j, 2], the columns near hard bodies; mass [b, j, i]; vof [m, j, i]; group [m]
@@ -44,32 +44,31 @@ def find_contact_nodes(part, w):
              warmed [j, 2], the cells around vertices that can be masters of a contact node
     """
     j0, j1 = outer_rows(w.parts)
-    for j in range(w.parts[part], past_row(part, w.parts, 1)):
-        found = 0
-        lo, hi = union(w.group_ranges[1, 0], j - REACH - 2, j + REACH + 2)
-        for i in range(max(lo - REACH - 1, w.mesh_box[2]), min(hi + REACH + 2, w.mesh_box[3] + 1)):
-            for g in range(2):
-                w.heat[g, j, i] = 0.0
-        for i in range(max(w.group_ranges[1, 1, j, 0], w.mesh_box[2]), min(w.group_ranges[1, 1, j, 1] + 1, w.mesh_box[3] + 1)):
-            if w.mass[0, j, i] > 0.0 and w.mass[1, j, i] > 0.0:
-                w.contact_nodes[j, found] = i
-                found += 1
-        w.contact_node_count[j] = found
-        lo, hi = union(w.group_ranges[1, 0], j - REACH - 1, j + REACH + 2)
-        w.warmed[j, 0] = max(lo - REACH - 1, w.mesh_box[2])
-        w.warmed[j, 1] = min(hi + REACH + 1, w.mesh_box[3])
-        if j < j1:
-            lo, hi = union(w.group_ranges[1, 0], j - 2, j + 3)
-            lo, hi = max(lo - 2, w.mesh_box[2]), min(hi + 2, w.mesh_box[3])
+    found = 0
+    lo, hi = union(w.group_ranges[1, 0], j - REACH - 2, j + REACH + 2)
+    for i in range(max(lo - REACH - 1, w.mesh_box[2]), min(hi + REACH + 2, w.mesh_box[3] + 1)):
+        for g in range(2):
+            w.heat[g, j, i] = 0.0
+    for i in range(max(w.group_ranges[1, 1, j, 0], w.mesh_box[2]), min(w.group_ranges[1, 1, j, 1] + 1, w.mesh_box[3] + 1)):
+        if w.mass[0, j, i] > 0.0 and w.mass[1, j, i] > 0.0:
+            w.contact_nodes[j, found] = i
+            found += 1
+    w.contact_node_count[j] = found
+    lo, hi = union(w.group_ranges[1, 0], j - REACH - 1, j + REACH + 2)
+    w.warmed[j, 0] = max(lo - REACH - 1, w.mesh_box[2])
+    w.warmed[j, 1] = min(hi + REACH + 1, w.mesh_box[3])
+    if j < j1:
+        lo, hi = union(w.group_ranges[1, 0], j - 2, j + 3)
+        lo, hi = max(lo - 2, w.mesh_box[2]), min(hi + 2, w.mesh_box[3])
+        for i in range(lo, hi):
+            w.hard[j, i] = 0.0
+            w.soft[j, i] = 0.0
+        for m in range(w.vof.shape[0]):
             for i in range(lo, hi):
-                w.hard[j, i] = 0.0
-                w.soft[j, i] = 0.0
-            for m in range(w.vof.shape[0]):
-                for i in range(lo, hi):
-                    if w.group[m] == 1:
-                        w.hard[j, i] += w.vof[m, j, i]
-                    else:
-                        w.soft[j, i] += w.vof[m, j, i]
+                if w.group[m] == 1:
+                    w.hard[j, i] += w.vof[m, j, i]
+                else:
+                    w.soft[j, i] += w.vof[m, j, i]
 
 
 @point
@@ -103,8 +102,8 @@ def number_nodes(w):
         w.first_slot[j + 1] = w.first_slot[j] + w.contact_node_count[j]
 
 
-@kernel
-def contact_lines(part, w):
+@cell_rows
+def contact_lines(j, w):
     """The contact-interface columns of every row, from i0 to i1, and in them the line that parts the hard side of a cell from
     the soft one.
 
@@ -116,54 +115,53 @@ def contact_lines(part, w):
     Reads    contact_node_count [j], contact_nodes [j, k]; hard, soft [j, i]
     Writes   contact_columns [j, 2]; line [10, j, i]
     """
-    for j in range(w.parts[part], w.parts[part + 1]):
-        lo, hi = 1 << 30, 0
-        for row in range(j, j + 2):
-            if w.contact_node_count[row] > 0:
-                lo = min(lo, w.contact_nodes[row, 0] - 1)
-                hi = max(hi, w.contact_nodes[row, w.contact_node_count[row] - 1] + 1)
-        if lo < hi:
-            lo = max(lo, w.i0)
-            hi = min(hi, w.i1)
-        w.contact_columns[j, 0] = lo
-        w.contact_columns[j, 1] = hi
-        below, above = max(j - 1, w.mesh_box[0]), min(j + 1, w.mesh_box[1] - 1)
-        for i in range(lo, hi):
-            left, right = max(i - 1, w.mesh_box[2]), min(i + 1, w.mesh_box[3] - 1)
-            hard_r, hard_z = youngs_gradient(
-                j, i, w.hard[below, left], w.hard[below, i], w.hard[below, right], w.hard[j, left], w.hard[j, right],
-                w.hard[above, left], w.hard[above, i], w.hard[above, right], w.dr, w.dz)
-            soft_r, soft_z = youngs_gradient(
-                j, i, w.soft[below, left], w.soft[below, i], w.soft[below, right], w.soft[j, left], w.soft[j, right],
-                w.soft[above, left], w.soft[above, i], w.soft[above, right], w.dr, w.dz)
-            along_r, along_z = hard_r - soft_r, hard_z - soft_z
-            steep_h, steep_s = hard_r * hard_r + hard_z * hard_z, soft_r * soft_r + soft_z * soft_z
+    lo, hi = 1 << 30, 0
+    for row in range(j, j + 2):
+        if w.contact_node_count[row] > 0:
+            lo = min(lo, w.contact_nodes[row, 0] - 1)
+            hi = max(hi, w.contact_nodes[row, w.contact_node_count[row] - 1] + 1)
+    if lo < hi:
+        lo = max(lo, w.i0)
+        hi = min(hi, w.i1)
+    w.contact_columns[j, 0] = lo
+    w.contact_columns[j, 1] = hi
+    below, above = max(j - 1, w.mesh_box[0]), min(j + 1, w.mesh_box[1] - 1)
+    for i in range(lo, hi):
+        left, right = max(i - 1, w.mesh_box[2]), min(i + 1, w.mesh_box[3] - 1)
+        hard_r, hard_z = youngs_gradient(
+            j, i, w.hard[below, left], w.hard[below, i], w.hard[below, right], w.hard[j, left], w.hard[j, right],
+            w.hard[above, left], w.hard[above, i], w.hard[above, right], w.dr, w.dz)
+        soft_r, soft_z = youngs_gradient(
+            j, i, w.soft[below, left], w.soft[below, i], w.soft[below, right], w.soft[j, left], w.soft[j, right],
+            w.soft[above, left], w.soft[above, i], w.soft[above, right], w.dr, w.dz)
+        along_r, along_z = hard_r - soft_r, hard_z - soft_z
+        steep_h, steep_s = hard_r * hard_r + hard_z * hard_z, soft_r * soft_r + soft_z * soft_z
+        size = abs(along_r) + abs(along_z)
+        total = w.hard[j, i] + w.soft[j, i]
+        share = min(max(w.hard[j, i] / total, 0.0), 1.0) if total > 0.0 else -1.0
+        w.line[HARD_R, j, i] = hard_r / w.dr[i]
+        w.line[HARD_Z, j, i] = hard_z / w.dz[j]
+        w.line[SOFT_R, j, i] = -soft_r / w.dr[i]
+        w.line[SOFT_Z, j, i] = -soft_z / w.dz[j]
+        w.line[SHARE, j, i] = share
+        by_soft, by_hard = steeper(steep_s, steep_h), steeper(steep_h, steep_s)
+        open_r, open_z = hard_r + soft_r, hard_z + soft_z
+        apart = parted(1.0 - total, open_r * open_r + open_z * open_z, min(steep_h, steep_s))
+        w.line[SOFT_AFTER, j, i] = (1.0 - apart) * (1.0 - by_soft)
+        w.line[HARD_FIRST, j, i] = 1.0 - (1.0 - apart) * by_soft
+        w.line[LINE_R, j, i] = 0.0
+        w.line[LINE_Z, j, i] = 0.0
+        w.line[CONSTANT, j, i] = 0.0
+        if size > 1e-14 and 0.0 < share < 1.0:
+            both = 1.0 - by_soft - by_hard
+            along_r = 0.5 * both * along_r + by_hard * hard_r - by_soft * soft_r
+            along_z = 0.5 * both * along_z + by_hard * hard_z - by_soft * soft_z
+            share = both * share + by_hard * w.hard[j, i] + by_soft * (1.0 - w.soft[j, i])
             size = abs(along_r) + abs(along_z)
-            total = w.hard[j, i] + w.soft[j, i]
-            share = min(max(w.hard[j, i] / total, 0.0), 1.0) if total > 0.0 else -1.0
-            w.line[HARD_R, j, i] = hard_r / w.dr[i]
-            w.line[HARD_Z, j, i] = hard_z / w.dz[j]
-            w.line[SOFT_R, j, i] = -soft_r / w.dr[i]
-            w.line[SOFT_Z, j, i] = -soft_z / w.dz[j]
-            w.line[SHARE, j, i] = share
-            by_soft, by_hard = steeper(steep_s, steep_h), steeper(steep_h, steep_s)
-            open_r, open_z = hard_r + soft_r, hard_z + soft_z
-            apart = parted(1.0 - total, open_r * open_r + open_z * open_z, min(steep_h, steep_s))
-            w.line[SOFT_AFTER, j, i] = (1.0 - apart) * (1.0 - by_soft)
-            w.line[HARD_FIRST, j, i] = 1.0 - (1.0 - apart) * by_soft
-            w.line[LINE_R, j, i] = 0.0
-            w.line[LINE_Z, j, i] = 0.0
-            w.line[CONSTANT, j, i] = 0.0
-            if size > 1e-14 and 0.0 < share < 1.0:
-                both = 1.0 - by_soft - by_hard
-                along_r = 0.5 * both * along_r + by_hard * hard_r - by_soft * soft_r
-                along_z = 0.5 * both * along_z + by_hard * hard_z - by_soft * soft_z
-                share = both * share + by_hard * w.hard[j, i] + by_soft * (1.0 - w.soft[j, i])
-                size = abs(along_r) + abs(along_z)
-                n_r, n_z = along_r / size, along_z / size
-                w.line[LINE_R, j, i] = n_r
-                w.line[LINE_Z, j, i] = n_z
-                w.line[CONSTANT, j, i] = line_constant(abs(n_r), abs(n_z), share) + min(n_r, 0.0) + min(n_z, 0.0)
+            n_r, n_z = along_r / size, along_z / size
+            w.line[LINE_R, j, i] = n_r
+            w.line[LINE_Z, j, i] = n_z
+            w.line[CONSTANT, j, i] = line_constant(abs(n_r), abs(n_z), share) + min(n_r, 0.0) + min(n_z, 0.0)
 
 
 @point
@@ -194,8 +192,8 @@ def weight_beside(j, i, row, column, hard, soft):
     return 1.0 - gap * full
 
 
-@kernel
-def face_apertures(part, w):
+@vertex_rows
+def face_apertures(j, w):
     """Apertures of the hard group on the faces around contact nodes, and normals and contact at these.
 
     The aperture of a face is the mean of what the lines of both neighbours leave open of it. A normal is the mean of the
@@ -208,60 +206,59 @@ def face_apertures(part, w):
     Writes   aperture_r, aperture_z [end, j, i]; contact_normal [3, 2, j, i], touch [j, i] at contact nodes
     """
     j0, j1 = outer_rows(w.parts)
-    for j in range(w.parts[part], past_row(part, w.parts, 1)):
-        if j < j1:
-            for i in range(w.contact_columns[j, 0], w.contact_columns[j, 1] + 1):
-                solid_l, low_l, high_l = 0.0, 0.0, 0.0
-                solid_r, low_r, high_r = 0.0, 0.0, 0.0
-                if i > w.mesh_box[2]:
-                    solid_l, low_l, high_l = face_aperture(j, i - 1, 1.0, 0.0, 1.0, 1.0, i - 1 >= w.contact_columns[j, 0], w)
-                if i < w.mesh_box[3]:
-                    solid_r, low_r, high_r = face_aperture(j, i, 0.0, 0.0, 0.0, 1.0, i < w.contact_columns[j, 1], w)
-                if solid_l > 0.0 and solid_r > 0.0:
-                    solid_l = weight_beside(j, i - 1, j, i, w.hard, w.soft)
-                    solid_r = weight_beside(j, i, j, i - 1, w.hard, w.soft)
-                number = max(solid_l + solid_r, 1.0)
-                low = (solid_l * low_l + solid_r * low_r) / number
-                high = (solid_l * high_l + solid_r * high_r) / number
-                w.aperture_r[0, j, i] = known(low, w.mass[0, j, i], w.mass[1, j, i])
-                w.aperture_r[1, j, i] = known(high, w.mass[0, j + 1, i], w.mass[1, j + 1, i])
-        lo, hi = union(w.contact_columns, max(j - 1, j0), min(j + 1, j1))
-        for i in range(lo, hi):
-            solid_b, in_b, out_b = 0.0, 0.0, 0.0
-            solid_t, in_t, out_t = 0.0, 0.0, 0.0
-            if j > w.mesh_box[0]:
-                inside = w.contact_columns[j - 1, 0] <= i < w.contact_columns[j - 1, 1]
-                solid_b, in_b, out_b = face_aperture(j - 1, i, 0.0, 1.0, 1.0, 1.0, inside, w)
-            if j < w.mesh_box[1]:
-                inside = w.contact_columns[j, 0] <= i < w.contact_columns[j, 1]
-                solid_t, in_t, out_t = face_aperture(j, i, 0.0, 0.0, 1.0, 0.0, inside, w)
-            if solid_b > 0.0 and solid_t > 0.0:
-                solid_b = weight_beside(j - 1, i, j, i, w.hard, w.soft)
-                solid_t = weight_beside(j, i, j - 1, i, w.hard, w.soft)
-            number = max(solid_b + solid_t, 1.0)
-            w.aperture_z[0, j, i] = known((solid_b * in_b + solid_t * in_t) / number, w.mass[0, j, i], w.mass[1, j, i])
-            w.aperture_z[1, j, i] = known((solid_b * out_b + solid_t * out_t) / number, w.mass[0, j, i + 1], w.mass[1, j, i + 1])
-        for k in range(w.contact_node_count[j]):
-            i = w.contact_nodes[j, k]
-            hard_r, hard_z, soft_r, soft_z = 0.0, 0.0, 0.0, 0.0
-            both, full_hard, full_soft = 1.0, 0, 0
-            for row in range(max(j - 1, w.mesh_box[0]), min(j + 1, w.mesh_box[1])):
-                for column in range(max(i - 1, w.mesh_box[2]), min(i + 1, w.mesh_box[3])):
-                    hard_r += w.line[HARD_R, row, column]
-                    hard_z += w.line[HARD_Z, row, column]
-                    soft_r += w.line[SOFT_R, row, column]
-                    soft_z += w.line[SOFT_Z, row, column]
-                    h, s = w.hard[row, column], w.soft[row, column]
-                    if h > 0.0 and s > 0.0:
-                        both = min(both, 1.0 - (h + s))
-                    full_hard += 1 if h > 1.0 - GAP else 0
-                    full_soft += 1 if s > 1.0 - GAP else 0
-            free_r = 0.0 if i == w.constrained[0] or i == w.constrained[1] else 1.0
-            free_z = 0.0 if j == w.constrained[2] or j == w.constrained[3] else 1.0
-            for way in range(3):
-                n_r = free_r * ((hard_r if way != 2 else 0.0) + (soft_r if way != 1 else 0.0))
-                n_z = free_z * ((hard_z if way != 2 else 0.0) + (soft_z if way != 1 else 0.0))
-                size = sqrt(n_r * n_r + n_z * n_z)
-                w.contact_normal[way, 0, j, i] = n_r / size if size > 0.0 else 0.0
-                w.contact_normal[way, 1, j, i] = n_z / size if size > 0.0 else 0.0
-            w.touch[j, i] = 1.0 if both <= GAP or (full_hard > 0 and full_soft > 0) else 0.0
+    if j < j1:
+        for i in range(w.contact_columns[j, 0], w.contact_columns[j, 1] + 1):
+            solid_l, low_l, high_l = 0.0, 0.0, 0.0
+            solid_r, low_r, high_r = 0.0, 0.0, 0.0
+            if i > w.mesh_box[2]:
+                solid_l, low_l, high_l = face_aperture(j, i - 1, 1.0, 0.0, 1.0, 1.0, i - 1 >= w.contact_columns[j, 0], w)
+            if i < w.mesh_box[3]:
+                solid_r, low_r, high_r = face_aperture(j, i, 0.0, 0.0, 0.0, 1.0, i < w.contact_columns[j, 1], w)
+            if solid_l > 0.0 and solid_r > 0.0:
+                solid_l = weight_beside(j, i - 1, j, i, w.hard, w.soft)
+                solid_r = weight_beside(j, i, j, i - 1, w.hard, w.soft)
+            number = max(solid_l + solid_r, 1.0)
+            low = (solid_l * low_l + solid_r * low_r) / number
+            high = (solid_l * high_l + solid_r * high_r) / number
+            w.aperture_r[0, j, i] = known(low, w.mass[0, j, i], w.mass[1, j, i])
+            w.aperture_r[1, j, i] = known(high, w.mass[0, j + 1, i], w.mass[1, j + 1, i])
+    lo, hi = union(w.contact_columns, max(j - 1, j0), min(j + 1, j1))
+    for i in range(lo, hi):
+        solid_b, in_b, out_b = 0.0, 0.0, 0.0
+        solid_t, in_t, out_t = 0.0, 0.0, 0.0
+        if j > w.mesh_box[0]:
+            inside = w.contact_columns[j - 1, 0] <= i < w.contact_columns[j - 1, 1]
+            solid_b, in_b, out_b = face_aperture(j - 1, i, 0.0, 1.0, 1.0, 1.0, inside, w)
+        if j < w.mesh_box[1]:
+            inside = w.contact_columns[j, 0] <= i < w.contact_columns[j, 1]
+            solid_t, in_t, out_t = face_aperture(j, i, 0.0, 0.0, 1.0, 0.0, inside, w)
+        if solid_b > 0.0 and solid_t > 0.0:
+            solid_b = weight_beside(j - 1, i, j, i, w.hard, w.soft)
+            solid_t = weight_beside(j, i, j - 1, i, w.hard, w.soft)
+        number = max(solid_b + solid_t, 1.0)
+        w.aperture_z[0, j, i] = known((solid_b * in_b + solid_t * in_t) / number, w.mass[0, j, i], w.mass[1, j, i])
+        w.aperture_z[1, j, i] = known((solid_b * out_b + solid_t * out_t) / number, w.mass[0, j, i + 1], w.mass[1, j, i + 1])
+    for k in range(w.contact_node_count[j]):
+        i = w.contact_nodes[j, k]
+        hard_r, hard_z, soft_r, soft_z = 0.0, 0.0, 0.0, 0.0
+        both, full_hard, full_soft = 1.0, 0, 0
+        for row in range(max(j - 1, w.mesh_box[0]), min(j + 1, w.mesh_box[1])):
+            for column in range(max(i - 1, w.mesh_box[2]), min(i + 1, w.mesh_box[3])):
+                hard_r += w.line[HARD_R, row, column]
+                hard_z += w.line[HARD_Z, row, column]
+                soft_r += w.line[SOFT_R, row, column]
+                soft_z += w.line[SOFT_Z, row, column]
+                h, s = w.hard[row, column], w.soft[row, column]
+                if h > 0.0 and s > 0.0:
+                    both = min(both, 1.0 - (h + s))
+                full_hard += 1 if h > 1.0 - GAP else 0
+                full_soft += 1 if s > 1.0 - GAP else 0
+        free_r = 0.0 if i == w.constrained[0] or i == w.constrained[1] else 1.0
+        free_z = 0.0 if j == w.constrained[2] or j == w.constrained[3] else 1.0
+        for way in range(3):
+            n_r = free_r * ((hard_r if way != 2 else 0.0) + (soft_r if way != 1 else 0.0))
+            n_z = free_z * ((hard_z if way != 2 else 0.0) + (soft_z if way != 1 else 0.0))
+            size = sqrt(n_r * n_r + n_z * n_z)
+            w.contact_normal[way, 0, j, i] = n_r / size if size > 0.0 else 0.0
+            w.contact_normal[way, 1, j, i] = n_z / size if size > 0.0 else 0.0
+        w.touch[j, i] = 1.0 if both <= GAP or (full_hard > 0 and full_soft > 0) else 0.0

@@ -2,8 +2,8 @@
 
 from math import sqrt
 
-from hydro2d.jit import kernel, point
-from hydro2d.kernels.column_ranges import mixed_row, past_row
+from hydro2d.jit import cell_rows, point, vertex_rows
+from hydro2d.kernels.column_ranges import mixed_row
 from hydro2d.kernels.contact_geometry import HARD_R, HARD_Z, SOFT_R, SOFT_Z
 from hydro2d.kernels.cut_cells import (
     FREE_SURFACE,
@@ -41,8 +41,8 @@ def come_apart(j, i, w):
     return opens < 0.0
 
 
-@kernel
-def contact_viscosity(part, w):
+@cell_rows
+def contact_viscosity(j, w):
     """Volume rate and viscosity of the contact-interface cells, the step they allow, and room where their groups part.
 
     A cell of both groups has the density of its mean by compressibility: the stiffer body's mass must not push the other. One q
@@ -56,74 +56,72 @@ def contact_viscosity(part, w):
     Writes   qr, qz, qt, qrz, rate [j, i] (1/s)
     Scratch  kinds [row, i]
     """
-    for j in range(w.parts[part], w.parts[part + 1]):
-        seeded = False
-        for i in range(w.contact_columns[j, 0], w.contact_columns[j, 1]):
-            rho = w.rhobar[j, i]
-            if w.hard[j, i] > 0.0 and w.soft[j, i] > 0.0:
-                rho = stiff_density(j, i, w.vof, w.q, w.km)
-            elif w.skin[KIND, j, i] == FREE_SURFACE and meeting(j, i, w.mesh_box, w.hard, w.soft):
-                w.skin[KIND, j, i] = INTERFACE
-            elif w.solid[j, i] > 1.0 - SEED and w.p[j, i] <= 0.0 and meeting(j, i, w.mesh_box, w.hard, w.soft) and come_apart(
-                    j, i, w):
-                for m in range(w.vof.shape[0]):
-                    if w.vof[m, j, i] > 0.0:
-                        w.vof[m, j, i] *= 1.0 - SEED
-                        w.q[RHO, m, j, i] /= 1.0 - SEED
-                w.solid[j, i] *= 1.0 - SEED
-                w.skin[KIND, j, i] = INTERFACE
-                seeded = True
-            h = w.dz[j]
-            volume = w.metrics[VOL_R, i] * h
-            loss = -volume_rate(j, i, -1, w.metrics, h, w.aperture_r, w.aperture_z, w.u, w.v) / volume
-            w.rate[j, i] = -loss
-            w.qr[j, i] = 0.0
-            w.qz[j, i] = 0.0
-            w.qt[j, i] = 0.0
-            w.qrz[j, i] = 0.0
-            if rho > 0.0:
-                shock = shut(w.solid[j, i])
-                c = w.bulk[j, i] / rho
-                c = sqrt(c) if c > 0.0 else w.cl[j, i]
-                slope_r = abs(w.line[HARD_R, j, i] + w.line[SOFT_R, j, i])
-                slope_z = abs(w.line[HARD_Z, j, i] + w.line[SOFT_Z, j, i])
-                steep = sqrt(slope_r * slope_r + slope_z * slope_z)
-                length = steep / (slope_r / w.dr[i] + slope_z / h) if steep > 0.0 else min(w.dr[i], h)
-                viscosity = shock * directional_viscosity(rho, c, -max(loss, 0.0) * length, 0.0, w.viscosity_linear,
-                                                         w.viscosity_quadratic)
-                w.qr[j, i] = viscosity
-                w.qz[j, i] = viscosity
-                w.qt[j, i] = viscosity
-                sound = sound_step(w.courant, min(w.dr[i], h), rho, w.cl[j, i], viscosity)
-                w.row_step[j] = min(w.row_step[j], min(sound, volume_step(loss)))
-        if seeded:
-            mixed_row(j, w.group_ranges[0, 0], w.kinds, j, w)
+    seeded = False
+    for i in range(w.contact_columns[j, 0], w.contact_columns[j, 1]):
+        rho = w.rhobar[j, i]
+        if w.hard[j, i] > 0.0 and w.soft[j, i] > 0.0:
+            rho = stiff_density(j, i, w.vof, w.q, w.km)
+        elif w.skin[KIND, j, i] == FREE_SURFACE and meeting(j, i, w.mesh_box, w.hard, w.soft):
+            w.skin[KIND, j, i] = INTERFACE
+        elif w.solid[j, i] > 1.0 - SEED and w.p[j, i] <= 0.0 and meeting(j, i, w.mesh_box, w.hard, w.soft) and come_apart(
+                j, i, w):
+            for m in range(w.vof.shape[0]):
+                if w.vof[m, j, i] > 0.0:
+                    w.vof[m, j, i] *= 1.0 - SEED
+                    w.q[RHO, m, j, i] /= 1.0 - SEED
+            w.solid[j, i] *= 1.0 - SEED
+            w.skin[KIND, j, i] = INTERFACE
+            seeded = True
+        h = w.dz[j]
+        volume = w.metrics[VOL_R, i] * h
+        loss = -volume_rate(j, i, -1, w.metrics, h, w.aperture_r, w.aperture_z, w.u, w.v) / volume
+        w.rate[j, i] = -loss
+        w.qr[j, i] = 0.0
+        w.qz[j, i] = 0.0
+        w.qt[j, i] = 0.0
+        w.qrz[j, i] = 0.0
+        if rho > 0.0:
+            shock = shut(w.solid[j, i])
+            c = w.bulk[j, i] / rho
+            c = sqrt(c) if c > 0.0 else w.cl[j, i]
+            slope_r = abs(w.line[HARD_R, j, i] + w.line[SOFT_R, j, i])
+            slope_z = abs(w.line[HARD_Z, j, i] + w.line[SOFT_Z, j, i])
+            steep = sqrt(slope_r * slope_r + slope_z * slope_z)
+            length = steep / (slope_r / w.dr[i] + slope_z / h) if steep > 0.0 else min(w.dr[i], h)
+            viscosity = shock * directional_viscosity(rho, c, -max(loss, 0.0) * length, 0.0, w.viscosity_linear,
+                                                     w.viscosity_quadratic)
+            w.qr[j, i] = viscosity
+            w.qz[j, i] = viscosity
+            w.qt[j, i] = viscosity
+            sound = sound_step(w.courant, min(w.dr[i], h), rho, w.cl[j, i], viscosity)
+            w.row_step[j] = min(w.row_step[j], min(sound, volume_step(loss)))
+    if seeded:
+        mixed_row(j, w.group_ranges[0, 0], w.kinds, j, w)
 
 
-@kernel
-def contact_stress(part, w):
+@cell_rows
+def contact_stress(j, w):
     """Pressure of contact-interface cells at half the step by their one rate of volume, and normal pressure of the contact.
 
     Reads    rate, p, bulk, solid, skin, hard, soft, sig_rz [j, i], line [10, j, i]
     Updates  ph, sig_rr, sig_zz, sig_tt [j, i];  writes contact_pressure [j, i], 0 where a cell does not hold both groups
     """
-    for j in range(w.parts[part], w.parts[part + 1]):
-        for i in range(w.group_ranges[1, 0, j, 0], w.group_ranges[1, 0, j, 1]):
-            w.contact_pressure[j, i] = 0.0
-        for i in range(w.contact_columns[j, 0], w.contact_columns[j, 1]):
-            if w.skin[KIND, j, i] == WHOLE:
-                pressure = w.p[j, i] - 0.5 * w.dt * w.bulk[j, i] * w.rate[j, i]
-            else:
-                pressure = cut_pressure(j, i, w.rate[j, i], w)
-            gain = pressure - w.ph[j, i]
-            w.ph[j, i] = pressure
-            w.sig_rr[j, i] -= gain
-            w.sig_zz[j, i] -= gain
-            w.sig_tt[j, i] -= gain
-            n_r, n_z = w.line[HARD_R, j, i] + w.line[SOFT_R, j, i], w.line[HARD_Z, j, i] + w.line[SOFT_Z, j, i]
-            steep = n_r * n_r + n_z * n_z
-            if w.hard[j, i] > 0.0 and w.soft[j, i] > 0.0 and steep > 0.0:
-                w.contact_pressure[j, i] = normal_pressure(j, i, n_r, n_z, w.sig_rr, w.sig_zz, w.sig_rz) / steep
+    for i in range(w.group_ranges[1, 0, j, 0], w.group_ranges[1, 0, j, 1]):
+        w.contact_pressure[j, i] = 0.0
+    for i in range(w.contact_columns[j, 0], w.contact_columns[j, 1]):
+        if w.skin[KIND, j, i] == WHOLE:
+            pressure = w.p[j, i] - 0.5 * w.dt * w.bulk[j, i] * w.rate[j, i]
+        else:
+            pressure = cut_pressure(j, i, w.rate[j, i], w)
+        gain = pressure - w.ph[j, i]
+        w.ph[j, i] = pressure
+        w.sig_rr[j, i] -= gain
+        w.sig_zz[j, i] -= gain
+        w.sig_tt[j, i] -= gain
+        n_r, n_z = w.line[HARD_R, j, i] + w.line[SOFT_R, j, i], w.line[HARD_Z, j, i] + w.line[SOFT_Z, j, i]
+        steep = n_r * n_r + n_z * n_z
+        if w.hard[j, i] > 0.0 and w.soft[j, i] > 0.0 and steep > 0.0:
+            w.contact_pressure[j, i] = normal_pressure(j, i, n_r, n_z, w.sig_rr, w.sig_zz, w.sig_rz) / steep
 
 
 @point
@@ -165,8 +163,8 @@ def corner_force(g, j, i, at_j, at_i, w):
     return force_r, force_z
 
 
-@kernel
-def contact_node_forces(part, w):
+@vertex_rows
+def contact_node_forces(j, w):
     """Velocities that the forces alone, of stresses and of sources, would give both groups at contact nodes.
 
     The pressure of a cell acts on each group by the apertures of the cell's faces, the deviators of a group act on it alone
@@ -176,52 +174,50 @@ def contact_node_forces(part, w):
              pushed [c, b, j, i], m/s, or nothing
     Writes   u, v [b, j, i], without what walls and the axis take; transfer[4, j], axial momentum given to walls
     """
-    for j in range(w.parts[part], past_row(part, w.parts, 1)):
-        w.transfer[4, j] = 0.0
-        for k in range(w.contact_node_count[j]):
-            i = w.contact_nodes[j, k]
-            ll, lr = w.ph[j - 1, i - 1] + w.qr[j - 1, i - 1], w.ph[j - 1, i] + w.qr[j - 1, i]
-            ul, ur = w.ph[j, i - 1] + w.qr[j, i - 1], w.ph[j, i] + w.qr[j, i]
-            for g in range(2):
-                below, above = w.aperture_r[1, j - 1, i], w.aperture_r[0, j, i]
-                left, right = w.aperture_z[1, j, i - 1], w.aperture_z[0, j, i]
-                if g == 0:
-                    below, above, left, right = 1.0 - below, 1.0 - above, 1.0 - left, 1.0 - right
-                force_r = 0.5 * w.metrics[FACE_R, i] * (below * w.dz[j - 1] * (ll - lr) + above * w.dz[j] * (ul - ur))
-                force_z = w.metrics[AZ_OUT, i - 1] * left * (ll - ul) + w.metrics[AZ_IN, i] * right * (lr - ur)
-                tied_r, tied_z = 0.0, 0.0
-                for row in range(j - 1, j + 1):
-                    for column in range(i - 1, i + 1):
-                        by_r, by_z = ties(row, column, w.dz[row], w)
-                        if by_r + by_z > 0.0 and holds(g, row, column, w.group, w.vof):
-                            tied_r += pull_of_ties(g, j, i, row, column, by_r, by_z, w.u0)
-                            tied_z += pull_of_ties(g, j, i, row, column, by_r, by_z, w.v0)
-                        more_r, more_z = corner_force(g, j, i, row, column, w)
-                        force_r += more_r
-                        force_z += more_z
-                w.u[g, j, i] = w.u0[g, j, i] + (w.dt * force_r + tied_r) / w.mass[g, j, i]
-                w.v[g, j, i] = w.v0[g, j, i] + (w.dt * force_z + tied_z) / w.mass[g, j, i]
-                if w.pushed.shape[0] > 0:
-                    w.u[g, j, i] += w.pushed[0, g, j, i]
-                    w.v[g, j, i] += w.pushed[1, g, j, i]
-                if i == w.constrained[0] or i == w.constrained[1]:
-                    w.u[g, j, i] = 0.0
-                if j == w.constrained[2] or j == w.constrained[3]:
-                    w.transfer[4, j] += w.mass[g, j, i] * w.v[g, j, i]
-                    w.v[g, j, i] = 0.0
+    w.transfer[4, j] = 0.0
+    for k in range(w.contact_node_count[j]):
+        i = w.contact_nodes[j, k]
+        ll, lr = w.ph[j - 1, i - 1] + w.qr[j - 1, i - 1], w.ph[j - 1, i] + w.qr[j - 1, i]
+        ul, ur = w.ph[j, i - 1] + w.qr[j, i - 1], w.ph[j, i] + w.qr[j, i]
+        for g in range(2):
+            below, above = w.aperture_r[1, j - 1, i], w.aperture_r[0, j, i]
+            left, right = w.aperture_z[1, j, i - 1], w.aperture_z[0, j, i]
+            if g == 0:
+                below, above, left, right = 1.0 - below, 1.0 - above, 1.0 - left, 1.0 - right
+            force_r = 0.5 * w.metrics[FACE_R, i] * (below * w.dz[j - 1] * (ll - lr) + above * w.dz[j] * (ul - ur))
+            force_z = w.metrics[AZ_OUT, i - 1] * left * (ll - ul) + w.metrics[AZ_IN, i] * right * (lr - ur)
+            tied_r, tied_z = 0.0, 0.0
+            for row in range(j - 1, j + 1):
+                for column in range(i - 1, i + 1):
+                    by_r, by_z = ties(row, column, w.dz[row], w)
+                    if by_r + by_z > 0.0 and holds(g, row, column, w.group, w.vof):
+                        tied_r += pull_of_ties(g, j, i, row, column, by_r, by_z, w.u0)
+                        tied_z += pull_of_ties(g, j, i, row, column, by_r, by_z, w.v0)
+                    more_r, more_z = corner_force(g, j, i, row, column, w)
+                    force_r += more_r
+                    force_z += more_z
+            w.u[g, j, i] = w.u0[g, j, i] + (w.dt * force_r + tied_r) / w.mass[g, j, i]
+            w.v[g, j, i] = w.v0[g, j, i] + (w.dt * force_z + tied_z) / w.mass[g, j, i]
+            if w.pushed.shape[0] > 0:
+                w.u[g, j, i] += w.pushed[0, g, j, i]
+                w.v[g, j, i] += w.pushed[1, g, j, i]
+            if i == w.constrained[0] or i == w.constrained[1]:
+                w.u[g, j, i] = 0.0
+            if j == w.constrained[2] or j == w.constrained[3]:
+                w.transfer[4, j] += w.mass[g, j, i] * w.v[g, j, i]
+                w.v[g, j, i] = 0.0
 
 
-@kernel
-def keep_one(part, w):
+@vertex_rows
+def keep_one(j, w):
     """Where one group has no mass its velocity is the other's, so that a vertex of one group has one velocity.
 
     Updates  u, v [b, j, i] around hard bodies
     """
-    for j in range(w.parts[part], past_row(part, w.parts, 1)):
-        for i in range(max(w.group_ranges[1, 1, j, 0], w.i0), min(w.group_ranges[1, 1, j, 1] + 1, w.i1 + 1)):
-            if w.mass[1, j, i] == 0.0:
-                w.u[1, j, i] = w.u[0, j, i]
-                w.v[1, j, i] = w.v[0, j, i]
-            elif w.mass[0, j, i] == 0.0:
-                w.u[0, j, i] = w.u[1, j, i]
-                w.v[0, j, i] = w.v[1, j, i]
+    for i in range(max(w.group_ranges[1, 1, j, 0], w.i0), min(w.group_ranges[1, 1, j, 1] + 1, w.i1 + 1)):
+        if w.mass[1, j, i] == 0.0:
+            w.u[1, j, i] = w.u[0, j, i]
+            w.v[1, j, i] = w.v[0, j, i]
+        elif w.mass[0, j, i] == 0.0:
+            w.u[0, j, i] = w.u[1, j, i]
+            w.v[0, j, i] = w.v[1, j, i]

@@ -3,7 +3,7 @@
 The faces are swept by both groups, each by its aperture (kernels/contact_geometry); a body flows with its group's velocity.
 """
 
-from hydro2d.jit import apart, kernel, point
+from hydro2d.jit import apart, cell_rows, kernel, point, vertex_rows
 from hydro2d.kernels.column_ranges import first_row, outer_rows, past_row, union
 from hydro2d.kernels.contact_geometry import HARD_FIRST, SOFT_AFTER
 from hydro2d.kernels.cut_cells import INTERFACE, KIND
@@ -18,29 +18,28 @@ from hydro2d.physics.traction import smoothstep
 OTHERS = 0.01
 
 
-@kernel
-def contact_swept_volumes(part, w):
+@vertex_rows
+def contact_swept_volumes(j, w):
     """Volumes swept in the step by the faces of contact-interface cells: by aperture, and by each group as if it were alone.
 
     Reads    u0, v0, u, v [b, j, i]
     Writes   fr, fz [j, i]; own_r, own_z [b, j, i]
     """
     j0, j1 = outer_rows(w.parts)
-    for j in range(w.parts[part], past_row(part, w.parts, 1)):
-        if j < j1:
-            for i in range(w.contact_columns[j, 0], w.contact_columns[j, 1] + 1):
-                scale = 0.25 * w.dt * w.metrics[FACE_R, i] * w.dz[j]
-                w.fr[j, i] = w.even_r[j, i] + scale * (face_flow_r(j, i, -1, w.aperture_r, w.u) + face_flow_r(j, i, -1, w.aperture_r, w.u0))
-                for g in range(2):
-                    w.own_r[g, j, i] = w.even_r[j, i] + scale * (face_flow_r(j, i, g, w.aperture_r, w.u) + face_flow_r(
-                        j, i, g, w.aperture_r, w.u0))
-        lo, hi = union(w.contact_columns, max(j - 1, j0), min(j + 1, j1))
-        for i in range(lo, hi):
-            w.fz[j, i] = w.even_z[j, i] + 0.5 * w.dt * (face_flow_z(j, i, -1, w.metrics, w.aperture_z, w.v) + face_flow_z(
-                j, i, -1, w.metrics, w.aperture_z, w.v0))
+    if j < j1:
+        for i in range(w.contact_columns[j, 0], w.contact_columns[j, 1] + 1):
+            scale = 0.25 * w.dt * w.metrics[FACE_R, i] * w.dz[j]
+            w.fr[j, i] = w.even_r[j, i] + scale * (face_flow_r(j, i, -1, w.aperture_r, w.u) + face_flow_r(j, i, -1, w.aperture_r, w.u0))
             for g in range(2):
-                w.own_z[g, j, i] = w.even_z[j, i] + 0.5 * w.dt * (face_flow_z(j, i, g, w.metrics, w.aperture_z, w.v) + face_flow_z(
-                    j, i, g, w.metrics, w.aperture_z, w.v0))
+                w.own_r[g, j, i] = w.even_r[j, i] + scale * (face_flow_r(j, i, g, w.aperture_r, w.u) + face_flow_r(
+                    j, i, g, w.aperture_r, w.u0))
+    lo, hi = union(w.contact_columns, max(j - 1, j0), min(j + 1, j1))
+    for i in range(lo, hi):
+        w.fz[j, i] = w.even_z[j, i] + 0.5 * w.dt * (face_flow_z(j, i, -1, w.metrics, w.aperture_z, w.v) + face_flow_z(
+            j, i, -1, w.metrics, w.aperture_z, w.v0))
+        for g in range(2):
+            w.own_z[g, j, i] = w.even_z[j, i] + 0.5 * w.dt * (face_flow_z(j, i, g, w.metrics, w.aperture_z, w.v) + face_flow_z(
+                j, i, g, w.metrics, w.aperture_z, w.v0))
 
 
 #: share of a difference of p_c between two neighbouring cells of the surface that evens out in a step
@@ -59,8 +58,8 @@ def evening_volume(j, i, row, column, w):
     return EVENING * give * ((w.ph[j, i] + w.qr[j, i]) - (w.ph[row, column] + w.qr[row, column]))
 
 
-@kernel
-def even_out(part, w):
+@vertex_rows
+def even_out(j, w):
     """Volumes that even out p_c along the surface.
 
     A pressure that is constant in every cell of the surface, while velocities are linear, has a pattern (up and down from cell
@@ -70,48 +69,46 @@ def even_out(part, w):
     Writes   even_r, even_z [j, i]
     """
     j0, j1 = outer_rows(w.parts)
-    for j in range(w.parts[part], past_row(part, w.parts, 1)):
-        if j < j1:
-            for i in range(w.contact_columns[j, 0], w.contact_columns[j, 1] + 1):
-                inside = w.contact_columns[j, 0] < i < w.contact_columns[j, 1]
-                w.even_r[j, i] = evening_volume(j, i - 1, j, i, w) if inside else 0.0
-        lo, hi = union(w.contact_columns, max(j - 1, j0), min(j + 1, j1))
-        for i in range(lo, hi):
-            inside = j0 < j < j1 and w.contact_columns[j - 1, 0] <= i < w.contact_columns[j - 1, 1] and (
-                w.contact_columns[j, 0] <= i < w.contact_columns[j, 1])
-            w.even_z[j, i] = evening_volume(j - 1, i, j, i, w) if inside else 0.0
+    if j < j1:
+        for i in range(w.contact_columns[j, 0], w.contact_columns[j, 1] + 1):
+            inside = w.contact_columns[j, 0] < i < w.contact_columns[j, 1]
+            w.even_r[j, i] = evening_volume(j, i - 1, j, i, w) if inside else 0.0
+    lo, hi = union(w.contact_columns, max(j - 1, j0), min(j + 1, j1))
+    for i in range(lo, hi):
+        inside = j0 < j < j1 and w.contact_columns[j - 1, 0] <= i < w.contact_columns[j - 1, 1] and (
+            w.contact_columns[j, 0] <= i < w.contact_columns[j, 1])
+        w.even_z[j, i] = evening_volume(j - 1, i, j, i, w) if inside else 0.0
 
 
-@kernel
-def warm_evened(part, w):
+@cell_rows
+def warm_evened(j, w):
     """Gives the work that is lost as p_c evens out, half to either cell, to the bodies by mass.
 
     Updates  q (e) [k, m, j, i]
     """
-    for j in range(w.parts[part], w.parts[part + 1]):
-        for i in range(w.contact_columns[j, 0], w.contact_columns[j, 1]):
-            here = w.ph[j, i] + w.qr[j, i]
-            made = 0.0
-            if w.even_r[j, i] != 0.0:
-                made += w.even_r[j, i] * (w.ph[j, i - 1] + w.qr[j, i - 1] - here)
-            if w.even_r[j, i + 1] != 0.0:
-                made += w.even_r[j, i + 1] * (here - w.ph[j, i + 1] - w.qr[j, i + 1])
-            if w.even_z[j, i] != 0.0:
-                made += w.even_z[j, i] * (w.ph[j - 1, i] + w.qr[j - 1, i] - here)
-            if w.even_z[j + 1, i] != 0.0:
-                made += w.even_z[j + 1, i] * (here - w.ph[j + 1, i] - w.qr[j + 1, i])
-            if made == 0.0:
-                continue
-            mass = 0.0
-            for m in range(w.vof.shape[0]):
-                mass += w.vof[m, j, i] * w.q[RHO, m, j, i] * w.volume[j, i] if w.vof[m, j, i] > 0.0 else 0.0
-            for m in range(w.vof.shape[0]):
-                if w.vof[m, j, i] > 0.0:
-                    w.q[E, m, j, i] += 0.5 * made / mass
+    for i in range(w.contact_columns[j, 0], w.contact_columns[j, 1]):
+        here = w.ph[j, i] + w.qr[j, i]
+        made = 0.0
+        if w.even_r[j, i] != 0.0:
+            made += w.even_r[j, i] * (w.ph[j, i - 1] + w.qr[j, i - 1] - here)
+        if w.even_r[j, i + 1] != 0.0:
+            made += w.even_r[j, i + 1] * (here - w.ph[j, i + 1] - w.qr[j, i + 1])
+        if w.even_z[j, i] != 0.0:
+            made += w.even_z[j, i] * (w.ph[j - 1, i] + w.qr[j - 1, i] - here)
+        if w.even_z[j + 1, i] != 0.0:
+            made += w.even_z[j + 1, i] * (here - w.ph[j + 1, i] - w.qr[j + 1, i])
+        if made == 0.0:
+            continue
+        mass = 0.0
+        for m in range(w.vof.shape[0]):
+            mass += w.vof[m, j, i] * w.q[RHO, m, j, i] * w.volume[j, i] if w.vof[m, j, i] > 0.0 else 0.0
+        for m in range(w.vof.shape[0]):
+            if w.vof[m, j, i] > 0.0:
+                w.q[E, m, j, i] += 0.5 * made / mass
 
 
-@kernel
-def contact_work(part, w):
+@cell_rows
+def contact_work(j, w):
     """Pressure work in the pure ones among contact-interface cells: by the volume that they lose, not by their group's own.
 
     `deform` does the work of the group's own rate of volume; this is what is missing.
@@ -119,15 +116,14 @@ def contact_work(part, w):
     Reads    ph, qr [j, i], velocities, fr, fz [j, i], cell_mass [b, j, i]
     Updates  q (e) [k, m, j, i]
     """
-    for j in range(w.parts[part], w.parts[part + 1]):
-        for i in range(w.contact_columns[j, 0], w.contact_columns[j, 1]):
-            for m in range(w.vof.shape[0]):
-                if w.vof[m, j, i] == 1.0:
-                    g = w.group[m]
-                    own = 0.5 * w.dt * (volume_rate(j, i, g, w.metrics, w.dz[j], w.aperture_r, w.aperture_z, w.u, w.v) + volume_rate(j, i, g,
-                                      w.metrics, w.dz[j], w.aperture_r, w.aperture_z, w.u0, w.v0))
-                    change = (w.fr[j, i + 1] - w.fr[j, i]) + (w.fz[j + 1, i] - w.fz[j, i])
-                    w.q[E, m, j, i] -= (w.ph[j, i] + w.qr[j, i]) * (change - own) / w.cell_mass[g, j, i]
+    for i in range(w.contact_columns[j, 0], w.contact_columns[j, 1]):
+        for m in range(w.vof.shape[0]):
+            if w.vof[m, j, i] == 1.0:
+                g = w.group[m]
+                own = 0.5 * w.dt * (volume_rate(j, i, g, w.metrics, w.dz[j], w.aperture_r, w.aperture_z, w.u, w.v) + volume_rate(j, i, g,
+                                  w.metrics, w.dz[j], w.aperture_r, w.aperture_z, w.u0, w.v0))
+                change = (w.fr[j, i + 1] - w.fr[j, i]) + (w.fz[j + 1, i] - w.fz[j, i])
+                w.q[E, m, j, i] -= (w.ph[j, i] + w.qr[j, i]) * (change - own) / w.cell_mass[g, j, i]
 
 
 @kernel
@@ -266,23 +262,22 @@ def contact_fluxes(part, w):
                 take(1, left, j, i, w)
 
 
-@kernel
-def limit_fluxes(part, w):
+@cell_rows
+def limit_fluxes(j, w):
     """No cell gives more of a body through both of its faces than it has.
 
     Reads    pre [j, i], vof [m, j, i]
     Updates  flux_volume [m, j, i] of the faces around contact-interface cells
     """
     j0, j1 = outer_rows(w.parts)
-    for j in range(w.parts[part], w.parts[part + 1]):
-        lo, hi = union(w.contact_columns, max(j - w.dj, j0), min(j + w.dj + 1, j1))
-        for i in range(max(lo - w.di, w.mesh_box[2]), min(hi + w.di, w.mesh_box[3])):
-            for m in range(w.vof.shape[0]):
-                low, high = max(-w.flux_volume[m, j, i], 0.0), max(w.flux_volume[m, j + w.dj, i + w.di], 0.0)
-                there = w.vof[m, j, i] * w.pre[j, i]
-                if low + high > there and w.vof[m, j, i] > 0.0:
-                    keep = there / (low + high)
-                    if low > 0.0:
-                        w.flux_volume[m, j, i] = -keep * low
-                    if high > 0.0:
-                        w.flux_volume[m, j + w.dj, i + w.di] = keep * high
+    lo, hi = union(w.contact_columns, max(j - w.dj, j0), min(j + w.dj + 1, j1))
+    for i in range(max(lo - w.di, w.mesh_box[2]), min(hi + w.di, w.mesh_box[3])):
+        for m in range(w.vof.shape[0]):
+            low, high = max(-w.flux_volume[m, j, i], 0.0), max(w.flux_volume[m, j + w.dj, i + w.di], 0.0)
+            there = w.vof[m, j, i] * w.pre[j, i]
+            if low + high > there and w.vof[m, j, i] > 0.0:
+                keep = there / (low + high)
+                if low > 0.0:
+                    w.flux_volume[m, j, i] = -keep * low
+                if high > 0.0:
+                    w.flux_volume[m, j + w.dj, i + w.di] = keep * high

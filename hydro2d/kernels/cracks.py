@@ -2,7 +2,7 @@
 
 from eos.cracked import CRACKS as WIDTH
 from eos.cracked import GROWTH, opened, solid_share
-from hydro2d.jit import kernel, point
+from hydro2d.jit import cell_rows, point
 from hydro2d.kernels.column_ranges import columns
 from hydro2d.materials.rows import CRACKS, DAMAGE, DAMAGE_AT, EOS_AT, MEMORY, TENSILE
 from hydro2d.mesh.fields import CRUSHED, DMG, FAILED, RHO, SRR, SRZ, SZZ, E
@@ -41,37 +41,36 @@ def part_cell(m, j, i, row, vof, q):
     release(m, j, i, q)
 
 
-@kernel
-def open_cracks(part, w):
+@cell_rows
+def open_cracks(j, w):
     """Opens cracks where the tension is more than damaged material bears, and makes void of them where it has failed.
 
     Where they open, the deviator becomes zero. explanation/fracture, (9)
 
     Updates  vof [m, j, i]; q (crack volume and growth, deviators; where material has failed density, damage) [k, m, j, i]
     """
-    for j in range(w.parts[part], w.parts[part + 1]):
-        for m in range(w.vof.shape[0]):
-            model, row = w.models[m, DAMAGE], w.models[m, MEMORY]
-            if model not in OPENS_CRACKS:
-                continue
-            par = w.materials[m, EOS_AT:]
-            damage_par = w.materials[m, DAMAGE_AT:TENSILE]
-            tension = w.materials[m, CRACKS]
-            first, n = columns(w.body_range[m, j, 0], w.body_range[m, j, 1])
-            for x in range(n):
-                i = first + x
-                if w.vof[m, j, i] > 0.0:
-                    damage, cracks, rho = w.q[DMG, m, j, i], w.q[row + WIDTH, m, j, i], w.q[RHO, m, j, i]
-                    limit = tension * tension_left(model, damage, damage_par) if damage < 1.0 else 0.0
-                    wide = opened(rho, w.q[E, m, j, i], limit, cracks, par)
-                    w.q[row + WIDTH, m, j, i] = wide
-                    w.q[row + GROWTH, m, j, i] = 0.0
-                    if wide > cracks:
-                        w.q[row + GROWTH, m, j, i] = 1.0
-                        release(m, j, i, w.q)
-                    if damage >= 1.0 or wide * rho >= JOINED:
-                        w.q[DMG, m, j, i] = max(damage, FAILED)
-                        part_cell(m, j, i, row, w.vof, w.q)
+    for m in range(w.vof.shape[0]):
+        model, row = w.models[m, DAMAGE], w.models[m, MEMORY]
+        if model not in OPENS_CRACKS:
+            continue
+        par = w.materials[m, EOS_AT:]
+        damage_par = w.materials[m, DAMAGE_AT:TENSILE]
+        tension = w.materials[m, CRACKS]
+        first, n = columns(w.body_range[m, j, 0], w.body_range[m, j, 1])
+        for x in range(n):
+            i = first + x
+            if w.vof[m, j, i] > 0.0:
+                damage, cracks, rho = w.q[DMG, m, j, i], w.q[row + WIDTH, m, j, i], w.q[RHO, m, j, i]
+                limit = tension * tension_left(model, damage, damage_par) if damage < 1.0 else 0.0
+                wide = opened(rho, w.q[E, m, j, i], limit, cracks, par)
+                w.q[row + WIDTH, m, j, i] = wide
+                w.q[row + GROWTH, m, j, i] = 0.0
+                if wide > cracks:
+                    w.q[row + GROWTH, m, j, i] = 1.0
+                    release(m, j, i, w.q)
+                if damage >= 1.0 or wide * rho >= JOINED:
+                    w.q[DMG, m, j, i] = max(damage, FAILED)
+                    part_cell(m, j, i, row, w.vof, w.q)
 
 
 @point
@@ -91,8 +90,8 @@ def across(m, j, i, row, dj, di, reach, w):
     return opening, own >= widest
 
 
-@kernel
-def damage_by_cracks(part, w):
+@cell_rows
+def damage_by_cracks(j, w):
     """The damage of the cells in which cracks have opened: their volume per area, across the cell and its neighbours.
 
     The crack lies across the direction in which the cell stretches faster. Where it is fully open, the cell that has most of it
@@ -101,22 +100,21 @@ def damage_by_cracks(part, w):
     Reads    u, v [b, j, i]; vof [m, j, i]; q (density, crack volume and growth) [k, m, j, i]
     Updates  q (damage) [k, m, j, i]
     """
-    for j in range(w.parts[part], w.parts[part + 1]):
-        for m in range(w.vof.shape[0]):
-            model, row, g = w.models[m, DAMAGE], w.models[m, MEMORY], w.group[m]
-            if model not in OPENS_CRACKS:
-                continue
-            full = full_opening(model, w.materials[m, DAMAGE_AT:TENSILE])
-            first, n = columns(w.body_range[m, j, 0], w.body_range[m, j, 1])
-            for x in range(n):
-                i = first + x
-                if w.vof[m, j, i] > 0.0 and w.q[row + GROWTH, m, j, i] > 0.5 and w.q[DMG, m, j, i] < 1.0:
-                    stretch_r = ((w.u[g, j, i + 1] - w.u[g, j, i]) + (w.u[g, j + 1, i + 1] - w.u[g, j + 1, i])) / w.dr[i]
-                    stretch_z = ((w.v[g, j + 1, i] - w.v[g, j, i]) + (w.v[g, j + 1, i + 1] - w.v[g, j, i + 1])) / w.dz[j]
-                    dj = 1 if stretch_z >= stretch_r else 0
-                    reach = max(int(OPENINGS * full / (w.dz[j] if dj == 1 else w.dr[i])), REACH)
-                    opening, most = across(m, j, i, row, dj, 1 - dj, reach, w)
-                    damage = max(w.q[DMG, m, j, i], opening / full)
-                    if damage >= 1.0:
-                        damage = FAILED if most else CRUSHED
-                    w.q[DMG, m, j, i] = damage
+    for m in range(w.vof.shape[0]):
+        model, row, g = w.models[m, DAMAGE], w.models[m, MEMORY], w.group[m]
+        if model not in OPENS_CRACKS:
+            continue
+        full = full_opening(model, w.materials[m, DAMAGE_AT:TENSILE])
+        first, n = columns(w.body_range[m, j, 0], w.body_range[m, j, 1])
+        for x in range(n):
+            i = first + x
+            if w.vof[m, j, i] > 0.0 and w.q[row + GROWTH, m, j, i] > 0.5 and w.q[DMG, m, j, i] < 1.0:
+                stretch_r = ((w.u[g, j, i + 1] - w.u[g, j, i]) + (w.u[g, j + 1, i + 1] - w.u[g, j + 1, i])) / w.dr[i]
+                stretch_z = ((w.v[g, j + 1, i] - w.v[g, j, i]) + (w.v[g, j + 1, i + 1] - w.v[g, j, i + 1])) / w.dz[j]
+                dj = 1 if stretch_z >= stretch_r else 0
+                reach = max(int(OPENINGS * full / (w.dz[j] if dj == 1 else w.dr[i])), REACH)
+                opening, most = across(m, j, i, row, dj, 1 - dj, reach, w)
+                damage = max(w.q[DMG, m, j, i], opening / full)
+                if damage >= 1.0:
+                    damage = FAILED if most else CRUSHED
+                w.q[DMG, m, j, i] = damage

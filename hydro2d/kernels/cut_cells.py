@@ -6,7 +6,7 @@ Every body of a cut cell has the normal stress -p_c, and the strain across the s
 
 from math import sqrt
 
-from hydro2d.jit import apart, kernel, point
+from hydro2d.jit import apart, cell_rows, point
 from hydro2d.kernels.mixed_scratch import ACROSS, ALONG, BESIDE, FLOW, GROWTH, HEAT, MODULUS, NORMAL, SIZE
 from hydro2d.mesh.fields import RHO, SRR, SRZ, SZZ, E
 from hydro2d.mesh.grid import CM_IN, CM_OUT, VOL_R
@@ -80,8 +80,8 @@ def normal_deviator(m, j, i, skin, q):
     return along_normal(skin[NORMAL_R, j, i], skin[NORMAL_Z, j, i], q[SRR, m, j, i], q[SZZ, m, j, i], q[SRZ, m, j, i])
 
 
-@kernel
-def find_surfaces(part, w):
+@cell_rows
+def find_surfaces(j, w):
     """Normals of the surfaces in mixed cells, with the square root of their weight as length.
 
     The normal is Youngs', of the hard group's fraction less the soft one's where a cell holds both, else of its one group
@@ -93,53 +93,52 @@ def find_surfaces(part, w):
     Writes   skin [3, j, i]
     """
     bodies = w.vof.shape[0]
-    for j in range(w.parts[part], w.parts[part + 1]):
-        for i in range(w.i0, w.i1):
-            w.skin[NORMAL_R, j, i] = 0.0
-            w.skin[NORMAL_Z, j, i] = 0.0
-            w.skin[KIND, j, i] = WHOLE
-        below, above = max(j - 1, w.mesh_box[0]), min(j + 1, w.mesh_box[1] - 1)
-        for k in range(w.mixed_count[j]):
-            i = w.mixed[j, k]
-            left, right = max(i - 1, w.mesh_box[2]), min(i + 1, w.mesh_box[3] - 1)
-            own, other, zone = 0.0, 0.0, False
-            for m in range(bodies):
-                if w.vof[m, j, i] > 0.0:
-                    own += w.vof[m, j, i] if w.group[m] == 1 else 0.0
-                    other += w.vof[m, j, i] if w.group[m] != 1 else 0.0
-                    zone = zone or (w.hard_bodies[m] and w.vof[m, j, i] >= w.hard_threshold)
-            void = 1.0 - (own + other)
-            meet, full = own > 0.0 and other > 0.0, void <= NO_VOID
-            if own + other == 0.0 or (full and not meet and (zone or not w.tipton or not joins_solids(j, i, w.strong, w.vof))):
-                continue
-            joint, first, gas = full and not meet, most_of(j, i, w.vof), is_beside_gas(j, i, w.gases, w.vof)
-            w.skin[KIND, j, i] = INTERFACE if meet else FREE_SURFACE
+    for i in range(w.i0, w.i1):
+        w.skin[NORMAL_R, j, i] = 0.0
+        w.skin[NORMAL_Z, j, i] = 0.0
+        w.skin[KIND, j, i] = WHOLE
+    below, above = max(j - 1, w.mesh_box[0]), min(j + 1, w.mesh_box[1] - 1)
+    for k in range(w.mixed_count[j]):
+        i = w.mixed[j, k]
+        left, right = max(i - 1, w.mesh_box[2]), min(i + 1, w.mesh_box[3] - 1)
+        own, other, zone = 0.0, 0.0, False
+        for m in range(bodies):
+            if w.vof[m, j, i] > 0.0:
+                own += w.vof[m, j, i] if w.group[m] == 1 else 0.0
+                other += w.vof[m, j, i] if w.group[m] != 1 else 0.0
+                zone = zone or (w.hard_bodies[m] and w.vof[m, j, i] >= w.hard_threshold)
+        void = 1.0 - (own + other)
+        meet, full = own > 0.0 and other > 0.0, void <= NO_VOID
+        if own + other == 0.0 or (full and not meet and (zone or not w.tipton or not joins_solids(j, i, w.strong, w.vof))):
+            continue
+        joint, first, gas = full and not meet, most_of(j, i, w.vof), is_beside_gas(j, i, w.gases, w.vof)
+        w.skin[KIND, j, i] = INTERFACE if meet else FREE_SURFACE
+        if joint:
+            w.skin[KIND, j, i] = BESIDE_GAS if gas else JOINT
+        if zone:
+            continue
+        sw, south, se, west, east, nw, north, ne = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+        for m in range(bodies):
+            of_hard = w.group[m] == 1
+            sign = 1.0 if of_hard == (own > 0.0) else (-1.0 if meet else 0.0)
             if joint:
-                w.skin[KIND, j, i] = BESIDE_GAS if gas else JOINT
-            if zone:
-                continue
-            sw, south, se, west, east, nw, north, ne = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
-            for m in range(bodies):
-                of_hard = w.group[m] == 1
-                sign = 1.0 if of_hard == (own > 0.0) else (-1.0 if meet else 0.0)
-                if joint:
-                    sign = side_of_joint(m, j, i, first, gas, w.gases, w.vof)
-                sw += sign * w.vof[m, below, left]
-                south += sign * w.vof[m, below, i]
-                se += sign * w.vof[m, below, right]
-                west += sign * w.vof[m, j, left]
-                east += sign * w.vof[m, j, right]
-                nw += sign * w.vof[m, above, left]
-                north += sign * w.vof[m, above, i]
-                ne += sign * w.vof[m, above, right]
-            n_r, n_z = youngs_gradient(j, i, sw, south, se, west, east, nw, north, ne, w.dr, w.dz)
-            weight = smoothstep(0.25 * sqrt(n_r * n_r + n_z * n_z) / STEEP)
-            n_r /= w.dr[i]
-            n_z /= w.dz[j]
-            size = sqrt(n_r * n_r + n_z * n_z)
-            if size > 0.0:
-                w.skin[NORMAL_R, j, i] = n_r / size * sqrt(weight)
-                w.skin[NORMAL_Z, j, i] = n_z / size * sqrt(weight)
+                sign = side_of_joint(m, j, i, first, gas, w.gases, w.vof)
+            sw += sign * w.vof[m, below, left]
+            south += sign * w.vof[m, below, i]
+            se += sign * w.vof[m, below, right]
+            west += sign * w.vof[m, j, left]
+            east += sign * w.vof[m, j, right]
+            nw += sign * w.vof[m, above, left]
+            north += sign * w.vof[m, above, i]
+            ne += sign * w.vof[m, above, right]
+        n_r, n_z = youngs_gradient(j, i, sw, south, se, west, east, nw, north, ne, w.dr, w.dz)
+        weight = smoothstep(0.25 * sqrt(n_r * n_r + n_z * n_z) / STEEP)
+        n_r /= w.dr[i]
+        n_z /= w.dz[j]
+        size = sqrt(n_r * n_r + n_z * n_z)
+        if size > 0.0:
+            w.skin[NORMAL_R, j, i] = n_r / size * sqrt(weight)
+            w.skin[NORMAL_Z, j, i] = n_z / size * sqrt(weight)
 
 
 @point

@@ -1,7 +1,7 @@
 """The rest of the Lagrangian step in pure cells: work, volume, rotation and strain of the deviators, radial return."""
 
 
-from hydro2d.jit import kernel, rowwise
+from hydro2d.jit import cell_rows, rowwise
 from hydro2d.kernels.column_ranges import columns
 from hydro2d.kernels.plastic_return import flow, return_to_surface
 from hydro2d.materials.rows import CUTOFF_DENSITY, DAMAGE_AT, EOS_AT, FACTOR, MELTING_AT, STRENGTH, STRENGTH_AT
@@ -190,8 +190,8 @@ def expand_row(m, j, b, first, n, h, w):
         srz_j[i] = 0.0 if gone else srz_j[i]
 
 
-@kernel
-def deform(part, w):
+@cell_rows
+def deform(j, part, w):
     """Energy, density, deviator, plastic strain and damage of every body in the cells that it fills, over one Lagrangian step.
 
     de = V dt sigma : D(u mid-step) / m, the work of the same corner forces that moved the vertices; rho V is constant;
@@ -202,17 +202,16 @@ def deform(part, w):
     Updates  q [k, m, j, i]
     Scratch  scratch [s, part, i], shear modulus, trial stress and spin; internal [j, k]; lanes [part, k]
     """
-    for j in range(w.parts[part], w.parts[part + 1]):
-        h = w.dz[j]
-        for m in range(w.vof.shape[0]):
-            model = w.models[m, STRENGTH]
-            par = w.materials[m, STRENGTH_AT:DAMAGE_AT]
-            first, n = columns(w.body_range[m, j, 0], w.body_range[m, j, 1])
-            modulus_row(model, par, first, n, w.pm[m, j], w.q[RHO, m, j], w.tm[m, j], w.scratch[0, part])
-            end_at_melt(w.materials[m, MELTING_AT:EOS_AT], first, n, w.q[RHO, m, j], w.tm[m, j], w.scratch[0, part])
-            strain_row(m, j, part, w.group[m], first, n, h, w.materials[m, CUTOFF_DENSITY], w)
-            if model in WITH_INTERNAL or model in WEAKENS:
-                internal_row(m, j, part, first, n, w)
-            elif model > 0:
-                yield_row(m, j, part, first, n, w)
-            expand_row(m, j, part, first, n, h, w)
+    h = w.dz[j]
+    for m in range(w.vof.shape[0]):
+        model = w.models[m, STRENGTH]
+        par = w.materials[m, STRENGTH_AT:DAMAGE_AT]
+        first, n = columns(w.body_range[m, j, 0], w.body_range[m, j, 1])
+        modulus_row(model, par, first, n, w.pm[m, j], w.q[RHO, m, j], w.tm[m, j], w.scratch[0, part])
+        end_at_melt(w.materials[m, MELTING_AT:EOS_AT], first, n, w.q[RHO, m, j], w.tm[m, j], w.scratch[0, part])
+        strain_row(m, j, part, w.group[m], first, n, h, w.materials[m, CUTOFF_DENSITY], w)
+        if model in WITH_INTERNAL or model in WEAKENS:
+            internal_row(m, j, part, first, n, w)
+        elif model > 0:
+            yield_row(m, j, part, first, n, w)
+        expand_row(m, j, part, first, n, h, w)

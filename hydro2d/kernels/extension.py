@@ -7,7 +7,7 @@ tie fades in as the share falls from SURE to UNDERFILLED, and a cell counts by h
 
 from math import sqrt
 
-from hydro2d.jit import apart, kernel, point
+from hydro2d.jit import apart, kernel, point, vertex_rows
 from hydro2d.kernels.column_ranges import NOTHING, first_row, outer_rows, past_row
 from hydro2d.kernels.contact_geometry import REACH
 from hydro2d.physics.contact import dual_share
@@ -157,8 +157,8 @@ def tied_weight(x, g, w):
     return w.weights[x, g, last] if last >= 0 and w.where[x, g, last] == TIED else 0.0
 
 
-@kernel
-def find_extensions(part, w):
+@vertex_rows
+def find_extensions(j, w):
     """Which contact nodes are slaves, how firmly they are tied, and to what.
 
     To the mean of the linear fields of cells that most_squares allows; where there are none (or hardly any, ENOUGH), of cells
@@ -171,33 +171,32 @@ def find_extensions(part, w):
     Writes   strength [x, b], 0 for a node that moves by itself to 1; masters [x, b], how many; where [x, b, n], their places
              SPAN (dj + REACH) + (di + REACH), or TIED; weights [x, b, n], which add up to 1
     """
-    for j in range(w.parts[part], past_row(part, w.parts, 1)):
-        for k in range(w.contact_node_count[j]):
-            i, x = w.contact_nodes[j, k], w.first_slot[j] + k
-            for g in range(2):
-                w.masters[x, g] = 0
-                w.strength[x, g] = 1.0 - sureness(w.filled[g, j, i])
-                if w.strength[x, g] == 0.0:
-                    continue
-                for n in range(MASTERS + 1):
-                    w.weights[x, g, n] = 0.0
-                sign = 1.0 if g == 0 else -1.0
-                inward_r, inward_z = sign * w.contact_normal[0, 0, j, i], sign * w.contact_normal[0, 1, j, i]
-                reach = REACH - 1 if in_debris(g, j, i, w) else REACH
-                left = 1.0 - extend_cells(x, g, j, i, reach, inward_r, inward_z, 0.0, w.most_squares, 1.0, w)
-                if left > 0.0:
-                    left *= 1.0 - extend_cells(x, g, j, i, reach, inward_r, inward_z, w.most_squares, 1e300, left, w)
-                if left > 0.0:
-                    used = extend_vertices(x, g, j, i, reach - 1, inward_r, inward_z, left, w)
-                    w.weights[x, g, TIED] = left * (1.0 - used)
-                found = 0
-                for n in range(MASTERS + 1):
-                    weight = w.weights[x, g, n]
-                    if weight != 0.0:
-                        w.where[x, g, found] = n
-                        w.weights[x, g, found] = weight
-                        found += 1
-                w.masters[x, g] = found
-            slack = SLACK * tied_weight(x, 0, w) * tied_weight(x, 1, w)
-            for g in range(2):
-                w.strength[x, g] *= 1.0 - slack
+    for k in range(w.contact_node_count[j]):
+        i, x = w.contact_nodes[j, k], w.first_slot[j] + k
+        for g in range(2):
+            w.masters[x, g] = 0
+            w.strength[x, g] = 1.0 - sureness(w.filled[g, j, i])
+            if w.strength[x, g] == 0.0:
+                continue
+            for n in range(MASTERS + 1):
+                w.weights[x, g, n] = 0.0
+            sign = 1.0 if g == 0 else -1.0
+            inward_r, inward_z = sign * w.contact_normal[0, 0, j, i], sign * w.contact_normal[0, 1, j, i]
+            reach = REACH - 1 if in_debris(g, j, i, w) else REACH
+            left = 1.0 - extend_cells(x, g, j, i, reach, inward_r, inward_z, 0.0, w.most_squares, 1.0, w)
+            if left > 0.0:
+                left *= 1.0 - extend_cells(x, g, j, i, reach, inward_r, inward_z, w.most_squares, 1e300, left, w)
+            if left > 0.0:
+                used = extend_vertices(x, g, j, i, reach - 1, inward_r, inward_z, left, w)
+                w.weights[x, g, TIED] = left * (1.0 - used)
+            found = 0
+            for n in range(MASTERS + 1):
+                weight = w.weights[x, g, n]
+                if weight != 0.0:
+                    w.where[x, g, found] = n
+                    w.weights[x, g, found] = weight
+                    found += 1
+            w.masters[x, g] = found
+        slack = SLACK * tied_weight(x, 0, w) * tied_weight(x, 1, w)
+        for g in range(2):
+            w.strength[x, g] *= 1.0 - slack

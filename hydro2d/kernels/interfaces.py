@@ -6,7 +6,7 @@ stated order bounds their cumulative fraction, void comes last.
 """
 
 
-from hydro2d.jit import apart, kernel, point, rowwise
+from hydro2d.jit import apart, cell_rows, kernel, point, rowwise
 from hydro2d.kernels.column_ranges import columns, outer_rows, past_row
 from hydro2d.physics.centroids import beside, box_piece, forms, goes_on, piece, placed, within
 from hydro2d.physics.interfaces import add_body, at_most_full, cumulative, nested, surface
@@ -376,8 +376,7 @@ def donor_volumes(part, w):
             donor_volumes_row(j, w.fz, w)
 
 
-@kernel
-def interface_volumes(part, w):
+@cell_rows
+def interface_volumes(j, w):
     """interface_volumes_row for rows j0 to j1."""
-    for j in range(w.parts[part], w.parts[part + 1]):
-        interface_volumes_row(j, w)
+    interface_volumes_row(j, w)

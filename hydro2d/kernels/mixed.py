@@ -1,7 +1,7 @@
 """Cells in which bodies meet each other or void: void insertion, closure of pressure and volume, shared strength."""
 
 from eos.dispatch import evaluate, zero_pressure_density
-from hydro2d.jit import kernel, point, rowwise
+from hydro2d.jit import cell_rows, point, rowwise
 from hydro2d.kernels.centroids import push_bodies
 from hydro2d.kernels.column_ranges import mixed_row
 from hydro2d.kernels.cut_cells import (
@@ -112,8 +112,8 @@ def insert_void_mixed_row(j, w):
             w.p[j, i], w.bulk[j, i] = common_traction(j, i, w)
 
 
-@kernel
-def close_cells(part, w):
+@cell_rows
+def close_cells(j, part, w):
     """Equation of state, void where a cell fractures, artificial viscosity and the time step that every cell allows.
 
     The viscosity takes the directions of the mesh, or along_compression that of the strongest compression.
@@ -122,22 +122,21 @@ def close_cells(part, w):
              steps_row do, and the list of mixed cells
     Scratch  scratch [s, part, i]
     """
-    for j in range(w.parts[part], w.parts[part + 1]):
-        pressures_row(j, part, w)
-        if w.opened[j] > 0.0:
-            mixed_row(j, w.active_range, w.scratch[0], part, w)
-        for k in range(w.mixed_count[j]):
-            i = w.mixed[j, k]
-            if w.skin[KIND, j, i] == WHOLE and 0.0 < w.solid[j, i] < 1.0 - NO_VOID:  # a pure cell that has fractured
-                w.skin[KIND, j, i] = FREE_SURFACE
-            if w.skin[KIND, j, i] != WHOLE:
-                w.p[j, i], w.bulk[j, i] = common_traction(j, i, w)
-        insert_void_mixed_row(j, w)
-        if w.along_compression:
-            compression_viscosity_row(j, w)
-        else:
-            viscosity_row(j, w)
-        steps_row(j, part, w)
+    pressures_row(j, part, w)
+    if w.opened[j] > 0.0:
+        mixed_row(j, w.active_range, w.scratch[0], part, w)
+    for k in range(w.mixed_count[j]):
+        i = w.mixed[j, k]
+        if w.skin[KIND, j, i] == WHOLE and 0.0 < w.solid[j, i] < 1.0 - NO_VOID:  # a pure cell that has fractured
+            w.skin[KIND, j, i] = FREE_SURFACE
+        if w.skin[KIND, j, i] != WHOLE:
+            w.p[j, i], w.bulk[j, i] = common_traction(j, i, w)
+    insert_void_mixed_row(j, w)
+    if w.along_compression:
+        compression_viscosity_row(j, w)
+    else:
+        viscosity_row(j, w)
+    steps_row(j, part, w)
 
 
 @point
@@ -283,8 +282,8 @@ def fill_cell(j, i, change, volume, total, inverse, mean_p, work_p, work_q, midd
         w.q[E, m, j, i] += (gained - mean_p * shift) / mass
 
 
-@kernel
-def deform_mixed(part, w):
+@cell_rows
+def deform_mixed(j, w):
     """The Lagrangian step of the bodies in mixed cells.
 
     Where fluids fill a cell together, by compressibility: w_m = R_m/Rbar with R_m = f_m/K_m, then relaxation of the
@@ -301,42 +300,41 @@ def deform_mixed(part, w):
     Scratch  mix [j, 17, m] (rows SOFT to SHIFT_Z), motion [j, b, 10], internal [j, k]
     """
     groups = w.cell_mass.shape[0]
-    for j in range(w.parts[part], w.parts[part + 1]):
-        for k in range(w.mixed_count[j]):
-            i = w.mixed[j, k]
-            volume = w.metrics[VOL_R, i] * w.dz[j]
-            change = (w.fr[j, i + 1] - w.fr[j, i]) + (w.fz[j + 1, i] - w.fz[j, i])
-            work_q, work_p, held = 0.0, 0.0, 0
-            for g in range(groups):
-                if w.cell_mass[g, j, i] > 0.0:
-                    held += 1
-                    cell_motion(j, i, g, w.dz[j], w)
-                    across = w.motion[j, g, MEAN_RR] + w.motion[j, g, MEAN_TT]
-                    work_q = -w.dt * ((w.qr[j, i] * across + w.qz[j, i] * w.motion[j, g, MEAN_ZZ])
-                                    + ((w.qt[j, i] - w.qr[j, i]) * w.motion[j, g, MEAN_TT] + w.qrz[j, i] * w.motion[j, g, MEAN_RZ]))
-                    work_p = -w.ph[j, i] * w.dt * (across + w.motion[j, g, MEAN_ZZ])
-            if groups > 1 and w.contact_columns[j, 0] <= i < w.contact_columns[j, 1]:
-                work_q = -w.qr[j, i] * change
-                work_p = -w.ph[j, i] * change
-            total, meet = w.solid[j, i], held > 1
-            dominant = dominant_body(j, i, w)
-            for m in range(w.vof.shape[0]):
-                w.mix[j, BEFORE, m] = w.vof[m, j, i]
-                w.mix[j, NORMAL, m] = normal_deviator(m, j, i, w.skin, w.q) if w.vof[m, j, i] > 0.0 else 0.0
-            cut, own = w.skin[KIND, j, i] != WHOLE, w.strength_mode == MATERIAL or dominant >= 0 or meet
-            target = 0.0
-            work_of_deviators(j, i, dominant, total, stress_scale(w.strength_mode == SOLID, total), w)
-            for g in range(groups):
-                if w.cell_mass[g, j, i] > 0.0:
-                    heat_of_ties(j, i, g, w.dz[j], w)
-            firm = firm_share(j, i, total, w.gases, w.vof)
-            cell_yield = strain_deviators(j, i, w.dt / volume, firm, w)
-            if cut:
-                target = strain_bodies_across(j, i, own, cell_yield, change / volume, max(1.0 - total, 0.0), w)
-            return_deviators(j, i, own, cell_yield, dominant, volume, total, w)
-            if cut:
-                fill_cut_cell(j, i, change, volume, target, work_p + work_q + filter_work(j, i, w.motion, w.cell_mass), w)
-            else:
-                inverse, mean_p = soften(j, i, w)
-                fill_cell(j, i, change, volume, total, inverse, mean_p, work_p, work_q, w.ph[j, i], w)
-            push_bodies(j, i, w)
+    for k in range(w.mixed_count[j]):
+        i = w.mixed[j, k]
+        volume = w.metrics[VOL_R, i] * w.dz[j]
+        change = (w.fr[j, i + 1] - w.fr[j, i]) + (w.fz[j + 1, i] - w.fz[j, i])
+        work_q, work_p, held = 0.0, 0.0, 0
+        for g in range(groups):
+            if w.cell_mass[g, j, i] > 0.0:
+                held += 1
+                cell_motion(j, i, g, w.dz[j], w)
+                across = w.motion[j, g, MEAN_RR] + w.motion[j, g, MEAN_TT]
+                work_q = -w.dt * ((w.qr[j, i] * across + w.qz[j, i] * w.motion[j, g, MEAN_ZZ])
+                                + ((w.qt[j, i] - w.qr[j, i]) * w.motion[j, g, MEAN_TT] + w.qrz[j, i] * w.motion[j, g, MEAN_RZ]))
+                work_p = -w.ph[j, i] * w.dt * (across + w.motion[j, g, MEAN_ZZ])
+        if groups > 1 and w.contact_columns[j, 0] <= i < w.contact_columns[j, 1]:
+            work_q = -w.qr[j, i] * change
+            work_p = -w.ph[j, i] * change
+        total, meet = w.solid[j, i], held > 1
+        dominant = dominant_body(j, i, w)
+        for m in range(w.vof.shape[0]):
+            w.mix[j, BEFORE, m] = w.vof[m, j, i]
+            w.mix[j, NORMAL, m] = normal_deviator(m, j, i, w.skin, w.q) if w.vof[m, j, i] > 0.0 else 0.0
+        cut, own = w.skin[KIND, j, i] != WHOLE, w.strength_mode == MATERIAL or dominant >= 0 or meet
+        target = 0.0
+        work_of_deviators(j, i, dominant, total, stress_scale(w.strength_mode == SOLID, total), w)
+        for g in range(groups):
+            if w.cell_mass[g, j, i] > 0.0:
+                heat_of_ties(j, i, g, w.dz[j], w)
+        firm = firm_share(j, i, total, w.gases, w.vof)
+        cell_yield = strain_deviators(j, i, w.dt / volume, firm, w)
+        if cut:
+            target = strain_bodies_across(j, i, own, cell_yield, change / volume, max(1.0 - total, 0.0), w)
+        return_deviators(j, i, own, cell_yield, dominant, volume, total, w)
+        if cut:
+            fill_cut_cell(j, i, change, volume, target, work_p + work_q + filter_work(j, i, w.motion, w.cell_mass), w)
+        else:
+            inverse, mean_p = soften(j, i, w)
+            fill_cell(j, i, change, volume, total, inverse, mean_p, work_p, work_q, w.ph[j, i], w)
+        push_bodies(j, i, w)

@@ -2,7 +2,7 @@
 
 from math import sqrt
 
-from hydro2d.jit import apart, kernel, plus, point, rowwise
+from hydro2d.jit import apart, cell_rows, kernel, plus, point, rowwise
 from hydro2d.kernels.boundaries import held_at
 from hydro2d.kernels.column_ranges import copy_beside, past_row
 from hydro2d.mesh.fields import E
@@ -217,23 +217,22 @@ def sweep_momentum(part, w):
                 vertex_row(g, j, w.i1 + 1, below, slot, w)
 
 
-@kernel
-def deposit(part, ranges, deficit, w):
+@cell_rows
+def deposit(j, ranges, deficit, w):
     """Gives energy found at vertices (what `both` misses, the heat of a contact) to the cells around, by the group's mass.
 
     Reads    ranges [j, 2], columns; deficit [b, j, i] per vertex mass, cell_mass [b, j, i], vof [m, j, i], group [m]
     Updates  q (e) [k, m, j, i];  writes sums [j], the energy given
     """
     bodies = w.vof.shape[0]
-    for j in range(w.parts[part], w.parts[part + 1]):
-        given = 0.0
-        for g in range(deficit.shape[0]):
-            low = deficit[g, j]
-            high = deficit[g, j + 1]
-            for i in range(ranges[j, 0], ranges[j, 1]):
-                gain = w.metrics[CM_IN, i] * (low[i] + high[i]) + w.metrics[CM_OUT, i] * (low[i + 1] + high[i + 1])
-                given += gain * w.cell_mass[g, j, i]
-                for m in range(bodies):
-                    if w.group[m] == g and w.vof[m, j, i] > 0.0:
-                        w.q[E, m, j, i] += gain
-        w.deposited[j] = given
+    given = 0.0
+    for g in range(deficit.shape[0]):
+        low = deficit[g, j]
+        high = deficit[g, j + 1]
+        for i in range(ranges[j, 0], ranges[j, 1]):
+            gain = w.metrics[CM_IN, i] * (low[i] + high[i]) + w.metrics[CM_OUT, i] * (low[i + 1] + high[i + 1])
+            given += gain * w.cell_mass[g, j, i]
+            for m in range(bodies):
+                if w.group[m] == g and w.vof[m, j, i] > 0.0:
+                    w.q[E, m, j, i] += gain
+    w.deposited[j] = given

@@ -7,7 +7,7 @@ still in the processor's cache (explanation/remap, parts of the rows).
 
 from math import inf
 
-from hydro2d.jit import kernel, point, rowwise
+from hydro2d.jit import cell_rows, kernel, point, rowwise
 from hydro2d.kernels.column_ranges import columns, mixed_row, outer_rows
 from hydro2d.kernels.interfaces import flux_range
 from hydro2d.mesh.fields import DMG, LEAST, MOST, PER_MASS, RHO, SRR, SRZ, E
@@ -195,15 +195,14 @@ def cell_mass_row(dj, di, j, pre, face, second, w):
                 out[i] *= pre_j[i] - (s_out[i + di] - s_in[i])
 
 
-@kernel
-def sum_cell_mass(part, w):
+@cell_rows
+def sum_cell_mass(j, w):
     """Mass of each group in every cell, without a sweep.
 
     Reads    group [m]; volume [j, i]; vof [m, j, i]; q [k, m, j, i]
     Writes   cell_mass [b, j, i]
     """
-    for j in range(w.parts[part], w.parts[part + 1]):
-        cell_mass_row(0, 0, j, w.volume, w.volume, True, w)
+    cell_mass_row(0, 0, j, w.volume, w.volume, True, w)
 
 
 @point
@@ -232,8 +231,8 @@ def sweep_row(dj, di, j, below, above, b, w):
     mixed_row(j, w.group_ranges[0, 0], w.scratch[0], b, w)
 
 
-@kernel
-def sweep_r(part, w):
+@cell_rows
+def sweep_r(j, part, w):
     """Carries every body along r: fluxes and update row by row.
 
     Reads    carried [m, n]; group [m]; rules [m, k, 4]; mesh_box (j0, j1, i0, i1 of the mesh), body_ranges, group_ranges; face,
@@ -243,16 +242,15 @@ def sweep_r(part, w):
     Scratch  scratch [s, part, i], flux [k, m, slot, i]
     """
     slot = 6 * part + 3
-    for j in range(w.parts[part], w.parts[part + 1]):
-        for m in range(w.body_ranges.shape[1]):
-            flux_row(0, 1, j, m, w.carried[m], slot, part, w)
-            lo, hi = flux_range(0, 1, m, j, w)
-            for side in range(2):
-                i = w.mesh_box[2 + side]
-                w.edge_flux[side, RHO, m, j] = w.flux[RHO, m, slot, i] if lo <= i < hi else 0.0
-                w.edge_flux[side, E, m, j] = w.flux[E, m, slot, i] if lo <= i < hi else 0.0
-        mass_flux_row(0, 1, j, slot, w)
-        sweep_row(0, 1, j, slot, slot, part, w)
+    for m in range(w.body_ranges.shape[1]):
+        flux_row(0, 1, j, m, w.carried[m], slot, part, w)
+        lo, hi = flux_range(0, 1, m, j, w)
+        for side in range(2):
+            i = w.mesh_box[2 + side]
+            w.edge_flux[side, RHO, m, j] = w.flux[RHO, m, slot, i] if lo <= i < hi else 0.0
+            w.edge_flux[side, E, m, j] = w.flux[E, m, slot, i] if lo <= i < hi else 0.0
+    mass_flux_row(0, 1, j, slot, w)
+    sweep_row(0, 1, j, slot, slot, part, w)
 
 
 @point
@@ -332,8 +330,8 @@ def fade(share, cutoff):
     return left if left > ROUND_OFF else 0.0
 
 
-@kernel
-def tidy(part, w):
+@cell_rows
+def tidy(j, w):
     """Removes sub-cutoff fractions of bodies and void, makes fractions that should be 1 exactly 1, and sums what was removed.
 
     A body below the cutoff is removed with its mass, internal energy, momentum and kinetic energy; void below it is
@@ -346,61 +344,60 @@ def tidy(part, w):
     Writes   removed [4 + m, j]: internal energy, kinetic energy, axial momentum, volume closed; then mass of each body
     """
     bodies = w.vof.shape[0]
-    for j in range(w.parts[part], w.parts[part + 1]):
-        for row in range(4 + bodies):
-            w.removed[row, j] = 0.0
-        left = 0
-        for k in range(w.mixed_count[j]):
-            i = w.mixed[j, k]
-            post = w.volume[j, i]
-            if not w.second:
-                post = w.pre[j, i] - (w.dj * (w.fz[j + 1, i] - w.fz[j, i]) + w.di * (w.fr[j, i + 1] - w.fr[j, i]))
-            total, present, ended = 0.0, 0, False
-            for m in range(bodies):
-                f = w.vof[m, j, i]
-                rho = w.q[RHO, m, j, i]
-                if f > 0.0 and (f < 2.0 * w.cutoff or not rho > 0.0):
-                    left_over = fade(f, w.cutoff) if rho > 0.0 else 0.0
-                    mass = (f - left_over) * rho * post
-                    inner, outer = w.metrics[CM_IN, i] * mass, w.metrics[CM_OUT, i] * mass
-                    g = w.group[m]
-                    v_in, v_out = w.v[g, j, i] + w.v[g, j + 1, i], w.v[g, j, i + 1] + w.v[g, j + 1, i + 1]
-                    k_in = (w.v[g, j, i] ** 2 + w.v[g, j + 1, i] ** 2) + (w.u[g, j, i] ** 2 + w.u[g, j + 1, i] ** 2)
-                    k_out = (w.v[g, j, i + 1] ** 2 + w.v[g, j + 1, i + 1] ** 2) + (w.u[g, j, i + 1] ** 2 + w.u[g, j + 1, i + 1] ** 2)
-                    w.removed[0, j] += mass * w.q[E, m, j, i]
-                    w.removed[1, j] += 0.5 * (inner * k_in + outer * k_out)
-                    w.removed[2, j] += inner * v_in + outer * v_out
-                    w.removed[4 + m, j] += mass
-                    f = left_over
-                    w.vof[m, j, i] = f
-                    ended = True
-                if f == 0.0:
-                    for field in range(w.q.shape[0]):
-                        w.q[field, m, j, i] = 0.0
-                total += f
-                present += 1 if f > 0.0 else 0
-            if total > 1.0 - 2.0 * w.cutoff and total != 1.0:
-                void = fade(1.0 - total, w.cutoff)
-                w.removed[3, j] += (max(1.0 - total, 0.0) - void) * post
-                scale = (1.0 - void) / total
-                for m in range(bodies):
-                    if w.vof[m, j, i] > 0.0:
-                        f = w.vof[m, j, i] * scale
-                        f = 1.0 if present == 1 and void == 0.0 else f  # beside a second body, however little, it is not full
-                        w.q[RHO, m, j, i] *= w.vof[m, j, i] / f
-                        w.vof[m, j, i] = f
+    for row in range(4 + bodies):
+        w.removed[row, j] = 0.0
+    left = 0
+    for k in range(w.mixed_count[j]):
+        i = w.mixed[j, k]
+        post = w.volume[j, i]
+        if not w.second:
+            post = w.pre[j, i] - (w.dj * (w.fz[j + 1, i] - w.fz[j, i]) + w.di * (w.fr[j, i + 1] - w.fr[j, i]))
+        total, present, ended = 0.0, 0, False
+        for m in range(bodies):
+            f = w.vof[m, j, i]
+            rho = w.q[RHO, m, j, i]
+            if f > 0.0 and (f < 2.0 * w.cutoff or not rho > 0.0):
+                left_over = fade(f, w.cutoff) if rho > 0.0 else 0.0
+                mass = (f - left_over) * rho * post
+                inner, outer = w.metrics[CM_IN, i] * mass, w.metrics[CM_OUT, i] * mass
+                g = w.group[m]
+                v_in, v_out = w.v[g, j, i] + w.v[g, j + 1, i], w.v[g, j, i + 1] + w.v[g, j + 1, i + 1]
+                k_in = (w.v[g, j, i] ** 2 + w.v[g, j + 1, i] ** 2) + (w.u[g, j, i] ** 2 + w.u[g, j + 1, i] ** 2)
+                k_out = (w.v[g, j, i + 1] ** 2 + w.v[g, j + 1, i + 1] ** 2) + (w.u[g, j, i + 1] ** 2 + w.u[g, j + 1, i + 1] ** 2)
+                w.removed[0, j] += mass * w.q[E, m, j, i]
+                w.removed[1, j] += 0.5 * (inner * k_in + outer * k_out)
+                w.removed[2, j] += inner * v_in + outer * v_out
+                w.removed[4 + m, j] += mass
+                f = left_over
+                w.vof[m, j, i] = f
                 ended = True
-            if ended:
-                forget_centroids(j, i, w.vof, w.centroid)
-            for g in range(w.cell_mass.shape[0]):
-                mass = 0.0
-                for m in range(bodies):
-                    if w.group[m] == g:
-                        mass += w.vof[m, j, i] * w.q[RHO, m, j, i]
-                w.cell_mass[g, j, i] = mass * post
-            kind = 0.0
+            if f == 0.0:
+                for field in range(w.q.shape[0]):
+                    w.q[field, m, j, i] = 0.0
+            total += f
+            present += 1 if f > 0.0 else 0
+        if total > 1.0 - 2.0 * w.cutoff and total != 1.0:
+            void = fade(1.0 - total, w.cutoff)
+            w.removed[3, j] += (max(1.0 - total, 0.0) - void) * post
+            scale = (1.0 - void) / total
             for m in range(bodies):
-                kind += (1000.0 if w.vof[m, j, i] == 1.0 else 0.0) + (1.0 if w.vof[m, j, i] > 0.0 else 0.0)
-            w.mixed[j, left] = i
-            left += 0 if kind == 0.0 or kind == 1001.0 else 1
-        w.mixed_count[j] = left
+                if w.vof[m, j, i] > 0.0:
+                    f = w.vof[m, j, i] * scale
+                    f = 1.0 if present == 1 and void == 0.0 else f  # beside a second body, however little, it is not full
+                    w.q[RHO, m, j, i] *= w.vof[m, j, i] / f
+                    w.vof[m, j, i] = f
+            ended = True
+        if ended:
+            forget_centroids(j, i, w.vof, w.centroid)
+        for g in range(w.cell_mass.shape[0]):
+            mass = 0.0
+            for m in range(bodies):
+                if w.group[m] == g:
+                    mass += w.vof[m, j, i] * w.q[RHO, m, j, i]
+            w.cell_mass[g, j, i] = mass * post
+        kind = 0.0
+        for m in range(bodies):
+            kind += (1000.0 if w.vof[m, j, i] == 1.0 else 0.0) + (1.0 if w.vof[m, j, i] > 0.0 else 0.0)
+        w.mixed[j, left] = i
+        left += 0 if kind == 0.0 or kind == 1001.0 else 1
+    w.mixed_count[j] = left

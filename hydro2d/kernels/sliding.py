@@ -2,7 +2,7 @@
 
 from math import sqrt
 
-from hydro2d.jit import kernel, point, serial
+from hydro2d.jit import cell_rows, point, serial
 from hydro2d.kernels.column_ranges import outer_rows
 from hydro2d.mesh.fields import SRR, SRZ, SZZ
 from hydro2d.physics.interfaces import line_centre, youngs_difference
@@ -116,8 +116,8 @@ def slip_zones(w):
                 w.zone[j, i] = SLIP_LAYER
 
 
-@kernel
-def cut_shear(part, w):
+@cell_rows
+def cut_shear(j, w):
     """Takes the shear from soft material in the slip layer: all of the deviator, or what the surface carries beyond friction.
 
     `shear`: with s turned to (n, t), |s_nt| <= friction max(-sigma_nn, 0).
@@ -125,27 +125,26 @@ def cut_shear(part, w):
     Reads    zone [j, i], normal [2, j, i]; vof, pm [m, j, i]
     Updates  q (deviators) [k, m, j, i]
     """
-    for j in range(w.parts[part], w.parts[part + 1]):
-        for i in range(w.occupied[0, j, 0], w.occupied[0, j, 1]):
-            if w.zone[j, i] != SLIP_LAYER:
+    for i in range(w.occupied[0, j, 0], w.occupied[0, j, 1]):
+        if w.zone[j, i] != SLIP_LAYER:
+            continue
+        n_r = w.normal[0, j, i]
+        n_z = w.normal[1, j, i]
+        for m in range(w.vof.shape[0]):
+            if w.hard_bodies[m] or w.vof[m, j, i] == 0.0:
                 continue
-            n_r = w.normal[0, j, i]
-            n_z = w.normal[1, j, i]
-            for m in range(w.vof.shape[0]):
-                if w.hard_bodies[m] or w.vof[m, j, i] == 0.0:
-                    continue
-                if w.shear == FLUID:
-                    w.q[SRR, m, j, i] = 0.0
-                    w.q[SZZ, m, j, i] = 0.0
-                    w.q[SRZ, m, j, i] = 0.0
-                    continue
-                rr = w.q[SRR, m, j, i]
-                zz = w.q[SZZ, m, j, i]
-                rz = w.q[SRZ, m, j, i]
-                nn = n_r * n_r * rr + 2.0 * n_r * n_z * rz + n_z * n_z * zz
-                nt = n_r * n_z * (zz - rr) + (n_r * n_r - n_z * n_z) * rz
-                limit = w.friction * max(w.pm[m, j, i] - nn, 0.0)
-                change = min(max(nt, -limit), limit) - nt
-                w.q[SRR, m, j, i] = rr - 2.0 * change * n_r * n_z
-                w.q[SZZ, m, j, i] = zz + 2.0 * change * n_r * n_z
-                w.q[SRZ, m, j, i] = rz + change * (n_r * n_r - n_z * n_z)
+            if w.shear == FLUID:
+                w.q[SRR, m, j, i] = 0.0
+                w.q[SZZ, m, j, i] = 0.0
+                w.q[SRZ, m, j, i] = 0.0
+                continue
+            rr = w.q[SRR, m, j, i]
+            zz = w.q[SZZ, m, j, i]
+            rz = w.q[SRZ, m, j, i]
+            nn = n_r * n_r * rr + 2.0 * n_r * n_z * rz + n_z * n_z * zz
+            nt = n_r * n_z * (zz - rr) + (n_r * n_r - n_z * n_z) * rz
+            limit = w.friction * max(w.pm[m, j, i] - nn, 0.0)
+            change = min(max(nt, -limit), limit) - nt
+            w.q[SRR, m, j, i] = rr - 2.0 * change * n_r * n_z
+            w.q[SZZ, m, j, i] = zz + 2.0 * change * n_r * n_z
+            w.q[SRZ, m, j, i] = rz + change * (n_r * n_r - n_z * n_z)
