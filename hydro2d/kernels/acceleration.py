@@ -34,15 +34,15 @@ def mixed_deviator(j, i, w):
     return rr, zz, rz
 
 
-@rowwise
-def total_stress_row(j, w):
+@cell_rows
+def total_stress(j, w):
     """sigma = s - p I - q with the pressure at half the step, p^(n+1/2) = p - (dt/2) K div u^n.
 
     The cell's deviator is sum f_m s_m, in mode `solid` divided by the share of solids; in the hard zone of a slip layer it is
     the hard body's own times the share of solids (explanation/mixed-cells, sliding). A cut cell has p_c and, of each body,
     s - (n . s . n) I.
 
-    Reads    u, v [b, j, i]; vof [m, j, i]; q (deviators) [k, m, j, i]; p, bulk, solid, qr, qz, qt, qrz [j, i]; hard [m]
+    Reads    u0, v0 [b, j, i]; vof [m, j, i]; q (deviators) [k, m, j, i]; p, bulk, solid, qr, qz, qt, qrz [j, i]; hard_bodies [m]
     Writes   ph, sig_rr, sig_zz, sig_tt, sig_rz [j, i]
     """
     bodies = w.vof.shape[0]
@@ -102,12 +102,6 @@ def total_stress_row(j, w):
         rz[i] = s_rz - qrz_j[i]
 
 
-@cell_rows
-def total_stress(j, w):
-    """total_stress_row for rows j0 to j1."""
-    total_stress_row(j, w)
-
-
 @vertex_rows
 def vertex_masses(j, w):
     """Mass of the dual cells: corner shares of the four cells around a vertex, weighted by radius.
@@ -127,69 +121,61 @@ def vertex_masses(j, w):
 
 
 @point
-def accelerated_columns(b, j, i0, i1, occupied):
+def accelerated_columns(b, j, w):
     """First vertex of row j that group b may move, and how many there are."""
-    lo, hi = union(occupied[b], j - 1, j + 1)
-    return columns(max(lo, i0), min(hi + 1, i1))
-
-
-@rowwise
-def limit_speed_row(b, j, lo, n, underfilled, w):
-    """Holds the under-filled nodes of group b in row j to speed_limit; contact nodes are left to the contact.
-
-    underfilled is a quarter of the density below which a node is so, times the height of both rows of cells beside it. The
-    work of an impulse goes by the mean of the velocities at the start and at the end of the step, which edges may give.
-
-    Reads    constrained, pushing [4], columns (2) and rows (2), -1 for none; edge_velocity [4]; mass, u0, v0 [b, j, i]
-    Updates  u, v [b, j, i]; limited [3, j]: momentum and energy taken, and how often
-    """
-    u_c = w.u0[b, j]
-    v_c = w.v0[b, j]
-    m_j = w.mass[b, j]
-    un = w.u[b, j]
-    vn = w.v[b, j]
-    other = w.mass[w.mass.shape[0] - 1 - b, j]
-    alone = w.mass.shape[0] == 1
-    lost_p, lost_e, count = 0.0, 0.0, 0.0
-    for x in range(n):
-        i = lo + x
-        m = m_j[i]
-        square = un[i] * un[i] + vn[i] * vn[i]
-        thin = m < underfilled * (w.metrics[VOL_R, i - 1] + w.metrics[VOL_R, i])
-        if square <= w.speed_limit * w.speed_limit or not thin:
-            continue
-        if not alone and other[i] > 0.0:
-            continue
-        shrink = w.speed_limit / sqrt(square)
-        end_u = left_by_edges(i, 0, shrink * un[i], w)
-        end_v = left_by_edges(j, 2, shrink * vn[i], w)
-        lost_p += m * vn[i] * (1.0 - shrink)
-        lost_e += 0.5 * m * (1.0 - shrink) * (un[i] * (u_c[i] + end_u) + vn[i] * (v_c[i] + end_v))
-        count += 1.0
-        un[i] *= shrink
-        vn[i] *= shrink
-    w.limited[0, j] += lost_p
-    w.limited[1, j] += lost_e
-    w.limited[2, j] += count
+    lo, hi = union(w.occupied[b], j - 1, j + 1)
+    return columns(max(lo, w.i0), min(hi + 1, w.i1 + 1))
 
 
 @vertex_rows
 def limit_speed(j, w):
-    """limit_speed_row for rows j0 to j1, after all forces and before edges give their velocities.
+    """Holds the under-filled nodes of row j to speed_limit, after all forces and before edges give their velocities.
 
-    A node whose dual cell is filled more thinly than underfilled_density is held to speed_limit.
+    A node is under-filled whose dual cell is filled more thinly than underfilled_density; contact nodes are left to the
+    contact. The work of an impulse goes by the mean of the velocities at the start and at the end of the step, which edges may
+    give.
 
-    Writes   limited [3, j]
+    Reads    constrained, pushing [4], columns (2) and rows (2), -1 for none; edge_velocity [4]; mass, u0, v0 [b, j, i]
+    Updates  u, v [b, j, i]
+    Writes   limited [3, j]: momentum and energy taken, and how often
     """
     for row in range(3):
         w.limited[row, j] = 0.0
+    underfilled = w.underfilled_density * 0.25 * (w.dz[j - 1] + w.dz[j])
     for b in range(w.mass.shape[0]):
-        lo, n = accelerated_columns(b, j, w.i0, w.i1 + 1, w.occupied)
-        limit_speed_row(b, j, lo, n, w.underfilled_density * 0.25 * (w.dz[j - 1] + w.dz[j]), w)
+        lo, n = accelerated_columns(b, j, w)
+        u_c = w.u0[b, j]
+        v_c = w.v0[b, j]
+        m_j = w.mass[b, j]
+        un = w.u[b, j]
+        vn = w.v[b, j]
+        other = w.mass[w.mass.shape[0] - 1 - b, j]
+        alone = w.mass.shape[0] == 1
+        lost_p, lost_e, count = 0.0, 0.0, 0.0
+        for x in range(n):
+            i = lo + x
+            m = m_j[i]
+            square = un[i] * un[i] + vn[i] * vn[i]
+            thin = m < underfilled * (w.metrics[VOL_R, i - 1] + w.metrics[VOL_R, i])
+            if square <= w.speed_limit * w.speed_limit or not thin:
+                continue
+            if not alone and other[i] > 0.0:
+                continue
+            shrink = w.speed_limit / sqrt(square)
+            end_u = left_by_edges(i, 0, shrink * un[i], w)
+            end_v = left_by_edges(j, 2, shrink * vn[i], w)
+            lost_p += m * vn[i] * (1.0 - shrink)
+            lost_e += 0.5 * m * (1.0 - shrink) * (un[i] * (u_c[i] + end_u) + vn[i] * (v_c[i] + end_v))
+            count += 1.0
+            un[i] *= shrink
+            vn[i] *= shrink
+        w.limited[0, j] += lost_p
+        w.limited[1, j] += lost_e
+        w.limited[2, j] += count
 
 
 @rowwise
-def accelerate_row(b, j, i1, w):
+def accelerate_row(b, j, w):
     """Velocities at the end of the Lagrangian step: u = u0 + dt f/M, f the sum of the corner forces of four cells.
 
     f_r = -[sig_rr (c_r - A/4) + sig_tt A/4 + sig_rz c_z],  f_z = -[sig_zz c_z + sig_rz g] per corner, and the filter of the
@@ -199,9 +185,9 @@ def accelerate_row(b, j, i1, w):
     Reads    u0, v0, mass [b, j, i]; sig_rr, sig_zz, sig_tt, sig_rz, hg_coefficient (of the hourglass filter) [j, i]
     Writes   u, v [b, j, i] for whole rows
     """
-    lo, n = accelerated_columns(b, j, w.i0, i1, w.occupied)
-    copy_beside(w.u0[b, j], w.u[b, j], w.i0 - 2, lo, lo + n, i1 + 2)
-    copy_beside(w.v0[b, j], w.v[b, j], w.i0 - 2, lo, lo + n, i1 + 2)
+    lo, n = accelerated_columns(b, j, w)
+    copy_beside(w.u0[b, j], w.u[b, j], w.i0 - 2, lo, lo + n, w.i1 + 3)
+    copy_beside(w.v0[b, j], w.v[b, j], w.i0 - 2, lo, lo + n, w.i1 + 3)
     hb = w.dz[j - 1]
     ht = w.dz[j]
     rr_b = w.sig_rr[j - 1]
@@ -255,23 +241,24 @@ def accelerate_row(b, j, i1, w):
 
 
 @rowwise
-def tie_row(b, j, i1, w):
+def tie_row(b, j, w):
     """Velocities of the vertices of row j after what bodies have of vertices in a gas was tied to them (`ties`).
 
     Reads    mass, u0, v0 [b, j, i], skin [3, j, i], vof, q, the list of mixed cells
     Updates  u, v [b, j, i]
     """
-    lo, n = accelerated_columns(b, j, w.i0, i1, w.occupied)
+    lo, n = accelerated_columns(b, j, w)
     for row in range(j - 1, j + 1):
         for k in range(w.mixed_count[row]):
             i = w.mixed[row, k]
-            by_r, by_z = ties(row, i, w.dz[row], w)
+            by_r, by_z = ties(row, i, w)
             if by_r + by_z == 0.0 or not holds(b, row, i, w.group, w.vof):
                 continue
             for at in range(i, i + 2):
                 if lo <= at < lo + n and w.mass[b, j, at] > 0.0:
-                    w.u[b, j, at] += pull_of_ties(b, j, at, row, i, by_r, by_z, w.u0) / w.mass[b, j, at]
-                    w.v[b, j, at] += pull_of_ties(b, j, at, row, i, by_r, by_z, w.v0) / w.mass[b, j, at]
+                    pull_r, pull_z = pull_of_ties(b, j, at, row, i, by_r, by_z, w)
+                    w.u[b, j, at] += pull_r / w.mass[b, j, at]
+                    w.v[b, j, at] += pull_z / w.mass[b, j, at]
 
 
 @vertex_rows
@@ -281,8 +268,8 @@ def accelerate(j, w):
     Reads    pushed [c, b, j, i], m/s, or nothing
     """
     for b in range(w.mass.shape[0]):
-        accelerate_row(b, j, w.i1 + 1, w)
-        tie_row(b, j, w.i1 + 1, w)
+        accelerate_row(b, j, w)
+        tie_row(b, j, w)
         if w.pushed.shape[0] > 0:
             for i in range(w.i0, w.i1 + 1):
                 w.u[b, j, i] += w.pushed[0, b, j, i]

@@ -165,9 +165,9 @@ def contact_lines(j, w):
 
 
 @point
-def face_aperture(j, i, x0, y0, x1, y1, inside, w):
+def face_aperture(j, i, x0, y0, x1, y1, w):
     """(solid, apertures of the hard side at both ends) of the edge (x0, y0) to (x1, y1) of the unit square of cell (j, i)."""
-    if not inside:
+    if not w.contact_columns[j, 0] <= i < w.contact_columns[j, 1]:
         total = w.hard[j, i] + w.soft[j, i]
         share = w.hard[j, i] / total if total > 0.0 else 0.0
         return (1.0 if total > 0.0 else 0.0), share, share
@@ -211,9 +211,9 @@ def face_apertures(j, w):
             solid_l, low_l, high_l = 0.0, 0.0, 0.0
             solid_r, low_r, high_r = 0.0, 0.0, 0.0
             if i > w.mesh_box[2]:
-                solid_l, low_l, high_l = face_aperture(j, i - 1, 1.0, 0.0, 1.0, 1.0, i - 1 >= w.contact_columns[j, 0], w)
+                solid_l, low_l, high_l = face_aperture(j, i - 1, 1.0, 0.0, 1.0, 1.0, w)
             if i < w.mesh_box[3]:
-                solid_r, low_r, high_r = face_aperture(j, i, 0.0, 0.0, 0.0, 1.0, i < w.contact_columns[j, 1], w)
+                solid_r, low_r, high_r = face_aperture(j, i, 0.0, 0.0, 0.0, 1.0, w)
             if solid_l > 0.0 and solid_r > 0.0:
                 solid_l = weight_beside(j, i - 1, j, i, w.hard, w.soft)
                 solid_r = weight_beside(j, i, j, i - 1, w.hard, w.soft)
@@ -227,11 +227,9 @@ def face_apertures(j, w):
         solid_b, in_b, out_b = 0.0, 0.0, 0.0
         solid_t, in_t, out_t = 0.0, 0.0, 0.0
         if j > w.mesh_box[0]:
-            inside = w.contact_columns[j - 1, 0] <= i < w.contact_columns[j - 1, 1]
-            solid_b, in_b, out_b = face_aperture(j - 1, i, 0.0, 1.0, 1.0, 1.0, inside, w)
+            solid_b, in_b, out_b = face_aperture(j - 1, i, 0.0, 1.0, 1.0, 1.0, w)
         if j < w.mesh_box[1]:
-            inside = w.contact_columns[j, 0] <= i < w.contact_columns[j, 1]
-            solid_t, in_t, out_t = face_aperture(j, i, 0.0, 0.0, 1.0, 0.0, inside, w)
+            solid_t, in_t, out_t = face_aperture(j, i, 0.0, 0.0, 1.0, 0.0, w)
         if solid_b > 0.0 and solid_t > 0.0:
             solid_b = weight_beside(j - 1, i, j, i, w.hard, w.soft)
             solid_t = weight_beside(j, i, j - 1, i, w.hard, w.soft)

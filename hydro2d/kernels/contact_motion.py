@@ -189,10 +189,11 @@ def contact_node_forces(j, w):
             tied_r, tied_z = 0.0, 0.0
             for row in range(j - 1, j + 1):
                 for column in range(i - 1, i + 1):
-                    by_r, by_z = ties(row, column, w.dz[row], w)
+                    by_r, by_z = ties(row, column, w)
                     if by_r + by_z > 0.0 and holds(g, row, column, w.group, w.vof):
-                        tied_r += pull_of_ties(g, j, i, row, column, by_r, by_z, w.u0)
-                        tied_z += pull_of_ties(g, j, i, row, column, by_r, by_z, w.v0)
+                        pull_r, pull_z = pull_of_ties(g, j, i, row, column, by_r, by_z, w)
+                        tied_r += pull_r
+                        tied_z += pull_z
                     more_r, more_z = corner_force(g, j, i, row, column, w)
                     force_r += more_r
                     force_z += more_z

@@ -77,7 +77,7 @@ def give_tie(g, j, i, x, push_r, push_z, w):
 
 
 @apart
-def list_ties(j0, j1, w):
+def list_ties(w):
     """(number of tied slaves, number of vertices), all slaves listed with their masters one after another.
 
     Writes   nodes [6, t]: slot, group, row and column of a slave, what holds it (1 along r, 2 along z, 3 both), and the number
@@ -85,6 +85,7 @@ def list_ties(j0, j1, w):
              master; portions [e, 4]: its weight along r and z, 0 where it is held, and the same over its mass
     Scratch  places [b, j, i], 0 before and after
     """
+    j0, j1 = outer_rows(w.parts)
     tied, e, vertices = 0, 0, 0
     for j in range(j0, j1 + 1):
         for k in range(w.contact_node_count[j]):
@@ -326,7 +327,7 @@ def settle(w):
                 w.taken[c, x, g] = 0.0
         for c in range(3):
             w.rubbing[c, x] = 0.0
-    tied, vertices = list_ties(j0, j1, w)
+    tied, vertices = list_ties(w)
     meet_ties(tied, vertices, w)
     for _ in range(ROUNDS if w.friction > 0.0 else 0):
         for j in range(j0, j1 + 1):

@@ -151,7 +151,7 @@ def firm_density(j, i, w):
 
 
 @point
-def ties(j, i, h, w):
+def ties(j, i, w):
     """Masses by which the vertices of a cell that holds a gas are tied: of every pair along r, and of every pair along z, kg.
 
     What a body has of its mass at vertices in the gas moves with the body. A pair of vertices on either side of the surface
@@ -161,7 +161,7 @@ def ties(j, i, h, w):
     if w.skin[KIND, j, i] != BESIDE_GAS:
         return 0.0, 0.0
     mass = firm_density(j, i, w)
-    mass *= MOST_TIED * w.metrics[VOL_R, i] * h * min(w.metrics[CM_IN, i], w.metrics[CM_OUT, i])
+    mass *= MOST_TIED * w.metrics[VOL_R, i] * w.dz[j] * min(w.metrics[CM_IN, i], w.metrics[CM_OUT, i])
     return mass * w.skin[NORMAL_R, j, i] * w.skin[NORMAL_R, j, i], mass * w.skin[NORMAL_Z, j, i] * w.skin[NORMAL_Z, j, i]
 
 
@@ -175,10 +175,13 @@ def holds(g, j, i, group, vof):
 
 
 @point
-def pull_of_ties(g, j, i, row, column, by_r, by_z, u0):
-    """What the ties of cell (row, column) give one component of the momentum of vertex (j, i) of group g in a step."""
-    own = u0[g, j, i]
-    return by_r * (u0[g, j, 2 * column + 1 - i] - own) + by_z * (u0[g, 2 * row + 1 - j, i] - own)
+def pull_of_ties(g, j, i, row, column, by_r, by_z, w):
+    """(radial, axial) momentum that the ties of cell (row, column) give vertex (j, i) of group g in a step."""
+    u, v = w.u0[g, j, i], w.v0[g, j, i]
+    beside, across = 2 * column + 1 - i, 2 * row + 1 - j
+    pull_r = by_r * (w.u0[g, j, beside] - u) + by_z * (w.u0[g, across, i] - u)
+    pull_z = by_r * (w.v0[g, j, beside] - v) + by_z * (w.v0[g, across, i] - v)
+    return pull_r, pull_z
 
 
 @point

@@ -16,7 +16,7 @@ from strength.radial_return import return_together
 
 
 @rowwise
-def strain_row(m, j, b, g, first, n, h, cutoff_density, w):
+def strain_row(m, j, b, w):
     """Energy and elastic trial deviators of body m in the cells of row j that it fills.
 
     Reads    u0, v0, u, v [b, j, i]; sig_.., hg_coefficient [j, i]; vof [m, j, i]; scratch [0, b, i], shear modulus
@@ -24,6 +24,8 @@ def strain_row(m, j, b, g, first, n, h, cutoff_density, w):
     Writes   scratch [1, b, i], von Mises norm of the trial: negative up to the cutoff density, 0 where the body fills no
              cell, and without a shear modulus; scratch [2, b, i], spin
     """
+    g, h, cutoff_density = w.group[m], w.dz[j], w.materials[m, CUTOFF_DENSITY]
+    first, n = columns(w.body_range[m, j, 0], w.body_range[m, j, 1])
     rr_j = w.sig_rr[j]
     zz_j = w.sig_zz[j]
     tt_j = w.sig_tt[j]
@@ -77,7 +79,7 @@ def strain_row(m, j, b, g, first, n, h, cutoff_density, w):
 
 
 @rowwise
-def yield_row(m, j, b, first, n, w):
+def yield_row(m, j, b, w):
     """Return of body m's deviators to its yield surface in row j, where their elastic trial lies outside of it.
 
     Cells that may yield are gathered and solved together, up to `LANES` at a time (strength/radial_return.py).
@@ -89,6 +91,7 @@ def yield_row(m, j, b, first, n, w):
     model = w.models[m, STRENGTH]
     par = w.materials[m, STRENGTH_AT:DAMAGE_AT]
     scale = w.materials[m, FACTOR]
+    first, n = columns(w.body_range[m, j, 0], w.body_range[m, j, 1])
     floor = scale * yield_floor(model, par)  # below it no flow stress need be evaluated
     p_j = w.pm[m, j]
     t_j = w.tm[m, j]
@@ -135,13 +138,14 @@ def yield_row(m, j, b, first, n, w):
 
 
 @rowwise
-def internal_row(m, j, b, first, n, w):
+def internal_row(m, j, b, w):
     """The same, cell by cell, for a model that damage weakens or that has internal variables, which turn and harden.
 
     Reads    vof, pm, tm [m, j, i]; scratch [0 to 2, b, i], shear modulus, trial stress and spin
     Updates  q (deviators, plastic strain, damage, internal variables) [k, m, j, i]; scratch internal [j, k]
     """
     model = w.models[m, STRENGTH]
+    first, n = columns(w.body_range[m, j, 0], w.body_range[m, j, 1])
     for x in range(n):
         i = first + x
         if w.vof[m, j, i] == 1.0 and is_fluid(w.scratch[0, b, i]):
@@ -153,14 +157,14 @@ def internal_row(m, j, b, first, n, w):
         turn(model, w.scratch[2, b, i], w.internal[j])
         keep_internal(m, j, i, model, w.internal[j], w.q)
         rr, zz, rz, _, _ = return_to_surface(
-            m, j, i, w.q[SRR, m, j, i], w.q[SZZ, m, j, i], w.q[SRZ, m, j, i], w.scratch[0, b, i], True, 0.0, w.internal[j], w)
+            m, j, i, w.q[SRR, m, j, i], w.q[SZZ, m, j, i], w.q[SRZ, m, j, i], w.scratch[0, b, i], True, 0.0, w)
         w.q[SRR, m, j, i] = rr
         w.q[SZZ, m, j, i] = zz
         w.q[SRZ, m, j, i] = rz
 
 
 @rowwise
-def expand_row(m, j, b, first, n, h, w):
+def expand_row(m, j, b, w):
     """Density of body m in the cells of row j that it fills, whose mass stays.
 
     No deviator is left where it has failed or melted, or has the cutoff density or less.
@@ -168,6 +172,8 @@ def expand_row(m, j, b, first, n, h, w):
     Reads    fr, fz [j, i]; vof [m, j, i]; scratch [1, b, i], negative up to the cutoff density and in melts
     Updates  q (density, deviators) [k, m, j, i]
     """
+    h = w.dz[j]
+    first, n = columns(w.body_range[m, j, 0], w.body_range[m, j, 1])
     fr_j = w.fr[j]
     fz_b = w.fz[j]
     fz_t = w.fz[j + 1]
@@ -202,16 +208,15 @@ def deform(j, part, w):
     Updates  q [k, m, j, i]
     Scratch  scratch [s, part, i], shear modulus, trial stress and spin; internal [j, k]; lanes [part, k]
     """
-    h = w.dz[j]
     for m in range(w.vof.shape[0]):
         model = w.models[m, STRENGTH]
         par = w.materials[m, STRENGTH_AT:DAMAGE_AT]
         first, n = columns(w.body_range[m, j, 0], w.body_range[m, j, 1])
         modulus_row(model, par, first, n, w.pm[m, j], w.q[RHO, m, j], w.tm[m, j], w.scratch[0, part])
         end_at_melt(w.materials[m, MELTING_AT:EOS_AT], first, n, w.q[RHO, m, j], w.tm[m, j], w.scratch[0, part])
-        strain_row(m, j, part, w.group[m], first, n, h, w.materials[m, CUTOFF_DENSITY], w)
+        strain_row(m, j, part, w)
         if model in WITH_INTERNAL or model in WEAKENS:
-            internal_row(m, j, part, first, n, w)
+            internal_row(m, j, part, w)
         elif model > 0:
-            yield_row(m, j, part, first, n, w)
-        expand_row(m, j, part, first, n, h, w)
+            yield_row(m, j, part, w)
+        expand_row(m, j, part, w)

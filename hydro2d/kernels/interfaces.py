@@ -7,7 +7,7 @@ stated order bounds their cumulative fraction, void comes last.
 
 
 from hydro2d.jit import apart, cell_rows, kernel, point, rowwise
-from hydro2d.kernels.column_ranges import columns, outer_rows, past_row
+from hydro2d.kernels.column_ranges import columns, past_row
 from hydro2d.physics.centroids import beside, box_piece, forms, goes_on, piece, placed, within
 from hydro2d.physics.interfaces import add_body, at_most_full, cumulative, nested, surface
 from hydro2d.physics.traction import smoothstep
@@ -31,19 +31,20 @@ SWEPT = 0.1
 
 
 @rowwise
-def report_row(j, first, number, vof, before, turned):
-    """Writes down the first cell of row j with a body in it and no volume left (sweep_volumes_row)."""
+def report_row(j, w):
+    """Writes down the first cell of row j with a body in it and no volume left (`sweep_volumes`)."""
+    first, number = columns(w.active_range[j, 0], w.active_range[j, 1])
     for x in range(number):
         i = first + number - 1 - x
         most = 0.0
-        for m in range(vof.shape[0]):
-            if not before[i] > 0.0 and abs(vof[m, j, i]) > most:
-                most = abs(vof[m, j, i])
-                turned[j, 0], turned[j, 1] = i, m
+        for m in range(w.vof.shape[0]):
+            if not w.pre[j, i] > 0.0 and abs(w.vof[m, j, i]) > most:
+                most = abs(w.vof[m, j, i])
+                w.turned[j, 0], w.turned[j, 1] = i, m
 
 
-@rowwise
-def sweep_volumes_row(j, first, w):
+@cell_rows
+def sweep_volumes(j, w):
     """Volume of cells before a sweep: V + dF_r + dF_z for the first sweep, V + dF of its own direction for the second.
 
     Reads    volume [j, i], fr, fz [j, i], vof [m, j, i]
@@ -61,11 +62,11 @@ def sweep_volumes_row(j, first, w):
         i = lo + x
         along_r = fr_j[i + 1] - fr_j[i]
         along_z = fz_t[i] - fz_b[i]
-        out[i] = volume_j[i] + (along_r + along_z if first else w.dj * along_z + w.di * along_r)
+        out[i] = volume_j[i] + (w.dj * along_z + w.di * along_r if w.second else along_r + along_z)
         wrong += 0 if out[i] > 0.0 else 1
     w.turned[j, 0] = -1
     if wrong > 0:
-        report_row(j, lo, n, w.vof, out, w.turned)
+        report_row(j, w)
 
 
 @point
@@ -75,37 +76,39 @@ def flux_range(dj, di, m, j, w):
     return (lo, hi) if lo < hi else (0, 0)
 
 
-@rowwise
-def donor_volumes_row(j, f_face, w):
+@kernel
+def donor_volumes(part, w):
     """Volume of each body through each face, taken as if the donor cell were filled evenly: right where it is pure.
 
-    Nothing but void flows in through the faces of the mesh's edge.
+    Nothing but void flows in through the faces of the mesh's edge (void_only).
 
-    Reads    f_face (fr or fz) [j, i], vof [m, j, i], open_faces (j0, j1, i0, i1 of the mesh)
+    Reads    face [j, i], vof [m, j, i]
     Writes   flux_volume [m, j, i]
     """
-    bodies = w.vof.shape[0]
-    for m in range(bodies):
-        lo, hi = flux_range(w.dj, w.di, m, j, w)
-        if lo >= hi:
-            continue
-        swept = f_face[j, lo:hi]
-        given = w.flux_volume[m, j, lo:hi]
-        here = w.vof[m, j, lo:hi]
-        before = w.vof[m, j - w.dj, lo - w.di:hi - w.di]
-        for x in range(hi - lo):
-            given[x] = max(swept[x], 0.0) * before[x] + min(swept[x], 0.0) * here[x]
-        swept = f_face[j]
-        out = w.flux_volume[m, j]
-        if w.dj == 1:
-            for i in range(lo, hi):
-                if (j == w.void_only[0] and swept[i] > 0.0) or (j == w.void_only[1] and swept[i] < 0.0):
-                    out[i] = 0.0
-        else:
-            if lo <= w.void_only[2] < hi and swept[w.void_only[2]] > 0.0:
-                out[w.void_only[2]] = 0.0
-            if lo <= w.void_only[3] < hi and swept[w.void_only[3]] < 0.0:
-                out[w.void_only[3]] = 0.0
+    dj, di = w.dj, w.di
+    edges = w.void_only
+    for j in range(w.parts[part], past_row(part, w.parts, dj)):
+        for m in range(w.vof.shape[0]):
+            lo, hi = flux_range(dj, di, m, j, w)
+            if lo >= hi:
+                continue
+            swept = w.face[j, lo:hi]
+            given = w.flux_volume[m, j, lo:hi]
+            here = w.vof[m, j, lo:hi]
+            before = w.vof[m, j - dj, lo - di:hi - di]
+            for x in range(hi - lo):
+                given[x] = max(swept[x], 0.0) * before[x] + min(swept[x], 0.0) * here[x]
+            swept = w.face[j]
+            out = w.flux_volume[m, j]
+            if dj == 1:
+                for i in range(lo, hi):
+                    if (j == edges[0] and swept[i] > 0.0) or (j == edges[1] and swept[i] < 0.0):
+                        out[i] = 0.0
+            else:
+                if lo <= edges[2] < hi and swept[edges[2]] > 0.0:
+                    out[edges[2]] = 0.0
+                if lo <= edges[3] < hi and swept[edges[3]] < 0.0:
+                    out[edges[3]] = 0.0
 
 
 @point
@@ -305,8 +308,8 @@ def by_contact(j, i, w):
     return inside and w.contact_columns[j, 0] <= i < w.contact_columns[j, 1]
 
 
-@rowwise
-def interface_volumes_row(j, w):
+@cell_rows
+def interface_volumes(j, w):
     """Volume of each body out of each mixed cell, from the nested interfaces, and where it lies in the strips that leave.
 
     Of contact-interface cells only the centroids are worked out (`by_contact`). The cumulative volumes of a strip are kept
@@ -361,22 +364,3 @@ def interface_volumes_row(j, w):
                 w.flux_volume[m, j, i] = -left[SHARE, m] * size
             if w_high > 0.0:
                 w.flux_volume[m, j + w.dj, i + w.di] = right[SHARE, m] * size
-
-
-@kernel
-def donor_volumes(part, w):
-    """Rows j0 to j1 before a sweep: sweep_volumes_row, and donor_volumes_row, which has one more row of faces along z."""
-    j0, j1 = outer_rows(w.parts)
-    for j in range(w.parts[part], past_row(part, w.parts, w.dj)):
-        if j < j1:
-            sweep_volumes_row(j, not w.second, w)
-        if w.di == 1:
-            donor_volumes_row(j, w.fr, w)
-        else:
-            donor_volumes_row(j, w.fz, w)
-
-
-@cell_rows
-def interface_volumes(j, w):
-    """interface_volumes_row for rows j0 to j1."""
-    interface_volumes_row(j, w)

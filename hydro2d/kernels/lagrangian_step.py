@@ -4,7 +4,6 @@ Between two kernels stands a barrier wherever the second reads what the first wr
 first reads there.
 """
 
-import hydro2d.kernels.names  # noqa: F401  (what the names mean)
 from hydro2d.jit import WAIT, Phase, alone, given, unless, when
 from hydro2d.kernels import (
     acceleration,

@@ -140,15 +140,15 @@ def close_cells(j, part, w):
 
 
 @point
-def cell_motion(j, i, g, h, w):
+def cell_motion(j, i, g, w):
     """Volume times the velocity gradients of group g in cell (j, i), and the work of its hourglass filter.
 
     Writes   motion [j, g, RR to HOURGLASS]
     """
     a_rr, a_tt, a_zz, a_rbz, a_zbr = velocity_gradient(
-        i, w.u0[g, j], w.u0[g, j + 1], w.v0[g, j], w.v0[g, j + 1], w.metrics, h)
+        i, w.u0[g, j], w.u0[g, j + 1], w.v0[g, j], w.v0[g, j + 1], w.metrics, w.dz[j])
     rr, tt, zz, rbz, zbr = velocity_gradient(
-        i, w.u[g, j], w.u[g, j + 1], w.v[g, j], w.v[g, j + 1], w.metrics, h)
+        i, w.u[g, j], w.u[g, j + 1], w.v[g, j], w.v[g, j + 1], w.metrics, w.dz[j])
     h_u0, h_v0 = hourglass_mode(i, w.u0[g, j], w.u0[g, j + 1]), hourglass_mode(i, w.v0[g, j], w.v0[g, j + 1])
     h_u, h_v = hourglass_mode(i, w.u[g, j], w.u[g, j + 1]), hourglass_mode(i, w.v[g, j], w.v[g, j + 1])
     w.motion[j, g, RR] = rr
@@ -164,12 +164,12 @@ def cell_motion(j, i, g, h, w):
 
 
 @point
-def heat_of_ties(j, i, g, h, w):
+def heat_of_ties(j, i, g, w):
     """Gives what the ties of a cell beside a gas take of the motion to its bodies that are none, by mass (`ties`).
 
     Updates  mix [j, HEAT, m]
     """
-    by_r, by_z = ties(j, i, h, w)
+    by_r, by_z = ties(j, i, w)
     if by_r + by_z == 0.0:
         return
     work = tied_work(i, by_r, by_z, w.u0[g, j], w.u0[g, j + 1], w.u[g, j], w.u[g, j + 1]) + tied_work(
@@ -308,7 +308,7 @@ def deform_mixed(j, w):
         for g in range(groups):
             if w.cell_mass[g, j, i] > 0.0:
                 held += 1
-                cell_motion(j, i, g, w.dz[j], w)
+                cell_motion(j, i, g, w)
                 across = w.motion[j, g, MEAN_RR] + w.motion[j, g, MEAN_TT]
                 work_q = -w.dt * ((w.qr[j, i] * across + w.qz[j, i] * w.motion[j, g, MEAN_ZZ])
                                 + ((w.qt[j, i] - w.qr[j, i]) * w.motion[j, g, MEAN_TT] + w.qrz[j, i] * w.motion[j, g, MEAN_RZ]))
@@ -326,7 +326,7 @@ def deform_mixed(j, w):
         work_of_deviators(j, i, dominant, total, stress_scale(w.strength_mode == SOLID, total), w)
         for g in range(groups):
             if w.cell_mass[g, j, i] > 0.0:
-                heat_of_ties(j, i, g, w.dz[j], w)
+                heat_of_ties(j, i, g, w)
         firm = firm_share(j, i, total, w.gases, w.vof)
         cell_yield = strain_deviators(j, i, w.dt / volume, firm, w)
         if cut:

@@ -174,7 +174,7 @@ def return_deviators(j, i, own, cell_yield, dominant, volume, total, w):
             w.q[SRZ, m, j, i] = 0.0
             continue
         rr, zz, rz, dep, final = return_to_surface(
-            m, j, i, w.mix[j, TRIAL_RR, m], w.mix[j, TRIAL_ZZ, m], w.mix[j, TRIAL_RZ, m], w.mix[j, MODULUS, m], own, cell_yield, w.internal[j], w)
+            m, j, i, w.mix[j, TRIAL_RR, m], w.mix[j, TRIAL_ZZ, m], w.mix[j, TRIAL_RZ, m], w.mix[j, MODULUS, m], own, cell_yield, w)
         gone = carries_no_stress(w.q[DMG, m, j, i], w.q[RHO, m, j, i], w.materials[m, CUTOFF_DENSITY])
         w.q[SRR, m, j, i] = 0.0 if gone else rr
         w.q[SZZ, m, j, i] = 0.0 if gone else zz

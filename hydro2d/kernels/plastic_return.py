@@ -44,23 +44,24 @@ def weaken(m, j, i, dep, final, stiffness, w):
 
 
 @point
-def return_to_surface(m, j, i, rr, zz, rz, modulus, own, cell_yield, internal, w):
+def return_to_surface(m, j, i, rr, zz, rz, modulus, own, cell_yield, w):
     """(rr, zz, rz, dep, final): deviator of body m in cell (j, i) after its return, plastic strain, flow stress (Pa).
 
     ``own``: to the body's own yield surface; else to the flow stress ``cell_yield`` of its cell (Pa). The arguments rr, zz and
     rz are the elastic trial, ``modulus`` is its shear modulus, Pa (explanation/strength, equations 4 and 12).
 
-    Updates  q (plastic strain, damage, internal variables) [k, m, j, i];  scratch internal [k]
+    Updates  q (plastic strain, damage, internal variables) [k, m, j, i];  scratch internal [j, k]
     """
     model, par = w.models[m, STRENGTH], w.materials[m, STRENGTH_AT:DAMAGE_AT]
+    internal = w.internal[j]
     take_internal(m, j, i, model, w.q, internal)
     x_rr, x_zz, x_rz = from_centre(rr, zz, rz, model, internal)
     trial = von_mises(x_rr, x_zz, x_rz)
     stiffness = modulus + kinematic_modulus(model, par) / 3.0
     dep, final = 0.0, trial
     if own:
-        dep, final = plastic_increment(model, trial, w.q[EP, m, j, i], w.dt, w.tm[m, j, i], w.pm[m, j, i], w.q[RHO, m, j, i], stiffness,
-                                       w.materials[m, FACTOR], par, w.q[DMG, m, j, i])
+        dep, final = plastic_increment(model, trial, w.q[EP, m, j, i], w.dt, w.tm[m, j, i], w.pm[m, j, i], w.q[RHO, m, j, i],
+                                       stiffness, w.materials[m, FACTOR], par, w.q[DMG, m, j, i])
     elif trial > cell_yield:
         final = cell_yield
         dep = (trial - final) / (3.0 * stiffness) if modulus > 0.0 else 0.0

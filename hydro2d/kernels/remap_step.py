@@ -3,7 +3,6 @@
 (dj, di) is (0, 1) along r and (1, 0) along z.
 """
 
-import hydro2d.kernels.names  # noqa: F401  (what the names mean)
 from hydro2d.jit import WAIT, Phase, alone, given, unless, when
 from hydro2d.kernels import (
     acceleration,
@@ -25,6 +24,7 @@ carry_bodies = Phase(
     boundaries.ghost_rows,
     unless("second", column_ranges.list_mixed),  # cells may have been filled by the Lagrangian step
     WAIT,
+    interfaces.sweep_volumes,
     interfaces.donor_volumes,
     WAIT,
     interfaces.interface_volumes,

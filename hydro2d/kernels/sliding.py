@@ -19,12 +19,14 @@ SURFACE = 1e-3
 
 
 @point
-def paint(j, i, r0, z0, n_r, n_z, half, reach, low_j, high_j, w):
+def paint(j, i, r0, z0, n_r, n_z, half, w):
     """Distance of the cells around (j, i) to a piece of surface at (r0, z0), where it is the nearest so far.
 
     half is half the length of the piece; cells on its inner side are left out. Mirror images across the axis follow from
     the column range, which begins there.
     """
+    low_j, high_j = outer_rows(w.parts)
+    reach = w.width_bl + w.width_sl
     j_first = j
     while j_first > low_j and z0 - w.zc[j_first - 1] <= reach:
         j_first -= 1
@@ -86,13 +88,13 @@ def slip_zones(w):
             if f == 1.0:
                 half_r, half_z = 0.5 * w.dr[i], 0.5 * w.dz[j]
                 if east < SURFACE:
-                    paint(j, i, w.rc[i] + half_r, w.zc[j], 1.0, 0.0, half_z, reach, j0, j1, w)
+                    paint(j, i, w.rc[i] + half_r, w.zc[j], 1.0, 0.0, half_z, w)
                 if west < SURFACE:
-                    paint(j, i, w.rc[i] - half_r, w.zc[j], -1.0, 0.0, half_z, reach, j0, j1, w)
+                    paint(j, i, w.rc[i] - half_r, w.zc[j], -1.0, 0.0, half_z, w)
                 if north < SURFACE:
-                    paint(j, i, w.rc[i], w.zc[j] + half_z, 0.0, 1.0, half_r, reach, j0, j1, w)
+                    paint(j, i, w.rc[i], w.zc[j] + half_z, 0.0, 1.0, half_r, w)
                 if south < SURFACE:
-                    paint(j, i, w.rc[i], w.zc[j] - half_z, 0.0, -1.0, half_r, reach, j0, j1, w)
+                    paint(j, i, w.rc[i], w.zc[j] - half_z, 0.0, -1.0, half_r, w)
                 continue
             sw = w.hard[j - 1, i - 1]
             se = w.hard[j - 1, i + 1]
@@ -105,7 +107,7 @@ def slip_zones(w):
             x, y = line_centre(n_r / size, n_z / size, f)
             g_r, g_z = n_r / w.dr[i], n_z / w.dz[j]
             length = sqrt(g_r * g_r + g_z * g_z)
-            paint(j, i, w.rc[i] + (x - 0.5) * w.dr[i], w.zc[j] + (y - 0.5) * w.dz[j], g_r / length, g_z / length, 0.5 * max(w.dr[i], w.dz[j]), reach, j0, j1, w)
+            paint(j, i, w.rc[i] + (x - 0.5) * w.dr[i], w.zc[j] + (y - 0.5) * w.dz[j], g_r / length, g_z / length, 0.5 * max(w.dr[i], w.dz[j]), w)
     for j in range(j0, j1):
         for i in range(w.i0, w.i1):
             if w.hard[j, i] >= w.hard_threshold:

@@ -42,22 +42,25 @@ SOUND_FLOOR = 1.0
 
 
 @apart
-def insert_void_row(m, j, first, number, model, memory, par, fracture_pressure, fades, h, w):
+def insert_void_row(m, j, w):
     """Inserts void in the cells of row j that body m fills and that fracture; returns its volume.
 
     Void until p(rho*, e) = 0, at most max_opening of the cell in a cycle; the deviator is set to zero (explanation/fracture).
 
     Updates  vof [m, j, i], q (rho and deviators) [k, m, j, i]
     """
+    model, par, memory = w.models[m, EOS], w.materials[m, EOS_AT:], w.models[m, MEMORY]
+    tensile, fades = w.materials[m, TENSILE], w.materials[m, FADES]
+    first, number = columns(w.body_range[m, j, 0], w.body_range[m, j, 1])
     opened = 0.0
     for x in range(number):
         i = first + x
         rho, e = w.q[RHO, m, j, i], w.q[E, m, j, i]
         internal = w.q[memory:, m, j, i]
         p = evaluate(model, rho, e, internal, par)[0]
-        if w.vof[m, j, i] == 1.0 and p < -tension_limit(fracture_pressure, fades, w.q[DMG, m, j, i]):
+        if w.vof[m, j, i] == 1.0 and p < -tension_limit(tensile, fades, w.q[DMG, m, j, i]):
             f = share_that_stays(rho, zero_pressure_density(model, rho, e, internal, par), w.max_opening)
-            opened += (1.0 - f) * w.metrics[VOL_R, i] * h
+            opened += (1.0 - f) * w.metrics[VOL_R, i] * w.dz[j]
             w.vof[m, j, i] = f
             w.q[RHO, m, j, i] = rho / f
             w.q[SRR, m, j, i] = 0.0
@@ -67,13 +70,15 @@ def insert_void_row(m, j, first, number, model, memory, par, fracture_pressure, 
 
 
 @apart
-def fail_row(m, j, first, number, most_stress, w):
-    """Makes body m fail in the cells of row j in which its largest principal stress is beyond most_stress, Pa.
+def fail_row(m, j, w):
+    """Makes body m fail in the cells of row j in which its largest principal stress is beyond its fracture stress.
 
     Failed material has no deviator and bears no tension, for good (explanation/fracture).
 
     Reads    vof, pm [m, j, i];  updates  q (damage, deviators) [k, m, j, i]
     """
+    most_stress = w.materials[m, MOST_STRESS]
+    first, number = columns(w.body_range[m, j, 0], w.body_range[m, j, 1])
     for x in range(number):
         i = first + x
         if not (w.vof[m, j, i] > 0.0 and w.q[DMG, m, j, i] < 1.0):
@@ -87,11 +92,12 @@ def fail_row(m, j, first, number, most_stress, w):
 
 
 @apart
-def report_row(m, j, first, number, w):
+def report_row(m, j, w):
     """Counts the cells of row j in which body m is not finite.
 
     Updates  bad [j, :3]: their number, the column and body of the first
     """
+    first, number = columns(w.body_range[m, j, 0], w.body_range[m, j, 1])
     for x in range(number):
         i = first + x
         good = w.q[RHO, m, j, i] > 0.0 and abs(w.pm[m, j, i]) < 1e300 and abs(w.q[EP, m, j, i]) < 1e300
@@ -102,13 +108,15 @@ def report_row(m, j, first, number, w):
 
 
 @rowwise
-def add_row(m, j, b, first, number, cutoff_density, w):
+def add_row(m, j, b, w):
     """Adds what body m gives to the cells of row j: pressure, compressibility, density, fraction; and its wave speed squared.
 
     Reads    vof, pm [m, j, i]; q (rho) [k, m, j, i]; scratch [0, b, i], shear modulus, of no avail up to the cutoff density
     Updates  km [m, j, i], which holds the square of the sound speed and then the bulk modulus; p, bulk (1/K), rhobar, solid,
              cl (squared) [j, i]
     """
+    cutoff_density = w.materials[m, CUTOFF_DENSITY]
+    first, number = columns(w.body_range[m, j, 0], w.body_range[m, j, 1])
     f_j = w.vof[m, j]
     r_j = w.q[RHO, m, j]
     pm_j = w.pm[m, j]
@@ -172,7 +180,6 @@ def pressures_row(j, b, w):
         memory = w.models[m, MEMORY]
         par = w.materials[m, EOS_AT:]
         tensile, fades = w.materials[m, TENSILE], w.materials[m, FADES]
-        cutoff_density = w.materials[m, CUTOFF_DENSITY]
         f_j = w.vof[m, j]
         r_j = w.q[RHO, m, j]
         e_j = w.q[E, m, j]
@@ -188,7 +195,7 @@ def pressures_row(j, b, w):
             else:
                 pressure_row(model, par, SOUND_FLOOR, first, number, f_j, r_j, e_j, d_j, pm_j, km_j)
             if attempt == 0 and w.materials[m, MOST_STRESS] < inf:
-                fail_row(m, j, first, number, w.materials[m, MOST_STRESS], w)
+                fail_row(m, j, w)
             fractured = 0
             wrong = 0
             for x in range(number):
@@ -199,9 +206,9 @@ def pressures_row(j, b, w):
                 wrong += 0 if good or f_j[i] == 0.0 else 1
             if fractured == 0 or attempt == 1:
                 break
-            new_void += insert_void_row(m, j, first, number, model, memory, par, tensile, fades, w.dz[j], w)
+            new_void += insert_void_row(m, j, w)
         if wrong > 0:
-            report_row(m, j, first, number, w)
+            report_row(m, j, w)
         line = w.materials[m, MELTING_AT:EOS_AT]
         if feels_temperature(w.models[m, STRENGTH], w.models[m, DAMAGE], line):
             if model in WITH_MEMORY:
@@ -210,7 +217,7 @@ def pressures_row(j, b, w):
                 temperature_row(model, par, first, number, f_j, r_j, e_j, tm_j)
         modulus_row(w.models[m, STRENGTH], w.materials[m, STRENGTH_AT:DAMAGE_AT], first, number, pm_j, r_j, tm_j, shear_j)
         end_at_melt(line, first, number, r_j, tm_j, shear_j)
-        add_row(m, j, b, first, number, cutoff_density, w)
+        add_row(m, j, b, w)
     for x in range(n):
         i = lo + x
         full = solid_j[i] > 1.0 - 1e-12
