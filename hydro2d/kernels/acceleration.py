@@ -45,7 +45,6 @@ def total_stress(j, w):
     Reads    u0, v0 [b, j, i]; vof [m, j, i]; q (deviators) [k, m, j, i]; p, bulk, solid, qr, qz, qt, qrz [j, i]; hard_bodies [m]
     Writes   ph, sig_rr, sig_zz, sig_tt, sig_rz [j, i]
     """
-    bodies = w.vof.shape[0]
     lo, n = columns(w.active_range[j, 0], w.active_range[j, 1])
     rr = w.sig_rr[j]
     zz = w.sig_zz[j]
@@ -57,7 +56,7 @@ def total_stress(j, w):
         rr[i] = 0.0
         zz[i] = 0.0
         rz[i] = 0.0
-    for m in range(bodies):
+    for m in range(w.vof.shape[0]):
         f_j = w.vof[m, j]
         a_j = w.q[SRR, m, j]
         b_j = w.q[SZZ, m, j]

@@ -122,19 +122,20 @@ def dashpots(along_r, j, i, w):
 
 
 @apart
-def transmit(along_r, at, first, last, crossing, drag, w):
+def transmit(edge, first, last, w):
     """Tractions -rho c_l v_n and -rho c_s v_t on the vertices first to last of an edge: what an endless plate would hold with.
 
     J. Lysmer & R. L. Kuhlemeyer, J. Engng Mech. Div. ASCE 95 (1969) 859: exact for plane waves that meet the edge squarely.
     The dashpots are taken at the end of the step. Vertices that two groups share are the contact's. At a corner of two
     transmitting edges, the edge along z holds with the dashpots of both and the other one leaves the corner out; a velocity
-    that a wall or the axis gives is not held. The edge is column `at` where along_r, else row `at`; what is taken from the
-    vertices goes on beyond the edge.
+    that a wall or the axis gives is not held. What is taken from the vertices goes on beyond the edge.
 
-    Reads    crossing [2], places along the edge where another transmitting edge crosses it, -1 for none; constrained [4],
-             columns and rows whose normal velocity is given, -1 for none; rhobar, cl, bulk [j, i]; mass [b, j, i]
-    Updates  u, v [b, j, i];  writes drag [b, c, j or i], the impulses that are taken, where there are any
+    Reads    transmitting, constrained [4], columns (2) and rows (2), -1 for none; rhobar, cl, bulk [j, i]; mass [b, j, i]
+    Updates  u, v [b, j, i];  writes drag [edge, b, c, j or i], the impulses that are taken, where there are any
     """
+    at, along_r = w.transmitting[edge], edge < 2
+    crossing = w.transmitting[2:4] if along_r else w.transmitting[0:2]
+    drag = w.drag[edge]
     groups = w.mass.shape[0]
     for place in range(first, last):
         j, i = (place, at) if along_r else (at, place)
@@ -178,9 +179,9 @@ def transmit_edges(w):
                 w.drag[edge, b, 0, place] = 0.0
                 w.drag[edge, b, 1, place] = 0.0
         if along_r and (at == w.i0 or at == w.i1):
-            transmit(along_r, at, j0, j1 + 1, w.transmitting[2:4], w.drag[edge], w)
+            transmit(edge, j0, j1 + 1, w)
         elif not along_r and (at == j0 or at == j1):
-            transmit(along_r, at, w.i0, w.i1 + 1, w.transmitting[0:2], w.drag[edge], w)
+            transmit(edge, w.i0, w.i1 + 1, w)
 
 
 @serial

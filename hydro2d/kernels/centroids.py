@@ -89,9 +89,8 @@ def push_bodies(j, i, w):
     Reads    mix [j, BEFORE, m], fractions before; vof [m, j, i], after
     Updates  centroid [2, m, j, i]
     """
-    bodies = w.vof.shape[0]
     void, gained, shrunk, void_r, void_z = 1.0, 0.0, 0.0, 0.0, 0.0
-    for m in range(bodies):
+    for m in range(w.vof.shape[0]):
         f = w.mix[j, BEFORE, m]
         void -= f
         gained += f - w.vof[m, j, i]
@@ -102,15 +101,15 @@ def push_bodies(j, i, w):
     if void > NOTHING:
         void_r, void_z = within(void_r / void, void), within(void_z / void, void)
     inside = gained * gained / (void + gained) if gained > 0.0 else 0.0  # of the new void, what opens in the bodies
-    for m in range(bodies):
+    for m in range(w.vof.shape[0]):
         w.mix[j, SHIFT_R, m], w.mix[j, SHIFT_Z, m] = 0.0, 0.0
-    for m in range(bodies):
+    for m in range(w.vof.shape[0]):
         f = w.mix[j, BEFORE, m]
         if f == 0.0:
             continue
         change = w.vof[m, j, i] - f
         change += inside * max(-change, 0.0) / shrunk if inside > 0.0 else 0.0
-        for k in range(m + 1, bodies):
+        for k in range(m + 1, w.vof.shape[0]):
             other = w.mix[j, BEFORE, k]
             if other == 0.0:
                 continue
@@ -125,7 +124,7 @@ def push_bodies(j, i, w):
         if gained != inside:
             w.mix[j, SHIFT_R, m] += 0.5 * (gained - inside) * side(w.centroid[0, m, j, i], void_r, f, void)
             w.mix[j, SHIFT_Z, m] += 0.5 * (gained - inside) * side(w.centroid[1, m, j, i], void_z, f, void)
-    for m in range(bodies):
+    for m in range(w.vof.shape[0]):
         if w.mix[j, BEFORE, m] > 0.0:
             w.centroid[0, m, j, i] = within(w.centroid[0, m, j, i] + w.mix[j, SHIFT_R, m], w.vof[m, j, i])
             w.centroid[1, m, j, i] = within(w.centroid[1, m, j, i] + w.mix[j, SHIFT_Z, m], w.vof[m, j, i])

@@ -67,11 +67,10 @@ def find_body_ranges(j, w):
     Updates  body_ranges [n, m, j, 2], of which body_ranges[0] is body_range
     Writes   occupied [b, j, 2], the union over the bodies: for b = 0 all of them, for b = 1 those of group 1
     """
-    bodies = w.vof.shape[0]
     for b in range(w.occupied.shape[0]):
         w.occupied[b, j, 0] = NOTHING
         w.occupied[b, j, 1] = 0
-    for m in range(bodies):
+    for m in range(w.vof.shape[0]):
         row = w.vof[m, j]
         lo = w.i0 if w.anew else max(w.body_ranges[1, m, j, 0] - 1, w.i0)
         end = w.i1 if w.anew else min(w.body_ranges[1, m, j, 1] + 1, w.i1)

@@ -199,7 +199,6 @@ def contact_fluxes(part, w):
     Scratch  strips [j, 3, 4, m]
     """
     j0, j1 = outer_rows(w.parts)
-    bodies = w.group.shape[0]
     for j in range(w.parts[part], past_row(part, w.parts, w.dj)):
         lo, hi = union(w.contact_columns, max(j - w.dj, j0), min(j + 1, j1))
         if lo >= hi:
@@ -208,7 +207,7 @@ def contact_fluxes(part, w):
             if (w.di == 1 and (i == w.mesh_box[2] or i == w.mesh_box[3])) or (w.dj == 1 and (j == w.mesh_box[0] or j == w.mesh_box[1])):
                 continue
             total = 0.0
-            for m in range(bodies):
+            for m in range(w.group.shape[0]):
                 swept = w.own[w.group[m], j, i]
                 up = swept > 0.0
                 row, column = (j - w.dj, i - w.di) if up else (j, i)
@@ -220,16 +219,16 @@ def contact_fluxes(part, w):
                 elif w.vof[m, row, column] > 0.0 and swept != 0.0:
                     width = min(abs(swept) / w.size[row, column], 1.0)
                     weight, given, along, across = 1.0, 0.0, 0.0, 0.0
-                    void = 1.0 - cumulative(row, column, bodies - 1, w.hard_first, w.vof)
-                    w_low, w_high = (0.0, width) if up else (width, 0.0)
+                    void = 1.0 - cumulative(row, column, w.group.shape[0] - 1, w.hard_first, w.vof)
+                    widths = (0.0, width, 0.0) if up else (width, 0.0, 0.0)
                     strip = w.strips[j, 1 if up else 0]
                     if w.contact_columns[row, 0] <= column < w.contact_columns[row, 1]:
                         weight = w.line[HARD_FIRST if w.group[m] == 1 else SOFT_AFTER, row, column]
                     if weight > 0.0:
-                        fill_strips(row, column, m, w.dj == 1, w_low, w_high, 0.0, w.hard_first, w.own_share, void, w.strips[j], w)
+                        fill_strips(row, column, m, widths, w.hard_first, w.own_share, void, w.strips[j], w)
                         given, along, across = weight * strip[SHARE, m], weight * strip[ALONG, m], weight * strip[ACROSS, m]
                     if weight < 1.0:
-                        fill_strips(row, column, m, w.dj == 1, w_low, w_high, 0.0, w.soft_first, w.own_share, void, w.strips[j], w)
+                        fill_strips(row, column, m, widths, w.soft_first, w.own_share, void, w.strips[j], w)
                         given += (1.0 - weight) * strip[SHARE, m]
                         along += (1.0 - weight) * strip[ALONG, m]
                         across += (1.0 - weight) * strip[ACROSS, m]
@@ -243,10 +242,10 @@ def contact_fluxes(part, w):
             up = w.face[j, i] > 0.0
             row, column = (j - w.dj, i - w.di) if up else (j, i)
             to_row, to_column = (j, i) if up else (j - w.dj, i - w.di)
-            void = 1.0 - cumulative(row, column, bodies - 1, w.hard_first, w.vof)
+            void = 1.0 - cumulative(row, column, w.group.shape[0] - 1, w.hard_first, w.vof)
             gap = smoothstep(void / GAP - 0.5)
             if gap > 0.0 and (rest > 0.0) == up:
-                for m in range(bodies):
+                for m in range(w.group.shape[0]):
                     full = smoothstep(1.0 - (1.0 - w.vof[m, to_row, to_column]) / OTHERS)
                     if full > 0.0:
                         swept = w.own[w.group[m], j, i] if up else -w.own[w.group[m], j, i]

@@ -74,17 +74,19 @@ def open_cracks(j, w):
 
 
 @point
-def across(m, j, i, row, dj, di, reach, w):
-    """(opening of the crack of body m about cell (j, i), m; whether no other cell has more of it) along the offset (dj, di).
+def across(m, j, i, dj, reach, w):
+    """(opening of the crack of body m about cell (j, i), m; whether no other cell has more of it), along z if dj is 1, else r.
 
-    Reads    vof [m, j, i]; q (density, crack volume in the variables from ``row`` on) [k, m, j, i]
+    Reads    vof [m, j, i]; q (density, crack volume) [k, m, j, i]
     """
+    row, di = w.models[m, MEMORY], 1 - dj
     own = crack_opening(w.vof[m, j, i], w.q[RHO, m, j, i], w.q[row + WIDTH, m, j, i], w.dz[j] if dj == 1 else w.dr[i])
     opening, widest = 0.0, own
     for k in range(-reach, reach + 1):
         jj, ii = j + k * dj, i + k * di
         if w.mesh_box[0] <= jj and jj < w.mesh_box[1] and w.mesh_box[2] <= ii and ii < w.mesh_box[3]:
-            part = crack_opening(w.vof[m, jj, ii], w.q[RHO, m, jj, ii], w.q[row + WIDTH, m, jj, ii], w.dz[jj] if dj == 1 else w.dr[ii])
+            length = w.dz[jj] if dj == 1 else w.dr[ii]
+            part = crack_opening(w.vof[m, jj, ii], w.q[RHO, m, jj, ii], w.q[row + WIDTH, m, jj, ii], length)
             opening += part
             widest = max(widest, part)
     return opening, own >= widest
@@ -113,7 +115,7 @@ def damage_by_cracks(j, w):
                 stretch_z = ((w.v[g, j + 1, i] - w.v[g, j, i]) + (w.v[g, j + 1, i + 1] - w.v[g, j, i + 1])) / w.dz[j]
                 dj = 1 if stretch_z >= stretch_r else 0
                 reach = max(int(OPENINGS * full / (w.dz[j] if dj == 1 else w.dr[i])), REACH)
-                opening, most = across(m, j, i, row, dj, 1 - dj, reach, w)
+                opening, most = across(m, j, i, dj, reach, w)
                 damage = max(w.q[DMG, m, j, i], opening / full)
                 if damage >= 1.0:
                     damage = FAILED if most else CRUSHED

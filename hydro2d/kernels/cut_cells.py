@@ -92,7 +92,6 @@ def find_surfaces(j, w):
     Reads    vof [m, j, i], group, hard_bodies, strong, gases [m], the list of mixed cells
     Writes   skin [3, j, i]
     """
-    bodies = w.vof.shape[0]
     for i in range(w.i0, w.i1):
         w.skin[NORMAL_R, j, i] = 0.0
         w.skin[NORMAL_Z, j, i] = 0.0
@@ -102,7 +101,7 @@ def find_surfaces(j, w):
         i = w.mixed[j, k]
         left, right = max(i - 1, w.mesh_box[2]), min(i + 1, w.mesh_box[3] - 1)
         own, other, zone = 0.0, 0.0, False
-        for m in range(bodies):
+        for m in range(w.vof.shape[0]):
             if w.vof[m, j, i] > 0.0:
                 own += w.vof[m, j, i] if w.group[m] == 1 else 0.0
                 other += w.vof[m, j, i] if w.group[m] != 1 else 0.0
@@ -118,7 +117,7 @@ def find_surfaces(j, w):
         if zone:
             continue
         sw, south, se, west, east, nw, north, ne = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
-        for m in range(bodies):
+        for m in range(w.vof.shape[0]):
             of_hard = w.group[m] == 1
             sign = 1.0 if of_hard == (own > 0.0) else (-1.0 if meet else 0.0)
             if joint:
@@ -237,33 +236,34 @@ def cut_pressure(j, i, rate, w):
 
 
 @point
-def grow(j, i, target, weight, w):
+def grow(j, i, target, w):
     """(what the bodies of a cut cell grow by at a common pressure, as a share of the cell; the fall of that with it, 1/Pa).
 
     Reads    mix [j, MODULUS to BESIDE, m]
     Writes   mix [j, ACROSS, m], the strain of a body across the surface; mix [j, GROWTH, m], what its volume grows by
     """
+    weight = surface_weight(j, i, w.skin)
     total, give = 0.0, 0.0
     for m in range(w.vof.shape[0]):
         if w.vof[m, j, i] == 0.0:
             continue
         w.mix[j, ACROSS, m], w.mix[j, GROWTH, m], softer = strain_across(
-            w.pm[m, j, i], target, w.km[m, j, i], w.mix[j, MODULUS, m], w.mix[j, FLOW, m], w.mix[j, SIZE, m], w.mix[j, ALONG, m],
-            w.mix[j, BESIDE, m], weight)
+            w.pm[m, j, i], target, w.km[m, j, i], w.mix[j, MODULUS, m], w.mix[j, FLOW, m], w.mix[j, SIZE, m],
+            w.mix[j, ALONG, m], w.mix[j, BESIDE, m], weight)
         total += w.vof[m, j, i] * w.mix[j, GROWTH, m]
         give += w.vof[m, j, i] * softer
     return total, give
 
 
 @apart
-def fill_room(j, i, room, start, weight, w):
+def fill_room(j, i, room, start, w):
     """Pressure (Pa) at which the bodies of a cell grow by `room`, a share of the cell: Newton's rule from `start`.
 
     Writes   as `grow`
     """
     target = start
     for _ in range(10):
-        total, give = grow(j, i, target, weight, w)
+        total, give = grow(j, i, target, w)
         if abs(total - room) < 1e-14:
             break
         target += (total - room) / give
@@ -271,7 +271,7 @@ def fill_room(j, i, room, start, weight, w):
 
 
 @apart
-def meet_traction(j, i, change, void, w):
+def meet_traction(j, i, change, w):
     """p_c of a cut cell at the end of the step (Pa), whose volume changes by `change`, as a share of it.
 
     Void opens at p_c = 0 and is shut before p_c rises; a crack in the midst of a group pulls the less the wider it is
@@ -279,16 +279,16 @@ def meet_traction(j, i, change, void, w):
 
     Writes   as `grow`
     """
-    weight = surface_weight(j, i, w.skin)
-    total, _ = grow(j, i, 0.0, weight, w)
+    void = max(1.0 - w.solid[j, i], 0.0)
+    total, _ = grow(j, i, 0.0, w)
     if total > change + void:
-        return fill_room(j, i, change + void, max(w.p[j, i] - w.bulk[j, i] * (change + void), 0.0), weight, w)
+        return fill_room(j, i, change + void, max(w.p[j, i] - w.bulk[j, i] * (change + void), 0.0), w)
     pull = pull_of(j, i, void, w.skin)
     if pull == 0.0 or total >= change:
         return 0.0
-    target = fill_room(j, i, change, min(w.p[j, i] - w.bulk[j, i] * change, 0.0), weight, w)
+    target = fill_room(j, i, change, min(w.p[j, i] - w.bulk[j, i] * change, 0.0), w)
     target = min(target * pull, 0.0)
-    grow(j, i, target, weight, w)
+    grow(j, i, target, w)
     return target
 
 

@@ -212,7 +212,7 @@ def next_body(m, f, thin, box, whole, total, side, width, weight, below, strip):
 
 
 @apart
-def nest(j, i, last, along_z, w_low, w_high, w_whole, thin_first, weight, order, share, void, no_gap, strips, w):
+def nest(j, i, last, widths, thin_first, weight, order, share, void, no_gap, strips, w):
     """Adds what the nested interfaces give of every body in the strips of cell (j, i), times a weight.
 
     The bodies come in their order, or first those that are thin (strips [0, THIN, m]), each by a box of its own; those after
@@ -220,6 +220,8 @@ def nest(j, i, last, along_z, w_low, w_high, w_whole, thin_first, weight, order,
 
     Updates  strips [3, SHARE to ACROSS, m]: of the strips at the low and at the high side, and of the whole cell
     """
+    along_z = w.dj == 1
+    w_low, w_high, w_whole = widths
     around = NO_BODY
     moment_along, moment_across = 0.0, 0.0
     low, high, whole = (0.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0)
@@ -264,7 +266,7 @@ def nest(j, i, last, along_z, w_low, w_high, w_whole, thin_first, weight, order,
 
 
 @apart
-def fill_strips(j, i, last, along_z, w_low, w_high, w_whole, order, share, void, strips, w):
+def fill_strips(j, i, last, widths, order, share, void, strips, w):
     """What every body has in the strips at the low and at the high side of cell (j, i), and in all of it, and where.
 
     Nested interfaces in the order of the bodies. Where several bodies of one group meet, none of them a gas, and one of them is
@@ -272,13 +274,13 @@ def fill_strips(j, i, last, along_z, w_low, w_high, w_whole, order, share, void,
     (explanation/interfaces, thin bodies).
 
     last : the body that is asked for, of those after which nothing is found out; ALL for all of them
-    w_low, w_high, w_whole : widths of the strips as shares of the cell, 0 for one that is left out and stays as it is
+    widths : those of the three strips as shares of the cell, 0 for one that is left out and stays as it is
 
     Reads    share [m, j, i], the fractions; void, the share of the cell that is empty; centroid [2, m, j, i]
     Writes   strips [3, 4, m]: shares of the cell; times them, where the centroids lie off the middle of the strip, along the
              sweep in widths of the strip and across; how thin the bodies are
     """
-    for n, width in enumerate((w_low, w_high, w_whole)):
+    for n, width in enumerate(widths):
         if width > 0.0:
             for m in range(order.shape[0]):
                 strips[n, SHARE, m] = 0.0
@@ -287,9 +289,9 @@ def fill_strips(j, i, last, along_z, w_low, w_high, w_whole, order, share, void,
     ordered, no_gap = keeps_order(j, i, w.group, w.gases, share, void)
     thinnest = thinnest_body(j, i, ordered, order, share, strips[0, THIN])
     if thinnest < 1.0:
-        nest(j, i, last, along_z, w_low, w_high, w_whole, False, 1.0 - thinnest, order, share, void, no_gap, strips, w)
+        nest(j, i, last, widths, False, 1.0 - thinnest, order, share, void, no_gap, strips, w)
     if thinnest > 0.0:
-        nest(j, i, last, along_z, w_low, w_high, w_whole, True, thinnest, order, share, void, no_gap, strips, w)
+        nest(j, i, last, widths, True, thinnest, order, share, void, no_gap, strips, w)
 
 
 @point
@@ -316,16 +318,14 @@ def interface_volumes(j, w):
     monotone, each body gives no more than it has, and what two opposite strips ask together beyond that is passed on to the
     next body.
 
-    Reads    mixed [j, k], order [k], f_face, pre [j, i], vof [m, j, i]
+    Reads    mixed [j, k], interface_order [k], face, pre [j, i], vof [m, j, i]
     Updates  flux_volume [m, j, i] and flux_place [2, m, j, i] at the faces through which mixed cells lose volume;
              centroid [2, m, j, i] of these cells: that of what the interfaces enclose, in full where SWEPT of the cell leaves
     Scratch  strips [j, 3, 4, m]
     """
-    bodies = w.interface_order.shape[0]
     left = w.strips[j, 0]
     right = w.strips[j, 1]
     whole = w.strips[j, 2]
-    along_z = w.dj == 1
     for k in range(w.mixed_count[j]):
         i = w.mixed[j, k]
         out_low = max(-w.face[j, i], 0.0)
@@ -337,9 +337,9 @@ def interface_volumes(j, w):
         taken = min((w_low + w_high) / SWEPT, 1.0)
         if by_contact(j, i, w):
             w_low, w_high = 0.0, 0.0
-        void = 1.0 - cumulative(j, i, bodies - 1, w.interface_order, w.vof)
-        fill_strips(j, i, ALL, along_z, w_low, w_high, 1.0, w.interface_order, w.vof, void, w.strips[j], w)
-        for m in range(bodies):
+        void = 1.0 - cumulative(j, i, w.interface_order.shape[0] - 1, w.interface_order, w.vof)
+        fill_strips(j, i, ALL, (w_low, w_high, 1.0), w.interface_order, w.vof, void, w.strips[j], w)
+        for m in range(w.interface_order.shape[0]):
             f = w.vof[m, j, i]
             if f == 0.0:
                 continue
@@ -353,13 +353,13 @@ def interface_volumes(j, w):
         # two strips together may not take more of a body than there is; the excess moves on to the next body
         if w_low > 0.0 and w_high > 0.0:
             excess = 0.0
-            for n in range(bodies):
+            for n in range(w.interface_order.shape[0]):
                 m = w.interface_order[n]
                 right[SHARE, m] += excess
                 kept = min(right[SHARE, m], max(w.vof[m, j, i] - left[SHARE, m], 0.0))
                 excess = right[SHARE, m] - kept
                 right[SHARE, m] = kept
-        for m in range(bodies):
+        for m in range(w.interface_order.shape[0]):
             if w_low > 0.0:
                 w.flux_volume[m, j, i] = -left[SHARE, m] * size
             if w_high > 0.0:

@@ -29,12 +29,12 @@ def remember(j, w):
 
 
 @point
-def released(m, j, i, rate, damage0, w):
+def released(m, j, i, rate, w):
     """Elastic energy that growing damage has released, J/m^3: (Y^2(D_0) - Y^2(D_1))/(6 G) (explanation/strength, equation 15).
 
-    rate : that of the plastic strain, 1/s;  damage0 : D_0, before the step
+    rate : that of the plastic strain, 1/s
     """
-    model, damage = w.models[m, STRENGTH], w.q[DMG, m, j, i]
+    model, damage0, damage = w.models[m, STRENGTH], w.before[DAMAGED, m, j, i], w.q[DMG, m, j, i]
     if model not in WEAKENS or damage <= damage0:
         return 0.0
     par, p, T, rho = w.materials[m, STRENGTH_AT:DAMAGE_AT], w.pm[m, j, i], w.tm[m, j, i], w.q[RHO, m, j, i]
@@ -65,5 +65,5 @@ def update_memory(j, w):
                 dep, damage0 = w.q[EP, m, j, i] - w.before[STRAIN, m, j, i], w.before[DAMAGED, m, j, i]
                 work = dep * von_mises(w.q[SRR, m, j, i], w.q[SZZ, m, j, i], w.q[SRZ, m, j, i])
                 update(model, w.before[DENSITY, m, j, i], w.q[RHO, m, j, i], w.q[E, m, j, i], dep, work, damage0,
-                       w.q[DMG, m, j, i], released(m, j, i, dep / w.dt, damage0, w), w.time, w.dt, par,
+                       w.q[DMG, m, j, i], released(m, j, i, dep / w.dt, w), w.time, w.dt, par,
                        w.q[first_row:, m, j, i])

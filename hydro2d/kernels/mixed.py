@@ -36,7 +36,6 @@ from hydro2d.kernels.mixed_scratch import (
 )
 from hydro2d.kernels.mixed_strength import (
     MATERIAL,
-    SOLID,
     dominant_body,
     return_deviators,
     strain_bodies_across,
@@ -50,7 +49,6 @@ from hydro2d.mesh.grid import VOL_R
 from hydro2d.physics.closure import NO_VOID, relaxation_bound, relaxation_strain, softness
 from hydro2d.physics.fracture import share_that_stays, tension_limit
 from hydro2d.physics.kinematics import hourglass_mode, velocity_gradient
-from hydro2d.physics.stress import stress_scale
 
 #: mixed-cell closure by name
 CLOSURES = ("uniform", "tipton")
@@ -68,13 +66,12 @@ def insert_void_mixed_row(j, w):
     Reads    mixed [j, k], skin [3, j, i]
     Updates  vof, pm [m, j, i]; q (rho, deviators); p, solid, bulk [j, i]; opened [j]
     """
-    bodies = w.vof.shape[0]
     for k in range(w.mixed_count[j]):
         i = w.mixed[j, k]
         mean, least = 0.0, 1e300
         if w.skin[KIND, j, i] == INTERFACE:
             continue
-        for m in range(bodies):
+        for m in range(w.vof.shape[0]):
             f = w.vof[m, j, i]
             if f > 0.0:
                 limit = tension_limit(w.materials[m, TENSILE], w.materials[m, FADES], w.q[DMG, m, j, i])
@@ -84,7 +81,7 @@ def insert_void_mixed_row(j, w):
         if not w.p[j, i] < -threshold:
             continue
         total, pressure = 0.0, 0.0
-        for m in range(bodies):
+        for m in range(w.vof.shape[0]):
             f = w.vof[m, j, i]
             if f == 0.0:
                 continue
@@ -226,9 +223,8 @@ def work_beside_gas(j, i, volume, change, inverse, work, rise, target, relaxed, 
     Reads    mix [j, SOFT, m]
     Updates  mix [j, HEAT, m], which then has all of the work on a body
     """
-    bodies = w.vof.shape[0]
     mass, left = 0.0, work
-    for m in range(bodies):
+    for m in range(w.vof.shape[0]):
         f = w.vof[m, j, i]
         if f > 0.0:
             mass += w.q[RHO, m, j, i] * f * volume
@@ -237,34 +233,34 @@ def work_beside_gas(j, i, volume, change, inverse, work, rise, target, relaxed, 
             own += (w.pm[m, j, i] - 0.5 * relaxed * excess) * relaxed * f * volume * excess / w.km[m, j, i]
             w.mix[j, HEAT, m] -= own
             left += own
-    for m in range(bodies):
+    for m in range(w.vof.shape[0]):
         if w.vof[m, j, i] > 0.0:
             w.mix[j, HEAT, m] += w.q[RHO, m, j, i] * w.vof[m, j, i] * volume / mass * left
 
 
 @point
-def fill_cell(j, i, change, volume, total, inverse, mean_p, work_p, work_q, middle, w):
+def fill_cell(j, i, change, volume, work_p, work_q, w):
     """Volumes, densities and energies after the step in a cell that bodies of one group fill: by compressibility, then
     relaxation of the pressures.
 
-    middle is the pressure of the cell in the middle of the step, Pa.
+    work_p is that of the pressure on the cell, work_q that of the viscosity.
 
-    Reads    mix [j, SOFT, m], mix [j, HEAT, m]
+    Reads    ph, solid [j, i]; mix [j, HEAT, m]
     Updates  vof [m, j, i] (share of the volume after the step), q (rho, e) [k, m, j, i]
     """
-    bodies = w.vof.shape[0]
+    inverse, mean_p = soften(j, i, w)
     bound = 1.0
-    for m in range(bodies):
+    for m in range(w.vof.shape[0]):
         if w.vof[m, j, i] > 0.0 and w.tipton:
             bound = min(bound, relaxation_bound(relaxation_strain(w.relaxation, w.pm[m, j, i], mean_p, w.km[m, j, i])))
     gas = is_beside_gas(j, i, w.gases, w.vof)
     if gas:
         work = work_p + work_q + filter_work(j, i, w.motion, w.cell_mass)
         relaxed = bound * w.relaxation if w.tipton else 0.0
-        rise = pressure_rise(j, i, middle, w.vof, w.pm)
+        rise = pressure_rise(j, i, w.ph[j, i], w.vof, w.pm)
         work_beside_gas(j, i, volume, change, inverse, work, rise, mean_p, relaxed, w)
     after = volume + change
-    for m in range(bodies):
+    for m in range(w.vof.shape[0]):
         f = w.vof[m, j, i]
         if f == 0.0:
             continue
@@ -277,7 +273,7 @@ def fill_cell(j, i, change, volume, total, inverse, mean_p, work_p, work_q, midd
         if gas:
             w.q[E, m, j, i] += w.mix[j, HEAT, m] / mass
             continue
-        rubbed = f / total * (work_q + w.motion[j, w.group[m], HOURGLASS])
+        rubbed = f / w.solid[j, i] * (work_q + w.motion[j, w.group[m], HOURGLASS])
         gained = w.mix[j, SOFT, m] * inverse * work_p + rubbed + w.mix[j, HEAT, m]
         w.q[E, m, j, i] += (gained - mean_p * shift) / mass
 
@@ -316,25 +312,24 @@ def deform_mixed(j, w):
         if groups > 1 and w.contact_columns[j, 0] <= i < w.contact_columns[j, 1]:
             work_q = -w.qr[j, i] * change
             work_p = -w.ph[j, i] * change
-        total, meet = w.solid[j, i], held > 1
+        meet = held > 1
         dominant = dominant_body(j, i, w)
         for m in range(w.vof.shape[0]):
             w.mix[j, BEFORE, m] = w.vof[m, j, i]
             w.mix[j, NORMAL, m] = normal_deviator(m, j, i, w.skin, w.q) if w.vof[m, j, i] > 0.0 else 0.0
         cut, own = w.skin[KIND, j, i] != WHOLE, w.strength_mode == MATERIAL or dominant >= 0 or meet
         target = 0.0
-        work_of_deviators(j, i, dominant, total, stress_scale(w.strength_mode == SOLID, total), w)
+        work_of_deviators(j, i, dominant, w)
         for g in range(groups):
             if w.cell_mass[g, j, i] > 0.0:
                 heat_of_ties(j, i, g, w)
-        firm = firm_share(j, i, total, w.gases, w.vof)
+        firm = firm_share(j, i, w.solid[j, i], w.gases, w.vof)
         cell_yield = strain_deviators(j, i, w.dt / volume, firm, w)
         if cut:
-            target = strain_bodies_across(j, i, own, cell_yield, change / volume, max(1.0 - total, 0.0), w)
-        return_deviators(j, i, own, cell_yield, dominant, volume, total, w)
+            target = strain_bodies_across(j, i, own, cell_yield, change / volume, w)
+        return_deviators(j, i, own, cell_yield, dominant, volume, w)
         if cut:
             fill_cut_cell(j, i, change, volume, target, work_p + work_q + filter_work(j, i, w.motion, w.cell_mass), w)
         else:
-            inverse, mean_p = soften(j, i, w)
-            fill_cell(j, i, change, volume, total, inverse, mean_p, work_p, work_q, w.ph[j, i], w)
+            fill_cell(j, i, change, volume, work_p, work_q, w)
         push_bodies(j, i, w)

@@ -29,7 +29,7 @@ from hydro2d.kernels.plastic_return import return_to_surface
 from hydro2d.materials.rows import CUTOFF_DENSITY, DAMAGE_AT, EOS_AT, FACTOR, MELTING_AT, STRENGTH, STRENGTH_AT
 from hydro2d.mesh.fields import DMG, EP, RHO, SRR, SRZ, SZZ
 from hydro2d.physics.plasticity import carries_no_stress, deviator_power, forget, is_fluid, keep_internal, take_internal
-from hydro2d.physics.stress import turn_and_strain, von_mises
+from hydro2d.physics.stress import stress_scale, turn_and_strain, von_mises
 from hydro2d.physics.traction import along_normal
 from strength.dispatch import flow_stress, shear_modulus, turn, weakened
 from strength.melting import melts, solid_modulus
@@ -50,13 +50,15 @@ def dominant_body(j, i, w):
 
 
 @point
-def work_of_deviators(j, i, dominant, total, scale, w):
+def work_of_deviators(j, i, dominant, w):
     """What the deviators of every body do in the step: its own, or in the hard zone the dominant body's alone.
 
     In a cut cell the part across the surface is none of theirs: mix [j, NORMAL, m].
 
     Writes   mix [j, HEAT, m], J per radian
     """
+    total = w.solid[j, i]
+    scale = stress_scale(w.strength_mode == SOLID, total)
     for m in range(w.vof.shape[0]):
         f = w.vof[m, j, i]
         w.mix[j, HEAT, m] = 0.0
@@ -130,7 +132,7 @@ def strain_deviators(j, i, rate, firm, w):
 
 
 @point
-def strain_bodies_across(j, i, own, cell_yield, change, void, w):
+def strain_bodies_across(j, i, own, cell_yield, change, w):
     """Strains the bodies of a cut cell across its surface; returns p_c at the end of the step, Pa (`meet_traction`).
 
     A body that flows does so at the stress that it has, which may be above its yield stress by its rate.
@@ -142,7 +144,7 @@ def strain_bodies_across(j, i, own, cell_yield, change, void, w):
         if flow > 0.0:
             flow = max(flow, von_mises(w.q[SRR, m, j, i], w.q[SZZ, m, j, i], w.q[SRZ, m, j, i]))
         w.mix[j, FLOW, m] = flow
-    target = meet_traction(j, i, change, void, w)
+    target = meet_traction(j, i, change, w)
     n_r, n_z, weight = w.skin[NORMAL_R, j, i], w.skin[NORMAL_Z, j, i], surface_weight(j, i, w.skin)
     for m in range(w.vof.shape[0]):
         if w.vof[m, j, i] > 0.0 and w.models[m, STRENGTH] != 0:
@@ -154,7 +156,7 @@ def strain_bodies_across(j, i, own, cell_yield, change, void, w):
 
 
 @point
-def return_deviators(j, i, own, cell_yield, dominant, volume, total, w):
+def return_deviators(j, i, own, cell_yield, dominant, volume, w):
     """Brings the trial deviators back to the yield surface: each body's own, or the one of the cell. Melts lose theirs.
 
     In the hard zone the plastic heat of the dominant body is shared by f_m/Y_m among what is solid, as in layers under one
@@ -163,8 +165,7 @@ def return_deviators(j, i, own, cell_yield, dominant, volume, total, w):
     Reads    what strain_deviators wrote
     Updates  q (deviators, plastic strain, damage, internal variables) [k, m, j, i]; mix [j, HEAT, m]; scratch internal [j, k]
     """
-    bodies = w.vof.shape[0]
-    for m in range(bodies):
+    for m in range(w.vof.shape[0]):
         if w.vof[m, j, i] == 0.0 or w.models[m, STRENGTH] == 0:
             continue
         if is_fluid(w.mix[j, MODULUS, m]):
@@ -180,7 +181,7 @@ def return_deviators(j, i, own, cell_yield, dominant, volume, total, w):
         w.q[SZZ, m, j, i] = 0.0 if gone else zz
         w.q[SRZ, m, j, i] = 0.0 if gone else rz
         if m == dominant and dep > 0.0 and w.mix[j, YIELD, m] > 0.0:
-            share_plastic_heat(j, i, m, dep * final * volume * total, w.vof, w.mix)
+            share_plastic_heat(j, i, m, dep * final * volume * w.solid[j, i], w.vof, w.mix)
 
 
 @point

@@ -80,13 +80,13 @@ def dual_row(g, j, slot, w):
 
 
 @apart
-def rest_on_anvil(edge, g, j, lo, hi, at, new_j, left, w):
-    """Takes the normal velocity of vertices in column or row `at` that rest on an edge that only pushes or would go beyond it.
+def rest_on_anvil(edge, g, j, lo, hi, new_j, left, w):
+    """Takes the normal velocity of vertices that rest on an edge that only pushes or would go beyond it.
 
     Reads    new_j [x], masses of the columns from lo;  w_old = (u, v) [c, b, j, i]
     Updates  w = (u, v) [c, b, j, i]; left [x], energy that is given to cells, per mass; sums [5, j] as in vertex_row
     """
-    c = edge // 2
+    c, at = edge // 2, w.pushing[edge]
     if c == 1 and j != at:
         return
     for i in range(max(at, lo) if c == 0 else lo, min(at + 1, hi) if c == 0 else hi):
@@ -184,7 +184,7 @@ def vertex_row(g, j, i1, below, above, w):
                 w.momentum_sums[4, j] += p_wall
         for edge in range(4):
             if w.pushing[edge] >= 0:
-                rest_on_anvil(edge, g, j, lo, hi, w.pushing[edge], new_j, left, w)
+                rest_on_anvil(edge, g, j, lo, hi, new_j, left, w)
 
 
 @kernel
@@ -224,7 +224,6 @@ def deposit(j, ranges, deficit, w):
     Reads    ranges [j, 2], columns; deficit [b, j, i] per vertex mass, cell_mass [b, j, i], vof [m, j, i], group [m]
     Updates  q (e) [k, m, j, i];  writes sums [j], the energy given
     """
-    bodies = w.vof.shape[0]
     given = 0.0
     for g in range(deficit.shape[0]):
         low = deficit[g, j]
@@ -232,7 +231,7 @@ def deposit(j, ranges, deficit, w):
         for i in range(ranges[j, 0], ranges[j, 1]):
             gain = w.metrics[CM_IN, i] * (low[i] + high[i]) + w.metrics[CM_OUT, i] * (low[i + 1] + high[i + 1])
             given += gain * w.cell_mass[g, j, i]
-            for m in range(bodies):
+            for m in range(w.vof.shape[0]):
                 if w.group[m] == g and w.vof[m, j, i] > 0.0:
                     w.q[E, m, j, i] += gain
     w.deposited[j] = given

@@ -65,12 +65,13 @@ def return_to_surface(m, j, i, rr, zz, rz, modulus, own, cell_yield, w):
     elif trial > cell_yield:
         final = cell_yield
         dep = (trial - final) / (3.0 * stiffness) if modulus > 0.0 else 0.0
-    if dep != 0.0 and own and model in WEAKENS:
+    if dep == 0.0:
+        return rr, zz, rz, dep, final
+    weakens = own and model in WEAKENS
+    if weakens:
         dep, final = weaken(m, j, i, dep, final, stiffness, w)
-        rr, zz, rz = returned(x_rr, x_zz, x_rz, trial, dep, final, model, par, internal)
-        keep_internal(m, j, i, model, internal, w.q)
-    elif dep != 0.0:
-        rr, zz, rz = returned(x_rr, x_zz, x_rz, trial, dep, final, model, par, internal)
-        keep_internal(m, j, i, model, internal, w.q)
+    rr, zz, rz = returned(x_rr, x_zz, x_rz, trial, dep, final, model, par, internal)
+    keep_internal(m, j, i, model, internal, w.q)
+    if not weakens:
         flow(m, j, i, dep, final, w)
     return rr, zz, rz, dep, final

@@ -22,7 +22,7 @@ FILLED = 0.9
 
 
 @rowwise
-def flux_row(dj, di, j, m, carried, slot, b, w):
+def flux_row(dj, di, j, m, slot, b, w):
     """Fluxes of what body m carries through the faces of row j.
 
     Second order, monotone, in cells whose neighbours are full of the same body; the donor's own value in and next to cells
@@ -31,7 +31,7 @@ def flux_row(dj, di, j, m, carried, slot, b, w):
     deviators in the volume coordinate (explanation/remap, equation 4), both of the body alone: it leaves no cell with more than
     it has there.
 
-    Reads    carried [n], how many rows of q the body carries beside its density, and which; pre (pre-sweep volume) [j, i];
+    Reads    carried [m, n], how many rows of q the body carries beside its density, and which; pre (pre-sweep volume) [j, i];
              flux_volume, vof [m, j, i]; q [k, m, j, i]
     Writes   flux [k, m, slot, i]
     """
@@ -63,8 +63,8 @@ def flux_row(dj, di, j, m, carried, slot, b, w):
             flow = swept[x] * (donor + half_v[x] * slope)
             half_m[x] = clean * (1.0 - abs(flow) / max(volume * donor, TINY))
             mass[x] = flow
-        for place in range(1, carried[0] + 1):
-            k = carried[place]
+        for place in range(1, w.carried[m, 0] + 1):
+            k = w.carried[m, place]
             a_ll = w.q[k, m, j - 2 * dj, lo - 2 * di:hi - 2 * di]
             a_l = w.q[k, m, j - dj, lo - di:hi - di]
             a_r = w.q[k, m, j, lo:hi]
@@ -79,12 +79,12 @@ def flux_row(dj, di, j, m, carried, slot, b, w):
 
 
 @rowwise
-def update_row(dj, di, j, m, carried, below, above, b, w):
+def update_row(dj, di, j, m, below, above, b, w):
     """Body m in row j after the sweep: volume, mass and what it carries. A cell without flux keeps its bits.
 
     Fields stay within the bounds of the table; what has failed stays so, to the last bit, and has no deviator.
 
-    Reads    carried [n] as flux_row; face, pre (pre-sweep volume) [j, i]; flux_volume [m, j, i];
+    Reads    carried [m, n] as flux_row; face, pre (pre-sweep volume) [j, i]; flux_volume [m, j, i];
              flux [k, m, slot, i] in the slots `below` and `above`
     Updates  vof [m, j, i] (share of the volume after the sweep), q [k, m, j, i]
     """
@@ -121,8 +121,8 @@ def update_row(dj, di, j, m, carried, below, above, b, w):
             old_m[x] = 1.0 if same else mass
             new_v[x] = 1.0 if same else (1.0 / after if after > TINY else 0.0)  # less has no inverse
             new_m[x] = 1.0 if same else (1.0 / mass_after if mass_after > TINY else 0.0)
-        for place in range(1, carried[0] + 1):
-            k = carried[place]
+        for place in range(1, w.carried[m, 0] + 1):
+            k = w.carried[m, place]
             a_j = w.q[k, m, j, lo:hi]
             a_in = w.flux[k, m, below, lo:hi]
             a_out = w.flux[k, m, above, lo + di:hi + di]
@@ -224,7 +224,7 @@ def sweep_row(dj, di, j, below, above, b, w):
     Cells that were mixed and are no more have no centroids.
     """
     for m in range(w.body_ranges.shape[1]):
-        update_row(dj, di, j, m, w.carried[m], below, above, b, w)
+        update_row(dj, di, j, m, below, above, b, w)
     cell_mass_row(dj, di, j, w.pre, w.face, w.second, w)
     for k in range(w.mixed_count[j]):
         forget_centroids(j, w.mixed[j, k], w.vof, w.centroid)
@@ -243,7 +243,7 @@ def sweep_r(j, part, w):
     """
     slot = 6 * part + 3
     for m in range(w.body_ranges.shape[1]):
-        flux_row(0, 1, j, m, w.carried[m], slot, part, w)
+        flux_row(0, 1, j, m, slot, part, w)
         lo, hi = flux_range(0, 1, m, j, w)
         for side in range(2):
             i = w.mesh_box[2 + side]
@@ -282,7 +282,7 @@ def shared_fluxes(part, w):
     if part > 0:
         for f in range(w.parts[part] - 1, w.parts[part] + 2):
             for m in range(w.body_ranges.shape[1]):
-                flux_row(1, 0, f, m, w.carried[m], slot_of(f, part, w.parts), part, w)
+                flux_row(1, 0, f, m, slot_of(f, part, w.parts), part, w)
 
 
 @kernel
@@ -299,7 +299,7 @@ def sweep_z(part, w):
             slot = slot_of(f, part, w.parts)
             if shared_slot(f, part, w.parts) < 0:
                 for m in range(w.body_ranges.shape[1]):
-                    flux_row(1, 0, f, m, w.carried[m], slot, part, w)
+                    flux_row(1, 0, f, m, slot, part, w)
             if f < last or last == end:
                 mass_flux_row(1, 0, f, slot, w)
             for side in range(2):
@@ -343,8 +343,7 @@ def tidy(j, w):
              cell_mass [b, j, i]; centroid [2, m, j, i]
     Writes   removed [4 + m, j]: internal energy, kinetic energy, axial momentum, volume closed; then mass of each body
     """
-    bodies = w.vof.shape[0]
-    for row in range(4 + bodies):
+    for row in range(4 + w.vof.shape[0]):
         w.removed[row, j] = 0.0
     left = 0
     for k in range(w.mixed_count[j]):
@@ -353,7 +352,7 @@ def tidy(j, w):
         if not w.second:
             post = w.pre[j, i] - (w.dj * (w.fz[j + 1, i] - w.fz[j, i]) + w.di * (w.fr[j, i + 1] - w.fr[j, i]))
         total, present, ended = 0.0, 0, False
-        for m in range(bodies):
+        for m in range(w.vof.shape[0]):
             f = w.vof[m, j, i]
             rho = w.q[RHO, m, j, i]
             if f > 0.0 and (f < 2.0 * w.cutoff or not rho > 0.0):
@@ -380,7 +379,7 @@ def tidy(j, w):
             void = fade(1.0 - total, w.cutoff)
             w.removed[3, j] += (max(1.0 - total, 0.0) - void) * post
             scale = (1.0 - void) / total
-            for m in range(bodies):
+            for m in range(w.vof.shape[0]):
                 if w.vof[m, j, i] > 0.0:
                     f = w.vof[m, j, i] * scale
                     f = 1.0 if present == 1 and void == 0.0 else f  # beside a second body, however little, it is not full
@@ -391,12 +390,12 @@ def tidy(j, w):
             forget_centroids(j, i, w.vof, w.centroid)
         for g in range(w.cell_mass.shape[0]):
             mass = 0.0
-            for m in range(bodies):
+            for m in range(w.vof.shape[0]):
                 if w.group[m] == g:
                     mass += w.vof[m, j, i] * w.q[RHO, m, j, i]
             w.cell_mass[g, j, i] = mass * post
         kind = 0.0
-        for m in range(bodies):
+        for m in range(w.vof.shape[0]):
             kind += (1000.0 if w.vof[m, j, i] == 1.0 else 0.0) + (1.0 if w.vof[m, j, i] > 0.0 else 0.0)
         w.mixed[j, left] = i
         left += 0 if kind == 0.0 or kind == 1001.0 else 1

@@ -158,7 +158,6 @@ def pressures_row(j, b, w):
              volume of new void; bad [j, :3] count of cells that are not finite, the column and body of the first
     Scratch  scratch [s, b, i]
     """
-    bodies = w.vof.shape[0]
     lo, n = columns(w.active_range[j, 0], w.active_range[j, 1])
     p_j = w.p[j]
     bulk_j = w.bulk[j]
@@ -175,7 +174,7 @@ def pressures_row(j, b, w):
         cl_j[i] = 0.0
     new_void = 0.0
     w.bad[j, 0] = 0
-    for m in range(bodies):
+    for m in range(w.vof.shape[0]):
         model = w.models[m, EOS]
         memory = w.models[m, MEMORY]
         par = w.materials[m, EOS_AT:]
