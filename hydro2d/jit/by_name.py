@@ -1,15 +1,15 @@
-"""Functions that take arrays and numbers by their names: written with a handle ``w``, compiled with one parameter for each name.
+"""Functions that take arrays and numbers by their names: written with a handle ``w``, compiled with a parameter for each name.
 
-A function whose last parameter is ``w`` uses ``w.u[b, j, i]`` and ``w.dt``, and calls other such functions as ``other(j, i, w)``.
-What is compiled is the same function with a parameter for every name that it or a function that it calls uses::
+A function whose last parameter is ``w`` uses ``w.u[b, j, i]`` and ``w.dt``, and calls others like it as ``other(j, i, w)``. What
+is compiled is the same function with a parameter for every name that it uses, or that one of those which it calls does::
 
-    @kernel                                      @kernel
-    def slow_down(part, w):                      def slow_down(part, w__dt, w__parts, w__u):
-        for j in range(first(part, w)):              for j in range(first(part, w__parts)):
-            w.u[0, j, 0] -= w.dt                         w__u[0, j, 0] -= w__dt
+    @kernel                                     @kernel
+    def slow_down(part, w):                     def slow_down(part, w__dt, w__parts, w__u):
+        for j in range(rows(part, w)):              for j in range(rows(part, w__parts)):
+            w.u[0, j, 0] -= w.dt                        w__u[0, j, 0] -= w__dt
 
-The names therefore remain arguments, of which the compiler knows that their memory does not overlap, and nobody has to pass them
-on. From Python such a function is called with anything that has the names as attributes.
+So nobody writes a name to pass it on, and the names are arguments all the same, of which the compiler is told that their memory
+does not overlap. From Python such a function is called with anything that has the names as attributes.
 """
 
 from __future__ import annotations
@@ -129,8 +129,8 @@ class _Rewriting(ast.NodeTransformer):
         if node.args and _is_handle(node.args[-1]):
             called = self._function.__globals__.get(getattr(node.func, "id", ""))
             if not takes_handle(called):
-                raise _mistake(self._function, node, f"gives {HANDLE} to {ast.unparse(node.func)}, which is not defined before it "
-                                                     "as a compiled function that takes one")
+                raise _mistake(self._function, node, f"gives {HANDLE} to {ast.unparse(node.func)}, which is no compiled function "
+                                                     "that takes one, or is not defined yet")
             node.args[-1:] = [self._parameter(name, node.args[-1]) for name in called.named]
         return self.generic_visit(node)
 
@@ -168,7 +168,8 @@ def _definition(function) -> ast.FunctionDef:
     lines, before = linecache.getlines(code.co_filename, function.__globals__), code.co_firstlineno - 1
     last = _last_lines("".join(lines)).get((function.__name__, code.co_firstlineno))
     if last is None:
-        raise ValueError(f"{code.co_filename}:{code.co_firstlineno}: {function.__name__} takes {HANDLE} and is no function of a file")
+        raise ValueError(f"{code.co_filename}:{code.co_firstlineno}: {function.__name__} takes {HANDLE}, which only functions of "
+                         "files can, not those within others")
     return parsed("\n" * before + "".join(lines[before:last])).body[0]
 
 

@@ -31,7 +31,7 @@ TYPES = (numba.int64, numba.int64)
 
 @dataclass(frozen=True)
 class Run:
-    """A kernel of a phase; for all parts, or for one alone; ``names`` are those of its own parameters that are called otherwise."""
+    """A kernel of a phase; for all parts, or for one alone; ``names`` are those of own parameters that are called otherwise."""
 
     kernel: object
     alone: bool = False

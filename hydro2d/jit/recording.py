@@ -110,7 +110,8 @@ def called(compiled):
     def call(*arguments):
         nonlocal known
         if _calls is not None:
-            _calls.append(Call(name, compiled, tuple(compiled.typeof_pyval(value) for value in by_name.values(function, arguments))))
+            values = by_name.values(function, arguments)
+            _calls.append(Call(name, compiled, tuple(compiled.typeof_pyval(value) for value in values)))
             return None
         with clocked(function.__name__):
             if known:

@@ -42,7 +42,8 @@ def total_stress(j, w):
     the hard body's own times the share of solids (explanation/mixed-cells, sliding). A cut cell has p_c and, of each body,
     s - (n . s . n) I.
 
-    Reads    u0, v0 [b, j, i]; vof [m, j, i]; q (deviators) [k, m, j, i]; p, bulk, solid, qr, qz, qt, qrz [j, i]; hard_bodies [m]
+    Reads    u0, v0 [b, j, i]; vof [m, j, i]; q (deviators) [k, m, j, i]; p, bulk, solid, qr, qz, qt, qrz [j, i];
+             hard_bodies [m]
     Writes   ph, sig_rr, sig_zz, sig_tt, sig_rz [j, i]
     """
     lo, n = columns(w.active_range[j, 0], w.active_range[j, 1])
@@ -77,10 +78,9 @@ def total_stress(j, w):
     qz_j = w.qz[j]
     qt_j = w.qt[j]
     qrz_j = w.qrz[j]
-    h = w.dz[j]
     for x in range(n):
         i = lo + x
-        div = divergence(i, ub, ut, vb, vt, w.metrics, h)
+        div = divergence(i, ub, ut, vb, vt, w.metrics, w.dz[j])
         pressure = p_j[i] - 0.5 * w.dt * k_j[i] * div
         ph_j[i] = pressure
         tt[i] = -(rr[i] + zz[i]) - pressure - qt_j[i]
@@ -92,9 +92,9 @@ def total_stress(j, w):
         s_rr, s_zz, s_rz = mixed_deviator(j, i, w)
         pressure = ph_j[i]
         if w.skin[KIND, j, i] != WHOLE:
-            pressure = cut_pressure(j, i, divergence(i, ub, ut, vb, vt, w.metrics, h), w)
+            pressure = cut_pressure(j, i, divergence(i, ub, ut, vb, vt, w.metrics, w.dz[j]), w)
             ph_j[i] = pressure
-            pressure += skin_deviator(j, i, stress_scale(w.by_what_is_solid, w.solid[j, i]), w)
+            pressure += skin_deviator(j, i, w)
         tt[i] = -(s_rr + s_zz) - pressure - qt_j[i]
         rr[i] = s_rr - pressure - qr_j[i]
         zz[i] = s_zz - pressure - qz_j[i]

@@ -13,13 +13,14 @@ from hydro2d.physics.waves import impedances
 
 
 @apart
-def fill(m, j, i, from_j, from_i, mirror, fields, w):
+def fill(m, j, i, from_j, from_i, mirror, w):
     """Makes cell (j, i) of body m a copy or, in a mirror, an image of cell (from_j, from_i)."""
     if 0.0 < w.vof[m, j, i] < 1.0 or 0.0 < w.vof[m, from_j, from_i] < 1.0:  # else it is 0 and stays so
-        w.centroid[0, m, j, i] = -w.centroid[0, m, from_j, from_i] if mirror and j == from_j else w.centroid[0, m, from_j, from_i]
-        w.centroid[1, m, j, i] = -w.centroid[1, m, from_j, from_i] if mirror and i == from_i else w.centroid[1, m, from_j, from_i]
+        along_r, along_z = w.centroid[0, m, from_j, from_i], w.centroid[1, m, from_j, from_i]
+        w.centroid[0, m, j, i] = -along_r if mirror and j == from_j else along_r
+        w.centroid[1, m, j, i] = -along_z if mirror and i == from_i else along_z
     w.vof[m, j, i] = w.vof[m, from_j, from_i]
-    for k in range(fields):
+    for k in range(w.q.shape[0] * (w.di if j == from_j else w.dj)):  # before a sweep along the other direction none
         w.q[k, m, j, i] = -w.q[k, m, from_j, from_i] if mirror and w.rules[m, k, PARITY] < 0.0 else w.q[k, m, from_j, from_i]
 
 
@@ -33,7 +34,6 @@ def ghost_columns(j, w):
     Updates  vof [m, j, i], q [k, m, j, i], centroid [2, m, j, i]
     """
     g = GHOSTS
-    fields = w.di * w.q.shape[0]
     for m in range(w.vof.shape[0]):
         for side in range(2):
             edge = g + w.nr - 1 if side else g  # the last cell of the mesh
@@ -45,7 +45,7 @@ def ghost_columns(j, w):
             for n in range(g):
                 ghost = edge + (n + 1) * out
                 source = edge - n * out if mirror else edge
-                fill(m, j, ghost, j, source, mirror, fields, w)
+                fill(m, j, ghost, j, source, mirror, w)
 
 
 @kernel
@@ -59,7 +59,6 @@ def ghost_rows(part, w):
     Updates  vof [m, j, i], q [k, m, j, i], centroid [2, m, j, i]
     """
     g = GHOSTS
-    fields = w.dj * w.q.shape[0]
     for side in range(2):
         if side == w.leading or part != (w.parts.shape[0] - 2 if side else 0):
             continue
@@ -71,7 +70,7 @@ def ghost_rows(part, w):
                 ghost = edge + (n + 1) * out
                 source = edge - n * out if mirror else edge
                 for i in range(w.i0 - g, w.i1 + g):
-                    fill(m, ghost, i, source, i, mirror, fields, w)
+                    fill(m, ghost, i, source, i, mirror, w)
 
 
 @vertex_rows
@@ -122,8 +121,8 @@ def dashpots(along_r, j, i, w):
 
 
 @apart
-def transmit(edge, first, last, w):
-    """Tractions -rho c_l v_n and -rho c_s v_t on the vertices first to last of an edge: what an endless plate would hold with.
+def transmit(edge, w):
+    """Tractions -rho c_l v_n and -rho c_s v_t on the vertices of an edge: what an endless plate would hold with.
 
     J. Lysmer & R. L. Kuhlemeyer, J. Engng Mech. Div. ASCE 95 (1969) 859: exact for plane waves that meet the edge squarely.
     The dashpots are taken at the end of the step. Vertices that two groups share are the contact's. At a corner of two
@@ -136,6 +135,8 @@ def transmit(edge, first, last, w):
     at, along_r = w.transmitting[edge], edge < 2
     crossing = w.transmitting[2:4] if along_r else w.transmitting[0:2]
     drag = w.drag[edge]
+    j0, j1 = outer_rows(w.parts)
+    first, last = (j0, j1 + 1) if along_r else (w.i0, w.i1 + 1)
     groups = w.mass.shape[0]
     for place in range(first, last):
         j, i = (place, at) if along_r else (at, place)
@@ -178,10 +179,8 @@ def transmit_edges(w):
             for place in range(w.drag.shape[3]):
                 w.drag[edge, b, 0, place] = 0.0
                 w.drag[edge, b, 1, place] = 0.0
-        if along_r and (at == w.i0 or at == w.i1):
-            transmit(edge, j0, j1 + 1, w)
-        elif not along_r and (at == j0 or at == j1):
-            transmit(edge, w.i0, w.i1 + 1, w)
+        if (at == w.i0 or at == w.i1) if along_r else (at == j0 or at == j1):
+            transmit(edge, w)
 
 
 @serial

@@ -46,6 +46,7 @@ def carry_centroids(j, w):
              flux_place [2, m, j, i]
     Updates  centroid [2, m, j, i]
     """
+    dj, di = w.dj, w.di
     contact = w.own.shape[0] > 1
     for k in range(w.mixed_count[j]):
         i = w.mixed[j, k]
@@ -54,29 +55,29 @@ def carry_centroids(j, w):
             if not 0.0 < w.vof[m, j, i] < 1.0:
                 continue
             left = w.vof[m, j, i] * after
-            s_low, s_high = w.face[j, i], w.face[j + w.dj, i + w.di]
+            s_low, s_high = w.face[j, i], w.face[j + dj, i + di]
             if contact and w.contact_columns[j, 0] <= i < w.contact_columns[j, 1]:
-                s_low, s_high = w.own[w.group[m], j, i], w.own[w.group[m], j + w.dj, i + w.di]
+                s_low, s_high = w.own[w.group[m], j, i], w.own[w.group[m], j + dj, i + di]
             drift = 0.5 * (s_low + s_high)
-            v_low, v_high = w.flux_volume[m, j, i], w.flux_volume[m, j + w.dj, i + w.di]
+            v_low, v_high = w.flux_volume[m, j, i], w.flux_volume[m, j + dj, i + di]
             stood = left + (v_high - v_low)
             low, side_low, high, side_high = 0.0, 0.0, 0.0, 0.0
             if v_low != 0.0:
-                row, column = (j - w.dj, i - w.di) if v_low > 0.0 else (j, i)
+                row, column = (j - dj, i - di) if v_low > 0.0 else (j, i)
                 x, y = donor_place(m, row, column, j, i, w)
                 low = (0.5 + x) * abs(s_low) - (0.5 * after if v_low > 0.0 else 0.5 * w.pre[j, i] - drift)
                 low *= v_low
                 side_low = v_low * y
             if v_high != 0.0:
-                row, column = (j + w.dj, i + w.di) if v_high < 0.0 else (j, i)
-                x, y = donor_place(m, row, column, j + w.dj, i + w.di, w)
+                row, column = (j + dj, i + di) if v_high < 0.0 else (j, i)
+                x, y = donor_place(m, row, column, j + dj, i + di, w)
                 high = (0.5 * after if v_high < 0.0 else 0.5 * w.pre[j, i] + drift) - (0.5 - x) * abs(s_high)
                 high *= -v_high
                 side_high = -v_high * y
-            along = stood * (w.centroid[w.dj, m, j, i] * w.pre[j, i] + drift) + (low + high)
-            across = stood * w.centroid[w.di, m, j, i] + (side_low + side_high)
-            w.centroid[w.dj, m, j, i] = within(along / (left * after), w.vof[m, j, i])
-            w.centroid[w.di, m, j, i] = within(across / left, w.vof[m, j, i])
+            along = stood * (w.centroid[dj, m, j, i] * w.pre[j, i] + drift) + (low + high)
+            across = stood * w.centroid[di, m, j, i] + (side_low + side_high)
+            w.centroid[dj, m, j, i] = within(along / (left * after), w.vof[m, j, i])
+            w.centroid[di, m, j, i] = within(across / left, w.vof[m, j, i])
 
 
 @point

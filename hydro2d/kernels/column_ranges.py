@@ -127,15 +127,14 @@ def widen_ranges(part, w):
 
 
 @rowwise
-def mixed_row(j, active_range, scratch, row, w):
+def mixed_row(j, active_range, kind, w):
     """Lists the cells of row j in which a body and something else (another body or void) meet.
 
     Reads    vof [m, j, i], active_range [j, 2]
     Writes   count [j], mixed [j, k] (columns, ascending)
-    Scratch  scratch [row, i]: a thousand per body that fills the cell, one per body in it
+    Scratch  kind [i]: a thousand per body that fills the cell, one per body in it
     """
     first, n = columns(active_range[j, 0], active_range[j, 1])
-    kind = scratch[row]
     for x in range(n):
         kind[first + x] = 0.0
     for m in range(w.vof.shape[0]):
@@ -158,7 +157,7 @@ def list_mixed(j, part, w):
 
     Scratch  scratch [s, part, i]
     """
-    mixed_row(j, w.active_range, w.scratch[0], part, w)
+    mixed_row(j, w.active_range, w.scratch[0, part], w)
 
 
 @vertex_rows

@@ -96,7 +96,7 @@ def contact_viscosity(j, w):
             sound = sound_step(w.courant, min(w.dr[i], h), rho, w.cl[j, i], viscosity)
             w.row_step[j] = min(w.row_step[j], min(sound, volume_step(loss)))
     if seeded:
-        mixed_row(j, w.group_ranges[0, 0], w.kinds, j, w)
+        mixed_row(j, w.group_ranges[0, 0], w.kinds[j], w)
 
 
 @cell_rows
@@ -156,7 +156,8 @@ def corner_force(g, j, i, at_j, at_i, w):
     normal = h * (half - w.metrics[HOOP, at_i]) if left else -h * (half + w.metrics[HOOP, at_i])
     force_r = -(normal * rr + w.metrics[HOOP, at_i] * h * tt + upward * rz)
     force_z = -(upward * zz + outward * rz)
-    filter_share = w.hg_coefficient[at_j, at_i] * w.cell_mass[g, at_j, at_i] / (w.cell_mass[0, at_j, at_i] + w.cell_mass[1, at_j, at_i])
+    own, other = w.cell_mass[g, at_j, at_i], w.cell_mass[1 - g, at_j, at_i]
+    filter_share = w.hg_coefficient[at_j, at_i] * own / (own + other)
     sign = filter_share if left == low else -filter_share
     force_r -= sign * hourglass_mode(at_i, w.u0[g, at_j], w.u0[g, at_j + 1])
     force_z -= sign * hourglass_mode(at_i, w.v0[g, at_j], w.v0[g, at_j + 1])

@@ -211,8 +211,9 @@ def meet_ties(tied, vertices, w):
         again_r = new_r / old_r if old_r > enough_r else 0.0
         again_z = new_z / old_z if old_z > enough_z else 0.0
         for t in range(tied):
-            w.impulses[t, SEARCH] = w.impulses[t, DIAGONAL] * w.impulses[t, RESIDUAL] + again_r * w.impulses[t, SEARCH]
-            w.impulses[t, SEARCH + 1] = w.impulses[t, DIAGONAL + 1] * w.impulses[t, RESIDUAL + 1] + again_z * w.impulses[t, SEARCH + 1]
+            tie = w.impulses[t]
+            tie[SEARCH] = tie[DIAGONAL] * tie[RESIDUAL] + again_r * tie[SEARCH]
+            tie[SEARCH + 1] = tie[DIAGONAL + 1] * tie[RESIDUAL + 1] + again_z * tie[SEARCH + 1]
         old_r, old_z = new_r, new_z
     for t in range(tied):
         x, g, j, i = w.nodes[SLOT, t], w.nodes[GROUP, t], w.nodes[ROW, t], w.nodes[COLUMN, t]
@@ -236,7 +237,8 @@ def pressed(j, i, n_r, n_z, w):
             left, low = column < i, row < j
             half = 0.5 * w.metrics[FACE_R, i] * w.dz[row]
             area = w.metrics[AZ_OUT, column] if left else w.metrics[AZ_IN, column]
-            area_r += share * ((half - w.metrics[HOOP, column] * w.dz[row]) if left else -(half + w.metrics[HOOP, column] * w.dz[row]))
+            hoop = w.metrics[HOOP, column] * w.dz[row]
+            area_r += share * ((half - hoop) if left else -(half + hoop))
             area_z += share * (area if low else -area)
             pressure += normal_pressure(row, column, n_r, n_z, w.sig_rr, w.sig_zz, w.sig_rz)
             cells += 1.0

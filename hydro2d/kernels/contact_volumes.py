@@ -29,17 +29,18 @@ def contact_swept_volumes(j, w):
     if j < j1:
         for i in range(w.contact_columns[j, 0], w.contact_columns[j, 1] + 1):
             scale = 0.25 * w.dt * w.metrics[FACE_R, i] * w.dz[j]
-            w.fr[j, i] = w.even_r[j, i] + scale * (face_flow_r(j, i, -1, w.aperture_r, w.u) + face_flow_r(j, i, -1, w.aperture_r, w.u0))
+            w.fr[j, i] = w.even_r[j, i] + scale * (
+                face_flow_r(j, i, -1, w.aperture_r, w.u) + face_flow_r(j, i, -1, w.aperture_r, w.u0))
             for g in range(2):
-                w.own_r[g, j, i] = w.even_r[j, i] + scale * (face_flow_r(j, i, g, w.aperture_r, w.u) + face_flow_r(
-                    j, i, g, w.aperture_r, w.u0))
+                w.own_r[g, j, i] = w.even_r[j, i] + scale * (
+                    face_flow_r(j, i, g, w.aperture_r, w.u) + face_flow_r(j, i, g, w.aperture_r, w.u0))
     lo, hi = union(w.contact_columns, max(j - 1, j0), min(j + 1, j1))
     for i in range(lo, hi):
-        w.fz[j, i] = w.even_z[j, i] + 0.5 * w.dt * (face_flow_z(j, i, -1, w.metrics, w.aperture_z, w.v) + face_flow_z(
-            j, i, -1, w.metrics, w.aperture_z, w.v0))
+        w.fz[j, i] = w.even_z[j, i] + 0.5 * w.dt * (
+            face_flow_z(j, i, -1, w.metrics, w.aperture_z, w.v) + face_flow_z(j, i, -1, w.metrics, w.aperture_z, w.v0))
         for g in range(2):
-            w.own_z[g, j, i] = w.even_z[j, i] + 0.5 * w.dt * (face_flow_z(j, i, g, w.metrics, w.aperture_z, w.v) + face_flow_z(
-                j, i, g, w.metrics, w.aperture_z, w.v0))
+            w.own_z[g, j, i] = w.even_z[j, i] + 0.5 * w.dt * (
+                face_flow_z(j, i, g, w.metrics, w.aperture_z, w.v) + face_flow_z(j, i, g, w.metrics, w.aperture_z, w.v0))
 
 
 #: share of a difference of p_c between two neighbouring cells of the surface that evens out in a step
@@ -120,8 +121,9 @@ def contact_work(j, w):
         for m in range(w.vof.shape[0]):
             if w.vof[m, j, i] == 1.0:
                 g = w.group[m]
-                own = 0.5 * w.dt * (volume_rate(j, i, g, w.metrics, w.dz[j], w.aperture_r, w.aperture_z, w.u, w.v) + volume_rate(j, i, g,
-                                  w.metrics, w.dz[j], w.aperture_r, w.aperture_z, w.u0, w.v0))
+                own = 0.5 * w.dt * (
+                    volume_rate(j, i, g, w.metrics, w.dz[j], w.aperture_r, w.aperture_z, w.u, w.v)
+                    + volume_rate(j, i, g, w.metrics, w.dz[j], w.aperture_r, w.aperture_z, w.u0, w.v0))
                 change = (w.fr[j, i + 1] - w.fr[j, i]) + (w.fz[j + 1, i] - w.fz[j, i])
                 w.q[E, m, j, i] -= (w.ph[j, i] + w.qr[j, i]) * (change - own) / w.cell_mass[g, j, i]
 
@@ -198,19 +200,21 @@ def contact_fluxes(part, w):
     Updates  flux_volume [m, j, i]; flux_place [2, m, j, i]
     Scratch  strips [j, 3, 4, m]
     """
+    dj, di = w.dj, w.di
     j0, j1 = outer_rows(w.parts)
-    for j in range(w.parts[part], past_row(part, w.parts, w.dj)):
-        lo, hi = union(w.contact_columns, max(j - w.dj, j0), min(j + 1, j1))
+    for j in range(w.parts[part], past_row(part, w.parts, dj)):
+        lo, hi = union(w.contact_columns, max(j - dj, j0), min(j + 1, j1))
         if lo >= hi:
             continue
-        for i in range(lo, hi + w.di):
-            if (w.di == 1 and (i == w.mesh_box[2] or i == w.mesh_box[3])) or (w.dj == 1 and (j == w.mesh_box[0] or j == w.mesh_box[1])):
+        for i in range(lo, hi + di):
+            at, low = (i, 2) if di == 1 else (j, 0)
+            if at == w.mesh_box[low] or at == w.mesh_box[low + 1]:
                 continue
             total = 0.0
             for m in range(w.group.shape[0]):
                 swept = w.own[w.group[m], j, i]
                 up = swept > 0.0
-                row, column = (j - w.dj, i - w.di) if up else (j, i)
+                row, column = (j - dj, i - di) if up else (j, i)
                 volume = 0.0
                 w.flux_place[0, m, j, i] = 0.0
                 w.flux_place[1, m, j, i] = 0.0
@@ -240,8 +244,8 @@ def contact_fluxes(part, w):
                 total += volume
             rest = w.face[j, i] - total
             up = w.face[j, i] > 0.0
-            row, column = (j - w.dj, i - w.di) if up else (j, i)
-            to_row, to_column = (j, i) if up else (j - w.dj, i - w.di)
+            row, column = (j - dj, i - di) if up else (j, i)
+            to_row, to_column = (j, i) if up else (j - dj, i - di)
             void = 1.0 - cumulative(row, column, w.group.shape[0] - 1, w.hard_first, w.vof)
             gap = smoothstep(void / GAP - 0.5)
             if gap > 0.0 and (rest > 0.0) == up:
@@ -268,15 +272,16 @@ def limit_fluxes(j, w):
     Reads    pre [j, i], vof [m, j, i]
     Updates  flux_volume [m, j, i] of the faces around contact-interface cells
     """
+    dj, di = w.dj, w.di
     j0, j1 = outer_rows(w.parts)
-    lo, hi = union(w.contact_columns, max(j - w.dj, j0), min(j + w.dj + 1, j1))
-    for i in range(max(lo - w.di, w.mesh_box[2]), min(hi + w.di, w.mesh_box[3])):
+    lo, hi = union(w.contact_columns, max(j - dj, j0), min(j + dj + 1, j1))
+    for i in range(max(lo - di, w.mesh_box[2]), min(hi + di, w.mesh_box[3])):
         for m in range(w.vof.shape[0]):
-            low, high = max(-w.flux_volume[m, j, i], 0.0), max(w.flux_volume[m, j + w.dj, i + w.di], 0.0)
+            low, high = max(-w.flux_volume[m, j, i], 0.0), max(w.flux_volume[m, j + dj, i + di], 0.0)
             there = w.vof[m, j, i] * w.pre[j, i]
             if low + high > there and w.vof[m, j, i] > 0.0:
                 keep = there / (low + high)
                 if low > 0.0:
                     w.flux_volume[m, j, i] = -keep * low
                 if high > 0.0:
-                    w.flux_volume[m, j + w.dj, i + w.di] = keep * high
+                    w.flux_volume[m, j + dj, i + di] = keep * high

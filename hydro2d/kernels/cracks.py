@@ -28,17 +28,18 @@ def release(m, j, i, q):
 
 
 @point
-def part_cell(m, j, i, row, vof, q):
+def part_cell(m, j, i, w):
     """Makes void of the cracks of body m in cell (j, i), which bears no stress any more.
 
-    Updates  vof [m, j, i]; q (density, deviators, the variables from ``row`` on) [k, m, j, i]
+    Updates  vof [m, j, i]; q (density, deviators, crack volume and growth) [k, m, j, i]
     """
-    share = solid_share(q[RHO, m, j, i], q[row + WIDTH, m, j, i])
-    vof[m, j, i] *= share
-    q[RHO, m, j, i] /= share
-    q[row + WIDTH, m, j, i] = 0.0
-    q[row + GROWTH, m, j, i] = 0.0
-    release(m, j, i, q)
+    row = w.models[m, MEMORY]
+    share = solid_share(w.q[RHO, m, j, i], w.q[row + WIDTH, m, j, i])
+    w.vof[m, j, i] *= share
+    w.q[RHO, m, j, i] /= share
+    w.q[row + WIDTH, m, j, i] = 0.0
+    w.q[row + GROWTH, m, j, i] = 0.0
+    release(m, j, i, w.q)
 
 
 @cell_rows
@@ -70,7 +71,7 @@ def open_cracks(j, w):
                     release(m, j, i, w.q)
                 if damage >= 1.0 or wide * rho >= JOINED:
                     w.q[DMG, m, j, i] = max(damage, FAILED)
-                    part_cell(m, j, i, row, w.vof, w.q)
+                    part_cell(m, j, i, w)
 
 
 @point

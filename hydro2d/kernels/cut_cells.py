@@ -12,6 +12,7 @@ from hydro2d.mesh.fields import RHO, SRR, SRZ, SZZ, E
 from hydro2d.mesh.grid import CM_IN, CM_OUT, VOL_R
 from hydro2d.physics.closure import NO_VOID
 from hydro2d.physics.interfaces import youngs_gradient
+from hydro2d.physics.stress import stress_scale
 from hydro2d.physics.traction import STEEP, along_normal, half_pressure, pull_left, smoothstep, strain_across
 
 #: kinds of cells, in row KIND of `skin`: not cut; a surface against void; two groups; bodies of one group that fill the cell,
@@ -33,11 +34,11 @@ def is_beside_gas(j, i, gases, vof):
 
 
 @point
-def firm_share(j, i, total, gases, vof):
-    """Share of a cell that is neither void nor gas; `total`, that of all its bodies, where they are gases."""
-    gas = 0.0
-    for m in range(vof.shape[0]):
-        gas += vof[m, j, i] if vof[m, j, i] > 0.0 and gases[m] else 0.0
+def firm_share(j, i, w):
+    """Share of a cell that is neither void nor gas; that of all its bodies, where they are gases."""
+    total, gas = w.solid[j, i], 0.0
+    for m in range(w.vof.shape[0]):
+        gas += w.vof[m, j, i] if w.vof[m, j, i] > 0.0 and w.gases[m] else 0.0
     return total - gas if gas < total else total
 
 
@@ -205,13 +206,13 @@ def common_traction(j, i, w):
 
 
 @point
-def skin_deviator(j, i, scale, w):
+def skin_deviator(j, i, w):
     """Sum of f n . s . n in a cell: what its stress lacks beside its deviator and p_c."""
     total = 0.0
     for m in range(w.vof.shape[0]):
         if w.vof[m, j, i] > 0.0:
             total += w.vof[m, j, i] * normal_deviator(m, j, i, w.skin, w.q)
-    return scale * total
+    return stress_scale(w.by_what_is_solid, w.solid[j, i]) * total
 
 
 @point

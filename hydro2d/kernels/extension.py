@@ -28,7 +28,8 @@ SLACK = 1e-3
 @point
 def filled_share(g, row, column, w):
     """Share that group g fills of the dual cell of a vertex, 0 where it has no mass there or the mesh ends."""
-    if row < w.mesh_box[0] or row > w.mesh_box[1] or column < w.mesh_box[2] or column > w.mesh_box[3] or w.mass[g, row, column] == 0.0:
+    j0, j1, i0, i1 = w.mesh_box[0], w.mesh_box[1], w.mesh_box[2], w.mesh_box[3]
+    if row < j0 or row > j1 or column < i0 or column > i1 or w.mass[g, row, column] == 0.0:
         return 0.0
     return dual_share(g, row, column, w.mesh_box, w.volume, w.metrics, w.hard, w.soft)
 
@@ -59,7 +60,8 @@ def find_filled(part, w):
     Writes   filled [b, j, i] within REACH of contact nodes, in the mesh
     """
     j0, j1 = outer_rows(w.parts)
-    for j in range(max(first_row(part, w.parts, REACH), w.mesh_box[0]), min(past_row(part, w.parts, REACH + 1), w.mesh_box[1] + 1)):
+    first, last = first_row(part, w.parts, REACH), past_row(part, w.parts, REACH + 1)
+    for j in range(max(first, w.mesh_box[0]), min(last, w.mesh_box[1] + 1)):
         lo, hi = NOTHING, 0
         for row in range(max(j - REACH, j0), min(j + REACH, j1) + 1):
             if w.contact_node_count[row] > 0:

@@ -70,9 +70,9 @@ def sweep_volumes(j, w):
 
 
 @point
-def flux_range(dj, di, m, j, w):
+def flux_range(dj, m, j, w):
     """Faces of row j through which body m may flow within the active columns: one beyond its own; empty is (0, 0)."""
-    lo, hi = max(w.body_ranges[2 * dj, m, j, 0] - 1, w.i0), min(w.body_ranges[2 * dj, m, j, 1] + 2, w.i1 + di)
+    lo, hi = max(w.body_ranges[2 * dj, m, j, 0] - 1, w.i0), min(w.body_ranges[2 * dj, m, j, 1] + 2, w.i1 + 1 - dj)
     return (lo, hi) if lo < hi else (0, 0)
 
 
@@ -89,7 +89,7 @@ def donor_volumes(part, w):
     edges = w.void_only
     for j in range(w.parts[part], past_row(part, w.parts, dj)):
         for m in range(w.vof.shape[0]):
-            lo, hi = flux_range(dj, di, m, j, w)
+            lo, hi = flux_range(dj, m, j, w)
             if lo >= hi:
                 continue
             swept = w.face[j, lo:hi]
@@ -323,13 +323,14 @@ def interface_volumes(j, w):
              centroid [2, m, j, i] of these cells: that of what the interfaces enclose, in full where SWEPT of the cell leaves
     Scratch  strips [j, 3, 4, m]
     """
+    dj, di = w.dj, w.di
     left = w.strips[j, 0]
     right = w.strips[j, 1]
     whole = w.strips[j, 2]
     for k in range(w.mixed_count[j]):
         i = w.mixed[j, k]
         out_low = max(-w.face[j, i], 0.0)
-        out_high = max(w.face[j + w.dj, i + w.di], 0.0)
+        out_high = max(w.face[j + dj, i + di], 0.0)
         if out_low == 0.0 and out_high == 0.0:
             continue
         size = w.pre[j, i]
@@ -346,10 +347,10 @@ def interface_volumes(j, w):
             if w_low > 0.0:
                 w.flux_place[0, m, j, i], w.flux_place[1, m, j, i] = place_of(left, m)
             if w_high > 0.0:
-                w.flux_place[0, m, j + w.dj, i + w.di], w.flux_place[1, m, j + w.dj, i + w.di] = place_of(right, m)
+                w.flux_place[0, m, j + dj, i + di], w.flux_place[1, m, j + dj, i + di] = place_of(right, m)
             along, across = place_of(whole, m)
-            w.centroid[w.di, m, j, i] = within(w.centroid[w.di, m, j, i] + taken * (across - w.centroid[w.di, m, j, i]), f)
-            w.centroid[w.dj, m, j, i] = within(w.centroid[w.dj, m, j, i] + taken * (along - w.centroid[w.dj, m, j, i]), f)
+            w.centroid[di, m, j, i] = within(w.centroid[di, m, j, i] + taken * (across - w.centroid[di, m, j, i]), f)
+            w.centroid[dj, m, j, i] = within(w.centroid[dj, m, j, i] + taken * (along - w.centroid[dj, m, j, i]), f)
         # two strips together may not take more of a body than there is; the excess moves on to the next body
         if w_low > 0.0 and w_high > 0.0:
             excess = 0.0
@@ -363,4 +364,4 @@ def interface_volumes(j, w):
             if w_low > 0.0:
                 w.flux_volume[m, j, i] = -left[SHARE, m] * size
             if w_high > 0.0:
-                w.flux_volume[m, j + w.dj, i + w.di] = right[SHARE, m] * size
+                w.flux_volume[m, j + dj, i + di] = right[SHARE, m] * size

@@ -12,7 +12,6 @@ from hydro2d.kernels.cut_cells import (
     common_traction,
     fill_cut_cell,
     firm_density,
-    firm_share,
     is_beside_gas,
     normal_deviator,
     tied_work,
@@ -121,7 +120,7 @@ def close_cells(j, part, w):
     """
     pressures_row(j, part, w)
     if w.opened[j] > 0.0:
-        mixed_row(j, w.active_range, w.scratch[0], part, w)
+        mixed_row(j, w.active_range, w.scratch[0, part], w)
     for k in range(w.mixed_count[j]):
         i = w.mixed[j, k]
         if w.skin[KIND, j, i] == WHOLE and 0.0 < w.solid[j, i] < 1.0 - NO_VOID:  # a pure cell that has fractured
@@ -204,25 +203,26 @@ def filter_work(j, i, motion, cell_mass):
 
 
 @point
-def pressure_rise(j, i, middle, vof, pm):
-    """What the pressure of a cell rises by until the middle of the step, in which it is `middle`."""
+def pressure_rise(j, i, w):
+    """What the pressure of a cell rises by until the middle of the step."""
     before = 0.0
-    for m in range(vof.shape[0]):
-        before += vof[m, j, i] * pm[m, j, i] if vof[m, j, i] > 0.0 else 0.0
-    return middle - before
+    for m in range(w.vof.shape[0]):
+        before += w.vof[m, j, i] * w.pm[m, j, i] if w.vof[m, j, i] > 0.0 else 0.0
+    return w.ph[j, i] - before
 
 
 @point
-def work_beside_gas(j, i, volume, change, inverse, work, rise, target, relaxed, w):
+def work_beside_gas(j, i, volume, change, inverse, work, target, relaxed, w):
     """Work in a cell that a gas shares with stiffer bodies: each body's own pressure on its own change of volume, the remainder
     by mass (explanation/mixed-cells, equation 6).
 
-    change is that of the volume, work that of pressure, viscosity and hourglass filter on the cell, rise what its pressure
-    rises by to the middle of the step, and relaxed the share of its excess of pressure over the target that a body loses.
+    change is that of the volume, work that of pressure, viscosity and hourglass filter on the cell, and relaxed the share of
+    its excess of pressure over the target that a body loses.
 
-    Reads    mix [j, SOFT, m]
+    Reads    mix [j, SOFT, m]; ph [j, i]
     Updates  mix [j, HEAT, m], which then has all of the work on a body
     """
+    rise = pressure_rise(j, i, w)
     mass, left = 0.0, work
     for m in range(w.vof.shape[0]):
         f = w.vof[m, j, i]
@@ -257,8 +257,7 @@ def fill_cell(j, i, change, volume, work_p, work_q, w):
     if gas:
         work = work_p + work_q + filter_work(j, i, w.motion, w.cell_mass)
         relaxed = bound * w.relaxation if w.tipton else 0.0
-        rise = pressure_rise(j, i, w.ph[j, i], w.vof, w.pm)
-        work_beside_gas(j, i, volume, change, inverse, work, rise, mean_p, relaxed, w)
+        work_beside_gas(j, i, volume, change, inverse, work, mean_p, relaxed, w)
     after = volume + change
     for m in range(w.vof.shape[0]):
         f = w.vof[m, j, i]
@@ -323,11 +322,10 @@ def deform_mixed(j, w):
         for g in range(groups):
             if w.cell_mass[g, j, i] > 0.0:
                 heat_of_ties(j, i, g, w)
-        firm = firm_share(j, i, w.solid[j, i], w.gases, w.vof)
-        cell_yield = strain_deviators(j, i, w.dt / volume, firm, w)
+        cell_yield = strain_deviators(j, i, w.dt / volume, w)
         if cut:
             target = strain_bodies_across(j, i, own, cell_yield, change / volume, w)
-        return_deviators(j, i, own, cell_yield, dominant, volume, w)
+        return_deviators(j, i, own, cell_yield, dominant, w)
         if cut:
             fill_cut_cell(j, i, change, volume, target, work_p + work_q + filter_work(j, i, w.motion, w.cell_mass), w)
         else:

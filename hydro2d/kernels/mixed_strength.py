@@ -1,7 +1,7 @@
 """Strength in mixed cells: elastic trial of every body, the strain across a surface, and the return to the yield surface."""
 
 from hydro2d.jit import point
-from hydro2d.kernels.cut_cells import NORMAL_R, NORMAL_Z, meet_traction, surface_weight
+from hydro2d.kernels.cut_cells import NORMAL_R, NORMAL_Z, firm_share, meet_traction, surface_weight
 from hydro2d.kernels.mixed_scratch import (
     ACROSS,
     ALONG,
@@ -28,6 +28,7 @@ from hydro2d.kernels.mixed_scratch import (
 from hydro2d.kernels.plastic_return import return_to_surface
 from hydro2d.materials.rows import CUTOFF_DENSITY, DAMAGE_AT, EOS_AT, FACTOR, MELTING_AT, STRENGTH, STRENGTH_AT
 from hydro2d.mesh.fields import DMG, EP, RHO, SRR, SRZ, SZZ
+from hydro2d.mesh.grid import VOL_R
 from hydro2d.physics.plasticity import carries_no_stress, deviator_power, forget, is_fluid, keep_internal, take_internal
 from hydro2d.physics.stress import stress_scale, turn_and_strain, von_mises
 from hydro2d.physics.traction import along_normal
@@ -75,12 +76,11 @@ def work_of_deviators(j, i, dominant, w):
 
 
 @point
-def strain_deviators(j, i, rate, firm, w):
+def strain_deviators(j, i, rate, w):
     """Elastic trial of every body; returns the yield stress of the cell by mode (explanation/mixed-cells, equation 8).
 
-    rate is the time step over the volume of the cell; firm is the share of it that is neither void nor gas, or that of all
-    bodies where these are gases. Internal variables that are tensors turn with the material. In a cut cell the strain across
-    the surface is left out, by the weight of that: `meet_traction` finds it, `strain_across` adds it.
+    rate is the time step over the volume of the cell. Internal variables that are tensors turn with the material. In a cut cell
+    the strain across the surface is left out, by the weight of that: `meet_traction` finds it, `strain_across` adds it.
 
     Updates  q (internal variables) [k, m, j, i]; scratch internal [j, k]
     Writes   mix [j, TRIAL_RR to TRIAL_RZ, m], deviators; mix [j, MODULUS, m], mix [j, YIELD, m], 0 without strength, all in Pa
@@ -128,7 +128,7 @@ def strain_deviators(j, i, rate, firm, w):
         largest_yield = max(largest_yield, w.mix[j, YIELD, m])
     if w.strength_mode == ZERO:
         return 0.0
-    return largest_yield if w.strength_mode == MAX else cell_yield / firm
+    return largest_yield if w.strength_mode == MAX else cell_yield / firm_share(j, i, w)
 
 
 @point
@@ -156,7 +156,7 @@ def strain_bodies_across(j, i, own, cell_yield, change, w):
 
 
 @point
-def return_deviators(j, i, own, cell_yield, dominant, volume, w):
+def return_deviators(j, i, own, cell_yield, dominant, w):
     """Brings the trial deviators back to the yield surface: each body's own, or the one of the cell. Melts lose theirs.
 
     In the hard zone the plastic heat of the dominant body is shared by f_m/Y_m among what is solid, as in layers under one
@@ -165,6 +165,7 @@ def return_deviators(j, i, own, cell_yield, dominant, volume, w):
     Reads    what strain_deviators wrote
     Updates  q (deviators, plastic strain, damage, internal variables) [k, m, j, i]; mix [j, HEAT, m]; scratch internal [j, k]
     """
+    volume = w.metrics[VOL_R, i] * w.dz[j]
     for m in range(w.vof.shape[0]):
         if w.vof[m, j, i] == 0.0 or w.models[m, STRENGTH] == 0:
             continue
@@ -175,7 +176,8 @@ def return_deviators(j, i, own, cell_yield, dominant, volume, w):
             w.q[SRZ, m, j, i] = 0.0
             continue
         rr, zz, rz, dep, final = return_to_surface(
-            m, j, i, w.mix[j, TRIAL_RR, m], w.mix[j, TRIAL_ZZ, m], w.mix[j, TRIAL_RZ, m], w.mix[j, MODULUS, m], own, cell_yield, w)
+            m, j, i, w.mix[j, TRIAL_RR, m], w.mix[j, TRIAL_ZZ, m], w.mix[j, TRIAL_RZ, m], w.mix[j, MODULUS, m], own, cell_yield,
+            w)
         gone = carries_no_stress(w.q[DMG, m, j, i], w.q[RHO, m, j, i], w.materials[m, CUTOFF_DENSITY])
         w.q[SRR, m, j, i] = 0.0 if gone else rr
         w.q[SZZ, m, j, i] = 0.0 if gone else zz

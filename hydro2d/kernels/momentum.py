@@ -36,6 +36,7 @@ def dual_row(g, j, slot, w):
     Reads    flux_mass, mass [b, j, i], w = (u, v) [c, b, j, i]
     Writes   dual [k, slot, i]: mass, radial and axial momentum, and kinetic energy of each component
     """
+    dj, di = w.dj, w.di
     lo, hi = dual_range(j, w.group_ranges[g], w)
     n = hi - lo
     if n > 0:
@@ -43,8 +44,8 @@ def dual_row(g, j, slot, w):
         half = w.dual[5, slot, lo:hi]
         here = w.flux_mass[g, j, lo - 1:hi + 1]
         inner = w.metrics[CM_IN, lo:hi]
-        outer = w.metrics[CM_OUT, lo - w.dj:hi]
-        if w.di == 1:
+        outer = w.metrics[CM_OUT, lo - dj:hi]
+        if di == 1:
             below = w.flux_mass[g, j - 1, lo:hi + 1]
             for x in range(n):
                 flow[x] = outer[x] * (below[x] + here[x + 1]) + inner[x] * (below[x + 1] + here[x + 2])
@@ -52,10 +53,10 @@ def dual_row(g, j, slot, w):
             above = w.flux_mass[g, j + 1, lo - 1:hi]
             for x in range(n):
                 flow[x] = inner[x] * (here[x + 1] + above[x + 1]) + outer[x] * (here[x] + above[x])
-        m_ll = w.mass[g, j - w.dj, lo - w.di:hi - w.di]
+        m_ll = w.mass[g, j - dj, lo - di:hi - di]
         m_l = w.mass[g, j, lo:hi]
-        m_r = w.mass[g, j + w.dj, lo + w.di:hi + w.di]
-        m_rr = w.mass[g, j + 2 * w.dj, lo + 2 * w.di:hi + 2 * w.di]
+        m_r = w.mass[g, j + dj, lo + di:hi + di]
+        m_rr = w.mass[g, j + 2 * dj, lo + 2 * di:hi + 2 * di]
         for x in range(n):
             up = flow[x] > 0.0
             whole = max(m_l[x], TINY) if up else max(m_r[x], TINY)
@@ -64,10 +65,10 @@ def dual_row(g, j, slot, w):
             there = smoothstep(least / (SLIGHT * max(most, TINY)))
             half[x] = 0.5 * there * (1.0 - min(abs(flow[x]) / whole, 1.0))
         for c in range(2):
-            a_ll = w.velocity0[c, g, j - w.dj, lo - w.di:hi - w.di]
+            a_ll = w.velocity0[c, g, j - dj, lo - di:hi - di]
             a_l = w.velocity0[c, g, j, lo:hi]
-            a_r = w.velocity0[c, g, j + w.dj, lo + w.di:hi + w.di]
-            a_rr = w.velocity0[c, g, j + 2 * w.dj, lo + 2 * w.di:hi + 2 * w.di]
+            a_r = w.velocity0[c, g, j + dj, lo + di:hi + di]
+            a_rr = w.velocity0[c, g, j + 2 * dj, lo + 2 * di:hi + 2 * di]
             carried = w.dual[1 + c, slot, lo:hi]
             kinetic = w.dual[3 + c, slot, lo:hi]
             for x in range(n):
@@ -101,7 +102,7 @@ def rest_on_anvil(edge, g, j, lo, hi, new_j, left, w):
 
 
 @rowwise
-def vertex_row(g, j, i1, below, above, w):
+def vertex_row(g, j, below, above, w):
     """Velocities of group g in row j after the sweep, by the kind of advection (explanation/remap, equations 7 to 9).
 
     momentum   u = P/M
@@ -118,10 +119,11 @@ def vertex_row(g, j, i1, below, above, w):
     Updates  sums [5, j]: kinetic energy before and after; axial momentum after less P; kinetic energy cut by the bound;
              axial momentum given to walls
     """
-    lo, hi = max(w.group_ranges[g, 1, j, 0], w.i0), min(w.group_ranges[g, 1, j, 1] + 1, i1)
+    dj, di = w.dj, w.di
+    lo, hi = max(w.group_ranges[g, 1, j, 0], w.i0), min(w.group_ranges[g, 1, j, 1] + 1, w.i1 + 1)
     n = hi - lo
     for c in range(2):
-        copy_beside(w.velocity0[c, g, j], w.velocity[c, g, j], w.i0 - GHOSTS, lo, hi, i1 + GHOSTS)
+        copy_beside(w.velocity0[c, g, j], w.velocity[c, g, j], w.i0 - GHOSTS, lo, hi, w.i1 + 1 + GHOSTS)
     if n > 0:
         low = w.cell_mass[g, j - 1, lo - 1:hi]
         high = w.cell_mass[g, j, lo - 1:hi]
@@ -129,24 +131,25 @@ def vertex_row(g, j, i1, below, above, w):
         outer = w.metrics[CM_OUT, lo - 1:hi]
         m_j = w.mass[g, j, lo:hi]
         left = w.deficit[g, j, lo:hi]
-        f_in = w.dual[0, below, lo - w.di:hi - w.di]
+        f_in = w.dual[0, below, lo - di:hi - di]
         f_out = w.dual[0, above, lo:hi]
         new_j = w.dual[5, below, lo:hi]  # the weights that stood there have done their work
         for x in range(n):
             left[x] = 0.0
             new_j[x] = outer[x] * (low[x] + high[x]) + inner[x] * (low[x + 1] + high[x + 1])
         for c in range(2):
-            p_in = w.dual[1 + c, below, lo - w.di:hi - w.di]
+            p_in = w.dual[1 + c, below, lo - di:hi - di]
             p_out = w.dual[1 + c, above, lo:hi]
-            k_in = w.dual[3 + c, below, lo - w.di:hi - w.di]
+            k_in = w.dual[3 + c, below, lo - di:hi - di]
             k_out = w.dual[3 + c, above, lo:hi]
             a_j = w.velocity0[c, g, j, lo:hi]
-            a_low = w.velocity0[c, g, j - w.dj, lo - w.di:hi - w.di]
-            a_high = w.velocity0[c, g, j + w.dj, lo + w.di:hi + w.di]
+            a_low = w.velocity0[c, g, j - dj, lo - di:hi - di]
+            a_high = w.velocity0[c, g, j + dj, lo + di:hi + di]
             out = w.velocity[c, g, j, lo:hi]
             k_before, k_after, k_cut, p_gained, p_wall = 0.0, 0.0, 0.0, 0.0, 0.0
             wall_row = c == 1 and (j == w.constrained[2] or j == w.constrained[3])
-            given = w.edge_velocity[2 * c] if c == 0 or j == w.constrained[2] else w.edge_velocity[3]  # at the low edge, if this is one
+            low_edge = c == 0 or j == w.constrained[2]
+            given = w.edge_velocity[2 * c] if low_edge else w.edge_velocity[3]
             for x in range(n):
                 a = a_j[x]
                 old = m_j[x]
@@ -170,7 +173,8 @@ def vertex_row(g, j, i1, below, above, w):
                 k_after = plus(k_after, 0.5 * new * after * after)
                 if w.advection == KE:
                     moves = not resting and new > 0.0
-                    k_cut = plus(k_cut, max(kinetic - 0.5 * new * (w.ke_bound * mean) * (w.ke_bound * mean), 0.0) if moves else 0.0)
+                    most = w.ke_bound * mean
+                    k_cut = plus(k_cut, max(kinetic - 0.5 * new * most * most, 0.0) if moves else 0.0)
                 gained = new * (after - momentum * over) if new > 0.0 else -momentum
                 p_gained = plus(p_gained, 0.0 if resting or wall else gained)
                 if w.advection == BOTH:
@@ -196,25 +200,26 @@ def sweep_momentum(part, w):
              what flows over the mesh's edges
     Scratch  dual [k, slot, i], two slots to a part; in z they take turns
     """
+    dj, di = w.dj, w.di
     first, last = w.parts[part], past_row(part, w.parts, 1)
     for g in range(w.mass.shape[0]):
-        for j in range(first - w.dj, last):
-            slot = 2 * part + w.dj * (j % 2)
+        for j in range(first - dj, last):
+            slot = 2 * part + dj * (j % 2)
             dual_row(g, j, slot, w)
             lo, hi = dual_range(j, w.group_ranges[g], w)
             for side in range(2):
-                at = w.mesh_box[2 * w.di + side] + side - 1  # the edge from a ghost vertex to the mesh, or from the mesh to one
+                at = w.mesh_box[2 * di + side] + side - 1  # the edge from a ghost vertex to the mesh, or from the mesh to one
                 for k in range(5):
-                    if w.di == 1:
+                    if di == 1:
                         w.edge_dual[g, side, k, j] = w.dual[k, slot, at] if lo <= at < hi else 0.0
                     elif j == at and (j >= first or part == 0):
                         for i in range(w.i0, w.i1 + 1):
                             w.edge_dual[g, side, k, i] = w.dual[k, slot, i] if lo <= i < hi else 0.0
             if j >= first:
-                below = 2 * part + w.dj * ((j - 1) % 2)
+                below = 2 * part + dj * ((j - 1) % 2)
                 for row in range(5):
                     w.momentum_sums[row, j] = 0.0 if g == 0 else w.momentum_sums[row, j]
-                vertex_row(g, j, w.i1 + 1, below, slot, w)
+                vertex_row(g, j, below, slot, w)
 
 
 @cell_rows

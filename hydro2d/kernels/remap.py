@@ -22,7 +22,7 @@ FILLED = 0.9
 
 
 @rowwise
-def flux_row(dj, di, j, m, slot, b, w):
+def flux_row(dj, j, m, slot, b, w):
     """Fluxes of what body m carries through the faces of row j.
 
     Second order, monotone, in cells whose neighbours are full of the same body; the donor's own value in and next to cells
@@ -35,7 +35,8 @@ def flux_row(dj, di, j, m, slot, b, w):
              flux_volume, vof [m, j, i]; q [k, m, j, i]
     Writes   flux [k, m, slot, i]
     """
-    lo, hi = flux_range(dj, di, m, j, w)
+    di = 1 - dj
+    lo, hi = flux_range(dj, m, j, w)
     n = hi - lo
     if n > 0:
         swept = w.flux_volume[m, j, lo:hi]
@@ -79,7 +80,7 @@ def flux_row(dj, di, j, m, slot, b, w):
 
 
 @rowwise
-def update_row(dj, di, j, m, below, above, b, w):
+def update_row(dj, j, m, below, above, b, w):
     """Body m in row j after the sweep: volume, mass and what it carries. A cell without flux keeps its bits.
 
     Fields stay within the bounds of the table; what has failed stays so, to the last bit, and has no deviator.
@@ -88,6 +89,7 @@ def update_row(dj, di, j, m, below, above, b, w):
              flux [k, m, slot, i] in the slots `below` and `above`
     Updates  vof [m, j, i] (share of the volume after the sweep), q [k, m, j, i]
     """
+    di = 1 - dj
     lo, hi = max(w.body_ranges[dj, m, j, 0] - di, w.i0), min(w.body_ranges[dj, m, j, 1] + di, w.i1)
     n = hi - lo
     if n > 0:
@@ -144,7 +146,7 @@ def update_row(dj, di, j, m, below, above, b, w):
 
 
 @rowwise
-def mass_flux_row(dj, di, j, slot, w):
+def mass_flux_row(dj, j, slot, w):
     """Mass flux of each group through the faces of row j, zero wherever the dual fluxes read it and nothing flows.
 
     Reads    group [m]; flux [k, m, slot, i];  writes flux_mass [b, j, i]
@@ -155,7 +157,7 @@ def mass_flux_row(dj, di, j, slot, w):
         for x in range(n):
             total[lo + x] = 0.0
     for m in range(w.body_ranges.shape[1]):
-        lo, hi = flux_range(dj, di, m, j, w)
+        lo, hi = flux_range(dj, m, j, w)
         lo, n = columns(lo, hi)
         mass = w.flux[RHO, m, slot]
         total = w.flux_mass[w.group[m], j]
@@ -218,17 +220,17 @@ def forget_centroids(j, i, vof, centroid):
 
 
 @rowwise
-def sweep_row(dj, di, j, below, above, b, w):
+def sweep_row(dj, j, below, above, b, w):
     """Row j after the sweep: every body, the mass of the cells and the list of those that are mixed.
 
     Cells that were mixed and are no more have no centroids.
     """
     for m in range(w.body_ranges.shape[1]):
-        update_row(dj, di, j, m, below, above, b, w)
-    cell_mass_row(dj, di, j, w.pre, w.face, w.second, w)
+        update_row(dj, j, m, below, above, b, w)
+    cell_mass_row(dj, 1 - dj, j, w.pre, w.face, w.second, w)
     for k in range(w.mixed_count[j]):
         forget_centroids(j, w.mixed[j, k], w.vof, w.centroid)
-    mixed_row(j, w.group_ranges[0, 0], w.scratch[0], b, w)
+    mixed_row(j, w.group_ranges[0, 0], w.scratch[0, b], w)
 
 
 @cell_rows
@@ -243,14 +245,14 @@ def sweep_r(j, part, w):
     """
     slot = 6 * part + 3
     for m in range(w.body_ranges.shape[1]):
-        flux_row(0, 1, j, m, slot, part, w)
-        lo, hi = flux_range(0, 1, m, j, w)
+        flux_row(0, j, m, slot, part, w)
+        lo, hi = flux_range(0, m, j, w)
         for side in range(2):
             i = w.mesh_box[2 + side]
             w.edge_flux[side, RHO, m, j] = w.flux[RHO, m, slot, i] if lo <= i < hi else 0.0
             w.edge_flux[side, E, m, j] = w.flux[E, m, slot, i] if lo <= i < hi else 0.0
-    mass_flux_row(0, 1, j, slot, w)
-    sweep_row(0, 1, j, slot, slot, part, w)
+    mass_flux_row(0, j, slot, w)
+    sweep_row(0, j, slot, slot, part, w)
 
 
 @point
@@ -282,7 +284,7 @@ def shared_fluxes(part, w):
     if part > 0:
         for f in range(w.parts[part] - 1, w.parts[part] + 2):
             for m in range(w.body_ranges.shape[1]):
-                flux_row(1, 0, f, m, slot_of(f, part, w.parts), part, w)
+                flux_row(1, f, m, slot_of(f, part, w.parts), part, w)
 
 
 @kernel
@@ -299,13 +301,13 @@ def sweep_z(part, w):
             slot = slot_of(f, part, w.parts)
             if shared_slot(f, part, w.parts) < 0:
                 for m in range(w.body_ranges.shape[1]):
-                    flux_row(1, 0, f, m, slot, part, w)
+                    flux_row(1, f, m, slot, part, w)
             if f < last or last == end:
-                mass_flux_row(1, 0, f, slot, w)
+                mass_flux_row(1, f, slot, w)
             for side in range(2):
                 if f == w.mesh_box[side]:
                     for m in range(w.body_ranges.shape[1]):
-                        lo, hi = flux_range(1, 0, m, f, w)
+                        lo, hi = flux_range(1, m, f, w)
                         for k in range(2):
                             for i in range(w.i0, w.i1):
                                 w.edge_flux[side, k, m, i] = w.flux[k, m, slot, i] if lo <= i < hi else 0.0
@@ -313,7 +315,7 @@ def sweep_z(part, w):
         if j >= first and (f > last or j < last - 1):
             below = slot_of(j, part, w.parts)
             above = slot_of(j + 1, part, w.parts)
-            sweep_row(1, 0, j, below, above, part, w)
+            sweep_row(1, j, below, above, part, w)
 
 
 #: shares of a cell that are round-off
@@ -360,9 +362,13 @@ def tidy(j, w):
                 mass = (f - left_over) * rho * post
                 inner, outer = w.metrics[CM_IN, i] * mass, w.metrics[CM_OUT, i] * mass
                 g = w.group[m]
-                v_in, v_out = w.v[g, j, i] + w.v[g, j + 1, i], w.v[g, j, i + 1] + w.v[g, j + 1, i + 1]
-                k_in = (w.v[g, j, i] ** 2 + w.v[g, j + 1, i] ** 2) + (w.u[g, j, i] ** 2 + w.u[g, j + 1, i] ** 2)
-                k_out = (w.v[g, j, i + 1] ** 2 + w.v[g, j + 1, i + 1] ** 2) + (w.u[g, j, i + 1] ** 2 + w.u[g, j + 1, i + 1] ** 2)
+                ub = w.u[g, j]
+                ut = w.u[g, j + 1]
+                vb = w.v[g, j]
+                vt = w.v[g, j + 1]
+                v_in, v_out = vb[i] + vt[i], vb[i + 1] + vt[i + 1]
+                k_in = (vb[i] ** 2 + vt[i] ** 2) + (ub[i] ** 2 + ut[i] ** 2)
+                k_out = (vb[i + 1] ** 2 + vt[i + 1] ** 2) + (ub[i + 1] ** 2 + ut[i + 1] ** 2)
                 w.removed[0, j] += mass * w.q[E, m, j, i]
                 w.removed[1, j] += 0.5 * (inner * k_in + outer * k_out)
                 w.removed[2, j] += inner * v_in + outer * v_out

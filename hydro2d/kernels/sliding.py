@@ -107,7 +107,8 @@ def slip_zones(w):
             x, y = line_centre(n_r / size, n_z / size, f)
             g_r, g_z = n_r / w.dr[i], n_z / w.dz[j]
             length = sqrt(g_r * g_r + g_z * g_z)
-            paint(j, i, w.rc[i] + (x - 0.5) * w.dr[i], w.zc[j] + (y - 0.5) * w.dz[j], g_r / length, g_z / length, 0.5 * max(w.dr[i], w.dz[j]), w)
+            paint(j, i, w.rc[i] + (x - 0.5) * w.dr[i], w.zc[j] + (y - 0.5) * w.dz[j], g_r / length, g_z / length,
+                  0.5 * max(w.dr[i], w.dz[j]), w)
     for j in range(j0, j1):
         for i in range(w.i0, w.i1):
             if w.hard[j, i] >= w.hard_threshold:

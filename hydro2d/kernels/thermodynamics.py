@@ -420,8 +420,8 @@ def step_cause(w):
     for i in range(w.active_range[j, 0], w.active_range[j, 1]):
         if w.rhobar[j, i] > 0.0:
             loss = volume_loss(i, w.u[0, j], w.u[0, j + 1], w.v[0, j], w.v[0, j + 1], w.metrics, w.dz[j])
-            limits = step_limits(i, w.u[0, j], w.u[0, j + 1], w.v[0, j], w.v[0, j + 1], w.courant, w.advective_courant, w.mesh_speed, w.dr,
-                                 w.dz[j], w.rhobar[j, i], w.cl[j, i], max(w.qr[j, i], w.qz[j, i]), loss)
+            limits = step_limits(i, w.u[0, j], w.u[0, j + 1], w.v[0, j], w.v[0, j + 1], w.courant, w.advective_courant,
+                                 w.mesh_speed, w.dr, w.dz[j], w.rhobar[j, i], w.cl[j, i], max(w.qr[j, i], w.qz[j, i]), loss)
             for k in range(4):
                 if limits[k] < best:
                     best = limits[k]
