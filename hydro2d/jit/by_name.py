@@ -1,7 +1,7 @@
 """Functions that take arrays and numbers by their names: written with a handle ``w``, compiled with a parameter for each name.
 
-A function whose last parameter is ``w`` uses ``w.u[b, j, i]`` and ``w.dt``, and calls others like it as ``other(j, i, w)``. What
-is compiled is the same function with a parameter for every name that it uses, or that one of those which it calls does::
+A function whose last parameter is ``w`` uses ``w.u[b, j, i]`` and ``w.dt``, and calls others like it as ``other(j, i, w)``.
+What is compiled is the same function with a parameter for every name that it uses, or that one of those which it calls does::
 
     @kernel                                     @kernel
     def slow_down(part, w):                     def slow_down(part, w__dt, w__parts, w__u):
@@ -129,8 +129,8 @@ class _Rewriting(ast.NodeTransformer):
         if node.args and _is_handle(node.args[-1]):
             called = self._function.__globals__.get(getattr(node.func, "id", ""))
             if not takes_handle(called):
-                raise _mistake(self._function, node, f"gives {HANDLE} to {ast.unparse(node.func)}, which is no compiled function "
-                                                     "that takes one, or is not defined yet")
+                raise _mistake(self._function, node, f"gives {HANDLE} to {ast.unparse(node.func)}, which is no compiled "
+                                                     "function that takes one, or is not defined yet")
             node.args[-1:] = [self._parameter(name, node.args[-1]) for name in called.named]
         return self.generic_visit(node)
 
@@ -168,8 +168,8 @@ def _definition(function) -> ast.FunctionDef:
     lines, before = linecache.getlines(code.co_filename, function.__globals__), code.co_firstlineno - 1
     last = _last_lines("".join(lines)).get((function.__name__, code.co_firstlineno))
     if last is None:
-        raise ValueError(f"{code.co_filename}:{code.co_firstlineno}: {function.__name__} takes {HANDLE}, which only functions of "
-                         "files can, not those within others")
+        raise ValueError(f"{code.co_filename}:{code.co_firstlineno}: {function.__name__} takes {HANDLE}, which only functions "
+                         "of files can, not those within others")
     return parsed("\n" * before + "".join(lines[before:last])).body[0]
 
 

@@ -262,9 +262,10 @@ def tie_row(b, j, w):
 
 @vertex_rows
 def accelerate(j, w):
-    """accelerate_row and tie_row for rows j0 to j1, and the velocities that forces of sources add.
+    """Velocities of both groups at the end of the Lagrangian step: forces, ties beside gases, and what forces of sources add.
 
-    Reads    pushed [c, b, j, i], m/s, or nothing
+    Reads    what accelerate_row and tie_row read; pushed [c, b, j, i], m/s, or nothing
+    Updates  u, v [b, j, i]
     """
     for b in range(w.mass.shape[0]):
         accelerate_row(b, j, w)

@@ -26,7 +26,7 @@ def fill(m, j, i, from_j, from_i, mirror, w):
 
 @cell_rows
 def ghost_columns(j, w):
-    """Ghost cells left and right of rows j0 to j1, of bodies that are near or were: fractions and, before a sweep along r, q.
+    """Ghost cells left and right of the mesh, of bodies that are near or were: fractions and, before a sweep along r, q.
 
     Interfaces of a sweep along z need the fractions alone.
 
@@ -75,7 +75,7 @@ def ghost_rows(part, w):
 
 @vertex_rows
 def ghost_vertices_r(j, w):
-    """Ghost vertices left and right of rows j0 to j1; u changes its sign in a mirror.
+    """Ghost vertices left and right of the mesh; u changes its sign in a mirror.
 
     Updates  u, v [b, j, i]
     """

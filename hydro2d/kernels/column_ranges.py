@@ -131,7 +131,7 @@ def mixed_row(j, active_range, kind, w):
     """Lists the cells of row j in which a body and something else (another body or void) meet.
 
     Reads    vof [m, j, i], active_range [j, 2]
-    Writes   count [j], mixed [j, k] (columns, ascending)
+    Writes   mixed_count [j], mixed [j, k] (columns, ascending)
     Scratch  kind [i]: a thousand per body that fills the cell, one per body in it
     """
     first, n = columns(active_range[j, 0], active_range[j, 1])
@@ -153,8 +153,10 @@ def mixed_row(j, active_range, kind, w):
 
 @cell_rows
 def list_mixed(j, part, w):
-    """mixed_row for rows j0 to j1.
+    """Lists the mixed cells of every row (`mixed_row`).
 
+    Reads    vof [m, j, i], active_range [j, 2]
+    Writes   mixed_count [j], mixed [j, k]
     Scratch  scratch [s, part, i]
     """
     mixed_row(j, w.active_range, w.scratch[0, part], w)

@@ -37,7 +37,7 @@ REACH = 3
 
 @vertex_rows
 def find_contact_nodes(j, w):
-    """Contact nodes of rows j0 to j1, and what hard and soft bodies fill of the cells near hard ones.
+    """Contact nodes of every row, and what hard and soft bodies fill of the cells near hard ones.
 
     Reads    group_ranges[1] [n, j, 2], the columns near hard bodies; mass [b, j, i]; vof [m, j, i]; group [m]
     Writes   contact_node_count [j], contact_nodes [j, k] (columns, ascending); hard, soft [j, i]; zero in heat [b, j, i];

@@ -22,7 +22,7 @@ ROUNDS = 3
 RUB_R, RUB_Z, RUBBED = range(3)
 #: rows of `nodes`: slot, group, row and column of a slave, what holds it, and the number of its vertex
 SLOT, GROUP, ROW, COLUMN, HELD, VERTEX = range(6)
-#: columns of `ties`, two for the components of each: impulse, residual, search direction, what the ties make of that, inverse
+#: columns of `impulses`, two for the components of each: impulse, residual, search direction, what the ties make of that, inverse
 #: of the diagonal; then the mass of the slave and the compliance of its tie
 IMPULSE, RESIDUAL, SEARCH, IMAGE, DIAGONAL, MASS, COMPLIANCE = 0, 2, 4, 6, 8, 10, 11
 
@@ -139,8 +139,8 @@ def mismatch(t, u, v, w):
 def image_of_search(tied, vertices, w):
     """What the search direction, as impulses, does to the mismatch: N M^-1 N^T p and the compliance; returns p . image.
 
-    Reads    ties [t, SEARCH]
-    Writes   ties [t, IMAGE];  scratch gain [n, c], velocities of the listed vertices
+    Reads    impulses [t, SEARCH]
+    Writes   impulses [t, IMAGE];  scratch gain [n, c], velocities of the listed vertices
     """
     for n in range(vertices):
         w.gain[n, 0] = 0.0
@@ -175,7 +175,7 @@ def image_of_search(tied, vertices, w):
 def meet_ties(tied, vertices, w):
     """Brings all slaves to the velocities of their masters at once, by conjugate gradients from nothing.
 
-    Updates  u, v [b, j, i]; taken [c, x, b], impulses that slaves have given away;  scratch ties [t, 12], gain [n, c]
+    Updates  u, v [b, j, i]; taken [c, x, b], impulses that slaves have given away;  scratch impulses [t, 12], gain [n, c]
     """
     old_r, old_z = 0.0, 0.0
     for t in range(tied):

@@ -56,7 +56,7 @@ def in_debris(g, j, i, w):
 def find_filled(part, w):
     """filled_share of both groups at all vertices from which a contact node can be extended.
 
-    Reads    hard, soft [j, i]; mass [b, j, i]; the list of contact nodes of rows j0 to j1
+    Reads    hard, soft [j, i]; mass [b, j, i]; the list of contact nodes
     Writes   filled [b, j, i] within REACH of contact nodes, in the mesh
     """
     j0, j1 = outer_rows(w.parts)

@@ -33,7 +33,7 @@ def dual_row(g, j, slot, w):
 
     No slope is larger than steepness times the smaller difference to a neighbour.
 
-    Reads    flux_mass, mass [b, j, i], w = (u, v) [c, b, j, i]
+    Reads    flux_mass, mass [b, j, i], velocity0 [c, b, j, i]
     Writes   dual [k, slot, i]: mass, radial and axial momentum, and kinetic energy of each component
     """
     dj, di = w.dj, w.di
@@ -84,8 +84,8 @@ def dual_row(g, j, slot, w):
 def rest_on_anvil(edge, g, j, lo, hi, new_j, left, w):
     """Takes the normal velocity of vertices that rest on an edge that only pushes or would go beyond it.
 
-    Reads    new_j [x], masses of the columns from lo;  w_old = (u, v) [c, b, j, i]
-    Updates  w = (u, v) [c, b, j, i]; left [x], energy that is given to cells, per mass; sums [5, j] as in vertex_row
+    Reads    new_j [x], masses of the columns from lo;  velocity0 [c, b, j, i]
+    Updates  velocity [c, b, j, i]; left [x], energy that is given to cells, per mass; momentum_sums [5, j] as in vertex_row
     """
     c, at = edge // 2, w.pushing[edge]
     if c == 1 and j != at:
@@ -106,17 +106,17 @@ def vertex_row(g, j, below, above, w):
     """Velocities of group g in row j after the sweep, by the kind of advection (explanation/remap, equations 7 to 9).
 
     momentum   u = P/M
-    ke         u = sign(P) sqrt(2 K/M) per component, |u| <= bound |P/M|
+    ke         u = sign(P) sqrt(2 K/M) per component, |u| <= ke_bound |P/M|
     both       u = P/M, and the deficit K - M u^2/2 is left in `deficit` for `deposit` to give to the cells
     P/M is kept within the velocities of the three vertices that it comes from: this removes round-off, and what a vertex at an
     open edge, which has half a cell's mass, lacks when the whole cell leaves. The normal velocity on the axis, on walls and on
-    edges with a velocity is given: constrained has their columns (2) and rows (2), -1 for none, held what it is. That on edges
-    that only push, likewise in `pushing`, stays 0 where it is, and is 0 where it would go beyond.
+    edges with a velocity is given: constrained has their columns (2) and rows (2), -1 for none, edge_velocity what it is. That on
+    edges that only push, likewise in `pushing`, stays 0 where it is, and is 0 where it would go beyond.
 
     Reads    cell_mass [b, j, i] after the sweep, dual [k, slot, i] in the slots `below` and `above`;
-             w_old = (u, v) [c, b, j, i] and mass [b, j, i] before it
-    Writes   velocity = (u, v) [c, b, j, i] for the whole row; deficit [b, j, i]
-    Updates  sums [5, j]: kinetic energy before and after; axial momentum after less P; kinetic energy cut by the bound;
+             velocity0 [c, b, j, i] and mass [b, j, i] before it
+    Writes   velocity [c, b, j, i] for the whole row; deficit [b, j, i]
+    Updates  momentum_sums [5, j]: kinetic energy before and after; axial momentum after less P; kinetic energy cut by the bound;
              axial momentum given to walls
     """
     dj, di = w.dj, w.di
@@ -193,10 +193,10 @@ def vertex_row(g, j, below, above, w):
 
 @kernel
 def sweep_momentum(part, w):
-    """Carries the momentum of the vertices j0 to j1 along one direction.
+    """Carries the momentum of vertices along one direction.
 
     Reads    what dual_row and vertex_row read; mesh_box (j0, j1, i0, i1 of the mesh)
-    Writes   velocity = (u, v) [c, b, j, i]; deficit [b, j, i], momentum_sums [5, j]; edge_dual [b, side, k, j or i],
+    Writes   velocity [c, b, j, i]; deficit [b, j, i], momentum_sums [5, j]; edge_dual [b, side, k, j or i],
              what flows over the mesh's edges
     Scratch  dual [k, slot, i], two slots to a part; in z they take turns
     """
@@ -227,7 +227,7 @@ def deposit(j, ranges, deficit, w):
     """Gives energy found at vertices (what `both` misses, the heat of a contact) to the cells around, by the group's mass.
 
     Reads    ranges [j, 2], columns; deficit [b, j, i] per vertex mass, cell_mass [b, j, i], vof [m, j, i], group [m]
-    Updates  q (e) [k, m, j, i];  writes sums [j], the energy given
+    Updates  q (e) [k, m, j, i];  writes deposited [j], the energy given
     """
     given = 0.0
     for g in range(deficit.shape[0]):

@@ -356,7 +356,7 @@ def compression_viscosity_row(j, w):
 def steps_row(j, b, w):
     """The time step that every cell allows, and the coefficient of its hourglass filter.
 
-    dt <= courant min(dr, dz)/sqrt(c_l^2 + 2 q/rho), |u| dt <= advective dx, |div u| dt <= 0.2 in compression
+    dt <= courant min(dr, dz)/sqrt(c_l^2 + 2 q/rho), |u| dt <= advective_courant dx, |div u| dt <= 0.2 in compression
     (explanation/lagrangian-step).
 
     Reads    u, v [b, j, i]; rhobar, cl, qr, qz [j, i]
