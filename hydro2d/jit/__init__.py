@@ -12,8 +12,8 @@
 A `Phase` of the step is a list of kernels, one after another, for all parts at the same time.
 
 What numba is told is in `options`, the processor that code is made for in `target`, where compiled code is kept in `cache` and
-how in `store`, the decorators are in `calls`, how functions take arrays by name in `by_name`, exp, log and x^y for several cells
-at once in `elementary`, phases in `phases`, the names of their arrays in `handle`, and what is known of the calls of kernels in
+how in `store`, the decorators are in `calls`, arguments by name in `by_name`, exp, log and x^y for several cells at
+once in `elementary`, phases in `phases`, the names of their arrays in `handle`, and what is known of the calls of kernels in
 `recording`. Other files import from here.
 """
 

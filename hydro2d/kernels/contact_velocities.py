@@ -22,8 +22,8 @@ ROUNDS = 3
 RUB_R, RUB_Z, RUBBED = range(3)
 #: rows of `nodes`: slot, group, row and column of a slave, what holds it, and the number of its vertex
 SLOT, GROUP, ROW, COLUMN, HELD, VERTEX = range(6)
-#: columns of `impulses`, two for the components of each: impulse, residual, search direction, what the ties make of that, inverse
-#: of the diagonal; then the mass of the slave and the compliance of its tie
+#: columns of `impulses`, two for the components of each: impulse, residual, search direction, what the ties make of that,
+#: inverse of the diagonal; then the mass of the slave and the compliance of its tie
 IMPULSE, RESIDUAL, SEARCH, IMAGE, DIAGONAL, MASS, COMPLIANCE = 0, 2, 4, 6, 8, 10, 11
 
 

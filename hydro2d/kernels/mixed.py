@@ -59,8 +59,8 @@ TENSIONS = ("mean", "min")
 def insert_void_mixed_row(j, w):
     """Opens void in mixed cells whose pressure falls below their fracture pressure, and frees them of stress.
 
-    The threshold is the mean of the bodies' by volume fraction, or with smallest_tension the least (explanation/fracture). Two groups hold
-    together by nothing and part by themselves (`meet_traction`).
+    The threshold is the mean of the bodies' by volume fraction, or with smallest_tension the least (explanation/fracture).
+    Two groups hold together by nothing and part by themselves (`meet_traction`).
 
     Reads    mixed [j, k], skin [3, j, i]
     Updates  vof, pm [m, j, i]; q (rho, deviators); p, solid, bulk [j, i]; opened [j]

@@ -110,14 +110,14 @@ def vertex_row(g, j, below, above, w):
     both       u = P/M, and the deficit K - M u^2/2 is left in `deficit` for `deposit` to give to the cells
     P/M is kept within the velocities of the three vertices that it comes from: this removes round-off, and what a vertex at an
     open edge, which has half a cell's mass, lacks when the whole cell leaves. The normal velocity on the axis, on walls and on
-    edges with a velocity is given: constrained has their columns (2) and rows (2), -1 for none, edge_velocity what it is. That on
-    edges that only push, likewise in `pushing`, stays 0 where it is, and is 0 where it would go beyond.
+    edges with a velocity is given: constrained has their columns (2) and rows (2), -1 for none, edge_velocity what it is. On
+    edges that only push, likewise in `pushing`, it stays 0 where it is, and is 0 where it would go beyond.
 
     Reads    cell_mass [b, j, i] after the sweep, dual [k, slot, i] in the slots `below` and `above`;
              velocity0 [c, b, j, i] and mass [b, j, i] before it
     Writes   velocity [c, b, j, i] for the whole row; deficit [b, j, i]
-    Updates  momentum_sums [5, j]: kinetic energy before and after; axial momentum after less P; kinetic energy cut by the bound;
-             axial momentum given to walls
+    Updates  momentum_sums [5, j]: kinetic energy before and after; axial momentum after less P; kinetic energy cut by the
+             bound; axial momentum given to walls
     """
     dj, di = w.dj, w.di
     lo, hi = max(w.group_ranges[g, 1, j, 0], w.i0), min(w.group_ranges[g, 1, j, 1] + 1, w.i1 + 1)
