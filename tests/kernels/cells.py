@@ -2,13 +2,24 @@
 
 from __future__ import annotations
 
-import inspect
+from types import SimpleNamespace
 
 import numpy as np
 
+from hydro2d.jit import by_name
 from hydro2d.mesh import fields
 from hydro2d.mesh.grid import GHOSTS, Grid
 from hydro2d.mesh.state import State
+
+
+def handle(**values) -> SimpleNamespace:
+    """What a function of kernels takes by name."""
+    return SimpleNamespace(**values)
+
+
+def source(function):
+    """A compiled function as Python runs it."""
+    return by_name.source(function) if by_name.takes_handle(function) else function.py_func
 
 
 class Cells:
@@ -33,10 +44,12 @@ class Cells:
     def __getattr__(self, name: str):
         return getattr(self.__dict__["state"], name)
 
-    def call(self, function, **given):
-        """Calls a kernel: what is not given is what the state or the mesh has by the name of the parameter."""
-        taken = inspect.signature(getattr(function, "py_func", function)).parameters
+    def call(self, function, as_python: bool = False, **given):
+        """Calls a function of kernels: what is not given is what the state or the mesh has by its name."""
+        own, taken = by_name.own_parameters(function), by_name.takes(function)
         assert set(given) <= set(taken), set(given) - set(taken)
         found = {**self.known, **given}
-        return function(*(found[name] if name in found else getattr(self.state, name, None) if hasattr(self.state, name)
-                          else getattr(self.grid, name) for name in taken))  # fmt: skip
+        values = {name: found[name] if name in found else getattr(self.state, name, None) if hasattr(self.state, name)
+                  else getattr(self.grid, name) for name in taken}  # fmt: skip
+        handles = [handle(**values)] if by_name.takes_handle(function) else []
+        return (source(function) if as_python else function)(*(values[name] for name in own), *handles)

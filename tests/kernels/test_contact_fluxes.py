@@ -7,9 +7,10 @@ from hydro2d.kernels import contact_volumes, interfaces
 from hydro2d.kernels.contact_volumes import OTHERS, contact_fluxes, contact_shares
 from hydro2d.kernels.interfaces import fill_strips
 from hydro2d.physics.contact import GAP
+from tests.kernels.cells import handle
 from tests.physics.continuity import changes_in_proportion, largest_jump
 
-take = contact_volumes.take.py_func
+take = contact_volumes.take.source
 
 #: rows and columns, the row and the column of the cell that volume leaves to the left
 SHAPE, ROW, GIVER = (7, 10), 3, 5
@@ -146,7 +147,8 @@ def test_a_cell_is_full_by_degrees(share):
 def shares(hard: float, soft: float, stretch: float) -> tuple[float, float]:
     """(scale of the fractions, size) of a cell of 1 m^3 whose volume before the sweep is stretch."""
     vof, part, size = upright(hard, soft), np.zeros((2, *SHAPE)), np.zeros(SHAPE)
-    contact_shares(0, ROWS, MESH_BOX, COLUMNS, np.ones(SHAPE), np.full(SHAPE, stretch), vof, part, size)
+    contact_shares(0, handle(parts=ROWS, mesh_box=MESH_BOX, contact_columns=COLUMNS, volume=np.ones(SHAPE),
+                   pre=np.full(SHAPE, stretch), vof=vof, own_share=part, size=size))
     return part[0, ROW, GIVER] / hard, size[ROW, GIVER]
 
 
@@ -172,8 +174,8 @@ def corner_of(scale: float, void: float) -> list[float]:
     share, rest = np.where(vof == 1.0, 1.0, vof * scale), 1.0 - vof[:, 2, 2].sum()
     strips, given = np.zeros((3, 4, 2)), []
     for along_z in (False, True):
-        fill_strips(2, 2, interfaces.ALL, along_z, 0.1, 0.1, 0.0, np.arange(2), share, rest, np.zeros(2, dtype=np.int64),
-                    SOLIDS, np.zeros((2, 2, 5, 5)), np.ones(5), np.ones(5), strips)
+        fill_strips(2, 2, interfaces.ALL, np.arange(2), share, rest, strips, handle(group=np.zeros(2, dtype=np.int64),
+                    gases=SOLIDS, centroid=np.zeros((2, 2, 5, 5)), dr=np.ones(5), dz=np.ones(5), dj=TODO_dj))
         given += list(strips[:2, interfaces.SHARE].ravel() / scale)
     return given
 
@@ -195,7 +197,8 @@ def taken(g, more, vof, flux):
     """(what group g of bodies soft, hard, soft cannot take, fluxes of all): cells of 2 m^3 left and right of the face."""
     vof, result = np.array(vof)[:, None, :], np.zeros((3, 1, 2))
     result[:, 0, 1] = flux
-    left = take(g, more, 0, 1, 0, 1, np.array([0, 1, 0]), vof, np.full((1, 2), 2.0), vof, result)
+    left = take(g, more, 0, 1, handle(dj=0, di=1, group=np.array([0, 1, 0]), own_share=vof, size=np.full((1, 2), 2.0),
+                vof=vof, flux_volume=result))
     return left, list(result[:, 0, 1])
 
 

@@ -17,6 +17,7 @@ from hydro2d.materials.rows import FACTOR as YIELD_FACTOR
 from hydro2d.mesh.fields import CRUSHED, DMG, EP, INTERNAL, RHO
 from hydro2d.physics.stress import von_mises
 from strength import DAMAGE_MODELS, STRENGTH_MODELS
+from tests.kernels.cells import handle
 
 NAME = "johnson-holmquist"
 RHO0, G, K, P_HEL, S = 3700.0, 90.16e9, 130.95e9, 1.46e9, 2.0e9
@@ -56,9 +57,11 @@ class Element:
         rr, zz, rz = self.deviator
         rr, zz = rr - 2.0 / 3.0 * G * strain, zz + 4.0 / 3.0 * G * strain
         damage0 = self.q[DMG, 0, 0, 0]
-        *self.deviator, dep, _ = return_to_surface(0, 0, 0, dt, rr, zz, rz, G, True, 0.0, self.models, self.materials, self.pm,
-                                                   self.tm, self.q, self.internal)
-        lost = memory.released(0, 0, 0, dep / dt, damage0, self.models, self.materials, self.pm, self.tm, self.q)
+        *self.deviator, dep, _ = return_to_surface(0, 0, 0, rr, zz, rz, G, True, 0.0, handle(dt=dt, models=self.models,
+                                                   materials=self.materials, pm=self.pm, tm=self.tm, q=self.q,
+                                                   internal=self.internal))
+        lost = memory.released(0, 0, 0, dep / dt, handle(models=self.models, materials=self.materials, pm=self.pm,
+                               tm=self.tm, q=self.q, before=TODO_before))
         rho = self.q[RHO, 0, 0, 0] = RHO0 / length
         self.eos.update(RHO0 / before, rho, 0.0, dep, 0.0, damage0, self.q[DMG, 0, 0, 0], lost, 0.0, dt, self.eos_row,
                         self.q[INTERNAL:, 0, 0, 0])
@@ -183,9 +186,10 @@ def test_stress_falls_to_the_strength_at_the_damage_of_the_step():
     intact, crushed = S * A * (1.0 + T / P_HEL) ** N, S * 0.31
     damage = dep / (0.005 * (1.0 + T / P_HEL))
     weak = intact - damage * (intact - crushed)
-    strain, stress = weaken(0, 0, 0, dep, 1e-6, intact, G, element.models, element.materials, element.pm, element.tm, element.q)
+    strain, stress = weaken(0, 0, 0, dep, intact, G, handle(dt=1e-6, models=element.models, materials=element.materials,
+                            pm=element.pm, tm=element.tm, q=element.q))
     assert element.q[DMG, 0, 0, 0] == pytest.approx(damage, rel=1e-12)
     assert stress == pytest.approx(weak, rel=1e-12)
     assert strain == pytest.approx(dep + (intact - weak) / (3.0 * G), rel=1e-12) == element.q[EP, 0, 0, 0]
-    assert memory.released(0, 0, 0, dep / 1e-6, 0.0, element.models, element.materials, element.pm, element.tm,
-                           element.q) == pytest.approx((intact**2 - weak**2) / (6.0 * G), rel=1e-12)
+    assert memory.released(0, 0, 0, dep / 1e-6, handle(models=element.models, materials=element.materials, pm=element.pm,
+                           tm=element.tm, q=element.q, before=TODO_before)) == pytest.approx((intact**2 - weak**2) / (6.0 * G), rel=1e-12)

@@ -75,7 +75,7 @@ class Cell(Cells):
 
     def run(self, function, **given):
         """A scalar function as Python."""
-        return self.call(function.py_func, **given)
+        return self.call(function, as_python=True, **given)
 
 
 # ------------------------------------------------------------------------------------------------ motion and shares
