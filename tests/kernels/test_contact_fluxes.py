@@ -37,9 +37,11 @@ def fluxes(vof, face: float, own: tuple[float, float], part=None, size=None, pla
     centroid = np.zeros((2, *vof.shape)) if centroid is None else centroid
     first = [np.array(order, dtype=np.int64) for order in ((0, 1), (1, 0))]
     swept = np.array(own)[:, None, None] * np.ones(SHAPE)
-    contact_fluxes(0, 1, 0, ROWS, MESH_BOX, np.ones(SHAPE[1]), np.ones(SHAPE[0]), *first, GROUP, SOLIDS, COLUMNS, line,
-                   np.full(SHAPE, face), swept, vof.copy() if part is None else part, np.ones(SHAPE) if size is None else size,
-                   vof, centroid, result, place, np.zeros((SHAPE[0], 3, 4, 2)))
+    contact_fluxes(0, handle(
+        dj=0, di=1, parts=ROWS, mesh_box=MESH_BOX, dr=np.ones(SHAPE[1]), dz=np.ones(SHAPE[0]), hard_first=first[0],
+        soft_first=first[1], group=GROUP, gases=SOLIDS, contact_columns=COLUMNS, line=line, face=np.full(SHAPE, face),
+        own=swept, own_share=vof.copy() if part is None else part, size=np.ones(SHAPE) if size is None else size, vof=vof,
+        centroid=centroid, flux_volume=result, flux_place=place, strips=np.zeros((SHAPE[0], 3, 4, 2))))
     return tuple(result[:, ROW, GIVER])
 
 
@@ -173,9 +175,10 @@ def corner_of(scale: float, void: float) -> list[float]:
     vof[1, 2, 2] -= void
     share, rest = np.where(vof == 1.0, 1.0, vof * scale), 1.0 - vof[:, 2, 2].sum()
     strips, given = np.zeros((3, 4, 2)), []
-    for along_z in (False, True):
-        fill_strips(2, 2, interfaces.ALL, np.arange(2), share, rest, strips, handle(group=np.zeros(2, dtype=np.int64),
-                    gases=SOLIDS, centroid=np.zeros((2, 2, 5, 5)), dr=np.ones(5), dz=np.ones(5), dj=TODO_dj))
+    for dj in (0, 1):
+        fill_strips(2, 2, interfaces.ALL, (0.1, 0.1, 0.0), np.arange(2), share, rest, strips, handle(
+            group=np.zeros(2, dtype=np.int64), gases=SOLIDS, centroid=np.zeros((2, 2, 5, 5)), dr=np.ones(5), dz=np.ones(5),
+            dj=dj))
         given += list(strips[:2, interfaces.SHARE].ravel() / scale)
     return given
 

@@ -81,16 +81,13 @@ def test_a_model_is_told_what_has_happened(monkeypatch):
     e = sim.engine
     monkeypatch.setitem(memory.update_memory.source.__globals__, "update", update)
     j, i = 4, 3
-    arguments = e.given.handle.values.get
-    part, parts = 0, np.array([j, j + 1])
+    names = handle(**{**e.given.handle.values, "parts": np.array([j, j + 1]), "time": 3e-6, "dt": 1e-8})
     s.body_range[0, j] = i, i + 1
     s.rho[0, j, i], s.q[SRR, 0, j, i], s.q[SZZ, 0, j, i] = 2000.0, 1e8, -2e8
-    materials = arguments("models"), arguments("materials"), s.pm, s.tm
-    memory.remember.source(part, handle(parts=parts, body_range=s.body_range, models=materials[0], q=s.q,
-                                     before=s.before))
+    memory.remember.source(0, names)
     s.rho[0, j, i], s.e[0, j, i], s.q[EP, 0, j, i], s.q[DMG, 0, j, i] = 2100.0, 7e3, 0.02, 0.3
     s.q[SRR, 0, j, i], s.q[SZZ, 0, j, i] = 0.5e8, -1e8
-    memory.update_memory.source(part, parts, 3e-6, 1e-8, s.body_range, *materials, s.before, s.vof, s.q)
+    memory.update_memory.source(0, names)
     stress = np.sqrt(3.0 * (1.0 - 2.0 + 4.0)) * 1e8
     expected = (2000.0, 2100.0, 7e3, 0.02, 0.5 * stress * 0.02, 0.0, 0.3, 0.0, 3e-6, 1e-8)
     assert told[0] == pytest.approx(expected, rel=1e-12)

@@ -34,8 +34,9 @@ class Cell:
         self.pm, self.tm = np.zeros((1, 1, 1)), np.full((1, 1, 1), 300.0)
 
     def back(self, own=True, cell_yield=0.0):
-        return return_to_surface(0, 0, 0, 1e-6, *self.deviator, 26e9, own, cell_yield, self.models, self.materials, self.pm,
-                                 self.tm, self.q, self.internal)
+        return return_to_surface(0, 0, 0, *self.deviator, 26e9, own, cell_yield, handle(
+            dt=1e-6, models=self.models, materials=self.materials, pm=self.pm, tm=self.tm, q=self.q,
+            internal=self.internal[None]))
 
 
 STEEP = (-0.5e9, 1e9, 0.0)  # a tension of 1.5 GPa along z

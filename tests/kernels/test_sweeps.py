@@ -19,13 +19,16 @@ def test_a_pure_cell_gives_what_its_face_sweeps(dj, di, source, target, face):
     cells.vof[0, *source] = 1.0
     getattr(cells, face)[target] = 0.25
     whole_mesh = np.array([2, 6, 2, 6])
-    cells.call(interfaces.donor_volumes, dj=dj, di=di, second=False, void_only=whole_mesh, body_ranges=cells.body_ranges)
+    swept = {"dj": dj, "di": di, "face": getattr(cells, face)}
+    cells.call(interfaces.sweep_volumes, dj=dj, di=di, second=False)
+    cells.call(interfaces.donor_volumes, void_only=whole_mesh, **swept)
     assert cells.pre[source] == 1.25
     assert cells.pre[target] == 0.75
     assert cells.flux_volume[0, *target] == 0.25
     assert np.count_nonzero(cells.flux_volume) == 1
     getattr(cells, face)[target] = -0.25
-    cells.call(interfaces.donor_volumes, dj=dj, di=di, first=False, open_faces=whole_mesh, body_ranges=cells.body_ranges)
+    cells.call(interfaces.sweep_volumes, dj=dj, di=di, second=True)
+    cells.call(interfaces.donor_volumes, void_only=whole_mesh, **swept)
     assert cells.pre[source] == 0.75
     assert not cells.flux_volume.any()
 
@@ -37,7 +40,7 @@ def test_a_cell_that_is_turned_inside_out_is_told_with_its_body(first):
     cells.vof[:, 3, 4], cells.vof[:, 3, 5], cells.vof[0, 4, 2] = (0.2, 0.7), (0.6, 0.4), 1.0
     cells.fr[3, 3:7] = 2.0, 0.5, -0.5, -3.0
     cells.fr[4, 3] = -0.99
-    cells.call(interfaces.donor_volumes, dj=0, di=1, second=not first, void_only=cells.mesh_box)
+    cells.call(interfaces.sweep_volumes, dj=0, di=1, second=not first)
     assert cells.pre[3, 3:6].tolist() == [-0.5, 0.0, -1.5]
     assert cells.turned[3].tolist() == [4, 1]
     assert cells.turned[[2, 4, 5], 0].tolist() == [-1, -1, -1]
@@ -47,7 +50,7 @@ def test_nothing_but_void_flows_in_at_an_edge():
     cells = Cells()
     cells.vof[...] = 1.0
     cells.fr[3, [2, 6]] = 0.1
-    cells.call(interfaces.donor_volumes, dj=0, di=1, second=False, void_only=cells.mesh_box)
+    cells.call(interfaces.donor_volumes, dj=0, di=1, face=cells.fr, void_only=cells.mesh_box)
     assert cells.flux_volume[0, 3, [2, 6]].tolist() == [0.0, 0.1]
 
 

@@ -47,7 +47,8 @@ class Row:
         """q [k, i] after yield_row."""
         q = self.q.copy()
         yield_row(0, 0, 0, handle(dt=DT, models=self.models, materials=self.materials, pm=self.pm, tm=self.tm,
-                  scratch=self.scratch, q=q, lanes=np.zeros((1, LANE_ROWS * LANES)), body_range=TODO_body_range))
+                  scratch=self.scratch, q=q, lanes=np.zeros((1, LANE_ROWS * LANES)),
+                  body_range=np.array([[[FIRST, FIRST + self.columns]]])))
         return q[:, 0, 0]
 
     def alone(self) -> np.ndarray:
