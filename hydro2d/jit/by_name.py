@@ -69,7 +69,7 @@ def in_rows(function, rows: str) -> FunctionType:
     tree = _definition(function)
     parameters = [each.arg for each in tree.args.args]
     if parameters[0] != "j" or parameters[-1] != HANDLE:
-        raise _mistake(function, tree, f"takes a row j first, and {HANDLE} last")
+        raise _mistake(function, tree, f"does not take a row j first and {HANDLE} last")
     for node in ast.walk(tree):
         if isinstance(node, ast.Return):
             raise _mistake(function, node, "returns, which would leave out the rest of the rows")

@@ -220,7 +220,7 @@ def chosen(steps, handle: Handle) -> Iterator:
     for step in steps:
         if not isinstance(step, When):
             yield step
-        elif bool(handle.values[step.name]) != step.zero:
+        elif bool(getattr(handle, step.name)) != step.zero:
             yield from chosen(step.steps, handle)
 
 

@@ -25,7 +25,7 @@ def source(function):
 class Cells:
     """A mesh of square cells of 1 m, planar if not told otherwise; its first cell is (2, 2), as ghosts come before it.
 
-    All of it is the active box, in one part, and every body may be in every cell.
+    All of it is the active box, in one part, and every body may be in every cell. A sweep goes along r.
     """
 
     def __init__(self, nr: int = 4, nz: int = 4, bodies: int = 1, group=None, geometry: str = "planar"):
@@ -37,7 +37,7 @@ class Cells:
         none = np.full(4, -1)
         self.known = {"part": 0, "parts": np.array([first, past_z]), "i0": first, "i1": past_r, "j0": first, "j1": past_z,
                       "g": GHOSTS, "nr": nr, "nz": nz, "b": 0, "mesh_box": self.mesh_box, "constrained": none, "pushing": none,
-                      "transmitting": none, "along_compression": False, "steepness": 2.0,
+                      "transmitting": none, "along_compression": False, "dj": 0, "di": 1, "steepness": 2.0,
                       "gases": np.zeros(bodies, dtype=bool),
                       "carried": fields.carried_rows([range(1, self.state.q.shape[0])] * bodies)}  # fmt: skip
 
