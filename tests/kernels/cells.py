@@ -19,7 +19,7 @@ def handle(**values) -> SimpleNamespace:
 
 def source(function):
     """A compiled function as Python runs it."""
-    return by_name.source(function) if by_name.takes_handle(function) else function.py_func
+    return by_name.source(function) if by_name.takes_handle(function) else getattr(function, "compiled", function).py_func
 
 
 class Cells:

@@ -220,9 +220,8 @@ def swept(advection: int, dj: int, di: int, pushing=None, component: int = 1) ->
     cells.flux_mass[...] = 0.2
     step = (np.arange(13) > 6).astype(float)
     cells.velocity0[component, 0] = step[:, None] if dj else step[None, :]
-    cells.call(momentum.sweep_momentum, dj=dj, di=di, advection=advection, bound=2.0,
-               **({} if pushing is None else {"pushing": pushing}), held=np.zeros(4),
-               w_old=cells.velocity0, w=cells.velocity, sums=cells.momentum_sums)  # fmt: skip
+    cells.call(momentum.sweep_momentum, dj=dj, di=di, advection=advection, ke_bound=2.0,
+               **({} if pushing is None else {"pushing": pushing}), edge_velocity=np.zeros(4))  # fmt: skip
     return cells
 
 
@@ -256,8 +255,8 @@ def test_what_rests_on_an_edge_that_only_pushes_rests_there_whatever_flows_in():
     cells.cell_mass[...] = cells.mass[...] = 1.0
     cells.flux_mass[...] = 0.2
     cells.velocity0[1, 0] = np.where(np.arange(13) == 7, 0.0, 1.0)[:, None]
-    cells.call(momentum.sweep_momentum, dj=1, di=0, advection=MOMENTUM, bound=2.0, pushing=np.array([-1, -1, 7, -1]),
-               held=np.zeros(4), w_old=cells.velocity0, w=cells.velocity, sums=cells.momentum_sums)  # fmt: skip
+    cells.call(momentum.sweep_momentum, dj=1, di=0, advection=MOMENTUM, ke_bound=2.0, pushing=np.array([-1, -1, 7, -1]),
+               edge_velocity=np.zeros(4))  # fmt: skip
     assert not cells.v[0, 7].any()
     assert cells.momentum_sums[4, 7] > 0.0
 
@@ -266,8 +265,7 @@ def test_vertices_where_nothing_flows_keep_every_bit():
     cells = Cells(nr=8, nz=8)
     cells.cell_mass[...] = cells.mass[...] = 1.0
     cells.velocity0[...] = np.random.default_rng(5).random(cells.velocity0.shape)
-    cells.call(momentum.sweep_momentum, dj=0, di=1, advection=KE, bound=2.0, held=np.zeros(4), w_old=cells.velocity0,
-               w=cells.velocity, sums=cells.momentum_sums)  # fmt: skip
+    cells.call(momentum.sweep_momentum, dj=0, di=1, advection=KE, ke_bound=2.0, edge_velocity=np.zeros(4))
     inside = (slice(None), slice(None), slice(2, 11), slice(2, 11))
     assert (cells.velocity[inside] == cells.velocity0[inside]).all()
 
@@ -276,7 +274,7 @@ def test_energy_of_a_vertex_is_given_to_the_group_in_the_cells_around():
     cells = Cells(bodies=2, group=[0, 1])
     cells.vof[:, 2:6, 2:6], cells.cell_mass[0], cells.cell_mass[1] = 0.5, 3.0, 5.0
     cells.deficit[1, 4, 4] = 4.0
-    cells.call(momentum.deposit, ranges=cells.active_range, sums=cells.deposited)
+    cells.call(momentum.deposit, ranges=cells.active_range)
     assert cells.q[E, 1, 3:5, 3:5].tolist() == [[1, 1], [1, 1]]
     assert cells.q[E, 1].sum() == 4.0
     assert not cells.q[E, 0].any()
