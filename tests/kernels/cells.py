@@ -17,6 +17,11 @@ def handle(**values) -> SimpleNamespace:
     return SimpleNamespace(**values)
 
 
+def handles(function, values: dict) -> list[SimpleNamespace]:
+    """The last arguments of a call of a function: a handle of these values, if it takes one."""
+    return [handle(**values)] if by_name.takes_handle(function) else []
+
+
 def source(function):
     """A compiled function as Python runs it."""
     return by_name.source(function) if by_name.takes_handle(function) else getattr(function, "compiled", function).py_func
@@ -51,5 +56,4 @@ class Cells:
         found = {**self.known, **given}
         values = {name: found[name] if name in found else getattr(self.state, name, None) if hasattr(self.state, name)
                   else getattr(self.grid, name) for name in taken}  # fmt: skip
-        handles = [handle(**values)] if by_name.takes_handle(function) else []
-        return (source(function) if as_python else function)(*(values[name] for name in own), *handles)
+        return (source(function) if as_python else function)(*(values[name] for name in own), *handles(function, values))

@@ -14,7 +14,7 @@ from hydro2d.jit import by_name
 from hydro2d.jit.options import ONLY_CALLS
 from hydro2d.solver.simulation import Simulation
 from tests.decks import material, mesh, plate, rod, stop, table
-from tests.kernels.cells import handle, source
+from tests.kernels.cells import handles, source
 
 
 def _kernels():
@@ -77,7 +77,7 @@ def test_kernels_do_what_their_source_says(monkeypatch, phases_as_python, advect
                 assert not np.shares_memory(one, other), f"arguments of {name} overlap"
             function(*arguments)
             with np.errstate(all="ignore"):
-                source(function)(*list(copies.values())[:own], handle(**copies))
+                source(function)(*list(copies.values())[:own], *handles(function, copies))
             for of, mine in given.items():
                 if isinstance(mine, np.ndarray):
                     np.testing.assert_allclose(mine, copies[of], rtol=1e-11, atol=1e-300, err_msg=f"{name}, {of}")
