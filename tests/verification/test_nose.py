@@ -10,7 +10,7 @@ from hydro2d.errors import UnphysicalState
 from hydro2d.kernels import contact_velocities
 from hydro2d.kernels.extension import TIED
 from hydro2d.mesh.fields import EP, SRR, SRZ
-from hydro2d.solver import arguments
+from hydro2d.solver import given
 from hydro2d.solver.audit import Audit
 from hydro2d.solver.simulation import Simulation
 from tests.kernels.cells import handle
@@ -76,7 +76,7 @@ def test_a_linear_field_stays_linear(monkeypatch, angle):
 
     As long as no gradient is reduced for the time step; far from the mesh's edges, where there is less to extend.
     """
-    monkeypatch.setattr(arguments, "most_squares", lambda table, courant: 1e6)
+    monkeypatch.setattr(given, "most_squares", lambda table, courant: 1e6)
     simulation = shipped(f"block_inclined_{angle}")
     settled = Settled(simulation)
     assert len(settled.slaves) > 0.8 * settled.contact_nodes
